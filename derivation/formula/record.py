@@ -1,0 +1,75 @@
+"""The formula record: symbol, expression, unit, source and the proof it cannot exist without."""
+
+from dataclasses import dataclass
+
+import sympy as sp
+
+from derivation.formula.dimension import UNITS, DimensionError, dimension
+from derivation.formula.notation import to_latex
+from derivation.formula.proof import Proof
+from derivation.formula.symbols import UNKNOWNS, Argument, arguments_of
+
+
+@dataclass(frozen=True)
+class Formula:
+    """A proven formula.
+
+    Parameters
+    ----------
+    name
+        Name in code and on the command line, for instance ``Omega_1``.
+    latex
+        The left-hand side as typeset.
+    meaning
+        What the quantity is, in a few words.
+    expression
+        Exact right-hand side, or one mode's share of it if `summed`.
+    unit
+        SI unit; the expression's dimension is checked against it.
+    equation
+        Number of the paper's equation it belongs to.
+    sources
+        Names of the formulas it was derived from.
+    proof
+        How it was proved.
+    summed
+        The quantity is the sum of `expression` over all modes j.
+
+    Raises
+    ------
+    DimensionError
+        If the expression has not the dimension of `unit`.
+    KeyError
+        If it contains a symbol the paper does not define.
+    """
+
+    name: str
+    latex: str
+    meaning: str
+    expression: sp.Expr
+    unit: str
+    equation: str
+    sources: tuple[str, ...]
+    proof: Proof
+    summed: bool = False
+
+    def __post_init__(self) -> None:
+        units = UNKNOWNS | {argument.symbol: argument.unit for argument in self.arguments}
+        known = {symbol: UNITS[unit] for symbol, unit in units.items()}
+        found = dimension(self.expression, known)
+        if found != UNITS[self.unit]:
+            raise DimensionError(f"{self.name} has dimension [{found}], expected [{self.unit}]")
+
+    @property
+    def arguments(self) -> tuple[Argument, ...]:
+        """The symbols the expression depends on, in the fixed order of the notation."""
+        return arguments_of(self.expression)
+
+    @property
+    def right_hand_side(self) -> str:
+        """LaTeX of the right-hand side, with the sum over the modes if there is one."""
+        sign = r"\sum_{j=1}^{\infty} " if self.summed else ""
+        return sign + to_latex(self.expression)
+
+    def _repr_latex_(self) -> str:
+        return f"$\\displaystyle {self.latex} = {self.right_hand_side}$"

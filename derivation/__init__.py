@@ -1,6 +1,64 @@
-"""platecontact: derive, correct and stabilise the contact law of a sphere on a plate."""
+"""platecontact: derive, correct and stabilise the contact law of a sphere on a plate.
+
+    >>> from derivation import formula, diagnose
+    >>> formula("G").unit
+    '1'
+
+Importing this package alone loads neither SymPy nor anything else that is slow.
+"""
 
 import os
+from typing import TYPE_CHECKING
+
+# Loaded before the function below takes the name: `import derivation.formula.record`
+# and `from derivation import formula` then both do what they say.
+import derivation.formula as _room  # noqa: F401
+
+if TYPE_CHECKING:
+    from derivation.formula.record import Formula
+    from derivation.paper.text import TextDiagnosis
 
 # python-flint would silently become SymPy's ground types and change printed forms.
 os.environ["SYMPY_GROUND_TYPES"] = "python"
+
+
+def formula(name: str) -> "Formula":
+    """A derived formula by name, with its proof; displays as LaTeX in a notebook.
+
+    Raises
+    ------
+    KeyError
+        If there is no formula of that name; the message lists those there are.
+    """
+    from derivation import pipeline
+
+    known = pipeline.formulas()
+    if name not in known:
+        raise KeyError(f"no formula {name!r}: expected one of {', '.join(known)}")
+    return known[name]
+
+
+def diagnose(
+    name: str, text: str, latex: bool = False, at: str = "", digits: int = 50
+) -> "TextDiagnosis":
+    """Compare a formula of your own with the derived one of that name.
+
+    Parameters
+    ----------
+    name
+        For instance ``K_j``.
+    text
+        The formula in SymPy syntax, or in LaTeX if `latex`; nothing in it is executed.
+    at
+        Point to evaluate both at, like ``phi=2.5,h=0.1``; exact decimals.
+    digits
+        Digits of both values.
+
+    Raises
+    ------
+    ValueError
+        For a name, formula or point that cannot be used.
+    """
+    from derivation import pipeline
+
+    return pipeline.diagnose(name, text, latex, at, digits)

@@ -18,6 +18,14 @@ class _Printer(LatexPrinter):
 
     _print_besselj = _print_BesselJ
 
+    def _as_ordered_terms(self, expr: sp.Add, order: str | None = None) -> list[sp.Expr]:
+        return positive_first(super()._as_ordered_terms(expr, order=order))
+
+
+def positive_first(terms: list[sp.Expr]) -> list[sp.Expr]:
+    """The terms of a sum with those that carry a minus sign last, as written by hand."""
+    return sorted(terms, key=lambda term: bool(term.could_extract_minus_sign()))
+
 
 def to_latex(expression: sp.Basic) -> str:
     """LaTeX of an expression, symbols as in the paper."""

@@ -1,5 +1,6 @@
 """The formula record: symbol, expression, unit, source and the proof it cannot exist without."""
 
+import re
 from dataclasses import dataclass
 
 import sympy as sp
@@ -34,6 +35,10 @@ class Formula:
         How it was proved.
     summed
         The quantity is the sum of `expression` over all modes j.
+    where
+        Conditions on the arguments beyond those each one carries itself.
+    stated
+        The expression in terms of other formulas, where that is how it is read.
 
     Raises
     ------
@@ -52,6 +57,8 @@ class Formula:
     sources: tuple[str, ...]
     proof: Proof
     summed: bool = False
+    where: tuple[str, ...] = ()
+    stated: sp.Expr | None = None
 
     def __post_init__(self) -> None:
         units = UNKNOWNS | {argument.symbol: argument.unit for argument in self.arguments}
@@ -66,10 +73,39 @@ class Formula:
         return arguments_of(self.expression)
 
     @property
+    def domain(self) -> tuple[str, ...]:
+        """Every condition on the arguments, in Python's notation."""
+        names = {argument.name for argument in self.arguments}
+        own = [c for argument in self.arguments for c in argument.domain]
+        return tuple(
+            c for c in (*own, *self.where) if set(re.findall(r"[A-Za-z]\w*", c)) - {"abs"} <= names
+        )
+
+    @property
     def right_hand_side(self) -> str:
         """LaTeX of the right-hand side, with the sum over the modes if there is one."""
         sign = r"\sum_{j=1}^{\infty} " if self.summed else ""
-        return sign + to_latex(self.expression)
+        return sign + to_latex(self.expression if self.stated is None else self.stated)
+
+    def to_json(self) -> dict[str, object]:
+        """Plain text under fixed keys."""
+        return {
+            "name": self.name,
+            "meaning": self.meaning,
+            "latex": f"{self.latex} = {self.right_hand_side}",
+            "expression": str(self.expression),
+            "summed": self.summed,
+            "unit": self.unit,
+            "domain": list(self.domain),
+            "equation": self.equation,
+            "sources": list(self.sources),
+            "proof": {
+                "step": self.proof.step,
+                "argument": self.proof.argument,
+                "residuals": list(self.proof.residuals),
+                "method": self.proof.method,
+            },
+        }
 
     def _repr_latex_(self) -> str:
         return f"$\\displaystyle {self.latex} = {self.right_hand_side}$"

@@ -20,14 +20,16 @@ class Argument:
     meaning
         What it stands for, in a few words.
     domain
-        Where formulas in it hold, as a reader would write it.
+        Conditions under which formulas in it hold, each a comparison in
+        Python's notation; one that names another symbol applies where that
+        symbol is an argument too.
     """
 
     symbol: sp.Symbol
     unit: str
     latex: str
     meaning: str
-    domain: str
+    domain: tuple[str, ...]
 
     @property
     def name(self) -> str:
@@ -47,23 +49,23 @@ UNKNOWNS = {f: "m", g: "m^2"}
 """Units of the functions the equilibrium equations determine."""
 
 ARGUMENTS = (
-    Argument(r, "m", "r", "distance from the axis", "0 <= r <= b"),
-    Argument(z, "m", "z", "height above the middle plane", "-h <= z <= h"),
-    Argument(phi, "1/m", r"\phi_j", "wave number j_n/b of the mode, J0(b phi) = 0", "phi > 0"),
-    Argument(h, "m", "h", "half the plate's thickness", "h > 0"),
-    Argument(T, "1", "T", "wave number times full thickness, T = 2 phi h", "T > 0"),
-    Argument(b, "m", "b", "plate radius", "b > 0"),
-    Argument(R, "m", "R", "sphere radius", "R > 0"),
-    Argument(a, "m", "a", "contact radius", "0 < a < min(b, R)"),
-    Argument(lam, "Pa", r"\lambda", "first Lame constant", "lam > -2 mu/3"),
-    Argument(mu, "Pa", r"\mu", "second Lame constant (shear modulus)", "mu > 0"),
-    Argument(P, "N", "P", "contact force", "P > 0"),
-    Argument(A_j, "Pa", "A_j", "Fourier-Bessel coefficient of the pressure", "any real"),
-    Argument(J1, "1", r"J_1(b\phi_j)", "Bessel function J1 at b phi", "J1 != 0"),
-    Argument(C1, "m", r"C_1^{(j)}", "first integration constant", "any real"),
-    Argument(C2, "m", r"C_2^{(j)}", "second integration constant", "any real"),
-    Argument(C3, "1", r"C_3^{(j)}", "third integration constant", "any real"),
-    Argument(C4, "1", r"C_4^{(j)}", "fourth integration constant", "any real"),
+    Argument(r, "m", "r", "distance from the axis", ("r >= 0", "r <= b")),
+    Argument(z, "m", "z", "height above the middle plane", ("abs(z) <= h",)),
+    Argument(phi, "1/m", r"\phi_j", "wave number j_n/b of the mode, J0(b phi) = 0", ("phi > 0",)),
+    Argument(h, "m", "h", "half the plate's thickness", ("h > 0",)),
+    Argument(T, "1", "T", "wave number times full thickness, T = 2 phi h", ("T > 0",)),
+    Argument(b, "m", "b", "plate radius", ("b > 0",)),
+    Argument(R, "m", "R", "sphere radius", ("R > 0",)),
+    Argument(a, "m", "a", "contact radius", ("a > 0", "a < b", "a < R")),
+    Argument(lam, "Pa", r"\lambda", "first Lame constant", ("3 * lam > -2 * mu",)),
+    Argument(mu, "Pa", r"\mu", "second Lame constant (shear modulus)", ("mu > 0",)),
+    Argument(P, "N", "P", "contact force", ("P > 0",)),
+    Argument(A_j, "Pa", "A_j", "Fourier-Bessel coefficient of the pressure", ()),
+    Argument(J1, "1", r"J_1(b\phi_j)", "Bessel function J1 at b phi", ("J1 != 0",)),
+    Argument(C1, "m", r"C_1^{(j)}", "first integration constant", ()),
+    Argument(C2, "m", r"C_2^{(j)}", "second integration constant", ()),
+    Argument(C3, "1", r"C_3^{(j)}", "third integration constant", ()),
+    Argument(C4, "1", r"C_4^{(j)}", "fourth integration constant", ()),
 )
 BY_NAME = {argument.name: argument for argument in ARGUMENTS}
 

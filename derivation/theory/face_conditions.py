@@ -66,7 +66,7 @@ def scaled_omegas() -> tuple[Formula, ...]:
             Formula(
                 f"{omega.name}_scaled",
                 rf"e^{{\phi_j h}}{omega.latex}",
-                f"e^(phi h) times {omega.name}",
+                f"{omega.name} times e^(phi h)",
                 scaled,
                 omega.unit,
                 "5",

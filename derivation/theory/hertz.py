@@ -40,6 +40,7 @@ def pressure() -> Formula:
         "7",
         (),
         proof,
+        where=("r <= a",),
     )
 
 

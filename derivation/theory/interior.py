@@ -26,15 +26,20 @@ def interior_fields() -> tuple[Formula, ...]:
     """One mode's share of u, w and the four stresses, in the constants C1 ... C4 = A_j Omega_k."""
     f_j, g_j = (formula.expression for formula in mode_shapes())
     shape = {formula.name: formula.expression for formula in modal_stresses()}
-    ring = 2 * mu * g_j * phi * BESSEL_J1 / r
-    fields = {
-        "u": g_j * phi * BESSEL_J1,
-        "w": f_j * BESSEL_J0,
-        "sigma_rr": shape["S_rr"] * BESSEL_J0 - ring,
-        "sigma_tt": shape["S_tt"] * BESSEL_J0 + ring,
-        "sigma_zz": shape["S_zz"] * BESSEL_J0,
-        "sigma_rz": shape["S_rz"] * BESSEL_J1,
+    names = (*shape, "f_j", "g_j")
+    S_zz, S_rz, S_rr, S_tt, f, g = (sp.Symbol(name) for name in names)
+    stated = {
+        "u": g * phi * BESSEL_J1,
+        "w": f * BESSEL_J0,
+        "sigma_rr": S_rr * BESSEL_J0 - 2 * mu * g * phi * BESSEL_J1 / r,
+        "sigma_tt": S_tt * BESSEL_J0 + 2 * mu * g * phi * BESSEL_J1 / r,
+        "sigma_zz": S_zz * BESSEL_J0,
+        "sigma_rz": S_rz * BESSEL_J1,
     }
+    written_out = {sp.Symbol("f_j"): f_j, sp.Symbol("g_j"): g_j} | {
+        sp.Symbol(name): value for name, value in shape.items()
+    }
+    fields = {name: value.subs(written_out) for name, value in stated.items()}
     stress = hooke(fields["u"], fields["w"])
     radial, axial = force_balance(stress)
     proof = prove(
@@ -63,6 +68,7 @@ def interior_fields() -> tuple[Formula, ...]:
             ("f_j", "g_j", "S_rr", "S_tt", "S_zz", "S_rz"),
             proof,
             summed=True,
+            stated=stated[name],
         )
         for name, (latex, meaning, unit) in _MEANING.items()
     )

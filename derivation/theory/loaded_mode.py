@@ -40,6 +40,7 @@ def loaded_mode() -> tuple[Formula, ...]:
             formula.equation,
             (formula.name, *omegas),
             proof,
+            stated=formula.expression,
         )
         for formula in general
     )

@@ -9,10 +9,10 @@ from derivation.theory.equilibrium import BESSEL_J0, BESSEL_J1, factor_of, force
 from derivation.theory.mode_shapes import by_constants, mode_shapes
 
 _NAMES = {
-    "S_zz": ("S^{zz}_j(z)", "axial stress of mode j, factor of J0(phi r)"),
-    "S_rz": ("S^{rz}_j(z)", "shear stress of mode j, factor of J1(phi r)"),
-    "S_rr": ("S^{rr}_j(z)", "radial stress of mode j, factor of J0(phi r)"),
-    "S_tt": (r"S^{\theta\theta}_j(z)", "hoop stress of mode j, factor of J0(phi r)"),
+    "S_zz": ("S_{zz}(z)", "axial stress of mode j, factor of J0(phi r)"),
+    "S_rz": ("S_{rz}(z)", "shear stress of mode j, factor of J1(phi r)"),
+    "S_rr": ("S_{rr}(z)", "radial stress of mode j, factor of J0(phi r)"),
+    "S_tt": ("S_{tt}(z)", "hoop stress of mode j, factor of J0(phi r)"),
 }
 
 

@@ -1,0 +1,216 @@
+"""The command `platecontact`: each command unpacks its arguments and makes one call.
+
+Exit status: 0 fine, 1 a check failed or formulas differ, 2 bad input.
+"""
+
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from typer.exceptions import TyperException
+from typer.main import get_command
+
+from derivation.screen import NOTES, OUT, counted, put_json, stage, table
+
+app = typer.Typer(
+    no_args_is_help=True,
+    add_completion=True,
+    rich_markup_mode=None,
+    help="Derive, generate, check and report the contact law of a sphere on an elastic plate.",
+)
+
+Json = Annotated[
+    str | None, typer.Option("--json", metavar="FILE|-", help="Write the result as JSON.")
+]
+Out = Annotated[
+    Path | None, typer.Option("--out", metavar="DIR", help="Write here instead of the checkout.")
+]
+
+
+@app.command()
+def derive(json: Json = None) -> None:
+    """Derive every formula from the equilibrium equations and show how it was proved.
+
+    Example: platecontact derive --json formulas.json
+    """
+    from derivation import pipeline
+
+    with stage("derive"):
+        found = pipeline.formulas()
+    if json != "-":
+        rows = [(f.name, f.unit, f.equation, f.proof.step, f.proof.method) for f in found.values()]
+        table("Derived formulas", ("formula", "unit", "equation", "proof", "decided"), rows)
+    if json:
+        put_json([formula.to_json() for formula in found.values()], json)
+
+
+@app.command()
+def generate(
+    check: Annotated[
+        bool, typer.Option("--check", help="Compare only: show what differs, write nothing.")
+    ] = False,
+    out: Out = None,
+) -> None:
+    """Write the NumPy package `generated`, or check that it is fresh.
+
+    Example: platecontact generate --out mypackage/plate
+    """
+    from derivation import pipeline
+
+    if check:
+        with stage("compare"):
+            freshness = pipeline.check_generated(out)
+        OUT.print(str(freshness), markup=False, highlight=False, soft_wrap=True)
+        raise typer.Exit(0 if freshness.fresh else 1)
+    with stage("derive and generate"):
+        written = pipeline.generate(out)
+    NOTES.print(f"{len(written)} files in {written[0].parent}")
+
+
+@app.command()
+def misprints(json: Json = None) -> None:
+    """Compare the paper's printed formulas with the derived ones and diagnose what differs.
+
+    Example: platecontact misprints --json -
+    """
+    from derivation import pipeline
+
+    with stage("compare printed with derived"):
+        findings = pipeline.misprints()
+    if json != "-":
+        rows = [(f.printed.equation, f.printed.name, f.diagnosis.kind, f.repair) for f in findings]
+        table("Printed against derived", ("equation", "formula", "finding", "repair"), rows)
+    if json:
+        put_json([finding.to_json() for finding in findings], json)
+
+
+@app.command()
+def check(
+    digits: Annotated[int, typer.Option(min=20, max=1000, help="Digits of the reference.")] = 50,
+    record: Annotated[
+        bool, typer.Option("--record", help="Keep the result as reports/data/check.json.")
+    ] = False,
+    json: Json = None,
+) -> None:
+    """Measure every generated function against both oracles.
+
+    Example: platecontact check --digits 100
+    """
+    from derivation import pipeline
+    from derivation.measure.record import COLUMNS, as_data, cells, passed
+
+    with counted("check") as tell:
+        rows = pipeline.check(digits, record, tell)
+    if json != "-":
+        table(f"Errors against {digits} digits", COLUMNS, [cells(row) for row in rows])
+    if json:
+        put_json(as_data(rows, digits), json)
+    raise typer.Exit(0 if passed(rows) else 1)
+
+
+@app.command()
+def report(
+    pdf: Annotated[bool, typer.Option("--pdf/--no-pdf", help="Compile the PDF too.")] = True,
+    check: Annotated[
+        bool, typer.Option("--check", help="Compare the committed .tex only, write nothing.")
+    ] = False,
+    out: Out = None,
+) -> None:
+    """Write the LaTeX report and compile it.
+
+    Example: platecontact report --no-pdf
+    """
+    from derivation import pipeline
+
+    if check:
+        with stage("compare"):
+            freshness = pipeline.check_report(out)
+        OUT.print(str(freshness), markup=False, highlight=False, soft_wrap=True)
+        raise typer.Exit(0 if freshness.fresh else 1)
+    with stage("report"):
+        written = pipeline.report(out, pdf)
+    NOTES.print("\n".join(str(path) for path in written), markup=False)
+
+
+@app.command()
+def build(out: Out = None) -> None:
+    """Run the main job: derive, generate, find misprints, check, report.
+
+    Example: platecontact build
+    """
+    from derivation import pipeline
+    from derivation.measure.record import passed
+    from derivation.report.pdf import TexError
+
+    with stage("derive"):
+        pipeline.chain()
+    with stage("rewrite"):
+        pipeline.forms()
+    with stage("generate"):
+        pipeline.generate(out / "generated" if out else None)
+    with stage("misprints"):
+        pipeline.misprints()
+    with counted("check") as tell:
+        rows = pipeline.check(tell=tell)
+    with stage("report"):
+        try:
+            pipeline.report(out / "reports" if out else None)
+        except TexError as error:
+            NOTES.print(f"no PDF: {error}", markup=False, highlight=False)
+    for line in pipeline.verdict(rows):
+        NOTES.print(line, markup=False, highlight=False)
+    raise typer.Exit(0 if passed(rows) else 1)
+
+
+@app.command()
+def diagnose(
+    name: Annotated[str, typer.Argument(help="Quantity, for instance K_j.")],
+    formula: Annotated[str, typer.Option(help="Your formula for it, in SymPy syntax.")],
+    latex: Annotated[bool, typer.Option("--latex", help="The formula is LaTeX.")] = False,
+    at: Annotated[
+        str, typer.Option(metavar="phi=2.5,h=0.1,...", help="Point to evaluate both at.")
+    ] = "",
+    digits: Annotated[int, typer.Option(min=1, max=1000, help="Digits of the values.")] = 50,
+    json: Json = None,
+) -> None:
+    """Compare a formula of your own with the derived one; exit status 1 if they differ.
+
+    Example: platecontact diagnose G --formula "1 + 4*T*(1+T)*exp(-2*T)" --at T=3
+    """
+    from derivation import pipeline
+
+    with stage("compare"):
+        found = pipeline.diagnose(name, formula, latex, at, digits)
+    if json != "-":
+        rows = [(key, value) for key, value in found.to_json().items() if value is not None]
+        table(f"{name}: {found.verdict}", ("", ""), rows)
+    if json:
+        put_json(found.to_json(), json)
+    raise typer.Exit(0 if found.verdict == "equal" else 1)
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run a command; every error a user can cause is one message and status 2."""
+    command = get_command(app)
+    try:
+        status = command(args=argv, prog_name="platecontact", standalone_mode=False)
+    except TyperException as error:
+        advice = "see `platecontact --help`"
+        NOTES.print(f"platecontact: {error.format_message()} ({advice})", markup=False)
+        return 2
+    except (OSError, ValueError) as error:
+        NOTES.print(f"platecontact: {error}", markup=False, highlight=False, soft_wrap=True)
+        return 2
+    if status == INTERRUPTED:
+        NOTES.print("platecontact: interrupted; no file is half-written, so simply run it again")
+        return 2
+    return int(status or 0)
+
+
+INTERRUPTED = 130
+"""What typer returns after Ctrl-C."""
+
+if __name__ == "__main__":
+    sys.exit(main())

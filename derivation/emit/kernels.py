@@ -1,0 +1,283 @@
+"""Formulas, forms and budgets -> rows: what each generated function is and how it reads."""
+
+import re
+import textwrap
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import sympy as sp
+
+from derivation.emit.printer import to_numpy
+from derivation.formula.record import Formula
+from derivation.formula.symbols import ARGUMENTS, C1, C3, Argument
+from derivation.rewrite.form import Branch, Form, Seam, Step
+
+BUDGETS = Path(__file__).parents[1] / "budgets.toml"
+
+MODAL_SUMS = {
+    "delta": "K_j(phi, h, b, R, J1) * (a * phi) ** 3 / 3 * hertz_shape(a * phi)",
+    "u": "mode_g(z, phi, h, lam, mu, A) * phi * bessel_j1(phi * r)",
+    "w": "mode_f(z, phi, h, lam, mu, A) * bessel_j0(phi * r)",
+    # mode_tt is lam times the dilatation; mode_rr would cancel against J1/r on the axis.
+    "sigma_rr": "mode_tt(z, phi, h, lam, mu, A) * bessel_j0(phi * r)"
+    " + 2 * mu * mode_g(z, phi, h, lam, mu, A) * phi"
+    " * (phi * bessel_j0(phi * r) - _over_radius(r, phi))",
+    "sigma_tt": "mode_tt(z, phi, h, lam, mu, A) * bessel_j0(phi * r)"
+    " + 2 * mu * mode_g(z, phi, h, lam, mu, A) * phi * _over_radius(r, phi)",
+    "sigma_zz": "mode_zz(z, phi, h, lam, mu, A) * bessel_j0(phi * r)",
+    "sigma_rz": "mode_rz(z, phi, h, lam, mu, A) * bessel_j1(phi * r)",
+}
+"""One mode's share of each sum, in terms of the other kernels."""
+
+
+@dataclass(frozen=True)
+class Line:
+    """A line of code: a name, its value and a comment."""
+
+    name: str
+    code: str
+    comment: str = ""
+
+
+@dataclass(frozen=True)
+class BranchText:
+    """One side of a seam as text."""
+
+    guards: tuple[Line, ...]
+    steps: tuple[Line, ...]
+    value: str
+    result: str
+
+
+@dataclass(frozen=True)
+class SeamText:
+    """A choice between two branches as text."""
+
+    mask: str
+    variable: str
+    at: str
+    branches: tuple[BranchText, BranchText]
+
+
+@dataclass(frozen=True)
+class ArgumentText:
+    """An argument as the docstring and the manifest name it."""
+
+    name: str
+    unit: str
+    meaning: str
+    domain: str
+
+
+@dataclass(frozen=True)
+class Kernel:
+    """A generated function: everything templates and manifest say about it."""
+
+    name: str
+    module: str
+    summary: str
+    meaning: str
+    symbol: str
+    latex: str
+    unit: str
+    equation: str
+    formula: tuple[str, ...]
+    original: tuple[str, ...]
+    arguments: tuple[ArgumentText, ...]
+    conditions: tuple[str, ...]
+    budget: float
+    modes: bool
+    steps: tuple[Line, ...] = ()
+    value: str = ""
+    seam: SeamText | None = None
+
+    @property
+    def loaded(self) -> bool:
+        """Whether the sum's share needs the pressure coefficient."""
+        return self.modes and "A)" in self.value
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What the docstring promises about the error."""
+        scale = "the sum of the modes' magnitudes" if self.modes else "the value"
+        return (
+            f"Error budget: {self.budget:g} units in the last place of {scale}, plus half",
+            "the sum of the condition numbers of the arguments.",
+        )
+
+
+def read_budgets() -> dict[str, float]:
+    """Error budgets in ULP, by kernel: the promise that measurement is held to."""
+    budgets: dict[str, float] = tomllib.loads(BUDGETS.read_text())["ulp"]
+    return budgets
+
+
+def kernel_of_form(stable: Form, formula: Formula, budget: float) -> Kernel:
+    """Row of a kernel that evaluates a stable form."""
+    seam = seam_text(stable.value) if isinstance(stable.value, Seam) else None
+    return _kernel(
+        formula,
+        formula.arguments,
+        stable.module,
+        budget,
+        steps=lines(stable.steps),
+        value="" if seam else to_numpy(stable.value),
+        seam=seam,
+    )
+
+
+def kernel_of_sum(formula: Formula, coefficient: Formula, factor: Formula, budget: float) -> Kernel:
+    """Row of a modal sum: its arguments are those of its parts, less phi and J1."""
+    expression = formula.expression
+    parts: tuple[Formula, ...] = (formula,)
+    if any(str(symbol).startswith("C") for symbol in expression.free_symbols):
+        parts += (coefficient, factor)
+    names = {x.name for part in parts for x in part.arguments}
+    names -= {"phi", "J1", "A_j", "C1", "C2", "C3", "C4"}
+    arguments = tuple(x for x in ARGUMENTS if x.name in names)
+    return _kernel(
+        formula, arguments, "modal_sum", budget, value=MODAL_SUMS[formula.name], modes=True
+    )
+
+
+def _kernel(
+    formula: Formula,
+    arguments: tuple[Argument, ...],
+    module: str,
+    budget: float,
+    *,
+    steps: tuple[Line, ...] = (),
+    value: str,
+    seam: SeamText | None = None,
+    modes: bool = False,
+) -> Kernel:
+    names = {x.name for x in arguments}
+    where = conditions(arguments, formula.where)
+    total = "sum over j of " if modes else ""
+    stated = formula.expression if formula.stated is None else formula.stated
+    constants = ", C_k = A_j*Omega_k" if stated.has(C1) or stated.has(C3) else ""
+    return Kernel(
+        name=formula.name,
+        module=module,
+        summary=formula.meaning[0].upper() + formula.meaning[1:] + ".",
+        meaning=formula.meaning,
+        symbol=formula.latex,
+        latex=f"{formula.latex} = {formula.right_hand_side}",
+        unit=formula.unit,
+        equation=formula.equation,
+        formula=_wrap(f"{formula.name} = {total}{sp.sstr(stated)}{constants}"),
+        original=() if stated == formula.expression else _wrap(sp.sstr(formula.expression)),
+        arguments=tuple(argument_text(x, names) for x in arguments),
+        conditions=where,
+        budget=budget,
+        modes=modes,
+        steps=steps,
+        value=value,
+        seam=seam,
+    )
+
+
+def _wrap(text: str) -> tuple[str, ...]:
+    """Lines of at most 88 characters, broken at spaces only."""
+    return tuple(
+        textwrap.wrap(
+            text, 88, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False
+        )
+    )
+
+
+def argument_text(argument: Argument, names: set[str]) -> ArgumentText:
+    """An argument's line, with those of its conditions that apply."""
+    applicable = [c for c in argument.domain if _names_in(c) <= names]
+    return ArgumentText(argument.name, argument.unit, argument.meaning, ", ".join(applicable))
+
+
+def conditions(arguments: tuple[Argument, ...], extra: tuple[str, ...]) -> tuple[str, ...]:
+    """Every condition on the arguments that names nothing but arguments."""
+    names = {x.name for x in arguments}
+    return tuple(
+        condition
+        for condition in (*(c for x in arguments for c in x.domain), *extra)
+        if _names_in(condition) <= names
+    )
+
+
+def _names_in(condition: str) -> set[str]:
+    return set(re.findall(r"[A-Za-z]\w*", condition)) - {"abs"}
+
+
+def lines(steps: tuple[Step, ...]) -> tuple[Line, ...]:
+    """Steps as lines of code."""
+    return tuple(Line(str(s.symbol), to_numpy(s.expression), s.comment) for s in steps)
+
+
+def seam_text(seam: Seam) -> SeamText:
+    """A seam as text: each branch works on copies of its variables that are safe everywhere."""
+    variable = str(seam.variable)
+    return SeamText(
+        "below",
+        variable,
+        to_numpy(seam.at),
+        (
+            _branch_text(seam.below, "below", "low"),
+            _branch_text(seam.above, "~below", "high"),
+        ),
+    )
+
+
+def _branch_text(branch: Branch, mask: str, suffix: str) -> BranchText:
+    copies = {s: sp.Symbol(f"{s}_{suffix}", real=True) for s in branch.guards}
+    guards = tuple(
+        Line(str(copies[symbol]), f"np.where({mask}, {symbol}, {float(safe)})")
+        for symbol, safe in branch.guards.items()
+    )
+    steps = tuple(Step(s.symbol, s.expression.xreplace(copies), s.comment) for s in branch.steps)
+    return BranchText(guards, lines(steps), to_numpy(branch.value.xreplace(copies)), suffix)
+
+
+@dataclass(frozen=True)
+class AsPrinted:
+    """A printed formula as a function."""
+
+    name: str
+    summary: str
+    equation: str
+    arguments: tuple[ArgumentText, ...]
+    value: str
+
+
+def rows_by_module(kernels: tuple[Kernel, ...]) -> Mapping[str, list[Kernel]]:
+    """Kernels grouped by module, in order of first appearance."""
+    grouped: dict[str, list[Kernel]] = {}
+    for kernel in kernels:
+        grouped.setdefault(kernel.module, []).append(kernel)
+    return grouped
+
+
+def bessel_rows(budgets: Mapping[str, float]) -> list[dict[str, object]]:
+    """Manifest rows of the Bessel functions, whose module is made of tables."""
+    functions = {
+        "bessel_j0": (("x",), "J_0(x)", "Bessel function J0"),
+        "bessel_j1": (("x",), "J_1(x)", "Bessel function J1"),
+        "bessel_j0_zeros": (("count",), "j_n", "the first zeros of J0"),
+        "bessel_j1_at_j0_zeros": (("count",), "J_1(j_n)", "J1 at the first zeros of J0"),
+    }
+    return [
+        {
+            "name": name,
+            "module": "bessel",
+            "arguments": list(arguments),
+            "argument_units": ["1"],
+            "unit": "1",
+            "symbol": symbol,
+            "latex": symbol,
+            "meaning": meaning,
+            "equation": "",
+            "domain": "",
+            "budget": budgets[name],
+            "modes": False,
+        }
+        for name, (arguments, symbol, meaning) in functions.items()
+    ]

@@ -1,0 +1,65 @@
+"""SymPy expression -> one line of NumPy: `np.` in front, building blocks by name."""
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+from sympy.printing.numpy import NumPyPrinter
+from sympy.printing.precedence import PRECEDENCE
+
+from derivation.formula.notation import positive_first
+
+SMALL_INTEGER = 1000
+"""Largest denominator printed as a divisor; beyond, 1/n is folded into a double first."""
+
+
+class _Printer(NumPyPrinter):
+    """SymPy's NumPy printer, with quotients as written by hand and undefined functions as calls."""
+
+    def _module_format(self, fqn: str, register: bool = True) -> str:
+        return str(super()._module_format(fqn, register)).replace("numpy.", "np.")
+
+    def _print_AppliedUndef(self, expr: AppliedUndef) -> str:
+        return f"{expr.func.__name__}({', '.join(self._print(x) for x in expr.args)})"
+
+    def _print_BesselJ(self, expr: sp.besselj) -> str:
+        return f"bessel_j{expr.order}({self._print(expr.argument)})"
+
+    _print_besselj = _print_BesselJ
+
+    def _print_Mul(self, expr: sp.Mul) -> str:
+        coefficient, rest = expr.as_coeff_Mul()
+        if not isinstance(coefficient, sp.Rational) or coefficient.q > SMALL_INTEGER:
+            return str(super()._print_Mul(expr))
+        above, below = _split(rest)
+        above = [sp.Integer(abs(coefficient.p))] * (abs(coefficient.p) != 1) + above
+        below = [sp.Integer(coefficient.q)] * (coefficient.q != 1) + below
+        text = self._product(above) or "1"
+        if below:
+            divisor = self._product(below)
+            text += f"/({divisor})" if len(below) > 1 else f"/{divisor}"
+        return f"-{text}" if coefficient < 0 else text
+
+    def _product(self, factors: list[sp.Expr]) -> str:
+        return "*".join(self.parenthesize(x, PRECEDENCE["Mul"], strict=False) for x in factors)
+
+    def _as_ordered_terms(self, expr: sp.Add, order: str | None = None) -> list[sp.Expr]:
+        return positive_first(super()._as_ordered_terms(expr, order=order))
+
+
+def _split(product: sp.Expr) -> tuple[list[sp.Expr], list[sp.Expr]]:
+    """Factors above and below the line, numbers and symbols before functions."""
+    above, below = [], []
+    for factor in product.as_ordered_factors():
+        base, exponent = factor.as_base_exp()
+        if exponent.is_Rational and exponent < 0:
+            below.append(base**-exponent)
+        elif factor != 1:
+            above.append(factor)
+    return above, below
+
+
+_PRINTER = _Printer({"allow_unknown_functions": True})
+
+
+def to_numpy(expression: sp.Expr) -> str:
+    """Source text of an expression, evaluated in the order printed."""
+    return str(_PRINTER.doprint(expression))

@@ -1,0 +1,221 @@
+"""Proven formulas and their stable forms in, the text of the package `generated` out.
+
+Stages, each one assignment in `render`:
+
+ 1 kernels   formulas, forms, budgets -> rows: what each function is
+ 2 modules   rows -> one template and its context per module
+ 3 source    templates -> Python source
+ 4 files     source -> as ruff formats it
+"""
+
+import hashlib
+import subprocess
+import sys
+import tempfile
+from collections.abc import Mapping
+from dataclasses import dataclass
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import jinja2
+import sympy as sp
+
+from derivation.emit.kernels import (
+    MODAL_SUMS,
+    AsPrinted,
+    Kernel,
+    argument_text,
+    bessel_rows,
+    kernel_of_form,
+    kernel_of_sum,
+    lines,
+    read_budgets,
+    rows_by_module,
+    seam_text,
+)
+from derivation.emit.printer import to_numpy
+from derivation.formula.record import Formula
+from derivation.formula.symbols import BY_NAME, arguments_of
+from derivation.paper.printed import PRINTED
+from derivation.rewrite.bessel_tables import bessel_context
+from derivation.rewrite.blocks import blocks
+from derivation.rewrite.form import Block, Form, Seam
+
+TEMPLATES = Path(__file__).parent / "templates"
+CITATION = "Elastodynamic contact in plate-like bodies"
+TITLES = {
+    "omega": "Integration constants C_k = A_j Omega_k of a mode, scaled by e^(phi h) and plain.",
+    "influence": "Influence coefficients of both faces, plate factors and K_j.",
+    "pressure": "Hertz pressure and its Fourier-Bessel coefficients.",
+    "mode_shapes": "Displacements and stresses of one mode through the thickness.",
+    "modal_sum": "Indentation and interior fields as direct sums over the modes.",
+}
+
+
+@dataclass(frozen=True)
+class Module:
+    """A file to be: its template and what goes in."""
+
+    name: str
+    template: str
+    context: Mapping[str, Any]
+
+
+def render(formulas: Mapping[str, Formula], forms: tuple[Form, ...]) -> dict[str, str]:
+    """Files of the generated package by name; the same bytes for the same input."""
+    kernels = kernel_rows(formulas, forms)
+    planned = modules(kernels)
+    source = {f"{module.name}.py": _fill(module) for module in planned}
+    return format_files(source) | {"py.typed": ""}
+
+
+def kernel_rows(formulas: Mapping[str, Formula], forms: tuple[Form, ...]) -> tuple[Kernel, ...]:
+    """Stage 1: a row for every stable form and every modal sum."""
+    budgets = read_budgets()
+    of_forms = tuple(kernel_of_form(f, formulas[f.name], budgets[f.name]) for f in forms)
+    of_sums = tuple(
+        kernel_of_sum(formulas[name], formulas["A_j"], formulas["Omega_1"], budgets[name])
+        for name in MODAL_SUMS
+    )
+    return of_forms + of_sums
+
+
+def modules(kernels: tuple[Kernel, ...]) -> tuple[Module, ...]:
+    """Stage 2: every file's template and context."""
+    grouped = rows_by_module(kernels)
+    known = blocks()
+    planned = [
+        Module("arrays", "arrays", {}),
+        Module("blocks", "blocks", {"functions": [block_text(b) for b in known.values()]}),
+        Module("bessel", "bessel", {**bessel_context(), "budgets": read_budgets()}),
+        Module("as_printed", "as_printed", {"functions": printed_rows()}),
+        Module("manifest", "manifest", {"rows": manifest_rows(kernels), "citation": CITATION}),
+    ]
+    for name, group in grouped.items():
+        template = "modal_sum" if name == "modal_sum" else "kernels"
+        text = repr(group)
+        used = [block for block in known if f"{block}(" in text]
+        planned.append(
+            Module(name, template, {"title": TITLES[name], "functions": group, "blocks": used})
+        )
+    exported = {name: [k.name for k in group] for name, group in grouped.items()}
+    exported["bessel"] = [str(row["name"]) for row in bessel_rows(read_budgets())]
+    names = sorted(name for group in exported.values() for name in group)
+    planned.append(Module("__init__", "init", {"modules": exported, "all_names": names}))
+    return tuple(planned)
+
+
+def block_text(block: Block) -> dict[str, Any]:
+    """Context of a building block."""
+    seam = seam_text(block.value) if isinstance(block.value, Seam) else None
+    return {
+        "name": block.name,
+        "variable": str(block.arguments[0]),
+        "summary": block.summary,
+        "domain": ", ".join(block.domain),
+        "truncation": block.truncation,
+        "steps": lines(block.steps),
+        "seam": seam,
+        "value": "" if seam else to_numpy(block.value),
+    }
+
+
+def printed_rows() -> tuple[AsPrinted, ...]:
+    """The paper's formulas as functions: those that need neither modes nor other formulas."""
+    rows = []
+    for printed in PRINTED:
+        expression = printed.expression if printed.solved is None else printed.solved
+        named = {str(symbol) for symbol in expression.free_symbols}
+        if expression.has(sp.besselj) or not named <= set(BY_NAME):
+            continue
+        arguments = arguments_of(expression)
+        rows.append(
+            AsPrinted(
+                printed.name,
+                f"{printed.name} as printed.",
+                printed.equation,
+                tuple(argument_text(x, named) for x in arguments),
+                to_numpy(expression),
+            )
+        )
+    return tuple(rows)
+
+
+def manifest_rows(kernels: tuple[Kernel, ...]) -> list[dict[str, Any]]:
+    """What the manifest says of each kernel."""
+    rows = [
+        {
+            "name": k.name,
+            "module": k.module,
+            "arguments": [x.name for x in k.arguments],
+            "argument_units": [x.unit for x in k.arguments],
+            "unit": k.unit,
+            "symbol": k.symbol,
+            "latex": k.latex,
+            "meaning": k.meaning,
+            "equation": k.equation,
+            "domain": ", ".join(k.conditions),
+            "budget": k.budget,
+            "modes": k.modes,
+        }
+        for k in kernels
+    ]
+    return rows + bessel_rows(read_budgets())
+
+
+def _fill(module: Module) -> str:
+    """Stage 3: a module's source, its header naming versions and the hash of what it came from."""
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(TEMPLATES),
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+    )
+    environment.filters["repr"] = repr
+    template = environment.get_template(f"{module.template}.py.j2")
+    header = "# " + "\n# ".join(header_lines(module))
+    return template.render(header=header, **module.context)
+
+
+def header_lines(module: Module) -> tuple[str, str]:
+    """Who generated a module, from what."""
+    digest = hashlib.sha256(repr(sorted(module.context.items())).encode())
+    digest.update((TEMPLATES / f"{module.template}.py.j2").read_bytes())
+    digest.update((TEMPLATES / "macros.j2").read_bytes())
+    versions = f"platecontact {version('platecontact')} with SymPy {sp.__version__}"
+    return (
+        f"Generated by {versions} from {digest.hexdigest()[:16]}.",
+        "Do not edit: `platecontact generate` writes it anew.",
+    )
+
+
+def format_files(source: Mapping[str, str]) -> dict[str, str]:
+    """Stage 4: the files as ruff formats them.
+
+    Raises
+    ------
+    RuntimeError
+        With ruff's message, if a file is not Python.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text in source.items():
+            (Path(folder) / name).write_text(text)
+        for task in (["check", "--fix", "--select", "I,F401"], ["format", "--line-length", "100"]):
+            command = [
+                sys.executable,
+                "-m",
+                "ruff",
+                task[0],
+                "--isolated",
+                "--quiet",
+                *task[1:],
+                folder,
+            ]
+            done = subprocess.run(command, capture_output=True, text=True, check=False)
+            if done.returncode:
+                raise RuntimeError(
+                    f"ruff {task[0]} failed:\n{done.stdout:.2000}{done.stderr:.2000}"
+                )
+        return {name: (Path(folder) / name).read_text() for name in source}

@@ -1,0 +1,151 @@
+"""Units in the last place: spacing of floats, error against an exact ball, ordinals, neighbours.
+
+Nothing here is computed in the format that is judged: the differences are
+ball arithmetic, the powers of two exact.
+"""
+
+import math
+import struct
+from dataclasses import dataclass
+
+import flint
+
+_GUARD_BITS = 128
+"""Bits of a difference beyond those of the format: its own rounding is below 2^-128 ULP."""
+
+
+@dataclass(frozen=True)
+class Format:
+    """A binary floating-point format.
+
+    Parameters
+    ----------
+    name
+        Its NumPy name.
+    precision
+        Bits of the significand, the hidden one included.
+    smallest
+        Exponent of the smallest subnormal, 2^smallest.
+    limit
+        Every finite number is below 2^limit.
+    real, integer
+        `struct` codes of the number and of an integer of the same size.
+    """
+
+    name: str
+    precision: int
+    smallest: int
+    limit: int
+    real: str
+    integer: str
+
+
+DOUBLE = Format("float64", 53, -1074, 1024, "<d", "<q")
+SINGLE = Format("float32", 24, -149, 128, "<f", "<i")
+
+
+def spacing_exponent(truth: flint.arb, fmt: Format = DOUBLE) -> int:
+    """Exponent k of the unit in the last place 2^k of an exact value.
+
+    Below the smallest normal number the unit is the smallest subnormal, zero
+    included: floats are no denser there. Above the largest finite number it
+    is that number's unit: there are no floats beyond. A ball that reaches a
+    power of two counts as that power: its exact value may well be it.
+    """
+    with flint.ctx.workprec(fmt.precision + _GUARD_BITS):
+        mantissa, exponent = truth.abs_upper().man_exp()
+    if mantissa == 0:
+        return fmt.smallest
+    leading = int(exponent) + abs(int(mantissa)).bit_length() - 1
+    return min(max(leading - fmt.precision + 1, fmt.smallest), fmt.limit - fmt.precision)
+
+
+def spacing(x: float, fmt: Format = DOUBLE) -> float:
+    """Unit in the last place of a finite number, itself a power of two."""
+    return math.ldexp(1.0, spacing_exponent(flint.arb(x), fmt))
+
+
+def overflows(truth: flint.arb, fmt: Format = DOUBLE) -> bool:
+    """Whether rounding to nearest turns the exact value into an infinity."""
+    threshold = flint.arb(2) ** fmt.limit - flint.arb(2) ** (fmt.limit - fmt.precision - 1)
+    return bool(abs(truth) >= threshold)
+
+
+def ulp_error(got: float, truth: flint.arb, fmt: Format = DOUBLE) -> float:
+    """Distance between a computed number and the exact value, in ULP of the exact value.
+
+    Parameters
+    ----------
+    got
+        The computed number; a float32 is passed as the double of equal value.
+    truth
+        Ball around the exact value. Its radius counts as error.
+    fmt
+        The format whose units are meant.
+
+    Returns
+    -------
+    float
+        Rounded upwards; infinite for NaN, and for an infinity where the
+        exact value does not overflow to it.
+
+    Raises
+    ------
+    ValueError
+        If the truth is not finite: then there is nothing to measure against.
+    """
+    if not truth.is_finite():
+        raise ValueError(f"the truth must be a finite ball, got {truth}")
+    if math.isnan(got):
+        return math.inf
+    if math.isinf(got):
+        # The infinity of the right sign is the correctly rounded overflow.
+        return 0.0 if overflows(truth, fmt) and (got > 0) == bool(truth > 0) else math.inf
+    return upper_float(distance(got, truth) * flint.arb(2) ** -spacing_exponent(truth, fmt))
+
+
+def distance(got: float, truth: flint.arb) -> flint.arb:
+    """|got - truth| as a ball whose rounding is far below a unit of either format."""
+    with flint.ctx.workprec(DOUBLE.precision + _GUARD_BITS):
+        return abs(flint.arb(got) - truth)
+
+
+def upper_float(ball: flint.arb) -> float:
+    """Smallest double found that is not below the ball's absolute value."""
+    upper = ball.abs_upper()
+    nearest = float(upper)
+    return nearest if flint.arb(nearest) >= upper else math.nextafter(nearest, math.inf)
+
+
+def ordinal(x: float, fmt: Format = DOUBLE) -> int:
+    """Position of a finite number among the floats: neighbours differ by one, zeros are 0.
+
+    Raises
+    ------
+    ValueError
+        For NaN and the infinities, which have no neighbours on both sides.
+    """
+    if not math.isfinite(x):
+        raise ValueError(f"a finite number has an ordinal, {x} has none")
+    (bits,) = struct.unpack(fmt.integer, struct.pack(fmt.real, x))
+    # Negative floats order their magnitude bits backwards, below the sign bit.
+    return int(bits) if bits >= 0 else -(int(bits) + (1 << (struct.calcsize(fmt.integer) * 8 - 1)))
+
+
+def from_ordinal(position: int, fmt: Format = DOUBLE) -> float:
+    """The float at a position, inverse of `ordinal` (which maps both zeros to 0)."""
+    (magnitude,) = struct.unpack(fmt.real, struct.pack(fmt.integer, abs(position)))
+    return math.copysign(float(magnitude), position)
+
+
+def neighbours(x: float, count: int, fmt: Format = DOUBLE) -> tuple[float, ...]:
+    """A number and up to `count` floats on either side of it, ascending, the finite ones."""
+    centre = ordinal(x, fmt)
+    last = _largest_ordinal(fmt)
+    positions = range(max(centre - count, -last), min(centre + count, last) + 1)
+    return tuple(from_ordinal(position, fmt) for position in positions)
+
+
+def _largest_ordinal(fmt: Format) -> int:
+    largest = math.ldexp(2.0 - math.ldexp(1.0, 1 - fmt.precision), fmt.limit - 1)
+    return ordinal(largest, fmt)

@@ -1,0 +1,101 @@
+"""Rows -> JSON with provenance, and the table's columns for whoever draws it."""
+
+import hashlib
+import importlib
+import json
+import math
+import platform
+from collections.abc import Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import flint
+import mpmath
+import numpy as np
+import sympy as sp
+
+from derivation.measure.check import Row
+
+COLUMNS = (
+    "kernel",
+    "points",
+    "max [ULP]",
+    "99 % [ULP]",
+    "rms [ULP]",
+    "error/allowed",
+    "budget [ULP]",
+    "not finite",
+    "float32 [ULP]",
+    "passed",
+)
+
+
+def cells(row: Row) -> tuple[str, ...]:
+    """A row's entries under `COLUMNS`, as text."""
+    errors = row.double
+    return (
+        row.kernel if row.passed is not None else f"{row.module}.{row.kernel}",
+        str(errors.points),
+        f"{errors.max_ulp:.3g}",
+        f"{errors.p99_ulp:.3g}",
+        f"{errors.rms_ulp:.3g}",
+        "" if errors.ratio is None else f"{errors.ratio:.3g}",
+        "" if row.budget is None else f"{row.budget:g}",
+        str(errors.not_finite),
+        "" if row.single is None else f"{row.single.max_ulp:.3g}",
+        {True: "yes", False: "NO", None: "not promised"}[row.passed],
+    )
+
+
+def passed(rows: Sequence[Row]) -> bool:
+    """Whether every promise is kept. Formulas as printed promise nothing."""
+    return all(row.passed is not False for row in rows)
+
+
+def provenance(digits: int) -> dict[str, str | int]:
+    """With what the numbers were made; no time, place or machine, so that they repeat."""
+    return {
+        "digits": digits,
+        "generated": generated_hash(),
+        "mpmath": mpmath.__version__,
+        "numpy": np.__version__,
+        "python": platform.python_version(),
+        "python-flint": flint.__version__,
+        "sympy": sp.__version__,
+    }
+
+
+def generated_hash() -> str:
+    """SHA-256 of the generated sources, names and contents in the order of the names."""
+    origin = importlib.import_module("generated").__file__
+    if origin is None:
+        raise FileNotFoundError("the package 'generated' has no files: run `platecontact generate`")
+    digest = hashlib.sha256()
+    for path in sorted(Path(origin).parent.glob("*.py")):
+        digest.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
+    return digest.hexdigest()
+
+
+def as_data(rows: Sequence[Row], digits: int) -> dict[str, Any]:
+    """Rows and provenance as plain data; infinities as the text "inf"."""
+    return {
+        "provenance": provenance(digits),
+        "rows": [_plain(asdict(row)) for row in rows],
+    }
+
+
+def _plain(value: Any) -> Any:
+    """JSON has no infinities and no NaN: they become text."""
+    if isinstance(value, dict):
+        return {key: _plain(part) for key, part in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(part) for part in value]
+    if isinstance(value, float) and not math.isfinite(value):
+        return repr(value)
+    return value
+
+
+def to_json(rows: Sequence[Row], digits: int) -> str:
+    """The rows as JSON text, byte for byte the same for the same measurement."""
+    return json.dumps(as_data(rows, digits), indent=1, sort_keys=True, allow_nan=False) + "\n"

@@ -1,0 +1,339 @@
+"""Oracle 2: the same numbers along other routes, numerically in mpmath.
+
+Nothing here reads the theory's closed forms. A mode is solved for numerically
+(`exponentials`). The pressure's coefficients come from quadrature: of the
+pressure itself, of Boussinesq's point load, of Sonine's integral.
+"""
+
+import math
+from collections.abc import Callable, Mapping
+from functools import cache
+
+import flint
+from mpmath import mp, mpf
+
+from derivation.formula.ball import LOG2_10
+from derivation.reference import balls
+from derivation.reference.exponentials import (
+    Exponential,
+    Material,
+    combine,
+    half_space,
+    solve_tractions,
+    unit_mode,
+)
+
+Values = Mapping[str, mpf]
+FLOOR_DIGITS = 400
+"""Two results below 10^-400 count as zero: beyond the smallest double by 76 digits."""
+
+MAX_DIGITS = 4000
+MAX_OSCILLATIONS = 60
+
+
+class RouteError(ArithmeticError):
+    """A route gave no number it can answer for."""
+
+
+class OracleError(AssertionError):
+    """The two oracles contradict each other: neither is to be believed."""
+
+
+def _integral(integrand: Callable[[mpf], mpf], points: list[mpf], method: str) -> mpf:
+    """Quadrature that answers for all but the last twenty of the working digits.
+
+    Raises
+    ------
+    RouteError
+        If the estimated error is larger.
+    """
+    value, error = mp.quad(integrand, points, error=True, method=method)
+    if not error <= mpf(10) ** (20 - mp.dps) * abs(value):
+        raise RouteError(f"quadrature reached {mp.nstr(value)} +- {mp.nstr(error)} only")
+    return value
+
+
+@cache
+def _disc_moment(digits: int) -> mpf:
+    """int_0^1 t sqrt(1-t^2) dt: resultant of the pressure over 2 pi a^2 p(0)."""
+    with mp.workdps(digits):
+        return _integral(lambda t: mp.sin(t) * mp.cos(t) ** 2, [0, mp.pi / 2], "tanh-sinh")
+
+
+@cache
+def _boussinesq_drop(digits: int) -> mpf:
+    """pi E* (w(0) - w(a)) / (p(0) a) under Hertz pressure, by Boussinesq's point load.
+
+    A ring of radius s < a acts on the axis with 2 pi s/s and at distance a with
+    4 (s/a) K(s/a), K = pi/(2 agm(1, sqrt(1 - s^2/a^2))) the complete elliptic
+    integral. With s = a cos t the root is sin t, and its logarithm lies at t = 0.
+    """
+
+    def drop(t: mpf) -> mpf:
+        ring = 2 * mp.pi * mp.cos(t) / mp.agm(1, mp.sin(t))
+        return mp.sin(t) ** 2 * (2 * mp.pi - ring)
+
+    with mp.workdps(digits):
+        return _integral(drop, [0, mp.pi / 2], "tanh-sinh")
+
+
+def peak_pressure(R: mpf, a: mpf, material: Material) -> mpf:
+    """p(0) > 0 such that the half-space's surface drops by a^2/(2R) from centre to edge."""
+    modulus = 2 / half_space(mpf(1), material)  # E* = 2/(phi C)
+    return mp.pi * modulus * a / (2 * R * _boussinesq_drop(mp.dps))
+
+
+@cache
+def _sonine_unit(y: mpf, digits: int) -> mpf:
+    """int_0^1 t sqrt(1-t^2) J0(y t) dt by quadrature.
+
+    With c = sqrt(1-t^2) the integrand c^2 J0(y sqrt(1-c^2)) is entire in c:
+    Gauss's rule converges faster than any power.
+    """
+    if y > MAX_OSCILLATIONS * mp.pi:
+        raise RouteError(f"J0 oscillates too often for quadrature: a phi = {mp.nstr(y, 8)}")
+    with mp.workdps(digits):
+        return _integral(
+            lambda c: c**2 * mp.besselj(0, y * mp.sqrt((1 - c) * (1 + c))), [0, 1], "gauss-legendre"
+        )
+
+
+def _sonine(v: Values) -> mpf:
+    return v["a"] ** 2 * _sonine_unit(v["a"] * v["phi"], mp.dps)
+
+
+def _pressure_coefficient(v: Values) -> mpf:
+    norm = v["b"] ** 2 * v["J1"] ** 2 / 2
+    return -peak_pressure(v["R"], v["a"], _material(v)) * _sonine(v) / norm
+
+
+def _material(v: Values) -> Material:
+    return Material(v["lam"], v["mu"])
+
+
+_UNIT = Material(mpf(1), mpf(1))
+
+
+def _omega(k: int, v: Values) -> mpf:
+    """Constant of cosh, sinh, z cosh, z sinh from the weights of the exponentials."""
+    material = Material(v.get("lam", mpf(1)), v["mu"])
+    up, down, z_up, z_down = solve_tractions(v["phi"], v["h"], material)
+    foot = mp.exp(-v["phi"] * v["h"])  # the exponentials are 1 on their faces
+    sums = (up + down, up - down, z_up + z_down, z_up - z_down)
+    return sums[k - 1] * foot
+
+
+def _plate_factor(v: Values, side: int) -> mpf:
+    phi = v["T"] / 2
+    return unit_mode(phi, mpf(1), _UNIT, mpf(side)).w / half_space(phi, _UNIT)
+
+
+def _face(v: Values, side: int) -> mpf:
+    return unit_mode(v["phi"], v["h"], _material(v), side * v["h"]).w
+
+
+def _indentation(v: Values, side: int) -> mpf:
+    """K_j: deflection over s(a phi), which no material and no contact radius changes; a phi = 2."""
+    inner = {**v, "a": 2 / v["phi"], "lam": mpf(1), "mu": mpf(1)}
+    s = mp.sin(mpf(2)) - 2 * mp.cos(mpf(2))
+    return -_pressure_coefficient(inner) * _face(inner, side) / s
+
+
+def _mode(v: Values, part: str) -> mpf:
+    state = unit_mode(v["phi"], v["h"], _material(v), v["z"])
+    return v["A_j"] * getattr(state, part)
+
+
+def _general(v: Values, part: str) -> mpf:
+    """The general solution: hyperbolic functions as exponentials standing on z = 0."""
+    c1, c2, c3, c4 = (v.get(f"C{k}", mpf(0)) for k in range(1, 5))
+    material = Material(v.get("lam", mpf(1)), v.get("mu", mpf(1)))
+    four = [
+        Exponential(v["phi"], sign, power, mpf(0), material) for power in (0, 1) for sign in (1, -1)
+    ]
+    weights = [(c1 + c2) / 2, (c1 - c2) / 2, (c3 + c4) / 2, (c3 - c4) / 2]
+    return getattr(combine(weights, [e.at(v["z"]) for e in four]), part)
+
+
+def _field(v: Values, quantity: str) -> mpf:
+    """One mode's share of a displacement or stress at (r, z)."""
+    phi, r = v["phi"], v["r"]
+    state = unit_mode(phi, v["h"], _material(v), v["z"])
+    j0, j1 = mp.besselj(0, phi * r), mp.besselj(1, phi * r)
+    # J1(phi r)/r as J0 + J2 needs no limit at r = 0.
+    ring = v["mu"] * state.u * phi * (j0 + mp.besselj(2, phi * r))
+    shapes = {
+        "u": state.u * j1,
+        "w": state.w * j0,
+        "sigma_rr": state.rr * j0 - ring,
+        "sigma_tt": state.tt * j0 + ring,
+        "sigma_zz": state.zz * j0,
+        "sigma_rz": state.rz * j1,
+    }
+    return _pressure_coefficient(v) * shapes[quantity]
+
+
+def _share_of_delta(v: Values) -> mpf:
+    inner = {**v, "lam": mpf(1), "mu": mpf(1)}
+    return -_pressure_coefficient(inner) * _face(inner, 1)
+
+
+def _pressure(v: Values) -> mpf:
+    t = v["r"] / v["a"]
+    return -v["P"] * mp.sqrt((1 - t) * (1 + t)) / (2 * mp.pi * v["a"] ** 2 * _disc_moment(mp.dps))
+
+
+def _force(v: Values) -> mpf:
+    peak = peak_pressure(v["R"], v["a"], _material(v))
+    return 2 * mp.pi * v["a"] ** 2 * peak * _disc_moment(mp.dps)
+
+
+def _over_phi(route: Callable[[Values, str], mpf]) -> Callable[[Values], mpf]:
+    """The paper's g is U/phi."""
+    return lambda v: route(v, "u") / v["phi"]
+
+
+def _part(route: Callable[[Values, str], mpf], part: str) -> Callable[[Values], mpf]:
+    return lambda v: route(v, part)
+
+
+@cache
+def _zero(j: int, digits: int) -> mpf:
+    with mp.workdps(digits):
+        return mp.besseljzero(0, j)
+
+
+def _omega_routes() -> dict[str, Callable[[Values], mpf]]:
+    def scaled(k: int) -> Callable[[Values], mpf]:
+        return lambda v: mp.exp(v["phi"] * v["h"]) * _omega(k, v)
+
+    def plain(k: int) -> Callable[[Values], mpf]:
+        return lambda v: _omega(k, v)
+
+    return {f"Omega_{k}": plain(k) for k in range(1, 5)} | {
+        f"Omega_{k}_scaled": scaled(k) for k in range(1, 5)
+    }
+
+
+ROUTES: dict[str, Callable[[Values], mpf]] = {
+    **_omega_routes(),
+    **{f"S_{part}": _part(_general, part) for part in ("zz", "rz", "rr", "tt")},
+    **{f"mode_{part}": _part(_mode, part) for part in ("zz", "rz", "rr", "tt")},
+    **{
+        name: _part(_field, name)
+        for name in ("u", "w", "sigma_rr", "sigma_tt", "sigma_zz", "sigma_rz")
+    },
+    "f_j": _part(_general, "w"),
+    "g_j": _over_phi(_general),
+    "mode_f": _part(_mode, "w"),
+    "mode_g": _over_phi(_mode),
+    "C_top": lambda v: _face(v, 1),
+    "C_bottom": lambda v: _face(v, -1),
+    "C_half": lambda v: half_space(v["phi"], _material(v)),
+    "G": lambda v: _plate_factor(v, 1),
+    "G_m": lambda v: _plate_factor(v, -1),
+    "G_minus_1": lambda v: _plate_factor(v, 1) - 1,
+    "p": _pressure,
+    "sonine": _sonine,
+    "P": _force,
+    "A_j": _pressure_coefficient,
+    "K_j": lambda v: _indentation(v, 1),
+    "K_j_bottom": lambda v: _indentation(v, -1),
+    "delta": _share_of_delta,
+    "bessel_j0": lambda v: mp.besselj(0, v["x"]),
+    "bessel_j1": lambda v: mp.besselj(1, v["x"]),
+    "bessel_j0_zeros": lambda v: _zero(int(v["count"]), mp.dps),
+    "bessel_j1_at_j0_zeros": lambda v: mp.besselj(1, _zero(int(v["count"]), mp.dps)),
+}
+"""For each formula the route to its value, or to one mode's share of it."""
+
+
+def evaluate(name: str, values: Mapping[str, float], modes: int | None) -> mpf:
+    """A formula along its route, at the working precision as it is."""
+    exact = {key: mpf(value) for key, value in values.items()}
+    route = ROUTES[name]
+    if modes is None:
+        return route(exact)
+    shares = []
+    for j in range(1, modes + 1):
+        zero = _zero(j, mp.dps)
+        mode = {"phi": zero / exact["b"], "J1": mp.besselj(1, zero)}
+        shares.append(route(exact | mode))
+    return mp.fsum(shares)
+
+
+def value(
+    name: str, values: Mapping[str, float], digits: int = 50, modes: int | None = None
+) -> mpf:
+    """A formula along its route, good to the asked digits.
+
+    Computed twice, each time with a quarter more digits, until both
+    agree; two results below 10^-400 are zero.
+
+    Raises
+    ------
+    KeyError
+        For a name without a route.
+    RouteError
+        If no precision up to 4000 digits makes two results agree, or the
+        quadrature does not converge.
+    """
+    if name not in ROUTES:
+        raise KeyError(f"no route to {name!r}; there are {', '.join(ROUTES)}")
+    # A multiple of 40, so that the cached integrals serve many points.
+    working = 40 * math.ceil((digits + 30 + _cancellation(values)) / 40)
+    with mp.workdps(working):
+        coarse = evaluate(name, values, modes)
+    while working <= MAX_DIGITS:
+        working = 40 * math.ceil(working * 1.25 / 40)
+        with mp.workdps(working):
+            fine = evaluate(name, values, modes)
+            if _agree(coarse, fine, digits):
+                return mpf(0) if abs(fine) < mpf(10) ** -FLOOR_DIGITS else fine
+        coarse = fine
+    raise RouteError(f"{name} at {dict(values)}: no two results agree to {digits} digits")
+
+
+def _agree(one: mpf, other: mpf, digits: int) -> bool:
+    floor = mpf(10) ** -FLOOR_DIGITS
+    if not (mp.isfinite(one) and mp.isfinite(other)):
+        return False
+    if abs(one) < floor and abs(other) < floor:
+        return True
+    return bool(abs(one - other) <= mpf(10) ** -(digits + 5) * abs(other))
+
+
+def _cancellation(values: Mapping[str, float]) -> int:
+    """Digits the 4x4 system may lose: up to the sixth power of a small phi h, or e^(2 phi h).
+
+    An estimate that saves attempts; what decides is that two precisions agree.
+    """
+    x = values["T"] if "T" in values else values.get("phi", 1.0) * values.get("h", 0.0)
+    if 0.0 < x < 1.0:
+        return math.ceil(6 * -math.log10(x))
+    return math.ceil(min(2 * x / math.log(10), FLOOR_DIGITS))
+
+
+def to_ball(number: mpf) -> flint.arb:
+    """An mpmath number, exactly."""
+    sign, mantissa, exponent, _ = number._mpf_
+    with flint.ctx.workprec(max(53, int(mantissa).bit_length())):
+        return flint.arb(int(-mantissa if sign else mantissa)) * flint.arb(2) ** int(exponent)
+
+
+def agree(
+    name: str, values: Mapping[str, float], digits: int = 50, modes: int | None = None
+) -> flint.arb:
+    """The value both oracles give, as the first one's ball.
+
+    Raises
+    ------
+    OracleError
+        If they differ by more than 10^-digits of the value.
+    """
+    ball = balls.truth(name, values, digits + 2, modes)
+    other = to_ball(value(name, values, digits + 2, modes))
+    with flint.ctx.workprec(int(LOG2_10 * digits) + 64):
+        if bool(abs(ball - other) <= abs(ball) * flint.arb(10) ** -digits):
+            return ball
+    raise OracleError(f"{name} at {dict(values)}, modes {modes}: {ball} against {other}")

@@ -1,0 +1,92 @@
+"""Zeros of J0 as balls, each with a proof that it is the n-th.
+
+y = sqrt(x) J0(x) satisfies y'' + (1 + 1/(4 x^2)) y = 0. The coefficient falls
+towards 1, so by Sturm's comparison consecutive zeros are less than pi apart
+and their spacing grows; j_n - (n - 1/4) pi therefore falls with n, and tends
+to 0 by the asymptotic expansion. Hence 0 < j_n - (n - 1/4) pi <= j_1 - 3 pi/4
+for all n: the intervals (n - 1/4) pi + (0, 1/20) are disjoint and hold one zero
+each, the n-th, once j_1 is known to lie in the first (`first_zero_is_first`).
+"""
+
+from functools import cache
+
+import flint
+
+WIDTH = flint.arb(flint.fmpq(1, 20))
+_GUARD_BITS = 48
+
+
+class ZeroError(ArithmeticError):
+    """A zero of J0 could not be certified."""
+
+
+@cache
+def j0_zero(index: int, bits: int) -> flint.arb:
+    """Ball around the index-th positive zero of J0, its relative radius below 2^-bits.
+
+    Raises
+    ------
+    ValueError
+        If the index is not positive.
+    ZeroError
+        If the sign of J0 does not change across the ball, or the ball leaves
+        the interval that belongs to the index.
+    """
+    if index < 1:
+        raise ValueError(f"zeros of J0 are counted from 1, got {index}")
+    if not first_zero_is_first():
+        raise ZeroError("J0 could not be shown to have no zero below 3 pi/4")
+    working = bits + _GUARD_BITS
+    with flint.ctx.workprec(working):
+        left = (index - flint.arb(1) / 4) * flint.arb.pi()
+        guess = _newton(left + 1 / (8 * left), working)
+        radius = flint.arb(2) ** (-bits - 2)
+        low, high = guess - radius, guess + radius
+        if not (low > left and high < left + WIDTH):
+            raise ZeroError(f"the ball {guess} is not where zero {index} lies")
+        if not low.bessel_j(0) * high.bessel_j(0) < 0:
+            raise ZeroError(f"J0 does not change its sign across {guess}")
+        return low.union(high)
+
+
+@cache
+def j1_at_zero(index: int, bits: int) -> flint.arb:
+    """J1 at the index-th positive zero of J0, its relative radius below 2^-bits.
+
+    A ball's relative radius grows on the way through J1 by the argument, about
+    pi times the index: the zero is asked for with as many bits more.
+
+    Raises
+    ------
+    ZeroError
+        If the ball is wider than that all the same.
+    """
+    working = bits + index.bit_length() + _GUARD_BITS
+    with flint.ctx.workprec(working):
+        value = j0_zero(index, working).bessel_j(1)
+    if value.rel_accuracy_bits() < bits:
+        raise ZeroError(f"J1 at zero {index} is known as {value} only")
+    return value
+
+
+def _newton(start: flint.arb, bits: int) -> flint.arb:
+    """Newton's iteration on midpoints: a guess that the caller certifies."""
+    x, correct = start.mid(), 8
+    while correct < 2 * bits:
+        x = (x + x.bessel_j(0) / x.bessel_j(1)).mid()
+        correct *= 2
+    return x
+
+
+@cache
+def first_zero_is_first() -> bool:
+    """Whether J0 is positive on [0, 2.36], beyond 3 pi/4: shown by balls that cover it.
+
+    Zeros there are more than 3 apart (the coefficient is below 1.05), so the
+    one found in the first interval is the only one in it, and is j_1.
+    """
+    with flint.ctx.workprec(64):
+        half = flint.arb(flint.fmpq(1, 200))
+        pieces = (flint.arb((2 * k + 1) * half, half) for k in range(236))
+        covered = all(piece.bessel_j(0) > 0 for piece in pieces)
+        return covered and bool(236 * 2 * half > flint.arb.pi() * 3 / 4)

@@ -1,0 +1,154 @@
+"""Formulas, findings and committed measurements -> the text of the LaTeX report."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from derivation.formula.record import Formula
+from derivation.paper.misprints import Finding
+from derivation.report.latex import environment, equation, escape
+
+SUM = r"\sum_{j=1}^{\infty} "
+ABOUT = {
+    "equilibrium": "One mode of the plate is u = g(z) phi J1(phi r), w = f(z) J0(phi r). Put into "
+    "Hooke's law and the balance of forces it leaves two ordinary differential equations in z.",
+    "mode shapes": "On exp(s z) the two equations are a 2x2 matrix; the roots of its determinant "
+    "and their multiplicities give the solution space.",
+    "stresses": "Hooke's law of the mode. The normal stresses in the plane have a second part "
+    "that goes with J1(phi r)/r.",
+    "face conditions": "No shear on either face, no pressure on the far face, A_j on the loaded "
+    "one: four linear equations for C_k = A_j Omega_k.",
+    "loaded mode": "The same shapes with the constants just found.",
+    "influence": "The deflection of each face per pressure coefficient, and what remains of it "
+    "when the plate becomes a half-space.",
+    "plate factor": "The influence coefficients over the half-space's depend on T = 2 phi h alone.",
+    "Hertz": "Hertz's pressure, its transform (Sonine's integral) and the contact radius, which "
+    "follows from the half-space's influence coefficient.",
+    "contact law": "The indentation is the deflection under the sphere's centre.",
+    "interior": "Sums over the modes give the fields at any point.",
+}
+
+
+def tex(
+    links: Sequence[tuple[str, Sequence[Formula]]],
+    findings: Sequence[Finding],
+    check: Mapping[str, Any],
+    version: str,
+    citation: str,
+) -> str:
+    """The report's LaTeX, a pure function of theory and committed measurements."""
+    wrong = sum(finding.is_misprint for finding in findings)
+    return (
+        environment()
+        .get_template("report.tex.j2")
+        .render(
+            version=version,
+            citation=citation,
+            links=[link_context(name, formulas) for name, formulas in links],
+            findings=[finding_context(finding) for finding in findings],
+            counts={"all": len(findings), "equal": len(findings) - wrong},
+            tables=list(accuracy_tables(check)),
+            provenance=sorted((k, v) for k, v in check["provenance"].items() if k != "digits"),
+            digits=check["provenance"]["digits"],
+        )
+    )
+
+
+def link_context(name: str, formulas: Sequence[Formula]) -> dict[str, Any]:
+    """A link of the chain: its formulas, and each proof once."""
+    proofs = {formula.proof.step: formula.proof for formula in formulas}
+    return {
+        "title": name[0].upper() + name[1:],
+        "about": ABOUT[name],
+        "formulas": [formula_context(formula) for formula in formulas],
+        "proofs": [
+            {
+                "step": proof.step,
+                "argument": proof.argument,
+                "method": proof.method,
+                "residuals": ", ".join(proof.residuals),
+            }
+            for proof in proofs.values()
+        ],
+    }
+
+
+def formula_context(formula: Formula) -> dict[str, Any]:
+    """A formula as the template shows it."""
+    shown = formula.expression if formula.stated is None else formula.stated
+    return {
+        "name": formula.name,
+        "meaning": formula.meaning,
+        "unit": unit(formula.unit),
+        "equation": formula.equation,
+        "sources": ", ".join(rf"\texttt{{{escape(source)}}}" for source in formula.sources),
+        "body": equation(formula.latex, shown, SUM if formula.summed else ""),
+    }
+
+
+def unit(text: str) -> str:
+    """A unit as LaTeX: m^2 raised."""
+    base, _, power = text.partition("^")
+    return f"{base}$^{power}$" if power else base
+
+
+def finding_context(finding: Finding) -> dict[str, Any]:
+    """A comparison as the template shows it."""
+    printed, diagnosis = finding.printed, finding.diagnosis
+    formula = finding.formula
+    derived = formula.expression if formula.stated is None else formula.stated
+    return {
+        "equation": printed.equation,
+        "name": printed.name,
+        "says": printed.says,
+        "printed": as_printed(printed.symbol, printed.full or printed.latex),
+        "derived": equation(formula.latex, derived, SUM if formula.summed else ""),
+        "equal": not finding.is_misprint,
+        "kind": diagnosis.kind[0].upper() + diagnosis.kind[1:],
+        "repair": finding.repair.rstrip("."),
+        "dimension": diagnosis.dimension,
+        "method": diagnosis.method,
+    }
+
+
+def as_printed(left: str, right: str) -> str:
+    """A printed equation, in the lines the paper gives it."""
+    right = right.rstrip(". ")
+    if "&" in right:
+        return rf"\begin{{aligned}} {left} ={{}}& {right} \end{{aligned}}"
+    return f"{left} = {right}"
+
+
+def accuracy_tables(check: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
+    """The generated kernels, and for contrast the formulas as printed."""
+    promised = [row for row in check["rows"] if row["passed"] is not None]
+    printed = [row for row in check["rows"] if row["passed"] is None]
+    yield {"caption": "Generated functions", "rows": [accuracy_row(row) for row in promised]}
+    yield {
+        "caption": "The formulas as printed, at the same points, for contrast",
+        "rows": [accuracy_row(row) for row in printed],
+    }
+
+
+def accuracy_row(row: Mapping[str, Any]) -> str:
+    """Cells of one row; a result that is not a number counts as infinitely wrong."""
+    errors = row["double"]
+    cells = [
+        escape(row["kernel"]),
+        str(errors["points"]),
+        number(errors["max_ulp"]) if not errors["not_finite"] else r"$\infty$",
+        number(errors["p99_ulp"]),
+        number(errors["rms_ulp"]),
+        "" if row["budget"] is None else f"{row['budget']:g}",
+        "" if errors["ratio"] is None else number(errors["ratio"]),
+    ]
+    return " & ".join(cells)
+
+
+def number(value: float | str) -> str:
+    """Two or three significant figures, large ones as powers of ten."""
+    if isinstance(value, str):
+        return r"$\infty$"
+    if 0 < abs(value) < 1e-2 or abs(value) >= 1e4:
+        mantissa, _, exponent = f"{value:.1e}".partition("e")
+        return rf"${mantissa}\cdot10^{{{int(exponent)}}}$"
+    return f"{value:.2f}"

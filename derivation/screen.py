@@ -1,0 +1,61 @@
+"""What the command line shows: stages with their times, tables, JSON to a file or the screen."""
+
+import json
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
+from rich.table import Table
+
+from derivation.files import write_file
+
+OUT = Console()
+NOTES = Console(stderr=True)
+"""Progress and remarks, kept apart from results so that these can be piped."""
+
+
+@contextmanager
+def stage(name: str) -> Iterator[None]:
+    """Show that a stage is running, then how long it took."""
+    start = time.perf_counter()
+    with NOTES.status(f"{name} ..."):
+        yield
+    NOTES.print(f"[green]✓[/] {name} [dim]{time.perf_counter() - start:.1f} s[/]")
+
+
+@contextmanager
+def counted(name: str) -> Iterator[Callable[[str, int, int], None]]:
+    """Show a bar for work in parts; yields what wants to be told each part."""
+    start = time.perf_counter()
+    part = TextColumn("{task.description}")
+    with Progress(
+        TextColumn(name), BarColumn(), MofNCompleteColumn(), part, console=NOTES, transient=True
+    ) as bar:
+        task = bar.add_task("", total=None)
+        yield lambda part, number, total: bar.update(
+            task, description=part, completed=number - 1, total=total
+        )
+    NOTES.print(f"[green]✓[/] {name} [dim]{time.perf_counter() - start:.1f} s[/]")
+
+
+def table(title: str, columns: Sequence[str], rows: Sequence[Sequence[object]]) -> None:
+    """Print a table; columns whose name starts with `#` are numbers, set flush right."""
+    made = Table(title=title, title_justify="left")
+    for column in columns:
+        made.add_column(column.lstrip("#"), justify="right" if column[0] == "#" else "left")
+    for row in rows:
+        made.add_row(*(str(cell) for cell in row))
+    OUT.print(made)
+
+
+def put_json(result: Any, where: str) -> None:
+    """Write a result as JSON to a file, or to standard output for `-`."""
+    text = json.dumps(result, indent=2, ensure_ascii=False) + "\n"
+    if where == "-":
+        print(text, end="")
+    else:
+        write_file(Path(where), text)

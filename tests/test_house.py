@@ -1,0 +1,38 @@
+"""House rules: layers, length and first lines of modules, nothing heavy at the door."""
+
+import ast
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from importlinter.cli import lint_imports
+
+from derivation.files import ROOT
+
+HAND_WRITTEN = sorted((ROOT / "derivation").rglob("*.py"))
+
+
+def test_layers(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(ROOT)
+    assert lint_imports(config_filename=str(ROOT / "pyproject.toml"), no_cache=True) == 0
+
+
+@pytest.mark.parametrize("path", HAND_WRITTEN, ids=lambda p: str(p.relative_to(ROOT)))
+def test_module_says_what_it_is_and_is_not_long(path: Path) -> None:
+    text = path.read_text()
+    assert ast.get_docstring(ast.parse(text)), "a module opens with what it does"
+    assert len(text.splitlines()) <= 450
+
+
+def test_the_door_is_light() -> None:
+    program = """
+import sys
+import derivation, derivation.cli
+heavy = {"sympy", "numpy", "flint", "mpmath", "jinja2"} & set(sys.modules)
+assert not heavy, heavy
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr

@@ -1,0 +1,70 @@
+"""The report: a pure function of theory and committed measurements, escaped and compiled."""
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from derivation import pipeline
+from derivation.report.latex import equation, escape, typeset_width
+from derivation.report.pdf import TexError, compile_pdf
+from derivation.theory.chain import LINKS
+
+
+def test_committed_tex_is_fresh() -> None:
+    freshness = pipeline.check_report()
+    assert freshness.fresh, str(freshness)
+
+
+@pytest.mark.parametrize(
+    ("plain", "latex"),
+    [
+        ("a_b", r"a\_b"),
+        ("50 %", r"50 \%"),
+        ("{x}", r"\{x\}"),
+        ("^", r"\textasciicircum{}"),
+        ("\\", r"\textbackslash{}"),
+    ],
+)
+def test_escape(plain: str, latex: str) -> None:
+    assert escape(plain) == latex
+
+
+def test_long_sums_are_broken_and_short_ones_are_not(formulas) -> None:
+    assert "aligned" in equation("g", formulas["g_j"].expression)
+    assert "aligned" not in equation("G", formulas["G"].expression)
+    assert typeset_width(r"\frac{a + b}{c}") == 3
+
+
+def test_every_link_and_formula_is_in_the_report(formulas) -> None:
+    text = pipeline.report_files()["report.tex"]
+    for name, _ in LINKS:
+        assert rf"\subsection{{{name[0].upper() + name[1:]}}}" in text
+    for name in formulas:
+        assert rf"\texttt{{{escape(name)}}}" in text
+
+
+@pytest.mark.skipif(shutil.which("pdflatex") is None, reason="needs pdflatex")
+def test_pdf_compiles_twice_to_the_same_bytes(tmp_path: Path) -> None:
+    first, second = tmp_path / "one" / "report.tex", tmp_path / "two" / "report.tex"
+    for path in (first, second):
+        path.parent.mkdir()
+        path.write_text(pipeline.report_files()["report.tex"])
+    assert compile_pdf(first).read_bytes() == compile_pdf(second).read_bytes()
+    assert sorted(p.name for p in first.parent.iterdir()) == ["report.pdf", "report.tex"]
+
+
+@pytest.mark.skipif(shutil.which("pdflatex") is None, reason="needs pdflatex")
+def test_refused_tex_names_the_error(tmp_path: Path) -> None:
+    path = tmp_path / "bad.tex"
+    path.write_text(r"\documentclass{article}\begin{document}\nonsense\end{document}")
+    with pytest.raises(TexError, match="Undefined control sequence"):
+        compile_pdf(path)
+
+
+def test_without_tex_the_message_names_the_packages(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(TexError, match="texlive-latex-base"):
+        compile_pdf(tmp_path / "report.tex")

@@ -10,8 +10,8 @@ Importing this package alone loads neither SymPy nor anything else that is slow.
 import os
 from typing import TYPE_CHECKING
 
-# Loaded before the function below takes the name: `import derivation.formula.record`
-# and `from derivation import formula` then both do what they say.
+# The room is loaded before the function below takes its name; modules in it are
+# reached by `from derivation.formula.record import ...` all the same.
 import derivation.formula as _room  # noqa: F401
 
 if TYPE_CHECKING:

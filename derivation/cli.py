@@ -185,7 +185,7 @@ def diagnose(
         found = pipeline.diagnose(name, formula, latex, at, digits)
     if json != "-":
         rows = [(key, value) for key, value in found.to_json().items() if value is not None]
-        table(f"{name}: {found.verdict}", ("", ""), rows)
+        table(f"{name}: {found.verdict}", ("what", "value"), rows)
     if json:
         put_json(found.to_json(), json)
     raise typer.Exit(0 if found.verdict == "equal" else 1)

@@ -46,7 +46,7 @@ def table(title: str, columns: Sequence[str], rows: Sequence[Sequence[object]]) 
     """Print a table; columns whose name starts with `#` are numbers, set flush right."""
     made = Table(title=title, title_justify="left")
     for column in columns:
-        made.add_column(column.lstrip("#"), justify="right" if column[0] == "#" else "left")
+        made.add_column(column.lstrip("#"), justify="right" if column.startswith("#") else "left")
     for row in rows:
         made.add_row(*(str(cell) for cell in row))
     OUT.print(made)

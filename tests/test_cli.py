@@ -13,15 +13,14 @@ import pytest
 from derivation import diagnose, formula
 from derivation.cli import main
 from derivation.files import ROOT
+from derivation.formula.record import Formula
 
 RIGHT = "(2*T + sinh(2*T))/(2*(sinh(T) - T)*(sinh(T) + T))"
 
 
 def test_public_python_interface() -> None:
-    import derivation.formula.record
-
     found = formula("G")
-    assert isinstance(found, derivation.formula.record.Formula)
+    assert isinstance(found, Formula)
     assert found._repr_latex_().startswith("$")
     assert diagnose("G", RIGHT, at="T=3").verdict == "equal"
     with pytest.raises(KeyError, match="K_j"):

@@ -12,7 +12,7 @@ import typer
 from typer.exceptions import TyperException
 from typer.main import get_command
 
-from derivation.screen import NOTES, OUT, counted, put_json, stage, table
+from derivation.screen import NOTES, OUT, counted, listing, put_json, stage, table
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -99,12 +99,13 @@ def check(
     Example: platecontact check --digits 100
     """
     from derivation import pipeline
-    from derivation.measure.record import COLUMNS, as_data, cells, passed
+    from derivation.measure.record import COLUMNS, as_data, cells, passed, worst
 
     with counted("check") as tell:
         rows = pipeline.check(digits, record, tell)
     if json != "-":
         table(f"Errors against {digits} digits", COLUMNS, [cells(row) for row in rows])
+        listing("Worst arguments", [worst(row) for row in rows if row.passed is not None])
     if json:
         put_json(as_data(rows, digits), json)
     raise typer.Exit(0 if passed(rows) else 1)

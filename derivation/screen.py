@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from rich.console import Console
+from rich.markup import escape
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 from rich.table import Table
 
@@ -46,10 +47,18 @@ def table(title: str, columns: Sequence[str], rows: Sequence[Sequence[object]]) 
     """Print a table; columns whose name starts with `#` are numbers, set flush right."""
     made = Table(title=title, title_justify="left")
     for column in columns:
-        made.add_column(column.lstrip("#"), justify="right" if column.startswith("#") else "left")
+        number = column.startswith("#")
+        made.add_column(column.lstrip("#"), justify="right" if number else "left", overflow="fold")
     for row in rows:
-        made.add_row(*(str(cell) for cell in row))
+        made.add_row(*(escape(str(cell)) for cell in row))
     OUT.print(made)
+
+
+def listing(title: str, lines: Sequence[str]) -> None:
+    """Print lines as they are, unbroken, so that they can be copied."""
+    OUT.print(title, style="italic")
+    for line in lines:
+        OUT.print(line, markup=False, highlight=False, soft_wrap=True)
 
 
 def put_json(result: Any, where: str) -> None:

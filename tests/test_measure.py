@@ -13,13 +13,13 @@ import numpy as np
 import pytest
 from mpmath import mp, mpf
 
+from derivation.files import write_file
 from derivation.formula.ulp import SINGLE
 from derivation.measure import check as checking
 from derivation.measure.check import Row, check
 from derivation.measure.grids import Point, grid, seams
 from derivation.measure.judge import Truth, allowed_ulp, judge, to_single, truths
 from derivation.measure.kernels import Kernel, kernel_of_row
-from derivation.files import write_file
 from derivation.measure.record import COLUMNS, as_data, cells, passed, to_json
 from derivation.reference import routes
 from derivation.reference.balls import reference

@@ -19,33 +19,37 @@ from derivation.measure.check import Row
 
 COLUMNS = (
     "kernel",
-    "points",
-    "max [ULP]",
-    "99 % [ULP]",
-    "rms [ULP]",
-    "error/allowed",
-    "budget [ULP]",
-    "not finite",
-    "float32 [ULP]",
-    "passed",
+    "#points",
+    "#max ULP",
+    "#p99 ULP",
+    "#used",
+    "#budget",
+    "kept",
 )
+"""Headings of the table; `used` is the largest error over what is allowed."""
 
 
 def cells(row: Row) -> tuple[str, ...]:
     """A row's entries under `COLUMNS`, as text."""
     errors = row.double
+    infinite = f"{errors.not_finite} not finite" if errors.not_finite else f"{errors.max_ulp:.3g}"
     return (
         row.kernel if row.passed is not None else f"{row.module}.{row.kernel}",
         str(errors.points),
-        f"{errors.max_ulp:.3g}",
+        infinite,
         f"{errors.p99_ulp:.3g}",
-        f"{errors.rms_ulp:.3g}",
-        "" if errors.ratio is None else f"{errors.ratio:.3g}",
+        "" if errors.ratio is None else f"{errors.ratio:.2f}",
         "" if row.budget is None else f"{row.budget:g}",
-        str(errors.not_finite),
-        "" if row.single is None else f"{row.single.max_ulp:.3g}",
-        {True: "yes", False: "NO", None: "not promised"}[row.passed],
+        {True: "yes", False: "NO", None: ""}[row.passed],
     )
+
+
+def worst(row: Row) -> str:
+    """Where a row's error is largest in proportion to what is allowed, in exact doubles."""
+    found = row.double.worst
+    arguments = " ".join(f"{name}={exact}" for name, exact, _ in found.arguments) if found else ""
+    modes = f" modes={found.modes}" if found and found.modes else ""
+    return f"{row.kernel}: {arguments}{modes}"
 
 
 def passed(rows: Sequence[Row]) -> bool:

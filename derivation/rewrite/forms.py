@@ -68,7 +68,7 @@ def _omegas() -> dict[str, _Shape]:
         Step(odd, -expm1(-T), "2 e^(-x) sinh x"),
         Step(even, 1 + sp.exp(-T), "2 e^(-x) cosh x"),
     )
-    odd_part, even_part = (STEP_X, STEP_T, parity[2]), (STEP_X, STEP_T, parity[3])
+    odd_part, even_part = (STEP_T, parity[2]), (STEP_T, parity[3])
     elastic = 2 * mu * (lam + mu) * phi
     bending, stretching = T**3 * sinh_minus, T * sinh_plus
     scaled: dict[str, _Shape] = {
@@ -82,7 +82,10 @@ def _omegas() -> dict[str, _Shape]:
     }
     halves = Step(fade, sp.exp(-x / 2), "half of the decay, twice: e^(-x) alone may underflow")
     plain: dict[str, _Shape] = {
-        name: ((*steps, halves, Step(shape, fade * value)), fade * shape)
+        name: (
+            (STEP_X, *(s for s in steps if s != STEP_X), halves, Step(shape, fade * value)),
+            fade * shape,
+        )
         for name, (steps, value) in scaled.items()
     }
     return plain | {f"{name}_scaled": shape for name, shape in scaled.items()}

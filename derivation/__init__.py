@@ -30,9 +30,9 @@ def formula(name: str) -> "Formula":
     KeyError
         If there is no formula of that name; the message lists those there are.
     """
-    from derivation import pipeline
+    from derivation import derived
 
-    known = pipeline.formulas()
+    known = derived.formulas()
     if name not in known:
         raise KeyError(f"no formula {name!r}: expected one of {', '.join(known)}")
     return known[name]
@@ -59,6 +59,6 @@ def diagnose(
     ValueError
         For a name, formula or point that cannot be used.
     """
-    from derivation import pipeline
+    from derivation import derived
 
-    return pipeline.diagnose(name, text, latex, at, digits)
+    return derived.diagnose(name, text, latex, at, digits)

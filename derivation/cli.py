@@ -35,10 +35,10 @@ def derive(json: Json = None) -> None:
 
     Example: platecontact derive --json formulas.json
     """
-    from derivation import pipeline
+    from derivation import derived
 
     with stage("derive"):
-        found = pipeline.formulas()
+        found = derived.formulas()
     if json != "-":
         rows = [(f.name, f.unit, f.equation, f.proof.step, f.proof.method) for f in found.values()]
         table("Derived formulas", ("formula", "unit", "equation", "proof", "decided"), rows)
@@ -75,10 +75,10 @@ def misprints(json: Json = None) -> None:
 
     Example: platecontact misprints --json -
     """
-    from derivation import pipeline
+    from derivation import derived
 
     with stage("compare printed with derived"):
-        findings = pipeline.misprints()
+        findings = derived.misprints()
     if json != "-":
         rows = [(f.printed.equation, f.printed.name, f.diagnosis.kind, f.repair) for f in findings]
         table("Printed against derived", ("equation", "formula", "finding", "repair"), rows)
@@ -141,18 +141,18 @@ def build(out: Out = None) -> None:
 
     Example: platecontact build
     """
-    from derivation import pipeline
+    from derivation import derived, pipeline
     from derivation.measure.record import passed
     from derivation.report.pdf import TexError
 
     with stage("derive"):
-        pipeline.chain()
+        derived.chain()
     with stage("rewrite"):
         pipeline.forms()
     with stage("generate"):
         pipeline.generate(out / "generated" if out else None)
     with stage("misprints"):
-        pipeline.misprints()
+        derived.misprints()
     with counted("check") as tell:
         rows = pipeline.check(tell=tell)
     with stage("report"):
@@ -180,10 +180,10 @@ def diagnose(
 
     Example: platecontact diagnose G --formula "1 + 4*T*(1+T)*exp(-2*T)" --at T=3
     """
-    from derivation import pipeline
+    from derivation import derived
 
     with stage("compare"):
-        found = pipeline.diagnose(name, formula, latex, at, digits)
+        found = derived.diagnose(name, formula, latex, at, digits)
     if json != "-":
         rows = [(key, value) for key, value in found.to_json().items() if value is not None]
         table(f"{name}: {found.verdict}", ("what", "value"), rows)

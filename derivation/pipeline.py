@@ -12,36 +12,21 @@ import json
 from importlib.metadata import version
 from pathlib import Path
 
+from derivation.derived import GROUND, chain, formulas, misprints
 from derivation.emit.freshness import Freshness, compare
 from derivation.emit.render import CITATION, render
 from derivation.files import ROOT, cached, in_checkout, write_file
-from derivation.formula.record import Formula
 from derivation.measure.check import Progress, Row
 from derivation.measure.check import check as measure
 from derivation.measure.record import to_json
-from derivation.paper.misprints import Finding
-from derivation.paper.misprints import misprints as compare_printed
-from derivation.paper.text import TextDiagnosis, diagnose_text
 from derivation.report import pdf as compiler
 from derivation.report.content import tex
 from derivation.rewrite.form import Form
 from derivation.rewrite.forms import stable_forms
-from derivation.theory.chain import links
 
-GROUND = ("files.py", "formula", "theory")
 GENERATED = ROOT / "generated"
 REPORTS = ROOT / "reports"
 MEASURED = REPORTS / "data" / "check.json"
-
-
-def chain() -> tuple[tuple[str, tuple[Formula, ...]], ...]:
-    """Stage 1: the links of the derivation with their formulas, proved."""
-    return cached("chain", GROUND, lambda: tuple(links()))
-
-
-def formulas() -> dict[str, Formula]:
-    """Every formula by name."""
-    return {formula.name: formula for _, found in chain() for formula in found}
 
 
 def forms() -> tuple[Form, ...]:
@@ -53,11 +38,6 @@ def package() -> dict[str, str]:
     """Stage 3: the files of the generated package by name."""
     rooms = (*GROUND, "rewrite", "paper", "emit", "budgets.toml")
     return cached("package", rooms, lambda: render(formulas(), forms()))
-
-
-def misprints() -> tuple[Finding, ...]:
-    """Stage 4: what each printed formula turns out to be."""
-    return cached("misprints", (*GROUND, "paper"), lambda: compare_printed(formulas()))
 
 
 def folder_for(out: Path | None, own: Path) -> Path:
@@ -151,36 +131,6 @@ def report(out: Path | None = None, pdf: bool = True) -> tuple[Path, ...]:
 def check_report(out: Path | None = None) -> Freshness:
     """Compare the report's LaTeX with what would be written."""
     return compare(folder_for(out, REPORTS), report_files(), "platecontact report", "*.tex")
-
-
-def diagnose(
-    name: str, text: str, latex: bool = False, at: str = "", digits: int = 50
-) -> TextDiagnosis:
-    """Judge a formula given as text; `at` is a list like ``phi=2.5,h=0.1``.
-
-    Raises
-    ------
-    derivation.formula.parse.FormulaError
-        For a name, formula, point or number of digits that cannot be used.
-    """
-    return diagnose_text(name, text, formulas(), latex=latex, at=parse_point(at), digits=digits)
-
-
-def parse_point(text: str) -> dict[str, str]:
-    """Values by symbol name, from ``phi=2.5,h=0.1``.
-
-    Raises
-    ------
-    ValueError
-        If an entry is no name and value.
-    """
-    point: dict[str, str] = {}
-    for entry in filter(None, (part.strip() for part in text.split(","))):
-        name, equals, literal = entry.partition("=")
-        if not equals or not name.strip() or not literal.strip():
-            raise ValueError(f"expected a point like phi=2.5,h=0.1, got {entry!r:.60}")
-        point[name.strip()] = literal.strip()
-    return point
 
 
 def _write(folder: Path, files: dict[str, str]) -> tuple[Path, ...]:

@@ -4,10 +4,10 @@ from collections.abc import Mapping
 
 import pytest
 
-from derivation import pipeline
+from derivation import derived
 from derivation.formula.record import Formula
 
 
 @pytest.fixture(scope="session")
 def formulas() -> Mapping[str, Formula]:
-    return pipeline.formulas()
+    return derived.formulas()

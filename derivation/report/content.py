@@ -104,7 +104,7 @@ def finding_context(finding: Finding) -> dict[str, Any]:
         "derived": equation(formula.latex, derived, SUM if formula.summed else ""),
         "equal": not finding.is_misprint,
         "kind": diagnosis.kind[0].upper() + diagnosis.kind[1:],
-        "repair": finding.repair.rstrip("."),
+        "repair": finding.repair[0].upper() + finding.repair[1:].rstrip("."),
         "dimension": diagnosis.dimension,
         "method": diagnosis.method,
     }

@@ -9,7 +9,7 @@ import sympy as sp
 from derivation.formula.notation import to_latex
 
 TEMPLATES = Path(__file__).parent / "templates"
-LINE_WIDTH = 78
+LINE_WIDTH = 92
 """Characters, as typeset, after which a sum is broken."""
 
 SPECIAL = {
@@ -33,6 +33,50 @@ def escape(text: object) -> str:
     return "".join(SPECIAL.get(character, character) for character in str(text))
 
 
+GREEK = "alpha|beta|gamma|delta|eta|kappa|lambda|lam|mu|nu|omega|Omega|phi|pi|sigma|theta|xi"
+_SYMBOL = re.compile(
+    rf"(?<![\\A-Za-z0-9_'\[])(?P<minus>(?<=[ (])-)?(?:(?P<greek>{GREEK})|(?P<latin>[A-Za-z]))"
+    r"(?:_(?P<sub>[A-Za-z0-9]{1,2})(?![A-Za-z0-9_]))?"
+    r"(?:\^(?:\((?P<group>[^()]*)\)|(?P<power>\d+)))?(?![A-Za-z0-9_^])"
+)
+
+
+def prose(text: object) -> str:
+    """A sentence as LaTeX, its symbols (phi_j, sigma_zz, y^3, J0) set as mathematics.
+
+    Words and code (whatever holds a `*`) stay as they are.
+    """
+    pieces = re.split(r"(\S*\*\S*)", str(text))
+    return "".join(_code(p) if "*" in p else _words(p) for p in pieces)
+
+
+def _code(text: str) -> str:
+    """Code in typewriter, to be broken after a star."""
+    return rf"\texttt{{{escape(text)}}}".replace("*", r"*\allowbreak{}")
+
+
+def _words(text: str) -> str:
+    """Words with the symbols among them typeset."""
+    source = re.sub(r"\bJ([01])\b", r"J_\1", text)
+    pieces, last = [], 0
+    for match in _SYMBOL.finditer(source):
+        pieces += [escape(source[last : match.start()]), _mathematics(match)]
+        last = match.end()
+    return "".join(pieces) + escape(source[last:])
+
+
+def _mathematics(match: re.Match[str]) -> str:
+    """A symbol with its subscript and power; the article `a` and a bare `I` are words."""
+    greek, latin = match["greek"], match["latin"]
+    subscript, power = match["sub"], match["group"] or match["power"]
+    if latin in ("a", "A", "I") and not (subscript or power or match["minus"]):
+        return str(latin)
+    name = {"lam": r"\lambda"}.get(greek, rf"\{greek}") if greek else latin
+    power = re.sub(rf"\b({GREEK})\b", r"\\\1 ", power) if power else ""
+    tail = (f"_{{{subscript}}}" if subscript else "") + (f"^{{{power}}}" if power else "")
+    return f"${match['minus'] or ''}{name}{tail}$"
+
+
 def environment() -> jinja2.Environment:
     """Jinja2 with delimiters that LaTeX leaves alone; what is not defined is an error."""
     made = jinja2.Environment(
@@ -50,6 +94,7 @@ def environment() -> jinja2.Environment:
         autoescape=False,
     )
     made.filters["tex"] = escape
+    made.filters["prose"] = prose
     return made
 
 

@@ -5,7 +5,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -96,13 +95,23 @@ def test_derive_and_misprints_as_json(tmp_path: Path) -> None:
 
 def test_interrupted_run_leaves_nothing_half_written(tmp_path: Path) -> None:
     """Ctrl-C while deriving: a message, status 2, and no file in the target."""
+    program = """
+import sys, time
+from derivation import cli, derived
+def endless():
+    print("deriving", flush=True)
+    time.sleep(300)
+derived.links = endless
+sys.exit(cli.main(["generate", "--out", sys.argv[1]]))
+"""
     environment = {**os.environ, "XDG_CACHE_HOME": str(tmp_path / "cache")}
     out = tmp_path / "plate"
     run = subprocess.Popen(
-        [sys.executable, "-m", "derivation.cli", "generate", "--out", str(out)],
-        env=environment, cwd=ROOT, stderr=subprocess.PIPE, text=True,
+        [sys.executable, "-c", program, str(out)],
+        env=environment, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
     )  # fmt: skip
-    time.sleep(4)
+    assert run.stdout is not None
+    assert run.stdout.readline() == "deriving\n"
     run.send_signal(signal.SIGINT)
     _, message = run.communicate(timeout=60)
     assert run.returncode == 2

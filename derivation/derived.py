@@ -11,15 +11,15 @@ from derivation.formula.record import Formula
 from derivation.paper.misprints import Finding
 from derivation.paper.misprints import misprints as compare_printed
 from derivation.paper.text import TextDiagnosis, diagnose_text
-from derivation.theory.chain import links
+from derivation.theory.chain import links, motion_links
 
-GROUND = ("files.py", "formula", "theory")
+GROUND = ("files.py", "derived.py", "formula", "theory")
 """Sources that the formulas depend on."""
 
 
 def chain() -> tuple[tuple[str, tuple[Formula, ...]], ...]:
     """The links of the derivation with their formulas, proved."""
-    return cached("chain", GROUND, lambda: tuple(links()))
+    return cached("chain", GROUND, lambda: (*links(), *motion_links()))
 
 
 def formulas() -> dict[str, Formula]:

@@ -75,7 +75,10 @@ def cached(name: str, rooms: tuple[str, ...], compute: Callable[[], Value]) -> V
     try:
         value: Value = pickle.loads(path.read_bytes())
     except Exception:  # whatever a damaged file raises, computing again mends it
-        value = compute()
+        data = pickle.dumps(compute())
         with contextlib.suppress(OSError):
-            write_file(path, pickle.dumps(value))
+            write_file(path, data)
+        # SymPy builds an unpickled expression anew, which may regroup it: so that
+        # the first run sees what later ones will, it reads what it has written.
+        value = pickle.loads(data)
     return value

@@ -12,6 +12,7 @@ import mpmath
 import pytest
 import sympy as sp
 
+from derivation import derived
 from derivation.formula.parse import FormulaError
 from derivation.formula.record import Formula
 from derivation.formula.symbols import P, R, T, a, b, h, mu, phi, z
@@ -19,7 +20,6 @@ from derivation.paper.compare import Diagnosis, diagnose
 from derivation.paper.dimensions import dimension_note
 from derivation.paper.printed import PRINTED
 from derivation.paper.text import diagnose_text
-from derivation.theory.chain import derive
 
 NAMES = ("f_j", "g_j", "Omega_1", "Omega_2", "Omega_3", "Omega_4", "A_j", "K_j", "C_top")
 PRODUCTS = ("Omega_1", "Omega_2", "Omega_3", "Omega_4", "A_j", "K_j", "C_top")
@@ -116,7 +116,7 @@ def shapes(name: str) -> list[sp.Expr]:
 
 @cache
 def chain() -> dict[str, Formula]:
-    return derive()
+    return derived.formulas()
 
 
 # Independent judgement: mpmath at random points.

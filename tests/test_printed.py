@@ -1,29 +1,27 @@
 """The printed equations: typed twice the same, and what comparison with the derived ones finds."""
 
 import json
-import time
+from collections.abc import Mapping
 
 import pytest
+from sympy import Rational
 
 from derivation.formula.notation import to_latex
 from derivation.formula.parse import NAMES
 from derivation.formula.parse_latex import parse_latex
 from derivation.formula.proof import decide_zero
-from derivation.formula.symbols import J1, P, R, a, b, h, lam, mu, phi
+from derivation.formula.record import Formula
+from derivation.formula.symbols import J1, P, R, a, b, gamma_k, h, lam, mu, phi
 from derivation.paper.balance import balances, signs_that_balance
 from derivation.paper.misprints import Finding, misprints
 from derivation.paper.printed import PRINTED, Printed
-from derivation.theory.chain import derive
 
 IDS = [f"({record.equation}) {record.name}" for record in PRINTED]
 
 
 @pytest.fixture(scope="module")
-def findings() -> dict[tuple[str, str], Finding]:
-    formulas = derive()
-    start = time.perf_counter()
+def findings(formulas: Mapping[str, Formula]) -> dict[tuple[str, str], Finding]:
     found = misprints(formulas)
-    assert time.perf_counter() - start < 20
     return {(finding.printed.equation, finding.printed.name): finding for finding in found}
 
 
@@ -64,6 +62,16 @@ EXPECTED = {
     ("7", "p"): ("equal", 1),
     ("7", "P"): ("equal", 1),
     ("8", "A_j"): ("two slips", None),
+    ("10", "force_power"): ("wrong exponent", None),
+    ("10", "xi_2"): ("equal", 1),
+    ("10", "xi_3"): ("wrong exponent", gamma_k[2] ** Rational(-1, 3)),
+    ("10", "gamma_2"): ("divergent", None),
+    ("10", "gamma_3"): ("divergent", None),
+    ("11", "acceleration"): ("equal", 1),
+    ("13", "speed"): ("equal", 1),
+    ("15", "delta_0"): ("equal", 1),
+    ("17", "F_1"): ("equal", 1),
+    ("18", "G_1"): ("equal", 1),
 }
 
 

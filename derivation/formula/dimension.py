@@ -51,7 +51,26 @@ UNITS = {
     "Pa/m": STRESS / LENGTH,
     "m/Pa": LENGTH / STRESS,
     "1/Pa": STRESS**-1,
+    "1/m^2": LENGTH**-2,
+    "kg": MASS,
+    "s": TIME,
+    "1/s": TIME**-1,
+    "m/s": LENGTH / TIME,
+    "m/s^2": LENGTH / TIME**2,
+    "m^2/s^2": LENGTH**2 / TIME**2,
 }
+
+
+def thirds(base: str, count: int) -> str:
+    """A unit or symbol to the power count/3, as text: ``m``, ``m^(5/3)``, ``m^3``."""
+    power = Fraction(count, 3)
+    if power == 1:
+        return base
+    return f"{base}^{power}" if power.denominator == 1 else f"{base}^({power})"
+
+
+UNITS |= {f"m/{thirds('N', n)}": LENGTH / FORCE ** Fraction(n, 3) for n in range(3, 12, 2)}
+UNITS |= {f"N/{thirds('m', n)}": FORCE / LENGTH ** Fraction(n, 3) for n in range(3, 12, 2)}
 
 
 def dimension(expression: sp.Basic, known: Mapping[sp.Basic, Dimension]) -> Dimension:
@@ -80,6 +99,13 @@ def dimension(expression: sp.Basic, known: Mapping[sp.Basic, Dimension]) -> Dime
         result = dimension(expression.expr, known)
         for variable, count in expression.variable_count:
             result = result / dimension(variable, known) ** int(count)
+        return result
+    if isinstance(expression, sp.Integral):
+        # A variable of integration that is no symbol of the paper is a pure number.
+        variables = {v: known.get(v, ONE) for v in expression.variables}
+        result = dimension(expression.function, {**known, **variables})
+        for variable in expression.variables:
+            result = result * variables[variable]
         return result
     if isinstance(expression, sp.Function | sp.Pow) and expression.args:
         for argument in expression.args:

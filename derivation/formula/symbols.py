@@ -4,6 +4,8 @@ from dataclasses import dataclass
 
 import sympy as sp
 
+from derivation.formula.dimension import thirds
+
 
 @dataclass(frozen=True)
 class Argument:
@@ -43,11 +45,27 @@ phi, h, b, R, a, mu, P, T = sp.symbols("phi h b R a mu P T", positive=True)
 lam, A_j = sp.symbols("lam A_j", real=True)
 J1 = sp.Symbol("J1", real=True, nonzero=True)
 C1, C2, C3, C4 = sp.symbols("C1:5", real=True)
+eta, alpha, a_ratio, j_n, eps, m, v0, t, delta, delta_0, N, k, u_t = sp.symbols(
+    "eta alpha a_ratio j_n eps m v0 t delta delta_0 N k u_t", positive=True
+)
+kappa = {n: sp.Symbol(f"kappa_{n}", positive=True) for n in range(0, 10, 2)}
+"""kappa_n, the integral of y^n K0(y)/I0(y) over y > 0, by n."""
+M = {k: sp.Symbol(f"M_{k}", real=True) for k in range(2, 7)}
+"""M_k, the finite part of the integral of T^(2k-4) (G - 1) over T > 0, by k."""
+c_A = {n: sp.Symbol(f"c_{n}", real=True) for n in range(1, 10, 2)}
+"""c_n, coefficient of (a/h)^n in delta R/a^2, by n."""
+D = {n: sp.Symbol(f"D_{n}", real=True) for n in range(3, 12, 2)}
+"""D_n = c_(n-2) (a_m/h)^(n-2), a_m the largest contact radius, by n."""
+gamma_k = {k: sp.Symbol(f"gamma_{k}", positive=k == 2, real=True) for k in range(2, 7)}
+"""gamma_k, coefficient of P^((2k-1)/3) in the indentation, by k."""
+xi_k = {k: sp.Symbol(f"xi_{k}", positive=k == 2, real=True) for k in range(2, 7)}
+"""xi_k, coefficient of delta^((2k-1)/3) in the contact force, by k."""
 f = sp.Function("f_j", real=True)(z)
 g = sp.Function("g_j", real=True)(z)
 UNKNOWNS = {f: "m", g: "m^2"}
 """Units of the functions the equilibrium equations determine."""
 
+_INSIDE_PLATE = ("alpha > 0", "alpha < 1")
 ARGUMENTS = (
     Argument(r, "m", "r", "distance from the axis", ("r >= 0", "r <= b")),
     Argument(z, "m", "z", "height above the middle plane", ("abs(z) <= h",)),
@@ -66,6 +84,55 @@ ARGUMENTS = (
     Argument(C2, "m", r"C_2^{(j)}", "second integration constant", ()),
     Argument(C3, "1", r"C_3^{(j)}", "third integration constant", ()),
     Argument(C4, "1", r"C_4^{(j)}", "fourth integration constant", ()),
+    Argument(eta, "1", r"\eta", "half-thickness over plate radius, h/b", ("eta > 0",)),
+    Argument(alpha, "1", r"\alpha", "contact radius over plate radius, a/b", _INSIDE_PLATE),
+    Argument(a_ratio, "1", "A", "contact radius over half-thickness, a/h", ("a_ratio > 0",)),
+    Argument(j_n, "1", "j_n", "n-th positive zero of J0", ("j_n > 0",)),
+    Argument(eps, "1", r"\varepsilon", "sqrt(R delta)/h", ("eps > 0",)),
+    Argument(m, "kg", "m", "mass of the sphere", ("m > 0",)),
+    Argument(v0, "m/s", "v_0", "velocity of the sphere before the impact", ("v0 > 0",)),
+    Argument(t, "s", "t", "time since first contact", ("t >= 0",)),
+    Argument(delta, "m", r"\delta", "indentation", ("delta > 0",)),
+    Argument(delta_0, "m", r"\delta_0", "indentation by the linear law", ("delta_0 > 0",)),
+    Argument(N, "1", "N", "number of modes kept", ("N >= 1",)),
+    Argument(k, "1", "k", "index of a term, from 2", ("k >= 2",)),
+    Argument(u_t, "1", "u", "variable of time, 1 - u^2 = a/a_m", ("u_t >= 0", "u_t <= 1")),
+    *(
+        Argument(s, "1", rf"\kappa_{{{n}}}", f"integral of y^{n} K0/I0 over y > 0", ())
+        for n, s in kappa.items()
+    ),
+    *(
+        Argument(s, "1", f"M_{{{k}}}", f"finite part of the integral of T^{2 * k - 4} (G - 1)", ())
+        for k, s in M.items()
+    ),
+    *(
+        Argument(s, "1", f"c_{{{n}}}", f"coefficient of (a/h)^{n} in delta R/a^2", ())
+        for n, s in c_A.items()
+    ),
+    *(
+        Argument(s, "1", f"D_{{{n}}}", f"c_{n - 2} (a_m/h)^{n - 2}, a_m the largest a", ())
+        for n, s in D.items()
+    ),
+    *(
+        Argument(
+            s,
+            f"m/{thirds('N', 2 * k - 1)}",
+            rf"\gamma_{{{k}}}",
+            f"coefficient of {thirds('P', 2 * k - 1)} in delta",
+            (),
+        )
+        for k, s in gamma_k.items()
+    ),
+    *(
+        Argument(
+            s,
+            f"N/{thirds('m', 2 * k - 1)}",
+            rf"\xi_{{{k}}}",
+            f"coefficient of {thirds('delta', 2 * k - 1)} in P",
+            (),
+        )
+        for k, s in xi_k.items()
+    ),
 )
 BY_NAME = {argument.name: argument for argument in ARGUMENTS}
 

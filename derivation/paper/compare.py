@@ -5,7 +5,7 @@ Comparison is modulo the relations that tie the paper's symbols together: P by
 """
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 
 import flint
@@ -20,7 +20,7 @@ from derivation.paper.dimensions import dimension_note
 from derivation.paper.edit import factor_pool, term_pool
 from derivation.paper.repairs import Repair, repairs
 from derivation.paper.sample import BITS, Values, monomial, sample
-from derivation.paper.variant import FACE, TWICE, Search
+from derivation.paper.variant import EXPONENT, FACE, MISSING, STRAY, TWICE, Search
 
 EQUAL, DIFFERENT = "equal", "different"
 BY_BALLS = "by ball arithmetic"
@@ -142,13 +142,15 @@ def diagnose(name: str, given: sp.Expr, formulas: Mapping[str, Formula]) -> Diag
             method = case.method(repair.expression)
             if method is not None:
                 short = _ratio(case) if ratio is None else ratio
+                repair = _as_power(case, repair)
                 return _diagnosis(case, DIFFERENT, repair, short, note, method)
         return _diagnosis(case, DIFFERENT, None, _ratio(case), note, BY_BALLS)
 
 
 def comparable(formulas: Mapping[str, Formula]) -> list[str]:
-    """Names of the formulas that can be compared: those without unknown functions."""
-    return [name for name, f in formulas.items() if not f.expression.atoms(sp.Derivative)]
+    """Names of the formulas that can be compared: without unknown functions or integrals."""
+    open_ended = (sp.Derivative, sp.Integral)
+    return [name for name, f in formulas.items() if not f.expression.atoms(*open_ended)]
 
 
 def known_formula(name: str, formulas: Mapping[str, Formula]) -> Formula:
@@ -329,6 +331,19 @@ def _partial_products(expression: sp.Expr) -> Iterator[sp.Expr]:
     for size in range(1, len(factors)):
         for some in combinations(factors, size):
             yield sp.Mul(*some)
+
+
+def _as_power(case: _Case, repair: Repair) -> Repair:
+    """A stray or missing root of a factor that stands in the given formula is a wrong power."""
+    excess = _ratio(case)
+    if repair.kind not in (STRAY, MISSING) or excess is None or not excess.is_Pow:
+        return repair
+    base, power = excess.as_base_exp()
+    printed = case.given.as_powers_dict().get(base, 0)
+    if power.is_Integer or printed == 0:
+        return repair
+    says = f"read the power {base}**({printed - power}) instead of {base}**({printed})"
+    return replace(repair, kind=EXPONENT, says=says)
 
 
 def _ratio(case: _Case) -> sp.Expr | None:

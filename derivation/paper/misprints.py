@@ -1,13 +1,21 @@
 """Every printed formula held against the derived one, in the paper's order."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+
+import sympy as sp
 
 from derivation.formula.notation import to_latex
+from derivation.formula.proof import SYMBOLIC
 from derivation.formula.record import Formula
+from derivation.formula.symbols import k
 from derivation.paper.balance import signs_that_balance
-from derivation.paper.compare import DIFFERENT, Diagnosis, diagnose
+from derivation.paper.compare import DIFFERENT, EQUAL, Diagnosis, diagnose, known_formula, resolved
+from derivation.paper.dimensions import dimension_note
 from derivation.paper.printed import PRINTED, Printed
+from derivation.paper.printed_motion import PRINTED_MOTION, PrintedPower, PrintedSeries
+from derivation.paper.variant import EXPONENT
+from derivation.theory.divergence import DIVERGENT, tail
 
 
 @dataclass(frozen=True)
@@ -62,17 +70,57 @@ def misprints(formulas: Mapping[str, Formula]) -> tuple[Finding, ...]:
     Parameters
     ----------
     formulas
-        The chain's formulas by name, as `derivation.theory.chain.derive` gives them.
+        Every formula by name, those of the motion included.
     """
-    return tuple(_finding(record, formulas) for record in PRINTED)
+    return tuple(_finding(record, formulas) for record in (*PRINTED, *PRINTED_MOTION))
 
 
 def _finding(record: Printed, formulas: Mapping[str, Formula]) -> Finding:
-    diagnosis = diagnose(record.name, record.compared, formulas)
+    judges = {PrintedSeries: diagnose_series, PrintedPower: diagnose_power}
+    diagnosis = judges.get(type(record), diagnose)(record.name, record.compared, formulas)
     field = record.name in ("u", "w") and diagnosis.verdict == DIFFERENT
     return Finding(
         record, formulas[record.name], diagnosis, _balance_remark(record) if field else ""
     )
+
+
+def diagnose_series(name: str, term: sp.Expr, formulas: Mapping[str, Formula]) -> Diagnosis:
+    """As `diagnose`, for a sum over all modes given by its term: it may have no value at all."""
+    term = resolved(term, formulas)
+    found = tail(term)
+    if found.kind != DIVERGENT:
+        return diagnose(name, term, formulas)
+    formula = known_formula(name, formulas)
+    return Diagnosis(
+        name=name,
+        verdict=DIFFERENT,
+        kind=DIVERGENT,
+        repair=f"the sum diverges, {found.says}: read {formula.meaning}, {formula.expression}",
+        repaired=formula.expression,
+        edits=0,
+        ratio=None,
+        dimension=dimension_note(term, formula.unit),
+        given=term,
+        derived=formula.expression,
+        method=SYMBOLIC,
+    )
+
+
+def diagnose_power(name: str, given: sp.Expr, formulas: Mapping[str, Formula]) -> Diagnosis:
+    """As `diagnose`, for the power of the k-th term in a series: told by its first and its step."""
+    found = diagnose(name, given, formulas)
+    if found.verdict == EQUAL:
+        return found
+    says = (
+        f"read {found.derived}: the first power is {found.derived.subs(k, 2)}, not "
+        f"{given.subs(k, 2)}, and each is {_step(found.derived)} above the one before, "
+        f"not {_step(given)}"
+    )
+    return replace(found, kind=EXPONENT, repair=says, repaired=found.derived, edits=1)
+
+
+def _step(power: sp.Expr) -> sp.Expr:
+    return sp.expand(power.subs(k, k + 1) - power)
 
 
 def _balance_remark(record: Printed) -> str:

@@ -25,6 +25,17 @@ ABOUT = {
     "follows from the half-space's influence coefficient.",
     "contact law": "The indentation is the deflection under the sphere's centre.",
     "interior": "Sums over the modes give the fields at any point.",
+    "divergence": "For large j the modes feel a half-space: phi^3 K_j tends to a constant, and the "
+    "sums in the paper's gamma_k diverge for every k.",
+    "contact split": "A contour integral turns the sum for the indentation into Hertz's term, the "
+    "side wall's integral and a sum that dies exponentially with the thickness.",
+    "plate series": "For small contacts the two convergent parts are expanded in powers of the "
+    "contact radius; the coefficients depend on h/b alone.",
+    "thin plate": "For thin plates the sums become integrals over T, with finite parts M_k and a "
+    "logarithm.",
+    "reversion": "Lagrange's inversion, of the paper's series and of the right one.",
+    "impact": "The energy integral, the contact time as an integral of an analytic function, and "
+    "the paper's linearisation.",
 }
 
 
@@ -88,7 +99,7 @@ def formula_context(formula: Formula) -> dict[str, Any]:
 def unit(text: str) -> str:
     """A unit as LaTeX: m^2 raised."""
     base, _, power = text.partition("^")
-    return f"{base}$^{power}$" if power else base
+    return f"{base}$^{{{power.strip('()')}}}$" if power else base
 
 
 def finding_context(finding: Finding) -> dict[str, Any]:

@@ -114,14 +114,25 @@ def typeset_width(latex: str) -> int:
 def equation(left: str, expression: sp.Expr, prefix: str = "") -> str:
     """Body of a displayed equation, its sum broken over as many lines as it needs."""
     whole = f"{left} = {prefix}{to_latex(expression)}"
-    if typeset_width(whole) <= LINE_WIDTH or not isinstance(expression, sp.Add):
+    if typeset_width(whole) <= LINE_WIDTH:
         return whole
+    if not isinstance(expression, sp.Add):
+        expression = _expanded(expression)
+    if not isinstance(expression, sp.Add):
+        return rf"\fit{{{whole}}}"
     lines = [f"{left} = {{}}& {prefix}"]
     for index, term in enumerate(_signed_terms(expression)):
         if index and typeset_width(lines[-1] + term) > LINE_WIDTH:
             lines.append(r"& \quad ")
         lines[-1] += f" {term}"
     return r"\begin{aligned}" + " \\\\\n".join(lines) + r"\end{aligned}"
+
+
+def _expanded(expression: sp.Expr) -> sp.Expr:
+    """A product of powers multiplied out; functions and roots of sums only get worse by it."""
+    nested = any(not p.exp.is_Integer and p.base.is_Add for p in expression.atoms(sp.Pow))
+    worse = nested or expression.has(sp.Function, sp.Integral)
+    return expression if worse else sp.expand(expression)
 
 
 def _signed_terms(expression: sp.Add) -> list[str]:

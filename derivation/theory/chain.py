@@ -10,23 +10,40 @@
  8 Hertz            pressure and its radius (7), Sonine's integral, A_j (4), (8)
  9 contact law      K_j, delta (6)
 10 interior         u, w and stresses at any (r, z)
+
+and from the contact law to the motion:
+
+11 divergence       phi^3 K_j -> 4/(R b): the paper's gamma_k diverge
+12 contact split    delta = a^2/R + side wall + thickness
+13 plate series     small contacts: c_1, c_3, ..., gamma_k without their divergent part
+14 thin plate       the same for h/b -> 0
+15 reversion        the force by the indentation: xi_k (10), p_n
+16 impact           energy integral (13), contact time, linearisation (15) to (18)
 """
 
 from collections.abc import Callable, Iterator
 
 from derivation.formula.record import Formula
 from derivation.theory.contact_law import contact_law
+from derivation.theory.contact_split import contact_split, reduced_split
+from derivation.theory.divergence import divergence
 from derivation.theory.equilibrium import equilibrium
 from derivation.theory.face_conditions import omegas, scaled_omegas
 from derivation.theory.hertz import contact_radius, pressure, pressure_coefficient, sonine
+from derivation.theory.impact import impact
 from derivation.theory.influence import influence_coefficients
 from derivation.theory.interior import interior_fields
 from derivation.theory.loaded_mode import loaded_mode
 from derivation.theory.mode_shapes import mode_shapes
 from derivation.theory.plate_factor import plate_factors
+from derivation.theory.plate_series import series_formulas
+from derivation.theory.reversion import reversion
 from derivation.theory.stresses import modal_stresses
+from derivation.theory.thin_plate import thin_plate
 
-LINKS: tuple[tuple[str, Callable[[], tuple[Formula, ...]]], ...] = (
+Link = tuple[str, Callable[[], tuple[Formula, ...]]]
+
+LINKS: tuple[Link, ...] = (
     ("equilibrium", equilibrium),
     ("mode shapes", mode_shapes),
     ("stresses", modal_stresses),
@@ -38,16 +55,31 @@ LINKS: tuple[tuple[str, Callable[[], tuple[Formula, ...]]], ...] = (
     ("contact law", contact_law),
     ("interior", interior_fields),
 )
+MOTION_LINKS: tuple[Link, ...] = (
+    ("divergence", divergence),
+    ("contact split", lambda: (*contact_split(), *reduced_split())),
+    ("plate series", series_formulas),
+    ("thin plate", thin_plate),
+    ("reversion", reversion),
+    ("impact", impact),
+)
+"""What follows from the contact law. Apart: these formulas hold integrals and constants too."""
 
 
 def links() -> Iterator[tuple[str, tuple[Formula, ...]]]:
-    """Each link's name and formulas, proved as they are asked for."""
+    """Each link's name and formulas up to the interior, proved as they are asked for."""
     for name, derive_link in LINKS:
         yield name, derive_link()
 
 
+def motion_links() -> Iterator[tuple[str, tuple[Formula, ...]]]:
+    """Each further link's name and formulas, from the contact law to the motion."""
+    for name, derive_link in MOTION_LINKS:
+        yield name, derive_link()
+
+
 def derive() -> dict[str, Formula]:
-    """Every formula of the chain by name, each proved.
+    """Every formula up to the interior by name, each proved.
 
     Raises
     ------
@@ -55,3 +87,14 @@ def derive() -> dict[str, Formula]:
         Naming the step that does not hold.
     """
     return {formula.name: formula for _, formulas in links() for formula in formulas}
+
+
+def derive_motion() -> dict[str, Formula]:
+    """Every formula from the contact law to the motion by name, each proved.
+
+    Raises
+    ------
+    ProofError
+        Naming the step that does not hold.
+    """
+    return {formula.name: formula for _, formulas in motion_links() for formula in formulas}

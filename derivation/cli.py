@@ -12,6 +12,7 @@ import typer
 from typer.exceptions import TyperException
 from typer.main import get_command
 
+from derivation.scene import commands as scene_commands
 from derivation.screen import NOTES, OUT, counted, listing, put_json, stage, table
 
 app = typer.Typer(
@@ -190,6 +191,10 @@ def diagnose(
     if json:
         put_json(found.to_json(), json)
     raise typer.Exit(0 if found.verdict == "equal" else 1)
+
+
+app.command()(scene_commands.simulate)
+app.command()(scene_commands.indent)
 
 
 def main(argv: Sequence[str] | None = None) -> int:

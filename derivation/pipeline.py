@@ -15,14 +15,17 @@ from pathlib import Path
 from derivation.derived import GROUND, chain, formulas, misprints
 from derivation.emit.freshness import Freshness, compare
 from derivation.emit.render import CITATION, render
-from derivation.files import ROOT, cached, in_checkout, write_file
+from derivation.files import PACKAGE, ROOT, cached, in_checkout, write_file
 from derivation.measure.check import Progress, Row
 from derivation.measure.check import check as measure
 from derivation.measure.record import to_json
 from derivation.report import pdf as compiler
 from derivation.report.content import tex
+from derivation.report.figures import figures, motion_context
 from derivation.rewrite.form import Form
 from derivation.rewrite.forms import stable_forms
+from derivation.scene.model import Model, model_of
+from derivation.scene.scene import load
 
 GENERATED = ROOT / "generated"
 REPORTS = ROOT / "reports"
@@ -110,8 +113,14 @@ def report_files() -> dict[str, str]:
     if not MEASURED.is_file():
         raise FileNotFoundError(f"no measurements in {MEASURED}: run `platecontact check --record`")
     measured = json.loads(MEASURED.read_text())
-    text = tex(chain(), misprints(), measured, version("platecontact"), CITATION)
+    motion = motion_context(paper_case())
+    text = tex(chain(), misprints(), measured, motion, version("platecontact"), CITATION)
     return {"report.tex": text}
+
+
+def paper_case() -> Model:
+    """The paper's example, as the example scene states it."""
+    return model_of(load(PACKAGE / "scene" / "examples" / "paper.toml"))
 
 
 def report(out: Path | None = None, pdf: bool = True) -> tuple[Path, ...]:
@@ -124,7 +133,10 @@ def report(out: Path | None = None, pdf: bool = True) -> tuple[Path, ...]:
     derivation.report.pdf.TexError
         If LaTeX is missing or refuses the text; the .tex is there all the same.
     """
-    written = _write(folder_for(out, REPORTS), report_files())
+    folder = folder_for(out, REPORTS)
+    for name, figure in figures(paper_case()).items():
+        write_file(folder / "figures" / name, figure)
+    written = _write(folder, report_files())
     return (*written, *(compiler.compile_pdf(path) for path in written if pdf))
 
 

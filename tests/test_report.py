@@ -46,12 +46,11 @@ def test_every_link_and_formula_is_in_the_report(formulas) -> None:
 
 @pytest.mark.skipif(shutil.which("pdflatex") is None, reason="needs pdflatex")
 def test_pdf_compiles_twice_to_the_same_bytes(tmp_path: Path) -> None:
-    first, second = tmp_path / "one" / "report.tex", tmp_path / "two" / "report.tex"
-    for path in (first, second):
-        path.parent.mkdir()
-        path.write_text(pipeline.report_files()["report.tex"])
-    assert compile_pdf(first).read_bytes() == compile_pdf(second).read_bytes()
-    assert sorted(p.name for p in first.parent.iterdir()) == ["report.pdf", "report.tex"]
+    first, second = (pipeline.report(tmp_path / name)[-1] for name in ("one", "two"))
+    assert first.name == "report.pdf"
+    assert first.read_bytes() == second.read_bytes()
+    left = sorted(p.name for p in first.parent.iterdir())
+    assert left == ["figures", "report.pdf", "report.tex"]
 
 
 @pytest.mark.skipif(shutil.which("pdflatex") is None, reason="needs pdflatex")

@@ -281,3 +281,39 @@ def bessel_rows(budgets: Mapping[str, float]) -> list[dict[str, object]]:
         }
         for name, (arguments, symbol, meaning) in functions.items()
     ]
+
+
+PLATE = ("R", "h", "b")
+ELASTIC = ("lam", "mu")
+IMPACT = ("R", "m", "v0", *PLATE[1:], *ELASTIC)
+CONTACT_FUNCTIONS = (
+    # name, module, arguments, unit, symbol, equation, meaning
+    ("indentation", "contact_law", ("a", *PLATE), "m", r"\delta", "6", "indentation"),
+    ("contact_radius", "contact_law", ("delta", *PLATE), "m", "a", "6", "contact radius"),
+    ("force", "contact_law", ("delta", *PLATE, *ELASTIC), "N", "P", "10", "contact force"),
+    ("force_of_radius", "contact_law", ("a", "R", *ELASTIC), "N", "P", "7", "contact force"),
+    ("radius_of_force", "contact_law", ("P", "R", *ELASTIC), "m", "a", "7", "contact radius"),
+    (
+        "stiffness",
+        "contact_law",
+        ("a", *PLATE, *ELASTIC),
+        "N/m",
+        r"\mathrm{d}P/\mathrm{d}\delta",
+        "10",
+        "force per indentation added",
+    ),
+    ("max_pressure", "contact_law", ("a", "R", *ELASTIC), "Pa", "p_0", "7", "largest pressure"),
+    ("impact", "impact", IMPACT, "s, m, N, m", "", "13", "time and peaks of an impact"),
+    ("history", "impact", ("t", *IMPACT), "m, m/s, m, N", "", "13", "an impact over time"),
+)
+RELATIVE_ERROR = 2e-15
+"""Promise of the contact law and the impact; mixed where the correction cancels Hertz's term."""
+
+
+def contact_rows() -> list[dict[str, object]]:
+    """Manifest rows of the contact law and the impact, whose modules are made of tables."""
+    keys = ("name", "module", "arguments", "unit", "symbol", "equation", "meaning")
+    return [
+        {**dict(zip(keys, row, strict=True)), "relative_error": RELATIVE_ERROR}
+        for row in CONTACT_FUNCTIONS
+    ]

@@ -27,6 +27,7 @@ from derivation.emit.kernels import (
     Kernel,
     argument_text,
     bessel_rows,
+    contact_rows,
     kernel_of_form,
     kernel_of_sum,
     lines,
@@ -40,6 +41,7 @@ from derivation.formula.symbols import BY_NAME, arguments_of
 from derivation.paper.printed import PRINTED
 from derivation.rewrite.bessel_tables import bessel_context
 from derivation.rewrite.blocks import blocks
+from derivation.rewrite.contact_tables import contact_context, impact_context
 from derivation.rewrite.form import Block, Form, Seam
 
 TEMPLATES = Path(__file__).parent / "templates"
@@ -90,7 +92,19 @@ def modules(kernels: tuple[Kernel, ...]) -> tuple[Module, ...]:
         Module("blocks", "blocks", {"functions": [block_text(b) for b in known.values()]}),
         Module("bessel", "bessel", {**bessel_context(), "budgets": read_budgets()}),
         Module("as_printed", "as_printed", {"functions": printed_rows()}),
-        Module("manifest", "manifest", {"rows": manifest_rows(kernels), "citation": CITATION}),
+        Module("contact_series", "contact_series", contact_context()),
+        Module("contact_law", "contact_law", {}),
+        Module("reversed_series", "reversed_series", {}),
+        Module("impact", "impact", impact_context()),
+        Module(
+            "manifest",
+            "manifest",
+            {
+                "rows": manifest_rows(kernels),
+                "contact": contact_rows(),
+                "citation": CITATION,
+            },
+        ),
     ]
     for name, group in grouped.items():
         template = "modal_sum" if name == "modal_sum" else "kernels"
@@ -101,6 +115,10 @@ def modules(kernels: tuple[Kernel, ...]) -> tuple[Module, ...]:
         )
     exported = {name: [k.name for k in group] for name, group in grouped.items()}
     exported["bessel"] = [str(row["name"]) for row in bessel_rows(read_budgets())]
+    # The module `impact` keeps its name: its function is reached through it.
+    exported["contact_law"] = [
+        str(row["name"]) for row in contact_rows() if row["module"] == "contact_law"
+    ]
     names = sorted(name for group in exported.values() for name in group)
     planned.append(Module("__init__", "init", {"modules": exported, "all_names": names}))
     return tuple(planned)

@@ -43,10 +43,11 @@ def tex(
     links: Sequence[tuple[str, Sequence[Formula]]],
     findings: Sequence[Finding],
     check: Mapping[str, Any],
+    motion: Mapping[str, Any],
     version: str,
     citation: str,
 ) -> str:
-    """The report's LaTeX, a pure function of theory and committed measurements."""
+    """The report's LaTeX, a pure function of theory, generated code and committed measurements."""
     wrong = sum(finding.is_misprint for finding in findings)
     return (
         environment()
@@ -60,6 +61,7 @@ def tex(
             tables=list(accuracy_tables(check)),
             provenance=sorted((k, v) for k, v in check["provenance"].items() if k != "digits"),
             digits=check["provenance"]["digits"],
+            motion=motion,
         )
     )
 

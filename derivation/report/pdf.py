@@ -37,6 +37,7 @@ def compile_pdf(source: Path) -> Path:
             f"-output-directory={folder}",
         ]
         environment = {**os.environ, "SOURCE_DATE_EPOCH": "0", "FORCE_SOURCE_DATE": "1"}
+        environment["TEXINPUTS"] = f"{source.parent.resolve()}:"  # where the figures are
         for _ in range(PASSES):
             run = subprocess.run(
                 [*command, source.resolve()],

@@ -1,0 +1,137 @@
+"""The commands `simulate` and `indent`: check the file names, make one call, show the result."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from derivation.files import write_file
+from derivation.screen import NOTES, put_json, table
+
+SceneFile = Annotated[Path, typer.Argument(metavar="SCENE.toml", help="Scene file.")]
+Json = Annotated[
+    str | None, typer.Option("--json", metavar="FILE|-", help="Write the result as JSON.")
+]
+
+
+def simulate(
+    scene: SceneFile,
+    json: Json = None,
+    plot: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Draw the impact: .png, .svg or .pdf.")
+    ] = None,
+    csv: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="Write time, indentation, velocity, radius and force."),
+    ] = None,
+) -> None:
+    """Simulate the impact of a scene file.
+
+    Example: platecontact simulate scene.toml --plot impact.pdf --csv impact.csv
+    """
+    from derivation.scene import load
+    from derivation.scene import simulate as run
+
+    _check_outputs(scene, json, plot, csv)
+    result = run(load(scene))
+    _warn(result.warnings)
+    # Everything is made before anything is written.
+    files = {} if csv is None else {csv: result.history().to_csv().encode()}
+    if plot is not None:
+        from derivation.scene.plot import render
+
+        files[plot] = render(result, plot.suffix)
+    if json != "-":
+        table(f"Impact of {scene.name}", ("quantity", "#value", "unit"), result.rows())
+    for path, content in files.items():
+        write_file(path, content)
+    if json:
+        put_json(result.to_json(), json)
+
+
+def indent(
+    scene: SceneFile,
+    more: Annotated[list[str] | None, typer.Argument(metavar="V", hidden=True)] = None,
+    contact_radius: Annotated[
+        list[str] | None, typer.Option(metavar="V...", help="Contact radii [m].")
+    ] = None,
+    force: Annotated[
+        list[str] | None, typer.Option(metavar="V...", help="Contact forces [N].")
+    ] = None,
+    indentation: Annotated[
+        list[str] | None, typer.Option(metavar="V...", help="Indentations [m].")
+    ] = None,
+    json: Json = None,
+) -> None:
+    """Press the sphere of a scene file in, at rest, by one of the three quantities.
+
+    Example: platecontact indent scene.toml --force 10 100 1000
+    """
+    from derivation.scene import indent as run
+    from derivation.scene import load
+
+    _check_outputs(scene, json)
+    loaded = load(scene)
+    given = {"contact_radius": contact_radius, "force": force, "indentation": indentation}
+    chosen = {name: _numbers(name, texts, more) for name, texts in given.items() if texts}
+    contacts = run(loaded, **chosen)
+    _warn([text for contact in contacts for text in contact.warnings])
+    if json != "-":
+        columns = ("#radius [m]", "#indentation [m]", "#force [N]", "#stiffness [N/m]")
+        rows = [
+            [
+                f"{value:.6g}"
+                for value in (c.contact_radius, c.indentation, c.force, c.stiffness, c.max_pressure)
+            ]
+            for c in contacts
+        ]
+        table(f"Contact in {scene.name}", (*columns, "#max. pressure [Pa]"), rows)
+    if json:
+        put_json([contact.to_json() for contact in contacts], json)
+
+
+def _numbers(name: str, texts: Sequence[str], more: Sequence[str] | None) -> list[float]:
+    """Numbers after an option: `--force 1 2`, `--force 1,2` and `--force 1 --force 2` alike."""
+    from derivation.scene import SceneError
+
+    numbers = []
+    for text in ",".join([*texts, *(more or [])]).split(","):
+        try:
+            numbers.append(float(text))
+        except ValueError:
+            option = name.replace("_", "-")
+            raise SceneError(
+                f"--{option}: expected numbers, got {text!r}; "
+                f"write for instance --{option} 1e-3 2e-3, after the scene file"
+            ) from None
+    return numbers
+
+
+def _check_outputs(
+    scene: Path, json: str | None, plot: Path | None = None, csv: Path | None = None
+) -> None:
+    """Refuse output names that say no format or would overwrite the scene or each other."""
+    from derivation.scene import SceneError
+
+    if plot is not None:
+        from derivation.scene.plot import check_suffix
+
+        check_suffix(plot)
+    places = [Path(json)] if json and json != "-" else []
+    places += [path for path in (plot, csv) if path is not None]
+    taken = {scene.resolve(): "the scene file"}
+    for place in places:
+        if place.is_dir():
+            raise SceneError(f"{place}: expected a file to write, got a folder; add a file name")
+        if place.resolve() in taken:
+            raise SceneError(
+                f"{place}: expected a file of its own for each output, "
+                f"got {taken[place.resolve()]}; choose another name"
+            )
+        taken[place.resolve()] = "one that another output takes"
+
+
+def _warn(warnings: Sequence[str]) -> None:
+    for text in dict.fromkeys(warnings):
+        NOTES.print(f"warning: {text}", markup=False, highlight=False, soft_wrap=True)

@@ -1,0 +1,145 @@
+"""Words for what is wrong with a scene: expected, got, and how to mend it."""
+
+import difflib
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from pydantic.fields import FieldInfo
+
+Fields = Mapping[str, Mapping[str, FieldInfo]]
+"""Per table its keys."""
+
+EXPECTED = {
+    "lame_lambda": "a finite number",
+    "poissons_ratio": "a number above -1 and below 0.5",
+}
+"""What a key is to hold, if not a positive number."""
+
+
+def shown(value: Any) -> str:
+    """A value as TOML writes it, cut short if long."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, float):
+        return f"{value:.6g}"
+    if isinstance(value, str):
+        text = value if len(value) <= 40 else value[:37] + "..."
+        return f'the string "{text}"'
+    if isinstance(value, Mapping):
+        return "a table"
+    if isinstance(value, (list, tuple)):
+        return "an array"
+    try:
+        text = str(value)
+    except ValueError:  # an integer of so many digits that Python refuses to print it
+        return "an integer too large for a number"
+    return text if len(text) <= 40 else text[:37] + "..."
+
+
+def explain(kind: str, place: tuple[int | str, ...], value: Any, fields: Fields) -> str:
+    """One problem of one key or table.
+
+    Parameters
+    ----------
+    kind
+        Pydantic's name of the error.
+    place
+        Table and key.
+    value
+        What the scene holds there.
+    fields
+        The keys each table knows.
+    """
+    name = ".".join(str(part) for part in place)
+    if kind in {"extra_forbidden", "invalid_key"}:
+        return _unknown(place, fields)
+    if len(place) == 1:
+        example = _line(name, next(iter(fields[name].items())))
+        if kind == "missing":
+            return f"{name}: expected a table [{name}], got none; add [{name}] with {example}, ..."
+        expected = f"expected a table [{name}], got {shown(value)}"
+        return f"{name}: {expected}; write [{name}], below it {example}"
+    table, key = str(place[0]), str(place[1])
+    field = fields[table][key]
+    expected = f"expected {EXPECTED.get(key, 'a positive number')}, the {field.description}"
+    example = _line(table, (key, field))
+    if kind == "missing":
+        return f"{name}: {expected}, got nothing; add {example} to [{table}]"
+    quotes = " without quotes" if isinstance(value, str) else ""
+    return f"{name}: {expected}, got {shown(value)}; write it{quotes} like {example}"
+
+
+def choice_problem(
+    table: str,
+    groups: tuple[tuple[str, ...], ...],
+    given: Iterable[str],
+    examples: Mapping[str, str],
+) -> str | None:
+    """What is wrong if not exactly one group of keys is given, and given whole.
+
+    Parameters
+    ----------
+    table
+        Name of the table.
+    groups
+        The alternatives, each one key or several that go together.
+    given
+        Keys present.
+    examples
+        A value for each key.
+    """
+    keys = set(given)
+    present = [key for group in groups for key in group if key in keys]
+    whole = [group for group in groups if keys.issuperset(group)]
+    if len(whole) == 1 and len(present) == len(whole[0]):
+        return None
+    wanted = " or ".join(_group(table, group) for group in groups)
+    first = ", ".join(f"`{key} = {examples[key]}`" for key in groups[0])
+    stray = [key for key in present if whole and key not in whole[0]]
+    if not present:
+        got, mend = "neither", f"add for instance {first} to [{table}]"
+    elif len(whole) == len(groups):
+        got, mend = "both", f"remove {_group(table, groups[0])} or {_group(table, groups[-1])}"
+    elif whole:
+        got, mend = _names(table, present), f"remove {_names(table, stray)}"
+    else:
+        begun = [group for group in groups if keys.intersection(group)]
+        absent = [key for key in begun[0] if key not in keys]
+        stray = [key for key in present if key not in begun[0]]
+        got, mend = f"only {_names(table, present)}", f"add {_names(table, absent)}"
+        mend += f" and remove {_names(table, stray)}" if stray else ""
+    return f"[{table}]: expected either {wanted}, got {got}; {mend}"
+
+
+def _unknown(place: tuple[int | str, ...], fields: Fields) -> str:
+    name = ".".join(str(part) for part in place)
+    key = str(place[-1])
+    homes = [f"[{table}]" for table, keys in fields.items() if key in keys]
+    if len(place) == 1:
+        known, said = list(fields), f"{name}: unknown table, expected {', '.join(fields)}"
+    else:
+        table = str(place[0])
+        known = list(fields[table])
+        said = f"{name}: unknown key, expected in [{table}] one of {', '.join(known)}"
+    return f"{said}; move it to {' or '.join(homes)}" if homes else said + _nearest(key, known)
+
+
+def _nearest(key: str, known: Iterable[str]) -> str:
+    lowered = key.lower().replace("-", "_")
+    close = difflib.get_close_matches(lowered, list(known), n=1, cutoff=0.5)
+    return f"; did you mean {close[0]}?" if close else "; remove it"
+
+
+def _names(table: str, keys: Iterable[str]) -> str:
+    return " and ".join(f"{table}.{key}" for key in keys)
+
+
+def _group(table: str, keys: tuple[str, ...]) -> str:
+    pair = "the pair " if len(keys) > 1 else ""
+    return pair + ", ".join(f"{table}.{key}" for key in keys)
+
+
+def _line(table: str, item: tuple[str, FieldInfo]) -> str:
+    key, field = item
+    examples = field.examples or [f"... in [{table}]"]
+    return f"`{key} = {shown(examples[0])}`"

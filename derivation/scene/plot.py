@@ -1,0 +1,117 @@
+"""Draws an impact: indentation, velocity and force against time, force against indentation."""
+
+import io
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from derivation.files import write_file
+from derivation.scene.result import Array, Result
+from derivation.scene.scene import SceneError
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+METADATA: dict[str, dict[str, None]] = {
+    ".png": {},
+    ".pdf": {"CreationDate": None},
+    ".svg": {"Date": None},
+}
+"""Per suffix what is left out of the file, so that equal results give equal files."""
+PREFIXES = {-9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
+
+
+def check_suffix(path: Path) -> None:
+    """Refuse a file name that says no format.
+
+    Raises
+    ------
+    SceneError
+        If the name ends in none of the formats' suffixes.
+    """
+    if path.suffix.lower() not in METADATA:
+        raise SceneError(
+            f"{path}: expected a plot file ending in {', '.join(METADATA)}, "
+            f"got {path.suffix or 'no suffix'}; change its name"
+        )
+
+
+def write_plot(result: Result, path: str | Path) -> None:
+    """Draw a result into a file, as PNG, SVG or PDF by its suffix.
+
+    Raises
+    ------
+    SceneError
+        If the suffix is none of these.
+    OSError
+        If the file cannot be written.
+    """
+    path = Path(path)
+    check_suffix(path)
+    write_file(path, render(result, path.suffix))
+
+
+def render(result: Result, suffix: str) -> bytes:
+    """The drawing as the content of a file.
+
+    Parameters
+    ----------
+    suffix
+        Format: ``.png``, ``.svg`` or ``.pdf``.
+    """
+    import matplotlib as mpl
+
+    suffix = suffix.lower()
+    stream = io.BytesIO()
+    # A fixed salt names the parts of an SVG alike in every run.
+    with mpl.rc_context({"svg.hashsalt": "platecontact", "svg.fonttype": "none"}):
+        figure(result).savefig(
+            stream, format=suffix[1:], dpi=150, metadata=METADATA[suffix] or None
+        )
+    return stream.getvalue()
+
+
+def figure(result: Result) -> "Figure":
+    """The drawing as a Matplotlib figure, to be shown or changed."""
+    from matplotlib.figure import Figure
+
+    history = result.history()
+    time, t_label = scaled(history.time, "time", "s")
+    indentation, d_label = scaled(history.indentation, "indentation", "m")
+    velocity, v_label = scaled(history.velocity, "velocity", "m/s")
+    force, f_label = scaled(history.force, "contact force", "N")
+    made = Figure(figsize=(8.0, 6.0), layout="constrained")
+    panels = (
+        (time, indentation, t_label, d_label),
+        (time, velocity, t_label, v_label),
+        (time, force, t_label, f_label),
+        (indentation, force, d_label, f_label),
+    )
+    for axes, (x, y, x_label, y_label) in zip(made.subplots(2, 2).flat, panels, strict=True):
+        axes.plot(x, y, color="#1f4e79", linewidth=1.5)
+        axes.set_xlabel(x_label)
+        axes.set_ylabel(y_label)
+        axes.axhline(0.0, color="0.6", linewidth=0.6)
+        axes.grid(visible=True, color="0.9", linewidth=0.6)
+        axes.spines[["top", "right"]].set_visible(False)
+    return made
+
+
+def scaled(values: Array, name: str, unit: str) -> tuple[Array, str]:
+    """Values in a handy multiple of their unit, and the label that says so.
+
+    Parameters
+    ----------
+    values
+        Values in the unit.
+    name
+        What they are.
+    unit
+        SI unit without prefix.
+    """
+    largest = float(np.max(np.abs(values)))
+    order = 3 * math.floor(math.log10(largest) / 3) if largest > 0 else 0
+    order = min(max(order, min(PREFIXES)), max(PREFIXES))
+    return values / 10.0**order, f"{name} [{PREFIXES[order]}{unit}]"

@@ -1,0 +1,142 @@
+"""What a simulation returns: numbers in SI, their history, JSON, CSV and a notebook table."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
+from html import escape
+from typing import Any, NamedTuple, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from derivation.scene import kernels
+from derivation.scene.model import Model
+from derivation.scene.scene import Scene, SceneError
+
+Array = NDArray[np.float64]
+
+POINTS = 201
+"""Times of a history, if not said otherwise."""
+
+
+class History(NamedTuple):
+    """The course of an impact.
+
+    Attributes
+    ----------
+    time
+        Time since first contact [s].
+    indentation, velocity
+        Indentation [m] and its rate [m/s].
+    contact_radius
+        Contact radius [m].
+    force
+        Contact force [N].
+    """
+
+    time: Array
+    indentation: Array
+    velocity: Array
+    contact_radius: Array
+    force: Array
+
+    def to_csv(self) -> str:
+        """The history as CSV, one line per time, numbers to the last bit."""
+        rows = zip(*(column.tolist() for column in self), strict=True)
+        lines = [",".join(self._fields), *(",".join(map(repr, row)) for row in rows)]
+        return "\n".join(lines) + "\n"
+
+
+@dataclass(frozen=True)
+class Result:
+    """The outcome of an impact.
+
+    Attributes
+    ----------
+    contact_time
+        Time from first contact to release [s].
+    max_indentation
+        Largest indentation [m].
+    max_force
+        Largest contact force [N].
+    max_contact_radius
+        Largest contact radius [m].
+    warnings
+        What to know about the result.
+    scene, model
+        What was simulated, as given and in the kernels' numbers.
+    times
+        Times [s] asked for; none if the history is to cover the contact evenly.
+    """
+
+    contact_time: float
+    max_indentation: float
+    max_force: float
+    max_contact_radius: float
+    warnings: tuple[str, ...]
+    scene: Scene
+    model: Model = field(repr=False)
+    times: tuple[float, ...] | None = None
+
+    def at(self, times: Iterable[float]) -> "Result":
+        """The same result with the times [s] at which its history is wanted.
+
+        Raises
+        ------
+        SceneError
+            If a time lies outside the contact.
+        """
+        wanted = tuple(float(time) for time in np.atleast_1d(cast(Any, times)))
+        for time in wanted:
+            if not 0 <= time <= self.contact_time:
+                raise SceneError(
+                    f"times: expected times from 0 to the contact time {self.contact_time:.6g} s, "
+                    f"got {time:.6g} s; leave it out"
+                )
+        return replace(self, times=wanted)
+
+    def history(self, n: int | None = None) -> History:
+        """The course of the impact.
+
+        Parameters
+        ----------
+        n
+            Number of times, evenly over the contact, both ends included; without it the
+            times given to `simulate`, or 201.
+
+        Raises
+        ------
+        SceneError
+            If n is less than 2.
+        """
+        if n is not None and n < 2:
+            raise SceneError(f"n: expected at least 2 times, got {n}; give 2 or more")
+        if n is None and self.times is not None:
+            times = np.array(self.times, dtype=np.float64)
+        else:
+            times = np.linspace(0.0, self.contact_time, n or POINTS)
+        m = self.model
+        return History(times, *kernels.history(times, m.R, m.m, m.v0, m.h, m.b, m.lam, m.mu))
+
+    def to_json(self) -> dict[str, Any]:
+        """The result in SI, with its warnings and the scene it belongs to."""
+        numbers = {name: getattr(self, name) for name in UNITS}
+        return numbers | {"warnings": list(self.warnings), "scene": self.scene.to_json()}
+
+    def rows(self) -> list[tuple[str, str, str]]:
+        """Quantity, value and unit, to be read by people."""
+        return [
+            (name.replace("_", " "), f"{getattr(self, name):.6g}", unit)
+            for name, unit in UNITS.items()
+        ]
+
+    def _repr_html_(self) -> str:
+        """Table for a notebook."""
+        cells = (
+            f"<tr><td>{name}</td><td style='text-align:right'>{value}</td><td>{unit}</td></tr>"
+            for name, value, unit in self.rows()
+        )
+        notes = "".join(f"<p><b>Warning:</b> {escape(text)}</p>" for text in self.warnings)
+        return f"<table>{''.join(cells)}</table>{notes}"
+
+
+UNITS = {"contact_time": "s", "max_indentation": "m", "max_force": "N", "max_contact_radius": "m"}

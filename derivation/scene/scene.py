@@ -1,0 +1,233 @@
+"""Reads a scene file: what is allowed in it, and one clear message for whatever is wrong."""
+
+import sys
+import tomllib
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Annotated, Any, ClassVar, Self, TypeGuard
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic.config import JsonDict
+from pydantic_core import PydanticCustomError
+
+from derivation.scene.explain import choice_problem, explain, shown
+
+Positive = Annotated[float, Field(gt=0)]
+Groups = tuple[tuple[str, ...], ...]
+CONFLICT = "conflict"
+"""Error type of keys that are right one by one but not together."""
+
+
+class SceneError(ValueError):
+    """A scene that cannot be used; the message says what was expected, what came, how to mend."""
+
+
+class Table(BaseModel):
+    """A table of the scene file: frozen, no unknown keys, numbers must be numbers."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", strict=True, allow_inf_nan=False)
+    choices: ClassVar[tuple[Groups, ...]] = ()
+    """Groups of keys of which exactly one group is to be given."""
+
+    @classmethod
+    def conflicts(cls, given: Mapping[str, Any]) -> list[str]:
+        """What is wrong with the keys given, taken together."""
+        table = cls.__name__.lower()
+        keys = {key for key, value in given.items() if value is not None}
+        examples = {key: _example(field) for key, field in cls.model_fields.items()}
+        found = (choice_problem(table, groups, keys, examples) for groups in cls.choices)
+        return [problem for problem in found if problem]
+
+    @model_validator(mode="after")
+    def _consistent(self) -> Self:
+        problems = self.conflicts(self.model_dump())
+        if problems:
+            raise PydanticCustomError(CONFLICT, "{problems}", {"problems": "; ".join(problems)})
+        return self
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, core_schema: Any, handler: Any) -> JsonDict:
+        """JSON schema in which the choices are spelled out and nothing may be null."""
+        made: JsonDict = handler.resolve_ref_schema(handler(core_schema))
+        properties: Any = made["properties"]
+        for field in properties.values():
+            if "anyOf" in field:
+                field.update(field.pop("anyOf")[0])
+                field.pop("default")
+        if cls.choices:
+            made["allOf"] = [
+                {"oneOf": [{"required": list(group)} for group in groups]} for groups in cls.choices
+            ]
+        return made
+
+
+class Sphere(Table):
+    """The rigid sphere that strikes."""
+
+    choices = ((("mass",), ("density",)),)
+    radius: Positive = Field(description="sphere radius [m]", examples=[0.13])
+    mass: Positive | None = Field(None, description="sphere mass [kg]", examples=[72.0])
+    density: Positive | None = Field(None, description="sphere density [kg/m^3]", examples=[7850.0])
+
+
+class Plate(Table):
+    """The elastic plate that is struck in its middle."""
+
+    choices = (
+        (("half_thickness",), ("thickness",)),
+        (("lame_lambda", "lame_mu"), ("youngs_modulus", "poissons_ratio")),
+    )
+    radius: Positive = Field(description="plate radius [m]", examples=[1.0])
+    half_thickness: Positive | None = Field(
+        None, description="half of the plate's thickness [m]", examples=[0.1]
+    )
+    thickness: Positive | None = Field(
+        None, description="full thickness of the plate [m]", examples=[0.2]
+    )
+    lame_lambda: float | None = Field(
+        None, description="first Lame constant [Pa]", examples=[0.36e9]
+    )
+    lame_mu: Positive | None = Field(
+        None, description="second Lame constant (shear modulus) [Pa]", examples=[0.43e9]
+    )
+    youngs_modulus: Positive | None = Field(
+        None, description="Young's modulus [Pa]", examples=[1.056e9]
+    )
+    poissons_ratio: Annotated[float, Field(gt=-1, lt=0.5)] | None = Field(
+        None, description="Poisson's ratio [1]", examples=[0.228]
+    )
+
+    @classmethod
+    def conflicts(cls, given: Mapping[str, Any]) -> list[str]:
+        """Also what makes the material unstable: no bulk modulus above zero."""
+        problems = super().conflicts(given)
+        lam, mu = given.get("lame_lambda"), given.get("lame_mu")
+        if _is_number(lam) and _is_number(mu) and mu > 0 and 3 * lam + 2 * mu <= 0:
+            problems.append(
+                "plate.lame_lambda: expected 3 lame_lambda + 2 lame_mu above zero "
+                f"(a positive bulk modulus), got lame_lambda = {shown(lam)} and "
+                f"lame_mu = {shown(mu)}; raise lame_lambda above {-2 * mu / 3:.6g}"
+            )
+        return problems
+
+
+class Impact(Table):
+    """How the sphere arrives."""
+
+    speed: Positive = Field(description="impact speed [m/s]", examples=[1.0])
+
+
+class Scene(Table):
+    """A sphere striking a plate."""
+
+    sphere: Sphere = Field(description="the rigid sphere that strikes")
+    plate: Plate = Field(description="the elastic plate that is struck in its middle")
+    impact: Impact = Field(description="how the sphere arrives")
+
+    @classmethod
+    def conflicts(cls, given: Mapping[str, Any]) -> list[str]:  # noqa: ARG003
+        """Nothing: each table has looked at its own keys."""
+        return []
+
+    def to_json(self) -> dict[str, dict[str, float]]:
+        """The scene as it was given."""
+        return self.model_dump(exclude_none=True)
+
+
+TABLES: dict[str, type[Table]] = {"sphere": Sphere, "plate": Plate, "impact": Impact}
+
+
+def load(path: str | Path) -> Scene:
+    """Read a scene file.
+
+    Parameters
+    ----------
+    path
+        TOML file with the tables ``sphere``, ``plate`` and ``impact``, in SI units.
+
+    Raises
+    ------
+    SceneError
+        If the file cannot be read, is not TOML, or describes no usable scene.
+    """
+    path = Path(path)
+    if path.exists() and not path.is_file():
+        raise SceneError(f"{path}: expected a scene file, got something that is not a file")
+    try:
+        # Some editors begin a file with a byte-order mark, which TOML does not know.
+        data = tomllib.loads(path.read_bytes().decode("utf-8-sig"))
+    except OSError as error:
+        reason = error.strerror or error
+        raise SceneError(
+            f"{path}: cannot read the scene file ({reason}); check its name and permissions"
+        ) from None
+    except UnicodeDecodeError as error:
+        raise SceneError(
+            f"{path}: expected a TOML file in UTF-8, got other bytes at {error.start}; "
+            "save it as UTF-8 text"
+        ) from None
+    except tomllib.TOMLDecodeError as error:
+        raise SceneError(
+            f"{path}: not valid TOML: {error}; a line reads like `radius = 0.13`"
+        ) from None
+    except (ValueError, RecursionError):  # more digits or brackets than Python can read
+        raise SceneError(
+            f"{path}: expected a scene of a few lines, got numbers too long or brackets too deep "
+            "to read; a line reads like `radius = 0.13`"
+        ) from None
+    return read(data, str(path))
+
+
+def read(data: Mapping[str, Any], source: str = "scene") -> Scene:
+    """Make a scene from tables of keys, as a scene file holds them.
+
+    Parameters
+    ----------
+    data
+        Tables ``sphere``, ``plate`` and ``impact``, each a mapping from key to number, in SI.
+    source
+        What messages call the scene, for instance its file.
+
+    Raises
+    ------
+    SceneError
+        With one message that lists everything that is wrong.
+    """
+    if not isinstance(data, Mapping):
+        raise SceneError(f"{source}: expected tables of keys, got {shown(data)}; see `load`")
+    try:
+        return Scene.model_validate(dict(data))
+    except ValidationError as error:
+        problems = list(_problems(error, data))
+    if len(problems) == 1:
+        raise SceneError(f"{source}: {problems[0]}")
+    lines = "".join(f"\n  - {problem}" for problem in problems)
+    raise SceneError(f"{source}: {len(problems)} problems{lines}")
+
+
+def schema() -> dict[str, Any]:
+    """JSON schema of a scene file, for editors that check and complete TOML."""
+    dialect = {"$schema": "https://json-schema.org/draft/2020-12/schema"}
+    return dialect | Scene.model_json_schema()
+
+
+def _problems(error: ValidationError, data: Mapping[str, Any]) -> Iterator[str]:
+    fields = {name: table.model_fields for name, table in TABLES.items()}
+    for item in error.errors(include_url=False):
+        if item["type"] != CONFLICT:
+            yield explain(item["type"], item["loc"], item["input"], fields)
+    # Pydantic looks at keys together only if each is right; the user wants to hear all at once.
+    for name, table in TABLES.items():
+        if isinstance(data.get(name), Mapping):
+            yield from table.conflicts(data[name])
+
+
+def _example(field: Any) -> str:
+    return shown(field.examples[0]) if field.examples else ""
+
+
+def _is_number(value: Any) -> TypeGuard[float]:
+    """Whether a value is a number a double can hold."""
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        return False
+    return abs(value) < sys.float_info.max

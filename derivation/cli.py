@@ -58,15 +58,15 @@ def generate(
 
     Example: platecontact generate --out mypackage/plate
     """
-    from derivation import pipeline
+    from derivation import produce
 
     if check:
         with stage("compare"):
-            freshness = pipeline.check_generated(out)
+            freshness = produce.check_generated(out)
         OUT.print(str(freshness), markup=False, highlight=False, soft_wrap=True)
         raise typer.Exit(0 if freshness.fresh else 1)
     with stage("derive and generate"):
-        written = pipeline.generate(out)
+        written = produce.generate(out)
     NOTES.print(f"{len(written)} files in {written[0].parent}")
 
 
@@ -93,6 +93,9 @@ def check(
     record: Annotated[
         bool, typer.Option("--record", help="Keep the result as reports/data/check.json.")
     ] = False,
+    contact: Annotated[
+        bool, typer.Option("--contact", help="Measure contact law and impact instead: minutes.")
+    ] = False,
     json: Json = None,
 ) -> None:
     """Measure every generated function against both oracles.
@@ -102,6 +105,8 @@ def check(
     from derivation import pipeline
     from derivation.measure.record import COLUMNS, as_data, cells, passed, worst
 
+    if contact:
+        raise typer.Exit(_check_contact(record, json))
     with counted("check") as tell:
         rows = pipeline.check(digits, record, tell)
     if json != "-":
@@ -110,6 +115,21 @@ def check(
     if json:
         put_json(as_data(rows, digits), json)
     raise typer.Exit(0 if passed(rows) else 1)
+
+
+def _check_contact(record: bool, json: str | None) -> int:
+    """Measure contact law and impact; returns the exit status."""
+    from derivation import pipeline
+
+    with counted("check") as tell:
+        rows = pipeline.check_contact(record, tell)
+    if json != "-":
+        cells = [(r.kernel, r.points, f"{r.max_error:.2g}", r.passed) for r in rows]
+        table("Relative errors", ("kernel", "#points", "#max", "kept"), cells)
+        listing("Worst arguments", [f"{r.kernel}: {' '.join(r.worst)}" for r in rows])
+    if json:
+        put_json(pipeline.contact_data(rows), json)
+    return 0 if all(r.passed for r in rows) else 1
 
 
 @app.command()
@@ -142,18 +162,21 @@ def build(out: Out = None) -> None:
 
     Example: platecontact build
     """
-    from derivation import derived, pipeline
-    from derivation.measure.record import passed
-    from derivation.report.pdf import TexError
+    from derivation import derived, produce
 
     with stage("derive"):
         derived.chain()
     with stage("rewrite"):
-        pipeline.forms()
+        produce.forms()
     with stage("generate"):
-        pipeline.generate(out / "generated" if out else None)
+        produce.generate(out / "generated" if out else None)
     with stage("misprints"):
         derived.misprints()
+    # Only now, as these import what has just been generated.
+    from derivation import pipeline
+    from derivation.measure.record import passed
+    from derivation.report.pdf import TexError
+
     with counted("check") as tell:
         rows = pipeline.check(tell=tell)
     with stage("report"):

@@ -9,69 +9,33 @@
 """
 
 import json
+from collections.abc import Callable
+from dataclasses import asdict
 from importlib.metadata import version
 from pathlib import Path
+from typing import Any
 
-from derivation.derived import GROUND, chain, formulas, misprints
+from derivation.derived import chain, misprints
 from derivation.emit.freshness import Freshness, compare
-from derivation.emit.render import CITATION, render
-from derivation.files import PACKAGE, ROOT, cached, in_checkout, write_file
+from derivation.emit.render import CITATION
+from derivation.files import PACKAGE, ROOT, write_file
 from derivation.measure.check import Progress, Row
 from derivation.measure.check import check as measure
-from derivation.measure.record import to_json
+from derivation.measure.contact import DIGITS
+from derivation.measure.contact import Row as ContactRow
+from derivation.measure.contact import check as measure_contact
+from derivation.measure.record import provenance, to_json
+from derivation.produce import folder_for, write_files
 from derivation.report import pdf as compiler
 from derivation.report.content import tex
 from derivation.report.figures import figures, motion_context
-from derivation.rewrite.form import Form
-from derivation.rewrite.forms import stable_forms
 from derivation.scene.model import Model, model_of
 from derivation.scene.scene import load
+from generated import contact_law, impact
 
-GENERATED = ROOT / "generated"
 REPORTS = ROOT / "reports"
 MEASURED = REPORTS / "data" / "check.json"
-
-
-def forms() -> tuple[Form, ...]:
-    """Stage 2: stable forms, proved equal to the formulas."""
-    return cached("forms", (*GROUND, "rewrite"), lambda: stable_forms(formulas()))
-
-
-def package() -> dict[str, str]:
-    """Stage 3: the files of the generated package by name."""
-    rooms = (*GROUND, "rewrite", "paper", "emit", "budgets.toml")
-    return cached("package", rooms, lambda: render(formulas(), forms()))
-
-
-def folder_for(out: Path | None, own: Path) -> Path:
-    """Folder to write to: `out`, or the checkout's own.
-
-    Raises
-    ------
-    ValueError
-        If this is an installed copy and no folder is given.
-    """
-    if out is None and not in_checkout():
-        raise ValueError("expected a folder, as this is an installed copy: add --out DIR")
-    return own if out is None else out
-
-
-def generate(out: Path | None = None) -> tuple[Path, ...]:
-    """Write the generated package; returns the files written.
-
-    Raises
-    ------
-    OSError
-        If the folder cannot be written to.
-    """
-    folder = folder_for(out, GENERATED)
-    return _write(folder, package())
-
-
-def check_generated(out: Path | None = None) -> Freshness:
-    """Compare the generated package with what would be written."""
-    mend = "platecontact generate" + (f" --out {out}" if out else "")
-    return compare(folder_for(out, GENERATED), package(), mend)
+MEASURED_CONTACT = REPORTS / "data" / "contact.json"
 
 
 def check(digits: int = 50, record: bool = False, tell: Progress | None = None) -> tuple[Row, ...]:
@@ -87,6 +51,31 @@ def check(digits: int = 50, record: bool = False, tell: Progress | None = None) 
         folder_for(None, REPORTS)
         write_file(MEASURED, to_json(rows, digits))
     return rows
+
+
+def check_contact(record: bool = False, tell: Progress | None = None) -> tuple[ContactRow, ...]:
+    """Measure the contact law, its inversion and the impact against ball arithmetic: minutes."""
+    kernels: dict[str, Callable[..., Any]] = {
+        "indentation": contact_law.indentation,
+        "contact_radius": contact_law.contact_radius,
+        "stiffness": contact_law.stiffness,
+        "impact": impact.impact,
+    }
+    rows: tuple[ContactRow, ...] = ()
+    for number, (name, kernel) in enumerate(kernels.items(), start=1):
+        if tell is not None:
+            tell(name, number, len(kernels))
+        rows += measure_contact({name: kernel})
+    if record:
+        folder_for(None, REPORTS)
+        text = json.dumps(contact_data(rows), indent=1, sort_keys=True) + "\n"
+        write_file(MEASURED_CONTACT, text)
+    return rows
+
+
+def contact_data(rows: tuple[ContactRow, ...]) -> dict[str, Any]:
+    """Rows of the contact law as plain data, with what they were measured with."""
+    return {"provenance": provenance(DIGITS), "rows": [asdict(row) for row in rows]}
 
 
 def verdict(rows: tuple[Row, ...]) -> list[str]:
@@ -110,11 +99,13 @@ def report_files() -> dict[str, str]:
     FileNotFoundError
         If there are no committed measurements.
     """
-    if not MEASURED.is_file():
-        raise FileNotFoundError(f"no measurements in {MEASURED}: run `platecontact check --record`")
+    for path in (MEASURED, MEASURED_CONTACT):
+        if not path.is_file():
+            raise FileNotFoundError(f"no measurements in {path}: run `platecontact check --record`")
     measured = json.loads(MEASURED.read_text())
+    contact = json.loads(MEASURED_CONTACT.read_text())
     motion = motion_context(paper_case())
-    text = tex(chain(), misprints(), measured, motion, version("platecontact"), CITATION)
+    text = tex(chain(), misprints(), measured, contact, motion, version("platecontact"), CITATION)
     return {"report.tex": text}
 
 
@@ -136,16 +127,10 @@ def report(out: Path | None = None, pdf: bool = True) -> tuple[Path, ...]:
     folder = folder_for(out, REPORTS)
     for name, figure in figures(paper_case()).items():
         write_file(folder / "figures" / name, figure)
-    written = _write(folder, report_files())
+    written = write_files(folder, report_files())
     return (*written, *(compiler.compile_pdf(path) for path in written if pdf))
 
 
 def check_report(out: Path | None = None) -> Freshness:
     """Compare the report's LaTeX with what would be written."""
     return compare(folder_for(out, REPORTS), report_files(), "platecontact report", "*.tex")
-
-
-def _write(folder: Path, files: dict[str, str]) -> tuple[Path, ...]:
-    for name, text in files.items():
-        write_file(folder / name, text)
-    return tuple(folder / name for name in files)

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import generated
-from derivation import pipeline
+from derivation import produce
 from derivation.emit.freshness import compare
 from derivation.emit.kernels import BUDGETS
 from derivation.files import ROOT
@@ -44,7 +44,7 @@ def _no_warnings() -> Iterator[None]:
 
 
 def test_package_is_fresh() -> None:
-    freshness = pipeline.check_generated()
+    freshness = produce.check_generated()
     assert freshness.fresh, str(freshness)
 
 
@@ -52,7 +52,7 @@ def test_package_is_fresh() -> None:
 def test_every_tampering_is_seen_and_the_remedy_named(deed: str, tmp_path: Path) -> None:
     copy = tmp_path / "generated"
     shutil.copytree(ROOT / "generated", copy, ignore=shutil.ignore_patterns("__pycache__"))
-    expected = pipeline.package()
+    expected = produce.package()
     assert compare(copy, expected, "regenerate").fresh
     if deed == "delete":
         (copy / "omega.py").unlink()
@@ -83,7 +83,7 @@ def test_output_does_not_depend_on_the_hash_seed(tmp_path: Path) -> None:
         ]
         runs.append(subprocess.Popen(command, env=environment, cwd=ROOT))
     assert [run.wait() for run in runs] == [0, 0]
-    expected = pipeline.package()
+    expected = produce.package()
     for seed in ("1", "4242"):
         found = compare(tmp_path / f"g{seed}", expected, "")
         assert found.fresh, str(found)
@@ -172,3 +172,20 @@ def test_blocks_of_modes_leave_no_seam() -> None:
     shares = K * (np.sin(y) - y * np.cos(y))
     expected = [shares[:n].sum() for n in (127, 128, 129, 257)]
     np.testing.assert_allclose(sums, expected, rtol=1e-14)
+
+
+def test_a_broken_package_can_be_written_anew(tmp_path: Path) -> None:
+    """Nothing on the way to generation imports what was generated before."""
+    ignore = shutil.ignore_patterns("__pycache__")
+    for part in ("derivation", "generated"):
+        shutil.copytree(ROOT / part, tmp_path / part, ignore=ignore)
+    shutil.copy(ROOT / "pyproject.toml", tmp_path)
+    for name in ("__init__.py", "omega.py"):
+        (tmp_path / "generated" / name).write_text("this is not Python")
+    environment = {**os.environ, "PYTHONPATH": str(tmp_path)}
+    command = [sys.executable, "-m", "derivation.cli", "generate"]
+    done = subprocess.run(
+        command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    assert compare(tmp_path / "generated", produce.package(), "").fresh

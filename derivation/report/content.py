@@ -43,6 +43,7 @@ def tex(
     links: Sequence[tuple[str, Sequence[Formula]]],
     findings: Sequence[Finding],
     check: Mapping[str, Any],
+    contact: Mapping[str, Any],
     motion: Mapping[str, Any],
     version: str,
     citation: str,
@@ -62,6 +63,8 @@ def tex(
             provenance=sorted((k, v) for k, v in check["provenance"].items() if k != "digits"),
             digits=check["provenance"]["digits"],
             motion=motion,
+            contact_rows=[contact_row(row) for row in contact["rows"]],
+            contact_digits=contact["provenance"]["digits"],
         )
     )
 
@@ -165,3 +168,9 @@ def number(value: float | str) -> str:
         mantissa, _, exponent = f"{value:.1e}".partition("e")
         return rf"${mantissa}\cdot10^{{{int(exponent)}}}$"
     return f"{value:.2f}"
+
+
+def contact_row(row: Mapping[str, Any]) -> str:
+    """Cells of a row of the contact law's errors."""
+    cells = [escape(row["kernel"]), str(row["points"])]
+    return " & ".join([*cells, number(row["max_error"]), number(row["p99_error"])])

@@ -1,0 +1,201 @@
+"""The oracles of the corrected contact law: known constants, limits, and each other."""
+
+import math
+import random
+
+import flint
+import pytest
+from mpmath import mp, mpf
+
+from derivation.measure import contact
+from derivation.reference import contact_balls, contact_impact, contact_routes
+from derivation.reference.contact_sums import plate_excess
+from derivation.reference.routes import OracleError, RouteError
+
+
+def close(ball: flint.arb, expected: mpf | str, digits: int) -> bool:
+    with flint.ctx.workprec(400):
+        known = flint.arb(str(expected))
+        return bool(abs(ball - known) < abs(known) * flint.arb(10) ** -digits)
+
+
+# --- constants
+
+
+@pytest.mark.parametrize("n", [0, 2, 6])
+def test_kappa_against_quadrature(n: int) -> None:
+    with mp.workdps(30):
+        direct = mp.quad(
+            lambda u: 3 * u ** (3 * n + 2) * mp.besselk(0, u**3) / mp.besseli(0, u**3),
+            [0, 0.5, 1, 1.5, 2, 3, 4],
+        )
+        assert close(contact_balls.kappa(n, 30), mp.nstr(direct, 28), 22)
+
+
+@pytest.mark.parametrize(
+    ("k", "value"),
+    [
+        (2, "-1.12648392978257645242944"),
+        (3, "7.72386466370692885870034"),
+        (4, "41.9670644769000627482199"),
+    ],
+)
+def test_finite_parts(k: int, value: str) -> None:
+    assert close(contact_balls.finite_part(k, 30), value, 22)
+
+
+def test_first_coefficient_passes_zero() -> None:
+    left, right = (contact_balls.coefficient(1, h, 1.0, 30) for h in (0.53, 0.5304))
+    assert left > 0
+    assert right < 0
+
+
+def test_thin_plates_coefficients_are_the_closed_forms() -> None:
+    """Up to e^(-4.2/eta), 10^-91 here: c_1 with M_2, c_3 with M_3, c_5 with M_4."""
+    eta = 0.02
+    with mp.workdps(60):
+        log = mp.euler - mp.log(4 * mpf(eta))
+        m = {k: mpf(contact_balls.finite_part(k, 45).str(45, radius=False)) for k in (2, 3, 4)}
+        expected = {
+            1: 1 / (4 * mp.pi * mpf(eta) ** 2) + 2 / (3 * mp.pi) * (m[2] + 6 * log / 5),
+            3: -(m[3] + 6 * log) / (60 * mp.pi),
+            5: 8 / mp.pi * 6 / mp.factorial(7) / 64 * m[4],
+        }
+        for order, value in expected.items():
+            assert close(contact_balls.coefficient(order, eta, 1.0, 40), mp.nstr(value, 45), 35)
+
+
+def test_series_is_the_law() -> None:
+    """Six terms at a/h = 1/100."""
+    a, h, b = 0.002, 0.2, 1.0
+    with flint.ctx.workprec(300):
+        ratio = flint.arb(a) / flint.arb(h)
+        terms = (contact_balls.coefficient(n, h, b, 40) * ratio**n for n in range(1, 12, 2))
+        total = sum(terms, flint.arb(0))
+    far = contact_balls.departure(a, h, b, 40)
+    assert close(far, total.str(40, radius=False), 25)
+
+
+# --- limits
+
+
+def test_thick_plate_is_a_half_space_with_a_rim() -> None:
+    a, b = 1e-6, 1.0
+    far = contact_balls.departure(a, 100.0, b, 30)
+    assert float(far) / a == pytest.approx(-0.36953, abs=1e-5)
+    assert float(contact_balls.side_wall(a, 30)) == pytest.approx(float(far), rel=1e-12)
+
+
+@pytest.mark.parametrize("eta", [1e-3, 1e-4])
+def test_thin_plate_bends_as_kirchhoffs(eta: float) -> None:
+    """F (a/h)^-1 -> 1/(4 pi eta^2), which is P b^2/(8 pi D)."""
+    a = 1e-2 * eta
+    far = float(contact_balls.departure(a, eta, 1.0, 30))
+    assert far / (a / eta) * 4 * math.pi * eta**2 == pytest.approx(1.0, abs=60 * eta**2)
+
+
+def test_impact_of_a_half_space_is_hertzs() -> None:
+    """2 * 1.4716375921623523 delta/v0 as the contact shrinks against the plate."""
+    R, m, v0, lam, mu = 1.0, 1.0, 1e-40, 0.0, 0.5
+    found = contact_impact.impact(R, m, v0, 1.0, 1.0, lam, mu, 20)
+    constant = float(found.contact_time * flint.arb(v0) / found.max_indentation)
+    assert constant == pytest.approx(2 * 1.4716375921623523, rel=1e-14)
+
+
+def test_plate_excess_series_meets_the_closed_form() -> None:
+    with flint.ctx.workprec(200):
+        for T in (1.999999, 2.000001):
+            with mp.workdps(50):
+                x = mpf(T)
+                G = (mp.sinh(x) * mp.cosh(x) + x) / (mp.sinh(x) ** 2 - x**2) - 1
+            assert close(plate_excess(flint.acb(T)).real, mp.nstr(G, 45), 40)
+
+
+# --- consistency
+
+
+def test_contact_radius_inverts_the_indentation() -> None:
+    depth = float(contact_balls.indentation(0.3, 2.0, 0.1, 1.0, 30))
+    radius = contact_balls.contact_radius(depth, 2.0, 0.1, 1.0, 30)
+    assert float(radius) == pytest.approx(0.3, rel=1e-15)
+
+
+def test_slope_is_the_derivative() -> None:
+    step = 2.0**-30
+    up, down = (contact_balls.indentation(0.25 + s, 2.0, 0.125, 1.0, 40) for s in (step, -step))
+    found = float(contact_balls.slope(0.25, 2.0, 0.125, 1.0, 40))
+    assert float((up - down) / (2 * step)) == pytest.approx(found, rel=1e-14)
+
+
+def test_history_ends_at_half_the_contact_time() -> None:
+    case = (0.01, 0.03, 1.0, 0.1, 1.0, 1.2e11, 8e10)
+    found = contact_impact.impact(*case, digits=20)
+    edge = math.nextafter(float(found.max_contact_radius.lower()), 0.0) * (1 - 1e-15)
+    early, late = contact_impact.history((1e-5, edge), *case, digits=20)
+    assert float(early) == pytest.approx(1e-10 / 0.01, rel=1e-3)
+    assert float(late) == pytest.approx(float(found.contact_time) / 2, rel=1e-6)
+
+
+def test_edge_of_the_plate_is_refused() -> None:
+    with pytest.raises(ValueError, match="a/b < 1"):
+        contact_balls.indentation(1.0, 2.0, 0.5, 1.0)
+    with pytest.raises(ValueError, match="edge"):
+        contact_balls.contact_radius(1e3, 2.0, 0.5, 1.0)
+    with pytest.raises(ValueError, match="odd"):
+        contact_balls.coefficient(2, 0.5, 1.0)
+    with pytest.raises(ValueError, match="a/b < 1"):
+        contact_routes.indentation(1.0, 2.0, 0.5, 1.0)
+    with pytest.raises(RouteError, match="digits"):
+        contact_routes.indentation(0.1, 2.0, 0.5, 1.0, digits=100)
+
+
+# --- both oracles
+
+
+def test_oracles_agree_on_the_law() -> None:
+    generator = random.Random("contact law")
+    for eta in (1e-4, 10 ** generator.uniform(-3.5, -1.5), 10 ** generator.uniform(-1.4, 2.0), 1e2):
+        for ratio in (10 ** generator.uniform(-8.0, -1.0), generator.uniform(0.5, 6.0)):
+            a = min(eta * ratio, 0.95)
+            contact_routes.agree("indentation", (a, 2.0, eta, 1.0), 40)
+            contact_routes.agree("slope", (a, 2.0, eta, 1.0), 40)
+
+
+def test_oracles_agree_on_the_inversion() -> None:
+    contact_routes.agree("contact_radius", (1.04629, 2.0, 0.1, 1.0), 40)
+
+
+def test_disagreement_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(contact_routes.ROUTES, "indentation", contact_routes.slope)
+    with pytest.raises(OracleError, match="against"):
+        contact_routes.agree("indentation", (0.3, 2.0, 0.1, 1.0), 20)
+
+
+# --- the check of kernels
+
+
+def rounded(a: float, R: float, h: float, b: float) -> float:
+    return float(contact_balls.indentation(a, R, h, b, 25))
+
+
+def test_a_rounded_truth_passes_and_a_wrong_one_does_not() -> None:
+    points = {"indentation": ((0.3, 2.0, 0.1, 1.0), (0.9, 2.0, 3.0, 1.0))}
+    (row,) = contact.check({"indentation": rounded}, points)
+    assert row.passed
+    assert row.points == 2
+    (row,) = contact.check({"indentation": lambda *p: rounded(*p) * (1 + 4e-15)}, points)
+    assert not row.passed
+    (row,) = contact.check({"indentation": lambda *p: math.nan * rounded(*p)}, points)
+    assert not row.passed
+    assert row.max_error == math.inf
+
+
+def test_check_refuses_what_it_does_not_know() -> None:
+    with pytest.raises(ValueError, match="kernels are called"):
+        contact.check({"depth": rounded})
+
+
+def test_grids_keep_inside_the_plate() -> None:
+    for a, _, h, b in contact.grid("indentation"):
+        assert 0 < a < b
+        assert h > 0

@@ -1,6 +1,5 @@
 """Formulas, forms and budgets -> rows: what each generated function is and how it reads."""
 
-import re
 import textwrap
 import tomllib
 from collections.abc import Mapping
@@ -11,7 +10,7 @@ import sympy as sp
 
 from derivation.emit.printer import to_numpy
 from derivation.formula.record import Formula
-from derivation.formula.symbols import ARGUMENTS, C1, C3, Argument
+from derivation.formula.symbols import ARGUMENTS, C1, C3, Argument, applicable
 from derivation.rewrite.form import Branch, Form, Seam, Step
 
 BUDGETS = Path(__file__).parents[1] / "budgets.toml"
@@ -190,22 +189,14 @@ def _wrap(text: str) -> tuple[str, ...]:
 
 def argument_text(argument: Argument, names: set[str]) -> ArgumentText:
     """An argument's line, with those of its conditions that apply."""
-    applicable = [c for c in argument.domain if _names_in(c) <= names]
-    return ArgumentText(argument.name, argument.unit, argument.meaning, ", ".join(applicable))
+    domain = ", ".join(applicable(argument.domain, names))
+    return ArgumentText(argument.name, argument.unit, argument.meaning, domain)
 
 
 def conditions(arguments: tuple[Argument, ...], extra: tuple[str, ...]) -> tuple[str, ...]:
     """Every condition on the arguments that names nothing but arguments."""
-    names = {x.name for x in arguments}
-    return tuple(
-        condition
-        for condition in (*(c for x in arguments for c in x.domain), *extra)
-        if _names_in(condition) <= names
-    )
-
-
-def _names_in(condition: str) -> set[str]:
-    return set(re.findall(r"[A-Za-z]\w*", condition)) - {"abs"}
+    own = (condition for x in arguments for condition in x.domain)
+    return applicable((*own, *extra), {x.name for x in arguments})
 
 
 def lines(steps: tuple[Step, ...]) -> tuple[Line, ...]:

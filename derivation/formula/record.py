@@ -1,6 +1,5 @@
 """The formula record: symbol, expression, unit, source and the proof it cannot exist without."""
 
-import re
 from dataclasses import dataclass
 
 import sympy as sp
@@ -8,7 +7,7 @@ import sympy as sp
 from derivation.formula.dimension import UNITS, DimensionError, dimension
 from derivation.formula.notation import to_latex
 from derivation.formula.proof import Proof
-from derivation.formula.symbols import UNKNOWNS, Argument, arguments_of
+from derivation.formula.symbols import UNKNOWNS, Argument, applicable, arguments_of
 
 
 @dataclass(frozen=True)
@@ -77,9 +76,7 @@ class Formula:
         """Every condition on the arguments, in Python's notation."""
         names = {argument.name for argument in self.arguments}
         own = [c for argument in self.arguments for c in argument.domain]
-        return tuple(
-            c for c in (*own, *self.where) if set(re.findall(r"[A-Za-z]\w*", c)) - {"abs"} <= names
-        )
+        return applicable((*own, *self.where), names)
 
     @property
     def right_hand_side(self) -> str:

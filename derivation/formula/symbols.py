@@ -1,5 +1,7 @@
 """The paper's symbols as SymPy symbols, each with its unit, its meaning and its domain."""
 
+import re
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import sympy as sp
@@ -135,6 +137,11 @@ ARGUMENTS = (
     ),
 )
 BY_NAME = {argument.name: argument for argument in ARGUMENTS}
+
+
+def applicable(conditions: Iterable[str], names: set[str]) -> tuple[str, ...]:
+    """The conditions that name nothing but the given arguments."""
+    return tuple(c for c in conditions if set(re.findall(r"[A-Za-z]\w*", c)) - {"abs"} <= names)
 
 
 def arguments_of(expression: sp.Expr) -> tuple[Argument, ...]:

@@ -69,7 +69,8 @@ def draw_history(figure: Figure, case: Model) -> None:
         ax.plot(1e3 * breaks, 1e3 * motion.linear(breaks), "kx", label="(17), (18) break")
         ax.set(title=f"sums cut off at {modes} modes", xlabel="time [ms]")
     axes[0].set_ylabel("indentation [mm]")
-    axes[0].legend(fontsize=7, loc="lower center")
+    handles, labels = axes[0].get_legend_handles_labels()
+    figure.legend(handles, labels, fontsize=7, loc="outside lower center", ncols=5)
 
 
 def draw_contact_time(figure: Figure, case: Model) -> None:

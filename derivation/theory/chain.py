@@ -87,14 +87,3 @@ def derive() -> dict[str, Formula]:
         Naming the step that does not hold.
     """
     return {formula.name: formula for _, formulas in links() for formula in formulas}
-
-
-def derive_motion() -> dict[str, Formula]:
-    """Every formula from the contact law to the motion by name, each proved.
-
-    Raises
-    ------
-    ProofError
-        Naming the step that does not hold.
-    """
-    return {formula.name: formula for _, formulas in motion_links() for formula in formulas}

@@ -70,7 +70,7 @@ def draw_history(figure: Figure, case: Model) -> None:
         ax.set(title=f"sums cut off at {modes} modes", xlabel="time [ms]")
     axes[0].set_ylabel("indentation [mm]")
     handles, labels = axes[0].get_legend_handles_labels()
-    figure.legend(handles, labels, fontsize=7, loc="outside lower center", ncols=5)
+    figure.legend(handles, labels, fontsize=7, loc="outside lower center", ncols=3)
 
 
 def draw_contact_time(figure: Figure, case: Model) -> None:

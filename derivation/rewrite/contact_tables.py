@@ -19,7 +19,7 @@ Every table is the interpolation polynomial of an exact function at Chebyshev no
 rewritten in powers and rounded once, at the end.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 from math import ceil
 
@@ -39,11 +39,17 @@ SHORT = 6
 MODES = 11
 """Modes that count for eta >= 1/REACH: w_n falls like e^(-4 eta j_n)."""
 CELLS = ((3, 4, 17), (4, 6, 18), (6, 11, 17))
-"""Ranges of 1/eta with the number of powers that hold the thin plate's remainder there."""
-FAR_THIN = 11.0
-"""From this 1/eta on the remainder is negligible up to A = FAR_REACH."""
-IMPACT_NODES = 24
-"""Gauss nodes of the integrals over the impact, enough for c1 A from -0.37 to 1e17."""
+"""Ranges of 1/eta with the number of powers that hold the thin plate's remainder there.
+
+Beyond the last the closed form is all there is, up to A = FAR_REACH.
+"""
+FAR_CELLS = ((3, 4, 17), (4, 6, 18), (6, 8, 17), (8, 11, 16))
+"""The same for F/A itself from A = REACH on."""
+IMPACT_NODES, INNER_NODES = 24, 12
+"""Gauss nodes of the integrals over the impact, enough for c1 A from -0.37 to 1e17.
+
+The latter are those from A = REACH on, where the nearest singularity is farther.
+"""
 _BITS = 512
 _STEP = 32
 _KAPPAS = 64
@@ -186,6 +192,25 @@ def modes(count: int) -> tuple[tuple[Ball, Ball], ...]:
         )
 
 
+def whole_over_radius(v: Ball, radii: Sequence[Ball]) -> list[Ball]:
+    """F/A by the sum over the modes.
+
+    Parameters
+    ----------
+    v
+        1/eta [1].
+    radii
+        A = a/h [1].
+    """
+    count = 5 * ceil(float(v)) + 8  # e^(-4 eta j) < 1e-26 beyond
+    weights = [(zero / v, w * plate_excess(2 * zero / v)) for zero, w in modes(count)]
+    found = []
+    for A in radii:
+        total = sum((weight * shape(A * phi) for phi, weight in weights), Ball(0))
+        found.append((edge_part(A / v) + 8 * total / (3 * Ball.pi())) / v)
+    return found
+
+
 def thin_remainder(v: Ball, radii: Sequence[Ball], thin: Sequence[Ball]) -> list[Ball]:
     """F/A - c1 - c3 A^2 - Phi/A: what the thin plate's closed form leaves out.
 
@@ -199,14 +224,10 @@ def thin_remainder(v: Ball, radii: Sequence[Ball], thin: Sequence[Ball]) -> list
     pi, log = Ball.pi(), v.log()
     constant, cubic = thin_constants()
     linear, cubic = v * v / (4 * pi) + constant + 4 * log / (5 * pi), cubic - log / (10 * pi)
-    count = 5 * ceil(float(v)) + 8  # e^(-4 eta j) < 1e-26 beyond
-    weights = [(zero / v, w * plate_excess(2 * zero / v)) for zero, w in modes(count)]
-    found = []
-    for A, known in zip(radii, thin, strict=True):
-        total = sum((weight * shape(A * phi) for phi, weight in weights), Ball(0))
-        whole = (edge_part(A / v) + 8 * total / (3 * pi)) / v
-        found.append(whole - linear - cubic * A * A - known)
-    return found
+    return [
+        whole - linear - cubic * A * A - known
+        for A, known, whole in zip(radii, thin, whole_over_radius(v, radii), strict=True)
+    ]
 
 
 def chebyshev_nodes(count: int) -> list[Ball]:
@@ -272,6 +293,8 @@ def tables() -> dict[str, Rows]:
     cell_0, ...
         The thin plate's remainder over A: for each power of tau (1/eta, scaled to [-1, 1])
         a row in powers of (A/3)^2.
+    far_0, ...
+        F/A itself beyond A = 3: likewise, in powers of t, A^2 running over [-1, 1].
     short
         Row j: what x^(2k), k = SHORT_TERMS, ..., adds to the coefficient of x^(2j) of
         the short polynomial, 0 <= x <= 1/SHORT.
@@ -287,13 +310,17 @@ def tables() -> dict[str, Rows]:
             ),
         }
         cells = {f"cell_{index}": _cell(*cell) for index, cell in enumerate(CELLS)}
-        return found | cells
+        return found | cells | {f"far_{i}": _far_cell(*cell) for i, cell in enumerate(FAR_CELLS)}
+
+
+def _far_radii(top: Ball) -> list[Ball]:
+    """A whose squares are Chebyshev nodes between REACH^2 and top^2."""
+    low, high = REACH**2, top * top
+    return [((low + high + (high - low) * t) / 2).sqrt() for t in chebyshev_nodes(FAR_TERMS)]
 
 
 def _far_thin() -> list[Ball]:
-    low, high = REACH**2, FAR_REACH**2
-    squares = [(low + high + (high - low) * t) / 2 for t in chebyshev_nodes(FAR_TERMS)]
-    return in_powers([thin_part(square.sqrt()) for square in squares])
+    return in_powers([thin_part(A) for A in _far_radii(Ball(FAR_REACH))])
 
 
 def _mode(zero: Ball) -> list[Ball]:
@@ -309,19 +336,45 @@ def _shortened(power: int) -> list[Ball]:
 
 def _cell(first: int, last: int, count: int) -> Rows:
     """The thin plate's remainder for first <= 1/eta <= last."""
-    middle, half = Ball(first + last) / 2, Ball(last - first) / 2
     radii = [REACH * x for x in _roots(TERMS)]
     thin = [thin_part(A) for A in radii]
-    rows = [
-        in_powers(thin_remainder(middle + half * t, radii, thin), UNIT)
-        for t in chebyshev_nodes(count)
-    ]
+    return _in_thickness(
+        [in_powers(thin_remainder(v, radii, thin), UNIT) for v in _cell_nodes(first, last, count)]
+    )
+
+
+def _far_cell(first: int, last: int, count: int) -> Rows:
+    """F/A beyond REACH, up to A = FAR_REACH or alpha = 1, for first <= 1/eta <= last."""
+    return _in_thickness(
+        [
+            in_powers(whole_over_radius(v, _far_radii(v.min(Ball(FAR_REACH)))))
+            for v in _cell_nodes(first, last, count)
+        ]
+    )
+
+
+def _cell_nodes(first: int, last: int, count: int) -> list[Ball]:
+    middle, half = Ball(first + last) / 2, Ball(last - first) / 2
+    return [middle + half * t for t in chebyshev_nodes(count)]
+
+
+def _in_thickness(rows: Sequence[Sequence[Ball]]) -> Rows:
+    """Rows at the nodes of a cell as powers of tau, rounded."""
     powers = [in_powers(column) for column in zip(*rows, strict=True)]
     return tuple(_round(row) for row in zip(*powers, strict=True))
 
 
 def _text(rows: Rows) -> tuple[tuple[str, ...], ...]:
     return tuple(wrapped(map(repr, row)) for row in rows)
+
+
+def _cell_text(
+    found: Mapping[str, Rows], name: str, cells: Sequence[tuple[int, int, int]]
+) -> list[dict[str, object]]:
+    return [
+        {"first": str(first), "last": str(last), "rows": _text(found[f"{name}_{index}"])}
+        for index, (first, last, _) in enumerate(cells)
+    ]
 
 
 def contact_context() -> dict[str, object]:
@@ -335,10 +388,8 @@ def contact_context() -> dict[str, object]:
         "edge": _text(found["edge"])[0],
         "mode_rows": _text(found["modes"]),
         "short_rows": _text(found["short"]),
-        "cells": [
-            {"first": str(first), "last": str(last), "rows": _text(found[f"cell_{index}"])}
-            for index, (first, last, _) in enumerate(CELLS)
-        ],
+        "cells": _cell_text(found, "cell", CELLS),
+        "far_cells": _cell_text(found, "far", FAR_CELLS),
         "thin_constant": repr(constant),
         "thin_cubic": repr(cubic),
         "reach": str(REACH),
@@ -348,7 +399,6 @@ def contact_context() -> dict[str, object]:
         "short_terms": str(SHORT_TERMS),
         "far_terms": str(FAR_TERMS),
         "modes": str(MODES),
-        "far_thin_from": repr(FAR_THIN),
     }
 
 
@@ -361,5 +411,7 @@ def gauss_legendre(count: int) -> tuple[tuple[float, ...], tuple[float, ...]]:
 
 def impact_context() -> dict[str, object]:
     """What the template of the generated impact needs: the nodes of its quadratures."""
-    nodes, weights = gauss_legendre(IMPACT_NODES)
-    return {"nodes": wrapped(map(repr, nodes)), "weights": wrapped(map(repr, weights))}
+    outer, inner = (gauss_legendre(count) for count in (IMPACT_NODES, INNER_NODES))
+    names = ("nodes", "weights", "inner_nodes", "inner_weights")
+    rules = (*outer, *inner)
+    return {name: wrapped(map(repr, rule)) for name, rule in zip(names, rules, strict=True)}

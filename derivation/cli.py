@@ -96,6 +96,9 @@ def check(
     contact: Annotated[
         bool, typer.Option("--contact", help="Measure contact law and impact instead: minutes.")
     ] = False,
+    speed: Annotated[
+        bool, typer.Option("--speed", help="Measure speed instead, on this machine.")
+    ] = False,
     json: Json = None,
 ) -> None:
     """Measure every generated function against both oracles.
@@ -105,8 +108,12 @@ def check(
     from derivation import pipeline
     from derivation.measure.record import COLUMNS, as_data, cells, passed, worst
 
+    if contact and speed:
+        raise ValueError("expected --contact or --speed, got both: run them one after the other")
     if contact:
         raise typer.Exit(_check_contact(record, json))
+    if speed:
+        raise typer.Exit(_check_speed(record, json))
     with counted("check") as tell:
         rows = pipeline.check(digits, record, tell)
     if json != "-":
@@ -130,6 +137,21 @@ def _check_contact(record: bool, json: str | None) -> int:
     if json:
         put_json(pipeline.contact_data(rows), json)
     return 0 if all(r.passed for r in rows) else 1
+
+
+def _check_speed(record: bool, json: str | None) -> int:
+    """Measure times; returns the exit status."""
+    from derivation import pipeline
+    from derivation.measure.speed import as_data
+
+    with counted("check") as tell:
+        timings = pipeline.check_speed(record, tell)
+    if json != "-":
+        cells = [(t.name, f"{t.value:.3g} {t.unit}", f"{t.limit:g}", t.kept) for t in timings]
+        table("Speed", ("what", "#measured", "#promise", "kept"), cells)
+    if json:
+        put_json(as_data(timings), json)
+    return 0 if all(t.kept for t in timings) else 1
 
 
 @app.command()

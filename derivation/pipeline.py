@@ -19,6 +19,7 @@ from derivation.derived import chain, misprints
 from derivation.emit.freshness import Freshness, compare
 from derivation.emit.render import CITATION
 from derivation.files import PACKAGE, ROOT, write_file
+from derivation.measure import speed
 from derivation.measure.check import Progress, Row
 from derivation.measure.check import check as measure
 from derivation.measure.contact import DIGITS
@@ -36,6 +37,8 @@ from generated import contact_law, impact
 REPORTS = ROOT / "reports"
 MEASURED = REPORTS / "data" / "check.json"
 MEASURED_CONTACT = REPORTS / "data" / "contact.json"
+MEASURED_SPEED = REPORTS / "data" / "speed.json"
+EXAMPLE = PACKAGE / "scene" / "examples" / "paper.toml"
 
 
 def check(digits: int = 50, record: bool = False, tell: Progress | None = None) -> tuple[Row, ...]:
@@ -78,6 +81,16 @@ def contact_data(rows: tuple[ContactRow, ...]) -> dict[str, Any]:
     return {"provenance": provenance(DIGITS), "rows": [asdict(row) for row in rows]}
 
 
+def check_speed(record: bool = False, tell: Progress | None = None) -> list[speed.Timing]:
+    """Measure the speed of contact law, impact and cold start on this machine."""
+    timings = speed.measure(EXAMPLE, tell)
+    if record:
+        folder_for(None, REPORTS)
+        text = json.dumps(speed.as_data(timings), indent=1, sort_keys=True) + "\n"
+        write_file(MEASURED_SPEED, text)
+    return timings
+
+
 def verdict(rows: tuple[Row, ...]) -> list[str]:
     """What a fresh measurement says, and whether it repeats the committed one."""
     failed = [row.kernel for row in rows if row.passed is False]
@@ -99,19 +112,22 @@ def report_files() -> dict[str, str]:
     FileNotFoundError
         If there are no committed measurements.
     """
-    for path in (MEASURED, MEASURED_CONTACT):
+    for path in (MEASURED, MEASURED_CONTACT, MEASURED_SPEED):
         if not path.is_file():
             raise FileNotFoundError(f"no measurements in {path}: run `platecontact check --record`")
     measured = json.loads(MEASURED.read_text())
     contact = json.loads(MEASURED_CONTACT.read_text())
+    timed = json.loads(MEASURED_SPEED.read_text())
     motion = motion_context(paper_case())
-    text = tex(chain(), misprints(), measured, contact, motion, version("platecontact"), CITATION)
+    text = tex(
+        chain(), misprints(), measured, contact, timed, motion, version("platecontact"), CITATION
+    )
     return {"report.tex": text}
 
 
 def paper_case() -> Model:
     """The paper's example, as the example scene states it."""
-    return model_of(load(PACKAGE / "scene" / "examples" / "paper.toml"))
+    return model_of(load(EXAMPLE))
 
 
 def report(out: Path | None = None, pdf: bool = True) -> tuple[Path, ...]:

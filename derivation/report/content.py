@@ -44,6 +44,7 @@ def tex(
     findings: Sequence[Finding],
     check: Mapping[str, Any],
     contact: Mapping[str, Any],
+    timed: Mapping[str, Any],
     motion: Mapping[str, Any],
     version: str,
     citation: str,
@@ -65,6 +66,8 @@ def tex(
             motion=motion,
             contact_rows=[contact_row(row) for row in contact["rows"]],
             contact_digits=contact["provenance"]["digits"],
+            timings=timed["rows"],
+            machine=sorted(timed["machine"].items()),
         )
     )
 

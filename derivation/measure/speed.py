@@ -1,0 +1,167 @@
+"""How fast the contact law, the impact and a cold start are: times side by side, as ratios.
+
+Candidates take turns in one process, so that whatever else the machine does
+meets all of them; of each the lower quartile counts, and the spread up to the
+upper quartile is kept as a sign of contention.
+"""
+
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from generated.contact_law import force_of_radius, indentation
+from generated.impact import impact
+
+POINTS = 1_000_000
+SCENES = 100_000
+ROUNDS = 25
+COLD_ROUNDS = 9
+LIBRARIES = "import numpy, scipy.special, pydantic, typer, rich"
+ETA = 0.1
+"""h/b of the paper's plate."""
+
+
+@dataclass(frozen=True)
+class Timing:
+    """One comparison.
+
+    Parameters
+    ----------
+    name
+        What was timed.
+    value, unit
+        The result: a ratio of times, or a rate.
+    limit
+        What is promised of it: at most for a ratio, at least for a rate.
+    spread
+        Largest upper over lower quartile among the times it rests on.
+    kept
+        Whether the promise is kept.
+    """
+
+    name: str
+    value: float
+    unit: str
+    limit: float
+    spread: float
+    kept: bool
+
+
+def interleaved(
+    candidates: Sequence[Callable[[], object]], rounds: int
+) -> tuple[list[float], float]:
+    """Lower quartile of each candidate's times [s], and the largest spread."""
+    times = np.empty((rounds, len(candidates)))
+    for row in times:
+        for index, candidate in enumerate(candidates):
+            begin = time.perf_counter()
+            candidate()
+            row[index] = time.perf_counter() - begin
+    low, high = np.quantile(times, (0.25, 0.75), axis=0)
+    return low.tolist(), float((high / low).max())
+
+
+def ratio(name: str, one: Callable[[], object], base: Callable[[], object], limit: float,
+          rounds: int = ROUNDS) -> Timing:  # fmt: skip
+    """How many times as long as the base one takes."""
+    (mine, other), spread = interleaved((one, base), rounds)
+    return Timing(name, mine / other, "times", limit, spread, mine / other <= limit)
+
+
+def law_over_exp(top: float, limit: float) -> Timing:
+    """The contact law of one plate over numpy.exp of the same array, a/h uniform up to `top`."""
+    a = np.random.default_rng(1).uniform(1e-3, top, POINTS)
+    name = f"contact law over numpy.exp, {POINTS:.0e} points, h/b = {ETA}, a/h up to {top}"
+    return ratio(name, lambda: indentation(a, 100.0, 1.0, 1 / ETA), lambda: np.exp(a), limit)
+
+
+def scenes(low: float, high: float, count: int = SCENES) -> dict[str, Any]:
+    """Arguments of `impact` for different spheres, plates and speeds, a_m/h about low to high."""
+    random = np.random.default_rng(2)
+    eta, h = 10 ** random.uniform(-3.0, -0.8, count), 10 ** random.uniform(-3.0, 0.0, count)
+    b = h / eta
+    R, a = b * random.uniform(2.0, 50.0, count), h * random.uniform(low, high, count)
+    a = np.minimum(a, 0.9 * b)
+    lam, mu = 10 ** random.uniform(8.0, 11.0, count), 10 ** random.uniform(8.0, 11.0, count)
+    work = 0.7 * force_of_radius(a, R, lam, mu) * indentation(a, R, h, b)
+    m = 10 ** random.uniform(-3.0, 3.0, count)
+    return {"R": R, "m": m, "v0": np.sqrt(work / m), "h": h, "b": b, "lam": lam, "mu": mu}
+
+
+def impact_rate(low: float, high: float, limit: float) -> Timing:
+    """Impacts per second in one batch of different scenes."""
+    arguments = scenes(low, high)
+    (duration,), spread = interleaved((lambda: impact(**arguments),), 5)
+    rate = SCENES / duration
+    name = f"impacts in a batch of {SCENES:.0e} scenes, a_m/h from {low} to {high}"
+    return Timing(name, rate, "1/s", limit, spread, rate >= limit)
+
+
+def cold_start(scene: Path, limit: float) -> Timing:
+    """`platecontact simulate` over the imports of the libraries it builds on, as processes."""
+    command = "from derivation.cli import main; main()"
+
+    def run(code: str, *arguments: str) -> Callable[[], object]:
+        return lambda: subprocess.run(
+            [sys.executable, "-c", code, *arguments], check=True, capture_output=True
+        )
+
+    if find_spec("scipy") is None:
+        raise ValueError("the cold start is compared with imports that need SciPy: install scipy")
+    simulate = run(command, "simulate", str(scene), "--json", "-")
+    return ratio("platecontact simulate, cold, over its libraries' imports", simulate,
+                 run(LIBRARIES), limit, COLD_ROUNDS)  # fmt: skip
+
+
+def measure(scene: Path, tell: Callable[[str, int, int], None] | None = None) -> list[Timing]:
+    """Every comparison, one after the other.
+
+    Parameters
+    ----------
+    scene
+        The scene file of the cold start.
+    tell
+        Called before each with its name, number and how many there are.
+    """
+    planned: tuple[tuple[str, Callable[[], Timing]], ...] = (
+        ("small contacts", lambda: law_over_exp(0.3, 6.0)),
+        ("contacts up to 3 h", lambda: law_over_exp(3.0, 15.0)),
+        ("impacts", lambda: impact_rate(0.01, 2.9, 5e4)),
+        ("deep impacts", lambda: impact_rate(0.01, 5.9, 5e4)),
+        ("cold start", lambda: cold_start(scene, 2.0)),
+    )
+    found = []
+    for number, (name, timing) in enumerate(planned, start=1):
+        if tell is not None:
+            tell(name, number, len(planned))
+        found.append(timing())
+    return found
+
+
+def as_data(timings: Sequence[Timing]) -> dict[str, Any]:
+    """The timings as plain data, with the machine and its load."""
+    return {"machine": dict(machine()), "rows": [asdict(timing) for timing in timings]}
+
+
+def machine() -> Mapping[str, str]:
+    """What the times were taken on: the processor, and what NumPy uses of it for exp."""
+    info = Path("/proc/cpuinfo")
+    lines = info.read_text().splitlines() if info.is_file() else []
+    model = next((line.partition(":")[2].strip() for line in lines if "model name" in line), "")
+    targets = np.lib.introspect.opt_func_info(func_name="^exp$", signature="float64")
+    used = ", ".join(kind["current"] for of in targets.values() for kind in of.values())
+    return {
+        "processor": model or "unknown",
+        "cores": str(os.cpu_count()),
+        "load": f"{os.getloadavg()[0]:.1f}",
+        "numpy.exp": used,
+        "numpy": np.__version__,
+    }

@@ -19,6 +19,11 @@ PINNED = ("sympy", "python-flint", "mpmath", "jinja2", "ruff")
 """Libraries whose version may change a cached result."""
 
 
+def measurements() -> Path:
+    """Folder of the committed measurements, of which an installed copy has its own."""
+    return ROOT / "reports" / "data" if in_checkout() else PACKAGE / "data"
+
+
 def in_checkout() -> bool:
     """Whether the package runs from a checkout, which it may write into."""
     return (ROOT / "pyproject.toml").is_file()

@@ -18,7 +18,7 @@ from typing import Any
 from derivation.derived import chain, misprints
 from derivation.emit.freshness import Freshness, compare
 from derivation.emit.render import CITATION
-from derivation.files import PACKAGE, ROOT, write_file
+from derivation.files import PACKAGE, ROOT, measurements, write_file
 from derivation.measure import speed
 from derivation.measure.check import Progress, Row
 from derivation.measure.check import check as measure
@@ -35,9 +35,9 @@ from derivation.scene.scene import load
 from generated import contact_law, impact
 
 REPORTS = ROOT / "reports"
-MEASURED = REPORTS / "data" / "check.json"
-MEASURED_CONTACT = REPORTS / "data" / "contact.json"
-MEASURED_SPEED = REPORTS / "data" / "speed.json"
+MEASURED = measurements() / "check.json"
+MEASURED_CONTACT = measurements() / "contact.json"
+MEASURED_SPEED = measurements() / "speed.json"
 EXAMPLE = PACKAGE / "scene" / "examples" / "paper.toml"
 
 

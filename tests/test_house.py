@@ -3,6 +3,7 @@
 import ast
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -28,6 +29,7 @@ def test_module_says_what_it_is_and_is_not_long(path: Path) -> None:
 def test_the_door_is_light() -> None:
     program = """
 import sys
+import tomllib
 import derivation, derivation.cli
 heavy = {"sympy", "numpy", "flint", "mpmath", "jinja2"} & set(sys.modules)
 assert not heavy, heavy
@@ -36,3 +38,14 @@ assert not heavy, heavy
         [sys.executable, "-c", program], capture_output=True, text=True, check=False
     )
     assert done.returncode == 0, done.stderr
+
+
+def test_every_package_is_installed() -> None:
+    with (ROOT / "pyproject.toml").open("rb") as stream:
+        listed = set(tomllib.load(stream)["tool"]["setuptools"]["packages"])
+    found = {
+        ".".join(path.parent.relative_to(ROOT).parts)
+        for room in ("derivation", "generated")
+        for path in (ROOT / room).rglob("__init__.py")
+    }
+    assert listed == found | {"derivation.data"}

@@ -1,4 +1,4 @@
-"""Link 15: what the thin plate's law leaves out, as residues at the roots T_n of sinh T = +-T.
+"""Link 14, made exact: what the thin plate's law leaves out, as residues at the roots T_n of sinh T = +-T.
 
 In the contour integral behind the sum over the zeros of J0 (`contact_split`) the modes'
 share f(z) = q(z) (G(2 eta z) - 1), q even and entire, has poles at z_n = T_n/(2 eta). They add
@@ -14,8 +14,8 @@ This holds for every h/b, thick plates included, and for a < 2b, where |q| <= e^
 (the law itself has meaning for a < b). Closing the contour: on the lines Im T = pi n - pi/4
 |sinh T -+ T| > cosh(Re T)/4, and 2 G = (cosh T - 1)/(sinh T + T) + (cosh T + 1)/(sinh T - T), so
 |G| < 8; with |H/J0| <= 3 e^(-2 Im z) the lines' share vanishes as n grows, and so does
-that of a vertical line far to the right, where G - 1 dies like T^2 e^(-2T). The sum converges
-like exp(-pi n (2 - alpha)/(2 eta)): a term of the law is of the order exp(-Im T_n/eta).
+that of a vertical line far to the right, where G - 1 dies like T^2 e^(-2T). A term of a
+coefficient is of the order exp(-Im T_n/eta), one of the law exp(-Im T_n (2 - alpha)/(2 eta)).
 """
 
 from collections.abc import Callable, Mapping

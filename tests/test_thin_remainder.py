@@ -165,6 +165,34 @@ def wave(T: mp.mpc, ratio: mp.mpf) -> mp.mpc:
     return mp.hankel1(0, z) / mp.besselj(0, z)
 
 
+def check_bounds(
+    weight: Callable[[flint.acb], flint.acb],
+    first: Callable[[int], flint.arb],
+    quotient: Callable[[int], flint.arb],
+    ratio: flint.arb,
+) -> flint.arb:
+    """In place of the sum over the roots: its terms against what is said to bound them."""
+    for n in range(1, 40):
+        if not n * flint.arb.pi() > 8 * ratio:
+            continue
+        at = thin_roots.root(n, 1000)
+        with flint.ctx.workprec(1000):  # K0 cancels where its argument is neither small nor large
+            assert abs(weight(at) * thin_remainder.root_share(at, ratio)) < first(n)
+        assert abs(at) < thin_roots.SIZE_OVER_INDEX * n
+        for later in (n, n + 1, n + 9):
+            assert first(later + 1) < first(later) * quotient(n) * (1 + flint.arb("1e-20"))
+    return flint.arb(1)
+
+
+def test_tails_are_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(thin_remainder, "_sum_over_roots", check_bounds)
+    for ratio in ("0.05", "0.9", "3"):
+        for k in (2, 3, 5):
+            thin_remainder.coefficient_remainder_ball(k, Fraction(ratio))
+    for radius, ratio in POINTS:
+        thin_remainder.law_remainder_ball(Fraction(radius), Fraction(ratio))
+
+
 # --- the recorded expressions
 
 

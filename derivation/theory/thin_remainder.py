@@ -1,4 +1,4 @@
-"""Link 14, made exact: what the thin plate's law leaves out, as residues at the roots T_n of sinh T = +-T.
+"""Link 14, made exact: what the thin plate's law leaves out, residues at T_n, sinh T = +-T.
 
 In the contour integral behind the sum over the zeros of J0 (`contact_split`) the modes'
 share f(z) = q(z) (G(2 eta z) - 1), q even and entire, has poles at z_n = T_n/(2 eta). They add

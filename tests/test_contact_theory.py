@@ -279,12 +279,6 @@ def test_bending_is_kirchhoffs(motion: Mapping[str, Formula]) -> None:
     assert leading == sp.Rational(4, 3) / (8 * sp.pi * stiffness)
 
 
-def test_nearest_root() -> None:
-    root = mp.findroot(lambda T: mp.sinh(T) + T, mp.mpc(2.2, 4.2))
-    assert abs(complex(thin_plate.nearest_root()) - complex(root)) < 1e-13
-    assert "4.2124" in thin_plate.remainder()
-
-
 def test_formal_inversion_in_numbers(motion: Mapping[str, Formula]) -> None:
     """P from delta(P), P small, by the xi_k: the error is of the order left out."""
     texts = {2: "0.7", 3: "-0.3", 4: "0.2", 5: "-1", 6: "2"}

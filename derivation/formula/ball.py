@@ -67,6 +67,8 @@ def _node(node: sp.Basic, visit: Callable[[sp.Basic], flint.arb]) -> flint.arb:
         return flint.arb.pi()
     if node is sp.E:
         return flint.arb.const_e()
+    if node is sp.EulerGamma:
+        return flint.arb.const_euler()
     if isinstance(node, sp.Add):
         return sum((visit(term) for term in node.args), flint.arb(0))
     if isinstance(node, sp.Mul):

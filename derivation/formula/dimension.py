@@ -100,6 +100,9 @@ def dimension(expression: sp.Basic, known: Mapping[sp.Basic, Dimension]) -> Dime
         for variable, count in expression.variable_count:
             result = result / dimension(variable, known) ** int(count)
         return result
+    if isinstance(expression, sp.Sum):
+        indices = dict.fromkeys(expression.variables, ONE)
+        return dimension(expression.function, {**known, **indices})
     if isinstance(expression, sp.Integral):
         # A variable of integration that is no symbol of the paper is a pure number.
         variables = {v: known.get(v, ONE) for v in expression.variables}

@@ -62,6 +62,19 @@ gamma_k = {k: sp.Symbol(f"gamma_{k}", positive=k == 2, real=True) for k in range
 """gamma_k, coefficient of P^((2k-1)/3) in the indentation, by k."""
 xi_k = {k: sp.Symbol(f"xi_{k}", positive=k == 2, real=True) for k in range(2, 7)}
 """xi_k, coefficient of delta^((2k-1)/3) in the contact force, by k."""
+
+
+class PlateRoot(sp.Function):
+    """T_n, the n-th root of sinh T = +-T in the first quadrant, by height."""
+
+    nargs = 1
+    is_complex = True
+
+    def _latex(self, printer: sp.printing.printer.Printer, exp: str | None = None) -> str:
+        power = "" if exp is None else f"^{{{exp}}}"
+        return f"T_{{{printer.doprint(self.args[0])}}}{power}"
+
+
 f = sp.Function("f_j", real=True)(z)
 g = sp.Function("g_j", real=True)(z)
 UNKNOWNS = {f: "m", g: "m^2"}

@@ -1,12 +1,20 @@
 """Formulas, findings and committed measurements -> the text of the LaTeX report."""
 
 from collections.abc import Iterator, Mapping, Sequence
+from fractions import Fraction
 from typing import Any
 
+from derivation.formula.ball import enclose, to_ball
 from derivation.formula.record import Formula
+from derivation.formula.symbols import M, eta
 from derivation.paper.misprints import Finding
+from derivation.reference.contact_balls import finite_part
 from derivation.report.latex import environment, equation, escape
+from derivation.theory.thin_remainder import coefficient_remainder_ball
+from derivation.theory.thin_roots import root
 
+ROOT_DIGITS = 12
+"""Digits certified of what the roots add, more than are shown."""
 SUM = r"\sum_{j=1}^{\infty} "
 ABOUT = {
     "equilibrium": "One mode of the plate is u = g(z) phi J1(phi r), w = f(z) J0(phi r). Put into "
@@ -32,7 +40,8 @@ ABOUT = {
     "plate series": "For small contacts the two convergent parts are expanded in powers of the "
     "contact radius; the coefficients depend on h/b alone.",
     "thin plate": "For thin plates the sums become integrals over T, with finite parts M_k and a "
-    "logarithm.",
+    "logarithm. What they leave out is a sum of residues at T_n, the roots of sinh T = T and "
+    "sinh T = -T in the first quadrant, by height. With it the law is exact for every h/b.",
     "reversion": "Lagrange's inversion, of the paper's series and of the right one.",
     "impact": "The energy integral, the contact time as an integral of an analytic function, and "
     "the paper's linearisation.",
@@ -58,6 +67,7 @@ def tex(
             version=version,
             citation=citation,
             links=[link_context(name, formulas) for name, formulas in links],
+            roots=roots_context({f.name: f for _, found in links for f in found}),
             findings=[finding_context(finding) for finding in findings],
             counts={"all": len(findings), "equal": len(findings) - wrong},
             tables=list(accuracy_tables(check)),
@@ -89,6 +99,28 @@ def link_context(name: str, formulas: Sequence[Formula]) -> dict[str, Any]:
             for proof in proofs.values()
         ],
     }
+
+
+def roots_context(formulas: Mapping[str, Formula]) -> dict[str, Any]:
+    """The first roots, and what they add to the closed form of c_1, computed in balls."""
+    closed, M_2 = formulas["c_1_thin"].expression, finite_part(2, ROOT_DIGITS)
+    rows = []
+    for ratio in ("1/20", "1/10", "1/5", "1/3", "1/2", "1"):
+        value = enclose(closed, {eta: to_ball(Fraction(ratio)), M[2]: M_2})
+        share = coefficient_remainder_ball(2, Fraction(ratio), ROOT_DIGITS)
+        texts = (value.str(6, radius=False), (value + share).str(6, radius=False))
+        rows.append(f"${ratio}$ & ${texts[0]}$ & {number(float(share))} & ${texts[1]}$")
+    return {
+        "first": [root_text(n) for n in (1, 2)],
+        "height": root(1).imag.str(5, radius=False),
+        "rows": rows,
+    }
+
+
+def root_text(n: int) -> str:
+    """T_n to a few digits."""
+    T = root(n)
+    return rf"{T.real.str(6, radius=False)} + {T.imag.str(6, radius=False)}\,\mathrm{{i}}"
 
 
 def formula_context(formula: Formula) -> dict[str, Any]:

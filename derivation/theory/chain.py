@@ -16,7 +16,7 @@ and from the contact law to the motion:
 11 divergence       phi^3 K_j -> 4/(R b): the paper's gamma_k diverge
 12 contact split    delta = a^2/R + side wall + thickness
 13 plate series     small contacts: c_1, c_3, ..., gamma_k without their divergent part
-14 thin plate       the same for h/b -> 0
+14 thin plate       the same for h/b -> 0, and a sum over roots that makes it exact
 15 reversion        the force by the indentation: xi_k (10), p_n
 16 impact           energy integral (13), contact time, linearisation (15) to (18)
 """
@@ -40,6 +40,7 @@ from derivation.theory.plate_series import series_formulas
 from derivation.theory.reversion import reversion
 from derivation.theory.stresses import modal_stresses
 from derivation.theory.thin_plate import thin_plate
+from derivation.theory.thin_remainder import thin_remainder
 
 Link = tuple[str, Callable[[], tuple[Formula, ...]]]
 
@@ -59,7 +60,7 @@ MOTION_LINKS: tuple[Link, ...] = (
     ("divergence", divergence),
     ("contact split", lambda: (*contact_split(), *reduced_split())),
     ("plate series", series_formulas),
-    ("thin plate", thin_plate),
+    ("thin plate", lambda: (*thin_plate(), *thin_remainder())),
     ("reversion", reversion),
     ("impact", impact),
 )

@@ -11,7 +11,8 @@ Z(s) = sum j_n^(-s)/(j_n J1(j_n)^2). Shifted to the left, its path meets
 Where two of them coincide, a double pole leaves a logarithm of eta. Z follows from
 the sum identity with f = x^(-s): Z(s) = -cos(pi s/2)/pi int y^(-s) K0/I0 dy, so it
 vanishes at -1, -3, ..., and the expansion of K0/I0 at 0 gives Z at 1 and 3. All
-other terms end after finitely many; what remains is exponentially small (`remainder`).
+other terms end after finitely many; what remains is exponentially small, and the next
+link (`thin_remainder`) finds it, as a sum that makes these coefficients exact.
 """
 
 from dataclasses import dataclass
@@ -179,7 +180,7 @@ def thin_coefficient(k: int) -> Formula:
     )
     return Formula(
         f"c_{order}_thin",
-        rf"c_{{{order}}}",
+        rf"c_{{{order}}}^{{\mathrm{{thin}}}}",
         f"coefficient of (a/h)^{order} in delta R/a^2, thin plate",
         _collected(total, k),
         "1",
@@ -242,10 +243,10 @@ def finite_part_ball(k: int, digits: int = 30) -> flint.arb:
         bits = int(digits * LOG2_10) + 32
         end = flint.arb(max(bits, 4 * k))
         inner = flint.acb.integral(
-            lambda x, _: x ** (2 * k - 4) * _regular_part(x), flint.acb(0), flint.acb(1)
+            lambda x, _: x ** (2 * k - 4) * regular_part(x), flint.acb(0), flint.acb(1)
         )
         outer = flint.acb.integral(
-            lambda x, _: x ** (2 * k - 4) * _excess(x), flint.acb(1), flint.acb(end)
+            lambda x, _: x ** (2 * k - 4) * excess(x), flint.acb(1), flint.acb(end)
         )
         # For T >= 2, sinh^2 T - T^2 >= e^(2T)/8 and 1/2 + T + T^2 <= 2 T^2; with
         # T >= 4 k the integrand's logarithm falls at least by 1 per unit of T.
@@ -267,11 +268,12 @@ def excess_for_large() -> Proof:
     )
 
 
-def _excess(x: flint.acb) -> flint.acb:
+def excess(x: flint.acb) -> flint.acb:
+    """G - 1 by `excess_for_large`."""
     return ((1 - (-2 * x).exp()) / 2 + x + x * x) / (x.sinh() ** 2 - x * x)
 
 
-def _regular_part(x: flint.acb) -> flint.acb:
+def regular_part(x: flint.acb) -> flint.acb:
     """G - 6/T^3 - (6/5)/T as a quotient of power series with bounded tails.
 
     Its numerator's coefficients are n_i - 6 d_i - (6/5) d_(i-1), T^(2i+1); those
@@ -301,33 +303,6 @@ def _ball_parts(value: sp.Rational) -> tuple[int, int]:
 
 def _ball(value: sp.Rational) -> flint.arb:
     return flint.arb(flint.fmpq(*_ball_parts(value)))
-
-
-@cache
-def nearest_root(bits: int = 128) -> flint.acb:
-    """Root of sinh T = -T nearest to the real axis; those of sinh T = T are farther.
-
-    Newton's iteration, then a ball that it maps into itself, so the root is there.
-    """
-    with flint.ctx.workprec(bits + 32):
-        x = flint.acb(2, 4)
-        for _ in range(bits.bit_length() + 4):
-            x = (x - (x.sinh() + x) / (x.cosh() + 1)).mid()
-        radius = flint.arb(0, flint.arb(2) ** (-bits))
-        ball = x + flint.acb(radius, radius)
-        image = x - (x.sinh() + x) / (ball.cosh() + 1)
-        if not ball.contains(image):
-            raise ArithmeticError(f"no root of sinh T = -T is shown near {x}")
-        return image
-
-
-def remainder() -> str:
-    """What the thin plate's coefficients leave out, in a sentence built from the nearest root."""
-    height = float(nearest_root().imag)
-    return (
-        "what is left out is a sum of residues at the roots of sinh T = +-T, the largest "
-        f"of the order exp(-{height:.4f} b/h)"
-    )
 
 
 def thin_plate() -> tuple[Formula, ...]:

@@ -1,5 +1,6 @@
 """Formulas, findings and committed measurements -> the text of the LaTeX report."""
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
@@ -138,8 +139,7 @@ def formula_context(formula: Formula) -> dict[str, Any]:
 
 def unit(text: str) -> str:
     """A unit as LaTeX: m^2 raised."""
-    base, _, power = text.partition("^")
-    return f"{base}$^{{{power.strip('()')}}}$" if power else base
+    return re.sub(r"\^(?:\(([^)]*)\)|(\d+))", lambda m: f"$^{{{m[1] or m[2]}}}$", text)
 
 
 def finding_context(finding: Finding) -> dict[str, Any]:

@@ -12,6 +12,7 @@ import sympy as sp
 from flint import arb
 
 import generated
+import generated.moments
 from derivation.formula.proof import ProofError
 from derivation.formula.ulp import ulp_error
 from derivation.reference import contact_balls
@@ -181,6 +182,38 @@ def test_bound_of_the_quotient_holds_everywhere(y: float) -> None:
         assert y < 50 or bound < 30 * abs(exact - series)
 
 
+def test_bound_of_the_quotient_with_one_term() -> None:
+    """By hand: (1 + 1/(2y)) (3 a_1/y + e^-y (4/5 (1 + y) + 3/2)), a_1 = 1/8."""
+    plain, fading = theory.quotient_bound(1)
+    assert plain == {-1: Fraction(3, 8), -2: Fraction(3, 16)}
+    assert fading == {1: Fraction(4, 5), 0: Fraction(27, 10), -1: Fraction(23, 20)}
+
+
+@pytest.mark.parametrize("y", [1e-6, 0.01, 0.4, 1.0, 3.0, 30.0])
+def test_inequalities_behind_the_bound(y: float) -> None:
+    """The scaled I0 from below, and the parts of its remainder that fade with e^-y."""
+    with flint.ctx.workprec(200):
+        point, half = arb(y), arb(1) / 2
+        scaled = (2 * arb.pi() * point).sqrt() * (-point).exp() * point.bessel_i(arb(0))
+        assert 1 / scaled <= 1 + 1 / (2 * point)
+        # u = 2 - v^2 takes the root's end away: below e^-y times the integral from u = 1.
+        edge = flint.acb.integral(
+            lambda v, _: (
+                2 * flint.acb(2).sqrt() * (-point * (2 - v * v)).exp() / (2 - v * v).sqrt()
+            ),
+            0,
+            1,
+        ).real
+        fading = (point / arb.pi()).sqrt() * edge
+        assert fading <= (-point).exp() * (1 + point) * 4 / 5
+        cut, limit = arb(0), arb(0)
+        for j, a in enumerate(theory.hankel(5)):
+            share = fraction(a)
+            cut += share * (2 * point).gamma_upper(j + half) / (j + half).gamma() * point**-j
+            limit += share * 2**j * point**-j * 3 / 2
+        assert cut <= (-point).exp() * limit
+
+
 @pytest.mark.parametrize("n", [24, 30, 60, 120])
 def test_bound_of_the_expansion_holds(n: int) -> None:
     terms = 12
@@ -240,6 +273,12 @@ def test_trapezoids_are_right_far_beyond_a_double() -> None:
             assert abs(tables.kappas()[n] / truth.kappa(n, 120) - 1) < limit, n
         for k in (2, 3, 4, 11, 40, LAST_K):
             assert abs(tables.finite_parts()[k - 2] / truth.finite_part(k, 120) - 1) < limit, k
+
+
+def test_generated_steps_are_those_of_the_theory() -> None:
+    """The last ones are too small to be seen in any value."""
+    expected = [float(a) for a in theory.kappa_steps(tables.TERMS)]
+    assert list(generated.moments._KAPPA_STEPS) == expected
 
 
 def test_a_table_that_does_not_reach_the_end_is_refused() -> None:

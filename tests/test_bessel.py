@@ -15,9 +15,10 @@ import sympy as sp
 
 from derivation.formula.proof import ProofError, decide_zero
 from derivation.formula.ulp import neighbours, ulp_error
-from derivation.reference.zeros import j0_zero
+from derivation.reference.zeros import j0_zero, j1_zero
 from derivation.rewrite import bessel_tables as tables
 from derivation.theory import bessel as theory
+from derivation.theory.bessel_zeros import zero_bound, zero_correction
 
 TEMPLATES = Path(tables.__file__).parents[1] / "emit" / "templates"
 BITS = 256
@@ -38,7 +39,10 @@ def bessel(tmp_path_factory: pytest.TempPathFactory) -> ModuleType:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    names = ("bessel_j0", "bessel_j1", "bessel_j0_zeros", "bessel_j1_at_j0_zeros")
+    names = (
+        *("bessel_j0", "bessel_j1", "bessel_j0_zeros", "bessel_j1_zeros"),
+        "bessel_j1_at_j0_zeros",
+    )
     text = environment.get_template("bessel.py.j2").render(
         header="# rendered for a test", budgets=dict.fromkeys(names, 1), **tables.bessel_context()
     )
@@ -133,9 +137,45 @@ def test_zeros_and_slopes(bessel: ModuleType) -> None:
         assert ulp_error(float(slopes[index - 1]), slope) <= ZERO_BUDGET, index
 
 
-@pytest.mark.parametrize("count", [0, 1, 5, 9, 10, 11, 12, 13, 40])
+def test_zeros_of_j1(bessel: ModuleType) -> None:
+    zeros = bessel.bessel_j1_zeros(10**6)
+    assert zeros.shape == (10**6,)
+    assert (np.diff(zeros) > 3).all()
+    near = (10**power + step for power in range(3, 6) for step in (-1, 0, 1))
+    for index in (*range(1, 201), *near, 10**6 - 1, 10**6):
+        assert ulp_error(float(zeros[index - 1]), j1_zero(index, 200)) <= ZERO_BUDGET, index
+
+
+@pytest.mark.parametrize("order", [0, 1])
+def test_expansion_of_zeros_keeps_its_bound(order: int) -> None:
+    """At the switch and at the first zero of all, where the bound is larger."""
+    for index in (2, 3, tables.mcmahon_start(order), 50):
+        with flint.ctx.workprec(BITS):
+            beta = (4 * flint.arb(index) + 2 * order - 1) / 4 * flint.arb.pi()
+            series = sum(
+                flint.arb(flint.fmpq(int(a.p), int(a.q))) * beta ** (-1 - 2 * i)
+                for i, a in enumerate(zero_correction(order, tables.TERMS).coefficients)
+            )
+            error = abs((j0_zero, j1_zero)[order](index, BITS) - beta - series)
+        # A little below beta: pi > 3.1415.
+        near = sp.Rational(4 * index + 2 * order - 1, 4) * sp.Rational(31415, 10**4)
+        bound = zero_bound(order, tables.TERMS, near)
+        assert error <= float(bound), index
+        assert bound < 10 * float(error) or index < 4, index
+    assert zero_bound(order, tables.TERMS, sp.Rational(1, 3)) == sp.oo
+
+
+def test_a_zero_of_j1_is_certified_or_refused() -> None:
+    with flint.ctx.workprec(200):
+        for index in (1, 2, 7):
+            assert j1_zero(index, 150).overlaps(tables.bessel_zero(1, index))
+    with pytest.raises(ValueError, match="counted from 1"):
+        j1_zero(0, 100)
+
+
+@pytest.mark.parametrize("count", [0, 1, 5, 7, 8, 9, 10, 11, 12, 13, 40])
 def test_counts_are_prefixes_of_each_other(bessel: ModuleType, count: int) -> None:
-    for function in (bessel.bessel_j0_zeros, bessel.bessel_j1_at_j0_zeros):
+    for function in (bessel.bessel_j0_zeros, bessel.bessel_j1_zeros, bessel.bessel_j1_at_j0_zeros):
         assert function(count).shape == (count,)
         np.testing.assert_array_equal(function(count), function(64)[:count])
         np.testing.assert_array_equal(function(float(count)), function(count))
@@ -143,7 +183,7 @@ def test_counts_are_prefixes_of_each_other(bessel: ModuleType, count: int) -> No
 
 @pytest.mark.parametrize("count", [-1, 2.5, math.nan, math.inf])
 def test_impossible_counts_are_refused(bessel: ModuleType, count: float) -> None:
-    for function in (bessel.bessel_j0_zeros, bessel.bessel_j1_at_j0_zeros):
+    for function in (bessel.bessel_j0_zeros, bessel.bessel_j1_zeros, bessel.bessel_j1_at_j0_zeros):
         with pytest.raises(ValueError, match="integer >= 0"):
             function(count)
 
@@ -242,10 +282,15 @@ def test_known_coefficients() -> None:
         sp.Rational(27, 128),
     )
     assert theory.phase_shift(0, 2).coefficients == (sp.Rational(-1, 8), sp.Rational(25, 384))
-    assert theory.zero_correction(3).coefficients == (
+    assert zero_correction(0, 3).coefficients == (
         sp.Rational(1, 8),
         sp.Rational(-31, 128) * third,
         sp.Rational(3779, 15360),
+    )
+    assert zero_correction(1, 3).coefficients == (
+        sp.Rational(-3, 8),
+        sp.Rational(3, 128),
+        sp.Rational(-1179, 5120),
     )
 
 

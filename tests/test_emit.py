@@ -22,7 +22,8 @@ KERNEL = {row["name"]: row for row in KERNELS}
 ARRAYS = [row for row in KERNELS if row["arguments"] not in (("count",),)]
 EXAMPLE = {
     "r": 0.002, "z": 0.004, "phi": 24.0, "h": 0.01, "T": 0.48, "b": 0.1, "R": 0.13, "a": 0.004,
-    "lam": 0.36e9, "mu": 0.43e9, "P": 1000.0, "A_j": -1e6, "J1": 0.52, "x": 1.3,
+    "lam": 0.36e9, "mu": 0.43e9, "P": 1000.0, "A_j": -1e6, "J1": 0.52, "x": 1.3, "n": 7.0,
+    "k": 4.0,
 }  # fmt: skip
 
 
@@ -145,7 +146,7 @@ def test_nan_and_what_lies_outside_the_domain_give_nan(row: dict) -> None:
     kernel, values = function(row), example(row)
     names = row["arguments"]
     bad = {"phi": -1.0, "h": 0.0, "T": -0.5, "b": -1.0, "R": 0.0, "a": 0.0, "mu": -1.0, "P": -1.0}
-    bad |= {"z": 1e3, "r": -1.0, "lam": -1e12, "J1": 0.0}
+    bad |= {"z": 1e3, "r": -1.0, "lam": -1e12, "J1": 0.0, "n": 1.5, "k": 1.0}
     for index, name in enumerate(names):
         for value in (np.nan, np.inf, *([bad[name]] if name in bad else [])):
             changed = [*values[:index], value, *values[index + 1 :]]

@@ -261,6 +261,8 @@ def draw(name: str, generator: random.Random) -> dict[str, float]:
         "J1": generator.uniform(0.1, 0.5),
         "x": generator.uniform(0.0, 50.0),
         "count": float(generator.randrange(1, 200)),
+        "n": float(generator.randrange(60)),
+        "k": float(generator.randrange(2, 60)),
         **{f"C{k}": generator.uniform(-1.0, 1.0) for k in range(1, 5)},
     }
     values["r"] = values["a" if name == "p" else "b"] * generator.uniform(0.0, 1.0)

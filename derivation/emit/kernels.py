@@ -247,30 +247,59 @@ def rows_by_module(kernels: tuple[Kernel, ...]) -> Mapping[str, list[Kernel]]:
     return grouped
 
 
-def bessel_rows(budgets: Mapping[str, float]) -> list[dict[str, object]]:
-    """Manifest rows of the Bessel functions, whose module is made of tables."""
-    functions = {
-        "bessel_j0": (("x",), "J_0(x)", "Bessel function J0"),
-        "bessel_j1": (("x",), "J_1(x)", "Bessel function J1"),
-        "bessel_j0_zeros": (("count",), "j_n", "the first zeros of J0"),
-        "bessel_j1_at_j0_zeros": (("count",), "J_1(j_n)", "J1 at the first zeros of J0"),
-    }
+TABLES = (
+    # name, module, argument, symbol, domain, meaning
+    ("bessel_j0", "bessel", "x", "J_0(x)", "", "Bessel function J0"),
+    ("bessel_j1", "bessel", "x", "J_1(x)", "", "Bessel function J1"),
+    ("bessel_j0_zeros", "bessel", "count", "j_n", "", "the first zeros of J0"),
+    ("bessel_j1_zeros", "bessel", "count", "j_{1,n}", "", "the first positive zeros of J1"),
+    ("bessel_j1_at_j0_zeros", "bessel", "count", "J_1(j_n)", "", "J1 at the first zeros of J0"),
+    ("kappa", "moments", "n", r"\kappa_n", "n >= 0", "integral of y^n K0/I0 over y > 0"),
+    (
+        "kappa_ratio",
+        "moments",
+        "n",
+        r"2^{n+1}\kappa_n/(\pi n!)",
+        "n >= 0",
+        "kappa_n over its leading term for large n",
+    ),
+    (
+        "finite_part",
+        "moments",
+        "k",
+        "M_k",
+        "k >= 2",
+        "finite part of the integral of T^(2k-4) (G - 1) over T > 0",
+    ),
+    (
+        "finite_part_ratio",
+        "moments",
+        "k",
+        "2^{2k-3}M_k/(2k-2)!",
+        "k >= 2",
+        "M_k over its leading term for large k",
+    ),
+)
+
+
+def table_rows(budgets: Mapping[str, float]) -> list[dict[str, object]]:
+    """Manifest rows of the functions whose modules are made of tables, of one argument each."""
     return [
         {
             "name": name,
-            "module": "bessel",
-            "arguments": list(arguments),
+            "module": module,
+            "arguments": [argument],
             "argument_units": ["1"],
             "unit": "1",
             "symbol": symbol,
             "latex": symbol,
             "meaning": meaning,
             "equation": "",
-            "domain": "",
+            "domain": domain,
             "budget": budgets[name],
             "modes": False,
         }
-        for name, (arguments, symbol, meaning) in functions.items()
+        for name, module, argument, symbol, domain, meaning in TABLES
     ]
 
 

@@ -26,7 +26,6 @@ from derivation.emit.kernels import (
     AsPrinted,
     Kernel,
     argument_text,
-    bessel_rows,
     contact_rows,
     kernel_of_form,
     kernel_of_sum,
@@ -34,6 +33,7 @@ from derivation.emit.kernels import (
     read_budgets,
     rows_by_module,
     seam_text,
+    table_rows,
 )
 from derivation.emit.printer import to_numpy
 from derivation.formula.record import Formula
@@ -43,6 +43,7 @@ from derivation.rewrite.bessel_tables import bessel_context
 from derivation.rewrite.blocks import blocks
 from derivation.rewrite.contact_tables import contact_context, impact_context
 from derivation.rewrite.form import Block, Form, Seam
+from derivation.rewrite.moment_tables import moment_context
 
 TEMPLATES = Path(__file__).parent / "templates"
 CITATION = "Elastodynamic contact in plate-like bodies"
@@ -91,6 +92,7 @@ def modules(kernels: tuple[Kernel, ...]) -> tuple[Module, ...]:
         Module("arrays", "arrays", {}),
         Module("blocks", "blocks", {"functions": [block_text(b) for b in known.values()]}),
         Module("bessel", "bessel", {**bessel_context(), "budgets": read_budgets()}),
+        Module("moments", "moments", {**moment_context(), "budgets": read_budgets()}),
         Module("as_printed", "as_printed", {"functions": printed_rows()}),
         Module("contact_series", "contact_series", contact_context()),
         Module("contact_law", "contact_law", {}),
@@ -114,7 +116,8 @@ def modules(kernels: tuple[Kernel, ...]) -> tuple[Module, ...]:
             Module(name, template, {"title": TITLES[name], "functions": group, "blocks": used})
         )
     exported = {name: [k.name for k in group] for name, group in grouped.items()}
-    exported["bessel"] = [str(row["name"]) for row in bessel_rows(read_budgets())]
+    for row in table_rows(read_budgets()):
+        exported.setdefault(str(row["module"]), []).append(str(row["name"]))
     # The module `impact` keeps its name: its function is reached through it.
     exported["contact_law"] = [
         str(row["name"]) for row in contact_rows() if row["module"] == "contact_law"
@@ -179,7 +182,7 @@ def manifest_rows(kernels: tuple[Kernel, ...]) -> list[dict[str, Any]]:
         }
         for k in kernels
     ]
-    return rows + bessel_rows(read_budgets())
+    return rows + table_rows(read_budgets())
 
 
 def _fill(module: Module) -> str:

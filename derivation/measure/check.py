@@ -136,7 +136,7 @@ def _is_easy(truth: Truth) -> bool:
     return (
         1e-8 < x < 50
         and 1e-30 < y < 50
-        and values.get("count", 1) <= 1000
+        and all(values.get(index, 1) <= 1000 for index in ("count", "n", "k"))
         and (truth.point.modes or 1) <= 3
         and bool(size > 1e-60)
     )

@@ -15,6 +15,7 @@ from functools import cache
 from derivation.formula.ulp import neighbours
 from derivation.rewrite.blocks import blocks
 from derivation.rewrite.form import Seam
+from derivation.rewrite.moment_tables import FIRST_K, finite_part_start, kappa_start
 
 SMALLEST = -150
 """Decimal exponent of the smallest phi h and a phi."""
@@ -38,6 +39,9 @@ RADII = (None, 0.0, None, 1e-12, None, "below +1", None, 0.5, None)
 
 MODES = (1, 3, 20, 2, 7, 60)
 BESSEL_LARGE = (25.0, 100.0, 1e3, 12345.678, 1e5, 1e6, 1e8)
+INDICES = (*range(9), 12, 17, 25, 40, 64, 90, 150, 195, 300, 1000, 12345, 10**5, 10**6)
+"""Of kappa_n, and of M_k less its first index; both sides of the switches are added."""
+
 COUNTS = (*range(1, 41), 64, 99, 100, 128, 500, 999, 1000, 4096, 10**4, 10**5)
 
 
@@ -69,6 +73,8 @@ def grid(name: str, arguments: Sequence[str], modes: bool = False) -> tuple[Poin
     generator = random.Random(f"{name} on {','.join(arguments)}")
     if tuple(arguments) == ("count",):
         return tuple(Point({"count": float(count)}) for count in COUNTS)
+    if tuple(arguments) in (("n",), ("k",)):
+        return tuple(Point({arguments[0]: float(i)}) for i in _whole_numbers(arguments[0]))
     if tuple(arguments) == ("x",):
         return tuple(Point({"x": x}) for x in _bessel_arguments(generator))
     draw = _plates(generator) if modes else _single_modes(generator, arguments)
@@ -128,6 +134,12 @@ def _zero_of_sine_minus(k: int) -> float:
     for _ in range(60):
         y = k * math.pi + math.atan(y)
     return y
+
+
+def _whole_numbers(argument: str) -> list[int]:
+    """Indices of kappa_n or M_k, ascending, both sides of where the expansion begins."""
+    first, start = (0, kappa_start()) if argument == "n" else (FIRST_K, finite_part_start())
+    return sorted({start - 1, start, *(first + index for index in INDICES)})
 
 
 def _bessel_arguments(generator: random.Random) -> list[float]:

@@ -10,8 +10,9 @@ import sympy as sp
 from derivation.formula import symbols
 from derivation.formula.ball import LOG2_10, MAX_BITS, SPARE_BITS, PrecisionError
 from derivation.formula.record import Formula
+from derivation.reference import moments
 from derivation.reference.tape import Tape, record
-from derivation.reference.zeros import j0_zero, j1_at_zero
+from derivation.reference.zeros import j0_zero, j1_at_zero, j1_zero
 from derivation.theory.chain import derive
 from derivation.theory.equilibrium import BESSEL_J1
 from derivation.theory.face_conditions import loaded
@@ -29,8 +30,19 @@ SLOPE_BITS = 20
 
 _x = sp.Symbol("x", real=True)
 _BESSEL = {"bessel_j0": sp.besselj(0, _x), "bessel_j1": sp.besselj(1, _x)}
-_OF_ZERO = {"bessel_j0_zeros": j0_zero, "bessel_j1_at_j0_zeros": j1_at_zero}
-"""Numbers by index: the entry that a table of `count` of them ends with."""
+_BY_INDEX: dict[str, tuple[str, Callable[[int, int], flint.arb]]] = {
+    "bessel_j0_zeros": ("count", j0_zero),
+    "bessel_j1_zeros": ("count", j1_zero),
+    "bessel_j1_at_j0_zeros": ("count", j1_at_zero),
+    "kappa": ("n", moments.kappa),
+    "kappa_ratio": ("n", moments.kappa_ratio),
+    "finite_part": ("k", moments.finite_part),
+    "finite_part_ratio": ("k", moments.finite_part_ratio),
+}
+"""Numbers by index: the argument's name and the ball at so many bits.
+
+Of a table the number is the entry that `count` of them end with.
+"""
 
 _OF_MODE = (symbols.phi, symbols.J1)
 
@@ -78,16 +90,16 @@ class _Program:
 
 
 def names() -> tuple[str, ...]:
-    """Every name `reference` knows: the chain's closed formulas and the Bessel functions."""
+    """Every name `reference` knows: closed formulas of the chain, Bessel functions, numbers."""
     chain = _chain().items()
     closed = (n for n, f in chain if not f.expression.atoms(sp.Derivative))
-    return (*closed, *_BESSEL, *_OF_ZERO)
+    return (*closed, *_BESSEL, *_BY_INDEX)
 
 
 def arguments(name: str) -> tuple[str, ...]:
     """Arguments of a formula, without the phi and J1 that a modal sum supplies itself."""
-    if name in _OF_ZERO:
-        return ("count",)
+    if name in _BY_INDEX:
+        return (_BY_INDEX[name][0],)
     program = _program(name)
     own = _OF_MODE if program.summed else ()
     return tuple(str(symbol) for symbol in program.tape.inputs if symbol not in own)
@@ -95,7 +107,7 @@ def arguments(name: str) -> tuple[str, ...]:
 
 def is_summed(name: str) -> bool:
     """Whether a formula is a sum over the modes."""
-    return name not in _OF_ZERO and _program(name).summed
+    return name not in _BY_INDEX and _program(name).summed
 
 
 def truth(
@@ -106,8 +118,8 @@ def truth(
     Parameters
     ----------
     name
-        Formula of the chain, or a Bessel function; of `bessel_j0_zeros` and
-        `bessel_j1_at_j0_zeros` the truth is the entry of index `count`.
+        Formula of the chain, a Bessel function or a number by index; of a
+        table of zeros the truth is the entry of index `count`.
     values
         Its arguments by name, doubles taken as the binary fractions they are.
         Arguments of the notation that the formula does not depend on are allowed.
@@ -140,8 +152,8 @@ def _refined(
     name: str, values: Mapping[str, float], digits: int, modes: int | None, slopes: bool
 ) -> Reference:
     _check(name, values, modes)
-    if name in _OF_ZERO:
-        return _by_index(name, values["count"], digits)
+    if name in _BY_INDEX:
+        return _by_index(name, values, digits)
     program = _program(name)
     tape = program.on_axis if program.on_axis and values["r"] == 0 else program.tape
 
@@ -207,9 +219,12 @@ def _added(terms: Iterable[Reference]) -> Reference:
     return Reference(value, shares, magnitude)
 
 
-def _by_index(name: str, count: float, digits: int) -> Reference:
-    """The zero of index `count`, or J1 there: certified to more bits than are asked."""
-    ball = _OF_ZERO[name](int(count), int(digits * LOG2_10) + SPARE_BITS)
+def _by_index(name: str, values: Mapping[str, float], digits: int) -> Reference:
+    """The number of an index, which is exact: certified to more bits than are asked."""
+    argument, number = _BY_INDEX[name]
+    if values[argument] != int(values[argument]):
+        raise ValueError(f"{name} is counted in whole numbers, got {values[argument]}")
+    ball = number(int(values[argument]), int(digits * LOG2_10) + SPARE_BITS)
     return Reference(ball, {}, abs(ball))
 
 

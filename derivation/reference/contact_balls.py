@@ -68,7 +68,7 @@ def modulus(lam: Exact, mu: Exact) -> arb:
 
 
 def kappa(n: int, digits: int = 50) -> arb:
-    """int_0^oo y^n K0(y)/I0(y) dy = 1/(n+1) int_0^oo y^n/I0(y)^2 dy, for even n.
+    """int_0^oo y^n K0(y)/I0(y) dy = 1/(n+1) int_0^oo y^n/I0(y)^2 dy.
 
     By parts: (K0/I0)' = -1/(y I0^2), which takes the logarithm away. For y >= 1,
     pi I0 >= int_0^pi e^(y (1 - t^2/2)) dt gives I0 >= e^y/(3 sqrt y), and where

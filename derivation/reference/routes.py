@@ -22,6 +22,12 @@ from derivation.reference.exponentials import (
     solve_tractions,
     unit_mode,
 )
+from derivation.reference.moment_routes import (
+    finite_part,
+    leading_finite_part,
+    leading_wall_moment,
+    wall_moment,
+)
 
 Values = Mapping[str, mpf]
 FLOOR_DIGITS = 400
@@ -243,7 +249,12 @@ ROUTES: dict[str, Callable[[Values], mpf]] = {
     "bessel_j0": lambda v: mp.besselj(0, v["x"]),
     "bessel_j1": lambda v: mp.besselj(1, v["x"]),
     "bessel_j0_zeros": lambda v: _zero(int(v["count"]), mp.dps),
+    "bessel_j1_zeros": lambda v: mp.besseljzero(1, int(v["count"])),
     "bessel_j1_at_j0_zeros": lambda v: mp.besselj(1, _zero(int(v["count"]), mp.dps)),
+    "kappa": lambda v: wall_moment(int(v["n"]), mp.dps),
+    "kappa_ratio": lambda v: wall_moment(int(v["n"]), mp.dps) / leading_wall_moment(v["n"]),
+    "finite_part": lambda v: finite_part(int(v["k"]), mp.dps),
+    "finite_part_ratio": lambda v: finite_part(int(v["k"]), mp.dps) / leading_finite_part(v["k"]),
 }
 """For each formula the route to its value, or to one mode's share of it."""
 

@@ -1,4 +1,4 @@
-"""Zeros of J0 as balls, each with a proof that it is the n-th.
+"""Zeros of J0 and J1 as balls, each with a proof that it is the n-th.
 
 y = sqrt(x) J0(x) satisfies y'' + (1 + 1/(4 x^2)) y = 0. The coefficient falls
 towards 1, so by Sturm's comparison consecutive zeros are less than pi apart
@@ -6,6 +6,9 @@ and their spacing grows; j_n - (n - 1/4) pi therefore falls with n, and tends
 to 0 by the asymptotic expansion. Hence 0 < j_n - (n - 1/4) pi <= j_1 - 3 pi/4
 for all n: the intervals (n - 1/4) pi + (0, 1/20) are disjoint and hold one zero
 each, the n-th, once j_1 is known to lie in the first (`first_zero_is_first`).
+
+For J1 the coefficient is 1 - 3/(4 x^2) and rises, the spacing falls towards pi, and the
+same holds with the sign turned: the n-th zero lies in (n + 1/4) pi - (0, 1/8).
 """
 
 from functools import cache
@@ -13,11 +16,12 @@ from functools import cache
 import flint
 
 WIDTH = flint.arb(flint.fmpq(1, 20))
+WIDTH_J1 = flint.arb(flint.fmpq(1, 8))
 _GUARD_BITS = 48
 
 
 class ZeroError(ArithmeticError):
-    """A zero of J0 could not be certified."""
+    """A zero of J0 or J1 could not be certified."""
 
 
 @cache
@@ -46,6 +50,28 @@ def j0_zero(index: int, bits: int) -> flint.arb:
             raise ZeroError(f"the ball {guess} is not where zero {index} lies")
         if not low.bessel_j(0) * high.bessel_j(0) < 0:
             raise ZeroError(f"J0 does not change its sign across {guess}")
+        return low.union(high)
+
+
+@cache
+def j1_zero(index: int, bits: int) -> flint.arb:
+    """Ball around the index-th positive zero of J1, see `j0_zero`."""
+    if index < 1:
+        raise ValueError(f"zeros of J1 are counted from 1, got {index}")
+    if not first_zero_of_j1_is_first():
+        raise ZeroError("J1 could not be shown to have no zero up to 5 pi/4 - 1/8")
+    with flint.ctx.workprec(bits + _GUARD_BITS):
+        right = (index + flint.arb(1) / 4) * flint.arb.pi()
+        x = (right - 3 / (8 * right)).mid()
+        for _ in range(bits.bit_length() + 4):
+            j1 = x.bessel_j(1)
+            x = (x - j1 / (x.bessel_j(0) - j1 / x)).mid()
+        radius = flint.arb(2) ** (-bits - 2)
+        low, high = x - radius, x + radius
+        if not (high < right and low > right - WIDTH_J1):
+            raise ZeroError(f"the ball {x} is not where zero {index} of J1 lies")
+        if not low.bessel_j(1) * high.bessel_j(1) < 0:
+            raise ZeroError(f"J1 does not change its sign across {x}")
         return low.union(high)
 
 
@@ -90,3 +116,17 @@ def first_zero_is_first() -> bool:
         pieces = (flint.arb((2 * k + 1) * half, half) for k in range(236))
         covered = all(piece.bessel_j(0) > 0 for piece in pieces)
         return covered and bool(236 * 2 * half > flint.arb.pi() * 3 / 4)
+
+
+@cache
+def first_zero_of_j1_is_first() -> bool:
+    """Whether J1 is positive on (0, 3.805], beyond 5 pi/4 - 1/8: shown by balls from 2 on.
+
+    Below 2 the terms of J1 = (x/2) (1 - x^2/8 + ...) alternate and fall, and the first two
+    leave x/2 (1 - 1/2) at least.
+    """
+    with flint.ctx.workprec(64):
+        half = flint.arb(flint.fmpq(1, 2000))
+        pieces = (2 + flint.arb((2 * k + 1) * half, half) for k in range(1805))
+        covered = all(piece.bessel_j(1) > 0 for piece in pieces)
+        return covered and bool(2 + 1805 * 2 * half > flint.arb.pi() * 5 / 4 - WIDTH_J1)

@@ -1,4 +1,4 @@
-"""Turns the theory of J0 and J1 into the tables of doubles their generated code needs.
+"""Turns the theory of J0, J1 and their zeros into the tables their generated code needs.
 
 Below `asymptotic_start` a Taylor polynomial about one of many centres: every zero of
 J0 and of J1 is a centre, held as a sum of two doubles, so that x - centre keeps all
@@ -28,8 +28,12 @@ from derivation.theory.bessel import (
     modulus_squared,
     phase_bound,
     phase_shift,
-    slope_squared,
     taylor_recurrence,
+)
+from derivation.theory.bessel_zeros import (
+    phase_at_zeros,
+    slope_squared,
+    zero_bound,
     zero_correction,
 )
 
@@ -99,7 +103,7 @@ def bessel_zero(order: int, index: int) -> flint.arb:
     ArithmeticError
         If no sign change within that interval was found.
     """
-    start = (flint.arb(index) - flint.arb(1 - 2 * order) / 4) * flint.arb.pi()
+    start = (4 * flint.arb(index) + phase_at_zeros(order)[0]) / 4 * flint.arb.pi()
     point = start
     for _ in range(_NEWTON_STEPS):
         value, slope = _value_and_slope(order, point)
@@ -150,20 +154,19 @@ def asymptotic_start() -> Fraction:
 
 
 @cache
-def mcmahon_start() -> int:
-    """Smallest index whose zero and J1 there the expansions give within tolerance.
+def mcmahon_start(order: int) -> int:
+    """Smallest index from which the expansions of J_order's zeros are within tolerance.
 
-    The remainder is taken to be the first omitted term, of the zero relative to
-    the zero, of J1 squared to its leading term 1.
+    The zero's remainder is bounded (`zero_bound`). For order 0 the expansion of J1
+    squared there counts too; its remainder is taken to be the first omitted term.
     """
-    correction, slope = zero_correction(TERMS + 1), slope_squared(TERMS + 1)
+    quarters, slope = phase_at_zeros(order)[0], slope_squared(TERMS + 1)
 
     def within(index: int) -> bool:
-        beta = sp.Rational(4 * index - 1, 4) * 3  # 3 < pi makes beta, and so the bound, safe
-        return bool(
-            abs(correction.term(TERMS, beta)) <= beta * sp.Rational(TOLERANCE)
-            and abs(slope.term(TERMS, beta)) <= 2 * sp.Rational(TOLERANCE)
-        )
+        # 3 < pi makes beta, and so the bounds, safe.
+        beta = sp.Rational(4 * index + quarters, 4) * 3
+        near = order == 1 or abs(slope.term(TERMS, beta)) <= 2 * sp.Rational(TOLERANCE)
+        return bool(near and zero_bound(order, TERMS, beta) <= beta * sp.Rational(TOLERANCE))
 
     return first_true(within)
 
@@ -265,15 +268,19 @@ def seams() -> tuple[float, ...]:
 
 
 @cache
-def low_zeros() -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """Zeros of J0 below McMahon's start, and J1 there, correctly rounded."""
+def low_zeros(order: int) -> tuple[float, ...]:
+    """Zeros of J_order below McMahon's start, correctly rounded."""
     with flint.ctx.workprec(_BITS):
-        zeros = [bessel_zero(0, index) for index in range(1, mcmahon_start())]
-        slopes = [zero.bessel_j(flint.arb(1)) for zero in zeros]
-        return (
-            tuple(nearest_double(zero) for zero in zeros),
-            tuple(nearest_double(slope) for slope in slopes),
-        )
+        zeros = (bessel_zero(order, index) for index in range(1, mcmahon_start(order)))
+        return tuple(nearest_double(zero) for zero in zeros)
+
+
+@cache
+def low_slopes() -> tuple[float, ...]:
+    """J1 at the zeros of J0 below McMahon's start, correctly rounded."""
+    with flint.ctx.workprec(_BITS):
+        zeros = (bessel_zero(0, index) for index in range(1, mcmahon_start(0)))
+        return tuple(nearest_double(zero.bessel_j(flint.arb(1))) for zero in zeros)
 
 
 def constants() -> dict[str, str]:
@@ -314,7 +321,7 @@ def _rationals(coefficients: Iterable[sp.Rational]) -> tuple[str, ...]:
 
 def bessel_context() -> dict[str, object]:
     """Everything the template of the generated module needs, numbers already as text."""
-    table, (zeros, slopes) = taylor_table(), low_zeros()
+    table = taylor_table()
     return {
         "centres_high": _numbers(table.high),
         "centres_low": _numbers(table.low),
@@ -326,10 +333,13 @@ def bessel_context() -> dict[str, object]:
         "largest_phase": repr(LARGEST_PHASE),
         "modulus": tuple(_rationals(modulus_squared(n, TERMS).coefficients) for n in (0, 1)),
         "shift": tuple(_rationals(phase_shift(n, TERMS).coefficients) for n in (0, 1)),
-        "zero_correction": _rationals(zero_correction(TERMS).coefficients),
+        "zero_correction": tuple(
+            _rationals(zero_correction(n, TERMS).coefficients) for n in (0, 1)
+        ),
         "slope_excess": _rationals(slope_squared(TERMS).coefficients[1:]),
-        "low_zeros": _numbers(zeros),
-        "low_slopes": _numbers(slopes),
-        "first_mcmahon": str(mcmahon_start()),
+        "low_zeros": tuple(_numbers(low_zeros(n)) for n in (0, 1)),
+        "low_slopes": _numbers(low_slopes()),
+        "first_mcmahon": tuple(str(mcmahon_start(n)) for n in (0, 1)),
+        "quarters": tuple(f"{phase_at_zeros(n)[0]}.0" for n in (0, 1)),
         **constants(),
     }

@@ -27,6 +27,14 @@ import flint
 from flint import arb as Ball
 
 from derivation.rewrite.bessel_tables import bessel_zero, nearest_double, wrapped
+from derivation.rewrite.moment_tables import (
+    BITS,
+    excess_nodes,
+    finite_parts,
+    kappas,
+    plate_excess,
+    sharp,
+)
 
 REACH = 3
 """The first polynomial ends at A = REACH or alpha = 1, whichever comes first."""
@@ -50,80 +58,22 @@ IMPACT_NODES, INNER_NODES = 24, 12
 
 The latter are those from A = REACH on, where the nearest singularity is farther.
 """
-_BITS = 512
-_STEP = 32
-_KAPPAS = 64
-_TAIL = -120
-_END = 220
-_SURE = 100
 _NEGLIGIBLE = 2.0**-60
 
 Rows = tuple[tuple[float, ...], ...]
 
 
-def _nodes() -> list[tuple[Ball, Ball]]:
-    """Abscissae y and weights of int_0^oo f dy: trapezoids in v, y = exp(v - e^(-v)).
-
-    For f analytic in a sector |arg y| < d about the axis and falling exponentially the
-    error is e^(-2 pi d/step): below 1e-40 for every integrand in here (d > 0.58).
-    The tests compare the integrals with another rule, another map of the axis.
-    """
-    step = Ball(1) / _STEP
-    found = []
-    for index in range(-5 * _STEP, 6 * _STEP + 1):
-        v = step * index
-        fade = (-v).exp()
-        y = (v - fade).exp()
-        if y > Ball(2) ** _TAIL and y < _END:
-            found.append((y, step * y * (1 + fade)))
-    return found
-
-
-def _kernel_ratio(y: Ball) -> Ball:
-    return y.bessel_k(Ball(0)) / y.bessel_i(Ball(0))
-
-
-@cache
-def kappas() -> tuple[Ball, ...]:
-    """kappa_0, kappa_2, kappa_4, ... = int_0^oo y^n K0(y)/I0(y) dy."""
-    with flint.ctx.workprec(3 * _BITS):
-        points = [(y, weight * _kernel_ratio(y)) for y, weight in _nodes()]
-        found = []
-        for _ in range(_KAPPAS):
-            found.append(sum((share for _, share in points), Ball(0)))
-            points = [(y, share * y * y) for y, share in points]
-        return tuple(_sharp(value) for value in found)
-
-
-def _sharp(value: Ball) -> Ball:
-    """The middle of a ball whose radius, rounding alone, is far below what is asked.
-
-    Raises
-    ------
-    ArithmeticError
-        If it is not.
-    """
-    if not value.rad() < Ball(2) ** -_SURE * (1 + abs(value)):
-        raise ArithmeticError(f"{value} is not sharp enough for a table")
-    return value.mid()
-
-
 def edge_part(alpha: Ball) -> Ball:
-    """W(alpha)/alpha for 0 <= alpha <= 1, from the series in kappa_n; cut off at 2^-2*_KAPPAS."""
+    """W(alpha)/alpha for 0 <= alpha <= 1, by the series in kappa_n; terms fall like 4^-k."""
     square, total = alpha * alpha, Ball(0)
     factorial = Ball(6)
     power = Ball(1)
-    for index, kappa in enumerate(kappas()):
+    for index, kappa in enumerate(kappas()[::2]):
         k = index + 2
         total += kappa * (2 * k - 2) / factorial * power
         power *= square
         factorial *= (2 * k) * (2 * k + 1)
     return -8 * total / Ball.pi() ** 2
-
-
-def plate_excess(T: Ball) -> Ball:
-    """G(T) - 1 = ((1 - e^(-2T))/2 + T + T^2)/(sinh^2 T - T^2)."""
-    return ((1 - (-2 * T).exp()) / 2 + T + T * T) / (T.sinh() ** 2 - T * T)
 
 
 def shape(y: Ball) -> Ball:
@@ -133,48 +83,23 @@ def shape(y: Ball) -> Ball:
     return 3 * (y.sin() - y * y.cos()) / y**3
 
 
-@cache
-def _excess_nodes() -> tuple[tuple[Ball, Ball, Ball], ...]:
-    """T, weight and G - 1 for the integrals over T."""
-    with flint.ctx.workprec(3 * _BITS):  # 840 bits cancel in what is left of G - 1 at 2^_TAIL
-        return tuple((T, weight, plate_excess(T)) for T, weight in _nodes() if T < _END // 2)
-
-
-@cache
-def thin_moments() -> tuple[Ball, Ball]:
-    """M_2 and M_3, the finite parts of int (G - 1) dT and int T^2 (G - 1) dT.
-
-    The poles, G = 6/T^3 + 6/(5T) + ..., are taken off with a factor e^(-T^2), whose own
-    finite parts are FP int T^-3 e^(-T^2) = (gE - 1)/2 and FP int T^-1 e^(-T^2) = -gE/2.
-    """
-    with flint.ctx.workprec(3 * _BITS):
-        second, third = Ball(0), Ball(0)
-        for T, weight, excess in _excess_nodes():
-            fade = (-T * T).exp()
-            second += weight * (excess - fade * (6 / T**3 + Ball(36) / 5 / T))
-            third += weight * (T * T * excess - 6 * fade / T)
-        euler = Ball.const_euler()
-        poles_second = 3 * (euler - 1) - Ball(18) / 5 * euler
-        return _sharp(second + poles_second), _sharp(third - 3 * euler)
-
-
 def thin_part(A: Ball) -> Ball:
     """Phi(A)/A, the thin plate's universal function."""
     if A == 0:
         return Ball(0)
     total = Ball(0)
-    for T, weight, excess in _excess_nodes():
+    for T, weight, excess in excess_nodes():
         if T < _NEGLIGIBLE:  # the integrand is O(T): what is left out is its square
             continue
         y = A * T / 2
         total += weight * excess * (shape(y) - 1 + y * y / 10)
-    return _sharp(2 * total / (3 * Ball.pi()))
+    return sharp(2 * total / (3 * Ball.pi()))
 
 
 def thin_constants() -> tuple[Ball, Ball]:
     """K1 and K3: c1 = v^2/(4 pi) + K1 + 4 ln(v)/(5 pi), c3 = K3 - ln(v)/(10 pi), v = 1/eta."""
-    with flint.ctx.workprec(_BITS):
-        second, third = thin_moments()
+    with flint.ctx.workprec(BITS):
+        second, third = finite_parts()[:2]
         shift, pi = Ball.const_euler() - Ball(4).log(), Ball.pi()
         return (
             2 * (second + Ball(6) / 5 * shift) / (3 * pi),
@@ -185,10 +110,10 @@ def thin_constants() -> tuple[Ball, Ball]:
 @cache
 def modes(count: int) -> tuple[tuple[Ball, Ball], ...]:
     """j_n and 1/(j_n J1(j_n)^2) for the first modes."""
-    with flint.ctx.workprec(_BITS):
+    with flint.ctx.workprec(BITS):
         zeros = [bessel_zero(0, index) for index in range(1, count + 1)]
         return tuple(
-            (_sharp(zero), _sharp(1 / (zero * zero.bessel_j(Ball(1)) ** 2))) for zero in zeros
+            (sharp(zero), sharp(1 / (zero * zero.bessel_j(Ball(1)) ** 2))) for zero in zeros
         )
 
 
@@ -299,7 +224,7 @@ def tables() -> dict[str, Rows]:
         Row j: what x^(2k), k = SHORT_TERMS, ..., adds to the coefficient of x^(2j) of
         the short polynomial, 0 <= x <= 1/SHORT.
     """
-    with flint.ctx.workprec(_BITS):
+    with flint.ctx.workprec(BITS):
         found = {
             "thin": (_round(_over_squares(lambda x: thin_part(REACH * x), TERMS)),),
             "far_thin": (_round(_far_thin()),),
@@ -380,7 +305,7 @@ def _cell_text(
 def contact_context() -> dict[str, object]:
     """Everything the templates of the generated contact law need, numbers already as text."""
     found = tables()
-    with flint.ctx.workprec(_BITS):
+    with flint.ctx.workprec(BITS):
         constant, cubic = (nearest_double(x) for x in thin_constants())
     return {
         "thin": _text(found["thin"])[0],
@@ -404,7 +329,7 @@ def contact_context() -> dict[str, object]:
 
 def gauss_legendre(count: int) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """Gauss-Legendre nodes and weights on [0, 1], correctly rounded."""
-    with flint.ctx.workprec(_BITS):
+    with flint.ctx.workprec(BITS):
         pairs = [Ball.legendre_p_root(count, i, weight=True) for i in reversed(range(count))]
         return _round([(1 + x) / 2 for x, _ in pairs]), _round([w / 2 for _, w in pairs])
 

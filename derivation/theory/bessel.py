@@ -1,11 +1,11 @@
-"""J0 and J1 from Bessel's equation: Taylor recurrence, modulus and phase, the zeros of J0.
+"""J0 and J1 from Bessel's equation: Taylor recurrence, modulus and phase.
 
 With y = u/sqrt(x) Bessel's equation x^2 y'' + x y' + (x^2 - nu^2) y = 0 becomes
 u'' + I u = 0, I = 1 + (1/4 - nu^2)/x^2. Its solutions are u = sqrt(p) cos(theta),
 theta' = 1/p, where p'' p/2 - p'^2/4 + I p^2 = 1; p is a series in 1/x^2, and so is
 x times the phase's deviation from x. Everything below follows from those two
-series: J_nu(x) = sqrt(2 p/(pi x)) cos(theta), the zeros of J0 where theta is an
-odd multiple of pi/2, and J1 there, as J1 = -J0'.
+series: J_nu(x) = sqrt(2 p/(pi x)) cos(theta). Its zeros, where theta is an odd
+multiple of pi/2, are found in `bessel_zeros`.
 """
 
 from collections.abc import Sequence
@@ -273,7 +273,7 @@ def phase_bound(order: int, terms: int, start: sp.Rational) -> sp.Expr:
     m = modulus_squared(order, terms + 2).coefficients
     d = phase_shift(order, terms).coefficients
     rate = (sp.Integer(1), *((-1 - 2 * i) * value for i, value in enumerate(d)))
-    product = _multiply(rate, m[:-1], 2 * terms + 2)
+    product = multiply(rate, m[:-1], 2 * terms + 2)
     excess = {i: abs(value) for i, value in enumerate(product) if i > 0 and value != 0}
     for i, value in enumerate(rate):
         excess[terms + 1 + i] = excess.get(terms + 1 + i, 0) + abs(value * m[-1])
@@ -283,73 +283,7 @@ def phase_bound(order: int, terms: int, start: sp.Rational) -> sp.Expr:
     return sum(e * start ** (1 - 2 * i) / (2 * i - 1) for i, e in excess.items()) / lowest
 
 
-@cache
-def zero_correction(terms: int) -> Expansion:
-    """McMahon: j_n - beta in odd powers of 1/beta, beta = (n - 1/4) pi.
-
-    J0 vanishes where x + shift(x) = beta. With x = beta (1 + s) that is
-    s = -sum d_i w^i (1 + s)^(1-2i), w = 1/beta^2, and each pass through it
-    gives one more coefficient of s.
-    """
-    d = phase_shift(0, terms).coefficients
-    stretch: Coefficients = (sp.Integer(1),)
-    for _ in range(terms):
-        stretch = tuple(
-            (1 if index == 0 else 0) - shift
-            for index, shift in enumerate(_compose(d, 1, stretch, terms + 1))
-        )
-    beta, series = sp.Symbol("beta", positive=True), sp.Symbol("w", positive=True)
-    proof = prove(
-        "McMahon's expansion",
-        "It is substituted into x + shift(x) = beta, cleared of its denominators.",
-        _reversion_residuals(d, stretch, beta, series),
-    )
-    return Expansion("zero of J0 less beta", -1, stretch[1:], proof)
-
-
-def _reversion_residuals(
-    d: Coefficients, stretch: Coefficients, beta: sp.Symbol, w: sp.Symbol
-) -> dict[str, sp.Expr]:
-    """Coefficients of (x + shift(x) - beta) x^(2N-1) that must vanish, with x = beta (1 + s)."""
-    terms = len(d)
-    one_plus_s = sp.Poly(sp.Add(*(s * w**index for index, s in enumerate(stretch))), w)
-    highest = 2 * terms - 1
-    total = (one_plus_s - 1) * one_plus_s**highest
-    for index, coefficient in enumerate(d, start=1):
-        total += coefficient * sp.Poly(w**index, w) * one_plus_s ** (highest + 1 - 2 * index)
-    return {f"{beta}^{1 - 2 * power}": total.coeff_monomial(w**power) for power in range(terms + 1)}
-
-
-@cache
-def slope_squared(terms: int) -> Expansion:
-    """(pi beta/2) J1(j_n)^2 in powers of 1/beta^2, beta = (n - 1/4) pi.
-
-    Where cos(theta) = 0, J0' = -sqrt(2 p/(pi x)) theta' sin(theta), hence
-    J1(j_n)^2 = 2/(pi x p(x)) at x = j_n = beta (1 + s).
-    """
-    m = modulus_squared(0, terms).coefficients
-    stretch = (sp.Integer(1), *zero_correction(terms).coefficients)[:terms]
-    product = _multiply(stretch, _compose(m, 0, stretch, terms), terms)
-    coefficients = power(product, sp.Integer(-1), terms)
-    w = sp.Symbol("w", positive=True)
-    one_plus_s, slope = (
-        sp.Poly(sp.Add(*(a * w**index for index, a in enumerate(series))), w)
-        for series in (stretch, coefficients)
-    )
-    highest = 2 * terms
-    left = sp.Poly(0, w)
-    for index, coefficient in enumerate(m):
-        left += coefficient * sp.Poly(w**index, w) * one_plus_s ** (highest + 1 - 2 * index)
-    residual = left * slope - one_plus_s**highest
-    proof = prove(
-        "J1 at the zeros of J0",
-        "It is substituted into J1^2 (pi x/2) p(x) = 1 at the zero, cleared of denominators.",
-        {f"w^{index}": residual.coeff_monomial(w**index) for index in range(terms)},
-    )
-    return Expansion("J1^2 times pi beta/2", 0, coefficients, proof)
-
-
-def _multiply(a: Sequence[sp.Rational], b: Sequence[sp.Rational], terms: int) -> Coefficients:
+def multiply(a: Sequence[sp.Rational], b: Sequence[sp.Rational], terms: int) -> Coefficients:
     """Product of two power series, truncated."""
     return tuple(
         sp.Add(*(a[i] * b[n - i] for i in range(n + 1) if i < len(a) and n - i < len(b)))
@@ -372,17 +306,6 @@ def power(a: Sequence[sp.Rational], exponent: sp.Rational, terms: int) -> Coeffi
         )
         b.append(sp.Rational(total) / n)
     return tuple(b)
-
-
-def _compose(
-    coefficients: Coefficients, first: int, stretch: Coefficients, terms: int
-) -> Coefficients:
-    """sum_i coefficients[i] w^e stretch^(first - 2 e), e = i + first, as a series in w."""
-    total = [sp.Integer(0)] * terms
-    for index, coefficient in enumerate(coefficients, start=first):
-        for n, factor in enumerate(power(stretch, sp.Integer(first - 2 * index), terms - index)):
-            total[index + n] += coefficient * factor
-    return tuple(total)
 
 
 @cache

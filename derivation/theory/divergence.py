@@ -14,7 +14,7 @@ from derivation.formula.dimension import thirds
 from derivation.formula.proof import prove
 from derivation.formula.record import Formula
 from derivation.formula.symbols import J1, N, P, a, b, h, phi
-from derivation.theory.bessel import slope_squared, zero_correction
+from derivation.theory.bessel_zeros import slope_squared, zero_correction
 from derivation.theory.contact_law import contact_law
 
 CONVERGENT, DIVERGENT, UNDECIDED = "convergent", "divergent", "undecided"
@@ -51,7 +51,7 @@ def slope_at_infinity() -> sp.Expr:
     """
     first = slope_squared(2).term(0, b * phi)
     # The zero's correction begins with 1/beta: beta may be read as j_n = b phi.
-    assert zero_correction(1).first < 1
+    assert zero_correction(0, 1).first < 1
     return 2 * first / (sp.pi * b * phi)
 
 

@@ -1,0 +1,75 @@
+"""Oracle 2 of kappa_n and M_k: trapezoids in mpmath, K0 and I0 from their power series."""
+
+from collections.abc import Callable
+from functools import cache
+
+from mpmath import mp, mpf
+
+
+@cache
+def wall_moment(n: int, digits: int) -> mpf:
+    """int_0^oo y^n K0/I0 dy."""
+    with mp.workdps(digits):
+        return _trapezoids(lambda y: y**n * _wall(y), n)
+
+
+def _wall(y: mpf) -> mpf:
+    """K0/I0 = -log(y/2) - gamma + sum H_m (y/2)^(2m)/m!^2 / I0, with digits for what cancels."""
+    with mp.workdps(mp.dps + 10 + int(0.9 * y)):
+        square, term, harmonic = y * y / 4, mpf(1), mpf(0)
+        below, above = mpf(1), mpf(0)
+        m = 0
+        while term * (1 + harmonic) > mp.eps * below:
+            m += 1
+            term *= square / m**2
+            harmonic += mpf(1) / m
+            below += term
+            above += term * harmonic
+        return above / below - mp.log(y / 2) - mp.euler
+
+
+@cache
+def finite_part(k: int, digits: int) -> mpf:
+    """FP int_0^oo T^(2k-4) (G - 1) dT.
+
+    The powers 1/T^3 and 1/T are taken off with a factor e^(-T^2); the finite part of
+    T^(s-1) e^(-T^2) is Gamma(s/2)/2 without its pole. Near T = 0 the fourth power of T
+    cancels, for which the precision is raised.
+    """
+    m = 2 * k - 4
+
+    def rest(T: mpf) -> mpf:
+        if digits * mp.log(10) < -mp.log(T):
+            return mpf(0)  # the integrand is of the order of T
+        with mp.workdps(6 * digits):
+            excess = (mp.sinh(2 * T) / 2 + T) / (mp.sinh(T) ** 2 - T**2) - 1
+            return T**m * excess - sum(c * T**p for p, c in poles.items()) * mp.exp(-T * T)
+
+    with mp.workdps(digits):
+        # G = 6/T^3 + 6/(5T) + ...; e^(-T^2) turns 1/T^3 into another -1/T.
+        poles = {2: {-3: mpf(6), -1: mpf(36) / 5}, 3: {-1: mpf(6)}}.get(k, {})
+        known = {-3: (mp.euler - 1) / 2, -1: -mp.euler / 2}
+        return _trapezoids(rest, m) + sum(c * known[p] for p, c in poles.items())
+
+
+def _trapezoids(function: Callable[[mpf], mpf], power: int) -> mpf:
+    """int_0^oo of what falls like y^power e^(-2y), y = exp(u - e^(-u)), in equal steps of u."""
+    step = 1 / (8 + mpf(4) / 5 * mp.dps + mp.sqrt(power))
+    first = -int(mp.log(4 * mp.dps) / step)
+    last = int(mp.log(power + 2 * mp.dps + 20) / step)
+    total = mpf(0)
+    for i in range(first, last + 1):
+        fade = mp.exp(-i * step)
+        y = mp.exp(i * step - fade)
+        total += y * (1 + fade) * function(y)
+    return step * total
+
+
+def leading_wall_moment(n: mpf) -> mpf:
+    """pi n!/2^(n+1), what kappa_n tends to for large n."""
+    return mp.pi * mp.factorial(n) / mpf(2) ** (n + 1)
+
+
+def leading_finite_part(k: mpf) -> mpf:
+    """(2k-2)!/2^(2k-3), what M_k tends to for large k."""
+    return mp.factorial(2 * k - 2) / mpf(2) ** (2 * k - 3)

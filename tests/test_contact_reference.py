@@ -8,7 +8,7 @@ import pytest
 from mpmath import mp, mpf
 
 from derivation.measure import contact
-from derivation.reference import contact_balls, contact_impact, contact_routes
+from derivation.reference import contact_agreement, contact_balls, contact_impact, contact_routes
 from derivation.reference.contact_sums import plate_excess
 from derivation.reference.routes import OracleError, RouteError
 
@@ -157,18 +157,18 @@ def test_oracles_agree_on_the_law() -> None:
     for eta in (1e-4, 10 ** generator.uniform(-3.5, -1.5), 10 ** generator.uniform(-1.4, 2.0), 1e2):
         for ratio in (10 ** generator.uniform(-8.0, -1.0), generator.uniform(0.5, 6.0)):
             a = min(eta * ratio, 0.95)
-            contact_routes.agree("indentation", (a, 2.0, eta, 1.0), 40)
-            contact_routes.agree("slope", (a, 2.0, eta, 1.0), 40)
+            contact_agreement.agree("indentation", (a, 2.0, eta, 1.0), 40)
+            contact_agreement.agree("slope", (a, 2.0, eta, 1.0), 40)
 
 
 def test_oracles_agree_on_the_inversion() -> None:
-    contact_routes.agree("contact_radius", (1.04629, 2.0, 0.1, 1.0), 40)
+    contact_agreement.agree("contact_radius", (1.04629, 2.0, 0.1, 1.0), 40)
 
 
 def test_disagreement_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(contact_routes.ROUTES, "indentation", contact_routes.slope)
+    monkeypatch.setitem(contact_agreement.SECOND, "indentation", contact_routes.slope)
     with pytest.raises(OracleError, match="against"):
-        contact_routes.agree("indentation", (0.3, 2.0, 0.1, 1.0), 20)
+        contact_agreement.agree("indentation", (0.3, 2.0, 0.1, 1.0), 20)
 
 
 # --- the check of kernels

@@ -184,6 +184,19 @@ def impact(
     return Impact(*settle(lambda _: _impact(R, m, v0, h, b, lam, mu, ())[0], digits, "impact"))
 
 
+def stored_energy(
+    a: Exact, R: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact, digits: int = 40
+) -> arb:
+    """int P d delta up to a contact radius: m v0^2/2 of the impact that just reaches it."""
+    alpha, eta = ratio_of(a, b), ratio_of(h, b)
+
+    def compute(_: int) -> tuple[arb]:
+        hertz = 8 * modulus(lam, mu) * to_ball(a) ** 5 / (15 * to_ball(R) ** 2)
+        return (hertz * (1 + excess("work", to_ball(alpha), eta)),)
+
+    return settle(compute, digits, f"energy at {a, R, h, b}")[0]
+
+
 def history(
     radii: Sequence[Exact],
     R: Exact, m: Exact, v0: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact,

@@ -131,8 +131,9 @@ def _check_contact(record: bool, json: str | None) -> int:
     with counted("check") as tell:
         rows = pipeline.check_contact(record, tell)
     if json != "-":
-        cells = [(r.kernel, r.points, f"{r.max_error:.2g}", r.passed) for r in rows]
-        table("Relative errors", ("kernel", "#points", "#max", "kept"), cells)
+        cells = [(r.kernel, r.points, r.digits, f"{r.max_error:.2g}", r.passed) for r in rows]
+        columns = ("kernel", "#points", "#digits shared", "#max", "kept")
+        table("Relative errors", columns, cells)
         listing("Worst arguments", [f"{r.kernel}: {' '.join(r.worst)}" for r in rows])
     if json:
         put_json(pipeline.contact_data(rows), json)

@@ -9,6 +9,7 @@
 """
 
 import json
+import os
 from collections.abc import Callable
 from dataclasses import asdict
 from importlib.metadata import version
@@ -22,9 +23,10 @@ from derivation.files import PACKAGE, ROOT, measurements, write_file
 from derivation.measure import speed
 from derivation.measure.check import Progress, Row
 from derivation.measure.check import check as measure
-from derivation.measure.contact import DIGITS
+from derivation.measure.contact import LIMIT
 from derivation.measure.contact import Row as ContactRow
 from derivation.measure.contact import check as measure_contact
+from derivation.measure.contact_truth import DIGITS
 from derivation.measure.record import provenance, to_json
 from derivation.produce import folder_for, write_files
 from derivation.report import pdf as compiler
@@ -57,18 +59,20 @@ def check(digits: int = 50, record: bool = False, tell: Progress | None = None) 
 
 
 def check_contact(record: bool = False, tell: Progress | None = None) -> tuple[ContactRow, ...]:
-    """Measure the contact law, its inversion and the impact against ball arithmetic: minutes."""
+    """Measure the contact law, its inversion and the impact against both oracles: minutes.
+
+    Raises
+    ------
+    derivation.reference.routes.OracleError
+        If the two oracles contradict each other.
+    """
     kernels: dict[str, Callable[..., Any]] = {
         "indentation": contact_law.indentation,
         "contact_radius": contact_law.contact_radius,
         "stiffness": contact_law.stiffness,
         "impact": impact.impact,
     }
-    rows: tuple[ContactRow, ...] = ()
-    for number, (name, kernel) in enumerate(kernels.items(), start=1):
-        if tell is not None:
-            tell(name, number, len(kernels))
-        rows += measure_contact({name: kernel})
+    rows = measure_contact(kernels, processes=os.cpu_count() or 1, tell=tell)
     if record:
         folder_for(None, REPORTS)
         text = json.dumps(contact_data(rows), indent=1, sort_keys=True) + "\n"
@@ -78,7 +82,8 @@ def check_contact(record: bool = False, tell: Progress | None = None) -> tuple[C
 
 def contact_data(rows: tuple[ContactRow, ...]) -> dict[str, Any]:
     """Rows of the contact law as plain data, with what they were measured with."""
-    return {"provenance": provenance(DIGITS), "rows": [asdict(row) for row in rows]}
+    found = [asdict(row) for row in rows]
+    return {"provenance": provenance(DIGITS), "limit": LIMIT, "rows": found}
 
 
 def check_speed(record: bool = False, tell: Progress | None = None) -> list[speed.Timing]:

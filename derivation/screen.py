@@ -9,7 +9,7 @@ from typing import Any
 
 from rich.console import Console
 from rich.markup import escape
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
 from derivation.files import write_file
@@ -30,12 +30,11 @@ def stage(name: str) -> Iterator[None]:
 
 @contextmanager
 def counted(name: str) -> Iterator[Callable[[str, int, int], None]]:
-    """Show a bar for work in parts; yields what wants to be told each part."""
+    """Show a bar and a clock for work in parts; yields what wants to be told each part."""
     start = time.perf_counter()
     part = TextColumn("{task.description}")
-    with Progress(
-        TextColumn(name), BarColumn(), MofNCompleteColumn(), part, console=NOTES, transient=True
-    ) as bar:
+    columns = (TextColumn(name), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), part)
+    with Progress(*columns, console=NOTES, transient=True) as bar:
         task = bar.add_task("", total=None)
         yield lambda part, number, total: bar.update(
             task, description=part, completed=number - 1, total=total

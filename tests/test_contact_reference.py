@@ -1,14 +1,17 @@
 """The oracles of the corrected contact law: known constants, limits, and each other."""
 
+import json
 import math
 import random
+from types import ModuleType
 
 import flint
 import pytest
 from mpmath import mp, mpf
 
-from derivation.measure import contact
-from derivation.reference import contact_balls, contact_impact, contact_routes
+from derivation.measure import contact, contact_grid, contact_truth
+from derivation.pipeline import MEASURED_CONTACT
+from derivation.reference import contact_agreement, contact_balls, contact_impact, contact_routes
 from derivation.reference.contact_sums import plate_excess
 from derivation.reference.routes import OracleError, RouteError
 
@@ -157,18 +160,75 @@ def test_oracles_agree_on_the_law() -> None:
     for eta in (1e-4, 10 ** generator.uniform(-3.5, -1.5), 10 ** generator.uniform(-1.4, 2.0), 1e2):
         for ratio in (10 ** generator.uniform(-8.0, -1.0), generator.uniform(0.5, 6.0)):
             a = min(eta * ratio, 0.95)
-            contact_routes.agree("indentation", (a, 2.0, eta, 1.0), 40)
-            contact_routes.agree("slope", (a, 2.0, eta, 1.0), 40)
+            contact_agreement.agree("indentation", (a, 2.0, eta, 1.0), 40)
+            contact_agreement.agree("slope", (a, 2.0, eta, 1.0), 40)
 
 
 def test_oracles_agree_on_the_inversion() -> None:
-    contact_routes.agree("contact_radius", (1.04629, 2.0, 0.1, 1.0), 40)
+    contact_agreement.agree("contact_radius", (1.04629, 2.0, 0.1, 1.0), 40)
+
+
+def reaching(a: float, h: float) -> contact_grid.Shape:
+    """The impact whose largest contact radius is about a, in a plate of radius 1."""
+    return contact_grid.Shape(a, R=40.0, h=h, b=1.0, lam=3e9, mu=2e9, m=0.5)
+
+
+@pytest.mark.parametrize(
+    ("where", "bending"),
+    [
+        pytest.param(contact_grid.PAPERS_IMPACT, 1.087, id="the paper's"),
+        pytest.param(reaching(4.139e-5, 6.9e-6), 1.0028e10, id="thin, far"),
+        pytest.param(reaching(2.8e-5, 2.8e-5), 1.0150e8, id="thin"),
+        pytest.param(reaching(0.971, 3.0), -0.35885, id="thick"),
+    ],
+)
+def test_oracles_agree_on_impacts(
+    where: tuple[float, ...] | contact_grid.Shape, bending: float
+) -> None:
+    """To 24 digits each; c_1 A says how far from Hertz's the impact is."""
+    found = contact_truth.truth(("impact", where))
+    assert found.digits >= 24
+    assert found.bend == pytest.approx(bending, rel=1e-3)
 
 
 def test_disagreement_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(contact_routes.ROUTES, "indentation", contact_routes.slope)
+    monkeypatch.setitem(contact_agreement.SECOND, "indentation", contact_routes.slope)
     with pytest.raises(OracleError, match="against"):
-        contact_routes.agree("indentation", (0.3, 2.0, 0.1, 1.0), 20)
+        contact_agreement.agree("indentation", (0.3, 2.0, 0.1, 1.0), 20)
+
+
+@pytest.mark.parametrize(
+    ("oracle", "part"), [(contact_impact, "modulus"), (contact_routes, "_hertz_stiffness")]
+)
+def test_an_error_in_either_oracle_of_impacts_is_caught(
+    monkeypatch: pytest.MonkeyPatch, oracle: ModuleType, part: str
+) -> None:
+    """10^-20 of the elastic modulus, which moves the results by less than itself."""
+    right = getattr(oracle, part)
+
+    def wrong(*arguments: float) -> flint.arb | mpf:
+        value = right(*arguments)
+        return value + value / 10**20
+
+    monkeypatch.setattr(oracle, part, wrong)
+    with pytest.raises(OracleError, match="against"):
+        contact_agreement.agree("impact", (2.0, 1.0, 0.01, 3.0, 1.0, 0.0, 0.5), 22)
+
+
+def test_a_route_that_contradicts_itself_gives_no_answer(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Twelve nodes to an interval against 24."""
+    _, good = contact_routes.SETTINGS[24]
+    monkeypatch.setitem(contact_routes.SETTINGS, 24, (good._replace(level=3), good))
+    with pytest.raises(RouteError, match="differ"):
+        contact_routes.indentation(0.3, 2.0, 0.02, 1.0, 22)
+
+
+def test_energy_is_what_the_impact_brings() -> None:
+    R, m, v0, h, b, lam, mu = contact_grid.PAPERS_IMPACT
+    found = contact_impact.impact(R, m, v0, h, b, lam, mu, 20)
+    radius = float(found.max_contact_radius)
+    energy = contact_impact.stored_energy(radius, R, h, b, lam, mu, 20)
+    assert float(energy) == pytest.approx(m * v0**2 / 2, rel=1e-14)
 
 
 # --- the check of kernels
@@ -196,6 +256,31 @@ def test_check_refuses_what_it_does_not_know() -> None:
 
 
 def test_grids_keep_inside_the_plate() -> None:
-    for a, _, h, b in contact.grid("indentation"):
-        assert 0 < a < b
-        assert h > 0
+    for shape in contact_grid.grid("indentation"):
+        assert 0 < shape.a < shape.b
+        assert shape.a <= 6 * shape.h
+
+
+def test_several_processes_answer_as_one() -> None:
+    jobs = [("stiffness", shape) for shape in contact_grid.grid("stiffness")[100:102]]
+    told: list[tuple[str, int, int]] = []
+    alone = contact_truth.truths(jobs)
+    assert contact_truth.truths(jobs, 2, lambda *what: told.append(what)) == alone
+    assert told == [("stiffness", 1, 2), ("stiffness", 2, 2)]
+
+
+def test_committed_measurements_cover_what_is_promised() -> None:
+    """Every kernel within 2e-15 of what both oracles share, impacts from -0.369 to 1e10."""
+    measured = json.loads(MEASURED_CONTACT.read_text())
+    rows = {row["kernel"]: row for row in measured["rows"]}
+    assert set(rows) == set(contact.KERNELS)
+    for row in rows.values():
+        assert row["digits"] >= 20
+        assert row["passed"]
+        assert row["max_error"] <= measured["limit"] == contact.LIMIT == 2e-15
+    cases = rows["impact"]["cases"]
+    assert len(cases) == rows["impact"]["points"] >= 24
+    assert cases[0]["c1_A"] <= -0.369
+    assert cases[-1]["c1_A"] >= 1e10
+    assert min(abs(case["c1_A"]) for case in cases if case["a_over_h"] > 0.5) < 1e-10
+    assert {case["a_over_h"] > 3 for case in cases} == {True, False}

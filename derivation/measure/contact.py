@@ -1,42 +1,43 @@
-"""The contact law's kernels against the truth: relative errors on plates thin and thick."""
+"""The contact law's kernels against what both oracles agree on: relative errors, row by row."""
 
 import math
-import random
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import flint
 import numpy as np
 
-from derivation.reference import contact_balls, contact_impact
+from derivation.measure.contact_grid import PAPERS_IMPACT, Point, grid
+from derivation.measure.contact_truth import Job, Tell, Truth, relative, truths
 
 LIMIT = 2e-15
 """Relative error that a kernel keeps."""
 
-DIGITS = 25
-THICKNESSES = (1e-4, 1e-3, 1e-2, 0.05, 0.1, 0.3, 0.5302, 0.6, 1.0, 3.0, 10.0, 100.0)
-"""h/b; c_1 passes zero near 0.5302."""
+KERNELS = ("indentation", "contact_radius", "stiffness", "impact")
+"""What can be measured."""
 
-RATIOS = (1e-8, 1e-4, 1e-2, 0.1, 0.5, 1.0, 2.0, 3.9, 4.1, 6.0)
-"""a/h; the series in it diverges from 4 on."""
 
-LENGTHS = (1.0, 1e-3, 25.4, 640.0)
-WIDEST = 0.97
-"""Largest a/b: wider contacts are drawn back to it."""
+@dataclass(frozen=True)
+class Case:
+    """One impact.
 
-IMPACTS = 8
-"""How many impacts are measured: each takes seconds."""
+    Parameters
+    ----------
+    c1_A
+        The first term that the plate adds to Hertz's, at the largest contact.
+    h_over_b, a_over_h
+        Half-thickness over plate radius, largest contact radius over half-thickness.
+    error
+        Largest relative error of the four results.
+    digits
+        To how many the oracles agree.
+    """
 
-TRUTHS: Mapping[str, Callable[..., Any]] = {
-    "indentation": contact_balls.indentation,
-    "contact_radius": contact_balls.contact_radius,
-    "stiffness": contact_balls.stiffness,
-    "impact": contact_impact.impact,
-}
-"""The first oracle's function for each kernel."""
-
-Point = tuple[float, ...]
+    c1_A: float
+    h_over_b: float
+    a_over_h: float
+    error: float
+    digits: int
 
 
 @dataclass(frozen=True)
@@ -49,26 +50,35 @@ class Row:
         Its name.
     points
         How many points were judged.
+    digits
+        To how many the oracles agree, the fewest over the points.
     max_error, p99_error
-        Largest error and its 99th percentile, in the mixed sense of `tolerated`.
+        Largest error and its 99th percentile, over the truth's `scale`.
     worst
         Arguments of the largest error, in hexadecimal.
     passed
         Whether all errors keep the limit.
+    cases
+        The impacts one by one, by c_1 A; empty for other kernels.
     """
 
     kernel: str
     points: int
+    digits: int
     max_error: float
     p99_error: float
     worst: tuple[str, ...]
     passed: bool
+    cases: tuple[Case, ...]
 
 
 def check(
-    kernels: Mapping[str, Callable[..., Any]], points: Mapping[str, Sequence[Point]] | None = None
+    kernels: Mapping[str, Callable[..., Any]],
+    points: Mapping[str, Sequence[Point]] | None = None,
+    processes: int = 1,
+    tell: Tell | None = None,
 ) -> tuple[Row, ...]:
-    """Hold kernels to the truth.
+    """Hold kernels to the truth, which is what both oracles agree on, asked point by point.
 
     Parameters
     ----------
@@ -78,110 +88,74 @@ def check(
         returns contact time, largest indentation, force and contact radius.
     points
         Arguments by kernel; the default grids if left out.
+    processes
+        How many points are worked on at a time.
+    tell
+        Told about every point that is done: kernel, how many, of how many.
 
     Raises
     ------
+    OracleError
+        If the oracles contradict each other: then there is no truth to measure against.
     ValueError
         For a name that is not among these, and for a kernel without points.
     """
-    unknown = sorted(set(kernels) - set(TRUTHS))
+    unknown = sorted(set(kernels) - set(KERNELS))
     if unknown:
-        raise ValueError(f"kernels are called {', '.join(TRUTHS)}; got {', '.join(unknown)}")
+        raise ValueError(f"kernels are called {', '.join(KERNELS)}; got {', '.join(unknown)}")
+    jobs = _mixed([_jobs(name, points) for name in kernels])
+    found = truths(jobs, processes, tell)
     return tuple(
-        _row(name, call, grid(name) if points is None else points[name])
+        _row(name, call, [true for job, true in zip(jobs, found, strict=True) if job[0] == name])
         for name, call in kernels.items()
     )
 
 
-def _row(name: str, call: Callable[..., Any], points: Sequence[Point]) -> Row:
-    if not points:
+def _jobs(name: str, points: Mapping[str, Sequence[Point]] | None) -> list[Job]:
+    """A kernel's points, or its grid; to the impacts' the paper's own is added."""
+    if points is None:
+        shapes: list[Job] = [(name, shape) for shape in grid(name)]
+        return [*shapes, (name, PAPERS_IMPACT)] if name == "impact" else shapes
+    if not points[name]:
         raise ValueError(f"no point to measure {name} at")
-    errors = [_error(name, call, point) for point in points]
-    where = max(range(len(points)), key=lambda i: errors[i])
+    return [(name, tuple(point)) for point in points[name]]
+
+
+def _mixed(parts: Sequence[Sequence[Job]]) -> list[Job]:
+    """All jobs, each kernel's spread evenly: an impact takes seconds, the others far less."""
+    placed = [
+        ((i + 0.5) / len(jobs), k, i) for k, jobs in enumerate(parts) for i in range(len(jobs))
+    ]
+    return [parts[k][i] for _, k, i in sorted(placed)]
+
+
+def _row(name: str, call: Callable[..., Any], found: Sequence[Truth]) -> Row:
+    errors = [_error(name, call, true) for true in found]
+    where = max(range(len(found)), key=lambda i: errors[i])
     finite = [error if math.isfinite(error) else 1e300 for error in errors]
+    cases = [_case(t, e) for t, e in zip(found, errors, strict=True)] if name == "impact" else []
     return Row(
         name,
-        len(points),
+        len(found),
+        math.floor(min(true.digits for true in found)),
         errors[where],
         float(np.quantile(finite, 0.99)),
-        tuple(argument.hex() for argument in points[where]),
+        tuple(argument.hex() for argument in found[where].point),
         errors[where] <= LIMIT,
+        tuple(sorted(cases, key=lambda case: case.c1_A)),
     )
 
 
-def _error(name: str, call: Callable[..., Any], point: Point) -> float:
+def _error(name: str, call: Callable[..., Any], true: Truth) -> float:
     """Largest error over the results at a point; infinite if one is not finite."""
-    got = call(*point)
+    got = call(*true.point)
     values = [float(value) for value in got] if name == "impact" else [float(got)]
-    true = truth(name, point)
-    if len(values) != len(true):
-        raise ValueError(f"{name} gave {len(values)} results, {len(true)} are expected")
-    return max(
-        relative(value, ball, tolerated(name, point))
-        for value, ball in zip(values, true, strict=True)
-    )
+    if len(values) != len(true.values):
+        raise ValueError(f"{name} gave {len(values)} results, {len(true.values)} are expected")
+    pairs = zip(values, true.values, strict=True)
+    return max(relative(value, ball, true.scale) for value, ball in pairs)
 
 
-def relative(value: float, true: flint.arb, scale: float) -> float:
-    """|value - true| over |true| times a scale."""
-    if not math.isfinite(value):
-        return math.inf
-    with flint.ctx.workprec(256):
-        return float((abs((flint.arb(value) - true) / true) / scale).abs_upper())
-
-
-def truth(name: str, point: Point) -> tuple[flint.arb, ...]:
-    """The first oracle's answer."""
-    found = TRUTHS[name](*point, digits=DIGITS)
-    return tuple(found) if name == "impact" else (found,)
-
-
-def tolerated(name: str, point: Point) -> float:
-    """What an error is divided by: (1 + |F|)/|1 + F|, F being what the plate adds to Hertz.
-
-    A sum is known to a unit in the last place of its largest part. Where 1 + F is
-    small against that, so is what can be asked; where F itself passes zero, 1
-    stays and nothing is excused. Results of an impact are held to their own size.
-    """
-    if name == "impact":
-        return 1.0
-    width = point[0]
-    if name == "contact_radius":
-        width = float(truth(name, point)[0])
-    h, b = point[2], point[3]
-    if name == "stiffness":
-        share = float(contact_balls.slope(width, 2.0, h, b, DIGITS)) / width - 1.0
-    else:
-        share = float(contact_balls.indentation(width, 1.0, h, b, DIGITS)) / width**2 - 1.0
-    return (1.0 + abs(share)) / abs(1.0 + share)
-
-
-def grid(name: str) -> tuple[Point, ...]:
-    """Default points of a kernel: every thickness with every width, the same in every run."""
-    generator = random.Random(name)
-    found: list[Point] = []
-    for i, eta in enumerate(THICKNESSES):
-        for k, ratio in enumerate(RATIOS):
-            b = LENGTHS[(i + k) % len(LENGTHS)] * generator.uniform(0.5, 2.0)
-            h = b * eta
-            a = min(h * ratio * generator.uniform(0.9, 1.0), WIDEST * b)
-            R = b * generator.uniform(1.5, 60.0)
-            mu = 10 ** generator.uniform(0.0, 11.0)
-            lam = mu * generator.uniform(-0.6, 50.0)
-            found.append(_arguments(name, a, R, h, b, lam, mu))
-    return tuple(found[:: max(1, len(found) // IMPACTS)]) if name == "impact" else tuple(found)
-
-
-def _arguments(
-    name: str, a: float, R: float, h: float, b: float, lam: float, mu: float
-) -> Point:  # fmt: skip
-    """Arguments that lead to a contact of about radius a."""
-    if name == "indentation":
-        return (a, R, h, b)
-    if name == "stiffness":
-        return (a, R, h, b, lam, mu)
-    depth = float(contact_balls.indentation(a, R, h, b, DIGITS))
-    if name == "contact_radius":
-        return (depth, R, h, b)
-    force = 16 * mu * (lam + mu) / (3 * (lam + 2 * mu)) * a**3 / R
-    return (R, 1.0, math.sqrt(0.7 * force * depth), h, b, lam, mu)
+def _case(true: Truth, error: float) -> Case:
+    h, b = true.point[3], true.point[4]
+    return Case(true.bend, h / b, true.radius / h, error, math.floor(true.digits))

@@ -252,7 +252,8 @@ def contact_radius(delta: Exact, R: Exact, h: Exact, b: Exact, digits: int = 50)
 
     def compute(_: int) -> tuple[arb]:
         target = to_ball(delta) * to_ball(R) / to_ball(b) ** 2
-        start = math.sqrt(float(target))  # Hertz's
+        # Hertz's, or that of a bent plate, x^3/(4 pi eta^3) = target, if it is smaller.
+        start = min(float(target) ** (1 / 2), (4 * math.pi * float(target)) ** (1 / 3) * float(eta))
         return (to_ball(b) * ratio_where(value, steepness, target, start, f"delta = {delta}"),)
 
     return settle(compute, digits, f"a at {delta, R, h, b}")[0]

@@ -79,7 +79,7 @@ def _ellipse_bound(alpha: arb, eta: arb, rate: arb) -> arb:
 
 
 def _slope_polynomial(alpha: arb, eta: Fraction) -> tuple[flint.arb_poly, arb]:
-    """S(q) on [0, 1] as 1 + q p(q^2) with exact coefficients, and a bound of the error.
+    """Exact coefficients of p(t), where S(q) = 1 + q p(q^2) on [0, 1], and a bound of p's error.
 
     L[sinc] is even in alpha, hence analytic in t = q^2 inside an ellipse of
     parameter rho^2, foci 0 and 1. Interpolation in n + 1 Chebyshev nodes misses at
@@ -106,10 +106,29 @@ def _slope_polynomial(alpha: arb, eta: Fraction) -> tuple[flint.arb_poly, arb]:
             share = sum((v.mid() * c for v, c in zip(values, cosines, strict=True)), arb(0))
             polynomial += before * (share * (2 if k else 1) / count)
             before, now = now, flint.arb_poly([-2, 4]) * now - before
-        spread = [arb(1)]
-        for term in polynomial.coeffs():
-            spread += [term, arb(0)]
-        return flint.arb_poly(spread), error.abs_upper()
+        return polynomial, error.abs_upper()
+
+
+def _spread(polynomial: flint.arb_poly) -> flint.arb_poly:
+    """1 + q p(q^2)."""
+    spread = [arb(1)]
+    for term in polynomial.coeffs():
+        spread += [term, arb(0)]
+    return flint.arb_poly(spread)
+
+
+def _doubt(polynomial: flint.arb_poly, error: arb) -> arb:
+    """Bound of the relative error of S and of every integral of it, where p errs by `error`.
+
+    S errs by q error, and S/q = 1/q + p >= 1 + p: in thin plates, where p is large,
+    nothing is lost against S(0) = 1.
+    """
+    p = flint.acb_poly(polynomial)
+    cover = (_at(p, acb(arb(arb(2 * k + 1) / 512, arb(1) / 512))) for k in range(256))
+    least = min((1 + value.real.lower() for value in cover), key=float) - error
+    if not least > 0:
+        raise PrecisionError("the slope could not be shown to be positive")
+    return (error / least).abs_upper()
 
 
 def _at(polynomial: flint.acb_poly, q: acb) -> acb:
@@ -136,23 +155,20 @@ def _duration(course: Course, u: arb, bits: int) -> arb:
 def _course(alpha: arb, R: Exact, m: Exact, b: Exact, stiff: arb, eta: Fraction) -> Course:
     """Polynomials at a largest a/b; `stiff` is C = 4 E*/(3R)."""
     bits = flint.ctx.prec
-    polynomial, error = _slope_polynomial(alpha, eta)
+    bare, error = _slope_polynomial(alpha, eta)
+    polynomial = _spread(bare)
     with flint.ctx.workprec(bits + 2 * polynomial.degree() + 64):
         work = (flint.arb_poly([0, 0, 0, 0, 1]) * polynomial).integral().coeffs()
         energy, tail = [arb(0)] * (len(work) - 1), arb(0)
         for power in range(len(work) - 1, 0, -1):
             tail += work[power]
             energy[power - 1] = tail
-        slope = flint.acb_poly(polynomial)
-        cover = (_at(slope, acb(arb(arb(2 * k + 1) / 512, arb(1) / 512))) for k in range(256))
-        least = min((value.real.lower() for value in cover), key=float) - error
-        if not least > 0:
-            raise PrecisionError(f"the slope could not be shown to be positive up to {alpha}")
         radius = alpha * to_ball(b)
         scale = 2 * radius**2 / to_ball(R)
         scale *= (to_ball(m) * to_ball(R) / (stiff * radius**5)).sqrt()
-        doubt = (3 * error / least).abs_upper()
-        return Course(slope, flint.acb_poly(energy), scale, doubt, radius)
+        # Relative errors below d of S and H make one of S/sqrt(H) below 2 d.
+        doubt = (3 * _doubt(bare, error)).abs_upper()
+        return Course(flint.acb_poly(polynomial), flint.acb_poly(energy), scale, doubt, radius)
 
 
 def impact(
@@ -166,6 +182,19 @@ def impact(
         If the contact reaches the plate's edge before the sphere has stopped.
     """
     return Impact(*settle(lambda _: _impact(R, m, v0, h, b, lam, mu, ())[0], digits, "impact"))
+
+
+def stored_energy(
+    a: Exact, R: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact, digits: int = 40
+) -> arb:
+    """int P d delta up to a contact radius: m v0^2/2 of the impact that just reaches it."""
+    alpha, eta = ratio_of(a, b), ratio_of(h, b)
+
+    def compute(_: int) -> tuple[arb]:
+        hertz = 8 * modulus(lam, mu) * to_ball(a) ** 5 / (15 * to_ball(R) ** 2)
+        return (hertz * (1 + excess("work", to_ball(alpha), eta)),)
+
+    return settle(compute, digits, f"energy at {a, R, h, b}")[0]
 
 
 def history(
@@ -190,7 +219,9 @@ def _impact(
         return 5 * x**5 * (1 + excess("sinc", x, eta)) / here
 
     target = to_ball(m) * to_ball(v0) ** 2 / 4 * 5 * to_ball(R) / stiff / to_ball(b) ** 5
-    start = float(target) ** 0.2  # Hertz's
+    # Hertz's, or that of a bent plate, 5 x^6/(16 pi eta^3) = target, if it is smaller.
+    bent = (3.2 * math.pi * float(target)) ** (1 / 6) * float(eta) ** 0.5
+    start = min(float(target) ** (1 / 5), bent)
     alpha = ratio_where(value, steepness, target, start, f"the sphere stops from {v0}")
     course = _course(alpha, R, m, b, stiff, eta)
     whole = _duration(course, arb(1), bits)

@@ -206,7 +206,7 @@ def _panel(
 def _bare_ray(k: int, bits: int) -> Panel:
     """The ray's k-th panel with H/J0 alone: y in [0, 1/2], [1/2, 1], [1, 2], [2, 4], ..."""
     # K0's power series cancels by e^(2 |z|), 3 |z| bits; where the asymptotic one serves, none.
-    spare = 32 + (4 * 2**k if 2**k < bits else 0)
+    spare = 32 + (4 * 2**k if 2**k <= bits else 0)
     with flint.ctx.workprec(bits + spare):
         first = arb(0) if k == 0 else arb(2) ** (k - 2)
         ends = [acb(1 + 2 * y, y) for y in (first, arb(2) ** (k - 1))]

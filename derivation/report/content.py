@@ -77,6 +77,8 @@ def tex(
             motion=motion,
             contact_rows=[contact_row(row) for row in contact["rows"]],
             contact_digits=contact["provenance"]["digits"],
+            contact_limit=number(contact["limit"]),
+            contact_impacts=contact_impacts(contact["rows"]),
             timings=timed["rows"],
             machine=sorted(timed["machine"].items()),
         )
@@ -207,5 +209,23 @@ def number(value: float | str) -> str:
 
 def contact_row(row: Mapping[str, Any]) -> str:
     """Cells of a row of the contact law's errors."""
-    cells = [escape(row["kernel"]), str(row["points"])]
+    cells = [escape(row["kernel"]), str(row["points"]), str(row["digits"])]
     return " & ".join([*cells, number(row["max_error"]), number(row["p99_error"])])
+
+
+def contact_impacts(rows: Sequence[Mapping[str, Any]]) -> dict[str, str]:
+    """Over what the measured impacts reach: c_1 A, h/b and a/h."""
+    cases = [case for row in rows for case in row["cases"]]
+    ends = {}
+    for key in ("c1_A", "h_over_b", "a_over_h"):
+        values = [case[key] for case in cases]
+        ends[f"{key}_low"], ends[f"{key}_high"] = ending(min(values)), ending(max(values))
+    return ends
+
+
+def ending(value: float) -> str:
+    """An end of a range: three significant figures, small and large ones as powers of ten."""
+    if 1e-2 <= abs(value) < 1e4:
+        return f"${value:.3g}$"
+    mantissa, _, exponent = f"{value:.1e}".partition("e")
+    return rf"${mantissa}\cdot10^{{{int(exponent)}}}$"

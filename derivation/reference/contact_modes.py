@@ -1,0 +1,166 @@
+"""Oracle 2's modal sums as nodes and weights: the first modes, and Abel-Plana for the rest.
+
+The N first modes are added as they stand. The rest is a sum over integers of an
+analytic function, since dj/dn = 2/(j J1(j)^2) when j(n) is continued from the
+zeros by the phase of the Bessel functions; Abel-Plana's formula turns it into
+
+    sum_(n>=N) phi(n) = phi(N)/2 + int_N^oo phi dn - 2 int_0^oo Im phi(N+iy)/(e^(2 pi y)-1) dy,
+    phi(n) = 1/2 f(j(n)) dj/dn,   int_N^oo phi dn = 1/2 int_(j_N)^oo f dx.
+
+For plates that are not thin the part of G - 1 is added by brute force instead: it
+dies out within some hundred modes. Nodes and weights of a plate are made once.
+"""
+
+import itertools
+import math
+from collections.abc import Callable, Sequence
+from functools import cache
+from typing import NamedTuple
+
+from mpmath import mp, mpf
+from mpmath.calculus.quadrature import GaussLegendre
+
+from derivation.reference.routes import RouteError
+
+THIN = 0.035
+"""Below this h/b the poles of G beyond Re n = N weigh less than e^(-4.2/eta) < 10^-52."""
+
+FIRST = 30
+"""Zeros from here on are found by the phase's asymptotic series, to 60 digits at least."""
+
+
+class Nodes(NamedTuple):
+    """Nodes z and weights w of sum_j f(j) G/(j J1^2) = Re sum w z f(z) + rest/2.
+
+    The rest, int f dx from `start` on, has a closed form.
+    """
+
+    plain: tuple[tuple[mpf, mpf], ...]
+    start: mpf
+
+
+@cache
+def _phase_series(dps: int) -> tuple[mpf, ...]:
+    """Coefficients d_k of d theta/dx = sum d_k x^(-2k), the reciprocal of Nicholson's series.
+
+    (pi x/2)(J0^2 + Y0^2) ~ 1 + sum_k (1*3*...(2k-1))/(2*4*...2k) prod (-(2i-1)^2)/(2x)^(2k).
+    """
+    with mp.workdps(dps):
+        size = [mpf(1)]
+        for k in range(1, dps + 10):
+            factor = -(mpf(2 * k - 1) ** 3) / (2 * k) / 4
+            size.append(size[-1] * factor)
+        rate = [mpf(1)]
+        for k in range(1, len(size)):
+            rate.append(-mp.fsum(size[i] * rate[k - i] for i in range(1, k + 1)))
+        return tuple(rate)
+
+
+def _phase(x: mpf) -> tuple[mpf, mpf]:
+    """Phase theta of H and its slope at a large x, real or complex, by the asymptotic series.
+
+    Raises
+    ------
+    RouteError
+        If the series turns before its terms are below the working precision.
+    """
+    theta, rate, power, smallest = x - mp.pi / 4, mpf(1), 1 / x, mpf(10) ** (-mp.dps - 3)
+    square = 1 / (x * x)
+    for k, coefficient in enumerate(_phase_series(mp.dps)[1:], start=1):
+        theta -= coefficient * power / (2 * k - 1)
+        power *= square
+        rate += coefficient * power * x
+        if abs(coefficient * power * x) < smallest:
+            return theta, rate
+    raise RouteError(f"the phase's series does not reach {mp.dps} digits at {mp.nstr(x)}")
+
+
+def _continued_zero(n: mpf) -> tuple[mpf, mpf]:
+    """j(n) and dj/dn, where theta(j) = (n - 1/2) pi, by Newton's iteration."""
+    target = (n - mpf(1) / 2) * mp.pi
+    x = target + mp.pi / 4 + 1 / (8 * target)
+    for _ in range(12):
+        theta, rate = _phase(x)
+        step = (target - theta) / rate
+        x += step
+        if abs(step) < mpf(10) ** (-mp.dps + 8):
+            return x, mp.pi / _phase(x)[1]
+    raise RouteError(f"no zero of J0 continued to n = {mp.nstr(n)}")
+
+
+@cache
+def _mode(n: int, dps: int) -> tuple[mpf, mpf]:
+    """j_n and 1/(j_n J1(j_n)^2)."""
+    with mp.workdps(dps):
+        if n >= FIRST:
+            zero, rate = _continued_zero(mpf(n))
+            return zero, rate / 2
+        zero = mp.besseljzero(0, n)
+        return zero, 1 / (zero * mp.besselj(1, zero) ** 2)
+
+
+@cache
+def _gauss(level: int, dps: int) -> tuple[tuple[mpf, mpf], ...]:
+    """3 * 2^(level - 1) Gauss-Legendre nodes on [-1, 1]."""
+    with mp.workdps(dps):
+        rule = GaussLegendre(mp)
+        return tuple(rule.calc_nodes(level, mp.prec))
+
+
+def spread(edges: Sequence[mpf], level: int) -> list[tuple[mpf, mpf]]:
+    """Gauss-Legendre nodes and weights on consecutive intervals."""
+    found = []
+    for low, high in itertools.pairwise(edges):
+        middle, half = (low + high) / 2, (high - low) / 2
+        found += [(middle + half * x, half * w) for x, w in _gauss(level, mp.dps)]
+    return found
+
+
+def _excess(T: mpf) -> mpf:
+    """G(T) - 1, with as many digits more as its two cancellations take."""
+    lost = max(0, math.ceil(-4 * math.log10(float(abs(T)))))
+    with mp.workdps(mp.dps + lost + 5):
+        decay = mp.exp(-2 * T)
+        numerator = 2 * decay * (1 - decay + 2 * T + 2 * T * T)
+        return +(numerator / ((1 - decay) ** 2 - 4 * T * T * decay))
+
+
+@cache
+def _upright(first: int, level: int, dps: int) -> tuple[tuple[mpf, mpf], ...]:
+    """Abel-Plana's integral on Re n = N, without f; |f| grows by e^(pi y) at most."""
+    with mp.workdps(dps):
+        end = mpf(dps) * mp.log(10) / mp.pi + 5
+        heights = [mpf(0), mpf(1) / 2, *(mpf(2) ** k for k in range(5)), end]
+        found = []
+        for y, w in spread(heights, level):
+            z, slope = _continued_zero(mp.mpc(first, y))
+            found.append((z, mp.mpc(0, 1) * w * slope / mp.expm1(2 * mp.pi * y)))
+        return tuple(found)
+
+
+@cache
+def nodes_of(eta: mpf, first: int, level: int, dps: int) -> Nodes:
+    """Everything about a plate that does not depend on the contact."""
+    with mp.workdps(dps):
+        reach = mpf(dps) * mp.log(10)
+        factor: Callable[[mpf], mpf] = lambda z: 1 + _excess(2 * eta * z)  # noqa: E731
+        thin = eta < THIN
+        modes = [_mode(n, dps) for n in range(1, first)]
+        found = [(z, w * factor(z)) for z, w in modes]
+        edge, rate = _continued_zero(mpf(first))
+        late = factor if thin else (lambda _: mpf(1))
+        found.append((edge, rate / 4 * late(edge)))
+        found += [(z, w * late(z)) for z, w in _upright(first, level, dps)]
+        if thin:
+            edges = [2 * eta * edge]
+            while edges[-1] < reach / 2 + 5:
+                edges.append(min(2 * edges[-1], edges[-1] + 6))
+            smooth = spread(edges, level)
+            found += [(T / (2 * eta), w / (4 * eta) * _excess(T)) for T, w in smooth]
+        else:
+            n = first
+            while 4 * eta * n * 3 < reach + 15:
+                z, w = _mode(n, dps)
+                found.append((z, w * _excess(2 * eta * z)))
+                n += 1
+        return Nodes(tuple((z, w / z) for z, w in found), edge)

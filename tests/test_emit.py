@@ -59,7 +59,7 @@ def test_every_tampering_is_seen_and_the_remedy_named(deed: str, tmp_path: Path)
         (copy / "omega.py").unlink()
     elif deed == "edit":
         text = (copy / "omega.py").read_text()
-        (copy / "omega.py").write_text(text.replace("-odd /", "odd /", 1))
+        (copy / "omega.py").write_text(text.replace("np.exp(", "np.cos(", 1))
     else:
         (copy / "extra.py").write_text("")
     found = compare(copy, expected, "regenerate")

@@ -1,4 +1,7 @@
-"""Stable forms of the paper's formulas, each proved equal to the derived one.
+"""Stable forms of the formulas, each proved equal to the derived one.
+
+Those of one dimensionless variable are found by the rules; the fields of a mode,
+which depend on the depth too, are written out here and proved like the rest.
 
 Notation: x = phi h, T = 2x, t = phi z, u = phi (h + z), v = phi (h - z), so
 that u + v = T; products of hyperbolic functions are written with decaying
@@ -11,7 +14,8 @@ import sympy as sp
 from sympy.codegen.cfunctions import expm1
 
 from derivation.formula.record import Formula
-from derivation.formula.symbols import J1, A_j, P, R, T, a, b, h, lam, mu, phi, r, z
+from derivation.formula.symbols import A_j, P, R, T, a, h, lam, mu, phi, r, z
+from derivation.rewrite.automatic import automatic
 from derivation.rewrite.blocks import blocks
 from derivation.rewrite.form import Branch, Form, Seam, Step, form
 
@@ -42,99 +46,41 @@ def stable_forms(formulas: Mapping[str, Formula]) -> tuple[Form, ...]:
     ------
     ProofError
         Naming the form that is not its formula.
+    UnreachableError
+        Naming a formula that the rules do not reach.
     """
     known = blocks()
+
+    def found(name: str) -> _Shape:
+        return automatic(formulas[name].expression, known)
+
+    groups: dict[str, dict[str, _Shape]] = {
+        "omega": {name: found(name) for name in OMEGAS},
+        "influence": {name: found(name) for name in INFLUENCE},
+        "pressure": _pressure() | {name: found(name) for name in ("sonine", "A_j")},
+        "mode_shapes": _modes(),
+    }
     return tuple(
         form(name, module, formulas[name].expression, steps, value, known)
-        for module, group in (
-            ("omega", _omegas()),
-            ("influence", _influence()),
-            ("pressure", _pressure()),
-            ("mode_shapes", _modes()),
-        )
+        for module, group in groups.items()
         for name, (steps, value) in group.items()
     )
 
 
+OMEGAS = tuple(f"Omega_{k}{tail}" for tail in ("", "_scaled") for k in range(1, 5))
+INFLUENCE = ("G", "G_m", "G_minus_1", "C_top", "C_bottom", "K_j", "K_j_bottom")
+AUTOMATIC = (*OMEGAS, *INFLUENCE, "sonine", "A_j")
+"""Formulas whose forms the rules find."""
+
 _Shape = tuple[tuple[Step, ...], sp.Expr | Seam]
 
 
-def _omegas() -> dict[str, _Shape]:
-    """Omega_k as e^(-x) times a scaled form; T = 2x."""
-    sinh_minus, sinh_plus = blocks()["sinh_minus"](T), blocks()["sinh_plus"](T)
-    parity = (
-        STEP_X,
-        STEP_T,
-        Step(odd, -expm1(-T), "2 e^(-x) sinh x"),
-        Step(even, 1 + sp.exp(-T), "2 e^(-x) cosh x"),
-    )
-    odd_part, even_part = (STEP_T, parity[2]), (STEP_T, parity[3])
-    elastic = 2 * mu * (lam + mu) * phi
-    bending, stretching = T**3 * sinh_minus, T * sinh_plus
-    scaled: dict[str, _Shape] = {
-        "Omega_1": (parity, ((lam + mu) * x * odd + (lam + 2 * mu) * even) / (elastic * bending)),
-        "Omega_2": (
-            parity,
-            ((lam + mu) * x * even + (lam + 2 * mu) * odd) / (elastic * stretching),
-        ),
-        "Omega_3": (odd_part, -odd / (2 * mu * stretching)),
-        "Omega_4": (even_part, -even / (2 * mu * bending)),
-    }
-    halves = Step(fade, sp.exp(-x / 2), "half of the decay, twice: e^(-x) alone may underflow")
-    plain: dict[str, _Shape] = {
-        name: (
-            (STEP_X, *(s for s in steps if s != STEP_X), halves, Step(shape, fade * value)),
-            fade * shape,
-        )
-        for name, (steps, value) in scaled.items()
-    }
-    return plain | {f"{name}_scaled": shape for name, shape in scaled.items()}
-
-
-def _influence() -> dict[str, _Shape]:
-    """Plate factors, influence coefficients and K_j; T = 2 phi h.
-
-    The denominator sinh^2 T - T^2 is T^4 times two blocks; T^3 is divided by
-    last, so that nothing underflows before the value overflows.
-    """
-    product = blocks()["sinh_minus"](T) * blocks()["sinh_plus"](T)
-    loaded = (4 * sp.exp(-2 * T) - expm1(-4 * T) / T) / product
-    far = 2 * (1 + sp.exp(-2 * T) - expm1(-2 * T) / T) / product
-    beyond = 4 * (1 + T - expm1(-2 * T) / (2 * T)) / product
-    G: _Shape = (Step(shape, loaded),), shape / T**3
-    G_m, G_minus_1 = _fading(far, T), _fading(beyond, 2 * T)
-    steps = {
-        face: (STEP_T, *inner, Step(factor, value, "plate factor"))
-        for face, (inner, value) in (("top", G), ("bottom", G_m))
-    }
-    at_edge = Step(edge, b * phi, "the zero j_n of J0")
-    indentation = 8 * factor / (sp.pi * R * (edge * phi * J1) ** 2)
-    return {
-        "G": G,
-        "G_m": G_m,
-        "G_minus_1": G_minus_1,
-        "C_top": (steps["top"], factor * HALF_SPACE),
-        "C_bottom": (steps["bottom"], factor * HALF_SPACE),
-        "K_j": ((*steps["top"], at_edge), indentation),
-        "K_j_bottom": ((*steps["bottom"], at_edge), indentation),
-    }
-
-
-def _fading(value: sp.Expr, exponent: sp.Expr) -> _Shape:
-    """Shape e^(-exponent) value/T^3, the exponential in two halves: neither underflows alone."""
-    steps = (Step(fade, sp.exp(-exponent / 2), "half of the decay"), Step(shape, fade * value))
-    return steps, fade * (shape / T**3)
-
-
 def _pressure() -> dict[str, _Shape]:
-    """Hertz pressure and its coefficients."""
-    transform = Step(shape, blocks()["hertz_shape"](a * phi), "1 for a phi -> 0")
+    """Hertz pressure and the contact force: the edge's root by its two factors."""
     pressure_scale = Step(modulus, 16 * mu * (lam + mu) / (3 * (lam + 2 * mu)), "(4/3) E*")
     return {
         "p": ((), -3 * P * sp.sqrt(a - r) * sp.sqrt(a + r) / (2 * sp.pi * a**3)),
         "P": ((pressure_scale,), modulus * a**3 / R),
-        "sonine": ((transform,), a**2 * shape / 3),
-        "A_j": ((transform, pressure_scale), -modulus * a**3 * shape / (sp.pi * R * (b * J1) ** 2)),
     }
 
 
@@ -188,7 +134,7 @@ def _modes() -> dict[str, _Shape]:
         "mode_zz": (_steps(axial, versine_step, cubic_step), WHOLE),
         "mode_rz": (_steps(shear), WHOLE / T),
         "mode_rr": _in_plane(sp.Integer(1), 1, sp.Integer(0), A_j),
-        "mode_tt": _in_plane(sp.Integer(1), 0, sp.Integer(1), A_j * lam / (lam + mu)),
+        "mode_tt": _in_plane(sp.Integer(1), 0, sp.Integer(1), A_j * ratio, TWO_NU),
     }
 
 
@@ -217,7 +163,10 @@ def _steps(last: tuple[Step, ...], *between: Step) -> tuple[Step, ...]:
     return (*DEPTHS, *(s for s in (*FRACTIONS, *PARITIES) if s.symbol in used), *between, *last)
 
 
-def _in_plane(c: sp.Expr, d: int, c_minus_d: sp.Expr, scale: sp.Expr) -> _Shape:
+TWO_NU = Step(ratio, lam / (lam + mu), "2 nu, apart lest A_j lam overflow")
+
+
+def _in_plane(c: sp.Expr, d: int, c_minus_d: sp.Expr, scale: sp.Expr, *before: Step) -> _Shape:
     """Scale times (B(u,v) sinh T - B(v,u) T)/(sinh^2 T - T^2), B(u,v) = c sinh u - d v cosh u.
 
     Bending and stretching shares are summed below T = 2, where the two terms
@@ -263,4 +212,4 @@ def _in_plane(c: sp.Expr, d: int, c_minus_d: sp.Expr, scale: sp.Expr) -> _Shape:
         WHOLE,
         {T: sp.Integer(2), u: sp.Integer(1), v: sp.Integer(1)},
     )
-    return (*DEPTHS, STEP_X, Step(t, phi * z)), Seam(T, sp.Integer(2), thin, thick)
+    return (*DEPTHS, *before, STEP_X, Step(t, phi * z)), Seam(T, sp.Integer(2), thin, thick)

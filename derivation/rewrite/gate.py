@@ -1,0 +1,126 @@
+"""How wrong a form is in double precision: its worst error against balls of the original."""
+
+import math
+import random
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import flint
+import sympy as sp
+
+from derivation.formula.ball import Exact, PrecisionError, evaluate, to_ball
+from derivation.formula.ulp import neighbours, overflows, ulp_error
+from derivation.rewrite.doubles import run
+from derivation.rewrite.form import Seam, Step
+from derivation.rewrite.shape import Shape, assembled
+
+DIGITS = 25
+SAMPLES = (1.3, 0.7, 2.1, 0.45)
+"""What further variables, all positive, are set to."""
+
+
+@dataclass(frozen=True)
+class Truth:
+    """A point, the exact value and half the condition number there.
+
+    Parameters
+    ----------
+    x
+        The point, an exact double.
+    value
+        Ball around the value.
+    slack
+        What half a unit of rounding in x may cost, in units of the value: |x f'/(2 f)|.
+    """
+
+    x: float
+    value: flint.arb
+    slack: float
+
+
+@dataclass(frozen=True)
+class Gate:
+    """The points of an expression at which forms of it are held to the truth."""
+
+    x: sp.Symbol
+    others: tuple[tuple[sp.Symbol, float], ...]
+    truths: tuple[Truth, ...]
+
+    def worst(self, form: sp.Expr | Shape) -> float:
+        """Largest error in ULP beyond conditioning; infinite where a result is not finite."""
+        steps, value = assembled(form) if isinstance(form, Shape) else ((), form)
+        return max(self._error(truth, steps, value) for truth in self.truths)
+
+    def _error(self, truth: Truth, steps: tuple[Step, ...], value: sp.Expr | Seam) -> float:
+        try:
+            got = run(steps, value, {self.x: truth.x, **dict(self.others)})
+        except OverflowError:
+            return math.inf
+        return max(ulp_error(got, truth.value) - truth.slack, 0.0)
+
+
+def points(low: float, high: float, seed: str) -> tuple[float, ...]:
+    """Decades with random digits between the ends, densely between 1e-4 and 50."""
+    generator = random.Random(seed)
+    first, last = math.log10(low), math.log10(high)
+    found = {low, high}
+    exponent = first
+    while exponent < last:
+        found.add(10.0 ** min(exponent + generator.random(), last))
+        exponent += max(1.0, (last - first) / 60)
+    near, far = max(first, -4.0), min(last, 1.7)
+    found |= {10 ** generator.uniform(near, far) for _ in range(90)}
+    for seam in (0.25, 0.5, 1.0, 1.5, 2.0, 3.0):
+        found |= {y for y in neighbours(seam, 1) if low <= y <= high}
+    return tuple(sorted(x for x in found if low <= x <= high))
+
+
+def gate(
+    expression: sp.Expr, x: sp.Symbol, ends: tuple[float, float], equal: sp.Expr | None = None
+) -> Gate:
+    """The gate of an expression.
+
+    Parameters
+    ----------
+    expression
+        The original, whose balls are the truth.
+    x
+        Its variable; all others are set to fixed positive numbers.
+    ends
+        The interval in which forms of it are to hold.
+    equal
+        A form proved equal, for points at which the original has no ball.
+    """
+    others = sorted(expression.free_symbols - {x}, key=str)
+    fixed = tuple(zip(others, SAMPLES, strict=False))
+    if len(fixed) < len(others):
+        raise ValueError(f"at most {len(SAMPLES)} further variables are expected, got {others}")
+    found = []
+    for point in points(*ends, str(expression)):
+        value, slack = _truth(expression, x, point, fixed, equal)
+        if value is not None and value != 0 and not overflows(value) and abs(value) > 1e-300:
+            found.append(Truth(point, value, slack))
+    return Gate(x, fixed, tuple(found))
+
+
+def _truth(
+    expression: sp.Expr,
+    x: sp.Symbol,
+    point: float,
+    fixed: Sequence[tuple[sp.Symbol, float]],
+    equal: sp.Expr | None,
+) -> tuple[flint.arb | None, float]:
+    known: dict[sp.Symbol, Exact] = dict(fixed)
+    for candidate in (expression, equal):
+        if candidate is None:
+            continue
+        try:
+            value = evaluate(candidate, {x: point, **known}, DIGITS)
+            slope = evaluate(candidate.diff(x), {x: point, **known}, 3) if value != 0 else None
+        except (PrecisionError, NotImplementedError):
+            continue
+        if slope is None:
+            return value, 0.0
+        with flint.ctx.workprec(64):
+            return value, float(abs(slope * to_ball(point) / value).abs_upper()) / 2
+    return None, 0.0

@@ -1,0 +1,145 @@
+"""An expression in, its stable form out: the rules in turn, each kept if it lowers the error."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import sympy as sp
+
+from derivation.rewrite.form import Branch, Seam, Step
+from derivation.rewrite.gate import Gate, gate
+from derivation.rewrite.rules import RULES, Rewritten, Rule
+from derivation.rewrite.shape import Shape, assembled
+from derivation.rewrite.terms import UnreachableError
+
+NOTHING = 1.5
+"""Differences of forms that are this exact, in ULP, decide nothing."""
+
+ENOUGH = 8.0
+"""A form that is off by more than this many ULP is refused."""
+
+
+@dataclass(frozen=True)
+class Applied:
+    """A rule that was kept.
+
+    Parameters
+    ----------
+    rule, cause
+        Its name, and the inaccuracy it removes.
+    operations, worst
+        How many operations the form has, and its worst error in ULP, without and with it.
+    """
+
+    rule: str
+    cause: str
+    operations: tuple[int, int]
+    worst: tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Stable:
+    """A stable form with how it came about.
+
+    Parameters
+    ----------
+    expression
+        The original.
+    steps, value
+        The form.
+    applied
+        The rules kept, in order.
+    worst
+        Its worst error in ULP beyond conditioning.
+    truncation
+        Bound of what its sections leave out, relatively.
+    """
+
+    expression: sp.Expr
+    steps: tuple[Step, ...]
+    value: sp.Expr | Seam
+    applied: tuple[Applied, ...]
+    worst: float
+    truncation: sp.Rational
+
+
+def stabilise(
+    expression: sp.Expr, x: sp.Symbol, ends: tuple[float, float] = (1e-150, 1e150)
+) -> Stable:
+    """The stable form of an expression for positive x.
+
+    All rules are applied in turn; then each has to earn its place: it is left out
+    if the form without it is as exact.
+
+    Raises
+    ------
+    UnreachableError
+        If the rules do not bring its error down to 8 ULP; with the reason.
+    """
+    at = gate(expression, x, ends, _decayed(expression, x))
+    kept = list(RULES)
+    form, worst = _through(kept, x, expression, at)
+    for rule in reversed(RULES):
+        fewer = [other for other in kept if other != rule]
+        shorter, error = _through(fewer, x, expression, at)
+        if error <= max(worst, NOTHING):
+            kept, form, worst = fewer, shorter, error
+    if worst > ENOUGH:
+        raise UnreachableError(_reason(expression, x, worst))
+    steps, value = assembled(form) if isinstance(form, Shape) else ((), form)
+    applied = tuple(_account(rule, kept, x, expression, at) for rule in kept)
+    truncation = sp.Add(*(f.truncation for f in form.factors)) if isinstance(form, Shape) else 0
+    return Stable(expression, steps, value, applied, worst, sp.sympify(truncation))
+
+
+def _through(
+    rules: Sequence[Rule], x: sp.Symbol, expression: sp.Expr, at: Gate
+) -> tuple[Rewritten, float]:
+    """The form that the rules lead to, and its worst error."""
+    form: Rewritten = expression
+    for rule in rules:
+        try:
+            results = list(rule.apply(x, form))
+        except UnreachableError:
+            continue
+        if len(results) > 1:
+            results.sort(key=lambda result: max(at.worst(result), NOTHING))
+        form = results[0] if results else form
+    return form, at.worst(form)
+
+
+def _account(
+    rule: Rule, kept: Sequence[Rule], x: sp.Symbol, expression: sp.Expr, at: Gate
+) -> Applied:
+    """What the form is without the rule and with it."""
+    with_it, without = list(kept), [other for other in kept if other != rule]
+    pairs = [_through(rules, x, expression, at) for rules in (without, with_it)]
+    before, after = (operations(form) for form, _ in pairs)
+    return Applied(rule.name, rule.cause, (before, after), (pairs[0][1], pairs[1][1]))
+
+
+def _decayed(expression: sp.Expr, x: sp.Symbol) -> sp.Expr | None:
+    """The expression in decaying exponentials, which has balls where the original has none."""
+    form: Rewritten = expression
+    for rule in RULES[:4]:
+        form = next(rule.apply(x, form), form)
+    if not isinstance(form, Shape):
+        return None
+    _, value = assembled(form)
+    return value if isinstance(value, sp.Expr) else None
+
+
+def operations(form: Rewritten) -> int:
+    """Operations of a form, the longer branch of a seam."""
+    steps, value = assembled(form) if isinstance(form, Shape) else ((), form)
+    sides = (value.below, value.above) if isinstance(value, Seam) else (Branch((), value, {}),)
+    return max(
+        int(sum(sp.count_ops(step.expression) for step in (*steps, *side.steps)))
+        + int(sp.count_ops(side.value))
+        for side in sides
+    )
+
+
+def _reason(expression: sp.Expr, x: sp.Symbol, worst: float) -> str:
+    size = "overflows or has no value" if math.isinf(worst) else f"is off by {worst:.0f} ULP"
+    return f"the rules leave a form of {expression} that {size} somewhere for {x} > 0"

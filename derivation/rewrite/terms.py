@@ -1,0 +1,157 @@
+"""A sum of c x^k e^(m x) w(x): its normal form, Taylor coefficients and what they leave out.
+
+w is 1, or sin, cos or log(1 + .) of a multiple of x. Every formula of the paper is
+made of quotients of such sums.
+"""
+
+from collections.abc import Iterator, Mapping
+from typing import NamedTuple
+
+import sympy as sp
+from sympy.codegen.cfunctions import expm1, log1p
+
+WAVES = {sp.sin: "sin", sp.cos: "cos", log1p: "log1p"}
+
+
+class UnreachableError(ValueError):
+    """An expression that the rules cannot bring into a stable form, with the reason."""
+
+
+class Key(NamedTuple):
+    """x^power e^(rate x) wave(scale x); no wave is the empty word."""
+
+    power: int
+    rate: sp.Rational
+    wave: str = ""
+    scale: sp.Rational = sp.Integer(0)
+
+
+Terms = Mapping[Key, sp.Expr]
+"""Coefficients, free of x, by key; none is zero."""
+
+ONE = Key(0, sp.Integer(0))
+
+
+def terms_of(expression: sp.Expr, x: sp.Symbol) -> dict[Key, sp.Expr]:
+    """The normal form of a sum.
+
+    Raises
+    ------
+    UnreachableError
+        Naming the part that is no such term.
+    """
+    if not expression.has(x):
+        return {ONE: expression}
+    if expression == x:
+        return {Key(1, sp.Integer(0)): sp.Integer(1)}
+    if isinstance(expression, sp.Add):
+        return _sum(*(terms_of(part, x) for part in expression.args))
+    if isinstance(expression, sp.Mul):
+        found = {ONE: sp.Integer(1)}
+        for part in expression.args:
+            found = _product(found, terms_of(part, x))
+        return found
+    if isinstance(expression, sp.Pow) and expression.exp.is_Integer and expression.exp > 0:
+        return terms_of(sp.Mul(*[expression.base] * int(expression.exp), evaluate=False), x)
+    return _function(expression, x)
+
+
+def _function(expression: sp.Expr, x: sp.Symbol) -> dict[Key, sp.Expr]:
+    """A function of a multiple of x."""
+    scale = sp.cancel(expression.args[0] / x) if len(expression.args) == 1 else None
+    if scale is None or not scale.is_Rational:
+        raise UnreachableError(f"{expression} is not a function of a rational multiple of {x}")
+    half, zero = sp.Rational(1, 2), sp.Integer(0)
+    if isinstance(expression, sp.exp):
+        return {Key(0, scale): sp.Integer(1)}
+    if isinstance(expression, expm1):
+        return {Key(0, scale): sp.Integer(1), ONE: sp.Integer(-1)}
+    if isinstance(expression, sp.cosh):
+        return {Key(0, scale): half, Key(0, -scale): half}
+    if isinstance(expression, sp.sinh):
+        return {Key(0, scale): half, Key(0, -scale): -half}
+    if expression.func in WAVES:
+        return {Key(0, zero, WAVES[expression.func], scale): sp.Integer(1)}
+    raise UnreachableError(f"no rule knows the function {expression.func.__name__}")
+
+
+def _sum(*parts: Terms) -> dict[Key, sp.Expr]:
+    total: dict[Key, sp.Expr] = {}
+    for part in parts:
+        for key, coefficient in part.items():
+            total[key] = sp.expand(total[key] + coefficient) if key in total else coefficient
+    return {key: coefficient for key, coefficient in total.items() if coefficient != 0}
+
+
+def _product(one: Terms, other: Terms) -> dict[Key, sp.Expr]:
+    return _sum(
+        *(
+            {_times(key, further): coefficient * factor}
+            for key, coefficient in one.items()
+            for further, factor in other.items()
+        )
+    )
+
+
+def _times(one: Key, other: Key) -> Key:
+    if one.wave and other.wave:
+        raise UnreachableError(f"no rule for the product of {one.wave} and {other.wave}")
+    wave = one if one.wave else other
+    return Key(one.power + other.power, one.rate + other.rate, wave.wave, wave.scale)
+
+
+def expression_of(terms: Terms, x: sp.Symbol) -> sp.Expr:
+    """The sum the terms stand for."""
+    return sp.Add(*(coefficient * monomial(key, x) for key, coefficient in terms.items()))
+
+
+def monomial(key: Key, x: sp.Symbol) -> sp.Expr:
+    """One term without its coefficient."""
+    functions = {name: function for function, name in WAVES.items()}
+    wave = functions[key.wave](key.scale * x) if key.wave else sp.Integer(1)
+    return x**key.power * sp.exp(key.rate * x) * wave
+
+
+def coefficient(key: Key, n: int) -> sp.Rational:
+    """Taylor coefficient of x^n of one term."""
+    order = n - key.power
+    if order < 0:
+        return sp.Integer(0)
+    if not key.wave:
+        return key.rate**order / sp.factorial(order)
+    if key.rate != 0:
+        raise UnreachableError(f"no rule for a decaying {key.wave}")
+    if key.wave == "log1p":
+        return (-1) ** (order + 1) * key.scale**order / order if order else sp.Integer(0)
+    if order % 2 != (key.wave == "sin"):
+        return sp.Integer(0)
+    return (-1) ** (order // 2) * key.scale**order / sp.factorial(order)
+
+
+def taylor(terms: Terms) -> Iterator[sp.Expr]:
+    """Taylor coefficients of the sum about 0, from x^0 on, without end."""
+    n = 0
+    while True:
+        yield sp.Add(*(c * coefficient(key, n) for key, c in terms.items()))
+        n += 1
+
+
+def left_out(terms: Terms, n: int, end: sp.Rational) -> sp.Rational:
+    """Bound of what the powers from x^n on add up to, for 0 <= x <= end.
+
+    Taylor's theorem: e^(m x) after its first J terms is off by at most
+    (|m| x)^J/J! e^(|m| x), a sine by (p x)^J/J!, and log(1 + p x), whose terms
+    alternate or add up, by at most those of a geometric series.
+    """
+    total = sp.Integer(0)
+    for key, size in terms.items():
+        order, reach = max(n - key.power, 0), abs(key.scale if key.wave else key.rate) * end
+        if key.wave == "log1p":
+            if reach >= 1:
+                raise UnreachableError(f"the series of log(1 + {key.scale} x) ends before {end}")
+            share = reach ** max(order, 1) / (max(order, 1) * (1 - reach))
+        else:
+            share = reach**order / sp.factorial(order)
+            share *= 1 if key.wave else sp.Integer(3) ** sp.ceiling(reach)
+        total += abs(size) * end**key.power * share
+    return total

@@ -96,6 +96,7 @@ def modules(kernels: tuple[Kernel, ...]) -> tuple[Module, ...]:
 
     planned = [
         Module("arrays", "arrays", {}),
+        Module("ranges", "ranges", {}),
         Module("blocks", "blocks", {"functions": [block_text(b) for b in known.values()]}),
         tables("bessel", bessel_context()),
         tables("moments", moment_context()),

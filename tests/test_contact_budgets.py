@@ -25,11 +25,16 @@ def ulps(got: arb, truth: arb, scale: arb, fmt: Format = DOUBLE) -> float:
     return float(abs(got - truth) * arb(2) ** -spacing_exponent(scale, fmt))
 
 
+@cache
+def departure(alpha: float, eta: float) -> arb:
+    return contact_balls.departure(alpha, eta, 1.0, 25)
+
+
 @pytest.mark.parametrize("eta", ETAS)
 @pytest.mark.parametrize("fmt", [DOUBLE, SINGLE], ids=lambda fmt: fmt.name)
 def test_coefficients_give_the_correction(eta: float, fmt: Format) -> None:
     kind = np.dtype(fmt.name).type
-    eta = float(kind(eta))
+    eta = float(np.float32(eta))  # for both, so that they share their truths
     rows = plate_coefficients(kind(eta))
     assert rows.dtype == fmt.name
     with flint.ctx.workprec(200):
@@ -41,7 +46,7 @@ def test_coefficients_give_the_correction(eta: float, fmt: Format) -> None:
             value = arb(0)
             for coefficient in rows[::-1]:
                 value = value * (A / reach) ** 2 + arb(float(coefficient))
-            truth = contact_balls.departure(alpha, eta, 1.0, 25)
+            truth = departure(alpha, eta)
             scale = (1 + truth).max(abs(truth))
             assert ulps(A * value, truth, scale, fmt) <= BUDGET["plate_coefficients"]
 
@@ -83,9 +88,8 @@ def test_reversed_series_is_the_series(
             a = (arb(R) * arb(delta)).sqrt()
             bracket = sum((p * (a / h) ** n for n, p in enumerate(reversed_terms(h, b))), arb(0))
             truth = stiff * a * arb(delta) * bracket
-            total = float(conditioning(call, (delta, R, h, b, lam, mu))[0])
-            found = ulps(arb(float(got)), truth, truth, fmt)
-            assert found <= BUDGET["force_by_series"] + total / 2
+            # Without what conditioning allows: that takes many slow calls.
+            assert ulps(arb(float(got)), truth, truth, fmt) <= BUDGET["force_by_series"]
 
 
 SCENES = ((0.05, 0.03, 10.0, 0.001, 0.05, LAM, MU), (0.13, 72.2, 1.0, 0.1, 1.0, 0.36e9, 0.43e9))

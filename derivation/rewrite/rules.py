@@ -13,8 +13,8 @@ from typing import TypeAlias
 import sympy as sp
 from sympy.codegen.cfunctions import expm1, log1p
 
-from derivation.rewrite.series import UNIT_ROUNDOFF, leading_power, taylor_section
-from derivation.rewrite.shape import Factor, Shape, square
+from derivation.rewrite.series import leading_power, taylor_section
+from derivation.rewrite.shape import Factor, Shape, assembled, square
 from derivation.rewrite.terms import (
     Key,
     Terms,
@@ -269,6 +269,17 @@ def halves(_: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
         yield replace(given, halved=True)
 
 
+def share(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
+    """e^(-x) on both sides of a seam -> computed once, e^(-2x) as its square."""
+    if isinstance(given, Shape) and given.seam is not None:
+        _, seam = assembled(given)
+        sides = [
+            sp.Add(*(s.expression for s in b.steps), b.value) for b in (seam.below, seam.above)
+        ]
+        if all(side.has(sp.exp(-x)) for side in sides):
+            yield replace(given, shared=True)
+
+
 RULES: Sequence[Rule] = (
     Rule("conjugate", "cancellation", conjugate),
     Rule("logarithm", "absorption", logarithm),
@@ -281,4 +292,5 @@ RULES: Sequence[Rule] = (
 )
 """In the order they are tried."""
 
-__all__ = ["RULES", "UNIT_ROUNDOFF", "Rewritten", "Rule"]
+SHARE = Rule("share", "time", share)
+"""The last: it costs accuracy nothing that counts, and takes an exponential away."""

@@ -7,7 +7,7 @@ import sympy as sp
 
 from derivation.rewrite.form import Branch, Seam, Step
 
-fade, part, square = sp.symbols("fade part square", positive=True)
+fade, part, square, decay = sp.symbols("fade part square decay", positive=True)
 ZERO = sp.Integer(0)
 HALVED = "half of the decay, twice: neither factor underflows alone"
 
@@ -56,6 +56,8 @@ class Shape:
         Below it the factors' sections serve.
     halved
         Whether the exponential is applied in two halves.
+    shared
+        Whether exponentials are computed once for both sides of the seam, and their squares.
     """
 
     x: sp.Symbol
@@ -65,6 +67,7 @@ class Shape:
     factors: tuple[Factor, ...]
     seam: sp.Rational | None = None
     halved: bool = False
+    shared: bool = False
 
     def with_factors(self, factors: Iterable[Factor]) -> "Shape":
         """The shape with other factors."""
@@ -81,7 +84,20 @@ def assembled(shape: Shape) -> tuple[tuple[Step, ...], sp.Expr | Seam]:
         (f.value / x**f.lead if f.near is None else f.near, f.lead, f.rate) for f in shape.factors
     ]
     low = _side(replace(shape, halved=False), shape.power, shape.rate, sides)
-    return (), Seam(x, shape.seam, low, high)
+    if not shape.shared:
+        return (), Seam(x, shape.seam, low, high)
+    low, high = (_with_decay(side, x) for side in (low, high))
+    return (Step(decay, sp.exp(-x)),), Seam(x, shape.seam, low, high)
+
+
+def _with_decay(side: Branch, x: sp.Symbol) -> Branch:
+    """e^(-x) and e^(-2x) in a branch as a step before the seam and its square."""
+    steps = tuple(replace(s, expression=_decayed(s.expression, x)) for s in side.steps)
+    return replace(side, steps=steps, value=_decayed(side.value, x))
+
+
+def _decayed(expression: sp.Expr, x: sp.Symbol) -> sp.Expr:
+    return expression.xreplace({sp.exp(-x): decay, sp.exp(-2 * x): decay**2})
 
 
 def _side(

@@ -8,7 +8,7 @@ import sympy as sp
 
 from derivation.rewrite.form import Branch, Seam, Step
 from derivation.rewrite.gate import Gate, gate
-from derivation.rewrite.rules import RULES, Rewritten, Rule
+from derivation.rewrite.rules import RULES, SHARE, Rewritten, Rule
 from derivation.rewrite.shape import Shape, assembled
 from derivation.rewrite.terms import UnreachableError
 
@@ -86,6 +86,9 @@ def stabilise(
             kept, form, worst = fewer, shorter, error
     if worst > ENOUGH:
         raise UnreachableError(_reason(expression, x, worst))
+    cheaper, error = _through([*kept, SHARE], x, expression, at)
+    if error <= worst + NOTHING / 2 and cheaper != form:
+        kept, form, worst = [*kept, SHARE], cheaper, error
     steps, value = assembled(form) if isinstance(form, Shape) else ((), form)
     applied = tuple(_account(rule, kept, x, expression, at) for rule in kept)
     truncation = sp.Add(*(f.truncation for f in form.factors)) if isinstance(form, Shape) else 0

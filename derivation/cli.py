@@ -5,6 +5,7 @@ Exit status: 0 fine, 1 a check failed or formulas differ, 2 bad input.
 
 import sys
 from collections.abc import Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated
 
@@ -153,6 +154,46 @@ def _check_speed(record: bool, json: str | None) -> int:
     if json:
         put_json(as_data(timings), json)
     return 0 if all(t.kept for t in timings) else 1
+
+
+@app.command()
+def rewrite(
+    formula: Annotated[
+        str, typer.Argument(help="A formula of one variable; none for the paper's own.")
+    ] = "",
+    variable: Annotated[str, typer.Option(help="Its variable, positive.")] = "x",
+    record: Annotated[
+        bool, typer.Option("--record", help="Keep the paper's as reports/data/rewrite.json.")
+    ] = False,
+    json: Json = None,
+) -> None:
+    """Find a stable form of a formula and print it as NumPy, or say what was done to the paper's.
+
+    Example: platecontact rewrite "(x - sin(x))/x**3"
+    """
+    from derivation import pipeline
+    from derivation.measure.record import plain
+
+    if formula:
+        with stage("rewrite"):
+            stable, source = pipeline.rewritten(formula, variable)
+        found = [("", applied) for applied in stable.applied]
+        data: object = {"source": source, "applied": [asdict(a) for a in stable.applied]}
+    else:
+        with counted("rewrite") as tell:
+            accounts = pipeline.rewriting(record, tell)
+        found = [(account.name, applied) for account in accounts for applied in account.applied]
+        data, source = {"rows": [asdict(account) for account in accounts]}, ""
+    if json != "-":
+        rows = [
+            (name, a.rule, a.cause, *(f"{x:.3g}" for x in (*a.operations, *a.worst)))
+            for name, a in found
+        ]
+        heads = ("formula", "rule", "against", "#operations", "#with it", "#worst ULP", "#with it")
+        table("Without and with each rule", heads, rows)
+        OUT.print(source, markup=False, highlight=False, soft_wrap=True)
+    if json:
+        put_json(plain(data), json)
 
 
 @app.command()

@@ -16,10 +16,14 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from derivation.derived import chain, misprints
+import sympy as sp
+
+from derivation.derived import chain, formulas, misprints
 from derivation.emit.freshness import Freshness, compare
 from derivation.emit.render import CITATION
+from derivation.emit.standalone import standalone
 from derivation.files import PACKAGE, ROOT, measurements, write_file
+from derivation.formula.parse import parse
 from derivation.measure import speed
 from derivation.measure.check import Progress, Row
 from derivation.measure.check import check as measure
@@ -27,11 +31,13 @@ from derivation.measure.contact import LIMIT
 from derivation.measure.contact import Row as ContactRow
 from derivation.measure.contact import check as measure_contact
 from derivation.measure.contact_truth import DIGITS
-from derivation.measure.record import provenance, to_json
+from derivation.measure.record import plain, provenance, to_json
 from derivation.produce import folder_for, write_files
 from derivation.report import pdf as compiler
 from derivation.report.content import tex
 from derivation.report.figures import figures, motion_context
+from derivation.rewrite.account import Account, accounts
+from derivation.rewrite.stabilise import Stable, stabilise
 from derivation.scene.model import Model, model_of
 from derivation.scene.scene import load
 from generated import contact_law, impact
@@ -39,6 +45,7 @@ from generated import contact_law, impact
 REPORTS = ROOT / "reports"
 MEASURED = measurements() / "check.json"
 MEASURED_CONTACT = measurements() / "contact.json"
+REWRITTEN = measurements() / "rewrite.json"
 MEASURED_SPEED = measurements() / "speed.json"
 EXAMPLE = PACKAGE / "scene" / "examples" / "paper.toml"
 
@@ -96,6 +103,29 @@ def check_speed(record: bool = False, tell: Progress | None = None) -> list[spee
     return timings
 
 
+def rewriting(record: bool = False, tell: Progress | None = None) -> tuple[Account, ...]:
+    """What the rules did to each formula, measured without and with every one of them."""
+    found = accounts(formulas(), tell)
+    if record:
+        folder_for(None, REPORTS)
+        data = {"rows": plain([asdict(account) for account in found])}
+        write_file(REWRITTEN, json.dumps(data, indent=1, sort_keys=True) + "\n")
+    return found
+
+
+def rewritten(text: str, variable: str = "x") -> tuple[Stable, str]:
+    """A formula of one's own: its stable form, and that as a NumPy module.
+
+    Raises
+    ------
+    ValueError
+        If the formula cannot be read, or is out of the rules' reach.
+    """
+    symbol = sp.Symbol(variable, positive=True)
+    stable = stabilise(parse(text, {variable: symbol}), symbol)
+    return stable, standalone(stable)
+
+
 def verdict(rows: tuple[Row, ...]) -> list[str]:
     """What a fresh measurement says, and whether it repeats the committed one."""
     failed = [row.kernel for row in rows if row.passed is False]
@@ -117,15 +147,24 @@ def report_files() -> dict[str, str]:
     FileNotFoundError
         If there are no committed measurements.
     """
-    for path in (MEASURED, MEASURED_CONTACT, MEASURED_SPEED):
+    for path in (MEASURED, MEASURED_CONTACT, MEASURED_SPEED, REWRITTEN):
         if not path.is_file():
             raise FileNotFoundError(f"no measurements in {path}: run `platecontact check --record`")
     measured = json.loads(MEASURED.read_text())
     contact = json.loads(MEASURED_CONTACT.read_text())
     timed = json.loads(MEASURED_SPEED.read_text())
+    rules = json.loads(REWRITTEN.read_text())
     motion = motion_context(paper_case())
     text = tex(
-        chain(), misprints(), measured, contact, timed, motion, version("platecontact"), CITATION
+        chain(),
+        misprints(),
+        measured,
+        contact,
+        timed,
+        rules,
+        motion,
+        version("platecontact"),
+        CITATION,
     )
     return {"report.tex": text}
 

@@ -16,7 +16,7 @@ import pytest
 from flint import arb
 
 import derivation
-from derivation.emit.render import Module, _fill, format_files
+from derivation.emit.render import Module, fill, format_files
 from derivation.rewrite import contact_tables as tables
 from derivation.rewrite.contact_tables import contact_context, impact_context
 from derivation.rewrite.moment_tables import finite_parts, kappas
@@ -47,7 +47,7 @@ def rendered(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, Mod
         "reversed_series": {},
         "impact": impact_context(),
     }
-    source = {f"{name}.py": _fill(Module(name, name, c)) for name, c in contexts.items()}
+    source = {f"{name}.py": fill(Module(name, name, c)) for name, c in contexts.items()}
     for name, text in format_files(source).items():
         (folder / PACKAGE / name).write_text(text)
     sys.path.insert(0, str(folder))

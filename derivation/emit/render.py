@@ -69,7 +69,7 @@ def render(formulas: Mapping[str, Formula], forms: tuple[Form, ...]) -> dict[str
     """Files of the generated package by name; the same bytes for the same input."""
     kernels = kernel_rows(formulas, forms)
     planned = modules(kernels)
-    source = {f"{module.name}.py": _fill(module) for module in planned}
+    source = {f"{module.name}.py": fill(module) for module in planned}
     return format_files(source) | {"py.typed": ""}
 
 
@@ -185,7 +185,7 @@ def manifest_rows(kernels: tuple[Kernel, ...]) -> list[dict[str, Any]]:
     return rows + table_rows(read_budgets())
 
 
-def _fill(module: Module) -> str:
+def fill(module: Module) -> str:
     """Stage 3: a module's source, its header naming versions and the hash of what it came from."""
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(TEMPLATES),

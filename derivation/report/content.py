@@ -55,6 +55,7 @@ def tex(
     check: Mapping[str, Any],
     contact: Mapping[str, Any],
     timed: Mapping[str, Any],
+    rewritten: Mapping[str, Any],
     motion: Mapping[str, Any],
     version: str,
     citation: str,
@@ -80,6 +81,7 @@ def tex(
             contact_limit=number(contact["limit"]),
             contact_impacts=contact_impacts(contact["rows"]),
             timings=timed["rows"],
+            rewrites=[line for row in rewritten["rows"] for line in rewrite_rows(row)],
             machine=sorted(timed["machine"].items()),
         )
     )
@@ -205,6 +207,15 @@ def number(value: float | str) -> str:
         mantissa, _, exponent = f"{value:.1e}".partition("e")
         return rf"${mantissa}\cdot10^{{{int(exponent)}}}$"
     return f"{value:.2f}"
+
+
+def rewrite_rows(row: Mapping[str, Any]) -> Iterator[str]:
+    """Cells of a formula's rules: what the form is without and with each."""
+    for index, applied in enumerate(row["applied"]):
+        name = rf"\texttt{{{escape(row['name'])}}}" if index == 0 else ""
+        (fewer, more), (without, within) = applied["operations"], applied["worst"]
+        cells = [name, escape(applied["rule"]), escape(applied["cause"]), str(fewer), str(more)]
+        yield " & ".join([*cells, number(without), number(within)])
 
 
 def contact_row(row: Mapping[str, Any]) -> str:

@@ -53,7 +53,6 @@ ACTED_ON: tuple[tuple[str, sp.Expr], ...] = (
     ("decay", (sp.sinh(x) * sp.cosh(x) + x) / (sp.sinh(x) - x)),
     ("decay", x * sp.cos(x) - sp.sin(x)),
     ("difference", (x * sp.sinh(x) + 2 * sp.sinh(2 * x)) / sp.cosh(x)),
-    ("balance", (x**2 + sp.sinh(3 * x)) / sp.cosh(x)),
     ("balance", (x - sp.sin(x)) / x**3),
     ("halves", x / (sp.sinh(x) - 1)),
     ("share", (sp.sinh(x) - x) * sp.exp(-x)),

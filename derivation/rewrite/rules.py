@@ -205,7 +205,7 @@ def parts_of(terms: Terms, x: sp.Symbol) -> list[tuple[sp.Expr, int]]:
 
 
 def balance(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
-    """x^k e^(-m x) -> (x e^(-m x/k))^k, and the largest power taken out that x stands below."""
+    """The largest power of x taken out of a sum that stands over a power of x."""
     if not isinstance(given, Shape):
         return
     factors = []
@@ -213,27 +213,10 @@ def balance(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
         keys, parts = _terms(factor.value, x), sp.Add.make_args(factor.value)
         top = max((k.power for k in keys if k.rate == 0 and k.wave != "log1p"), default=0)
         top = top if given.power * factor.exponent < 0 else 0
-        far = sp.Add(*(_rooted(part / x**top, x) for part in parts))
+        far = sp.Add(*(part / x**top for part in parts))
         factors.append(factor if far == factor.value else replace(factor, far=far, top=top))
     if factors != list(given.factors):
         yield given.with_factors(factors)
-
-
-def _rooted(term: sp.Expr, x: sp.Symbol) -> sp.Expr:
-    power = _power_of(term, x)
-    decays = [factor for factor in sp.Mul.make_args(term) if isinstance(factor, sp.exp)]
-    if power < 2 or len(decays) != 1:
-        return term
-    rest = term / x**power / decays[0]
-    return rest * (x * sp.exp(decays[0].args[0] / power)) ** power
-
-
-def _power_of(term: sp.Expr, x: sp.Symbol) -> int:
-    for factor in sp.Mul.make_args(term):
-        base, exponent = factor.as_base_exp()
-        if base == x and exponent.is_Integer:
-            return int(exponent)
-    return 0
 
 
 def section(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:

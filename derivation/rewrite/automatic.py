@@ -87,18 +87,15 @@ def automatic(expression: sp.Expr, known: Mapping[str, Block]) -> Automatic:
         power += lead * factor.exponent
         product *= value**factor.exponent
     front, power = _undone(shape.front, power, reduced)
+    pair, front = _paired(front)
+    steps += pair
     whole = product * shape.x**power
     if shape.rate < 0:
-        steps += [
-            Step(fade, sp.exp(shape.rate * shape.x / 2), HALVED),
-            Step(part, whole * fade),
-        ]
-        whole = fade * part
-    elif front != 1:
-        steps.append(Step(core, whole))
-        whole = core
-    pair, front = _paired(front)
-    return (*steps, *pair), front * whole
+        half = Step(fade, sp.exp(shape.rate * shape.x / 2), HALVED)
+        return (*steps, half, Step(part, front * whole * fade)), fade * part
+    if front == 1:
+        return tuple(steps), whole
+    return (*steps, Step(core, whole)), front * core
 
 
 def _shape(reduced: Reduced) -> Shape:

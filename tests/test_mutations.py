@@ -1,4 +1,4 @@
-"""Generated code with one thing wrong in it: a coefficient, a switch, a scaling. All are noticed."""
+"""Generated code with one thing wrong: a coefficient, a switch, a scaling. All are noticed."""
 
 import importlib
 import math

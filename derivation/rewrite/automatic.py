@@ -6,6 +6,7 @@ Stages, in this order:
  2 rules           `fraction`, `decay` and `difference`, as for one variable
  3 blocks          sums that cancel at 0 -> building blocks, their power of x taken out
  4 front           powers of x that only undo powers of a length are undone; squares paired
+ 5 halves          an exponential that decays is applied in two halves around all the rest
 """
 
 from collections.abc import Mapping
@@ -17,11 +18,13 @@ from derivation.formula.symbols import a, h, phi
 from derivation.rewrite.form import Block, Step
 from derivation.rewrite.rules import decay, fraction, parts_of
 from derivation.rewrite.series import leading_power
-from derivation.rewrite.shape import HALVED, Factor, Shape, fade
+from derivation.rewrite.shape import Factor, Shape
 from derivation.rewrite.terms import Key, UnreachableError, terms_of
 
 x, y, T = sp.symbols("x y T", positive=True)
 core, part, spread = sp.symbols("core part spread", real=True)
+fade = sp.Symbol("fade", positive=True)
+HALVED = "half of the decay, twice: neither factor underflows alone"
 VARIABLES = {phi * h: (x, h), 2 * phi * h: (T, h), a * phi: (y, a), T: (T, T)}
 """Products that functions may depend on, the symbol each becomes, and what it replaces."""
 

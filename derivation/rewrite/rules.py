@@ -51,7 +51,7 @@ class Rule:
 
 
 def conjugate(_: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
-    """p - q with a square root among them -> (p^2 - q^2)/(p + q)."""
+    """p - q with a square root among them, as in (18) -> (p^2 - q^2)/(p + q)."""
     if isinstance(given, Shape):
         return
 
@@ -246,12 +246,6 @@ def _sectioned(factor: Factor, x: sp.Symbol, seam: sp.Rational) -> Factor:
     return replace(factor, near=near, lead=lead, rate=shift, truncation=found.bound)
 
 
-def halves(_: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
-    """e^(-m x) times the rest -> in two halves, so that neither factor underflows alone."""
-    if isinstance(given, Shape) and given.rate < 0 and not given.halved:
-        yield replace(given, halved=True)
-
-
 def share(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
     """e^(-x) on both sides of a seam -> computed once, e^(-2x) as its square."""
     if isinstance(given, Shape) and given.seam is not None:
@@ -270,7 +264,6 @@ RULES: Sequence[Rule] = (
     Rule("decay", "overflow", decay),
     Rule("difference", "cancellation", difference),
     Rule("balance", "overflow", balance),
-    Rule("halves", "underflow", halves),
     Rule("section", "cancellation", section),
 )
 """In the order they are tried."""

@@ -7,9 +7,8 @@ import sympy as sp
 
 from derivation.rewrite.form import Branch, Seam, Step
 
-fade, part, square, decay = sp.symbols("fade part square decay", positive=True)
+square, decay = sp.symbols("square decay", positive=True)
 ZERO = sp.Integer(0)
-HALVED = "half of the decay, twice: neither factor underflows alone"
 
 
 @dataclass(frozen=True)
@@ -54,8 +53,6 @@ class Shape:
         Sums in x and their powers.
     seam
         Below it the factors' sections serve.
-    halved
-        Whether the exponential is applied in two halves.
     shared
         Whether exponentials are computed once for both sides of the seam, and their squares.
     """
@@ -66,7 +63,6 @@ class Shape:
     rate: sp.Rational
     factors: tuple[Factor, ...]
     seam: sp.Rational | None = None
-    halved: bool = False
     shared: bool = False
 
     def with_factors(self, factors: Iterable[Factor]) -> "Shape":
@@ -83,7 +79,7 @@ def assembled(shape: Shape) -> tuple[tuple[Step, ...], sp.Expr | Seam]:
     sides = [
         (f.value / x**f.lead if f.near is None else f.near, f.lead, f.rate) for f in shape.factors
     ]
-    low = _side(replace(shape, halved=False), shape.power, shape.rate, sides)
+    low = _side(shape, shape.power, shape.rate, sides)
     if not shape.shared:
         return (), Seam(x, shape.seam, low, high)
     low, high = (_with_decay(side, x) for side in (low, high))
@@ -118,12 +114,8 @@ def _side(
         product *= name**factor.exponent
     if any(step.expression.has(square) for step in steps):
         steps.insert(0, Step(square, x**2))
-    whole = shape.front * x**power * product
-    if shape.halved:
-        steps.append(Step(fade, sp.exp(rate * x / 2), HALVED))
-        steps.append(Step(part, whole * fade))
-        return Branch(tuple(steps), fade * part, _guards(shape))
-    return Branch(tuple(steps), whole * sp.exp(rate * x), _guards(shape))
+    value = shape.front * x**power * product * sp.exp(rate * x)
+    return Branch(tuple(steps), value, _guards(shape))
 
 
 def _guards(shape: Shape) -> dict[sp.Symbol, sp.Rational]:

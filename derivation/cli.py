@@ -7,7 +7,7 @@ import sys
 from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 from typer.exceptions import TyperException
@@ -100,6 +100,9 @@ def check(
     speed: Annotated[
         bool, typer.Option("--speed", help="Measure speed instead, on this machine.")
     ] = False,
+    propose: Annotated[
+        bool, typer.Option("--propose", help="Print tighter error budgets; write nothing.")
+    ] = False,
     json: Json = None,
 ) -> None:
     """Measure every generated function against both oracles.
@@ -112,7 +115,7 @@ def check(
     if contact and speed:
         raise ValueError("expected --contact or --speed, got both: run them one after the other")
     if contact:
-        raise typer.Exit(_check_contact(record, json))
+        raise typer.Exit(_check_contact(record, json, propose))
     if speed:
         raise typer.Exit(_check_speed(record, json))
     with counted("check") as tell:
@@ -122,22 +125,33 @@ def check(
         listing("Worst arguments", [worst(row) for row in rows if row.passed is not None])
     if json:
         put_json(as_data(rows, digits), json)
+    if propose:
+        _propose(rows)
     raise typer.Exit(0 if passed(rows) else 1)
 
 
-def _check_contact(record: bool, json: str | None) -> int:
+def _propose(rows: Sequence[Any]) -> None:
+    """Print the tighter budgets that a check's rows allow."""
+    from derivation.measure.propose import proposals
+
+    lines = proposals(rows) or ["# no budget can be tighter"]
+    OUT.print("\n".join(lines), markup=False, highlight=False, soft_wrap=True)
+
+
+def _check_contact(record: bool, json: str | None, propose: bool) -> int:
     """Measure contact law and impact; returns the exit status."""
     from derivation import pipeline
 
     with counted("check") as tell:
         rows = pipeline.check_contact(record, tell)
     if json != "-":
-        cells = [(r.kernel, r.points, r.digits, f"{r.max_error:.2g}", r.passed) for r in rows]
-        columns = ("kernel", "#points", "#digits shared", "#max", "kept")
-        table("Relative errors", columns, cells)
+        columns, cells = pipeline.contact_table(rows)
+        table("Errors of the contact law", columns, cells)
         listing("Worst arguments", [f"{r.kernel}: {' '.join(r.worst)}" for r in rows])
     if json:
         put_json(pipeline.contact_data(rows), json)
+    if propose:
+        _propose(rows)
     return 0 if all(r.passed for r in rows) else 1
 
 

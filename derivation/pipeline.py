@@ -27,7 +27,7 @@ from derivation.formula.parse import parse
 from derivation.measure import speed
 from derivation.measure.check import Progress, Row
 from derivation.measure.check import check as measure
-from derivation.measure.contact import LIMIT
+from derivation.measure.contact import KERNELS, LIMIT
 from derivation.measure.contact import Row as ContactRow
 from derivation.measure.contact import check as measure_contact
 from derivation.measure.contact_truth import DIGITS
@@ -74,10 +74,7 @@ def check_contact(record: bool = False, tell: Progress | None = None) -> tuple[C
         If the two oracles contradict each other.
     """
     kernels: dict[str, Callable[..., Any]] = {
-        "indentation": contact_law.indentation,
-        "contact_radius": contact_law.contact_radius,
-        "stiffness": contact_law.stiffness,
-        "impact": impact.impact,
+        name: impact.impact if name == "impact" else getattr(contact_law, name) for name in KERNELS
     }
     rows = measure_contact(kernels, processes=os.cpu_count() or 1, tell=tell)
     if record:
@@ -85,6 +82,26 @@ def check_contact(record: bool = False, tell: Progress | None = None) -> tuple[C
         text = json.dumps(contact_data(rows), indent=1, sort_keys=True) + "\n"
         write_file(MEASURED_CONTACT, text)
     return rows
+
+
+def contact_table(rows: tuple[ContactRow, ...]) -> tuple[tuple[str, ...], list[tuple[Any, ...]]]:
+    """Columns and cells of the contact law's errors."""
+    columns = (
+        "kernel",
+        "#points",
+        "#digits shared",
+        "#max",
+        "#max ULP",
+        "#used",
+        "#budget",
+        "kept",
+    )
+    cells = [
+        (r.kernel, r.points, r.digits, f"{r.max_error:.2g}", f"{r.double.max_ulp:.3g}",
+         f"{r.double.ratio:.2f}", f"{r.budget:g}", r.passed)
+        for r in rows
+    ]  # fmt: skip
+    return columns, cells
 
 
 def contact_data(rows: tuple[ContactRow, ...]) -> dict[str, Any]:

@@ -16,6 +16,8 @@ import pytest
 from flint import arb
 
 import derivation
+from derivation.emit.budgets import read_budgets
+from derivation.emit.kernels import notes_of
 from derivation.emit.render import Module, fill, format_files
 from derivation.rewrite import contact_tables as tables
 from derivation.rewrite.contact_tables import contact_context, impact_context
@@ -47,7 +49,11 @@ def rendered(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, Mod
         "reversed_series": {},
         "impact": impact_context(),
     }
-    source = {f"{name}.py": fill(Module(name, name, c)) for name, c in contexts.items()}
+    budgets = read_budgets()
+    source = {
+        f"{name}.py": fill(Module(name, name, {**context, "notes": notes_of(name, budgets)}))
+        for name, context in contexts.items()
+    }
     for name, text in format_files(source).items():
         (folder / PACKAGE / name).write_text(text)
     sys.path.insert(0, str(folder))

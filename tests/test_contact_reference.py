@@ -198,7 +198,7 @@ def test_disagreement_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.parametrize(
-    ("oracle", "part"), [(contact_impact, "modulus"), (contact_routes, "_hertz_stiffness")]
+    ("oracle", "part"), [(contact_impact, "modulus"), (contact_routes, "hertz_stiffness")]
 )
 def test_an_error_in_either_oracle_of_impacts_is_caught(
     monkeypatch: pytest.MonkeyPatch, oracle: ModuleType, part: str

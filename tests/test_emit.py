@@ -13,8 +13,8 @@ import pytest
 
 import generated
 from derivation import produce
+from derivation.emit.budgets import read_budgets
 from derivation.emit.freshness import compare
-from derivation.emit.kernels import BUDGETS
 from derivation.files import ROOT
 from generated.manifest import CONTACT, KERNELS
 
@@ -113,11 +113,19 @@ print(float(plate.G(1.0)), float(plate.delta(0.01, 0.1, 0.13, 0.004, modes=50)))
 
 
 def test_every_kernel_has_a_budget_and_every_budget_a_kernel() -> None:
-    import tomllib
-
-    assert set(tomllib.loads(BUDGETS.read_text())["ulp"]) == set(KERNEL)
+    assert set(read_budgets()) == {row["name"] for row in (*KERNELS, *CONTACT)}
     contact = {row["name"] for row in CONTACT if row["module"] == "contact_law"}
     assert set(generated.__all__) == set(KERNEL) | contact
+
+
+@pytest.mark.parametrize("row", [*KERNELS, *CONTACT], ids=lambda row: row["name"])
+def test_manifest_and_docstring_show_the_whole_budget(row: dict) -> None:
+    budget = read_budgets()[row["name"]]
+    assert (row["budget"], row["domain"], row["rule"]) == (budget.ulp, budget.domain, budget.rule)
+    kernel = getattr(importlib.import_module(f"generated.{row['module']}"), row["name"])
+    shown = " ".join(kernel.__doc__.split())
+    assert f"{budget.ulp:g} units in the last place of {budget.rule}." in shown
+    assert f"Domain: {budget.domain or 'all real numbers'};" in shown
 
 
 @pytest.mark.parametrize("row", ARRAYS, ids=lambda row: row["name"])

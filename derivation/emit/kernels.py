@@ -1,19 +1,16 @@
 """Formulas, forms and budgets -> rows: what each generated function is and how it reads."""
 
 import textwrap
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 
 import sympy as sp
 
+from derivation.emit.budgets import Budget
 from derivation.emit.printer import to_numpy
 from derivation.formula.record import Formula
 from derivation.formula.symbols import ARGUMENTS, C1, C3, Argument, applicable
 from derivation.rewrite.form import Branch, Form, Seam, Step
-
-BUDGETS = Path(__file__).parents[1] / "budgets.toml"
 
 MODAL_SUMS = {
     "delta": "K_j(phi, h, b, R, J1) * (a * phi) ** 3 / 3 * hertz_shape(a * phi)",
@@ -86,7 +83,7 @@ class Kernel:
     original: tuple[str, ...]
     arguments: tuple[ArgumentText, ...]
     conditions: tuple[str, ...]
-    budget: float
+    budget: Budget
     modes: bool
     steps: tuple[Line, ...] = ()
     value: str = ""
@@ -100,20 +97,17 @@ class Kernel:
     @property
     def notes(self) -> tuple[str, ...]:
         """What the docstring promises about the error."""
-        scale = "the sum of the modes' magnitudes" if self.modes else "the value"
-        return (
-            f"Error budget: {self.budget:g} units in the last place of {scale}, plus half",
-            "the sum of the condition numbers of the arguments.",
-        )
+        return budget_notes(self.budget)
 
 
-def read_budgets() -> dict[str, float]:
-    """Error budgets in ULP, by kernel: the promise that measurement is held to."""
-    budgets: dict[str, float] = tomllib.loads(BUDGETS.read_text())["ulp"]
-    return budgets
+def budget_notes(budget: Budget) -> tuple[str, ...]:
+    """A budget's three parts as lines of a docstring."""
+    promise = f"Error budget: {budget.ulp:g} units in the last place of {budget.rule}."
+    where = f"Domain: {budget.domain or 'all real numbers'}; wherever the value is representable."
+    return (*textwrap.wrap(promise, 84), *textwrap.wrap(where, 84, break_on_hyphens=False))
 
 
-def kernel_of_form(stable: Form, formula: Formula, budget: float) -> Kernel:
+def kernel_of_form(stable: Form, formula: Formula, budget: Budget) -> Kernel:
     """Row of a kernel that evaluates a stable form."""
     seam = seam_text(stable.value) if isinstance(stable.value, Seam) else None
     return _kernel(
@@ -127,7 +121,9 @@ def kernel_of_form(stable: Form, formula: Formula, budget: float) -> Kernel:
     )
 
 
-def kernel_of_sum(formula: Formula, coefficient: Formula, factor: Formula, budget: float) -> Kernel:
+def kernel_of_sum(
+    formula: Formula, coefficient: Formula, factor: Formula, budget: Budget
+) -> Kernel:
     """Row of a modal sum: its arguments are those of its parts, less phi and J1."""
     expression = formula.expression
     parts: tuple[Formula, ...] = (formula,)
@@ -145,7 +141,7 @@ def _kernel(
     formula: Formula,
     arguments: tuple[Argument, ...],
     module: str,
-    budget: float,
+    budget: Budget,
     *,
     steps: tuple[Line, ...] = (),
     value: str,
@@ -154,6 +150,11 @@ def _kernel(
 ) -> Kernel:
     names = {x.name for x in arguments}
     where = conditions(arguments, formula.where)
+    if budget.domain != ", ".join(where):
+        raise ValueError(
+            f"the budget of {formula.name} names the domain {budget.domain!r}; "
+            f"the formula's is {', '.join(where)!r}"
+        )
     total = "sum over j of " if modes else ""
     stated = formula.expression if formula.stated is None else formula.stated
     constants = ", C_k = A_j*Omega_k" if stated.has(C1) or stated.has(C3) else ""
@@ -251,19 +252,18 @@ def rows_by_module(kernels: tuple[Kernel, ...]) -> Mapping[str, list[Kernel]]:
 
 
 TABLES = (
-    # name, module, argument, symbol, domain, meaning
-    ("bessel_j0", "bessel", "x", "J_0(x)", "", "Bessel function J0"),
-    ("bessel_j1", "bessel", "x", "J_1(x)", "", "Bessel function J1"),
-    ("bessel_j0_zeros", "bessel", "count", "j_n", "", "the first zeros of J0"),
-    ("bessel_j1_zeros", "bessel", "count", "j_{1,n}", "", "the first positive zeros of J1"),
-    ("bessel_j1_at_j0_zeros", "bessel", "count", "J_1(j_n)", "", "J1 at the first zeros of J0"),
-    ("kappa", "moments", "n", r"\kappa_n", "n >= 0", "integral of y^n K0/I0 over y > 0"),
+    # name, module, argument, symbol, meaning
+    ("bessel_j0", "bessel", "x", "J_0(x)", "Bessel function J0"),
+    ("bessel_j1", "bessel", "x", "J_1(x)", "Bessel function J1"),
+    ("bessel_j0_zeros", "bessel", "count", "j_n", "the first zeros of J0"),
+    ("bessel_j1_zeros", "bessel", "count", "j_{1,n}", "the first positive zeros of J1"),
+    ("bessel_j1_at_j0_zeros", "bessel", "count", "J_1(j_n)", "J1 at the first zeros of J0"),
+    ("kappa", "moments", "n", r"\kappa_n", "integral of y^n K0/I0 over y > 0"),
     (
         "kappa_ratio",
         "moments",
         "n",
         r"2^{n+1}\kappa_n/(\pi n!)",
-        "n >= 0",
         "kappa_n over its leading term for large n",
     ),
     (
@@ -271,7 +271,6 @@ TABLES = (
         "moments",
         "k",
         "M_k",
-        "k >= 2",
         "finite part of the integral of T^(2k-4) (G - 1) over T > 0",
     ),
     (
@@ -279,13 +278,12 @@ TABLES = (
         "moments",
         "k",
         "2^{2k-3}M_k/(2k-2)!",
-        "k >= 2",
         "M_k over its leading term for large k",
     ),
 )
 
 
-def table_rows(budgets: Mapping[str, float]) -> list[dict[str, object]]:
+def table_rows(budgets: Mapping[str, Budget]) -> list[dict[str, object]]:
     """Manifest rows of the functions whose modules are made of tables, of one argument each."""
     return [
         {
@@ -298,11 +296,10 @@ def table_rows(budgets: Mapping[str, float]) -> list[dict[str, object]]:
             "latex": symbol,
             "meaning": meaning,
             "equation": "",
-            "domain": domain,
-            "budget": budgets[name],
             "modes": False,
         }
-        for name, module, argument, symbol, domain, meaning in TABLES
+        | promise(budgets[name])
+        for name, module, argument, symbol, meaning in TABLES
     ]
 
 
@@ -326,17 +323,42 @@ CONTACT_FUNCTIONS = (
         "force per indentation added",
     ),
     ("max_pressure", "contact_law", ("a", "R", *ELASTIC), "Pa", "p_0", "7", "largest pressure"),
+    (
+        "force_by_series",
+        "reversed_series",
+        ("delta", *PLATE, *ELASTIC),
+        "N",
+        "P",
+        "10",
+        "contact force by the truncated reversed series",
+    ),
+    (
+        "plate_coefficients",
+        "contact_series",
+        ("eta",),
+        "1",
+        "S_k",
+        "",
+        "coefficients of the contact law of a plate",
+    ),
     ("impact", "impact", IMPACT, "s, m, N, m", "", "13", "time and peaks of an impact"),
     ("history", "impact", ("t", *IMPACT), "m, m/s, m, N", "", "13", "an impact over time"),
 )
-RELATIVE_ERROR = 2e-15
-"""Promise of the contact law and the impact; mixed where the correction cancels Hertz's term."""
 
 
-def contact_rows() -> list[dict[str, object]]:
+def contact_rows(budgets: Mapping[str, Budget]) -> list[dict[str, object]]:
     """Manifest rows of the contact law and the impact, whose modules are made of tables."""
     keys = ("name", "module", "arguments", "unit", "symbol", "equation", "meaning")
-    return [
-        {**dict(zip(keys, row, strict=True)), "relative_error": RELATIVE_ERROR}
-        for row in CONTACT_FUNCTIONS
-    ]
+    rows = [dict(zip(keys, row, strict=True)) for row in CONTACT_FUNCTIONS]
+    return [row | promise(budgets[str(row["name"])]) for row in rows]
+
+
+def promise(budget: Budget) -> dict[str, object]:
+    """A budget's three parts under the manifest's keys."""
+    return {"domain": budget.domain, "budget": budget.ulp, "rule": budget.rule}
+
+
+def notes_of(module: str, budgets: Mapping[str, Budget]) -> dict[str, tuple[str, ...]]:
+    """Notes of the functions of a module made of tables, by name."""
+    names = [row[0] for row in (*TABLES, *CONTACT_FUNCTIONS) if row[1] == module]
+    return {name: budget_notes(budgets[name]) for name in names}

@@ -21,6 +21,7 @@ from typing import Any
 import jinja2
 import sympy as sp
 
+from derivation.emit.budgets import read_budgets
 from derivation.emit.kernels import (
     MODAL_SUMS,
     AsPrinted,
@@ -30,7 +31,8 @@ from derivation.emit.kernels import (
     kernel_of_form,
     kernel_of_sum,
     lines,
-    read_budgets,
+    notes_of,
+    promise,
     rows_by_module,
     seam_text,
     table_rows,
@@ -87,23 +89,28 @@ def kernel_rows(formulas: Mapping[str, Formula], forms: tuple[Form, ...]) -> tup
 def modules(kernels: tuple[Kernel, ...]) -> tuple[Module, ...]:
     """Stage 2: every file's template and context."""
     grouped = rows_by_module(kernels)
-    known = blocks()
+    known, budgets = blocks(), read_budgets()
+
+    def tables(name: str, context: Mapping[str, Any]) -> Module:
+        return Module(name, name, {**context, "notes": notes_of(name, budgets)})
+
     planned = [
         Module("arrays", "arrays", {}),
+        Module("ranges", "ranges", {}),
         Module("blocks", "blocks", {"functions": [block_text(b) for b in known.values()]}),
-        Module("bessel", "bessel", {**bessel_context(), "budgets": read_budgets()}),
-        Module("moments", "moments", {**moment_context(), "budgets": read_budgets()}),
+        tables("bessel", bessel_context()),
+        tables("moments", moment_context()),
         Module("as_printed", "as_printed", {"functions": printed_rows()}),
-        Module("contact_series", "contact_series", contact_context()),
-        Module("contact_law", "contact_law", {}),
-        Module("reversed_series", "reversed_series", {}),
-        Module("impact", "impact", impact_context()),
+        tables("contact_series", contact_context()),
+        tables("contact_law", {}),
+        tables("reversed_series", {}),
+        tables("impact", impact_context()),
         Module(
             "manifest",
             "manifest",
             {
                 "rows": manifest_rows(kernels),
-                "contact": contact_rows(),
+                "contact": contact_rows(budgets),
                 "citation": CITATION,
             },
         ),
@@ -116,11 +123,11 @@ def modules(kernels: tuple[Kernel, ...]) -> tuple[Module, ...]:
             Module(name, template, {"title": TITLES[name], "functions": group, "blocks": used})
         )
     exported = {name: [k.name for k in group] for name, group in grouped.items()}
-    for row in table_rows(read_budgets()):
+    for row in table_rows(budgets):
         exported.setdefault(str(row["module"]), []).append(str(row["name"]))
     # The module `impact` keeps its name: its function is reached through it.
     exported["contact_law"] = [
-        str(row["name"]) for row in contact_rows() if row["module"] == "contact_law"
+        str(row["name"]) for row in contact_rows(budgets) if row["module"] == "contact_law"
     ]
     names = sorted(name for group in exported.values() for name in group)
     planned.append(Module("__init__", "init", {"modules": exported, "all_names": names}))
@@ -176,10 +183,9 @@ def manifest_rows(kernels: tuple[Kernel, ...]) -> list[dict[str, Any]]:
             "latex": k.latex,
             "meaning": k.meaning,
             "equation": k.equation,
-            "domain": ", ".join(k.conditions),
-            "budget": k.budget,
             "modes": k.modes,
         }
+        | promise(k.budget)
         for k in kernels
     ]
     return rows + table_rows(read_budgets())

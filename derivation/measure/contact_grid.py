@@ -4,7 +4,7 @@ import math
 import random
 from typing import NamedTuple
 
-from derivation.reference import contact_balls, contact_impact
+from derivation.reference import contact_balls, contact_forces, contact_impact
 
 ROOT = 0.5301974990742511
 """The double nearest to the h/b at which c_1 passes zero."""
@@ -86,7 +86,12 @@ def arguments(name: str, shape: Shape, digits: int) -> Point:
         return (a, R, h, b)
     if name == "stiffness":
         return (a, R, h, b, lam, mu)
-    if name == "contact_radius":
-        return (float(contact_balls.indentation(a, R, h, b, digits)), R, h, b)
+    if name in ("force_of_radius", "max_pressure"):
+        return (a, R, lam, mu)
+    if name == "radius_of_force":
+        return (float(contact_forces.force_of_radius(a, R, lam, mu, digits)), R, lam, mu)
+    if name in ("contact_radius", "force"):
+        delta = float(contact_balls.indentation(a, R, h, b, digits))
+        return (delta, R, h, b) if name == "contact_radius" else (delta, R, h, b, lam, mu)
     energy = float(contact_impact.stored_energy(a, R, h, b, lam, mu, digits))
     return (R, m, math.sqrt(2.0 * energy / m), h, b, lam, mu)

@@ -69,6 +69,8 @@ class Errors:
     ratio
         The largest error over what is allowed; infinite if any was not finite.
         None if nothing is promised.
+    needed
+        The budget that would just do: the largest error beyond what conditioning allows.
     worst
         Where that was (or the largest error, if nothing is promised).
     dtype
@@ -85,6 +87,7 @@ class Errors:
     p99_ulp: float
     rms_ulp: float
     ratio: float | None
+    needed: float
     worst: Worst | None
     dtype: str
     warned: tuple[str, ...]
@@ -129,11 +132,23 @@ def allowed_ulp(reference: Reference, budget: float, fmt: Format = DOUBLE) -> fl
     nothing. A modal sum's budget counts in units of the sum of the modes'
     magnitudes.
     """
+    unit, rounding = _allowances(reference, fmt)
+    return budget * unit + rounding
+
+
+def needed_ulp(reference: Reference, ulp: float, fmt: Format = DOUBLE) -> float:
+    """The budget that an error of so many ULP would just keep; not below zero."""
+    unit, rounding = _allowances(reference, fmt)
+    return max(0.0, (ulp - rounding) / unit) if math.isfinite(ulp) else math.inf
+
+
+def _allowances(reference: Reference, fmt: Format) -> tuple[float, float]:
+    """In ULP: the unit that the budget counts in, and what conditioning allows."""
     unit = spacing_exponent(reference.value, fmt)
     budget_unit = spacing_exponent(reference.magnitude, fmt)
     with flint.ctx.workprec(128):
         rounding = reference.total * flint.arb(2) ** (-fmt.precision - unit)
-    return math.ldexp(budget, budget_unit - unit) + upper_float(rounding)
+    return math.ldexp(1.0, budget_unit - unit), upper_float(rounding)
 
 
 def call(kernel: Kernel, points: Sequence[Point], fmt: Format = DOUBLE) -> Results:
@@ -203,6 +218,7 @@ def judge(
         p99_ulp=float(np.quantile(finite, 0.99)) if finite else 0.0,
         rms_ulp=_rms(finite),
         ratio=None if kernel.budget is None else ratios[where],
+        needed=max(needed_ulp(t.reference, u, fmt) for t, u in zip(found, ulps, strict=True)),
         worst=_worst(found[where], got[where], ulps[where], allowed[where]),
         dtype=str(results.dtype),
         warned=tuple(sorted({str(w.message) for w in caught})),

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import flint
 from flint import arb
 
-from derivation.reference import contact_balls, contact_impact, contact_routes
+from derivation.reference import contact_balls, contact_forces, contact_impact, contact_routes
 from derivation.reference.routes import OracleError, to_ball
 
 SPARE = 2
@@ -29,6 +29,10 @@ FIRST: Mapping[str, Callable[..., Any]] = {
     "slope": contact_balls.slope,
     "stiffness": contact_balls.stiffness,
     "contact_radius": contact_balls.contact_radius,
+    "force": contact_forces.force,
+    "force_of_radius": contact_forces.force_of_radius,
+    "radius_of_force": contact_forces.radius_of_force,
+    "max_pressure": contact_forces.max_pressure,
     "impact": contact_impact.impact,
 }
 """Oracle 1, in ball arithmetic."""
@@ -38,6 +42,10 @@ SECOND: Mapping[str, Callable[..., Any]] = {
     "slope": contact_routes.slope,
     "stiffness": contact_routes.stiffness,
     "contact_radius": contact_routes.contact_radius,
+    "force": contact_forces.second_force,
+    "force_of_radius": contact_forces.second_force_of_radius,
+    "radius_of_force": contact_forces.second_radius_of_force,
+    "max_pressure": contact_forces.second_max_pressure,
     "impact": contact_routes.impact,
 }
 """Oracle 2, by sums over modes."""

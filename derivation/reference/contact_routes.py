@@ -164,7 +164,7 @@ def slope(a: float, R: float, h: float, b: float, digits: int = 40) -> mpf:
     )[0]  # fmt: skip
 
 
-def _hertz_stiffness(R: mpf, lam: float, mu: float) -> mpf:
+def hertz_stiffness(R: mpf, lam: float, mu: float) -> mpf:
     """P/a^3 = 4 E*/(3 R)."""
     first, second = mpf(lam), mpf(mu)
     return 16 * second * (first + second) / (first + 2 * second) / (3 * R)
@@ -177,7 +177,7 @@ def stiffness(
     x = _inside(_quotient(a, b))
 
     def compute(law: Law) -> list[mpf]:
-        steep = 3 * _hertz_stiffness(mpf(R), lam, mu) * mpf(a) ** 2
+        steep = 3 * hertz_stiffness(mpf(R), lam, mu) * mpf(a) ** 2
         return [steep / (mpf(b) / mpf(R) * law.depth_and_slope(x)[1])]
 
     return _twice(compute, _quotient(h, b), digits)[0]
@@ -234,7 +234,7 @@ def impact(
     """The conservative impact: a = a_m sin t takes the root's singularity away."""
 
     def compute(law: Law) -> list[mpf]:
-        stiff = _hertz_stiffness(mpf(R), lam, mu)
+        stiff = hertz_stiffness(mpf(R), lam, mu)
         unit = stiff * mpf(b) ** 5 / mpf(R)
 
         def function(x: mpf) -> tuple[mpf, mpf]:

@@ -324,10 +324,31 @@ CONTACT_FUNCTIONS = (
     ),
     ("max_pressure", "contact_law", ("a", "R", *ELASTIC), "Pa", "p_0", "7", "largest pressure"),
     ("impact", "impact", IMPACT, "s, m, N, m", "", "13", "time and peaks of an impact"),
+    (
+        "indentation_slope",
+        "sensitivity",
+        ("a", *PLATE),
+        "1",
+        r"\mathrm{d}\delta/\mathrm{d}a",
+        "6",
+        "indentation per contact radius added",
+    ),
+    (
+        "impact_sensitivities",
+        "sensitivity",
+        IMPACT,
+        "1",
+        "",
+        "13",
+        "logarithmic derivatives of time and peaks by every parameter",
+    ),
     ("history", "impact", ("t", *IMPACT), "m, m/s, m, N", "", "13", "an impact over time"),
 )
 RELATIVE_ERROR = 2e-15
-"""Promise of the contact law and the impact; mixed where the correction cancels Hertz's term."""
+"""Promise of the contact law and the impact; mixed where the correction cancels Hertz's term.
+
+Of logarithmic derivatives it is the error over max(1, |value|).
+"""
 
 
 def contact_rows() -> list[dict[str, object]]:

@@ -41,7 +41,7 @@ from derivation.formula.symbols import BY_NAME, arguments_of
 from derivation.paper.printed import PRINTED
 from derivation.rewrite.bessel_tables import bessel_context
 from derivation.rewrite.blocks import blocks
-from derivation.rewrite.contact_tables import contact_context, impact_context
+from derivation.rewrite.contact_tables import contact_context, impact_context, sensitivity_context
 from derivation.rewrite.form import Block, Form, Seam
 from derivation.rewrite.moment_tables import moment_context
 
@@ -98,6 +98,7 @@ def modules(kernels: tuple[Kernel, ...]) -> tuple[Module, ...]:
         Module("contact_law", "contact_law", {}),
         Module("reversed_series", "reversed_series", {}),
         Module("impact", "impact", impact_context()),
+        Module("sensitivity", "sensitivity", sensitivity_context()),
         Module(
             "manifest",
             "manifest",
@@ -119,9 +120,9 @@ def modules(kernels: tuple[Kernel, ...]) -> tuple[Module, ...]:
     for row in table_rows(read_budgets()):
         exported.setdefault(str(row["module"]), []).append(str(row["name"]))
     # The module `impact` keeps its name: its function is reached through it.
-    exported["contact_law"] = [
-        str(row["name"]) for row in contact_rows() if row["module"] == "contact_law"
-    ]
+    for row in contact_rows():
+        if row["module"] != "impact":
+            exported.setdefault(str(row["module"]), []).append(str(row["name"]))
     names = sorted(name for group in exported.values() for name in group)
     planned.append(Module("__init__", "init", {"modules": exported, "all_names": names}))
     return tuple(planned)

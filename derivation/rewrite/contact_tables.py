@@ -35,6 +35,7 @@ from derivation.rewrite.moment_tables import (
     plate_excess,
     sharp,
 )
+from derivation.theory.sensitivity import RESULTS, exponents
 
 REACH = 3
 """The first polynomial ends at A = REACH or alpha = 1, whichever comes first."""
@@ -349,3 +350,18 @@ def impact_context() -> dict[str, object]:
     names = ("nodes", "weights", "inner_nodes", "inner_weights")
     rules = (*outer, *inner)
     return {name: wrapped(map(repr, rule)) for name, rule in zip(names, rules, strict=True)}
+
+
+def sensitivity_context() -> dict[str, object]:
+    """What the template of the generated sensitivities needs: every result's powers, as text."""
+    table = exponents()
+
+    def row(name: str) -> str:
+        return "(" + ", ".join(repr(float(x)) for x in table[name]) + ")"
+
+    return {
+        "results": tuple(RESULTS),
+        "laws": tuple(row(name) for name in RESULTS),
+        "energy": row("energy"),
+        "eta": row("eta"),
+    }

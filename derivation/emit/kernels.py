@@ -342,6 +342,24 @@ CONTACT_FUNCTIONS = (
         "coefficients of the contact law of a plate",
     ),
     ("impact", "impact", IMPACT, "s, m, N, m", "", "13", "time and peaks of an impact"),
+    (
+        "indentation_slope",
+        "sensitivity",
+        ("a", *PLATE),
+        "1",
+        r"\mathrm{d}\delta/\mathrm{d}a",
+        "6",
+        "indentation per contact radius added",
+    ),
+    (
+        "impact_sensitivities",
+        "sensitivity",
+        IMPACT,
+        "1",
+        "",
+        "13",
+        "logarithmic derivatives of time and peaks by every parameter",
+    ),
     ("history", "impact", ("t", *IMPACT), "m, m/s, m, N", "", "13", "an impact over time"),
 )
 

@@ -46,6 +46,9 @@ ABOUT = {
     "reversion": "Lagrange's inversion, of the paper's series and of the right one.",
     "impact": "The energy integral, the contact time as an integral of an analytic function, and "
     "the paper's linearisation.",
+    "sensitivity": "An impact depends on seven parameters through two numbers, its energy number "
+    "and h/b, beside plain powers. What these two do to peaks and contact time follows from the "
+    "energy integral; the rest is exponents.",
 }
 
 

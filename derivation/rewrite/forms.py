@@ -68,7 +68,7 @@ def stable_forms(formulas: Mapping[str, Formula]) -> tuple[Form, ...]:
 
 
 OMEGAS = tuple(f"Omega_{k}{tail}" for tail in ("", "_scaled") for k in range(1, 5))
-INFLUENCE = ("G", "G_m", "G_minus_1", "C_top", "C_bottom", "K_j", "K_j_bottom")
+INFLUENCE = ("G", "G_m", "G_minus_1", "G_slope", "C_top", "C_bottom", "K_j", "K_j_bottom")
 AUTOMATIC = (*OMEGAS, *INFLUENCE, "sonine", "A_j")
 """Formulas whose forms the rules find."""
 

@@ -1,6 +1,7 @@
 """The hard cases checked: generated and printed forms against the committed references."""
 
 import importlib
+import json
 import math
 import multiprocessing
 import warnings
@@ -8,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import asdict, dataclass
 from functools import cache
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -157,9 +158,7 @@ def check(
     )
 
 
-def _row(
-    case: Case, stored: Sequence[Stored], kernel: Kernel, printed: Kernel | None
-) -> Row:
+def _row(case: Case, stored: Sequence[Stored], kernel: Kernel, printed: Kernel | None) -> Row:
     results, problem = _results(case, kernel, stored)
     expected = (outputs(kernel.name) * math.prod(case.shape), *case.shape)
     if not problem and results.shape[1:] != expected[1:]:
@@ -186,16 +185,16 @@ def _results(
 ) -> tuple[np.ndarray[Any, Any], str]:
     """Results, one output after the other, and what was wrong with the call.
 
-    Any floating-point exception is an error but two: results may underflow, and one
-    whose true value overflows may.
+    Any floating-point exception is an error but two: results may underflow, and those
+    whose true value overflows may say so, or that a denominator has vanished.
     """
-    may_overflow = any(row["value"] in ("inf", "-inf") for row in stored)
+    overflown = any(row["value"] in ("inf", "-inf") for row in stored)
+    beyond: Literal["ignore", "raise"] = "ignore" if overflown else "raise"
     try:
-        with warnings.catch_warnings(), np.errstate(
-            all="raise", under="ignore", over="ignore" if may_overflow else "raise"
-        ):
+        with warnings.catch_warnings(), np.errstate(invalid="raise", under="ignore"):
             warnings.simplefilter("error")
-            return _call(case, kernel), ""
+            with np.errstate(over=beyond, divide=beyond):
+                return _call(case, kernel), ""
     except Exception as error:  # whatever a kernel raises is a failure of the case
         return np.empty((0, *case.shape)), f"{type(error).__name__}: {error}"
 
@@ -255,6 +254,11 @@ def cells(row: Row) -> tuple[str, ...]:
 def as_data(rows: Sequence[Row]) -> dict[str, Any]:
     """Rows and provenance as plain data; infinities as text."""
     return {"provenance": provenance(DIGITS), "cases": [_plain(row) for row in rows]}
+
+
+def to_json(rows: Sequence[Row]) -> str:
+    """The rows as JSON text, byte for byte the same for the same measurement."""
+    return json.dumps(as_data(rows), indent=1, sort_keys=True, allow_nan=False) + "\n"
 
 
 def _plain(row: Row) -> dict[str, Any]:

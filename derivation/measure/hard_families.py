@@ -118,7 +118,7 @@ def _zeros_by_index() -> Iterator[Case]:
     for kernel, order in kernels:
         start = bessel_tables.mcmahon_start(order)
         for count in sorted({*INDICES, start - 1, start}):
-            cause = f"Zero number {count}: all 53 bits of it are asked, though none may be iterated."
+            cause = f"Zero number {count}: all bits of it are asked, and no iteration."
             if count in (start - 1, start):
                 cause = f"Zero number {count}: the expansion begins with number {start}."
             yield Case("Bessel zeros by index", kernel, cause, _hex(count=float(count)))
@@ -128,7 +128,7 @@ def _beside_zeros() -> Iterator[Case]:
     for kernel, zero in (("bessel_j0", j0_zero), ("bessel_j1", j1_zero)):
         for index in (1, 3, 11, 100, 1000, 10**6):
             near = neighbours(float(zero(index, 80)), 1)
-            cause = f"The doubles next to zero number {index}: nothing is left of the leading digits."
+            cause = f"The doubles next to zero number {index}: the leading digits cancel."
             yield Case("doubles next to zeros of J0 and J1", kernel, cause, _hex(x=near), "array")
 
 
@@ -150,7 +150,9 @@ def _moments() -> Iterator[Case]:
         ("n", "kappa_ratio", kappa_start()), ("k", "finite_part_ratio", finite_part_start()),
     ):  # fmt: skip
         for offset in OFFSETS:
-            cause = f"{offset:+d} from index {start}, where the table ends and the expansion begins."
+            cause = (
+                f"{offset:+d} from index {start}, where the expansion takes over from the table."
+            )
             yield Case(group, kernel, cause, _hex(**{argument: float(start + offset)}))
 
 

@@ -85,12 +85,12 @@ def _sensitivities(kernel: Kernel, law: "Law", given: Sequence[float]) -> list[a
     return totals
 
 
-def _scale(name: str, given: Sequence[float], value: arb) -> float:
+def _scale(name: str, given: Sequence[Any], value: arb) -> float:
     """What multiplies the budget, see `contact_truth.tolerance`."""
     if name in ("indentation", "contact_radius", "stiffness"):
         return tolerance(name, tuple(given), float(value))
     if name == "force":
-        radius = float(contact_balls.contact_radius(*given[:4], digits=_SLOPE_DIGITS))
+        radius = float(contact_balls.contact_radius(*given[:4], _SLOPE_DIGITS))
         return tolerance("contact_radius", tuple(given[:4]), radius)
     if name == "force_by_series":
         return upper_float(contact_quantities.truncated_series(*given)[1])
@@ -101,16 +101,16 @@ Law = Callable[[Sequence[Any], int], tuple[arb, ...]]
 """A contact law's quantity: arguments and digits -> balls."""
 
 LAWS: Mapping[str, Law] = {
-    "indentation": lambda v, d: (contact_balls.indentation(*v, digits=d),),
-    "contact_radius": lambda v, d: (contact_balls.contact_radius(*v, digits=d),),
-    "stiffness": lambda v, d: (contact_balls.stiffness(*v, digits=d),),
-    "force": lambda v, d: (contact_quantities.force(*v, digits=d),),
-    "force_of_radius": lambda v, d: (contact_quantities.force_of_radius(*v, digits=d),),
-    "radius_of_force": lambda v, d: (contact_quantities.radius_of_force(*v, digits=d),),
-    "max_pressure": lambda v, d: (contact_quantities.max_pressure(*v, digits=d),),
-    "force_by_series": lambda v, d: contact_quantities.truncated_series(*v, digits=d)[:1],
-    "impact": lambda v, d: tuple(contact_impact.impact(*v, digits=d)),
-    "history": lambda v, d: contact_quantities.state(*v, digits=d),
+    "indentation": lambda v, d: (contact_balls.indentation(*v, d),),
+    "contact_radius": lambda v, d: (contact_balls.contact_radius(*v, d),),
+    "stiffness": lambda v, d: (contact_balls.stiffness(*v, d),),
+    "force": lambda v, d: (contact_quantities.force(*v, d),),
+    "force_of_radius": lambda v, d: (contact_quantities.force_of_radius(*v, d),),
+    "radius_of_force": lambda v, d: (contact_quantities.radius_of_force(*v, d),),
+    "max_pressure": lambda v, d: (contact_quantities.max_pressure(*v, d),),
+    "force_by_series": lambda v, d: contact_quantities.truncated_series(*v, d)[:1],
+    "impact": lambda v, d: tuple(contact_impact.impact(*v, d)),
+    "history": lambda v, d: contact_quantities.state(*v, d),
 }
 
 

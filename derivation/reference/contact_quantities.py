@@ -1,6 +1,5 @@
-"""Oracle 1 of what follows from the contact law: forces, pressure, the reversed series, the motion."""
+"""Oracle 1 of what follows from the contact law: forces, the reversed series, the motion."""
 
-from collections.abc import Sequence
 from fractions import Fraction
 from itertools import pairwise
 
@@ -13,6 +12,9 @@ from derivation.reference.contact_balls import modulus, settle
 
 _GRID, _STEPS = 32, 12
 _LEAST = 14
+
+Motion = tuple[Exact, Exact, Exact, Exact, Exact, Exact, Exact]
+"""R, m, v0, h, b, lam, mu of an impact."""
 
 
 def force_of_radius(a: Exact, R: Exact, lam: Exact, mu: Exact, digits: int = 50) -> arb:
@@ -47,7 +49,7 @@ def force(
 
 def truncated_series(
     delta: Exact, R: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact,
-    terms: int = 12, digits: int = 50,
+    digits: int = 50, terms: int = 12,
 ) -> tuple[arb, arb]:  # fmt: skip
     """The first terms of the reversed series P(delta), and their magnitudes' sum over theirs.
 
@@ -88,11 +90,11 @@ def state(
             return arb(0), to_ball(v0) * (1 if t <= 0 else -1), arb(0), arb(0)
         falling = bool(left < to_ball(t))
         goal = left if falling else to_ball(t)
-    motion = (R, m, v0, h, b, lam, mu)
+    motion: Motion = (R, m, v0, h, b, lam, mu)
     a = _start(goal, course.max_contact_radius, motion)
     for step in range(_STEPS):
         shown = min(digits + 8, _LEAST * 2**step)
-        (reached,) = contact_impact.history([a], *motion, digits=shown)
+        (reached,) = contact_impact.history([a], *motion, shown)
         with flint.ctx.workprec(8 * digits + 64):
             rate = _speed(a, motion, shown) / contact_balls.slope(a, R, h, b, shown)
             change = (goal - reached) * rate
@@ -102,7 +104,7 @@ def state(
     with flint.ctx.workprec(8 * digits + 64):
         width = to_ball(a) * arb(10) ** -(digits + 1)
         low, high = fraction(to_ball(a) - width), fraction(to_ball(a) + width)
-        before, after = contact_impact.history([low, high], *motion, digits=digits + 6)
+        before, after = contact_impact.history([low, high], *motion, digits + 6)
         if not (before < goal < after):
             raise PrecisionError(f"the state at {t} is not enclosed by {low} and {high}")
         speeds = (_speed(end, motion, digits + 6) for end in (low, high))
@@ -114,11 +116,11 @@ def state(
         return depth, -speed if falling else speed, radius, load
 
 
-def _start(goal: arb, largest: arb, motion: Sequence[Exact]) -> Fraction:
+def _start(goal: arb, largest: arb, motion: Motion) -> Fraction:
     """Contact radius near a time, interpolated between times of a grid dense at the largest."""
     shares = [1 - (1 - Fraction(k, _GRID)) ** 2 for k in range(1, _GRID)]
     radii = [fraction(largest) * share for share in shares]
-    times = [float(time) for time in contact_impact.history(radii, *motion, digits=_LEAST)]
+    times = [float(time) for time in contact_impact.history(radii, *motion, _LEAST)]
     known = [(0.0, Fraction(0)), *zip(times, radii, strict=True)]
     for (early, inner), (late, outer) in pairwise(known):
         if float(goal) <= late:
@@ -126,7 +128,7 @@ def _start(goal: arb, largest: arb, motion: Sequence[Exact]) -> Fraction:
     raise PrecisionError("the time asked for is too close to the turning point")
 
 
-def _speed(a: Exact, motion: Sequence[Exact], digits: int) -> arb:
+def _speed(a: Exact, motion: Motion, digits: int) -> arb:
     """Speed at a contact radius, from the energy that is left."""
     R, m, v0, h, b, lam, mu = motion
     stored = contact_impact.stored_energy(a, R, h, b, lam, mu, digits)

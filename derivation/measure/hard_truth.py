@@ -90,8 +90,9 @@ def _scale(name: str, given: Sequence[Any], value: arb) -> float:
     if name in ("indentation", "contact_radius", "stiffness"):
         return tolerance(name, tuple(given), float(value))
     if name == "force":
-        radius = float(contact_balls.contact_radius(*given[:4], _SLOPE_DIGITS))
-        return tolerance("contact_radius", tuple(given[:4]), radius)
+        delta, R, h, b = given[:4]
+        radius = float(contact_balls.contact_radius(delta, R, h, b, _SLOPE_DIGITS))
+        return tolerance("contact_radius", (delta, R, h, b), radius)
     if name == "force_by_series":
         return upper_float(contact_quantities.truncated_series(*given)[1])
     return 1.0
@@ -100,18 +101,28 @@ def _scale(name: str, given: Sequence[Any], value: arb) -> float:
 Law = Callable[[Sequence[Any], int], tuple[arb, ...]]
 """A contact law's quantity: arguments and digits -> balls."""
 
+
+def _one(function: Callable[..., arb]) -> Law:
+    return lambda given, digits: (function(*given, digits=digits),)
+
+
+def _several(function: Callable[..., tuple[arb, ...]], count: int = 4) -> Law:
+    return lambda given, digits: tuple(function(*given, digits=digits))[:count]
+
+
 LAWS: Mapping[str, Law] = {
-    "indentation": lambda v, d: (contact_balls.indentation(*v, d),),
-    "contact_radius": lambda v, d: (contact_balls.contact_radius(*v, d),),
-    "stiffness": lambda v, d: (contact_balls.stiffness(*v, d),),
-    "force": lambda v, d: (contact_quantities.force(*v, d),),
-    "force_of_radius": lambda v, d: (contact_quantities.force_of_radius(*v, d),),
-    "radius_of_force": lambda v, d: (contact_quantities.radius_of_force(*v, d),),
-    "max_pressure": lambda v, d: (contact_quantities.max_pressure(*v, d),),
-    "force_by_series": lambda v, d: contact_quantities.truncated_series(*v, d)[:1],
-    "impact": lambda v, d: tuple(contact_impact.impact(*v, d)),
-    "history": lambda v, d: contact_quantities.state(*v, d),
+    "indentation": _one(contact_balls.indentation),
+    "contact_radius": _one(contact_balls.contact_radius),
+    "stiffness": _one(contact_balls.stiffness),
+    "force": _one(contact_quantities.force),
+    "force_of_radius": _one(contact_quantities.force_of_radius),
+    "radius_of_force": _one(contact_quantities.radius_of_force),
+    "max_pressure": _one(contact_quantities.max_pressure),
+    "force_by_series": _several(contact_quantities.truncated_series, 1),
+    "impact": _several(contact_impact.impact),
+    "history": _several(contact_quantities.state),
 }
+"""What the contact law's kernels are held to."""
 
 
 def _bare(value: str) -> Stored:

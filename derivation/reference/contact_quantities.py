@@ -1,5 +1,6 @@
 """Oracle 1 of what follows from the contact law: forces, the reversed series, the motion."""
 
+from collections.abc import Sequence
 from fractions import Fraction
 from itertools import pairwise
 
@@ -62,11 +63,20 @@ def truncated_series(
         eps = (to_ball(R) * to_ball(delta)).sqrt() / to_ball(h)
         shares = []
         for n in range(terms):
-            series = flint.arb_series(law, terms) ** arb(flint.fmpq(-(n + 3), 2))
-            shares.append(arb(flint.fmpq(3, n + 3)) * series[n] * eps**n)
+            coefficient = power(law, arb(flint.fmpq(-(n + 3), 2)))[n]
+            shares.append(arb(flint.fmpq(3, n + 3)) * coefficient * eps**n)
         total = sum(shares, arb(0))
         hertz = 4 * modulus(lam, mu) / 3 * (to_ball(R) * to_ball(delta)).sqrt() * to_ball(delta)
         return hertz * total, sum(map(abs, shares), arb(0)) / abs(total)
+
+
+def power(series: Sequence[arb], exponent: arb) -> list[arb]:
+    """A power of a power series that begins with 1, to as many terms (Euler's recurrence)."""
+    found = [arb(1)]
+    for n in range(1, len(series)):
+        shares = ((exponent * k - (n - k)) * series[k] * found[n - k] for k in range(1, n + 1))
+        found.append(sum(shares, arb(0)) / n)
+    return found
 
 
 def state(

@@ -6,7 +6,7 @@ from typing import Any
 
 from derivation.report.latex import escape, prose
 
-SHOWN = 8
+SHOWN = 7
 """Digits shown of a reference, of which the data hold more."""
 
 _DECIMAL = re.compile(r"(-?)(\d*)\.?(\d*)(?:e([+-]?\d+))?$")
@@ -39,12 +39,13 @@ def summary_row(name: str, cases: Sequence[Mapping[str, Any]]) -> str:
 
 
 def case_row(case: Mapping[str, Any]) -> str:
-    """Cells of a case: kernel, cause with the exact inputs below it, reference and errors."""
+    """Cells of a case: kernel, cause, reference and errors; below them its exact inputs."""
     note = "" if case["kept"] else r" \textbf{Failed.}"
-    what = rf"{prose(case['cause'])}{note}\newline {{\tiny {inputs(case)}}}"
-    cells = [rf"\texttt{{{escape(case['kernel'])}}}", what, references(case["references"])]
+    kernel = rf"\texttt{{{escape(case['kernel'])}}}"
+    cells = [kernel, prose(case["cause"]) + note, references(case["references"])]
     printed = "" if case["printed"] is None else error(case["printed"])
-    return " & ".join([*cells, error(case["error"]), printed, error(case["allowed"])])
+    first = " & ".join([*cells, error(case["error"]), printed, error(case["allowed"])])
+    return rf"{first}\\*{chr(10)}\given{{{inputs(case)}}}"
 
 
 def inputs(case: Mapping[str, Any]) -> str:

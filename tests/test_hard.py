@@ -149,7 +149,7 @@ def test_references_repeat(cases: tuple[Case, ...], truth: dict[str, list[Stored
     values = [case for case in cases if case.expect == "value" and 0 < len(case.points) < 6]
     closed = [case for case in values if case.kernel not in LAWS]
     laws = [c for c in values if c.kernel in ("indentation", "stiffness") and not c.shape]
-    for case in (*generator.sample(closed, 30), *generator.sample(laws, 6)):
+    for case in (*generator.sample(closed, 24), *generator.sample(laws, 3)):
         fresh = references(case, hard_check.kernels()[case.kernel])
         for old, new in zip(truth[case.key], fresh, strict=True):
             if new["value"] in ("nan", "inf", "-inf"):
@@ -191,7 +191,8 @@ def test_generated_code_keeps_every_case(
 def test_printed_forms_stand_beside(
     cases: tuple[Case, ...], truth: dict[str, list[Stored]]
 ) -> None:
-    chosen = [case for case in cases if case.kernel in ("K_j", "G") and case.expect == "value"]
+    values = [case for case in cases if case.expect == "value" and case.form != "empty"]
+    chosen = [case for case in values if case.kernel in ("K_j", "G")]
     rows = hard_check.check(chosen, truth, hard_check.kernels())
     assert all((row.printed is None) == (row.case.kernel == "G") for row in rows)
     assert max(row.printed for row in rows if row.printed is not None) > 1e12
@@ -202,8 +203,8 @@ def test_printed_forms_stand_beside(
     [
         ("contact_series", "_CONSTANT", {"indentation", "stiffness", "contact_radius", "impact"}),
         ("contact_series", "REACH", {"indentation"}),
-        ("moments", "_KAPPA_START", {"kappa_ratio"}),
-        ("bessel", "_ASYMPTOTIC_START", {"bessel_j0", "bessel_j1"}),
+        ("bessel", "_QUARTER_PI_TAIL", {"bessel_j0_zeros"}),
+        ("impact", "_WEIGHTS", {"impact"}),
     ],
 )
 def test_a_tampered_constant_is_noticed(
@@ -215,10 +216,12 @@ def test_a_tampered_constant_is_noticed(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     place = importlib.import_module(f"generated.{module}")
-    monkeypatch.setattr(place, name, getattr(place, name) * 0.99)
     chosen = [case for case in cases if case.kernel in kernels]
-    rows = hard_check.check(chosen, truth, hard_check.kernels())
-    assert not all(row.kept for row in rows)
+    with monkeypatch.context() as patched:
+        patched.setattr(place, name, getattr(place, name) * 0.99)
+        spoilt = hard_check.check(chosen, truth, hard_check.kernels())
+    sound = hard_check.check(chosen, truth, hard_check.kernels())
+    assert sum(row.kept for row in spoilt) < sum(row.kept for row in sound)
 
 
 def one(kernel: str, call: Any, case: Case, truth: dict[str, list[Stored]]) -> hard_check.Row:

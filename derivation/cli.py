@@ -100,6 +100,9 @@ def check(
     speed: Annotated[
         bool, typer.Option("--speed", help="Measure speed instead, on this machine.")
     ] = False,
+    hard: Annotated[
+        bool, typer.Option("--hard", help="Check the hard cases instead: seconds.")
+    ] = False,
     propose: Annotated[
         bool, typer.Option("--propose", help="Print tighter error budgets; write nothing.")
     ] = False,
@@ -112,12 +115,16 @@ def check(
     from derivation import pipeline
     from derivation.measure.record import COLUMNS, as_data, cells, passed, worst
 
-    if contact and speed:
-        raise ValueError("expected --contact or --speed, got both: run them one after the other")
+    if contact + speed + hard > 1:
+        raise ValueError(
+            "expected one of --contact, --speed and --hard: run them one after the other"
+        )
     if contact:
         raise typer.Exit(_check_contact(record, json, propose))
     if speed:
         raise typer.Exit(_check_speed(record, json))
+    if hard:
+        raise typer.Exit(_check_hard(record, json))
     with counted("check") as tell:
         rows = pipeline.check(digits, record, tell)
     if json != "-":
@@ -153,6 +160,22 @@ def _check_contact(record: bool, json: str | None, propose: bool) -> int:
     if propose:
         _propose(rows)
     return 0 if all(r.passed for r in rows) else 1
+
+
+def _check_hard(record: bool, json: str | None) -> int:
+    """Check the hard cases; returns the exit status."""
+    from derivation import pipeline
+    from derivation.measure.hard_check import COLUMNS, as_data, cells
+
+    with counted("check") as tell:
+        rows = pipeline.check_hard(record, tell)
+    failed = [row for row in rows if not row.kept]
+    if json != "-":
+        table("Hard cases, errors in ULP", COLUMNS, [cells(row) for row in rows])
+        listing(f"{len(rows)} cases, {len(failed)} failed", [row.case.key for row in failed])
+    if json:
+        put_json(as_data(rows), json)
+    return 1 if failed else 0
 
 
 def _check_speed(record: bool, json: str | None) -> int:

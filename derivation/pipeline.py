@@ -24,7 +24,7 @@ from derivation.emit.render import CITATION
 from derivation.emit.standalone import standalone
 from derivation.files import PACKAGE, ROOT, measurements, write_file
 from derivation.formula.parse import parse
-from derivation.measure import speed
+from derivation.measure import hard_check, speed
 from derivation.measure.check import Progress, Row
 from derivation.measure.check import check as measure
 from derivation.measure.contact import KERNELS, LIMIT
@@ -47,6 +47,7 @@ MEASURED = measurements() / "check.json"
 MEASURED_CONTACT = measurements() / "contact.json"
 REWRITTEN = measurements() / "rewrite.json"
 MEASURED_SPEED = measurements() / "speed.json"
+MEASURED_HARD = measurements() / "hard.json"
 EXAMPLE = PACKAGE / "scene" / "examples" / "paper.toml"
 
 
@@ -110,6 +111,31 @@ def contact_data(rows: tuple[ContactRow, ...]) -> dict[str, Any]:
     return {"provenance": provenance(DIGITS), "limit": LIMIT, "rows": found}
 
 
+def check_hard(record: bool = False, tell: Progress | None = None) -> tuple[hard_check.Row, ...]:
+    """Hold generated and printed forms to the hard cases' references.
+
+    These are the committed ones, or found anew, which takes minutes, and recorded.
+
+    Raises
+    ------
+    FileNotFoundError
+        If no references were recorded.
+    ValueError
+        If a case has none.
+    """
+    cases, known = hard_check.cases(), hard_check.kernels()
+    if not record:
+        if not MEASURED_HARD.is_file():
+            raise FileNotFoundError(f"no references in {MEASURED_HARD}: run `{hard_check.COMMAND}`")
+        truth = hard_check.committed(json.loads(MEASURED_HARD.read_text()), cases)
+        return hard_check.check(cases, truth, known)
+    truth = hard_check.find_references(cases, os.cpu_count() or 1, tell)
+    rows = hard_check.check(cases, truth, known)
+    folder_for(None, REPORTS)
+    write_file(MEASURED_HARD, hard_check.to_json(rows))
+    return rows
+
+
 def check_speed(record: bool = False, tell: Progress | None = None) -> list[speed.Timing]:
     """Measure the speed of contact law, impact and cold start on this machine."""
     timings = speed.measure(EXAMPLE, tell)
@@ -164,12 +190,13 @@ def report_files() -> dict[str, str]:
     FileNotFoundError
         If there are no committed measurements.
     """
-    for path in (MEASURED, MEASURED_CONTACT, MEASURED_SPEED, REWRITTEN):
+    for path in (MEASURED, MEASURED_CONTACT, MEASURED_SPEED, MEASURED_HARD, REWRITTEN):
         if not path.is_file():
             raise FileNotFoundError(f"no measurements in {path}: run `platecontact check --record`")
     measured = json.loads(MEASURED.read_text())
     contact = json.loads(MEASURED_CONTACT.read_text())
     timed = json.loads(MEASURED_SPEED.read_text())
+    hard = json.loads(MEASURED_HARD.read_text())
     rules = json.loads(REWRITTEN.read_text())
     motion = motion_context(paper_case())
     text = tex(
@@ -177,6 +204,7 @@ def report_files() -> dict[str, str]:
         misprints(),
         measured,
         contact,
+        hard,
         timed,
         rules,
         motion,

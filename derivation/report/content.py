@@ -10,6 +10,7 @@ from derivation.formula.record import Formula
 from derivation.formula.symbols import M, eta
 from derivation.paper.misprints import Finding
 from derivation.reference.contact_balls import finite_part
+from derivation.report.hard import hard_context
 from derivation.report.latex import environment, equation, escape
 from derivation.theory.thin_remainder import coefficient_remainder_ball
 from derivation.theory.thin_roots import root
@@ -57,6 +58,7 @@ def tex(
     findings: Sequence[Finding],
     check: Mapping[str, Any],
     contact: Mapping[str, Any],
+    hard: Mapping[str, Any],
     timed: Mapping[str, Any],
     rewritten: Mapping[str, Any],
     motion: Mapping[str, Any],
@@ -83,6 +85,7 @@ def tex(
             contact_digits=contact["provenance"]["digits"],
             contact_limit=number(contact["limit"]),
             contact_impacts=contact_impacts(contact["rows"]),
+            hard=hard_context(hard),
             timings=timed["rows"],
             rewrites=[line for row in rewritten["rows"] for line in rewrite_rows(row)],
             machine=sorted(timed["machine"].items()),

@@ -25,8 +25,8 @@ STRIDES = tuple(2**bits for bits in range(46, -1, -2))
 WHOLE_STRIDES = (4096, 256, 32, 8, 3, 2, 1)
 """The same for whole numbers."""
 
-Tell = Callable[[str, float], None]
-"""Called at every kernel's turn with its name and the worst ratio of its points so far."""
+Tell = Callable[[str, int, float], None]
+"""Called at every kernel's turn: its name, how many points all have had, the worst ratio."""
 
 
 @dataclass(frozen=True)
@@ -101,6 +101,11 @@ class Search:
         """Points looked at by all kernels."""
         return sum(standing.evaluations for standing in self.standings.values())
 
+    @property
+    def ratio(self) -> float:
+        """The worst ratio of all kernels."""
+        return max((standing.ratio for standing in self.standings.values()), default=-1.0)
+
 
 def search(
     targets: Sequence[Target],
@@ -158,10 +163,10 @@ def _take_turns(
 ) -> None:
     for number in itertools.count():
         for target, steps in zip(targets, hunts, strict=True):
-            if number % target.every:
-                continue
+            if (number + 1) % target.every:
+                continue  # so that what takes long waits for the others' first turns
             if tell is not None:
-                tell(target.name, found.standings[target.name].ratio)
+                tell(target.name, found.evaluations, found.ratio)
             for _ in range(target.share):
                 if over():
                     return

@@ -136,7 +136,7 @@ def _values(domain: Domain, generator: Random) -> dict[str, float]:
         return {"x": generator.choice((-1, 1)) * _between(generator, 1e-150, 1e8)}
     values = _sizes(generator, "phi" in domain.arguments)
     if domain.name == "contact_radius":
-        shape = [values[key] for key in ("a", "R", "h", "b")]
+        shape: list[Any] = [values[key] for key in ("a", "R", "h", "b")]
         values["delta"] = float(contact_balls.indentation(*shape, digits=_DIGITS))
     if domain.name == "impact":
         shape = [values[key] for key in ("a", "R", "h", "b", "lam", "mu")]

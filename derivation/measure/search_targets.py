@@ -4,8 +4,11 @@ import importlib
 import inspect
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
 
 import numpy as np
+from flint import arb
 
 from derivation.formula.ball import PrecisionError
 from derivation.formula.ulp import overflows, ulp_error
@@ -23,14 +26,14 @@ Numbers = tuple[float, ...]
 ULP_OF_LAW = 8.0
 """Allowed to the contact law's kernels in ULP, times `contact_truth.tolerance`."""
 
-_DIGITS, _FEW, _OF_LAW = 50, 20, 30
+_DIGITS, _FEW, _OF_LAW = 50, 20, 24
 """Digits of the reference, of the screen's, and of the contact law's."""
 
-_SLOW = 1, 8
+_SLOW, _SLOWEST = (1, 16), (1, 32)
 _SHARES = {
-    "impact": _SLOW, "kappa": _SLOW, "finite_part": _SLOW, "kappa_ratio": _SLOW,
-    "finite_part_ratio": _SLOW, "contact_radius": (8, 1), "indentation": (16, 1),
-    "stiffness": (16, 1),
+    "impact": _SLOW, "kappa": _SLOWEST, "finite_part": _SLOWEST, "kappa_ratio": _SLOW,
+    "finite_part_ratio": _SLOW, "contact_radius": (1, 1), "indentation": (3, 1),
+    "stiffness": (3, 1),
 }  # fmt: skip
 """Points per turn, and how many rounds lie between turns, where the truth takes long."""
 
@@ -67,7 +70,7 @@ class Target:
         Point and results -> a number that `measure`'s ratio never exceeds, found
         with less effort; None where there is no such short cut.
     share, every
-        Points per turn, and in which rounds it has a turn.
+        Points per turn, and how many rounds go by for one turn.
     """
 
     domain: Domain
@@ -134,7 +137,7 @@ def closed_target(domain: Domain, kernel: Kernel) -> Target:
 
 def _law_target(name: str) -> Target:
     """A kernel of the contact law, held to so many ULP of its largest part."""
-    module = importlib.import_module("generated.impact" if name == "impact" else _LAW_MODULE)
+    module = importlib.import_module(f"generated.{'impact' if name == 'impact' else 'contact_law'}")
     function = getattr(module, name)
     domain = domain_of_law(name, tuple(inspect.signature(function).parameters))
 
@@ -147,8 +150,8 @@ def _law_target(name: str) -> Target:
         return [tuple(float(row[i]) for row in rows) for i in range(len(points))]
 
     def measure(point: Point, got: Numbers) -> Error | None:
-        given = tuple(point.values.values())
-        balls = _true(name, point, given)
+        given = tuple(point.values[key] for key in domain.arguments)
+        balls = _true(name, given, domain.arguments)
         if balls is None or any(overflows(ball) for ball in balls):
             return None
         ulp = max(ulp_error(value, ball) for value, ball in zip(got, balls, strict=True))
@@ -160,22 +163,20 @@ def _law_target(name: str) -> Target:
     return Target(domain, call, measure, None, share, every)
 
 
-_LAW_MODULE = "generated.contact_law"
-
-
-def _true(name: str, point: Point, given: Numbers) -> tuple[contact_balls.arb, ...] | None:
+@lru_cache(maxsize=8)
+def _true(name: str, given: Sequence[Any], keys: tuple[str, ...]) -> tuple[arb, ...] | None:
     """The first oracle's balls; None where the contact grows beyond what the kernels promise."""
+    values = dict(zip(keys, given, strict=True))
     if name == "indentation":
         return (contact_balls.indentation(*given, digits=_OF_LAW),)
     if name == "stiffness":
         return (contact_balls.stiffness(*given, digits=_OF_LAW),)
     if name == "force_of_radius":
-        return (truth("P", point.values, _OF_LAW),)
+        return (truth("P", values, _OF_LAW),)
     if name == "contact_radius":
         balls = (contact_balls.contact_radius(*given, digits=_OF_LAW),)
     else:
         balls = tuple(contact_impact.impact(*given, digits=_OF_LAW))
-    values = point.values
     inside = balls[-1] < min(values["b"], values["R"], CONTACTS[1] * values["h"])
     return balls if inside else None
 

@@ -262,7 +262,7 @@ def _row(kernel: str, search: Search) -> dict[str, Any]:
     numbers: dict[str, float] = {"ratio": error.ratio, "ulp": error.ulp, "allowed": error.allowed}
     # JSON has no infinities: they become text.
     plain: dict[str, Any] = {key: repr(x) if x == float("inf") else x for key, x in numbers.items()}
-    where = {key: found[key] for key in ("inputs", "form", "modes") if key in found}
+    where: Case = {key: found[key] for key in ("inputs", "form", "modes") if key in found}
     return {"kernel": kernel, **counts, **plain, **where}
 
 

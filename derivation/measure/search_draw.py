@@ -15,7 +15,8 @@ from typing import Any
 
 from derivation.formula.ulp import from_ordinal, ordinal
 from derivation.measure.grids import Point
-from derivation.reference import contact_balls, contact_impact
+from derivation.reference.contact_agreement import FIRST
+from derivation.reference.contact_impact import stored_energy
 
 WHOLE = ("count", "n", "k")
 """Arguments that are whole numbers."""
@@ -137,10 +138,10 @@ def _values(domain: Domain, generator: Random) -> dict[str, float]:
     values = _sizes(generator, "phi" in domain.arguments)
     if domain.name == "contact_radius":
         shape: list[Any] = [values[key] for key in ("a", "R", "h", "b")]
-        values["delta"] = float(contact_balls.indentation(*shape, digits=_DIGITS))
+        values["delta"] = float(FIRST["indentation"](*shape, digits=_DIGITS))
     if domain.name == "impact":
-        shape = [values[key] for key in ("a", "R", "h", "b", "lam", "mu")]
-        energy = float(contact_impact.stored_energy(*shape, digits=_DIGITS))
+        a, R, h, b, lam, mu = (values[key] for key in ("a", "R", "h", "b", "lam", "mu"))
+        energy = float(stored_energy(a, R, h, b, lam, mu, _DIGITS))
         values["m"] = _unit(generator, MASS)
         values["v0"] = math.sqrt(2.0 * energy / values["m"])
     return values

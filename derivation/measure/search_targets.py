@@ -17,8 +17,8 @@ from derivation.measure.contact_truth import tolerance
 from derivation.measure.grids import Point
 from derivation.measure.kernels import Kernel, generated_kernels
 from derivation.measure.search_draw import CONTACTS, LAW, Domain, domain_of_law, domain_of_row
-from derivation.reference import contact_balls, contact_impact
 from derivation.reference.balls import reference, truth
+from derivation.reference.contact_agreement import FIRST
 
 Numbers = tuple[float, ...]
 """A kernel's results at a point: one, of an impact four."""
@@ -167,16 +167,12 @@ def _law_target(name: str) -> Target:
 def _true(name: str, given: Sequence[Any], keys: tuple[str, ...]) -> tuple[arb, ...] | None:
     """The first oracle's balls; None where the contact grows beyond what the kernels promise."""
     values = dict(zip(keys, given, strict=True))
-    if name == "indentation":
-        return (contact_balls.indentation(*given, digits=_OF_LAW),)
-    if name == "stiffness":
-        return (contact_balls.stiffness(*given, digits=_OF_LAW),)
     if name == "force_of_radius":
         return (truth("P", values, _OF_LAW),)
-    if name == "contact_radius":
-        balls = (contact_balls.contact_radius(*given, digits=_OF_LAW),)
-    else:
-        balls = tuple(contact_impact.impact(*given, digits=_OF_LAW))
+    found = FIRST[name](*given, digits=_OF_LAW)
+    balls = tuple(found) if name == "impact" else (found,)
+    if name in ("indentation", "stiffness"):
+        return balls
     inside = balls[-1] < min(values["b"], values["R"], CONTACTS[1] * values["h"])
     return balls if inside else None
 

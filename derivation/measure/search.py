@@ -14,7 +14,7 @@ import numpy as np
 
 from derivation.measure.grids import Point
 from derivation.measure.search_draw import WHOLE, draw, moved
-from derivation.measure.search_targets import UNJUDGED, Error, Target
+from derivation.measure.search_targets import Error, Target
 
 DRAWN = 256
 """Points drawn at random between climbs."""
@@ -63,7 +63,7 @@ class Standing:
     evaluations
         Points looked at.
     unjudged
-        How many of them have no truth that a double can hold, or none at all.
+        How many were found to have no truth that a double can hold, or none at all.
     worst
         The largest error in proportion to what is allowed.
     """
@@ -218,17 +218,14 @@ def _look(
         return
     results = target.call(points) if target.bound is not None else None
     for i, point in enumerate(points):
-        try:
-            if results is None or _may_be_worse(target, point, results[i], here.ratio):
-                found = weigh(target, point, points[i - 1])
-                if found is None:
-                    standing.unjudged += 1
-                elif found.ratio > here.ratio:
-                    here.worst = found
-                    if found.ratio > standing.ratio:
-                        standing.worst = found
-        except UNJUDGED:
-            standing.unjudged += 1
+        if results is None or _may_be_worse(target, point, results[i], here.ratio):
+            found = weigh(target, point, points[i - 1])
+            if found is None:
+                standing.unjudged += 1
+            elif found.ratio > here.ratio:
+                here.worst = found
+                if found.ratio > standing.ratio:
+                    standing.worst = found
         standing.evaluations += 1
         yield
 

@@ -10,7 +10,7 @@ from typing import Any
 from derivation.files import write_file
 from derivation.measure.grids import Point
 from derivation.measure.search import Found, Search, weigh
-from derivation.measure.search_targets import UNJUDGED, Target
+from derivation.measure.search_targets import Target
 
 COLUMNS = ("kernel", "#evaluations", "#ratio", "#ULP", "#allowed", "new")
 """Headings of the table, all of the worst point: its ratio is error over allowance."""
@@ -88,10 +88,7 @@ def measured(case: Mapping[str, Any], targets: Mapping[str, Target]) -> Found | 
         expected = ", ".join(target.domain.arguments)
         raise ValueError(f"{target.name} takes {expected}; got {', '.join(case['inputs'])}")
     point, *company = points_of(case)
-    try:
-        return weigh(target, point, company[0] if company else None)
-    except UNJUDGED:
-        return None
+    return weigh(target, point, company[0] if company else None)
 
 
 def read(path: Path) -> list[Case]:

@@ -2,6 +2,7 @@
 
 import importlib
 import inspect
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -28,6 +29,9 @@ ULP_OF_LAW = 8.0
 
 _DIGITS, _FEW, _OF_LAW = 50, 20, 24
 """Digits of the reference, of the screen's, and of the contact law's."""
+
+_SILENT = PrecisionError, ValueError, ZeroDivisionError, OverflowError
+"""What an oracle raises where it has no answer: at singular points, beyond the plate's edge."""
 
 _SLOW, _SLOWEST = (1, 16), (1, 32)
 _SHARES = {
@@ -65,7 +69,7 @@ class Target:
         Points -> results.
     measure
         Point and results -> the largest error; None where no double holds the
-        truth, or the point turns out to lie outside the domain.
+        truth, the oracle has no answer, or the point lies outside the domain after all.
     bound
         Point and results -> a number that `measure`'s ratio never exceeds, found
         with less effort; None where there is no such short cut.
@@ -118,11 +122,17 @@ def closed_target(domain: Domain, kernel: Kernel) -> Target:
     def bound(point: Point, got: Numbers) -> float:
         # The allowance is the budget and more, so error over budget is an upper bound:
         # who stays below the worst ratio by this is spared the condition numbers.
-        ball = truth(kernel.name, point.values, _FEW, point.modes)
+        try:
+            ball = truth(kernel.name, point.values, _FEW, point.modes)
+        except _SILENT:
+            return math.inf
         return ulp_error(got[0], ball) / budget
 
     def measure(point: Point, got: Numbers) -> Error | None:
-        found = reference(kernel.name, point.values, _DIGITS, point.modes)
+        try:
+            found = reference(kernel.name, point.values, _DIGITS, point.modes)
+        except _SILENT:
+            return None
         if overflows(found.value):
             return None
         allowed = judge.allowed_ulp(found, budget)
@@ -151,7 +161,10 @@ def _law_target(name: str) -> Target:
 
     def measure(point: Point, got: Numbers) -> Error | None:
         given = tuple(point.values[key] for key in domain.arguments)
-        balls = _true(name, given, domain.arguments)
+        try:
+            balls = _true(name, given, domain.arguments)
+        except _SILENT:
+            return None
         if balls is None or any(overflows(ball) for ball in balls):
             return None
         ulp = max(ulp_error(value, ball) for value, ball in zip(got, balls, strict=True))
@@ -175,7 +188,3 @@ def _true(name: str, given: Sequence[Any], keys: tuple[str, ...]) -> tuple[arb, 
         return balls
     inside = balls[-1] < min(values["b"], values["R"], CONTACTS[1] * values["h"])
     return balls if inside else None
-
-
-UNJUDGED = (PrecisionError, ValueError, ZeroDivisionError, OverflowError)
-"""What an oracle raises where it gives no answer."""

@@ -210,6 +210,9 @@ def test_a_case_with_other_arguments_is_refused(fast: Sequence[Target], tmp_path
     path.write_text(to_toml([(case, None)]))
     with pytest.raises(ValueError, match="p takes r, a, P"):
         Book(path, fast, NOWHERE, NOWHERE)
+    path.write_text(to_toml([({**case, "group": "seams"}, None)]))
+    with pytest.raises(ValueError, match="--out FILE"):  # somebody's own cases
+        Book(path, fast, NOWHERE, NOWHERE)
 
 
 def test_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

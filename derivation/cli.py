@@ -14,7 +14,7 @@ from typer.exceptions import TyperException
 from typer.main import get_command
 
 from derivation.scene import commands as scene_commands
-from derivation.screen import NOTES, OUT, counted, listing, put_json, stage, table
+from derivation.screen import NOTES, OUT, clocked, counted, listing, put_json, stage, table
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -106,6 +106,17 @@ def check(
     propose: Annotated[
         bool, typer.Option("--propose", help="Print tighter error budgets; write nothing.")
     ] = False,
+    search: Annotated[
+        str | None,
+        typer.Option("--search", metavar="60s|5m|1h", help="Look for worse, for so long."),
+    ] = None,
+    seed: Annotated[int, typer.Option(help="Of the search, which repeats by it.")] = 1,
+    kernel: Annotated[
+        list[str] | None, typer.Option("--kernel", metavar="NAME", help="Search this one only.")
+    ] = None,
+    out: Annotated[
+        Path | None, typer.Option("--out", metavar="FILE", help="Write searched cases here.")
+    ] = None,
     json: Json = None,
 ) -> None:
     """Measure every generated function against both oracles.
@@ -115,10 +126,16 @@ def check(
     from derivation import pipeline
     from derivation.measure.record import COLUMNS, as_data, cells, passed, worst
 
-    if contact + speed + hard > 1:
+    if contact + speed + hard + (search is not None) > 1:
         raise ValueError(
-            "expected one of --contact, --speed and --hard: run them one after the other"
+            "expected one of --contact, --speed, --hard and --search: run them one after the other"
         )
+    if search is not None:
+        if record or propose:
+            raise ValueError("--search stands alone: expected no --record, --propose")
+        raise typer.Exit(_check_search(search, seed, kernel or [], out, json))
+    if kernel or out:
+        raise ValueError("--kernel and --out belong to --search: add --search 60s")
     if contact:
         raise typer.Exit(_check_contact(record, json, propose))
     if speed:
@@ -191,6 +208,25 @@ def _check_speed(record: bool, json: str | None) -> int:
     if json:
         put_json(as_data(timings), json)
     return 0 if all(t.kept for t in timings) else 1
+
+
+def _check_search(
+    duration: str, seed: int, kernels: list[str], out: Path | None, json: str | None
+) -> int:
+    """Look for larger errors; returns the exit status."""
+    from derivation import pipeline
+    from derivation.measure.search_cases import COLUMNS, arguments, as_data, cells, kept
+
+    with clocked("search") as tell:
+        found, book = pipeline.search_worse(duration, seed, kernels, out, tell)
+    if json != "-":
+        table(f"Search, seed {seed}", COLUMNS, [cells(k, found, book) for k in found.standings])
+        listing("Worst arguments", [arguments(k, found) for k in found.standings])
+    if json:
+        put_json(as_data(found), json)
+    if book.written:
+        NOTES.print(f"new worst cases in {book.path}", markup=False, soft_wrap=True)
+    return INTERRUPTED if found.interrupted else 0 if kept(found) else 1
 
 
 @app.command()

@@ -10,7 +10,7 @@
 
 import json
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from importlib.metadata import version
 from pathlib import Path
@@ -32,6 +32,9 @@ from derivation.measure.contact import Row as ContactRow
 from derivation.measure.contact import check as measure_contact
 from derivation.measure.contact_truth import DIGITS
 from derivation.measure.record import plain, provenance, to_json
+from derivation.measure.search import Search, Tell, search
+from derivation.measure.search_cases import Book, seconds_of
+from derivation.measure.search_targets import targets
 from derivation.produce import folder_for, write_files
 from derivation.report import pdf as compiler
 from derivation.report.content import tex
@@ -167,6 +170,28 @@ def rewritten(text: str, variable: str = "x") -> tuple[Stable, str]:
     symbol = sp.Symbol(variable, positive=True)
     stable = stabilise(parse(text, {variable: symbol}), symbol)
     return stable, standalone(stable)
+
+
+def search_worse(
+    duration: str,
+    seed: int = 1,
+    kernels: Sequence[str] = (),
+    out: Path | None = None,
+    tell: Tell | None = None,
+) -> tuple[Search, Book]:
+    """Look for larger errors for some time, and write each new worst case to a file.
+
+    Raises
+    ------
+    ValueError
+        If the duration or a kernel is none, or the file is of another kind.
+    """
+    seconds, chosen = seconds_of(duration), targets(kernels)
+    path = folder_for(None, REPORTS) / "search.toml" if out is None else out
+    book = Book(path, chosen, MEASURED, MEASURED_CONTACT)
+    found = search(chosen, seed, seconds, tell=tell, keep=book.keep)
+    book.keep(found)
+    return found, book
 
 
 def verdict(rows: tuple[Row, ...]) -> list[str]:

@@ -56,7 +56,7 @@ def stable_forms(formulas: Mapping[str, Formula]) -> tuple[Form, ...]:
 
     groups: dict[str, dict[str, _Shape]] = {
         "omega": {name: found(name) for name in OMEGAS},
-        "influence": {name: found(name) for name in INFLUENCE},
+        "influence": {name: found(name) for name in INFLUENCE} | {"G_slope": _factor_slope()},
         "pressure": _pressure() | {name: found(name) for name in ("sonine", "A_j")},
         "mode_shapes": _modes(),
     }
@@ -68,11 +68,23 @@ def stable_forms(formulas: Mapping[str, Formula]) -> tuple[Form, ...]:
 
 
 OMEGAS = tuple(f"Omega_{k}{tail}" for tail in ("", "_scaled") for k in range(1, 5))
-INFLUENCE = ("G", "G_m", "G_minus_1", "G_slope", "C_top", "C_bottom", "K_j", "K_j_bottom")
+INFLUENCE = ("G", "G_m", "G_minus_1", "C_top", "C_bottom", "K_j", "K_j_bottom")
 AUTOMATIC = (*OMEGAS, *INFLUENCE, "sonine", "A_j")
 """Formulas whose forms the rules find."""
 
 _Shape = tuple[tuple[Step, ...], sp.Expr | Seam]
+
+
+def _factor_slope() -> _Shape:
+    """T dG/dT; the rules leave T^5 below, which underflows where the value is finite."""
+    known = blocks()
+    product = known["sinh_minus"](T) * known["sinh_plus"](T)
+    steps = (
+        Step(fade, sp.exp(-T), "half of the decay, twice: neither factor underflows alone"),
+        Step(odd, -expm1(-2 * T) / T, "2 e^(-T) sinh T/T"),
+        Step(near_share, fade * (odd / product) ** 2),
+    )
+    return steps, -8 * fade * (near_share / T**3)
 
 
 def _pressure() -> dict[str, _Shape]:

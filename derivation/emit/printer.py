@@ -25,12 +25,6 @@ class _Printer(NumPyPrinter):
 
     _print_besselj = _print_BesselJ
 
-    def _print_Pow(self, expr: sp.Pow, rational: bool = False) -> str:
-        if expr.base.is_Symbol and expr.exp == 3:  # NumPy's own cube takes seven times as long
-            name = self._print(expr.base)
-            return f"({name}**2*{name})"
-        return str(super()._print_Pow(expr, rational=rational))
-
     def _print_Mul(self, expr: sp.Mul) -> str:
         coefficient, rest = expr.as_coeff_Mul()
         if not isinstance(coefficient, sp.Rational) or coefficient.q > SMALL_INTEGER:

@@ -2,7 +2,8 @@
 
 Stages, in this order:
 
- 1 dimensionless   the one product that all functions depend on becomes x, T or y
+ 1 dimensionless   the one product that all functions depend on becomes x, T or y, and lam + 2 mu
+                   its ratio to lam + mu
  2 rules           `fraction`, `decay` and `difference`, as for one variable
  3 blocks          sums that cancel at 0 -> building blocks, their power of x taken out
  4 front           powers of x that only undo powers of a length are undone; squares paired
@@ -14,7 +15,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from derivation.formula.symbols import a, h, phi
+from derivation.formula.symbols import a, h, lam, mu, phi
 from derivation.rewrite.form import Block, Step
 from derivation.rewrite.rules import decay, fraction, parts_of
 from derivation.rewrite.series import leading_power
@@ -23,7 +24,8 @@ from derivation.rewrite.terms import Key, UnreachableError, terms_of
 
 x, y, T = sp.symbols("x y T", positive=True)
 core, part, spread = sp.symbols("core part spread", real=True)
-fade = sp.Symbol("fade", positive=True)
+fade, ratio = sp.symbols("fade ratio", positive=True)
+RATIO = Step(ratio, (lam + 2 * mu) / (lam + mu), "2 (1 - nu)")
 HALVED = "half of the decay, twice: neither factor underflows alone"
 VARIABLES = {phi * h: (x, h), 2 * phi * h: (T, h), a * phi: (y, a), T: (T, T)}
 """Products that functions may depend on, the symbol each becomes, and what it replaces."""
@@ -58,7 +60,8 @@ def dimensionless(expression: sp.Expr) -> Reduced:
         raise UnreachableError(f"no dimensionless variable for {least * product}")
     variable, length = VARIABLES[least * product]
     replaced = expression.subs(length, variable / (least * product / length))
-    return Reduced(replaced, variable, least * product, length)
+    elastic = replaced.subs(lam + 2 * mu, ratio * (lam + mu))
+    return Reduced(sp.factor_terms(elastic), variable, least * product, length)
 
 
 Automatic = tuple[tuple[Step, ...], sp.Expr]
@@ -82,7 +85,11 @@ def automatic(expression: sp.Expr, known: Mapping[str, Block]) -> Automatic:
     reduced = dimensionless(expression)
     shape = _shape(reduced)
     steps: list[Step] = []
-    if reduced.length != reduced.variable:
+    if reduced.expression.has(ratio):
+        steps.append(RATIO)
+    if reduced.variable == T and reduced.length == h:
+        steps += [Step(x, phi * h), Step(T, 2 * x)]
+    elif reduced.length != reduced.variable:
         steps.append(Step(reduced.variable, reduced.product))
     power, product = shape.power, sp.Integer(1)
     for factor in shape.factors:

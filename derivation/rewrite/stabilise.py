@@ -12,6 +12,9 @@ from derivation.rewrite.rules import RULES, SHARE, Rewritten, Rule
 from derivation.rewrite.shape import Shape, assembled
 from derivation.rewrite.terms import UnreachableError, terms_of
 
+EXACT = 0.75
+"""A section that leaves no more ULP than this is not lengthened."""
+
 NOTHING = 1.5
 """Differences of forms that are this exact, in ULP, decide nothing."""
 
@@ -110,7 +113,7 @@ def _through(
         except UnreachableError:
             continue
         if len(results) > 1:
-            results.sort(key=lambda result: max(at.worst(result), NOTHING))
+            results.sort(key=lambda result: max(at.worst(result), EXACT))
         form = results[0] if results else form
     return form, at.worst(form)
 

@@ -189,7 +189,10 @@ def _check_hard(record: bool, json: str | None) -> int:
     failed = [row for row in rows if not row.kept]
     if json != "-":
         table("Hard cases, errors in ULP", COLUMNS, [cells(row) for row in rows])
-        listing(f"{len(rows)} cases, {len(failed)} failed", [row.case.key for row in failed])
+        listing(
+            f"{len(rows)} cases, {len(failed)} failed",
+            [f"{row.case.key}: {row.problem}" for row in failed],
+        )
     if json:
         put_json(as_data(rows), json)
     return 1 if failed else 0

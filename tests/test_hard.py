@@ -203,7 +203,7 @@ def test_printed_forms_stand_beside(
     [
         ("contact_series", "_CONSTANT", {"indentation", "stiffness", "contact_radius", "impact"}),
         ("contact_series", "REACH", {"indentation"}),
-        ("bessel", "_QUARTER_PI_TAIL", {"bessel_j0_zeros"}),
+        ("bessel", "_INVERSE_ROOT_PI", {"bessel_j0"}),
         ("impact", "_WEIGHTS", {"impact"}),
     ],
 )

@@ -23,7 +23,7 @@ def hard_context(data: Mapping[str, Any]) -> dict[str, Any]:
         "failed": sum(not case["kept"] for case in data["cases"]),
         "summary": [summary_row(name, cases) for name, cases in groups.items()],
         "groups": [
-            {"name": name[0].upper() + name[1:], "rows": [case_row(case) for case in cases]}
+            {"name": name, "rows": [case_row(case) for case in cases]}
             for name, cases in groups.items()
         ],
     }

@@ -23,7 +23,7 @@ from derivation.rewrite.shape import Factor, Shape
 from derivation.rewrite.terms import Key, UnreachableError, terms_of
 
 x, y, T = sp.symbols("x y T", positive=True)
-core, part, spread = sp.symbols("core part spread", real=True)
+core, over, part, spread = sp.symbols("core over part spread", real=True)
 fade, ratio = sp.symbols("fade ratio", positive=True)
 RATIO = Step(ratio, (lam + 2 * mu) / (lam + mu), "2 (1 - nu)")
 HALVED = "half of the decay, twice: neither factor underflows alone"
@@ -99,13 +99,20 @@ def automatic(expression: sp.Expr, known: Mapping[str, Block]) -> Automatic:
     front, power = _undone(shape.front, power, reduced)
     pair, front = _paired(front)
     steps += pair
-    whole = product * shape.x**power
     if shape.rate < 0:
         half = Step(fade, sp.exp(shape.rate * shape.x / 2), HALVED)
-        return (*steps, half, Step(part, front * whole * fade)), fade * part
-    if front == 1:
-        return tuple(steps), whole
-    return (*steps, Step(core, whole)), front * core
+        inner, last = _divided(front * product * fade, shape.x, power)
+        return (*steps, half, *inner, Step(part, last)), fade * part
+    inner, last = _divided(front * product, shape.x, power)
+    return (*steps, *inner), last
+
+
+def _divided(whole: sp.Expr, variable: sp.Symbol, power: int) -> tuple[tuple[Step, ...], sp.Expr]:
+    """x^power times the rest; three or more divisions in two goes, as x^3 underflows early."""
+    if power > -3:
+        return (), whole * variable**power
+    steps = Step(core, whole), Step(over, core / variable)
+    return steps, over * variable ** (power + 1)
 
 
 def _shape(reduced: Reduced) -> Shape:

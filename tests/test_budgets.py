@@ -7,8 +7,12 @@ from typing import Any
 
 import pytest
 
+from derivation import pipeline
+from derivation.cli import main
 from derivation.emit.budgets import BUDGETS, parse_budgets, read_budgets
 from derivation.files import ROOT
+from derivation.measure.check import check
+from derivation.measure.kernels import generated_kernels
 from derivation.measure.propose import LEAST, MARGIN, proposals, tighter
 from generated.manifest import CONTACT, KERNELS
 
@@ -136,3 +140,16 @@ def test_proposals_can_be_pasted_and_leave_out_what_failed() -> None:
     ]
     assert tomllib.loads("\n".join(proposals(rows))) == {"ulp": {"G": 2.5}}  # type: ignore[arg-type]
     assert proposals(rows[1:]) == []
+
+
+def test_the_command_prints_proposals_and_writes_nothing(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (sound,) = (kernel for kernel in generated_kernels() if kernel.name == "P")
+    rows = check(30, [dataclasses.replace(sound, budget=90.0)])
+    monkeypatch.setattr(pipeline, "check", lambda *_: rows)
+    before = BUDGETS.read_bytes()
+    assert main(["check", "--propose"]) == 0
+    printed = capsys.readouterr().out
+    assert tomllib.loads(printed[printed.index("[ulp]") :])["ulp"]["P"] <= 1.0
+    assert BUDGETS.read_bytes() == before

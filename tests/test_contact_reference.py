@@ -3,17 +3,22 @@
 import json
 import math
 import random
+from functools import partial
 from types import ModuleType
+from typing import Any
 
 import flint
+import numpy as np
 import pytest
 from mpmath import mp, mpf
 
-from derivation.measure import contact, contact_grid, contact_truth
+from derivation.formula.ulp import DOUBLE, SINGLE
+from derivation.measure import contact, contact_grid, contact_judge, contact_truth
 from derivation.pipeline import MEASURED_CONTACT
 from derivation.reference import contact_agreement, contact_balls, contact_impact, contact_routes
 from derivation.reference.contact_sums import plate_excess
 from derivation.reference.routes import OracleError, RouteError
+from generated import contact_law
 
 
 def close(ball: flint.arb, expected: mpf | str, digits: int) -> bool:
@@ -250,6 +255,40 @@ def test_a_rounded_truth_passes_and_a_wrong_one_does_not() -> None:
     assert row.max_error == math.inf
 
 
+def test_contacts_are_judged_in_units_of_their_format() -> None:
+    """P = 16 mu (lam + mu) a^3/(3 R (lam + 2 mu)), conditions 3, 1 and 1 for both moduli."""
+    point = (0.25, 2.0, 0.0, 0.75)
+    true = contact_truth.truth(("force_of_radius", point))
+    total = contact_judge.conditioning(contact_law.force_of_radius, point)
+    assert total == pytest.approx([5.0], rel=1e-8)
+    for fmt in (DOUBLE, SINGLE):
+        kind = np.dtype(fmt.name).type
+        right = kind(float(flint.arb(true.values[0])))
+
+        def off(*_: float, ulps: int = 0, right: Any = right) -> Any:
+            return right + ulps * np.spacing(right)
+
+        kept = contact_judge.judge(off, [true], 8.0, fmt)
+        assert kept.kept
+        assert kept.max_ulp <= 0.5
+        broken = contact_judge.judge(partial(off, ulps=11), [true], 8.0, fmt)
+        assert broken.ratio > 1.0
+        assert 10.0 < broken.needed <= 11.5  # a constant: nothing conditions it
+    nan = contact_judge.judge(lambda *_: np.float64(math.nan), [true], 8.0)
+    assert nan.ratio == math.inf
+    always_double = contact_judge.judge(contact_law.force_of_radius, [true], 8.0, SINGLE)
+    assert always_double.kept
+    wrong_type = contact_judge.judge(lambda *_: np.float64(0.1), [true], 8.0, SINGLE)
+    assert wrong_type.ratio == math.inf
+    assert wrong_type.dtype == "float64"
+
+
+def test_forces_by_both_oracles_agree() -> None:
+    for name in ("force", "force_of_radius", "radius_of_force", "max_pressure"):
+        shape = contact_grid.grid(name)[100]
+        assert contact_truth.truth((name, shape)).digits >= 24
+
+
 def test_check_refuses_what_it_does_not_know() -> None:
     with pytest.raises(ValueError, match="kernels are called"):
         contact.check({"depth": rounded})
@@ -270,7 +309,10 @@ def test_several_processes_answer_as_one() -> None:
 
 
 def test_committed_measurements_cover_what_is_promised() -> None:
-    """Every kernel within 2e-15 of what both oracles share, impacts from -0.369 to 1e10."""
+    """Every kernel within its budget and 2e-15 of what both oracles share, in both formats.
+
+    Impacts from -0.369 to 1e10.
+    """
     measured = json.loads(MEASURED_CONTACT.read_text())
     rows = {row["kernel"]: row for row in measured["rows"]}
     assert set(rows) == set(contact.KERNELS)
@@ -278,6 +320,10 @@ def test_committed_measurements_cover_what_is_promised() -> None:
         assert row["digits"] >= 20
         assert row["passed"]
         assert row["max_error"] <= measured["limit"] == contact.LIMIT == 2e-15
+        assert row["budget"] >= contact.promised()[row["kernel"]]
+        assert row["double"]["ratio"] <= 1
+        assert row["single"]["ratio"] <= 1
+        assert row["single"]["dtype"] == "float32"
     cases = rows["impact"]["cases"]
     assert len(cases) == rows["impact"]["points"] >= 24
     assert cases[0]["c1_A"] <= -0.369

@@ -67,7 +67,8 @@ def agree(name: str, arguments: Sequence[float], digits: int = 40) -> Agreement:
             apart = (abs(ball - to_ball(other)) / abs(ball)).abs_upper()
             if not apart <= arb(10) ** -digits:
                 raise OracleError(f"{name} at {tuple(arguments)}: {ball} against {other}")
-            shared = min(shared, -math.log10(float(apart)))
+            # Both may give the same exact number.
+            shared = min(shared, -math.log10(max(float(apart), 1e-99)))
     return Agreement(balls, shared)
 
 

@@ -5,6 +5,7 @@ Exit status: 0 fine, 1 a check failed or formulas differ, 2 bad input.
 
 import sys
 from collections.abc import Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -13,7 +14,7 @@ from typer.exceptions import TyperException
 from typer.main import get_command
 
 from derivation.scene import commands as scene_commands
-from derivation.screen import NOTES, OUT, counted, listing, put_json, stage, table
+from derivation.screen import NOTES, OUT, clocked, counted, listing, put_json, stage, table
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -99,9 +100,23 @@ def check(
     speed: Annotated[
         bool, typer.Option("--speed", help="Measure speed instead, on this machine.")
     ] = False,
+    hard: Annotated[
+        bool, typer.Option("--hard", help="Check the hard cases instead: seconds.")
+    ] = False,
     propose: Annotated[
         bool, typer.Option("--propose", help="Print tighter error budgets; write nothing.")
     ] = False,
+    search: Annotated[
+        str | None,
+        typer.Option("--search", metavar="60s|5m|1h", help="Look for worse, for so long."),
+    ] = None,
+    seed: Annotated[int, typer.Option(help="Of the search, which repeats by it.")] = 1,
+    kernel: Annotated[
+        list[str] | None, typer.Option("--kernel", metavar="NAME", help="Search this one only.")
+    ] = None,
+    out: Annotated[
+        Path | None, typer.Option("--out", metavar="FILE", help="Write searched cases here.")
+    ] = None,
     json: Json = None,
 ) -> None:
     """Measure every generated function against both oracles.
@@ -111,12 +126,22 @@ def check(
     from derivation import pipeline
     from derivation.measure.record import COLUMNS, as_data, cells, passed, worst
 
-    if contact and speed:
-        raise ValueError("expected --contact or --speed, got both: run them one after the other")
+    if contact + speed + hard + (search is not None) > 1:
+        raise ValueError(
+            "expected one of --contact, --speed, --hard and --search: run them one after the other"
+        )
+    if search is not None:
+        if record or propose:
+            raise ValueError("--search stands alone: expected no --record, --propose")
+        raise typer.Exit(_check_search(search, seed, kernel or [], out, json))
+    if kernel or out:
+        raise ValueError("--kernel and --out belong to --search: add --search 60s")
     if contact:
         raise typer.Exit(_check_contact(record, json, propose))
     if speed:
         raise typer.Exit(_check_speed(record, json))
+    if hard:
+        raise typer.Exit(_check_hard(record, json))
     with counted("check") as tell:
         rows = pipeline.check(digits, record, tell)
     if json != "-":
@@ -154,6 +179,25 @@ def _check_contact(record: bool, json: str | None, propose: bool) -> int:
     return 0 if all(r.passed for r in rows) else 1
 
 
+def _check_hard(record: bool, json: str | None) -> int:
+    """Check the hard cases; returns the exit status."""
+    from derivation import pipeline
+    from derivation.measure.hard_check import COLUMNS, as_data, cells
+
+    with counted("check") as tell:
+        rows = pipeline.check_hard(record, tell)
+    failed = [row for row in rows if not row.kept]
+    if json != "-":
+        table("Hard cases, errors in ULP", COLUMNS, [cells(row) for row in rows])
+        listing(
+            f"{len(rows)} cases, {len(failed)} failed",
+            [f"{row.case.key}: {row.problem}" for row in failed],
+        )
+    if json:
+        put_json(as_data(rows), json)
+    return 1 if failed else 0
+
+
 def _check_speed(record: bool, json: str | None) -> int:
     """Measure times; returns the exit status."""
     from derivation import pipeline
@@ -167,6 +211,65 @@ def _check_speed(record: bool, json: str | None) -> int:
     if json:
         put_json(as_data(timings), json)
     return 0 if all(t.kept for t in timings) else 1
+
+
+def _check_search(
+    duration: str, seed: int, kernels: list[str], out: Path | None, json: str | None
+) -> int:
+    """Look for larger errors; returns the exit status."""
+    from derivation import pipeline
+    from derivation.measure.search_cases import COLUMNS, arguments, as_data, cells, kept
+
+    with clocked("search") as tell:
+        found, book = pipeline.search_worse(duration, seed, kernels, out, tell)
+    if json != "-":
+        table(f"Search, seed {seed}", COLUMNS, [cells(k, found, book) for k in found.standings])
+        listing("Worst arguments", [arguments(k, found) for k in found.standings])
+    if json:
+        put_json(as_data(found), json)
+    if book.written:
+        NOTES.print(f"new worst cases in {book.path}", markup=False, soft_wrap=True)
+    return INTERRUPTED if found.interrupted else 0 if kept(found) else 1
+
+
+@app.command()
+def rewrite(
+    formula: Annotated[
+        str, typer.Argument(help="A formula of one variable; none for the paper's own.")
+    ] = "",
+    variable: Annotated[str, typer.Option(help="Its variable, positive.")] = "x",
+    record: Annotated[
+        bool, typer.Option("--record", help="Keep the paper's as reports/data/rewrite.json.")
+    ] = False,
+    json: Json = None,
+) -> None:
+    """Find a stable form of a formula and print it as NumPy, or say what was done to the paper's.
+
+    Example: platecontact rewrite "(x - sin(x))/x**3"
+    """
+    from derivation import pipeline
+    from derivation.measure.record import plain
+
+    if formula:
+        with stage("rewrite"):
+            stable, source = pipeline.rewritten(formula, variable)
+        found = [("", applied) for applied in stable.applied]
+        data: object = {"source": source, "applied": [asdict(a) for a in stable.applied]}
+    else:
+        with counted("rewrite") as tell:
+            accounts = pipeline.rewriting(record, tell)
+        found = [(account.name, applied) for account in accounts for applied in account.applied]
+        data, source = {"rows": [asdict(account) for account in accounts]}, ""
+    if json != "-":
+        rows = [
+            (name, a.rule, a.cause, *(f"{x:.3g}" for x in (*a.operations, *a.worst)))
+            for name, a in found
+        ]
+        heads = ("formula", "rule", "against", "#operations", "#with it", "#worst ULP", "#with it")
+        table("Without and with each rule", heads, rows)
+        OUT.print(source, markup=False, highlight=False, soft_wrap=True)
+    if json:
+        put_json(plain(data), json)
 
 
 @app.command()

@@ -10,28 +10,37 @@
 
 import json
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from derivation.derived import chain, misprints
+import sympy as sp
+
+from derivation.derived import chain, formulas, misprints
 from derivation.emit.freshness import Freshness, compare
 from derivation.emit.render import CITATION
+from derivation.emit.standalone import standalone
 from derivation.files import PACKAGE, ROOT, measurements, write_file
-from derivation.measure import speed
+from derivation.formula.parse import parse
+from derivation.measure import hard_check, speed
 from derivation.measure.check import Progress, Row
 from derivation.measure.check import check as measure
 from derivation.measure.contact import KERNELS, LIMIT
 from derivation.measure.contact import Row as ContactRow
 from derivation.measure.contact import check as measure_contact
 from derivation.measure.contact_truth import DIGITS
-from derivation.measure.record import provenance, to_json
+from derivation.measure.record import plain, provenance, to_json
+from derivation.measure.search import Search, Tell, search
+from derivation.measure.search_cases import Book, seconds_of
+from derivation.measure.search_targets import targets
 from derivation.produce import folder_for, write_files
 from derivation.report import pdf as compiler
 from derivation.report.content import tex
 from derivation.report.figures import figures, motion_context
+from derivation.rewrite.account import Account, accounts
+from derivation.rewrite.stabilise import Stable, stabilise
 from derivation.scene.model import Model, model_of
 from derivation.scene.scene import load
 from generated import contact_law, impact
@@ -39,7 +48,9 @@ from generated import contact_law, impact
 REPORTS = ROOT / "reports"
 MEASURED = measurements() / "check.json"
 MEASURED_CONTACT = measurements() / "contact.json"
+REWRITTEN = measurements() / "rewrite.json"
 MEASURED_SPEED = measurements() / "speed.json"
+MEASURED_HARD = measurements() / "hard.json"
 EXAMPLE = PACKAGE / "scene" / "examples" / "paper.toml"
 
 
@@ -103,6 +114,31 @@ def contact_data(rows: tuple[ContactRow, ...]) -> dict[str, Any]:
     return {"provenance": provenance(DIGITS), "limit": LIMIT, "rows": found}
 
 
+def check_hard(record: bool = False, tell: Progress | None = None) -> tuple[hard_check.Row, ...]:
+    """Hold generated and printed forms to the hard cases' references.
+
+    These are the committed ones, or found anew, which takes minutes, and recorded.
+
+    Raises
+    ------
+    FileNotFoundError
+        If no references were recorded.
+    ValueError
+        If a case has none.
+    """
+    cases, known = hard_check.cases(), hard_check.kernels()
+    if not record:
+        if not MEASURED_HARD.is_file():
+            raise FileNotFoundError(f"no references in {MEASURED_HARD}: run `{hard_check.COMMAND}`")
+        truth = hard_check.committed(json.loads(MEASURED_HARD.read_text()), cases)
+        return hard_check.check(cases, truth, known)
+    truth = hard_check.find_references(cases, os.cpu_count() or 1, tell)
+    rows = hard_check.check(cases, truth, known)
+    folder_for(None, REPORTS)
+    write_file(MEASURED_HARD, hard_check.to_json(rows))
+    return rows
+
+
 def check_speed(record: bool = False, tell: Progress | None = None) -> list[speed.Timing]:
     """Measure the speed of contact law, impact and cold start on this machine."""
     timings = speed.measure(EXAMPLE, tell)
@@ -111,6 +147,51 @@ def check_speed(record: bool = False, tell: Progress | None = None) -> list[spee
         text = json.dumps(speed.as_data(timings), indent=1, sort_keys=True) + "\n"
         write_file(MEASURED_SPEED, text)
     return timings
+
+
+def rewriting(record: bool = False, tell: Progress | None = None) -> tuple[Account, ...]:
+    """What the rules did to each formula, measured without and with every one of them."""
+    found = accounts(formulas(), tell)
+    if record:
+        folder_for(None, REPORTS)
+        data = {"rows": plain([asdict(account) for account in found])}
+        write_file(REWRITTEN, json.dumps(data, indent=1, sort_keys=True) + "\n")
+    return found
+
+
+def rewritten(text: str, variable: str = "x") -> tuple[Stable, str]:
+    """A formula of one's own: its stable form, and that as a NumPy module.
+
+    Raises
+    ------
+    ValueError
+        If the formula cannot be read, or is out of the rules' reach.
+    """
+    symbol = sp.Symbol(variable, positive=True)
+    stable = stabilise(parse(text, {variable: symbol}), symbol)
+    return stable, standalone(stable)
+
+
+def search_worse(
+    duration: str,
+    seed: int = 1,
+    kernels: Sequence[str] = (),
+    out: Path | None = None,
+    tell: Tell | None = None,
+) -> tuple[Search, Book]:
+    """Look for larger errors for some time, and write each new worst case to a file.
+
+    Raises
+    ------
+    ValueError
+        If the duration or a kernel is none, or the file is of another kind.
+    """
+    seconds, chosen = seconds_of(duration), targets(kernels)
+    path = folder_for(None, REPORTS) / "search.toml" if out is None else out
+    book = Book(path, chosen, MEASURED, MEASURED_CONTACT)
+    found = search(chosen, seed, seconds, tell=tell, keep=book.keep)
+    book.keep(found)
+    return found, book
 
 
 def verdict(rows: tuple[Row, ...]) -> list[str]:
@@ -134,15 +215,26 @@ def report_files() -> dict[str, str]:
     FileNotFoundError
         If there are no committed measurements.
     """
-    for path in (MEASURED, MEASURED_CONTACT, MEASURED_SPEED):
+    for path in (MEASURED, MEASURED_CONTACT, MEASURED_SPEED, MEASURED_HARD, REWRITTEN):
         if not path.is_file():
             raise FileNotFoundError(f"no measurements in {path}: run `platecontact check --record`")
     measured = json.loads(MEASURED.read_text())
     contact = json.loads(MEASURED_CONTACT.read_text())
     timed = json.loads(MEASURED_SPEED.read_text())
+    hard = json.loads(MEASURED_HARD.read_text())
+    rules = json.loads(REWRITTEN.read_text())
     motion = motion_context(paper_case())
     text = tex(
-        chain(), misprints(), measured, contact, timed, motion, version("platecontact"), CITATION
+        chain(),
+        misprints(),
+        measured,
+        contact,
+        hard,
+        timed,
+        rules,
+        motion,
+        version("platecontact"),
+        CITATION,
     )
     return {"report.tex": text}
 

@@ -9,7 +9,14 @@ from typing import Any
 
 from rich.console import Console
 from rich.markup import escape
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    SpinnerColumn,
+    TextColumn,
+    TimeElapsedColumn,
+)
 from rich.table import Table
 
 from derivation.files import write_file
@@ -40,6 +47,17 @@ def counted(name: str) -> Iterator[Callable[[str, int, int], None]]:
             task, description=part, completed=number - 1, total=total
         )
     NOTES.print(f"[green]✓[/] {name} [dim]{time.perf_counter() - start:.1f} s[/]")
+
+
+@contextmanager
+def clocked(name: str) -> Iterator[Callable[[str, int, float], None]]:
+    """Show a clock for work without end; yields what wants to be told part, count and worst."""
+    columns = (TextColumn(name), SpinnerColumn(), TimeElapsedColumn())
+    with Progress(*columns, TextColumn("{task.description}"), console=NOTES, transient=True) as bar:
+        task = bar.add_task("", total=None)
+        yield lambda part, count, worst: bar.update(
+            task, description=f"{count} points, worst ratio {worst:.3g}, now {part}"
+        )
 
 
 def table(title: str, columns: Sequence[str], rows: Sequence[Sequence[object]]) -> None:

@@ -18,7 +18,7 @@ from flint import arb
 import derivation
 from derivation.emit.budgets import read_budgets
 from derivation.emit.kernels import notes_of
-from derivation.emit.render import Module, _fill, format_files
+from derivation.emit.render import Module, fill, format_files
 from derivation.rewrite import contact_tables as tables
 from derivation.rewrite.contact_tables import contact_context, impact_context
 from derivation.rewrite.moment_tables import finite_parts, kappas
@@ -51,7 +51,7 @@ def rendered(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, Mod
     }
     budgets = read_budgets()
     source = {
-        f"{name}.py": _fill(Module(name, name, {**context, "notes": notes_of(name, budgets)}))
+        f"{name}.py": fill(Module(name, name, {**context, "notes": notes_of(name, budgets)}))
         for name, context in contexts.items()
     }
     for name, text in format_files(source).items():

@@ -213,18 +213,21 @@ def seam_text(seam: Seam) -> SeamText:
         variable,
         to_numpy(seam.at),
         (
-            _branch_text(seam.below, "below", "low"),
-            _branch_text(seam.above, "~below", "high"),
+            _branch_text(seam, seam.below, "below", "low"),
+            _branch_text(seam, seam.above, "~below", "high"),
         ),
     )
 
 
-def _branch_text(branch: Branch, mask: str, suffix: str) -> BranchText:
+def _branch_text(seam: Seam, branch: Branch, mask: str, suffix: str) -> BranchText:
     copies = {s: sp.Symbol(f"{s}_{suffix}", real=True) for s in branch.guards}
-    guards = tuple(
-        Line(str(copies[symbol]), f"np.where({mask}, {symbol}, {float(safe)})")
-        for symbol, safe in branch.guards.items()
-    )
+
+    def guarded(symbol: sp.Symbol, safe: sp.Rational) -> str:
+        if (symbol, safe) == (seam.variable, seam.at):  # the same, without a mask
+            return f"np.{'minimum' if suffix == 'low' else 'maximum'}({symbol}, {float(safe)})"
+        return f"np.where({mask}, {symbol}, {float(safe)})"
+
+    guards = tuple(Line(str(copies[s]), guarded(s, safe)) for s, safe in branch.guards.items())
     steps = tuple(Step(s.symbol, s.expression.xreplace(copies), s.comment) for s in branch.steps)
     return BranchText(guards, lines(steps), to_numpy(branch.value.xreplace(copies)), suffix)
 
@@ -339,6 +342,24 @@ CONTACT_FUNCTIONS = (
         "coefficients of the contact law of a plate",
     ),
     ("impact", "impact", IMPACT, "s, m, N, m", "", "13", "time and peaks of an impact"),
+    (
+        "indentation_slope",
+        "sensitivity",
+        ("a", *PLATE),
+        "1",
+        r"\mathrm{d}\delta/\mathrm{d}a",
+        "6",
+        "indentation per contact radius added",
+    ),
+    (
+        "impact_sensitivities",
+        "sensitivity",
+        IMPACT,
+        "1",
+        "",
+        "13",
+        "logarithmic derivatives of time and peaks by every parameter",
+    ),
     ("history", "impact", ("t", *IMPACT), "m, m/s, m, N", "", "13", "an impact over time"),
 )
 

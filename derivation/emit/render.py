@@ -43,7 +43,7 @@ from derivation.formula.symbols import BY_NAME, arguments_of
 from derivation.paper.printed import PRINTED
 from derivation.rewrite.bessel_tables import bessel_context
 from derivation.rewrite.blocks import blocks
-from derivation.rewrite.contact_tables import contact_context, impact_context
+from derivation.rewrite.contact_tables import contact_context, impact_context, sensitivity_context
 from derivation.rewrite.form import Block, Form, Seam
 from derivation.rewrite.moment_tables import moment_context
 
@@ -71,7 +71,7 @@ def render(formulas: Mapping[str, Formula], forms: tuple[Form, ...]) -> dict[str
     """Files of the generated package by name; the same bytes for the same input."""
     kernels = kernel_rows(formulas, forms)
     planned = modules(kernels)
-    source = {f"{module.name}.py": _fill(module) for module in planned}
+    source = {f"{module.name}.py": fill(module) for module in planned}
     return format_files(source) | {"py.typed": ""}
 
 
@@ -105,6 +105,7 @@ def modules(kernels: tuple[Kernel, ...]) -> tuple[Module, ...]:
         tables("contact_law", {}),
         tables("reversed_series", {}),
         tables("impact", impact_context()),
+        tables("sensitivity", sensitivity_context()),
         Module(
             "manifest",
             "manifest",
@@ -126,9 +127,9 @@ def modules(kernels: tuple[Kernel, ...]) -> tuple[Module, ...]:
     for row in table_rows(budgets):
         exported.setdefault(str(row["module"]), []).append(str(row["name"]))
     # The module `impact` keeps its name: its function is reached through it.
-    exported["contact_law"] = [
-        str(row["name"]) for row in contact_rows(budgets) if row["module"] == "contact_law"
-    ]
+    for row in contact_rows(budgets):
+        if row["module"] != "impact":
+            exported.setdefault(str(row["module"]), []).append(str(row["name"]))
     names = sorted(name for group in exported.values() for name in group)
     planned.append(Module("__init__", "init", {"modules": exported, "all_names": names}))
     return tuple(planned)
@@ -191,7 +192,7 @@ def manifest_rows(kernels: tuple[Kernel, ...]) -> list[dict[str, Any]]:
     return rows + table_rows(read_budgets())
 
 
-def _fill(module: Module) -> str:
+def fill(module: Module) -> str:
     """Stage 3: a module's source, its header naming versions and the hash of what it came from."""
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(TEMPLATES),

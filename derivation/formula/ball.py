@@ -5,6 +5,7 @@ from fractions import Fraction
 
 import flint
 import sympy as sp
+from sympy.codegen.cfunctions import expm1, log1p
 
 Exact = int | float | Fraction
 """A number taken as it is: a double stands for the binary fraction it holds."""
@@ -27,6 +28,8 @@ _FUNCTIONS: dict[type[sp.Basic], Callable[[flint.arb], flint.arb]] = {
     sp.tanh: lambda x: x.tanh(),
     sp.coth: lambda x: x.coth(),
     sp.log: lambda x: x.log(),
+    log1p: lambda x: x.log1p(),
+    expm1: lambda x: x.expm1(),
     sp.exp: lambda x: x.exp(),
     sp.asin: lambda x: x.asin(),
     sp.Abs: abs,

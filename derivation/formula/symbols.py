@@ -58,6 +58,8 @@ c_A = {n: sp.Symbol(f"c_{n}", real=True) for n in range(1, 10, 2)}
 """c_n, coefficient of (a/h)^n in delta R/a^2, by n."""
 D = {n: sp.Symbol(f"D_{n}", real=True) for n in range(3, 12, 2)}
 """D_n = c_(n-2) (a_m/h)^(n-2), a_m the largest contact radius, by n."""
+D_eta = {n: sp.Symbol(f"D_{n}_eta", real=True) for n in range(3, 12, 2)}
+"""How D_n grows with log(h/b) at fixed a_m/h, by n."""
 gamma_k = {k: sp.Symbol(f"gamma_{k}", positive=k == 2, real=True) for k in range(2, 7)}
 """gamma_k, coefficient of P^((2k-1)/3) in the indentation, by k."""
 xi_k = {k: sp.Symbol(f"xi_{k}", positive=k == 2, real=True) for k in range(2, 7)}
@@ -127,6 +129,12 @@ ARGUMENTS = (
     *(
         Argument(s, "1", f"D_{{{n}}}", f"c_{n - 2} (a_m/h)^{n - 2}, a_m the largest a", ())
         for n, s in D.items()
+    ),
+    *(
+        Argument(
+            s, "1", rf"\dot D_{{{n}}}", f"h/b times the slope of D_{n} by h/b at fixed a_m/h", ()
+        )
+        for n, s in D_eta.items()
     ),
     *(
         Argument(

@@ -85,16 +85,16 @@ def as_data(rows: Sequence[Row], digits: int) -> dict[str, Any]:
     """Rows and provenance as plain data; infinities as the text "inf"."""
     return {
         "provenance": provenance(digits),
-        "rows": [_plain(asdict(row)) for row in rows],
+        "rows": [plain(asdict(row)) for row in rows],
     }
 
 
-def _plain(value: Any) -> Any:
-    """JSON has no infinities and no NaN: they become text."""
+def plain(value: Any) -> Any:
+    """Data as JSON holds it, which has no infinities and no NaN: they become text."""
     if isinstance(value, dict):
-        return {key: _plain(part) for key, part in value.items()}
+        return {key: plain(part) for key, part in value.items()}
     if isinstance(value, list | tuple):
-        return [_plain(part) for part in value]
+        return [plain(part) for part in value]
     if isinstance(value, float) and not math.isfinite(value):
         return repr(value)
     return value

@@ -11,12 +11,15 @@ import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
+from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from generated import G, G_minus_1, K_j, Omega_1, Omega_2, Omega_3, Omega_4, as_printed, sonine
+from generated.arrays import as_doubles, as_result, inside
 from generated.contact_law import force_of_radius, indentation
 from generated.impact import impact
 
@@ -83,6 +86,59 @@ def law_over_exp(top: float, limit: float) -> Timing:
     return ratio(name, lambda: indentation(a, 100.0, 1.0, 1 / ETA), lambda: np.exp(a), limit)
 
 
+def _naive_G(x: Any) -> Any:
+    return (np.sinh(x) * np.cosh(x) + x) / (np.sinh(x) ** 2 - x**2)
+
+
+def _as_kernel(naive: Callable[[Any], Any]) -> Callable[[Any], Any]:
+    """A naive form with what every kernel does to arguments and result."""
+
+    def call(x: Any) -> Any:
+        kind, [x] = as_doubles(x)
+        [x] = inside([x], x > 0)
+        return as_result(naive(x), kind)
+
+    return call
+
+
+NAIVE: Mapping[str, tuple[Callable[..., Any], Callable[..., Any]]] = {
+    "G": (G, _as_kernel(_naive_G)),
+    "G_minus_1": (G_minus_1, _as_kernel(lambda T: _naive_G(T) - 1)),
+    "sonine": (
+        lambda y: sonine(y, 1.0),
+        _as_kernel(lambda y: (np.sin(y) - y * np.cos(y)) / y**3),
+    ),
+    "Omega_1": (lambda x: Omega_1(x, 1.0, 1.2, 0.8), lambda x: as_printed.Omega_1(x, 1, 1.2, 0.8)),
+    "Omega_2": (lambda x: Omega_2(x, 1.0, 1.2, 0.8), lambda x: as_printed.Omega_2(x, 1, 1.2, 0.8)),
+    "Omega_3": (lambda x: Omega_3(x, 1.0, 0.8), lambda x: as_printed.Omega_3(x, 1.0, 0.8)),
+    "Omega_4": (lambda x: Omega_4(x, 1.0, 0.8), lambda x: as_printed.Omega_4(x, 1.0, 0.8)),
+    "K_j": (
+        lambda x: K_j(x, 1.0, 1.0, 2.0, 0.5),
+        lambda x: as_printed.K_j(x, 1.0, 1.0, 2.0, 0.5),
+    ),
+}
+"""Stable kernels and their naive forms, printed ones where the print is right but for factors."""
+
+NAIVE_RIGHT = (2.0, 80.0)
+"""Where naive forms neither cancel by more than a factor of two nor overflow."""
+
+NAIVE_POINTS = 10_000
+
+
+def stable_over_naive(name: str) -> Timing:
+    """A stable kernel over its naive form, where the latter is right.
+
+    Arrays stay in the cache. A large one is made and given back first, as any larger
+    program has done: before that the C library returns memory after every call, and
+    what is timed is the operating system.
+    """
+    np.ones(4_000_000)
+    stable, naive = NAIVE[name]
+    x = np.random.default_rng(3).uniform(*NAIVE_RIGHT, NAIVE_POINTS)
+    said = f"{name} over its naive form, {NAIVE_POINTS:.0e} points from 2 to 80"
+    return ratio(said, lambda: stable(x), lambda: naive(x), 3.0, 20 * ROUNDS)
+
+
 def scenes(low: float, high: float, count: int = SCENES) -> dict[str, Any]:
     """Arguments of `impact` for different spheres, plates and speeds, a_m/h about low to high."""
     random = np.random.default_rng(2)
@@ -138,6 +194,7 @@ def measure(scene: Path, tell: Callable[[str, int, int], None] | None = None) ->
         ("deep impacts", lambda: impact_rate(0.01, 5.9, 5e4)),
         ("cold start", lambda: cold_start(scene, 2.0)),
     )
+    planned += tuple((name, partial(stable_over_naive, name)) for name in NAIVE)
     found = []
     for number, (name, timing) in enumerate(planned, start=1):
         if tell is not None:

@@ -220,8 +220,9 @@ def _impact(
 
     target = to_ball(m) * to_ball(v0) ** 2 / 4 * 5 * to_ball(R) / stiff / to_ball(b) ** 5
     # Hertz's, or that of a bent plate, 5 x^6/(16 pi eta^3) = target, if it is smaller.
-    bent = (3.2 * math.pi * float(target)) ** (1 / 6) * float(eta) ** 0.5
-    start = min(float(target) ** (1 / 5), bent)
+    # Roots are taken of the ball: of a slow impact no double holds the target.
+    bent = (3.2 * math.pi) ** (1 / 6) * float(target.root(6)) * float(eta) ** 0.5
+    start = min(float(target.root(5)), bent)
     alpha = ratio_where(value, steepness, target, start, f"the sphere stops from {v0}")
     course = _course(alpha, R, m, b, stiff, eta)
     whole = _duration(course, arb(1), bits)

@@ -134,6 +134,14 @@ def _plate_factor(v: Values, side: int) -> mpf:
     return unit_mode(phi, mpf(1), _UNIT, mpf(side)).w / half_space(phi, _UNIT)
 
 
+def _plate_factor_slope(v: Values) -> mpf:
+    """T dG/dT by a symmetric difference, the square of its step beyond the digits asked."""
+    with mp.workdps(2 * mp.dps):
+        step = mpf(10) ** (-mp.dps // 4)
+        beside = (_plate_factor({"T": v["T"] * (1 + x)}, 1) for x in (step, -step))
+        return (next(beside) - next(beside)) / (2 * step)
+
+
 def _face(v: Values, side: int) -> mpf:
     return unit_mode(v["phi"], v["h"], _material(v), side * v["h"]).w
 
@@ -239,6 +247,7 @@ ROUTES: dict[str, Callable[[Values], mpf]] = {
     "G": lambda v: _plate_factor(v, 1),
     "G_m": lambda v: _plate_factor(v, -1),
     "G_minus_1": lambda v: _plate_factor(v, 1) - 1,
+    "G_slope": _plate_factor_slope,
     "p": _pressure,
     "sonine": _sonine,
     "P": _force,

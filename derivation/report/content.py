@@ -10,6 +10,7 @@ from derivation.formula.record import Formula
 from derivation.formula.symbols import M, eta
 from derivation.paper.misprints import Finding
 from derivation.reference.contact_balls import finite_part
+from derivation.report.hard import hard_context
 from derivation.report.latex import environment, equation, escape
 from derivation.theory.thin_remainder import coefficient_remainder_ball
 from derivation.theory.thin_roots import root
@@ -46,6 +47,9 @@ ABOUT = {
     "reversion": "Lagrange's inversion, of the paper's series and of the right one.",
     "impact": "The energy integral, the contact time as an integral of an analytic function, and "
     "the paper's linearisation.",
+    "sensitivity": "An impact depends on seven parameters through two numbers, its energy number "
+    "and h/b, beside plain powers. What these two do to peaks and contact time follows from the "
+    "energy integral; the rest is exponents.",
 }
 
 
@@ -54,7 +58,9 @@ def tex(
     findings: Sequence[Finding],
     check: Mapping[str, Any],
     contact: Mapping[str, Any],
+    hard: Mapping[str, Any],
     timed: Mapping[str, Any],
+    rewritten: Mapping[str, Any],
     motion: Mapping[str, Any],
     version: str,
     citation: str,
@@ -79,7 +85,9 @@ def tex(
             contact_digits=contact["provenance"]["digits"],
             contact_limit=number(contact["limit"]),
             contact_impacts=contact_impacts(contact["rows"]),
+            hard=hard_context(hard),
             timings=timed["rows"],
+            rewrites=[line for row in rewritten["rows"] for line in rewrite_rows(row)],
             machine=sorted(timed["machine"].items()),
         )
     )
@@ -205,6 +213,15 @@ def number(value: float | str) -> str:
         mantissa, _, exponent = f"{value:.1e}".partition("e")
         return rf"${mantissa}\cdot10^{{{int(exponent)}}}$"
     return f"{value:.2f}"
+
+
+def rewrite_rows(row: Mapping[str, Any]) -> Iterator[str]:
+    """Cells of a formula's rules: what the form is without and with each."""
+    for index, applied in enumerate(row["applied"]):
+        name = rf"\texttt{{{escape(row['name'])}}}" if index == 0 else ""
+        (fewer, more), (without, within) = applied["operations"], applied["worst"]
+        cells = [name, escape(applied["rule"]), escape(applied["cause"]), str(fewer), str(more)]
+        yield " & ".join([*cells, number(without), number(within)])
 
 
 def contact_row(row: Mapping[str, Any]) -> str:

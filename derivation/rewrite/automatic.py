@@ -2,10 +2,12 @@
 
 Stages, in this order:
 
- 1 dimensionless   the one product that all functions depend on becomes x, T or y
+ 1 dimensionless   the one product that all functions depend on becomes x, T or y, and lam + 2 mu
+                   its ratio to lam + mu
  2 rules           `fraction`, `decay` and `difference`, as for one variable
  3 blocks          sums that cancel at 0 -> building blocks, their power of x taken out
  4 front           powers of x that only undo powers of a length are undone; squares paired
+ 5 halves          an exponential that decays is applied in two halves around all the rest
 """
 
 from collections.abc import Mapping
@@ -13,15 +15,18 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from derivation.formula.symbols import a, h, phi
+from derivation.formula.symbols import a, h, lam, mu, phi
 from derivation.rewrite.form import Block, Step
 from derivation.rewrite.rules import decay, fraction, parts_of
 from derivation.rewrite.series import leading_power
-from derivation.rewrite.shape import HALVED, Factor, Shape, fade
+from derivation.rewrite.shape import Factor, Shape
 from derivation.rewrite.terms import Key, UnreachableError, terms_of
 
 x, y, T = sp.symbols("x y T", positive=True)
-core, part, spread = sp.symbols("core part spread", real=True)
+core, over, part, spread = sp.symbols("core over part spread", real=True)
+fade, ratio = sp.symbols("fade ratio", positive=True)
+RATIO = Step(ratio, (lam + 2 * mu) / (lam + mu), "2 (1 - nu)")
+HALVED = "half of the decay, twice: neither factor underflows alone"
 VARIABLES = {phi * h: (x, h), 2 * phi * h: (T, h), a * phi: (y, a), T: (T, T)}
 """Products that functions may depend on, the symbol each becomes, and what it replaces."""
 
@@ -55,7 +60,8 @@ def dimensionless(expression: sp.Expr) -> Reduced:
         raise UnreachableError(f"no dimensionless variable for {least * product}")
     variable, length = VARIABLES[least * product]
     replaced = expression.subs(length, variable / (least * product / length))
-    return Reduced(replaced, variable, least * product, length)
+    elastic = replaced.subs(lam + 2 * mu, ratio * (lam + mu))
+    return Reduced(sp.factor_terms(elastic), variable, least * product, length)
 
 
 Automatic = tuple[tuple[Step, ...], sp.Expr]
@@ -79,7 +85,11 @@ def automatic(expression: sp.Expr, known: Mapping[str, Block]) -> Automatic:
     reduced = dimensionless(expression)
     shape = _shape(reduced)
     steps: list[Step] = []
-    if reduced.length != reduced.variable:
+    if reduced.expression.has(ratio):
+        steps.append(RATIO)
+    if reduced.variable == T and reduced.length == h:
+        steps += [Step(x, phi * h), Step(T, 2 * x)]
+    elif reduced.length != reduced.variable:
         steps.append(Step(reduced.variable, reduced.product))
     power, product = shape.power, sp.Integer(1)
     for factor in shape.factors:
@@ -87,18 +97,22 @@ def automatic(expression: sp.Expr, known: Mapping[str, Block]) -> Automatic:
         power += lead * factor.exponent
         product *= value**factor.exponent
     front, power = _undone(shape.front, power, reduced)
-    whole = product * shape.x**power
-    if shape.rate < 0:
-        steps += [
-            Step(fade, sp.exp(shape.rate * shape.x / 2), HALVED),
-            Step(part, whole * fade),
-        ]
-        whole = fade * part
-    elif front != 1:
-        steps.append(Step(core, whole))
-        whole = core
     pair, front = _paired(front)
-    return (*steps, *pair), front * whole
+    steps += pair
+    if shape.rate < 0:
+        half = Step(fade, sp.exp(shape.rate * shape.x / 2), HALVED)
+        inner, last = _divided(front * product * fade, shape.x, power)
+        return (*steps, half, *inner, Step(part, last)), fade * part
+    inner, last = _divided(front * product, shape.x, power)
+    return (*steps, *inner), last
+
+
+def _divided(whole: sp.Expr, variable: sp.Symbol, power: int) -> tuple[tuple[Step, ...], sp.Expr]:
+    """x^power times the rest; three or more divisions in two goes, as x^3 underflows early."""
+    if power > -3:
+        return (), whole * variable**power
+    steps = Step(core, whole), Step(over, core / variable)
+    return steps, over * variable ** (power + 1)
 
 
 def _shape(reduced: Reduced) -> Shape:

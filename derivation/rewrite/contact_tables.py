@@ -35,24 +35,31 @@ from derivation.rewrite.moment_tables import (
     plate_excess,
     sharp,
 )
+from derivation.theory.sensitivity import RESULTS, exponents
 
 REACH = 3
 """The first polynomial ends at A = REACH or alpha = 1, whichever comes first."""
 FAR_REACH = 6
 """The second polynomial, in A^2, ends here."""
-TERMS, SHORT_TERMS, FAR_TERMS = 18, 7, 24
+TERMS, SHORT_TERMS, FAR_TERMS = 19, 7, 24
 """Coefficients of the first polynomial, of its beginning, and of the second."""
 SHORT = 6
 """The short polynomial serves x = A/reach up to 1/SHORT."""
 MODES = 11
 """Modes that count for eta >= 1/REACH: w_n falls like e^(-4 eta j_n)."""
-CELLS = ((3, 4, 17), (4, 6, 18), (6, 11, 17))
+CELLS = ((3, 4, 20), (4, 6, 22), (6, 11, 23))
 """Ranges of 1/eta with the number of powers that hold the thin plate's remainder there.
 
-Beyond the last the closed form is all there is, up to A = FAR_REACH.
+They hold its derivative too. Beyond the last range the closed form is all there is, up to
+A = FAR_REACH.
 """
-FAR_CELLS = ((3, 4, 17), (4, 6, 18), (6, 8, 17), (8, 11, 16))
+FAR_CELLS = ((3, 4, 20), (4, 6, 21), (6, 8, 19), (8, 11, 18))
 """The same for F/A itself from A = REACH on."""
+WIDE_START = 2
+"""In the first of them the second polynomial spans A from here, lest its range shrink to a point.
+
+Its end, alpha = 1, comes as near to REACH as one likes.
+"""
 IMPACT_NODES, INNER_NODES = 24, 12
 """Gauss nodes of the integrals over the impact, enough for c1 A from -0.37 to 1e17.
 
@@ -219,7 +226,7 @@ def tables() -> dict[str, Rows]:
         The thin plate's remainder over A: for each power of tau (1/eta, scaled to [-1, 1])
         a row in powers of (A/3)^2.
     far_0, ...
-        F/A itself beyond A = 3: likewise, in powers of t, A^2 running over [-1, 1].
+        F/A itself beyond A = 3: likewise, in powers of t in [-1, 1], A^2 scaled.
     short
         Row j: what x^(2k), k = SHORT_TERMS, ..., adds to the coefficient of x^(2j) of
         the short polynomial, 0 <= x <= 1/SHORT.
@@ -238,9 +245,9 @@ def tables() -> dict[str, Rows]:
         return found | cells | {f"far_{i}": _far_cell(*cell) for i, cell in enumerate(FAR_CELLS)}
 
 
-def _far_radii(top: Ball) -> list[Ball]:
-    """A whose squares are Chebyshev nodes between REACH^2 and top^2."""
-    low, high = REACH**2, top * top
+def _far_radii(top: Ball, start: int = REACH) -> list[Ball]:
+    """A whose squares are Chebyshev nodes between start^2 and top^2."""
+    low, high = start**2, top * top
     return [((low + high + (high - low) * t) / 2).sqrt() for t in chebyshev_nodes(FAR_TERMS)]
 
 
@@ -270,9 +277,10 @@ def _cell(first: int, last: int, count: int) -> Rows:
 
 def _far_cell(first: int, last: int, count: int) -> Rows:
     """F/A beyond REACH, up to A = FAR_REACH or alpha = 1, for first <= 1/eta <= last."""
+    start = WIDE_START if first == REACH else REACH
     return _in_thickness(
         [
-            in_powers(whole_over_radius(v, _far_radii(v.min(Ball(FAR_REACH)))))
+            in_powers(whole_over_radius(v, _far_radii(v.min(Ball(FAR_REACH)), start)))
             for v in _cell_nodes(first, last, count)
         ]
     )
@@ -318,6 +326,8 @@ def contact_context() -> dict[str, object]:
         "thin_constant": repr(constant),
         "thin_cubic": repr(cubic),
         "reach": str(REACH),
+        "wide_start": str(WIDE_START),
+        "wide_end": str(FAR_CELLS[0][1]),
         "far_reach": str(FAR_REACH),
         "terms": str(TERMS),
         "short": str(SHORT),
@@ -340,3 +350,18 @@ def impact_context() -> dict[str, object]:
     names = ("nodes", "weights", "inner_nodes", "inner_weights")
     rules = (*outer, *inner)
     return {name: wrapped(map(repr, rule)) for name, rule in zip(names, rules, strict=True)}
+
+
+def sensitivity_context() -> dict[str, object]:
+    """What the template of the generated sensitivities needs: every result's powers, as text."""
+    table = exponents()
+
+    def row(name: str) -> str:
+        return "(" + ", ".join(repr(float(x)) for x in table[name]) + ")"
+
+    return {
+        "results": tuple(RESULTS),
+        "laws": tuple(row(name) for name in RESULTS),
+        "energy": row("energy"),
+        "eta": row("eta"),
+    }

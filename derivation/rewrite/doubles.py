@@ -18,7 +18,7 @@ from derivation.rewrite.series import POLYNOMIAL
 
 _BITS = 160
 _LIMIT = sys.float_info.max
-_FUNCTIONS: dict[type[sp.Basic], Callable[[flint.arb], flint.arb]] = {
+FUNCTIONS: dict[type[sp.Basic], Callable[[flint.arb], flint.arb]] = {
     sp.exp: lambda x: x.exp(),
     expm1: lambda x: x.expm1(),
     sp.log: lambda x: x.log(),
@@ -73,8 +73,8 @@ def _node(node: sp.Basic, visit: Callable[[sp.Basic], float]) -> float:
         for coefficient in reversed(coefficients[:-1]):
             value = value * variable + coefficient
         return value
-    if node.func in _FUNCTIONS:
-        return _function(_FUNCTIONS[node.func], visit(node.args[0]))
+    if node.func in FUNCTIONS:
+        return _function(FUNCTIONS[node.func], visit(node.args[0]))
     raise NotImplementedError(f"no double precision for {node.func.__name__}")
 
 
@@ -105,13 +105,13 @@ def _power(base: float, exponent: sp.Expr) -> float:
 def _function(function: Callable[[flint.arb], flint.arb], argument: float) -> float:
     """Correctly rounded for all practical purposes: from 160 bits."""
     if not math.isfinite(argument):
-        if function is _FUNCTIONS[sp.exp] and not math.isnan(argument):
+        if function is FUNCTIONS[sp.exp] and not math.isnan(argument):
             return 0.0 if argument < 0 else math.inf
         return math.nan
     with flint.ctx.workprec(_BITS):
         value = function(flint.arb(argument))
         if not value.is_finite():
-            return math.inf if function is _FUNCTIONS[sp.exp] and argument > 0 else math.nan
+            return math.inf if function is FUNCTIONS[sp.exp] and argument > 0 else math.nan
         nearest = float(value.mid())
     return nearest if abs(nearest) <= _LIMIT else math.copysign(math.inf, nearest)
 

@@ -15,7 +15,7 @@ from sympy.codegen.cfunctions import expm1
 
 from derivation.formula.record import Formula
 from derivation.formula.symbols import A_j, P, R, T, a, h, lam, mu, phi, r, z
-from derivation.rewrite.automatic import automatic
+from derivation.rewrite.automatic import RATIO, automatic, core, ratio
 from derivation.rewrite.blocks import blocks
 from derivation.rewrite.form import Branch, Form, Seam, Step, form
 
@@ -26,9 +26,10 @@ odd, even, odd_u, even_u, odd_v, even_v, odd_T = sp.symbols(
 minus, plus, bending, stretching, top, bottom = sp.symbols(
     "minus plus bending stretching top bottom", real=True
 )
-modulus, factor, shape, ratio, versine, cubic, edge = sp.symbols(
-    "modulus plate_factor shape ratio versine cubic edge", real=True
+modulus, shape, slender, versine, cubic = sp.symbols(
+    "modulus shape slender versine cubic", real=True
 )
+two_nu = sp.Symbol("two_nu", real=True)
 alpha, beta, over_T, over_T2 = sp.symbols("alpha beta over_T over_T2", real=True)
 fade, fade_near, fade_far, near_share, far_share = sp.symbols(
     "fade fade_near fade_far near_share far_share", real=True
@@ -36,7 +37,7 @@ fade, fade_near, fade_far, near_share, far_share = sp.symbols(
 
 STEP_X = Step(x, phi * h)
 STEP_T = Step(T, 2 * phi * h)
-HALF_SPACE = (lam + 2 * mu) / (2 * mu * (lam + mu) * phi)
+TWO_NU = Step(two_nu, lam / (lam + mu), "2 nu, apart lest A_j lam overflow")
 
 
 def stable_forms(formulas: Mapping[str, Formula]) -> tuple[Form, ...]:
@@ -56,7 +57,7 @@ def stable_forms(formulas: Mapping[str, Formula]) -> tuple[Form, ...]:
 
     groups: dict[str, dict[str, _Shape]] = {
         "omega": {name: found(name) for name in OMEGAS},
-        "influence": {name: found(name) for name in INFLUENCE},
+        "influence": {name: found(name) for name in INFLUENCE} | {"G_slope": _factor_slope()},
         "pressure": _pressure() | {name: found(name) for name in ("sonine", "A_j")},
         "mode_shapes": _modes(),
     }
@@ -75,12 +76,27 @@ AUTOMATIC = (*OMEGAS, *INFLUENCE, "sonine", "A_j")
 _Shape = tuple[tuple[Step, ...], sp.Expr | Seam]
 
 
+def _factor_slope() -> _Shape:
+    """T dG/dT; the rules leave T^5 below, which underflows where the value is finite."""
+    known = blocks()
+    product = known["sinh_minus"](T) * known["sinh_plus"](T)
+    steps = (
+        Step(fade, sp.exp(-T), "half of the decay, twice: neither factor underflows alone"),
+        Step(odd, -expm1(-2 * T) / T, "2 e^(-T) sinh T/T"),
+        Step(near_share, fade * (odd / product) ** 2),
+    )
+    return steps, -8 * fade * (near_share / T**3)
+
+
 def _pressure() -> dict[str, _Shape]:
     """Hertz pressure and the contact force: the edge's root by its two factors."""
-    pressure_scale = Step(modulus, 16 * mu * (lam + mu) / (3 * (lam + 2 * mu)), "(4/3) E*")
+    edge_root = Step(shape, sp.sqrt(a - r) * sp.sqrt(a + r) / a, "1 in the centre, 0 at the edge")
     return {
-        "p": ((), -3 * P * sp.sqrt(a - r) * sp.sqrt(a + r) / (2 * sp.pi * a**3)),
-        "P": ((pressure_scale,), modulus * a**3 / R),
+        "p": ((edge_root, Step(core, P / a**2)), -3 * core * shape / (2 * sp.pi)),
+        "P": (
+            (RATIO, Step(modulus, 16 * mu / (3 * ratio), "(4/3) E*"), Step(slender, a / R)),
+            modulus * a**2 * slender,
+        ),
     }
 
 
@@ -110,7 +126,6 @@ def _modes() -> dict[str, _Shape]:
     """
     sinh_minus = blocks()["sinh_minus"]
     product = sinh_minus(T) * blocks()["sinh_plus"](T)
-    kappa = Step(ratio, (lam + 2 * mu) / (lam + mu), "2 (1 - nu)")
     versine_step = Step(versine, (expm1(-u) / T) ** 2, "2 e^(-u) (cosh u - 1)/T^2")
     cubic_step = Step(cubic, alpha**3 * sinh_minus(u), "2 e^(-u) (sinh u - u)/T^3")
     deflection = _two_faces(
@@ -129,12 +144,12 @@ def _modes() -> dict[str, _Shape]:
         (odd_v / T * versine + even_v * cubic, T),
     )
     return {
-        "mode_f": (_steps(deflection, kappa), WHOLE / T**3),
+        "mode_f": (_steps(deflection, RATIO), WHOLE / T**3),
         "mode_g": _in_plane(mu / (lam + mu), 1, -lam / (lam + mu), A_j / (2 * mu * phi**2)),
         "mode_zz": (_steps(axial, versine_step, cubic_step), WHOLE),
         "mode_rz": (_steps(shear), WHOLE / T),
         "mode_rr": _in_plane(sp.Integer(1), 1, sp.Integer(0), A_j),
-        "mode_tt": _in_plane(sp.Integer(1), 0, sp.Integer(1), A_j * ratio, TWO_NU),
+        "mode_tt": _in_plane(sp.Integer(1), 0, sp.Integer(1), A_j * two_nu, TWO_NU),
     }
 
 
@@ -161,9 +176,6 @@ def _steps(last: tuple[Step, ...], *between: Step) -> tuple[Step, ...]:
     for step in (*between, *last):
         used |= step.expression.free_symbols
     return (*DEPTHS, *(s for s in (*FRACTIONS, *PARITIES) if s.symbol in used), *between, *last)
-
-
-TWO_NU = Step(ratio, lam / (lam + mu), "2 nu, apart lest A_j lam overflow")
 
 
 def _in_plane(c: sp.Expr, d: int, c_minus_d: sp.Expr, scale: sp.Expr, *before: Step) -> _Shape:

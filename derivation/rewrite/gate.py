@@ -10,13 +10,24 @@ import sympy as sp
 
 from derivation.formula.ball import Exact, PrecisionError, evaluate, to_ball
 from derivation.formula.ulp import neighbours, overflows, ulp_error
-from derivation.rewrite.doubles import run
+from derivation.rewrite.doubles import FUNCTIONS, run
 from derivation.rewrite.form import Seam, Step
 from derivation.rewrite.shape import Shape, assembled
+from derivation.rewrite.terms import UnreachableError
 
 DIGITS = 25
-SAMPLES = (1.3, 0.7, 2.1, 0.45)
+LARGE = (36.5, 88.9, 95.0, 177.7, 190.0, 300.0, 355.2, 372.0, 500.0, 690.0, 709.5, 744.0, 800.0)
+"""Where e^x, e^(2x), e^(4x) or their inverses leave a format."""
+
+LEAST = 40
+"""Points without which there is no judging."""
+
+SAMPLES = (1.3, 0.7, 2.1, 0.45, 1.7, 0.9)
 """What further variables, all positive, are set to."""
+
+
+KNOWN = {function.__name__ for function in FUNCTIONS}
+"""Functions that double precision and balls both have."""
 
 
 @dataclass(frozen=True)
@@ -70,6 +81,7 @@ def points(low: float, high: float, seed: str) -> tuple[float, ...]:
         exponent += max(1.0, (last - first) / 60)
     near, far = max(first, -4.0), min(last, 1.7)
     found |= {10 ** generator.uniform(near, far) for _ in range(90)}
+    found |= {x for x in LARGE if low <= x <= high}
     for seam in (0.25, 0.5, 1.0, 1.5, 2.0, 3.0):
         found |= {y for y in neighbours(seam, 1) if low <= y <= high}
     return tuple(sorted(x for x in found if low <= x <= high))
@@ -90,16 +102,30 @@ def gate(
         The interval in which forms of it are to hold.
     equal
         A form proved equal, for points at which the original has no ball.
+
+    Raises
+    ------
+    UnreachableError
+        If it holds functions no rule knows, too many variables, or has too few values.
     """
+    unknown = {f.func.__name__ for f in expression.atoms(sp.Function)} - KNOWN
+    if unknown:
+        raise UnreachableError(f"no rule knows the function {', '.join(sorted(unknown))}")
     others = sorted(expression.free_symbols - {x}, key=str)
     fixed = tuple(zip(others, SAMPLES, strict=False))
     if len(fixed) < len(others):
-        raise ValueError(f"at most {len(SAMPLES)} further variables are expected, got {others}")
+        raise UnreachableError(
+            f"at most {len(SAMPLES)} further variables are expected, got {others}"
+        )
     found = []
     for point in points(*ends, str(expression)):
         value, slack = _truth(expression, x, point, fixed, equal)
         if value is not None and value != 0 and not overflows(value) and abs(value) > 1e-300:
             found.append(Truth(point, value, slack))
+    if len(found) < LEAST:
+        raise UnreachableError(
+            f"{expression} has values at {len(found)} points only to judge it by"
+        )
     return Gate(x, fixed, tuple(found))
 
 
@@ -110,17 +136,19 @@ def _truth(
     fixed: Sequence[tuple[sp.Symbol, float]],
     equal: sp.Expr | None,
 ) -> tuple[flint.arb | None, float]:
-    known: dict[sp.Symbol, Exact] = dict(fixed)
+    """The value at a point and its slack; nothing where neither expression has a ball."""
+    at: dict[sp.Symbol, Exact] = {x: point, **dict(fixed)}
     for candidate in (expression, equal):
         if candidate is None:
             continue
         try:
-            value = evaluate(candidate, {x: point, **known}, DIGITS)
-            slope = evaluate(candidate.diff(x), {x: point, **known}, 3) if value != 0 else None
+            value = evaluate(candidate, at, DIGITS)
         except (PrecisionError, NotImplementedError):
             continue
-        if slope is None:
-            return value, 0.0
+        try:
+            slope = evaluate(candidate.diff(x), at, 3)
+        except (PrecisionError, NotImplementedError):
+            return value, 0.0  # then nothing is excused
         with flint.ctx.workprec(64):
             return value, float(abs(slope * to_ball(point) / value).abs_upper()) / 2
     return None, 0.0

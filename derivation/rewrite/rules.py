@@ -13,8 +13,8 @@ from typing import TypeAlias
 import sympy as sp
 from sympy.codegen.cfunctions import expm1, log1p
 
-from derivation.rewrite.series import UNIT_ROUNDOFF, leading_power, taylor_section
-from derivation.rewrite.shape import Factor, Shape, square
+from derivation.rewrite.series import leading_power, taylor_section
+from derivation.rewrite.shape import Factor, Shape, assembled, square
 from derivation.rewrite.terms import (
     Key,
     Terms,
@@ -51,7 +51,7 @@ class Rule:
 
 
 def conjugate(_: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
-    """p - q with a square root among them -> (p^2 - q^2)/(p + q)."""
+    """p - q with a square root among them, as in (18) -> (p^2 - q^2)/(p + q)."""
     if isinstance(given, Shape):
         return
 
@@ -205,7 +205,7 @@ def parts_of(terms: Terms, x: sp.Symbol) -> list[tuple[sp.Expr, int]]:
 
 
 def balance(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
-    """x^k e^(-m x) -> (x e^(-m x/k))^k, and the largest power taken out that x stands below."""
+    """The largest power of x taken out of a sum that stands over a power of x."""
     if not isinstance(given, Shape):
         return
     factors = []
@@ -213,27 +213,10 @@ def balance(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
         keys, parts = _terms(factor.value, x), sp.Add.make_args(factor.value)
         top = max((k.power for k in keys if k.rate == 0 and k.wave != "log1p"), default=0)
         top = top if given.power * factor.exponent < 0 else 0
-        far = sp.Add(*(_rooted(part / x**top, x) for part in parts))
+        far = sp.Add(*(part / x**top for part in parts))
         factors.append(factor if far == factor.value else replace(factor, far=far, top=top))
     if factors != list(given.factors):
         yield given.with_factors(factors)
-
-
-def _rooted(term: sp.Expr, x: sp.Symbol) -> sp.Expr:
-    power = _power_of(term, x)
-    decays = [factor for factor in sp.Mul.make_args(term) if isinstance(factor, sp.exp)]
-    if power < 2 or len(decays) != 1:
-        return term
-    rest = term / x**power / decays[0]
-    return rest * (x * sp.exp(decays[0].args[0] / power)) ** power
-
-
-def _power_of(term: sp.Expr, x: sp.Symbol) -> int:
-    for factor in sp.Mul.make_args(term):
-        base, exponent = factor.as_base_exp()
-        if base == x and exponent.is_Integer:
-            return int(exponent)
-    return 0
 
 
 def section(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
@@ -263,10 +246,15 @@ def _sectioned(factor: Factor, x: sp.Symbol, seam: sp.Rational) -> Factor:
     return replace(factor, near=near, lead=lead, rate=shift, truncation=found.bound)
 
 
-def halves(_: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
-    """e^(-m x) times the rest -> in two halves, so that neither factor underflows alone."""
-    if isinstance(given, Shape) and given.rate < 0 and not given.halved:
-        yield replace(given, halved=True)
+def share(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
+    """e^(-x) on both sides of a seam -> computed once, e^(-2x) as its square."""
+    if isinstance(given, Shape) and given.seam is not None:
+        _, seam = assembled(given)
+        sides = [
+            sp.Add(*(s.expression for s in b.steps), b.value) for b in (seam.below, seam.above)
+        ]
+        if all(side.has(sp.exp(-x)) for side in sides):
+            yield replace(given, shared=True)
 
 
 RULES: Sequence[Rule] = (
@@ -276,9 +264,9 @@ RULES: Sequence[Rule] = (
     Rule("decay", "overflow", decay),
     Rule("difference", "cancellation", difference),
     Rule("balance", "overflow", balance),
-    Rule("halves", "underflow", halves),
     Rule("section", "cancellation", section),
 )
 """In the order they are tried."""
 
-__all__ = ["RULES", "UNIT_ROUNDOFF", "Rewritten", "Rule"]
+SHARE = Rule("share", "time", share)
+"""The last: it costs accuracy nothing that counts, and takes an exponential away."""

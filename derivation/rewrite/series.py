@@ -8,7 +8,7 @@ import sympy as sp
 from derivation.rewrite.terms import Terms, UnreachableError, left_out, taylor
 
 UNIT_ROUNDOFF = sp.Rational(1, 2**53)
-MOST_TERMS = 48
+MOST_TERMS = 64
 
 POLYNOMIAL = sp.Function("polynomial")
 """The generated Horner scheme: variable, constant term, and so on upwards."""

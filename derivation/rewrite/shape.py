@@ -7,9 +7,8 @@ import sympy as sp
 
 from derivation.rewrite.form import Branch, Seam, Step
 
-fade, part, square = sp.symbols("fade part square", positive=True)
+square, decay = sp.symbols("square decay", positive=True)
 ZERO = sp.Integer(0)
-HALVED = "half of the decay, twice: neither factor underflows alone"
 
 
 @dataclass(frozen=True)
@@ -54,8 +53,8 @@ class Shape:
         Sums in x and their powers.
     seam
         Below it the factors' sections serve.
-    halved
-        Whether the exponential is applied in two halves.
+    shared
+        Whether exponentials are computed once for both sides of the seam, and their squares.
     """
 
     x: sp.Symbol
@@ -64,7 +63,7 @@ class Shape:
     rate: sp.Rational
     factors: tuple[Factor, ...]
     seam: sp.Rational | None = None
-    halved: bool = False
+    shared: bool = False
 
     def with_factors(self, factors: Iterable[Factor]) -> "Shape":
         """The shape with other factors."""
@@ -80,8 +79,21 @@ def assembled(shape: Shape) -> tuple[tuple[Step, ...], sp.Expr | Seam]:
     sides = [
         (f.value / x**f.lead if f.near is None else f.near, f.lead, f.rate) for f in shape.factors
     ]
-    low = _side(replace(shape, halved=False), shape.power, shape.rate, sides)
-    return (), Seam(x, shape.seam, low, high)
+    low = _side(shape, shape.power, shape.rate, sides)
+    if not shape.shared:
+        return (), Seam(x, shape.seam, low, high)
+    low, high = (_with_decay(side, x) for side in (low, high))
+    return (Step(decay, sp.exp(-x)),), Seam(x, shape.seam, low, high)
+
+
+def _with_decay(side: Branch, x: sp.Symbol) -> Branch:
+    """e^(-x) and e^(-2x) in a branch as a step before the seam and its square."""
+    steps = tuple(replace(s, expression=_decayed(s.expression, x)) for s in side.steps)
+    return replace(side, steps=steps, value=_decayed(side.value, x))
+
+
+def _decayed(expression: sp.Expr, x: sp.Symbol) -> sp.Expr:
+    return expression.xreplace({sp.exp(-x): decay, sp.exp(-2 * x): decay**2})
 
 
 def _side(
@@ -102,12 +114,8 @@ def _side(
         product *= name**factor.exponent
     if any(step.expression.has(square) for step in steps):
         steps.insert(0, Step(square, x**2))
-    whole = shape.front * x**power * product
-    if shape.halved:
-        steps.append(Step(fade, sp.exp(rate * x / 2), HALVED))
-        steps.append(Step(part, whole * fade))
-        return Branch(tuple(steps), fade * part, _guards(shape))
-    return Branch(tuple(steps), whole * sp.exp(rate * x), _guards(shape))
+    value = shape.front * x**power * product * sp.exp(rate * x)
+    return Branch(tuple(steps), value, _guards(shape))
 
 
 def _guards(shape: Shape) -> dict[sp.Symbol, sp.Rational]:

@@ -8,9 +8,12 @@ import sympy as sp
 
 from derivation.rewrite.form import Branch, Seam, Step
 from derivation.rewrite.gate import Gate, gate
-from derivation.rewrite.rules import RULES, Rewritten, Rule
+from derivation.rewrite.rules import RULES, SHARE, Rewritten, Rule
 from derivation.rewrite.shape import Shape, assembled
-from derivation.rewrite.terms import UnreachableError
+from derivation.rewrite.terms import UnreachableError, terms_of
+
+EXACT = 0.75
+"""A section that leaves no more ULP than this is not lengthened."""
 
 NOTHING = 1.5
 """Differences of forms that are this exact, in ULP, decide nothing."""
@@ -43,8 +46,8 @@ class Stable:
 
     Parameters
     ----------
-    expression
-        The original.
+    expression, variable
+        The original and its variable.
     steps, value
         The form.
     applied
@@ -56,6 +59,7 @@ class Stable:
     """
 
     expression: sp.Expr
+    variable: sp.Symbol
     steps: tuple[Step, ...]
     value: sp.Expr | Seam
     applied: tuple[Applied, ...]
@@ -79,17 +83,23 @@ def stabilise(
     at = gate(expression, x, ends, _decayed(expression, x))
     kept = list(RULES)
     form, worst = _through(kept, x, expression, at)
-    for rule in reversed(RULES):
+    candidates = list(reversed(RULES))
+    while candidates:
+        rule = candidates.pop(0)
         fewer = [other for other in kept if other != rule]
         shorter, error = _through(fewer, x, expression, at)
         if error <= max(worst, NOTHING):
-            kept, form, worst = fewer, shorter, error
+            # What one rule did others may have rested on: they are asked again.
+            kept, form, worst, candidates = fewer, shorter, error, list(reversed(fewer))
     if worst > ENOUGH:
         raise UnreachableError(_reason(expression, x, worst))
+    cheaper, error = _through([*kept, SHARE], x, expression, at)
+    if error <= worst + NOTHING / 2 and cheaper != form:
+        kept, form, worst = [*kept, SHARE], cheaper, error
     steps, value = assembled(form) if isinstance(form, Shape) else ((), form)
     applied = tuple(_account(rule, kept, x, expression, at) for rule in kept)
     truncation = sp.Add(*(f.truncation for f in form.factors)) if isinstance(form, Shape) else 0
-    return Stable(expression, steps, value, applied, worst, sp.sympify(truncation))
+    return Stable(expression, x, steps, value, applied, worst, sp.sympify(truncation))
 
 
 def _through(
@@ -103,7 +113,7 @@ def _through(
         except UnreachableError:
             continue
         if len(results) > 1:
-            results.sort(key=lambda result: max(at.worst(result), NOTHING))
+            results.sort(key=lambda result: max(at.worst(result), EXACT))
         form = results[0] if results else form
     return form, at.worst(form)
 
@@ -141,5 +151,18 @@ def operations(form: Rewritten) -> int:
 
 
 def _reason(expression: sp.Expr, x: sp.Symbol, worst: float) -> str:
-    size = "overflows or has no value" if math.isinf(worst) else f"is off by {worst:.0f} ULP"
-    return f"the rules leave a form of {expression} that {size} somewhere for {x} > 0"
+    """What is left wrong, and the first rule that was stopped, with what stopped it."""
+    size = "overflows or has no value" if math.isinf(worst) else f"is off by {worst:.3g} ULP"
+    form: Rewritten = expression
+    for rule in RULES:
+        try:
+            form = next(rule.apply(x, form), form)
+            if isinstance(form, Shape) and rule.name == "decay":
+                for factor in form.factors:
+                    terms_of(factor.value, x)
+        except UnreachableError as error:
+            stopped = f"; the rule `{rule.name}` stops as {error}"
+            break
+    else:
+        stopped = "; no rule applies to what is left"
+    return f"the rules leave a form of {expression} that {size} for some {x} > 0{stopped}"

@@ -113,14 +113,23 @@ def monomial(key: Key, x: sp.Symbol) -> sp.Expr:
 
 
 def coefficient(key: Key, n: int) -> sp.Rational:
-    """Taylor coefficient of x^n of one term."""
+    """Taylor coefficient of x^n of one term: exponential and wave multiplied out."""
     order = n - key.power
     if order < 0:
         return sp.Integer(0)
     if not key.wave:
         return key.rate**order / sp.factorial(order)
-    if key.rate != 0:
-        raise UnreachableError(f"no rule for a decaying {key.wave}")
+    if key.rate == 0:
+        return _wave_coefficient(key, order)
+    return sp.Add(
+        *(
+            key.rate ** (order - i) / sp.factorial(order - i) * _wave_coefficient(key, i)
+            for i in range(order + 1)
+        )
+    )
+
+
+def _wave_coefficient(key: Key, order: int) -> sp.Rational:
     if key.wave == "log1p":
         return (-1) ** (order + 1) * key.scale**order / order if order else sp.Integer(0)
     if order % 2 != (key.wave == "sin"):
@@ -139,19 +148,19 @@ def taylor(terms: Terms) -> Iterator[sp.Expr]:
 def left_out(terms: Terms, n: int, end: sp.Rational) -> sp.Rational:
     """Bound of what the powers from x^n on add up to, for 0 <= x <= end.
 
-    Taylor's theorem: e^(m x) after its first J terms is off by at most
-    (|m| x)^J/J! e^(|m| x), a sine by (p x)^J/J!, and log(1 + p x), whose terms
-    alternate or add up, by at most those of a geometric series.
+    Taylor's theorem: e^(m x) times a sine of p x after its first J terms is off by at
+    most ((|m| + |p|) x)^J/J! e^(|m| x), and log(1 + p x), whose terms alternate or add
+    up, by at most those of a geometric series.
     """
     total = sp.Integer(0)
     for key, size in terms.items():
-        order, reach = max(n - key.power, 0), abs(key.scale if key.wave else key.rate) * end
+        order, growth = max(n - key.power, 0), abs(key.rate) * end
+        reach = growth + abs(key.scale) * end
         if key.wave == "log1p":
-            if reach >= 1:
+            if reach >= 1 or key.rate != 0:
                 raise UnreachableError(f"the series of log(1 + {key.scale} x) ends before {end}")
             share = reach ** max(order, 1) / (max(order, 1) * (1 - reach))
         else:
-            share = reach**order / sp.factorial(order)
-            share *= 1 if key.wave else sp.Integer(3) ** sp.ceiling(reach)
+            share = reach**order / sp.factorial(order) * sp.Integer(3) ** sp.ceiling(growth)
         total += abs(size) * end**key.power * share
     return total

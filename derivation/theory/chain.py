@@ -19,6 +19,7 @@ and from the contact law to the motion:
 14 thin plate       the same for h/b -> 0, and a sum over roots that makes it exact
 15 reversion        the force by the indentation: xi_k (10), p_n
 16 impact           energy integral (13), contact time, linearisation (15) to (18)
+17 sensitivity      slopes of the law; what every parameter does to an impact
 """
 
 from collections.abc import Callable, Iterator
@@ -35,9 +36,10 @@ from derivation.theory.influence import influence_coefficients
 from derivation.theory.interior import interior_fields
 from derivation.theory.loaded_mode import loaded_mode
 from derivation.theory.mode_shapes import mode_shapes
-from derivation.theory.plate_factor import plate_factors
+from derivation.theory.plate_factor import plate_factor_slope, plate_factors
 from derivation.theory.plate_series import series_formulas
 from derivation.theory.reversion import reversion
+from derivation.theory.sensitivity import sensitivity
 from derivation.theory.stresses import modal_stresses
 from derivation.theory.thin_plate import thin_plate
 from derivation.theory.thin_remainder import thin_remainder
@@ -51,7 +53,7 @@ LINKS: tuple[Link, ...] = (
     ("face conditions", lambda: (*omegas(), *scaled_omegas())),
     ("loaded mode", loaded_mode),
     ("influence", influence_coefficients),
-    ("plate factor", plate_factors),
+    ("plate factor", lambda: (*plate_factors(), plate_factor_slope())),
     ("Hertz", lambda: (pressure(), sonine(), contact_radius(), pressure_coefficient())),
     ("contact law", contact_law),
     ("interior", interior_fields),
@@ -63,6 +65,7 @@ MOTION_LINKS: tuple[Link, ...] = (
     ("thin plate", lambda: (*thin_plate(), *thin_remainder())),
     ("reversion", reversion),
     ("impact", impact),
+    ("sensitivity", sensitivity),
 )
 """What follows from the contact law. Apart: these formulas hold integrals and constants too."""
 

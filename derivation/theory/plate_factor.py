@@ -2,6 +2,8 @@
 
 from functools import cache
 
+import sympy as sp
+
 from derivation.formula.proof import prove
 from derivation.formula.record import Formula
 from derivation.formula.symbols import T, h, phi
@@ -36,4 +38,26 @@ def plate_factors() -> tuple[Formula, ...]:
             ("G",),
             proof,
         ),
+    )
+
+
+@cache
+def plate_factor_slope() -> Formula:
+    """T dG/dT = -2 T^3 sinh^2 T/(sinh^2 T - T^2)^2: one product, of one sign."""
+    G = plate_factors()[0].expression
+    value = -2 * T**3 * sp.sinh(T) ** 2 / ((sp.sinh(T) - T) * (sp.sinh(T) + T)) ** 2
+    proof = prove(
+        "Slope of the plate factor",
+        "G is differentiated; what is left of the numerator is 4 T^2 sinh^2 T.",
+        {"derivative": T * sp.diff(G, T) - value},
+    )
+    return Formula(
+        "G_slope",
+        r"T\,G'(T)",
+        "what the plate factor of the loaded face gains as log T grows",
+        value,
+        "1",
+        "6",
+        ("G",),
+        proof,
     )

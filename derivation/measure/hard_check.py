@@ -1,0 +1,278 @@
+"""The hard cases checked: generated and printed forms against the committed references."""
+
+import importlib
+import json
+import math
+import multiprocessing
+import warnings
+from collections.abc import Mapping, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from dataclasses import asdict, dataclass
+from functools import cache
+from typing import Any, Literal
+
+import numpy as np
+
+from derivation.formula.ulp import Format, ulp_error
+from derivation.measure.check import Progress
+from derivation.measure.hard import Case, handed_over, written
+from derivation.measure.hard_families import families
+from derivation.measure.hard_truth import DIGITS, Stored, outputs, references, restored
+from derivation.measure.judge import allowed_ulp
+from derivation.measure.kernels import Kernel, generated_kernels, printed_kernels
+from derivation.measure.record import provenance
+
+CONTACT_BUDGET = 8.0
+"""ULP allowed before conditioning where the manifest promises a relative error."""
+
+COMMAND = "platecontact check --hard --record"
+COLUMNS = ("group", "kernel", "cause", "#generated", "#printed", "#allowed", "kept")
+_SIGNIFICANT = 3
+
+Data = Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class Row:
+    """What became of a case.
+
+    Parameters
+    ----------
+    case
+        The case.
+    references
+        Its true values, as text.
+    error, allowed
+        Error of the generated form and what is allowed, in ULP, where their ratio is
+        largest. Infinite for NaN where the truth is finite, and the other way round.
+    printed
+        Largest error of the form as printed; None where there is none.
+    problem
+        Why the case failed; empty if it did not.
+    """
+
+    case: Case
+    references: Sequence[Stored]
+    error: float
+    allowed: float
+    printed: float | None
+    problem: str
+
+    @property
+    def kept(self) -> bool:
+        """Whether the case passed."""
+        return not self.problem
+
+
+def cases() -> tuple[Case, ...]:
+    """Every hard case, those written by hand first.
+
+    Raises
+    ------
+    ValueError
+        For a case that stands there twice.
+    """
+    found = (*written(), *families())
+    seen: set[str] = set()
+    for case in found:
+        if case.key in seen:
+            raise ValueError(f"this hard case stands there twice: {case.key}")
+        seen.add(case.key)
+    return found
+
+
+@cache
+def kernels() -> dict[str, Kernel]:
+    """Everything a hard case can be about, by name."""
+    manifest = importlib.import_module("generated.manifest")
+    found = {kernel.name: kernel for kernel in generated_kernels()}
+    rows = [(row["name"], row["module"], tuple(row["arguments"])) for row in manifest.CONTACT]
+    series = ("delta", "R", "h", "b", "lam", "mu")
+    for name, place, arguments in (*rows, ("force_by_series", "reversed_series", series)):
+        module = importlib.import_module(f"generated.{place}")
+        found[name] = Kernel(name, place, arguments, getattr(module, name), CONTACT_BUDGET)
+    return found
+
+
+def find_references(
+    given: Sequence[Case], processes: int = 1, tell: Progress | None = None
+) -> dict[str, list[Stored]]:
+    """The truth of every case by its key, from the original expressions: minutes.
+
+    Parameters
+    ----------
+    given
+        The cases.
+    processes
+        How many are worked on at a time; 1 starts no process.
+    tell
+        Told about every case that is done.
+    """
+    if processes == 1:
+        return {case.key: find(case) for case in given}
+    # Fresh processes, since a copy of one with threads may hang.
+    pool = ProcessPoolExecutor(processes, multiprocessing.get_context("spawn"))
+    try:
+        futures = {pool.submit(find, case): case for case in given}
+        for number, future in enumerate(as_completed(futures), start=1):
+            future.result()
+            if tell is not None:
+                tell(futures[future].kernel, number, len(given))
+        return {case.key: future.result() for future, case in futures.items()}
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+def find(case: Case) -> list[Stored]:
+    """The truth of a case."""
+    return references(case, kernels()[case.kernel])
+
+
+def committed(data: Data, given: Sequence[Case]) -> dict[str, list[Stored]]:
+    """The references that were recorded.
+
+    Raises
+    ------
+    ValueError
+        Naming a case without one, and the command that finds it.
+    """
+    found = {row["key"]: row["references"] for row in data["cases"]}
+    missing = [case.key for case in given if not found.get(case.key)]
+    missing = [case.key for case in given if case.key in missing and 0 not in case.shape]
+    if missing:
+        raise ValueError(
+            f"no reference for {len(missing)} hard cases, the first: {missing[0]}; run `{COMMAND}`"
+        )
+    return {case.key: found.get(case.key, []) for case in given}
+
+
+def check(
+    given: Sequence[Case],
+    truth: Mapping[str, list[Stored]],
+    known: Mapping[str, Kernel],
+) -> tuple[Row, ...]:
+    """Hold generated and printed forms to the references, case by case."""
+    printed = {kernel.name: kernel for kernel in printed_kernels()}
+    return tuple(
+        _row(case, truth[case.key], known[case.kernel], printed.get(case.kernel)) for case in given
+    )
+
+
+def _row(case: Case, stored: Sequence[Stored], kernel: Kernel, printed: Kernel | None) -> Row:
+    results, problem = _results(case, kernel, stored)
+    if not problem and results.shape[1:] != case.shape:
+        problem = f"shape {results.shape[1:]}, expected {case.shape}"
+    if not problem and str(results.dtype) != case.format.name:
+        problem = f"{results.dtype}, expected {case.format.name}"
+    values = results.ravel().tolist()
+    if len(values) != len(stored):
+        problem = problem or f"{len(values)} results for {len(stored)} references"
+        values = [math.nan] * len(stored)
+    error, allowed = _worst(values, stored, kernel.budget or 0.0, case.format)
+    if problem:
+        error = math.inf
+    if not problem and not error <= allowed:
+        problem = f"error of {error:.3g} ULP"
+    shown = None
+    if printed is not None and case.expect == "value" and stored:
+        with np.errstate(all="ignore"):
+            shown = _largest(_call(case, printed).ravel().tolist(), stored, case.format)
+    return Row(case, stored, error, allowed, shown, problem)
+
+
+def _results(
+    case: Case, kernel: Kernel, stored: Sequence[Stored]
+) -> tuple[np.ndarray[Any, Any], str]:
+    """Results, one output after the other, and what was wrong with the call.
+
+    Any floating-point exception is an error but two: results may underflow, and those
+    whose true value overflows may say so, or that a denominator has vanished.
+    """
+    overflown = any(row["value"] in ("inf", "-inf") for row in stored)
+    beyond: Literal["ignore", "raise"] = "ignore" if overflown else "raise"
+    try:
+        with warnings.catch_warnings(), np.errstate(invalid="raise", under="ignore"):
+            warnings.simplefilter("error")
+            with np.errstate(over=beyond, divide=beyond):
+                return _call(case, kernel), ""
+    except Exception as error:  # whatever a kernel raises is a failure of the case
+        return np.empty((0, *case.shape)), f"{type(error).__name__}: {error}"
+
+
+def _call(case: Case, kernel: Kernel) -> np.ndarray[Any, Any]:
+    """The kernel's results, of shape (outputs, *shape)."""
+    if kernel.by_count:
+        (count,) = case.numbers["count"]
+        return np.asarray(kernel.call(int(count)))[None, -1]
+    arguments = handed_over(case, kernel.arguments)
+    before = [np.array(x, copy=True) for x in arguments]
+    modes = {} if case.modes is None else {"modes": case.modes}
+    found = kernel.call(*arguments, **modes)
+    for old, now in zip(before, arguments, strict=True):
+        if not np.array_equal(old, now, equal_nan=True):
+            raise ValueError("an argument was written to")
+    results = found if outputs(kernel.name) > 1 else (found,)
+    return np.stack([np.asarray(result) for result in results])
+
+
+def _worst(
+    values: Sequence[float], stored: Sequence[Stored], budget: float, fmt: Format
+) -> tuple[float, float]:
+    """Error and allowance in ULP where their ratio is largest."""
+    pairs = [_judged(v, row, budget, fmt) for v, row in zip(values, stored, strict=True)]
+    return max(pairs, key=lambda pair: pair[0] / pair[1], default=(0.0, budget))
+
+
+def _judged(value: float, row: Stored, budget: float, fmt: Format) -> tuple[float, float]:
+    if row["value"] in ("nan", "inf", "-inf"):
+        true = float(row["value"])
+        same = value == true or (math.isnan(value) and math.isnan(true))
+        return (0.0 if same else math.inf), budget
+    truth = restored(row)
+    allowed = allowed_ulp(truth, budget * float(row["scale"]), fmt)
+    return ulp_error(value, truth.value, fmt), allowed
+
+
+def _largest(values: Sequence[float], stored: Sequence[Stored], fmt: Format) -> float:
+    errors = (_judged(v, row, 1.0, fmt)[0] for v, row in zip(values, stored, strict=True))
+    return max(errors)
+
+
+def cells(row: Row) -> tuple[str, ...]:
+    """A row's entries under `COLUMNS`, as text."""
+    return (
+        row.case.group,
+        row.case.kernel,
+        row.case.cause,
+        f"{row.error:.3g}",
+        "" if row.printed is None else f"{row.printed:.3g}",
+        f"{row.allowed:.3g}",
+        "yes" if row.kept else f"NO: {row.problem}",
+    )
+
+
+def as_data(rows: Sequence[Row]) -> dict[str, Any]:
+    """Rows and provenance as plain data; infinities as text."""
+    return {"provenance": provenance(DIGITS), "cases": [_plain(row) for row in rows]}
+
+
+def to_json(rows: Sequence[Row]) -> str:
+    """The rows as JSON text, byte for byte the same for the same measurement."""
+    return json.dumps(as_data(rows), indent=1, allow_nan=False) + "\n"
+
+
+def _plain(row: Row) -> dict[str, Any]:
+    case = {name: value for name, value in asdict(row.case).items() if value is not None}
+    return case | {
+        "inputs": {name: list(texts) for name, texts in row.case.inputs.items()},
+        "key": row.case.key,
+        "references": list(row.references),
+        "error": _rounded(row.error),
+        "allowed": _rounded(row.allowed),
+        "printed": None if row.printed is None else _rounded(row.printed),
+        "kept": row.kept,
+    }
+
+
+def _rounded(number: float) -> float | str:
+    return float(f"{number:.{_SIGNIFICANT}g}") if math.isfinite(number) else repr(number)

@@ -1,0 +1,338 @@
+"""The hard cases: complete as a suite, true in their references, kept by the generated code."""
+
+import dataclasses
+import importlib
+import json
+import random
+from collections import Counter
+from pathlib import Path
+from typing import Any
+
+import flint
+import numpy as np
+import pytest
+
+from derivation import pipeline
+from derivation.cli import main
+from derivation.formula.ulp import from_ordinal, ordinal
+from derivation.measure import hard_check
+from derivation.measure.grids import seams
+from derivation.measure.hard import FORMS, Case, checked, handed_over, written
+from derivation.measure.hard_families import OFFSETS
+from derivation.measure.hard_truth import LAWS, Stored, references, restored
+from derivation.reference import routes
+from derivation.reference.contact_agreement import agree
+
+GROUPS = {
+    "phi h near 0": 20,
+    "phi h large": 15,
+    "scaled and plain constants": 16,
+    "c1 = 0": 10,
+    "thin plates": 10,
+    "thick plates": 10,
+    "contacts beyond 3 h": 10,
+    "edge of the plate": 10,
+    "zeros of s": 10,
+    "reversed series": 8,
+    "past the turning point": 4,
+    "soft impacts": 6,
+    "Poisson number at its ends": 20,
+    "systems of units": 12,
+    "single precision": 15,
+    "subnormal numbers": 12,
+    "infinities and NaN": 15,
+    "shapes and types": 36,
+    "sums over the modes": 8,
+    "seams of the building blocks": 30,
+    "seams of the Bessel functions": 80,
+    "seams of the contact law": 40,
+    "Bessel zeros by index": 24,
+    "doubles next to zeros of J0 and J1": 12,
+    "moments by index": 30,
+}
+"""What the suite must hold, and at least how many cases of it."""
+
+
+@pytest.fixture(scope="module")
+def cases() -> tuple[Case, ...]:
+    return hard_check.cases()
+
+
+@pytest.fixture(scope="module")
+def data() -> dict[str, Any]:
+    found: dict[str, Any] = json.loads(pipeline.MEASURED_HARD.read_text())
+    return found
+
+
+@pytest.fixture(scope="module")
+def truth(cases: tuple[Case, ...], data: dict[str, Any]) -> dict[str, list[Stored]]:
+    return hard_check.committed(data, cases)
+
+
+# --- what is in it
+
+
+def test_every_group_is_there(cases: tuple[Case, ...]) -> None:
+    assert len(cases) >= 150
+    found = Counter(case.group for case in cases)
+    short = {name: found[name] for name, least in GROUPS.items() if found[name] < least}
+    assert not short
+    assert set(found) == set(GROUPS)
+
+
+def test_every_form_is_there_for_several_kernels(cases: tuple[Case, ...]) -> None:
+    for form in FORMS:
+        assert len({case.kernel for case in cases if case.form == form}) >= 4, form
+    shapes = {case.shape for case in cases}
+    assert {(), (0,)} <= shapes
+    assert any(len(shape) == 2 for shape in shapes)
+
+
+def test_every_seam_of_the_blocks_is_there(cases: tuple[Case, ...]) -> None:
+    points = [case.points[0] for case in cases if case.group == "seams of the building blocks"]
+    reached = {
+        "T": {p["T"] for p in points if "T" in p},
+        "x": {p["phi"] for p in points if "z" in p and p["h"] == 1.0},
+        "y": {p["phi"] for p in points if p.get("a") == 1.0},
+    }
+    assert seams()
+    for variable, places in seams().items():
+        for place in places:
+            wanted = {from_ordinal(ordinal(place) + offset) for offset in (-32, -1, 0, 1, 32)}
+            assert wanted <= reached[variable]
+
+
+def test_seams_come_in_all_offsets(cases: tuple[Case, ...]) -> None:
+    assert OFFSETS == (-32, -1, 0, 1, 32)
+    arrays = [c for c in cases if c.group == "seams of the Bessel functions"]
+    for case in arrays:
+        at = [ordinal(x) for x in case.numbers["x"]]
+        assert tuple(place - at[2] for place in at) == OFFSETS
+
+
+def test_zeros_reach_index_1_to_a_million(cases: tuple[Case, ...]) -> None:
+    counts = {c.numbers["count"][0] for c in cases if c.kernel == "bessel_j0_zeros"}
+    assert {1.0, 10.0, 1e3, 1e6} <= counts
+
+
+def test_causes_are_sentences_and_inputs_are_exact(cases: tuple[Case, ...]) -> None:
+    for case in cases:
+        assert len(case.cause.split()) >= 3
+        for texts in case.inputs.values():
+            assert all(text.lstrip("-").startswith(("0x", "nan", "inf")) for text in texts)
+
+
+# --- what is true
+
+
+def test_references_have_40_digits(truth: dict[str, list[Stored]]) -> None:
+    with flint.ctx.workprec(400):
+        for key, rows in truth.items():
+            for row in rows:
+                if row["value"] in ("nan", "inf", "-inf", "0"):
+                    continue
+                ball = restored(row).value
+                assert ball.rad() <= abs(ball) * flint.arb(10) ** -40, key
+
+
+def test_file_repeats_the_definitions(cases: tuple[Case, ...], data: dict[str, Any]) -> None:
+    kept = {row["key"]: row for row in data["cases"]}
+    assert [case.key for case in cases] == [row["key"] for row in data["cases"]]
+    for case in cases:
+        row = kept[case.key]
+        assert (row["group"], row["cause"], row["expect"]) == (case.group, case.cause, case.expect)
+        assert {name: tuple(texts) for name, texts in row["inputs"].items()} == case.inputs
+
+
+def test_references_repeat(cases: tuple[Case, ...], truth: dict[str, list[Stored]]) -> None:
+    generator = random.Random(7)
+    values = [case for case in cases if case.expect == "value" and 0 < len(case.points) < 6]
+    closed = [case for case in values if case.kernel not in LAWS]
+    laws = [c for c in values if c.kernel in ("indentation", "stiffness") and not c.shape]
+    for case in (*generator.sample(closed, 24), *generator.sample(laws, 3)):
+        fresh = references(case, hard_check.kernels()[case.kernel])
+        for old, new in zip(truth[case.key], fresh, strict=True):
+            if new["value"] in ("nan", "inf", "-inf"):
+                assert old == new
+                continue
+            with flint.ctx.workprec(400):
+                assert restored(old).value.overlaps(restored(new).value), case.key
+
+
+def test_the_second_oracle_agrees(cases: tuple[Case, ...], truth: dict[str, list[Stored]]) -> None:
+    generator = random.Random(3)
+    moderate = {"systems of units", "shapes and types", "contacts beyond 3 h"}
+    values = [c for c in cases if c.expect == "value" and not c.shape and c.group in moderate]
+    sizes = [c for c in values if all(1e-9 < abs(x[0]) < 1e12 for x in c.numbers.values())]
+    laws = [case for case in sizes if case.kernel in ("indentation", "stiffness")]
+    closed = [case for case in sizes if case.kernel in ("K_j", "C_top", "G", "mode_f")]
+    for case in (*generator.sample(laws, 3), *generator.sample(closed, 3)):
+        (row,), (point,) = truth[case.key], case.points
+        arguments = [point[name] for name in hard_check.kernels()[case.kernel].arguments]
+        if case in laws:
+            (value,) = agree(case.kernel, arguments, 24).values
+        else:
+            value = routes.agree(case.kernel, point, 24)
+        with flint.ctx.workprec(200):
+            assert abs(restored(row).value - value) < abs(value) * flint.arb(10) ** -23
+
+
+# --- who keeps it
+
+
+def test_generated_code_keeps_every_case(
+    cases: tuple[Case, ...], truth: dict[str, list[Stored]]
+) -> None:
+    rows = hard_check.check(cases, truth, hard_check.kernels())
+    failed = [f"{row.case.key}: {row.problem}" for row in rows if not row.kept]
+    assert not failed, "\n".join(failed)
+
+
+def test_printed_forms_stand_beside(
+    cases: tuple[Case, ...], truth: dict[str, list[Stored]]
+) -> None:
+    values = [case for case in cases if case.expect == "value" and case.form != "empty"]
+    chosen = [case for case in values if case.kernel in ("K_j", "G")]
+    rows = hard_check.check(chosen, truth, hard_check.kernels())
+    assert all((row.printed is None) == (row.case.kernel == "G") for row in rows)
+    assert max(row.printed for row in rows if row.printed is not None) > 1e12
+
+
+@pytest.mark.parametrize(
+    ("module", "name", "kernels"),
+    [
+        ("contact_series", "_CONSTANT", {"indentation", "stiffness", "contact_radius", "impact"}),
+        ("contact_series", "REACH", {"indentation"}),
+        ("bessel", "_INVERSE_ROOT_PI", {"bessel_j0"}),
+        ("impact", "_WEIGHTS", {"impact"}),
+    ],
+)
+def test_a_tampered_constant_is_noticed(
+    module: str,
+    name: str,
+    kernels: set[str],
+    cases: tuple[Case, ...],
+    truth: dict[str, list[Stored]],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    place = importlib.import_module(f"generated.{module}")
+    chosen = [case for case in cases if case.kernel in kernels]
+    with monkeypatch.context() as patched:
+        patched.setattr(place, name, getattr(place, name) * 0.99)
+        spoilt = hard_check.check(chosen, truth, hard_check.kernels())
+    sound = hard_check.check(chosen, truth, hard_check.kernels())
+    assert sum(row.kept for row in spoilt) < sum(row.kept for row in sound)
+
+
+def one(kernel: str, call: Any, case: Case, truth: dict[str, list[Stored]]) -> hard_check.Row:
+    known = hard_check.kernels()
+    wrong = dataclasses.replace(known[kernel], call=call)
+    (row,) = hard_check.check([case], truth, {**known, kernel: wrong})
+    return row
+
+
+def test_every_kind_of_damage_is_noticed(
+    cases: tuple[Case, ...], truth: dict[str, list[Stored]]
+) -> None:
+    right = hard_check.kernels()["G"].call
+    (case,) = (c for c in cases if c.kernel == "G" and c.form == "strided")
+    (refused,) = (c for c in cases if c.kernel == "G" and c.expect == "nan")
+    (short,) = (c for c in cases if c.kernel == "G" and c.form == "float32" and c.shape)
+
+    def spoil(T: Any) -> Any:
+        T[0] = 3.0
+        return right(T)
+
+    assert one("G", right, case, truth).kept
+    assert "ULP" in one("G", lambda T: right(T) * (1 + 1e-14), case, truth).problem
+    assert "shape" in one("G", lambda T: right(T)[:, None], case, truth).problem
+    assert "written to" in one("G", spoil, case, truth).problem
+    assert "FloatingPointError" in one("G", lambda T: right(T) + np.log(T * 0), case, truth).problem
+    assert "float64" in one("G", lambda T: right(T).astype(np.float64), short, truth).problem
+    assert not one("G", lambda T: right(np.abs(T) + 1.0), refused, truth).kept
+
+
+# --- how it is asked
+
+
+def test_a_missing_reference_is_refused(
+    cases: tuple[Case, ...],
+    data: dict[str, Any],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    place = tmp_path / "hard.json"
+    monkeypatch.setattr(pipeline, "MEASURED_HARD", place)
+    assert main(["check", "--hard"]) == 2
+    assert "check --hard --record" in capsys.readouterr().err.replace("\n", " ")
+    rows = [row for row in data["cases"] if row["key"] != cases[0].key]
+    place.write_text(json.dumps({"cases": rows}))
+    assert main(["check", "--hard"]) == 2
+    message = capsys.readouterr().err
+    assert "check --hard --record" in message
+    assert cases[0].key[:20] in message
+
+
+def test_command_shows_every_case(capsys: pytest.CaptureFixture[str]) -> None:
+    status = main(["check", "--hard", "--json", "-"])
+    shown = json.loads(capsys.readouterr().out)
+    assert status == (0 if all(row["kept"] for row in shown["cases"]) else 1)
+    assert shown == json.loads(pipeline.MEASURED_HARD.read_text())
+
+
+def test_status_is_1_when_a_case_fails(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    rows = pipeline.check_hard()
+    broken = dataclasses.replace(rows[0], error=99.0, problem="error of 99 ULP")
+    sound = dataclasses.replace(rows[1], problem="")
+    for found, status in (((sound,), 0), ((sound, broken), 1)):
+        monkeypatch.setattr(pipeline, "check_hard", lambda *_, found=found: found)
+        assert main(["check", "--hard"]) == status
+    assert "99 ULP" in capsys.readouterr().out.replace("\n", " ")
+
+
+# --- how cases are written
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        ({"form": "curled"}, "form"),
+        ({"expect": "luck"}, "expected"),
+        ({"cause": "no sentence"}, "sentence"),
+        ({"inputs": {"T": ("0x1p+0", "0x1p+1")}}, "one at a time"),
+        ({"form": "array", "inputs": {"T": ("0x1p+0",) * 2, "z": ("0x1p+0",) * 3}}, "one length"),
+        ({"form": "float32", "inputs": {"T": ("0x1.0000000000001p+0",)}}, "single"),
+    ],
+)
+def test_ill_formed_cases_are_refused(change: dict[str, Any], says: str) -> None:
+    sound = Case("group", "G", "A sentence.", {"T": ("0x1p+0",)})
+    assert checked(sound) == sound
+    with pytest.raises(ValueError, match=says):
+        checked(dataclasses.replace(sound, **change))
+
+
+def test_forms_are_what_they_say() -> None:
+    given = {"T": ("0x1p+0", "0x1p+1"), "h": ("0x1p+2",)}
+    case = Case("group", "G", "A sentence.", given, "strided")
+    strided, single = handed_over(case, ("T", "h"))
+    assert single == 4.0
+    assert strided.tolist() == [1.0, 2.0]
+    assert not strided.flags.c_contiguous
+    (fixed, _) = handed_over(dataclasses.replace(case, form="read-only"), ("T", "h"))
+    assert not fixed.flags.writeable
+    (whole, number) = handed_over(dataclasses.replace(case, form="integer"), ("T", "h"))
+    assert whole.dtype.kind == "i"
+    assert type(number) is int
+    grid = dataclasses.replace(case, form="broadcast", inputs={**given, "z": ("0x1p+3",) * 3})
+    (column, row) = handed_over(grid, ("T", "z"))
+    assert column.shape == (2, 1)
+    assert row.shape == (3,)
+    assert grid.shape == (2, 3)
+    assert len(grid.points) == 6
+
+
+def test_hand_written_cases_are_most_of_the_groups() -> None:
+    assert len({case.group for case in written()}) >= 18

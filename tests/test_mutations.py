@@ -1,0 +1,197 @@
+"""Generated code with one thing wrong: a coefficient, a switch, a scaling. All are noticed."""
+
+import importlib
+import math
+import re
+import shutil
+import sys
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from derivation.files import ROOT
+from derivation.measure.grids import Point, grid
+from derivation.measure.judge import Truth, judge, truths
+from derivation.measure.kernels import Kernel, generated_kernels
+from derivation.rewrite.blocks import blocks
+from derivation.rewrite.form import Seam
+
+KERNELS = {kernel.name: kernel for kernel in generated_kernels()}
+
+# Every block with a section, a kernel that shows it, and arguments at a value of its variable.
+SHOWN: dict[str, tuple[str, Callable[[float], dict[str, float]]]] = {
+    "sinh_minus": ("G", lambda T: {"T": T}),
+    "hertz_shape": ("sonine", lambda y: {"phi": y, "a": 1.0}),
+    "cosh_gap": (
+        "mode_g",
+        lambda x: {"z": 0.0, "phi": x, "h": 1.0, "lam": 1.0, "mu": 1.0, "A_j": 1.0},
+    ),
+}
+
+
+@pytest.fixture
+def damaged(tmp_path: Path) -> Iterator[Callable[..., Any]]:
+    """A function that imports a kernel from a copy of the package, one of its files edited."""
+    count = 0
+
+    def load(kernel: str, file: str, edit: Callable[[str], str]) -> Kernel:
+        nonlocal count
+        count += 1
+        package = f"damaged_{tmp_path.name.replace('-', '_')}_{count}"
+        shutil.copytree(ROOT / "generated", tmp_path / package)
+        path = tmp_path / package / file
+        text = path.read_text()
+        changed = edit(text)
+        assert changed != text, "the edit touches nothing"
+        path.write_text(changed)
+        whole = KERNELS[kernel]
+        module = importlib.import_module(f"{package}.{whole.module}")
+        return replace(whole, call=getattr(module, kernel))
+
+    sys.path.insert(0, str(tmp_path))
+    yield load
+    sys.path.remove(str(tmp_path))
+    for name in [name for name in sys.modules if name.startswith("damaged_")]:
+        del sys.modules[name]
+
+
+def fails(kernel: Kernel, found: list[Truth]) -> bool:
+    errors = judge(kernel, found)
+    return errors.ratio is None or errors.ratio > 1.0 or errors.not_finite > 0
+
+
+def near(kernel: str, block: str, low: float, high: float, count: int) -> list[Truth]:
+    at = SHOWN[block][1]
+    values = np.linspace(low, high, count, endpoint=False).tolist()
+    return truths(kernel, [Point(at(value)) for value in values], 30)
+
+
+def seam_of(block: str) -> float:
+    value = blocks()[block].value
+    assert isinstance(value, Seam)
+    return float(value.at)
+
+
+def body_of(text: str, block: str) -> tuple[int, int]:
+    begin = text.index(f"def {block}(")
+    end = text.find("\ndef ", begin + 1)
+    return begin, end if end > 0 else len(text)
+
+
+def with_coefficient(block: str, index: int, factor: float) -> Callable[[str], str]:
+    """An edit that multiplies one Taylor coefficient."""
+
+    def edit(text: str) -> str:
+        begin, end = body_of(text, block)
+        places = list(re.finditer(r"^ {8}(-?[\d./ e+-]+),$", text[begin:end], re.M))
+        place = places[index]
+        old = place.group(1)
+        at = begin + place.start(1)
+        return text[:at] + f"({old}) * {factor!r}" + text[at + len(old) :]
+
+    return edit
+
+
+def coefficients(block: str) -> int:
+    text = (ROOT / "generated" / "blocks.py").read_text()
+    begin, end = body_of(text, block)
+    return len(re.findall(r"^ {8}(-?[\d./ e+-]+),$", text[begin:end], re.M))
+
+
+@pytest.mark.parametrize(
+    ("block", "index"), [(block, k) for block in SHOWN for k in range(coefficients(block))]
+)
+def test_a_wrong_taylor_coefficient_is_noticed(
+    damaged: Callable[..., Any], block: str, index: int
+) -> None:
+    """The value at the switch moves by twice the budget."""
+    name, at = SHOWN[block]
+    whole = KERNELS[name]
+    end = math.nextafter(seam_of(block), 0.0)
+    point = [np.array([value]) for value in at(end).values()]
+    true = float(whole.call(*point)[0])
+    assert whole.budget is not None
+    step, moved = 1e-6, 0.0
+    while moved < 1e4:  # far from rounding, and not far enough to bend
+        step *= 10
+        wrong = damaged(name, "blocks.py", with_coefficient(block, index, 1.0 + step))
+        moved = abs(float(wrong.call(*point)[0]) - true) / float(np.spacing(abs(true)))
+    factor = 1.0 + 2.0 * whole.budget / moved * step
+    found = near(name, block, 0.9 * end, end, 40)
+    assert not fails(whole, found)
+    assert fails(damaged(name, "blocks.py", with_coefficient(block, index, factor)), found)
+
+
+def with_switch(block: str, factor: float) -> Callable[[str], str]:
+    """An edit that moves a block's switch point."""
+
+    def edit(text: str) -> str:
+        begin, end = body_of(text, block)
+        at = seam_of(block)
+        body = re.sub(r"(below = \w+ < ).*", rf"\g<1>{at * factor!r}", text[begin:end])
+        body = re.sub(rf"(np\.m(?:in|ax)imum\(\w+, ){at!r}\)", rf"\g<1>{at * factor!r})", body)
+        return text[:begin] + body + text[end:]
+
+    return edit
+
+
+@pytest.mark.parametrize("factor", [0.5, 2.0])
+@pytest.mark.parametrize("block", ["sinh_minus", "hertz_shape"])
+def test_a_moved_switch_is_noticed(damaged: Callable[..., Any], block: str, factor: float) -> None:
+    name = SHOWN[block][0]
+    low, high = sorted((seam_of(block), seam_of(block) * factor))
+    found = near(name, block, low, high, 400)
+    assert not fails(KERNELS[name], found)
+    assert fails(damaged(name, "blocks.py", with_switch(block, factor)), found)
+
+
+SCALINGS = (
+    # kernel, file, what stands there, what it becomes without its scaling
+    (
+        "G",
+        "blocks.py",
+        "numerator = 2 * T * np.exp(-T) - np.expm1(-2 * T)",
+        "numerator = 2 * np.exp(-T) * (np.sinh(T) + T)",
+    ),
+    (
+        "G",
+        "blocks.py",
+        "numerator = 1 - 2 * T_high * decay - decay**2",
+        "numerator = 2 * np.exp(-T_high) * (np.sinh(T_high) - T_high)",
+    ),
+    (
+        "Omega_3",
+        "omega.py",
+        "part = fade * np.expm1(-2 * x)",
+        "part = -2 * np.exp(-1.5 * x) * np.sinh(x)",
+    ),
+)
+
+
+@pytest.mark.parametrize(("name", "file", "old", "new"), SCALINGS)
+def test_a_missing_scaling_is_noticed(
+    damaged: Callable[..., Any], name: str, file: str, old: str, new: str
+) -> None:
+    kernel = KERNELS[name]
+    found = truths(name, grid(name, kernel.arguments), 30)
+    assert not fails(kernel, found)
+    with np.errstate(all="ignore"):
+        assert fails(damaged(name, file, lambda text: text.replace(old, new, 1)), found)
+
+
+def test_an_exponential_in_one_piece_is_noticed(damaged: Callable[..., Any]) -> None:
+    """e^(-x) underflows where Omega_1, over a small phi and mu, does not."""
+
+    def whole(text: str) -> str:
+        begin, end = body_of(text, "Omega_1")
+        body = text[begin:end].replace("fade = np.exp(-x / 2)", "fade = np.exp(-x)")
+        return text[:begin] + re.sub(r"fade\n? *\* \(", "(", body, count=1) + text[end:]
+
+    values = {"phi": 3e-7, "h": 730.0 / 3e-7, "lam": 2.6e-3, "mu": 2.6e-3}
+    found = truths("Omega_1", [Point(values)], 30)
+    assert not fails(KERNELS["Omega_1"], found)
+    assert fails(damaged("Omega_1", "omega.py", whole), found)

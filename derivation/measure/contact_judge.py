@@ -111,6 +111,8 @@ def _error(call: Callable[..., Any], true: Truth, fmt: Format) -> tuple[str, flo
         for value, ball, total in zip(got, balls, conditioning(call, true.point), strict=True):
             size, unit = abs(float(ball)), spacing_exponent(ball, fmt)
             rounding = math.ldexp(size, -fmt.precision - unit) * float(total)
+            if not math.isfinite(rounding):  # of a kernel without a value: nothing is allowed
+                rounding = 0.0
             pairs.append((ulp_error(float(value), ball, fmt), rounding))
     ulp, rounding = max(pairs, key=lambda pair: pair[0] - pair[1])
     return str(got.dtype), ulp, rounding

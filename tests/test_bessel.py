@@ -1,14 +1,12 @@
-"""The generated Bessel functions, rendered afresh, against Arb: value, zeros, seams, types."""
+"""The generated Bessel functions against Arb: value, zeros, seams, types."""
 
-import importlib.util
+import importlib
 import math
 import sys
 import warnings
-from pathlib import Path
 from types import ModuleType
 
 import flint
-import jinja2
 import numpy as np
 import pytest
 import sympy as sp
@@ -20,7 +18,6 @@ from derivation.rewrite import bessel_tables as tables
 from derivation.theory import bessel as theory
 from derivation.theory.bessel_zeros import zero_bound, zero_correction
 
-TEMPLATES = Path(tables.__file__).parents[1] / "emit" / "templates"
 BITS = 256
 VALUE_BUDGET = 2.25
 """ULP beyond half the condition number."""
@@ -31,29 +28,9 @@ INDICES = (*range(1, 61), 64, 77, 100, 1000, 10**4, 10**5, 10**6)
 
 
 @pytest.fixture(scope="module")
-def bessel(tmp_path_factory: pytest.TempPathFactory) -> ModuleType:
-    """The template rendered into a module of its own."""
-    environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(TEMPLATES),
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    names = (
-        *("bessel_j0", "bessel_j1", "bessel_j0_zeros", "bessel_j1_zeros"),
-        "bessel_j1_at_j0_zeros",
-    )
-    text = environment.get_template("bessel.py.j2").render(
-        header="# rendered for a test", budgets=dict.fromkeys(names, 1), **tables.bessel_context()
-    )
-    path = tmp_path_factory.mktemp("rendered") / "bessel_rendered.py"
-    path.write_text(text)
-    spec = importlib.util.spec_from_file_location("bessel_rendered", path)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+def bessel() -> ModuleType:
+    """The generated module, whose freshness another test ascertains."""
+    return importlib.import_module("generated.bessel")
 
 
 def excess(function, order: int, points: np.ndarray) -> tuple[float, float]:

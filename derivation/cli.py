@@ -126,14 +126,14 @@ def check(
     from derivation import pipeline
     from derivation.measure.record import COLUMNS, as_data, cells, passed, worst
 
-    if contact + speed + hard + (search is not None) > 1:
-        raise ValueError(
-            "expected one of --contact, --speed, --hard and --search: run them one after the other"
-        )
     if search is not None:
-        if record or propose:
-            raise ValueError("--search stands alone: expected no --record, --propose")
+        if contact or speed or hard or record or propose:
+            raise ValueError("--search stands alone: expected no other of check's options")
         raise typer.Exit(_check_search(search, seed, kernel or [], out, json))
+    if contact + speed + hard > 1:
+        raise ValueError(
+            "expected one of --contact, --speed and --hard: run them one after the other"
+        )
     if kernel or out:
         raise ValueError("--kernel and --out belong to --search: add --search 60s")
     if contact:

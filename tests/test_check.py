@@ -49,6 +49,12 @@ def signs(text: str) -> list[tuple[str, int]]:
     return found
 
 
+def reached(text: str, name: str, place: int) -> bool:
+    """Whether a kernel gets there: cosh_gap is called below its seam only."""
+    far = name == "cosh_gap" and place < text.index("x_low = np.minimum")
+    return name != "polynomial" and not far
+
+
 @pytest.mark.parametrize("seed", range(20))
 def test_one_wrong_sign_is_caught(
     seed: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -56,7 +62,7 @@ def test_one_wrong_sign_is_caught(
     generator = random.Random(seed)
     module = MODULES[seed % len(MODULES)]
     text = (ROOT / "generated" / f"{module}.py").read_text()
-    name, place = generator.choice([s for s in signs(text) if s[0] != "polynomial"])
+    name, place = generator.choice([s for s in signs(text) if reached(text, *s)])
     damaged = text[:place] + {"+": "-", "-": "+"}[text[place]] + text[place + 1 :]
     package = f"damaged_{seed}"
     shutil.copytree(ROOT / "generated", tmp_path / package)

@@ -1,5 +1,6 @@
 """The rewriting rules: each on its own against balls, and what they make of formulas together."""
 
+import importlib
 import math
 import random
 from collections.abc import Callable
@@ -278,3 +279,16 @@ def test_blocks_have_one_section_each_or_none() -> None:
         if isinstance(block.value, Seam):
             assert any(s.expression.has(POLYNOMIAL) for s in block.value.below.steps)
             assert "cut off" in block.truncation
+
+
+@pytest.mark.parametrize("name", [row[0] for row in DEFINITIONS])
+def test_generated_blocks_on_both_sides_of_their_seams(name: str) -> None:
+    """Branches that no kernel reaches too: cosh_gap is called below its seam only."""
+    block = blocks()[name]
+    (own,) = block.arguments
+    call = getattr(importlib.import_module("generated.blocks"), name)
+    for point in (0.01, 0.3, 0.99, 1.0, 1.4999, 1.5, 2.0, 3.7, 20.0):
+        true = evaluate(block.definition, {own: point}, 25)
+        slack = abs(evaluate(block.definition.diff(own), {own: point}, 5) * point / true)
+        got = float(call(np.array([point]))[0])
+        assert ulp_error(got, true) <= 6 + float(slack) / 2, point

@@ -13,7 +13,7 @@ from derivation.formula.symbols import ARGUMENTS, C1, C3, Argument, applicable
 from derivation.rewrite.form import Branch, Form, Seam, Step
 
 MODAL_SUMS = {
-    "delta": "K_j(phi, h, b, R, J1) * (a * phi) ** 3 / 3 * hertz_shape(a * phi)",
+    "delta": "K_j(phi, h, b, R, J1) * hertz_shape(a * phi) * np.minimum(a * phi, 2) ** 3",
     "u": "mode_g(z, phi, h, lam, mu, A) * phi * bessel_j1(phi * r)",
     "w": "mode_f(z, phi, h, lam, mu, A) * bessel_j0(phi * r)",
     # mode_tt is lam times the dilatation; mode_rr would cancel against J1/r on the axis.

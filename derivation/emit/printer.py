@@ -6,6 +6,8 @@ from sympy.printing.numpy import NumPyPrinter
 from sympy.printing.precedence import PRECEDENCE
 
 from derivation.formula.notation import positive_first
+from derivation.rewrite.form import TIMES
+from derivation.rewrite.shape import decay
 
 SMALL_INTEGER = 1000
 """Largest denominator printed as a divisor; beyond, 1/n is folded into a double first."""
@@ -18,12 +20,32 @@ class _Printer(NumPyPrinter):
         return str(super()._module_format(fqn, register)).replace("numpy.", "np.")
 
     def _print_AppliedUndef(self, expr: AppliedUndef) -> str:
+        if expr.func == TIMES:
+            value, *powers = (self._print(x) for x in expr.args)
+            pairs = zip(powers[::2], powers[1::2], strict=True)
+            return f"times({', '.join([value, *(f'({b}, {p})' for b, p in pairs)])})"
         return f"{expr.func.__name__}({', '.join(self._print(x) for x in expr.args)})"
+
+    def _print_Min(self, expr: sp.Min) -> str:
+        return f"np.minimum({', '.join(self._print(x) for x in sorted(expr.args, key=_constant))})"
 
     def _print_BesselJ(self, expr: sp.besselj) -> str:
         return f"bessel_j{expr.order}({self._print(expr.argument)})"
 
     _print_besselj = _print_BesselJ
+
+    def _print_Add(self, expr: sp.Add, order: str | None = None) -> str:
+        number, rest = expr.as_coeff_Add()
+        if not (number > 0 and rest.is_Add and all(_fades(part) for part in rest.args)):
+            return str(super()._print_Add(expr, order=order))
+        # What decays is summed first: so the whole is rounded once where it hardly counts.
+        sign, rest = ("-", -rest) if rest.args[0].could_extract_minus_sign() else ("+", rest)
+        return f"{self._print(number)} {sign} ({self._print(rest)})"
+
+    def _print_Pow(self, expr: sp.Pow, rational: bool = False) -> str:
+        if expr.exp == -1:
+            return f"1/{self.parenthesize(expr.base, PRECEDENCE['Pow'], strict=False)}"
+        return str(super()._print_Pow(expr, rational))
 
     def _print_Mul(self, expr: sp.Mul) -> str:
         coefficient, rest = expr.as_coeff_Mul()
@@ -43,6 +65,15 @@ class _Printer(NumPyPrinter):
 
     def _as_ordered_terms(self, expr: sp.Add, order: str | None = None) -> list[sp.Expr]:
         return positive_first(super()._as_ordered_terms(expr, order=order))
+
+
+def _fades(part: sp.Expr) -> bool:
+    exponents = (function.args[0] for function in part.atoms(sp.exp))
+    return part.has(decay) or any(x.could_extract_minus_sign() for x in exponents)
+
+
+def _constant(expression: sp.Expr) -> bool:
+    return not expression.free_symbols
 
 
 def _split(product: sp.Expr) -> tuple[list[sp.Expr], list[sp.Expr]]:

@@ -6,27 +6,31 @@ Stages, in this order:
                    its ratio to lam + mu
  2 rules           `fraction`, `decay` and `difference`, as for one variable
  3 blocks          sums that cancel at 0 -> building blocks, their power of x taken out
- 4 front           powers of x that only undo powers of a length are undone; squares paired
- 5 halves          an exponential that decays is applied in two halves around all the rest
+ 4 powers          of x and of symbols, and the decay in two halves, apart: only the sums are
+                   added up as they are, and `times` puts the powers to them
 """
 
+from collections import defaultdict
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import combinations
 
 import sympy as sp
 
 from derivation.formula.symbols import a, h, lam, mu, phi
-from derivation.rewrite.form import Block, Step
+from derivation.rewrite.form import FAR, TIMES, Block, Step
 from derivation.rewrite.rules import decay, fraction, parts_of
 from derivation.rewrite.series import leading_power
 from derivation.rewrite.shape import Factor, Shape
-from derivation.rewrite.terms import Key, UnreachableError, terms_of
+from derivation.rewrite.terms import ONE, Key, UnreachableError, terms_of
 
 x, y, T = sp.symbols("x y T", positive=True)
-core, over, part, spread = sp.symbols("core over part spread", real=True)
-fade, ratio = sp.symbols("fade ratio", positive=True)
-RATIO = Step(ratio, (lam + 2 * mu) / (lam + mu), "2 (1 - nu)")
-HALVED = "half of the decay, twice: neither factor underflows alone"
+fade, rest, ratio = sp.symbols("fade rest ratio", positive=True)
+near, reach, stretch = sp.symbols("near reach stretch", positive=True)
+RATIO = Step(ratio, 1 + 1 / (1 + lam / mu), "2 (1 - nu)")
+FADES = 700
+"""Up to there e^-x is a double of full length."""
+
 VARIABLES = {phi * h: (x, h), 2 * phi * h: (T, h), a * phi: (y, a), T: (T, T)}
 """Products that functions may depend on, the symbol each becomes, and what it replaces."""
 
@@ -87,32 +91,144 @@ def automatic(expression: sp.Expr, known: Mapping[str, Block]) -> Automatic:
     steps: list[Step] = []
     if reduced.expression.has(ratio):
         steps.append(RATIO)
-    if reduced.variable == T and reduced.length == h:
-        steps += [Step(x, phi * h), Step(T, 2 * x)]
+    if reduced.variable == T:
+        steps.append(Step(T, sp.Min(reduced.product, FAR), "nothing changes from there on"))
     elif reduced.length != reduced.variable:
         steps.append(Step(reduced.variable, reduced.product))
-    power, product = shape.power, sp.Integer(1)
-    for factor in shape.factors:
-        value, lead = _factor(factor, shape.x, known)
-        power += lead * factor.exponent
-        product *= value**factor.exponent
-    front, power = _undone(shape.front, power, reduced)
-    pair, front = _paired(front)
-    steps += pair
+    size, core, powers = _beyond_one(shape, known) or _divided(shape) or _taken(shape, known)
+    for base, exponent in shape.front.as_powers_dict().items():
+        if base.is_Symbol and base != ratio:
+            powers[base] += int(exponent)
+        else:
+            size *= base**exponent
+    core = _with_length(core, powers, reduced)
+    steps += _joined(powers, reduced)
     if shape.rate < 0:
-        half = Step(fade, sp.exp(shape.rate * shape.x / 2), HALVED)
-        inner, last = _divided(front * product * fade, shape.x, power)
-        return (*steps, half, *inner, Step(part, last)), fade * part
-    inner, last = _divided(front * product, shape.x, power)
-    return (*steps, *inner), last
+        decayed = -shape.rate * shape.x
+        steps.append(Step(fade, sp.exp(-sp.Min(decayed, FADES))))
+        steps.append(
+            Step(rest, sp.exp(sp.Min(decayed, FADES) - decayed), "1 but where it underflows")
+        )
+        powers[fade] = powers[rest] = 1
+    core = core.xreplace({step.expression: near for step in steps if step.symbol == near})
+    factors = [part for base in sorted(powers, key=str) for part in (base, powers[base])]
+    value = sp.Mul(size, core, evaluate=False) if core.is_Add and size != 1 else size * core
+    return tuple(steps), TIMES(value, *factors) if factors else value
 
 
-def _divided(whole: sp.Expr, variable: sp.Symbol, power: int) -> tuple[tuple[Step, ...], sp.Expr]:
-    """x^power times the rest; three or more divisions in two goes, as x^3 underflows early."""
-    if power > -3:
-        return (), whole * variable**power
-    steps = Step(core, whole), Step(over, core / variable)
-    return steps, over * variable ** (power + 1)
+Taken = tuple[sp.Expr, sp.Expr, dict[sp.Expr, int]]
+"""A constant, a core and bases with their powers: the product of them all."""
+
+
+def _taken(shape: Shape, known: Mapping[str, Block]) -> Taken:
+    """What a shape's sums are made of."""
+    size, core, powers = sp.Integer(1), sp.Integer(1), defaultdict(int, {shape.x: shape.power})
+    for factor in _paired(shape, known):
+        content, value, least, lead = _factor(factor, shape.x, known)
+        size *= content**factor.exponent
+        core *= value**factor.exponent
+        if lead:
+            powers[least] += lead * factor.exponent
+    return size, core, powers
+
+
+def _paired(shape: Shape, known: Mapping[str, Block]) -> tuple[Factor, ...]:
+    """The factors, two of them taken together if there is a building block for their product."""
+    for one, other in combinations(shape.factors, 2):
+        if one.exponent == other.exponent and {shape.x} == (one.value * other.value).free_symbols:
+            product = sp.expand(one.value * other.value)
+            if _block(terms_of(product, shape.x), shape.x, known) is not None:
+                others = [factor for factor in shape.factors if factor not in (one, other)]
+                return Factor(product, one.exponent), *others
+    return shape.factors
+
+
+def _beyond_one(shape: Shape, known: Mapping[str, Block]) -> Taken | None:
+    """A quotient that tends to 1 -> 1 and a positive rest, which far out needs no digits.
+
+    Nothing if the rest does not decay, or if its parts differ in sign.
+    """
+    own, whole = shape.x, sp.Mul(*(factor.value**factor.exponent for factor in shape.factors))
+    if shape.rate != 0 or shape.power != 0 or whole.free_symbols != {own}:
+        return None
+    sums = (terms_of(factor.value, own) for factor in shape.factors)
+    if any(terms.get(ONE) != 1 or any(k != ONE and k.rate >= 0 for k in terms) for terms in sums):
+        return None
+    remainder = next(decay(own, next(fraction(own, whole - 1))))
+    assert isinstance(remainder, Shape)
+    size, core, powers = _taken(remainder, known)
+    above = (factor.value for factor in remainder.factors if factor.exponent > 0)
+    parts = (part for value in above for part, _ in parts_of(terms_of(value, own), own))
+    size *= remainder.front
+    if remainder.rate >= 0 or size < 0 or not all(_positive(part, own) for part in parts):
+        return None
+    held = sp.Mul(*(base**-power for base, power in powers.items()))
+    return sp.Integer(1), held + size * sp.exp(remainder.rate * own) * core, powers
+
+
+def _divided(shape: Shape) -> Taken | None:
+    """N/(N Q + R) -> 1/(Q + R/N), Q and R/N of one sign; nothing where there is no such Q.
+
+    Every function of the numerator is then computed once, and what is wrong with it counts less.
+    """
+    own, q = shape.x, sp.Dummy("q")
+    exponents = {factor.exponent: terms_of(factor.value, own) for factor in shape.factors}
+    if len(shape.factors) != 2 or set(exponents) != {1, -1} or shape.front.has(ratio):
+        return None
+    above, below = exponents[1], exponents[-1]
+    free, rest = (
+        {k: v for k, v in below.items() if (k.power == 0) == side} for side in (True, False)
+    )
+    divided, left = sp.div(*(sum(v * q**-k.rate for k, v in t.items()) for t in (free, above)), q)
+    if left != 0 or any(key.power for key in above):
+        return None
+    numerator, bound = (sp.Add(*(v for v, _ in parts_of(t, own))) for t in (above, rest))
+    parts = divided.subs(q, sp.exp(-own)), bound / numerator
+    for sign in (1, -1):
+        if all(_positive(sign * part, own) for part in parts):
+            return sp.Integer(sign), 1 / (sign * sp.Add(*parts)), defaultdict(int)
+    return None
+
+
+def _positive(part: sp.Expr, own: sp.Symbol) -> bool:
+    return all(part.subs(own, at).evalf() > 0 for at in (sp.Rational(1, 8), 1, 8))
+
+
+def _with_length(core: sp.Expr, powers: dict[sp.Expr, int], reduced: Reduced) -> sp.Expr:
+    """(ratio f + x g)/phi -> ratio f/phi + length g, which rounds x and phi less often."""
+    own, scale = reduced.variable, reduced.product / phi
+    sums = [f for f in core.as_powers_dict() if f.is_Add and f.free_symbols > {own}]
+    if not sums or powers[phi] >= 0 or scale != reduced.length:
+        return core
+    (whole,) = sums
+    powers[phi] += 1
+    apart = [
+        part * reduced.length / own if own in part.as_powers_dict() else part / phi
+        for part in whole.args
+    ]
+    return core / whole * sp.Add(*apart)
+
+
+def _joined(powers: dict[sp.Expr, int], reduced: Reduced) -> list[Step]:
+    """Powers that undo each other taken together, as steps; no base is left with the power 0."""
+    steps, own = [], reduced.variable
+    for least in [base for base in powers if isinstance(base, sp.Min)]:
+        (at,) = (bound for bound in least.args if bound.is_Number)
+        if powers[least] > 0 > powers[phi]:  # reach = near/phi
+            count = min(powers[least], -powers[phi])
+            steps.append(Step(reach, sp.Min(reduced.length, at / phi), f"at most {at}/phi"))
+            powers[reach], powers[phi] = count, powers[phi] + count
+            powers[least] -= count
+        if powers[least]:
+            steps.append(Step(near, least))
+        if powers[least] * powers[own] < 0:
+            steps.append(Step(stretch, own / near, f"1 below {at}"))
+            powers[stretch], powers[own] = powers[own], 0
+            powers[least] += powers[stretch]
+        powers[near], powers[least] = powers[least], 0
+    for base in [base for base in powers if powers[base] == 0]:
+        del powers[base]
+    return steps
 
 
 def _shape(reduced: Reduced) -> Shape:
@@ -126,29 +242,31 @@ def _shape(reduced: Reduced) -> Shape:
     return shape
 
 
-def _factor(factor: Factor, variable: sp.Symbol, known: Mapping[str, Block]) -> tuple[sp.Expr, int]:
-    """A factor over its lowest power of the variable, and that power."""
+def _factor(
+    factor: Factor, variable: sp.Symbol, known: Mapping[str, Block]
+) -> tuple[sp.Expr, sp.Expr, sp.Expr, int]:
+    """A factor as a constant, a sum that does not cancel at 0, and a base with its power."""
     terms = terms_of(factor.value, variable)
     if {variable} == factor.value.free_symbols:
-        found = _block(factor.value, variable, known)
+        found = _block(terms, variable, known)
         if found is not None:
             return found
         lead, least = leading_power(terms), min(power for _, power in parts_of(terms, variable))
         if lead > least:
             raise UnreachableError(f"no building block is {factor.value}")
-    lead = min(power for _, power in parts_of(terms, variable))
-    return sp.Add(*(value / variable**lead for value, _ in parts_of(terms, variable))), lead
+    content = sp.gcd_list([value.as_content_primitive()[0] for value in terms.values()])
+    primitive = {key: value / content for key, value in terms.items()}
+    return content, sp.Add(*(v for v, _ in parts_of(primitive, variable))), variable, 0
 
 
 def _block(
-    value: sp.Expr, variable: sp.Symbol, known: Mapping[str, Block]
-) -> tuple[sp.Expr, int] | None:
-    """The factor as a constant times a building block, of a multiple of the variable."""
-    terms = terms_of(value, variable)
+    terms: Mapping[Key, sp.Expr], variable: sp.Symbol, known: Mapping[str, Block]
+) -> tuple[sp.Expr, sp.Expr, sp.Expr, int] | None:
+    """The same for a building block, of a multiple of the variable."""
     rates = [abs(key.scale if key.wave else key.rate) for key in terms]
     least = sp.gcd_list([rate for rate in rates if rate != 0])
     for block in known.values():
-        own, lead = _core(block)
+        own = terms_of(sp.expand(block.total), block.arguments[0])
         rate = max(key.rate for key in own)
         for scale in (least, least / 2):
             moved = {
@@ -157,31 +275,6 @@ def _block(
             }
             ratios = {sp.cancel(terms[key] / v) for key, v in moved.items() if key in terms}
             if moved.keys() == terms.keys() and len(ratios) == 1:
-                return ratios.pop() * scale**lead * block(scale * variable), lead
+                at = scale * variable
+                return ratios.pop(), block(at), block.near(at), block.lead
     return None
-
-
-def _core(block: Block) -> tuple[Mapping[Key, sp.Expr], int]:
-    """A block's definition times the power of its variable that it is divided by."""
-    (own,) = block.arguments
-    lead = -int(block.definition.as_powers_dict()[own])
-    return terms_of(sp.expand(block.definition * own**lead), own), lead
-
-
-def _undone(front: sp.Expr, power: int, reduced: Reduced) -> tuple[sp.Expr, int]:
-    """x^n phi^-n -> the length's n-th power."""
-    below = front.as_powers_dict().get(phi, sp.Integer(0))
-    if reduced.length == reduced.variable or power <= 0 or not below < 0:
-        return front, power
-    count = min(power, int(-below))
-    return front * phi**count * (reduced.product / phi) ** count, power - count
-
-
-def _paired(front: sp.Expr) -> tuple[tuple[Step, ...], sp.Expr]:
-    """Two or more symbols squared in the denominator -> the square of their product."""
-    powers = {b: e for b, e in front.as_powers_dict().items() if b.is_Symbol and e <= -2}
-    if len(powers) < 2:
-        return (), front
-    below = sp.Mul(*(b ** int(-e // 2) for b, e in powers.items()))
-    rest = front * below**2
-    return (Step(spread, below),), rest / spread**2

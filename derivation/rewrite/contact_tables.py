@@ -24,9 +24,11 @@ from functools import cache
 from math import ceil
 
 import flint
+import sympy as sp
 from flint import arb as Ball
 
 from derivation.rewrite.bessel_tables import bessel_zero, nearest_double, wrapped
+from derivation.rewrite.blocks import blocks
 from derivation.rewrite.moment_tables import (
     BITS,
     excess_nodes,
@@ -334,6 +336,7 @@ def contact_context() -> dict[str, object]:
         "short_terms": str(SHORT_TERMS),
         "far_terms": str(FAR_TERMS),
         "modes": str(MODES),
+        "held": str(blocks()["hertz_shape"].near(sp.oo)),
     }
 
 

@@ -59,10 +59,11 @@ def _node(node: sp.Basic, visit: Callable[[sp.Basic], float]) -> float:
     if node is sp.pi:
         return math.pi
     if isinstance(node, sp.Add):
-        total = visit(node.args[0])
-        for term in node.args[1:]:
+        number, rest = node.as_coeff_Add()  # a number comes last, as it is printed
+        total = visit(rest.args[0]) if rest.is_Add else visit(rest)
+        for term in rest.args[1:] if rest.is_Add else ():
             total += visit(term)
-        return total
+        return total + float(number)
     if isinstance(node, sp.Mul):
         return _product(node, visit)
     if isinstance(node, sp.Pow):

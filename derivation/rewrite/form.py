@@ -8,6 +8,14 @@ from sympy.codegen.cfunctions import expm1
 
 from derivation.formula.proof import Proof, prove
 
+TIMES = sp.Function("times")
+"""A value, then bases and their powers in turn: the product, which may leave the doubles' range
+in between."""
+
+
+FAR = sp.Integer(10**9)
+"""From here on what depends on e^-x only is what it is at infinity, in double precision."""
+
 
 @dataclass(frozen=True)
 class Step:
@@ -80,8 +88,10 @@ class Block:
         Its name in generated code.
     arguments
         Its variables.
-    definition
-        What it is exactly.
+    total
+        The sum it stands for.
+    lead
+        The power of the variable that the sum is divided by below the seam.
     domain
         Conditions on the variables, in Python's notation.
     summary
@@ -94,16 +104,26 @@ class Block:
 
     name: str
     arguments: tuple[sp.Symbol, ...]
-    definition: sp.Expr
+    total: sp.Expr
+    lead: int
     domain: tuple[str, ...]
     summary: str
     steps: tuple[Step, ...]
     value: sp.Expr | Seam
     truncation: str = ""
 
-    def __call__(self, *arguments: sp.Expr) -> sp.Expr:
-        """The block applied to arguments, as it appears in forms."""
-        return sp.Function(self.name)(*arguments)
+    def __call__(self, argument: sp.Expr) -> sp.Expr:
+        """The block applied to an argument, as it appears in forms."""
+        return sp.Function(self.name)(argument)
+
+    def near(self, argument: sp.Expr) -> sp.Expr:
+        """What the sum is divided by, to the power of its lead: the argument, at most the seam."""
+        return sp.Min(argument, self.value.at) if isinstance(self.value, Seam) else sp.Integer(1)
+
+    def definition(self, argument: sp.Expr) -> sp.Expr:
+        """What the block is exactly."""
+        (own,) = self.arguments
+        return self.total.subs(own, argument) / self.near(argument) ** self.lead
 
 
 def undo(expression: sp.Expr, steps: tuple[Step, ...], blocks: Mapping[str, Block]) -> sp.Expr:
@@ -111,13 +131,26 @@ def undo(expression: sp.Expr, steps: tuple[Step, ...], blocks: Mapping[str, Bloc
     for step in reversed(steps):
         expression = expression.subs(step.symbol, step.expression)
     for block in blocks.values():
-        expression = expression.replace(
-            sp.Function(block.name),
-            lambda *values, block=block: block.definition.subs(
-                dict(zip(block.arguments, values, strict=True)), simultaneous=True
-            ),
-        )
-    return expression.replace(expm1, lambda x: sp.exp(x) - 1)
+        expression = expression.replace(sp.Function(block.name), block.definition)
+    expression = expression.replace(TIMES, _product).replace(expm1, lambda x: sp.exp(x) - 1)
+    return expression.replace(sp.Min, _least)
+
+
+def _product(value: sp.Expr, *powers: sp.Expr) -> sp.Expr:
+    return value * sp.Mul(*(b**p for b, p in zip(powers[::2], powers[1::2], strict=True)))
+
+
+def _least(*bounds: sp.Expr) -> sp.Expr:
+    """Min(a, 1/phi) -> Min(a phi, 1)/phi, and Min(a phi, 1) a symbol: forms hold for any value.
+
+    What is held at FAR is itself.
+    """
+    if FAR in bounds:
+        (bound,) = (bound for bound in bounds if bound != FAR)
+        return bound
+    unit = sp.Mul(*(sp.denom(bound) for bound in bounds))
+    name = sorted(str(sp.expand(bound * unit)) for bound in bounds)
+    return sp.Symbol(f"Min({', '.join(name)})", positive=True) / unit
 
 
 def form(

@@ -15,9 +15,9 @@ from sympy.codegen.cfunctions import expm1
 
 from derivation.formula.record import Formula
 from derivation.formula.symbols import A_j, P, R, T, a, h, lam, mu, phi, r, z
-from derivation.rewrite.automatic import RATIO, automatic, core, ratio
+from derivation.rewrite.automatic import RATIO, automatic, near, ratio
 from derivation.rewrite.blocks import blocks
-from derivation.rewrite.form import Branch, Form, Seam, Step, form
+from derivation.rewrite.form import TIMES, Branch, Form, Seam, Step, form
 
 x, y, u, v, t = sp.symbols("x y u v t", real=True)
 odd, even, odd_u, even_u, odd_v, even_v, odd_T = sp.symbols(
@@ -26,9 +26,7 @@ odd, even, odd_u, even_u, odd_v, even_v, odd_T = sp.symbols(
 minus, plus, bending, stretching, top, bottom = sp.symbols(
     "minus plus bending stretching top bottom", real=True
 )
-modulus, shape, slender, versine, cubic = sp.symbols(
-    "modulus shape slender versine cubic", real=True
-)
+share, versine, cubic = sp.symbols("share versine cubic", real=True)
 two_nu = sp.Symbol("two_nu", real=True)
 alpha, beta, over_T, over_T2 = sp.symbols("alpha beta over_T over_T2", real=True)
 fade, fade_near, fade_far, near_share, far_share = sp.symbols(
@@ -57,7 +55,7 @@ def stable_forms(formulas: Mapping[str, Formula]) -> tuple[Form, ...]:
 
     groups: dict[str, dict[str, _Shape]] = {
         "omega": {name: found(name) for name in OMEGAS},
-        "influence": {name: found(name) for name in INFLUENCE} | {"G_slope": _factor_slope()},
+        "influence": {name: found(name) for name in INFLUENCE},
         "pressure": _pressure() | {name: found(name) for name in ("sonine", "A_j")},
         "mode_shapes": _modes(),
     }
@@ -69,39 +67,26 @@ def stable_forms(formulas: Mapping[str, Formula]) -> tuple[Form, ...]:
 
 
 OMEGAS = tuple(f"Omega_{k}{tail}" for tail in ("", "_scaled") for k in range(1, 5))
-INFLUENCE = ("G", "G_m", "G_minus_1", "C_top", "C_bottom", "K_j", "K_j_bottom")
+INFLUENCE = ("G", "G_m", "G_minus_1", "C_top", "C_bottom", "K_j", "K_j_bottom", "G_slope")
 AUTOMATIC = (*OMEGAS, *INFLUENCE, "sonine", "A_j")
 """Formulas whose forms the rules find."""
 
 _Shape = tuple[tuple[Step, ...], sp.Expr | Seam]
 
 
-def _factor_slope() -> _Shape:
-    """T dG/dT; the rules leave T^5 below, which underflows where the value is finite."""
-    known = blocks()
-    product = known["sinh_minus"](T) * known["sinh_plus"](T)
-    steps = (
-        Step(fade, sp.exp(-T), "half of the decay, twice: neither factor underflows alone"),
-        Step(odd, -expm1(-2 * T) / T, "2 e^(-T) sinh T/T"),
-        Step(near_share, fade * (odd / product) ** 2),
-    )
-    return steps, -8 * fade * (near_share / T**3)
-
-
 def _pressure() -> dict[str, _Shape]:
     """Hertz pressure and the contact force: the edge's root by its two factors."""
-    edge_root = Step(shape, sp.sqrt(a - r) * sp.sqrt(a + r) / a, "1 in the centre, 0 at the edge")
+    fraction = Step(share, r / a)
+    root = sp.sqrt((1 - share) * (1 + share))
     return {
-        "p": ((edge_root, Step(core, P / a**2)), -3 * core * shape / (2 * sp.pi)),
-        "P": (
-            (RATIO, Step(modulus, 16 * mu / (3 * ratio), "(4/3) E*"), Step(slender, a / R)),
-            modulus * a**2 * slender,
-        ),
+        "p": ((fraction,), TIMES(-3 * root / (2 * sp.pi), P, 1, a, -2)),
+        "P": ((RATIO,), TIMES(16 / (3 * ratio), mu, 1, a, 3, R, -1)),
     }
 
 
 DEPTHS = (
     STEP_T,
+    Step(near, blocks()["sinh_minus"].near(T)),
     Step(u, phi * (h + z), "from the far face"),
     Step(v, phi * (h - z), "from the loaded face"),
 )
@@ -125,9 +110,13 @@ def _modes() -> dict[str, _Shape]:
     that the thin plate's limit needs no more than T^3.
     """
     sinh_minus = blocks()["sinh_minus"]
-    product = sinh_minus(T) * blocks()["sinh_plus"](T)
+    product = sinh_minus(T) * near**3 / T**3 * blocks()["sinh_plus"](T) / T
     versine_step = Step(versine, (expm1(-u) / T) ** 2, "2 e^(-u) (cosh u - 1)/T^2")
-    cubic_step = Step(cubic, alpha**3 * sinh_minus(u), "2 e^(-u) (sinh u - u)/T^3")
+    cubic_step = Step(
+        cubic,
+        alpha**3 * sinh_minus(u) * sinh_minus.near(u) ** 3 / u**3,
+        "2 e^(-u) (sinh u - u)/T^3",
+    )
     deflection = _two_faces(
         A_j / (2 * mu * phi) / product,
         odd_T / T * (ratio * even_u + v * odd_u),
@@ -193,7 +182,8 @@ def _in_plane(c: sp.Expr, d: int, c_minus_d: sp.Expr, scale: sp.Expr, *before: S
                     c * sp.cosh(x) * sp.sinh(t)
                     + d * (t * sp.cosh(x) * sp.cosh(t) - x * sp.sinh(x) * sp.sinh(t))
                 )
-                / known["sinh_minus"](T),
+                / known["sinh_minus"](T)
+                * (T / known["sinh_minus"].near(T)) ** 3,
                 "odd in z, times T^3",
             ),
             Step(
@@ -201,9 +191,17 @@ def _in_plane(c: sp.Expr, d: int, c_minus_d: sp.Expr, scale: sp.Expr, *before: S
                 (
                     c_minus_d * sp.sinh(x) / T * sp.cosh(t)
                     + d * t * sp.sinh(t) * sp.sinh(x) / T
-                    - d * sp.exp(x) * x**2 / 4 * known["cosh_gap"](x) * sp.cosh(t)
+                    - d
+                    * sp.exp(x)
+                    * x**2
+                    / 4
+                    * known["cosh_gap"](x)
+                    * known["cosh_gap"].near(x) ** 3
+                    / x**3
+                    * sp.cosh(t)
                 )
-                / known["sinh_plus"](T),
+                / known["sinh_plus"](T)
+                * T,
                 "even in z",
             ),
             Step(over_T, bending / T, "divided by T one at a time: T^3 may underflow"),
@@ -213,7 +211,7 @@ def _in_plane(c: sp.Expr, d: int, c_minus_d: sp.Expr, scale: sp.Expr, *before: S
         {T: sp.Integer(1), x: sp.Rational(1, 2), t: sp.Integer(0)},
     )
     # Above the seam both terms decay, and cancel only where the value crosses zero.
-    denominator = T**4 * known["sinh_minus"](T) * known["sinh_plus"](T)
+    denominator = near**3 * known["sinh_minus"](T) * known["sinh_plus"](T)
     decaying = _two_faces(
         scale / denominator,
         odd_T * (c * odd_u - d * v * even_u),

@@ -3,7 +3,7 @@
 import math
 import random
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import flint
 import sympy as sp
@@ -51,27 +51,60 @@ class Truth:
 
 @dataclass(frozen=True)
 class Gate:
-    """The points of an expression at which forms of it are held to the truth."""
+    """The points of an expression at which forms of it are held to the truth.
+
+    Parameters
+    ----------
+    x, others
+        The variable, and what others are set to.
+    truths
+        The points with the exact values.
+    lead, beyond
+        A power of x, and the same points for the expression times that, which is what counts
+        above a seam.
+    """
 
     x: sp.Symbol
     others: tuple[tuple[sp.Symbol, float], ...]
     truths: tuple[Truth, ...]
+    lead: int = 0
+    beyond: tuple[Truth, ...] = ()
 
     def worst(self, form: sp.Expr | Shape) -> float:
         """Largest error in ULP beyond conditioning; infinite where a result is not finite."""
         steps, value = assembled(form) if isinstance(form, Shape) else ((), form)
-        return max(self._error(truth, steps, value) for truth in self.truths)
+        if not (isinstance(value, Seam) and self.lead):
+            return max(self._error(truth, steps, value) for truth in self.truths)
+        at, held = float(value.at), float(value.at**self.lead)
+        below = (self._error(t, steps, value) for t in self.truths if t.x < at)
+        above = (self._error(t, steps, value, held) for t in self.beyond if t.x >= at)
+        return max(*below, *above)
 
-    def _error(self, truth: Truth, steps: tuple[Step, ...], value: sp.Expr | Seam) -> float:
+    def _error(
+        self, truth: Truth, steps: tuple[Step, ...], value: sp.Expr | Seam, scale: float = 1.0
+    ) -> float:
         try:
-            got = run(steps, value, {self.x: truth.x, **dict(self.others)})
+            got = run(steps, value, {self.x: truth.x, **dict(self.others)}) * scale
         except OverflowError:
             return math.inf
         return max(ulp_error(got, truth.value) - truth.slack, 0.0)
 
 
+def held(inner: Gate, whole: Gate, lead: int) -> Gate:
+    """The gate of an expression over x^lead that above a seam is held to the whole expression.
+
+    There neither excuses more than the other: what is divided by may go its own way.
+    """
+    excused = {truth.x: truth.slack for truth in inner.truths}
+    beyond = (
+        replace(truth, slack=min(truth.slack, excused.get(truth.x, math.inf)))
+        for truth in whole.truths
+    )
+    return replace(inner, lead=lead, beyond=tuple(beyond))
+
+
 def points(low: float, high: float, seed: str) -> tuple[float, ...]:
-    """Decades with random digits between the ends, densely between 1e-4 and 50."""
+    """Decades with random digits between the ends, densely from 1e-4 to 50 and beyond seams."""
     generator = random.Random(seed)
     first, last = math.log10(low), math.log10(high)
     found = {low, high}
@@ -82,13 +115,17 @@ def points(low: float, high: float, seed: str) -> tuple[float, ...]:
     near, far = max(first, -4.0), min(last, 1.7)
     found |= {10 ** generator.uniform(near, far) for _ in range(90)}
     found |= {x for x in LARGE if low <= x <= high}
-    for seam in (0.25, 0.5, 1.0, 1.5, 2.0, 3.0):
-        found |= {y for y in neighbours(seam, 1) if low <= y <= high}
+    for seam in (0.25, 0.5, 1.0, 2.0, 4.0):
+        found |= {*neighbours(seam, 1), *(seam * generator.uniform(1.0, 1.25) for _ in range(12))}
     return tuple(sorted(x for x in found if low <= x <= high))
 
 
 def gate(
-    expression: sp.Expr, x: sp.Symbol, ends: tuple[float, float], equal: sp.Expr | None = None
+    expression: sp.Expr,
+    x: sp.Symbol,
+    ends: tuple[float, float],
+    equal: sp.Expr | None = None,
+    seed: str = "",
 ) -> Gate:
     """The gate of an expression.
 
@@ -102,6 +139,8 @@ def gate(
         The interval in which forms of it are to hold.
     equal
         A form proved equal, for points at which the original has no ball.
+    seed
+        What the points depend on; the expression itself if not given.
 
     Raises
     ------
@@ -118,7 +157,7 @@ def gate(
             f"at most {len(SAMPLES)} further variables are expected, got {others}"
         )
     found = []
-    for point in points(*ends, str(expression)):
+    for point in points(*ends, seed or str(expression)):
         value, slack = _truth(expression, x, point, fixed, equal)
         if value is not None and value != 0 and not overflows(value) and abs(value) > 1e-300:
             found.append(Truth(point, value, slack))

@@ -27,8 +27,9 @@ from derivation.rewrite.terms import (
 
 Rewritten: TypeAlias = sp.Expr | Shape
 
-SEAMS = tuple(sp.Rational(n, 4) for n in (1, 2, 4, 6, 8, 12))
-"""Where a section may end; the first one is taken that is as exact as any."""
+SEAMS = tuple(sp.Rational(n, 4) for n in (1, 2, 4, 8, 16))
+"""Where a section may end; the first one is taken that is as exact as any. Powers of two, so
+that a power of x can stay there what it is without rounding."""
 
 
 @dataclass(frozen=True)

@@ -55,6 +55,8 @@ class Shape:
         Below it the factors' sections serve.
     shared
         Whether exponentials are computed once for both sides of the seam, and their squares.
+    lead
+        This power of x, which the front divides by, stays above the seam what it is there.
     """
 
     x: sp.Symbol
@@ -64,6 +66,7 @@ class Shape:
     factors: tuple[Factor, ...]
     seam: sp.Rational | None = None
     shared: bool = False
+    lead: int = 0
 
     def with_factors(self, factors: Iterable[Factor]) -> "Shape":
         """The shape with other factors."""
@@ -73,9 +76,12 @@ class Shape:
 def assembled(shape: Shape) -> tuple[tuple[Step, ...], sp.Expr | Seam]:
     """Steps and value of a shape; a seam if it has sections."""
     x = shape.x
-    high = _side(shape, shape.power, shape.rate, [(f.far, f.top, 0) for f in shape.factors])
+    beyond = [(f.far, f.top, 0) for f in shape.factors]
     if shape.seam is None:
+        high = _side(shape, shape.power, shape.rate, beyond)
         return high.steps, high.value
+    held = replace(shape, front=shape.front / shape.seam**shape.lead)
+    high = _side(held, shape.power + shape.lead, shape.rate, beyond)
     sides = [
         (f.value / x**f.lead if f.near is None else f.near, f.lead, f.rate) for f in shape.factors
     ]
@@ -115,6 +121,8 @@ def _side(
     if any(step.expression.has(square) for step in steps):
         steps.insert(0, Step(square, x**2))
     value = shape.front * x**power * product * sp.exp(rate * x)
+    if steps and value == steps[-1].symbol:
+        value = steps.pop().expression
     return Branch(tuple(steps), value, _guards(shape))
 
 

@@ -2,12 +2,12 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import sympy as sp
 
 from derivation.rewrite.form import Branch, Seam, Step
-from derivation.rewrite.gate import Gate, gate
+from derivation.rewrite.gate import Gate, gate, held
 from derivation.rewrite.rules import RULES, SHARE, Rewritten, Rule
 from derivation.rewrite.shape import Shape, assembled
 from derivation.rewrite.terms import UnreachableError, terms_of
@@ -68,12 +68,22 @@ class Stable:
 
 
 def stabilise(
-    expression: sp.Expr, x: sp.Symbol, ends: tuple[float, float] = (1e-150, 1e150)
+    expression: sp.Expr, x: sp.Symbol, ends: tuple[float, float] = (1e-150, 1e150), lead: int = 0
 ) -> Stable:
     """The stable form of an expression for positive x.
 
     All rules are applied in turn; then each has to earn its place: it is left out
     if the form without it is as exact.
+
+    Parameters
+    ----------
+    expression, x
+        What is to be computed, and its variable.
+    ends
+        The interval in which the form is to hold.
+    lead
+        A power of x that the expression is divided by only to be finite at 0: above a seam s
+        the form is divided by s^lead instead, without rounding.
 
     Raises
     ------
@@ -81,6 +91,9 @@ def stabilise(
         If the rules do not bring its error down to 8 ULP; with the reason.
     """
     at = gate(expression, x, ends, _decayed(expression, x))
+    if lead:
+        whole = expression * x**lead
+        at = held(at, gate(whole, x, ends, _decayed(whole, x), str(expression)), lead)
     kept = list(RULES)
     form, worst = _through(kept, x, expression, at)
     candidates = list(reversed(RULES))
@@ -109,13 +122,17 @@ def _through(
     form: Rewritten = expression
     for rule in rules:
         try:
-            results = list(rule.apply(x, form))
+            results = [_held(result, at.lead) for result in rule.apply(x, form)]
         except UnreachableError:
             continue
         if len(results) > 1:
             results.sort(key=lambda result: max(at.worst(result), EXACT))
         form = results[0] if results else form
     return form, at.worst(form)
+
+
+def _held(form: Rewritten, lead: int) -> Rewritten:
+    return replace(form, lead=lead) if isinstance(form, Shape) and form.seam else form
 
 
 def _account(

@@ -9,23 +9,21 @@ import sympy as sp
 from derivation.emit.budgets import Budget
 from derivation.emit.printer import to_numpy
 from derivation.formula.record import Formula
-from derivation.formula.symbols import ARGUMENTS, C1, C3, Argument, applicable
+from derivation.formula.symbols import ARGUMENTS, C1, C3, Argument, a, applicable, phi
+from derivation.rewrite.blocks import blocks
 from derivation.rewrite.form import Branch, Form, Seam, Step
 
 MODAL_SUMS = {
-    "delta": "K_j(phi, h, b, R, J1) * hertz_shape(a * phi) * np.minimum(a * phi, 2) ** 3",
+    "delta": "times(hertz_shape(a * phi), (K_j(phi, h, b, R, J1), 1), ({near}, 3))",
     "u": "mode_g(z, phi, h, lam, mu, A) * phi * bessel_j1(phi * r)",
     "w": "mode_f(z, phi, h, lam, mu, A) * bessel_j0(phi * r)",
-    # mode_tt is lam times the dilatation; mode_rr would cancel against J1/r on the axis.
-    "sigma_rr": "mode_tt(z, phi, h, lam, mu, A) * bessel_j0(phi * r)"
-    " + 2 * mu * mode_g(z, phi, h, lam, mu, A) * phi"
-    " * (phi * bessel_j0(phi * r) - _over_radius(r, phi))",
-    "sigma_tt": "mode_tt(z, phi, h, lam, mu, A) * bessel_j0(phi * r)"
-    " + 2 * mu * mode_g(z, phi, h, lam, mu, A) * phi * _over_radius(r, phi)",
+    # 2 mu phi^2 mode_g is mode_rr - mode_tt: with both of these nothing cancels on the axis.
+    "sigma_rr": "mode_rr(z, phi, h, lam, mu, A) * slope + mode_tt(z, phi, h, lam, mu, A) * chord",
+    "sigma_tt": "mode_tt(z, phi, h, lam, mu, A) * slope + mode_rr(z, phi, h, lam, mu, A) * chord",
     "sigma_zz": "mode_zz(z, phi, h, lam, mu, A) * bessel_j0(phi * r)",
     "sigma_rz": "mode_rz(z, phi, h, lam, mu, A) * bessel_j1(phi * r)",
 }
-"""One mode's share of each sum, in terms of the other kernels."""
+"""One mode's share of each sum, in terms of the other kernels; `near` as in `hertz_shape`."""
 
 
 @dataclass(frozen=True)
@@ -95,6 +93,11 @@ class Kernel:
         return self.modes and "A)" in self.value
 
     @property
+    def in_plane(self) -> bool:
+        """Whether the sum's share needs the slope and the chord of J1."""
+        return self.modes and "chord" in self.value
+
+    @property
     def notes(self) -> tuple[str, ...]:
         """What the docstring promises about the error."""
         return budget_notes(self.budget)
@@ -132,9 +135,9 @@ def kernel_of_sum(
     names = {x.name for part in parts for x in part.arguments}
     names -= {"phi", "J1", "A_j", "C1", "C2", "C3", "C4"}
     arguments = tuple(x for x in ARGUMENTS if x.name in names)
-    return _kernel(
-        formula, arguments, "modal_sum", budget, value=MODAL_SUMS[formula.name], modes=True
-    )
+    near = to_numpy(blocks()["hertz_shape"].near(a * phi))
+    share = MODAL_SUMS[formula.name].format(near=near)
+    return _kernel(formula, arguments, "modal_sum", budget, value=share, modes=True)
 
 
 def _kernel(

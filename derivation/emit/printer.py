@@ -29,6 +29,10 @@ class _Printer(NumPyPrinter):
     def _print_Min(self, expr: sp.Min) -> str:
         return f"np.minimum({', '.join(self._print(x) for x in sorted(expr.args, key=_constant))})"
 
+    def _print_Max(self, expr: sp.Max) -> str:
+        arguments = sorted(expr.args, key=sp.default_sort_key)
+        return f"np.maximum({', '.join(self._print(x) for x in arguments)})"
+
     def _print_BesselJ(self, expr: sp.besselj) -> str:
         return f"bessel_j{expr.order}({self._print(expr.argument)})"
 

@@ -46,6 +46,7 @@ from derivation.rewrite.blocks import blocks
 from derivation.rewrite.contact_tables import contact_context, impact_context, sensitivity_context
 from derivation.rewrite.form import Block, Form, Seam
 from derivation.rewrite.moment_tables import moment_context
+from derivation.rewrite.sections import sections
 
 TEMPLATES = Path(__file__).parent / "templates"
 CITATION = "Elastodynamic contact in plate-like bodies"
@@ -89,7 +90,7 @@ def kernel_rows(formulas: Mapping[str, Formula], forms: tuple[Form, ...]) -> tup
 def modules(kernels: tuple[Kernel, ...]) -> tuple[Module, ...]:
     """Stage 2: every file's template and context."""
     grouped = rows_by_module(kernels)
-    known, budgets = blocks(), read_budgets()
+    known, budgets = blocks() | sections(), read_budgets()
 
     def tables(name: str, context: Mapping[str, Any]) -> Module:
         return Module(name, name, {**context, "notes": notes_of(name, budgets)})

@@ -11,7 +11,7 @@ from derivation.formula.proof import prove
 from derivation.rewrite.form import Block, Seam, branches, undo
 from derivation.rewrite.stabilise import Stable, stabilise
 
-T, x, y = sp.symbols("T x y", positive=True)
+T, y = sp.symbols("T y", positive=True)
 ENDS = (1e-150, 1e75)
 """Where blocks are held to the truth; beyond, the powers they are divided by overflow."""
 
@@ -36,13 +36,6 @@ DEFINITIONS: tuple[tuple[str, sp.Symbol, sp.Expr, int, str], ...] = (
         2 * sp.exp(-2 * T) * (sp.cosh(2 * T) - 1 - 2 * T**2),
         4,
         "4 e^(-2T) (sinh^2 T - T^2)",
-    ),
-    (
-        "cosh_gap",
-        x,
-        2 * sp.exp(-x) * (x * sp.cosh(x) - sp.sinh(x)),
-        3,
-        "2 e^(-x) (x cosh x - sinh x)",
     ),
     (
         "hertz_shape",

@@ -1,0 +1,292 @@
+"""Stable forms of one mode's displacements and stresses through the thickness.
+
+Notation: x = phi h, T = 2x, t = phi z, u = phi (h + z), v = phi (h - z), so that u + v = T.
+With D = sinh^2 T - T^2, every field is a multiple of
+
+    deflection  [sinh T (ratio cosh u + v sinh u) + T (ratio cosh v + u sinh v)]/D
+    S_zz        [sinh T (v (cosh u - 1) + sinh u - u) + T (sinh v (cosh u - 1)
+                + cosh v (sinh u - u))]/D
+    S_rz        [sinh T v sinh u + T u sinh v]/D
+    in plane    [sinh T (c sinh u - d v cosh u) - T (c sinh v - d u cosh v)]/D
+
+The terms of the first three are of one sign. In plane they are not: near the middle of
+the plate the shares of both faces cancel, and bending and stretching are added instead.
+Far from it, and in thick plates, those would cancel. Thick plates take decaying
+exponentials, e^(-v) in front and e^(-2u) for what comes by way of the far face; thin ones
+Taylor sections. What may be very large or small is left to `times`.
+"""
+
+import sympy as sp
+from sympy.codegen.cfunctions import expm1
+
+from derivation.formula.symbols import A_j, T, h, lam, mu, phi, z
+from derivation.rewrite.automatic import RATIO, ratio
+from derivation.rewrite.blocks import blocks
+from derivation.rewrite.form import TIMES, Branch, Seam, Step
+from derivation.rewrite.sections import sections
+
+x, t, u, v = sp.symbols("x t u v", real=True)
+odd_u, odd_v, odd_T, far_u, far_v, decay = sp.symbols(
+    "odd_u odd_v odd_T far_u far_v decay", real=True
+)
+near, depth, slip, beyond, fade, tail = sp.symbols("near depth slip beyond fade tail", real=True)
+alpha, beta, zeta = sp.symbols("alpha beta zeta", real=True)
+sum_u, sum_v, less_u, less_v = sp.symbols("sum_u sum_v less_u less_v", real=True)
+head, over, core = sp.symbols("head over core", real=True)
+versine, cubic, minus, plus, reach = sp.symbols("versine cubic minus plus reach", real=True)
+c, c_less_1, modulus = sp.symbols("c c_less_1 modulus", real=True)
+sinh_x, sinh_t, cosh_x, cosh_t = sp.symbols("sinh_x sinh_t cosh_x cosh_t", real=True)
+bending, stretching = sp.symbols("bending stretching", real=True)
+
+Shape = tuple[tuple[Step, ...], sp.Expr | Seam]
+
+THIN = sp.Rational(3, 2)
+"""Below this T, S_zz and S_rz are computed by Taylor sections."""
+
+MIDST = sp.Rational(9, 2)
+"""Below this T, bending and stretching are added up where |t| is below a tenth of it."""
+
+ONCE = sp.Integer(512)
+"""e^(-v) is applied in one piece up to this v; e^(-745) is the smallest double."""
+
+STEP_T = Step(T, 2 * phi * h)
+DEPTHS = (
+    STEP_T,
+    Step(u, phi * (h + z), "from the far face"),
+    Step(v, phi * (h - z), "from the loaded face"),
+)
+FADES = (
+    Step(depth, h - z),
+    Step(slip, phi * (h - depth - z), "what rounding h - z takes from v, exactly"),
+    Step(fade, sp.exp(-sp.Min(v, ONCE)), "decay from the loaded face"),
+    Step(beyond, sp.Min(v, ONCE) - v),
+    Step(tail, sp.exp(beyond - slip), "the rest of it, lest it underflow alone"),
+)
+FADED = (fade, 1, tail, 1)
+FAR_U = Step(far_u, sp.exp(-2 * u), "decay on the way to the far face and back")
+FAR_V = Step(far_v, sp.exp(-2 * v))
+ODD_U = Step(odd_u, -expm1(-2 * u), "2 e^(-u) sinh u")
+ODD_V = Step(odd_v, -expm1(-2 * v), "2 e^(-v) sinh v")
+ODD_T = Step(odd_T, -expm1(-2 * T), "2 e^(-T) sinh T")
+DECAY = Step(decay, sp.exp(-2 * T))
+
+
+def mode_forms() -> dict[str, Shape]:
+    """Steps and value of every field of a mode."""
+    return {
+        "mode_f": _deflection(),
+        "mode_g": _in_plane(
+            1,
+            (A_j, 1, mu, -1, phi, -2),
+            Step(modulus, lam + mu),
+            Step(c, mu / modulus, "1 - 2 nu"),
+            Step(c_less_1, -lam / modulus, "-2 nu"),
+        ),
+        "mode_zz": _axial(),
+        "mode_rz": _shear(),
+        "mode_rr": _in_plane(2, (A_j, 1)),
+        "mode_tt": _hoop(),
+    }
+
+
+def _deflection() -> Shape:
+    """A sum of terms of one sign, in which the half-space's, ratio + v, stands apart."""
+    pair = blocks()["sinh_pair"]
+    share, rest, power, others = sp.symbols("share rest power others", real=True)
+    steps = (
+        *DEPTHS,
+        Step(near, pair.near(T)),
+        RATIO,
+        FAR_U,
+        FAR_V,
+        DECAY,
+        ODD_V,
+        ODD_T,
+        *FADES,
+        Step(head, ratio + v, "the half-space's"),
+        Step(rest, far_u * (ratio - v)),
+        Step(share, decay * (odd_T + 4 * T**2) * (head + rest), "what sinh^2 T/D exceeds 1 by"),
+        Step(over, 2 * T * far_u * (ratio * (1 + far_v) + u * odd_v)),
+        Step(power, near**3),
+        Step(others, power * rest + (share + over) / near / pair(T)),
+        Step(core, power * head + others),
+    )
+    return steps, TIMES(core / 2, *FADED, A_j, 1, mu, -1, phi, -1, near, -3)
+
+
+def _axial() -> Shape:
+    """S_zz; in plates of no thickness alpha^2 (3 beta + alpha), to which the rest is added."""
+    known = sections()
+    square_of, cubic_of = known["cosh_square"], known["sinh_cubic"]
+    quartic_of, quintic_of = known["cosh_quartic"], known["sinh_quintic"]
+    both, fifth, third, first = sp.symbols("both fifth third first", real=True)
+    thin = Branch(
+        (
+            Step(both, 2 + T**2 * cubic_of(T), "(sinh T + T)/T"),
+            Step(fifth, T**2 * quintic_of(T)),
+            Step(
+                third,
+                u**2 * quartic_of(u) + v**2 * square_of(u) * cubic_of(v) / both - 3 * fifth,
+                "what the faces of a plate of no thickness leave of the term in beta",
+            ),
+            Step(
+                first,
+                u**2 * quintic_of(u) + v**2 * cubic_of(u) * square_of(v) / both - fifth,
+                "and of the term in alpha",
+            ),
+            Step(over, (beta * third + alpha * first) / cubic_of(T)),
+            Step(core, alpha**2 * (3 * beta + alpha + over)),
+        ),
+        TIMES(core, A_j, 1),
+        {T: sp.Integer(1), u: sp.Rational(1, 2), v: sp.Rational(1, 2)},
+    )
+    thick = Branch(
+        (
+            DECAY,
+            ODD_T,
+            ODD_V,
+            FAR_V,
+            *FADES,
+            Step(versine, expm1(-u) ** 2, "2 e^(-u) (cosh u - 1)"),
+            Step(cubic, blocks()["sinh_minus"](u) * blocks()["sinh_minus"].near(u) ** 3),
+            Step(head, odd_T * (v * versine + cubic)),
+            Step(over, T * sp.exp(-u) * (odd_v * versine + (1 + far_v) * cubic)),
+            Step(core, (head + over) / (1 - decay * (4 * T**2 + 2 - decay))),
+        ),
+        TIMES(core, *FADED, A_j, 1),
+        {T: THIN, u: sp.Integer(1), v: sp.Integer(1)},
+    )
+    return (*DEPTHS, *FRACTIONS), Seam(T, THIN, thin, thick)
+
+
+FRACTIONS = (
+    Step(alpha, (h + z) / (2 * h), "u/T"),
+    Step(beta, (h - z) / (2 * h), "v/T"),
+)
+
+
+def _shear() -> Shape:
+    """S_rz, which vanishes on both faces."""
+    cubic_of = sections()["sinh_cubic"]
+    thin = Branch(
+        (
+            Step(plus, 1 + T**2 * cubic_of(T), "sinh T/T"),
+            Step(
+                over,
+                (plus * u**2 * cubic_of(u) + v**2 * cubic_of(v)) / (1 + plus),
+                "small beside 1",
+            ),
+            Step(core, alpha * beta * (1 + over) / cubic_of(T)),
+        ),
+        -TIMES(core, A_j, 1, T, -1),
+        {T: sp.Integer(1), u: sp.Rational(1, 2), v: sp.Rational(1, 2)},
+    )
+    thick = Branch(
+        (
+            DECAY,
+            ODD_T,
+            ODD_U,
+            ODD_V,
+            FAR_U,
+            *FADES,
+            Step(over, odd_T * v * odd_u + 2 * T * far_u * u * odd_v),
+            Step(core, over / (1 - decay * (4 * T**2 + 2 - decay))),
+        ),
+        -TIMES(core, *FADED, A_j, 1),
+        {T: THIN, u: sp.Integer(1), v: sp.Integer(1)},
+    )
+    return (*DEPTHS, *FRACTIONS), Seam(T, THIN, thin, thick)
+
+
+MIDDLE = (
+    Step(x, phi * h),
+    Step(t, phi * z),
+    Step(zeta, z / (2 * h), "t/T"),
+    Step(reach, sp.Max(10 * sp.Abs(t), T), "small in thin plates and in the middle of others"),
+)
+GUARDS = {T: sp.Integer(1), x: sp.Rational(1, 2), t: sp.Integer(0), zeta: sp.Integer(0)}
+
+
+def _of_middle() -> tuple[Step, ...]:
+    """Hyperbolic functions for bending and stretching, over the power they vanish with."""
+    ratio_of = sections()["sinh_ratio"]
+    return (
+        Step(sinh_x, ratio_of(x), "sinh x/x"),
+        Step(cosh_x, sp.cosh(x)),
+        Step(sinh_t, ratio_of(t), "sinh t/t"),
+        Step(cosh_t, sp.cosh(t)),
+        Step(minus, T**2 * sections()["sinh_cubic"](T), "(sinh T - T)/T"),
+        Step(plus, 2 * (1 + ratio_of(T)), "2 (sinh T + T)/T"),
+    )
+
+
+def _in_plane(halves: int, scale: tuple[sp.Basic | int, ...], *elastic: Step) -> Shape:
+    """Half so many times `scale` times the sum in plane, d = 1; `elastic` gives c, else c = 1."""
+    const, less = (c, c_less_1) if elastic else (sp.Integer(1), sp.Integer(0))
+    pair = blocks()["sinh_pair"]
+    gap = sections()["cosh_cubic"]
+    middle = Branch(
+        (
+            *_of_middle(),
+            Step(
+                bending,
+                zeta * (sinh_t * (const * cosh_x - x**2 * sinh_x) + cosh_t * cosh_x),
+                "odd in z",
+            ),
+            Step(sum_u, less * sinh_x - x**2 * gap(x)),
+            Step(stretching, cosh_t * sum_u + t**2 * sinh_t * sinh_x, "even in z"),
+            Step(core, bending / minus + stretching / plus),
+        ),
+        TIMES(sp.Rational(halves, 2) * core, *scale),
+        GUARDS,
+    )
+    faces = Branch(
+        (
+            ODD_T,
+            FAR_U,
+            FAR_V,
+            *FADES,
+            Step(near, pair.near(T)),
+            Step(less_v, const - v),
+            Step(less_u, const - u),
+            Step(sum_u, less_v - far_u * (const + v), "2 e^(-u) (c sinh u - v cosh u)"),
+            Step(sum_v, less_u - far_v * (const + u), "the same with u for v"),
+            Step(over, odd_T * sum_u - 2 * T * far_u * sum_v),
+            Step(core, over / pair(T)),
+        ),
+        TIMES(sp.Rational(halves, 2) * core, *FADED, *scale, near, -4),
+        {},
+    )
+    return (*DEPTHS, *elastic, *MIDDLE), Seam(reach, MIDST, middle, faces)
+
+
+def _hoop() -> Shape:
+    """lam times the dilatation: the sum in plane with c = 1 and d = 0."""
+    pair = blocks()["sinh_pair"]
+    scale = (A_j, 1, lam, 1, modulus, -1)
+    middle = Branch(
+        (
+            *_of_middle(),
+            Step(bending, zeta * sinh_t * cosh_x, "odd in z"),
+            Step(core, bending / minus + sinh_x * cosh_t / plus),
+        ),
+        TIMES(core, *scale),
+        GUARDS,
+    )
+    faces = Branch(
+        (
+            ODD_T,
+            Step(odd_u, -expm1(-2 * (x + t)), "2 e^(-u) sinh u"),
+            Step(odd_v, -expm1(-2 * (x - t)), "2 e^(-v) sinh v"),
+            Step(far_u, sp.exp(-2 * (x + t)), "decay on the way to the far face and back"),
+            *FADES,
+            Step(near, pair.near(T)),
+            Step(over, odd_T * odd_u - 2 * T * far_u * odd_v),
+            Step(core, over / pair(T)),
+        ),
+        TIMES(core, *FADED, *scale, near, -4),
+        {},
+    )
+    closer = Step(reach, sp.Max(20 * sp.Abs(t), T), "small in thin plates and mid-plane")
+    steps = (STEP_T, DEPTHS[2], Step(modulus, lam + mu), *MIDDLE[:-1], closer)
+    return steps, Seam(reach, MIDST, middle, faces)

@@ -30,7 +30,11 @@ def standalone(stable: Stable, name: str = "f") -> str:
         "variable": str(stable.variable),
         "formula": sp.sstr(stable.expression),
         "worst": f"{stable.worst:.1f}",
-        "polynomial": any(s.expression.has(POLYNOMIAL) for side in sides for s in side.steps),
+        "polynomial": any(
+            part.has(POLYNOMIAL)
+            for side in sides
+            for part in (side.value, *(step.expression for step in side.steps))
+        ),
         "function": {
             "steps": lines(stable.steps),
             "seam": seam,

@@ -15,6 +15,7 @@ from functools import cache
 from derivation.formula.ulp import neighbours
 from derivation.rewrite.blocks import blocks
 from derivation.rewrite.form import Seam
+from derivation.rewrite.mode_forms import mode_forms
 from derivation.rewrite.moment_tables import FIRST_K, finite_part_start, kappa_start
 
 SMALLEST = -150
@@ -87,11 +88,14 @@ def grid(name: str, arguments: Sequence[str], modes: bool = False) -> tuple[Poin
 
 @cache
 def seams() -> dict[str, tuple[float, ...]]:
-    """Where the stable forms change branches, by variable: T = 2 phi h, x = phi h or y = a phi."""
+    """Where the stable forms change branches, by variable.
+
+    T is 2 phi h, y is a phi, and reach the larger of T and a multiple of phi |z|.
+    """
     found: dict[str, set[float]] = {}
-    for block in blocks().values():
-        if isinstance(block.value, Seam):
-            found.setdefault(str(block.value.variable), set()).add(float(block.value.at))
+    for value in (*(b.value for b in blocks().values()), *(v for _, v in mode_forms().values())):
+        if isinstance(value, Seam):
+            found.setdefault(str(value.variable), set()).add(float(value.at))
     return {variable: tuple(sorted(places)) for variable, places in found.items()}
 
 
@@ -103,7 +107,7 @@ def _around(place: float) -> tuple[float, ...]:
 
 def depths(generator: random.Random) -> list[float]:
     """Values of x = phi h: both sides of every seam, decades, the middle densely, the far end."""
-    at_seams = [*seams().get("x", ()), *(T / 2 for T in seams().get("T", ()))]
+    at_seams = [T / 2 for variable in ("T", "reach") for T in seams()[variable]]
     return [
         *(x for place in sorted(set(at_seams)) for x in _around(place)),
         *(10.0**exponent for exponent in SMALL[::2]),

@@ -69,19 +69,24 @@ _OF_SEAM: dict[str, tuple[tuple[str, Callable[[float], _Inputs]], ...]] = {
         ("G_minus_1", lambda T: _hex(T=T)),
         ("Omega_1_scaled", lambda T: _hex(phi=T / 2, h=1.0, lam=LAM, mu=MU)),
         ("K_j", lambda T: _hex(phi=T / 2, h=1.0, b=10.0, R=3.0, J1=0.25)),
+        ("mode_zz", lambda T: _hex(z=0.25, phi=T / 2, h=1.0, **_MODE)),
+        ("mode_rz", lambda T: _hex(z=-0.5, phi=T / 2, h=1.0, **_MODE)),
     ),
-    "x": (
-        ("mode_g", lambda x: _hex(z=0.75, phi=x, h=1.0, **_MODE)),
-        ("mode_rr", lambda x: _hex(z=-0.5, phi=x, h=1.0, **_MODE)),
-        ("mode_tt", lambda x: _hex(z=0.25, phi=x, h=1.0, **_MODE)),
+    "reach": (
+        ("mode_g", lambda T: _hex(z=0.0625, phi=T / 2, h=1.0, **_MODE)),
+        ("mode_rr", lambda T: _hex(z=-0.0625, phi=T / 2, h=1.0, **_MODE)),
+        ("mode_tt", lambda T: _hex(z=0.03125, phi=T / 2, h=1.0, **_MODE)),
+        ("mode_g", lambda ten_t: _hex(z=ten_t / 5, phi=0.5, h=1.0, **_MODE)),
+        ("mode_rr", lambda ten_t: _hex(z=-ten_t / 5, phi=0.5, h=1.0, **_MODE)),
+        ("mode_tt", lambda twenty_t: _hex(z=twenty_t / 10, phi=0.5, h=1.0, **_MODE)),
     ),
     "y": (
         ("sonine", lambda y: _hex(phi=y, a=1.0)),
         ("A_j", lambda y: _hex(phi=y, b=10.0, R=3.0, a=1.0, lam=LAM, mu=MU, J1=0.25)),
     ),
 }
-"""Kernels that pass through a seam in T = 2 phi h, x = phi h or y = a phi, and arguments
-by which they come to it exactly: lengths are 1."""
+"""Kernels that pass through a seam in T = 2 phi h, y = a phi or a field's reach, and arguments
+by which they come to it: lengths are 1."""
 
 
 def _block_seams() -> Iterator[Case]:

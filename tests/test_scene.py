@@ -269,7 +269,8 @@ def test_json_keys_and_notebook_table() -> None:
     result = simulate(scene)
     made = result.to_json()
     assert list(made) == [
-        "contact_time", "max_indentation", "max_force", "max_contact_radius", "warnings", "scene",
+        "contact_time", "max_indentation", "max_force", "max_contact_radius", "accuracy",
+        "warnings", "scene",
     ]  # fmt: skip
     again = json.loads(json.dumps(made))
     assert again["contact_time"] == result.contact_time
@@ -341,13 +342,13 @@ def test_extreme_scene_gives_numbers_or_words(tables: dict[str, dict[str, float]
 
 def test_kernel_without_a_number_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     nothing = hertz.Impact(*(np.array(math.nan) for _ in range(4)))
-    monkeypatch.setattr(kernels, "impact", lambda *_: nothing)
+    monkeypatch.setattr(kernels, "impact", lambda *_, **__: nothing)
     with pytest.raises(SceneError, match=r"no number for h/b = 0\.1"):
         simulate(read(changed()))
 
 
 def test_kernel_beyond_the_radius_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(kernels, "impact", lambda *_: hertz.Impact(1.0, 1.0, 1.0, 0.14))
+    monkeypatch.setattr(kernels, "impact", lambda *_, **__: hertz.Impact(1.0, 1.0, 1.0, 0.14))
     with pytest.raises(SceneError, match=r"below min\(b, R\) = 0\.13 m, got 0\.14 m"):
         simulate(read(changed()))
 

@@ -45,6 +45,12 @@ def read_budgets() -> dict[str, Budget]:
     return parse_budgets(tomllib.loads(BUDGETS.read_text()))
 
 
+def read_promises() -> dict[str, float]:
+    """Relative errors of the impact that were measured, not proven, as committed."""
+    found: dict[str, float] = tomllib.loads(BUDGETS.read_text())["impact"]
+    return found
+
+
 def parse_budgets(data: Mapping[str, Any]) -> dict[str, Budget]:
     """Budgets by kernel from the tables `ulp`, `domain` and `rule`."""
     numbers, domains, rules = data["ulp"], data["domain"], data["rule"]

@@ -21,7 +21,7 @@ from typing import Any
 import jinja2
 import sympy as sp
 
-from derivation.emit.budgets import read_budgets
+from derivation.emit.budgets import read_budgets, read_promises
 from derivation.emit.kernels import (
     MODAL_SUMS,
     AsPrinted,
@@ -47,6 +47,7 @@ from derivation.rewrite.contact_tables import contact_context, impact_context, s
 from derivation.rewrite.form import Block, Form, Seam
 from derivation.rewrite.moment_tables import moment_context
 from derivation.rewrite.sections import sections
+from derivation.rewrite.simple_impact_tables import simple_impact_context
 
 TEMPLATES = Path(__file__).parent / "templates"
 CITATION = "Elastodynamic contact in plate-like bodies"
@@ -105,8 +106,9 @@ def modules(kernels: tuple[Kernel, ...]) -> tuple[Module, ...]:
         tables("contact_series", contact_context()),
         tables("contact_law", {}),
         tables("reversed_series", {}),
-        tables("impact", impact_context()),
+        tables("impact", {**impact_context(), "promises": read_promises()}),
         tables("sensitivity", sensitivity_context()),
+        Module("simple_impact", "simple_impact", simple_impact_context()),
         Module(
             "manifest",
             "manifest",

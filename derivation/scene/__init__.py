@@ -5,8 +5,9 @@ Read in this order:
 1. `scene`: reads and validates the scene file.
 2. `model`: turns the scene into the numbers the kernels take.
 3. `limits`: refuses what lies outside the contact law, warns where it grows inexact.
-4. `impact`, `indentation`: simulate an impact, press the sphere in by a given amount.
-5. `result`: what comes out, as JSON, CSV and a notebook table; `plot` draws it.
+4. `choice`: the cheapest method whose error bound meets a tolerance.
+5. `impact`, `indentation`: simulate an impact, press the sphere in by a given amount.
+6. `result`: what comes out, as JSON, CSV and a notebook table; `plot` draws it.
 
 `kernels` is the only door to the generated package; `commands` is the command line.
 

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from derivation.files import write_file
-from derivation.screen import NOTES, put_json, table
+from derivation.screen import NOTES, OUT, put_json, table
 
 SceneFile = Annotated[Path, typer.Argument(metavar="SCENE.toml", help="Scene file.")]
 Json = Annotated[
@@ -25,6 +25,10 @@ def simulate(
         Path | None,
         typer.Option(metavar="FILE", help="Write time, indentation, velocity, radius and force."),
     ] = None,
+    rtol: Annotated[
+        float | None,
+        typer.Option(metavar="X", help="Relative tolerance, 1e-13 to 1: cheapest method."),
+    ] = None,
 ) -> None:
     """Simulate the impact of a scene file.
 
@@ -34,7 +38,7 @@ def simulate(
     from derivation.scene import simulate as run
 
     _check_outputs(scene, json, plot, csv)
-    result = run(load(scene))
+    result = run(load(scene), rtol=rtol)
     _warn(result.warnings)
     # Everything is made before anything is written.
     files = {} if csv is None else {csv: result.history().to_csv().encode()}
@@ -44,6 +48,7 @@ def simulate(
         files[plot] = render(result, plot.suffix)
     if json != "-":
         table(f"Impact of {scene.name}", ("quantity", "#value", "unit"), result.rows())
+        OUT.print(str(result.accuracy), markup=False, highlight=False, soft_wrap=True)
     for path, content in files.items():
         write_file(path, content)
     if json:

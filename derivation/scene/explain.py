@@ -12,8 +12,15 @@ Fields = Mapping[str, Mapping[str, FieldInfo]]
 EXPECTED = {
     "lame_lambda": "a finite number",
     "poissons_ratio": "a number above -1 and below 0.5",
+    "rtol": "a number from 1e-13 to 1",
 }
 """What a key is to hold, if not a positive number."""
+
+ELSEWHERE = {
+    "rtol": "; for more digits than doubles hold run "
+    "`platecontact reference SCENE.toml --digits N`",
+}
+"""Where to go with what a key does not take."""
 
 
 def shown(value: Any) -> str:
@@ -65,8 +72,9 @@ def explain(kind: str, place: tuple[int | str, ...], value: Any, fields: Fields)
     example = _line(table, (key, field))
     if kind == "missing":
         return f"{name}: {expected}, got nothing; add {example} to [{table}]"
+    elsewhere = ELSEWHERE.get(key, "")
     quotes = " without quotes" if isinstance(value, str) else ""
-    return f"{name}: {expected}, got {shown(value)}; write it{quotes} like {example}"
+    return f"{name}: {expected}, got {shown(value)}; write it{quotes} like {example}{elsewhere}"
 
 
 def choice_problem(

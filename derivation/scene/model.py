@@ -29,6 +29,11 @@ class Model:
     mu: float
 
     @property
+    def numbers(self) -> tuple[float, float, float, float, float, float, float]:
+        """R, m, v0, h, b, lam and mu, as the kernels of an impact take them."""
+        return self.R, self.m, self.v0, self.h, self.b, self.lam, self.mu
+
+    @property
     def eta(self) -> float:
         """Half-thickness over plate radius, h/b [1]."""
         return self.h / self.b

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from derivation.scene import kernels
+from derivation.scene.choice import Accuracy
 from derivation.scene.model import Model
 from derivation.scene.scene import Scene, SceneError
 
@@ -60,6 +61,8 @@ class Result:
         Largest contact force [N].
     max_contact_radius
         Largest contact radius [m].
+    accuracy
+        The method and the bound of its relative error.
     warnings
         What to know about the result.
     scene, model
@@ -72,6 +75,7 @@ class Result:
     max_indentation: float
     max_force: float
     max_contact_radius: float
+    accuracy: Accuracy
     warnings: tuple[str, ...]
     scene: Scene
     model: Model = field(repr=False)
@@ -95,7 +99,7 @@ class Result:
         return replace(self, times=wanted)
 
     def history(self, n: int | None = None) -> History:
-        """The course of the impact.
+        """The course of the impact, by the full method.
 
         Parameters
         ----------
@@ -113,14 +117,23 @@ class Result:
         if n is None and self.times is not None:
             times = np.array(self.times, dtype=np.float64)
         else:
-            times = np.linspace(0.0, self.contact_time, n or POINTS)
-        m = self.model
-        return History(times, *kernels.history(times, m.R, m.m, m.v0, m.h, m.b, m.lam, m.mu))
+            times = np.linspace(0.0, self._release(), n or POINTS)
+        return History(times, *kernels.history(times, *self.model.numbers))
+
+    def _release(self) -> float:
+        """Contact time by the full method, with which the history ends [s]."""
+        if self.accuracy.method == "full":
+            return self.contact_time
+        return float(kernels.impact(*self.model.numbers).contact_time)
 
     def to_json(self) -> dict[str, Any]:
-        """The result in SI, with its warnings and the scene it belongs to."""
+        """The result in SI, with its accuracy, its warnings and the scene it belongs to."""
         numbers = {name: getattr(self, name) for name in UNITS}
-        return numbers | {"warnings": list(self.warnings), "scene": self.scene.to_json()}
+        return numbers | {
+            "accuracy": self.accuracy.to_json(),
+            "warnings": list(self.warnings),
+            "scene": self.scene.to_json(),
+        }
 
     def rows(self) -> list[tuple[str, str, str]]:
         """Quantity, value and unit, to be read by people."""
@@ -135,7 +148,8 @@ class Result:
             f"<tr><td>{name}</td><td style='text-align:right'>{value}</td><td>{unit}</td></tr>"
             for name, value, unit in self.rows()
         )
-        notes = "".join(f"<p><b>Warning:</b> {escape(text)}</p>" for text in self.warnings)
+        notes = f"<p>{escape(str(self.accuracy))}</p>"
+        notes += "".join(f"<p><b>Warning:</b> {escape(text)}</p>" for text in self.warnings)
         return f"<table>{''.join(cells)}</table>{notes}"
 
 

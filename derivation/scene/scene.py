@@ -14,6 +14,8 @@ from derivation.scene.explain import choice_problem, explain, shown
 
 Positive = Annotated[float, Field(gt=0)]
 Groups = tuple[tuple[str, ...], ...]
+TIGHTEST = 1e-13
+"""Smallest relative tolerance: doubles promise no more."""
 CONFLICT = "conflict"
 """Error type of keys that are right one by one but not together."""
 
@@ -117,12 +119,21 @@ class Impact(Table):
     speed: Positive = Field(description="impact speed [m/s]", examples=[1.0])
 
 
+class Accuracy(Table):
+    """How exact the result is to be."""
+
+    rtol: Annotated[float, Field(ge=TIGHTEST, le=1)] = Field(
+        description="relative tolerance of every result [1]", examples=[1e-6]
+    )
+
+
 class Scene(Table):
     """A sphere striking a plate."""
 
     sphere: Sphere = Field(description="the rigid sphere that strikes")
     plate: Plate = Field(description="the elastic plate that is struck in its middle")
     impact: Impact = Field(description="how the sphere arrives")
+    accuracy: Accuracy | None = Field(None, description="how exact the result is to be")
 
     @classmethod
     def conflicts(cls, given: Mapping[str, Any]) -> list[str]:  # noqa: ARG003
@@ -134,7 +145,12 @@ class Scene(Table):
         return self.model_dump(exclude_none=True)
 
 
-TABLES: dict[str, type[Table]] = {"sphere": Sphere, "plate": Plate, "impact": Impact}
+TABLES: dict[str, type[Table]] = {
+    "sphere": Sphere,
+    "plate": Plate,
+    "impact": Impact,
+    "accuracy": Accuracy,
+}
 
 
 def load(path: str | Path) -> Scene:
@@ -143,7 +159,8 @@ def load(path: str | Path) -> Scene:
     Parameters
     ----------
     path
-        TOML file with the tables ``sphere``, ``plate`` and ``impact``, in SI units.
+        TOML file with the tables ``sphere``, ``plate`` and ``impact``, in SI units, and if
+        wanted ``accuracy``.
 
     Raises
     ------
@@ -184,7 +201,8 @@ def read(data: Mapping[str, Any], source: str = "scene") -> Scene:
     Parameters
     ----------
     data
-        Tables ``sphere``, ``plate`` and ``impact``, each a mapping from key to number, in SI.
+        Tables ``sphere``, ``plate``, ``impact`` and, if wanted, ``accuracy``, each a mapping
+        from key to number, in SI.
     source
         What messages call the scene, for instance its file.
 

@@ -20,6 +20,7 @@ and from the contact law to the motion:
 15 reversion        the force by the indentation: xi_k (10), p_n
 16 impact           energy integral (13), contact time, linearisation (15) to (18)
 17 sensitivity      slopes of the law; what every parameter does to an impact
+18 substitution     how far an impact moves if its law is replaced by a simpler one
 """
 
 from collections.abc import Callable, Iterator
@@ -41,6 +42,7 @@ from derivation.theory.plate_series import series_formulas
 from derivation.theory.reversion import reversion
 from derivation.theory.sensitivity import sensitivity
 from derivation.theory.stresses import modal_stresses
+from derivation.theory.substitution import substitution
 from derivation.theory.thin_plate import thin_plate
 from derivation.theory.thin_remainder import thin_remainder
 
@@ -66,6 +68,7 @@ MOTION_LINKS: tuple[Link, ...] = (
     ("reversion", reversion),
     ("impact", impact),
     ("sensitivity", sensitivity),
+    ("substitution", substitution),
 )
 """What follows from the contact law. Apart: these formulas hold integrals and constants too."""
 

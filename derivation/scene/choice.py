@@ -1,0 +1,177 @@
+"""Takes the cheapest method whose error bound meets a tolerance, and says what the bound rests on.
+
+From the cheapest: `hertz` and `leading` know a proven bound of what they leave out of the law;
+`coarse` and `full` take the whole law, with half the quadrature's nodes and with all. A
+bound is a relative error of all four results against the law with the scene's numbers, these
+being the doubles that the scene turns into.
+"""
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from derivation.scene import kernels
+from derivation.scene.explain import shown
+from derivation.scene.limits import check_energy
+from derivation.scene.model import Model
+from derivation.scene.scene import TIGHTEST, SceneError
+
+METHODS = {
+    "hertz": "Hertz' law alone",
+    "leading": "Hertz' law and its first correction",
+    "coarse": "the whole law, half the nodes",
+    "full": "the whole law",
+}
+"""From the cheapest to the dearest."""
+PROVED, COUNTED, MEASURED = "proved", "counted", "measured"
+"""What a bound rests on: a proof; operations times their rounding; a promise held in tests."""
+
+
+@dataclass(frozen=True)
+class Part:
+    """One part of an error bound.
+
+    Attributes
+    ----------
+    bound
+        Relative error [1].
+    basis
+        `proved`, `counted` or `measured`.
+    """
+
+    bound: float
+    basis: str
+
+
+@dataclass(frozen=True)
+class Accuracy:
+    """How an impact was computed and how wrong it may be.
+
+    Attributes
+    ----------
+    method
+        One of `METHODS`.
+    rtol
+        The tolerance that was asked for [1]; None if none was.
+    law, quadrature, rounding
+        Parts of the bound: what is left out of the contact law, what the integral for the
+        contact time misses, and the arithmetic, of the law's tables too.
+    """
+
+    method: str
+    rtol: float | None
+    law: Part
+    quadrature: Part
+    rounding: Part
+
+    @property
+    def parts(self) -> dict[str, Part]:
+        """The bound's parts by name."""
+        return {"law": self.law, "quadrature": self.quadrature, "rounding": self.rounding}
+
+    @property
+    def bound(self) -> float:
+        """Bound of the relative error of every result [1]."""
+        return math.expm1(sum(math.log1p(part.bound) for part in self.parts.values()))
+
+    def to_json(self) -> dict[str, Any]:
+        """Method, tolerance and bound, with each part and what it rests on."""
+        parts = {
+            name: {"bound": part.bound, "basis": part.basis} for name, part in self.parts.items()
+        }
+        return {"method": self.method, "rtol": self.rtol, "bound": self.bound, "parts": parts}
+
+    def __str__(self) -> str:
+        """Method and bound in a sentence."""
+        parts = ", ".join(
+            f"{name} {_above(part.bound)} ({part.basis})"
+            for name, part in self.parts.items()
+            if part.bound
+        )
+        return (
+            f"method {self.method} ({METHODS[self.method]}): "
+            f"relative error at most {_above(self.bound)}, of this {parts}"
+        )
+
+
+def _above(bound: float) -> str:
+    """Two digits of a bound, rounded up."""
+    text = f"{bound:.1e}"
+    return text if float(text) >= bound else f"{1.05 * bound:.1e}"
+
+
+Numbers = tuple[float, float, float, float]
+
+
+def check_rtol(rtol: float) -> float:
+    """The tolerance, if doubles can meet it.
+
+    Raises
+    ------
+    SceneError
+        If it is not between 1e-13 and 1.
+    """
+    number = isinstance(rtol, (int, float)) and not isinstance(rtol, bool)
+    if not number or not TIGHTEST <= rtol <= 1:
+        raise SceneError(
+            f"rtol: expected a relative tolerance from {TIGHTEST:g} to 1, got {shown(rtol)}; for "
+            "more digits than doubles hold run `platecontact reference SCENE.toml --digits N`"
+        )
+    return float(rtol)
+
+
+def solve(model: Model, rtol: float | None = None) -> tuple[Numbers, Accuracy]:
+    """Contact time, largest indentation, force and contact radius, by the cheapest method.
+
+    Parameters
+    ----------
+    rtol
+        Relative tolerance of every result [1], from 1e-13 to 1; without it the full method.
+
+    Raises
+    ------
+    SceneError
+        If the impact leaves the contact law's range.
+    """
+    if rtol is not None:
+        for method in ("hertz", "leading"):
+            found = _simple(model, method, rtol)
+            if found is not None and found[1].bound <= rtol:
+                return found
+    check_energy(model)
+    coarse = rtol is not None and whole_law("coarse", rtol).bound <= rtol
+    with np.errstate(all="ignore"):  # extreme scenes end in NaN, which is looked for
+        values = kernels.impact(*model.numbers, coarse=coarse)
+    contact_time, delta, P, a = (float(value) for value in values)
+    return (contact_time, delta, P, a), whole_law("coarse" if coarse else "full", rtol)
+
+
+def whole_law(method: str, rtol: float | None) -> Accuracy:
+    """The bounds of `coarse` and `full`, which do not depend on the scene."""
+    coarse = method == "coarse"
+    quadrature = kernels.COARSE_QUADRATURE if coarse else kernels.FULL_QUADRATURE
+    return Accuracy(
+        method,
+        rtol,
+        law=Part(0.0, PROVED),
+        quadrature=Part(quadrature, MEASURED),
+        rounding=Part(kernels.ROUNDING, MEASURED),
+    )
+
+
+def _simple(model: Model, method: str, rtol: float) -> tuple[Numbers, Accuracy] | None:
+    """Results and bounds of `hertz` or `leading`; None where nothing is shown."""
+    run = kernels.hertz if method == "hertz" else kernels.leading
+    found = run(*model.numbers)
+    if found is None:
+        return None
+    accuracy = Accuracy(
+        method,
+        rtol,
+        law=Part(found.law, PROVED),
+        quadrature=Part(found.quadrature, PROVED),
+        rounding=Part(found.rounding, COUNTED),
+    )
+    return found[:4], accuracy

@@ -103,6 +103,10 @@ def check(
     hard: Annotated[
         bool, typer.Option("--hard", help="Check the hard cases instead: seconds.")
     ] = False,
+    bounds: Annotated[
+        int | None,
+        typer.Option("--bounds", metavar="N", min=1, help="Hold stated bounds to N scenes."),
+    ] = None,
     propose: Annotated[
         bool, typer.Option("--propose", help="Print tighter error budgets; write nothing.")
     ] = False,
@@ -127,12 +131,12 @@ def check(
     from derivation.measure.record import COLUMNS, as_data, cells, passed, worst
 
     if search is not None:
-        if contact or speed or hard or record or propose:
+        if contact or speed or hard or bounds or record or propose:
             raise ValueError("--search stands alone: expected no other of check's options")
         raise typer.Exit(_check_search(search, seed, kernel or [], out, json))
-    if contact + speed + hard > 1:
+    if contact + speed + hard + bool(bounds) > 1:
         raise ValueError(
-            "expected one of --contact, --speed and --hard: run them one after the other"
+            "expected one of --contact, --speed, --hard and --bounds: run them one after the other"
         )
     if kernel or out:
         raise ValueError("--kernel and --out belong to --search: add --search 60s")
@@ -142,6 +146,8 @@ def check(
         raise typer.Exit(_check_speed(record, json))
     if hard:
         raise typer.Exit(_check_hard(record, json))
+    if bounds:
+        raise typer.Exit(_check_bounds(bounds, record, json))
     with counted("check") as tell:
         rows = pipeline.check(digits, record, tell)
     if json != "-":
@@ -196,6 +202,24 @@ def _check_hard(record: bool, json: str | None) -> int:
     if json:
         put_json(as_data(rows), json)
     return 1 if failed else 0
+
+
+def _check_bounds(count: int, record: bool, json: str | None) -> int:
+    """Hold stated error bounds to random scenes; returns the exit status."""
+    from derivation import pipeline
+
+    with counted("check") as tell:
+        rows = pipeline.check_bounds(count, record, tell)
+    if json != "-":
+        cells = [
+            (r.method, r.runs, f"{r.ratio:.3f}", f"{r.error:.2g}", f"{r.bound:.2g}", r.quantity)
+            for r in rows
+        ]
+        heads = ("method", "#runs", "#worst error/bound", "#error", "#bound", "of")
+        table(f"Stated bounds in {count} scenes", heads, cells)
+    if json:
+        put_json([asdict(row) for row in rows], json)
+    return 0 if all(row.kept for row in rows) else 1
 
 
 def _check_speed(record: bool, json: str | None) -> int:

@@ -24,7 +24,7 @@ from derivation.emit.render import CITATION
 from derivation.emit.standalone import standalone
 from derivation.files import PACKAGE, ROOT, measurements, write_file
 from derivation.formula.parse import parse
-from derivation.measure import hard_check, speed
+from derivation.measure import bounds, hard_check, speed
 from derivation.measure.check import Progress, Row
 from derivation.measure.check import check as measure
 from derivation.measure.contact import KERNELS, LIMIT
@@ -41,16 +41,20 @@ from derivation.report.content import tex
 from derivation.report.figures import figures, motion_context
 from derivation.rewrite.account import Account, accounts
 from derivation.rewrite.stabilise import Stable, stabilise
+from derivation.scene.choice import solve
 from derivation.scene.model import Model, model_of
 from derivation.scene.scene import load
 from generated import contact_law, impact
 
 REPORTS = ROOT / "reports"
+KEPT_EVERY = 20
+"""Truths of random scenes after which they are written."""
 MEASURED = measurements() / "check.json"
 MEASURED_CONTACT = measurements() / "contact.json"
 REWRITTEN = measurements() / "rewrite.json"
 MEASURED_SPEED = measurements() / "speed.json"
 MEASURED_HARD = measurements() / "hard.json"
+MEASURED_BOUNDS = measurements() / "bounds.json"
 EXAMPLE = PACKAGE / "scene" / "examples" / "paper.toml"
 
 
@@ -147,6 +151,39 @@ def check_speed(record: bool = False, tell: Progress | None = None) -> list[spee
         text = json.dumps(speed.as_data(timings), indent=1, sort_keys=True) + "\n"
         write_file(MEASURED_SPEED, text)
     return timings
+
+
+def check_bounds(
+    count: int, record: bool = False, tell: Progress | None = None
+) -> tuple[bounds.Row, ...]:
+    """Hold the bounds that `simulate` states to the first `count` random scenes.
+
+    Truths that are committed are taken as they are; others are sought, about a second each,
+    and if asked kept every few, so that a run that was stopped goes on where it was.
+    """
+    known = committed_truths()
+    if record:
+        folder_for(None, REPORTS)
+    found: list[bounds.Truth] = []
+    for true in bounds.truths(count, known, tell=tell):
+        found.append(true)
+        if record and len(found) > len(known) and len(found) % KEPT_EVERY == 0:
+            write_file(MEASURED_BOUNDS, bounds.to_json(found, ()))
+    rows = bounds.judge(found, _chosen)
+    if record:
+        write_file(MEASURED_BOUNDS, bounds.to_json(found + known[count:], rows))
+    return rows
+
+
+def committed_truths() -> list[bounds.Truth]:
+    """The random scenes' truths that are committed."""
+    return bounds.from_json(MEASURED_BOUNDS.read_text()) if MEASURED_BOUNDS.is_file() else []
+
+
+def _chosen(point: bounds.Point, rtol: float) -> tuple[Sequence[float], str, float]:
+    """An impact as `simulate` computes it: results, method and bound."""
+    values, accuracy = solve(Model(*point), rtol)
+    return values, accuracy.method, accuracy.bound
 
 
 def rewriting(record: bool = False, tell: Progress | None = None) -> tuple[Account, ...]:

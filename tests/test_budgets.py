@@ -56,7 +56,9 @@ def looser(now: dict[str, Any], before: dict[str, Any]) -> list[str]:
         )
         if ulp > former.get(name, ulp) or added - {""}:
             found.append(name)
-    return found
+    measured = now["impact"]
+    wider = [name for name, old in before.get("impact", {}).items() if measured[name] > old]
+    return found + wider
 
 
 def test_budgets_are_within_what_is_required() -> None:
@@ -83,6 +85,8 @@ def test_what_is_looser_is_noticed() -> None:
         wider = {**now, "ulp": {**now["ulp"], name: now["ulp"][name] + 1.25}}
         assert looser(wider, now) == [name]
     assert looser({**now, "ulp": {**now["ulp"], "force": 9.25}}, first) == ["force"]
+    measured = {**now, "impact": {**now["impact"], "rounding": 2 * now["impact"]["rounding"]}}
+    assert looser(measured, now) == ["rounding"]
     narrower = {**now, "domain": {**now["domain"], "G": "T > 0, T < 9"}}
     assert looser(narrower, now) == ["G"]
     assert looser(now, narrower) == []

@@ -1,0 +1,78 @@
+"""Link 18: the law between two simple ones, and the numbers that the bounds are made of."""
+
+import flint
+import numpy as np
+import pytest
+
+from derivation.formula.proof import SYMBOLIC
+from derivation.rewrite import simple_impact_tables as tables
+from derivation.rewrite.moment_tables import plate_excess
+from derivation.theory import substitution
+from derivation.theory.plate_series import kappa_ball
+from derivation.theory.thin_remainder import coefficient_remainder_ball
+from generated import simple_impact
+
+
+def test_every_step_is_proved_without_numerics() -> None:
+    proofs = [f.proof for f in substitution.substitution()]
+    assert {p.method for p in (*proofs, substitution.lemma())} == {SYMBOLIC}
+
+
+def test_wall_rest_is_the_series_beyond_its_first_term() -> None:
+    total, factorial = flint.arb(0), flint.arb(1)
+    for n in range(2, 40, 2):
+        factorial *= n * (n + 1)
+        total += kappa_ball(n, 15) / factorial
+    series = 4 * total / flint.arb.pi() ** 2
+    assert abs(substitution.wall_rest_ball() - series) < 1e-11
+
+
+@pytest.mark.parametrize("k", [2, 3])
+@pytest.mark.parametrize("inverse", [6.0, 9.0])
+def test_roots_share_is_below_its_bound(k: int, inverse: float) -> None:
+    share = abs(coefficient_remainder_ball(k, 1 / inverse, 10))
+    assert share < tables._roots(k) * (-flint.arb.pi() * inverse).exp()
+
+
+def test_faded_modes_are_below_their_bound() -> None:
+    eta = 1 / tables.THIN
+    for power in (0, 2):
+        total = flint.arb(0)
+        for zero, weight in tables.modes(60):
+            T = 2 * eta * zero
+            if tables.FADED < T:
+                total += weight * plate_excess(T) * T**power
+        assert 0 < total < tables._faded(power)
+
+
+@pytest.mark.parametrize("nodes", [4, 6, 8, 10])
+def test_quadrature_errs_less_than_its_bound(nodes: int) -> None:
+    bound = float(substitution.time_quadrature_bound(nodes))
+
+    def integral(count: int, x: float) -> float:
+        u, weights = np.polynomial.legendre.leggauss(count)
+        q = 1 - ((1 + u) / 2) ** 2
+        fifth = 1 + q * (1 + q * (1 + q * (1 + q)))
+        radicand = 6 * fifth + 5 * x * (1 + q * fifth)
+        return float(np.sum(weights * q * (1 + x * q) / np.sqrt(radicand)))
+
+    for x in (-0.5, -0.2, 0.0, 1.0, 30.0, 1e8):
+        assert abs(integral(nodes, x) / integral(48, x) - 1) < bound
+    assert bound < 30 * 2.4 ** (1 - 2 * nodes)
+
+
+def test_an_ellipse_with_a_root_inside_is_refused() -> None:
+    with pytest.raises(ArithmeticError, match="inside the ellipse"):
+        substitution._no_root_inside(flint.arb(3))
+
+
+def test_thin_and_thick_plates_meet() -> None:
+    below, above = (simple_impact.plate_of(1 / (tables.THIN + x)) for x in (1e-9, -1e-9))
+    assert below.bend == pytest.approx(above.bend, abs=below.doubt + above.doubt + 1e-8)
+    assert below.rest == pytest.approx(above.rest, rel=1e-6)
+
+
+@pytest.mark.parametrize("bound", ["1.0", "9.9999999", "2.5617e-17", "0.052313"])
+def test_a_short_bound_is_above(bound: str) -> None:
+    ball = flint.arb(bound)
+    assert ball <= tables.above(ball) < 1.003 * ball

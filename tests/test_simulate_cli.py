@@ -170,7 +170,7 @@ def test_warning_goes_to_the_screen_beside_the_result(scene: Path, capsys: Captu
         (["simulate", "scene.toml", "--rtol", "nan"], "from 1e-13 to 1, got nan"),
         (["simulate", "scene.toml", "--rtol", "0"], "from 1e-13 to 1, got 0"),
         (["simulate", "scene.toml", "--rtol", "1.5"], "from 1e-13 to 1, got 1.5"),
-        (["simulate", "scene.toml", "--rtol", "fine"], "fine"),
+        (["simulate", "scene.toml", "--rtol", "fine"], "'--rtol'"),
         (["indent", "scene.toml"], "exactly one of contact_radius, force and indentation"),
         (["indent", "scene.toml", "5"], "exactly one"),
         (["indent", "scene.toml", "--force", "1", "--indentation", "1"], "got force and indent"),

@@ -188,7 +188,7 @@ def wall_rest_ball(digits: int = 12) -> flint.arb:
 
 
 def roots_bound(k: int) -> flint.arb:
-    """C where the roots' share of c_(2k-3) is below C sum n^(2k-4) e^(-pi n/eta), eta <= 1/2.
+    """C where the roots' share of c_(2k-3) is below C sum n^(2k-4) e^(-pi n/eta), eta <= 1/3.
 
     As `thin_remainder.coefficient_remainder_ball` has it.
     """

@@ -18,7 +18,7 @@ from itertools import combinations
 import sympy as sp
 
 from derivation.formula.symbols import a, h, lam, mu, phi
-from derivation.rewrite.form import FAR, TIMES, Block, Step
+from derivation.rewrite.form import FAR, LARGEST, TIMES, Block, Step, held
 from derivation.rewrite.rules import decay, fraction, parts_of
 from derivation.rewrite.series import leading_power
 from derivation.rewrite.shape import Factor, Shape
@@ -91,10 +91,8 @@ def automatic(expression: sp.Expr, known: Mapping[str, Block]) -> Automatic:
     steps: list[Step] = []
     if reduced.expression.has(ratio):
         steps.append(RATIO)
-    if reduced.variable == T:
-        steps.append(Step(T, sp.Min(reduced.product, FAR), "nothing changes from there on"))
-    elif reduced.length != reduced.variable:
-        steps.append(Step(reduced.variable, reduced.product))
+    most = LARGEST if reduced.expression.has(sp.sin) else FAR
+    steps.append(Step(reduced.variable, held(reduced.product, most), "beyond, nothing changes"))
     size, core, powers = _beyond_one(shape, known) or _divided(shape) or _taken(shape, known)
     for base, exponent in shape.front.as_powers_dict().items():
         if base.is_Symbol and base != ratio:
@@ -126,7 +124,10 @@ def _taken(shape: Shape, known: Mapping[str, Block]) -> Taken:
     for factor in _paired(shape, known):
         content, value, least, lead = _factor(factor, shape.x, known)
         size *= content**factor.exponent
-        core *= value**factor.exponent
+        if factor.exponent > 1:
+            powers[value] += factor.exponent
+        else:
+            core *= value**factor.exponent
         if lead:
             powers[least] += lead * factor.exponent
     return size, core, powers

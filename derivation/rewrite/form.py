@@ -13,8 +13,14 @@ TIMES = sp.Function("times")
 in between."""
 
 
-FAR = sp.Integer(10**9)
-"""From here on what depends on e^-x only is what it is at infinity, in double precision."""
+TINY, FAR, LARGEST = sp.Float("5e-324"), sp.Integer(10**9), sp.Float("1e308")
+"""A product held between two of them neither vanishes nor overflows. Beyond FAR, what depends on
+e^-x is what it is at infinity; TINY is the smallest double."""
+
+
+def held(product: sp.Expr, most: sp.Expr) -> sp.Expr:
+    """The product, which is positive, between TINY and `most`."""
+    return sp.Max(TINY, sp.Min(product, most))
 
 
 @dataclass(frozen=True)
@@ -133,7 +139,14 @@ def undo(expression: sp.Expr, steps: tuple[Step, ...], blocks: Mapping[str, Bloc
     for block in blocks.values():
         expression = expression.replace(sp.Function(block.name), block.definition)
     expression = expression.replace(TIMES, _product).replace(expm1, lambda x: sp.exp(x) - 1)
+    expression = expression.replace(lambda e: isinstance(e, sp.Max) and TINY in e.args, _released)
     return expression.replace(sp.Min, _least)
+
+
+def _released(product: sp.Max) -> sp.Expr:
+    """What is held, without its bounds."""
+    (bounded,) = (bound for bound in product.args if bound != TINY)
+    return sp.Mul(*(bound for bound in bounded.args if bound not in (FAR, LARGEST)))
 
 
 def _product(value: sp.Expr, *powers: sp.Expr) -> sp.Expr:
@@ -141,13 +154,7 @@ def _product(value: sp.Expr, *powers: sp.Expr) -> sp.Expr:
 
 
 def _least(*bounds: sp.Expr) -> sp.Expr:
-    """Min(a, 1/phi) -> Min(a phi, 1)/phi, and Min(a phi, 1) a symbol: forms hold for any value.
-
-    What is held at FAR is itself.
-    """
-    if FAR in bounds:
-        (bound,) = (bound for bound in bounds if bound != FAR)
-        return bound
+    """Min(a, 1/phi) -> Min(a phi, 1)/phi, and Min(a phi, 1) a symbol: forms hold for any value."""
     unit = sp.Mul(*(sp.denom(bound) for bound in bounds))
     name = sorted(str(sp.expand(bound * unit)) for bound in bounds)
     return sp.Symbol(f"Min({', '.join(name)})", positive=True) / unit

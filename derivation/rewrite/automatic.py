@@ -6,7 +6,8 @@ Stages, in this order:
                    its ratio to lam + mu
  2 rules           `fraction`, `decay` and `difference`, as for one variable
  3 blocks          sums that cancel at 0 -> building blocks, their power of x taken out
- 4 powers          of x and of symbols, and the decay in two halves, apart: only the sums are
+ 4 quotients       what tends to 1 -> 1 and a positive rest; what is divisible is divided
+ 5 powers          of x and of symbols, and the decay in two halves, apart: only the sums are
                    added up as they are, and `times` puts the powers to them
 """
 

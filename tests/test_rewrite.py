@@ -14,6 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from derivation.derived import formulas
+from derivation.emit.printer import to_numpy
 from derivation.emit.standalone import standalone
 from derivation.formula.ball import PrecisionError, enclose, evaluate
 from derivation.formula.ulp import from_ordinal, ordinal, overflows, ulp_error
@@ -28,6 +29,7 @@ from derivation.rewrite.series import POLYNOMIAL, taylor_section
 from derivation.rewrite.shape import Shape, assembled
 from derivation.rewrite.stabilise import stabilise
 from derivation.rewrite.terms import UnreachableError, left_out, taylor, terms_of
+from generated import ranges
 
 x = sp.Symbol("x", positive=True)
 E = sp.exp(-x)
@@ -251,10 +253,43 @@ def test_paper_formulas_are_reached_by_rules_alone(name: str) -> None:
     assert "cosh(" not in text
 
 
+PHI, H, LAM, MU = sp.symbols("phi h lam mu", positive=True)
+X = PHI * H
+GROWING = (X * (LAM + MU) * sp.sinh(X) + (LAM + 2 * MU) * sp.cosh(X)) / (PHI * (LAM + MU))
+QUOTIENTS = (
+    # a formula, and what its form must have or not have: 1 apart, or one exponential fewer
+    (sp.cosh(X) / sp.sinh(X), "1 +"),
+    (sp.sinh(X) / sp.cosh(X), "expm1"),
+    (sp.sinh(X) / (sp.sinh(2 * X) + X), "1/"),
+    (sp.cosh(X) / (sp.sinh(X) ** 2 - X**2), "sinh_pair"),
+    (GROWING * sp.exp(-X), "h*"),
+)
+
+
+@pytest.mark.parametrize(("formula", "sign"), QUOTIENTS)
+def test_quotients_of_several_variables(formula: sp.Expr, sign: str) -> None:
+    """Forms run as they are printed, against balls of the formula."""
+    symbols = sorted(formula.free_symbols, key=str)
+    steps, value = automatic(formula, blocks())
+    assert sign in to_numpy(value), to_numpy(value)
+    names = vars(importlib.import_module("generated.blocks")) | {"times": ranges.times, "np": np}
+    for phi in (1e-70, 1e-9, 0.3, 0.9999, 1.0, 1.7, 3.4, 11.0, 300.0):
+        at = {symbol: phi if symbol == PHI else 0.7 for symbol in symbols}
+        known = {str(symbol): np.asarray(number) for symbol, number in at.items()}
+        for step in steps:
+            known[str(step.symbol)] = eval(to_numpy(step.expression), names, known)
+        got = float(eval(to_numpy(value), names, known))
+        true = evaluate(formula, at, 25)
+        slack = sum(abs(evaluate(formula.diff(s), at, 5) * at[s] / true) / 2 for s in symbols)
+        assert ulp_error(got, true) <= 6 + float(slack), phi
+
+
 def test_unknown_core_is_refused() -> None:
     phi, h = sp.symbols("phi h", positive=True)
     with pytest.raises(UnreachableError, match="no building block"):
         automatic(1 / (sp.cosh(phi * h) - 1 - (phi * h) ** 2 / 3), blocks())
+    with pytest.raises(UnreachableError, match="grows as"):
+        automatic(GROWING, blocks())
     with pytest.raises(UnreachableError, match="functions of 2 products"):
         automatic(sp.sinh(phi * h) / sp.sinh(phi), blocks())
 

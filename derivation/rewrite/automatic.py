@@ -7,8 +7,8 @@ Stages, in this order:
  2 rules           `fraction`, `decay` and `difference`, as for one variable
  3 blocks          sums that cancel at 0 -> building blocks, their power of x taken out
  4 quotients       what tends to 1 -> 1 and a positive rest; what is divisible is divided
- 5 powers          of x and of symbols, and the decay in two halves, apart: only the sums are
-                   added up as they are, and `times` puts the powers to them
+ 5 powers          of x and of symbols, and the decay, stand apart: only sums are computed as
+                   they are, and `times` puts the powers to them
 """
 
 from collections import defaultdict
@@ -94,6 +94,8 @@ def automatic(expression: sp.Expr, known: Mapping[str, Block]) -> Automatic:
         steps.append(RATIO)
     most = LARGEST if reduced.expression.has(sp.sin) else FAR
     steps.append(Step(reduced.variable, held(reduced.product, most), "beyond, nothing changes"))
+    if shape.rate > 0:
+        raise UnreachableError(f"grows as e^({shape.rate} {shape.x}): {expression}")
     size, core, powers = _beyond_one(shape, known) or _divided(shape) or _taken(shape, known)
     for base, exponent in shape.front.as_powers_dict().items():
         if base.is_Symbol and base != ratio:

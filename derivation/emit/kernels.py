@@ -14,7 +14,7 @@ from derivation.rewrite.blocks import blocks
 from derivation.rewrite.form import Branch, Form, Seam, Step
 
 MODAL_SUMS = {
-    "delta": "times(hertz_shape(a * phi), (K_j(phi, h, b, R, J1), 1), ({near}, 3))",
+    "delta": "times(hertz_shape(a * phi), (K_j(phi, h, b, R, J1), 1), ({near}, 2), (a * phi, 1))",
     "u": "mode_g(z, phi, h, lam, mu, A) * phi * bessel_j1(phi * r)",
     "w": "mode_f(z, phi, h, lam, mu, A) * bessel_j0(phi * r)",
     # 2 mu phi^2 mode_g is mode_rr - mode_tt: with both of these nothing cancels on the axis.

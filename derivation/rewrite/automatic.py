@@ -125,14 +125,14 @@ def _taken(shape: Shape, known: Mapping[str, Block]) -> Taken:
     """What a shape's sums are made of."""
     size, core, powers = sp.Integer(1), sp.Integer(1), defaultdict(int, {shape.x: shape.power})
     for factor in _paired(shape, known):
-        content, value, least, lead = _factor(factor, shape.x, known)
+        content, value, taken = _factor(factor, shape.x, known)
         size *= content**factor.exponent
         if factor.exponent > 1:
             powers[value] += factor.exponent
         else:
             core *= value**factor.exponent
-        if lead:
-            powers[least] += lead * factor.exponent
+        for base, power in taken.items():
+            powers[base] += power * factor.exponent
     return size, core, powers
 
 
@@ -216,6 +216,10 @@ def _with_length(core: sp.Expr, powers: dict[sp.Expr, int], reduced: Reduced) ->
 def _joined(powers: dict[sp.Expr, int], reduced: Reduced) -> list[Step]:
     """Powers that undo each other taken together, as steps; no base is left with the power 0."""
     steps, own = [], reduced.variable
+    if powers[own] > 0 > powers[phi] and own == y:  # y/phi = a
+        count = min(powers[own], -powers[phi])
+        for base, change in ((reduced.length, count), (own, -count), (phi, count)):
+            powers[base] += change
     for least in [base for base in powers if isinstance(base, sp.Min)]:
         (at,) = (bound for bound in least.args if bound.is_Number)
         if powers[least] > 0 > powers[phi]:  # reach = near/phi
@@ -246,10 +250,8 @@ def _shape(reduced: Reduced) -> Shape:
     return shape
 
 
-def _factor(
-    factor: Factor, variable: sp.Symbol, known: Mapping[str, Block]
-) -> tuple[sp.Expr, sp.Expr, sp.Expr, int]:
-    """A factor as a constant, a sum that does not cancel at 0, and a base with its power."""
+def _factor(factor: Factor, variable: sp.Symbol, known: Mapping[str, Block]) -> Taken:
+    """A factor as a constant, a sum that does not cancel at 0, and bases with their powers."""
     terms = terms_of(factor.value, variable)
     if {variable} == factor.value.free_symbols:
         found = _block(terms, variable, known)
@@ -260,12 +262,12 @@ def _factor(
             raise UnreachableError(f"no building block is {factor.value}")
     content = sp.gcd_list([value.as_content_primitive()[0] for value in terms.values()])
     primitive = {key: value / content for key, value in terms.items()}
-    return content, sp.Add(*(v for v, _ in parts_of(primitive, variable))), variable, 0
+    return content, sp.Add(*(v for v, _ in parts_of(primitive, variable))), {}
 
 
 def _block(
     terms: Mapping[Key, sp.Expr], variable: sp.Symbol, known: Mapping[str, Block]
-) -> tuple[sp.Expr, sp.Expr, sp.Expr, int] | None:
+) -> Taken | None:
     """The same for a building block, of a multiple of the variable."""
     rates = [abs(key.scale if key.wave else key.rate) for key in terms]
     least = sp.gcd_list([rate for rate in rates if rate != 0])
@@ -280,5 +282,6 @@ def _block(
             ratios = {sp.cancel(terms[key] / v) for key, v in moved.items() if key in terms}
             if moved.keys() == terms.keys() and len(ratios) == 1:
                 at = scale * variable
-                return ratios.pop(), block(at), block.near(at), block.lead
+                taken = {block.near(at): block.held, at: block.lead - block.held}
+                return ratios.pop(), block(at), {b: p for b, p in taken.items() if p}
     return None

@@ -96,8 +96,9 @@ class Block:
         Its variables.
     total
         The sum it stands for.
-    lead
-        The power of the variable that the sum is divided by below the seam.
+    lead, held
+        The power of the variable that the sum is divided by below the seam; and how much of it
+        stays above the seam what it is there.
     domain
         Conditions on the variables, in Python's notation.
     summary
@@ -112,6 +113,7 @@ class Block:
     arguments: tuple[sp.Symbol, ...]
     total: sp.Expr
     lead: int
+    held: int
     domain: tuple[str, ...]
     summary: str
     steps: tuple[Step, ...]
@@ -123,13 +125,19 @@ class Block:
         return sp.Function(self.name)(argument)
 
     def near(self, argument: sp.Expr) -> sp.Expr:
-        """What the sum is divided by, to the power of its lead: the argument, at most the seam."""
+        """What is held: the argument, at most the seam."""
         return sp.Min(argument, self.value.at) if isinstance(self.value, Seam) else sp.Integer(1)
 
     def definition(self, argument: sp.Expr) -> sp.Expr:
         """What the block is exactly."""
         (own,) = self.arguments
-        return self.total.subs(own, argument) / self.near(argument) ** self.lead
+        return self.divided.subs(own, argument) / self.near(argument) ** self.held
+
+    @property
+    def divided(self) -> sp.Expr:
+        """The sum over the powers that are not held."""
+        (own,) = self.arguments
+        return self.total / own ** (self.lead - self.held)
 
 
 def undo(expression: sp.Expr, steps: tuple[Step, ...], blocks: Mapping[str, Block]) -> sp.Expr:

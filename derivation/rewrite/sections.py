@@ -40,6 +40,7 @@ def _section(name: str, total: sp.Expr, power: int) -> Block:
         (y,),
         total / y**power,
         0,
+        0,
         (f"abs(y) <= {END}",),
         f"({sp.sstr(total)})/y^{power}, {coefficients[0]} at y = 0.",
         (Step(square, y**2),),

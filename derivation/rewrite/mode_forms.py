@@ -37,6 +37,7 @@ versine, cubic, minus, plus, reach = sp.symbols("versine cubic minus plus reach"
 c, c_less_1, modulus = sp.symbols("c c_less_1 modulus", real=True)
 sinh_x, sinh_t, cosh_x, cosh_t = sp.symbols("sinh_x sinh_t cosh_x cosh_t", real=True)
 bending, stretching = sp.symbols("bending stretching", real=True)
+small_x, small_t, gain = sp.symbols("small_x small_t gain", real=True)
 
 Shape = tuple[tuple[Step, ...], sp.Expr | Seam]
 
@@ -208,15 +209,20 @@ GUARDS = {T: sp.Integer(1), x: sp.Rational(1, 2), t: sp.Integer(0), zeta: sp.Int
 
 
 def _of_middle() -> tuple[Step, ...]:
-    """Hyperbolic functions for bending and stretching, over the power they vanish with."""
-    ratio_of = sections()["sinh_ratio"]
+    """What bending and stretching are made of; `gain` is small in thin plates."""
+    square_of, cubic_of = sections()["cosh_square"], sections()["sinh_cubic"]
     return (
-        Step(sinh_x, ratio_of(x), "sinh x/x"),
-        Step(cosh_x, sp.cosh(x)),
-        Step(sinh_t, ratio_of(t), "sinh t/t"),
-        Step(cosh_t, sp.cosh(t)),
-        Step(minus, T**2 * sections()["sinh_cubic"](T), "(sinh T - T)/T"),
-        Step(plus, 2 * (1 + ratio_of(T)), "2 (sinh T + T)/T"),
+        Step(small_x, x**2 * cubic_of(x), "sinh x/x - 1"),
+        Step(small_t, t**2 * square_of(t), "cosh t - 1"),
+        Step(minus, T**2 * cubic_of(T), "(sinh T - T)/T"),
+        Step(sinh_x, 1 + small_x),
+        Step(cosh_t, 1 + small_t),
+        Step(plus, 4 + 2 * minus, "2 (sinh T + T)/T"),
+        Step(
+            gain,
+            (4 * (small_x * cosh_t + small_t) - 2 * minus) / plus,
+            "4 sinh x cosh t/(x plus) exceeds 1 by",
+        ),
     )
 
 
@@ -227,15 +233,17 @@ def _in_plane(halves: int, scale: tuple[sp.Basic | int, ...], *elastic: Step) ->
     gap = sections()["cosh_cubic"]
     middle = Branch(
         (
-            *_of_middle(),
+            *_of_middle()[: None if elastic else -1],
+            Step(cosh_x, sp.cosh(x)),
+            Step(sinh_t, sections()["sinh_ratio"](t), "sinh t/t"),
             Step(
                 bending,
                 zeta * (sinh_t * (const * cosh_x - x**2 * sinh_x) + cosh_t * cosh_x),
                 "odd in z",
             ),
-            Step(sum_u, less * sinh_x - x**2 * gap(x)),
-            Step(stretching, cosh_t * sum_u + t**2 * sinh_t * sinh_x, "even in z"),
-            Step(core, bending / minus + stretching / plus),
+            Step(stretching, t**2 * sinh_t * sinh_x - x**2 * gap(x) * cosh_t, "even in z"),
+            Step(over, less * gain / 4 + stretching / plus + bending / minus),
+            Step(core, less / 4 + over),
         ),
         TIMES(sp.Rational(halves, 2) * core, *scale),
         GUARDS,
@@ -263,22 +271,33 @@ def _in_plane(halves: int, scale: tuple[sp.Basic | int, ...], *elastic: Step) ->
 def _hoop() -> Shape:
     """lam times the dilatation: the sum in plane with c = 1 and d = 0."""
     pair = blocks()["sinh_pair"]
+    known = sections()
+    square_of, cubic_of, quintic_of = (
+        known[name] for name in ("cosh_square", "sinh_cubic", "sinh_quintic")
+    )
     scale = (A_j, 1, lam, 1, modulus, -1)
     middle = Branch(
         (
             *_of_middle(),
-            Step(bending, zeta * sinh_t * cosh_x, "odd in z"),
-            Step(core, bending / minus + sinh_x * cosh_t / plus),
+            Step(cosh_x, sp.cosh(x)),
+            Step(
+                bending,
+                (cosh_x * t**2 * cubic_of(t) + x**2 * square_of(x) - 6 * T**2 * quintic_of(T))
+                / (6 * cubic_of(T)),
+                "what bending in a thin plate grows by",
+            ),
+            Step(over, 6 * zeta * bending + x**2 * gain),
+            Step(core, 6 * zeta + x**2 + over),
         ),
-        TIMES(core, *scale),
+        TIMES(core / 4, *scale, x, -2),
         GUARDS,
     )
     faces = Branch(
         (
             ODD_T,
-            Step(odd_u, -expm1(-2 * (x + t)), "2 e^(-u) sinh u"),
-            Step(odd_v, -expm1(-2 * (x - t)), "2 e^(-v) sinh v"),
-            Step(far_u, sp.exp(-2 * (x + t)), "decay on the way to the far face and back"),
+            ODD_U,
+            ODD_V,
+            FAR_U,
             *FADES,
             Step(near, pair.near(T)),
             Step(over, odd_T * odd_u - 2 * T * far_u * odd_v),
@@ -288,5 +307,5 @@ def _hoop() -> Shape:
         {},
     )
     closer = Step(reach, sp.Max(20 * sp.Abs(t), T), "small in thin plates and mid-plane")
-    steps = (STEP_T, DEPTHS[2], Step(modulus, lam + mu), *MIDDLE[:-1], closer)
+    steps = (*DEPTHS, Step(modulus, lam + mu), *MIDDLE[:-1], closer)
     return steps, Seam(reach, MIDST, middle, faces)

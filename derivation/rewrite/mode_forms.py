@@ -37,7 +37,7 @@ versine, cubic, minus, plus, reach = sp.symbols("versine cubic minus plus reach"
 c, c_less_1, modulus = sp.symbols("c c_less_1 modulus", real=True)
 sinh_x, sinh_t, cosh_x, cosh_t = sp.symbols("sinh_x sinh_t cosh_x cosh_t", real=True)
 bending, stretching = sp.symbols("bending stretching", real=True)
-small_x, small_t, gain = sp.symbols("small_x small_t gain", real=True)
+small_x, small_t, gain, growth = sp.symbols("small_x small_t gain growth", real=True)
 
 Shape = tuple[tuple[Step, ...], sp.Expr | Seam]
 
@@ -76,16 +76,10 @@ def mode_forms() -> dict[str, Shape]:
     """Steps and value of every field of a mode."""
     return {
         "mode_f": _deflection(),
-        "mode_g": _in_plane(
-            1,
-            (A_j, 1, mu, -1, phi, -2),
-            Step(modulus, lam + mu),
-            Step(c, mu / modulus, "1 - 2 nu"),
-            Step(c_less_1, -lam / modulus, "-2 nu"),
-        ),
+        "mode_g": _radial_displacement(),
         "mode_zz": _axial(),
         "mode_rz": _shear(),
-        "mode_rr": _in_plane(2, (A_j, 1)),
+        "mode_rr": _radial(),
         "mode_tt": _hoop(),
     }
 
@@ -209,46 +203,48 @@ GUARDS = {T: sp.Integer(1), x: sp.Rational(1, 2), t: sp.Integer(0), zeta: sp.Int
 
 
 def _of_middle() -> tuple[Step, ...]:
-    """What bending and stretching are made of; `gain` is small in thin plates."""
+    """What bending and stretching are made of, each over its power; `gain` is small if T is."""
     square_of, cubic_of = sections()["cosh_square"], sections()["sinh_cubic"]
     return (
         Step(small_x, x**2 * cubic_of(x), "sinh x/x - 1"),
-        Step(small_t, t**2 * square_of(t), "cosh t - 1"),
-        Step(minus, T**2 * cubic_of(T), "(sinh T - T)/T"),
+        Step(small_t, t**2 * cubic_of(t), "sinh t/t - 1"),
+        Step(versine, t**2 * square_of(t), "cosh t - 1"),
         Step(sinh_x, 1 + small_x),
-        Step(cosh_t, 1 + small_t),
+        Step(sinh_t, 1 + small_t),
+        Step(cosh_x, sp.cosh(x)),
+        Step(cosh_t, 1 + versine),
+        Step(cubic, cubic_of(T)),
+        Step(minus, T**2 * cubic, "(sinh T - T)/T"),
         Step(plus, 4 + 2 * minus, "2 (sinh T + T)/T"),
-        Step(
-            gain,
-            (4 * (small_x * cosh_t + small_t) - 2 * minus) / plus,
-            "4 sinh x cosh t/(x plus) exceeds 1 by",
-        ),
     )
 
 
-def _in_plane(halves: int, scale: tuple[sp.Basic | int, ...], *elastic: Step) -> Shape:
-    """Half so many times `scale` times the sum in plane, d = 1; `elastic` gives c, else c = 1."""
-    const, less = (c, c_less_1) if elastic else (sp.Integer(1), sp.Integer(0))
+GAIN = Step(
+    gain,
+    (4 * (small_x * cosh_t + versine) - 2 * minus) / plus,
+    "4 sinh x cosh t/(x plus) exceeds 1 by",
+)
+
+
+def _growth() -> Step:
+    """What bending in a plate of no thickness, 6 zeta, is to be multiplied by, less 1."""
+    square_of, quintic_of = sections()["cosh_square"], sections()["sinh_quintic"]
+    return Step(
+        growth,
+        (cosh_x * small_t + x**2 * square_of(x) - 6 * T**2 * quintic_of(T)) / (6 * cubic),
+        "cosh x sinh t/(6 t cubic) exceeds 1 by",
+    )
+
+
+def _gap() -> sp.Expr:
+    """What stretching has but for Poisson's ratio."""
+    return t**2 * sinh_t * sinh_x - x**2 * sections()["cosh_cubic"](x) * cosh_t
+
+
+def _faces(halves: int, scale: tuple[sp.Basic | int, ...], const: sp.Expr) -> Branch:
+    """Half so many times `scale` times the sum in plane, d = 1 and c = const, from both faces."""
     pair = blocks()["sinh_pair"]
-    gap = sections()["cosh_cubic"]
-    middle = Branch(
-        (
-            *_of_middle()[: None if elastic else -1],
-            Step(cosh_x, sp.cosh(x)),
-            Step(sinh_t, sections()["sinh_ratio"](t), "sinh t/t"),
-            Step(
-                bending,
-                zeta * (sinh_t * (const * cosh_x - x**2 * sinh_x) + cosh_t * cosh_x),
-                "odd in z",
-            ),
-            Step(stretching, t**2 * sinh_t * sinh_x - x**2 * gap(x) * cosh_t, "even in z"),
-            Step(over, less * gain / 4 + stretching / plus + bending / minus),
-            Step(core, less / 4 + over),
-        ),
-        TIMES(sp.Rational(halves, 2) * core, *scale),
-        GUARDS,
-    )
-    faces = Branch(
+    return Branch(
         (
             ODD_T,
             FAR_U,
@@ -265,28 +261,66 @@ def _in_plane(halves: int, scale: tuple[sp.Basic | int, ...], *elastic: Step) ->
         TIMES(sp.Rational(halves, 2) * core, *FADED, *scale, near, -4),
         {},
     )
-    return (*DEPTHS, *elastic, *MIDDLE), Seam(reach, MIDST, middle, faces)
+
+
+def _radial_displacement() -> Shape:
+    """Half the sum in plane, c = 1 - 2 nu; mid-plane in thin plates -2 nu/4, nearly."""
+    scale = (A_j, 1, mu, -1, phi, -2)
+    middle = Branch(
+        (
+            *_of_middle(),
+            GAIN,
+            Step(
+                bending,
+                zeta * (sinh_t * (c * cosh_x - x**2 * sinh_x) + cosh_t * cosh_x),
+                "odd in z",
+            ),
+            Step(stretching, _gap(), "even in z"),
+            Step(over, c_less_1 * gain / 4 + stretching / plus + bending / minus),
+            Step(core, c_less_1 / 4 + over),
+        ),
+        TIMES(core / 2, *scale),
+        GUARDS,
+    )
+    elastic = (
+        Step(modulus, lam + mu),
+        Step(c, mu / modulus, "1 - 2 nu"),
+        Step(c_less_1, -lam / modulus, "-2 nu"),
+    )
+    return (*DEPTHS, *elastic, *MIDDLE), Seam(reach, MIDST, middle, _faces(1, scale, c))
+
+
+def _radial() -> Shape:
+    """The sum in plane with c = 1; in thin plates twice `_hoop`'s with lam = modulus, nearly."""
+    middle = Branch(
+        (
+            *_of_middle(),
+            _growth(),
+            Step(
+                bending,
+                12 * growth + (cosh_x * (versine - small_t) - x**2 * sinh_t * sinh_x) / cubic,
+                "what 12 grows by, odd in z",
+            ),
+            Step(stretching, _gap(), "even in z"),
+            Step(over, zeta * bending + 4 * x**2 * stretching / plus),
+            Step(core, 12 * zeta + over),
+        ),
+        TIMES(core / 4, A_j, 1, x, -2),
+        GUARDS,
+    )
+    return (*DEPTHS, *MIDDLE), Seam(reach, MIDST, middle, _faces(2, (A_j, 1), sp.Integer(1)))
 
 
 def _hoop() -> Shape:
     """lam times the dilatation: the sum in plane with c = 1 and d = 0."""
     pair = blocks()["sinh_pair"]
-    known = sections()
-    square_of, cubic_of, quintic_of = (
-        known[name] for name in ("cosh_square", "sinh_cubic", "sinh_quintic")
-    )
     scale = (A_j, 1, lam, 1, modulus, -1)
     middle = Branch(
         (
             *_of_middle(),
-            Step(cosh_x, sp.cosh(x)),
-            Step(
-                bending,
-                (cosh_x * t**2 * cubic_of(t) + x**2 * square_of(x) - 6 * T**2 * quintic_of(T))
-                / (6 * cubic_of(T)),
-                "what bending in a thin plate grows by",
-            ),
-            Step(over, 6 * zeta * bending + x**2 * gain),
+            GAIN,
+            _growth(),
+            Step(over, 6 * zeta * growth + x**2 * gain),
             Step(core, 6 * zeta + x**2 + over),
         ),
         TIMES(core / 4, *scale, x, -2),
@@ -306,6 +340,6 @@ def _hoop() -> Shape:
         TIMES(core, *FADED, *scale, near, -4),
         {},
     )
-    closer = Step(reach, sp.Max(20 * sp.Abs(t), T), "small in thin plates and mid-plane")
+    closer = Step(reach, sp.Max(4 * sp.Abs(t), T), "small in thin plates and mid-plane")
     steps = (*DEPTHS, Step(modulus, lam + mu), *MIDDLE[:-1], closer)
     return steps, Seam(reach, MIDST, middle, faces)

@@ -20,7 +20,7 @@ import sympy as sp
 from sympy.codegen.cfunctions import expm1
 
 from derivation.formula.symbols import A_j, T, h, lam, mu, phi, z
-from derivation.rewrite.automatic import RATIO, ratio
+from derivation.rewrite.automatic import ratio
 from derivation.rewrite.blocks import blocks
 from derivation.rewrite.form import TIMES, Branch, Seam, Step
 from derivation.rewrite.sections import sections
@@ -85,32 +85,32 @@ def mode_forms() -> dict[str, Shape]:
 
 
 def _deflection() -> Shape:
-    """A sum of terms of one sign, in which the half-space's, ratio + v, stands apart."""
+    """A sum of terms of one sign, of which the largest, 1, is added last."""
     pair = blocks()["sinh_pair"]
-    share, rest, power, others = sp.symbols("share rest power others", real=True)
+    excess, rest, share, others = sp.symbols("excess rest share others", real=True)
     steps = (
         *DEPTHS,
         Step(near, pair.near(T)),
-        RATIO,
+        Step(excess, 1 / (1 + lam / mu), "1 - 2 nu"),
+        Step(ratio, 1 + excess, "2 (1 - nu)"),
         FAR_U,
         FAR_V,
         DECAY,
+        ODD_U,
         ODD_V,
         ODD_T,
         *FADES,
-        Step(head, ratio + v, "the half-space's"),
-        Step(rest, far_u * (ratio - v)),
-        Step(share, decay * (odd_T + 4 * T**2) * (head + rest), "what sinh^2 T/D exceeds 1 by"),
+        Step(rest, excess + (v * odd_u + far_u * ratio), "in thick plates the half-space's less 1"),
+        Step(share, decay * (odd_T + 4 * T**2) * (1 + rest), "what sinh^2 T/D exceeds 1 by"),
         Step(over, 2 * T * far_u * (ratio * (1 + far_v) + u * odd_v)),
-        Step(power, near**3),
-        Step(others, power * rest + (share + over) / near / pair(T)),
-        Step(core, power * head + others),
+        Step(others, near**3 * rest + (share + over) / near / pair(T)),
+        Step(core, near**3 + others),
     )
     return steps, TIMES(core / 2, *FADED, A_j, 1, mu, -1, phi, -1, near, -3)
 
 
 def _axial() -> Shape:
-    """S_zz; in plates of no thickness alpha^2 (3 beta + alpha), to which the rest is added."""
+    """S_zz; in plates of no thickness alpha^2 (1 + 2 beta), to which the rest is added."""
     known = sections()
     square_of, cubic_of = known["cosh_square"], known["sinh_cubic"]
     quartic_of, quintic_of = known["cosh_quartic"], known["sinh_quintic"]
@@ -130,7 +130,7 @@ def _axial() -> Shape:
                 "and of the term in alpha",
             ),
             Step(over, (beta * third + alpha * first) / cubic_of(T)),
-            Step(core, alpha**2 * (3 * beta + alpha + over)),
+            Step(core, alpha**2 * (1 + (2 * beta + over))),
         ),
         TIMES(core, A_j, 1),
         {T: sp.Integer(1), u: sp.Rational(1, 2), v: sp.Rational(1, 2)},

@@ -41,10 +41,10 @@ small_x, small_t, lift, gain, growth = sp.symbols("small_x small_t lift gain gro
 
 Shape = tuple[tuple[Step, ...], sp.Expr | Seam]
 
-THIN = sp.Rational(3, 2)
-"""Below this T, S_zz and S_rz are computed by Taylor sections."""
+THIN = sp.Rational(5, 2)
+"""Below this T, S_zz, S_rz and S_tt are computed by Taylor sections."""
 
-MIDST = sp.Rational(9, 2)
+MIDST = sp.Rational(7, 2)
 """Below this T, bending and stretching are added up where |t| is below a tenth of it."""
 
 ONCE = sp.Integer(512)
@@ -202,10 +202,10 @@ MIDDLE = (
 GUARDS = {T: sp.Integer(1), x: sp.Rational(1, 2), t: sp.Integer(0), zeta: sp.Integer(0)}
 
 
-def _of_middle() -> tuple[Step, ...]:
-    """What bending and stretching are made of, each over its power."""
+def _of_middle(*unused: sp.Symbol) -> tuple[Step, ...]:
+    """What bending and stretching are made of, each over its power, but for what is unused."""
     square_of, cubic_of = sections()["cosh_square"], sections()["sinh_cubic"]
-    return (
+    steps = (
         Step(small_x, x**2 * cubic_of(x), "sinh x/x - 1"),
         Step(small_t, t**2 * cubic_of(t), "sinh t/t - 1"),
         Step(versine, t**2 * square_of(t), "cosh t - 1"),
@@ -218,6 +218,7 @@ def _of_middle() -> tuple[Step, ...]:
         Step(minus, T**2 * cubic, "(sinh T - T)/T"),
         Step(plus, 4 + 2 * minus, "2 (sinh T + T)/T"),
     )
+    return tuple(step for step in steps if step.symbol not in unused)
 
 
 def _growth() -> Step:
@@ -287,7 +288,7 @@ def _radial() -> Shape:
     """The sum in plane with c = 1; in thin plates twice `_hoop`'s with lam = modulus, nearly."""
     middle = Branch(
         (
-            *_of_middle(),
+            *_of_middle(lift),
             _growth(),
             Step(
                 bending,
@@ -295,10 +296,9 @@ def _radial() -> Shape:
                 "what 12 grows by, odd in z",
             ),
             Step(stretching, _gap(), "even in z"),
-            Step(over, zeta * bending + 4 * x**2 * stretching / plus),
-            Step(core, 12 * zeta + over),
+            Step(core, (12 * zeta + zeta * bending) / T**2 + stretching / plus),
         ),
-        TIMES(core / 4, A_j, 1, x, -2),
+        TIMES(core, A_j, 1),
         GUARDS,
     )
     return (*DEPTHS, *MIDDLE), Seam(reach, MIDST, middle, _faces(2, (A_j, 1), sp.Integer(1)))
@@ -310,7 +310,7 @@ def _hoop() -> Shape:
     scale = (A_j, 1, lam, 1, modulus, -1)
     middle = Branch(
         (
-            *_of_middle(),
+            *_of_middle(sinh_x, sinh_t),
             _growth(),
             Step(gain, (4 * lift - 2 * minus) / plus, "4 (1 + lift)/plus - 1"),
             Step(over, 6 * zeta * growth + x**2 * gain),
@@ -333,6 +333,5 @@ def _hoop() -> Shape:
         TIMES(core, *FADED, *scale, near, -4),
         {},
     )
-    closer = Step(reach, sp.Max(4 * sp.Abs(t), T), "small in thin plates and mid-plane")
-    steps = (*DEPTHS, Step(modulus, lam + mu), *MIDDLE[:-1], closer)
-    return steps, Seam(reach, MIDST, middle, faces)
+    steps = (*DEPTHS, Step(modulus, lam + mu), *MIDDLE[:-1])
+    return steps, Seam(T, THIN, middle, faces)

@@ -85,7 +85,7 @@ def mode_forms() -> dict[str, Shape]:
 
 
 def _deflection() -> Shape:
-    """A sum of terms of one sign, of which the largest, 1, is added last."""
+    """A sum of terms of one sign; what stands beside 1 is added up first."""
     pair = blocks()["sinh_pair"]
     excess, rest, share, others = sp.symbols("excess rest share others", real=True)
     steps = (

@@ -15,7 +15,6 @@ y, square = sp.symbols("y square", real=True)
 END = sp.Integer(5)
 
 DEFINITIONS: tuple[tuple[str, sp.Expr, int], ...] = (
-    ("sinh_ratio", sp.sinh(y), 1),
     ("cosh_square", sp.cosh(y) - 1, 2),
     ("sinh_cubic", sp.sinh(y) - y, 3),
     ("cosh_quartic", sp.cosh(y) - 1 - y**2 / 2, 4),

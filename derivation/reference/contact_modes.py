@@ -25,7 +25,7 @@ from derivation.reference.routes import RouteError
 THIN = 0.035
 """Below this h/b the poles of G beyond Re n = N weigh less than e^(-4.2/eta) < 10^-52."""
 
-STRIP = 1.25
+STRIP = 1.0
 """Half-width of the strip that sets the step of the rule for Abel-Plana's integral."""
 
 
@@ -56,48 +56,45 @@ def _phase_series(dps: int) -> tuple[mpf, ...]:
         return tuple(rate)
 
 
+class _Terms(NamedTuple):
+    """d_1, d_2, ... of the phase's slope, d_k/(2k-1) of the phase, decimal logarithms of |d_k|."""
+
+    slope: tuple[mpf, ...]
+    phase: tuple[mpf, ...]
+    sizes: tuple[float, ...]
+
+
 @cache
-def _sizes(dps: int) -> tuple[float, ...]:
-    """Decimal logarithms of the coefficients' magnitudes."""
-    return tuple(float(mp.log10(abs(coefficient))) for coefficient in _phase_series(dps))
+def _terms(dps: int) -> _Terms:
+    with mp.workdps(dps):
+        slope = _phase_series(dps)[1:]
+        phase = tuple(d / (2 * k - 1) for k, d in enumerate(slope, start=1))
+        return _Terms(slope, phase, tuple(float(mp.log10(abs(d))) for d in slope))
 
 
-def _powers(x: mpf) -> list[mpf]:
-    """x^-2, x^-4, ... as far as the phase's series takes them at the working precision.
+def _phase(x: mpf) -> tuple[mpf, mpf]:
+    """Phase theta of H and its slope at a large x, real or complex, by the asymptotic series.
 
     Raises
     ------
     RouteError
         If the series turns before its terms are below the working precision.
     """
-    size, square = 2 * float(mp.log10(abs(x))), 1 / (x * x)
-    powers = [square]
-    for k, coefficient in enumerate(_sizes(mp.dps)[1:], start=1):
-        if coefficient - k * size < -mp.dps - 3:
-            return powers
+    terms, size, square = _terms(mp.dps), 2 * float(mp.log10(abs(x))), 1 / (x * x)
+    powers, goal = [square], -mp.dps - 3
+    for k, coefficient in enumerate(terms.sizes, start=1):
+        if coefficient - k * size < goal:
+            theta = x - mp.pi / 4 - x * mp.fdot(terms.phase[:k], powers)
+            return theta, 1 + mp.fdot(terms.slope[:k], powers)
         powers.append(powers[-1] * square)
     raise RouteError(f"the phase's series does not reach {mp.dps} digits at {mp.nstr(x)}")
-
-
-def _phase(x: mpf) -> mpf:
-    """Phase theta of H at a large x, real or complex, by the asymptotic series."""
-    powers = _powers(x)
-    terms = _phase_series(mp.dps)[1 : len(powers) + 1]
-    falling = [d / (2 * k - 1) for k, d in enumerate(terms, start=1)]
-    return x - mp.pi / 4 - x * mp.fdot(falling, powers)
-
-
-def _rate(x: mpf) -> mpf:
-    """Slope d theta/dx of the phase."""
-    powers = _powers(x)
-    return 1 + mp.fdot(_phase_series(mp.dps)[1 : len(powers) + 1], powers)
 
 
 def precisions(dps: int) -> list[int]:
     """Digits of Newton's steps, each enough for the next, the last being those worked with."""
     steps = [dps]
-    while steps[-1] > 15:
-        steps.append(steps[-1] // 2 + 6)
+    while steps[-1] > 20:
+        steps.append(steps[-1] // 2 + 4)
     return steps[::-1]
 
 
@@ -113,11 +110,12 @@ def _continued_zero(n: mpf) -> tuple[mpf, mpf]:
     x = target + mp.pi / 4 + 1 / (8 * target)
     for dps in precisions(mp.dps):
         with mp.workdps(dps):
-            step = (target - _phase(x)) / _rate(x)
+            theta, rate = _phase(x)
+            step = (target - theta) / rate
             x += step
     if not abs(step) < mpf(10) ** (-mp.dps // 2 + 4):
         raise RouteError(f"no zero of J0 continued to n = {mp.nstr(n)}")
-    return x, mp.pi / _rate(x)
+    return x, mp.pi / _phase(x)[1]
 
 
 def by_bessel(dps: int) -> int:

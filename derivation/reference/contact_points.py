@@ -88,20 +88,23 @@ def mode_count(eta: float, bits: int) -> int:
 
 def prepare(eta: Fraction, reach: float, bits: int, tell: Callable[[int, int], None]) -> None:
     """Find the zeros that `series` is going to ask for; `tell` gets each one's index and all."""
-    working = working_bits(eta, reach, bits) + _SPARE
-    count = mode_count(float(eta), working)
+    precision = working_bits(eta, reach, bits) + _SPARE
+    count = mode_count(float(eta), bits)
     for index in range(1, count + 1):
         tell(index, count)
-        j0_zero(index, working)
+        j0_zero(index, precision)
 
 
 def working_bits(eta: Fraction, reach: float, bits: int) -> int:
-    """Precision of the sums of `series`: from a = 4h on their terms cancel."""
+    """Precision of the sums of `series`: from a = 4h on their terms cancel.
+
+    The last mode weighs e^(-4 eta j) = 2^-bits, and its powers add up to e^(alpha j) times that.
+    """
     return math.ceil(bits * max(1.0, reach / (4 * float(eta)))) + _SPARE
 
 
 @cache
-def mode_points(eta: Fraction, bits: int) -> Points:
+def mode_points(eta: Fraction, bits: int, working: int) -> Points:
     """Zeros j and q = (G(2 eta j) - 1)/(j J1(j)^2) of the first modes.
 
     The rest: x (J0^2 + Y0^2) rises to 2/pi (Watson, 13.74), and is 4/(pi^2 j J1^2) at j, so
@@ -115,18 +118,20 @@ def mode_points(eta: Fraction, bits: int) -> Points:
     eta
         h/b [1].
     bits
-        What is left out is below 2^-bits.
+        What is left out is below about 2^-bits.
+    working
+        Precision of places and weights.
 
     Raises
     ------
     PrecisionError
         If the modes end before their bound holds.
     """
-    with flint.ctx.workprec(bits + _SPARE):
+    with flint.ctx.workprec(working + _SPARE):
         scale, places, weights = 2 * to_ball(eta), [], []
         count = mode_count(float(eta), bits)
         for index in range(1, count + 1):
-            j = j0_zero(index, bits + _SPARE)
+            j = j0_zero(index, working + _SPARE)
             places.append(j)
             weights.append(plate_excess(acb(scale * j)).real / (j * j.bessel_j(1) ** 2))
         last = scale * arb.pi() * (count + arb(3) / 4)
@@ -166,7 +171,7 @@ def series(eta: Fraction, reach: float, bits: int) -> Series:
     if depth > DEEPEST:
         raise PrecisionError(f"the series serves up to a/(4h) = {DEEPEST}, got {depth:.4g}")
     working = working_bits(eta, reach, bits)
-    wall, modes = wall_points(working), mode_points(eta, working)
+    wall, modes = wall_points(working), mode_points(eta, bits, working)
     with flint.ctx.workprec(working):
         alpha, small = arb(reach), arb(2) ** -bits
         farthest = (alpha * wall.places[-1].max(modes.places[-1])) ** 2

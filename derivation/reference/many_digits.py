@@ -19,6 +19,7 @@ from derivation.formula.ball import LOG2_10, to_ball
 from derivation.reference import contact_impact, contact_points, contact_routes
 from derivation.reference.contact_balls import modulus, ratio_of, settle
 from derivation.reference.contact_impact import Integrals, Law
+from derivation.reference.contact_modes import THIN
 from derivation.reference.routes import to_ball as exactly
 
 Tell = Callable[[str, int, int], None]
@@ -42,8 +43,10 @@ UNITS = {
 MOST = 1000
 """Digits that can be asked for."""
 
-SECOND_LAW, SECOND_IMPACT = 1000, 200
-"""Digits that oracle 2 is asked for at most, so that it takes minutes."""
+SECOND_LAW, SECOND_IMPACT, SECOND_THIN = 300, 200, 100
+"""Digits that oracle 2 is asked for at most, so that it takes minutes: of the law, of the
+impact, and of either in thin plates, where its integral of G - 1 takes the most nodes.
+"""
 
 _SPARE = 3
 """Digits computed beyond those shown, so that rounding to the latter is what the radius is."""
@@ -194,12 +197,19 @@ def reference(motion: Motion, digits: int, tell: Tell) -> Reference:
     found = contact_impact.impact(*motion, wanted, law)
     radii = [float(found.max_contact_radius) * share for share in SHARES]
     balls = [pressed(a, R, b, lam, mu, law, wanted) for a in radii]
+    asked = second_digits(float(eta), digits)
     laws: list[Pressed] = []
     for a, both in zip(radii, balls, strict=True):
         tell("oracle 2: law", len(laws) + 1, len(radii))
-        laws.append(Pressed(a, _law_again(a, both, motion, min(digits, SECOND_LAW))))
+        laws.append(Pressed(a, _law_again(a, both, motion, asked[0])))
     tell("oracle 2: impact", 1, 1)
-    return Reference(digits, _impact_again(found, motion, min(digits, SECOND_IMPACT)), tuple(laws))
+    return Reference(digits, _impact_again(found, motion, asked[1]), tuple(laws))
+
+
+def second_digits(eta: float, digits: int) -> tuple[int, int]:
+    """To how many digits oracle 2 is asked for law and impact of a plate of h/b = eta."""
+    limits = (SECOND_THIN,) * 2 if eta < THIN else (SECOND_LAW, SECOND_IMPACT)
+    return min(digits, limits[0]), min(digits, limits[1])
 
 
 def _law_again(a: float, balls: Sequence[arb], motion: Motion, digits: int) -> tuple[Quantity, ...]:
@@ -270,8 +280,9 @@ def expected_seconds(motion: Motion, radius: float, digits: int) -> float:
     first = integrals_seconds(digits)
     if by_series(eta, reach, digits):
         first = series_seconds(eta, digits)
-    law, turn = min(digits, SECOND_LAW) / 200, min(digits, SECOND_IMPACT) / 200
-    return 1 + first + float(15 * law**2.3 + 150 * turn**2.6)
+    law, impact = second_digits(eta, digits)
+    seconds = float(10 * (law / 200) ** 2.3 + 150 * (impact / 200) ** 2.6)
+    return 1 + first + seconds * (4.0 if eta < THIN else 1.0)
 
 
 def series_seconds(eta: float, digits: int) -> float:

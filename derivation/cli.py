@@ -378,7 +378,7 @@ def reference(
     with counted("reference") as tell:
         found = pipeline.reference(known, digits, tell)
     if json != "-":
-        listing(f"{scene.name} to {digits} digits, by both oracles", found.lines())
+        listing(f"{scene.name} to {digits} digits, its numbers being exact doubles", found.lines())
     if json:
         put_json(found.to_json(), json)
     raise typer.Exit(0 if found.agrees else 1)

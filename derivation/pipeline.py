@@ -23,7 +23,6 @@ from derivation.emit.freshness import Freshness, compare
 from derivation.emit.render import CITATION
 from derivation.emit.standalone import standalone
 from derivation.files import PACKAGE, ROOT, measurements, write_file
-from derivation.formula.ball import PrecisionError
 from derivation.formula.parse import parse
 from derivation.measure import hard_check, speed
 from derivation.measure.check import Progress, Row
@@ -37,8 +36,7 @@ from derivation.measure.search import Search, Tell, search
 from derivation.measure.search_cases import Book, seconds_of
 from derivation.measure.search_targets import targets
 from derivation.produce import folder_for, write_files
-from derivation.reference import many_digits
-from derivation.reference.routes import RouteError
+from derivation.reference import many_costs, many_digits
 from derivation.report import pdf as compiler
 from derivation.report.content import tex
 from derivation.report.figures import figures, motion_context
@@ -212,7 +210,7 @@ def in_doubles(path: Path) -> Result:
 
 def time_of_reference(known: Result, digits: int) -> str:
     """How long `reference` is going to take, about."""
-    seconds = many_digits.expected_seconds(_motion(known), known.max_contact_radius, digits)
+    seconds = many_costs.expected_seconds(_motion(known), known.max_contact_radius, digits)
     long = f"{seconds / 60:.0f} min" if seconds > 90 else f"{seconds:.0f} s"
     return f"about {long} on an idle machine"
 
@@ -227,13 +225,13 @@ def reference(known: Result, digits: int, tell: Progress) -> many_digits.Referen
     """
     try:
         return many_digits.reference(_motion(known), digits, tell)
-    except (PrecisionError, RouteError) as error:
+    except ArithmeticError as error:  # a ball too wide, a zero not certified, a route astray
         raise ValueError(
             f"an oracle does not reach {digits} digits of this scene ({error}); ask for fewer"
         ) from None
 
 
-def _motion(known: Result) -> many_digits.Motion:
+def _motion(known: Result) -> many_costs.Motion:
     m = known.model
     return m.R, m.m, m.v0, m.h, m.b, m.lam, m.mu
 

@@ -19,6 +19,7 @@ from derivation.reference import (
     contact_routes,
     contact_sums,
     contact_wall,
+    many_costs,
     many_digits,
 )
 from derivation.reference.contact_balls import ratio_of
@@ -172,7 +173,7 @@ def test_reference_shows_digits_radius_and_agreement(capsys: Captured) -> None:
     assert main(["reference", str(PAPER), "--digits", "30"]) == 0
     shown = capsys.readouterr()
     assert "0.00880816122632222377784403527581" in shown.out
-    assert shown.out.count("oracle 2 repeats 30 of 30 digits") == 10
+    assert shown.out.count("asked for 30 digits, repeats 30") == 10
     assert "this double exactly" in shown.out
     assert "about" in shown.err
 
@@ -180,6 +181,7 @@ def test_reference_shows_digits_radius_and_agreement(capsys: Captured) -> None:
 def test_reference_as_json(capsys: Captured) -> None:
     assert main(["reference", str(PAPER), "--digits", "20", "--json", "-"]) == 0
     found: dict[str, Any] = json.loads(capsys.readouterr().out)
+    assert found["inputs"]["R"] == 0.13
     time = found["impact"]["contact_time"]
     assert time["value"] == "0.0088081612263222237778"
     assert 0 < float(time["radius"]) < 1e-22
@@ -216,7 +218,7 @@ def test_oracles_that_differ_are_status_1(
         contact_routes, "hertz_stiffness", lambda *a: right(*a) * (1 + mpf(10) ** -12)
     )
     assert main(["reference", str(PAPER), "--digits", "15"]) == 1
-    assert "repeats 12 of 15" in capsys.readouterr().out
+    assert "asked for 15 digits, repeats 12" in capsys.readouterr().out
 
 
 def test_an_oracle_out_of_reach_is_a_message(
@@ -241,10 +243,10 @@ def test_ctrl_c_ends_it_cleanly(monkeypatch: pytest.MonkeyPatch, capsys: Capture
 
 def test_estimates_grow_with_the_digits() -> None:
     motion = (0.13, 72.0, 1.0, 0.1, 1.0, 0.36e9, 0.43e9)
-    seconds = [many_digits.expected_seconds(motion, 0.0134, n) for n in (30, 100, 300, 1000)]
+    seconds = [many_costs.expected_seconds(motion, 0.0134, n) for n in (30, 100, 300, 1000)]
     assert seconds == sorted(seconds)
     assert seconds[0] < 10
-    assert not many_digits.by_series(1e-3, 0.1, 30)
-    assert many_digits.second_digits(1e-3, 1000) == (100, 100)
+    assert not many_costs.by_series(1e-3, 0.1, 30)
+    assert many_costs.second_digits(1e-3, 1000) == (100, 100)
     with pytest.raises(ValueError, match="digits"):
         many_digits.reference(motion, 0, lambda *_: None)

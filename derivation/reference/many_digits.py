@@ -15,18 +15,15 @@ import flint
 from flint import arb
 from mpmath import mpf
 
-from derivation.formula.ball import LOG2_10, to_ball
+from derivation.formula.ball import to_ball
 from derivation.reference import contact_impact, contact_points, contact_routes
 from derivation.reference.contact_balls import modulus, ratio_of, settle
 from derivation.reference.contact_impact import Integrals, Law
-from derivation.reference.contact_modes import THIN
+from derivation.reference.many_costs import INPUTS, Motion, by_series, second_digits
 from derivation.reference.routes import to_ball as exactly
 
 Tell = Callable[[str, int, int], None]
 """Wants to be told what is being done, which part of it, and of how many."""
-
-Motion = tuple[float, float, float, float, float, float, float]
-"""R [m], m [kg], v0 [m/s], h [m], b [m], lam [Pa], mu [Pa]."""
 
 SHARES = (0.25, 0.5, 1.0)
 """At which parts of the largest contact radius the law is given."""
@@ -42,11 +39,6 @@ UNITS = {
 
 MOST = 1000
 """Digits that can be asked for."""
-
-SECOND_LAW, SECOND_IMPACT, SECOND_THIN = 300, 200, 100
-"""Digits that oracle 2 is asked for at most, so that it takes minutes: of the law, of the
-impact, and of either in thin plates, where its integral of G - 1 takes the most nodes.
-"""
 
 _SPARE = 3
 """Digits computed beyond those shown, so that rounding to the latter is what the radius is."""
@@ -100,6 +92,8 @@ class Reference(NamedTuple):
 
     Attributes
     ----------
+    motion
+        The scene in numbers, doubles taken exactly.
     digits
         Digits asked for, to which oracle 1's balls are narrow.
     impact
@@ -108,6 +102,7 @@ class Reference(NamedTuple):
         Indentation and stiffness at parts of the largest contact radius.
     """
 
+    motion: Motion
     digits: int
     impact: tuple[Quantity, ...]
     law: tuple[Pressed, ...]
@@ -143,7 +138,8 @@ class Reference(NamedTuple):
             for pressed in self.law
         ]
         impact = {quantity.name: plain(quantity) for quantity in self.impact}
-        return {"digits": self.digits, "impact": impact, "law": law}
+        inputs = dict(zip(INPUTS, self.motion, strict=True))
+        return {"digits": self.digits, "inputs": inputs, "impact": impact, "law": law}
 
     def lines(self) -> list[str]:
         """Every number with its radius and with what oracle 2 says, to be read by people."""
@@ -154,7 +150,7 @@ class Reference(NamedTuple):
             return [
                 f"{quantity.name.replace('_', ' ')} [{quantity.unit}]",
                 f"  {value}",
-                f"  +- {radius}, oracle 2 repeats {agreed} of {quantity.compared} digits asked",
+                f"  +- {radius}, oracle 2, asked for {quantity.compared} digits, repeats {agreed}",
             ]
 
         found = [line for quantity in self.impact for line in block(quantity)]
@@ -203,13 +199,7 @@ def reference(motion: Motion, digits: int, tell: Tell) -> Reference:
         tell("oracle 2: law", len(laws) + 1, len(radii))
         laws.append(Pressed(a, _law_again(a, both, motion, asked[0])))
     tell("oracle 2: impact", 1, 1)
-    return Reference(digits, _impact_again(found, motion, asked[1]), tuple(laws))
-
-
-def second_digits(eta: float, digits: int) -> tuple[int, int]:
-    """To how many digits oracle 2 is asked for law and impact of a plate of h/b = eta."""
-    limits = (SECOND_THIN,) * 2 if eta < THIN else (SECOND_LAW, SECOND_IMPACT)
-    return min(digits, limits[0]), min(digits, limits[1])
+    return Reference(motion, digits, _impact_again(found, motion, asked[1]), tuple(laws))
 
 
 def _law_again(a: float, balls: Sequence[arb], motion: Motion, digits: int) -> tuple[Quantity, ...]:
@@ -255,45 +245,6 @@ def law_of(eta: Fraction, reach: float, digits: int, tell: Tell) -> Callable[[in
         return contact_points.series(eta, reach, bits)
 
     return law
-
-
-def by_series(eta: float, reach: float, digits: int) -> bool:
-    """Whether oracle 1 takes the power series."""
-    if reach > 4 * contact_points.DEEPEST * eta:
-        return False
-    return series_seconds(eta, digits) < integrals_seconds(digits)
-
-
-def expected_seconds(motion: Motion, radius: float, digits: int) -> float:
-    """About how long `reference` takes [s] on one idle core, by what was measured on such.
-
-    Parameters
-    ----------
-    motion
-        The scene in numbers.
-    radius
-        Largest contact radius [m], which a double tells well enough.
-    digits
-        Digits asked for.
-    """
-    eta, reach = motion[3] / motion[4], radius / motion[4]
-    first = integrals_seconds(digits)
-    if by_series(eta, reach, digits):
-        first = series_seconds(eta, digits)
-    law, impact = second_digits(eta, digits)
-    seconds = float(10 * (law / 200) ** 2.3 + 150 * (impact / 200) ** 2.6)
-    return 1 + first + seconds * (4.0 if eta < THIN else 1.0)
-
-
-def series_seconds(eta: float, digits: int) -> float:
-    """About how long oracle 1 takes by the power series [s]."""
-    modes = contact_points.mode_count(eta, math.ceil(digits * LOG2_10))
-    return 0.5 + modes * (3e-4 + 0.02 * (digits / 1000) ** 2) + 50 * (digits / 1000) ** 3
-
-
-def integrals_seconds(digits: int) -> float:
-    """About how long oracle 1 takes in integrals [s]."""
-    return 2 + 220 * (digits / 300) ** 3
 
 
 def pressed(

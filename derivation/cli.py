@@ -380,6 +380,34 @@ def diagnose(
     raise typer.Exit(0 if found.verdict == "equal" else 1)
 
 
+@app.command()
+def reference(
+    scene: scene_commands.SceneFile,
+    digits: Annotated[int, typer.Option(min=1, max=1000, help="Digits of every number.")] = 50,
+    json: Json = None,
+) -> None:
+    """Give contact law and impact of a scene file to many digits, by both oracles.
+
+    The scene's numbers are taken as the exact doubles they are read as. Exit status 1 if the
+    oracles differ.
+
+    Example: platecontact reference scene.toml --digits 100
+    """
+    from derivation import pipeline
+
+    scene_commands.check_outputs(scene, json)
+    known = pipeline.in_doubles(scene)
+    scene_commands.warn(known.warnings)
+    NOTES.print(pipeline.time_of_reference(known, digits), highlight=False)
+    with counted("reference") as tell:
+        found = pipeline.reference(known, digits, tell)
+    if json != "-":
+        listing(f"{scene.name} to {digits} digits, its numbers being exact doubles", found.lines())
+    if json:
+        put_json(found.to_json(), json)
+    raise typer.Exit(0 if found.agrees else 1)
+
+
 app.command()(scene_commands.simulate)
 app.command()(scene_commands.indent)
 

@@ -36,13 +36,16 @@ from derivation.measure.search import Search, Tell, search
 from derivation.measure.search_cases import Book, seconds_of
 from derivation.measure.search_targets import targets
 from derivation.produce import folder_for, write_files
+from derivation.reference import many_costs, many_digits
 from derivation.report import pdf as compiler
 from derivation.report.content import tex
 from derivation.report.figures import figures, motion_context
 from derivation.rewrite.account import Account, accounts
 from derivation.rewrite.stabilise import Stable, stabilise
 from derivation.scene.choice import solve
+from derivation.scene.impact import simulate
 from derivation.scene.model import Model, model_of
+from derivation.scene.result import Result
 from derivation.scene.scene import load
 from generated import contact_law, impact
 
@@ -229,6 +232,45 @@ def search_worse(
     found = search(chosen, seed, seconds, tell=tell, keep=book.keep)
     book.keep(found)
     return found, book
+
+
+def in_doubles(path: Path) -> Result:
+    """The impact of a scene file in doubles, which refuses what the contact law does not cover.
+
+    Raises
+    ------
+    derivation.scene.scene.SceneError
+        If the scene cannot be read or leaves the contact law's range.
+    """
+    return simulate(load(path))
+
+
+def time_of_reference(known: Result, digits: int) -> str:
+    """How long `reference` is going to take, about."""
+    seconds = many_costs.expected_seconds(_motion(known), known.max_contact_radius, digits)
+    long = f"{seconds / 60:.0f} min" if seconds > 90 else f"{seconds:.0f} s"
+    return f"about {long} on an idle machine"
+
+
+def reference(known: Result, digits: int, tell: Progress) -> many_digits.Reference:
+    """Contact law and impact of a scene to many digits by both oracles.
+
+    Raises
+    ------
+    ValueError
+        If the oracles do not reach so many digits.
+    """
+    try:
+        return many_digits.reference(_motion(known), digits, tell)
+    except ArithmeticError as error:  # a ball too wide, a zero not certified, a route astray
+        raise ValueError(
+            f"an oracle does not reach {digits} digits of this scene ({error}); ask for fewer"
+        ) from None
+
+
+def _motion(known: Result) -> many_costs.Motion:
+    m = known.model
+    return m.R, m.m, m.v0, m.h, m.b, m.lam, m.mu
 
 
 def verdict(rows: tuple[Row, ...]) -> list[str]:

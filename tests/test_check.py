@@ -23,7 +23,6 @@ BY_BLOCK = {
     "sinh_plus": "Omega_2",
     "sinh_pair": "G",
     "hertz_shape": "A_j",
-    "sinh_ratio": "mode_g",
     "cosh_square": "mode_zz",
     "sinh_cubic": "mode_rz",
     "cosh_quartic": "mode_zz",

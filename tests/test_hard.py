@@ -92,7 +92,7 @@ def test_every_seam_of_the_blocks_is_there(cases: tuple[Case, ...]) -> None:
     points = [case.points[0] for case in cases if case.group == "seams of the building blocks"]
     reached = {
         "T": {p["T"] for p in points if "T" in p},
-        "x": {p["phi"] for p in points if "z" in p and p["h"] == 1.0},
+        "reach": {p["z"] for p in points if p.get("h") == 4.0},
         "y": {p["phi"] for p in points if p.get("a") == 1.0},
     }
     assert seams()

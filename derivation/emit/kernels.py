@@ -9,12 +9,10 @@ import sympy as sp
 from derivation.emit.budgets import Budget
 from derivation.emit.printer import to_numpy
 from derivation.formula.record import Formula
-from derivation.formula.symbols import ARGUMENTS, C1, C3, Argument, a, applicable, phi
-from derivation.rewrite.blocks import blocks
+from derivation.formula.symbols import ARGUMENTS, C1, C3, Argument, applicable
 from derivation.rewrite.form import Branch, Form, Seam, Step
 
 MODAL_SUMS = {
-    "delta": "times(hertz_shape(a * phi), (K_j(phi, h, b, R, J1), 1), ({near}, 3))",
     "u": "mode_g(z, phi, h, lam, mu, A) * phi * bessel_j1(phi * r)",
     "w": "mode_f(z, phi, h, lam, mu, A) * bessel_j0(phi * r)",
     # 2 mu phi^2 mode_g is mode_rr - mode_tt: with both of these nothing cancels on the axis.
@@ -23,7 +21,7 @@ MODAL_SUMS = {
     "sigma_zz": "mode_zz(z, phi, h, lam, mu, A) * bessel_j0(phi * r)",
     "sigma_rz": "mode_rz(z, phi, h, lam, mu, A) * bessel_j1(phi * r)",
 }
-"""One mode's share of each sum, in terms of the other kernels; `near` as in `hertz_shape`."""
+"""One mode's share of each sum that is put in terms of the other kernels."""
 
 
 @dataclass(frozen=True)
@@ -125,9 +123,12 @@ def kernel_of_form(stable: Form, formula: Formula, budget: Budget) -> Kernel:
 
 
 def kernel_of_sum(
-    formula: Formula, coefficient: Formula, factor: Formula, budget: Budget
+    formula: Formula, coefficient: Formula, factor: Formula, budget: Budget, share: Form | None
 ) -> Kernel:
-    """Row of a modal sum: its arguments are those of its parts, less phi and J1."""
+    """Row of a modal sum: its arguments are those of its parts, less phi and J1.
+
+    One mode's share has a stable form of its own, or is one of `MODAL_SUMS`.
+    """
     expression = formula.expression
     parts: tuple[Formula, ...] = (formula,)
     if any(str(symbol).startswith("C") for symbol in expression.free_symbols):
@@ -135,9 +136,9 @@ def kernel_of_sum(
     names = {x.name for part in parts for x in part.arguments}
     names -= {"phi", "J1", "A_j", "C1", "C2", "C3", "C4"}
     arguments = tuple(x for x in ARGUMENTS if x.name in names)
-    near = to_numpy(blocks()["hertz_shape"].near(a * phi))
-    share = MODAL_SUMS[formula.name].format(near=near)
-    return _kernel(formula, arguments, "modal_sum", budget, value=share, modes=True)
+    steps = () if share is None else lines(share.steps)
+    value = MODAL_SUMS[formula.name] if share is None else to_numpy(share.value)
+    return _kernel(formula, arguments, "modal_sum", budget, steps=steps, value=value, modes=True)
 
 
 def _kernel(

@@ -27,11 +27,17 @@ class _Printer(NumPyPrinter):
         return f"{expr.func.__name__}({', '.join(self._print(x) for x in expr.args)})"
 
     def _print_Min(self, expr: sp.Min) -> str:
-        return f"np.minimum({', '.join(self._print(x) for x in sorted(expr.args, key=_constant))})"
+        return f"np.minimum({self._bounds(expr)})"
 
     def _print_Max(self, expr: sp.Max) -> str:
-        arguments = sorted(expr.args, key=sp.default_sort_key)
-        return f"np.maximum({', '.join(self._print(x) for x in arguments)})"
+        return f"np.maximum({self._bounds(expr)})"
+
+    def _bounds(self, expr: sp.Expr) -> str:
+        arguments = sorted(expr.args, key=lambda x: (not x.free_symbols, sp.default_sort_key(x)))
+        return ", ".join(self._print(x) for x in arguments)
+
+    def _print_Float(self, expr: sp.Float) -> str:
+        return repr(float(expr))
 
     def _print_BesselJ(self, expr: sp.besselj) -> str:
         return f"bessel_j{expr.order}({self._print(expr.argument)})"
@@ -74,10 +80,6 @@ class _Printer(NumPyPrinter):
 def _fades(part: sp.Expr) -> bool:
     exponents = (function.args[0] for function in part.atoms(sp.exp))
     return part.has(decay) or any(x.could_extract_minus_sign() for x in exponents)
-
-
-def _constant(expression: sp.Expr) -> bool:
-    return not expression.free_symbols
 
 
 def _split(product: sp.Expr) -> tuple[list[sp.Expr], list[sp.Expr]]:

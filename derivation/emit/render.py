@@ -80,10 +80,13 @@ def render(formulas: Mapping[str, Formula], forms: tuple[Form, ...]) -> dict[str
 def kernel_rows(formulas: Mapping[str, Formula], forms: tuple[Form, ...]) -> tuple[Kernel, ...]:
     """Stage 1: a row for every stable form and every modal sum."""
     budgets = read_budgets()
-    of_forms = tuple(kernel_of_form(f, formulas[f.name], budgets[f.name]) for f in forms)
+    shares = {f.name: f for f in forms if formulas[f.name].summed}
+    closed = (f for f in forms if f.name not in shares)
+    of_forms = tuple(kernel_of_form(f, formulas[f.name], budgets[f.name]) for f in closed)
+    load = formulas["A_j"], formulas["Omega_1"]
     of_sums = tuple(
-        kernel_of_sum(formulas[name], formulas["A_j"], formulas["Omega_1"], budgets[name])
-        for name in MODAL_SUMS
+        kernel_of_sum(formulas[name], *load, budgets[name], shares.get(name))
+        for name in (*shares, *MODAL_SUMS)
     )
     return of_forms + of_sums
 

@@ -4,15 +4,16 @@ With the notation of `contact_balls` and P = 4 E* a^3/(3 R),
 
     int P d delta = (8 E*/(15 R^2)) a^5 (1 + 20 alpha/pi L[work]),
 
-which gives the largest contact radius a_m. For the time, d delta/da is interpolated
-on [0, a_m] by a polynomial with a proven error; the rest is exact in that
-polynomial, and the root's singularity at a_m is taken away by a = a_m (1 - u^2).
+which gives the largest contact radius a_m. For the time, d delta/da is taken for
+a polynomial on [0, a_m] with a proven error, an interpolant of the law in integrals or
+the law's power series; the rest is exact in that polynomial, and the root's singularity
+at a_m is taken away by a = a_m (1 - u^2).
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import flint
 from flint import acb, arb
@@ -29,6 +30,42 @@ class Impact(NamedTuple):
     max_indentation: arb
     max_force: arb
     max_contact_radius: arb
+
+
+class Law(Protocol):
+    """What a plate adds to Hertz's law up to a/b = `reach`, at the precision now set."""
+
+    @property
+    def reach(self) -> arb:
+        """Largest a/b [1] served."""
+
+    def excess(self, name: str, alpha: arb) -> arb:
+        """See `contact_sums.excess`; alpha = a/b [1]."""
+
+    def slope(self, alpha: arb) -> tuple[flint.arb_poly, arb]:
+        """Exact coefficients of p(t), and a bound of p's error on [0, 1].
+
+        (R/2a) d delta/da = 1 + q p(q^2) at a = q alpha b.
+        """
+
+
+class Integrals(NamedTuple):
+    """The law of a plate of h/b = eta by the integrals of `contact_sums`, whatever the contact."""
+
+    eta: Fraction
+
+    @property
+    def reach(self) -> arb:
+        """The plate's edge."""
+        return arb(1)
+
+    def excess(self, name: str, alpha: arb) -> arb:
+        """See `contact_sums.excess`."""
+        return excess(name, alpha, self.eta)
+
+    def slope(self, alpha: arb) -> tuple[flint.arb_poly, arb]:
+        """See `Law.slope`."""
+        return _slope_polynomial(alpha, self.eta)
 
 
 class Course(NamedTuple):
@@ -152,10 +189,10 @@ def _duration(course: Course, u: arb, bits: int) -> arb:
         return course.scale * body * arb(1, course.doubt)
 
 
-def _course(alpha: arb, R: Exact, m: Exact, b: Exact, stiff: arb, eta: Fraction) -> Course:
+def _course(alpha: arb, R: Exact, m: Exact, b: Exact, stiff: arb, law: Law) -> Course:
     """Polynomials at a largest a/b; `stiff` is C = 4 E*/(3R)."""
     bits = flint.ctx.prec
-    bare, error = _slope_polynomial(alpha, eta)
+    bare, error = law.slope(alpha)
     polynomial = _spread(bare)
     with flint.ctx.workprec(bits + 2 * polynomial.degree() + 64):
         work = (flint.arb_poly([0, 0, 0, 0, 1]) * polynomial).integral().coeffs()
@@ -172,16 +209,24 @@ def _course(alpha: arb, R: Exact, m: Exact, b: Exact, stiff: arb, eta: Fraction)
 
 
 def impact(
-    R: Exact, m: Exact, v0: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact, digits: int = 40
-) -> Impact:
+    R: Exact, m: Exact, v0: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact, digits: int = 40,
+    law: Callable[[int], Law] | None = None,
+) -> Impact:  # fmt: skip
     """The conservative impact of a sphere of mass m at speed v0.
+
+    `law` gives the plate's law at so many bits; without it integrals serve.
 
     Raises
     ------
     ValueError
         If the contact reaches the plate's edge before the sphere has stopped.
     """
-    return Impact(*settle(lambda _: _impact(R, m, v0, h, b, lam, mu, ())[0], digits, "impact"))
+    chosen = law or (lambda _: Integrals(ratio_of(h, b)))
+
+    def compute(bits: int) -> Impact:
+        return _impact(R, m, v0, h, b, lam, mu, (), chosen(bits))[0]
+
+    return Impact(*settle(compute, digits, "impact"))
 
 
 def stored_energy(
@@ -203,30 +248,45 @@ def history(
     digits: int = 40,
 ) -> tuple[arb, ...]:  # fmt: skip
     """Times since first touch at which the growing contact reaches the given radii."""
-    return settle(lambda _: _impact(R, m, v0, h, b, lam, mu, radii)[1], digits, "history")
+    law = Integrals(ratio_of(h, b))
+    return settle(lambda _: _impact(R, m, v0, h, b, lam, mu, radii, law)[1], digits, "history")
 
 
-def _impact(
-    R: Exact, m: Exact, v0: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact,
-    radii: Sequence[Exact],
-) -> tuple[Impact, tuple[arb, ...]]:  # fmt: skip
-    eta, stiff, bits = ratio_of(h, b), 4 * modulus(lam, mu) / (3 * to_ball(R)), flint.ctx.prec
+def largest_ratio(
+    R: Exact, m: Exact, v0: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact, law: Law
+) -> arb:
+    """Largest a/b of an impact, at the precision now set.
+
+    Raises
+    ------
+    ValueError
+        If the contact reaches the plate's edge before the sphere has stopped.
+    """
+    eta, stiff = ratio_of(h, b), 4 * modulus(lam, mu) / (3 * to_ball(R))
 
     def value(x: arb) -> arb:
-        return x**5 * (1 + excess("work", x, eta))
+        return x**5 * (1 + law.excess("work", x))
 
     def steepness(x: arb, here: arb) -> arb:
-        return 5 * x**5 * (1 + excess("sinc", x, eta)) / here
+        return 5 * x**5 * (1 + law.excess("sinc", x)) / here
 
     target = to_ball(m) * to_ball(v0) ** 2 / 4 * 5 * to_ball(R) / stiff / to_ball(b) ** 5
     # Hertz's, or that of a bent plate, 5 x^6/(16 pi eta^3) = target, if it is smaller.
     # Roots are taken of the ball: of a slow impact no double holds the target.
     bent = (3.2 * math.pi) ** (1 / 6) * float(target.root(6)) * float(eta) ** 0.5
-    start = min(float(target.root(5)), bent)
-    alpha = ratio_where(value, steepness, target, start, f"the sphere stops from {v0}")
-    course = _course(alpha, R, m, b, stiff, eta)
+    start = min(float(target.root(5)), bent, float(law.reach))
+    return ratio_where(value, steepness, target, start, f"the sphere stops from {v0}")
+
+
+def _impact(
+    R: Exact, m: Exact, v0: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact,
+    radii: Sequence[Exact], law: Law,
+) -> tuple[Impact, tuple[arb, ...]]:  # fmt: skip
+    stiff, bits = 4 * modulus(lam, mu) / (3 * to_ball(R)), flint.ctx.prec
+    alpha = largest_ratio(R, m, v0, h, b, lam, mu, law)
+    course = _course(alpha, R, m, b, stiff, law)
     whole = _duration(course, arb(1), bits)
-    deepest = course.radius**2 / to_ball(R) * (1 + excess("hertz", alpha, eta))
+    deepest = course.radius**2 / to_ball(R) * (1 + law.excess("hertz", alpha))
     force = stiff * course.radius**3
     found = Impact(2 * whole, deepest, force, course.radius)
     return found, tuple(whole - _duration(course, _left(a, course), bits) for a in radii)

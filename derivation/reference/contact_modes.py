@@ -25,8 +25,8 @@ from derivation.reference.routes import RouteError
 THIN = 0.035
 """Below this h/b the poles of G beyond Re n = N weigh less than e^(-4.2/eta) < 10^-52."""
 
-FIRST = 30
-"""Zeros from here on are found by the phase's asymptotic series, to 60 digits at least."""
+STRIP = 1.0
+"""Half-width of the strip that sets the step of the rule for Abel-Plana's integral."""
 
 
 class Nodes(NamedTuple):
@@ -56,6 +56,22 @@ def _phase_series(dps: int) -> tuple[mpf, ...]:
         return tuple(rate)
 
 
+class _Terms(NamedTuple):
+    """d_1, d_2, ... of the phase's slope, d_k/(2k-1) of the phase, decimal logarithms of |d_k|."""
+
+    slope: tuple[mpf, ...]
+    phase: tuple[mpf, ...]
+    sizes: tuple[float, ...]
+
+
+@cache
+def _terms(dps: int) -> _Terms:
+    with mp.workdps(dps):
+        slope = _phase_series(dps)[1:]
+        phase = tuple(d / (2 * k - 1) for k, d in enumerate(slope, start=1))
+        return _Terms(slope, phase, tuple(float(mp.log10(abs(d))) for d in slope))
+
+
 def _phase(x: mpf) -> tuple[mpf, mpf]:
     """Phase theta of H and its slope at a large x, real or complex, by the asymptotic series.
 
@@ -64,38 +80,61 @@ def _phase(x: mpf) -> tuple[mpf, mpf]:
     RouteError
         If the series turns before its terms are below the working precision.
     """
-    theta, rate, power, smallest = x - mp.pi / 4, mpf(1), 1 / x, mpf(10) ** (-mp.dps - 3)
-    square = 1 / (x * x)
-    for k, coefficient in enumerate(_phase_series(mp.dps)[1:], start=1):
-        theta -= coefficient * power / (2 * k - 1)
-        power *= square
-        rate += coefficient * power * x
-        if abs(coefficient * power * x) < smallest:
-            return theta, rate
+    terms, size, square = _terms(mp.dps), 2 * float(mp.log10(abs(x))), 1 / (x * x)
+    powers, goal = [square], -mp.dps - 3
+    for k, coefficient in enumerate(terms.sizes, start=1):
+        if coefficient - k * size < goal:
+            theta = x - mp.pi / 4 - x * mp.fdot(terms.phase[:k], powers)
+            return theta, 1 + mp.fdot(terms.slope[:k], powers)
+        powers.append(powers[-1] * square)
     raise RouteError(f"the phase's series does not reach {mp.dps} digits at {mp.nstr(x)}")
 
 
+def precisions(dps: int) -> list[int]:
+    """Digits of Newton's steps, each enough for the next, the last being those worked with."""
+    steps = [dps]
+    while steps[-1] > 20:
+        steps.append(steps[-1] // 2 + 4)
+    return steps[::-1]
+
+
 def _continued_zero(n: mpf) -> tuple[mpf, mpf]:
-    """j(n) and dj/dn, where theta(j) = (n - 1/2) pi, by Newton's iteration."""
+    """j(n) and dj/dn, where theta(j) = (n - 1/2) pi, by Newton's iteration.
+
+    Raises
+    ------
+    RouteError
+        If the phase at the zero found is not the one asked for.
+    """
     target = (n - mpf(1) / 2) * mp.pi
     x = target + mp.pi / 4 + 1 / (8 * target)
-    for _ in range(12):
-        theta, rate = _phase(x)
-        step = (target - theta) / rate
-        x += step
-        if abs(step) < mpf(10) ** (-mp.dps + 8):
-            return x, mp.pi / _phase(x)[1]
-    raise RouteError(f"no zero of J0 continued to n = {mp.nstr(n)}")
+    for dps in precisions(mp.dps):
+        with mp.workdps(dps):
+            theta, rate = _phase(x)
+            step = (target - theta) / rate
+            x += step
+    if not abs(step) < mpf(10) ** (-mp.dps // 2 + 4):
+        raise RouteError(f"no zero of J0 continued to n = {mp.nstr(n)}")
+    return x, mp.pi / _phase(x)[1]
+
+
+def by_bessel(dps: int) -> int:
+    """How many zeros the phase's asymptotic series does not give to so many digits."""
+    return int(0.42 * dps) + 5
 
 
 @cache
 def _mode(n: int, dps: int) -> tuple[mpf, mpf]:
     """j_n and 1/(j_n J1(j_n)^2)."""
     with mp.workdps(dps):
-        if n >= FIRST:
+        if n >= by_bessel(dps):
             zero, rate = _continued_zero(mpf(n))
             return zero, rate / 2
-        zero = mp.besseljzero(0, n)
+        with mp.workdps(15):
+            zero = mp.besseljzero(0, n)
+        for working in precisions(dps):
+            with mp.workdps(working + 5):
+                zero += mp.besselj(0, zero) / mp.besselj(1, zero)
         return zero, 1 / (zero * mp.besselj(1, zero) ** 2)
 
 
@@ -125,14 +164,24 @@ def _excess(T: mpf) -> mpf:
         return +(numerator / ((1 - decay) ** 2 - 4 * T * T * decay))
 
 
+def _exponential(end: mpf) -> list[tuple[mpf, mpf]]:
+    """Trapezoidal nodes and weights of int_0^end for what decays beyond: y = e^(t - e^(-t))."""
+    step = 2 * mp.pi * STRIP / (mp.dps * mp.log(10))
+    first, last = -mp.log(mp.dps * mp.log(10) + 5), mp.log(end)
+    found = []
+    for k in range(math.floor(first / step), math.ceil(last / step) + 1):
+        fall = mp.exp(-k * step)
+        y = mp.exp(k * step - fall)
+        found.append((y, step * y * (1 + fall)))
+    return found
+
+
 @cache
-def _upright(first: int, level: int, dps: int) -> tuple[tuple[mpf, mpf], ...]:
+def _upright(first: int, dps: int) -> tuple[tuple[mpf, mpf], ...]:
     """Abel-Plana's integral on Re n = N, without f; |f| grows by e^(pi y) at most."""
     with mp.workdps(dps):
-        end = mpf(dps) * mp.log(10) / mp.pi + 5
-        heights = [mpf(0), mpf(1) / 2, *(mpf(2) ** k for k in range(5)), end]
         found = []
-        for y, w in spread(heights, level):
+        for y, w in _exponential(mpf(dps) * mp.log(10) / mp.pi + 5):
             z, slope = _continued_zero(mp.mpc(first, y))
             found.append((z, mp.mpc(0, 1) * w * slope / mp.expm1(2 * mp.pi * y)))
         return tuple(found)
@@ -150,7 +199,7 @@ def nodes_of(eta: mpf, first: int, level: int, dps: int) -> Nodes:
         edge, rate = _continued_zero(mpf(first))
         late = factor if thin else (lambda _: mpf(1))
         found.append((edge, rate / 4 * late(edge)))
-        found += [(z, w * late(z)) for z, w in _upright(first, level, dps)]
+        found += [(z, w * late(z)) for z, w in _upright(first, dps)]
         if thin:
             edges = [2 * eta * edge]
             while edges[-1] < reach / 2 + 5:

@@ -2,7 +2,8 @@
 
 Indentation, slope and work are sums of one kernel each over the nodes of
 `contact_modes`. Everything is done twice, with other nodes, another number of modes
-and more digits; where the two differ there is no answer.
+and more digits; where the two differ there is no answer. For many digits a caller may ask
+for one evaluation, if it has the other oracle's value to compare with.
 """
 
 import math
@@ -33,11 +34,12 @@ class Setting(NamedTuple):
         Modes added before the acceleration; the phase's asymptotic series needs about half as
         many as there are digits.
     level
-        3 * 2^(level - 1) Gauss-Legendre nodes to an interval of the acceleration.
+        3 * 2^(level - 1) Gauss-Legendre nodes to an interval of G - 1's integral, thin plates only.
     dps
         Working digits.
     arcs, arc_level
-        Into how many intervals the quarter turn of an impact is cut, and their nodes.
+        Into how many intervals the quarter turn of an impact is cut, and 3 * 2^(arc_level - 1)
+        Gauss-Legendre nodes for each.
     """
 
     first: int
@@ -47,6 +49,9 @@ class Setting(NamedTuple):
     arc_level: int
 
 
+Settings = Sequence[Setting] | None
+"""What a caller asks for: evaluations to agree, or None for those of `SETTINGS`."""
+
 SETTINGS: dict[int, tuple[Setting, Setting]] = {
     24: (Setting(20, 4, 38, 2, 4), Setting(24, 4, 42, 3, 4)),
     42: (Setting(30, 5, 56, 4, 4), Setting(37, 6, 62, 3, 5)),
@@ -54,6 +59,11 @@ SETTINGS: dict[int, tuple[Setting, Setting]] = {
 """Up to so many digits, the two evaluations that must agree: light ones, and full ones."""
 
 MAX_DIGITS = max(SETTINGS)
+_SPARE = 20
+"""Working digits beyond those asked, where one evaluation is asked for."""
+_PER_NODE = {1: 0.7, 2: 1.2, 3: 1.5, 4: 1.7}
+"""Digits that each Gauss-Legendre node of an arc brings if there are so many arcs."""
+
 EDGE = mpf("0.9999")
 """Largest a/b that is looked for."""
 
@@ -113,8 +123,24 @@ class Law(NamedTuple):
         return 8 / mp.pi * x**5 * work, 8 / mp.pi * x * slope
 
 
-def _twice(compute: Callable[[Law], Sequence[mpf]], eta: mpf, digits: int) -> list[mpf]:
-    """Both settings' results, or none.
+def setting(digits: int) -> tuple[Setting]:
+    """How a single evaluation to any number of digits is done."""
+    dps = digits + _SPARE
+    level = max(5, math.ceil(math.log2(dps / 2.4)) + 1)
+    cuts = [(arcs, rank) for arcs in _PER_NODE for rank in range(4, 12)]
+    enough = [(n, k) for n, k in cuts if 3 * 2 ** (k - 1) * _PER_NODE[n] >= digits + 6]
+    arcs, rank = min(enough, key=lambda cut: cut[0] * 2 ** cut[1])
+    return (Setting(dps // 2 + 6, level, dps, arcs, rank),)
+
+
+def _results(
+    compute: Callable[[Law], Sequence[mpf]],
+    h: float,
+    b: float,
+    digits: int,
+    settings: Settings = None,
+) -> list[mpf]:
+    """Both settings' results, or none; the only one's, if there is one.
 
     Raises
     ------
@@ -122,23 +148,24 @@ def _twice(compute: Callable[[Law], Sequence[mpf]], eta: mpf, digits: int) -> li
         If they differ by more than 10^-(digits + 1), or more digits are asked than this
         route is set for.
     """
-    if digits > MAX_DIGITS:
+    if settings is None and digits > MAX_DIGITS:
         raise RouteError(f"this route is set for {MAX_DIGITS} digits, got {digits}")
-    chosen = SETTINGS[min(limit for limit in SETTINGS if digits <= limit)]
+    chosen = settings or SETTINGS[min(limit for limit in SETTINGS if digits <= limit)]
+    eta = _quotient(h, b, digits)
     results = []
-    for setting in chosen:
-        with mp.workdps(setting.dps):
-            results.append(list(compute(Law(eta, setting))))
+    for one in chosen:
+        with mp.workdps(one.dps):
+            results.append(list(compute(Law(eta, one))))
     with mp.workdps(chosen[-1].dps):
-        for one, other in zip(*results, strict=True):
-            if not abs(one - other) <= abs(other) * mpf(10) ** (-digits - 1):
-                differ = mp.nstr((one - other) / other, 3)
+        for light, full in zip(results[0], results[-1], strict=True):
+            if not abs(light - full) <= abs(full) * mpf(10) ** (-digits - 1):
+                differ = mp.nstr((light - full) / full, 3)
                 raise RouteError(f"two evaluations differ by {differ} at h/b = {float(eta)}")
     return results[-1]
 
 
-def _quotient(one: float, other: float) -> mpf:
-    with mp.workdps(SETTINGS[MAX_DIGITS][-1].dps + 10):
+def _quotient(one: float, other: float, digits: int) -> mpf:
+    with mp.workdps(digits + 30):
         return mpf(one) / mpf(other)
 
 
@@ -148,19 +175,21 @@ def _inside(x: mpf) -> mpf:
     return x
 
 
-def indentation(a: float, R: float, h: float, b: float, digits: int = 40) -> mpf:
+def indentation(
+    a: float, R: float, h: float, b: float, digits: int = 40, settings: Settings = None
+) -> mpf:
     """Indentation at a contact radius."""
-    x = _inside(_quotient(a, b))
-    return _twice(
-        lambda law: [mpf(b) ** 2 / mpf(R) * law.depth_and_slope(x)[0]], _quotient(h, b), digits
+    x = _inside(_quotient(a, b, digits))
+    return _results(
+        lambda law: [mpf(b) ** 2 / mpf(R) * law.depth_and_slope(x)[0]], h, b, digits, settings
     )[0]  # fmt: skip
 
 
 def slope(a: float, R: float, h: float, b: float, digits: int = 40) -> mpf:
     """d delta/da at a contact radius."""
-    x = _inside(_quotient(a, b))
-    return _twice(
-        lambda law: [mpf(b) / mpf(R) * law.depth_and_slope(x)[1]], _quotient(h, b), digits
+    x = _inside(_quotient(a, b, digits))
+    return _results(
+        lambda law: [mpf(b) / mpf(R) * law.depth_and_slope(x)[1]], h, b, digits
     )[0]  # fmt: skip
 
 
@@ -171,16 +200,17 @@ def hertz_stiffness(R: mpf, lam: float, mu: float) -> mpf:
 
 
 def stiffness(
-    a: float, R: float, h: float, b: float, lam: float, mu: float, digits: int = 40
-) -> mpf:
+    a: float, R: float, h: float, b: float, lam: float, mu: float, digits: int = 40,
+    settings: Settings = None,
+) -> mpf:  # fmt: skip
     """dP/d delta at a contact radius: (dP/da)/(d delta/da)."""
-    x = _inside(_quotient(a, b))
+    x = _inside(_quotient(a, b, digits))
 
     def compute(law: Law) -> list[mpf]:
         steep = 3 * hertz_stiffness(mpf(R), lam, mu) * mpf(a) ** 2
         return [steep / (mpf(b) / mpf(R) * law.depth_and_slope(x)[1])]
 
-    return _twice(compute, _quotient(h, b), digits)[0]
+    return _results(compute, h, b, digits, settings)[0]
 
 
 def _root(function: Callable[[mpf], tuple[mpf, mpf]], target: mpf, start: mpf) -> mpf:
@@ -225,12 +255,13 @@ def contact_radius(delta: float, R: float, h: float, b: float, digits: int = 40)
         start = min(mp.sqrt(target), mp.cbrt(4 * mp.pi * target) * law.eta)
         return [mpf(b) * _root(function, target, start)]
 
-    return _twice(compute, _quotient(h, b), digits)[0]
+    return _results(compute, h, b, digits)[0]
 
 
 def impact(
-    R: float, m: float, v0: float, h: float, b: float, lam: float, mu: float, digits: int = 30
-) -> Impact:
+    R: float, m: float, v0: float, h: float, b: float, lam: float, mu: float, digits: int = 30,
+    settings: Settings = None,
+) -> Impact:  # fmt: skip
     """The conservative impact: a = a_m sin t takes the root's singularity away."""
 
     def compute(law: Law) -> list[mpf]:
@@ -250,7 +281,7 @@ def impact(
         deepest = depth * law.depth_and_slope(largest)[0]
         return [2 * depth * time, deepest, stiff * radius**3, radius]
 
-    return Impact(*_twice(compute, _quotient(h, b), digits))
+    return Impact(*_results(compute, h, b, digits, settings))
 
 
 def _quarter(law: Law, largest: mpf) -> mpf:

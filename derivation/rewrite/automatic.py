@@ -6,8 +6,9 @@ Stages, in this order:
                    its ratio to lam + mu
  2 rules           `fraction`, `decay` and `difference`, as for one variable
  3 blocks          sums that cancel at 0 -> building blocks, their power of x taken out
- 4 powers          of x and of symbols, and the decay in two halves, apart: only the sums are
-                   added up as they are, and `times` puts the powers to them
+ 4 quotients       what tends to 1 -> 1 and a positive rest; what is divisible is divided
+ 5 powers          of x and of symbols, and the decay, stand apart: only sums are computed as
+                   they are, and `times` puts the powers to them
 """
 
 from collections import defaultdict
@@ -18,7 +19,7 @@ from itertools import combinations
 import sympy as sp
 
 from derivation.formula.symbols import a, h, lam, mu, phi
-from derivation.rewrite.form import FAR, TIMES, Block, Step
+from derivation.rewrite.form import FAR, LARGEST, TIMES, Block, Step, held
 from derivation.rewrite.rules import decay, fraction, parts_of
 from derivation.rewrite.series import leading_power
 from derivation.rewrite.shape import Factor, Shape
@@ -91,10 +92,10 @@ def automatic(expression: sp.Expr, known: Mapping[str, Block]) -> Automatic:
     steps: list[Step] = []
     if reduced.expression.has(ratio):
         steps.append(RATIO)
-    if reduced.variable == T:
-        steps.append(Step(T, sp.Min(reduced.product, FAR), "nothing changes from there on"))
-    elif reduced.length != reduced.variable:
-        steps.append(Step(reduced.variable, reduced.product))
+    most = LARGEST if reduced.expression.has(sp.sin) else FAR
+    steps.append(Step(reduced.variable, held(reduced.product, most), "beyond, nothing changes"))
+    if shape.rate > 0:
+        raise UnreachableError(f"grows as e^({shape.rate} {shape.x}): {expression}")
     size, core, powers = _beyond_one(shape, known) or _divided(shape) or _taken(shape, known)
     for base, exponent in shape.front.as_powers_dict().items():
         if base.is_Symbol and base != ratio:
@@ -124,11 +125,14 @@ def _taken(shape: Shape, known: Mapping[str, Block]) -> Taken:
     """What a shape's sums are made of."""
     size, core, powers = sp.Integer(1), sp.Integer(1), defaultdict(int, {shape.x: shape.power})
     for factor in _paired(shape, known):
-        content, value, least, lead = _factor(factor, shape.x, known)
+        content, value, taken = _factor(factor, shape.x, known)
         size *= content**factor.exponent
-        core *= value**factor.exponent
-        if lead:
-            powers[least] += lead * factor.exponent
+        if factor.exponent > 1:
+            powers[value] += factor.exponent
+        else:
+            core *= value**factor.exponent
+        for base, power in taken.items():
+            powers[base] += power * factor.exponent
     return size, core, powers
 
 
@@ -212,6 +216,10 @@ def _with_length(core: sp.Expr, powers: dict[sp.Expr, int], reduced: Reduced) ->
 def _joined(powers: dict[sp.Expr, int], reduced: Reduced) -> list[Step]:
     """Powers that undo each other taken together, as steps; no base is left with the power 0."""
     steps, own = [], reduced.variable
+    if powers[own] > 0 > powers[phi] and own == y:  # y/phi = a
+        count = min(powers[own], -powers[phi])
+        for base, change in ((reduced.length, count), (own, -count), (phi, count)):
+            powers[base] += change
     for least in [base for base in powers if isinstance(base, sp.Min)]:
         (at,) = (bound for bound in least.args if bound.is_Number)
         if powers[least] > 0 > powers[phi]:  # reach = near/phi
@@ -242,10 +250,8 @@ def _shape(reduced: Reduced) -> Shape:
     return shape
 
 
-def _factor(
-    factor: Factor, variable: sp.Symbol, known: Mapping[str, Block]
-) -> tuple[sp.Expr, sp.Expr, sp.Expr, int]:
-    """A factor as a constant, a sum that does not cancel at 0, and a base with its power."""
+def _factor(factor: Factor, variable: sp.Symbol, known: Mapping[str, Block]) -> Taken:
+    """A factor as a constant, a sum that does not cancel at 0, and bases with their powers."""
     terms = terms_of(factor.value, variable)
     if {variable} == factor.value.free_symbols:
         found = _block(terms, variable, known)
@@ -256,12 +262,12 @@ def _factor(
             raise UnreachableError(f"no building block is {factor.value}")
     content = sp.gcd_list([value.as_content_primitive()[0] for value in terms.values()])
     primitive = {key: value / content for key, value in terms.items()}
-    return content, sp.Add(*(v for v, _ in parts_of(primitive, variable))), variable, 0
+    return content, sp.Add(*(v for v, _ in parts_of(primitive, variable))), {}
 
 
 def _block(
     terms: Mapping[Key, sp.Expr], variable: sp.Symbol, known: Mapping[str, Block]
-) -> tuple[sp.Expr, sp.Expr, sp.Expr, int] | None:
+) -> Taken | None:
     """The same for a building block, of a multiple of the variable."""
     rates = [abs(key.scale if key.wave else key.rate) for key in terms]
     least = sp.gcd_list([rate for rate in rates if rate != 0])
@@ -276,5 +282,6 @@ def _block(
             ratios = {sp.cancel(terms[key] / v) for key, v in moved.items() if key in terms}
             if moved.keys() == terms.keys() and len(ratios) == 1:
                 at = scale * variable
-                return ratios.pop(), block(at), block.near(at), block.lead
+                taken = {block.near(at): block.held, at: block.lead - block.held}
+                return ratios.pop(), block(at), {b: p for b, p in taken.items() if p}
     return None

@@ -15,11 +15,12 @@ T, y = sp.symbols("T y", positive=True)
 ENDS = (1e-150, 1e75)
 """Where blocks are held to the truth; beyond, the powers they are divided by overflow."""
 
-DEFINITIONS: tuple[tuple[str, sp.Symbol, sp.Expr, int, str], ...] = (
+DEFINITIONS: tuple[tuple[str, sp.Symbol, sp.Expr, int, int, str], ...] = (
     (
         "sinh_minus",
         T,
         2 * sp.exp(-T) * (sp.sinh(T) - T),
+        3,
         3,
         "2 e^(-T) (sinh T - T)",
     ),
@@ -28,12 +29,14 @@ DEFINITIONS: tuple[tuple[str, sp.Symbol, sp.Expr, int, str], ...] = (
         T,
         2 * sp.exp(-T) * (sp.sinh(T) + T),
         0,
+        0,
         "2 e^(-T) (sinh T + T)",
     ),
     (
         "sinh_pair",
         T,
         2 * sp.exp(-2 * T) * (sp.cosh(2 * T) - 1 - 2 * T**2),
+        4,
         4,
         "4 e^(-2T) (sinh^2 T - T^2)",
     ),
@@ -42,10 +45,12 @@ DEFINITIONS: tuple[tuple[str, sp.Symbol, sp.Expr, int, str], ...] = (
         y,
         sp.sin(y) - y * sp.cos(y),
         3,
-        "(sin y - y cos y)",
+        2,
+        "(sin y/y - cos y)",
     ),
 )
-"""Name, variable, the sum, the power it vanishes with if it cancels there, and how it reads."""
+"""Name, variable, the sum, the power it vanishes with if it cancels there, how much of that power
+stays above the seam what it is there, and how it reads when divided by the rest."""
 
 
 def blocks() -> dict[str, Block]:
@@ -65,23 +70,25 @@ def _blocks() -> dict[str, Block]:
     found = {row[0]: _block(*row) for row in DEFINITIONS}
     for block in found.values():
         _, side = branches(block.value)[-1]
-        over = block.value.at**block.lead if isinstance(block.value, Seam) else 1
+        over = block.value.at**block.held if isinstance(block.value, Seam) else 1
         direct = undo(side.value, (*block.steps, *side.steps), found)
         prove(
             f"Direct form of {block.name}",
             "The direct form, which serves above the seam, equals the definition.",
-            {"direct form": direct - block.total / over},
+            {"direct form": direct - block.divided / over},
         )
     return found
 
 
-def _block(name: str, variable: sp.Symbol, total: sp.Expr, lead: int, reads: str) -> Block:
-    stable = stabilise(total / variable**lead, variable, ENDS, lead)
+def _block(
+    name: str, variable: sp.Symbol, total: sp.Expr, lead: int, held: int, reads: str
+) -> Block:
+    stable = stabilise(total / variable**lead, variable, ENDS, held)
     summary = f"{reads}."
     if isinstance(stable.value, Seam):
         start = (total / variable**lead).series(variable, 0, 1).removeO()
         summary = (
-            f"{reads} over min({variable}, {stable.value.at})^{lead}, {start} at {variable} = 0."
+            f"{reads} over min({variable}, {stable.value.at})^{held}, {start} at {variable} = 0."
         )
     truncation = _truncation(stable)
     bound = ">=" if truncation else ">"
@@ -90,6 +97,7 @@ def _block(name: str, variable: sp.Symbol, total: sp.Expr, lead: int, reads: str
         (variable,),
         total,
         lead,
+        held,
         (f"{variable} {bound} 0",),
         summary,
         stable.steps,

@@ -13,8 +13,14 @@ TIMES = sp.Function("times")
 in between."""
 
 
-FAR = sp.Integer(10**9)
-"""From here on what depends on e^-x only is what it is at infinity, in double precision."""
+TINY, FAR, LARGEST = sp.Float("5e-324"), sp.Integer(10**9), sp.Float("1e308")
+"""A product held between two of them neither vanishes nor overflows. Beyond FAR, what depends on
+e^-x is what it is at infinity; TINY is the smallest double."""
+
+
+def held(product: sp.Expr, most: sp.Expr) -> sp.Expr:
+    """The product, which is positive, between TINY and `most`."""
+    return sp.Max(TINY, sp.Min(product, most))
 
 
 @dataclass(frozen=True)
@@ -90,8 +96,9 @@ class Block:
         Its variables.
     total
         The sum it stands for.
-    lead
-        The power of the variable that the sum is divided by below the seam.
+    lead, held
+        The power of the variable that the sum is divided by below the seam; and how much of it
+        stays above the seam what it is there.
     domain
         Conditions on the variables, in Python's notation.
     summary
@@ -106,6 +113,7 @@ class Block:
     arguments: tuple[sp.Symbol, ...]
     total: sp.Expr
     lead: int
+    held: int
     domain: tuple[str, ...]
     summary: str
     steps: tuple[Step, ...]
@@ -117,13 +125,19 @@ class Block:
         return sp.Function(self.name)(argument)
 
     def near(self, argument: sp.Expr) -> sp.Expr:
-        """What the sum is divided by, to the power of its lead: the argument, at most the seam."""
+        """What is held: the argument, at most the seam."""
         return sp.Min(argument, self.value.at) if isinstance(self.value, Seam) else sp.Integer(1)
 
     def definition(self, argument: sp.Expr) -> sp.Expr:
         """What the block is exactly."""
         (own,) = self.arguments
-        return self.total.subs(own, argument) / self.near(argument) ** self.lead
+        return self.divided.subs(own, argument) / self.near(argument) ** self.held
+
+    @property
+    def divided(self) -> sp.Expr:
+        """The sum over the powers that are not held."""
+        (own,) = self.arguments
+        return self.total / own ** (self.lead - self.held)
 
 
 def undo(expression: sp.Expr, steps: tuple[Step, ...], blocks: Mapping[str, Block]) -> sp.Expr:
@@ -133,7 +147,14 @@ def undo(expression: sp.Expr, steps: tuple[Step, ...], blocks: Mapping[str, Bloc
     for block in blocks.values():
         expression = expression.replace(sp.Function(block.name), block.definition)
     expression = expression.replace(TIMES, _product).replace(expm1, lambda x: sp.exp(x) - 1)
+    expression = expression.replace(lambda e: isinstance(e, sp.Max) and TINY in e.args, _released)
     return expression.replace(sp.Min, _least)
+
+
+def _released(product: sp.Max) -> sp.Expr:
+    """What is held, without its bounds."""
+    (bounded,) = (bound for bound in product.args if bound != TINY)
+    return sp.Mul(*(bound for bound in bounded.args if bound not in (FAR, LARGEST)))
 
 
 def _product(value: sp.Expr, *powers: sp.Expr) -> sp.Expr:
@@ -141,13 +162,7 @@ def _product(value: sp.Expr, *powers: sp.Expr) -> sp.Expr:
 
 
 def _least(*bounds: sp.Expr) -> sp.Expr:
-    """Min(a, 1/phi) -> Min(a phi, 1)/phi, and Min(a phi, 1) a symbol: forms hold for any value.
-
-    What is held at FAR is itself.
-    """
-    if FAR in bounds:
-        (bound,) = (bound for bound in bounds if bound != FAR)
-        return bound
+    """Min(a, 1/phi) -> Min(a phi, 1)/phi, and Min(a phi, 1) a symbol: forms hold for any value."""
     unit = sp.Mul(*(sp.denom(bound) for bound in bounds))
     name = sorted(str(sp.expand(bound * unit)) for bound in bounds)
     return sp.Symbol(f"Min({', '.join(name)})", positive=True) / unit

@@ -9,12 +9,13 @@ from collections.abc import Mapping
 import sympy as sp
 
 from derivation.formula.record import Formula
-from derivation.formula.symbols import P, R, a, mu, r
+from derivation.formula.symbols import P, R, a, mu, phi, r
 from derivation.rewrite.automatic import RATIO, automatic, ratio
 from derivation.rewrite.blocks import blocks
-from derivation.rewrite.form import TIMES, Form, Seam, Step, form
+from derivation.rewrite.form import TIMES, Block, Form, Seam, Step, form
 from derivation.rewrite.mode_forms import mode_forms
 from derivation.rewrite.sections import sections
+from derivation.theory.hertz import SINE_MINUS
 
 share = sp.Symbol("share", real=True)
 
@@ -39,6 +40,7 @@ def stable_forms(formulas: Mapping[str, Formula]) -> tuple[Form, ...]:
         "influence": {name: found(name) for name in INFLUENCE},
         "pressure": _pressure() | {name: found(name) for name in ("sonine", "A_j")},
         "mode_shapes": mode_forms(),
+        "modal_sum": {"delta": _indentation(formulas, known)},
     }
     return tuple(
         form(name, module, formulas[name].expression, steps, value, known | sections())
@@ -63,3 +65,12 @@ def _pressure() -> dict[str, _Shape]:
         "p": ((fraction,), TIMES(-3 * root / (2 * sp.pi), P, 1, a, -2)),
         "P": ((RATIO,), TIMES(16 / (3 * ratio), mu, 1, a, 3, R, -1)),
     }
+
+
+def _indentation(formulas: Mapping[str, Formula], known: Mapping[str, Block]) -> _Shape:
+    """One mode's share: K_j phi^3 and s(a phi)/phi^3, lest powers of phi be rounded twice."""
+    face, face_value = automatic(formulas["K_j"].expression * phi**3, known)
+    contact, contact_value = automatic(SINE_MINUS / phi**3, known)
+    core, *powers = face_value.args
+    shape, *more = contact_value.args
+    return (*face, *contact), TIMES(core * shape, *powers, *more)

@@ -20,7 +20,7 @@ import sympy as sp
 from sympy.codegen.cfunctions import expm1
 
 from derivation.formula.symbols import A_j, T, h, lam, mu, phi, z
-from derivation.rewrite.automatic import RATIO, ratio
+from derivation.rewrite.automatic import ratio
 from derivation.rewrite.blocks import blocks
 from derivation.rewrite.form import TIMES, Branch, Seam, Step
 from derivation.rewrite.sections import sections
@@ -37,13 +37,14 @@ versine, cubic, minus, plus, reach = sp.symbols("versine cubic minus plus reach"
 c, c_less_1, modulus = sp.symbols("c c_less_1 modulus", real=True)
 sinh_x, sinh_t, cosh_x, cosh_t = sp.symbols("sinh_x sinh_t cosh_x cosh_t", real=True)
 bending, stretching = sp.symbols("bending stretching", real=True)
+small_x, small_t, lift, gain, growth = sp.symbols("small_x small_t lift gain growth", real=True)
 
 Shape = tuple[tuple[Step, ...], sp.Expr | Seam]
 
-THIN = sp.Rational(3, 2)
-"""Below this T, S_zz and S_rz are computed by Taylor sections."""
+THIN = sp.Rational(5, 2)
+"""Below this T, S_zz, S_rz and S_tt are computed by Taylor sections."""
 
-MIDST = sp.Rational(9, 2)
+MIDST = sp.Rational(7, 2)
 """Below this T, bending and stretching are added up where |t| is below a tenth of it."""
 
 ONCE = sp.Integer(512)
@@ -75,47 +76,41 @@ def mode_forms() -> dict[str, Shape]:
     """Steps and value of every field of a mode."""
     return {
         "mode_f": _deflection(),
-        "mode_g": _in_plane(
-            1,
-            (A_j, 1, mu, -1, phi, -2),
-            Step(modulus, lam + mu),
-            Step(c, mu / modulus, "1 - 2 nu"),
-            Step(c_less_1, -lam / modulus, "-2 nu"),
-        ),
+        "mode_g": _radial_displacement(),
         "mode_zz": _axial(),
         "mode_rz": _shear(),
-        "mode_rr": _in_plane(2, (A_j, 1)),
+        "mode_rr": _radial(),
         "mode_tt": _hoop(),
     }
 
 
 def _deflection() -> Shape:
-    """A sum of terms of one sign, in which the half-space's, ratio + v, stands apart."""
+    """A sum of terms of one sign; what stands beside 1 is added up first."""
     pair = blocks()["sinh_pair"]
-    share, rest, power, others = sp.symbols("share rest power others", real=True)
+    excess, rest, share, others = sp.symbols("excess rest share others", real=True)
     steps = (
         *DEPTHS,
         Step(near, pair.near(T)),
-        RATIO,
+        Step(excess, 1 / (1 + lam / mu), "1 - 2 nu"),
+        Step(ratio, 1 + excess, "2 (1 - nu)"),
         FAR_U,
         FAR_V,
         DECAY,
+        ODD_U,
         ODD_V,
         ODD_T,
         *FADES,
-        Step(head, ratio + v, "the half-space's"),
-        Step(rest, far_u * (ratio - v)),
-        Step(share, decay * (odd_T + 4 * T**2) * (head + rest), "what sinh^2 T/D exceeds 1 by"),
+        Step(rest, excess + (v * odd_u + far_u * ratio), "in thick plates the half-space's less 1"),
+        Step(share, decay * (odd_T + 4 * T**2) * (1 + rest), "what sinh^2 T/D exceeds 1 by"),
         Step(over, 2 * T * far_u * (ratio * (1 + far_v) + u * odd_v)),
-        Step(power, near**3),
-        Step(others, power * rest + (share + over) / near / pair(T)),
-        Step(core, power * head + others),
+        Step(others, near**3 * rest + (share + over) / near / pair(T)),
+        Step(core, near**3 + others),
     )
     return steps, TIMES(core / 2, *FADED, A_j, 1, mu, -1, phi, -1, near, -3)
 
 
 def _axial() -> Shape:
-    """S_zz; in plates of no thickness alpha^2 (3 beta + alpha), to which the rest is added."""
+    """S_zz; in plates of no thickness alpha^2 (1 + 2 beta), to which the rest is added."""
     known = sections()
     square_of, cubic_of = known["cosh_square"], known["sinh_cubic"]
     quartic_of, quintic_of = known["cosh_quartic"], known["sinh_quintic"]
@@ -135,7 +130,7 @@ def _axial() -> Shape:
                 "and of the term in alpha",
             ),
             Step(over, (beta * third + alpha * first) / cubic_of(T)),
-            Step(core, alpha**2 * (3 * beta + alpha + over)),
+            Step(core, alpha**2 * (1 + (2 * beta + over))),
         ),
         TIMES(core, A_j, 1),
         {T: sp.Integer(1), u: sp.Rational(1, 2), v: sp.Rational(1, 2)},
@@ -207,40 +202,44 @@ MIDDLE = (
 GUARDS = {T: sp.Integer(1), x: sp.Rational(1, 2), t: sp.Integer(0), zeta: sp.Integer(0)}
 
 
-def _of_middle() -> tuple[Step, ...]:
-    """Hyperbolic functions for bending and stretching, over the power they vanish with."""
-    ratio_of = sections()["sinh_ratio"]
-    return (
-        Step(sinh_x, ratio_of(x), "sinh x/x"),
+def _of_middle(*unused: sp.Symbol) -> tuple[Step, ...]:
+    """What bending and stretching are made of, each over its power, but for what is unused."""
+    square_of, cubic_of = sections()["cosh_square"], sections()["sinh_cubic"]
+    steps = (
+        Step(small_x, x**2 * cubic_of(x), "sinh x/x - 1"),
+        Step(small_t, t**2 * cubic_of(t), "sinh t/t - 1"),
+        Step(versine, t**2 * square_of(t), "cosh t - 1"),
+        Step(sinh_x, 1 + small_x),
+        Step(sinh_t, 1 + small_t),
         Step(cosh_x, sp.cosh(x)),
-        Step(sinh_t, ratio_of(t), "sinh t/t"),
-        Step(cosh_t, sp.cosh(t)),
-        Step(minus, T**2 * sections()["sinh_cubic"](T), "(sinh T - T)/T"),
-        Step(plus, 2 * (1 + ratio_of(T)), "2 (sinh T + T)/T"),
+        Step(cosh_t, 1 + versine),
+        Step(lift, small_x * cosh_t + versine, "sinh x cosh t/x - 1"),
+        Step(cubic, cubic_of(T)),
+        Step(minus, T**2 * cubic, "(sinh T - T)/T"),
+        Step(plus, 4 + 2 * minus, "2 (sinh T + T)/T"),
+    )
+    return tuple(step for step in steps if step.symbol not in unused)
+
+
+def _growth() -> Step:
+    """What bending in a plate of no thickness, 6 zeta, is to be multiplied by, less 1."""
+    square_of, quintic_of = sections()["cosh_square"], sections()["sinh_quintic"]
+    return Step(
+        growth,
+        (cosh_x * small_t + x**2 * square_of(x) - 6 * T**2 * quintic_of(T)) / (6 * cubic),
+        "cosh x sinh t/(6 t cubic) exceeds 1 by",
     )
 
 
-def _in_plane(halves: int, scale: tuple[sp.Basic | int, ...], *elastic: Step) -> Shape:
-    """Half so many times `scale` times the sum in plane, d = 1; `elastic` gives c, else c = 1."""
-    const, less = (c, c_less_1) if elastic else (sp.Integer(1), sp.Integer(0))
+def _gap() -> sp.Expr:
+    """What stretching has but for Poisson's ratio."""
+    return t**2 * sinh_t * sinh_x - x**2 * sections()["cosh_cubic"](x) * cosh_t
+
+
+def _faces(halves: int, scale: tuple[sp.Basic | int, ...], const: sp.Expr) -> Branch:
+    """Half so many times `scale` times the sum in plane, d = 1 and c = const, from both faces."""
     pair = blocks()["sinh_pair"]
-    gap = sections()["cosh_cubic"]
-    middle = Branch(
-        (
-            *_of_middle(),
-            Step(
-                bending,
-                zeta * (sinh_t * (const * cosh_x - x**2 * sinh_x) + cosh_t * cosh_x),
-                "odd in z",
-            ),
-            Step(sum_u, less * sinh_x - x**2 * gap(x)),
-            Step(stretching, cosh_t * sum_u + t**2 * sinh_t * sinh_x, "even in z"),
-            Step(core, bending / minus + stretching / plus),
-        ),
-        TIMES(sp.Rational(halves, 2) * core, *scale),
-        GUARDS,
-    )
-    faces = Branch(
+    return Branch(
         (
             ODD_T,
             FAR_U,
@@ -257,7 +256,52 @@ def _in_plane(halves: int, scale: tuple[sp.Basic | int, ...], *elastic: Step) ->
         TIMES(sp.Rational(halves, 2) * core, *FADED, *scale, near, -4),
         {},
     )
-    return (*DEPTHS, *elastic, *MIDDLE), Seam(reach, MIDST, middle, faces)
+
+
+def _radial_displacement() -> Shape:
+    """Half the sum in plane, c = 1 - 2 nu."""
+    scale = (A_j, 1, mu, -1, phi, -2)
+    middle = Branch(
+        (
+            *_of_middle(),
+            Step(
+                bending,
+                zeta * (sinh_t * (c * cosh_x - x**2 * sinh_x) + cosh_t * cosh_x),
+                "odd in z",
+            ),
+            Step(stretching, _gap(), "even in z"),
+            Step(over, c_less_1 * lift + stretching, "small in thin plates"),
+            Step(core, (c_less_1 + over) / plus + bending / minus),
+        ),
+        TIMES(core / 2, *scale),
+        GUARDS,
+    )
+    elastic = (
+        Step(modulus, lam + mu),
+        Step(c, mu / modulus, "1 - 2 nu"),
+        Step(c_less_1, -lam / modulus, "-2 nu"),
+    )
+    return (*DEPTHS, *elastic, *MIDDLE), Seam(reach, MIDST, middle, _faces(1, scale, c))
+
+
+def _radial() -> Shape:
+    """The sum in plane with c = 1; in thin plates twice `_hoop`'s with lam = modulus, nearly."""
+    middle = Branch(
+        (
+            *_of_middle(lift),
+            _growth(),
+            Step(
+                bending,
+                12 * growth + (cosh_x * (versine - small_t) - x**2 * sinh_t * sinh_x) / cubic,
+                "what 12 grows by, odd in z",
+            ),
+            Step(stretching, _gap(), "even in z"),
+            Step(core, (12 * zeta + zeta * bending) / T**2 + stretching / plus),
+        ),
+        TIMES(core, A_j, 1),
+        GUARDS,
+    )
+    return (*DEPTHS, *MIDDLE), Seam(reach, MIDST, middle, _faces(2, (A_j, 1), sp.Integer(1)))
 
 
 def _hoop() -> Shape:
@@ -266,19 +310,21 @@ def _hoop() -> Shape:
     scale = (A_j, 1, lam, 1, modulus, -1)
     middle = Branch(
         (
-            *_of_middle(),
-            Step(bending, zeta * sinh_t * cosh_x, "odd in z"),
-            Step(core, bending / minus + sinh_x * cosh_t / plus),
+            *_of_middle(sinh_x, sinh_t),
+            _growth(),
+            Step(gain, (4 * lift - 2 * minus) / plus, "4 (1 + lift)/plus - 1"),
+            Step(over, 6 * zeta * growth + x**2 * gain),
+            Step(core, 6 * zeta + x**2 + over),
         ),
-        TIMES(core, *scale),
+        TIMES(core / 4, *scale, x, -2),
         GUARDS,
     )
     faces = Branch(
         (
             ODD_T,
-            Step(odd_u, -expm1(-2 * (x + t)), "2 e^(-u) sinh u"),
-            Step(odd_v, -expm1(-2 * (x - t)), "2 e^(-v) sinh v"),
-            Step(far_u, sp.exp(-2 * (x + t)), "decay on the way to the far face and back"),
+            ODD_U,
+            ODD_V,
+            FAR_U,
             *FADES,
             Step(near, pair.near(T)),
             Step(over, odd_T * odd_u - 2 * T * far_u * odd_v),
@@ -287,6 +333,5 @@ def _hoop() -> Shape:
         TIMES(core, *FADED, *scale, near, -4),
         {},
     )
-    closer = Step(reach, sp.Max(20 * sp.Abs(t), T), "small in thin plates and mid-plane")
-    steps = (STEP_T, DEPTHS[2], Step(modulus, lam + mu), *MIDDLE[:-1], closer)
-    return steps, Seam(reach, MIDST, middle, faces)
+    steps = (*DEPTHS, Step(modulus, lam + mu), *MIDDLE[:-1])
+    return steps, Seam(T, THIN, middle, faces)

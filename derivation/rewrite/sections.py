@@ -15,7 +15,6 @@ y, square = sp.symbols("y square", real=True)
 END = sp.Integer(5)
 
 DEFINITIONS: tuple[tuple[str, sp.Expr, int], ...] = (
-    ("sinh_ratio", sp.sinh(y), 1),
     ("cosh_square", sp.cosh(y) - 1, 2),
     ("sinh_cubic", sp.sinh(y) - y, 3),
     ("cosh_quartic", sp.cosh(y) - 1 - y**2 / 2, 4),
@@ -39,6 +38,7 @@ def _section(name: str, total: sp.Expr, power: int) -> Block:
         name,
         (y,),
         total / y**power,
+        0,
         0,
         (f"abs(y) <= {END}",),
         f"({sp.sstr(total)})/y^{power}, {coefficients[0]} at y = 0.",

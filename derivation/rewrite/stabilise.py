@@ -73,7 +73,7 @@ def stabilise(
     """The stable form of an expression for positive x.
 
     All rules are applied in turn; then each has to earn its place: it is left out
-    if the form without it is as exact.
+    if the form without it is more exact, or as exact and no longer.
 
     Parameters
     ----------
@@ -101,14 +101,15 @@ def stabilise(
         rule = candidates.pop(0)
         fewer = [other for other in kept if other != rule]
         shorter, error = _through(fewer, x, expression, at)
-        if error <= max(worst, NOTHING):
+        no_longer = sum(_operations(shorter)) <= sum(_operations(form))
+        if error < worst or (error <= max(worst, NOTHING) and no_longer):
             # What one rule did others may have rested on: they are asked again.
             kept, form, worst, candidates = fewer, shorter, error, list(reversed(fewer))
     if worst > ENOUGH:
         raise UnreachableError(_reason(expression, x, worst))
-    cheaper, error = _through([*kept, SHARE], x, expression, at)
-    if error <= worst + NOTHING / 2 and cheaper != form:
-        kept, form, worst = [*kept, SHARE], cheaper, error
+    shared, error = _through([*kept, SHARE], x, expression, at)
+    if error <= worst + NOTHING / 2 and shared != form:
+        kept, form, worst = [*kept, SHARE], shared, error
     steps, value = assembled(form) if isinstance(form, Shape) else ((), form)
     applied = tuple(_account(rule, kept, x, expression, at) for rule in kept)
     truncation = sp.Add(*(f.truncation for f in form.factors)) if isinstance(form, Shape) else 0
@@ -158,13 +159,18 @@ def _decayed(expression: sp.Expr, x: sp.Symbol) -> sp.Expr | None:
 
 def operations(form: Rewritten) -> int:
     """Operations of a form, the longer branch of a seam."""
+    return max(_operations(form))
+
+
+def _operations(form: Rewritten) -> list[int]:
+    """Operations of every branch."""
     steps, value = assembled(form) if isinstance(form, Shape) else ((), form)
     sides = (value.below, value.above) if isinstance(value, Seam) else (Branch((), value, {}),)
-    return max(
+    return [
         int(sum(sp.count_ops(step.expression) for step in (*steps, *side.steps)))
         + int(sp.count_ops(side.value))
         for side in sides
-    )
+    ]
 
 
 def _reason(expression: sp.Expr, x: sp.Symbol, worst: float) -> str:

@@ -37,9 +37,9 @@ def simulate(
     from derivation.scene import load
     from derivation.scene import simulate as run
 
-    _check_outputs(scene, json, plot, csv)
+    check_outputs(scene, json, plot, csv)
     result = run(load(scene), rtol=rtol)
-    _warn(result.warnings)
+    warn(result.warnings)
     # Everything is made before anything is written.
     files = {} if csv is None else {csv: result.history().to_csv().encode()}
     if plot is not None:
@@ -76,12 +76,12 @@ def indent(
     from derivation.scene import indent as run
     from derivation.scene import load
 
-    _check_outputs(scene, json)
+    check_outputs(scene, json)
     loaded = load(scene)
     given = {"contact_radius": contact_radius, "force": force, "indentation": indentation}
     chosen = {name: _numbers(name, texts, more) for name, texts in given.items() if texts}
     contacts = run(loaded, **chosen)
-    _warn([text for contact in contacts for text in contact.warnings])
+    warn([text for contact in contacts for text in contact.warnings])
     if json != "-":
         columns = ("#radius [m]", "#indentation [m]", "#force [N]", "#stiffness [N/m]")
         rows = [
@@ -113,7 +113,7 @@ def _numbers(name: str, texts: Sequence[str], more: Sequence[str] | None) -> lis
     return numbers
 
 
-def _check_outputs(
+def check_outputs(
     scene: Path, json: str | None, plot: Path | None = None, csv: Path | None = None
 ) -> None:
     """Refuse output names that say no format or would overwrite the scene or each other."""
@@ -137,6 +137,7 @@ def _check_outputs(
         taken[place.resolve()] = "one that another output takes"
 
 
-def _warn(warnings: Sequence[str]) -> None:
+def warn(warnings: Sequence[str]) -> None:
+    """Show each warning once, apart from the results."""
     for text in dict.fromkeys(warnings):
         NOTES.print(f"warning: {text}", markup=False, highlight=False, soft_wrap=True)

@@ -259,7 +259,7 @@ def accuracy(
 
     with counted("accuracy") as tell:
         data, path = pipeline.accuracy(method or (), quick, scene, out, tell)
-    table("Cheapest methods, arrays", COLUMNS, cells(data))
+    table("Cheapest methods in arrays", COLUMNS, cells(data))
     OUT.print(headline(data), markup=False, highlight=False, soft_wrap=True)
     NOTES.print(f"written to {path}", markup=False, soft_wrap=True)
 

@@ -29,7 +29,7 @@ def accuracy_context(data: Data) -> dict[str, Any]:
         "errors": list(error_rows(data)),
         "failures": list(failures(data["rows"])),
         "scaling": [scaling_row(growth) for growth in data["scaling"]],
-        "tools": [tool_row(tool) for tool in data["tools"]],
+        "tools": list(tool_rows(data["tools"])),
         "headline": headline(data["headline"]),
         "run": run(data),
     }
@@ -126,16 +126,21 @@ def scaling_row(growth: Data) -> str:
     return " & ".join(cells)
 
 
-def tool_row(tool: Data) -> str:
-    """A tool with a problem, its error and time and what it cannot do; or why it is absent."""
-    name = escape(f"{tool['name']} {tool['version']}".strip())
-    if tool["missing"]:
-        return rf"{name} & \multicolumn{{5}}{{l}}{{{escape(tool['missing'])}}}"
-    cells = [
-        name, prose(tool["problem"]), prose(tool["setting"]), power(tool["error"]),
-        duration(tool["seconds"]), prose(tool["cannot"]),
-    ]  # fmt: skip
-    return " & ".join(cells)
+def tool_rows(tools: Sequence[Data]) -> Iterator[str]:
+    """Problem, setting, error, time and, once for each tool, what it cannot do; or its absence."""
+    said = ""
+    for tool in tools:
+        name = escape(f"{tool['name']} {tool['version']}".strip())
+        if tool["missing"]:
+            yield rf"{name} & \multicolumn{{5}}{{l}}{{{escape(tool['missing'])}}}"
+            continue
+        cells = [prose(tool["problem"]), prose(tool["setting"]), power(tool["error"])]
+        cells += [
+            duration(tool["seconds"]),
+            "" if tool["cannot"] == said else prose(tool["cannot"]),
+        ]
+        yield " & ".join(["" if tool["cannot"] == said else name, *cells])
+        said = tool["cannot"]
 
 
 def headline(found: Data) -> dict[str, Any]:

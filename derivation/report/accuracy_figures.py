@@ -40,10 +40,13 @@ def accuracy_figures(data: Mapping[str, Any]) -> dict[str, bytes]:
         for task in TASKS
         for kind in KINDS
     }
-    return {name: _pdf(figure) for name, figure in (found | {"scaling.pdf": scaling(data)}).items()}
+    return {
+        name: as_pdf(figure) for name, figure in (found | {"scaling.pdf": scaling(data)}).items()
+    }
 
 
-def _pdf(figure: Figure) -> bytes:
+def as_pdf(figure: Figure) -> bytes:
+    """A figure as PDF, without the time at which it was drawn."""
     with mpl.rc_context(STYLE):
         buffer = io.BytesIO()
         figure.savefig(buffer, format="pdf", metadata={"CreationDate": None, "Producer": None})

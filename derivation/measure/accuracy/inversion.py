@@ -6,7 +6,7 @@ import numpy as np
 
 from derivation.measure.accuracy.arithmetic import Array, Balls
 from derivation.measure.accuracy.interface import Call, Doubles, Method, Regime
-from derivation.measure.accuracy.law_series import blocked, hermite
+from derivation.measure.accuracy.law_series import hermite
 from derivation.reference import contact_balls
 from generated import contact_law, contact_series
 from generated.impact import impact
@@ -27,7 +27,7 @@ def hertz() -> Method:
 
     def prepare(regime: Regime) -> Call:
         stiff = 4 / 3 * regime.modulus * math.sqrt(regime.R)
-        return blocked(lambda delta: stiff * (delta * np.sqrt(delta)))
+        return lambda delta: stiff * (delta * np.sqrt(delta))
 
     return Method("inversion", "Hertz", "", prepare)
 
@@ -50,7 +50,7 @@ def reversed_series(terms: int) -> Method:
                 value = value * eps + coefficient
             return stiff * hertz * delta * value
 
-        return blocked(call)
+        return call
 
     def fails(regime: Regime) -> str | None:
         plates = contact_series.plates_of(np.array([regime.eta]))
@@ -70,7 +70,7 @@ def newton() -> Method:
 
     def prepare(regime: Regime) -> Call:
         r = regime
-        return blocked(lambda delta: contact_law.force(delta, r.R, r.h, r.b, r.lam, r.mu))
+        return lambda delta: contact_law.force(delta, r.R, r.h, r.b, r.lam, r.mu)
 
     return Method("inversion", "Newton (production)", "as called", prepare)
 
@@ -96,7 +96,7 @@ def table(knots: int) -> Method:
         def call(delta: Array) -> Array:
             return scale * np.exp(3 * cubic(np.log(delta * (regime.R / regime.h**2))))
 
-        return blocked(call)
+        return call
 
     return Method("inversion", "table of cubics", f"{knots} knots", prepare)
 

@@ -13,21 +13,7 @@ from derivation.measure.accuracy.law_sums import EXACT, wrapped
 from derivation.reference import contact_balls
 from generated import contact_series
 
-BLOCK = 10_000
-"""Points worked on at a time: every method has its intermediates in the cache."""
-
 Coefficients = Callable[[float, float, int, int], list[arb]]
-
-
-def blocked(inner: Call) -> Call:
-    """The same, a block at a time."""
-
-    def call(a: Array) -> Array:
-        if a.size <= BLOCK:
-            return inner(a)
-        return np.concatenate([inner(a[k : k + BLOCK]) for k in range(0, a.size, BLOCK)])
-
-    return call
 
 
 def _horner(ar: Arithmetic, regime: Regime, found: list[arb]) -> Call:
@@ -43,7 +29,7 @@ def _horner(ar: Arithmetic, regime: Regime, found: list[arb]) -> Call:
             value = value * t + coefficient
         return (1 + value * A) * (a * a / R)
 
-    return wrapped(ar, blocked(call))
+    return wrapped(ar, call)
 
 
 def _series(
@@ -116,7 +102,7 @@ def chebyshev(degree: int, ar: Arithmetic = DOUBLE) -> Method:
             value /= R
             return value
 
-        return wrapped(ar, blocked(call))
+        return wrapped(ar, call)
 
     return Method("law", "Chebyshev surrogate", f"degree {degree}", prepare, ar.name)
 
@@ -135,7 +121,7 @@ def table(knots: int) -> Method:
             A = a / regime.h
             return (1 + A * cubic(A * A)) * a * a / regime.R
 
-        return blocked(call)
+        return call
 
     return Method("law", "table of cubics", f"{knots} knots", prepare)
 

@@ -7,7 +7,6 @@ import numpy as np
 
 from derivation.measure.accuracy.arithmetic import Array, Balls
 from derivation.measure.accuracy.interface import Call, Method, Regime
-from derivation.measure.accuracy.law_series import blocked
 from derivation.measure.printed_motion import printed_motion
 from derivation.reference import contact_impact
 from generated.impact import _kernel, _parts, _solve, impact
@@ -28,7 +27,7 @@ def hertz_time(regime: Regime) -> Call:
 
 def hertz() -> Method:
     """The plate left out."""
-    return Method("impact", "Hertz", "", lambda regime: blocked(hertz_time(regime)))
+    return Method("impact", "Hertz", "", hertz_time)
 
 
 def linear(modes: int) -> Method:
@@ -84,7 +83,7 @@ def gauss(nodes: int) -> Method:
                     integral[part] = (_kernel(at, found, part) * w).sum(axis=1)
                 return product((2.0, *depth, integral), (v0,))
 
-        return blocked(call)
+        return call
 
     return Method("impact", "Gauss-Legendre", f"{nodes} nodes", prepare)
 
@@ -94,7 +93,7 @@ def production() -> Method:
 
     def prepare(regime: Regime) -> Call:
         r = regime
-        return blocked(lambda v0: impact(r.R, r.m, v0, r.h, r.b, r.lam, r.mu).contact_time)
+        return lambda v0: impact(r.R, r.m, v0, r.h, r.b, r.lam, r.mu).contact_time
 
     return Method("impact", "production", "as called", prepare)
 

@@ -62,7 +62,8 @@ def measure(
         If a method is unknown.
     """
     chosen, places = methods(names, quick), regimes(scene)
-    told = _Told(tell, len(TASKS) * len(places) + len(scaling.STUDIES) + 2)
+    studies = scaling.studies(quick)
+    told = _Told(tell, len(TASKS) * len(places) + len(studies) + 2)
     effort = QUICK if quick else FULL
     before = os.getloadavg()[0]
     rows: list[Row] = []
@@ -78,9 +79,9 @@ def measure(
                 if session is not None
             ]
     growths = []
-    for study in scaling.STUDIES:
-        told(f"scaling with {study.__name__}")
-        growths += study(quick)
+    for what, study in studies:
+        told(f"scaling with {what}")
+        growths += study()
     told("headline")
     against = headline(scene or PAPER, quick)
     told("other tools")

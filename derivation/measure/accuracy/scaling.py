@@ -14,6 +14,7 @@ from derivation.measure.accuracy import law_own, law_series
 from derivation.measure.accuracy.arithmetic import Balls
 from derivation.measure.accuracy.interface import PAPER, Method
 from derivation.measure.accuracy.law_sums import split
+from derivation.measure.accuracy.problems import ARRAY
 from generated.contact_law import indentation
 from generated.impact import impact
 
@@ -99,9 +100,9 @@ def _lowest(call: Callable[[], object]) -> float:
     return float(np.quantile(times, 0.25))
 
 
-def points(quick: bool) -> list[Growth]:
+def points() -> list[Growth]:
     """The law over the number of points, the plate's preparation included and not."""
-    sizes = [10**k for k in range(6 if quick else 8)]
+    sizes = [10**k for k in range(8)]
     radii = np.random.default_rng(1).uniform(1e-3, 0.03, sizes[-1])
     ready = law_own.prepared().prepare(PAPER)
     whole = "set-up of a call (domain, plate) outweighs the points below"
@@ -117,10 +118,10 @@ def points(quick: bool) -> list[Growth]:
     ]  # fmt: skip
 
 
-def thinness(quick: bool) -> list[Growth]:
+def thinness() -> list[Growth]:
     """The law over b/h: called with 10 000 points, and split with a few."""
-    ratios = [10.0**k for k in range(4 if quick else 5)]
-    shares = np.random.default_rng(1).uniform(0.01, 0.9, law_series.BLOCK)
+    ratios = [10.0**k for k in range(5)]
+    shares = np.random.default_rng(1).uniform(0.01, 0.9, ARRAY)
     plates = [replace(PAPER, R=100.0, h=1 / ratio) for ratio in ratios]
 
     def calls(method: Method, count: int) -> list[Callable[[], object]]:
@@ -131,8 +132,8 @@ def thinness(quick: bool) -> list[Growth]:
     modes = "grows with the modes, 4 b/h of them; for thick plates the wall's 48 nodes count"
     return [
         growth(
-            "b/h", f"production, as called, {law_series.BLOCK} points", ratios,
-            calls(law_own.called(), law_series.BLOCK), flat,
+            "b/h", f"production, as called, {ARRAY} points", ratios,
+            calls(law_own.called(), ARRAY), flat,
         ),
         growth(
             "b/h", f"split, 48 nodes, {SPLIT_POINTS} points", ratios,
@@ -165,9 +166,9 @@ def digits(quick: bool) -> list[Growth]:
     ]  # fmt: skip
 
 
-def scenes(quick: bool) -> list[Growth]:
+def scenes() -> list[Growth]:
     """Impacts of different scenes in one batch."""
-    sizes = [10**k for k in range(5 if quick else 6)]
+    sizes = [10**k for k in range(6)]
     batches = [speed.scenes(0.01, 2.9, n) for n in sizes]
     return [
         growth(
@@ -177,4 +178,11 @@ def scenes(quick: bool) -> list[Growth]:
     ]  # fmt: skip
 
 
-STUDIES: tuple[Callable[[bool], list[Growth]], ...] = (points, thinness, digits, scenes)
+def studies(quick: bool) -> tuple[tuple[str, Callable[[], list[Growth]]], ...]:
+    """Every study by what grows; a quick one asks for fewer digits."""
+    return (
+        ("points", points),
+        ("b/h", thinness),
+        ("digits", partial(digits, quick)),
+        ("scenes", scenes),
+    )

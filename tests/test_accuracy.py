@@ -244,6 +244,7 @@ def test_a_block_grows_with_the_array_until_it_is_dear() -> None:
     assert 200 <= clock.plan(linear, sample, fake).array.size <= 1024
     assert clock.plan(fake.work(1e-3), sample, fake).array.size == sample.size
     assert clock.plan(fake.work(1e-4), sample, fake).repeats == 20
+    assert clock.plan(fake.work(0.1), sample, fake).array.size == sample.size
 
 
 # --- winners

@@ -106,9 +106,10 @@ class Session:
 
 def plan(call: Call, sample: Doubles, clock: Clock = time.perf_counter) -> Candidate:
     """A block of the whole sample, or of as much of it as one call may take."""
-    size, seconds = 1, _once(call, sample[:1], clock)
-    while size < sample.size and seconds < MOST:
-        size = min(4 * size, sample.size)
+    size, seconds, before = 1, _once(call, sample[:1], clock), math.inf
+    # Beyond MOST too while the set-up of a call outweighs its points.
+    while size < sample.size and (seconds < MOST or seconds < 2 * before):
+        size, before = min(4 * size, sample.size), seconds
         seconds = _once(call, sample[:size], clock)
     repeats = max(1, math.ceil(LEAST / max(seconds, 1e-9)))
     return Candidate(call, sample[:size], repeats)

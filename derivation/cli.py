@@ -257,6 +257,38 @@ def _check_search(
 
 
 @app.command()
+def accuracy(
+    quick: Annotated[bool, typer.Option("--quick", help="Fewer methods and rounds.")] = False,
+    method: Annotated[
+        list[str] | None,
+        typer.Option("--method", metavar="NAME", help="Measure this family only; repeatable."),
+    ] = None,
+    scene: Annotated[
+        Path | None,
+        typer.Option("--scene", metavar="FILE", help="A scene instead of the paper's case."),
+    ] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            "--out", metavar="FILE", help="Write here instead of reports/data/accuracy.json."
+        ),
+    ] = None,
+) -> None:
+    """Measure what each digit costs in time with every method: minutes.
+
+    Example: platecontact accuracy --quick --out accuracy.json
+    """
+    from derivation import pipeline
+    from derivation.measure.accuracy.summary import COLUMNS, cells, headline
+
+    with counted("accuracy") as tell:
+        data, path = pipeline.accuracy(method or (), quick, scene, out, tell)
+    table("Cheapest methods in arrays", COLUMNS, cells(data))
+    OUT.print(headline(data), markup=False, highlight=False, soft_wrap=True)
+    NOTES.print(f"written to {path}", markup=False, soft_wrap=True)
+
+
+@app.command()
 def rewrite(
     formula: Annotated[
         str, typer.Argument(help="A formula of one variable; none for the paper's own.")

@@ -14,6 +14,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from importlib.metadata import version
 from pathlib import Path
+from tempfile import TemporaryFile
 from typing import Any
 
 import sympy as sp
@@ -25,6 +26,7 @@ from derivation.emit.standalone import standalone
 from derivation.files import PACKAGE, ROOT, measurements, write_file
 from derivation.formula.parse import parse
 from derivation.measure import bounds, hard_check, speed
+from derivation.measure.accuracy import run as accuracy_run
 from derivation.measure.check import Progress, Row
 from derivation.measure.check import check as measure
 from derivation.measure.contact import KERNELS, LIMIT
@@ -38,6 +40,7 @@ from derivation.measure.search_targets import targets
 from derivation.produce import folder_for, write_files
 from derivation.reference import many_costs, many_digits
 from derivation.report import pdf as compiler
+from derivation.report.accuracy_figures import accuracy_figures
 from derivation.report.content import tex
 from derivation.report.figures import figures, motion_context
 from derivation.rewrite.account import Account, accounts
@@ -58,6 +61,7 @@ REWRITTEN = measurements() / "rewrite.json"
 MEASURED_SPEED = measurements() / "speed.json"
 MEASURED_HARD = measurements() / "hard.json"
 MEASURED_BOUNDS = measurements() / "bounds.json"
+MEASURED_ACCURACY = measurements() / "accuracy.json"
 EXAMPLE = PACKAGE / "scene" / "examples" / "paper.toml"
 
 
@@ -189,6 +193,45 @@ def _chosen(point: bounds.Point, rtol: float) -> tuple[Sequence[float], str, flo
     return values, accuracy.method, accuracy.bound
 
 
+def accuracy(
+    methods: Sequence[str] = (),
+    quick: bool = False,
+    scene: Path | None = None,
+    out: Path | None = None,
+    tell: Progress | None = None,
+) -> tuple[dict[str, Any], Path]:
+    """Measure what accuracy costs in time, and write it to a file, whole or not at all.
+
+    Raises
+    ------
+    ValueError
+        If a method is unknown, or the scene cannot be used.
+    OSError
+        If the file cannot be written.
+    """
+    regime = None
+    if scene is not None:
+        case = model_of(load(scene))
+        regime = accuracy_run.scene_regime(**asdict(case))
+    path = folder_for(None, REPORTS) / "data" / MEASURED_ACCURACY.name if out is None else out
+    _expect_writable(path)
+    data = accuracy_run.measure(methods, quick, regime, tell)
+    write_file(path, json.dumps(data, indent=1, sort_keys=True, allow_nan=False) + "\n")
+    return data, path
+
+
+def _expect_writable(path: Path) -> None:
+    """Refuse a file that cannot be written before minutes are spent on what it is to hold."""
+    folder = next(parent for parent in path.absolute().parents if parent.exists())
+    try:
+        with TemporaryFile(dir=folder):
+            pass
+    except OSError as error:
+        raise OSError(f"cannot write {path}: {error.strerror}; name another folder") from None
+    if path.is_dir():
+        raise OSError(f"cannot write {path}: expected a file, got a folder")
+
+
 def rewriting(record: bool = False, tell: Progress | None = None) -> tuple[Account, ...]:
     """What the rules did to each formula, measured without and with every one of them."""
     found = accounts(formulas(), tell)
@@ -297,6 +340,7 @@ def report_files() -> dict[str, str]:
     for path in (MEASURED, MEASURED_CONTACT, MEASURED_SPEED, MEASURED_HARD, REWRITTEN):
         if not path.is_file():
             raise FileNotFoundError(f"no measurements in {path}: run `platecontact check --record`")
+    work_precision = measured_accuracy()
     measured = json.loads(MEASURED.read_text())
     contact = json.loads(MEASURED_CONTACT.read_text())
     timed = json.loads(MEASURED_SPEED.read_text())
@@ -312,10 +356,27 @@ def report_files() -> dict[str, str]:
         timed,
         rules,
         motion,
+        work_precision,
         version("platecontact"),
         CITATION,
     )
     return {"report.tex": text}
+
+
+def measured_accuracy() -> dict[str, Any]:
+    """The committed measurement of what accuracy costs.
+
+    Raises
+    ------
+    FileNotFoundError
+        If there is none.
+    """
+    if not MEASURED_ACCURACY.is_file():
+        raise FileNotFoundError(
+            f"no measurements in {MEASURED_ACCURACY}: run `platecontact accuracy`"
+        )
+    found: dict[str, Any] = json.loads(MEASURED_ACCURACY.read_text())
+    return found
 
 
 def paper_case() -> Model:
@@ -334,7 +395,8 @@ def report(out: Path | None = None, pdf: bool = True) -> tuple[Path, ...]:
         If LaTeX is missing or refuses the text; the .tex is there all the same.
     """
     folder = folder_for(out, REPORTS)
-    for name, figure in figures(paper_case()).items():
+    drawn = figures(paper_case()) | accuracy_figures(measured_accuracy())
+    for name, figure in drawn.items():
         write_file(folder / "figures" / name, figure)
     written = write_files(folder, report_files())
     return (*written, *(compiler.compile_pdf(path) for path in written if pdf))

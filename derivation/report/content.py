@@ -10,6 +10,7 @@ from derivation.formula.record import Formula
 from derivation.formula.symbols import M, eta
 from derivation.paper.misprints import Finding
 from derivation.reference.contact_balls import finite_part
+from derivation.report.accuracy import accuracy_context
 from derivation.report.hard import hard_context
 from derivation.report.latex import environment, equation, escape
 from derivation.theory.thin_remainder import coefficient_remainder_ball
@@ -65,6 +66,7 @@ def tex(
     timed: Mapping[str, Any],
     rewritten: Mapping[str, Any],
     motion: Mapping[str, Any],
+    work_precision: Mapping[str, Any],
     version: str,
     citation: str,
 ) -> str:
@@ -84,6 +86,7 @@ def tex(
             provenance=sorted((k, v) for k, v in check["provenance"].items() if k != "digits"),
             digits=check["provenance"]["digits"],
             motion=motion,
+            cost=accuracy_context(work_precision),
             contact_rows=[contact_row(row) for row in contact["rows"]],
             contact_digits=contact["provenance"]["digits"],
             contact_limit=number(contact["limit"]),

@@ -10,7 +10,7 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 
-from derivation.report.printed_motion import Array, plane_strain_modulus, printed_motion
+from derivation.measure.printed_motion import Array, plane_strain_modulus, printed_motion
 from derivation.scene.model import Model
 from generated.impact import Impact, history, impact
 

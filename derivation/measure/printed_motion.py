@@ -5,23 +5,42 @@ on where they are cut off; that is what the figures show.
 """
 
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from derivation.scene.model import Model
 from generated.bessel import bessel_j0_zeros, bessel_j1_at_j0_zeros
 from generated.influence import K_j
 
 Array = NDArray[np.float64]
 
 
-def plane_strain_modulus(case: Model) -> float:
+class Case(Protocol):
+    """Sphere and plate of an impact: R, h, b [m], m [kg], v0 [m/s], lam, mu [Pa]."""
+
+    @property
+    def R(self) -> float: ...  # noqa: D102
+    @property
+    def m(self) -> float: ...  # noqa: D102
+    @property
+    def v0(self) -> float: ...  # noqa: D102
+    @property
+    def h(self) -> float: ...  # noqa: D102
+    @property
+    def b(self) -> float: ...  # noqa: D102
+    @property
+    def lam(self) -> float: ...  # noqa: D102
+    @property
+    def mu(self) -> float: ...  # noqa: D102
+
+
+def plane_strain_modulus(case: Case) -> float:
     """E* = 4 mu (lam + mu)/(lam + 2 mu) of the plate [Pa]."""
     return 4 * case.mu * (case.lam + case.mu) / (case.lam + 2 * case.mu)
 
 
-def truncated_gamma(case: Model, k: int, modes: int) -> float:
+def truncated_gamma(case: Case, k: int, modes: int) -> float:
     """gamma_k of (10), its divergent sum cut off after `modes` modes.
 
     The factor (a/P^(1/3))^(2k-1) follows from (7): a^3/P = 3R/(4E*).
@@ -41,7 +60,7 @@ def _factorial(n: int) -> float:
 class PrintedMotion:
     """Coefficients xi_2, xi_3 of (10) with their sums cut off, and the motion they give."""
 
-    case: Model
+    case: Case
     xi_2: float
     xi_3: float
 
@@ -106,7 +125,7 @@ def _integral(values: Array, t: Array) -> Array:
     return np.concatenate([[0.0], np.cumsum(steps)])
 
 
-def printed_motion(case: Model, modes: int, *, corrected: bool = False) -> PrintedMotion:
+def printed_motion(case: Case, modes: int, *, corrected: bool = False) -> PrintedMotion:
     """The paper's coefficients with the sums cut off after `modes` modes.
 
     With `corrected`, xi_3 = -gamma_3/gamma_2^(8/3) instead of the printed

@@ -1,0 +1,1 @@
+"""What accuracy costs in time: every method's digits and seconds, side by side."""

@@ -1,0 +1,110 @@
+"""Every method compared, the order of their simplicity, and how to choose among them."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from derivation.measure.accuracy import inversion, law_own, law_series, law_sums, motion, stepping
+from derivation.measure.accuracy.arithmetic import HAS_LONG, LONG, SINGLE, Balls, Mpmath
+from derivation.measure.accuracy.interface import Method
+from derivation.measure.accuracy.levin import levin
+
+SIMPLEST = (
+    "Hertz", "production", "Newton (production)", "Gauss-Legendre", "thin-plate closed form",
+    "small-a series", "reversed series", "Chebyshev surrogate", "table of cubics",
+    "split", "split, y = u^3", "Levin u", "direct sum", "printed sum",
+)  # fmt: skip
+"""Families by how little they ask of their user; among ties the first is the winner."""
+
+DEEP = (30, 50, 100)
+"""Digits of the methods in wide arithmetic."""
+
+TERMS = {30: 16, 50: 25, 100: 47}
+"""Terms of the small-a series that the paper's contacts take for so many digits."""
+
+
+def law_methods() -> list[Method]:
+    """Indentation over contact radius."""
+    found = [law_own.hertz(), law_own.called(), law_own.prepared(), law_own.called(np.float32)]
+    found += [law_sums.printed(n) for n in (10, 100, 1000)]
+    found += [law_sums.direct(n, quick=n <= 10_000) for n in (100, 1000, 10_000, 100_000)]
+    found += [law_sums.direct(1000, SINGLE)]
+    found += [
+        law_sums.split(n, m) for n, m in ((8, 1), (12, 2), (16, 2), (24, 3), (32, 4), (48, 4))
+    ]
+    found += [
+        law_sums.split(n, m, double_exponential=False) for n, m in ((16, 2), (32, 4), (64, 5))
+    ]
+    found += [law_sums.split(48, 4, SINGLE)]
+    found += [levin(n) for n in (4, 8, 12, 16, 20)]
+    found += [law_series.small_contacts(n) for n in (1, 2, 4, 8, 12, 16)]
+    found += [law_series.small_contacts(16, SINGLE)]
+    found += [law_series.thin_plate(n) for n in (2, 4, 8, 16)]
+    found += [law_series.chebyshev(n) for n in (2, 4, 6, 9, 16)]
+    found += [law_series.chebyshev(6, SINGLE)]
+    found += [law_series.table(n) for n in (64, 1024, 8192)]
+    return found + _wide_laws()
+
+
+def _wide_laws() -> list[Method]:
+    """The same beyond double precision."""
+    found = []
+    if HAS_LONG:
+        found += [law_series.small_contacts(24, LONG), law_sums.split(64, 5, LONG, quick=False)]
+    for digits in DEEP:
+        quick = digits == DEEP[0]
+        for ar in (Mpmath(digits), Balls(digits)):
+            found.append(law_series.small_contacts(TERMS[digits], ar, quick))
+            found.append(law_sums.split(round(2.4 * digits), 0.2 * digits, ar, quick=False))
+        found.append(law_own.oracle(digits, quick))
+    return found
+
+
+def inversion_methods() -> list[Method]:
+    """Force over indentation."""
+    found = [inversion.hertz(), inversion.newton()]
+    found += [inversion.reversed_series(n) for n in (2, 4, 8, 12, 16, 24)]
+    found += [inversion.table(n) for n in (64, 1024, 8192)]
+    return found + [inversion.oracle(digits, digits == DEEP[0]) for digits in DEEP]
+
+
+def impact_methods() -> list[Method]:
+    """Contact time over speed."""
+    found = [motion.hertz(), motion.production()]
+    found += [motion.linear(n) for n in (25, 100, 400)]
+    found += [motion.perturbation(corrected) for corrected in (False, True)]
+    found += [motion.gauss(n) for n in (4, 6, 8, 12, 16, 20, 24)]
+    for name in ("DOP853", "Radau", "LSODA"):
+        for rtol in (1e-3, 1e-6, 1e-9, 1e-12):
+            quick = name != "Radau" or rtol > 1e-8
+            found.append(stepping.solver(name, rtol, quick=quick))
+            if name != "DOP853":
+                found.append(stepping.solver(name, rtol, share=0.05, quick=False))
+    found += [stepping.verlet(n, n == 20) for n in (20, 100, 1000)]
+    return found + [motion.oracle(digits, quick=False) for digits in DEEP]
+
+
+def methods(names: Sequence[str] = (), quick: bool = False) -> list[Method]:
+    """Every method, or those of the families named.
+
+    Raises
+    ------
+    ValueError
+        If there is no such family.
+    """
+    every = [*law_methods(), *inversion_methods(), *impact_methods()]
+    families = list(dict.fromkeys(method.family for method in every))
+    for name in names:
+        if name not in families:
+            known = "; ".join(families)
+            raise ValueError(f"unknown method {name!r}: expected one of: {known}")
+    return [
+        method
+        for method in every
+        if (not names or method.family in names) and (method.quick or not quick)
+    ]
+
+
+def simplicity(family: str) -> int:
+    """Place in the order of simplicity; those not named there come last."""
+    return SIMPLEST.index(family) if family in SIMPLEST else len(SIMPLEST)

@@ -1,0 +1,99 @@
+"""How many digits a method gets right, and whether truncation or rounding takes the rest."""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import flint
+import numpy as np
+from flint import arb
+
+from derivation.formula.ball import LOG2_10
+from derivation.measure.accuracy.arithmetic import as_ball
+from derivation.measure.accuracy.interface import Call, Method
+from derivation.measure.accuracy.problems import Problem
+
+
+@dataclass(frozen=True)
+class Errors:
+    """Digits of the worst point: -log10 of the relative error; None where it was not measured.
+
+    Attributes
+    ----------
+    total
+        The method against the truth; minus infinity where it gives no number.
+    truncation
+        The same truncated method without rounding, in balls, against the truth.
+    rounding
+        The method against the same without rounding.
+    worst
+        Argument of the worst point, in hexadecimal.
+    """
+
+    total: float
+    truncation: float | None
+    rounding: float | None
+    worst: str
+
+
+@dataclass(frozen=True)
+class Judged:
+    """A prepared method with its errors; set-up and first call in seconds."""
+
+    call: Call
+    errors: Errors
+    setup: float
+    first: float
+
+
+def judge(method: Method, problem: Problem, clock: Callable[[], float]) -> Judged:
+    """Prepare a method and hold its results to the truth."""
+    begin = clock()
+    call = method.prepare(problem.regime)
+    middle = clock()
+    points = problem.points[-1:] if method.certified else problem.points
+    values = list(np.atleast_1d(np.asarray(call(points), dtype=object)))
+    end = clock()
+    errors = certified(values, points) if method.certified else split(method, problem, values)
+    return Judged(call, errors, middle - begin, (end - middle) / points.size)
+
+
+def certified(values: Sequence[arb], points: Any) -> Errors:
+    """Of balls that enclose the truth: their radii."""
+    with flint.ctx.workprec(64):
+        worst = max(float((x.rad() / abs(x).abs_lower()).log()) for x in values)
+    return Errors(-worst / math.log(10), None, None, float(points[0]).hex())
+
+
+def split(method: Method, problem: Problem, values: Sequence[Any]) -> Errors:
+    """Total, truncation and rounding; total <= truncation + rounding as errors at each point."""
+    most = problem.digits
+    with flint.ctx.workprec(math.ceil(most * LOG2_10) + 128):
+        total = [digits(v, t, most) for v, t in zip(values, problem.truths, strict=True)]
+        same = _same(method, problem)
+        truncation = rounding = None
+        if same is not None:
+            truncation = min(digits(s, t, most) for s, t in zip(same, problem.truths, strict=True))
+            rounding = min(digits(v, s, most) for v, s in zip(values, same, strict=True))
+    place = int(np.argmin(total))
+    return Errors(total[place], truncation, rounding, float(problem.points[place]).hex())
+
+
+def _same(method: Method, problem: Problem) -> Sequence[arb] | None:
+    if method.same is None:
+        return None
+    try:
+        found: Sequence[arb] = method.same(problem.regime)(problem.points)
+    except NotImplementedError:
+        return None
+    return found
+
+
+def digits(value: Any, true: arb, most: float) -> float:
+    """-log10 of a relative error, at most as many as the truth has."""
+    ball = as_ball(value)
+    if not ball.is_finite():
+        return -math.inf
+    error = (abs(ball - true) / abs(true)).abs_upper()
+    return min(float(most), -float(error.log()) / math.log(10)) if error > 0 else float(most)

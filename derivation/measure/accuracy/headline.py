@@ -1,0 +1,127 @@
+"""The generated law against the best direct summation, at the paper's own largest contact."""
+
+import math
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from derivation.measure.accuracy import clock, law_own
+from derivation.measure.accuracy.arithmetic import DOUBLE
+from derivation.measure.accuracy.interface import Doubles, Regime
+from derivation.measure.accuracy.inversion import deepest
+from derivation.reference import contact_balls
+from generated.contact_law import indentation
+
+MOST_MODES, QUICK_MODES = 20_971_520, 1_048_576
+CHUNK, BLOCK = 1 << 19, 1 << 13
+"""Modes prepared, and modes summed, at a time."""
+
+KNOWN_ZEROS = 1 << 16
+"""So many zeros come from the generated code; beyond, two terms of McMahon's expansion are
+exact to the last place."""
+
+DIGITS = (6, 9, 10, 11, 12)
+POINTS = 1_000_000
+
+
+@dataclass(frozen=True)
+class Reached:
+    """Digits reached by a direct sum: modes, and time per point [s] without set-up."""
+
+    digits: int
+    modes: int
+    seconds: float
+
+
+@dataclass(frozen=True)
+class Headline:
+    """The comparison.
+
+    Attributes
+    ----------
+    contact_radius
+        Where the sum is taken [m].
+    reached
+        What the direct sum takes for each number of digits, as far as it got.
+    modes, setup, per_mode
+        Modes summed in all; time of their zeros and weights [s]; time of a mode [s].
+    digits, called, prepared
+        Of the generated law: digits, and time per point of a large array [s].
+    """
+
+    contact_radius: float
+    reached: tuple[Reached, ...]
+    modes: int
+    setup: float
+    per_mode: float
+    digits: float
+    called: float
+    prepared: float
+
+
+def headline(regime: Regime, quick: bool) -> Headline:
+    """Measure it."""
+    a = deepest(regime)
+    true = float(contact_balls.indentation(a, regime.R, regime.h, regime.b, 20))
+    own = float(indentation(a, regime.R, regime.h, regime.b))
+    miss = abs(own / true - 1) or float(np.finfo(np.float64).eps) / 2
+    errors, times, setup = direct(regime, a, true, QUICK_MODES if quick else MOST_MODES)
+    radii = np.random.default_rng(clock.SEED).uniform(0.1 * a, a, POINTS)
+    # As called, the whole array at once: that is how it is meant to be used.
+    large = clock.Candidate(
+        lambda x: indentation(x, regime.R, regime.h, regime.b), radii, 1
+    )  # fmt: skip
+    ready = clock.Candidate(law_own.prepared().prepare(regime), radii, 1)
+    called, prepared = clock.session((large, ready), clock.QUICK if quick else clock.FULL).timings
+    return Headline(
+        a, tuple(_reached(errors, times)), BLOCK * errors.size, setup,
+        float(times[-1]) / (BLOCK * errors.size), -math.log10(miss), called.seconds,
+        prepared.seconds,
+    )  # fmt: skip
+
+
+def direct(regime: Regime, a: float, true: float, most: int) -> tuple[Doubles, Doubles, float]:
+    """Relative error and time so far after each block of modes, and time of the set-up."""
+    partial, times, setup, total, spent = [], [], 0.0, 0.0, 0.0
+    for begin in range(0, most, CHUNK):
+        start = time.perf_counter()
+        j, slope = zeros(begin, begin + CHUNK)
+        square = j * j
+        factor = 8 * regime.b**2 / (math.pi * regime.R)
+        with DOUBLE.context():
+            excess = DOUBLE.excess(2 * regime.eta * j)
+        weights = factor * (1 + excess) / (square * square * slope)
+        setup += time.perf_counter() - start
+        for k in range(0, CHUNK, BLOCK):
+            start = time.perf_counter()
+            y = (a / regime.b) * j[k : k + BLOCK]
+            total += float((weights[k : k + BLOCK] * (np.sin(y) - y * np.cos(y))).sum())
+            spent += time.perf_counter() - start
+            partial.append(total)
+            times.append(spent)
+    return np.abs(np.array(partial) / true - 1), np.array(times), setup
+
+
+def zeros(begin: int, end: int) -> tuple[Doubles, Doubles]:
+    """Zeros j_n of J0 and J1(j_n)^2, begin < n <= end."""
+    if end <= KNOWN_ZEROS:
+        j, slope = DOUBLE.zeros(end)
+        return j[begin:], slope[begin:] ** 2
+    beta = (np.arange(begin + 1, end + 1) - 0.25) * math.pi
+    j, square = beta + 1 / (8 * beta), 2 / (math.pi * beta)
+    if begin < KNOWN_ZEROS:
+        known, slope = DOUBLE.zeros(KNOWN_ZEROS)
+        j[: KNOWN_ZEROS - begin] = known[begin:]
+        square[: KNOWN_ZEROS - begin] = slope[begin:] ** 2
+    return j, square
+
+
+def _reached(errors: Doubles, times: Doubles) -> Iterator[Reached]:
+    """From which block on the error stays below each power of ten."""
+    for digits in DIGITS:
+        late = np.flatnonzero(errors > 10.0**-digits)
+        first = int(late[-1]) + 1 if late.size else 0
+        if first < errors.size:
+            yield Reached(digits, (first + 1) * BLOCK, float(times[first]))

@@ -1,0 +1,121 @@
+"""What is compared, and where: a method prepares a contact and returns a function of an array."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+Task = Literal["law", "inversion", "impact"]
+Doubles = NDArray[np.float64]
+Call = Callable[[Any], Any]
+"""Radii -> indentations [m], indentations -> forces [N], or speeds -> contact times [s]."""
+
+TASKS: tuple[Task, ...] = ("law", "inversion", "impact")
+TIE = 1.2
+"""Times within this factor of each other are not told apart."""
+
+
+@dataclass(frozen=True)
+class Regime:
+    """A sphere on a plate and the range of contacts looked at; exact doubles.
+
+    Attributes
+    ----------
+    name
+        What the contact is like.
+    R, h, b
+        Sphere radius, half-thickness and radius of the plate [m].
+    low, high
+        a/h of the smallest and largest contact of the law [1].
+    speed
+        Largest speed of approach of an impact [m/s].
+    m
+        Sphere mass [kg].
+    lam, mu
+        Lame constants of the plate [Pa].
+    """
+
+    name: str
+    R: float
+    h: float
+    b: float
+    low: float
+    high: float
+    speed: float
+    m: float = 72.2
+    lam: float = 0.36e9
+    mu: float = 0.43e9
+
+    @property
+    def eta(self) -> float:
+        """h/b [1]."""
+        return self.h / self.b
+
+    @property
+    def v0(self) -> float:
+        """The speed, by its symbol [m/s]."""
+        return self.speed
+
+    @property
+    def modulus(self) -> float:
+        """E* = 4 mu (lam + mu)/(lam + 2 mu) [Pa]."""
+        return 4 * self.mu * (self.lam + self.mu) / (self.lam + 2 * self.mu)
+
+
+REGIMES = (
+    Regime("thin", 1.3, 1e-3, 1.0, 0.01, 1.0, 0.0039),
+    Regime("paper", 0.13, 0.1, 1.0, 0.01, 0.3, 1.0),
+    Regime("thick", 1.3, 1.0, 1.0, 0.01, 0.5, 480.0),
+    Regime("small contacts", 0.13, 0.1, 1.0, 1e-8, 1e-3, 3.1e-11),
+    Regime("large contacts", 1.3, 0.1, 1.0, 3.0, 9.0, 4500.0),
+)
+"""Impacts of these speeds reach a/h of 0.5, 0.13, 0.5, 1e-5 and 5.5."""
+
+PAPER = REGIMES[1]
+
+
+def never_fails(regime: Regime) -> str | None:  # noqa: ARG001
+    """The reason of a failure, for a method that has none."""
+    return None
+
+
+@dataclass(frozen=True)
+class Method:
+    """One way to a result.
+
+    Attributes
+    ----------
+    task, family, setting, arithmetic
+        What it computes; its kind; what is varied within the kind; in which numbers.
+    prepare
+        Set-up for a regime: coefficients, zeros, tables. What it returns is timed.
+    same
+        The same truncated method in balls, where there is one: it has no rounding error.
+    fails
+        Why the method is not tried in a regime, or None.
+    one_by_one
+        Whether it takes numbers singly, so that an array buys nothing.
+    certified
+        Whether results are balls that enclose the truth, which judge themselves.
+    quick
+        Whether a quick run takes it along.
+    """
+
+    task: Task
+    family: str
+    setting: str
+    prepare: Callable[[Regime], Call]
+    arithmetic: str = "float64"
+    same: Callable[[Regime], Call] | None = None
+    fails: Callable[[Regime], str | None] = never_fails
+    one_by_one: bool = False
+    certified: bool = False
+    quick: bool = True
+
+    @property
+    def name(self) -> str:
+        """Family, setting and, unless double precision, arithmetic."""
+        parts = [self.family, self.setting, "" if self.arithmetic == "float64" else self.arithmetic]
+        return ", ".join(part for part in parts if part)

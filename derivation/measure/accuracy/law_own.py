@@ -1,0 +1,62 @@
+"""The contact law by the generated code, by Hertz's formula alone, and by the oracle."""
+
+import numpy as np
+
+from derivation.measure.accuracy.arithmetic import Array, Balls
+from derivation.measure.accuracy.interface import Call, Method, Regime
+from derivation.reference import contact_balls
+from generated import contact_law, contact_series
+
+
+def hertz() -> Method:
+    """delta = a^2/R."""
+
+    def prepare(regime: Regime) -> Call:
+        return lambda a: a * a / regime.R
+
+    return Method("law", "Hertz", "", prepare)
+
+
+def called(dtype: type[np.float32 | np.float64] = np.float64) -> Method:
+    """`indentation` as anyone calls it: domain and plate are looked into every time."""
+
+    def prepare(regime: Regime) -> Call:
+        R, h, b = (dtype(x) for x in (regime.R, regime.h, regime.b))
+        return lambda a: contact_law.indentation(a.astype(dtype), R, h, b)
+
+    return Method("law", "production", "as called", prepare, np.dtype(dtype).name)
+
+
+def prepared() -> Method:
+    """The same polynomials, the plate prepared once, the arguments trusted."""
+
+    def prepare(regime: Regime) -> Call:
+        plates = contact_series.plates_of(np.array([regime.eta]))
+        law = contact_series.sphere_on_plate(plates, np.array([regime.h]), np.array(regime.R))
+        if law is None:
+            raise ValueError(f"expected ordinary lengths, got {regime}")
+
+        def call(a: Array) -> Array:
+            found = np.empty(a.size)
+            for part in contact_series.blocks_of(a.size):
+                contact_series.indent(a[part], a[part].max(), law, found[part])
+            return found
+
+        return call
+
+    return Method("law", "production", "prepared", prepare)
+
+
+def oracle(digits: int, quick: bool = True) -> Method:
+    """The contour integrals in balls, a certified value each."""
+
+    def prepare(regime: Regime) -> Call:
+        def one(a: float) -> object:
+            return contact_balls.indentation(a, regime.R, regime.h, regime.b, digits)
+
+        return lambda a: [one(float(x)) for x in np.atleast_1d(a)]
+
+    return Method(
+        "law", "contour integrals", f"{digits} digits", prepare, Balls(digits).name,
+        one_by_one=True, certified=True, quick=quick,
+    )  # fmt: skip

@@ -1,0 +1,183 @@
+"""The contact law as sums over the modes: as printed, stable, and split into convergent parts."""
+
+import math
+from collections.abc import Callable
+from functools import cache
+
+import flint
+from flint import arb
+
+from derivation.measure.accuracy.arithmetic import DOUBLE, Arithmetic, Array, Balls
+from derivation.measure.accuracy.interface import Call, Method, Regime
+
+EXACT = Balls(40)
+"""What stands for exact arithmetic where a truncated method is judged."""
+
+SAME_MODES = 1000
+"""Direct sums of more modes have no counterpart in balls: their zeros would take minutes."""
+
+_MODES, _ELEMENTS = 4096, 65536
+"""Modes, and elements of an array, worked on at a time, so that they stay in the cache."""
+
+OVERFLOW = 709.78
+"""Exponent from which e^x is no double."""
+
+
+def modal(ar: Arithmetic, phi: Array, weights: Array) -> Call:
+    """sum_j weights_j s(phi_j a), smallest terms first."""
+
+    def call(a: Array) -> Array:
+        total = a * 0
+        for begin in reversed(range(0, phi.size, _MODES)):
+            some, factors = phi[begin : begin + _MODES], weights[begin : begin + _MODES]
+            step = max(1, _ELEMENTS // some.size)
+            for k in range(0, a.size, step):
+                terms = ar.shape(a[k : k + step, None] * some) * factors
+                total[k : k + step] += terms.sum(axis=-1)
+        return total
+
+    return call
+
+
+def wrapped(ar: Arithmetic, inner: Call) -> Call:
+    """A call on doubles in an arithmetic's precision."""
+
+    def call(a: Array) -> Array:
+        with ar.context():
+            return inner(ar.array(a))
+
+    return call
+
+
+def _plate(ar: Arithmetic, regime: Regime) -> tuple[Array, Array, Array, Array]:
+    """R, h, b and pi in an arithmetic."""
+    R, h, b = (ar.array(x) for x in (regime.R, regime.h, regime.b))
+    return R, h, b, ar.array(arb.pi())
+
+
+def _direct(ar: Arithmetic, modes: int, printed: bool) -> Callable[[Regime], Call]:
+    def prepare(regime: Regime) -> Call:
+        with ar.context():
+            R, h, b, pi = _plate(ar, regime)
+            j, slope = ar.zeros(modes)
+            phi = j / b
+            factor = ar.printed_factor(phi * h) if printed else 1 + ar.excess(2 * phi * h)
+            square = phi * phi
+            weights = 8 * factor / (pi * R * b * b * square * square * slope * slope)
+            return wrapped(ar, modal(ar, phi, weights))
+
+    return prepare
+
+
+def printed(modes: int) -> Method:
+    """The paper's sum (6) with its own plate factor, in doubles."""
+
+    def fails(regime: Regime) -> str | None:
+        most = 8 * math.pi * modes * regime.eta
+        return (
+            f"overflow: e^(8 phi h) with phi h up to {most / 8:.3g} is infinite, inf/inf is NaN"
+            if most > OVERFLOW
+            else None
+        )
+
+    return Method(
+        "law", "printed sum", f"{modes} modes", _direct(DOUBLE, modes, True),
+        same=_direct(EXACT, modes, True), fails=fails,
+    )  # fmt: skip
+
+
+def direct(modes: int, ar: Arithmetic = DOUBLE, quick: bool = True) -> Method:
+    """The same sum with a plate factor that neither overflows nor cancels."""
+    return Method(
+        "law", "direct sum", f"{modes:g} modes", _direct(ar, modes, False), ar.name,
+        _direct(EXACT, modes, False) if modes <= SAME_MODES else None, quick=quick,
+    )  # fmt: skip
+
+
+# --- split: Hertz's term, the side wall by n nodes, the thickness by m modes
+
+
+@cache
+def wall_nodes(count: int, digits: int, double_exponential: bool, bits: int) -> list[list[arb]]:
+    """Nodes y, and weights times K0/(I0 y^3), of the side wall's integral, good for alpha <= 1.
+
+    Double exponential: trapezoidal rule in t, y = exp(t - exp(-t)), which does away with
+    K0's logarithm at 0. Otherwise Gauss-Legendre in u, y = u^3.
+    """
+    with flint.ctx.workprec(bits):
+        if double_exponential:
+            low = -math.log(math.log(10) * digits)
+            high = math.log(math.log(10) * (digits + 1)) + 0.05
+            step = arb(high - low) / (count - 1)
+            times = [arb(low) + step * k for k in range(count)]
+            ys = [(t - (-t).exp()).exp() for t in times]
+            steps = [step * y * (1 + (-t).exp()) for t, y in zip(times, ys, strict=True)]
+        else:
+            end = (arb(digits + 2) * arb(10).log()).root(3)
+            rule = [arb.legendre_p_root(count, k, weight=True) for k in range(count)]
+            us = [end * (1 + x) / 2 for x, _ in rule]
+            ys = [u**3 for u in us]
+            steps = [end / 2 * w * 3 * u * u for u, (_, w) in zip(us, rule, strict=True)]
+        weights = [
+            w * y.bessel_k(0) / (y.bessel_i(0) * y**3) for w, y in zip(steps, ys, strict=True)
+        ]
+        return [ys, weights]
+
+
+def _split(
+    ar: Arithmetic, nodes: int, share: float, double_exponential: bool, digits: int
+) -> Callable[[Regime], Call]:
+    def prepare(regime: Regime) -> Call:
+        bits = math.ceil(3.33 * (ar.digits + 10)) + 64
+        found = wall_nodes(nodes, digits, double_exponential, bits)
+        with ar.context():
+            y, W = (ar.array(column) for column in found)
+            R, h, b, pi = _plate(ar, regime)
+            j, slope = ar.zeros(modes_of(regime, share))
+            phi = j / b
+            square = phi * phi
+            weights = 8 * ar.excess(2 * phi * h) / (pi * R * b * b * square * square)
+            thickness = modal(ar, phi, weights / (slope * slope))
+            factor = 8 * b * b / (pi * pi * R)
+
+            def call(a: Array) -> Array:
+                found = thickness(a) + a * a / R
+                for k in range(0, a.size, _ELEMENTS // 64):
+                    part = slice(k, k + _ELEMENTS // 64)
+                    t = (a[part] / b)[:, None] * y
+                    found[part] -= factor * (ar.wall_shape(t) * W).sum(axis=-1)
+                return found
+
+            return wrapped(ar, call)
+
+    return prepare
+
+
+def modes_of(regime: Regime, share: float) -> int:
+    """Modes of the thickness' part, which decays like e^(-4 pi n h/b)."""
+    return max(1, math.ceil(share / regime.eta))
+
+
+def split(
+    nodes: int, share: float, ar: Arithmetic = DOUBLE, double_exponential: bool = True,
+    quick: bool = True,
+) -> Method:  # fmt: skip
+    """Hertz's term less the side wall's integral plus the thickness' sum of share b/h modes."""
+    digits = ar.digits + 1
+    rule = "" if double_exponential else ", y = u^3"
+
+    def fails(regime: Regime) -> str | None:
+        modes = modes_of(regime, share)
+        dear = modes > SAME_MODES and ar.name != DOUBLE.name
+        return f"takes {modes} modes a point in numbers other than doubles" if dear else None
+
+    def same(regime: Regime) -> Call:
+        if modes_of(regime, share) > SAME_MODES:
+            raise NotImplementedError("zeros in balls would take minutes")
+        return _split(EXACT, nodes, share, double_exponential, digits)(regime)
+
+    return Method(
+        "law", f"split{rule}", f"{nodes} nodes, {share:g} b/h modes",
+        _split(ar, nodes, share, double_exponential, digits), ar.name,
+        same if ar.digits < EXACT.digits - 5 else None, fails, ar.wide, quick=quick,
+    )  # fmt: skip

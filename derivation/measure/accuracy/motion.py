@@ -1,0 +1,115 @@
+"""The contact time of an impact without stepping: paper's formulas, quadrature, oracle."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from derivation.measure.accuracy.arithmetic import Array, Balls
+from derivation.measure.accuracy.interface import Call, Method, Regime
+from derivation.measure.printed_motion import printed_motion
+from derivation.reference import contact_impact
+from generated.impact import _kernel, _parts, _solve, impact
+from generated.ranges import product
+
+MODES = 100
+"""Where the paper's divergent sums are cut off for its perturbation."""
+
+HERTZ_TIME = 4 * math.sqrt(math.pi) * math.gamma(0.4) / (5 * math.gamma(0.9))
+"""Contact time v0/delta_max on a half-space [1]."""
+
+
+def hertz_time(regime: Regime) -> Call:
+    """Contact times on a half-space [s] for speeds [m/s]."""
+    stiff = 4 / 3 * regime.modulus * math.sqrt(regime.R)
+    return lambda v0: HERTZ_TIME * (1.25 * regime.m * v0 * v0 / stiff) ** 0.4 / v0
+
+
+def hertz() -> Method:
+    """The plate left out."""
+    return Method("impact", "Hertz", "", hertz_time)
+
+
+def linear(modes: int) -> Method:
+    """The paper's linear term (15), whose contact time does not know the speed."""
+
+    def prepare(regime: Regime) -> Call:
+        time = printed_motion(regime, modes).contact_time
+        return lambda v0: np.full(np.shape(v0), time)
+
+    return Method("impact", "paper's linear term", f"{modes} modes", prepare)
+
+
+def perturbation(corrected: bool) -> Method:
+    """The paper's correction (16) with xi_3 as printed or corrected: twice the turning point."""
+    kind = "corrected" if corrected else "as printed"
+
+    def fails(regime: Regime) -> str | None:
+        motion = printed_motion(regime, MODES, corrected=corrected)
+        share = motion.breaks_at / (motion.contact_time / 2)
+        if math.isnan(share):
+            return None
+        return f"root of a negative number in (17), (18) from {share:.3g} of the way to the top on"
+
+    def prepare(regime: Regime) -> Call:
+        def one(v0: float) -> float:
+            motion = printed_motion(replace(regime, speed=v0), MODES, corrected=corrected)
+            t = np.linspace(0, motion.contact_time / 2, 2001)
+            return float(2 * t[int(np.nanargmax(motion.corrected(t)))])
+
+        return lambda v0: np.array([one(float(v)) for v in np.atleast_1d(v0)])
+
+    return Method(
+        "impact", f"paper's perturbation, {kind}", f"{MODES} modes", prepare, fails=fails,
+        one_by_one=True,
+    )  # fmt: skip
+
+
+def gauss(nodes: int) -> Method:
+    """The generated code's integrand for the contact time with another number of nodes."""
+    x, w = np.polynomial.legendre.leggauss(nodes)
+    x, w = (1 + x) / 2, w / 2
+
+    def prepare(regime: Regime) -> Call:
+        r = regime
+        R, m, h, b, lam, mu = (np.asarray(y, float) for y in (r.R, r.m, r.h, r.b, r.lam, r.mu))
+
+        def call(v0: Array) -> Array:
+            with np.errstate(all="ignore"):  # as `impact` itself
+                found, _, depth, _, _ = _solve(R, m, v0, h, b, lam, mu)
+                integral = np.empty_like(found.A)
+                for part in _parts(found.A.size):
+                    at = np.broadcast_to(x, (found.A[part].size, nodes))
+                    integral[part] = (_kernel(at, found, part) * w).sum(axis=1)
+                return product((2.0, *depth, integral), (v0,))
+
+        return call
+
+    return Method("impact", "Gauss-Legendre", f"{nodes} nodes", prepare)
+
+
+def production() -> Method:
+    """`impact` as called, with its 24 nodes and all four results."""
+
+    def prepare(regime: Regime) -> Call:
+        r = regime
+        return lambda v0: impact(r.R, r.m, v0, r.h, r.b, r.lam, r.mu).contact_time
+
+    return Method("impact", "production", "as called", prepare)
+
+
+def oracle(digits: int, quick: bool = True) -> Method:
+    """The conservative impact in balls."""
+
+    def prepare(regime: Regime) -> Call:
+        def one(v0: float) -> object:
+            r = regime
+            found = contact_impact.impact(r.R, r.m, v0, r.h, r.b, r.lam, r.mu, digits)
+            return found.contact_time
+
+        return lambda v0: [one(float(v)) for v in np.atleast_1d(v0)]
+
+    return Method(
+        "impact", "integrals in balls", f"{digits} digits", prepare, Balls(digits).name,
+        one_by_one=True, certified=True, quick=quick,
+    )  # fmt: skip

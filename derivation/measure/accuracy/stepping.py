@@ -1,0 +1,143 @@
+"""The contact time of an impact by steps: SciPy's solvers, and velocity Verlet."""
+
+import math
+from collections.abc import Callable
+from importlib.util import find_spec
+
+import numpy as np
+
+from derivation.measure.accuracy.arithmetic import Array
+from derivation.measure.accuracy.interface import Call, Doubles, Method, Regime
+from derivation.measure.accuracy.motion import hertz_time
+from generated import contact_law, contact_series
+from generated.impact import impact
+
+LEAST_RTOL = 2.3e-14
+"""SciPy's floor."""
+
+LONGEST = 40.0
+"""Contact times over Hertz's up to which fixed steps of his time are tried."""
+
+
+def scalar_force(regime: Regime) -> Callable[[float], float]:
+    """Force over indentation for one number, fast in plain Python: Newton's iteration for a/h.
+
+    It starts from the last contact radius found, as steps are small.
+    """
+    plates = contact_series.plates_of(np.array([regime.eta]))
+    pieces = [(plates.first, float(plates.reach[0]))]
+    if regime.eta < 1 / contact_series.REACH:
+        pieces.append((contact_series.far_piece(plates.eta), float(plates.far[0])))
+    rows = [
+        (p.coefficients[::-1, 0].tolist(), float(p.middle[0]), 1 / float(p.half[0]), end)
+        for p, end in pieces
+    ]
+    stiff = 4 * regime.modulus * regime.h**3 / (3 * regime.R)
+    last = 0.0
+
+    def share(A: float) -> tuple[float, float]:
+        """F and A F'."""
+        row, middle, inverse, _ = next((r for r in rows if r[3] >= A), rows[-1])
+        t = (A * A - middle) * inverse
+        value, slope = 0.0, 0.0
+        for coefficient in row:
+            slope = slope * t + value
+            value = value * t + coefficient
+        return A * value, A * (value + 2 * A * A * inverse * slope)
+
+    def force(delta: float) -> float:
+        nonlocal last
+        if delta <= 0:
+            return 0.0
+        target = delta * regime.R / regime.h**2
+        # Hertz's radius may lie beyond the polynomials' end, where they mean nothing.
+        A = last or min(math.sqrt(target), rows[-1][3])
+        for _ in range(60):
+            F, rise = share(A)
+            step = (A * A * (1 + F) - target) / (A * (2 * (1 + F) + rise))
+            A = min(max(A - step, 0.3 * A), rows[-1][3])
+            if abs(step) < 1e-15 * A:
+                break
+        last = A
+        return stiff * A**3
+
+    return force
+
+
+def solver(name: str, rtol: float, share: float | None = None, quick: bool = True) -> Method:
+    """SciPy's solve_ivp up to the turning point; `share` of the contact bounds its steps."""
+    limited = "" if share is None else f", steps below T/{1 / share:g}"
+
+    def fails(regime: Regime) -> str | None:  # noqa: ARG001
+        return None if find_spec("scipy") else "SciPy not installed"
+
+    def prepare(regime: Regime) -> Call:
+        from scipy.integrate import solve_ivp
+
+        r = regime
+
+        def one(v0: float) -> float:
+            force = scalar_force(regime)
+            time = float(impact(r.R, r.m, v0, r.h, r.b, r.lam, r.mu).contact_time)
+            depth = v0 * time
+
+            def rate(t: float, state: Doubles) -> tuple[float, float]:  # noqa: ARG001
+                return state[1], -force(state[0]) / r.m
+
+            def top(t: float, state: Doubles) -> float:  # noqa: ARG001
+                return float(state[1])
+
+            top.terminal = True  # type: ignore[attr-defined]
+            tolerance = max(rtol, LEAST_RTOL)
+            found = solve_ivp(
+                rate, (0, 2 * time), (0.0, v0), method=name, rtol=tolerance,
+                atol=(1e-3 * rtol * depth, 1e-3 * rtol * v0), events=top,
+                max_step=np.inf if share is None else share * time,
+            )  # fmt: skip
+            return 2 * float(found.t_events[0][0]) if found.t_events[0].size else math.nan
+
+        return lambda v0: np.array([one(float(v)) for v in np.atleast_1d(v0)])
+
+    return Method(
+        "impact", f"solve_ivp {name}{limited}", f"rtol {rtol:g}", prepare, fails=fails,
+        one_by_one=True, quick=quick,
+    )  # fmt: skip
+
+
+def verlet(steps: int, quick: bool = True) -> Method:
+    """Velocity Verlet as particle codes use it: a fixed step, Hertz's contact time over `steps`.
+
+    All speeds advance together; the end is interpolated linearly in the last step.
+    """
+
+    def fails(regime: Regime) -> str | None:
+        r = regime
+        time = impact(r.R, r.m, r.speed, r.h, r.b, r.lam, r.mu).contact_time
+        longer = float(time / hertz_time(regime)(r.speed))
+        if longer < LONGEST:
+            return None
+        return f"contact lasts {longer:.3g} times as long as Hertz's, whose time sets the step"
+
+    def prepare(regime: Regime) -> Call:
+        r, free = regime, hertz_time(regime)
+
+        def call(v0: Array) -> Array:
+            v, x, acceleration = v0.copy(), np.zeros_like(v0), np.zeros_like(v0)
+            dt, ended = free(v0) / steps, np.full_like(v0, np.nan)
+            for step in range(int(2 * LONGEST * steps)):
+                ahead = x + dt * v + 0.5 * dt * dt * acceleration
+                force = contact_law.force(np.maximum(ahead, 0), r.R, r.h, r.b, r.lam, r.mu)
+                v = v - 0.5 * dt * (force / r.m - acceleration)
+                over = (ahead <= 0) & np.isnan(ended)
+                share = x / np.where(over, x - ahead, 1)
+                ended = np.where(over, dt * (step + share), ended)
+                x, acceleration = ahead, -force / r.m
+                if not np.isnan(ended).any():
+                    break
+            return ended
+
+        return call
+
+    return Method(
+        "impact", "velocity Verlet", f"Hertz's time/{steps}", prepare, fails=fails, quick=quick
+    )

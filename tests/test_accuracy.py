@@ -1,0 +1,442 @@
+"""What accuracy costs: interface, errors, clock, winners, data and commands; never how fast."""
+
+import json
+import math
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Callable
+from dataclasses import asdict, replace
+from itertools import cycle
+from pathlib import Path
+from typing import Any
+
+import flint
+import numpy as np
+import pytest
+
+from derivation import pipeline
+from derivation.cli import main
+from derivation.files import ROOT
+from derivation.measure.accuracy import clock, law_series, law_sums, panels, run, scaling, tools
+from derivation.measure.accuracy.arithmetic import DOUBLE, LONG, SINGLE, Balls, Mpmath, as_ball
+from derivation.measure.accuracy.catalogue import methods
+from derivation.measure.accuracy.clock import Candidate, Effort, Timing
+from derivation.measure.accuracy.coefficients import series
+from derivation.measure.accuracy.errors import Errors, digits, judge
+from derivation.measure.accuracy.headline import zeros
+from derivation.measure.accuracy.interface import PAPER, REGIMES, Method
+from derivation.measure.accuracy.levin import u_transform
+from derivation.measure.accuracy.pareto import winners
+from derivation.measure.accuracy.problems import Problem
+from derivation.measure.accuracy.rows import Row
+from derivation.measure.accuracy.stepping import scalar_force
+from derivation.reference import contact_balls
+from derivation.report.accuracy import accuracy_context, duration
+from derivation.report.accuracy_figures import as_pdf, pareto_front, work_precision
+from derivation.report.accuracy_figures import scaling as scaling_figure
+from generated.contact_law import force, indentation
+
+RADII = np.array([0.002, 0.01, 0.03])
+
+
+@pytest.fixture(scope="module")
+def law() -> Problem:
+    """The paper's law at three radii."""
+    truths = [contact_balls.indentation(float(a), PAPER.R, PAPER.h, PAPER.b, 40) for a in RADII]
+    return Problem("law", PAPER, RADII, tuple(truths), 40, np.full(50, 0.01))
+
+
+# --- interface
+
+
+@pytest.mark.parametrize("regime", REGIMES, ids=lambda r: r.name)
+def test_every_quick_method_gives_numbers_or_says_why(regime) -> None:
+    for method in methods(quick=True):
+        if method.certified or method.one_by_one or method.arithmetic != "float64":
+            continue
+        if method.task == "law" and not method.family.startswith(("split", "Chebyshev")):
+            reason = method.fails(regime)
+            if reason is None:
+                found = method.prepare(regime)(regime.h * np.array([regime.low, regime.high]))
+                assert np.isfinite(np.asarray(found, dtype=float)).all(), method.name
+            else:
+                assert reason
+
+
+def test_names_are_unique_and_unknown_ones_are_refused() -> None:
+    every = [(m.task, m.name) for m in methods()]
+    assert len(set(every)) == len(every)
+    with pytest.raises(ValueError, match="Levin u"):
+        methods(["Levin"])
+    assert {m.family for m in methods(["Levin u"])} == {"Levin u"}
+
+
+# --- arithmetics and methods
+
+
+@pytest.mark.parametrize(("ar", "right"), [(SINGLE, 6), (DOUBLE, 14.5), (LONG, 14.5)])
+def test_floats_agree_with_balls(ar, right: float) -> None:
+    y = np.array([1e-6, 0.3, 1.5, 1.7, 5.0], dtype=ar.dtype)
+    exact = Balls(40)
+    for name in ("shape", "wall_shape", "excess"):
+        values = getattr(ar, name)(y)
+        with exact.context():
+            balls = getattr(exact, name)(np.array([as_ball(x) for x in y], dtype=object))
+            assert min(map(digits, values, balls, [40] * len(y))) > right, name
+
+
+def test_mpmath_agrees_with_balls() -> None:
+    ar, exact, y = Mpmath(30), Balls(60), [1e-3, 0.5, 3.0]
+    with ar.context(), exact.context():
+        for name in ("shape", "wall_shape", "excess"):
+            values = getattr(ar, name)(ar.array(y))
+            balls = getattr(exact, name)(exact.array(y))
+            assert min(map(digits, values, balls, [60] * 3)) > 29, name
+
+
+@pytest.mark.parametrize("h", [0.1, 1e-2])
+def test_coefficients_are_the_oracles(h: float) -> None:
+    found = series(h, 1.0, 3, 20)
+    for k in (0, 2):
+        true = contact_balls.coefficient(2 * k + 1, h, 1.0, 20)
+        assert digits(found[k], true, 20) > 18
+
+
+def test_levins_transformation_sums_an_alternating_series() -> None:
+    n = np.arange(1, 13.0)
+    terms = (-1) ** (n + 1) / n
+    found = u_transform(np.cumsum(terms) + 0j, n * terms + 0j, n)
+    assert found.real == pytest.approx(math.log(2), rel=1e-10)
+
+
+def test_far_zeros_are_those_of_the_generated_code() -> None:
+    from generated.bessel import bessel_j0_zeros, bessel_j1_at_j0_zeros
+
+    j, square = zeros(65_000, 66_000)
+    np.testing.assert_allclose(j, bessel_j0_zeros(66_000)[65_000:], rtol=4e-16)
+    np.testing.assert_allclose(square, bessel_j1_at_j0_zeros(66_000)[65_000:] ** 2, rtol=1e-15)
+
+
+@pytest.mark.parametrize("regime", [REGIMES[1], REGIMES[4]], ids=lambda r: r.name)
+def test_the_scalar_force_is_the_generated_one(regime) -> None:
+    a = np.array([0.1, 0.6, 1.0]) * regime.h * min(regime.high, 4.0)
+    depths = indentation(a, regime.R, regime.h, regime.b)
+    r, scalar = regime, scalar_force(regime)
+    expected = force(depths, r.R, r.h, r.b, r.lam, r.mu)
+    np.testing.assert_allclose([scalar(float(d)) for d in depths], expected, rtol=1e-13)
+
+
+# --- errors
+
+
+def test_error_split_adds_up(law: Problem) -> None:
+    for method in (law_sums.split(16, 2), law_series.small_contacts(4), law_sums.direct(100)):
+        found = judge(method, law, lambda: 0.0).errors
+        assert found.truncation is not None
+        assert found.rounding is not None
+        parts = 10**-found.truncation + 10**-found.rounding
+        assert 10**-found.total <= parts * 1.01
+        assert found.rounding > 13
+    assert judge(law_series.small_contacts(1), law, lambda: 0.0).errors.total == pytest.approx(
+        judge(law_series.small_contacts(1), law, lambda: 0.0).errors.truncation, abs=1e-3
+    )
+
+
+def test_digits_of_no_number_and_of_exact_ones() -> None:
+    one = flint.arb(1)
+    assert digits(math.nan, one, 30) == -math.inf
+    assert digits(1.0, one, 30) == 30
+    assert digits(1.001, one, 30) == pytest.approx(3, abs=0.01)
+
+
+def test_a_method_without_digits_fails_with_a_reason(law: Problem) -> None:
+    half = Method("law", "half", "", lambda regime: lambda a: 0.1 * a)  # noqa: ARG005
+    nothing = Method("law", "nothing", "", lambda regime: lambda a: a * math.nan)  # noqa: ARG005
+    refused = replace(half, fails=lambda regime: "dear")  # noqa: ARG005
+    reasons = [panels.judged_row(method, law)[0].fails for method in (half, nothing, refused)]
+    assert reasons[0] is not None
+    assert "no digit" in reasons[0]
+    assert reasons[1:] == ["gives no number in part of the regime", "dear"]
+
+
+# --- clock
+
+
+class FakeClock:
+    """A clock that work moves on."""
+
+    def __init__(self) -> None:
+        self.now = 0.0
+
+    def __call__(self) -> float:
+        return self.now
+
+    def work(self, seconds: float) -> Callable[[Any], None]:
+        def call(array: Any) -> None:  # noqa: ARG001
+            self.now += seconds
+
+        return call
+
+
+def test_times_are_per_point_and_relative_to_the_reference(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    fake, array = FakeClock(), np.zeros(10)
+    monkeypatch.setattr(clock, "reference", lambda: Candidate(fake.work(1.0), array, 1))
+    candidates = [Candidate(fake.work(2.0), array, 3), Candidate(fake.work(5.0), array, 1)]
+    found = clock.session(candidates, Effort(9, 3), fake)
+    assert [t.seconds for t in found.timings] == pytest.approx([0.2, 0.5])
+    assert (found.attempts, found.contended, found.spread) == (1, False, 1.0)
+
+
+def test_a_busy_machine_is_tried_again_and_noted(monkeypatch: pytest.MonkeyPatch) -> None:
+    fake, array, load = FakeClock(), np.zeros(1), cycle([1.0] * 6 + [9.0] * 6)
+
+    def slower(array: Any) -> None:  # noqa: ARG001
+        fake.now += next(load)
+
+    monkeypatch.setattr(clock, "reference", lambda: Candidate(slower, array, 1))
+    found = clock.session([Candidate(fake.work(1.0), array, 1)], Effort(4, 3), fake)
+    assert found.attempts == 3
+    assert (found.contended, found.spread) == (True, 9.0)
+    hopeless = clock.session([Candidate(fake.work(1.0), array, 1)], Effort(4, 1), fake)
+    assert hopeless.attempts == 1
+
+
+def test_no_time_is_below_the_least_there_was(monkeypatch: pytest.MonkeyPatch) -> None:
+    fake, array, load = FakeClock(), np.zeros(1), cycle([1.0] * 3 + [100.0] * 9)
+
+    def disturbed(array: Any) -> None:  # noqa: ARG001
+        fake.now += next(load)
+
+    monkeypatch.setattr(clock, "reference", lambda: Candidate(disturbed, array, 1))
+    found = clock.session([Candidate(fake.work(2.0), array, 1)], Effort(8, 1), fake)
+    assert found.timings[0].seconds == 2.0
+
+
+def test_rounds_are_shuffled_and_repeat(monkeypatch: pytest.MonkeyPatch) -> None:
+    fake, array, order = FakeClock(), np.zeros(1), []
+
+    def named(name: int) -> Candidate:
+        def call(array: Any) -> None:  # noqa: ARG001
+            order.append(name)
+            fake.now += 1
+
+        return Candidate(call, array, 1)
+
+    monkeypatch.setattr(clock, "reference", lambda: named(0))
+    clock.interleaved([named(1), named(2), named(3)], 6, fake)
+    first, order[:] = list(order), []
+    clock.interleaved([named(1), named(2), named(3)], 6, fake)
+    assert order == first
+    assert len({tuple(first[k : k + 6]) for k in range(0, 36, 6)}) > 1
+    assert sorted(first[:6]) == [0, 0, 0, 1, 2, 3]
+
+
+def test_a_block_grows_with_the_array_until_it_is_dear() -> None:
+    fake, sample = FakeClock(), np.zeros(10_000)
+
+    def linear(array: Any) -> None:
+        fake.now += 1e-4 * array.size
+
+    assert 200 <= clock.plan(linear, sample, fake).array.size <= 1024
+    assert clock.plan(fake.work(1e-3), sample, fake).array.size == sample.size
+    assert clock.plan(fake.work(1e-4), sample, fake).repeats == 20
+    assert clock.plan(fake.work(0.1), sample, fake).array.size == sample.size
+
+
+# --- winners
+
+
+def row(family: str, total: float, seconds: float, setting: str = "") -> Row:
+    timing = Timing(seconds, 1, 1.0, 1)
+    errors = Errors(total, None, None, "0x0p+0")
+    return Row("law", "paper", family, setting, "float64", None, errors, timing, timing, 0.0)
+
+
+def test_the_simplest_of_the_ties_wins_and_the_rest_are_named() -> None:
+    rows = [
+        row("Chebyshev surrogate", 15.1, 2.0), row("production", 15.5, 2.3),
+        row("table of cubics", 15.9, 2.42), row("split", 15.9, 9.0), row("Hertz", 0.1, 0.1),
+        row("small-a series", 3.5, 1.0, "1 terms"), row("small-a series", 6.5, 3.0, "2 terms"),
+        replace(row("Levin u", 15.0, 0.1), fails="why", vector=None, single=None),
+    ]  # fmt: skip
+    found = {w.digits: w for w in winners(rows) if w.kind == "vector"}
+    assert sorted(found) == [3, 6, 9, 12, 15]
+    assert (found[3].family, found[3].setting, found[3].relative) == (
+        "small-a series",
+        "1 terms",
+        1,
+    )
+    assert found[15].family == "production"
+    assert found[15].ties == ("Chebyshev surrogate",)
+    assert found[15].doubtful == ("production", "table of cubics")
+    assert found[15].relative == pytest.approx(2.3)
+
+
+def test_the_front_holds_what_nothing_beats() -> None:
+    rows = [asdict(row("x", total, t)) for total, t in ((3, 2.0), (5, 1.0), (9, 4.0), (8, 5.0))]
+    assert pareto_front(rows, "vector") == [(1.0, 5), (4.0, 9)]
+
+
+# --- scaling and tools
+
+
+def test_a_line_and_where_it_is_left() -> None:
+    x = [1.0, 10.0, 100.0, 1000.0, 1e4]
+    slope, leaves = scaling.line(x, [1 + t for t in x])
+    assert slope == pytest.approx(1.0, abs=0.01)
+    assert leaves == 1.0
+    assert scaling.line(x, x)[1] is None
+
+
+def test_memory_of_a_call_is_traced() -> None:
+    assert 8e6 <= scaling.peak(lambda: np.ones(1_000_000)) < 9e6
+
+
+def test_a_tool_is_read_or_said_to_be_missing(tmp_path: Path) -> None:
+    script = tmp_path / "some_tool.py"
+    cell = {"problem": "p", "setting": "s", "error": 0.1, "seconds": 1.0}
+    said = {"name": "Some", "version": "1", "cannot": "much", "rows": [cell]}
+    script.write_text(f"print({json.dumps(json.dumps(said))})")
+    python = {tools.VARIABLE: sys.executable}
+    [found] = tools.run(script, python)
+    assert (found.name, found.error, found.missing) == ("Some", 0.1, None)
+    [absent] = tools.run(script, {})
+    assert absent.missing is not None
+    assert absent.missing.startswith("not installed")
+    script.write_text("import no_such_module")
+    assert "no_such_module" in (tools.run(script, python)[0].missing or "")
+    script.write_text("raise ValueError('x')")
+    assert (tools.run(script, python)[0].missing or "").startswith("failed")
+
+
+def test_scripts_of_tools_import_nothing_of_the_project() -> None:
+    for script in tools.SCRIPTS.glob("*.py"):
+        assert "derivation" not in script.read_text()
+        assert "generated" not in script.read_text()
+
+
+# --- data and report
+
+
+@pytest.fixture(scope="module")
+def committed() -> dict[str, Any]:
+    return pipeline.measured_accuracy()
+
+
+def test_data_have_rows_of_every_kind(committed: dict[str, Any]) -> None:
+    assert {"generated", "numpy", "python"} <= committed["provenance"].keys()
+    assert [r["name"] for r in committed["regimes"]] == [r.name for r in REGIMES]
+    for entry in committed["rows"]:
+        assert entry.keys() == set(Row.__dataclass_fields__)
+        assert entry["fails"] or (entry["errors"] and entry["vector"] and entry["single"])
+    assert {entry["task"] for entry in committed["rows"]} == {"law", "inversion", "impact"}
+    assert {g["what"] for g in committed["scaling"]} == {"points", "b/h", "digits", "scenes"}
+    assert committed["headline"]["reached"]
+    assert committed["tools"]
+
+
+def test_production_beats_direct_summation_a_thousandfold(committed: dict[str, Any]) -> None:
+    found = committed["headline"]
+    assert found["digits"] >= 15
+    best = found["reached"][-1]
+    assert best["digits"] >= 9
+    assert best["seconds"] / found["called"] > 1000
+
+
+def test_figures_repeat_byte_for_byte(committed: dict[str, Any]) -> None:
+    first, second = (as_pdf(work_precision(committed, "inversion", "single")) for _ in range(2))
+    assert first == second
+    assert as_pdf(scaling_figure(committed)).startswith(b"%PDF")
+
+
+def test_the_section_names_every_failure(committed: dict[str, Any]) -> None:
+    found = accuracy_context(committed)
+    failing = {(r["task"], r["family"], r["regime"]) for r in committed["rows"] if r["fails"]}
+    assert len(found["failures"]) == len(failing)
+    assert duration(1.5e-9) == r"1.5\,ns"
+    assert duration(0.0012) == r"1.2\,ms"
+
+
+# --- commands
+
+
+@pytest.fixture
+def brief(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Leave out what takes seconds and is tested above."""
+    monkeypatch.setattr(run, "tools", list)
+    monkeypatch.setattr(scaling, "studies", lambda quick: ())  # noqa: ARG005
+    monkeypatch.setattr(run, "REGIMES", (PAPER,))
+    monkeypatch.setattr(run, "TASKS", ("law",))
+    monkeypatch.setattr("derivation.measure.accuracy.problems.QUICK_DIGITS", 20)
+    monkeypatch.setattr("derivation.measure.accuracy.headline.QUICK_MODES", 1 << 19)
+    monkeypatch.setattr("derivation.measure.accuracy.headline.POINTS", 1000)
+
+
+@pytest.mark.usefixtures("brief")
+def test_command_writes_data_of_the_methods_named(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "accuracy.json"
+    scene = ROOT / "derivation" / "scene" / "examples" / "paper.toml"
+    arguments = ["--quick", "--method", "table of cubics", "--scene", str(scene)]
+    assert main(["accuracy", *arguments, "--out", str(out)]) == 0
+    data = json.loads(out.read_text())
+    assert {r["family"] for r in data["rows"]} == {"table of cubics"}
+    assert [r["name"] for r in data["regimes"]] == ["scene"]
+    assert data["regimes"][0]["low"] < 0.1342 < data["regimes"][0]["high"]
+    assert "direct sum" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (["--method", "nonsense"], "nonsense"),
+        (["--scene", "/nowhere/scene.toml"], "/nowhere/scene.toml"),
+        (["--out", "/proc/nowhere/x.json"], "/proc/nowhere/x.json"),
+    ],
+)
+def test_bad_input_is_one_message(
+    arguments: list[str], says: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = [] if "--out" in arguments else ["--out", str(tmp_path / "x.json")]
+    assert main(["accuracy", *arguments, *out]) == 2
+    message = capsys.readouterr().err
+    assert says in message
+    assert "Traceback" not in message
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_scene_beyond_the_law_is_refused() -> None:
+    with pytest.raises(ValueError, match="lower the speed"):
+        run.scene_regime(0.13, 72.2, 1e6, 0.1, 1.0, 0.36e9, 0.43e9)
+
+
+def test_an_interrupted_run_keeps_what_was_there(tmp_path: Path) -> None:
+    program = """
+import sys, time
+from derivation import cli
+from derivation.measure.accuracy import run
+def endless(*arguments):
+    print("measuring", flush=True)
+    time.sleep(300)
+run.panel = endless
+sys.exit(cli.main(["accuracy", "--quick", "--out", sys.argv[1]]))
+"""
+    out = tmp_path / "accuracy.json"
+    out.write_text("old")
+    process = subprocess.Popen(
+        [sys.executable, "-c", program, str(out)], cwd=ROOT, env={**os.environ},
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+    )  # fmt: skip
+    assert process.stdout is not None
+    assert process.stdout.readline() == "measuring\n"
+    process.send_signal(signal.SIGINT)
+    _, message = process.communicate(timeout=60)
+    assert process.returncode == 2
+    assert "interrupted" in message
+    assert [path.name for path in tmp_path.iterdir()] == ["accuracy.json"]
+    assert out.read_text() == "old"

@@ -7,14 +7,15 @@ import sys
 from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 from typer.exceptions import TyperException
 from typer.main import get_command
 
+from derivation import check_command
 from derivation.scene import commands as scene_commands
-from derivation.screen import NOTES, OUT, clocked, counted, listing, put_json, stage, table
+from derivation.screen import INTERRUPTED, NOTES, OUT, counted, listing, put_json, stage, table
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -88,172 +89,7 @@ def misprints(json: Json = None) -> None:
         put_json([finding.to_json() for finding in findings], json)
 
 
-@app.command()
-def check(
-    digits: Annotated[int, typer.Option(min=20, max=1000, help="Digits of the reference.")] = 50,
-    record: Annotated[
-        bool, typer.Option("--record", help="Keep the result as reports/data/check.json.")
-    ] = False,
-    contact: Annotated[
-        bool, typer.Option("--contact", help="Measure contact law and impact instead: minutes.")
-    ] = False,
-    speed: Annotated[
-        bool, typer.Option("--speed", help="Measure speed instead, on this machine.")
-    ] = False,
-    hard: Annotated[
-        bool, typer.Option("--hard", help="Check the hard cases instead: seconds.")
-    ] = False,
-    bounds: Annotated[
-        int | None,
-        typer.Option("--bounds", metavar="N", min=1, help="Hold stated bounds to N scenes."),
-    ] = None,
-    propose: Annotated[
-        bool, typer.Option("--propose", help="Print tighter error budgets; write nothing.")
-    ] = False,
-    search: Annotated[
-        str | None,
-        typer.Option("--search", metavar="60s|5m|1h", help="Look for worse, for so long."),
-    ] = None,
-    seed: Annotated[int, typer.Option(help="Of the search, which repeats by it.")] = 1,
-    kernel: Annotated[
-        list[str] | None, typer.Option("--kernel", metavar="NAME", help="Search this one only.")
-    ] = None,
-    out: Annotated[
-        Path | None, typer.Option("--out", metavar="FILE", help="Write searched cases here.")
-    ] = None,
-    json: Json = None,
-) -> None:
-    """Measure every generated function against both oracles.
-
-    Example: platecontact check --digits 100
-    """
-    from derivation import pipeline
-    from derivation.measure.record import COLUMNS, as_data, cells, passed, worst
-
-    if search is not None:
-        if contact or speed or hard or bounds or record or propose:
-            raise ValueError("--search stands alone: expected no other of check's options")
-        raise typer.Exit(_check_search(search, seed, kernel or [], out, json))
-    if contact + speed + hard + bool(bounds) > 1:
-        raise ValueError(
-            "expected one of --contact, --speed, --hard and --bounds: run them one after the other"
-        )
-    if kernel or out:
-        raise ValueError("--kernel and --out belong to --search: add --search 60s")
-    if contact:
-        raise typer.Exit(_check_contact(record, json, propose))
-    if speed:
-        raise typer.Exit(_check_speed(record, json))
-    if hard:
-        raise typer.Exit(_check_hard(record, json))
-    if bounds:
-        raise typer.Exit(_check_bounds(bounds, record, json))
-    with counted("check") as tell:
-        rows = pipeline.check(digits, record, tell)
-    if json != "-":
-        table(f"Errors against {digits} digits", COLUMNS, [cells(row) for row in rows])
-        listing("Worst arguments", [worst(row) for row in rows if row.passed is not None])
-    if json:
-        put_json(as_data(rows, digits), json)
-    if propose:
-        _propose(rows)
-    raise typer.Exit(0 if passed(rows) else 1)
-
-
-def _propose(rows: Sequence[Any]) -> None:
-    """Print the tighter budgets that a check's rows allow."""
-    from derivation.measure.propose import proposals
-
-    lines = proposals(rows) or ["# no budget can be tighter"]
-    OUT.print("\n".join(lines), markup=False, highlight=False, soft_wrap=True)
-
-
-def _check_contact(record: bool, json: str | None, propose: bool) -> int:
-    """Measure contact law and impact; returns the exit status."""
-    from derivation import pipeline
-
-    with counted("check") as tell:
-        rows = pipeline.check_contact(record, tell)
-    if json != "-":
-        columns, cells = pipeline.contact_table(rows)
-        table("Errors of the contact law", columns, cells)
-        listing("Worst arguments", [f"{r.kernel}: {' '.join(r.worst)}" for r in rows])
-    if json:
-        put_json(pipeline.contact_data(rows), json)
-    if propose:
-        _propose(rows)
-    return 0 if all(r.passed for r in rows) else 1
-
-
-def _check_hard(record: bool, json: str | None) -> int:
-    """Check the hard cases; returns the exit status."""
-    from derivation import pipeline
-    from derivation.measure.hard_check import COLUMNS, as_data, cells
-
-    with counted("check") as tell:
-        rows = pipeline.check_hard(record, tell)
-    failed = [row for row in rows if not row.kept]
-    if json != "-":
-        table("Hard cases, errors in ULP", COLUMNS, [cells(row) for row in rows])
-        listing(
-            f"{len(rows)} cases, {len(failed)} failed",
-            [f"{row.case.key}: {row.problem}" for row in failed],
-        )
-    if json:
-        put_json(as_data(rows), json)
-    return 1 if failed else 0
-
-
-def _check_bounds(count: int, record: bool, json: str | None) -> int:
-    """Hold stated error bounds to random scenes; returns the exit status."""
-    from derivation import pipeline
-
-    with counted("check") as tell:
-        rows = pipeline.check_bounds(count, record, tell)
-    if json != "-":
-        cells = [
-            (r.method, r.runs, f"{r.ratio:.3f}", f"{r.error:.2g}", f"{r.bound:.2g}", r.quantity)
-            for r in rows
-        ]
-        heads = ("method", "#runs", "#worst error/bound", "#error", "#bound", "of")
-        table(f"Stated bounds in {count} scenes", heads, cells)
-    if json:
-        put_json([asdict(row) for row in rows], json)
-    return 0 if all(row.kept for row in rows) else 1
-
-
-def _check_speed(record: bool, json: str | None) -> int:
-    """Measure times; returns the exit status."""
-    from derivation import pipeline
-    from derivation.measure.speed import as_data
-
-    with counted("check") as tell:
-        timings = pipeline.check_speed(record, tell)
-    if json != "-":
-        cells = [(t.name, f"{t.value:.3g} {t.unit}", f"{t.limit:g}", t.kept) for t in timings]
-        table("Speed", ("what", "#measured", "#promise", "kept"), cells)
-    if json:
-        put_json(as_data(timings), json)
-    return 0 if all(t.kept for t in timings) else 1
-
-
-def _check_search(
-    duration: str, seed: int, kernels: list[str], out: Path | None, json: str | None
-) -> int:
-    """Look for larger errors; returns the exit status."""
-    from derivation import pipeline
-    from derivation.measure.search_cases import COLUMNS, arguments, as_data, cells, kept
-
-    with clocked("search") as tell:
-        found, book = pipeline.search_worse(duration, seed, kernels, out, tell)
-    if json != "-":
-        table(f"Search, seed {seed}", COLUMNS, [cells(k, found, book) for k in found.standings])
-        listing("Worst arguments", [arguments(k, found) for k in found.standings])
-    if json:
-        put_json(as_data(found), json)
-    if book.written:
-        NOTES.print(f"new worst cases in {book.path}", markup=False, soft_wrap=True)
-    return INTERRUPTED if found.interrupted else 0 if kept(found) else 1
+app.command()(check_command.check)
 
 
 @app.command()
@@ -461,9 +297,6 @@ def main(argv: Sequence[str] | None = None) -> int:
         return 2
     return int(status or 0)
 
-
-INTERRUPTED = 130
-"""What typer returns after Ctrl-C."""
 
 if __name__ == "__main__":
     sys.exit(main())

@@ -26,6 +26,10 @@ NOTES = Console(stderr=True)
 """Progress and remarks, kept apart from results so that these can be piped."""
 
 
+INTERRUPTED = 130
+"""What typer returns after Ctrl-C."""
+
+
 @contextmanager
 def stage(name: str) -> Iterator[None]:
     """Show that a stage is running, then how long it took."""

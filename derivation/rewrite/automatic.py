@@ -93,7 +93,8 @@ def automatic(expression: sp.Expr, known: Mapping[str, Block]) -> Automatic:
     if reduced.expression.has(ratio):
         steps.append(RATIO)
     most = LARGEST if reduced.expression.has(sp.sin) else FAR
-    steps.append(Step(reduced.variable, held(reduced.product, most), "beyond, nothing changes"))
+    times, product = reduced.product.as_coeff_Mul()  # 2 h phi must not begin with 2 h
+    steps.append(Step(reduced.variable, times * held(product, most), "beyond, nothing changes"))
     if shape.rate > 0:
         raise UnreachableError(f"grows as e^({shape.rate} {shape.x}): {expression}")
     size, core, powers = _beyond_one(shape, known) or _divided(shape) or _taken(shape, known)

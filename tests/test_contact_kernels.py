@@ -16,7 +16,7 @@ import pytest
 from flint import arb
 
 import derivation
-from derivation.emit.budgets import read_budgets
+from derivation.emit.budgets import read_budgets, read_promises
 from derivation.emit.kernels import notes_of
 from derivation.emit.render import Module, fill, format_files
 from derivation.rewrite import contact_tables as tables
@@ -47,7 +47,7 @@ def rendered(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, Mod
         "contact_series": contact_context(),
         "contact_law": {},
         "reversed_series": {},
-        "impact": impact_context(),
+        "impact": {**impact_context(), "promises": read_promises()},
     }
     budgets = read_budgets()
     source = {

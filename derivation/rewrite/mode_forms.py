@@ -57,11 +57,15 @@ DEPTHS = (
     Step(v, phi * (h - z), "from the loaded face"),
 )
 FADES = (
-    Step(depth, h - z),
-    Step(slip, phi * (h - depth - z), "what rounding h - z takes from v, exactly"),
     Step(fade, sp.exp(-sp.Min(v, ONCE)), "decay from the loaded face"),
     Step(beyond, sp.Min(v, ONCE) - v),
-    Step(tail, sp.exp(beyond - slip), "the rest of it, lest it underflow alone"),
+    Step(tail, sp.exp(beyond), "the rest of it, lest it underflow alone"),
+)
+EXACT_FADES = (
+    Step(depth, h - z),
+    Step(slip, phi * (h - depth - z), "what rounding h - z takes from v, exactly"),
+    *FADES[:-1],
+    Step(tail, sp.exp(beyond - slip), FADES[-1].comment),
 )
 FADED = (fade, 1, tail, 1)
 FAR_U = Step(far_u, sp.exp(-2 * u), "decay on the way to the far face and back")
@@ -99,7 +103,7 @@ def _deflection() -> Shape:
         ODD_U,
         ODD_V,
         ODD_T,
-        *FADES,
+        *EXACT_FADES,
         Step(rest, excess + (v * odd_u + far_u * ratio), "in thick plates the half-space's less 1"),
         Step(share, decay * (odd_T + 4 * T**2) * (1 + rest), "what sinh^2 T/D exceeds 1 by"),
         Step(over, 2 * T * far_u * (ratio * (1 + far_v) + u * odd_v)),

@@ -2,6 +2,7 @@
 
 import importlib
 import math
+import random
 import re
 import shutil
 import sys
@@ -20,6 +21,7 @@ from derivation.measure.judge import Truth, judge, truths
 from derivation.measure.kernels import Kernel, generated_kernels
 from derivation.rewrite.blocks import blocks
 from derivation.rewrite.form import Seam
+from derivation.rewrite.mode_forms import mode_forms
 
 KERNELS = {kernel.name: kernel for kernel in generated_kernels()}
 
@@ -155,6 +157,44 @@ def test_a_moved_switch_is_noticed(damaged: Callable[..., Any], block: str, fact
     found = near(name, block, low, high, 400)
     assert not fails(KERNELS[name], found)
     assert fails(damaged(name, "blocks.py", with_switch(block, factor)), found)
+
+
+FIELDS = {
+    name: float(value.at) for name, (_, value) in mode_forms().items() if isinstance(value, Seam)
+}
+
+
+@pytest.mark.parametrize("factor", [0.5, 2.0])
+@pytest.mark.parametrize("name", sorted(FIELDS))
+def test_a_moved_switch_of_a_field_is_noticed_or_harmless(
+    damaged: Callable[..., Any], name: str, factor: float
+) -> None:
+    """Between the switch and where it was moved, at depths near the middle and near the faces.
+
+    Those that are not noticed cost nothing: there both branches keep the budget.
+    """
+    at = FIELDS[name]
+    low, high = sorted((at, at * factor))
+    generator = random.Random(name)
+    points = [
+        Point(
+            {"z": depth * generator.uniform(0.9, 1.0), "phi": T / 2, "h": 1.0,
+             "lam": generator.uniform(-0.5, 3.0), "mu": 1.0, "A_j": -1.0}
+        )
+        for T in np.linspace(low, high, 60, endpoint=False).tolist()
+        for depth in (-1.0, -0.5, -1e-3, 1e-7, 0.1, 0.7, 1.0)
+    ]  # fmt: skip
+    found = truths(name, points, 30)
+    assert not fails(KERNELS[name], found)
+
+    def moved(text: str) -> str:
+        begin, end = body_of(text, name)
+        body = re.sub(r"(below = \w+ < ).*", rf"\g<1>{at * factor!r}", text[begin:end])
+        body = re.sub(rf"(np\.m(?:in|ax)imum\(\w+, ){at!r}\)", rf"\g<1>{at * factor!r})", body)
+        return text[:begin] + body + text[end:]
+
+    noticed = name in ("mode_g", "mode_rr") or (name, factor) == ("mode_tt", 2.0)
+    assert fails(damaged(name, "mode_shapes.py", moved), found) == noticed
 
 
 SCALINGS = (

@@ -24,6 +24,7 @@ from derivation.reference import routes
 from derivation.reference.contact_agreement import agree
 
 GROUPS = {
+    "found by search": 30,
     "phi h near 0": 20,
     "phi h large": 15,
     "scaled and plain constants": 16,

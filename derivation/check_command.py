@@ -7,11 +7,17 @@ from typing import Annotated, Any
 
 import typer
 
-from derivation.screen import INTERRUPTED, NOTES, OUT, clocked, counted, listing, put_json, table
-
-Json = Annotated[
-    str | None, typer.Option("--json", metavar="FILE|-", help="Write the result as JSON.")
-]
+from derivation.screen import (
+    INTERRUPTED,
+    NOTES,
+    OUT,
+    Json,
+    clocked,
+    counted,
+    listing,
+    put_json,
+    table,
+)
 
 
 def check(

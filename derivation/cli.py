@@ -15,7 +15,17 @@ from typer.main import get_command
 
 from derivation import check_command
 from derivation.scene import commands as scene_commands
-from derivation.screen import INTERRUPTED, NOTES, OUT, counted, listing, put_json, stage, table
+from derivation.screen import (
+    INTERRUPTED,
+    NOTES,
+    OUT,
+    Json,
+    counted,
+    listing,
+    put_json,
+    stage,
+    table,
+)
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -24,9 +34,6 @@ app = typer.Typer(
     help="Derive, generate, check and report the contact law of a sphere on an elastic plate.",
 )
 
-Json = Annotated[
-    str | None, typer.Option("--json", metavar="FILE|-", help="Write the result as JSON.")
-]
 Out = Annotated[
     Path | None, typer.Option("--out", metavar="DIR", help="Write here instead of the checkout.")
 ]

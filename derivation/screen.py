@@ -5,8 +5,9 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
+import typer
 from rich.console import Console
 from rich.markup import escape
 from rich.progress import (
@@ -25,6 +26,11 @@ OUT = Console()
 NOTES = Console(stderr=True)
 """Progress and remarks, kept apart from results so that these can be piped."""
 
+
+Json = Annotated[
+    str | None, typer.Option("--json", metavar="FILE|-", help="Write the result as JSON.")
+]
+"""The option of every command that has a result."""
 
 INTERRUPTED = 130
 """What typer returns after Ctrl-C."""

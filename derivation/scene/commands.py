@@ -7,12 +7,9 @@ from typing import Annotated
 import typer
 
 from derivation.files import write_file
-from derivation.screen import NOTES, OUT, put_json, table
+from derivation.screen import NOTES, OUT, Json, put_json, table
 
 SceneFile = Annotated[Path, typer.Argument(metavar="SCENE.toml", help="Scene file.")]
-Json = Annotated[
-    str | None, typer.Option("--json", metavar="FILE|-", help="Write the result as JSON.")
-]
 
 
 def simulate(

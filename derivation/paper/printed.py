@@ -265,10 +265,3 @@ _A = Printed(
 
 PRINTED = (_U, _W, _F, _G, _A_BY_INTEGRAL, *_OMEGAS, _DELTA, _K, _K_FACE, _PRESSURE, _RADIUS, _A)
 """Every printed formula that has a derived counterpart, in the paper's order."""
-
-BOUNDARY_CONDITIONS = (
-    (r"\sigma_{rz}(r, \pm h)", "0"),
-    (r"\sigma_{zz}(r, -h)", "0"),
-    (r"\sigma_{zz}(r, +h)", "p(r)"),
-)
-"""Equation (3): a premise of the derivation, so there is nothing to compare it with."""

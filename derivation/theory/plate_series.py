@@ -19,7 +19,7 @@ from derivation.formula.dimension import thirds
 from derivation.formula.proof import Proof, prove
 from derivation.formula.record import Formula
 from derivation.formula.symbols import J1, P, R, T, a, a_ratio, alpha, c_A, eta, h, j_n, kappa
-from derivation.theory.contact_split import WALL, reduced_split, wall_bracket, wall_tail
+from derivation.theory.contact_split import reduced_split, wall_bracket, wall_tail
 from derivation.theory.plate_factor import plate_factors
 
 _y = sp.Symbol("y", positive=True)
@@ -119,11 +119,6 @@ def kappa_by_parts(n: int) -> Proof:
             + _y**n / ((n + 1) * i0**2),
         },
     )
-
-
-def kappa_definition(n: int) -> sp.Integral:
-    """kappa_n as an integral."""
-    return sp.Integral(_y**n * WALL, (_y, 0, sp.oo))
 
 
 @cache

@@ -104,6 +104,16 @@ def test_coefficients_are_the_oracles(h: float) -> None:
         assert digits(found[k], true, 20) > 18
 
 
+@pytest.mark.parametrize("ar", [LONG, Mpmath(30)], ids=lambda ar: ar.name)
+def test_no_constant_of_a_split_sum_is_a_double(ar) -> None:
+    if ar.digits <= DOUBLE.digits:
+        pytest.skip("long double is a double")
+    true = contact_balls.indentation(0.03, PAPER.R, PAPER.h, PAPER.b, 40)
+    (found,) = law_sums.split(72, 6, ar).prepare(PAPER)(np.array([0.03]))
+    with flint.ctx.workprec(160):
+        assert digits(found, true, 40) > min(ar.digits - 2, 27)
+
+
 def test_levins_transformation_sums_an_alternating_series() -> None:
     n = np.arange(1, 13.0)
     terms = (-1) ** (n + 1) / n

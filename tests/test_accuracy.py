@@ -104,6 +104,16 @@ def test_coefficients_are_the_oracles(h: float) -> None:
         assert digits(found[k], true, 20) > 18
 
 
+@pytest.mark.parametrize("ar", [LONG, Mpmath(30)], ids=lambda ar: ar.name)
+def test_no_constant_of_a_split_sum_is_a_double(ar) -> None:
+    if ar.digits <= DOUBLE.digits:
+        pytest.skip("long double is a double")
+    true = contact_balls.indentation(0.03, PAPER.R, PAPER.h, PAPER.b, 40)
+    (found,) = law_sums.split(72, 6, ar).prepare(PAPER)(np.array([0.03]))
+    with flint.ctx.workprec(160):
+        assert digits(found, true, 40) > min(ar.digits - 2, 27)
+
+
 def test_levins_transformation_sums_an_alternating_series() -> None:
     n = np.arange(1, 13.0)
     terms = (-1) ** (n + 1) / n
@@ -214,6 +224,18 @@ def test_no_time_is_below_the_least_there_was(monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.setattr(clock, "reference", lambda: Candidate(disturbed, array, 1))
     found = clock.session([Candidate(fake.work(2.0), array, 1)], Effort(8, 1), fake)
     assert found.timings[0].seconds == 2.0
+
+
+def test_spread_is_upper_over_lower_quartile(monkeypatch: pytest.MonkeyPatch) -> None:
+    fake, array, load = FakeClock(), np.zeros(1), cycle([1.0, 1.0, 3.0, 3.0])
+
+    def uneven(array: Any) -> None:  # noqa: ARG001
+        fake.now += next(load)
+
+    monkeypatch.setattr(clock, "reference", lambda: Candidate(fake.work(1.0), array, 1))
+    found = clock.session([Candidate(uneven, array, 1)], Effort(8, 1), fake)
+    assert found.timings[0].seconds == 1.0
+    assert found.timings[0].spread == 3.0
 
 
 def test_rounds_are_shuffled_and_repeat(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -389,6 +411,19 @@ def test_command_writes_data_of_the_methods_named(
     assert [r["name"] for r in data["regimes"]] == ["scene"]
     assert data["regimes"][0]["low"] < 0.1342 < data["regimes"][0]["high"]
     assert "direct sum" in capsys.readouterr().out
+
+
+@pytest.mark.usefixtures("brief")
+def test_a_contact_too_small_for_a_direct_sum_is_measured_all_the_same(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    paper = ROOT / "derivation" / "scene" / "examples" / "paper.toml"
+    slow, out = tmp_path / "slow.toml", tmp_path / "accuracy.json"
+    slow.write_text(paper.read_text().replace("speed = 1.0", "speed = 1e-9"))
+    arguments = ["--quick", "--method", "table of cubics", "--scene", str(slow)]
+    assert main(["accuracy", *arguments, "--out", str(out)]) == 0
+    assert json.loads(out.read_text())["headline"]["reached"] == []
+    assert "direct sum of 524288 modes to fewer than 6 digits" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(

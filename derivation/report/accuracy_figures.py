@@ -152,6 +152,10 @@ def scaling(data: Mapping[str, Any]) -> Figure:
                 if growth["what"] == what:
                     draw_growth(ax, growth)
             ax.set(xscale="log", yscale="log", xlabel=what, ylabel="time [s]")
+            if what == "digits":  # not a decade: the sizes themselves, or labels overlap
+                sizes = sorted({x for g in data["scaling"] if g["what"] == what for x in g["x"]})
+                ax.set_xticks(sizes, [f"{x:g}" for x in sizes])
+                ax.xaxis.set_minor_locator(NullLocator())
             ax.legend(fontsize=6)
     return figure
 

@@ -39,7 +39,7 @@ class Errors:
 
 @dataclass(frozen=True)
 class Judged:
-    """A prepared method with its errors; set-up and first call in seconds."""
+    """A prepared method with its errors; time of the set-up, and of the first call a point [s]."""
 
     call: Call
     errors: Errors

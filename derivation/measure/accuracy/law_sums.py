@@ -24,7 +24,7 @@ OVERFLOW = 709.78
 
 
 def modal(ar: Arithmetic, phi: Array, weights: Array) -> Call:
-    """sum_j weights_j s(phi_j a), smallest terms first."""
+    """sum_j weights_j s(phi_j a), the block of the last modes first: their terms are small."""
 
     def call(a: Array) -> Array:
         total = a * 0
@@ -52,7 +52,10 @@ def wrapped(ar: Arithmetic, inner: Call) -> Call:
 def _plate(ar: Arithmetic, regime: Regime) -> tuple[Array, Array, Array, Array]:
     """R, h, b and pi in an arithmetic."""
     R, h, b = (ar.array(x) for x in (regime.R, regime.h, regime.b))
-    return R, h, b, ar.array(arb.pi())
+    # An arithmetic's own context need not be Arb's.
+    with flint.ctx.workprec(math.ceil(3.33 * (ar.digits + 10)) + 64):
+        pi = arb.pi()
+    return R, h, b, ar.array(pi)
 
 
 def _direct(ar: Arithmetic, modes: int, printed: bool) -> Callable[[Regime], Call]:

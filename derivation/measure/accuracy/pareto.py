@@ -25,8 +25,10 @@ class Winner:
         The simplest among the ties, and its time per point [s].
     relative
         That time over the cheapest method's of the panel, with three digits at least.
-    ties, doubtful
-        Other families within a factor of 1.2, and those so near to it that it may change.
+    ties
+        Other families within a factor of 1.2 of the fastest.
+    doubtful
+        Families, the winner too, so near to that factor that another run may decide otherwise.
     """
 
     task: str

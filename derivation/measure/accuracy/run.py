@@ -27,7 +27,8 @@ def scene_regime(
 ) -> Regime:  # fmt: skip
     """A scene as a regime, in the place of the paper's.
 
-    The law is looked at from a thirteenth of the impact's largest contact to twice it.
+    The law is looked at from a thirteenth of the impact's largest contact to twice it, if that
+    is within the plate and the sphere.
 
     Raises
     ------

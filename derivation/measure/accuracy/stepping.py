@@ -12,9 +12,6 @@ from derivation.measure.accuracy.motion import hertz_time
 from generated import contact_law, contact_series
 from generated.impact import impact
 
-LEAST_RTOL = 2.3e-14
-"""SciPy's floor."""
-
 LONGEST = 40.0
 """Contact times over Hertz's up to which fixed steps of his time are tried."""
 
@@ -88,9 +85,8 @@ def solver(name: str, rtol: float, share: float | None = None, quick: bool = Tru
                 return float(state[1])
 
             top.terminal = True  # type: ignore[attr-defined]
-            tolerance = max(rtol, LEAST_RTOL)
             found = solve_ivp(
-                rate, (0, 2 * time), (0.0, v0), method=name, rtol=tolerance,
+                rate, (0, 2 * time), (0.0, v0), method=name, rtol=rtol,
                 atol=(1e-3 * rtol * depth, 1e-3 * rtol * v0), events=top,
                 max_step=np.inf if share is None else share * time,
             )  # fmt: skip

@@ -1,7 +1,6 @@
 """What accuracy costs: interface, errors, clock, winners, data and commands; never how fast."""
 
 import json
-import math
 import os
 import signal
 import subprocess
@@ -12,41 +11,27 @@ from itertools import cycle
 from pathlib import Path
 from typing import Any
 
-import flint
 import numpy as np
 import pytest
 
 from derivation import pipeline
 from derivation.cli import main
 from derivation.files import ROOT
-from derivation.measure.accuracy import clock, law_series, law_sums, panels, run, scaling, tools
-from derivation.measure.accuracy.arithmetic import DOUBLE, LONG, SINGLE, Balls, Mpmath, as_ball
+from derivation.measure.accuracy import (
+    clock,
+    run,
+    scaling,
+    tools,
+)
 from derivation.measure.accuracy.catalogue import methods
 from derivation.measure.accuracy.clock import Candidate, Effort, Timing
-from derivation.measure.accuracy.coefficients import series
-from derivation.measure.accuracy.errors import Errors, digits, judge
-from derivation.measure.accuracy.headline import zeros
-from derivation.measure.accuracy.interface import PAPER, REGIMES, Method
-from derivation.measure.accuracy.levin import u_transform
+from derivation.measure.accuracy.errors import Errors
+from derivation.measure.accuracy.interface import PAPER, REGIMES
 from derivation.measure.accuracy.pareto import winners
-from derivation.measure.accuracy.problems import Problem
 from derivation.measure.accuracy.rows import Row
-from derivation.measure.accuracy.stepping import scalar_force
-from derivation.reference import contact_balls
 from derivation.report.accuracy import accuracy_context, duration
 from derivation.report.accuracy_figures import as_pdf, pareto_front, work_precision
 from derivation.report.accuracy_figures import scaling as scaling_figure
-from generated.contact_law import force, indentation
-
-RADII = np.array([0.002, 0.01, 0.03])
-
-
-@pytest.fixture(scope="module")
-def law() -> Problem:
-    """The paper's law at three radii."""
-    truths = [contact_balls.indentation(float(a), PAPER.R, PAPER.h, PAPER.b, 40) for a in RADII]
-    return Problem("law", PAPER, RADII, tuple(truths), 40, np.full(50, 0.01))
-
 
 # --- interface
 
@@ -71,94 +56,6 @@ def test_names_are_unique_and_unknown_ones_are_refused() -> None:
     with pytest.raises(ValueError, match="Levin u"):
         methods(["Levin"])
     assert {m.family for m in methods(["Levin u"])} == {"Levin u"}
-
-
-# --- arithmetics and methods
-
-
-@pytest.mark.parametrize(("ar", "right"), [(SINGLE, 6), (DOUBLE, 14.5), (LONG, 14.5)])
-def test_floats_agree_with_balls(ar, right: float) -> None:
-    y = np.array([1e-6, 0.3, 1.5, 1.7, 5.0], dtype=ar.dtype)
-    exact = Balls(40)
-    for name in ("shape", "wall_shape", "excess"):
-        values = getattr(ar, name)(y)
-        with exact.context():
-            balls = getattr(exact, name)(np.array([as_ball(x) for x in y], dtype=object))
-            assert min(map(digits, values, balls, [40] * len(y))) > right, name
-
-
-def test_mpmath_agrees_with_balls() -> None:
-    ar, exact, y = Mpmath(30), Balls(60), [1e-3, 0.5, 3.0]
-    with ar.context(), exact.context():
-        for name in ("shape", "wall_shape", "excess"):
-            values = getattr(ar, name)(ar.array(y))
-            balls = getattr(exact, name)(exact.array(y))
-            assert min(map(digits, values, balls, [60] * 3)) > 29, name
-
-
-@pytest.mark.parametrize("h", [0.1, 1e-2])
-def test_coefficients_are_the_oracles(h: float) -> None:
-    found = series(h, 1.0, 3, 20)
-    for k in (0, 2):
-        true = contact_balls.coefficient(2 * k + 1, h, 1.0, 20)
-        assert digits(found[k], true, 20) > 18
-
-
-def test_levins_transformation_sums_an_alternating_series() -> None:
-    n = np.arange(1, 13.0)
-    terms = (-1) ** (n + 1) / n
-    found = u_transform(np.cumsum(terms) + 0j, n * terms + 0j, n)
-    assert found.real == pytest.approx(math.log(2), rel=1e-10)
-
-
-def test_far_zeros_are_those_of_the_generated_code() -> None:
-    from generated.bessel import bessel_j0_zeros, bessel_j1_at_j0_zeros
-
-    j, square = zeros(65_000, 66_000)
-    np.testing.assert_allclose(j, bessel_j0_zeros(66_000)[65_000:], rtol=4e-16)
-    np.testing.assert_allclose(square, bessel_j1_at_j0_zeros(66_000)[65_000:] ** 2, rtol=1e-15)
-
-
-@pytest.mark.parametrize("regime", [REGIMES[1], REGIMES[4]], ids=lambda r: r.name)
-def test_the_scalar_force_is_the_generated_one(regime) -> None:
-    a = np.array([0.1, 0.6, 1.0]) * regime.h * min(regime.high, 4.0)
-    depths = indentation(a, regime.R, regime.h, regime.b)
-    r, scalar = regime, scalar_force(regime)
-    expected = force(depths, r.R, r.h, r.b, r.lam, r.mu)
-    np.testing.assert_allclose([scalar(float(d)) for d in depths], expected, rtol=1e-13)
-
-
-# --- errors
-
-
-def test_error_split_adds_up(law: Problem) -> None:
-    for method in (law_sums.split(16, 2), law_series.small_contacts(4), law_sums.direct(100)):
-        found = judge(method, law, lambda: 0.0).errors
-        assert found.truncation is not None
-        assert found.rounding is not None
-        parts = 10**-found.truncation + 10**-found.rounding
-        assert 10**-found.total <= parts * 1.01
-        assert found.rounding > 13
-    assert judge(law_series.small_contacts(1), law, lambda: 0.0).errors.total == pytest.approx(
-        judge(law_series.small_contacts(1), law, lambda: 0.0).errors.truncation, abs=1e-3
-    )
-
-
-def test_digits_of_no_number_and_of_exact_ones() -> None:
-    one = flint.arb(1)
-    assert digits(math.nan, one, 30) == -math.inf
-    assert digits(1.0, one, 30) == 30
-    assert digits(1.001, one, 30) == pytest.approx(3, abs=0.01)
-
-
-def test_a_method_without_digits_fails_with_a_reason(law: Problem) -> None:
-    half = Method("law", "half", "", lambda regime: lambda a: 0.1 * a)  # noqa: ARG005
-    nothing = Method("law", "nothing", "", lambda regime: lambda a: a * math.nan)  # noqa: ARG005
-    refused = replace(half, fails=lambda regime: "dear")  # noqa: ARG005
-    reasons = [panels.judged_row(method, law)[0].fails for method in (half, nothing, refused)]
-    assert reasons[0] is not None
-    assert "no digit" in reasons[0]
-    assert reasons[1:] == ["gives no number in part of the regime", "dear"]
 
 
 # --- clock

@@ -1,6 +1,7 @@
 """What accuracy costs: interface, errors, clock, winners, data and commands; never how fast."""
 
 import json
+import math
 import os
 import signal
 import subprocess
@@ -19,6 +20,7 @@ from derivation.cli import main
 from derivation.files import ROOT
 from derivation.measure.accuracy import (
     clock,
+    law_series,
     run,
     scaling,
     tools,
@@ -32,6 +34,7 @@ from derivation.measure.accuracy.rows import Row
 from derivation.report.accuracy import accuracy_context, duration
 from derivation.report.accuracy_figures import as_pdf, pareto_front, work_precision
 from derivation.report.accuracy_figures import scaling as scaling_figure
+from derivation.scene import choice
 
 # --- interface
 
@@ -187,6 +190,40 @@ def test_a_line_and_where_it_is_left() -> None:
     assert slope == pytest.approx(1.0, abs=0.01)
     assert leaves == 1.0
     assert scaling.line(x, x)[1] is None
+
+
+def test_scenes_grow_by_each_of_simulates_methods(monkeypatch: pytest.MonkeyPatch) -> None:
+    def brief(what: str, method: str, x: Any, calls: Any, why: str) -> tuple[str, Any]:  # noqa: ARG001
+        assert len(x) == len(calls)
+        return method, calls[1]()
+
+    monkeypatch.setattr(scaling, "growth", brief)
+    found = dict(scaling.scenes(quick=True))
+    assert list(found) == list(choice.METHODS)
+    true = found["full"].contact_time
+    np.testing.assert_allclose(found["coarse"].contact_time, true, rtol=1e-8)
+    for name in ("hertz", "leading"):
+        known = [(x, t) for x, t in zip(found[name], true, strict=True) if x is not None]
+        assert known
+        assert all(abs(x.contact_time / t - 1) <= x.law + 1e-12 for x, t in known)
+
+
+def test_digits_grow_to_a_thousand(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked, method = [], law_series.small_contacts(2)
+
+    def noted(terms: int, ar: Any) -> Any:
+        asked.append(ar.digits)
+        # So many terms give so many digits at the point that is timed.
+        assert terms * 2 * math.log10(4 / 0.3) > ar.digits
+        return method
+
+    monkeypatch.setattr(law_series, "small_contacts", noted)
+    monkeypatch.setattr(scaling, "growth", lambda *arguments: arguments)
+    scaling.digits(quick=False)
+    assert max(asked) == 1000
+    asked.clear()
+    scaling.digits(quick=True)
+    assert max(asked) == 100
 
 
 def test_memory_of_a_call_is_traced() -> None:

@@ -31,6 +31,7 @@ from derivation.measure.accuracy.errors import Errors
 from derivation.measure.accuracy.interface import PAPER, REGIMES
 from derivation.measure.accuracy.pareto import winners
 from derivation.measure.accuracy.rows import Row
+from derivation.report import readme
 from derivation.report.accuracy import accuracy_context, duration
 from derivation.report.accuracy_figures import as_pdf, pareto_front, work_precision
 from derivation.report.accuracy_figures import scaling as scaling_figure
@@ -293,6 +294,39 @@ def test_the_section_names_every_failure(committed: dict[str, Any]) -> None:
     assert len(found["failures"]) == len(failing)
     assert duration(1.5e-9) == r"1.5\,ns"
     assert duration(0.0012) == r"1.2\,ms"
+
+
+def test_the_readme_shows_what_was_measured(committed: dict[str, Any]) -> None:
+    text = pipeline.README.read_text()
+    assert readme.renewed(text, committed) == text, "to mend: platecontact report"
+
+
+def test_the_readmes_block_follows_the_data_and_nothing_else(committed: dict[str, Any]) -> None:
+    head = {"digits": 15.52, "called": 4e-9, "reached": [
+        {"digits": 6, "modes": 10, "seconds": 1.0}, {"digits": 12, "modes": 2000, "seconds": 0.2},
+    ]}  # fmt: skip
+    won = {
+        "task": "law", "regime": "paper", "kind": "vector", "digits": 9, "family": "split",
+        "setting": "8 nodes", "ties": ["Levin u"], "seconds": 2.5e-6,
+    }  # fmt: skip
+    others = [won | {"kind": "single"}, won | {"digits": 30}, won | {"regime": "thin"}]
+    grown = {"what": "scenes", "method": "hertz", "x": [1, 10_000], "seconds": [5e-6, 0.03]}
+    data = committed | {"headline": head, "pareto": [won, *others], "scaling": [grown]}
+    text = f"above\n{readme.BEGIN}\nold numbers\n{readme.END}\nbelow"
+    found = readme.renewed(text, data)
+    prose = " ".join(found.split())
+    assert "15.5 digits in 4 ns a point" in prose
+    assert "2,000 modes and 200 ms for 12 digits, 5e+07 times as long" in prose
+    assert found.count("| 9 | split, 8 nodes (or Levin u) | 2.5 us |") == 1
+    assert "| 30 |" not in found
+    assert "| hertz | 5 us | 3 us | 10,000 |" in found
+    assert found.startswith("above\n")
+    assert found.endswith("\nbelow")
+    assert "old" not in found
+    assert readme.renewed(found, data) == found
+    for bad in ("no markers", text + text, text.replace(readme.END, "")):
+        with pytest.raises(ValueError, match="once each"):
+            readme.renewed(bad, data)
 
 
 # --- commands

@@ -10,6 +10,7 @@ import pytest
 from derivation.measure.accuracy import (
     by_series,
     inversion,
+    law_own,
     law_series,
     law_sums,
     motion,
@@ -147,6 +148,15 @@ def test_float32_goes_in_and_comes_out() -> None:
         if method.arithmetic == "float32" and method.fails(PAPER) is None:
             problem = {"law": 0.01, "inversion": 1e-4, "impact": 1.0}[method.task]
             assert method.prepare(PAPER)(np.array([problem])).dtype == np.float32, method.name
+
+
+def test_nodes_of_the_oracle_are_set_up_not_timed(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = []
+    monkeypatch.setattr(contact_balls, "indentation", lambda *arguments: asked.append(arguments))
+    call = law_own.oracle(30).prepare(PAPER)
+    assert asked == [(PAPER.high * PAPER.h, PAPER.R, PAPER.h, PAPER.b, 30)]
+    assert len(call(RADII)) == 3
+    assert len(asked) == 4
 
 
 # --- errors

@@ -90,7 +90,7 @@ def draw_panel(
         x, y = np.array(points).T
         double = arithmetic == "float64"
         ax.plot(
-            x, y, "-" if double else "", marker=ARITHMETICS[arithmetic], ms=3,
+            x, y, "-" if double else " ", marker=ARITHMETICS[arithmetic], ms=3,
             color=colours[family], mfc=colours[family] if double else "none",
         )  # fmt: skip
     most = max((row["errors"]["total"] for row in rows), default=0.0)

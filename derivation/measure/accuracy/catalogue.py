@@ -98,7 +98,7 @@ def _deepest_laws() -> list[Method]:
         found.append(refused(split, dear))
     hours = many_costs.integrals_seconds(DEEPEST) / 3600
     oracle = law_own.oracle(DEEPEST, quick=False)
-    return [*found, refused(oracle, f"{DEEPEST} digits take about {hours:.0f} h")]
+    return [*found, refused(oracle, f"{DEEPEST} digits take about {hours:.0f} hours")]
 
 
 def inversion_methods() -> list[Method]:

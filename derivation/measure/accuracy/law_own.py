@@ -53,12 +53,13 @@ def prepared() -> Method:
 
 
 def oracle(digits: int, quick: bool = True) -> Method:
-    """The contour integrals in balls, a certified value each."""
+    """The contour integrals in balls, a certified value each; their nodes are set-up."""
 
     def prepare(regime: Regime) -> Call:
         def one(a: float) -> object:
             return contact_balls.indentation(a, regime.R, regime.h, regime.b, digits)
 
+        one(regime.high * regime.h)
         return lambda a: [one(float(x)) for x in np.atleast_1d(a)]
 
     return Method(

@@ -25,7 +25,7 @@ MOST_STEPS = 80_000
 """Enough for 1000 steps of the longest of these, twice over."""
 
 SAME_STEPS = 1500
-"""Steps in long numbers at most: each takes a millisecond."""
+"""Steps in long numbers at most: each takes some milliseconds."""
 
 
 def scalar_force(regime: Regime) -> Callable[[float], float]:

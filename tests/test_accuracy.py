@@ -207,6 +207,7 @@ def test_scenes_grow_by_each_of_simulates_methods(monkeypatch: pytest.MonkeyPatc
         known = [(x, t) for x, t in zip(found[name], true, strict=True) if x is not None]
         assert known
         assert all(abs(x.contact_time / t - 1) <= x.law + 1e-12 for x, t in known)
+        assert all((x.quadrature > 0) == (name == "leading") for x, _ in known)
 
 
 def test_digits_grow_to_a_thousand(monkeypatch: pytest.MonkeyPatch) -> None:

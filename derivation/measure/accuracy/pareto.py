@@ -8,7 +8,7 @@ from derivation.measure.accuracy.catalogue import simplicity
 from derivation.measure.accuracy.interface import TIE
 from derivation.measure.accuracy.rows import Kind, Row
 
-DIGITS = (3, 6, 9, 12, 15, 30, 100)
+DIGITS = (3, 6, 9, 12, 15, 30, 100, 1000)
 DOUBTFUL = (1.15, 1.25)
 """Ratios of times at which another run may decide otherwise whether there is a tie."""
 

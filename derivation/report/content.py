@@ -54,6 +54,11 @@ ABOUT = {
     "substitution": "If the law's slope lies within known factors of a simpler one's, so do an "
     "impact's results. It lies between S_1 = 1 + 3 c_1 A/2 and S_1 - K_3 A^3 for every a < b, so "
     "that Hertz' law, and its first correction, know their own error.",
+    "curvature": "A growing contact is a sequence of flat punches. Where it is not small beside "
+    "the sphere the paraboloid gives way to the sphere's own profile.",
+    "effects": "Each effect adds a share to the law's slope at equal force. What it can add at "
+    "most says whether a scene needs it.",
+    "plate motion": "The law is static. These numbers say when the plate's own motion matters.",
 }
 
 

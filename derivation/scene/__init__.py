@@ -10,7 +10,8 @@ Read in this order:
 6. `choice`: the cheapest method whose error bound meets a tolerance; `motion` is the one
    that takes any law.
 7. `impact`, `indentation`: simulate an impact, press the sphere in by a given amount.
-8. `result`: what comes out, as JSON, CSV and a notebook table; `plot` draws it.
+8. `sweep`: one simulation per value of a key.
+9. `result`: what comes out, as JSON, CSV and a notebook table; `plot` draws it.
 
 `kernels` is the only door to the generated package; `commands` is the command line.
 

@@ -1,13 +1,14 @@
 """The commands `simulate` and `indent`: check the file names, make one call, show the result."""
 
 from collections.abc import Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from derivation.files import write_file
-from derivation.screen import NOTES, OUT, Json, put_json, table
+from derivation.screen import NOTES, OUT, Json, counted, put_json, table
 
 SceneFile = Annotated[Path, typer.Argument(metavar="SCENE.toml", help="Scene file.")]
 
@@ -26,11 +27,20 @@ def simulate(
         float | None,
         typer.Option(metavar="X", help="Relative tolerance, 1e-13 to 1: cheapest method."),
     ] = None,
+    sweep: Annotated[
+        str | None,
+        typer.Option(metavar="TABLE.KEY=A:B:N", help="Simulate for N values from A to B."),
+    ] = None,
 ) -> None:
     """Simulate the impact of a scene file.
 
     Example: platecontact simulate scene.toml --plot impact.pdf --csv impact.csv
+
+    With --sweep plate.thickness=1e-3:1e-2:50 the table, --csv and --json have a row per value.
     """
+    if sweep is not None:
+        _sweep(scene, sweep, json, plot, csv, rtol)
+        return
     from derivation.scene import load
     from derivation.scene import simulate as run
     from derivation.scene.gate import HEADS
@@ -52,6 +62,41 @@ def simulate(
         write_file(path, content)
     if json:
         put_json(result.to_json(), json)
+
+
+def _sweep(
+    scene: Path,
+    text: str,
+    json: str | None,
+    plot: Path | None,
+    csv: Path | None,
+    rtol: float | None,
+) -> None:
+    """Simulate once per value of a key."""
+    from derivation.scene import SceneError, load
+    from derivation.scene import sweep as sweeps
+    from derivation.scene.result import UNITS
+
+    if plot is not None:
+        raise SceneError("--plot: expected no plot of a sweep; leave it out, or --sweep")
+    check_outputs(scene, json, csv=csv)
+    sweep = sweeps.parse(text)
+    loaded = load(scene)
+    with counted("simulate") as tell:
+        rows = sweeps.run(loaded, sweep, rtol, tell)
+    warn([row.remark for row in rows if row.remark])
+    if csv is not None:
+        write_file(csv, sweeps.to_csv(sweep, rows).encode())
+    elif json != "-":
+        heads = (f"#{sweep.table}.{sweep.key}", *(f"#{n} [{u}]" for n, u in UNITS.items()))
+        cells = [
+            [f"{row.value:.6g}"]
+            + [f"{row.results[name]:.6g}" if row.results else "-" for name in UNITS]
+            for row in rows
+        ]
+        table(f"Sweep of {scene.name}", heads, cells)
+    if json:
+        put_json([asdict(row) for row in rows], json)
 
 
 def explain(

@@ -151,7 +151,7 @@ class Plate(Table):
         """Also what makes the material unstable: no bulk modulus above zero."""
         problems = super().conflicts(given)
         lam, mu = given.get("lame_lambda"), given.get("lame_mu")
-        if _is_number(lam) and _is_number(mu) and mu > 0 and 3 * lam + 2 * mu <= 0:
+        if is_number(lam) and is_number(mu) and mu > 0 and 3 * lam + 2 * mu <= 0:
             problems.append(
                 "plate.lame_lambda: expected 3 lame_lambda + 2 lame_mu above zero "
                 f"(a positive bulk modulus), got lame_lambda = {shown(lam)} and "
@@ -317,7 +317,7 @@ def _example(field: Any) -> str:
     return shown(field.examples[0]) if field.examples else ""
 
 
-def _is_number(value: Any) -> TypeGuard[float]:
+def is_number(value: Any) -> TypeGuard[float]:
     """Whether a value is a number a double can hold."""
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         return False

@@ -1,0 +1,141 @@
+"""Sweeps one key of a scene: a simulation per value, a row for each."""
+
+import csv
+import io
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from derivation.scene.impact import simulate
+from derivation.scene.result import UNITS
+from derivation.scene.scene import TABLES, Scene, SceneError, is_number, read
+
+MOST = 100_000
+"""Largest number of values of a sweep."""
+Tell = Callable[[str, int, int], None]
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """One key and the values it is to take.
+
+    Attributes
+    ----------
+    table, key
+        Where it stands in the scene file.
+    values
+        What it takes, in SI.
+    """
+
+    table: str
+    key: str
+    values: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Row:
+    """A value and what came of it.
+
+    Attributes
+    ----------
+    value
+        What the key took.
+    results
+        By name, in SI; empty if the scene was refused.
+    effects
+        Names of the effects included.
+    remark
+        Warnings, or why the scene was refused.
+    """
+
+    value: float
+    results: dict[str, float]
+    effects: tuple[str, ...]
+    remark: str
+
+
+def parse(text: str) -> Sweep:
+    """A sweep from `table.key=first:last:count`, values evenly spaced, both ends included.
+
+    Raises
+    ------
+    SceneError
+        If the text is not of this form, or names no number of a scene file.
+    """
+    place, _, span = text.partition("=")
+    table, _, key = place.strip().partition(".")
+    parts = span.split(":")
+    example = "write for instance plate.thickness=1e-3:1e-2:50"
+    field = TABLES[table].model_fields.get(key) if table in TABLES else None
+    numbers = [x for x in (field.examples if field else None) or [] if is_number(x)]
+    if not numbers:
+        raise SceneError(f"sweep: expected a number of the scene file, got {place!r}; {example}")
+    try:
+        first, last, count = float(parts[0]), float(parts[1]), int(parts[2])
+    except (ValueError, IndexError):
+        raise SceneError(f"sweep: expected first:last:count, got {span!r}; {example}") from None
+    if len(parts) != 3 or not 1 <= count <= MOST or not np.isfinite([first, last]).all():
+        raise SceneError(
+            f"sweep: expected finite ends and 1 to {MOST} values, got {span!r}; {example}"
+        )
+    return Sweep(table, key, tuple(np.linspace(first, last, count).tolist()))
+
+
+def run(
+    scene: Scene, sweep: Sweep, rtol: float | None = None, tell: Tell | None = None
+) -> tuple[Row, ...]:
+    """Simulate the scene once per value; a scene that is refused is a row that says why.
+
+    Parameters
+    ----------
+    rtol
+        As `simulate` takes it.
+    tell
+        Called before each, with what is done, its number and how many there are.
+    """
+    rows = []
+    for number, value in enumerate(sweep.values, start=1):
+        if tell is not None:
+            tell(f"{sweep.table}.{sweep.key}", number, len(sweep.values))
+        rows.append(_row(scene, sweep, value, rtol))
+    return tuple(rows)
+
+
+def _row(scene: Scene, sweep: Sweep, value: float, rtol: float | None) -> Row:
+    data = {name: dict(keys) for name, keys in scene.to_json().items()}
+    given = data.setdefault(sweep.table, {})
+    for other in _instead(sweep):
+        given.pop(other, None)
+    given[sweep.key] = value
+    try:
+        found = simulate(read(data), rtol=rtol)
+    except SceneError as error:
+        return Row(value, {}, (), f"refused: {error}")
+    results = {name: getattr(found, name) for name in UNITS}
+    included = tuple(row.name for row in found.gate.rows if row.included)
+    return Row(value, results, included, "; ".join(found.warnings))
+
+
+def _instead(sweep: Sweep) -> set[str]:
+    """Keys that the swept one stands in for: half_thickness for thickness, mass for density."""
+    choices = TABLES[sweep.table].choices
+    return {
+        key
+        for groups in choices
+        if any(sweep.key in group for group in groups)
+        for group in groups
+        if sweep.key not in group
+        for key in group
+    }
+
+
+def to_csv(sweep: Sweep, rows: Sequence[Row]) -> str:
+    """The rows as CSV, numbers to the last bit; results that there are not are empty."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow([f"{sweep.table}.{sweep.key}", *UNITS, "effects", "remark"])
+    for row in rows:
+        numbers = (repr(row.results[name]) if row.results else "" for name in UNITS)
+        writer.writerow([repr(row.value), *numbers, " ".join(row.effects), row.remark])
+    return text.getvalue()

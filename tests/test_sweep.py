@@ -1,0 +1,67 @@
+"""Sweeps: every row is the simulation of its value; what is refused says why and stops nothing."""
+
+import csv
+import json
+from pathlib import Path
+
+import pytest
+
+import derivation.scene
+from derivation.cli import main
+from derivation.scene import SceneError, load, read, simulate, sweep
+
+PAPER = Path(derivation.scene.__file__).parent / "examples" / "paper.toml"
+Captured = pytest.CaptureFixture[str]
+
+
+def test_rows_are_the_simulations_of_their_values(tmp_path: Path) -> None:
+    place = tmp_path / "rows.csv"
+    assert (
+        main(["simulate", str(PAPER), "--sweep", "impact.speed=0.5:1.5:3", "--csv", str(place)])
+        == 0
+    )
+    rows = list(csv.DictReader(place.open()))
+    assert [float(row["impact.speed"]) for row in rows] == [0.5, 1.0, 1.5]
+    for row in rows:
+        data = load(PAPER).to_json() | {"impact": {"speed": float(row["impact.speed"])}}
+        result = simulate(read(data))
+        for name in ("contact_time", "max_force", "max_pressure"):
+            assert float(row[name]) == getattr(result, name)
+        assert row["effects"].split() == [r.name for r in result.gate.rows if r.included]
+
+
+def test_a_key_stands_in_for_its_alternative() -> None:
+    found = sweep.run(load(PAPER), sweep.parse("plate.thickness=0.2:0.2:1"))
+    assert found[0].results["max_force"] == simulate(load(PAPER)).max_force
+    heavy = sweep.run(load(PAPER), sweep.parse("sphere.mass=1:2:2"))
+    assert heavy[1].results["contact_time"] > heavy[0].results["contact_time"]
+
+
+def test_a_refused_value_is_a_row_and_the_others_go_on(capsys: Captured) -> None:
+    assert main(["simulate", str(PAPER), "--sweep", "impact.speed=-1:1:3", "--json", "-"]) == 0
+    shown = capsys.readouterr()
+    rows = json.loads(shown.out)
+    assert [bool(row["results"]) for row in rows] == [False, False, True]
+    assert "expected a positive number" in rows[0]["remark"]
+    assert "refused" in shown.err
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "", "speed", "speed=1:2:3", "impact.sped=1:2:3", "plate.edge=1:2:3", "plate.material=1:2:3",
+        "impact.speed=1:2", "impact.speed=1:2:3:4", "impact.speed=1:2:x", "impact.speed=a:2:3",
+        "impact.speed=1:2:0", "impact.speed=1:inf:3", "impact.speed=1:2:100001",
+        "effects.bending=0:1:2",
+    ],
+)  # fmt: skip
+def test_bad_sweeps_are_one_message(text: str) -> None:
+    with pytest.raises(SceneError, match=r"sweep: expected .* write for instance") as caught:
+        sweep.parse(text)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_sweep_has_no_plot(capsys: Captured) -> None:
+    arguments = ["simulate", str(PAPER), "--sweep", "impact.speed=1:2:2", "--plot", "x.pdf"]
+    assert main(arguments) == 2
+    assert "leave it out" in capsys.readouterr().err

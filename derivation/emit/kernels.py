@@ -310,6 +310,11 @@ def table_rows(budgets: Mapping[str, Budget]) -> list[dict[str, object]]:
 PLATE = ("R", "h", "b")
 ELASTIC = ("lam", "mu")
 IMPACT = ("R", "m", "v0", *PLATE[1:], *ELASTIC)
+EDGE_PARTS = (
+    ("", "addition to delta R/a^2"),
+    ("_slope", "addition to (R/2a) d delta/da"),
+    ("_bound", "bound of that addition for every smaller contact"),
+)
 CONTACT_FUNCTIONS = (
     # name, module, arguments, unit, symbol, equation, meaning
     ("indentation", "contact_law", ("a", *PLATE), "m", r"\delta", "6", "indentation"),
@@ -363,6 +368,19 @@ CONTACT_FUNCTIONS = (
         "",
         "13",
         "logarithmic derivatives of time and peaks by every parameter",
+    ),
+    *(
+        (
+            f"{support}_edge{part}",
+            "edge",
+            ("a", *PLATE[1:], *ELASTIC),
+            "1",
+            "",
+            "6",
+            f"{what}: {meaning}",
+        )
+        for part, meaning in EDGE_PARTS
+        for support, what in (("supported", "simple support"), ("clamped", "clamp"))
     ),
     ("history", "impact", ("t", *IMPACT), "m, m/s, m, N", "", "13", "an impact over time"),
 )

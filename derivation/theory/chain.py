@@ -21,6 +21,7 @@ and from the contact law to the motion:
 16 impact           energy integral (13), contact time, linearisation (15) to (18)
 17 sensitivity      slopes of the law; what every parameter does to an impact
 18 substitution     how far an impact moves if its law is replaced by a simpler one
+19 edge             simply supported or clamped in the place of the paper's soft hinge
 """
 
 from collections.abc import Callable, Iterator
@@ -29,6 +30,8 @@ from derivation.formula.record import Formula
 from derivation.theory.contact_law import contact_law
 from derivation.theory.contact_split import contact_split, reduced_split
 from derivation.theory.divergence import divergence
+from derivation.theory.edge import edge
+from derivation.theory.edge_sums import edge_sums
 from derivation.theory.equilibrium import equilibrium
 from derivation.theory.face_conditions import omegas, scaled_omegas
 from derivation.theory.hertz import contact_radius, pressure, pressure_coefficient, sonine
@@ -69,6 +72,7 @@ MOTION_LINKS: tuple[Link, ...] = (
     ("impact", impact),
     ("sensitivity", sensitivity),
     ("substitution", substitution),
+    ("edge", lambda: (*edge(), *edge_sums())),
 )
 """What follows from the contact law. Apart: these formulas hold integrals and constants too."""
 

@@ -2,8 +2,10 @@
 
 With k = g or (3/2) sinc and n = lam/(lam + 2 mu), link 19's sums are, N modes summed as they are,
 
-    sum k (1 + 3 n - n Q)/(j^3 J1) = [N modes] + (1 + 3 n) P_N - 2 n eta E_N - n sum (Q - T) k/(j^3 J1)
-    sum k H/(j^2 J1)               = [N modes] + E_N + sum (H - 1) k/(j^2 J1)
+    sum k (1 + 3 n - n Q)/(j^3 J1)
+        = [N modes] + (1 + 3 n) P_N - 2 n eta E_N - n sum (Q - T) k/(j^3 J1)
+    sum k H/(j^2 J1)
+        = [N modes] + E_N + sum (H - 1) k/(j^2 J1)
 
 where P_N and E_N are the rests of P = sum k/(j^3 J1), half the coefficient of z^2 in k/J0, and of
 E = sum k/(j^2 J1), an integral over the imaginary axis. The last sums run over n > N.

@@ -62,8 +62,13 @@ def edge_part(kind: str, a: float, h: float, b: float, nu: float, digits: int = 
         with mp.workdps(mp.dps + 10 + max(0, int(lost))):
             first = _coefficient(bent, 2, radius, digits + 10) / 2
             second = _coefficient(stretched, 1, radius, digits + 10) / 2
-        even = _roots(0, lambda T, z: -n * kernel(alpha * z) / z**2 / mp.besselj(0, z), eta)
-        odd = _roots(1, lambda T, z: _odd(T) * kernel(alpha * z) / z**2 / mp.besselj(0, z), eta)
+
+        def wave(T: mpc) -> mpc:
+            z = T / (2 * eta)
+            return kernel(alpha * z) / (z**2 * mp.besselj(0, z))
+
+        even = _roots(0, lambda T: -n * wave(T), eta)
+        odd = _roots(1, lambda T: _odd(T) * wave(T), eta)
         first, second = first + even, second + odd / (2 * eta)
         total = (1 - 2 * n * eta**2) / eta**3 * first + mpf(8) / 3 * n**2 * second
         return +(alpha / mp.pi * total)
@@ -74,9 +79,7 @@ def _odd(T: mpc) -> mpc:
     return (mp.cosh(T) - 1) / (mp.cosh(T) + 1)
 
 
-def _coefficient(
-    function: Callable[[mpc], mpc], power: int, radius: mpf, digits: int
-) -> mpf:
+def _coefficient(function: Callable[[mpc], mpc], power: int, radius: mpf, digits: int) -> mpf:
     """Coefficient of a power of z: the mean of samples on a circle, converging geometrically."""
     count, former = _SAMPLES, None
     while count <= 64 * _SAMPLES:
@@ -89,7 +92,7 @@ def _coefficient(
 
 
 def root(n: int) -> mpc:
-    """T_n of sinh T = (-1)^n T in the first quadrant: Newton's iteration on T - asinh T = i pi n."""
+    """T_n of sinh T = (-1)^n T, first quadrant: Newton's iteration on T - asinh T = i pi n."""
     x = mpc(mp.log(2 * mp.pi * n), mp.pi * n + 1)
     for _ in range(mp.prec.bit_length() + 6):
         slope = 1 - 1 / mp.sqrt(1 + x * x)
@@ -99,12 +102,12 @@ def root(n: int) -> mpc:
     return x
 
 
-def _roots(parity: int, residue: Callable[[mpc, mpc], mpc], eta: mpf) -> mpf:
+def _roots(parity: int, residue: Callable[[mpc], mpc], eta: mpf) -> mpf:
     """2 Re of the residues at every second root, until they no longer count beside eta^3."""
     total, floor = mpf(0), mp.eps * min(mpf(1), eta**4)
     for n in range(2 - parity, MOST, 2):
         T = root(n)
-        share = residue(T, T / (2 * eta))
+        share = residue(T)
         total += 2 * share.real
         if abs(share) < floor:
             return total

@@ -115,8 +115,15 @@ def _tables(kernel: Kernel, first: Ball, weights: list[Ball]) -> dict[str, tuple
         last = 2 * sum((f * t for f, t in zip(values, waves, strict=True)), Ball(0)) / TERMS
         if not abs(last) < CUT_OFF:
             raise ArithmeticError(f"{TERMS} coefficients of {name} leave out {last}")
-        found[name] = wrapped(repr(nearest_double(c.mid())) for c in in_powers(values))
+        found[name] = wrapped(repr(nearest_double(c)) for c in _that_count(in_powers(values)))
     return found
+
+
+def _that_count(coefficients: list[Ball]) -> list[Ball]:
+    """The coefficients, as points, up to the last that a sum near 1/8 can show."""
+    points = [c.mid() for c in coefficients]
+    last = max(i for i, c in enumerate(points) if abs(c) > 1e-22)
+    return points[: last + 1]
 
 
 def _angles() -> list[Ball]:

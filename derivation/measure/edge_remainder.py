@@ -104,10 +104,10 @@ def radii(h: float, layers: int) -> Double:
     return np.unique(np.concatenate(([0.0], 1.0 - np.array(steps[:-1]), [1.0])))
 
 
-def rim_displacement(case: Case, a: float, z: Double) -> Double:
+def rim_displacement(case: Case, a: float, z: Double, modes: int = MODES) -> Double:
     """u(b, z) of the modes, their number bounded."""
-    j = bessel_j0_zeros(MODES)
-    slope = bessel_j1_at_j0_zeros(MODES)
+    j = bessel_j0_zeros(modes)
+    slope = bessel_j1_at_j0_zeros(modes)
     A = A_j(j, 1.0, RADIUS, a, case.lam, 1.0, slope)
     shapes = mode_g(z[:, None], j, case.h, case.lam, 1.0, A)
     terms: Double = shapes * j * slope
@@ -139,7 +139,8 @@ class Field:
             place = slice(k * self.degree, (k + 1) * self.degree + 1)
             z[place] = (low + high) / 2 + (high - low) / 2 * nodes
             w[place] += (high - low) / 2 * weights
-        return z, w
+        # A node on a face may not come to lie beyond it by rounding.
+        return np.clip(z, -self.case.h, self.case.h), w
 
     def number(self, column: NDArray[Any], row: NDArray[Any], part: int) -> NDArray[Any]:
         """Number of an unknown: u (0) or w (1) at a node."""
@@ -270,7 +271,7 @@ def text() -> str:
     provenance = {"numpy": np.__version__, "scipy": scipy.__version__, "modes": MODES}
     meshes = [dataclasses.asdict(mesh) for mesh in MESHES]
     record = {"meshes": meshes, "provenance": provenance, "rows": rows()}
-    return json.dumps(record, indent=1, sort_keys=True) + "\n"
+    return json.dumps(record, indent=1, sort_keys=True, allow_nan=False) + "\n"
 
 
 if __name__ == "__main__":

@@ -146,10 +146,10 @@ def edge_resultants() -> tuple[Formula, ...]:
         },
     )
     rows = (
-        ("edge_stretch", "e_j", "mean of u/b at the edge", mean / (2 * h * b), "1"),
-        ("edge_turn", "k_j", "mean rotation over b at the edge", turn * 3 / (2 * h**3 * b), "1/m"),
-        ("edge_force", "N_j", "radial force per length at the edge", -2 * mu / b * mean, "N/m"),
-        ("edge_moment", "M_j", "bending moment per length at the edge", -2 * mu / b * turn, "N"),
+        ("edge_stretch", r"\bar e", "mean of u/b at the edge", mean / (2 * h * b), "1"),
+        ("edge_turn", r"\bar k", "mean turn over b at the edge", turn * 3 / (2 * h**3 * b), "1/m"),
+        ("edge_force", r"\bar N", "radial force per length at the edge", -2 * mu / b * mean, "N/m"),
+        ("edge_moment", r"\bar M", "moment per length at the edge", -2 * mu / b * turn, "N"),
     )
     sources = ("mode_g", "mode_rr", "mode_zz", "sigma_rr")
     return tuple(

@@ -44,7 +44,7 @@ THIN = sp.Rational(29, 2)
 """(1 - alpha)/eta from which on the closed form stands alone.
 
 The bending roots' share of it is then below e^(-3.7 THIN) = 3e-24, the stretching roots'
-below e^(-2.1 THIN) = 6e-14, times (8/3) n^2 eta^3 z^(-3/2) < 1e-5 of what it is added to.
+below e^(-2.1 THIN) = 6e-14, times (8/3) n^2 eta^3 z^(-3/2), below 1e-4 of the bending sum.
 """
 _STEP = 48
 _LAST = -120

@@ -190,7 +190,8 @@ def committed_truths() -> list[bounds.Truth]:
 
 def _chosen(point: bounds.Point, rtol: float) -> tuple[Sequence[float], str, float]:
     """An impact as `simulate` computes it: results, method and bound."""
-    values, accuracy = solve(Model(*point), rtol)
+    R, m, v0, h, b, lam, mu = point
+    values, accuracy = solve(Model(R, m, v0, h, b, lam, mu), rtol)
     return values, accuracy.method, accuracy.bound
 
 

@@ -20,7 +20,7 @@ from derivation.measure import effects as measure
 from derivation.scene import SceneError, explain, gate, indent, kernels, motion, read, simulate
 from derivation.scene.effects import BY_NAME, EFFECTS
 from derivation.scene.gate import OUTPUTS, decide
-from derivation.scene.law import CURVED, WHOLE_PLATE, Law
+from derivation.scene.law import CURVED, HELD, WHOLE_PLATE, Law
 from derivation.scene.model import Model, model_of
 from derivation.theory import curvature as curvature_theory
 from derivation.theory import effects as effects_theory
@@ -41,11 +41,11 @@ ULP = 2.0**-52
 Captured = pytest.CaptureFixture[str]
 
 
-def model(**changes: float) -> Model:
+def model(**changes: Any) -> Model:
     """A steel-like ball on a plate of some softness, with changes."""
-    values = {
+    values: dict[str, Any] = {
         "R": 0.1, "m": 3.0, "v0": 1.0, "h": 0.02, "b": 0.5, "lam": 2e9, "mu": 3e9,
-        "sphere_modulus": 5e10, "gravity": 9.81,
+        "sphere_modulus": 5e10, "gravity": 9.81, "edge": "simply-supported",
     }  # fmt: skip
     return Model(**{**values, **changes})
 
@@ -54,10 +54,13 @@ def scene(**tables: Mapping[str, Any]) -> Any:
     """The same as a scene, its sphere of glass, with keys replaced, or removed by None."""
     made: dict[str, dict[str, Any]] = {
         "sphere": {"radius": 0.1, "mass": 3.0, "material": "glass"},
-        "plate": {"radius": 0.5, "half_thickness": 0.02, "lame_lambda": 2e9, "lame_mu": 3e9},
+        "plate": {
+            "radius": 0.5, "half_thickness": 0.02, "lame_lambda": 2e9, "lame_mu": 3e9,
+            "edge": "simply-supported",
+        },
         "impact": {"speed": 1.0, "gravity": 9.81},
         "effects": {},
-    }
+    }  # fmt: skip
     for name, keys in tables.items():
         merged = made.get(name, {}) | dict(keys)
         made[name] = {k: v for k, v in merged.items() if v is not None}
@@ -65,6 +68,7 @@ def scene(**tables: Mapping[str, Any]) -> Any:
 
 
 ALL = frozenset(BY_NAME)
+"""Every effect; the model's plate is simply supported."""
 
 
 # --- theory
@@ -325,6 +329,44 @@ def test_impact_of_the_whole_plate_is_the_generated_one() -> None:
         np.testing.assert_allclose(found.numbers, kernels.impact(*m.numbers), rtol=4e-14)
 
 
+@pytest.mark.parametrize(
+    ("edge", "ratio"),
+    [("simply-supported", lambda nu: (3 + nu) / (2 * (1 + nu))), ("clamped", lambda _: 0.5)],
+)
+def test_deflection_of_thin_plates_by_their_edge(edge: str, ratio: Any) -> None:
+    """Over the soft hinge's, at equal force; the contact itself is next to nothing."""
+    for nu in (-0.3, 0.0, 0.3, 0.45):
+        m = model(h=1e-5, b=1.0, lam=2 * 3e9 * nu / (1 - 2 * nu), edge=edge)
+        a, base = np.array([1e-5]), frozenset({"hertz", *WHOLE_PLATE})
+        one, other = (Law(m, effects) for effects in (base, base | {"edge"}))
+        found = other.indentation(a, other.at(a)) / one.indentation(a, one.at(a))
+        assert found[0] == pytest.approx(ratio(nu), rel=1e-4)
+
+
+def test_the_edges_model_error_is_said_and_refused() -> None:
+    held = {"edge": "clamped", "half_thickness": 0.01}
+    result = simulate(scene(plate=held))
+    assert 0 < result.model_error < 0.01
+    assert "beside this bound" in result.model_note
+    assert result.to_json()["model_error"] == result.model_error
+    with pytest.raises(SceneError, match="expected a clamped edge whose model is right to 1 %"):
+        simulate(
+            scene(
+                plate={
+                    "edge": "clamped",
+                    "half_thickness": 0.1,
+                    "poissons_ratio": 0.45,
+                    "youngs_modulus": 1e8,
+                    "lame_lambda": None,
+                    "lame_mu": None,
+                }
+            )
+        )
+    with pytest.raises(SceneError, match="h/b up to 1"):
+        simulate(scene(plate={"half_thickness": 0.6}, effects={"edge": True}))
+    assert simulate(scene(plate={"edge": "soft-hinge"})).model_note == ""
+
+
 @pytest.mark.parametrize(("bent", "factor"), [(False, 2.5), (True, 2.0)])
 def test_peak_of_a_slow_sphere_under_its_weight(bent: bool, factor: float) -> None:
     """v0 -> 0: int P d delta = m g delta gives 5/2 m g for Hertz and 2 m g for a linear spring."""
@@ -434,7 +476,7 @@ def test_forced_choices_are_honoured_and_priced() -> None:
 
 def test_outputs_that_do_not_matter_take_in_nothing() -> None:
     """The sphere's profile moves the contact radius half as much again as the force."""
-    m = model(sphere_modulus=math.inf, gravity=0.0, h=1e3, b=1e4, v0=0.1)
+    m = model(sphere_modulus=math.inf, gravity=0.0, h=1e3, b=1e4, v0=0.1, edge="soft-hinge")
     worst = decide(m, {}, 0.0, OUTPUTS)
     assert "curvature" in worst.law.effects
     errors = {name: decide(m, {"curvature": "auto"}, 1.0, (name,)).error for name in OUTPUTS}
@@ -452,18 +494,21 @@ def test_what_is_out_is_not_called(monkeypatch: pytest.MonkeyPatch) -> None:
             kernels, name, lambda *_, name=name, **__: calls.append(name) or math.nan
         )
     thick = {"half_thickness": 1e3, "radius": 1e4}
+    for name in ("supported_edge", "supported_edge_slope"):
+        monkeypatch.setattr(kernels, name, lambda *_, name=name: calls.append(name) or math.nan)
     result = simulate(scene(plate=thick, effects={"curvature": False, "gravity": False}))
     assert result.gate.law.effects == {"hertz", "sphere_elasticity"}
     assert calls == []
-    law = Law(model(), frozenset({"hertz", "bending"}))
-    assert motion.impact(law) is not None
+    assert motion.impact(Law(model(), frozenset({"hertz", "bending"}))) is not None
     assert calls == []
 
 
 def test_beyond_the_law_is_refused_with_its_limit() -> None:
-    with pytest.raises(SceneError, match=rf"min\(b, {CURVED} R\) = 0\.099 m.*lower the speed"):
+    with pytest.raises(
+        SceneError, match=rf"min\({HELD} b, {CURVED} R\) = 0\.099 m.*lower the speed"
+    ):
         simulate(scene(impact={"speed": 1e7}))
-    flat = {"curvature": False}
+    flat = {"curvature": False, "edge": False}
     with pytest.raises(SceneError, match=r"min\(b, R\) = 0\.1 m"):
         simulate(scene(impact={"speed": 1e7}, effects=flat))
 
@@ -504,10 +549,10 @@ def test_explain_simulates_nothing_and_says_why(capsys: Captured, tmp_path: Path
 
 def test_inertia_is_warned_of_by_its_numbers() -> None:
     pane = {"material": "glass", "lame_lambda": None, "lame_mu": None, "half_thickness": 0.002}
-    [text] = simulate(scene(plate=pane, impact={"speed": 0.1})).warnings
-    assert "Zener's number lambda" in text
-    assert "first bending period" in text
-    slab = {"material": "glass", "lame_lambda": None, "lame_mu": None, "half_thickness": 0.5}
+    texts = simulate(scene(plate=pane, impact={"speed": 0.01, "gravity": None})).warnings
+    assert "Zener's number lambda" in texts[-1]
+    assert "first bending period" in texts[-1]
+    slab = pane | {"half_thickness": 0.5, "edge": "soft-hinge"}
     small = {"radius": 0.005, "mass": None}
     texts = simulate(scene(plate=slab, sphere=small, impact={"speed": 1.0})).warnings
     assert len(texts) == 1

@@ -279,7 +279,7 @@ def test_json_keys_and_notebook_table() -> None:
     made = result.to_json()
     assert list(made) == [
         "contact_time", "max_indentation", "max_force", "max_contact_radius", "max_pressure",
-        "accuracy", "effects", "warnings", "scene",
+        "accuracy", "model_error", "effects", "warnings", "scene",
     ]  # fmt: skip
     again = json.loads(json.dumps(made))
     assert again["contact_time"] == result.contact_time
@@ -476,7 +476,7 @@ def test_indent_refuses(given: dict[str, Any], says: str) -> None:
 @pytest.mark.parametrize("path", sorted(EXAMPLES.glob("*.toml")), ids=lambda path: path.stem)
 def test_examples_run(path: Path) -> None:
     result = simulate(load(path))
-    assert result.warnings == ()
+    assert (result.warnings == ()) == (path.stem == "paper")  # each other is near some limit
     assert result.contact_time > 0
 
 

@@ -310,7 +310,17 @@ def table_rows(budgets: Mapping[str, Budget]) -> list[dict[str, object]]:
 PLATE = ("R", "h", "b")
 ELASTIC = ("lam", "mu")
 IMPACT = ("R", "m", "v0", *PLATE[1:], *ELASTIC)
-CONTACT_FUNCTIONS = (
+ContactRow = tuple[str, str, tuple[str, ...], str, str, str, str]
+EDGE_FUNCTIONS: tuple[ContactRow, ...] = tuple(
+    (f"{kind}_edge{part}", "edge", ("a", *PLATE[1:], *ELASTIC), "1", "", "6", f"{what}: {meaning}")
+    for part, meaning in (
+        ("", "addition to delta R/a^2"),
+        ("_slope", "addition to (R/2a) d delta/da"),
+        ("_bound", "bound of the addition to (R/2a) d delta/da up to this contact"),
+    )
+    for kind, what in (("supported", "simple support"), ("clamped", "clamp"))
+)
+CONTACT_FUNCTIONS: tuple[ContactRow, ...] = (
     # name, module, arguments, unit, symbol, equation, meaning
     ("indentation", "contact_law", ("a", *PLATE), "m", r"\delta", "6", "indentation"),
     ("contact_radius", "contact_law", ("delta", *PLATE), "m", "a", "6", "contact radius"),
@@ -364,6 +374,7 @@ CONTACT_FUNCTIONS = (
         "13",
         "logarithmic derivatives of time and peaks by every parameter",
     ),
+    *EDGE_FUNCTIONS,
     ("history", "impact", ("t", *IMPACT), "m, m/s, m, N", "", "13", "an impact over time"),
     ("sphere_contact", "effects", ("a_over_R",), "1", "", "7", "a sphere over a paraboloid"),
     (
@@ -396,5 +407,6 @@ def promise(budget: Budget) -> dict[str, object]:
 
 def notes_of(module: str, budgets: Mapping[str, Budget]) -> dict[str, tuple[str, ...]]:
     """Notes of the functions of a module made of tables, by name."""
-    names = [row[0] for row in (*TABLES, *CONTACT_FUNCTIONS) if row[1] == module]
+    rows = [row[:2] for row in TABLES] + [row[:2] for row in CONTACT_FUNCTIONS]
+    names = [name for name, place in rows if place == module]
     return {name: budget_notes(budgets[name]) for name in names}

@@ -75,6 +75,7 @@ def scene(number: int, seed: int = SEED) -> dict[str, dict[str, Any]]:
         "half_thickness": b * spread(1e-3, 10.0),
         "youngs_modulus": spread(1e7, 1e12),
         "poissons_ratio": generator.uniform(-0.5, 0.49),
+        "edge": generator.choice(["soft-hinge", "simply-supported", "clamped"]),
     }
     sphere: dict[str, Any] = {"radius": b * spread(1e-2, 10.0), "density": spread(500.0, 2e4)}
     if generator.random() < 0.6:

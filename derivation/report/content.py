@@ -54,6 +54,9 @@ ABOUT = {
     "substitution": "If the law's slope lies within known factors of a simpler one's, so do an "
     "impact's results. It lies between S_1 = 1 + 3 c_1 A/2 and S_1 - K_3 A^3 for every a < b, so "
     "that Hertz' law, and its first correction, know their own error.",
+    "edge": "The paper's edge is a soft hinge: w = 0 and sigma_rr = -2 mu u/b. A clamp takes its "
+    "mean motion away, a simple support its force and moment, by the exact states of stretching "
+    "and bending; w = 0 on the middle plane's rim. The sums over the modes are residues.",
     "curvature": "A growing contact is a sequence of flat punches. Where it is not small beside "
     "the sphere the paraboloid gives way to the sphere's own profile.",
     "effects": "Each effect adds a share to the law's slope at equal force. What it can add at "

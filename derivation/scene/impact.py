@@ -3,6 +3,7 @@
 from collections.abc import Iterable
 
 from derivation.scene.choice import check_rtol, solve_gated
+from derivation.scene.edge_remainder import edge_remainder
 from derivation.scene.gate import Gate, decide
 from derivation.scene.limits import (
     check_numbers,
@@ -55,13 +56,16 @@ def simulate(
     check_radius(gate.law, a, "impact.speed", "lower the speed")
     check_numbers(model, contact_time, delta, P, a)
     pressure = gate.law.max_pressure(a)
+    model_error = edge_remainder(model, a) if "edge" in gate.law.effects else 0.0
     deflection = 1.0 - a * (a / model.R) / delta
     warnings = (
         *warnings_at(model, a, delta, gate.law.effects),
         *motion_warnings(model, contact_time, deflection),
         *pressure_warnings(pressure, scene.plate.yield_stress),
     )
-    result = Result(contact_time, delta, P, a, pressure, accuracy, warnings, scene, gate)
+    result = Result(
+        contact_time, delta, P, a, pressure, accuracy, model_error, warnings, scene, gate
+    )
     return result if times is None else result.at(times)
 
 

@@ -8,6 +8,14 @@ from generated.contact_law import (
     radius_of_force,
     stiffness,
 )
+from generated.edge import (
+    clamped_edge,
+    clamped_edge_bound,
+    clamped_edge_slope,
+    supported_edge,
+    supported_edge_bound,
+    supported_edge_slope,
+)
 from generated.effects import (
     WALL_CUBIC,
     WALL_GROWTH,
@@ -35,6 +43,9 @@ __all__ = [
     "Sphere",
     "bending",
     "bending_period",
+    "clamped_edge",
+    "clamped_edge_bound",
+    "clamped_edge_slope",
     "contact_radius",
     "echo_time",
     "force_of_radius",
@@ -51,5 +62,8 @@ __all__ = [
     "side_wall",
     "sphere_contact",
     "stiffness",
+    "supported_edge",
+    "supported_edge_bound",
+    "supported_edge_slope",
     "zener_number",
 ]

@@ -26,6 +26,8 @@ from derivation.scene.quadrature import NODES, rule
 WHOLE_PLATE = frozenset({"bending", "finite_thickness", "side_wall"})
 """Effects that one kernel holds together."""
 
+HELD = 0.9
+"""Largest contact radius over plate radius where the edge is no soft hinge."""
 CURVED = 0.99
 """Largest contact radius over sphere radius where the sphere is no paraboloid."""
 
@@ -72,13 +74,14 @@ class Law:
     def limit(self) -> float:
         """Contact radius [m] at which the law ends: min(b, R), but a sphere grows too steep."""
         R = self.model.R * (CURVED if "curvature" in self.effects else 1.0)
-        return min(self.model.b, R)
+        return min(self.model.b * (HELD if "edge" in self.effects else 1.0), R)
 
     @property
     def limit_in_words(self) -> str:
         """What the limit is, and how large."""
-        name = f"min(b, {CURVED} R)" if "curvature" in self.effects else "min(b, R)"
-        return f"{name} = {self.limit:.6g} m"
+        sphere = f"{CURVED} R" if "curvature" in self.effects else "R"
+        plate = f"{HELD} b" if "edge" in self.effects else "b"
+        return f"min({plate}, {sphere}) = {self.limit:.6g} m"
 
     @property
     def gravity(self) -> float:

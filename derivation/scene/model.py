@@ -27,6 +27,8 @@ class Model:
         What presses the sphere on [m/s^2].
     density
         Of the plate [kg/m^3]; 0 if it is not known.
+    edge
+        How the plate's edge is held.
     """
 
     R: float
@@ -39,6 +41,7 @@ class Model:
     sphere_modulus: float = math.inf
     gravity: float = 0.0
     density: float = 0.0
+    edge: str = "soft-hinge"
 
     @property
     def modulus(self) -> float:
@@ -105,6 +108,7 @@ def model_of(scene: Scene) -> Model:
         sphere_modulus=_sphere_modulus(scene.sphere),
         gravity=scene.impact.gravity or 0.0,
         density=_density(scene.plate),
+        edge=scene.plate.edge,
     )
     for name, value in zip(NUMBERS, model.numbers, strict=True):
         if not math.isfinite(value) or (value <= 0 and name != "lam"):

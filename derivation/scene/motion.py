@@ -6,18 +6,19 @@ With q = a/a_m and E the sphere's energy, weight included,
     t = (8 a_m^2/(R v0)) int_0^1 q S/sqrt(r) du,   q = 1 - u^2,   r = (v/v0)^2/(1 - q)
 
 p S and S are polynomials through n Gauss nodes; they are analytic, so that both integrals
-converge geometrically. n is doubled until the results stand.
+converge geometrically. n is doubled until the results stand; for a slow sphere that falls in by
+its weight then that in time alone.
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss, legint, legval, legvander
 
 from derivation.scene.effects.effect import Array
 from derivation.scene.law import Law, Shape
-from derivation.scene.quadrature import NODES, rule
+from derivation.scene.quadrature import MORE_TIMES, NODES, Rule, rule
 
 COURSE = 32
 """Nodes of the course in time: with more, rounding outweighs what they add at its ends."""
@@ -98,44 +99,45 @@ def _start(law: Law, goal: float) -> float:
 def impact(law: Law) -> Motion | None:
     """The impact by a law; None if the contact radius reaches the law's limit."""
     before: Motion | None = None
-    a = math.inf
-    for n in NODES:
+    a, times = math.inf, (0, 0, 0, 0, *MORE_TIMES)
+    for n, more in zip((*NODES, *NODES[1:2] * 2), times, strict=True):
         a = largest_radius(law, n, a)
         if not a < law.limit:
             return None
-        found = _results(law, a, n)
+        found = _results(law, a, n, more or n)
         if not all(0.0 < value < math.inf for value in found.numbers):
             return found
         if before is not None:
             pairs = zip(found.numbers, before.numbers, strict=True)
             change = max(abs(new / old - 1.0) for new, old in pairs)
-            before = Motion(*found.numbers, change)
+            before = replace(found, quadrature=change)
             if change <= SETTLED:
                 return before
         before = before or found
     return before
 
 
-def _results(law: Law, a: float, n: int) -> Motion:
-    """The results at a largest radius [m] by n nodes."""
-    shape = law.at(np.append(rule(n).x, 1.0) * a)
+def _results(law: Law, a: float, n: int, times: int) -> Motion:
+    """The results at a largest radius [m] by n nodes, and others in time."""
+    known = rule(n, times)
+    shape = law.at(np.append(known.x, 1.0) * a)
     last = Shape(*(x[-1:] for x in shape))
-    rate, _ = _course(law, a, shape, n)
-    time = 8.0 * a * (a / law.model.R) / law.model.v0 * float(np.sum(rule(n).weights * rate))
+    rate, _ = _course(law, a, shape, known)
+    time = 8.0 * a * (a / law.model.R) / law.model.v0 * float(np.sum(known.u_weights * rate))
     top = np.array([a])
     deepest, strongest = law.indentation(top, last), law.force(top, last)
     return Motion(time, float(deepest[0]), float(strongest[0]), a, 0.0)
 
 
-def _course(law: Law, a: float, shape: Shape, n: int) -> tuple[Array, Array]:
-    """q S/sqrt(r) and sqrt(r) at the nodes u."""
-    model, known = law.model, rule(n)
+def _course(law: Law, a: float, shape: Shape, known: Rule) -> tuple[Array, Array]:
+    """q S/sqrt(r) and sqrt(r) at the nodes in time."""
+    model = law.model
     power, slope = shape.force[:-1] * shape.slope[:-1], shape.slope[:-1]
     stored = known.work @ power / float(np.sum(known.weights * known.x**4 * power))
     share = 2.0 * law.gravity * a * (a / model.R) / model.v0 / model.v0
     sunk = float(shape.depth[-1])
     ratio = (1.0 + share * sunk) * stored - 2.0 * share * (known.path @ slope)
-    q, root = 1.0 - known.x * known.x, np.sqrt(ratio)
+    q, root = 1.0 - known.u * known.u, np.sqrt(ratio)
     return q * (known.at_times @ slope) / root, root
 
 
@@ -149,7 +151,7 @@ def history(law: Law, motion: Motion, times: Array) -> tuple[Array, Array, Array
     nodes, weights = leggauss(n)
     rate, root = (
         (legvander(nodes, n - 1) * weights[:, None] * (np.arange(n) + 0.5)).T @ values
-        for values in _course(law, a, shape, n)
+        for values in _course(law, a, shape, rule(n))
     )
     elapsed = legint(rate, lbnd=-1.0) / 2.0
     whole = float(legval(1.0, elapsed))

@@ -10,17 +10,22 @@ from derivation.scene.effects.effect import Array
 
 NODES = (24, 48, 96, 192)
 """Numbers of nodes tried."""
+MORE_TIMES = (384, 768)
+"""Nodes in time where a slow sphere falls in by its weight, and starts all at once."""
 
 
 class Rule(NamedTuple):
-    """Nodes x and weights on [0, 1], and what they do to values of a polynomial at them.
+    """Nodes x and weights on [0, 1], and what becomes of a polynomial's values at them.
 
-    `at_times` gives its values at 1 - x^2, `work` the mean of q^4 times it over [1 - x^2, 1],
-    `path` that of q times it; `derivative` its slope at the nodes.
+    `u` and `u_weights` are nodes in time. `at_times` gives the polynomial at q = 1 - u^2,
+    `work` the mean of q^4 times it over [1 - u^2, 1], `path` that of q times it; `derivative`
+    its slope at the nodes x.
     """
 
     x: Array
     weights: Array
+    u: Array
+    u_weights: Array
     at_times: Array
     work: Array
     path: Array
@@ -28,21 +33,28 @@ class Rule(NamedTuple):
 
 
 @cache
-def rule(n: int) -> Rule:
-    """Gauss' rule of n nodes and its matrices."""
+def rule(n: int, times: int | None = None) -> Rule:
+    """Gauss' rule of n nodes, n in time if not said otherwise, and its matrices."""
     nodes, weights = leggauss(n)
-    x, w = ((1.0 + nodes) / 2.0).astype(np.float64), (weights / 2.0).astype(np.float64)
+    x, w = _unit(n)
+    u, u_weights = _unit(times or n)
     # Legendre coefficients of the polynomial through values at the nodes.
     analysis = (legvander(nodes, n - 1) * weights[:, None] * (np.arange(n) + 0.5)).T
 
     def values(q: Array) -> Array:
         return np.asarray(legvander(2.0 * q - 1.0, n - 1) @ analysis, dtype=np.float64)
 
-    q = 1.0 - x * x
+    q = 1.0 - u * u
     inner = q[:, None] + (1.0 - q)[:, None] * x
     spread = values(inner)
     slopes = legder(np.eye(n), axis=0)
     derivative = 2.0 * legvander(nodes, n - 2) @ slopes @ analysis
     work = np.einsum("ij,ijk->ik", w * inner**4, spread)
     path = np.einsum("ij,ijk->ik", w * inner, spread)
-    return Rule(x, w, values(q), work, path, derivative)
+    return Rule(x, w, u, u_weights, values(q), work, path, derivative)
+
+
+def _unit(n: int) -> tuple[Array, Array]:
+    """Gauss' nodes and weights on [0, 1]."""
+    nodes, weights = leggauss(n)
+    return ((1.0 + nodes) / 2.0).astype(np.float64), (weights / 2.0).astype(np.float64)

@@ -67,6 +67,9 @@ class Result:
         Largest contact pressure, in the middle of the widest contact [Pa].
     accuracy
         The method and the bound of its relative error.
+    model_error
+        Largest share of the indentation [1] that the edge's model may be off by, measured
+        against a three-dimensional plate; beside the bound of `accuracy`, not in it.
     warnings
         What to know about the result.
     scene
@@ -83,6 +86,7 @@ class Result:
     max_contact_radius: float
     max_pressure: float
     accuracy: Accuracy
+    model_error: float
     warnings: tuple[str, ...]
     scene: Scene
     gate: Gate = field(repr=False)
@@ -147,10 +151,21 @@ class Result:
         numbers = {name: getattr(self, name) for name in UNITS}
         return numbers | {
             "accuracy": self.accuracy.to_json(),
+            "model_error": self.model_error,
             "effects": [row.to_json() for row in self.gate.rows],
             "warnings": list(self.warnings),
             "scene": self.scene.to_json(),
         }
+
+    @property
+    def model_note(self) -> str:
+        """The model error in a sentence; empty if there is none."""
+        if not self.model_error:
+            return ""
+        return (
+            f"beside this bound: the model of the {self.model.edge} edge is off by up to "
+            f"{100 * self.model_error:.2g} % of the indentation (measured in three dimensions)"
+        )
 
     def rows(self) -> list[tuple[str, str, str]]:
         """Quantity, value and unit, to be read by people."""
@@ -165,7 +180,7 @@ class Result:
             f"<tr><td>{name}</td><td style='text-align:right'>{value}</td><td>{unit}</td></tr>"
             for name, value, unit in self.rows()
         )
-        notes = f"<p>{escape(str(self.accuracy))}</p>"
+        notes = f"<p>{escape(str(self.accuracy))}</p><p>{escape(self.model_note)}</p>"
         notes += "".join(f"<p><b>Warning:</b> {escape(text)}</p>" for text in self.warnings)
         return f"<table>{''.join(cells)}</table>{notes}{self.gate.to_html()}"
 

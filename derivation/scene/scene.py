@@ -177,6 +177,7 @@ class Effects(Table):
     bending: Wanted = Field("auto", description="the plate's deflection", examples=[True])
     finite_thickness: Wanted = Field("auto", description="shear, compression", examples=[True])
     side_wall: Wanted = Field("auto", description="the plate's finite radius", examples=[True])
+    edge: Wanted = Field("auto", description="the plate's support", examples=[True])
     gravity: Wanted = Field("auto", description="weight during contact", examples=[False])
 
 

@@ -21,6 +21,7 @@ and from the contact law to the motion:
 16 impact           energy integral (13), contact time, linearisation (15) to (18)
 17 sensitivity      slopes of the law; what every parameter does to an impact
 18 substitution     how far an impact moves if its law is replaced by a simpler one
+19 edge             simply supported or clamped in the place of the paper's soft hinge
 21 curvature        a sphere instead of a paraboloid
 22 effects          how much each effect can change the law
 23 plate motion     when the plate's own motion matters: Zener's number, periods
@@ -33,6 +34,8 @@ from derivation.theory.contact_law import contact_law
 from derivation.theory.contact_split import contact_split, reduced_split
 from derivation.theory.curvature import curvature
 from derivation.theory.divergence import divergence
+from derivation.theory.edge import edge
+from derivation.theory.edge_sums import edge_sums
 from derivation.theory.effects import effects
 from derivation.theory.equilibrium import equilibrium
 from derivation.theory.face_conditions import omegas, scaled_omegas
@@ -75,6 +78,7 @@ MOTION_LINKS: tuple[Link, ...] = (
     ("impact", impact),
     ("sensitivity", sensitivity),
     ("substitution", substitution),
+    ("edge", lambda: (*edge(), *edge_sums())),
     ("curvature", curvature),
     ("effects", effects),
     ("plate motion", plate_motion),

@@ -5,6 +5,7 @@ Read `effect` first: what all of them answer. The order below is that of the eff
 
 from derivation.scene.effects.bending import Bending
 from derivation.scene.effects.curvature import Curvature
+from derivation.scene.effects.edge import Edge
 from derivation.scene.effects.effect import Effect
 from derivation.scene.effects.finite_thickness import FiniteThickness
 from derivation.scene.effects.gravity import Gravity
@@ -19,6 +20,7 @@ EFFECTS: tuple[Effect, ...] = (
     Bending(),
     FiniteThickness(),
     SideWall(),
+    Edge(),
     Gravity(),
 )
 """Every effect there is, in the order of the effects table."""

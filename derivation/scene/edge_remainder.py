@@ -1,0 +1,69 @@
+"""What the edge's model leaves out: measured against a three-dimensional elastic plate.
+
+The table holds the share of the indentation by h/b, Poisson's ratio and a/b. Between its
+points the largest of the neighbours counts; it is a model error, and stands beside the bound
+of the computation, never in it.
+"""
+
+import json
+from functools import cache
+from itertools import product
+from typing import Any
+
+from derivation.files import measurements
+from derivation.scene.effects.edge import SUPPORTED
+from derivation.scene.model import Model
+from derivation.scene.scene import SceneError
+
+LARGEST = 0.01
+"""Share of the indentation above which the model is refused."""
+_KEYS = ("h_over_b", "nu", "a_over_b")
+
+
+@cache
+def _table() -> dict[tuple[Any, ...], float]:
+    rows = json.loads((measurements() / "edge_remainder.json").read_text())["rows"]
+    return {
+        (row["support"], *(row[key] for key in _KEYS)): abs(row["share_of_indentation"])
+        for row in rows
+    }
+
+
+def edge_remainder(model: Model, a: float) -> float:
+    """Largest share of the indentation that the edge's model may be off by at a radius [m].
+
+    Thinner plates than the table's, and smaller contacts, count as its first; Poisson's ratio
+    as the nearest.
+
+    Raises
+    ------
+    SceneError
+        If it exceeds 1 %, or the plate or the contact is beyond the table.
+    """
+    kind = "supported" if model.edge == SUPPORTED else "clamped"
+    nu = model.lam / (2.0 * (model.lam + model.mu))
+    place = {"h_over_b": model.eta, "nu": nu, "a_over_b": a / model.b}
+    axes = [sorted({key[1 + i] for key in _table()}) for i in range(len(_KEYS))]
+    for name, axis in zip(_KEYS, axes, strict=True):
+        if name != "nu" and place[name] > axis[-1]:
+            raise SceneError(
+                f"plate.edge: expected {name.replace('_over_', '/')} up to {axis[-1]} for a "
+                f"{model.edge} edge, where its model is measured, got {place[name]:.4g}; "
+                'write edge = "soft-hinge", or effects.edge = false'
+            )
+    around = [_neighbours(axis, place[name]) for name, axis in zip(_KEYS, axes, strict=True)]
+    found = max(_table()[(kind, *point)] for point in product(*around))
+    if found > LARGEST:
+        raise SceneError(
+            f"plate.edge: expected a {model.edge} edge whose model is right to 1 % of the "
+            f"indentation, got {100 * found:.2g} % at h/b = {model.eta:.4g}, nu = {nu:.3g}, "
+            f"a/b = {a / model.b:.4g}; give a larger plate, or effects.edge = false"
+        )
+    return found
+
+
+def _neighbours(axis: list[float], value: float) -> list[float]:
+    """The one or two points of an axis that a value lies between."""
+    below = [x for x in axis if x <= value] or axis[:1]
+    above = [x for x in axis if x >= value] or axis[-1:]
+    return sorted({below[-1], above[0]})

@@ -1,0 +1,81 @@
+"""The measured remainder of the edge: convergence, linearity, and what the record says."""
+
+import json
+
+import numpy as np
+import pytest
+
+from derivation.files import measurements
+from derivation.measure.edge_remainder import (
+    MESHES,
+    POISSON,
+    SIZES,
+    SUPPORTS,
+    WIDTHS,
+    Case,
+    Field,
+    Mesh,
+    added,
+    heights,
+    lobatto,
+    radii,
+    remainders,
+    rim_displacement,
+)
+
+pytest.importorskip("scipy")
+COARSE = Mesh(degree=6, layers=4)
+
+
+def test_lobatto_is_exact_for_polynomials() -> None:
+    nodes, weights, slope = lobatto(7)
+    for power in range(14):
+        assert abs(weights @ nodes**power - (1 + (-1) ** power) / (power + 1)) < 1e-14
+    np.testing.assert_allclose(slope @ nodes**5, 5 * nodes**4, atol=1e-13)
+
+
+@pytest.mark.parametrize("h", [0.02, 0.3, 1.0, 2.0])
+def test_meshes_fill_the_plate(h: float) -> None:
+    r, z = radii(h, 5), heights(h, 5)
+    assert (r[0], r[-1], z[0], z[-1]) == (0.0, 1.0, -h, h)
+    assert (np.diff(r) > 0).all()
+    assert (np.diff(z) > 0).all()
+    np.testing.assert_allclose(z, -z[::-1], atol=1e-15)
+
+
+def test_modes_at_the_rim_are_many_enough() -> None:
+    """Their sum at both faces and within, against a quarter of the modes."""
+    case, z = Case("supported", 0.2, 0.3), np.array([-0.2, 0.0, 0.1, 0.2])
+    values = rim_displacement(case, 0.1, z)
+    fewer = rim_displacement(case, 0.1, z, modes=1500)
+    assert np.abs(values - fewer).max() < 1e-6 * np.abs(values).max()
+
+
+@pytest.mark.parametrize("support", SUPPORTS)
+def test_states_and_remainder_are_the_whole_difference(support: str) -> None:
+    """Elasticity alone, without the states, gives what states and remainder give together."""
+    case = Case(support, 0.2, 0.3)
+    whole = Field(case, COARSE).depths(WIDTHS, states=False)
+    rest = Field(case, COARSE).depths(WIDTHS)
+    for a, one, other in zip(WIDTHS, whole, rest, strict=True):
+        assert abs(one / (other + added(case, a)[0]) - 1) < 1e-8
+
+
+def test_remainder_converges() -> None:
+    case = Case("supported", 0.3, 0.3)
+    coarse, fine = remainders(case, COARSE), remainders(case, Mesh(degree=8, layers=4))
+    assert np.abs(np.array(coarse) / fine - 1).max() < 1e-4
+
+
+def test_record() -> None:
+    """Every case is there, converged, and small where a plate is a plate."""
+    record = json.loads((measurements() / "edge_remainder.json").read_text())
+    rows = record["rows"]
+    assert len(rows) == len(SUPPORTS) * len(SIZES) * len(POISSON) * len(WIDTHS)
+    assert [mesh["degree"] for mesh in record["meshes"]] == [mesh.degree for mesh in MESHES]
+    for row in rows:
+        share = abs(row["share_of_indentation"])
+        assert abs(row["lower_degree"]) + abs(row["fewer_layers"]) < 0.01 * share + 1e-7
+        assert share < 0.03
+        if row["support"] == "supported" and row["nu"] >= 0 and row["a_over_b"] <= 0.1:
+            assert share < (1e-3 if row["h_over_b"] <= 0.5 else 3e-3)

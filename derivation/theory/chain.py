@@ -21,6 +21,7 @@ and from the contact law to the motion:
 16 impact           energy integral (13), contact time, linearisation (15) to (18)
 17 sensitivity      slopes of the law; what every parameter does to an impact
 18 substitution     how far an impact moves if its law is replaced by a simpler one
+20 true pressure    the pressure solved for: integral equation, and what assuming Hertz' changes
 """
 
 from collections.abc import Callable, Iterator
@@ -45,6 +46,7 @@ from derivation.theory.stresses import modal_stresses
 from derivation.theory.substitution import substitution
 from derivation.theory.thin_plate import thin_plate
 from derivation.theory.thin_remainder import thin_remainder
+from derivation.theory.true_pressure import true_pressure
 
 Link = tuple[str, Callable[[], tuple[Formula, ...]]]
 
@@ -69,6 +71,7 @@ MOTION_LINKS: tuple[Link, ...] = (
     ("impact", impact),
     ("sensitivity", sensitivity),
     ("substitution", substitution),
+    ("true pressure", true_pressure),
 )
 """What follows from the contact law. Apart: these formulas hold integrals and constants too."""
 

@@ -89,7 +89,9 @@ def solve(case: Case, digits: int = 25) -> State:
     with flint.ctx.workprec(bits):
         found = [_wider(x, y, digits) for x, y in zip(coarse[:5], fine[:5], strict=True)]
         pressures = zip(coarse.pressures, fine.pressures, strict=True)
-        return State(*found, tuple(_wider(x, y, digits) for x, y in pressures))
+        force, depth, stiffness, slope, centre = found
+        beside = tuple(_wider(x, y, digits) for x, y in pressures)
+        return State(force, depth, stiffness, slope, centre, beside)
 
 
 def _wider(coarse: arb, fine: arb, digits: int) -> arb:
@@ -235,13 +237,11 @@ def _solve(case: Case, count: int, fineness: Fraction, bits: int) -> State:
             return gap.sqrt() * _dot(values, w) / arb.pi()
 
         flat = _dot(psi, w)
-        # From the law without a constant kernel, as in `generated`, none being split off here.
-        rise = bend(arb(1)) / ends[0]
         return State(
             2 * _dot(chi, w),
             depth,
             2 * flat,
-            rise,
+            bend(arb(1)) / ends[0],
             pressure(Fraction(0)),
             tuple(pressure(place) for place in case.places),
         )

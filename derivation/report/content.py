@@ -54,6 +54,11 @@ ABOUT = {
     "substitution": "If the law's slope lies within known factors of a simpler one's, so do an "
     "impact's results. It lies between S_1 = 1 + 3 c_1 A/2 and S_1 - K_3 A^3 for every a < b, so "
     "that Hertz' law, and its first correction, know their own error.",
+    "true pressure": "Not assumed but solved for: the pressure is Abel's transform of chi(t), and "
+    "chi(t) + int N(t, s) chi(s) ds = (E*/pi) (delta - f(t)) on (0, a), where f belongs to the "
+    "sphere's profile and N(t, s) = [k((t + s)/b) + k((t - s)/b)]/(2b). The kernel k is the slope "
+    "by a/b of S = (R/2a) d delta/da of Hertz' pressure; chi(a) = 0 fixes delta. Last, a bound "
+    "of what assuming Hertz' pressure changes at given force, a being Hertz' radius of it.",
 }
 
 

@@ -289,6 +289,9 @@ def test_a_support_adds_its_compliance() -> None:
     assert soft.force == firm.force
     assert abs(soft.indentation - firm.indentation - 1e-10 * firm.force) < 1e-15 * soft.indentation
     assert abs(1 / soft.stiffness - 1 / firm.stiffness - 1e-10) < 1e-24
+    stiffer = contact(of, 1.3, R, E, compliance=-1e-12)
+    assert stiffer.stiffness > firm.stiffness
+    assert stiffer.indentation < firm.indentation
 
 
 def test_the_contact_opens_at_three_thicknesses() -> None:
@@ -331,6 +334,8 @@ def test_domain() -> None:
     assert np.isnan(contact(of, 0.5, 0.4, E).force)
     assert np.isnan(contact(of, 0.5, R, -E).force)
     assert np.isnan(contact(of, 0.5, R, E, 0.9 * E).force)
+    assert np.isnan(contact(of, 0.5, R, E, compliance=np.nan).force)
+    assert contact(of, 1e-200, R, E).mean_pressure > 0
     assert np.isnan(contact(plate(1.0, 100.0), 1.001 * WIDEST, R, E).force)
     for h, b in ((0.0, 1.0), (1.0, -1.0), (1e-95, 1.0), (np.nan, 1.0)):
         assert np.isnan(contact(plate(h, b), 1e-3, R, E).force)

@@ -309,34 +309,8 @@ def _truncated(expression: sp.Expr) -> sp.Expr:
     return sp.Add(*(expanded.coeff(a_ratio, n) * a_ratio**n for n in range(ORDER + 1)))
 
 
-def _sphere() -> tuple[Formula, Formula]:
-    proof = profiles()
-    depth, force = (value.subs(_MODULUS, reduced_modulus()) for value in sneddon())
-    return (
-        Formula(
-            "delta_sphere",
-            r"\delta_\infty",
-            "indentation of the half-space by an exact sphere",
-            depth,
-            "m",
-            "",
-            (),
-            proof,
-        ),
-        Formula(
-            "P_sphere",
-            r"P_\infty",
-            "force of an exact sphere on the half-space",
-            force,
-            "N",
-            "",
-            ("P",),
-            proof,
-        ),
-    )
-
-
 def true_pressure() -> tuple[Formula, ...]:
     """The formulas of this link, what they rest on proved with them."""
+    profiles()
     motion_of_the_edge()
-    return (*kernel(), *_sphere(), *at_given_force(), *pressure_bound())
+    return (*kernel(), *at_given_force(), *pressure_bound())

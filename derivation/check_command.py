@@ -38,6 +38,10 @@ def check(
         int | None,
         typer.Option("--bounds", metavar="N", min=1, help="Hold stated bounds to N scenes."),
     ] = None,
+    effects: Annotated[
+        int | None,
+        typer.Option("--effects", metavar="N", min=1, help="Hold the gate to N random scenes."),
+    ] = None,
     propose: Annotated[
         bool, typer.Option("--propose", help="Print tighter error budgets; write nothing.")
     ] = False,
@@ -62,12 +66,13 @@ def check(
     from derivation.measure.record import COLUMNS, as_data, cells, passed, worst
 
     if search is not None:
-        if contact or speed or hard or bounds or record or propose:
+        if contact or speed or hard or bounds or effects or record or propose:
             raise ValueError("--search stands alone: expected no other of check's options")
         raise typer.Exit(_check_search(search, seed, kernel or [], out, json))
-    if contact + speed + hard + bool(bounds) > 1:
+    if contact + speed + hard + bool(bounds) + bool(effects) > 1:
         raise ValueError(
-            "expected one of --contact, --speed, --hard and --bounds: run them one after the other"
+            "expected one of --contact, --speed, --hard, --bounds and --effects: "
+            "run them one after the other"
         )
     if kernel or out:
         raise ValueError("--kernel and --out belong to --search: add --search 60s")
@@ -79,6 +84,8 @@ def check(
         raise typer.Exit(_check_hard(record, json))
     if bounds:
         raise typer.Exit(_check_bounds(bounds, record, json))
+    if effects:
+        raise typer.Exit(_check_effects(effects, record, json))
     with counted("check") as tell:
         rows = pipeline.check(digits, record, tell)
     if json != "-":
@@ -148,6 +155,25 @@ def _check_bounds(count: int, record: bool, json: str | None) -> int:
         ]
         heads = ("method", "#runs", "#worst error/bound", "#error", "#bound", "of")
         table(f"Stated bounds in {count} scenes", heads, cells)
+    if json:
+        put_json([asdict(row) for row in rows], json)
+    return 0 if all(row.kept for row in rows) else 1
+
+
+def _check_effects(count: int, record: bool, json: str | None) -> int:
+    """Hold the gate to random scenes; returns the exit status."""
+    from derivation.effects_check import check_effects
+
+    with counted("check") as tell:
+        rows = check_effects(count, record, tell)
+    if json != "-":
+        cells = [
+            (f"{r.rtol:g}", r.scenes, f"{r.ratio:.3f}", f"{r.tightest:.3f}", r.quantity,
+             f"{r.included:.2f}", f"{r.applicable:.2f}")
+            for r in rows
+        ]  # fmt: skip
+        heads = ("#rtol", "#scenes", "#worst error/rtol", "#error/bound", "of")
+        table(f"Effects in {count} scenes", (*heads, "#effects in", "#that apply"), cells)
     if json:
         put_json([asdict(row) for row in rows], json)
     return 0 if all(row.kept for row in rows) else 1

@@ -284,6 +284,7 @@ def reference(
 
 
 app.command()(scene_commands.simulate)
+app.command()(scene_commands.explain)
 app.command()(scene_commands.indent)
 
 

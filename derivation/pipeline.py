@@ -40,6 +40,7 @@ from derivation.measure.search_targets import targets
 from derivation.produce import folder_for, write_files
 from derivation.reference import many_costs, many_digits
 from derivation.report import pdf as compiler
+from derivation.report import readme
 from derivation.report.accuracy_figures import accuracy_figures
 from derivation.report.content import tex
 from derivation.report.figures import figures, motion_context
@@ -52,7 +53,7 @@ from derivation.scene.result import Result
 from derivation.scene.scene import load
 from generated import contact_law, impact
 
-REPORTS = ROOT / "reports"
+REPORTS, README = ROOT / "reports", ROOT / "README.md"
 KEPT_EVERY = 20
 """Truths of random scenes after which they are written."""
 MEASURED = measurements() / "check.json"
@@ -387,6 +388,8 @@ def paper_case() -> Model:
 def report(out: Path | None = None, pdf: bool = True) -> tuple[Path, ...]:
     """Write the report and, if asked, its PDF; returns the files written.
 
+    The checkout's own report takes the README's measured numbers along.
+
     Raises
     ------
     OSError
@@ -398,6 +401,8 @@ def report(out: Path | None = None, pdf: bool = True) -> tuple[Path, ...]:
     drawn = figures(paper_case()) | accuracy_figures(measured_accuracy())
     for name, figure in drawn.items():
         write_file(folder / "figures" / name, figure)
+    if out is None:
+        write_file(README, readme.renewed(README.read_text(), measured_accuracy()))
     written = write_files(folder, report_files())
     return (*written, *(compiler.compile_pdf(path) for path in written if pdf))
 

@@ -12,41 +12,30 @@ from itertools import cycle
 from pathlib import Path
 from typing import Any
 
-import flint
 import numpy as np
 import pytest
 
 from derivation import pipeline
 from derivation.cli import main
 from derivation.files import ROOT
-from derivation.measure.accuracy import clock, law_series, law_sums, panels, run, scaling, tools
-from derivation.measure.accuracy.arithmetic import DOUBLE, LONG, SINGLE, Balls, Mpmath, as_ball
+from derivation.measure.accuracy import (
+    clock,
+    law_series,
+    run,
+    scaling,
+    tools,
+)
 from derivation.measure.accuracy.catalogue import methods
 from derivation.measure.accuracy.clock import Candidate, Effort, Timing
-from derivation.measure.accuracy.coefficients import series
-from derivation.measure.accuracy.errors import Errors, digits, judge
-from derivation.measure.accuracy.headline import zeros
-from derivation.measure.accuracy.interface import PAPER, REGIMES, Method
-from derivation.measure.accuracy.levin import u_transform
+from derivation.measure.accuracy.errors import Errors
+from derivation.measure.accuracy.interface import PAPER, REGIMES
 from derivation.measure.accuracy.pareto import winners
-from derivation.measure.accuracy.problems import Problem
 from derivation.measure.accuracy.rows import Row
-from derivation.measure.accuracy.stepping import scalar_force
-from derivation.reference import contact_balls
+from derivation.report import readme
 from derivation.report.accuracy import accuracy_context, duration
 from derivation.report.accuracy_figures import as_pdf, pareto_front, work_precision
 from derivation.report.accuracy_figures import scaling as scaling_figure
-from generated.contact_law import force, indentation
-
-RADII = np.array([0.002, 0.01, 0.03])
-
-
-@pytest.fixture(scope="module")
-def law() -> Problem:
-    """The paper's law at three radii."""
-    truths = [contact_balls.indentation(float(a), PAPER.R, PAPER.h, PAPER.b, 40) for a in RADII]
-    return Problem("law", PAPER, RADII, tuple(truths), 40, np.full(50, 0.01))
-
+from derivation.scene import choice
 
 # --- interface
 
@@ -71,94 +60,6 @@ def test_names_are_unique_and_unknown_ones_are_refused() -> None:
     with pytest.raises(ValueError, match="Levin u"):
         methods(["Levin"])
     assert {m.family for m in methods(["Levin u"])} == {"Levin u"}
-
-
-# --- arithmetics and methods
-
-
-@pytest.mark.parametrize(("ar", "right"), [(SINGLE, 6), (DOUBLE, 14.5), (LONG, 14.5)])
-def test_floats_agree_with_balls(ar, right: float) -> None:
-    y = np.array([1e-6, 0.3, 1.5, 1.7, 5.0], dtype=ar.dtype)
-    exact = Balls(40)
-    for name in ("shape", "wall_shape", "excess"):
-        values = getattr(ar, name)(y)
-        with exact.context():
-            balls = getattr(exact, name)(np.array([as_ball(x) for x in y], dtype=object))
-            assert min(map(digits, values, balls, [40] * len(y))) > right, name
-
-
-def test_mpmath_agrees_with_balls() -> None:
-    ar, exact, y = Mpmath(30), Balls(60), [1e-3, 0.5, 3.0]
-    with ar.context(), exact.context():
-        for name in ("shape", "wall_shape", "excess"):
-            values = getattr(ar, name)(ar.array(y))
-            balls = getattr(exact, name)(exact.array(y))
-            assert min(map(digits, values, balls, [60] * 3)) > 29, name
-
-
-@pytest.mark.parametrize("h", [0.1, 1e-2])
-def test_coefficients_are_the_oracles(h: float) -> None:
-    found = series(h, 1.0, 3, 20)
-    for k in (0, 2):
-        true = contact_balls.coefficient(2 * k + 1, h, 1.0, 20)
-        assert digits(found[k], true, 20) > 18
-
-
-def test_levins_transformation_sums_an_alternating_series() -> None:
-    n = np.arange(1, 13.0)
-    terms = (-1) ** (n + 1) / n
-    found = u_transform(np.cumsum(terms) + 0j, n * terms + 0j, n)
-    assert found.real == pytest.approx(math.log(2), rel=1e-10)
-
-
-def test_far_zeros_are_those_of_the_generated_code() -> None:
-    from generated.bessel import bessel_j0_zeros, bessel_j1_at_j0_zeros
-
-    j, square = zeros(65_000, 66_000)
-    np.testing.assert_allclose(j, bessel_j0_zeros(66_000)[65_000:], rtol=4e-16)
-    np.testing.assert_allclose(square, bessel_j1_at_j0_zeros(66_000)[65_000:] ** 2, rtol=1e-15)
-
-
-@pytest.mark.parametrize("regime", [REGIMES[1], REGIMES[4]], ids=lambda r: r.name)
-def test_the_scalar_force_is_the_generated_one(regime) -> None:
-    a = np.array([0.1, 0.6, 1.0]) * regime.h * min(regime.high, 4.0)
-    depths = indentation(a, regime.R, regime.h, regime.b)
-    r, scalar = regime, scalar_force(regime)
-    expected = force(depths, r.R, r.h, r.b, r.lam, r.mu)
-    np.testing.assert_allclose([scalar(float(d)) for d in depths], expected, rtol=1e-13)
-
-
-# --- errors
-
-
-def test_error_split_adds_up(law: Problem) -> None:
-    for method in (law_sums.split(16, 2), law_series.small_contacts(4), law_sums.direct(100)):
-        found = judge(method, law, lambda: 0.0).errors
-        assert found.truncation is not None
-        assert found.rounding is not None
-        parts = 10**-found.truncation + 10**-found.rounding
-        assert 10**-found.total <= parts * 1.01
-        assert found.rounding > 13
-    assert judge(law_series.small_contacts(1), law, lambda: 0.0).errors.total == pytest.approx(
-        judge(law_series.small_contacts(1), law, lambda: 0.0).errors.truncation, abs=1e-3
-    )
-
-
-def test_digits_of_no_number_and_of_exact_ones() -> None:
-    one = flint.arb(1)
-    assert digits(math.nan, one, 30) == -math.inf
-    assert digits(1.0, one, 30) == 30
-    assert digits(1.001, one, 30) == pytest.approx(3, abs=0.01)
-
-
-def test_a_method_without_digits_fails_with_a_reason(law: Problem) -> None:
-    half = Method("law", "half", "", lambda regime: lambda a: 0.1 * a)  # noqa: ARG005
-    nothing = Method("law", "nothing", "", lambda regime: lambda a: a * math.nan)  # noqa: ARG005
-    refused = replace(half, fails=lambda regime: "dear")  # noqa: ARG005
-    reasons = [panels.judged_row(method, law)[0].fails for method in (half, nothing, refused)]
-    assert reasons[0] is not None
-    assert "no digit" in reasons[0]
-    assert reasons[1:] == ["gives no number in part of the regime", "dear"]
 
 
 # --- clock
@@ -214,6 +115,18 @@ def test_no_time_is_below_the_least_there_was(monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.setattr(clock, "reference", lambda: Candidate(disturbed, array, 1))
     found = clock.session([Candidate(fake.work(2.0), array, 1)], Effort(8, 1), fake)
     assert found.timings[0].seconds == 2.0
+
+
+def test_spread_is_upper_over_lower_quartile(monkeypatch: pytest.MonkeyPatch) -> None:
+    fake, array, load = FakeClock(), np.zeros(1), cycle([1.0, 1.0, 3.0, 3.0])
+
+    def uneven(array: Any) -> None:  # noqa: ARG001
+        fake.now += next(load)
+
+    monkeypatch.setattr(clock, "reference", lambda: Candidate(fake.work(1.0), array, 1))
+    found = clock.session([Candidate(uneven, array, 1)], Effort(8, 1), fake)
+    assert found.timings[0].seconds == 1.0
+    assert found.timings[0].spread == 3.0
 
 
 def test_rounds_are_shuffled_and_repeat(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -292,6 +205,41 @@ def test_a_line_and_where_it_is_left() -> None:
     assert scaling.line(x, x)[1] is None
 
 
+def test_scenes_grow_by_each_of_simulates_methods(monkeypatch: pytest.MonkeyPatch) -> None:
+    def brief(what: str, method: str, x: Any, calls: Any, why: str) -> tuple[str, Any]:  # noqa: ARG001
+        assert len(x) == len(calls)
+        return method, calls[1]()
+
+    monkeypatch.setattr(scaling, "growth", brief)
+    found = dict(scaling.scenes(quick=True))
+    assert list(found) == list(choice.METHODS)
+    true = found["full"].contact_time
+    np.testing.assert_allclose(found["coarse"].contact_time, true, rtol=1e-8)
+    for name in ("hertz", "leading"):
+        known = [(x, t) for x, t in zip(found[name], true, strict=True) if x is not None]
+        assert known
+        assert all(abs(x.contact_time / t - 1) <= x.law + 1e-12 for x, t in known)
+        assert all((x.quadrature > 0) == (name == "leading") for x, _ in known)
+
+
+def test_digits_grow_to_a_thousand(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked, method = [], law_series.small_contacts(2)
+
+    def noted(terms: int, ar: Any) -> Any:
+        asked.append(ar.digits)
+        # So many terms give so many digits at the point that is timed.
+        assert terms * 2 * math.log10(4 / 0.3) > ar.digits
+        return method
+
+    monkeypatch.setattr(law_series, "small_contacts", noted)
+    monkeypatch.setattr(scaling, "growth", lambda *arguments: arguments)
+    scaling.digits(quick=False)
+    assert max(asked) == 1000
+    asked.clear()
+    scaling.digits(quick=True)
+    assert max(asked) == 100
+
+
 def test_memory_of_a_call_is_traced() -> None:
     assert 8e6 <= scaling.peak(lambda: np.ones(1_000_000)) < 9e6
 
@@ -361,6 +309,39 @@ def test_the_section_names_every_failure(committed: dict[str, Any]) -> None:
     assert duration(0.0012) == r"1.2\,ms"
 
 
+def test_the_readme_shows_what_was_measured(committed: dict[str, Any]) -> None:
+    text = pipeline.README.read_text()
+    assert readme.renewed(text, committed) == text, "to mend: platecontact report"
+
+
+def test_the_readmes_block_follows_the_data_and_nothing_else(committed: dict[str, Any]) -> None:
+    head = {"digits": 15.52, "called": 4e-9, "reached": [
+        {"digits": 6, "modes": 10, "seconds": 1.0}, {"digits": 12, "modes": 2000, "seconds": 0.2},
+    ]}  # fmt: skip
+    won = {
+        "task": "law", "regime": "paper", "kind": "vector", "digits": 9, "family": "split",
+        "setting": "8 nodes", "ties": ["Levin u"], "seconds": 2.5e-6,
+    }  # fmt: skip
+    others = [won | {"kind": "single"}, won | {"digits": 30}, won | {"regime": "thin"}]
+    grown = {"what": "scenes", "method": "hertz", "x": [1, 10_000], "seconds": [5e-6, 0.03]}
+    data = committed | {"headline": head, "pareto": [won, *others], "scaling": [grown]}
+    text = f"above\n{readme.BEGIN}\nold numbers\n{readme.END}\nbelow"
+    found = readme.renewed(text, data)
+    prose = " ".join(found.split())
+    assert "15.5 digits in 4 ns a point" in prose
+    assert "2,000 modes and 200 ms for 12 digits, 5e+07 times as long" in prose
+    assert found.count("| 9 | split, 8 nodes (or Levin u) | 2.5 us |") == 1
+    assert "| 30 |" not in found
+    assert "| hertz | 5 us | 3 us | 10,000 |" in found
+    assert found.startswith("above\n")
+    assert found.endswith("\nbelow")
+    assert "old" not in found
+    assert readme.renewed(found, data) == found
+    for bad in ("no markers", text + text, text.replace(readme.END, "")):
+        with pytest.raises(ValueError, match="once each"):
+            readme.renewed(bad, data)
+
+
 # --- commands
 
 
@@ -389,6 +370,19 @@ def test_command_writes_data_of_the_methods_named(
     assert [r["name"] for r in data["regimes"]] == ["scene"]
     assert data["regimes"][0]["low"] < 0.1342 < data["regimes"][0]["high"]
     assert "direct sum" in capsys.readouterr().out
+
+
+@pytest.mark.usefixtures("brief")
+def test_a_contact_too_small_for_a_direct_sum_is_measured_all_the_same(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    paper = ROOT / "derivation" / "scene" / "examples" / "paper.toml"
+    slow, out = tmp_path / "slow.toml", tmp_path / "accuracy.json"
+    slow.write_text(paper.read_text().replace("speed = 1.0", "speed = 1e-9"))
+    arguments = ["--quick", "--method", "table of cubics", "--scene", str(slow)]
+    assert main(["accuracy", *arguments, "--out", str(out)]) == 0
+    assert json.loads(out.read_text())["headline"]["reached"] == []
+    assert "direct sum of 524288 modes to fewer than 6 digits" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(

@@ -221,6 +221,32 @@ def test_oracles_that_differ_are_status_1(
     assert "asked for 15 digits, repeats 12" in capsys.readouterr().out
 
 
+def test_digits_shared_are_no_more_than_the_ball_has() -> None:
+    assert 9 < many_digits.shared(arb(3, 1e-10), mpf(3)) < 10.5
+    assert many_digits.shared(arb(3), mpf(3)) == math.inf
+
+
+@pytest.mark.parametrize("name", ["indentation", "stiffness", "impact"])
+def test_every_result_is_held_to_the_second_oracle(
+    name: str, monkeypatch: pytest.MonkeyPatch, capsys: Captured
+) -> None:
+    """One of its routes is off in the thirteenth digit: so is what it gives, and no more."""
+    right = getattr(contact_routes, name)
+
+    def off(*arguments: Any) -> Any:
+        found = right(*arguments)
+        with mp.workdps(30):
+            factor = 1 + mpf(10) ** -12
+            return tuple(x * factor for x in found) if name == "impact" else found * factor
+
+    monkeypatch.setattr(contact_routes, name, off)
+    assert main(["reference", str(PAPER), "--digits", "15"]) == 1
+    said = capsys.readouterr().out
+    wrong = 4 if name == "impact" else 3
+    assert said.count("asked for 15 digits, repeats 1") == 10
+    assert said.count("asked for 15 digits, repeats 15") == 10 - wrong
+
+
 def test_an_oracle_out_of_reach_is_a_message(
     monkeypatch: pytest.MonkeyPatch, capsys: Captured
 ) -> None:

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from derivation import pipeline
-from derivation.report.latex import equation, escape, typeset_width
+from derivation.report.latex import LINE_WIDTH, equation, escape, prose, typeset_width
 from derivation.report.pdf import TexError, compile_pdf
 from derivation.theory.chain import LINKS
 
@@ -28,6 +28,30 @@ def test_committed_tex_is_fresh() -> None:
 )
 def test_escape(plain: str, latex: str) -> None:
     assert escape(plain) == latex
+
+
+@pytest.mark.parametrize(
+    ("plain", "latex"),
+    [
+        ("to 6e300.", r"to $6\cdot10^{300}$."),
+        ("h = b = 1e+20 a", "$h$ = $b$ = $10^{20}$ a"),
+        ("1.5e-07 off", r"$1.5\cdot10^{-7}$ off"),
+        ("the root of c1, J0 and v0", "the root of $c_{1}$, $J_{0}$ and $v_{0}$"),
+        ("x1e5, 0x1p+3 and e^(-x)", r"x1e5, 0x1p+3 and $e^{-x}$"),
+    ],
+)
+def test_numbers_and_symbols_in_words(plain: str, latex: str) -> None:
+    assert prose(plain) == latex
+
+
+def test_what_would_be_illegible_on_a_line_stands_in_parts(formulas) -> None:
+    """No line has to be shrunk to less than half."""
+    for name in ("time_by_radius", "time_by_thickness"):
+        text = equation("", formulas[name].expression)
+        assert text.startswith(r"\begin{aligned}")
+        lines = text.split(r"\\")
+        assert [line.split("=")[0].strip() for line in lines[1:]] == ["X_1", "X_2", "X_3", "X_4"]
+        assert all(typeset_width(line) < 2 * LINE_WIDTH for line in lines)
 
 
 def test_long_sums_are_broken_and_short_ones_are_not(formulas) -> None:

@@ -268,22 +268,53 @@ QUOTIENTS = (
 )
 
 
+def run(formula: sp.Expr, at: dict[sp.Symbol, float]) -> float:
+    """A formula's form, as it is printed."""
+    steps, value = automatic(formula, blocks())
+    names = vars(importlib.import_module("generated.blocks")) | {"times": ranges.times, "np": np}
+    known = {str(symbol): np.asarray(number) for symbol, number in at.items()}
+    for step in steps:
+        known[str(step.symbol)] = eval(to_numpy(step.expression), names, known)
+    return float(eval(to_numpy(value), names, known))
+
+
 @pytest.mark.parametrize(("formula", "sign"), QUOTIENTS)
 def test_quotients_of_several_variables(formula: sp.Expr, sign: str) -> None:
     """Forms run as they are printed, against balls of the formula."""
     symbols = sorted(formula.free_symbols, key=str)
-    steps, value = automatic(formula, blocks())
+    _, value = automatic(formula, blocks())
     assert sign in to_numpy(value), to_numpy(value)
-    names = vars(importlib.import_module("generated.blocks")) | {"times": ranges.times, "np": np}
     for phi in (1e-70, 1e-9, 0.3, 0.9999, 1.0, 1.7, 3.4, 11.0, 300.0):
         at = {symbol: phi if symbol == PHI else 0.7 for symbol in symbols}
-        known = {str(symbol): np.asarray(number) for symbol, number in at.items()}
-        for step in steps:
-            known[str(step.symbol)] = eval(to_numpy(step.expression), names, known)
-        got = float(eval(to_numpy(value), names, known))
+        got = run(formula, at)
         true = evaluate(formula, at, 25)
         slack = sum(abs(evaluate(formula.diff(s), at, 5) * at[s] / true) / 2 for s in symbols)
         assert ulp_error(got, true) <= 6 + float(slack), phi
+
+
+def test_a_quotient_that_tends_to_1_is_rounded_but_once_far_out() -> None:
+    """1 and a small rest lose half a unit; two sums and their quotient would lose more."""
+    coth = sp.cosh(X) / sp.sinh(X)
+    for phi in np.linspace(2.5, 18.0, 200).tolist():
+        at = {PHI: phi, H: 1.0}
+        assert ulp_error(run(coth, at), evaluate(coth, at, 25)) <= 0.6, phi
+
+
+@pytest.mark.parametrize("end", [0, 1])
+@pytest.mark.parametrize(
+    ("formula", "limits"),
+    [
+        (sp.cosh(X) / sp.sinh(X), (math.inf, 1.0)),
+        (sp.sinh(X) / (sp.sinh(2 * X) + X), (1 / 3, 0.0)),
+        (sp.cosh(X) / (sp.sinh(X) ** 2 - X**2), (math.inf, 0.0)),
+    ],
+)
+def test_a_product_beyond_the_doubles_gives_the_limit(
+    formula: sp.Expr, limits: tuple[float, float], end: int
+) -> None:
+    size = (1e-200, 1e200)[end]
+    with np.errstate(all="ignore"):
+        assert run(formula, {PHI: size, H: size}) == pytest.approx(limits[end], rel=1e-15)
 
 
 def test_unknown_core_is_refused() -> None:

@@ -34,6 +34,7 @@ EXAMPLE = {
     "r": 0.002, "z": 0.004, "phi": 24.0, "h": 0.01, "T": 0.48, "b": 0.1, "R": 0.13, "a": 0.004,
     "lam": 0.36e9, "mu": 0.43e9, "P": 1000.0, "A_j": -1e6, "J1": 0.52, "x": 1.3, "n": 7.0,
     "k": 4.0, "delta": 1e-6, "m": 0.2, "v0": 1.5, "t": 1e-4, "eta": 0.1,
+    "a_over_R": 0.03, "a_ratio": 0.4, "alpha": 0.04, "rho": 2500.0,
 }  # fmt: skip
 Values = Mapping[str, Any]
 
@@ -104,7 +105,7 @@ def test_whole_numbers_are_numbers() -> None:
     whole = {
         "r": 1, "z": 1, "phi": 1, "h": 1, "T": 2, "b": 9, "R": 8, "a": 2, "lam": 3, "mu": 2,
         "P": 5, "A_j": -4, "J1": 1, "x": 3, "n": 7, "k": 4, "delta": 1, "m": 2, "v0": 1, "t": 1,
-        "eta": 1,
+        "eta": 1, "a_over_R": 0, "a_ratio": 2, "alpha": 0, "rho": 2500,
     }  # fmt: skip
     for name in POINTWISE:
         if name == "force_by_series":  # its radius is smaller
@@ -123,6 +124,9 @@ def shapes() -> list[dict[str, float]]:
     for i, values in enumerate(found):
         values["delta"] = float(law(*(values[key] for key in ("a", "R", "h", "b"))))
         values["eta"] = values["h"] / values["b"]
+        values["a_over_R"] = values["a"] / values["R"]
+        values["a_ratio"] = values["a"] / values["h"]
+        values["alpha"], values["rho"] = values["a"] / values["b"], 2500.0
         stiff = 16 / 3 * values["mu"] * (values["lam"] + values["mu"])
         stiff /= values["lam"] + 2 * values["mu"]
         values["P"] = stiff * values["a"] ** 3 / values["R"]

@@ -3,6 +3,7 @@
 import flint
 import numpy as np
 import pytest
+from scipy import integrate, special
 
 from derivation.formula.proof import SYMBOLIC
 from derivation.rewrite import simple_impact_tables as tables
@@ -25,6 +26,29 @@ def test_wall_rest_is_the_series_beyond_its_first_term() -> None:
         total += kappa_ball(n, 15) / factorial
     series = 4 * total / flint.arb.pi() ** 2
     assert abs(substitution.wall_rest_ball() - series) < 1e-11
+
+
+def test_generated_wall_bounds_are_the_integrals_rounded_up() -> None:
+    """Against plain quadrature: all powers of sinh y beyond the first, and beyond the third."""
+
+    def share(y: float, taken: float) -> float:
+        rising = special.k0e(y) / special.i0e(y) * np.exp(-2 * y) / y
+        return float(4 / np.pi**2 * (np.sinh(y) - taken) * rising)
+
+    rest = integrate.quad(lambda y: share(y, y), 1e-3, 60.0, epsabs=1e-13, limit=200)[0]
+    cubic = integrate.quad(lambda y: share(y, y + y**3 / 6), 1e-2, 60.0, epsabs=1e-13, limit=200)[0]
+    assert rest < simple_impact._WALL_REST < 1.003 * rest
+    assert cubic < simple_impact._WALL_CUBIC < 1.003 * cubic
+
+
+def test_generated_bounds_of_what_is_left_out_are_the_proven_ones_rounded_up() -> None:
+    for proven, constant in (
+        (tables._roots(2), simple_impact._ROOTS_LINEAR),
+        (flint.arb(5) / 2 * tables._roots(3), simple_impact._ROOTS_CUBIC),
+        (tables._faded(0), simple_impact._FADED_LINEAR),
+        (tables._faded(2), simple_impact._FADED_CUBIC),
+    ):
+        assert proven <= constant < 1.003 * proven
 
 
 @pytest.mark.parametrize("k", [2, 3])

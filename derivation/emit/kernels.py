@@ -365,6 +365,20 @@ CONTACT_FUNCTIONS = (
         "logarithmic derivatives of time and peaks by every parameter",
     ),
     ("history", "impact", ("t", *IMPACT), "m, m/s, m, N", "", "13", "an impact over time"),
+    ("sphere_contact", "effects", ("a_over_R",), "1", "", "7", "a sphere over a paraboloid"),
+    (
+        "zener_number",
+        "effects",
+        ("R", "m", "v0", "h", *ELASTIC, "rho"),
+        "1",
+        r"\lambda_Z",
+        "",
+        "how much of the impact the plate's waves carry away",
+    ),
+    ("bending_period", "effects", ("h", "b", *ELASTIC, "rho"), "s", "T_1", "", "bending period"),
+    ("echo_time", "effects", ("h", *ELASTIC, "rho"), "s", "T_e", "", "time of two echoes"),
+    ("side_wall", "effects", ("alpha",), "1", "F_W", "6", "what the finite radius adds"),
+    ("bending", "effects", ("a_ratio", "eta"), "1", "F_B", "6", "what a thin plate's bending adds"),
 )
 
 

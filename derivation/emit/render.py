@@ -44,6 +44,7 @@ from derivation.paper.printed import PRINTED
 from derivation.rewrite.bessel_tables import bessel_context
 from derivation.rewrite.blocks import blocks
 from derivation.rewrite.contact_tables import contact_context, impact_context, sensitivity_context
+from derivation.rewrite.effect_tables import effect_context
 from derivation.rewrite.form import Block, Form, Seam
 from derivation.rewrite.moment_tables import moment_context
 from derivation.rewrite.pressure_tables import pressure_context
@@ -112,6 +113,7 @@ def modules(kernels: tuple[Kernel, ...]) -> tuple[Module, ...]:
         tables("reversed_series", {}),
         tables("impact", {**impact_context(), "promises": read_promises()}),
         tables("sensitivity", sensitivity_context()),
+        tables("effects", effect_context()),
         Module("simple_impact", "simple_impact", simple_impact_context()),
         Module("true_pressure", "true_pressure", pressure_context() | read_promises("pressure")),
         Module(

@@ -53,6 +53,7 @@ UNITS = {
     "1/Pa": STRESS**-1,
     "1/m^2": LENGTH**-2,
     "kg": MASS,
+    "kg/m^3": MASS / LENGTH**3,
     "s": TIME,
     "1/s": TIME**-1,
     "m/s": LENGTH / TIME,

@@ -47,8 +47,8 @@ phi, h, b, R, a, mu, P, T = sp.symbols("phi h b R a mu P T", positive=True)
 lam, A_j = sp.symbols("lam A_j", real=True)
 J1 = sp.Symbol("J1", real=True, nonzero=True)
 C1, C2, C3, C4 = sp.symbols("C1:5", real=True)
-eta, alpha, a_ratio, j_n, eps, m, v0, t, delta, delta_0, N, k, u_t = sp.symbols(
-    "eta alpha a_ratio j_n eps m v0 t delta delta_0 N k u_t", positive=True
+eta, alpha, a_ratio, j_n, eps, m, v0, t, delta, delta_0, N, k, u_t, rho = sp.symbols(
+    "eta alpha a_ratio j_n eps m v0 t delta delta_0 N k u_t rho", positive=True
 )
 kappa = {n: sp.Symbol(f"kappa_{n}", positive=True) for n in range(0, 10, 2)}
 """kappa_n, the integral of y^n K0(y)/I0(y) over y > 0, by n."""
@@ -108,6 +108,7 @@ ARGUMENTS = (
     Argument(eps, "1", r"\varepsilon", "sqrt(R delta)/h", ("eps > 0",)),
     Argument(m, "kg", "m", "mass of the sphere", ("m > 0",)),
     Argument(v0, "m/s", "v_0", "velocity of the sphere before the impact", ("v0 > 0",)),
+    Argument(rho, "kg/m^3", r"\rho", "density of the plate", ("rho > 0",)),
     Argument(t, "s", "t", "time since first contact", ("t >= 0",)),
     Argument(delta, "m", r"\delta", "indentation", ("delta > 0",)),
     Argument(delta_0, "m", r"\delta_0", "indentation by the linear law", ("delta_0 > 0",)),

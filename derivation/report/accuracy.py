@@ -1,8 +1,10 @@
 """What accuracy costs as the report shows it: tables from the committed measurement."""
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
+from derivation.measure.accuracy.panels import SLOW
 from derivation.report.accuracy_figures import KINDS, TASKS
 from derivation.report.hard import error as power
 from derivation.report.latex import escape, prose
@@ -70,6 +72,7 @@ def winner_cells(found: Data | None) -> tuple[str, str, str]:
         return "", "", ""
     name = escape(", ".join(part for part in (found["family"], found["setting"]) if part))
     doubtful = set(found["doubtful"])
+    name += "?" if found["family"] in doubtful else ""
     ties = [escape(t) + ("?" if t in doubtful else "") for t in found["ties"]]
     ties += [escape(t) + "?" for t in found["doubtful"] if t not in found["ties"]]
     ties = [tie for tie in ties if tie.rstrip("?") != escape(found["family"])]
@@ -117,10 +120,10 @@ def failures(rows: Sequence[Data]) -> Iterator[str]:
 
 def scaling_row(growth: Data) -> str:
     """What grows, of which method, its slope, where the line ends and why, memory."""
-    leaves = "" if growth["leaves"] is None else power(growth["leaves"])
+    leaves = "" if growth["leaves"] is None else factor(growth["leaves"])
     memory = growth["peak_bytes"]
     cells = [
-        escape(growth["what"]), escape(growth["method"]), f"{growth['slope']:.2f}", leaves,
+        escape(growth["what"]), escape(growth["method"]), f"{growth['slope']:z.2f}", leaves,
         prose(growth["why"]), "" if memory is None else rf"{memory / 1e6:.3g}",
     ]  # fmt: skip
     return " & ".join(cells)
@@ -134,7 +137,8 @@ def tool_rows(tools: Sequence[Data]) -> Iterator[str]:
         if tool["missing"]:
             yield rf"{name} & \multicolumn{{5}}{{l}}{{{escape(tool['missing'])}}}"
             continue
-        cells = [prose(tool["problem"]), prose(tool["setting"]), power(tool["error"])]
+        setting = re.sub(r"(?<=\d) \$x\$ (?=\d)", r" $\\times$ ", prose(tool["setting"]))
+        cells = [prose(tool["problem"]), setting, power(tool["error"])]
         cells += [
             duration(tool["seconds"]),
             "" if tool["cannot"] == said else prose(tool["cannot"]),
@@ -173,6 +177,7 @@ def run(data: Data) -> dict[str, Any]:
     return {
         "quick": found["quick"],
         "rounds": found["rounds"],
+        "slow": duration(SLOW),
         "sessions": len(data["sessions"]),
         "busy": len(busy),
         "limit": f"{found['contended']:g}",

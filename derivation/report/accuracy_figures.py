@@ -19,7 +19,7 @@ TASKS = {
     "impact": "impact",
 }
 KINDS = {"vector": "in arrays", "single": "by single calls"}
-TICKS = (0, 3, 6, 9, 12, 15, 30, 100)
+TICKS = (0, 3, 6, 9, 12, 15, 30, 100, 1000)
 """Digits marked on the axis: they are logarithms themselves, so up to DOUBLE it is even."""
 
 DOUBLE = 16.0
@@ -90,14 +90,17 @@ def draw_panel(
         x, y = np.array(points).T
         double = arithmetic == "float64"
         ax.plot(
-            x, y, "-" if double else "", marker=ARITHMETICS[arithmetic], ms=3,
+            x, y, "-" if double else " ", marker=ARITHMETICS[arithmetic], ms=3,
             color=colours[family], mfc=colours[family] if double else "none",
         )  # fmt: skip
-    ax.set(xscale="log", ylim=(-0.5, 120))
+    most = max((row["errors"]["total"] for row in rows), default=0.0)
+    top = 120 if most < 120 else 1200
+    ax.set(xscale="log", ylim=(-0.5, top))
     ax.set_yscale("function", functions=(height, digits_at))
-    ax.yaxis.set_major_locator(FixedLocator(TICKS))
+    ticks = [digits for digits in TICKS if digits < top]
+    ax.yaxis.set_major_locator(FixedLocator(ticks))
     ax.yaxis.set_minor_locator(NullLocator())
-    ax.set_yticks(TICKS, [str(digits) for digits in TICKS])
+    ax.set_yticks(ticks, [str(digits) for digits in ticks])
 
 
 def height(digits: Any) -> Any:
@@ -152,6 +155,10 @@ def scaling(data: Mapping[str, Any]) -> Figure:
                 if growth["what"] == what:
                     draw_growth(ax, growth)
             ax.set(xscale="log", yscale="log", xlabel=what, ylabel="time [s]")
+            if what == "digits":  # not a decade: the sizes themselves, or labels overlap
+                sizes = sorted({x for g in data["scaling"] if g["what"] == what for x in g["x"]})
+                ax.set_xticks(sizes, [f"{x:g}" for x in sizes])
+                ax.xaxis.set_minor_locator(NullLocator())
             ax.legend(fontsize=6)
     return figure
 

@@ -59,6 +59,11 @@ ABOUT = {
     "sphere's profile and N(t, s) = [k((t + s)/b) + k((t - s)/b)]/(2b). The kernel k is the slope "
     "by a/b of S = (R/2a) d delta/da of Hertz' pressure; chi(a) = 0 fixes delta. Last, a bound "
     "of what assuming Hertz' pressure changes at given force, a being Hertz' radius of it.",
+    "curvature": "A growing contact is a sequence of flat punches. Where it is not small beside "
+    "the sphere the paraboloid gives way to the sphere's own profile.",
+    "effects": "Each effect adds a share to the law's slope at equal force. What it can add at "
+    "most says whether a scene needs it.",
+    "plate motion": "The law is static. These numbers say when the plate's own motion matters.",
 }
 
 

@@ -89,8 +89,10 @@ def reference(text: str) -> str:
 
 
 def error(value: float | str) -> str:
-    """Two figures or three, large ones as powers of ten."""
+    """Two figures or three, large ones as powers of ten; 0 is exact."""
     number = float(value)
+    if number == 0:
+        return "0"
     if number == float("inf"):
         return r"$\infty$"
     if number and (number < 1e-2 or number >= 1e3):

@@ -12,6 +12,9 @@ TEMPLATES = Path(__file__).parent / "templates"
 LINE_WIDTH = 92
 """Characters, as typeset, after which a sum is broken."""
 
+FAR_TOO_WIDE, LEAST_PART = 4 * LINE_WIDTH, 12
+"""Characters from which a formula would be illegible on one line; of parts worth a name."""
+
 SPECIAL = {
     "\\": r"\textbackslash{}",
     "&": r"\&",
@@ -44,10 +47,20 @@ _SYMBOL = re.compile(
 def prose(text: object) -> str:
     """A sentence as LaTeX, its symbols (phi_j, sigma_zz, y^3, J0) set as mathematics.
 
-    Words and code (whatever holds a `*`) stay as they are.
+    Words and code (whatever holds a `*`) stay as they are; 1e-12 is set as a power of ten.
     """
     pieces = re.split(r"(\S*\*\S*)", str(text))
-    return "".join(_code(p) if "*" in p else _words(p) for p in pieces)
+    return "".join(_code(p) if "*" in p else _numbers(p) for p in pieces)
+
+
+def _numbers(text: str) -> str:
+    """Words, with numbers like 2.5e+20 as powers of ten."""
+    pieces = re.split(r"(?<![\w.])(\d+(?:\.\d+)?)e([+-]?\d+)(?![\w.]*\w)", text)
+    found = [_words(pieces[0])]
+    for mantissa, power, after in zip(pieces[1::3], pieces[2::3], pieces[3::3], strict=True):
+        lead = "" if mantissa == "1" else rf"{mantissa}\cdot"
+        found += [rf"${lead}10^{{{int(power)}}}$", _words(after)]
+    return "".join(found)
 
 
 def _code(text: str) -> str:
@@ -57,7 +70,7 @@ def _code(text: str) -> str:
 
 def _words(text: str) -> str:
     """Words with the symbols among them typeset."""
-    source = re.sub(r"\bJ([01])\b", r"J_\1", text)
+    source = re.sub(r"\b([Jcv])([013])\b", r"\1_\2", text)
     pieces, last = [], 0
     for match in _SYMBOL.finditer(source):
         pieces += [escape(source[last : match.start()]), _mathematics(match)]
@@ -119,12 +132,31 @@ def equation(left: str, expression: sp.Expr, prefix: str = "") -> str:
     if not isinstance(expression, sp.Add):
         expression = _expanded(expression)
     if not isinstance(expression, sp.Add):
+        if typeset_width(whole) > FAR_TOO_WIDE:
+            return _in_parts(f"{left} = {prefix}", expression)
         return rf"\fit{{{whole}}}"
     lines = [f"{left} = {{}}& {prefix}"]
     for index, term in enumerate(_signed_terms(expression)):
         if index and typeset_width(lines[-1] + term) > LINE_WIDTH:
             lines.append(r"& \quad ")
         lines[-1] += f" {term}"
+    return r"\begin{aligned}" + " \\\\\n".join(lines) + r"\end{aligned}"
+
+
+def _in_parts(left: str, expression: sp.Expr) -> str:
+    """A formula whose repeated parts are named, X_1, X_2 ..., and stand below it."""
+    named, (value,) = sp.cse(expression, sp.numbered_symbols("_"))
+    short: dict[sp.Symbol, sp.Expr] = {}
+    rows: list[tuple[sp.Symbol, sp.Expr]] = []
+    for symbol, part in named:
+        part = part.xreplace(short)
+        if typeset_width(to_latex(part)) <= LEAST_PART:
+            short[symbol] = part
+        else:
+            short[symbol] = sp.Symbol(f"X_{len(rows) + 1}")
+            rows.append((short[symbol], part))
+    lines = [rf"{left}& \fit[0.75]{{{to_latex(value.xreplace(short))}}}"]
+    lines += [rf"{symbol} = {{}}& \fit[0.75]{{{to_latex(part)}}}" for symbol, part in rows]
     return r"\begin{aligned}" + " \\\\\n".join(lines) + r"\end{aligned}"
 
 

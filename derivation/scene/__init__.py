@@ -4,10 +4,13 @@ Read in this order:
 
 1. `scene`: reads and validates the scene file.
 2. `model`: turns the scene into the numbers the kernels take.
-3. `limits`: refuses what lies outside the contact law, warns where it grows inexact.
-4. `choice`: the cheapest method whose error bound meets a tolerance.
-5. `impact`, `indentation`: simulate an impact, press the sphere in by a given amount.
-6. `result`: what comes out, as JSON, CSV and a notebook table; `plot` draws it.
+3. `effects`: one file each; `law` adds up those that are in.
+4. `gate`: which effects the scene calls for, by bounds; `explanation` shows it.
+5. `limits`: refuses what lies outside the contact law, warns where it grows inexact.
+6. `choice`: the cheapest method whose error bound meets a tolerance; `motion` is the one
+   that takes any law.
+7. `impact`, `indentation`: simulate an impact, press the sphere in by a given amount.
+8. `result`: what comes out, as JSON, CSV and a notebook table; `plot` draws it.
 
 `kernels` is the only door to the generated package; `commands` is the command line.
 
@@ -22,13 +25,14 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from derivation.scene.explanation import explain
     from derivation.scene.impact import simulate
     from derivation.scene.indentation import indent
     from derivation.scene.scene import Scene, SceneError, load, read, schema
 
-__all__ = ["Scene", "SceneError", "indent", "load", "read", "schema", "simulate"]
+__all__ = ["Scene", "SceneError", "explain", "indent", "load", "read", "schema", "simulate"]
 
-HOMES = {"simulate": "impact", "indent": "indentation"}
+HOMES = {"explain": "explanation", "simulate": "impact", "indent": "indentation"}
 """Where a public name lives, if not in `scene`."""
 
 

@@ -1,22 +1,25 @@
 """Takes the cheapest method whose error bound meets a tolerance, and says what the bound rests on.
 
-From the cheapest: `hertz` and `leading` know a proven bound of what they leave out of the law;
-`coarse` and `full` take the whole law, with half the quadrature's nodes and with all. A
-bound is a relative error of all four results against the law with the scene's numbers, these
+The gate has decided which effects the law holds. From the cheapest: `hertz` and `leading` know
+a proven bound of what they leave out of the plate's law; `coarse` and `full` take the whole
+law, with half the quadrature's nodes and with all. A bound is a relative error of all four
+results against the law of every effect the scene leaves open, with the scene's numbers, these
 being the doubles that the scene turns into.
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from derivation.scene import kernels
-from derivation.scene.explain import shown
+from derivation.scene import kernels, motion
+from derivation.scene.gate import Gate
+from derivation.scene.law import WHOLE_PLATE, Law
 from derivation.scene.limits import check_energy
 from derivation.scene.model import Model
 from derivation.scene.scene import TIGHTEST, SceneError
+from derivation.scene.words import shown
 
 METHODS = {
     "hertz": "Hertz' law alone",
@@ -58,6 +61,8 @@ class Accuracy:
     law, quadrature, rounding
         Parts of the bound: what is left out of the contact law, what the integral for the
         contact time misses, and the arithmetic, of the law's tables too.
+    effects
+        Another part: the effects that the gate left out.
     """
 
     method: str
@@ -65,11 +70,13 @@ class Accuracy:
     law: Part
     quadrature: Part
     rounding: Part
+    effects: Part = Part(0.0, PROVED)
 
     @property
     def parts(self) -> dict[str, Part]:
         """The bound's parts by name."""
-        return {"law": self.law, "quadrature": self.quadrature, "rounding": self.rounding}
+        names = ("effects", "law", "quadrature", "rounding")
+        return {name: getattr(self, name) for name in names}
 
     @property
     def bound(self) -> float:
@@ -122,8 +129,54 @@ def check_rtol(rtol: float) -> float:
     return float(rtol)
 
 
+def solve_gated(gate: Gate, rtol: float | None = None) -> tuple[Numbers, Accuracy]:
+    """The four results by the law that the gate decided on.
+
+    Parameters
+    ----------
+    rtol
+        Relative tolerance of every result [1], what the gate left out included; without it
+        the full method.
+
+    Raises
+    ------
+    SceneError
+        If the impact leaves the law's range, or the tolerance is out of reach.
+    """
+    law = gate.law
+    rest = None if rtol is None else (rtol - gate.error) / (1.0 + gate.error)
+    if law.effects == WHOLE_PLATE | {"hertz"}:
+        found, accuracy = solve(law.model, rest)
+    else:
+        found, accuracy = _composed(law)
+    accuracy = replace(accuracy, rtol=rtol, effects=Part(gate.error, PROVED))
+    if rtol is not None and accuracy.bound > rtol:
+        raise SceneError(
+            f"rtol: expected at least {_above(accuracy.bound)} for a contact as wide as "
+            f"a/R = {found[3] / law.model.R:.4g}, got {rtol:.3g}; give a larger tolerance"
+        )
+    return found, accuracy
+
+
+def _composed(law: Law) -> tuple[Numbers, Accuracy]:
+    """The results by a law of any effects, and their bounds."""
+    with np.errstate(all="ignore"):  # extreme scenes end in NaN, which is looked for
+        found = motion.impact(law)
+    if found is None:
+        check_energy(law)
+        return (math.nan,) * 4, whole_law("full", None)
+    method = "hertz" if law.effects == {"hertz"} else "full"
+    return found.numbers, Accuracy(
+        method,
+        None,
+        law=Part(0.0, PROVED),
+        quadrature=Part(found.quadrature, MEASURED),
+        rounding=Part(kernels.ROUNDING, MEASURED),
+    )
+
+
 def solve(model: Model, rtol: float | None = None) -> tuple[Numbers, Accuracy]:
-    """Contact time, largest indentation, force and contact radius, by the cheapest method.
+    """The four results by the paper's law, of a rigid paraboloid, by the cheapest method.
 
     Parameters
     ----------
@@ -143,7 +196,7 @@ def solve(model: Model, rtol: float | None = None) -> tuple[Numbers, Accuracy]:
                 return found
             within = within or found is not None  # a bound is one on the radius too
     if not within:
-        check_energy(model)
+        check_energy(Law(model, WHOLE_PLATE))
     coarse = rtol is not None and whole_law("coarse", rtol).bound <= rtol
     with np.errstate(all="ignore"):  # extreme scenes end in NaN, which is looked for
         values = kernels.impact(*model.numbers, coarse=coarse)

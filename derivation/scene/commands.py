@@ -33,6 +33,7 @@ def simulate(
     """
     from derivation.scene import load
     from derivation.scene import simulate as run
+    from derivation.scene.gate import HEADS
 
     check_outputs(scene, json, plot, csv)
     result = run(load(scene), rtol=rtol)
@@ -45,11 +46,38 @@ def simulate(
         files[plot] = render(result, plot.suffix)
     if json != "-":
         table(f"Impact of {scene.name}", ("quantity", "#value", "unit"), result.rows())
+        table("Effects", HEADS, result.gate.lines())
         OUT.print(str(result.accuracy), markup=False, highlight=False, soft_wrap=True)
     for path, content in files.items():
         write_file(path, content)
     if json:
         put_json(result.to_json(), json)
+
+
+def explain(
+    scene: SceneFile,
+    json: Json = None,
+    rtol: Annotated[
+        float | None, typer.Option(metavar="X", help="Relative tolerance, 1e-13 to 1.")
+    ] = None,
+) -> None:
+    """Say which effects a scene file calls for, and why; simulate nothing.
+
+    Example: platecontact explain scene.toml --rtol 1e-4
+    """
+    from derivation.scene import explain as run
+    from derivation.scene import load
+    from derivation.scene.explanation import COLUMNS
+
+    check_outputs(scene, json)
+    found = run(load(scene), rtol)
+    if json != "-":
+        table(f"Effects in {scene.name}", COLUMNS, found.lines())
+        OUT.print(str(found), markup=False, highlight=False, soft_wrap=True)
+        for note in found.notes:
+            NOTES.print(note, markup=False, highlight=False, soft_wrap=True)
+    if json:
+        put_json(found.to_json(), json)
 
 
 def indent(

@@ -2,11 +2,21 @@
 
 from collections.abc import Iterable
 
-from derivation.scene.choice import check_rtol, solve
-from derivation.scene.limits import check_numbers, check_radius, warnings_at
+from derivation.scene.choice import check_rtol, solve_gated
+from derivation.scene.gate import Gate, decide
+from derivation.scene.limits import (
+    check_numbers,
+    check_radius,
+    motion_warnings,
+    pressure_warnings,
+    warnings_at,
+)
 from derivation.scene.model import model_of
 from derivation.scene.result import Result
-from derivation.scene.scene import Scene
+from derivation.scene.scene import OUTPUTS, TIGHTEST, Scene
+
+DEFAULT = 1e-3
+"""What effects may change if they are to be left out and no tolerance is given [1]."""
 
 
 def simulate(
@@ -22,8 +32,9 @@ def simulate(
         Times after first contact [s] at which `Result.history` is to be given; without them
         it covers the contact evenly.
     rtol
-        Relative tolerance of every result [1]: the cheapest method is taken whose bound meets
-        it. Without it that of the scene counts, and without that too the full method runs.
+        Relative tolerance of the results [1]: of effects and methods the cheapest are taken
+        whose bounds meet it. Without it that of the scene counts; without that too effects
+        may change 1e-3, and the law that they leave is computed by the full method.
         The history is by the full method always.
 
     Returns
@@ -38,13 +49,33 @@ def simulate(
         If the impact leaves the contact law's range, a time lies outside the contact, or the
         tolerance is not between 1e-13 and 1.
     """
-    model = model_of(scene)
-    if rtol is None and scene.accuracy is not None:
-        rtol = scene.accuracy.rtol
-    found, accuracy = solve(model, None if rtol is None else check_rtol(rtol))
-    contact_time, delta, P, a = found
-    check_radius(model, a, "impact.speed", "lower the speed")
+    rtol, gate = gated(scene, rtol)
+    (contact_time, delta, P, a), accuracy = solve_gated(gate, rtol)
+    model = gate.law.model
+    check_radius(gate.law, a, "impact.speed", "lower the speed")
     check_numbers(model, contact_time, delta, P, a)
-    warnings = warnings_at(model, a, delta)
-    result = Result(contact_time, delta, P, a, accuracy, warnings, scene, model)
+    pressure = gate.law.max_pressure(a)
+    deflection = 1.0 - a * (a / model.R) / delta
+    warnings = (
+        *warnings_at(model, a, delta, gate.law.effects),
+        *motion_warnings(model, contact_time, deflection),
+        *pressure_warnings(pressure, scene.plate.yield_stress),
+    )
+    result = Result(contact_time, delta, P, a, pressure, accuracy, warnings, scene, gate)
     return result if times is None else result.at(times)
+
+
+def gated(scene: Scene, rtol: float | None = None) -> tuple[float | None, Gate]:
+    """The tolerance that counts, and what the gate decides by it; nothing is simulated.
+
+    Raises
+    ------
+    SceneError
+        If the tolerance is not between 1e-13 and 1.
+    """
+    outputs = OUTPUTS
+    if scene.accuracy is not None:
+        outputs = scene.accuracy.outputs
+        rtol = scene.accuracy.rtol if rtol is None else rtol
+    share = DEFAULT if rtol is None else max(check_rtol(rtol) - TIGHTEST, 0.0)
+    return rtol, decide(model_of(scene), scene.effects.model_dump(), share, outputs)

@@ -1,18 +1,33 @@
-"""Presses the sphere into the plate by a given contact radius, force or indentation."""
+"""Presses the sphere into the plate by a given contact radius, force or indentation.
 
+Every effect that applies to a contact at rest is in, unless the scene says false: at rest
+none of them costs time worth saving. Force and indentation are turned into radii by Newton's
+iteration in logarithms.
+"""
+
+import math
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
 
-from derivation.scene import kernels
-from derivation.scene.explain import shown
-from derivation.scene.limits import check_numbers, check_radius, check_range, warnings_at
-from derivation.scene.model import Model, model_of
+from derivation.scene.effects import EFFECTS
+from derivation.scene.law import Law, Shape
+from derivation.scene.limits import (
+    check_numbers,
+    check_radius,
+    last_radius,
+    warnings_at,
+)
+from derivation.scene.model import model_of
 from derivation.scene.scene import Scene, SceneError
+from derivation.scene.words import shown
 
 UNITS = {"contact_radius": "m", "force": "N", "indentation": "m"}
+AT_REST = frozenset(effect.name for effect in EFFECTS) - {"gravity"}
+"""Effects of a contact that does not move."""
+_STEPS, _CLOSE = 60, 4e-16
 Values = float | Iterable[float]
 
 
@@ -85,10 +100,17 @@ def indent(
             f"got {got}; give one"
         )
     [(name, values)] = given
-    model = model_of(scene)
+    law = law_at_rest(scene)
     numbers = _numbers(name, values)
     with np.errstate(all="ignore"):  # extreme scenes end in NaN, which is looked for
-        return tuple(_contact(model, name, value) for value in numbers)
+        return tuple(_contact(law, name, value) for value in numbers)
+
+
+def law_at_rest(scene: Scene) -> Law:
+    """The law of every effect that applies to a contact at rest and is not false."""
+    model, wanted = model_of(scene), scene.effects.model_dump()
+    present = {effect.name for effect in EFFECTS if not effect.absent(model)}
+    return Law(model, frozenset(n for n in present & AT_REST if wanted.get(n) is not False))
 
 
 def _numbers(name: str, values: Values) -> list[float]:
@@ -110,31 +132,56 @@ def _numbers(name: str, values: Values) -> list[float]:
     return [float(value) for value in listed]
 
 
-def _contact(model: Model, name: str, value: float) -> Contact:
-    a = _radius(model, name, value)
-    check_radius(model, a, f"{name} = {value:.6g} {UNITS[name]}", f"give a smaller {name}")
-    delta = float(kernels.indentation(a, model.R, model.h, model.b))
-    P = float(kernels.force_of_radius(a, model.R, model.lam, model.mu))
-    slope = float(kernels.stiffness(a, model.R, model.h, model.b, model.lam, model.mu))
-    pressure = float(kernels.max_pressure(a, model.R, model.lam, model.mu))
+def _contact(law: Law, name: str, value: float) -> Contact:
+    model = law.model
+    a = value if name == "contact_radius" else _radius(law, name, value)
+    check_radius(law, a, f"{name} = {value:.6g} {UNITS[name]}", f"give a smaller {name}")
+    radius = np.array([a])
+    shape = law.at(radius)
+    delta, P, slope = (
+        float(of(radius, shape)[0]) for of in (law.indentation, law.force, law.stiffness)
+    )
+    pressure = law.max_pressure(a)
     check_numbers(model, a, delta, P, slope, pressure)
     # What was given is returned as it was given, not after a trip through its inverse.
     delta, P = (value if name == "indentation" else delta, value if name == "force" else P)
-    return Contact(a, delta, P, slope, pressure, warnings_at(model, a, delta))
+    return Contact(a, delta, P, slope, pressure, warnings_at(model, a, delta, law.effects))
 
 
-def _radius(model: Model, name: str, value: float) -> float:
-    if name == "contact_radius":
-        return value
+def _radius(law: Law, name: str, value: float) -> float:
+    """Contact radius [m] of a force or an indentation.
+
+    Raises
+    ------
+    SceneError
+        If it is beyond the law's range.
+    """
+    R, last = law.model.R, last_radius(law)
+    largest, _ = _with_slope(law, name, last)
+    if not value < largest:
+        raise SceneError(
+            f"{name}: expected less than {largest:.6g} {UNITS[name]}, where the contact radius "
+            f"reaches {law.limit_in_words}, got {value:.6g} {UNITS[name]}; give a smaller {name}"
+        )
+    a = min(math.sqrt(R) * math.sqrt(value), last)
     if name == "force":
-        found = float(kernels.radius_of_force(value, model.R, model.lam, model.mu))
-        return found if found == found else _radius_beyond(model, value)
-    check_range(model, value)
-    return float(kernels.contact_radius(value, model.R, model.h, model.b))
+        a = min(math.cbrt(0.75 * (value / law.modulus) * R), last)
+    for _ in range(_STEPS):
+        found, slope = _with_slope(law, name, a)
+        step = math.log(value / found) / slope if found > 0.0 < slope else math.nan
+        if not abs(step) > _CLOSE:
+            break
+        a = min(a * math.exp(max(-1.0, min(1.0, step))), last)
+    return a if step == step else math.nan
 
 
-def _radius_beyond(model: Model, force: float) -> float:
-    """Contact radius of a force too large for the sphere: for the message that refuses it."""
-    inside = model.R / 2
-    ratio = force / float(kernels.force_of_radius(inside, model.R, model.lam, model.mu))
-    return inside * float(np.cbrt(ratio))
+def _with_slope(law: Law, name: str, a: float) -> tuple[float, float]:
+    """Force [N] or indentation [m] at a radius [m], and its elasticity d log/d log a [1]."""
+    radius = np.array([a])
+    shape: Shape = law.at(radius)
+    delta, P = (float(of(radius, shape)[0]) for of in (law.indentation, law.force))
+    slope = float(shape.slope[0])
+    if name == "indentation":
+        return delta, 2.0 * slope / float(shape.depth[0])
+    stiffness = float(law.stiffness(radius, shape)[0])
+    return P, stiffness * 2.0 * slope * a * (a / law.model.R) / P

@@ -8,21 +8,48 @@ from generated.contact_law import (
     radius_of_force,
     stiffness,
 )
+from generated.effects import (
+    WALL_CUBIC,
+    WALL_GROWTH,
+    WALL_LINEAR,
+    Sphere,
+    bending,
+    bending_period,
+    echo_time,
+    side_wall,
+    sphere_contact,
+    zener_number,
+)
 from generated.impact import COARSE_QUADRATURE, FULL_QUADRATURE, ROUNDING, history, impact
-from generated.simple_impact import hertz, leading
+from generated.sensitivity import indentation_slope
+from generated.simple_impact import Plate, hertz, law_errors, leading, plate_of
 
 __all__ = [
     "COARSE_QUADRATURE",
     "FULL_QUADRATURE",
     "ROUNDING",
+    "WALL_CUBIC",
+    "WALL_GROWTH",
+    "WALL_LINEAR",
+    "Plate",
+    "Sphere",
+    "bending",
+    "bending_period",
     "contact_radius",
+    "echo_time",
     "force_of_radius",
     "hertz",
     "history",
     "impact",
     "indentation",
+    "indentation_slope",
+    "law_errors",
     "leading",
     "max_pressure",
+    "plate_of",
     "radius_of_force",
+    "side_wall",
+    "sphere_contact",
     "stiffness",
+    "zener_number",
 ]

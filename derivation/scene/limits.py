@@ -1,11 +1,14 @@
 """Where the contact law ends or grows inexact: refusals and warnings, each with its number."""
 
 import math
+from collections.abc import Collection
 
 import numpy as np
 
 from derivation.scene import kernels
+from derivation.scene.law import Law
 from derivation.scene.model import Model
+from derivation.scene.quadrature import rule
 from derivation.scene.scene import SceneError
 
 HERTZ_LIMIT = 0.15
@@ -14,13 +17,21 @@ CURVATURE_LIMIT = 0.3
 """Contact radius over sphere radius above which the sphere is no longer a paraboloid."""
 STRETCH_LIMIT = 0.5
 """Plate deflection over thickness above which the plate's middle surface stretches."""
+ZENER_LIMIT = 0.006
+"""Zener's number above which an infinite plate's waves carry off 1 % of the speed."""
+SLOW = 10.0
+"""Contact time over the first bending period from which the plate follows without inertia."""
+SHARE_LIMIT = 0.01
+"""Share of the plate's deflection in the indentation below which its inertia is no matter."""
+YIELD_LIMIT = 1.6
+"""Pressure over yield stress at which a metal begins to yield below the contact."""
 MILD = 0.3
 """Relative correction above which its leading term is no estimate any more."""
-POINTS = 48
-"""Gauss points of the energy; the integrand is smooth, rounding is reached well before."""
+POINTS = 192
+"""Gauss points of the energy up to the law's limit, close to which a sphere's slope is steep."""
 
 
-def check_radius(model: Model, a: float, what: str, mend: str) -> None:
+def check_radius(law: Law, a: float, what: str, mend: str) -> None:
     """Refuse a contact radius beyond the law's range.
 
     Parameters
@@ -35,49 +46,33 @@ def check_radius(model: Model, a: float, what: str, mend: str) -> None:
     Raises
     ------
     SceneError
-        If a reaches min(b, R).
+        If a reaches the law's limit.
     """
-    if a >= model.radius_limit:
+    if a >= law.limit:
         raise SceneError(
-            f"{what}: expected a contact radius below {_limit(model)}, got {a:.6g} m; {mend}"
+            f"{what}: expected a contact radius below {law.limit_in_words}, got {a:.6g} m; {mend}"
         )
 
 
-def check_range(model: Model, indentation: float) -> None:
-    """Refuse an indentation beyond the one at which the contact radius reaches its limit.
-
-    Parameters
-    ----------
-    indentation
-        Indentation [m].
-
-    Raises
-    ------
-    SceneError
-        If it lies beyond.
-    """
-    largest = float(kernels.indentation(_last_radius(model), model.R, model.h, model.b))
-    if indentation >= largest:
-        raise SceneError(
-            f"indentation: expected less than {largest:.6g} m, where the contact radius reaches "
-            f"{_limit(model)}, got {indentation:.6g} m; give a smaller indentation"
-        )
-
-
-def check_energy(model: Model) -> None:
+def check_energy(law: Law) -> None:
     """Refuse an impact that presses the sphere in beyond the law's range.
 
     Raises
     ------
     SceneError
-        If the sphere's energy is more than the contact takes up to a = min(b, R).
+        If the sphere's energy is more than the contact takes up to the law's limit.
     """
-    capacity = energy_of(model, _last_radius(model))
+    model = law.model
+    last = last_radius(law)
+    with np.errstate(all="ignore"):
+        capacity = energy_of(law, last)
+        depth = float(law.indentation(np.array([last]), law.at(np.array([last])))[0])
+    capacity -= model.m * law.gravity * depth
     fastest = math.sqrt(2) * math.sqrt(max(capacity, 0.0)) / math.sqrt(model.m)
     if model.v0 >= fastest:
         raise SceneError(
             f"impact.speed: expected less than {fastest:.6g} m/s, where the contact radius "
-            f"reaches {_limit(model)}, got {model.v0:.6g} m/s; lower the speed"
+            f"reaches {law.limit_in_words}, got {model.v0:.6g} m/s; lower the speed"
         )
 
 
@@ -96,33 +91,23 @@ def check_numbers(model: Model, *values: float) -> None:
         )
 
 
-def energy_of(model: Model, a: float) -> float:
-    """Energy the contact takes up to a contact radius, the integral of P over the indentation.
-
-    Parameters
-    ----------
-    a
-        Contact radius [m].
-
-    Returns
-    -------
-    float
-        Energy [J].
-    """
-    # By parts, with P growing like a^3, so that no derivative of the indentation is needed.
-    nodes, weights = np.polynomial.legendre.leggauss(POINTS)
-    q = (1 + nodes) / 2
-    with np.errstate(all="ignore"):  # extreme scenes end in NaN, which is looked for
-        P = kernels.force_of_radius(a, model.R, model.lam, model.mu)
-        delta = kernels.indentation(np.append(q * a, a), model.R, model.h, model.b)
-    return float(P * (delta[-1] - 3 * np.sum(weights / 2 * q**2 * delta[:-1])))
+def energy_of(law: Law, a: float) -> float:
+    """Energy [J] the contact takes up to a contact radius [m], the integral of P over delta."""
+    nodes = rule(POINTS)
+    shape = law.at(nodes.x * a)
+    mean = float(np.sum(nodes.weights * nodes.x**4 * shape.force * shape.slope))
+    return 8.0 / 3.0 * law.modulus * a * a * (a / law.model.R) * a * (a / law.model.R) * mean
 
 
-def warnings_at(model: Model, a: float, indentation: float) -> tuple[str, ...]:
+def warnings_at(
+    model: Model, a: float, indentation: float, effects: Collection[str] = ()
+) -> tuple[str, ...]:
     """What to know about a result that is still usable.
 
     Parameters
     ----------
+    effects
+        Names of the effects that are computed.
     a
         Largest contact radius [m].
     indentation
@@ -135,7 +120,7 @@ def warnings_at(model: Model, a: float, indentation: float) -> tuple[str, ...]:
             f"contact radius over thickness a/H = {a / thickness:.3g} exceeds {HERTZ_LIMIT}: the "
             f"pressure is no longer Hertz's; {_cost(hertz_cost(model, a, indentation))}"
         )
-    if a / model.R > CURVATURE_LIMIT:
+    if a / model.R > CURVATURE_LIMIT and "curvature" not in effects:
         found.append(
             f"contact radius over sphere radius a/R = {a / model.R:.3g} exceeds "
             f"{CURVATURE_LIMIT}: the law takes the sphere for a paraboloid; "
@@ -148,6 +133,50 @@ def warnings_at(model: Model, a: float, indentation: float) -> tuple[str, ...]:
             f"{STRETCH_LIMIT}: the plate stretches and is stiffer than the linear law says"
         )
     return tuple(found)
+
+
+def motion_warnings(model: Model, contact_time: float, deflection: float) -> tuple[str, ...]:
+    """Where the plate's own motion, which is left out, is not small; needs its density.
+
+    Parameters
+    ----------
+    contact_time
+        Contact time [s].
+    deflection
+        Share of the plate's deflection in the largest indentation [1].
+    """
+    if not model.density:
+        return ()
+    R, m, v0, h, b, lam, mu = model.numbers
+    zener = float(kernels.zener_number(R, m, v0, h, lam, mu, model.density))
+    period = float(kernels.bending_period(h, b, lam, mu, model.density))
+    echoes = float(kernels.echo_time(h, lam, mu, model.density))
+    found = []
+    matters = zener > ZENER_LIMIT or deflection > SHARE_LIMIT
+    if matters and contact_time < SLOW * period:
+        found.append(
+            f"the plate's inertia is left out: Zener's number lambda = {zener:.3g} (small: below "
+            f"{ZENER_LIMIT}), contact time over first bending period = "
+            f"{contact_time / period:.3g} (slow: above {SLOW:g}), and the deflection makes "
+            f"{100 * deflection:.2g} % of the indentation"
+        )
+    if contact_time < echoes:
+        found.append(
+            f"the contact time is below 4 H/c_P = {echoes:.3g} s: echoes through the thickness, "
+            "which are left out, return during the contact"
+        )
+    return tuple(found)
+
+
+def pressure_warnings(pressure: float, yield_stress: float | None) -> tuple[str, ...]:
+    """Whether the plate yields below the contact, if its yield stress [Pa] is given."""
+    if yield_stress is None or pressure <= YIELD_LIMIT * yield_stress:
+        return ()
+    text = (
+        f"largest pressure over yield stress = {pressure / yield_stress:.3g} exceeds "
+        f"{YIELD_LIMIT}: the plate yields below the contact, and takes energy"
+    )
+    return (text,)
 
 
 def hertz_cost(model: Model, a: float, indentation: float) -> float:
@@ -177,10 +206,6 @@ def _cost(change: float) -> str:
     return f"the indentation at this force would change by about {100 * change:+.2g} %"
 
 
-def _last_radius(model: Model) -> float:
+def last_radius(law: Law) -> float:
     """Largest contact radius inside the law's range [m]."""
-    return float(np.nextafter(model.radius_limit, 0.0))
-
-
-def _limit(model: Model) -> str:
-    return f"min(b, R) = {model.radius_limit:.6g} m"
+    return float(np.nextafter(law.limit, 0.0))

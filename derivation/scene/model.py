@@ -1,9 +1,12 @@
 """Turns a scene into the numbers the kernels take, and into dimensionless ones."""
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
+from derivation.scene.materials import MATERIALS, lame_constants, plane_strain_modulus
 from derivation.scene.scene import Plate, Scene, SceneError, Sphere
+
+NUMBERS = ("R", "m", "v0", "h", "b", "lam", "mu")
 
 
 @dataclass(frozen=True)
@@ -18,6 +21,12 @@ class Model:
         Half-thickness and radius of the plate [m].
     lam, mu
         Lame constants of the plate [Pa].
+    sphere_modulus
+        E/(1 - nu^2) of the sphere [Pa]; infinite for a rigid one.
+    gravity
+        What presses the sphere on [m/s^2].
+    density
+        Of the plate [kg/m^3]; 0 if it is not known.
     """
 
     R: float
@@ -27,6 +36,19 @@ class Model:
     b: float
     lam: float
     mu: float
+    sphere_modulus: float = math.inf
+    gravity: float = 0.0
+    density: float = 0.0
+
+    @property
+    def modulus(self) -> float:
+        """E* of the plate, 4 mu (lam + mu)/(lam + 2 mu) [Pa]."""
+        return plane_strain_modulus(self.lam, self.mu)
+
+    @property
+    def softness(self) -> float:
+        """E* of the plate over that of the sphere, 0 for a rigid one [1]."""
+        return self.modulus / self.sphere_modulus
 
     @property
     def numbers(self) -> tuple[float, float, float, float, float, float, float]:
@@ -52,11 +74,6 @@ class Model:
     def energy_ratio(self) -> float:
         """Energy of the sphere over that of its size in the plate, m v0^2/(mu R^3) [1]."""
         return (self.m / self.R) * (self.v0 / self.R) * (self.v0 / self.mu) / self.R
-
-    @property
-    def radius_limit(self) -> float:
-        """Contact radius at which the contact law ends, min(b, R) [m]."""
-        return min(self.b, self.R)
 
     def dimensionless(self) -> dict[str, float]:
         """The four numbers on which everything dimensionless depends."""
@@ -85,12 +102,14 @@ def model_of(scene: Scene) -> Model:
         b=scene.plate.radius,
         lam=lam,
         mu=mu,
+        sphere_modulus=_sphere_modulus(scene.sphere),
+        gravity=scene.impact.gravity or 0.0,
+        density=_density(scene.plate),
     )
-    for field in fields(model):
-        value = getattr(model, field.name)
-        if not math.isfinite(value) or (value <= 0 and field.name != "lam"):
+    for name, value in zip(NUMBERS, model.numbers, strict=True):
+        if not math.isfinite(value) or (value <= 0 and name != "lam"):
             raise SceneError(
-                f"scene: expected numbers a double can hold, got {field.name} = {value}, "
+                f"scene: expected numbers a double can hold, got {name} = {value}, "
                 "computed from the scene; give less extreme numbers"
             )
     if not 3 * lam > -2 * mu:
@@ -104,14 +123,32 @@ def model_of(scene: Scene) -> Model:
 def _mass(sphere: Sphere) -> float:
     if sphere.mass is not None:
         return sphere.mass
-    R = sphere.radius
-    return 4 / 3 * math.pi * (R * R * R) * (sphere.density or 0.0)
+    R, density = sphere.radius, sphere.density
+    if density is None and sphere.material is not None:
+        density = MATERIALS[sphere.material].density
+    return 4 / 3 * math.pi * (R * R * R) * (density or 0.0)
+
+
+def _sphere_modulus(sphere: Sphere) -> float:
+    """E/(1 - nu^2) [Pa] of the sphere's material, infinite without one."""
+    if sphere.material is None:
+        return math.inf
+    material = MATERIALS[sphere.material]
+    return plane_strain_modulus(material.lam, material.mu)
+
+
+def _density(plate: Plate) -> float:
+    """As given, or its material's; 0 if neither is known."""
+    if plate.density is None and plate.material is not None:
+        return MATERIALS[plate.material].density or 0.0
+    return plate.density or 0.0
 
 
 def _lame_constants(plate: Plate) -> tuple[float, float]:
     """First and second Lame constant [Pa], as given or from Young's modulus and Poisson's ratio."""
+    if plate.material is not None:
+        material = MATERIALS[plate.material]
+        return material.lam, material.mu
     if plate.lame_lambda is not None and plate.lame_mu is not None:
         return plate.lame_lambda, plate.lame_mu
-    E, nu = plate.youngs_modulus or 0.0, plate.poissons_ratio or 0.0
-    mu = E / (2 * (1 + nu))
-    return 2 * mu * nu / (1 - 2 * nu), mu
+    return lame_constants(plate.youngs_modulus or 0.0, plate.poissons_ratio or 0.0)

@@ -8,8 +8,10 @@ from typing import Any, NamedTuple, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from derivation.scene import kernels
+from derivation.scene import kernels, motion
 from derivation.scene.choice import Accuracy
+from derivation.scene.gate import Gate
+from derivation.scene.law import WHOLE_PLATE
 from derivation.scene.model import Model
 from derivation.scene.scene import Scene, SceneError
 
@@ -61,12 +63,16 @@ class Result:
         Largest contact force [N].
     max_contact_radius
         Largest contact radius [m].
+    max_pressure
+        Largest contact pressure, in the middle of the widest contact [Pa].
     accuracy
         The method and the bound of its relative error.
     warnings
         What to know about the result.
-    scene, model
-        What was simulated, as given and in the kernels' numbers.
+    scene
+        What was simulated.
+    gate
+        Which effects were computed, and why.
     times
         Times [s] asked for; none if the history is to cover the contact evenly.
     """
@@ -75,11 +81,17 @@ class Result:
     max_indentation: float
     max_force: float
     max_contact_radius: float
+    max_pressure: float
     accuracy: Accuracy
     warnings: tuple[str, ...]
     scene: Scene
-    model: Model = field(repr=False)
+    gate: Gate = field(repr=False)
     times: tuple[float, ...] | None = None
+
+    @property
+    def model(self) -> Model:
+        """The scene in the kernels' numbers."""
+        return self.gate.law.model
 
     def at(self, times: Iterable[float]) -> "Result":
         """The same result with the times [s] at which its history is wanted.
@@ -99,7 +111,7 @@ class Result:
         return replace(self, times=wanted)
 
     def history(self, n: int | None = None) -> History:
-        """The course of the impact, by the full method.
+        """The course of the impact, of the same effects, by the full method.
 
         Parameters
         ----------
@@ -114,23 +126,28 @@ class Result:
         """
         if n is not None and n < 2:
             raise SceneError(f"n: expected at least 2 times, got {n}; give 2 or more")
-        if n is None and self.times is not None:
-            times = np.array(self.times, dtype=np.float64)
-        else:
-            times = np.linspace(0.0, self._release(), n or POINTS)
-        return History(times, *kernels.history(times, *self.model.numbers))
+        law = self.gate.law
+        if law.effects == WHOLE_PLATE | {"hertz"}:
+            end = float(kernels.impact(*self.model.numbers).contact_time)
+            times = self._times(n, end)
+            return History(times, *kernels.history(times, *self.model.numbers))
+        whole = motion.impact(law)
+        assert whole is not None  # or there were no result
+        times = self._times(n, whole.contact_time)
+        return History(times, *motion.history(law, whole, times))
 
-    def _release(self) -> float:
-        """Contact time by the full method, with which the history ends [s]."""
-        if self.accuracy.method == "full":
-            return self.contact_time
-        return float(kernels.impact(*self.model.numbers).contact_time)
+    def _times(self, n: int | None, end: float) -> Array:
+        """The times asked for [s], or such that cover the contact."""
+        if n is None and self.times is not None:
+            return np.array(self.times, dtype=np.float64)
+        return np.linspace(0.0, end, n or POINTS)
 
     def to_json(self) -> dict[str, Any]:
         """The result in SI, with its accuracy, its warnings and the scene it belongs to."""
         numbers = {name: getattr(self, name) for name in UNITS}
         return numbers | {
             "accuracy": self.accuracy.to_json(),
+            "effects": [row.to_json() for row in self.gate.rows],
             "warnings": list(self.warnings),
             "scene": self.scene.to_json(),
         }
@@ -150,7 +167,13 @@ class Result:
         )
         notes = f"<p>{escape(str(self.accuracy))}</p>"
         notes += "".join(f"<p><b>Warning:</b> {escape(text)}</p>" for text in self.warnings)
-        return f"<table>{''.join(cells)}</table>{notes}"
+        return f"<table>{''.join(cells)}</table>{notes}{self.gate.to_html()}"
 
 
-UNITS = {"contact_time": "s", "max_indentation": "m", "max_force": "N", "max_contact_radius": "m"}
+UNITS = {
+    "contact_time": "s",
+    "max_indentation": "m",
+    "max_force": "N",
+    "max_contact_radius": "m",
+    "max_pressure": "Pa",
+}

@@ -4,15 +4,23 @@ import sys
 import tomllib
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Annotated, Any, ClassVar, Self, TypeGuard
+from typing import Annotated, Any, ClassVar, Literal, Self, TypeGuard
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 from pydantic.config import JsonDict
 from pydantic_core import PydanticCustomError
 
-from derivation.scene.explain import choice_problem, explain, shown
+from derivation.scene.materials import MATERIALS
+from derivation.scene.words import choice_problem, explain, shown
 
 Positive = Annotated[float, Field(gt=0)]
+MaterialName = Literal["steel", "glass", "aluminium", "concrete", "PMMA", "paper"]
+Edge = Literal["soft-hinge", "simply-supported", "clamped"]
+Output = Literal["contact_time", "max_indentation", "max_force", "max_contact_radius"]
+Wanted = Literal["auto"] | bool
+OUTPUTS: tuple[Output, ...] = (
+    "contact_time", "max_indentation", "max_force", "max_contact_radius",
+)  # fmt: skip
 Groups = tuple[tuple[str, ...], ...]
 TIGHTEST = 1e-13
 """Smallest relative tolerance: doubles promise no more."""
@@ -30,12 +38,16 @@ class Table(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", strict=True, allow_inf_nan=False)
     choices: ClassVar[tuple[Groups, ...]] = ()
     """Groups of keys of which exactly one group is to be given."""
+    stand_in: ClassVar[str | None] = None
+    """Key that makes up for groups left out."""
 
     @classmethod
     def conflicts(cls, given: Mapping[str, Any]) -> list[str]:
         """What is wrong with the keys given, taken together."""
         table = cls.__name__.lower()
         keys = {key for key, value in given.items() if value is not None}
+        if cls.stand_in in keys and not any(keys & set(sum(g, ())) for g in cls.choices):
+            return []
         examples = {key: _example(field) for key, field in cls.model_fields.items()}
         found = (choice_problem(table, groups, keys, examples) for groups in cls.choices)
         return [problem for problem in found if problem]
@@ -53,23 +65,50 @@ class Table(BaseModel):
         made: JsonDict = handler.resolve_ref_schema(handler(core_schema))
         properties: Any = made["properties"]
         for field in properties.values():
-            if "anyOf" in field:
-                field.update(field.pop("anyOf")[0])
+            kinds = [kind for kind in field.pop("anyOf", []) if kind != {"type": "null"}]
+            if len(kinds) == 1:
+                field.update(kinds[0])
                 field.pop("default")
+            elif kinds:
+                field["anyOf"] = kinds
         if cls.choices:
             made["allOf"] = [
                 {"oneOf": [{"required": list(group)} for group in groups]} for groups in cls.choices
             ]
+        if cls.stand_in:
+            keys = [list(group) for groups in cls.choices for group in groups]
+            absent = {"not": {"anyOf": [{"required": group} for group in keys]}}
+            alone = {"required": [cls.stand_in]} | absent
+            either: Any = [{"allOf": made["allOf"]}, alone]
+            made["allOf"] = [{"anyOf": either}]
         return made
 
 
 class Sphere(Table):
-    """The rigid sphere that strikes."""
+    """The sphere that strikes: rigid, unless its material is given."""
 
     choices = ((("mass",), ("density",)),)
+    stand_in = "material"
     radius: Positive = Field(description="sphere radius [m]", examples=[0.13])
     mass: Positive | None = Field(None, description="sphere mass [kg]", examples=[72.0])
     density: Positive | None = Field(None, description="sphere density [kg/m^3]", examples=[7850.0])
+    material: MaterialName | None = Field(
+        None, description="sphere material, which makes it elastic", examples=["steel"]
+    )
+
+    @classmethod
+    def conflicts(cls, given: Mapping[str, Any]) -> list[str]:
+        """Also a material without density where it is to give the mass."""
+        problems = super().conflicts(given)
+        name = given.get("material")
+        known = MATERIALS.get(name) if isinstance(name, str) else None
+        alone = given.get("mass") is None and given.get("density") is None
+        if known and known.density is None and alone:
+            problems.append(
+                f"sphere.material: expected a material of known density, got {shown(name)}; "
+                "add for instance `mass = 72` to [sphere]"
+            )
+        return problems
 
 
 class Plate(Table):
@@ -77,7 +116,7 @@ class Plate(Table):
 
     choices = (
         (("half_thickness",), ("thickness",)),
-        (("lame_lambda", "lame_mu"), ("youngs_modulus", "poissons_ratio")),
+        (("lame_lambda", "lame_mu"), ("youngs_modulus", "poissons_ratio"), ("material",)),
     )
     radius: Positive = Field(description="plate radius [m]", examples=[1.0])
     half_thickness: Positive | None = Field(
@@ -98,6 +137,14 @@ class Plate(Table):
     poissons_ratio: Annotated[float, Field(gt=-1, lt=0.5)] | None = Field(
         None, description="Poisson's ratio [1]", examples=[0.228]
     )
+    material: MaterialName | None = Field(None, description="plate material", examples=["glass"])
+    edge: Edge = Field(
+        "soft-hinge", description="how the plate's edge is held", examples=["clamped"]
+    )
+    density: Positive | None = Field(None, description="plate density [kg/m^3]", examples=[2500.0])
+    yield_stress: Positive | None = Field(
+        None, description="yield stress of the plate [Pa]", examples=[235e6]
+    )
 
     @classmethod
     def conflicts(cls, given: Mapping[str, Any]) -> list[str]:
@@ -117,22 +164,47 @@ class Impact(Table):
     """How the sphere arrives."""
 
     speed: Positive = Field(description="impact speed [m/s]", examples=[1.0])
+    gravity: Positive | None = Field(
+        None, description="acceleration that presses the sphere on [m/s^2]", examples=[9.81]
+    )
+
+
+class Effects(Table):
+    """Which effects are computed: as they are called for, always, or never."""
+
+    sphere_elasticity: Wanted = Field("auto", description="elastic sphere", examples=[False])
+    curvature: Wanted = Field("auto", description="sphere, not paraboloid", examples=[False])
+    bending: Wanted = Field("auto", description="the plate's deflection", examples=[True])
+    finite_thickness: Wanted = Field("auto", description="shear, compression", examples=[True])
+    side_wall: Wanted = Field("auto", description="the plate's finite radius", examples=[True])
+    gravity: Wanted = Field("auto", description="weight during contact", examples=[False])
 
 
 class Accuracy(Table):
     """How exact the result is to be."""
 
     rtol: Annotated[float, Field(ge=TIGHTEST, le=1)] = Field(
-        description="relative tolerance of every result [1]", examples=[1e-6]
+        description="relative tolerance of the results [1]", examples=[1e-6]
+    )
+    outputs: tuple[Output, ...] = Field(
+        OUTPUTS,
+        description="results it applies to",
+        examples=[["max_force"]],
+        min_length=1,
+        strict=False,  # TOML has arrays, no tuples
     )
 
 
 class Scene(Table):
     """A sphere striking a plate."""
 
-    sphere: Sphere = Field(description="the rigid sphere that strikes")
+    sphere: Sphere = Field(description="the sphere that strikes")
     plate: Plate = Field(description="the elastic plate that is struck in its middle")
     impact: Impact = Field(description="how the sphere arrives")
+    effects: Effects = Field(
+        default_factory=lambda: Effects.model_validate({}),
+        description="which effects are computed",
+    )
     accuracy: Accuracy | None = Field(None, description="how exact the result is to be")
 
     @classmethod
@@ -140,15 +212,16 @@ class Scene(Table):
         """Nothing: each table has looked at its own keys."""
         return []
 
-    def to_json(self) -> dict[str, dict[str, float]]:
+    def to_json(self) -> dict[str, dict[str, Any]]:
         """The scene as it was given."""
-        return self.model_dump(exclude_none=True)
+        return self.model_dump(mode="json", exclude_none=True, exclude_unset=True)
 
 
 TABLES: dict[str, type[Table]] = {
     "sphere": Sphere,
     "plate": Plate,
     "impact": Impact,
+    "effects": Effects,
     "accuracy": Accuracy,
 }
 

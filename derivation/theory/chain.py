@@ -22,6 +22,9 @@ and from the contact law to the motion:
 17 sensitivity      slopes of the law; what every parameter does to an impact
 18 substitution     how far an impact moves if its law is replaced by a simpler one
 20 true pressure    the pressure solved for: integral equation, and what assuming Hertz' changes
+21 curvature        a sphere instead of a paraboloid
+22 effects          how much each effect can change the law
+23 plate motion     when the plate's own motion matters: Zener's number, periods
 """
 
 from collections.abc import Callable, Iterator
@@ -29,7 +32,9 @@ from collections.abc import Callable, Iterator
 from derivation.formula.record import Formula
 from derivation.theory.contact_law import contact_law
 from derivation.theory.contact_split import contact_split, reduced_split
+from derivation.theory.curvature import curvature
 from derivation.theory.divergence import divergence
+from derivation.theory.effects import effects
 from derivation.theory.equilibrium import equilibrium
 from derivation.theory.face_conditions import omegas, scaled_omegas
 from derivation.theory.hertz import contact_radius, pressure, pressure_coefficient, sonine
@@ -39,6 +44,7 @@ from derivation.theory.interior import interior_fields
 from derivation.theory.loaded_mode import loaded_mode
 from derivation.theory.mode_shapes import mode_shapes
 from derivation.theory.plate_factor import plate_factor_slope, plate_factors
+from derivation.theory.plate_motion import plate_motion
 from derivation.theory.plate_series import series_formulas
 from derivation.theory.reversion import reversion
 from derivation.theory.sensitivity import sensitivity
@@ -72,6 +78,9 @@ MOTION_LINKS: tuple[Link, ...] = (
     ("sensitivity", sensitivity),
     ("substitution", substitution),
     ("true pressure", true_pressure),
+    ("curvature", curvature),
+    ("effects", effects),
+    ("plate motion", plate_motion),
 )
 """What follows from the contact law. Apart: these formulas hold integrals and constants too."""
 

@@ -24,9 +24,9 @@ class Errors:
     total
         The method against the truth; minus infinity where it gives no number.
     truncation
-        The same truncated method without rounding, in balls, against the truth.
+        The same truncated method without rounding, in balls or long numbers, against the truth.
     rounding
-        The method against the same without rounding.
+        The method against the same without rounding; the total where nothing is truncated.
     worst
         Argument of the worst point, in hexadecimal.
     """
@@ -39,7 +39,7 @@ class Errors:
 
 @dataclass(frozen=True)
 class Judged:
-    """A prepared method with its errors; set-up and first call in seconds."""
+    """A prepared method with its errors; time of the set-up, and of the first call a point [s]."""
 
     call: Call
     errors: Errors
@@ -72,19 +72,20 @@ def split(method: Method, problem: Problem, values: Sequence[Any]) -> Errors:
     with flint.ctx.workprec(math.ceil(most * LOG2_10) + 128):
         total = [digits(v, t, most) for v, t in zip(values, problem.truths, strict=True)]
         same = _same(method, problem)
-        truncation = rounding = None
+        truncation, rounding = None, min(total) if method.exact else None
         if same is not None:
-            truncation = min(digits(s, t, most) for s, t in zip(same, problem.truths, strict=True))
-            rounding = min(digits(v, s, most) for v, s in zip(values, same, strict=True))
+            balls = [as_ball(value) for value in same]
+            truncation = min(digits(s, t, most) for s, t in zip(balls, problem.truths, strict=True))
+            rounding = min(digits(v, s, most) for v, s in zip(values, balls, strict=True))
     place = int(np.argmin(total))
     return Errors(total[place], truncation, rounding, float(problem.points[place]).hex())
 
 
-def _same(method: Method, problem: Problem) -> Sequence[arb] | None:
+def _same(method: Method, problem: Problem) -> Sequence[Any] | None:
     if method.same is None:
         return None
     try:
-        found: Sequence[arb] = method.same(problem.regime)(problem.points)
+        found: Sequence[Any] = method.same(problem.regime)(problem.points)
     except NotImplementedError:
         return None
     return found

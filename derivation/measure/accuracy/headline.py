@@ -9,8 +9,7 @@ import numpy as np
 
 from derivation.measure.accuracy import clock, law_own
 from derivation.measure.accuracy.arithmetic import DOUBLE
-from derivation.measure.accuracy.interface import Doubles, Regime
-from derivation.measure.accuracy.inversion import deepest
+from derivation.measure.accuracy.interface import Doubles, Regime, deepest
 from derivation.reference import contact_balls
 from generated.contact_law import indentation
 

@@ -7,6 +7,8 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from generated.impact import impact
+
 Task = Literal["law", "inversion", "impact"]
 Doubles = NDArray[np.float64]
 Call = Callable[[Any], Any]
@@ -76,6 +78,12 @@ REGIMES = (
 PAPER = REGIMES[1]
 
 
+def deepest(regime: Regime) -> float:
+    """Contact radius that an impact at the regime's speed reaches [m]."""
+    r = regime
+    return float(impact(r.R, r.m, r.speed, r.h, r.b, r.lam, r.mu).max_contact_radius)
+
+
 def never_fails(regime: Regime) -> str | None:  # noqa: ARG001
     """The reason of a failure, for a method that has none."""
     return None
@@ -92,7 +100,8 @@ class Method:
     prepare
         Set-up for a regime: coefficients, zeros, tables. What it returns is timed.
     same
-        The same truncated method in balls, where there is one: it has no rounding error.
+        The same truncated method in balls or long numbers, where there is one: it has no rounding
+        error.
     fails
         Why the method is not tried in a regime, or None.
     one_by_one
@@ -101,6 +110,8 @@ class Method:
         Whether results are balls that enclose the truth, which judge themselves.
     quick
         Whether a quick run takes it along.
+    exact
+        Whether nothing is truncated, or less than its arithmetic tells: all error is rounding.
     """
 
     task: Task
@@ -113,6 +124,7 @@ class Method:
     one_by_one: bool = False
     certified: bool = False
     quick: bool = True
+    exact: bool = False
 
     @property
     def name(self) -> str:

@@ -1,25 +1,24 @@
 """Force over indentation: reversed series, Newton's iteration, table, oracle."""
 
 import math
+from typing import Any
 
 import numpy as np
+from flint import arb
+from mpmath import mp, mpf
 
-from derivation.measure.accuracy.arithmetic import Array, Balls
-from derivation.measure.accuracy.interface import Call, Doubles, Method, Regime
+from derivation.measure.accuracy.arithmetic import DOUBLE, Arithmetic, Array, Balls
+from derivation.measure.accuracy.by_series import LONG_NUMBERS, Law, horner, sure_law
+from derivation.measure.accuracy.coefficients import series
+from derivation.measure.accuracy.interface import Call, Doubles, Method, Regime, deepest
 from derivation.measure.accuracy.law_series import hermite
+from derivation.measure.accuracy.law_sums import EXACT, wrapped
 from derivation.reference import contact_balls
 from generated import contact_law, contact_series
-from generated.impact import impact
 from generated.reversed_series import _reversed
 
 SPAN = 100.0
 """Largest contact radius of a regime's impacts over the smallest one looked at."""
-
-
-def deepest(regime: Regime) -> float:
-    """Contact radius that an impact at the regime's speed reaches [m]."""
-    r = regime
-    return float(impact(r.R, r.m, r.speed, r.h, r.b, r.lam, r.mu).max_contact_radius)
 
 
 def hertz() -> Method:
@@ -29,28 +28,29 @@ def hertz() -> Method:
         stiff = 4 / 3 * regime.modulus * math.sqrt(regime.R)
         return lambda delta: stiff * (delta * np.sqrt(delta))
 
-    return Method("inversion", "Hertz", "", prepare)
+    def same(regime: Regime) -> Call:
+        with EXACT.context():
+            factor = 4 * contact_balls.modulus(regime.lam, regime.mu) / 3
+            R = EXACT.array(regime.R)
+        return wrapped(EXACT, lambda delta: factor * np.sqrt(R * delta) * delta)
+
+    return Method("inversion", "Hertz", "", prepare, same=same)
 
 
-def reversed_series(terms: int) -> Method:
+def reversed_series(terms: int, ar: Arithmetic = DOUBLE) -> Method:
     """Lagrange's inversion cut off, NaN beyond its radius of convergence."""
 
     def prepare(regime: Regime) -> Call:
         plates = contact_series.plates_of(np.array([regime.eta]))
         # The generated function seeks the radius anew at every call: here that is set-up.
-        radius, coefficients = _reversed(plates, 0, terms)
-        stiff = 4 / 3 * regime.modulus
+        radius, generated = _reversed(plates, 0, terms)
+        long = ar.digits > DOUBLE.digits
+        known = _reversed_balls(regime, terms, radius) if long else list(generated)
+        return _lagrange(regime, known, radius, ar)
 
-        def call(delta: Array) -> Array:
-            hertz = np.sqrt(delta * regime.R)
-            eps = hertz / (regime.h * radius)
-            eps = np.where(eps < 1, eps, np.nan)
-            value = np.full_like(eps, coefficients[-1])
-            for coefficient in coefficients[-2::-1]:
-                value = value * eps + coefficient
-            return stiff * hertz * delta * value
-
-        return call
+    def same(regime: Regime) -> Call:
+        radius, _ = _reversed(contact_series.plates_of(np.array([regime.eta])), 0, 1)
+        return _lagrange(regime, _reversed_balls(regime, terms, radius), radius, EXACT)
 
     def fails(regime: Regime) -> str | None:
         plates = contact_series.plates_of(np.array([regime.eta]))
@@ -62,43 +62,114 @@ def reversed_series(terms: int) -> Method:
             return None
         return f"beyond its radius: sqrt(R delta)/h up to {eps:.3g}, radius {radius:.3g}"
 
-    return Method("inversion", "reversed series", f"{terms} terms", prepare, fails=fails)
+    return Method(
+        "inversion", "reversed series", f"{terms} terms", prepare, ar.name, same, fails=fails
+    )  # fmt: skip
 
 
-def newton() -> Method:
+def _lagrange(regime: Regime, coefficients: list[Any], radius: float, ar: Arithmetic) -> Call:
+    """(4/3) E* sqrt(R delta) delta (p_0 + p_1 eps + ...), eps = sqrt(R delta)/(h radius) < 1."""
+    with ar.context():
+        p, R = list(ar.array(coefficients)), ar.array(regime.R)
+        reach = ar.array(regime.h) * ar.array(radius)
+        lam, mu = ar.array(regime.lam), ar.array(regime.mu)
+        stiff = 16 * mu * (lam + mu) / (3 * (lam + 2 * mu))
+
+    def call(delta: Array) -> Array:
+        hertz = np.sqrt(delta * R)
+        eps = hertz / reach
+        return stiff * hertz * delta * horner(p, np.where(eps < 1, eps, ar.array(math.nan)))
+
+    return wrapped(ar, call)
+
+
+def _reversed_balls(regime: Regime, terms: int, radius: float) -> list[arb]:
+    """p_n radius^n = 3/(n + 3) [A^n] (1 + F)^(-(n + 3)/2) radius^n, n < terms."""
+    with EXACT.context():
+        lifted = [arb(1)]
+        for c in series(regime.h, regime.b, max(1, terms // 2), EXACT.digits):
+            lifted += [c, arb(0)]
+        return [
+            3 * _power(lifted, arb(-n - 3) / 2, n) * arb(radius) ** n / (n + 3)
+            for n in range(terms)
+        ]
+
+
+def _power(lifted: list[arb], exponent: arb, order: int) -> arb:
+    """Coefficient of some order of a power of 1 + ..., by Euler's recurrence."""
+    found = [arb(1)]
+    for n in range(1, order + 1):
+        known = range(1, min(n, len(lifted) - 1) + 1)
+        terms = ((exponent * k - (n - k)) * lifted[k] * found[n - k] for k in known)
+        found.append(sum(terms, arb(0)) / n)
+    return found[order]
+
+
+def newton(dtype: type[np.float32 | np.float64] = np.float64) -> Method:
     """`force`, the generated code's Newton iteration."""
 
     def prepare(regime: Regime) -> Call:
         r = regime
-        return lambda delta: contact_law.force(delta, r.R, r.h, r.b, r.lam, r.mu)
+        others = [dtype(x) for x in (r.R, r.h, r.b, r.lam, r.mu)]
+        return lambda delta: contact_law.force(delta.astype(dtype), *others)
 
-    return Method("inversion", "Newton (production)", "as called", prepare)
+    name = np.dtype(dtype).name
+    return Method("inversion", "Newton (production)", "as called", prepare, name, exact=True)
 
 
-def table(knots: int) -> Method:
+def _knots(regime: Regime, count: int) -> Doubles:
+    """ln(R delta/h^2) at equal steps."""
+    top = deepest(regime)
+    ends = contact_law.indentation(
+        np.array([0.999 * top / SPAN, top]), regime.R, regime.h, regime.b
+    )
+    low, high = np.log(ends * regime.R / regime.h**2).tolist()
+    t = np.linspace(low, high, count)
+    # The last knot must not lie beyond the largest contact by rounding.
+    t[-1] = np.nextafter(t[-1], 0 if t[-1] > 0 else -np.inf)
+    return t
+
+
+def table(knots: int, dtype: type[np.float32 | np.float64] = np.float64) -> Method:
     """Cubics in ln(R delta/h^2) of ln(a/h): equal steps serve all sizes of contact."""
 
     def prepare(regime: Regime) -> Call:
-        top = deepest(regime)
-        ends = contact_law.indentation(
-            np.array([0.999 * top / SPAN, top]), regime.R, regime.h, regime.b
-        )
-        low, high = np.log(ends * regime.R / regime.h**2).tolist()
-        t = np.linspace(low, high, knots)
-        # The last knot must not lie beyond the largest contact by rounding.
-        t[-1] = np.nextafter(t[-1], 0 if t[-1] > 0 else -np.inf)
+        t = _knots(regime, knots)
         A = _inverse(t, regime)
         plates = contact_series.plates_of(np.array([regime.eta]))
         F, rise = contact_series.correction_with_slope(A, plates, None)
-        cubic = hermite(t, np.log(A), (1 + F) / (2 * (1 + F) + rise))
+        columns = t, np.log(A), (1 + F) / (2 * (1 + F) + rise)
+        cubic = hermite(*(column.astype(dtype) for column in columns))
         scale = 4 * regime.modulus * regime.h**3 / (3 * regime.R)
 
         def call(delta: Array) -> Array:
-            return scale * np.exp(3 * cubic(np.log(delta * (regime.R / regime.h**2))))
+            t = np.log(delta.astype(dtype) * (regime.R / regime.h**2))
+            return scale * np.exp(3 * cubic(t))
 
         return call
 
-    return Method("inversion", "table of cubics", f"{knots} knots", prepare)
+    def same(regime: Regime) -> Call:
+        law, t = sure_law(regime), _knots(regime, knots)
+        return wrapped(LONG_NUMBERS, lambda delta: _cubics_without_rounding(law, t, delta))
+
+    name = np.dtype(dtype).name
+    return Method("inversion", "table of cubics", f"{knots} knots", prepare, name, same)
+
+
+def _cubics_without_rounding(law: Law, t: Doubles, delta: Array) -> Array:
+    """Force by the cubic between the two knots about each indentation."""
+    start, step, per_h = mpf(t[0]), (mpf(t[-1]) - mpf(t[0])) / (t.size - 1), law.R / law.h**2
+    found = []
+    for x in delta:
+        place = mp.log(x * per_h)
+        first = min(max(int((place - start) / step), 0), t.size - 2)
+        ends = np.array([start + first * step, start + (first + 1) * step])
+        A = law.share(np.array([mp.exp(end) / per_h for end in ends]))
+        lift, slope = (1 + A * horner(c, A * A) for c in (law.c, law.s))
+        logs = np.array([mp.log(y) for y in A])
+        bent = hermite(ends, logs, lift / (2 * slope))(np.array([place]))[0]
+        found.append(4 * law.modulus * (law.h * mp.exp(bent)) ** 3 / (3 * law.R))
+    return np.array(found)
 
 
 def _inverse(t: Doubles, regime: Regime) -> Doubles:

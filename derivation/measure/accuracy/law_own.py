@@ -4,6 +4,7 @@ import numpy as np
 
 from derivation.measure.accuracy.arithmetic import Array, Balls
 from derivation.measure.accuracy.interface import Call, Method, Regime
+from derivation.measure.accuracy.law_sums import EXACT, wrapped
 from derivation.reference import contact_balls
 from generated import contact_law, contact_series
 
@@ -14,7 +15,10 @@ def hertz() -> Method:
     def prepare(regime: Regime) -> Call:
         return lambda a: a * a / regime.R
 
-    return Method("law", "Hertz", "", prepare)
+    def same(regime: Regime) -> Call:
+        return wrapped(EXACT, lambda a: a * a / EXACT.array(regime.R))
+
+    return Method("law", "Hertz", "", prepare, same=same)
 
 
 def called(dtype: type[np.float32 | np.float64] = np.float64) -> Method:
@@ -24,7 +28,8 @@ def called(dtype: type[np.float32 | np.float64] = np.float64) -> Method:
         R, h, b = (dtype(x) for x in (regime.R, regime.h, regime.b))
         return lambda a: contact_law.indentation(a.astype(dtype), R, h, b)
 
-    return Method("law", "production", "as called", prepare, np.dtype(dtype).name)
+    name = np.dtype(dtype).name
+    return Method("law", "production", "as called", prepare, name, exact=True)
 
 
 def prepared() -> Method:
@@ -44,16 +49,17 @@ def prepared() -> Method:
 
         return call
 
-    return Method("law", "production", "prepared", prepare)
+    return Method("law", "production", "prepared", prepare, exact=True)
 
 
 def oracle(digits: int, quick: bool = True) -> Method:
-    """The contour integrals in balls, a certified value each."""
+    """The contour integrals in balls, a certified value each; their nodes are set-up."""
 
     def prepare(regime: Regime) -> Call:
         def one(a: float) -> object:
             return contact_balls.indentation(a, regime.R, regime.h, regime.b, digits)
 
+        one(regime.high * regime.h)
         return lambda a: [one(float(x)) for x in np.atleast_1d(a)]
 
     return Method(

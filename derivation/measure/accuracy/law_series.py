@@ -8,8 +8,8 @@ from flint import arb
 
 from derivation.measure.accuracy.arithmetic import DOUBLE, Arithmetic, Array
 from derivation.measure.accuracy.coefficients import closed_form, series
-from derivation.measure.accuracy.interface import Call, Doubles, Method, Regime
-from derivation.measure.accuracy.law_sums import EXACT, wrapped
+from derivation.measure.accuracy.interface import Call, Method, Regime
+from derivation.measure.accuracy.law_sums import exact_for, wrapped
 from derivation.reference import contact_balls
 from generated import contact_series
 
@@ -36,17 +36,16 @@ def _series(
     family: str, coefficients: Coefficients, fails: Callable[[Regime], str | None], count: int,
     ar: Arithmetic, quick: bool,
 ) -> Method:  # fmt: skip
-    digits = max(ar.digits + 5, EXACT.digits)
+    exact = exact_for(ar)
 
     def prepare(regime: Regime) -> Call:
-        return _horner(ar, regime, coefficients(regime.h, regime.b, count, digits))
+        return _horner(ar, regime, coefficients(regime.h, regime.b, count, exact.digits))
 
     def same(regime: Regime) -> Call:
-        return _horner(EXACT, regime, coefficients(regime.h, regime.b, count, EXACT.digits))
+        return _horner(exact, regime, coefficients(regime.h, regime.b, count, exact.digits))
 
-    exact = same if ar.digits < EXACT.digits - 5 else None
     return Method(
-        "law", family, f"{count} terms", prepare, ar.name, exact, fails, ar.wide, quick=quick
+        "law", family, f"{count} terms", prepare, ar.name, same, fails, ar.wide, quick=quick
     )  # fmt: skip
 
 
@@ -126,7 +125,7 @@ def table(knots: int) -> Method:
     return Method("law", "table of cubics", f"{knots} knots", prepare)
 
 
-def hermite(t: Doubles, values: Doubles, slopes: Doubles) -> Call:
+def hermite(t: Array, values: Array, slopes: Array) -> Call:
     """The piecewise cubic through values and slopes at equidistant t."""
     # Not t[1] - t[0], whose rounding would grow with the knots.
     start, step, most = t[0], (t[-1] - t[0]) / (t.size - 1), t.size - 2

@@ -11,7 +11,7 @@ from derivation.measure.accuracy.arithmetic import DOUBLE, Arithmetic, Array, Ba
 from derivation.measure.accuracy.interface import Call, Method, Regime
 
 EXACT = Balls(40)
-"""What stands for exact arithmetic where a truncated method is judged."""
+"""What stands for exact arithmetic where a truncated method in doubles is judged."""
 
 SAME_MODES = 1000
 """Direct sums of more modes have no counterpart in balls: their zeros would take minutes."""
@@ -24,7 +24,7 @@ OVERFLOW = 709.78
 
 
 def modal(ar: Arithmetic, phi: Array, weights: Array) -> Call:
-    """sum_j weights_j s(phi_j a), smallest terms first."""
+    """sum_j weights_j s(phi_j a), the block of the last modes first: their terms are small."""
 
     def call(a: Array) -> Array:
         total = a * 0
@@ -49,10 +49,21 @@ def wrapped(ar: Arithmetic, inner: Call) -> Call:
     return call
 
 
+def exact_for(ar: Arithmetic) -> Balls:
+    """Exact arithmetic beside another: with digits enough for its rounding to be seen."""
+    return EXACT if ar.digits < EXACT.digits - 5 else Balls(ar.digits + 20)
+
+
 def _plate(ar: Arithmetic, regime: Regime) -> tuple[Array, Array, Array, Array]:
     """R, h, b and pi in an arithmetic."""
     R, h, b = (ar.array(x) for x in (regime.R, regime.h, regime.b))
-    return R, h, b, ar.array(arb.pi())
+    with flint.ctx.workprec(bits_for(ar)):  # Arb's precision is not set by other contexts
+        return R, h, b, ar.array(arb.pi())
+
+
+def bits_for(ar: Arithmetic) -> int:
+    """Precision at which constants are found for an arithmetic."""
+    return math.ceil(3.33 * (ar.digits + 10)) + 64
 
 
 def _direct(ar: Arithmetic, modes: int, printed: bool) -> Callable[[Regime], Call]:
@@ -128,8 +139,7 @@ def _split(
     ar: Arithmetic, nodes: int, share: float, double_exponential: bool, digits: int
 ) -> Callable[[Regime], Call]:
     def prepare(regime: Regime) -> Call:
-        bits = math.ceil(3.33 * (ar.digits + 10)) + 64
-        found = wall_nodes(nodes, digits, double_exponential, bits)
+        found = wall_nodes(nodes, digits, double_exponential, bits_for(ar))
         with ar.context():
             y, W = (ar.array(column) for column in found)
             R, h, b, pi = _plate(ar, regime)
@@ -174,10 +184,10 @@ def split(
     def same(regime: Regime) -> Call:
         if modes_of(regime, share) > SAME_MODES:
             raise NotImplementedError("zeros in balls would take minutes")
-        return _split(EXACT, nodes, share, double_exponential, digits)(regime)
+        return _split(exact_for(ar), nodes, share, double_exponential, digits)(regime)
 
     return Method(
         "law", f"split{rule}", f"{nodes} nodes, {share:g} b/h modes",
         _split(ar, nodes, share, double_exponential, digits), ar.name,
-        same if ar.digits < EXACT.digits - 5 else None, fails, ar.wide, quick=quick,
+        same, fails, ar.wide, quick=quick,
     )  # fmt: skip

@@ -4,13 +4,20 @@ import math
 from dataclasses import replace
 
 import numpy as np
+from flint import arb
 
 from derivation.measure.accuracy.arithmetic import Array, Balls
+from derivation.measure.accuracy.by_series import sure_duration
 from derivation.measure.accuracy.interface import Call, Method, Regime
+from derivation.measure.accuracy.law_sums import EXACT, wrapped
 from derivation.measure.printed_motion import printed_motion
 from derivation.reference import contact_impact
+from derivation.reference.contact_balls import modulus
 from generated.impact import _kernel, _parts, _solve, impact
 from generated.ranges import product
+
+NODES = 24
+"""Of the generated code."""
 
 MODES = 100
 """Where the paper's divergent sums are cut off for its perturbation."""
@@ -27,7 +34,16 @@ def hertz_time(regime: Regime) -> Call:
 
 def hertz() -> Method:
     """The plate left out."""
-    return Method("impact", "Hertz", "", hertz_time)
+
+    def same(regime: Regime) -> Call:
+        with EXACT.context():
+            fifth = arb(1) / 5
+            factor = 4 * arb.pi().sqrt() * (2 * fifth).gamma() / (5 * (arb(9) / 10).gamma())
+            stiff = 4 * modulus(regime.lam, regime.mu) * arb(regime.R).sqrt() / 3
+            scale = factor * (5 * arb(regime.m) / (4 * stiff)) ** (2 * fifth)
+            return wrapped(EXACT, lambda v0: scale / np.array([v**fifth for v in v0]))
+
+    return Method("impact", "Hertz", "", hertz_time, same=same)
 
 
 def linear(modes: int) -> Method:
@@ -37,7 +53,17 @@ def linear(modes: int) -> Method:
         time = printed_motion(regime, modes).contact_time
         return lambda v0: np.full(np.shape(v0), time)
 
-    return Method("impact", "paper's linear term", f"{modes} modes", prepare)
+    def same(regime: Regime) -> Call:
+        """pi sqrt(m gamma_2), gamma_2 = R/(4 E*) sum phi^3 K."""
+        with EXACT.context():
+            h, b, m = (EXACT.array(x) for x in (regime.h, regime.b, regime.m))
+            j, slope = EXACT.zeros(modes)
+            factors = (1 + EXACT.excess(2 * h * j / b)) / (j * slope * slope)
+            gamma = 8 * factors.sum() / (4 * modulus(regime.lam, regime.mu) * arb.pi() * b)
+            time = arb.pi() * (m * gamma).sqrt()
+        return lambda v0: np.array([time] * np.size(v0))
+
+    return Method("impact", "paper's linear term", f"{modes} modes", prepare, same=same)
 
 
 def perturbation(corrected: bool) -> Method:
@@ -85,17 +111,19 @@ def gauss(nodes: int) -> Method:
 
         return call
 
-    return Method("impact", "Gauss-Legendre", f"{nodes} nodes", prepare)
+    return Method("impact", "Gauss-Legendre", f"{nodes} nodes", prepare, same=sure_duration(nodes))
 
 
-def production() -> Method:
+def production(dtype: type[np.float32 | np.float64] = np.float64) -> Method:
     """`impact` as called, with its 24 nodes and all four results."""
 
     def prepare(regime: Regime) -> Call:
         r = regime
-        return lambda v0: impact(r.R, r.m, v0, r.h, r.b, r.lam, r.mu).contact_time
+        R, m, h, b, lam, mu = (dtype(x) for x in (r.R, r.m, r.h, r.b, r.lam, r.mu))
+        return lambda v0: impact(R, m, v0.astype(dtype), h, b, lam, mu).contact_time
 
-    return Method("impact", "production", "as called", prepare)
+    name = np.dtype(dtype).name
+    return Method("impact", "production", "as called", prepare, name, sure_duration(NODES))
 
 
 def oracle(digits: int, quick: bool = True) -> Method:

@@ -8,7 +8,7 @@ from derivation.measure.accuracy.catalogue import simplicity
 from derivation.measure.accuracy.interface import TIE
 from derivation.measure.accuracy.rows import Kind, Row
 
-DIGITS = (3, 6, 9, 12, 15, 30, 100)
+DIGITS = (3, 6, 9, 12, 15, 30, 100, 1000)
 DOUBTFUL = (1.15, 1.25)
 """Ratios of times at which another run may decide otherwise whether there is a tie."""
 
@@ -25,8 +25,10 @@ class Winner:
         The simplest among the ties, and its time per point [s].
     relative
         That time over the cheapest method's of the panel, with three digits at least.
-    ties, doubtful
-        Other families within a factor of 1.2, and those so near to it that it may change.
+    ties
+        Other families within a factor of 1.2 of the fastest.
+    doubtful
+        Families, the winner too, so near to that factor that another run may decide otherwise.
     """
 
     task: str

@@ -9,9 +9,10 @@ import numpy as np
 from flint import arb
 
 from derivation.formula.ball import LOG2_10
-from derivation.measure.accuracy.interface import Doubles, Regime, Task
-from derivation.measure.accuracy.inversion import SPAN, deepest
-from derivation.reference import contact_balls, contact_impact
+from derivation.measure.accuracy.interface import PAPER, Doubles, Regime, Task, deepest
+from derivation.measure.accuracy.inversion import SPAN
+from derivation.reference import contact_balls, contact_impact, many_digits
+from derivation.reference.contact_balls import ratio_of
 from generated.contact_law import indentation
 
 SEED = 7
@@ -19,7 +20,10 @@ ARRAY = 10_000
 """Points of an array that methods are timed on: its intermediates stay in the cache."""
 
 LAW_DIGITS, QUICK_DIGITS = 120, 45
-INVERSION_DIGITS, IMPACT_DIGITS = 28, 24
+MANY_DIGITS = 1030
+"""Of the law in the paper's regime, by a certified power series instead of integrals."""
+
+INVERSION_DIGITS, IMPACT_DIGITS = 40, 40
 
 
 @dataclass(frozen=True)
@@ -61,35 +65,45 @@ def _spread(low: float, high: float, count: int, seed: int) -> Doubles:
 
 def _law(regime: Regime, quick: bool) -> Problem:
     low, high = regime.low * regime.h, regime.high * regime.h
-    digits = QUICK_DIGITS if quick else LAW_DIGITS
+    digits = QUICK_DIGITS if quick else MANY_DIGITS if regime is PAPER else LAW_DIGITS
     radii = _spread(low, high, 10 if quick else 18, SEED)
-    truths = tuple(
-        contact_balls.indentation(float(a), regime.R, regime.h, regime.b, digits) for a in radii
-    )
+    if digits == MANY_DIGITS:
+        truths = _many_digits(radii, regime)
+    else:
+        truths = tuple(
+            contact_balls.indentation(float(a), regime.R, regime.h, regime.b, digits) for a in radii
+        )
     return Problem(
         "law", regime, radii, truths, digits, _spread(low, high, ARRAY - 2, SEED + 1)
     )  # fmt: skip
 
 
+def _many_digits(radii: Doubles, regime: Regime) -> tuple[arb, ...]:
+    """Indentations to MANY_DIGITS."""
+    r, reach = regime, float(radii.max()) / regime.b
+    law = many_digits.law_of(
+        ratio_of(r.h, r.b), reach * (1 + 1e-9), MANY_DIGITS, lambda *_: None
+    )  # fmt: skip
+    return tuple(
+        many_digits.pressed(float(a), r.R, r.b, r.lam, r.mu, law, MANY_DIGITS)[0] for a in radii
+    )
+
+
 def _inversion(regime: Regime, quick: bool) -> Problem:
-    """Indentations of known radii, rounded; the exact radius is one Newton step away."""
+    """Indentations of known radii, rounded, and the certified force there."""
     top = deepest(regime)
     radii = _spread(top / SPAN, 0.999 * top, 6 if quick else 14, SEED)
     R, h, b = regime.R, regime.h, regime.b
     depths = np.array([float(contact_balls.indentation(float(a), R, h, b, 20)) for a in radii])
-    with flint.ctx.workprec(math.ceil(3 * INVERSION_DIGITS * LOG2_10)):
-        truths = tuple(
-            _force(float(a), float(d), regime) for a, d in zip(radii, depths, strict=True)
-        )
+    with flint.ctx.workprec(math.ceil(2 * INVERSION_DIGITS * LOG2_10)):
+        truths = tuple(_force(float(d), regime) for d in depths)
     sample = indentation(_spread(top / SPAN, 0.999 * top, ARRAY - 2, SEED + 1), R, h, b)
     return Problem("inversion", regime, depths, truths, INVERSION_DIGITS, sample)
 
 
-def _force(a: float, delta: float, regime: Regime) -> arb:
-    """Force at an indentation whose radius is `a` but for 1e-15 of it: the step leaves 1e-30."""
-    R, h, b, digits = regime.R, regime.h, regime.b, 2 * INVERSION_DIGITS
-    miss = arb(delta) - contact_balls.indentation(a, R, h, b, digits)
-    radius = arb(a) + miss / contact_balls.slope(a, R, h, b, INVERSION_DIGITS)
+def _force(delta: float, regime: Regime) -> arb:
+    R, h, b = regime.R, regime.h, regime.b
+    radius = contact_balls.contact_radius(delta, R, h, b, INVERSION_DIGITS + 2)
     return 4 * contact_balls.modulus(regime.lam, regime.mu) * radius**3 / (3 * arb(R))
 
 

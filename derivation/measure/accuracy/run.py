@@ -9,8 +9,7 @@ from derivation.measure.accuracy import scaling
 from derivation.measure.accuracy.catalogue import methods
 from derivation.measure.accuracy.clock import CONTENDED, FULL, QUICK, SEED, Session
 from derivation.measure.accuracy.headline import headline
-from derivation.measure.accuracy.interface import PAPER, REGIMES, TASKS, TIE, Regime
-from derivation.measure.accuracy.inversion import deepest
+from derivation.measure.accuracy.interface import PAPER, REGIMES, TASKS, TIE, Regime, deepest
 from derivation.measure.accuracy.panels import panel
 from derivation.measure.accuracy.pareto import winners
 from derivation.measure.accuracy.problems import LAW_DIGITS, QUICK_DIGITS
@@ -27,7 +26,8 @@ def scene_regime(
 ) -> Regime:  # fmt: skip
     """A scene as a regime, in the place of the paper's.
 
-    The law is looked at from a thirteenth of the impact's largest contact to twice it.
+    The law is looked at from a thirteenth of the impact's largest contact to twice it, if that
+    is within the plate and the sphere.
 
     Raises
     ------

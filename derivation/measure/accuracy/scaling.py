@@ -11,12 +11,13 @@ import numpy as np
 
 from derivation.measure import speed
 from derivation.measure.accuracy import law_own, law_series
-from derivation.measure.accuracy.arithmetic import Balls
+from derivation.measure.accuracy.arithmetic import Balls, Mpmath
 from derivation.measure.accuracy.interface import PAPER, Method
 from derivation.measure.accuracy.law_sums import split
 from derivation.measure.accuracy.problems import ARRAY
 from generated.contact_law import indentation
 from generated.impact import impact
+from generated.simple_impact import hertz, leading
 
 REPEATS = 7
 LONG = 0.5
@@ -143,15 +144,16 @@ def thinness() -> list[Growth]:
 
 
 def digits(quick: bool) -> list[Growth]:
-    """The small-a series in balls over the digits asked for: set-up, and one point."""
-    asked = [30, 50, 100] if quick else [30, 50, 100, 200, 300]
-    setups, prepared = [], []
+    """The small-a series over the digits asked for: set-up, and one point in balls and mpmath."""
+    asked = [30, 50, 100] if quick else [30, 50, 100, 200, 300, 500, 1000]
+    setups, balls, numbers = [], [], []
     for count in asked:
         terms = math.ceil(count / DIGITS_PER_TERM) + 3
         begin = time.perf_counter()
-        call = law_series.small_contacts(terms, Balls(count)).prepare(PAPER)
+        balls.append(law_series.small_contacts(terms, Balls(count)).prepare(PAPER))
         setups.append(time.perf_counter() - begin)
-        prepared.append(call)
+        # The same coefficients: they are not found anew.
+        numbers.append(law_series.small_contacts(terms, Mpmath(count)).prepare(PAPER))
     a, setup_slope = np.array([0.3 * PAPER.h]), line(asked, setups)
     return [
         Growth(
@@ -160,22 +162,41 @@ def digits(quick: bool) -> list[Growth]:
         ),
         growth(
             "digits", "small-a series in balls, one point", asked,
-            [partial(call, a) for call in prepared],
+            [partial(call, a) for call in balls],
             "as many more terms as digits; the interpreter's share of a term outweighs its bits",
+        ),
+        growth(
+            "digits", "small-a series in mpmath, one point", asked,
+            [partial(call, a) for call in numbers],
+            "the same terms; products of so many bits count earlier",
         ),
     ]  # fmt: skip
 
 
-def scenes() -> list[Growth]:
-    """Impacts of different scenes in one batch."""
-    sizes = [10**k for k in range(6)]
+def scenes(quick: bool) -> list[Growth]:
+    """Impacts of different scenes by each of `simulate`'s methods, the whole law's in one batch."""
+    sizes = [10**k for k in range(5 if quick else 6)]
     batches = [speed.scenes(0.01, 2.9, n) for n in sizes]
-    return [
+    rows = [list(zip(*(x.tolist() for x in s.values()), strict=True)) for s in batches]
+    batch = "set-up of a call and NumPy's share of each operation outweigh the scenes below"
+    found = [
         growth(
-            "scenes", "impact, as called", sizes, [partial(impact, **s) for s in batches],
-            "set-up of a call and NumPy's share of each operation outweigh the scenes below",
+            "scenes", name, sizes, [partial(_each, method, some) for some in rows],
+            "one scene after another in plain Python",
         )
+        for name, method in (("hertz", hertz), ("leading", leading))
     ]  # fmt: skip
+    return found + [
+        growth(
+            "scenes", name, sizes, [partial(impact, **s, coarse=coarse) for s in batches], batch
+        )
+        for name, coarse in (("coarse", True), ("full", False))
+    ]  # fmt: skip
+
+
+def _each(method: Callable[..., object], scenes: Sequence[Sequence[float]]) -> list[object]:
+    """A method of single scenes on each."""
+    return [method(*scene) for scene in scenes]
 
 
 def studies(quick: bool) -> tuple[tuple[str, Callable[[], list[Growth]]], ...]:
@@ -184,5 +205,5 @@ def studies(quick: bool) -> tuple[tuple[str, Callable[[], list[Growth]]], ...]:
         ("points", points),
         ("b/h", thinness),
         ("digits", partial(digits, quick)),
-        ("scenes", scenes),
+        ("scenes", partial(scenes, quick)),
     )

@@ -3,20 +3,26 @@
 import math
 from collections.abc import Callable
 from importlib.util import find_spec
+from typing import Any
 
 import numpy as np
 
 from derivation.measure.accuracy.arithmetic import Array
+from derivation.measure.accuracy.by_series import LONG_NUMBERS, sure_law
 from derivation.measure.accuracy.interface import Call, Doubles, Method, Regime
+from derivation.measure.accuracy.law_sums import wrapped
 from derivation.measure.accuracy.motion import hertz_time
 from generated import contact_law, contact_series
 from generated.impact import impact
 
-LEAST_RTOL = 2.3e-14
-"""SciPy's floor."""
-
 LONGEST = 40.0
 """Contact times over Hertz's up to which fixed steps of his time are tried."""
+
+MOST_STEPS = 80_000
+"""Enough for 1000 steps of the longest of these, twice over."""
+
+SAME_STEPS = 1500
+"""Steps in long numbers at most: each takes some milliseconds."""
 
 
 def scalar_force(regime: Regime) -> Callable[[float], float]:
@@ -88,9 +94,8 @@ def solver(name: str, rtol: float, share: float | None = None, quick: bool = Tru
                 return float(state[1])
 
             top.terminal = True  # type: ignore[attr-defined]
-            tolerance = max(rtol, LEAST_RTOL)
             found = solve_ivp(
-                rate, (0, 2 * time), (0.0, v0), method=name, rtol=tolerance,
+                rate, (0, 2 * time), (0.0, v0), method=name, rtol=rtol,
                 atol=(1e-3 * rtol * depth, 1e-3 * rtol * v0), events=top,
                 max_step=np.inf if share is None else share * time,
             )  # fmt: skip
@@ -104,40 +109,64 @@ def solver(name: str, rtol: float, share: float | None = None, quick: bool = Tru
     )  # fmt: skip
 
 
-def verlet(steps: int, quick: bool = True) -> Method:
+def verlet(
+    steps: int, quick: bool = True, dtype: type[np.float32 | np.float64] = np.float64
+) -> Method:
     """Velocity Verlet as particle codes use it: a fixed step, Hertz's contact time over `steps`.
 
     All speeds advance together; the end is interpolated linearly in the last step.
     """
 
     def fails(regime: Regime) -> str | None:
-        r = regime
-        time = impact(r.R, r.m, r.speed, r.h, r.b, r.lam, r.mu).contact_time
-        longer = float(time / hertz_time(regime)(r.speed))
+        longer = _longer(regime)
         if longer < LONGEST:
             return None
         return f"contact lasts {longer:.3g} times as long as Hertz's, whose time sets the step"
 
     def prepare(regime: Regime) -> Call:
         r, free = regime, hertz_time(regime)
+        others = [dtype(x) for x in (r.R, r.h, r.b, r.lam, r.mu)]
 
-        def call(v0: Array) -> Array:
-            v, x, acceleration = v0.copy(), np.zeros_like(v0), np.zeros_like(v0)
-            dt, ended = free(v0) / steps, np.full_like(v0, np.nan)
-            for step in range(int(2 * LONGEST * steps)):
-                ahead = x + dt * v + 0.5 * dt * dt * acceleration
-                force = contact_law.force(np.maximum(ahead, 0), r.R, r.h, r.b, r.lam, r.mu)
-                v = v - 0.5 * dt * (force / r.m - acceleration)
-                over = (ahead <= 0) & np.isnan(ended)
-                share = x / np.where(over, x - ahead, 1)
-                ended = np.where(over, dt * (step + share), ended)
-                x, acceleration = ahead, -force / r.m
-                if not np.isnan(ended).any():
-                    break
-            return ended
+        def force(delta: Array) -> Array:
+            return contact_law.force(delta, *others)
 
-        return call
+        return lambda v0: _verlet(v0.astype(dtype), free(v0.astype(dtype)) / steps, r.m, force)
+
+    def same(regime: Regime) -> Call:
+        if steps * _longer(regime) > SAME_STEPS:
+            raise NotImplementedError("so many steps in long numbers would take minutes")
+        law, free = sure_law(regime), hertz_time(regime)
+        return wrapped(
+            LONG_NUMBERS, lambda v0: _verlet(v0, free(v0) / steps, law.m, law.force)
+        )  # fmt: skip
 
     return Method(
-        "impact", "velocity Verlet", f"Hertz's time/{steps}", prepare, fails=fails, quick=quick
-    )
+        "impact", "velocity Verlet", f"Hertz's time/{steps}", prepare, np.dtype(dtype).name, same,
+        fails=fails, quick=quick,
+    )  # fmt: skip
+
+
+def _longer(regime: Regime) -> float:
+    """Contact time over Hertz's."""
+    r = regime
+    time = impact(r.R, r.m, r.speed, r.h, r.b, r.lam, r.mu).contact_time
+    return float(time / hertz_time(regime)(r.speed))
+
+
+def _verlet(v0: Array, dt: Array, m: Any, force: Callable[[Array], Array]) -> Array:
+    """Contact times for speeds; those still open when steps run out are NaN."""
+    v, x, acceleration, ended = v0, 0 * v0, 0 * v0, 0 * v0
+    touching = np.ones(v0.shape, bool)
+    for step in range(MOST_STEPS):
+        ahead = x + dt * v + dt * dt * acceleration / 2
+        pressed = ahead > 0
+        load = np.where(pressed, force(np.where(pressed, ahead, dt * v0)), 0 * v0)
+        v = v - dt * (load / m - acceleration) / 2
+        over = touching & ~pressed
+        share = x / np.where(over, x - ahead, 1)
+        ended = np.where(over, dt * (step + share), ended)
+        touching = touching & pressed
+        x, acceleration = ahead, -load / m
+        if not touching.any():
+            return ended
+    return np.where(touching, math.nan, ended)

@@ -3,6 +3,8 @@
 from collections.abc import Mapping
 from typing import Any
 
+from derivation.measure.accuracy.headline import DIGITS
+
 COLUMNS = ("task", "#digits", "method", "#ns a point", "#over cheapest", "ties")
 CASES = ("paper", "scene")
 """Regimes shown: the paper's, or the scene in its place."""
@@ -27,6 +29,11 @@ def cells(data: Mapping[str, Any]) -> list[tuple[str, ...]]:
 def headline(data: Mapping[str, Any]) -> str:
     """The generated law against direct summation."""
     found = data["headline"]
+    if not found["reached"]:
+        return (
+            f"direct sum of {found['modes']} modes to fewer than {DIGITS[0]} digits; generated law "
+            f"to {found['digits']:.1f} digits: {1e9 * found['called']:.3g} ns"
+        )
     best = found["reached"][-1]
     short = "" if best["digits"] >= WANTED else f" ({WANTED} only in a full run)"
     return (

@@ -9,7 +9,11 @@ from pydantic.fields import FieldInfo
 Fields = Mapping[str, Mapping[str, FieldInfo]]
 """Per table its keys."""
 
+WANTED = '"auto", true or false'
 EXPECTED = {
+    "material": "the name of a material (steel, glass, aluminium, concrete, PMMA or paper)",
+    "edge": '"soft-hinge", "simply-supported" or "clamped"',
+    "outputs": "a list of contact_time, max_indentation, max_force and max_contact_radius",
     "lame_lambda": "a finite number",
     "poissons_ratio": "a number above -1 and below 0.5",
     "rtol": "a number from 1e-13 to 1",
@@ -68,7 +72,8 @@ def explain(kind: str, place: tuple[int | str, ...], value: Any, fields: Fields)
         return f"{name}: {expected}; write [{name}], below it {example}"
     table, key = str(place[0]), str(place[1])
     field = fields[table][key]
-    expected = f"expected {EXPECTED.get(key, 'a positive number')}, the {field.description}"
+    usual = WANTED if table == "effects" else "a positive number"
+    expected = f"expected {EXPECTED.get(key, usual)}, the {field.description}"
     example = _line(table, (key, field))
     if kind == "missing":
         return f"{name}: {expected}, got nothing; add {example} to [{table}]"
@@ -106,8 +111,8 @@ def choice_problem(
     stray = [key for key in present if whole and key not in whole[0]]
     if not present:
         got, mend = "neither", f"add for instance {first} to [{table}]"
-    elif len(whole) == len(groups):
-        got, mend = "both", f"remove {_group(table, groups[0])} or {_group(table, groups[-1])}"
+    elif len(whole) == 2 and len(present) == len(whole[0]) + len(whole[1]):
+        got, mend = "both", f"remove {_group(table, whole[0])} or {_group(table, whole[1])}"
     elif whole:
         got, mend = _names(table, present), f"remove {_names(table, stray)}"
     else:

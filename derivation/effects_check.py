@@ -1,0 +1,49 @@
+"""Holds the gate to random scenes: what is left out against every effect that applies."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from derivation.files import ROOT, measurements, write_file
+from derivation.measure import effects
+from derivation.produce import folder_for
+from derivation.scene import motion
+from derivation.scene.effects import EFFECTS
+from derivation.scene.impact import simulate
+from derivation.scene.law import Law
+from derivation.scene.model import model_of
+from derivation.scene.scene import read
+
+MEASURED: Path = measurements() / "effects.json"
+WIDEST = 6.0
+"""Contact radius over half-thickness up to which scenes are compared."""
+
+
+def check_effects(
+    count: int, record: bool = False, tell: effects.Tell | None = None
+) -> tuple[effects.Row, ...]:
+    """Random scenes at several tolerances against everything on; keep the rows if asked."""
+    rows = effects.judge(count, gated, everything, tell=tell)
+    if record:
+        folder_for(None, ROOT / "reports")
+        write_file(MEASURED, effects.to_json(rows, count))
+    return rows
+
+
+def gated(data: effects.Scene, rtol: float) -> tuple[Sequence[float], Sequence[str], float]:
+    """A scene as `simulate` computes it at a tolerance."""
+    result = simulate(read(data), rtol=rtol)
+    values = [getattr(result, name) for name in effects.OUTPUTS]
+    return values, sorted(result.gate.law.effects), result.accuracy.bound
+
+
+def everything(data: effects.Scene) -> tuple[Sequence[float], Sequence[str]] | None:
+    """The same scene with every effect that applies; None beyond the range of the models."""
+    model = model_of(read(data))
+    present = sorted(effect.name for effect in EFFECTS if not effect.absent(model))
+    with np.errstate(all="ignore"):
+        found = motion.impact(Law(model, frozenset(present)))
+    if found is None or found.max_contact_radius > WIDEST * model.h:
+        return None
+    return found.numbers, present

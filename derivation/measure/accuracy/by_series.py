@@ -1,0 +1,196 @@
+"""Inversion and impact by the law's power series in a/h, in any arithmetic.
+
+With A = a/h, delta = (h^2/R) A^2 (1 + F), F = A (c_1 + c_3 A^2 + ...). These are methods by
+themselves; and, in mpmath with terms enough, truncated methods without their rounding.
+"""
+
+from collections.abc import Callable
+
+import flint
+import numpy as np
+from flint import arb
+
+from derivation.measure.accuracy.arithmetic import DOUBLE, Arithmetic, Array, Mpmath
+from derivation.measure.accuracy.coefficients import series
+from derivation.measure.accuracy.interface import Call, Method, Regime, deepest
+from derivation.measure.accuracy.law_sums import bits_for, wrapped
+
+SURE_TERMS = 28
+"""Terms that stand for the law: at a/h = 0.5 they leave out 1e-50."""
+
+SURE_DEPTH = 0.6
+"""a/h up to which they do."""
+
+LONG_NUMBERS = Mpmath(40)
+"""What stands for exact arithmetic beside doubles where a root is sought, which balls do not do."""
+
+STEPS = 60
+
+
+def exact_for(ar: Arithmetic) -> Mpmath:
+    """The same beside any arithmetic."""
+    return LONG_NUMBERS if ar.digits < LONG_NUMBERS.digits - 5 else Mpmath(ar.digits + 20)
+
+
+def diverges(regime: Regime) -> str | None:
+    """Why the series does not serve a regime's impacts, or None."""
+    radius, most = min(4.0, 2 / regime.eta), deepest(regime) / regime.h
+    return None if most < radius else f"diverges: a/h up to {most:.3g}, its radius is {radius:g}"
+
+
+def expect_sure(regime: Regime) -> None:
+    """Refuse contacts so large that the series does not stand for the law.
+
+    Raises
+    ------
+    NotImplementedError
+        If it does not.
+    """
+    if deepest(regime) > SURE_DEPTH * regime.h:
+        raise NotImplementedError("the series does not reach so far")
+
+
+class Law:
+    """The series of a regime in an arithmetic, made in its context; of it, A at an indentation."""
+
+    def __init__(self, regime: Regime, terms: int, ar: Arithmetic) -> None:
+        digits = max(40, ar.digits + 5)
+        self.c = list(ar.array(series(regime.h, regime.b, terms, digits)))
+        # (R/2a) d delta/da = 1 + A (s_1 + s_3 A^2 + ...)
+        self.s = [c * (2 * k + 3) / 2 for k, c in enumerate(self.c)]
+        self.R, self.h, self.m = (ar.array(x) for x in (regime.R, regime.h, regime.m))
+        lam, mu = ar.array(regime.lam), ar.array(regime.mu)
+        self.modulus = 4 * mu * (lam + mu) / (lam + 2 * mu)
+        self.top = ar.array(1.05 * deepest(regime) / regime.h)
+        self.close = 10.0 ** (-0.6 * ar.digits)
+
+    def share(self, delta: Array) -> Array:
+        """A at indentations above 0."""
+        goal = delta * self.R / (self.h * self.h)
+
+        def miss(A: Array) -> tuple[Array, Array]:
+            square = A * A
+            lifted = square * (1 + A * horner(self.c, square))
+            return lifted - goal, 2 * A * (1 + A * horner(self.s, square))
+
+        return self.root(np.sqrt(goal), miss)
+
+    def largest(self, v0: Array) -> Array:
+        """A where a sphere of speed v0 stops: A^5 (1/5 + sum s A^(2k+1)/(2k+6)) = goal."""
+        h5 = self.h * self.h * self.h * self.h * self.h
+        goal = 3 * self.m * v0 * v0 * self.R * self.R / (16 * self.modulus * h5)
+        e = [s / (2 * k + 6) for k, s in enumerate(self.s)]
+
+        def miss(A: Array) -> tuple[Array, Array]:
+            square = A * A
+            fourth = square * square
+            work = fourth * A * (1 + 5 * A * horner(e, square)) / 5
+            return work - goal, fourth * (1 + A * horner(self.s, square))
+
+        return self.root((5 * goal) ** 0.2, miss)
+
+    def root(self, start: Array, miss: Callable[[Array], tuple[Array, Array]]) -> Array:
+        """Newton's iteration, from no more than the largest contact there is."""
+        A = np.minimum(start, self.top)
+        for _ in range(STEPS):
+            value, slope = miss(A)
+            step = value / slope
+            A = np.minimum(np.maximum(A - step, 0.3 * A), self.top)
+            if not (abs(step) > self.close * A).any():
+                break
+        return A
+
+    def force(self, delta: Array) -> Array:
+        """P = 4 E* a^3/(3 R)."""
+        a = self.share(delta) * self.h
+        return 4 * self.modulus * a * a * a / (3 * self.R)
+
+
+def horner(coefficients: list[Array], x: Array) -> Array:
+    """A polynomial."""
+    value = coefficients[-1] + 0 * x
+    for coefficient in coefficients[-2::-1]:
+        value = value * x + coefficient
+    return value
+
+
+def inverse(terms: int, ar: Arithmetic) -> Callable[[Regime], Call]:
+    """Force over indentation by so many terms, prepared for a regime."""
+
+    def prepare(regime: Regime) -> Call:
+        with ar.context():
+            return wrapped(ar, Law(regime, terms, ar).force)
+
+    return prepare
+
+
+def newton(terms: int, ar: Arithmetic = DOUBLE, quick: bool = True) -> Method:
+    """Newton's iteration on the series."""
+    return Method(
+        "inversion", "Newton, small-a series", f"{terms} terms", inverse(terms, ar), ar.name,
+        inverse(terms, exact_for(ar)), diverges, ar.wide, quick=quick,
+    )  # fmt: skip
+
+
+def duration(nodes: int, terms: int, ar: Arithmetic) -> Callable[[Regime], Call]:
+    """Contact time over speed by so many terms and Gauss-Legendre nodes, prepared for a regime.
+
+    At a contact radius q a_m, q = 1 - u^2, and with W(q) the energy stored there,
+    T = 8 h^2 A^2/(R v0) int_0^1 q S(q A)/sqrt(H(q)) du, H = (1 - W(q)/W(1))/(1 - q).
+    """
+
+    def prepare(regime: Regime) -> Call:
+        with flint.ctx.workprec(bits_for(ar)):
+            rule = [arb.legendre_p_root(nodes, k, weight=True) for k in range(nodes)]
+            places, weights = [(1 + x) / 2 for x, _ in rule], [w / 2 for _, w in rule]
+        with ar.context():
+            law, u, w = Law(regime, terms, ar), ar.array(places), ar.array(weights)
+
+            def call(v0: Array) -> Array:
+                A = law.largest(v0)
+                q = 1 - u * u
+                slope = q * (1 + (A[:, None] * q) * horner(law.s, (A[:, None] * q) ** 2))
+                integral = (w * slope / np.sqrt(_quotient(law, A[:, None], q))).sum(axis=1)
+                return 8 * law.h * law.h * A * A * integral / (law.R * v0)
+
+            return wrapped(ar, call)
+
+    return prepare
+
+
+def _quotient(law: Law, A: Array, q: Array) -> Array:
+    """H of `duration`: with W = q^5/5 + sum e q^(2k+6) its terms are sums of the e that follow."""
+    square, power, e = A * A, A, []
+    for k, s in enumerate(law.s):
+        e.append(s * power / (2 * k + 6))
+        power = power * square
+    tails = list(np.cumsum(np.array(e[::-1]), axis=0)[::-1])
+    whole = tails[0] + 1 / (5 + 0 * A)
+    rest = tails[0] + q * (1 + q) * horner([*tails[1:], 0 * A], q * q)
+    return (1 + q * (1 + q * (1 + q * (1 + q)))) + q**5 * rest / whole
+
+
+def gauss(nodes: int, terms: int, ar: Arithmetic = DOUBLE, quick: bool = True) -> Method:
+    """Gauss-Legendre on the series."""
+    return Method(
+        "impact", "Gauss-Legendre, small-a series", f"{nodes} nodes, {terms} terms",
+        duration(nodes, terms, ar), ar.name, duration(nodes, terms, exact_for(ar)), diverges,
+        ar.wide, quick=quick,
+    )  # fmt: skip
+
+
+def sure_duration(nodes: int) -> Callable[[Regime], Call]:
+    """Gauss-Legendre without rounding, where the series stands for the law."""
+
+    def prepare(regime: Regime) -> Call:
+        expect_sure(regime)
+        return duration(nodes, SURE_TERMS, LONG_NUMBERS)(regime)
+
+    return prepare
+
+
+def sure_law(regime: Regime) -> Law:
+    """The law without rounding, to be used in the context of LONG_NUMBERS."""
+    expect_sure(regime)
+    with LONG_NUMBERS.context():
+        return Law(regime, SURE_TERMS, LONG_NUMBERS)

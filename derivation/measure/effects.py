@@ -1,0 +1,132 @@
+"""Whether leaving effects out is honest: random scenes at several tolerances, against all effects.
+
+Scenes are drawn one by one from a seed and their number, log-uniform over materials, sizes and
+speeds. "Everything" is the same scene with every effect that applies; both are solved by the
+caller, so that this file knows no scene.
+"""
+
+import json
+import math
+import random
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+SEED = 1
+TOLERANCES = (1e-2, 1e-4, 1e-6, 1e-9)
+OUTPUTS = ("contact_time", "max_indentation", "max_force", "max_contact_radius")
+
+Scene = Mapping[str, Mapping[str, Any]]
+"""Tables of keys, as a scene file holds them."""
+Solve = Callable[[Scene, float], tuple[Sequence[float], Sequence[str], float]]
+"""Results, effects included and bound of a scene at a tolerance."""
+Everything = Callable[[Scene], tuple[Sequence[float], Sequence[str]] | None]
+"""Results and effects of a scene with every effect; None if it is out of every model's range."""
+Tell = Callable[[str, int, int], None]
+
+
+@dataclass(frozen=True)
+class Row:
+    """How the bounds held at one tolerance.
+
+    Parameters
+    ----------
+    rtol
+        The tolerance.
+    scenes
+        How many were within the models' range.
+    ratio
+        Largest difference from everything over the tolerance.
+    tightest
+        Largest difference over the bound stated.
+    included
+        Effects taken in, on average, beside the one that always is.
+    applicable
+        Effects that applied, on average, beside it.
+    quantity, number
+        Of which result the largest ratio was, and in which scene.
+    """
+
+    rtol: float
+    scenes: int
+    ratio: float
+    tightest: float
+    included: float
+    applicable: float
+    quantity: str
+    number: int
+
+    @property
+    def kept(self) -> bool:
+        """Whether no difference was above its tolerance or its bound."""
+        return self.ratio <= 1.0 and self.tightest <= 1.0
+
+
+def scene(number: int, seed: int = SEED) -> dict[str, dict[str, Any]]:
+    """The scene of a number: pebbles to boulders on panes, plates and blocks."""
+    generator = random.Random(f"effects {seed} {number}")
+
+    def spread(low: float, high: float) -> float:
+        return 10 ** generator.uniform(math.log10(low), math.log10(high))
+
+    b = spread(1e-2, 10.0)
+    plate: dict[str, Any] = {
+        "radius": b,
+        "half_thickness": b * spread(1e-3, 10.0),
+        "youngs_modulus": spread(1e7, 1e12),
+        "poissons_ratio": generator.uniform(-0.5, 0.49),
+    }
+    sphere: dict[str, Any] = {"radius": b * spread(1e-2, 10.0), "density": spread(500.0, 2e4)}
+    if generator.random() < 0.6:
+        sphere["material"] = generator.choice(["steel", "glass", "aluminium", "concrete", "PMMA"])
+    impact: dict[str, Any] = {"speed": spread(1e-3, 50.0)}
+    if generator.random() < 0.5:
+        impact["gravity"] = 9.81
+    return {"sphere": sphere, "plate": plate, "impact": impact}
+
+
+def judge(
+    count: int, solve: Solve, everything: Everything, seed: int = SEED, tell: Tell | None = None
+) -> tuple[Row, ...]:
+    """Every scene at every tolerance, the rows by tolerance."""
+    found: dict[float, list[tuple[float, float, str, int, int, int]]] = {
+        rtol: [] for rtol in TOLERANCES
+    }
+    for number in range(count):
+        if tell is not None:
+            tell("scene", number + 1, count)
+        data = scene(number, seed)
+        whole = everything(data)
+        if whole is None:
+            continue
+        true, applicable = whole
+        for rtol in TOLERANCES:
+            values, effects, bound = solve(data, rtol)
+            errors = [abs(value / x - 1.0) for value, x in zip(values, true, strict=True)]
+            error = max(errors) if all(map(math.isfinite, errors)) else math.inf
+            name = OUTPUTS[errors.index(max(errors))]
+            found[rtol].append(
+                (error / rtol, error / bound, name, number, len(effects) - 1, len(applicable) - 1)
+            )
+    return tuple(_row(rtol, rows) for rtol, rows in found.items())
+
+
+def _row(rtol: float, rows: Sequence[tuple[float, float, str, int, int, int]]) -> Row:
+    worst = max(rows)
+    n = len(rows)
+    return Row(
+        rtol,
+        n,
+        worst[0],
+        max(row[1] for row in rows),
+        sum(row[4] for row in rows) / n,
+        sum(row[5] for row in rows) / n,
+        worst[2],
+        worst[3],
+    )
+
+
+def to_json(rows: Sequence[Row], count: int) -> str:
+    """The rows as JSON, one to a line."""
+    body = ",\n ".join(json.dumps(asdict(row)) for row in rows)
+    return f'{{"drawn": {count},\n"seed": {SEED},\n"rows": [\n {body}\n]}}\n'

@@ -1,0 +1,26 @@
+"""Physical effects, one file each: what it adds, when it matters, what leaving it out costs.
+
+Read `effect` first: what all of them answer. The order below is that of the effects table.
+"""
+
+from derivation.scene.effects.bending import Bending
+from derivation.scene.effects.curvature import Curvature
+from derivation.scene.effects.effect import Effect
+from derivation.scene.effects.finite_thickness import FiniteThickness
+from derivation.scene.effects.gravity import Gravity
+from derivation.scene.effects.hertz import Hertz
+from derivation.scene.effects.side_wall import SideWall
+from derivation.scene.effects.sphere_elasticity import SphereElasticity
+
+EFFECTS: tuple[Effect, ...] = (
+    Hertz(),
+    SphereElasticity(),
+    Curvature(),
+    Bending(),
+    FiniteThickness(),
+    SideWall(),
+    Gravity(),
+)
+"""Every effect there is, in the order of the effects table."""
+
+BY_NAME = {effect.name: effect for effect in EFFECTS}

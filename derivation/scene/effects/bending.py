@@ -1,0 +1,27 @@
+"""Bending: the deflection of a thin plate under the force."""
+
+from derivation.scene import kernels
+from derivation.scene.effects.effect import Array, Bound, PlateEffect, Share, none_of
+from derivation.scene.model import Model
+
+
+class Bending(PlateEffect):
+    """P b^2/(8 pi D), D = E* H^3/12: the term 1/(4 pi eta^2) of c_1, on the paper's edge."""
+
+    name = "bending"
+    adds = "deflection of the plate"
+    equation = "delta = P b^2/(8 pi D), D = E* H^3/12"
+    number = "(2/pi) a b^2/H^3"
+    source = "Kirchhoff plate; link 22"
+
+    def value(self, model: Model, a: float) -> float:
+        """Its share of the indentation over Hertz'."""
+        return float(kernels.bending(a / model.h, model.eta).depth)
+
+    def bound(self, model: Model, a: Array) -> Bound:
+        """The share itself: exact."""
+        return Bound(none_of(a), self.share(model, a).slope)
+
+    def share(self, model: Model, a: Array) -> Share:
+        """Linear in the radius."""
+        return Share(*kernels.bending(a / model.h, model.eta))

@@ -1,0 +1,28 @@
+"""Curvature: the sphere is no paraboloid where the contact is not small beside it."""
+
+import numpy as np
+
+from derivation.scene import kernels
+from derivation.scene.effects.effect import Array, Bound, Effect
+from derivation.scene.model import Model
+
+
+class Curvature(Effect):
+    """Sneddon's exact profile: a force takes a smaller contact and more indentation."""
+
+    name = "curvature"
+    adds = "a sphere, not a paraboloid"
+    equation = "delta = (a/2) log((R+a)/(R-a)), dP = 2 E* a d delta"
+    number = "a/R"
+    source = "Sneddon 1965; link 21"
+
+    def value(self, model: Model, a: float) -> float:
+        """Contact radius over sphere radius."""
+        return a / model.R
+
+    def bound(self, model: Model, a: Array) -> Bound:
+        """S - 1 = a_Hertz/a - 1 grows with a, and a is at most Hertz'."""
+        rho = a / model.R
+        ratio = np.cbrt(kernels.sphere_contact(np.where(rho < 1, rho, np.nan)).force)
+        up = np.where(np.isfinite(ratio), ratio - 1.0, np.inf)
+        return Bound(np.zeros_like(a), up, radius=float(np.log1p(up[-1])))

@@ -1,0 +1,19 @@
+"""Hertz: the local indentation of a half-space by a paraboloid."""
+
+from derivation.scene.effects.effect import Effect
+from derivation.scene.model import Model
+
+
+class Hertz(Effect):
+    """delta = a^2/R, P = (4/3) E* a^3/R; everything else is added to it."""
+
+    name = "hertz"
+    adds = "local indentation of a half-space"
+    equation = "delta = a^2/R, P = (4/3) E* a^3/R"
+    number = "a/R"
+    source = "Hertz 1881; link 8"
+    forced = True
+
+    def value(self, model: Model, a: float) -> float:
+        """Contact radius over sphere radius."""
+        return a / model.R

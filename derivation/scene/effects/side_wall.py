@@ -1,0 +1,28 @@
+"""Side wall: the plate's finite radius makes it stiffer."""
+
+from derivation.scene import kernels
+from derivation.scene.effects.effect import Array, Bound, PlateEffect, Share, none_of
+from derivation.scene.model import Model
+
+
+class SideWall(PlateEffect):
+    """The integral over K0/I0, a function of a/b alone."""
+
+    name = "side_wall"
+    adds = "finite radius of the plate"
+    equation = "F = -(8/(pi^2 alpha^2)) int (x cosh x - sinh x) y^-3 K0/I0 dy, x = alpha y"
+    number = "0.37 a/b"
+    source = "contour integral over Y0/J0; links 12 and 22"
+
+    def value(self, model: Model, a: float) -> float:
+        """Its leading share of the indentation over Hertz'."""
+        return 2.0 / 3.0 * kernels.WALL_LINEAR * a / model.b
+
+    def bound(self, model: Model, a: Array) -> Bound:
+        """Between nothing and the leading terms."""
+        alpha = a / model.b
+        return Bound(kernels.WALL_LINEAR * alpha + kernels.WALL_CUBIC * alpha**3, none_of(a))
+
+    def share(self, model: Model, a: Array) -> Share:
+        """By its power series."""
+        return Share(*kernels.side_wall(a / model.b))

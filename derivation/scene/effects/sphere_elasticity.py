@@ -1,0 +1,36 @@
+"""Elastic sphere: both bodies give way, 1/E* is the sum of both."""
+
+import numpy as np
+
+from derivation.scene import kernels
+from derivation.scene.effects.effect import Array, Bound, Effect, plate_of
+from derivation.scene.model import Model
+
+
+class SphereElasticity(Effect):
+    """Changes the half-space's term only; the plate keeps its own E*."""
+
+    name = "sphere_elasticity"
+    adds = "elastic sphere"
+    equation = "1/E* = (1 - nu^2)/E + (1 - nu_1^2)/E_1"
+    number = "E*/E_1*"
+    source = "Hertz 1881; link 22"
+
+    def absent(self, model: Model) -> str:
+        """A sphere without material is rigid."""
+        return "" if model.softness else "the sphere is rigid: no sphere.material"
+
+    def value(self, model: Model, a: float) -> float:  # noqa: ARG002
+        """E* of the plate over that of the sphere."""
+        return model.softness
+
+    def bound(self, model: Model, a: Array) -> Bound:
+        """s^2 - 1, s^3 = 1 + E*/E_1*, and of it K A^3 in the plate either way."""
+        log = np.log1p(model.softness) / 3.0
+        growth = np.expm1(2.0 * log)
+        plate, alpha = plate_of(model), a / model.b
+        cubic = plate.rest * (a / model.h) ** 3 + kernels.WALL_GROWTH * alpha**3
+        sound = np.exp(log) * alpha < 1.0
+        up = np.where(sound, growth * (1.0 + cubic), np.inf)
+        low = np.where(sound, growth * np.maximum(cubic - 1.0, 0.0), np.inf)
+        return Bound(low, up, radius=float(log))

@@ -1,0 +1,91 @@
+"""Explains a scene: which effects it calls for, by which numbers, and what their terms cost."""
+
+from dataclasses import dataclass
+from html import escape
+from typing import Any
+
+import numpy as np
+
+from derivation.scene.effects import EFFECTS
+from derivation.scene.gate import HEADS, Gate, cost
+from derivation.scene.impact import gated
+from derivation.scene.scene import Scene
+
+
+@dataclass(frozen=True)
+class Explanation:
+    """The effects table of a scene; nothing is simulated.
+
+    Attributes
+    ----------
+    gate
+        What was decided.
+    costs
+        Time of each included effect's own term at the nodes of an impact, measured now [s].
+    notes
+        What else to know.
+    """
+
+    gate: Gate
+    costs: dict[str, float]
+    notes: tuple[str, ...]
+
+    def lines(self) -> list[tuple[str, ...]]:
+        """The effects table with the cost of each term, to be read by people."""
+        shown = (
+            f"{1e6 * self.costs[line[0]]:.0f} us" if line[0] in self.costs else "-"
+            for line in self.gate.lines()
+        )
+        return [(*line, time) for line, time in zip(self.gate.lines(), shown, strict=True)]
+
+    def __str__(self) -> str:
+        """The decision in a sentence."""
+        effects = ", ".join(row.name for row in self.gate.rows if row.included)
+        return (
+            f"included: {effects}; all that is left out changes no result by more than "
+            f"{self.gate.error:.1e} (tolerance {self.gate.rtol:.3g})"
+        )
+
+    def to_json(self) -> dict[str, Any]:
+        """Decision and table under fixed keys; costs differ from run to run."""
+        return {
+            "included": [row.name for row in self.gate.rows if row.included],
+            "rtol": self.gate.rtol,
+            "bound": self.gate.error if np.isfinite(self.gate.error) else None,
+            "effects": [row.to_json() for row in self.gate.rows],
+            "costs": self.costs,
+            "notes": list(self.notes),
+        }
+
+    def _repr_html_(self) -> str:
+        """The table for a notebook."""
+        return f"<p>{escape(str(self))}</p>{self.gate.to_html()}"
+
+
+COLUMNS = (*HEADS, "term takes")
+"""Heads of the table."""
+
+
+def explain(scene: Scene, rtol: float | None = None) -> Explanation:
+    """Say which effects a scene calls for, and why.
+
+    Parameters
+    ----------
+    scene
+        The scene, as `load` returns it.
+    rtol
+        Relative tolerance [1]; without it that of the scene counts, or else 1e-3.
+
+    Raises
+    ------
+    SceneError
+        If the tolerance is not between 1e-13 and 1.
+    """
+    _, gate = gated(scene, rtol)
+    costs = {
+        effect.name: cost(gate.law, effect) for effect in EFFECTS if effect.name in gate.law.effects
+    }
+    notes = () if gate.law.model.density else (
+        "the plate's inertia is not judged: no plate.density or material of known density",
+    )  # fmt: skip
+    return Explanation(gate, costs, notes)

@@ -1,0 +1,296 @@
+"""The gate: which effects a scene calls for, by bounds of what leaving them out changes.
+
+Begun with what is always in, the effect with the largest bound is taken in until the bounds
+of all that is left out, together, stay within the tolerance. As S_1 grows with each effect
+taken in and radii shrink, bounds are taken anew each time. The order does not depend on the
+tolerance, so that a looser one never takes in more.
+
+S of the whole law lies within 1 - low and 1 + up times that of the law taken, at every radius
+up to 1.02 times the largest; link 18 says what this does to the results.
+"""
+
+import math
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from html import escape
+from typing import Any
+
+import numpy as np
+
+from derivation.scene import kernels
+from derivation.scene.effects import EFFECTS
+from derivation.scene.effects.effect import Array, Bound, Effect, PlateEffect
+from derivation.scene.effects.gravity import Gravity
+from derivation.scene.law import Law
+from derivation.scene.model import Model
+from derivation.scene.motion import largest_radius
+from derivation.scene.quadrature import NODES, rule
+from derivation.scene.scene import OUTPUTS
+
+TOP = 1.02
+"""Bounds are taken up to this times the largest radius."""
+MARGIN = 1.05
+"""Elasticities of S are sampled at nodes and widened by this."""
+
+
+HEADS = ("effect", "number", "value", "if left out", "", "why")
+"""Heads of the effects table."""
+
+
+@dataclass(frozen=True)
+class Row:
+    """An effect's line of the effects table.
+
+    Attributes
+    ----------
+    name, adds
+        The effect, and what it adds.
+    number, value
+        Its dimensionless number: what it is, and how large here [1].
+    bound
+        Relative change of the results, the worst of them, if it is left out [1]; infinite
+        where no bound is shown.
+    included
+        Whether it is computed.
+    why
+        The reason.
+    """
+
+    name: str
+    adds: str
+    number: str
+    value: float
+    bound: float
+    included: bool
+    why: str
+
+    def to_json(self) -> dict[str, Any]:
+        """The row under fixed keys; a number or bound that there is not is null."""
+        return {
+            name: None if isinstance(value, float) and not math.isfinite(value) else value
+            for name, value in vars(self).items()
+        }
+
+    def cells(self) -> tuple[str, str, str, str, str, str]:
+        """The row as it is shown."""
+        applies = not math.isnan(self.value)
+        value = f"{self.value:.3g}" if applies else "-"
+        bound = f"{self.bound:.1e}" if math.isfinite(self.bound) else "none"
+        decided = "in" if self.included else "out"
+        return self.name, self.number, value, bound if applies else "-", decided, self.why
+
+
+@dataclass(frozen=True)
+class Gate:
+    """What the gate decided.
+
+    Attributes
+    ----------
+    law
+        The contact law of the effects included.
+    rtol
+        The tolerance it was decided for [1].
+    error
+        Bound of what the effects left out by the gate change together, the worst of the
+        outputs [1].
+    rows
+        The effects table.
+    """
+
+    law: Law
+    rtol: float
+    error: float
+    rows: tuple[Row, ...]
+
+    def lines(self) -> list[tuple[str, str, str, str, str, str]]:
+        """Effect, number, value, bound, in or out, and why, to be read by people."""
+        return [row.cells() for row in self.rows]
+
+    def to_html(self) -> str:
+        """The effects table for a notebook."""
+        rows = (
+            "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in line) + "</tr>"
+            for line in (HEADS, *self.lines())
+        )
+        return f"<table>{''.join(rows)}</table>"
+
+
+@dataclass(frozen=True)
+class _State:
+    """A law at its largest radius: nodes [m] of Hertz' radius, S_1 there, elasticities of S_1."""
+
+    law: Law
+    a: float
+    depth: float
+    radii: Array
+    slope: Array
+    fall: float
+    rise: float
+
+
+def decide(
+    model: Model, wanted: Mapping[str, Any], rtol: float, outputs: Sequence[str] = OUTPUTS
+) -> Gate:
+    """Take in effects until the tolerance is met.
+
+    Parameters
+    ----------
+    wanted
+        "auto", True or False by effect; "auto" if left out.
+    rtol
+        What the effects left out may change at most, relative [1].
+    outputs
+        The results it applies to.
+    """
+    reasons = {effect.name: effect.absent(model) for effect in EFFECTS}
+    present = [effect for effect in EFFECTS if not reasons[effect.name]]
+    choice = {effect.name: wanted.get(effect.name, "auto") for effect in present}
+    included = {e.name for e in present if e.forced or choice[e.name] is True}
+    open_ = [e for e in present if e.name not in included and choice[e.name] is not False]
+    while True:
+        state = _state(Law(model, frozenset(included)))
+        error = _error(state, open_, outputs)
+        if error <= rtol or not open_:
+            break
+        worst = max(open_, key=lambda effect: _size(state, effect, outputs))
+        included.add(worst.name)
+        open_.remove(worst)
+    rows = [_row(effect, state, choice, reasons, rtol, error, outputs) for effect in EFFECTS]
+    return Gate(state.law, rtol, error, tuple(rows))
+
+
+def _state(law: Law) -> _State:
+    """The law at its largest radius, or at its limit if that is beyond."""
+    model = law.model
+    nodes = rule(NODES[0])
+    with np.errstate(all="ignore"):
+        a = largest_radius(law)
+        top = min(TOP * a, law.limit) if a < law.limit else law.limit
+        inner = law.at(nodes.x * top)
+        last = law.at(np.array([top]))
+        elasticity = nodes.x * (nodes.derivative @ inner.additive) / inner.additive
+        radii = nodes.x * top * np.cbrt(inner.force)
+        radii = np.concatenate(([0.0], radii, [top * float(np.cbrt(last.force[-1]))]))
+        slope = np.concatenate(([1.0], inner.additive, last.additive))
+    depth = a * (a / model.R) * float(last.depth[-1])
+    fall, rise = max(0.0, -float(np.min(elasticity))), max(0.0, float(np.max(elasticity)))
+    return _State(
+        law, a if a < law.limit else math.nan, depth, radii, slope, MARGIN * fall, MARGIN * rise
+    )
+
+
+def _bound(state: _State, effect: Effect, stretch: float = 1.0) -> Bound:
+    """An effect's bound at the state's radii, which the sphere's elasticity may stretch."""
+    model = state.law.model
+    with np.errstate(all="ignore"):
+        if isinstance(effect, Gravity):
+            return effect.of_depth(model, state.radii, state.depth)
+        found = effect.bound(model, state.radii * stretch)
+    if isinstance(effect, PlateEffect):
+        part = 1.0 / (1.0 + state.law.softness)
+        return found._replace(low=part * found.low, up=part * found.up)
+    return found
+
+
+def _error(state: _State, effects: Sequence[Effect], outputs: Sequence[str]) -> float:
+    """What leaving effects out changes together at most, the worst of the outputs."""
+    if not effects:
+        return 0.0
+    if math.isnan(state.a):
+        return math.inf
+    elastic = [e for e in effects if e.name == "sphere_elasticity"]
+    stretch = math.exp(_bound(state, elastic[0]).radius) if elastic else 1.0
+    bounds = [_bound(state, e, 1.0 if e in elastic else stretch) for e in effects]
+    low = np.sum([bound.low for bound in bounds], axis=0)
+    # The half-space's effects multiply; a product is above the sum where they only add.
+    up = np.prod([1.0 + bound.up for bound in bounds], axis=0) - 1.0
+    energy = sum(bound.energy for bound in bounds)
+    radius = sum(bound.radius for bound in bounds)
+    return _worst(state, low, up, energy, radius, outputs)
+
+
+def _worst(
+    state: _State, low: Array, up: Array, energy: float, radius: float, outputs: Sequence[str]
+) -> float:
+    """The worst of the outputs' errors by link 18."""
+    if not (np.all(np.isfinite(low)) and np.all(np.isfinite(up)) and state.slope.min() > 0.0):
+        return math.inf
+    below, above = float(np.max(low / state.slope)), float(np.max(up / state.slope))
+    if energy:
+        # The weight works along the whole law's indentation, not along this one's.
+        free = kernels.law_errors(below, above, state.fall, state.rise)[1]
+        share = -math.expm1(-energy) * (1.0 + free)
+        energy = -math.log1p(-share) if share < 1.0 else math.inf
+    found = kernels.law_errors(below, above, state.fall, state.rise, energy)
+    errors: dict[str, float] = dict(zip(OUTPUTS, found, strict=True))
+    errors["max_contact_radius"] = float(np.expm1(np.log1p(errors["max_contact_radius"]) + radius))
+    return max(errors[name] for name in outputs)
+
+
+def _size(state: _State, effect: Effect, outputs: Sequence[str]) -> float:
+    """By how much an effect alone matters: its error, or where none is shown its share of S."""
+    error = _error(state, [effect], outputs)
+    if math.isfinite(error):
+        return error
+    bound = _bound(state, effect)
+    share = np.maximum(bound.low, bound.up) / np.abs(state.slope)
+    return 10.0 + float(np.max(share, where=np.isfinite(share), initial=0.0)) + bound.energy
+
+
+def _price(state: _State, effect: Effect, outputs: Sequence[str]) -> float:
+    """What leaving out an effect that is in would change: the law with it lies beside S_1."""
+    if effect.forced or math.isnan(state.a):
+        return math.inf
+    bound = _bound(state, effect)
+    return _worst(state, bound.up, bound.low, bound.energy, bound.radius, outputs)
+
+
+def _row(
+    effect: Effect,
+    state: _State,
+    choice: Mapping[str, Any],
+    reasons: Mapping[str, str],
+    rtol: float,
+    error: float,
+    outputs: Sequence[str],
+) -> Row:
+    """The effect's line, at the largest radius of the law decided on."""
+    model, name = state.law.model, effect.name
+    radius = state.radii[-1] / TOP
+    included = name in state.law.effects
+    if reasons[name]:
+        return Row(name, effect.adds, effect.number, math.nan, 0.0, False, reasons[name])
+    value = effect.value(model, float(radius))
+    bound = _price(state, effect, outputs) if included else _error(state, [effect], outputs)
+    if effect.forced:
+        why = "always"
+    elif choice[name] != "auto":
+        why = _forced(bool(choice[name]), bound)
+    elif included:
+        why = f"left out it could exceed rtol = {rtol:.3g}"
+    else:
+        why = f"all that is left out changes {error:.1e} at most"
+    return Row(name, effect.adds, effect.number, value, bound, included, why)
+
+
+def _forced(included: bool, bound: float) -> str:
+    """What the scene's own choice means."""
+    if included:
+        return "true in the scene"
+    price = f"up to {100 * bound:.2g} %" if math.isfinite(bound) else "more than a bound can say"
+    return f"false in the scene: costs {price}"
+
+
+def cost(law: Law, effect: Effect, repeats: int = 5) -> float:
+    """Time [s] that an effect's term takes at the nodes of an impact, the least of a few."""
+    a = rule(NODES[0]).x * min(law.limit, law.model.h)
+    best = math.inf
+    for _ in range(repeats):
+        start = time.perf_counter()
+        if isinstance(effect, PlateEffect):
+            effect.share(law.model, a)
+        elif effect.name == "curvature":
+            kernels.sphere_contact(a / law.model.R)
+        best = min(best, time.perf_counter() - start)
+    return best

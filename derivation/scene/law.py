@@ -1,0 +1,145 @@
+"""The contact law of a scene: force and indentation by the contact radius, of chosen effects.
+
+With the contact radius a itself as the variable, p the force over Hertz' at that radius and
+a_H = a p^(1/3) the radius at which Hertz' law has the same force,
+
+    P = (4/3) E* a^3/R p,   delta = (a^2/R) D,   d delta/da = (2a/R) S
+    D = D_sphere + k p^(2/3) sum F(a_H),   S = S_sphere (1 + k p^(-1/3) sum S_plate(a_H))
+
+the sums over the plate's effects, whose parts F and S are those of a rigid sphere, and k the
+modulus of the contact over the plate's. A paraboloid has p = D_sphere = S_sphere = 1.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from derivation.scene import kernels
+from derivation.scene.effects import BY_NAME
+from derivation.scene.effects.effect import Array, PlateEffect, Share
+from derivation.scene.effects.finite_thickness import plate_share
+from derivation.scene.model import Model
+from derivation.scene.quadrature import NODES, rule
+
+WHOLE_PLATE = frozenset({"bending", "finite_thickness", "side_wall"})
+"""Effects that one kernel holds together."""
+
+CURVED = 0.99
+"""Largest contact radius over sphere radius where the sphere is no paraboloid."""
+
+
+class Shape(NamedTuple):
+    """Force, indentation and slope over Hertz' at contact radii [1]: p, D and S.
+
+    `additive` is the slope over that of Hertz' at equal force, p^(1/3) S/S_sphere, to which
+    every effect adds its part.
+    """
+
+    force: Array
+    depth: Array
+    slope: Array
+    additive: Array
+
+
+@dataclass(frozen=True)
+class Law:
+    """Contact law of a scene.
+
+    Attributes
+    ----------
+    model
+        The scene's numbers.
+    effects
+        Names of the effects in it.
+    """
+
+    model: Model
+    effects: frozenset[str]
+
+    @cached_property
+    def softness(self) -> float:
+        """E* of the plate over that of the sphere in this law, 0 for a rigid one [1]."""
+        return self.model.softness if "sphere_elasticity" in self.effects else 0.0
+
+    @property
+    def modulus(self) -> float:
+        """E* of the contact [Pa]."""
+        return self.model.modulus / (1.0 + self.softness)
+
+    @property
+    def limit(self) -> float:
+        """Contact radius [m] at which the law ends: min(b, R), but a sphere grows too steep."""
+        R = self.model.R * (CURVED if "curvature" in self.effects else 1.0)
+        return min(self.model.b, R)
+
+    @property
+    def limit_in_words(self) -> str:
+        """What the limit is, and how large."""
+        name = f"min(b, {CURVED} R)" if "curvature" in self.effects else "min(b, R)"
+        return f"{name} = {self.limit:.6g} m"
+
+    @property
+    def gravity(self) -> float:
+        """What presses the sphere on in this law [m/s^2]."""
+        return self.model.gravity if "gravity" in self.effects else 0.0
+
+    @property
+    def plate_effects(self) -> tuple[PlateEffect, ...]:
+        """Those that add to the plate's deflection."""
+        chosen = (BY_NAME[name] for name in sorted(self.effects))
+        return tuple(effect for effect in chosen if isinstance(effect, PlateEffect))
+
+    def force(self, a: Array, shape: Shape) -> Array:
+        """Contact force [N] at radii [m]."""
+        return 4.0 / 3.0 * self.modulus * (a * a * (a / self.model.R)) * shape.force
+
+    def indentation(self, a: Array, shape: Shape) -> Array:
+        """Indentation [m] at radii [m]."""
+        return a * (a / self.model.R) * shape.depth
+
+    def stiffness(self, a: Array, shape: Shape) -> Array:
+        """dP/d delta [N/m] at radii [m]: 2 E* times Hertz' radius over the additive slope."""
+        return 2.0 * self.modulus * a * np.cbrt(shape.force) / shape.additive
+
+    def max_pressure(self, a: float) -> float:
+        """Pressure in the middle [Pa]: (E*/pi) int_0^a delta'(c)/c dc of the half-space's delta.
+
+        Each step of the growing contact adds the pressure of a flat punch of radius c. For a
+        paraboloid that is Hertz's (2/pi) E* a/R.
+        """
+        nodes = rule(NODES[2])
+        mean = float(np.sum(nodes.weights * self._sphere(nodes.x * a).slope))
+        return 2.0 / np.pi * self.modulus * (a / self.model.R) * mean
+
+    def at(self, a: Array) -> Shape:
+        """Force, indentation and slope at contact radii [m], which grow."""
+        sphere = self._sphere(a)
+        root = np.cbrt(sphere.force)
+        if not self.plate_effects:
+            return Shape(*sphere, root)
+        share = self._plate(a * root)
+        part = 1.0 / (1.0 + self.softness)
+        depth = sphere.depth + part * root * root * share.depth
+        slope = sphere.slope * (1.0 + part * share.slope / root)
+        return Shape(sphere.force, depth, slope, root + part * share.slope)
+
+    def _sphere(self, a: Array) -> kernels.Sphere:
+        """Force, indentation and slope on a half-space."""
+        if "curvature" in self.effects:
+            return kernels.sphere_contact(a / self.model.R)
+        return kernels.Sphere(*(np.ones_like(a),) * 3)
+
+    def _plate(self, a: Array) -> Share:
+        """The plate's parts of F and S, of a rigid sphere."""
+        if self.effects >= WHOLE_PLATE:
+            found = [plate_share(self.model, a)]
+            others = [e for e in self.plate_effects if e.name not in WHOLE_PLATE]
+        else:
+            found, others = [], list(self.plate_effects)
+        found += [effect.share(self.model, a) for effect in others]
+        depth, slope = found[0]
+        for other in found[1:]:
+            depth, slope = depth + other.depth, slope + other.slope
+        return Share(depth, slope)

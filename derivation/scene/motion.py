@@ -1,0 +1,165 @@
+"""Impact on any conservative contact law: energy gives the largest radius, quadrature the time.
+
+With q = a/a_m and E the sphere's energy, weight included,
+
+    E = K a_m^5 int_0^1 q^4 p S dq - m g delta_m,   K = 8 E*/(3 R^2)
+    t = (8 a_m^2/(R v0)) int_0^1 q S/sqrt(r) du,   q = 1 - u^2,   r = (v/v0)^2/(1 - q)
+
+p S and S are polynomials through n Gauss nodes; they are analytic, so that both integrals
+converge geometrically. n is doubled until the results stand.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.polynomial.legendre import leggauss, legint, legval, legvander
+
+from derivation.scene.effects.effect import Array
+from derivation.scene.law import Law, Shape
+from derivation.scene.quadrature import NODES, rule
+
+COURSE = 32
+"""Nodes of the course in time: with more, rounding outweighs what they add at its ends."""
+SETTLED = 2e-14
+"""Relative change at twice the nodes that is rounding alone."""
+_STEPS = 60
+_NEWTON = 5
+_CLOSE = 4e-16
+
+
+@dataclass(frozen=True)
+class Motion:
+    """An impact.
+
+    Attributes
+    ----------
+    contact_time, max_indentation, max_force, max_contact_radius
+        The results, in s, m, N and m.
+    quadrature
+        Relative change of the results at half the nodes [1].
+    """
+
+    contact_time: float
+    max_indentation: float
+    max_force: float
+    max_contact_radius: float
+    quadrature: float
+
+    @property
+    def numbers(self) -> tuple[float, float, float, float]:
+        """The four results."""
+        return self.contact_time, self.max_indentation, self.max_force, self.max_contact_radius
+
+
+def largest_radius(law: Law, n: int = NODES[0], start: float = math.inf) -> float:
+    """Contact radius [m] at which the sphere turns; NaN if it is beyond the law's range.
+
+    Newton's iteration in the logarithms of energy and radius, whose relation is nearly
+    linear, from `start` or from what Hertz' and the thin plate's law say. No energy is formed,
+    which could leave the range of doubles.
+    """
+    model, x = law.model, rule(n).x
+    goal = math.log(3.0 / 16.0) + math.log(model.m) - float(np.log(law.modulus))
+    goal += 2.0 * (math.log(model.v0) + math.log(model.R))
+    if not math.isfinite(goal):
+        return math.nan
+    limit = law.limit
+    a = min(_start(law, goal) if start == math.inf else start, limit)
+    for _ in range(_STEPS):
+        shape = law.at(np.append(x, 1.0) * a)
+        power = shape.force * shape.slope
+        mean = float(np.sum(rule(n).weights * x**4 * power[:-1]))
+        depth = 2.0 * law.gravity * a * (a / model.R) / model.v0 / model.v0
+        share = 1.0 + depth * float(shape.depth[-1])
+        if not (mean > 0.0 and share < math.inf):
+            return math.nan
+        steep = float(power[-1]) / mean - depth * 2.0 * float(shape.slope[-1]) / share
+        step = (goal + math.log(share) - math.log(mean) - 5.0 * math.log(a)) / steep
+        if not steep > 0.0 or (a >= limit and step > 0.0):
+            return math.nan
+        if abs(step) <= _CLOSE:
+            break
+        a = min(a * math.exp(max(-1.0, min(1.0, step))), limit)
+    return a
+
+
+def _start(law: Law, goal: float) -> float:
+    """A radius [m] near the largest, from the logarithm of E over K: whichever law is stiffer."""
+    model = law.model
+    found = 0.2 * (goal + math.log(5.0))
+    if "bending" in law.effects:
+        # 3/2 a/h/(4 pi eta^2) instead of 1, with a^6/6 instead of a^5/5.
+        steep = math.log(16.0 * math.pi) + math.log(model.h) + 2.0 * math.log(model.eta)
+        found = min(found, (goal + steep) / 6.0)
+    return math.exp(min(max(found, -700.0), 700.0))
+
+
+def impact(law: Law) -> Motion | None:
+    """The impact by a law; None if the contact radius reaches the law's limit."""
+    before: Motion | None = None
+    a = math.inf
+    for n in NODES:
+        a = largest_radius(law, n, a)
+        if not a < law.limit:
+            return None
+        found = _results(law, a, n)
+        if not all(0.0 < value < math.inf for value in found.numbers):
+            return found
+        if before is not None:
+            pairs = zip(found.numbers, before.numbers, strict=True)
+            change = max(abs(new / old - 1.0) for new, old in pairs)
+            before = Motion(*found.numbers, change)
+            if change <= SETTLED:
+                return before
+        before = before or found
+    return before
+
+
+def _results(law: Law, a: float, n: int) -> Motion:
+    """The results at a largest radius [m] by n nodes."""
+    shape = law.at(np.append(rule(n).x, 1.0) * a)
+    last = Shape(*(x[-1:] for x in shape))
+    rate, _ = _course(law, a, shape, n)
+    time = 8.0 * a * (a / law.model.R) / law.model.v0 * float(np.sum(rule(n).weights * rate))
+    top = np.array([a])
+    deepest, strongest = law.indentation(top, last), law.force(top, last)
+    return Motion(time, float(deepest[0]), float(strongest[0]), a, 0.0)
+
+
+def _course(law: Law, a: float, shape: Shape, n: int) -> tuple[Array, Array]:
+    """q S/sqrt(r) and sqrt(r) at the nodes u."""
+    model, known = law.model, rule(n)
+    power, slope = shape.force[:-1] * shape.slope[:-1], shape.slope[:-1]
+    stored = known.work @ power / float(np.sum(known.weights * known.x**4 * power))
+    share = 2.0 * law.gravity * a * (a / model.R) / model.v0 / model.v0
+    sunk = float(shape.depth[-1])
+    ratio = (1.0 + share * sunk) * stored - 2.0 * share * (known.path @ slope)
+    q, root = 1.0 - known.x * known.x, np.sqrt(ratio)
+    return q * (known.at_times @ slope) / root, root
+
+
+def history(law: Law, motion: Motion, times: Array) -> tuple[Array, Array, Array, Array]:
+    """Indentation [m], velocity [m/s], contact radius [m] and force [N] at times [s].
+
+    The time since the turning point is a polynomial in u, which Newton's iteration inverts.
+    """
+    n, model, a = COURSE, law.model, motion.max_contact_radius
+    shape = law.at(np.append(rule(n).x, 1.0) * a)
+    nodes, weights = leggauss(n)
+    rate, root = (
+        (legvander(nodes, n - 1) * weights[:, None] * (np.arange(n) + 0.5)).T @ values
+        for values in _course(law, a, shape, n)
+    )
+    elapsed = legint(rate, lbnd=-1.0) / 2.0
+    whole = float(legval(1.0, elapsed))
+    since = np.abs(2.0 * times / motion.contact_time - 1.0) * whole
+    grid = np.linspace(-1.0, 1.0, 401)
+    u = np.interp(since, legval(grid, elapsed), grid)
+    for _ in range(_NEWTON):
+        u = np.clip(u - 2.0 * (legval(u, elapsed) - since) / legval(u, rate), -1.0, 1.0)
+    half = (1.0 + u) / 2.0
+    radii = a * (1.0 - half) * (1.0 + half)
+    found = law.at(radii)
+    velocity = np.sign(motion.contact_time / 2.0 - times) * model.v0 * half * legval(u, root)
+    return law.indentation(radii, found), velocity, radii, law.force(radii, found)

@@ -45,9 +45,9 @@ def read_budgets() -> dict[str, Budget]:
     return parse_budgets(tomllib.loads(BUDGETS.read_text()))
 
 
-def read_promises() -> dict[str, float]:
-    """Relative errors of the impact that were measured, not proven, as committed."""
-    found: dict[str, float] = tomllib.loads(BUDGETS.read_text())["impact"]
+def read_promises(table: str = "impact") -> dict[str, float]:
+    """Relative errors, of the impact or of the `pressure`, measured, not proven, as committed."""
+    found: dict[str, float] = tomllib.loads(BUDGETS.read_text())[table]
     return found
 
 

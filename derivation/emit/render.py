@@ -48,6 +48,7 @@ from derivation.rewrite.edge_tables import edge_context
 from derivation.rewrite.effect_tables import effect_context
 from derivation.rewrite.form import Block, Form, Seam
 from derivation.rewrite.moment_tables import moment_context
+from derivation.rewrite.pressure_tables import pressure_context
 from derivation.rewrite.sections import sections
 from derivation.rewrite.simple_impact_tables import simple_impact_context
 
@@ -116,6 +117,7 @@ def modules(kernels: tuple[Kernel, ...]) -> tuple[Module, ...]:
         tables("edge", edge_context()),
         tables("effects", effect_context()),
         Module("simple_impact", "simple_impact", simple_impact_context()),
+        Module("true_pressure", "true_pressure", pressure_context() | read_promises("pressure")),
         Module(
             "manifest",
             "manifest",

@@ -124,7 +124,7 @@ def by_bessel(dps: int) -> int:
 
 
 @cache
-def _mode(n: int, dps: int) -> tuple[mpf, mpf]:
+def mode(n: int, dps: int) -> tuple[mpf, mpf]:
     """j_n and 1/(j_n J1(j_n)^2)."""
     with mp.workdps(dps):
         if n >= by_bessel(dps):
@@ -155,7 +155,7 @@ def spread(edges: Sequence[mpf], level: int) -> list[tuple[mpf, mpf]]:
     return found
 
 
-def _excess(T: mpf) -> mpf:
+def excess(T: mpf) -> mpf:
     """G(T) - 1, with as many digits more as its two cancellations take."""
     lost = max(0, math.ceil(-4 * math.log10(float(abs(T)))))
     with mp.workdps(mp.dps + lost + 5):
@@ -192,9 +192,9 @@ def nodes_of(eta: mpf, first: int, level: int, dps: int) -> Nodes:
     """Everything about a plate that does not depend on the contact."""
     with mp.workdps(dps):
         reach = mpf(dps) * mp.log(10)
-        factor: Callable[[mpf], mpf] = lambda z: 1 + _excess(2 * eta * z)  # noqa: E731
+        factor: Callable[[mpf], mpf] = lambda z: 1 + excess(2 * eta * z)  # noqa: E731
         thin = eta < THIN
-        modes = [_mode(n, dps) for n in range(1, first)]
+        modes = [mode(n, dps) for n in range(1, first)]
         found = [(z, w * factor(z)) for z, w in modes]
         edge, rate = _continued_zero(mpf(first))
         late = factor if thin else (lambda _: mpf(1))
@@ -205,11 +205,11 @@ def nodes_of(eta: mpf, first: int, level: int, dps: int) -> Nodes:
             while edges[-1] < reach / 2 + 5:
                 edges.append(min(2 * edges[-1], edges[-1] + 6))
             smooth = spread(edges, level)
-            found += [(T / (2 * eta), w / (4 * eta) * _excess(T)) for T, w in smooth]
+            found += [(T / (2 * eta), w / (4 * eta) * excess(T)) for T, w in smooth]
         else:
             n = first
             while 4 * eta * n * 3 < reach + 15:
-                z, w = _mode(n, dps)
-                found.append((z, w * _excess(2 * eta * z)))
+                z, w = mode(n, dps)
+                found.append((z, w * excess(2 * eta * z)))
                 n += 1
         return Nodes(tuple((z, w / z) for z, w in found), edge)

@@ -1,6 +1,6 @@
 """Oracle 2 of kappa_n and M_k: trapezoids in mpmath, K0 and I0 from their power series."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import cache
 
 from mpmath import mp, mpf
@@ -11,6 +11,20 @@ def wall_moment(n: int, digits: int) -> mpf:
     """int_0^oo y^n K0/I0 dy."""
     with mp.workdps(digits):
         return _trapezoids(lambda y: y**n * _wall(y), n)
+
+
+@cache
+def wall_moments(count: int, digits: int) -> tuple[mpf, ...]:
+    """kappa_0, kappa_2, ..., so many of them, from one set of nodes."""
+    with mp.workdps(digits):
+        step = 1 / (8 + mpf(4) / 5 * mp.dps + mp.sqrt(2 * count))
+        points = list(_nodes(step, 2 * count))
+        shares, squares = [w * _wall(y) for y, w in points], [y * y for y, _ in points]
+        found = []
+        for _ in range(count):
+            found.append(step * mp.fsum(shares))
+            shares = [s * q for s, q in zip(shares, squares, strict=True)]
+        return tuple(found)
 
 
 def _wall(y: mpf) -> mpf:
@@ -55,14 +69,16 @@ def finite_part(k: int, digits: int) -> mpf:
 def _trapezoids(function: Callable[[mpf], mpf], power: int) -> mpf:
     """int_0^oo of what falls like y^power e^(-2y), y = exp(u - e^(-u)), in equal steps of u."""
     step = 1 / (8 + mpf(4) / 5 * mp.dps + mp.sqrt(power))
+    return step * sum((w * function(y) for y, w in _nodes(step, power)), mpf(0))
+
+
+def _nodes(step: mpf, power: int) -> Iterator[tuple[mpf, mpf]]:
     first = -int(mp.log(4 * mp.dps) / step)
     last = int(mp.log(power + 2 * mp.dps + 20) / step)
-    total = mpf(0)
     for i in range(first, last + 1):
         fade = mp.exp(-i * step)
         y = mp.exp(i * step - fade)
-        total += y * (1 + fade) * function(y)
-    return step * total
+        yield y, y * (1 + fade)
 
 
 def leading_wall_moment(n: mpf) -> mpf:

@@ -57,6 +57,11 @@ ABOUT = {
     "edge": "The paper's edge is a soft hinge: w = 0 and sigma_rr = -2 mu u/b. A clamp takes its "
     "mean motion away, a simple support its force and moment, by the exact states of stretching "
     "and bending; w = 0 on the middle plane's rim. The sums over the modes are residues.",
+    "true pressure": "Not assumed but solved for: the pressure is Abel's transform of chi(t), and "
+    "chi(t) + int N(t, s) chi(s) ds = (E*/pi) (delta - f(t)) on (0, a), where f belongs to the "
+    "sphere's profile and N(t, s) = [k((t + s)/b) + k((t - s)/b)]/(2b). The kernel k is the slope "
+    "by a/b of S = (R/2a) d delta/da of Hertz' pressure; chi(a) = 0 fixes delta. Last, a bound "
+    "of what assuming Hertz' pressure changes at given force, a being Hertz' radius of it.",
     "curvature": "A growing contact is a sequence of flat punches. Where it is not small beside "
     "the sphere the paraboloid gives way to the sphere's own profile.",
     "effects": "Each effect adds a share to the law's slope at equal force. What it can add at "

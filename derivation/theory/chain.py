@@ -22,6 +22,7 @@ and from the contact law to the motion:
 17 sensitivity      slopes of the law; what every parameter does to an impact
 18 substitution     how far an impact moves if its law is replaced by a simpler one
 19 edge             simply supported or clamped in the place of the paper's soft hinge
+20 true pressure    the pressure solved for: integral equation, and what assuming Hertz' changes
 21 curvature        a sphere instead of a paraboloid
 22 effects          how much each effect can change the law
 23 plate motion     when the plate's own motion matters: Zener's number, periods
@@ -54,6 +55,7 @@ from derivation.theory.stresses import modal_stresses
 from derivation.theory.substitution import substitution
 from derivation.theory.thin_plate import thin_plate
 from derivation.theory.thin_remainder import thin_remainder
+from derivation.theory.true_pressure import true_pressure
 
 Link = tuple[str, Callable[[], tuple[Formula, ...]]]
 
@@ -79,6 +81,7 @@ MOTION_LINKS: tuple[Link, ...] = (
     ("sensitivity", sensitivity),
     ("substitution", substitution),
     ("edge", lambda: (*edge(), *edge_sums())),
+    ("true pressure", true_pressure),
     ("curvature", curvature),
     ("effects", effects),
     ("plate motion", plate_motion),

@@ -1,5 +1,6 @@
 """Holds the gate to random scenes: what is left out against every effect that applies."""
 
+import math
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -17,8 +18,6 @@ from derivation.scene.model import model_of
 from derivation.scene.scene import read
 
 MEASURED: Path = measurements() / "effects.json"
-WIDEST = 6.0
-"""Contact radius over half-thickness up to which scenes are compared."""
 
 
 def check_effects(
@@ -45,6 +44,6 @@ def everything(data: effects.Scene) -> tuple[Sequence[float], Sequence[str]] | N
     present = sorted(effect.name for effect in EFFECTS if not effect.absent(model))
     with np.errstate(all="ignore"):
         found = motion.impact(Law(model, frozenset(present)))
-    if found is None or found.max_contact_radius > WIDEST * model.h:
+    if found is None or not all(map(math.isfinite, found.numbers)):
         return None
     return found.numbers, present

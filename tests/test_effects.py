@@ -466,8 +466,8 @@ def test_forced_choices_are_honoured_and_priced() -> None:
     assert rows["gravity"].why == "true in the scene"
     small = {row.name: row for row in decide(m, {"side_wall": False}, 1e-9).rows}["side_wall"]
     assert f"up to {100 * small.bound:.2g} %" in small.why
-    whole = motion.impact(Law(m, ALL))
-    without = motion.impact(Law(m, ALL - {"side_wall"}))
+    hertz = ALL - {"pressure"}
+    whole, without = (motion.impact(Law(m, e)) for e in (hertz, hertz - {"side_wall"}))
     assert whole is not None
     assert without is not None
     changes = [abs(b / a - 1) for a, b in zip(whole.numbers, without.numbers, strict=True)]
@@ -504,13 +504,25 @@ def test_what_is_out_is_not_called(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_beyond_the_law_is_refused_with_its_limit() -> None:
-    with pytest.raises(
-        SceneError, match=rf"min\({HELD} b, {CURVED} R\) = 0\.099 m.*lower the speed"
-    ):
-        simulate(scene(impact={"speed": 1e7}))
-    flat = {"curvature": False, "edge": False}
+    fast = {"speed": 1e7}
+    with pytest.raises(SceneError, match=r"or the contact opens, at 0\.059.* m.*lower the speed"):
+        simulate(scene(impact=fast))
+    with pytest.raises(SceneError, match=rf"min\({HELD} b, {CURVED} R\) = 0\.099 m"):
+        simulate(scene(impact=fast, effects={"pressure": False}))
+    flat = {"curvature": False, "edge": False, "pressure": False}
     with pytest.raises(SceneError, match=r"min\(b, R\) = 0\.1 m"):
-        simulate(scene(impact={"speed": 1e7}, effects=flat))
+        simulate(scene(impact=fast, effects=flat))
+
+
+def test_the_contact_opens_near_three_thicknesses() -> None:
+    """Of a rigid paraboloid on a thin plate; a sphere's pressure is steeper and opens before."""
+    m = model(sphere_modulus=math.inf, h=0.001, R=10.0, edge="soft-hinge")
+    limit = Law(m, ALL - {"curvature", "edge", "gravity"}).limit
+    assert limit == 6 * m.h  # 3.01 thicknesses are beyond the law's own limit
+    steep = Law(model(h=0.02), ALL).limit
+    assert 0.04 < steep < 0.12
+    shape = Law(model(h=0.02), ALL).at(np.array([0.999 * steep]))
+    assert np.isfinite(shape.force).all()
 
 
 def test_the_paper_scene_without_any_choice() -> None:

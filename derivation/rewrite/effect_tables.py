@@ -22,6 +22,7 @@ from derivation.rewrite.simple_impact_tables import above
 from derivation.theory.contact_split import zero_of_j0
 from derivation.theory.effects import wall_growth_ball
 from derivation.theory.plate_motion import plate_motion
+from derivation.theory.pressure_bound import WALL_EXTRA
 from derivation.theory.substitution import wall_rest_ball
 
 NEAR = Fraction(1, 4)
@@ -38,6 +39,7 @@ def effect_context() -> dict[str, object]:
             "period": nearest_double(_factor("bending_period")),
             "wall_linear": above(Ball(3) / 2 * depth[0]),
             "wall_rest": above(wall_rest_ball()),
+            "pressure_wall": float(WALL_EXTRA),
             "wall_growth": above(wall_growth_ball()),
         }
         arc = [nearest_double(to_ball(c)) for c in arc_coefficients()]

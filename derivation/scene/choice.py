@@ -174,8 +174,17 @@ def _composed(law: Law) -> tuple[Numbers, Accuracy]:
         None,
         law=Part(0.0, PROVED),
         quadrature=Part(found.quadrature, MEASURED),
-        rounding=Part(kernels.ROUNDING, MEASURED),
+        rounding=Part(_rounding(law), MEASURED),
     )
+
+
+def _rounding(law: Law) -> float:
+    """What tests hold the arithmetic to; that of the pressure comes on top."""
+    if "pressure" not in law.effects:
+        return kernels.ROUNDING
+    from generated.true_pressure import ERROR
+
+    return kernels.ROUNDING + ERROR
 
 
 def _half_space(law: Law) -> tuple[Numbers, Accuracy] | None:

@@ -22,12 +22,14 @@ from derivation.scene import kernels
 from derivation.scene.effects import EFFECTS
 from derivation.scene.effects.effect import Array, Bound, Effect, PlateEffect
 from derivation.scene.effects.gravity import Gravity
-from derivation.scene.law import Law
+from derivation.scene.law import WHOLE_PLATE, Law
 from derivation.scene.model import Model
 from derivation.scene.motion import largest_radius
 from derivation.scene.quadrature import NODES, rule
 from derivation.scene.scene import OUTPUTS
 
+SOLVED_WITH = WHOLE_PLATE | {"curvature", "sphere_elasticity"}
+"""Effects that the true pressure's equation holds in itself."""
 TOP = 1.02
 """Bounds are taken up to this times the largest radius."""
 MARGIN = 1.05
@@ -144,9 +146,15 @@ def decide(
         The results it applies to.
     """
     reasons = {effect.name: effect.absent(model) for effect in EFFECTS}
+    missing = sorted(name for name in WHOLE_PLATE if wanted.get(name) is False)
+    if missing:
+        reasons["pressure"] = f"it holds the whole plate, but {', '.join(missing)} is false"
     present = [effect for effect in EFFECTS if not reasons[effect.name]]
     choice = {effect.name: wanted.get(effect.name, "auto") for effect in present}
+    # What the pressure is solved with, at no cost; their bounds are those of Hertz' pressure.
+    along = {e.name for e in present if e.name in SOLVED_WITH and choice[e.name] is not False}
     included = {e.name for e in present if e.forced or choice[e.name] is True}
+    included |= along if "pressure" in included else set()
     open_ = [e for e in present if e.name not in included and choice[e.name] is not False]
     while True:
         state = _state(Law(model, frozenset(included)))
@@ -154,8 +162,8 @@ def decide(
         if error <= rtol or not open_:
             break
         worst = max(open_, key=lambda effect: _size(state, effect, outputs))
-        included.add(worst.name)
-        open_.remove(worst)
+        included |= {worst.name} | (along if worst.name == "pressure" else set())
+        open_ = [effect for effect in open_ if effect.name not in included]
     rows = [_row(effect, state, choice, reasons, rtol, error, outputs) for effect in EFFECTS]
     return Gate(state.law, rtol, error, tuple(rows))
 

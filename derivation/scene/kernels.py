@@ -17,6 +17,7 @@ from generated.edge import (
     supported_edge_slope,
 )
 from generated.effects import (
+    PRESSURE_WALL,
     WALL_CUBIC,
     WALL_GROWTH,
     WALL_LINEAR,
@@ -35,6 +36,7 @@ from generated.simple_impact import Plate, hertz, law_errors, leading, plate_of
 __all__ = [
     "COARSE_QUADRATURE",
     "FULL_QUADRATURE",
+    "PRESSURE_WALL",
     "ROUNDING",
     "WALL_CUBIC",
     "WALL_GROWTH",

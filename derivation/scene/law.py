@@ -12,7 +12,7 @@ modulus of the contact over the plate's. A paraboloid has p = D_sphere = S_spher
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -23,11 +23,17 @@ from derivation.scene.effects.finite_thickness import plate_share
 from derivation.scene.model import Model
 from derivation.scene.quadrature import NODES, rule
 
+if TYPE_CHECKING:
+    from generated.true_pressure import Contact
+
 WHOLE_PLATE = frozenset({"bending", "finite_thickness", "side_wall"})
 """Effects that one kernel holds together."""
 
 HELD = 0.9
-"""Largest contact radius over plate radius where the edge is no soft hinge."""
+"""Largest contact radius over plate radius for an edge that is no soft hinge, or true pressure."""
+_HALVINGS = 30
+OPEN = 6.0
+"""Contact radius over half-thickness at which the contact is about to open in its middle."""
 CURVED = 0.99
 """Largest contact radius over sphere radius where the sphere is no paraboloid."""
 
@@ -70,18 +76,34 @@ class Law:
         """E* of the contact [Pa]."""
         return self.model.modulus / (1.0 + self.softness)
 
-    @property
+    @cached_property
     def limit(self) -> float:
-        """Contact radius [m] at which the law ends: min(b, R), but a sphere grows too steep."""
+        """Contact radius [m] at which the law ends: min(b, R), but a sphere grows too steep.
+
+        Where the pressure is solved for, the contact may open in its middle before that.
+        """
         R = self.model.R * (CURVED if "curvature" in self.effects else 1.0)
-        return min(self.model.b * (HELD if "edge" in self.effects else 1.0), R)
+        b = self.model.b * (HELD if self.effects & {"edge", "pressure"} else 1.0)
+        if "pressure" not in self.effects:
+            return min(b, R)
+        low, high = 0.0, min(b, R, OPEN * self.model.h)
+        if np.isfinite(self._contact(np.array([high])).force[0]):
+            return high
+        for _ in range(_HALVINGS):
+            middle = 0.5 * (low + high)
+            closed = np.isfinite(self._contact(np.array([middle])).force[0])
+            low, high = (middle, high) if closed else (low, middle)
+        return low
 
     @property
     def limit_in_words(self) -> str:
         """What the limit is, and how large."""
         sphere = f"{CURVED} R" if "curvature" in self.effects else "R"
-        plate = f"{HELD} b" if "edge" in self.effects else "b"
-        return f"min({plate}, {sphere}) = {self.limit:.6g} m"
+        plate = f"{HELD} b" if self.effects & {"edge", "pressure"} else "b"
+        if "pressure" not in self.effects:
+            return f"min({plate}, {sphere}) = {self.limit:.6g} m"
+        thick = f"{OPEN:g} h"
+        return f"min({plate}, {sphere}, {thick}), or the contact opens, at {self.limit:.6g} m"
 
     @property
     def gravity(self) -> float:
@@ -110,14 +132,18 @@ class Law:
         """Pressure in the middle [Pa]: (E*/pi) int_0^a delta'(c)/c dc of the half-space's delta.
 
         Each step of the growing contact adds the pressure of a flat punch of radius c. For a
-        paraboloid that is Hertz's (2/pi) E* a/R.
+        paraboloid that is Hertz's (2/pi) E* a/R. Solved for, it is part of the solution.
         """
+        if "pressure" in self.effects:
+            return float(self._contact(np.array([a])).centre_pressure[0])
         nodes = rule(NODES[2])
         mean = float(np.sum(nodes.weights * self._sphere(nodes.x * a).slope))
         return 2.0 / np.pi * self.modulus * (a / self.model.R) * mean
 
     def at(self, a: Array) -> Shape:
         """Force, indentation and slope at contact radii [m], which grow."""
+        if "pressure" in self.effects:
+            return self._solved(a)
         sphere = self._sphere(a)
         root = np.cbrt(sphere.force)
         if not self.plate_effects:
@@ -127,6 +153,35 @@ class Law:
         depth = sphere.depth + part * root * root * share.depth
         slope = sphere.slope * (1.0 + part * share.slope / root)
         return Shape(sphere.force, depth, slope, root + part * share.slope)
+
+    def _solved(self, a: Array) -> Shape:
+        """By the pressure that is solved for; the edge adds what it does under Hertz's."""
+        # Next to a = 0 it is Hertz's.
+        a = np.maximum(a, 1e-6 * min(self.model.h, self.model.b, self.model.R))
+        found = self._contact(a)
+        R, scale = self.model.R, 4.0 / 3.0 * self.modulus * a * a * (a / self.model.R)
+        force = found.force / scale
+        equal = a * np.cbrt(force)
+        depth = found.indentation / a * (R / a)
+        additive = 2.0 * self.modulus * equal / found.stiffness
+        # Growth of Hertz' radius of the force with the radius itself.
+        growth = found.stiffness * found.slope / (4.0 * self.modulus * equal) * (R / equal)
+        if "edge" in self.effects:
+            part, held = 1.0 / (1.0 + self.softness), BY_NAME["edge"]
+            assert isinstance(held, PlateEffect)
+            share = held.share(self.model, equal)
+            depth = depth + part * (equal / a) ** 2 * share.depth
+            additive = additive + part * share.slope
+        return Shape(force, depth, additive * growth * (equal / a), additive)
+
+    def _contact(self, a: Array) -> "Contact":
+        """The contact with its true pressure."""
+        from generated import true_pressure
+
+        model = self.model
+        plate = true_pressure.plate(model.h, model.b)
+        curved = "curvature" in self.effects
+        return true_pressure.contact(plate, a, model.R, self.modulus, model.modulus, sphere=curved)
 
     def _sphere(self, a: Array) -> kernels.Sphere:
         """Force, indentation and slope on a half-space."""

@@ -115,7 +115,7 @@ def warnings_at(
     """
     found = []
     thickness = 2 * model.h
-    if a / thickness > HERTZ_LIMIT:
+    if a / thickness > HERTZ_LIMIT and "pressure" not in effects:
         found.append(
             f"contact radius over thickness a/H = {a / thickness:.3g} exceeds {HERTZ_LIMIT}: the "
             f"pressure is no longer Hertz's; {_cost(hertz_cost(model, a, indentation))}"

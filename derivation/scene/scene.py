@@ -178,6 +178,7 @@ class Effects(Table):
     finite_thickness: Wanted = Field("auto", description="shear, compression", examples=[True])
     side_wall: Wanted = Field("auto", description="the plate's finite radius", examples=[True])
     edge: Wanted = Field("auto", description="the plate's support", examples=[True])
+    pressure: Wanted = Field("auto", description="pressure solved for", examples=[False])
     gravity: Wanted = Field("auto", description="weight during contact", examples=[False])
 
 

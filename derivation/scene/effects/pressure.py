@@ -1,0 +1,43 @@
+"""Pressure: solved for, where the contact is not small beside the thickness."""
+
+import numpy as np
+
+from derivation.scene import kernels
+from derivation.scene.effects.effect import Array, Bound, Effect, plate_of
+from derivation.scene.model import Model
+
+WIDEST = 0.4
+"""Contact radius over plate radius up to which the bound holds."""
+LARGEST = 0.2
+"""theta up to which it holds."""
+
+
+class Pressure(Effect):
+    """Fredholm's equation for the pressure of the whole plate, whose parts it then holds."""
+
+    name = "pressure"
+    adds = "the true contact pressure"
+    equation = "chi + int N chi ds = (E*/pi) (delta - f), chi(a) = 0, P = 2 pi int chi dt"
+    number = "a/H"
+    source = "Abel's transform of the mixed problem; link 20"
+
+    def value(self, model: Model, a: float) -> float:
+        """Contact radius over thickness."""
+        return a / (2.0 * model.h)
+
+    def bound(self, model: Model, a: Array) -> Bound:
+        """theta >= (-(15/2) c_3 + (2/25) eta^3) A^3: 5/3 of it downwards, 2/3 upwards.
+
+        -(5/2) c_3 is at most K_3. It is proved for a paraboloid; a sphere's pressure is
+        steeper, and theta is taken larger by its force over the paraboloid's.
+        """
+        cubic = (
+            3.0 * plate_of(model).rest + kernels.PRESSURE_WALL * model.eta * model.eta * model.eta
+        )
+        rho = a / model.R
+        steeper = kernels.sphere_contact(np.where(rho < 1, rho, np.nan)).force
+        theta = np.where(rho < 1, cubic * (a / model.h) ** 3 * steeper, np.inf)
+        known = (theta <= LARGEST) & (a <= WIDEST * model.b)
+        low, up = (np.where(known, c * theta, np.inf) for c in (5.0 / 3.0, 2.0 / 3.0))
+        radius = -np.log1p(-theta[-1]) / 3.0 if known[-1] else np.inf
+        return Bound(low, up, radius=float(radius))

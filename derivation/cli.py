@@ -285,6 +285,7 @@ def reference(
 
 app.command()(scene_commands.simulate)
 app.command()(scene_commands.explain)
+app.command("map")(scene_commands.map_)
 app.command()(scene_commands.indent)
 
 

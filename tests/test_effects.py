@@ -14,10 +14,12 @@ from mpmath import mp, mpf
 from scipy.integrate import solve_ivp
 
 import derivation.effects_check
+from derivation import pipeline
 from derivation.cli import main
 from derivation.formula.proof import ProofError
 from derivation.measure import effects as measure
 from derivation.scene import SceneError, explain, gate, indent, kernels, motion, read, simulate
+from derivation.scene import map as map_
 from derivation.scene.effects import BY_NAME, EFFECTS
 from derivation.scene.gate import OUTPUTS, decide
 from derivation.scene.law import CURVED, HELD, WHOLE_PLATE, Law
@@ -576,6 +578,30 @@ def test_yield_is_warned_of_on_one_side_only() -> None:
     for factor, warned in ((0.999, True), (1.001, False)):
         plate = {"yield_stress": factor * pressure / 1.6}
         assert any("yields" in text for text in simulate(scene(plate=plate)).warnings) is warned
+
+
+def test_the_map_marks_the_scene(tmp_path: Path) -> None:
+    example = Path(derivation.scene.__file__).parent / "examples" / "ball_drop.toml"
+    assert main(["map", str(example), "--plot", f"{tmp_path}/m.svg"]) == 0
+    drawn = (tmp_path / "m.svg").read_text()
+    for name in ("curvature", "bending", "edge", "pressure", "the scene"):
+        assert name in drawn
+    assert main(["map", str(example), "--plot", f"{tmp_path}/m.txt"]) == 2
+
+
+def test_a_maps_line_is_where_the_bound_is_the_tolerance() -> None:
+    """Bending's share of S, 3/2 A/(4 pi eta^2), at a point of the grid."""
+    m = model()
+    found = map_.shares(m, BY_NAME["bending"])
+    true = 1.5 * map_.RADII[20] / (4 * math.pi * map_.THICKNESSES[30] ** 2)
+    assert found[20, 30] == pytest.approx(true, rel=1e-12)
+
+
+def test_the_reference_names_what_it_leaves_out() -> None:
+    example = Path(derivation.scene.__file__).parent / "examples" / "glass_pane.toml"
+    found = pipeline.in_doubles(example)
+    assert found.gate.law.effects == WHOLE_PLATE | {"hertz"}
+    assert "leaves out edge, gravity, sphere_elasticity" in found.warnings[-1]
 
 
 def test_rows_are_shown_in_every_output() -> None:

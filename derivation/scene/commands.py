@@ -127,6 +127,29 @@ def explain(
         put_json(found.to_json(), json)
 
 
+def map_(
+    scene: SceneFile,
+    plot: Annotated[
+        Path, typer.Option("--plot", metavar="FILE", help="Where to: .png, .svg or .pdf.")
+    ] = Path("map.pdf"),
+    rtol: Annotated[
+        float | None, typer.Option(metavar="X", help="Relative tolerance, 1e-13 to 1.")
+    ] = None,
+) -> None:
+    """Draw where each effect matters over a/h and h/b, with the scene marked.
+
+    Example: platecontact map scene.toml --plot map.pdf
+    """
+    from derivation.scene import load
+    from derivation.scene import simulate as run
+    from derivation.scene.map import render
+
+    check_outputs(scene, None, plot)
+    result = run(load(scene), rtol=rtol)
+    write_file(plot, render(result, result.gate.rtol, plot.suffix))
+    NOTES.print(f"{plot}", markup=False, highlight=False, soft_wrap=True)
+
+
 def indent(
     scene: SceneFile,
     more: Annotated[list[str] | None, typer.Argument(metavar="V", hidden=True)] = None,

@@ -14,7 +14,7 @@ dies out within some hundred modes. Nodes and weights of a plate are made once.
 import itertools
 import math
 from collections.abc import Callable, Sequence
-from functools import cache
+from functools import cache, lru_cache
 from typing import NamedTuple
 
 from mpmath import mp, mpf
@@ -22,6 +22,8 @@ from mpmath.calculus.quadrature import GaussLegendre
 
 from derivation.reference.routes import RouteError
 
+PLATES = 64
+"""Plates whose numbers are kept: many more would fill the memory."""
 THIN = 0.035
 """Below this h/b the poles of G beyond Re n = N weigh less than e^(-4.2/eta) < 10^-52."""
 
@@ -187,7 +189,7 @@ def _upright(first: int, dps: int) -> tuple[tuple[mpf, mpf], ...]:
         return tuple(found)
 
 
-@cache
+@lru_cache(maxsize=PLATES)
 def nodes_of(eta: mpf, first: int, level: int, dps: int) -> Nodes:
     """Everything about a plate that does not depend on the contact."""
     with mp.workdps(dps):

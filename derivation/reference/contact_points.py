@@ -18,7 +18,7 @@ the same L_m for all kernels. All that is left out is bounded, and enters the ba
 import math
 from collections.abc import Callable, Mapping
 from fractions import Fraction
-from functools import cache
+from functools import lru_cache
 from typing import NamedTuple
 
 import flint
@@ -29,6 +29,8 @@ from derivation.reference.contact_sums import COEFFICIENTS, SHARES, plate_excess
 from derivation.reference.contact_wall import Points, wall_points
 from derivation.reference.zeros import j0_zero
 
+PLATES = 64
+"""Plates whose numbers are kept: many more would fill the memory."""
 DEEPEST = 1.5
 """Largest a/(4h) served: beyond 1 the modes' powers cancel, by as many times the precision."""
 
@@ -103,7 +105,7 @@ def working_bits(eta: Fraction, reach: float, bits: int) -> int:
     return math.ceil(bits * max(1.0, reach / (4 * float(eta)))) + _SPARE
 
 
-@cache
+@lru_cache(maxsize=PLATES)
 def mode_points(eta: Fraction, bits: int, working: int) -> Points:
     """Zeros j and q = (G(2 eta j) - 1)/(j J1(j)^2) of the first modes.
 
@@ -141,7 +143,7 @@ def mode_points(eta: Fraction, bits: int, working: int) -> Points:
         return Points(tuple(places), tuple(weights), rest.abs_upper())
 
 
-@cache
+@lru_cache(maxsize=PLATES)
 def series(eta: Fraction, reach: float, bits: int) -> Series:
     """L for a/b up to `reach`, all that is left out below about 2^-bits.
 

@@ -18,7 +18,7 @@ does not depend on the plate's thickness. alpha = a/b and eta = h/b.
 import math
 from collections.abc import Callable
 from fractions import Fraction
-from functools import cache
+from functools import cache, lru_cache
 from typing import NamedTuple
 
 import flint
@@ -26,6 +26,8 @@ from flint import acb, acb_poly, arb
 
 from derivation.formula.ball import PrecisionError, to_ball
 
+PANELS = 4096
+"""Panels whose numbers are kept, of some plates: many more would fill the memory."""
 SERIES_REACH = 2
 """Power series serve for arguments below this in magnitude, closed forms beyond."""
 
@@ -228,7 +230,7 @@ def _ray_panels(end: int, eta: Fraction | None) -> list[Panel]:
     return panels
 
 
-@cache
+@lru_cache(maxsize=PANELS)
 def _axis_panel(eta: Fraction, k: int, rate: float, bits: int) -> Panel:
     """G - 1 on [2^k, 2^(k+1)]; the ellipse keeps within 45 degrees, and beyond 0.66 2^k."""
     with flint.ctx.workprec(bits):
@@ -239,7 +241,7 @@ def _axis_panel(eta: Fraction, k: int, rate: float, bits: int) -> Panel:
         )
 
 
-@cache
+@lru_cache(maxsize=PANELS)
 def _panels(
     eta: Fraction | None, power: int, rate: float, bits: int
 ) -> tuple[tuple[Panel, ...], arb]:

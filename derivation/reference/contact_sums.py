@@ -26,7 +26,7 @@ from flint import acb, acb_poly, arb
 
 from derivation.formula.ball import PrecisionError, to_ball
 
-PANELS = 4096
+PANELS = 512
 """Panels whose numbers are kept, of some plates: many more would fill the memory."""
 SERIES_REACH = 2
 """Power series serve for arguments below this in magnitude, closed forms beyond."""

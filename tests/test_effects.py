@@ -476,6 +476,14 @@ def test_forced_choices_are_honoured_and_priced() -> None:
     assert 0.3 * small.bound < max(changes) <= small.bound
 
 
+def test_the_pressure_needs_the_whole_plate() -> None:
+    off = decide(model(), {"bending": False}, 1e-6)
+    assert "pressure" not in off.law.effects
+    assert "bending is false" in {row.name: row.why for row in off.rows}["pressure"]
+    with pytest.raises(SceneError, match=r"got bending = false; leave out effects\.bending"):
+        decide(model(), {"bending": False, "pressure": True}, 1e-6)
+
+
 def test_outputs_that_do_not_matter_take_in_nothing() -> None:
     """The sphere's profile moves the contact radius half as much again as the force."""
     m = model(sphere_modulus=math.inf, gravity=0.0, h=1e3, b=1e4, v0=0.1, edge="soft-hinge")

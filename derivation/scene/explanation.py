@@ -21,7 +21,7 @@ class Explanation:
     gate
         What was decided.
     costs
-        Time of each included effect's own term at the nodes of an impact, measured now [s].
+        Time of a law with each included effect alone at an impact's nodes, measured now [s].
     notes
         What else to know.
     """

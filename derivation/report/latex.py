@@ -12,8 +12,10 @@ TEMPLATES = Path(__file__).parent / "templates"
 LINE_WIDTH = 92
 """Characters, as typeset, after which a sum is broken."""
 
-FAR_TOO_WIDE, LEAST_PART = 4 * LINE_WIDTH, 12
+FAR_TOO_WIDE, LEAST_PART = 2 * LINE_WIDTH, 12
 """Characters from which a formula would be illegible on one line; of parts worth a name."""
+LONG_LEFT = 16
+"""Characters of a left side from which the right one begins a line of its own."""
 
 SPECIAL = {
     "\\": r"\textbackslash{}",
@@ -144,10 +146,13 @@ def equation(left: str, expression: sp.Expr, prefix: str = "") -> str:
 
 
 def _in_parts(left: str, expression: sp.Expr) -> str:
-    """A formula whose repeated parts are named, X_1, X_2 ..., and stand below it."""
-    named, (value,) = sp.cse(expression, sp.numbered_symbols("_"))
+    """A formula whose sums and repeated parts are named, X_1, X_2 ..., and stand below it."""
+    sums = sorted(expression.atoms(sp.Sum), key=sp.default_sort_key)
+    rows = [(sp.Symbol(f"X_{k}"), part) for k, part in enumerate(sums, start=1)]
+    named, (value,) = sp.cse(
+        expression.xreplace({part: symbol for symbol, part in rows}), sp.numbered_symbols("_")
+    )
     short: dict[sp.Symbol, sp.Expr] = {}
-    rows: list[tuple[sp.Symbol, sp.Expr]] = []
     for symbol, part in named:
         part = part.xreplace(short)
         if typeset_width(to_latex(part)) <= LEAST_PART:
@@ -155,7 +160,8 @@ def _in_parts(left: str, expression: sp.Expr) -> str:
         else:
             short[symbol] = sp.Symbol(f"X_{len(rows) + 1}")
             rows.append((short[symbol], part))
-    lines = [rf"{left}& \fit[0.75]{{{to_latex(value.xreplace(short))}}}"]
+    body = rf"\fit[0.75]{{{to_latex(value.xreplace(short))}}}"
+    lines = [f"{left}& {body}"] if typeset_width(left) <= LONG_LEFT else [f"{left}&", f"& {body}"]
     lines += [rf"{symbol} = {{}}& \fit[0.75]{{{to_latex(part)}}}" for symbol, part in rows]
     return r"\begin{aligned}" + " \\\\\n".join(lines) + r"\end{aligned}"
 

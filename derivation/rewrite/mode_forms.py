@@ -13,7 +13,9 @@ The terms of the first three are of one sign. In plane they are not: near the mi
 the plate the shares of both faces cancel, and bending and stretching are added instead.
 Far from it, and in thick plates, those would cancel. Thick plates take decaying
 exponentials, e^(-v) in front and e^(-2u) for what comes by way of the far face; thin ones
-Taylor sections. What may be very large or small is left to `times`.
+Taylor sections. What may be very large or small is left to `times`, or to `times_closely`
+where its roundings are most of what the budget allows. Near the middle nothing else depends
+on phi, h and z: (T/2)^2, t^2 and 6 t/T^3 are rounded once each, and all the rest follows.
 """
 
 import sympy as sp
@@ -22,30 +24,35 @@ from sympy.codegen.cfunctions import expm1
 from derivation.formula.symbols import A_j, T, h, lam, mu, phi, z
 from derivation.rewrite.automatic import ratio
 from derivation.rewrite.blocks import blocks
-from derivation.rewrite.form import TIMES, Branch, Seam, Step
+from derivation.rewrite.form import CLOSELY, TIMES, Branch, Seam, Step
 from derivation.rewrite.sections import sections
 
-x, t, u, v = sp.symbols("x t u v", real=True)
+t, u, v = sp.symbols("t u v", real=True)
+square_x, square_t, rise, narrow = sp.symbols("square_x square_t rise narrow", real=True)
 odd_u, odd_v, odd_T, far_u, far_v, decay = sp.symbols(
     "odd_u odd_v odd_T far_u far_v decay", real=True
 )
 near, depth, slip, beyond, fade, tail = sp.symbols("near depth slip beyond fade tail", real=True)
-alpha, beta, zeta = sp.symbols("alpha beta zeta", real=True)
+alpha, beta, level = sp.symbols("alpha beta level", real=True)
 sum_u, sum_v, less_u, less_v = sp.symbols("sum_u sum_v less_u less_v", real=True)
 head, over, core = sp.symbols("head over core", real=True)
 versine, cubic, minus, plus, reach = sp.symbols("versine cubic minus plus reach", real=True)
 c, c_less_1, modulus = sp.symbols("c c_less_1 modulus", real=True)
 sinh_x, sinh_t, cosh_x, cosh_t = sp.symbols("sinh_x sinh_t cosh_x cosh_t", real=True)
-bending, stretching = sp.symbols("bending stretching", real=True)
+bending, stretching, flat = sp.symbols("bending stretching flat", real=True)
 small_x, small_t, lift, gain, growth = sp.symbols("small_x small_t lift gain growth", real=True)
 
 Shape = tuple[tuple[Step, ...], sp.Expr | Seam]
 
 THIN = sp.Rational(5, 2)
-"""Below this T, S_zz, S_rz and S_tt are computed by Taylor sections."""
+"""Below this T, S_zz and S_rz are computed by Taylor sections."""
 
-MIDST = sp.Rational(7, 2)
-"""Below this T, bending and stretching are added up where |t| is below a tenth of it."""
+MIDST = sp.Integer(4)
+"""Below this T, bending and stretching are added up where |t| is below an eighth of it."""
+
+CROSSING = sp.Integer(3)
+"""The same for S_rr and S_tt, whose sum is small where Poisson's ratio is almost -1: both take
+the same way, or their roundings would not cancel there. In between S_tt crosses zero."""
 
 ONCE = sp.Integer(512)
 """e^(-v) is applied in one piece up to this v; e^(-745) is the smallest double."""
@@ -110,7 +117,7 @@ def _deflection() -> Shape:
         Step(others, near**3 * rest + (share + over) / near / pair(T)),
         Step(core, near**3 + others),
     )
-    return steps, TIMES(core / 2, *FADED, A_j, 1, mu, -1, phi, -1, near, -3)
+    return steps, CLOSELY(core / 2, *FADED, A_j, 1, mu, -1, phi, -1, near, -3)
 
 
 def _axial() -> Shape:
@@ -121,19 +128,21 @@ def _axial() -> Shape:
     both, fifth, third, first = sp.symbols("both fifth third first", real=True)
     thin = Branch(
         (
-            Step(both, 2 + T**2 * cubic_of(T), "(sinh T + T)/T"),
-            Step(fifth, T**2 * quintic_of(T)),
+            Step(both, 2 + T**2 * cubic_of(T**2), "(sinh T + T)/T"),
+            Step(fifth, T**2 * quintic_of(T**2)),
             Step(
                 third,
-                u**2 * quartic_of(u) + v**2 * square_of(u) * cubic_of(v) / both - 3 * fifth,
+                u**2 * quartic_of(u**2)
+                + v**2 * square_of(u**2) * cubic_of(v**2) / both
+                - 3 * fifth,
                 "what the faces of a plate of no thickness leave of the term in beta",
             ),
             Step(
                 first,
-                u**2 * quintic_of(u) + v**2 * cubic_of(u) * square_of(v) / both - fifth,
+                u**2 * quintic_of(u**2) + v**2 * cubic_of(u**2) * square_of(v**2) / both - fifth,
                 "and of the term in alpha",
             ),
-            Step(over, (beta * third + alpha * first) / cubic_of(T)),
+            Step(over, (beta * third + alpha * first) / cubic_of(T**2)),
             Step(core, alpha**2 * (1 + (2 * beta + over))),
         ),
         TIMES(core, A_j, 1),
@@ -169,13 +178,13 @@ def _shear() -> Shape:
     cubic_of = sections()["sinh_cubic"]
     thin = Branch(
         (
-            Step(plus, 1 + T**2 * cubic_of(T), "sinh T/T"),
+            Step(plus, 1 + T**2 * cubic_of(T**2), "sinh T/T"),
             Step(
                 over,
-                (plus * u**2 * cubic_of(u) + v**2 * cubic_of(v)) / (1 + plus),
+                (plus * u**2 * cubic_of(u**2) + v**2 * cubic_of(v**2)) / (1 + plus),
                 "small beside 1",
             ),
-            Step(core, alpha * beta * (1 + over) / cubic_of(T)),
+            Step(core, alpha * beta * (1 + over) / cubic_of(T**2)),
         ),
         -TIMES(core, A_j, 1, T, -1),
         {T: sp.Integer(1), u: sp.Rational(1, 2), v: sp.Rational(1, 2)},
@@ -198,66 +207,88 @@ def _shear() -> Shape:
 
 
 MIDDLE = (
-    Step(x, phi * h),
     Step(t, phi * z),
-    Step(zeta, z / (2 * h), "t/T"),
-    Step(reach, sp.Max(10 * sp.Abs(t), T), "small in thin plates and in the middle of others"),
+    Step(square_x, CLOSELY(1, phi, 2, h, 2), "(T/2)^2"),
+    Step(square_t, CLOSELY(1, phi, 2, z, 2), "t^2"),
+    Step(level, CLOSELY(sp.Rational(3, 4), z, 1, h, -3, phi, -2), "6 t/T^3"),
+    Step(reach, sp.Max(8 * sp.Abs(t), T), "small in thin plates and in the middle of others"),
 )
-GUARDS = {T: sp.Integer(1), x: sp.Rational(1, 2), t: sp.Integer(0), zeta: sp.Integer(0)}
+GUARDS = {square_x: sp.Rational(1, 4), square_t: sp.Integer(0), level: sp.Integer(0)}
 
 
 def _of_middle(*unused: sp.Symbol) -> tuple[Step, ...]:
     """What bending and stretching are made of, each over its power, but for what is unused."""
     square_of, cubic_of = sections()["cosh_square"], sections()["sinh_cubic"]
     steps = (
-        Step(small_x, x**2 * cubic_of(x), "sinh x/x - 1"),
-        Step(small_t, t**2 * cubic_of(t), "sinh t/t - 1"),
-        Step(versine, t**2 * square_of(t), "cosh t - 1"),
+        Step(small_x, square_x * cubic_of(square_x), "sinh x/x - 1"),
+        Step(small_t, square_t * cubic_of(square_t), "sinh t/t - 1"),
+        Step(versine, square_t * square_of(square_t), "cosh t - 1"),
         Step(sinh_x, 1 + small_x),
         Step(sinh_t, 1 + small_t),
-        Step(cosh_x, sp.cosh(x)),
+        Step(rise, square_x * square_of(square_x), "cosh x - 1"),
+        Step(cosh_x, 1 + rise),
         Step(cosh_t, 1 + versine),
         Step(lift, small_x * cosh_t + versine, "sinh x cosh t/x - 1"),
-        Step(cubic, cubic_of(T)),
-        Step(minus, T**2 * cubic, "(sinh T - T)/T"),
+        Step(cubic, cubic_of(4 * square_x)),
+        Step(minus, 4 * square_x * cubic, "(sinh T - T)/T"),
         Step(plus, 4 + 2 * minus, "2 (sinh T + T)/T"),
     )
     return tuple(step for step in steps if step.symbol not in unused)
 
 
 def _growth() -> Step:
-    """What bending in a plate of no thickness, 6 zeta, is to be multiplied by, less 1."""
-    square_of, quintic_of = sections()["cosh_square"], sections()["sinh_quintic"]
+    """What bending in a plate of no thickness, `level`, is to be multiplied by, less 1."""
+    quintic_of = sections()["sinh_quintic"]
     return Step(
         growth,
-        (cosh_x * small_t + x**2 * square_of(x) - 6 * T**2 * quintic_of(T)) / (6 * cubic),
+        (cosh_x * small_t + rise - 24 * square_x * quintic_of(4 * square_x)) / (6 * cubic),
         "cosh x sinh t/(6 t cubic) exceeds 1 by",
     )
 
 
-def _gap() -> sp.Expr:
-    """What stretching has but for Poisson's ratio."""
-    return t**2 * sinh_t * sinh_x - x**2 * sections()["cosh_cubic"](x) * cosh_t
+def _bent(poisson: sp.Expr) -> Step:
+    """What `poisson`, 1 + c, is to grow by that `level` times it becomes the whole of bending."""
+    return Step(
+        bending,
+        poisson * growth
+        + (cosh_x * (versine - small_t) - square_x * sinh_t * sinh_x) / (6 * cubic),
+        f"what {poisson} grows by",
+    )
 
 
-def _faces(halves: int, scale: tuple[sp.Basic | int, ...], const: sp.Expr) -> Branch:
-    """Half so many times `scale` times the sum in plane, d = 1 and c = const, from both faces."""
+def _gap() -> tuple[Step, Step]:
+    """What stretching has but for Poisson's ratio, even in z."""
+    return (
+        Step(narrow, square_x * sections()["cosh_cubic"](square_x), "cosh x - sinh x/x"),
+        Step(stretching, (square_t * sinh_t * sinh_x - narrow * versine) - narrow, "even in z"),
+    )
+
+
+def _faces(halves: int, scale: tuple[sp.Basic | int, ...], const: sp.Expr, exact: bool) -> Branch:
+    """Half so many times `scale` times the sum in plane, d = 1 and c = const, from both faces.
+
+    If exact, the rounding of h - z is put right.
+    """
     pair = blocks()["sinh_pair"]
     return Branch(
         (
             ODD_T,
             FAR_U,
             FAR_V,
-            *FADES,
+            *(EXACT_FADES if exact else FADES),
             Step(near, pair.near(T)),
             Step(less_v, const - v),
             Step(less_u, const - u),
-            Step(sum_u, less_v - far_u * (const + v), "2 e^(-u) (c sinh u - v cosh u)"),
+            Step(
+                sum_u,
+                less_v - (slip if exact else 0) - far_u * (const + v),
+                "2 e^(-u) (c sinh u - v cosh u)",
+            ),
             Step(sum_v, less_u - far_v * (const + u), "the same with u for v"),
             Step(over, odd_T * sum_u - 2 * T * far_u * sum_v),
             Step(core, over / pair(T)),
         ),
-        TIMES(sp.Rational(halves, 2) * core, *FADED, *scale, near, -4),
+        CLOSELY(sp.Rational(halves, 2) * core, *FADED, *scale, near, -4),
         {},
     )
 
@@ -268,44 +299,40 @@ def _radial_displacement() -> Shape:
     middle = Branch(
         (
             *_of_middle(),
-            Step(
-                bending,
-                zeta * (sinh_t * (c * cosh_x - x**2 * sinh_x) + cosh_t * cosh_x),
-                "odd in z",
-            ),
-            Step(stretching, _gap(), "even in z"),
+            _growth(),
+            _bent(ratio),
+            *_gap(),
             Step(over, c_less_1 * lift + stretching, "small in thin plates"),
-            Step(core, (c_less_1 + over) / plus + bending / minus),
+            Step(core, c_less_1 + over + plus * (ratio * level + level * bending)),
         ),
-        TIMES(core / 2, *scale),
+        CLOSELY(core / 2, *scale, plus, -1),
         GUARDS,
     )
     elastic = (
         Step(modulus, lam + mu),
         Step(c, mu / modulus, "1 - 2 nu"),
         Step(c_less_1, -lam / modulus, "-2 nu"),
+        Step(ratio, 1 + c, "2 (1 - nu)"),
     )
-    return (*DEPTHS, *elastic, *MIDDLE), Seam(reach, MIDST, middle, _faces(1, scale, c))
+    return (*DEPTHS, *elastic, *MIDDLE), Seam(reach, MIDST, middle, _faces(1, scale, c, True))
 
 
 def _radial() -> Shape:
     """The sum in plane with c = 1; in thin plates twice `_hoop`'s with lam = modulus, nearly."""
     middle = Branch(
         (
-            *_of_middle(lift),
+            *_of_middle(lift, cosh_t),
             _growth(),
-            Step(
-                bending,
-                12 * growth + (cosh_x * (versine - small_t) - x**2 * sinh_t * sinh_x) / cubic,
-                "what 12 grows by, odd in z",
-            ),
-            Step(stretching, _gap(), "even in z"),
-            Step(core, (12 * zeta + zeta * bending) / T**2 + stretching / plus),
+            _bent(sp.Integer(2)),
+            *_gap(),
+            Step(core, 2 * level + (level * bending + stretching / plus)),
         ),
         TIMES(core, A_j, 1),
         GUARDS,
     )
-    return (*DEPTHS, *MIDDLE), Seam(reach, MIDST, middle, _faces(2, (A_j, 1), sp.Integer(1)))
+    return (*DEPTHS, *MIDDLE), Seam(
+        reach, CROSSING, middle, _faces(2, (A_j, 1), sp.Integer(1), False)
+    )
 
 
 def _hoop() -> Shape:
@@ -317,10 +344,15 @@ def _hoop() -> Shape:
             *_of_middle(sinh_x, sinh_t),
             _growth(),
             Step(gain, (4 * lift - 2 * minus) / plus, "4 (1 + lift)/plus - 1"),
-            Step(over, 6 * zeta * growth + x**2 * gain),
-            Step(core, 6 * zeta + x**2 + over),
+            Step(over, level * growth + gain / 4),
+            Step(
+                flat,
+                level + sp.Rational(1, 4),
+                "in plates of no thickness; where it is small, exact",
+            ),
+            Step(core, flat + over),
         ),
-        TIMES(core / 4, *scale, x, -2),
+        CLOSELY(core, *scale),
         GUARDS,
     )
     faces = Branch(
@@ -334,8 +366,8 @@ def _hoop() -> Shape:
             Step(over, odd_T * odd_u - 2 * T * far_u * odd_v),
             Step(core, over / pair(T)),
         ),
-        TIMES(core, *FADED, *scale, near, -4),
+        CLOSELY(core, *FADED, *scale, near, -4),
         {},
     )
-    steps = (*DEPTHS, Step(modulus, lam + mu), *MIDDLE[:-1])
-    return steps, Seam(T, THIN, middle, faces)
+    steps = (*DEPTHS, Step(modulus, lam + mu), *MIDDLE)
+    return steps, Seam(reach, CROSSING, middle, faces)

@@ -26,6 +26,9 @@ class _Printer(NumPyPrinter):
             return f"{expr.func.__name__}({', '.join([value, *(f'({b}, {p})' for b, p in pairs)])})"
         return f"{expr.func.__name__}({', '.join(self._print(x) for x in expr.args)})"
 
+    def _print_Heaviside(self, expr: sp.Heaviside) -> str:
+        return f"np.heaviside({self._print(expr.args[0])}, {self._print(expr.args[1])})"
+
     def _print_Min(self, expr: sp.Min) -> str:
         return f"np.minimum({self._bounds(expr)})"
 

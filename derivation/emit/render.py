@@ -126,7 +126,9 @@ def modules(kernels: tuple[Kernel, ...]) -> tuple[Module, ...]:
         template = "modal_sum" if name == "modal_sum" else "kernels"
         text = repr(group)
         used = [block for block in known if f"{block}(" in text]
-        scalings = [scaling for scaling in ("times", "times_closely") if f"{scaling}(" in text]
+        scalings = [
+            scaling for scaling in ("lost", "times", "times_closely") if f"{scaling}(" in text
+        ]
         context = {"title": TITLES[name], "functions": group, "blocks": used, "scalings": scalings}
         planned.append(Module(name, template, context))
     exported = {name: [k.name for k in group] for name, group in grouped.items()}

@@ -9,13 +9,12 @@ With D = sinh^2 T - T^2, every field is a multiple of
     S_rz        [sinh T v sinh u + T u sinh v]/D
     in plane    [sinh T (c sinh u - d v cosh u) - T (c sinh v - d u cosh v)]/D
 
-The terms of the first three are of one sign. In plane they are not: near the middle of
-the plate the shares of both faces cancel, and bending and stretching are added instead.
-Far from it, and in thick plates, those would cancel. Thick plates take decaying
-exponentials, e^(-v) in front and e^(-2u) for what comes by way of the far face; thin ones
-Taylor sections. What may be very large or small is left to `times`, or to `times_closely`
-where its roundings are most of what the budget allows. Near the middle nothing else depends
-on phi, h and z: (T/2)^2, t^2 and 6 t/T^3 are rounded once each, and all the rest follows.
+The terms of the first three are of one sign. In plane they are not: in thin plates the
+shares of both faces cancel, and bending and stretching are added instead. In thick ones
+those would cancel. Thick plates take decaying exponentials, e^(-v) in front and e^(-2u)
+for what comes by way of the far face; thin ones Taylor sections. What may be very large or
+small is left to `times`, or to `times_closely` where its roundings are most of what the
+budget allows.
 """
 
 import sympy as sp
@@ -24,19 +23,21 @@ from sympy.codegen.cfunctions import expm1
 from derivation.formula.symbols import A_j, T, h, lam, mu, phi, z
 from derivation.rewrite.automatic import ratio
 from derivation.rewrite.blocks import blocks
-from derivation.rewrite.form import CLOSELY, TIMES, Branch, Seam, Step
+from derivation.rewrite.form import CLOSELY, LOST, TIMES, Branch, Seam, Step
 from derivation.rewrite.sections import sections
 
 t, u, v = sp.symbols("t u v", real=True)
-square_x, square_t, rise, narrow = sp.symbols("square_x square_t rise narrow", real=True)
+square_T, square_x, square_t = sp.symbols("square_T square_x square_t", real=True)
+rise, narrow, zeta = sp.symbols("rise narrow zeta", real=True)
 odd_u, odd_v, odd_T, far_u, far_v, decay = sp.symbols(
     "odd_u odd_v odd_T far_u far_v decay", real=True
 )
 near, depth, slip, beyond, fade, tail = sp.symbols("near depth slip beyond fade tail", real=True)
+dist, height, rest_u, base = sp.symbols("dist height rest_u base", real=True)
 alpha, beta, level = sp.symbols("alpha beta level", real=True)
 sum_u, sum_v, less_u, less_v = sp.symbols("sum_u sum_v less_u less_v", real=True)
 head, over, core = sp.symbols("head over core", real=True)
-versine, cubic, minus, plus, reach = sp.symbols("versine cubic minus plus reach", real=True)
+versine, cubic, minus, plus = sp.symbols("versine cubic minus plus", real=True)
 c, c_less_1, modulus = sp.symbols("c c_less_1 modulus", real=True)
 sinh_x, sinh_t, cosh_x, cosh_t = sp.symbols("sinh_x sinh_t cosh_x cosh_t", real=True)
 bending, stretching, flat = sp.symbols("bending stretching flat", real=True)
@@ -45,14 +46,11 @@ small_x, small_t, lift, gain, growth = sp.symbols("small_x small_t lift gain gro
 Shape = tuple[tuple[Step, ...], sp.Expr | Seam]
 
 THIN = sp.Rational(5, 2)
-"""Below this T, S_zz and S_rz are computed by Taylor sections."""
-
-MIDST = sp.Integer(4)
-"""Below this T, bending and stretching are added up where |t| is below an eighth of it."""
+"""Below this T, stresses are computed by Taylor sections. S_rr and S_tt change over together:
+their sum is small where Poisson's ratio is almost -1, and their roundings are to cancel there."""
 
 CROSSING = sp.Integer(3)
-"""The same for S_rr and S_tt, whose sum is small where Poisson's ratio is almost -1: both take
-the same way, or their roundings would not cancel there. In between S_tt crosses zero."""
+"""The same for the radial displacement."""
 
 ONCE = sp.Integer(512)
 """e^(-v) is applied in one piece up to this v; e^(-745) is the smallest double."""
@@ -74,6 +72,16 @@ EXACT_FADES = (
     *FADES[:-1],
     Step(tail, sp.exp(beyond - slip), FADES[-1].comment),
 )
+EXACT_U = (
+    Step(dist, h + z),
+    Step(height, dist - h),
+    Step(rest_u, phi * (z - height) + LOST(phi, dist), "what rounding takes from u"),
+    Step(far_u, sp.exp(-2 * u) * (1 - 2 * rest_u), "decay on the way to the far face and back"),
+)
+EXACT_V = (
+    Step(depth, h - z),
+    Step(slip, phi * (h - depth - z) + LOST(phi, depth), "what rounding takes from v"),
+)
 FADED = (fade, 1, tail, 1)
 FAR_U = Step(far_u, sp.exp(-2 * u), "decay on the way to the far face and back")
 FAR_V = Step(far_v, sp.exp(-2 * v))
@@ -81,6 +89,7 @@ ODD_U = Step(odd_u, -expm1(-2 * u), "2 e^(-u) sinh u")
 ODD_V = Step(odd_v, -expm1(-2 * v), "2 e^(-v) sinh v")
 ODD_T = Step(odd_T, -expm1(-2 * T), "2 e^(-T) sinh T")
 DECAY = Step(decay, sp.exp(-2 * T))
+SUM_U, SUM_V = "2 e^(-u) (c sinh u - v cosh u)", "the same with u for v"
 
 
 def mode_forms() -> dict[str, Shape]:
@@ -206,53 +215,41 @@ def _shear() -> Shape:
     return (*DEPTHS, *FRACTIONS), Seam(T, THIN, thin, thick)
 
 
-MIDDLE = (
-    Step(t, phi * z),
-    Step(square_x, CLOSELY(1, phi, 2, h, 2), "(T/2)^2"),
-    Step(square_t, CLOSELY(1, phi, 2, z, 2), "t^2"),
-    Step(level, CLOSELY(sp.Rational(3, 4), z, 1, h, -3, phi, -2), "6 t/T^3"),
-    Step(reach, sp.Max(8 * sp.Abs(t), T), "small in thin plates and in the middle of others"),
-)
-GUARDS = {square_x: sp.Rational(1, 4), square_t: sp.Integer(0), level: sp.Integer(0)}
+MIDDLE = (Step(t, phi * z), Step(zeta, z / (2 * h), "t/T"))
+GUARDS = {T: sp.Integer(1), t: sp.Integer(0)}
 
 
 def _of_middle(*unused: sp.Symbol) -> tuple[Step, ...]:
     """What bending and stretching are made of, each over its power, but for what is unused."""
     square_of, cubic_of = sections()["cosh_square"], sections()["sinh_cubic"]
     steps = (
+        Step(square_T, T**2),
+        Step(square_x, square_T / 4),
+        Step(square_t, t**2),
         Step(small_x, square_x * cubic_of(square_x), "sinh x/x - 1"),
         Step(small_t, square_t * cubic_of(square_t), "sinh t/t - 1"),
-        Step(versine, square_t * square_of(square_t), "cosh t - 1"),
         Step(sinh_x, 1 + small_x),
         Step(sinh_t, 1 + small_t),
         Step(rise, square_x * square_of(square_x), "cosh x - 1"),
+        Step(versine, square_t * square_of(square_t), "cosh t - 1"),
         Step(cosh_x, 1 + rise),
         Step(cosh_t, 1 + versine),
         Step(lift, small_x * cosh_t + versine, "sinh x cosh t/x - 1"),
-        Step(cubic, cubic_of(4 * square_x)),
-        Step(minus, 4 * square_x * cubic, "(sinh T - T)/T"),
+        Step(cubic, cubic_of(square_T)),
+        Step(minus, square_T * cubic, "(sinh T - T)/T"),
         Step(plus, 4 + 2 * minus, "2 (sinh T + T)/T"),
+        Step(level, 6 * zeta / square_T, "bending in a plate of no thickness"),
     )
     return tuple(step for step in steps if step.symbol not in unused)
 
 
 def _growth() -> Step:
-    """What bending in a plate of no thickness, `level`, is to be multiplied by, less 1."""
+    """What `level` is to be multiplied by, less 1."""
     quintic_of = sections()["sinh_quintic"]
     return Step(
         growth,
-        (cosh_x * small_t + rise - 24 * square_x * quintic_of(4 * square_x)) / (6 * cubic),
+        (cosh_x * small_t + rise - 6 * square_T * quintic_of(square_T)) / (6 * cubic),
         "cosh x sinh t/(6 t cubic) exceeds 1 by",
-    )
-
-
-def _bent(poisson: sp.Expr) -> Step:
-    """What `poisson`, 1 + c, is to grow by that `level` times it becomes the whole of bending."""
-    return Step(
-        bending,
-        poisson * growth
-        + (cosh_x * (versine - small_t) - square_x * sinh_t * sinh_x) / (6 * cubic),
-        f"what {poisson} grows by",
     )
 
 
@@ -264,57 +261,78 @@ def _gap() -> tuple[Step, Step]:
     )
 
 
-def _faces(halves: int, scale: tuple[sp.Basic | int, ...], const: sp.Expr, exact: bool) -> Branch:
-    """Half so many times `scale` times the sum in plane, d = 1 and c = const, from both faces.
-
-    If exact, the rounding of h - z is put right.
-    """
-    pair = blocks()["sinh_pair"]
-    return Branch(
-        (
-            ODD_T,
-            FAR_U,
-            FAR_V,
-            *(EXACT_FADES if exact else FADES),
-            Step(near, pair.near(T)),
-            Step(less_v, const - v),
-            Step(less_u, const - u),
-            Step(
-                sum_u,
-                less_v - (slip if exact else 0) - far_u * (const + v),
-                "2 e^(-u) (c sinh u - v cosh u)",
-            ),
-            Step(sum_v, less_u - far_v * (const + u), "the same with u for v"),
-            Step(over, odd_T * sum_u - 2 * T * far_u * sum_v),
-            Step(core, over / pair(T)),
-        ),
-        CLOSELY(sp.Rational(halves, 2) * core, *FADED, *scale, near, -4),
-        {},
-    )
+DETERMINANT = Step(core, over / (1 - decay * (4 * T**2 + 2 - decay)))
+"""Both faces' shares over 4 e^(-2T) D."""
 
 
 def _radial_displacement() -> Shape:
-    """Half the sum in plane, c = 1 - 2 nu."""
+    """Half the sum in plane, c = 1 - 2 nu.
+
+    Where c is small, cosh x cosh t and x sinh x sinh t in bending cancel: it is
+    1 - (x^2 - t^2)/2 and what is small beside that. From the faces, c - v and e^(-2u) are what
+    roundings matter in: of u and v, and of c, which is known best by its distance from 0 or 1.
+    """
+    quartic_of = sections()["cosh_quartic"]
+    above_x, above_t, mixed, others = sp.symbols("above_x above_t mixed others", real=True)
+    sag, bent, even = sp.symbols("sag bent even", real=True)
+    offset, shift, tip, rest = sp.symbols("offset shift tip rest", real=True)
     scale = (A_j, 1, mu, -1, phi, -2)
+    made = {step.symbol: step for step in _of_middle()}
     middle = Branch(
         (
-            *_of_middle(),
-            _growth(),
-            _bent(ratio),
+            *(made[s] for s in (square_T, square_x, square_t, small_x, small_t, sinh_x, sinh_t)),
+            Step(above_x, square_x * quartic_of(square_x), "(cosh x - 1)/x^2 - 1/2"),
+            Step(above_t, square_t * quartic_of(square_t)),
+            Step(rise, square_x * (sp.Rational(1, 2) + above_x), "cosh x - 1"),
+            Step(versine, square_t * (sp.Rational(1, 2) + above_t), "cosh t - 1"),
+            *(made[s] for s in (cosh_x, cosh_t, lift)),
+            Step(minus, square_T * sections()["sinh_cubic"](square_T), made[minus].comment),
+            made[plus],
+            Step(mixed, rise * versine - square_x * small_t * sinh_x),
+            Step(others, square_x * (above_x - small_x) + (square_t * above_t + mixed)),
+            Step(sag, (square_x - square_t) / 2 - others),
+            Step(bent, 1 - sag, "cosh x cosh t - x sinh x sinh t/t"),
+            Step(bending, bent + c * cosh_x * sinh_t, "odd in z, but for t"),
             *_gap(),
             Step(over, c_less_1 * lift + stretching, "small in thin plates"),
-            Step(core, c_less_1 + over + plus * (ratio * level + level * bending)),
+            Step(even, c_less_1 + over),
+            Step(core, even + plus * zeta * bending / minus),
         ),
         CLOSELY(core / 2, *scale, plus, -1),
         GUARDS,
+    )
+    faces = Branch(
+        (
+            DECAY,
+            Step(odd_T, 1 - decay, ODD_T.comment),
+            FAR_V,
+            *EXACT_U[:2],
+            Step(rest_u, phi * (z - height), "what rounding h + z takes from u"),
+            EXACT_U[3],
+            *EXACT_V,
+            *FADES,
+            Step(base, sp.Heaviside(mu - lam, 1), "what c is closer to"),
+            Step(offset, base - v),
+            Step(shift, (mu * (1 - base) - base * lam) / modulus - slip),
+            Step(less_v, offset + shift),
+            Step(less_u, c - u),
+            Step(sum_u, less_v - far_u * (c + v), SUM_U),
+            Step(sum_v, less_u - far_v * (c + u), SUM_V),
+            Step(head, odd_T * sum_u),
+            Step(tip, 2 * T * far_u * sum_v),
+            Step(rest, tip + slip * (head - tip), "with what e^(-v) lacks"),
+            Step(over, head - rest),
+            DETERMINANT,
+        ),
+        TIMES(core / 2, *FADED, *scale),
+        {T: CROSSING},
     )
     elastic = (
         Step(modulus, lam + mu),
         Step(c, mu / modulus, "1 - 2 nu"),
         Step(c_less_1, -lam / modulus, "-2 nu"),
-        Step(ratio, 1 + c, "2 (1 - nu)"),
     )
-    return (*DEPTHS, *elastic, *MIDDLE), Seam(reach, MIDST, middle, _faces(1, scale, c, True))
+    return (*DEPTHS, *elastic, *MIDDLE), Seam(T, CROSSING, middle, faces)
 
 
 def _radial() -> Shape:
@@ -323,21 +341,41 @@ def _radial() -> Shape:
         (
             *_of_middle(lift, cosh_t),
             _growth(),
-            _bent(sp.Integer(2)),
+            Step(
+                bending,
+                2 * growth
+                + (cosh_x * (versine - small_t) - square_x * sinh_t * sinh_x) / (6 * cubic),
+                "what 2 grows by that `level` times it becomes the whole of bending",
+            ),
             *_gap(),
             Step(core, 2 * level + (level * bending + stretching / plus)),
         ),
         TIMES(core, A_j, 1),
         GUARDS,
     )
-    return (*DEPTHS, *MIDDLE), Seam(
-        reach, CROSSING, middle, _faces(2, (A_j, 1), sp.Integer(1), False)
+    faces = Branch(
+        (
+            DECAY,
+            Step(odd_T, 1 - decay, ODD_T.comment),
+            FAR_V,
+            *EXACT_U,
+            *EXACT_V,
+            *EXACT_FADES[2:],
+            Step(less_v, 1 - v),
+            Step(less_u, 1 - u),
+            Step(sum_u, less_v - (slip + far_u * (1 + v)), SUM_U),
+            Step(sum_v, less_u - far_v * (1 + u), SUM_V),
+            Step(over, odd_T * sum_u - 2 * T * far_u * sum_v),
+            DETERMINANT,
+        ),
+        TIMES(core, *FADED, A_j, 1),
+        {T: THIN},
     )
+    return (*DEPTHS, *MIDDLE), Seam(T, THIN, middle, faces)
 
 
 def _hoop() -> Shape:
     """lam times the dilatation: the sum in plane with c = 1 and d = 0."""
-    pair = blocks()["sinh_pair"]
     scale = (A_j, 1, lam, 1, modulus, -1)
     middle = Branch(
         (
@@ -352,22 +390,22 @@ def _hoop() -> Shape:
             ),
             Step(core, flat + over),
         ),
-        CLOSELY(core, *scale),
+        TIMES(core, *scale),
         GUARDS,
     )
     faces = Branch(
         (
-            ODD_T,
-            ODD_U,
+            DECAY,
+            Step(odd_T, 1 - decay, ODD_T.comment),
             ODD_V,
-            FAR_U,
-            *FADES,
-            Step(near, pair.near(T)),
-            Step(over, odd_T * odd_u - 2 * T * far_u * odd_v),
-            Step(core, over / pair(T)),
+            *EXACT_U,
+            *EXACT_V,
+            *EXACT_FADES[2:],
+            Step(over, odd_T * (1 - far_u) - 2 * T * far_u * odd_v),
+            DETERMINANT,
         ),
-        CLOSELY(core, *FADED, *scale, near, -4),
-        {},
+        TIMES(core, *FADED, *scale),
+        {T: THIN},
     )
     steps = (*DEPTHS, Step(modulus, lam + mu), *MIDDLE)
-    return steps, Seam(reach, CROSSING, middle, faces)
+    return steps, Seam(T, THIN, middle, faces)

@@ -15,7 +15,7 @@ from derivation.rewrite.series import POLYNOMIAL, UNIT_ROUNDOFF
 
 y = sp.Symbol("y", real=True)
 square = sp.Symbol("square", nonnegative=True)
-END = sp.Integer(5)
+END = sp.Integer(3)
 
 DEFINITIONS: tuple[tuple[str, sp.Expr, int], ...] = (
     ("cosh_square", sp.cosh(y) - 1, 2),

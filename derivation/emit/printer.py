@@ -6,7 +6,7 @@ from sympy.printing.numpy import NumPyPrinter
 from sympy.printing.precedence import PRECEDENCE
 
 from derivation.formula.notation import positive_first
-from derivation.rewrite.form import TIMES
+from derivation.rewrite.form import CLOSELY, TIMES
 from derivation.rewrite.shape import decay
 
 SMALL_INTEGER = 1000
@@ -20,11 +20,14 @@ class _Printer(NumPyPrinter):
         return str(super()._module_format(fqn, register)).replace("numpy.", "np.")
 
     def _print_AppliedUndef(self, expr: AppliedUndef) -> str:
-        if expr.func == TIMES:
+        if expr.func in (TIMES, CLOSELY):
             value, *powers = (self._print(x) for x in expr.args)
             pairs = zip(powers[::2], powers[1::2], strict=True)
-            return f"times({', '.join([value, *(f'({b}, {p})' for b, p in pairs)])})"
+            return f"{expr.func.__name__}({', '.join([value, *(f'({b}, {p})' for b, p in pairs)])})"
         return f"{expr.func.__name__}({', '.join(self._print(x) for x in expr.args)})"
+
+    def _print_Heaviside(self, expr: sp.Heaviside) -> str:
+        return f"np.heaviside({self._print(expr.args[0])}, {self._print(expr.args[1])})"
 
     def _print_Min(self, expr: sp.Min) -> str:
         return f"np.minimum({self._bounds(expr)})"

@@ -132,9 +132,11 @@ def modules(kernels: tuple[Kernel, ...]) -> tuple[Module, ...]:
         template = "modal_sum" if name == "modal_sum" else "kernels"
         text = repr(group)
         used = [block for block in known if f"{block}(" in text]
-        planned.append(
-            Module(name, template, {"title": TITLES[name], "functions": group, "blocks": used})
-        )
+        scalings = [
+            scaling for scaling in ("lost", "times", "times_closely") if f"{scaling}(" in text
+        ]
+        context = {"title": TITLES[name], "functions": group, "blocks": used, "scalings": scalings}
+        planned.append(Module(name, template, context))
     exported = {name: [k.name for k in group] for name, group in grouped.items()}
     for row in table_rows(budgets):
         exported.setdefault(str(row["module"]), []).append(str(row["name"]))

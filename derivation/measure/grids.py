@@ -88,10 +88,7 @@ def grid(name: str, arguments: Sequence[str], modes: bool = False) -> tuple[Poin
 
 @cache
 def seams() -> dict[str, tuple[float, ...]]:
-    """Where the stable forms change branches, by variable.
-
-    T is 2 phi h, y is a phi, and reach the larger of T and a multiple of phi |z|.
-    """
+    """Where the stable forms change branches, by variable: T is 2 phi h, y is a phi."""
     found: dict[str, set[float]] = {}
     for value in (*(b.value for b in blocks().values()), *(v for _, v in mode_forms().values())):
         if isinstance(value, Seam):
@@ -107,7 +104,7 @@ def _around(place: float) -> tuple[float, ...]:
 
 def depths(generator: random.Random) -> list[float]:
     """Values of x = phi h: both sides of every seam, decades, the middle densely, the far end."""
-    at_seams = [T / 2 for variable in ("T", "reach") for T in seams()[variable]]
+    at_seams = [T / 2 for T in seams()["T"]]
     return [
         *(x for place in sorted(set(at_seams)) for x in _around(place)),
         *(10.0**exponent for exponent in SMALL[::2]),

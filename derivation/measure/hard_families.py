@@ -71,20 +71,19 @@ _OF_SEAM: dict[str, tuple[tuple[str, Callable[[float], _Inputs]], ...]] = {
         ("K_j", lambda T: _hex(phi=T / 2, h=1.0, b=10.0, R=3.0, J1=0.25)),
         ("mode_zz", lambda T: _hex(z=0.25, phi=T / 2, h=1.0, **_MODE)),
         ("mode_rz", lambda T: _hex(z=-0.5, phi=T / 2, h=1.0, **_MODE)),
-        ("mode_tt", lambda T: _hex(z=0.125, phi=T / 2, h=1.0, **_MODE)),
-    ),
-    "reach": (
         ("mode_g", lambda T: _hex(z=0.0625, phi=T / 2, h=1.0, **_MODE)),
         ("mode_rr", lambda T: _hex(z=-0.0625, phi=T / 2, h=1.0, **_MODE)),
-        ("mode_g", lambda ten_t: _hex(z=ten_t, phi=0.1, h=4.0, **_MODE)),
-        ("mode_rr", lambda ten_t: _hex(z=-ten_t, phi=0.1, h=4.0, **_MODE)),
+        ("mode_tt", lambda T: _hex(z=0.0625, phi=T / 2, h=1.0, **_MODE)),
+        ("mode_g", lambda T: _hex(z=-0.875, phi=T / 2, h=1.0, **_MODE)),
+        ("mode_rr", lambda T: _hex(z=0.875, phi=T / 2, h=1.0, **_MODE)),
+        ("mode_tt", lambda T: _hex(z=0.25, phi=T / 2, h=1.0, **_MODE)),
     ),
     "y": (
         ("sonine", lambda y: _hex(phi=y, a=1.0)),
         ("A_j", lambda y: _hex(phi=y, b=10.0, R=3.0, a=1.0, lam=LAM, mu=MU, J1=0.25)),
     ),
 }
-"""Kernels that pass through a seam in T = 2 phi h, y = a phi or a field's reach, and arguments
+"""Kernels that pass through a seam in T = 2 phi h or y = a phi, and arguments
 by which they come to it: lengths are 1."""
 
 

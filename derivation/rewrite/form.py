@@ -12,6 +12,12 @@ TIMES = sp.Function("times")
 """A value, then bases and their powers in turn: the product, which may leave the doubles' range
 in between."""
 
+CLOSELY = sp.Function("times_closely")
+"""The same, rounded as if once: where the factors are most of what a budget allows."""
+
+LOST = sp.Function("lost")
+"""A product of two less what it is rounded to: exactly nothing."""
+
 
 TINY, FAR, LARGEST = sp.Float("5e-324"), sp.Integer(10**9), sp.Float("1e308")
 """A product held between two of them neither vanishes nor overflows. Beyond FAR, what depends on
@@ -144,11 +150,18 @@ def undo(expression: sp.Expr, steps: tuple[Step, ...], blocks: Mapping[str, Bloc
     """The expression with every step put back and every block replaced by its definition."""
     for step in reversed(steps):
         expression = expression.subs(step.symbol, step.expression)
+    expression = expression.replace(TIMES, _product).replace(CLOSELY, _product)
+    expression = expression.replace(LOST, lambda *_: sp.Integer(0))
     for block in blocks.values():
         expression = expression.replace(sp.Function(block.name), block.definition)
-    expression = expression.replace(TIMES, _product).replace(expm1, lambda x: sp.exp(x) - 1)
+    expression = expression.replace(sp.Abs, lambda x: x)  # roots of squares, in what is even
+    expression = expression.replace(sp.Heaviside, lambda *_: _CHOICE)  # whatever it is
+    expression = expression.replace(expm1, lambda x: sp.exp(x) - 1)
     expression = expression.replace(lambda e: isinstance(e, sp.Max) and TINY in e.args, _released)
     return expression.replace(sp.Min, _least)
+
+
+_CHOICE = sp.Symbol("choice", real=True)
 
 
 def _released(product: sp.Max) -> sp.Expr:

@@ -1,5 +1,7 @@
 """Taylor sections: hyperbolic sums that cancel at 0, over the power they vanish with, up to END.
 
+All are even, and take the square of their variable: it may be known better than the variable.
+
 Where a mode's fields are computed in bending and stretching, no argument is larger; the
 exponentials that blocks are scaled by would cost accuracy there and gain nothing.
 """
@@ -8,11 +10,12 @@ from functools import cache
 
 import sympy as sp
 
-from derivation.rewrite.form import Block, Step
+from derivation.rewrite.form import Block
 from derivation.rewrite.series import POLYNOMIAL, UNIT_ROUNDOFF
 
-y, square = sp.symbols("y square", real=True)
-END = sp.Integer(5)
+y = sp.Symbol("y", real=True)
+square = sp.Symbol("square", nonnegative=True)
+END = sp.Integer(3)
 
 DEFINITIONS: tuple[tuple[str, sp.Expr, int], ...] = (
     ("cosh_square", sp.cosh(y) - 1, 2),
@@ -21,7 +24,7 @@ DEFINITIONS: tuple[tuple[str, sp.Expr, int], ...] = (
     ("sinh_quintic", sp.sinh(y) - y - y**3 / 6, 5),
     ("cosh_cubic", y * sp.cosh(y) - sp.sinh(y), 3),
 )
-"""Name, the sum, and the power that it is divided by."""
+"""Name, the sum in y, and the power of y that it is divided by."""
 
 _MOST = 60
 
@@ -36,13 +39,13 @@ def _section(name: str, total: sp.Expr, power: int) -> Block:
     coefficients, bound = _coefficients(total, power)
     return Block(
         name,
-        (y,),
-        total / y**power,
+        (square,),
+        (total / y**power).subs(y, sp.sqrt(square)),
         0,
         0,
-        (f"abs(y) <= {END}",),
-        f"({sp.sstr(total)})/y^{power}, {coefficients[0]} at y = 0.",
-        (Step(square, y**2),),
+        (f"0 <= square <= {END**2}",),
+        f"({sp.sstr(total)})/y^{power} of the square of y, {coefficients[0]} at y = 0.",
+        (),
         POLYNOMIAL(square, *coefficients),
         f"series cut off at a relative error of {float(bound):.1e}",
     )

@@ -50,7 +50,7 @@ from derivation.scene.choice import solve
 from derivation.scene.effects import BY_NAME
 from derivation.scene.impact import gated, simulate
 from derivation.scene.law import WHOLE_PLATE
-from derivation.scene.model import Model, model_of
+from derivation.scene.model import NUMBERS, Model, model_of
 from derivation.scene.result import Result
 from derivation.scene.scene import load, read
 from generated import contact_law, impact
@@ -216,7 +216,7 @@ def accuracy(
     regime = None
     if scene is not None:
         case = model_of(load(scene))
-        regime = accuracy_run.scene_regime(**asdict(case))
+        regime = accuracy_run.scene_regime(**dict(zip(NUMBERS, case.numbers, strict=True)))
     path = folder_for(None, REPORTS) / "data" / MEASURED_ACCURACY.name if out is None else out
     _expect_writable(path)
     data = accuracy_run.measure(methods, quick, regime, tell)

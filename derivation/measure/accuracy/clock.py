@@ -2,7 +2,8 @@
 
 In each round every candidate runs once, in an order drawn from a fixed seed, and its time is
 divided by the least of a reference in the same round: what the machine does meanwhile meets both.
-The lower quartile of the ratios counts.
+The lower quartile of the ratios counts. Time is the processor's: on a quiet machine that of the
+wall clock, and on a busy one not stretched by the turns of others.
 """
 
 import math
@@ -16,6 +17,8 @@ import numpy as np
 from derivation.measure.accuracy.interface import Call, Doubles
 
 Clock = Callable[[], float]
+CPU: Clock = time.process_time
+"""What times are taken by [s]."""
 
 LEAST, MOST = 2e-3, 2e-2
 """A block lasts at least the first; an array grows as long as a call takes less than the second
@@ -104,7 +107,7 @@ class Session:
         return self.spread > CONTENDED
 
 
-def plan(call: Call, sample: Doubles, clock: Clock = time.perf_counter) -> Candidate:
+def plan(call: Call, sample: Doubles, clock: Clock = CPU) -> Candidate:
     """A block of the whole sample, or of as much of it as one call may take."""
     size, seconds, before = 1, _once(call, sample[:1], clock), math.inf
     # Beyond MOST too while the set-up of a call outweighs its points.
@@ -121,9 +124,7 @@ def _once(call: Call, array: Doubles, clock: Clock) -> float:
     return clock() - begin
 
 
-def session(
-    candidates: Sequence[Candidate], effort: Effort, clock: Clock = time.perf_counter
-) -> Session:
+def session(candidates: Sequence[Candidate], effort: Effort, clock: Clock = CPU) -> Session:
     """Time candidates, several times while the machine is busy; the calmest attempt counts."""
     best: Session | None = None
     for attempt in range(1, effort.attempts + 1):
@@ -137,7 +138,7 @@ def session(
 
 
 def interleaved(
-    candidates: Sequence[Candidate], rounds: int, clock: Clock = time.perf_counter
+    candidates: Sequence[Candidate], rounds: int, clock: Clock = CPU
 ) -> tuple[tuple[Timing, ...], float]:
     """Timings by rounds in shuffled order, and the reference's spread."""
     # A large array made and given back first: before that the C library returns memory

@@ -1,7 +1,6 @@
 """The generated law against the best direct summation, at the paper's own largest contact."""
 
 import math
-import time
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -9,6 +8,7 @@ import numpy as np
 
 from derivation.measure.accuracy import clock, law_own
 from derivation.measure.accuracy.arithmetic import DOUBLE
+from derivation.measure.accuracy.clock import CPU
 from derivation.measure.accuracy.interface import Doubles, Regime, deepest
 from derivation.reference import contact_balls
 from generated.contact_law import indentation
@@ -85,19 +85,19 @@ def direct(regime: Regime, a: float, true: float, most: int) -> tuple[Doubles, D
     """Relative error and time so far after each block of modes, and time of the set-up."""
     partial, times, setup, total, spent = [], [], 0.0, 0.0, 0.0
     for begin in range(0, most, CHUNK):
-        start = time.perf_counter()
+        start = CPU()
         j, slope = zeros(begin, begin + CHUNK)
         square = j * j
         factor = 8 * regime.b**2 / (math.pi * regime.R)
         with DOUBLE.context():
             excess = DOUBLE.excess(2 * regime.eta * j)
         weights = factor * (1 + excess) / (square * square * slope)
-        setup += time.perf_counter() - start
+        setup += CPU() - start
         for k in range(0, CHUNK, BLOCK):
-            start = time.perf_counter()
+            start = CPU()
             y = (a / regime.b) * j[k : k + BLOCK]
             total += float((weights[k : k + BLOCK] * (np.sin(y) - y * np.cos(y))).sum())
-            spent += time.perf_counter() - start
+            spent += CPU() - start
             partial.append(total)
             times.append(spent)
     return np.abs(np.array(partial) / true - 1), np.array(times), setup

@@ -1,12 +1,11 @@
 """Measures the panels: every method of a task in a regime, first its errors, then its time."""
 
 import math
-import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from derivation.measure.accuracy import clock
-from derivation.measure.accuracy.clock import FULL, QUICK, Effort, Session, Timing
+from derivation.measure.accuracy.clock import CPU, FULL, QUICK, Effort, Session, Timing
 from derivation.measure.accuracy.errors import Judged, judge
 from derivation.measure.accuracy.interface import Call, Doubles, Method, Regime, Task
 from derivation.measure.accuracy.problems import Problem, problem
@@ -53,7 +52,7 @@ def judged_row(method: Method, problem: Problem) -> tuple[Row, Judged | None]:
     )
     if reason is not None:
         return row, None
-    judged = judge(method, problem, time.perf_counter)
+    judged = judge(method, problem, CPU)
     total = judged.errors.total
     reason = None
     if total == -math.inf:
@@ -70,9 +69,9 @@ def judged_row(method: Method, problem: Problem) -> tuple[Row, Judged | None]:
 
 def _once(call: Call, array: Doubles) -> Timing:
     """Time of a single call with an array."""
-    begin = time.perf_counter()
+    begin = CPU()
     call(array)
-    return Timing((time.perf_counter() - begin) / array.size, array.size, 1.0, 1)
+    return Timing((CPU() - begin) / array.size, array.size, 1.0, 1)
 
 
 def _timed(

@@ -1,7 +1,6 @@
 """How cost grows with points, thinness, digits and scenes: slopes, memory, and where lines end."""
 
 import math
-import time
 import tracemalloc
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -12,6 +11,7 @@ import numpy as np
 from derivation.measure import speed
 from derivation.measure.accuracy import law_own, law_series
 from derivation.measure.accuracy.arithmetic import Balls, Mpmath
+from derivation.measure.accuracy.clock import CPU
 from derivation.measure.accuracy.interface import PAPER, Method
 from derivation.measure.accuracy.law_sums import split
 from derivation.measure.accuracy.problems import ARRAY
@@ -93,9 +93,9 @@ def _lowest(call: Callable[[], object]) -> float:
     call()
     times = []
     for _ in range(REPEATS):
-        begin = time.perf_counter()
+        begin = CPU()
         call()
-        times.append(time.perf_counter() - begin)
+        times.append(CPU() - begin)
         if times[-1] > LONG:
             break
     return float(np.quantile(times, 0.25))
@@ -149,9 +149,9 @@ def digits(quick: bool) -> list[Growth]:
     setups, balls, numbers = [], [], []
     for count in asked:
         terms = math.ceil(count / DIGITS_PER_TERM) + 3
-        begin = time.perf_counter()
+        begin = CPU()
         balls.append(law_series.small_contacts(terms, Balls(count)).prepare(PAPER))
-        setups.append(time.perf_counter() - begin)
+        setups.append(CPU() - begin)
         # The same coefficients: they are not found anew.
         numbers.append(law_series.small_contacts(terms, Mpmath(count)).prepare(PAPER))
     a, setup_slope = np.array([0.3 * PAPER.h]), line(asked, setups)

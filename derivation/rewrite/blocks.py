@@ -4,11 +4,14 @@ Each is a function of one variable with an exact definition, finite and not zero
 at the origin. How it is computed is found by the rewriting rules.
 """
 
+from dataclasses import replace
+
 import sympy as sp
 
 from derivation.files import cached
 from derivation.formula.proof import prove
-from derivation.rewrite.form import Block, Seam, branches, undo
+from derivation.rewrite.form import Block, Branch, Seam, Step, branches, undo
+from derivation.rewrite.shape import decay
 from derivation.rewrite.stabilise import Stable, stabilise
 
 T, y = sp.symbols("T y", positive=True)
@@ -84,6 +87,9 @@ def _block(
     name: str, variable: sp.Symbol, total: sp.Expr, lead: int, held: int, reads: str
 ) -> Block:
     stable = stabilise(total / variable**lead, variable, ENDS, held)
+    if isinstance(stable.value, Seam):
+        above = _decay_once(stable.value.above)
+        stable = replace(stable, value=replace(stable.value, above=above))
     summary = f"{reads}."
     if isinstance(stable.value, Seam):
         start = (total / variable**lead).series(variable, 0, 1).removeO()
@@ -104,6 +110,19 @@ def _block(
         stable.value,
         truncation,
     )
+
+
+def _decay_once(branch: Branch) -> Branch:
+    """The branch with its exponentials as powers of the slowest one, which is computed once."""
+    found = sp.Tuple(branch.value, *(step.expression for step in branch.steps)).atoms(sp.exp)
+    decays = sorted(found, key=lambda slow: abs(slow.args[0].as_coeff_Mul()[0]))
+    powers = {slow: slow.args[0] / decays[0].args[0] for slow in decays}
+    if len(decays) < 2 or not all(power.is_Integer for power in powers.values()):
+        return branch
+    once = {slow: decay**power for slow, power in powers.items()}
+    steps = (replace(step, expression=step.expression.xreplace(once)) for step in branch.steps)
+    first = Step(decay, decays[0])
+    return replace(branch, steps=(first, *steps), value=branch.value.xreplace(once))
 
 
 def _truncation(stable: Stable) -> str:

@@ -99,12 +99,12 @@ def _start(law: Law, goal: float) -> float:
 def impact(law: Law) -> Motion | None:
     """The impact by a law; None if the contact radius reaches the law's limit."""
     before: Motion | None = None
-    a, times = math.inf, (0, 0, 0, 0, *MORE_TIMES)
-    for n, more in zip((*NODES, *NODES[1:2] * 2), times, strict=True):
+    a = math.inf
+    for n, times in [(n, n) for n in NODES] + [(NODES[1], n) for n in MORE_TIMES]:
         a = largest_radius(law, n, a)
         if not a < law.limit:
             return None
-        found = _results(law, a, n, more or n)
+        found = _results(law, a, n, times)
         if not all(0.0 < value < math.inf for value in found.numbers):
             return found
         if before is not None:

@@ -10,7 +10,7 @@ from derivation.scene.effects.effect import Array
 
 NODES = (24, 48, 96, 192)
 """Numbers of nodes tried."""
-MORE_TIMES = (384, 768)
+MORE_TIMES = (384, 768, 1536)
 """Nodes in time where a slow sphere falls in by its weight, and starts all at once."""
 
 

@@ -225,6 +225,10 @@ def _error(state: _State, effects: Sequence[Effect], outputs: Sequence[str]) -> 
     up = np.prod([1.0 + bound.up for bound in bounds], axis=0) - 1.0
     energy = sum(bound.energy for bound in bounds)
     radius = sum(bound.radius for bound in bounds)
+    names = [e.name for e in effects]
+    if "pressure" in names and "curvature" in names:
+        # Under its true pressure a contact's radius gives way to the profile up to twice as much.
+        radius += bounds[names.index("curvature")].radius
     return _worst(state, low, up, energy, radius, outputs)
 
 

@@ -458,6 +458,17 @@ def test_both_sides_of_a_threshold() -> None:
                 assert abs(other / one - 1) <= found.error * (1 + 1e-9)
 
 
+def test_weight_under_the_true_pressure_moves_the_radius_within_the_bound() -> None:
+    """There the contact radius grows up to 3.5 times as fast as Hertz' radius of the force."""
+    data = measure.scene(226)
+    whole = derivation.effects_check.everything(data)
+    values, effects, bound = derivation.effects_check.gated(data, 1e-2)
+    assert whole is not None
+    assert "gravity" not in effects
+    assert "pressure" in effects
+    assert 0.5 * bound < abs(values[3] / whole[0][3] - 1) <= bound
+
+
 def test_forced_choices_are_honoured_and_priced() -> None:
     m = model()
     out = decide(m, {"bending": False, "gravity": True}, 1e-1)

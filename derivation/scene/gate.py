@@ -120,7 +120,11 @@ class Gate:
 
 @dataclass(frozen=True)
 class _State:
-    """A law at its largest radius: nodes [m] of Hertz' radius, S_1 there, elasticities of S_1."""
+    """A law at its largest radius: nodes [m] of Hertz' radius, S_1 there, elasticities of S_1.
+
+    `growth` is the largest elasticity of the contact radius by Hertz' radius of the force, at
+    least 1.
+    """
 
     law: Law
     a: float
@@ -129,6 +133,7 @@ class _State:
     slope: Array
     fall: float
     rise: float
+    growth: float
 
 
 def decide(
@@ -193,9 +198,11 @@ def _state(law: Law) -> _State:
         slope = np.concatenate(([1.0], inner.additive, last.additive))
     depth = a * (a / model.R) * float(last.depth[-1])
     fall, rise = max(0.0, -float(np.min(elasticity))), max(0.0, float(np.max(elasticity)))
-    return _State(
-        law, a if a < law.limit else math.nan, depth, radii, slope, MARGIN * fall, MARGIN * rise
-    )
+    # P goes with the cube of Hertz' radius, and dP = 2 E* a_H d delta/S.
+    swelling = inner.slope / (inner.additive * np.cbrt(inner.force) ** 2)
+    growth = 1.0 + MARGIN * max(0.0, float(np.max(1.0 / swelling)) - 1.0)
+    reached = a if a < law.limit else math.nan
+    return _State(law, reached, depth, radii, slope, MARGIN * fall, MARGIN * rise, growth)
 
 
 def _bound(state: _State, effect: Effect, stretch: float = 1.0) -> Bound:
@@ -225,10 +232,6 @@ def _error(state: _State, effects: Sequence[Effect], outputs: Sequence[str]) -> 
     up = np.prod([1.0 + bound.up for bound in bounds], axis=0) - 1.0
     energy = sum(bound.energy for bound in bounds)
     radius = sum(bound.radius for bound in bounds)
-    names = [e.name for e in effects]
-    if "pressure" in names and "curvature" in names:
-        # Under its true pressure a contact's radius gives way to the profile up to twice as much.
-        radius += bounds[names.index("curvature")].radius
     return _worst(state, low, up, energy, radius, outputs)
 
 
@@ -246,7 +249,9 @@ def _worst(
         energy = -math.log1p(-share) if share < 1.0 else math.inf
     found = kernels.law_errors(below, above, state.fall, state.rise, energy)
     errors: dict[str, float] = dict(zip(OUTPUTS, found, strict=True))
-    errors["max_contact_radius"] = float(np.expm1(np.log1p(errors["max_contact_radius"]) + radius))
+    # Link 18 speaks of Hertz' radius of the force, with which the contact's own may grow faster.
+    own = state.growth * np.log1p(errors["max_contact_radius"]) + radius
+    errors["max_contact_radius"] = float(np.expm1(own))
     return max(errors[name] for name in outputs)
 
 

@@ -51,6 +51,7 @@ from derivation.rewrite.moment_tables import moment_context
 from derivation.rewrite.pressure_tables import pressure_context
 from derivation.rewrite.sections import sections
 from derivation.rewrite.simple_impact_tables import simple_impact_context
+from derivation.rewrite.viscosity_tables import viscosity_context
 
 TEMPLATES = Path(__file__).parent / "templates"
 CITATION = "Elastodynamic contact in plate-like bodies"
@@ -116,6 +117,7 @@ def modules(kernels: tuple[Kernel, ...]) -> tuple[Module, ...]:
         tables("sensitivity", sensitivity_context()),
         tables("edge", edge_context()),
         tables("effects", effect_context()),
+        tables("viscosity", viscosity_context()),
         Module("simple_impact", "simple_impact", simple_impact_context()),
         Module("true_pressure", "true_pressure", pressure_context() | read_promises("pressure")),
         Module(

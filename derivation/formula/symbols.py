@@ -50,6 +50,7 @@ C1, C2, C3, C4 = sp.symbols("C1:5", real=True)
 eta, alpha, a_ratio, j_n, eps, m, v0, t, delta, delta_0, N, k, u_t, rho = sp.symbols(
     "eta alpha a_ratio j_n eps m v0 t delta delta_0 N k u_t rho", positive=True
 )
+viscous_time, x_v = sp.symbols("viscous_time x_v", positive=True)
 kappa = {n: sp.Symbol(f"kappa_{n}", positive=True) for n in range(0, 10, 2)}
 """kappa_n, the integral of y^n K0(y)/I0(y) over y > 0, by n."""
 M = {k: sp.Symbol(f"M_{k}", real=True) for k in range(2, 7)}
@@ -109,6 +110,10 @@ ARGUMENTS = (
     Argument(m, "kg", "m", "mass of the sphere", ("m > 0",)),
     Argument(v0, "m/s", "v_0", "velocity of the sphere before the impact", ("v0 > 0",)),
     Argument(rho, "kg/m^3", r"\rho", "density of the plate", ("rho > 0",)),
+    Argument(
+        viscous_time, "s", "A_v", "time by which the contact's force lags", ("viscous_time > 0",)
+    ),
+    Argument(x_v, "1", "x", "viscous number", ("x_v >= 0",)),
     Argument(t, "s", "t", "time since first contact", ("t >= 0",)),
     Argument(delta, "m", r"\delta", "indentation", ("delta > 0",)),
     Argument(delta_0, "m", r"\delta_0", "indentation by the linear law", ("delta_0 > 0",)),

@@ -67,6 +67,9 @@ ABOUT = {
     "effects": "Each effect adds a share to the law's slope at equal force. What it can add at "
     "most says whether a scene needs it.",
     "plate motion": "The law is static. These numbers say when the plate's own motion matters.",
+    "viscosity": "A contact whose force lags behind its elastic part by a time A_v takes a part of "
+    "the speed. In the plane of the velocity and the root of the elastic energy the motion is a "
+    "spiral, which says how much at most.",
 }
 
 

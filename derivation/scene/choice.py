@@ -2,7 +2,7 @@
 
 The gate has decided which effects the law holds. From the cheapest: `hertz` and `leading` know
 a proven bound of what they leave out of the plate's law; `coarse` and `full` take the whole
-law, with half the quadrature's nodes and with all. A bound is a relative error of all four
+law, with half the quadrature's nodes and with all. A bound is a relative error of all its
 results against the law of every effect the scene leaves open, with the scene's numbers, these
 being the doubles that the scene turns into.
 """
@@ -109,7 +109,7 @@ def _above(bound: float) -> str:
     return text if float(text) >= bound else f"{1.05 * bound:.1e}"
 
 
-Numbers = tuple[float, float, float, float]
+Numbers = tuple[float, float, float, float, float]
 
 
 def check_rtol(rtol: float) -> float:
@@ -130,7 +130,7 @@ def check_rtol(rtol: float) -> float:
 
 
 def solve_gated(gate: Gate, rtol: float | None = None) -> tuple[Numbers, Accuracy]:
-    """The four results by the law that the gate decided on.
+    """The five results by the law that the gate decided on.
 
     Parameters
     ----------
@@ -164,11 +164,10 @@ def _composed(law: Law) -> tuple[Numbers, Accuracy]:
         closed = _half_space(law)
         if closed is not None:
             return closed
-    with np.errstate(all="ignore"):  # extreme scenes end in NaN, which is looked for
-        found = motion.impact(law)
+    found = moved(law)
     if found is None:
         check_energy(law)
-        return (math.nan,) * 4, whole_law("full", None)
+        return (math.nan,) * 5, whole_law("full", None)
     return found.numbers, Accuracy(
         "full",
         None,
@@ -178,13 +177,28 @@ def _composed(law: Law) -> tuple[Numbers, Accuracy]:
     )
 
 
-def _rounding(law: Law) -> float:
-    """What tests hold the arithmetic to; that of the pressure comes on top."""
-    if "pressure" not in law.effects:
-        return kernels.ROUNDING
-    from generated.true_pressure import ERROR
+def moved(law: Law) -> motion.Motion | None:
+    """The impact by a law of any effects; None if it leaves the law's range."""
+    with np.errstate(all="ignore"):  # extreme scenes end in NaN, which is looked for
+        if "viscosity" not in law.effects:
+            return motion.impact(law)
+        from derivation.scene import viscous
 
-    return kernels.ROUNDING + ERROR
+        return viscous.impact(law)
+
+
+def _rounding(law: Law) -> float:
+    """What tests hold the arithmetic to; that of the pressure and in time come on top."""
+    rounding = kernels.ROUNDING
+    if "pressure" in law.effects:
+        from generated.true_pressure import ERROR
+
+        rounding += ERROR
+    if "viscosity" in law.effects:
+        from derivation.scene.viscous import ROUNDING
+
+        rounding += ROUNDING
+    return rounding
 
 
 def _half_space(law: Law) -> tuple[Numbers, Accuracy] | None:
@@ -195,11 +209,13 @@ def _half_space(law: Law) -> tuple[Numbers, Accuracy] | None:
     if found is None:
         return None
     rounding = Part(found.rounding, COUNTED)
-    return found[:4], Accuracy("hertz", None, Part(0.0, PROVED), Part(0.0, PROVED), rounding)
+    return (*found[:4], 1.0), Accuracy(
+        "hertz", None, Part(0.0, PROVED), Part(0.0, PROVED), rounding
+    )
 
 
 def solve(model: Model, rtol: float | None = None) -> tuple[Numbers, Accuracy]:
-    """The four results by the paper's law, of a rigid paraboloid, by the cheapest method.
+    """The five results by the paper's law, of a rigid paraboloid, by the cheapest method.
 
     Parameters
     ----------
@@ -224,7 +240,7 @@ def solve(model: Model, rtol: float | None = None) -> tuple[Numbers, Accuracy]:
     with np.errstate(all="ignore"):  # extreme scenes end in NaN, which is looked for
         values = kernels.impact(*model.numbers, coarse=coarse)
     contact_time, delta, P, a = (float(value) for value in values)
-    return (contact_time, delta, P, a), whole_law("coarse" if coarse else "full", rtol)
+    return (contact_time, delta, P, a, 1.0), whole_law("coarse" if coarse else "full", rtol)
 
 
 def whole_law(method: str, rtol: float | None) -> Accuracy:
@@ -253,4 +269,4 @@ def _simple(model: Model, method: str, rtol: float) -> tuple[Numbers, Accuracy] 
         quadrature=Part(found.quadrature, PROVED),
         rounding=Part(found.rounding, COUNTED),
     )
-    return found[:4], accuracy
+    return (*found[:4], 1.0), accuracy

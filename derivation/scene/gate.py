@@ -11,7 +11,7 @@ up to 1.02 times the largest; link 18 says what this does to the results.
 
 import math
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 from typing import Any
@@ -19,10 +19,9 @@ from typing import Any
 import numpy as np
 
 from derivation.scene import kernels
-from derivation.scene.effects import EFFECTS
-from derivation.scene.effects.effect import Array, Bound, Effect, PlateEffect
-from derivation.scene.effects.gravity import Gravity
-from derivation.scene.law import WHOLE_PLATE, Law
+from derivation.scene.effects import BY_NAME, EFFECTS
+from derivation.scene.effects.effect import Along, Array, Bound, Effect, Place, PlateEffect, Results
+from derivation.scene.law import WHOLE_PLATE, Law, Shape
 from derivation.scene.model import Model
 from derivation.scene.motion import largest_radius
 from derivation.scene.quadrature import NODES, rule
@@ -34,8 +33,6 @@ TOP = 1.02
 """Bounds are taken up to this times the largest radius."""
 MARGIN = 1.05
 """Elasticities of S are sampled at nodes and widened by this."""
-
-
 HEADS = ("effect", "number", "value", "if left out", "", "why")
 """Heads of the effects table."""
 
@@ -120,16 +117,15 @@ class Gate:
 
 @dataclass(frozen=True)
 class _State:
-    """A law at its largest radius: nodes [m] of Hertz' radius, S_1 there, elasticities of S_1.
+    """A law at its largest radius [m]: S_1 at the place's radii, and elasticities of S_1.
 
     `growth` is the largest elasticity of the contact radius by Hertz' radius of the force, at
-    least 1.
+    least 1. `a` is NaN if the law ends before.
     """
 
     law: Law
     a: float
-    depth: float
-    radii: Array
+    place: Place
     slope: Array
     fall: float
     rise: float
@@ -185,33 +181,46 @@ def decide(
 
 def _state(law: Law) -> _State:
     """The law at its largest radius, or at its limit if that is beyond."""
-    model = law.model
     nodes = rule(NODES[0])
     with np.errstate(all="ignore"):
         a = largest_radius(law)
         top = min(TOP * a, law.limit) if a < law.limit else law.limit
-        inner = law.at(nodes.x * top)
-        last = law.at(np.array([top]))
+        radii = np.append(nodes.x, 1.0) * top
+        shape = law.at(radii)
+        # Once more without the end, where a sphere's slope may be steep: of the polynomial.
+        inner, last = (Shape(*(x[part] for x in shape)) for part in (slice(-1), slice(-1, None)))
         elasticity = nodes.x * (nodes.derivative @ inner.additive) / inner.additive
-        radii = nodes.x * top * np.cbrt(inner.force)
-        radii = np.concatenate(([0.0], radii, [top * float(np.cbrt(last.force[-1]))]))
-        slope = np.concatenate(([1.0], inner.additive, last.additive))
-    depth = a * (a / model.R) * float(last.depth[-1])
+        equal = np.concatenate(([0.0], radii * np.cbrt(shape.force)))
+        along = _along(law, radii, shape)
     fall, rise = max(0.0, -float(np.min(elasticity))), max(0.0, float(np.max(elasticity)))
     # P goes with the cube of Hertz' radius, and dP = 2 E* a_H d delta/S.
     swelling = inner.slope / (inner.additive * np.cbrt(inner.force) ** 2)
     growth = 1.0 + MARGIN * max(0.0, float(np.max(1.0 / swelling)) - 1.0)
+    place = Place(equal, a * (a / law.model.R) * float(last.depth[0]), along)
+    slope = np.concatenate(([1.0], shape.additive))
     reached = a if a < law.limit else math.nan
-    return _State(law, reached, depth, radii, slope, MARGIN * fall, MARGIN * rise, growth)
+    return _State(law, reached, place, slope, MARGIN * fall, MARGIN * rise, growth)
+
+
+def _along(law: Law, radii: Array, shape: Shape) -> Along:
+    """Force, indentation, stiffness and energy at the nodes and the largest radius."""
+    nodes, top = rule(NODES[0]), radii[-1]
+    power = (shape.force * shape.slope)[:-1]
+    share = np.append(nodes.energy @ power, np.sum(nodes.weights * nodes.x**4 * power))
+    unit = law.force(top, Shape(*np.ones(4))) * law.indentation(top, Shape(*np.ones(4)))
+    return Along(
+        law.force(radii, shape),
+        law.indentation(radii, shape),
+        law.stiffness(radii, shape),
+        2.0 * unit * share,
+        2.0 * shape.slope / shape.depth,
+    )
 
 
 def _bound(state: _State, effect: Effect, stretch: float = 1.0) -> Bound:
-    """An effect's bound at the state's radii, which the sphere's elasticity may stretch."""
-    model = state.law.model
+    """An effect's bound at the state's place, whose radii the sphere's elasticity may stretch."""
     with np.errstate(all="ignore"):
-        if isinstance(effect, Gravity):
-            return effect.of_depth(model, state.radii, state.depth)
-        found = effect.bound(model, state.radii * stretch)
+        found = effect.bound(state.law.model, state.place.stretched(stretch))
     if isinstance(effect, PlateEffect):
         part = 1.0 / (1.0 + state.law.softness)
         return found._replace(low=part * found.low, up=part * found.up)
@@ -227,18 +236,26 @@ def _error(state: _State, effects: Sequence[Effect], outputs: Sequence[str]) -> 
     elastic = [e for e in effects if e.name == "sphere_elasticity"]
     stretch = math.exp(_bound(state, elastic[0]).radius) if elastic else 1.0
     bounds = [_bound(state, e, 1.0 if e in elastic else stretch) for e in effects]
-    low = np.sum([bound.low for bound in bounds], axis=0)
-    # The half-space's effects multiply; a product is above the sum where they only add.
-    up = np.prod([1.0 + bound.up for bound in bounds], axis=0) - 1.0
-    energy = sum(bound.energy for bound in bounds)
-    radius = sum(bound.radius for bound in bounds)
-    return _worst(state, low, up, energy, radius, outputs)
+    together = Bound(
+        low=np.sum([bound.low for bound in bounds], axis=0),
+        # The half-space's effects multiply; a product is above the sum where they only add.
+        up=np.prod([1.0 + bound.up for bound in bounds], axis=0) - 1.0,
+        energy=sum(bound.energy for bound in bounds),
+        radius=sum(bound.radius for bound in bounds),
+        results=_sums(bound.results for bound in bounds),
+    )
+    return _worst(state, together, outputs)
 
 
-def _worst(
-    state: _State, low: Array, up: Array, energy: float, radius: float, outputs: Sequence[str]
-) -> float:
-    """The worst of the outputs' errors by link 18."""
+def _sums(rows: Iterable[Results]) -> Results:
+    """Sums of the rows' columns."""
+    time, depth, force, radius, speed = (math.fsum(column) for column in zip(*rows, strict=True))
+    return time, depth, force, radius, speed
+
+
+def _worst(state: _State, bound: Bound, outputs: Sequence[str]) -> float:
+    """The worst of the outputs' errors by link 18, and by what changes results besides."""
+    low, up, energy, radius, results = bound
     if not (np.all(np.isfinite(low)) and np.all(np.isfinite(up)) and state.slope.min() > 0.0):
         return math.inf
     below, above = float(np.max(low / state.slope)), float(np.max(up / state.slope))
@@ -248,11 +265,19 @@ def _worst(
         share = -math.expm1(-energy) * (1.0 + free)
         energy = -math.log1p(-share) if share < 1.0 else math.inf
     found = kernels.law_errors(below, above, state.fall, state.rise, energy)
-    errors: dict[str, float] = dict(zip(OUTPUTS, found, strict=True))
+    if not math.isfinite(found[0]):
+        return math.inf
+    # Viscosity's own bound, taken of this law, is widened for that of everything.
+    wider = (1.0 + max(found)) ** 2
+    kept = (
+        _bound(state, BY_NAME["viscosity"]).results[-1] if "viscosity" in state.law.effects else 0.0
+    )
+    logarithms = np.log1p([*found, 0.0]) + wider * np.array(results)
+    logarithms[-1] += (wider - 1.0) * kept
     # Link 18 speaks of Hertz' radius of the force, with which the contact's own may grow faster.
-    own = state.growth * np.log1p(errors["max_contact_radius"]) + radius
-    errors["max_contact_radius"] = float(np.expm1(own))
-    return max(errors[name] for name in outputs)
+    logarithms[3] += (state.growth - 1.0) * math.log1p(found[3]) + radius
+    errors = dict(zip(OUTPUTS, np.expm1(logarithms), strict=True))
+    return float(max(errors[name] for name in outputs))
 
 
 def _size(state: _State, effect: Effect, outputs: Sequence[str]) -> float:
@@ -262,7 +287,8 @@ def _size(state: _State, effect: Effect, outputs: Sequence[str]) -> float:
         return error
     bound = _bound(state, effect)
     share = np.maximum(bound.low, bound.up) / np.abs(state.slope)
-    return 10.0 + float(np.max(share, where=np.isfinite(share), initial=0.0)) + bound.energy
+    most = float(np.max(share, where=np.isfinite(share), initial=0.0))
+    return 10.0 + most + bound.energy + bound.results[-1]
 
 
 def _price(state: _State, effect: Effect, outputs: Sequence[str]) -> float:
@@ -270,7 +296,7 @@ def _price(state: _State, effect: Effect, outputs: Sequence[str]) -> float:
     if effect.forced or math.isnan(state.a):
         return math.inf
     bound = _bound(state, effect)
-    return _worst(state, bound.up, bound.low, bound.energy, bound.radius, outputs)
+    return _worst(state, bound._replace(low=bound.up, up=bound.low), outputs)
 
 
 def _row(
@@ -284,7 +310,7 @@ def _row(
 ) -> Row:
     """The effect's line, at the largest radius of the law decided on."""
     model, name = state.law.model, effect.name
-    radius = state.radii[-1] / TOP
+    radius = state.place.radii[-1] / TOP
     included = name in state.law.effects
     if reasons[name]:
         return Row(name, effect.adds, effect.number, math.nan, 0.0, False, reasons[name])

@@ -51,10 +51,11 @@ def simulate(
         tolerance is not between 1e-13 and 1.
     """
     rtol, gate = gated(scene, rtol)
-    (contact_time, delta, P, a), accuracy = solve_gated(gate, rtol)
+    numbers, accuracy = solve_gated(gate, rtol)
+    contact_time, delta, _, a, _ = numbers
     model = gate.law.model
     check_radius(gate.law, a, "impact.speed", "lower the speed")
-    check_numbers(model, contact_time, delta, P, a)
+    check_numbers(model, *numbers)
     pressure = gate.law.max_pressure(a)
     model_error = edge_remainder(model, a) if "edge" in gate.law.effects else 0.0
     deflection = 1.0 - a * (a / model.R) / delta
@@ -63,9 +64,7 @@ def simulate(
         *motion_warnings(model, contact_time, deflection),
         *pressure_warnings(pressure, scene.plate.yield_stress),
     )
-    result = Result(
-        contact_time, delta, P, a, pressure, accuracy, model_error, warnings, scene, gate
-    )
+    result = Result(*numbers, pressure, accuracy, model_error, warnings, scene, gate)
     return result if times is None else result.at(times)
 
 

@@ -32,6 +32,7 @@ from generated.effects import (
 from generated.impact import COARSE_QUADRATURE, FULL_QUADRATURE, ROUNDING, history, impact
 from generated.sensitivity import indentation_slope
 from generated.simple_impact import Plate, hertz, law_errors, leading, plate_of
+from generated.viscosity import Course, viscous_logarithms, viscous_number
 
 __all__ = [
     "COARSE_QUADRATURE",
@@ -41,6 +42,7 @@ __all__ = [
     "WALL_CUBIC",
     "WALL_GROWTH",
     "WALL_LINEAR",
+    "Course",
     "Plate",
     "Sphere",
     "bending",
@@ -67,5 +69,7 @@ __all__ = [
     "supported_edge",
     "supported_edge_bound",
     "supported_edge_slope",
+    "viscous_logarithms",
+    "viscous_number",
     "zener_number",
 ]

@@ -24,7 +24,7 @@ from derivation.scene.model import Model
 from derivation.scene.quadrature import NODES, rule
 
 if TYPE_CHECKING:
-    from generated.true_pressure import Contact
+    from generated.true_pressure import Contact, Plate
 
 WHOLE_PLATE = frozenset({"bending", "finite_thickness", "side_wall"})
 """Effects that one kernel holds together."""
@@ -140,6 +140,10 @@ class Law:
         mean = float(np.sum(nodes.weights * self._sphere(nodes.x * a).slope))
         return 2.0 / np.pi * self.modulus * (a / self.model.R) * mean
 
+    def hertz_radius(self, force: Array) -> Array:
+        """Radius [m] at which Hertz' law has a force [N]."""
+        return np.cbrt(0.75 * (force / self.modulus) * self.model.R)
+
     def at(self, a: Array) -> Shape:
         """Force, indentation and slope at contact radii [m], which grow."""
         if "pressure" in self.effects:
@@ -148,7 +152,7 @@ class Law:
         root = np.cbrt(sphere.force)
         if not self.plate_effects:
             return Shape(*sphere, root)
-        share = self._plate(a * root)
+        share = self.deflection(a * root)
         part = 1.0 / (1.0 + self.softness)
         depth = sphere.depth + part * root * root * share.depth
         slope = sphere.slope * (1.0 + part * share.slope / root)
@@ -179,9 +183,17 @@ class Law:
         from generated import true_pressure
 
         model = self.model
-        plate = true_pressure.plate(model.h, model.b)
         curved = "curvature" in self.effects
-        return true_pressure.contact(plate, a, model.R, self.modulus, model.modulus, sphere=curved)
+        return true_pressure.contact(
+            self._solved_plate, a, model.R, self.modulus, model.modulus, sphere=curved
+        )
+
+    @cached_property
+    def _solved_plate(self) -> "Plate":
+        """The plate as the true pressure's equation takes it."""
+        from generated import true_pressure
+
+        return true_pressure.plate(self.model.h, self.model.b)
 
     def _sphere(self, a: Array) -> kernels.Sphere:
         """Force, indentation and slope on a half-space."""
@@ -189,8 +201,8 @@ class Law:
             return kernels.sphere_contact(a / self.model.R)
         return kernels.Sphere(*(np.ones_like(a),) * 3)
 
-    def _plate(self, a: Array) -> Share:
-        """The plate's parts of F and S, of a rigid sphere."""
+    def deflection(self, a: Array) -> Share:
+        """The plate's parts of F and S at Hertz' radii [m], of a rigid sphere."""
         if self.effects >= WHOLE_PLATE:
             found = [plate_share(self.model, a)]
             others = [e for e in self.plate_effects if e.name not in WHOLE_PLATE]

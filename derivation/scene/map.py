@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from derivation.scene.effects import EFFECTS
-from derivation.scene.effects.effect import Array, Effect
+from derivation.scene.effects.effect import Array, Effect, Place
 from derivation.scene.model import Model
 from derivation.scene.plot import METADATA
 from derivation.scene.result import Result
@@ -24,7 +24,7 @@ THICKNESSES = np.geomspace(1e-3, 10.0, 61)
 """h/b of the map."""
 RADII = np.geomspace(1e-3, 6.0, 61)
 """a/h of the map."""
-WITHOUT = {"hertz", "gravity"}
+WITHOUT = {"hertz", "gravity", "viscosity"}
 """Effects that are always there, or depend on the speed beside the contact."""
 COLOURS = ("#1f4e79", "#b35806", "#1b7837", "#762a83", "#b2182b", "#01665e", "#e7298a")
 
@@ -37,7 +37,7 @@ def shares(model: Model, effect: Effect) -> Array:
         a = RADII * plate.h
         inside = a < min(model.b, model.R)
         with np.errstate(all="ignore"):
-            bound = effect.bound(plate, a)
+            bound = effect.bound(plate, Place(a))
         columns.append(np.where(inside, np.maximum(bound.low, bound.up), np.nan))
     return np.array(columns).T
 

@@ -27,6 +27,8 @@ class Model:
         What presses the sphere on [m/s^2].
     density
         Of the plate [kg/m^3]; 0 if it is not known.
+    viscous_time
+        A_v, by which the half-space's force lags [s].
     edge
         How the plate's edge is held.
     """
@@ -41,6 +43,7 @@ class Model:
     sphere_modulus: float = math.inf
     gravity: float = 0.0
     density: float = 0.0
+    viscous_time: float = 0.0
     edge: str = "soft-hinge"
 
     @property
@@ -108,6 +111,7 @@ def model_of(scene: Scene) -> Model:
         sphere_modulus=_sphere_modulus(scene.sphere),
         gravity=scene.impact.gravity or 0.0,
         density=_density(scene.plate),
+        viscous_time=scene.plate.viscous_time or 0.0,
         edge=scene.plate.edge,
     )
     for name, value in zip(NUMBERS, model.numbers, strict=True):

@@ -32,6 +32,33 @@ _CLOSE = 4e-16
 
 
 @dataclass(frozen=True)
+class Ledger:
+    """Where the energy [J] of an impact went.
+
+    Attributes
+    ----------
+    brought, weight
+        Kinetic energy of the sphere before, and the work of its weight up to the release.
+    returned
+        Kinetic energy of the sphere after.
+    dissipated, left
+        Lost in the viscous contact, and left in its elastic part when the force is gone.
+    """
+
+    brought: float
+    weight: float
+    returned: float
+    dissipated: float
+    left: float
+
+    @property
+    def closure(self) -> float:
+        """What does not add up, over the energy brought [1]."""
+        gone = self.returned + self.dissipated + self.left
+        return (self.brought + self.weight - gone) / self.brought
+
+
+@dataclass(frozen=True)
 class Motion:
     """An impact.
 
@@ -41,6 +68,10 @@ class Motion:
         The results, in s, m, N and m.
     quadrature
         Relative change of the results at half the nodes [1].
+    restitution
+        Speed after over speed before [1]; 1 without viscosity.
+    ledger
+        Where the energy went, of a viscous contact.
     """
 
     contact_time: float
@@ -48,11 +79,23 @@ class Motion:
     max_force: float
     max_contact_radius: float
     quadrature: float
+    restitution: float = 1.0
+    ledger: Ledger | None = None
 
     @property
-    def numbers(self) -> tuple[float, float, float, float]:
-        """The four results."""
-        return self.contact_time, self.max_indentation, self.max_force, self.max_contact_radius
+    def numbers(self) -> tuple[float, float, float, float, float]:
+        """The five results."""
+        return (
+            self.contact_time,
+            self.max_indentation,
+            self.max_force,
+            self.max_contact_radius,
+            self.restitution,
+        )
+
+    def history(self, law: Law, times: Array) -> tuple[Array, Array, Array, Array]:
+        """Indentation [m], velocity [m/s], contact radius [m] and force [N] at times [s]."""
+        return _history(law, self, times)
 
 
 def largest_radius(law: Law, n: int = NODES[0], start: float = math.inf) -> float:
@@ -143,8 +186,8 @@ def _course(law: Law, a: float, shape: Shape, known: Rule) -> tuple[Array, Array
     return q * (known.at_times @ slope) / root, root
 
 
-def history(law: Law, motion: Motion, times: Array) -> tuple[Array, Array, Array, Array]:
-    """Indentation [m], velocity [m/s], contact radius [m] and force [N] at times [s].
+def _history(law: Law, motion: Motion, times: Array) -> tuple[Array, Array, Array, Array]:
+    """The course of an impact at times [s].
 
     The time since the turning point is a polynomial in u, which Newton's iteration inverts.
     """

@@ -19,7 +19,7 @@ class Rule(NamedTuple):
 
     `u` and `u_weights` are nodes in time. `at_times` gives the polynomial at q = 1 - u^2,
     `work` the mean of q^4 times it over [1 - u^2, 1], `path` that of q times it; `derivative`
-    its slope at the nodes x.
+    its slope at the nodes x, `energy` the integral of q^4 times it from 0 to each of them.
     """
 
     x: Array
@@ -30,6 +30,7 @@ class Rule(NamedTuple):
     work: Array
     path: Array
     derivative: Array
+    energy: Array
 
 
 @cache
@@ -51,7 +52,9 @@ def rule(n: int, times: int | None = None) -> Rule:
     derivative = 2.0 * legvander(nodes, n - 2) @ slopes @ analysis
     work = np.einsum("ij,ijk->ik", w * inner**4, spread)
     path = np.einsum("ij,ijk->ik", w * inner, spread)
-    return Rule(x, w, u, u_weights, values(q), work, path, derivative)
+    below = np.outer(x, x)
+    energy = np.einsum("i,ij,ijk->ik", x, w * below**4, values(below))
+    return Rule(x, w, u, u_weights, values(q), work, path, derivative, energy)
 
 
 def _unit(n: int) -> tuple[Array, Array]:

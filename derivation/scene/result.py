@@ -8,8 +8,8 @@ from typing import Any, NamedTuple, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from derivation.scene import kernels, motion
-from derivation.scene.choice import Accuracy
+from derivation.scene import kernels
+from derivation.scene.choice import Accuracy, moved
 from derivation.scene.gate import Gate
 from derivation.scene.law import WHOLE_PLATE
 from derivation.scene.model import Model
@@ -63,6 +63,8 @@ class Result:
         Largest contact force [N].
     max_contact_radius
         Largest contact radius [m].
+    restitution
+        Speed after over speed before [1]; 1 unless the contact is viscous.
     max_pressure
         Largest contact pressure, in the middle of the widest contact [Pa].
     accuracy
@@ -84,6 +86,7 @@ class Result:
     max_indentation: float
     max_force: float
     max_contact_radius: float
+    restitution: float
     max_pressure: float
     accuracy: Accuracy
     model_error: float
@@ -135,10 +138,10 @@ class Result:
             end = float(kernels.impact(*self.model.numbers).contact_time)
             times = self._times(n, end)
             return History(times, *kernels.history(times, *self.model.numbers))
-        whole = motion.impact(law)
+        whole = moved(law)
         assert whole is not None  # or there were no result
         times = self._times(n, whole.contact_time)
-        return History(times, *motion.history(law, whole, times))
+        return History(times, *whole.history(law, times))
 
     def _times(self, n: int | None, end: float) -> Array:
         """The times asked for [s], or such that cover the contact."""
@@ -190,5 +193,6 @@ UNITS = {
     "max_indentation": "m",
     "max_force": "N",
     "max_contact_radius": "m",
+    "restitution": "1",
     "max_pressure": "Pa",
 }

@@ -16,10 +16,12 @@ from derivation.scene.words import choice_problem, explain, shown
 Positive = Annotated[float, Field(gt=0)]
 MaterialName = Literal["steel", "glass", "aluminium", "concrete", "PMMA", "paper"]
 Edge = Literal["soft-hinge", "simply-supported", "clamped"]
-Output = Literal["contact_time", "max_indentation", "max_force", "max_contact_radius"]
+Output = Literal[
+    "contact_time", "max_indentation", "max_force", "max_contact_radius", "restitution"
+]
 Wanted = Literal["auto"] | bool
 OUTPUTS: tuple[Output, ...] = (
-    "contact_time", "max_indentation", "max_force", "max_contact_radius",
+    "contact_time", "max_indentation", "max_force", "max_contact_radius", "restitution",
 )  # fmt: skip
 Groups = tuple[tuple[str, ...], ...]
 TIGHTEST = 1e-13
@@ -142,6 +144,9 @@ class Plate(Table):
         "soft-hinge", description="how the plate's edge is held", examples=["clamped"]
     )
     density: Positive | None = Field(None, description="plate density [kg/m^3]", examples=[2500.0])
+    viscous_time: Positive | None = Field(
+        None, description="time A_v by which the contact's force lags [s]", examples=[1e-4]
+    )
     yield_stress: Positive | None = Field(
         None, description="yield stress of the plate [Pa]", examples=[235e6]
     )
@@ -179,6 +184,7 @@ class Effects(Table):
     side_wall: Wanted = Field("auto", description="the plate's finite radius", examples=[True])
     edge: Wanted = Field("auto", description="the plate's support", examples=[True])
     pressure: Wanted = Field("auto", description="pressure solved for", examples=[False])
+    viscosity: Wanted = Field("auto", description="viscous contact", examples=[True])
     gravity: Wanted = Field("auto", description="weight during contact", examples=[False])
 
 

@@ -13,7 +13,8 @@ WANTED = '"auto", true or false'
 EXPECTED = {
     "material": "the name of a material (steel, glass, aluminium, concrete, PMMA or paper)",
     "edge": '"soft-hinge", "simply-supported" or "clamped"',
-    "outputs": "a list of contact_time, max_indentation, max_force and max_contact_radius",
+    "outputs": "a list of contact_time, max_indentation, max_force, max_contact_radius and "
+    "restitution",
     "lame_lambda": "a finite number",
     "poissons_ratio": "a number above -1 and below 0.5",
     "rtol": "a number from 1e-13 to 1",

@@ -26,6 +26,7 @@ and from the contact law to the motion:
 21 curvature        a sphere instead of a paraboloid
 22 effects          how much each effect can change the law
 23 plate motion     when the plate's own motion matters: Zener's number, periods
+24 viscosity        a contact whose force lags: restitution, and what it changes at most
 """
 
 from collections.abc import Callable, Iterator
@@ -56,6 +57,7 @@ from derivation.theory.substitution import substitution
 from derivation.theory.thin_plate import thin_plate
 from derivation.theory.thin_remainder import thin_remainder
 from derivation.theory.true_pressure import true_pressure
+from derivation.theory.viscosity import viscosity
 
 Link = tuple[str, Callable[[], tuple[Formula, ...]]]
 
@@ -85,6 +87,7 @@ MOTION_LINKS: tuple[Link, ...] = (
     ("curvature", curvature),
     ("effects", effects),
     ("plate motion", plate_motion),
+    ("viscosity", viscosity),
 )
 """What follows from the contact law. Apart: these formulas hold integrals and constants too."""
 

@@ -13,6 +13,7 @@ from derivation.scene.effects.hertz import Hertz
 from derivation.scene.effects.pressure import Pressure
 from derivation.scene.effects.side_wall import SideWall
 from derivation.scene.effects.sphere_elasticity import SphereElasticity
+from derivation.scene.effects.viscosity import Viscosity
 
 EFFECTS: tuple[Effect, ...] = (
     Hertz(),
@@ -23,6 +24,7 @@ EFFECTS: tuple[Effect, ...] = (
     SideWall(),
     Edge(),
     Pressure(),
+    Viscosity(),
     Gravity(),
 )
 """Every effect there is, in the order of the effects table."""

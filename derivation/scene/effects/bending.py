@@ -1,7 +1,7 @@
 """Bending: the deflection of a thin plate under the force."""
 
 from derivation.scene import kernels
-from derivation.scene.effects.effect import Array, Bound, PlateEffect, Share, none_of
+from derivation.scene.effects.effect import Array, Bound, Place, PlateEffect, Share, none_of
 from derivation.scene.model import Model
 
 
@@ -18,8 +18,9 @@ class Bending(PlateEffect):
         """Its share of the indentation over Hertz'."""
         return float(kernels.bending(a / model.h, model.eta).depth)
 
-    def bound(self, model: Model, a: Array) -> Bound:
+    def bound(self, model: Model, place: Place) -> Bound:
         """The share itself: exact."""
+        a = place.radii
         return Bound(none_of(a), self.share(model, a).slope)
 
     def share(self, model: Model, a: Array) -> Share:

@@ -3,7 +3,7 @@
 import numpy as np
 
 from derivation.scene import kernels
-from derivation.scene.effects.effect import Array, Bound, Effect
+from derivation.scene.effects.effect import Bound, Effect, Place
 from derivation.scene.model import Model
 
 
@@ -20,8 +20,9 @@ class Curvature(Effect):
         """Contact radius over sphere radius."""
         return a / model.R
 
-    def bound(self, model: Model, a: Array) -> Bound:
+    def bound(self, model: Model, place: Place) -> Bound:
         """S - 1 = a_Hertz/a - 1 grows with a, and a is at most Hertz'."""
+        a = place.radii
         rho = a / model.R
         ratio = np.cbrt(kernels.sphere_contact(np.where(rho < 1, rho, np.nan)).force)
         up = np.where(np.isfinite(ratio), ratio - 1.0, np.inf)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from derivation.scene import kernels
-from derivation.scene.effects.effect import Array, Bound, PlateEffect, Share, none_of
+from derivation.scene.effects.effect import Array, Bound, Place, PlateEffect, Share, none_of
 from derivation.scene.model import Model
 
 SUPPORTED, CLAMPED = "simply-supported", "clamped"
@@ -28,15 +28,19 @@ class Edge(PlateEffect):
 
     def value(self, model: Model, a: float) -> float:
         """Its share of the indentation over Hertz' at most, two thirds of its bound."""
-        found = self.bound(model, np.array([a]))
-        return float(found.up[0] - found.low[0]) / 1.5
+        low, up = self._range(model, np.array([a]))
+        return float(up[0] - low[0]) / 1.5
 
-    def bound(self, model: Model, a: Array) -> Bound:
+    def bound(self, model: Model, place: Place) -> Bound:
         """Of one sign; the bound holds at all smaller radii too."""
+        return Bound(*self._range(model, place.radii))
+
+    def _range(self, model: Model, a: Array) -> tuple[Array, Array]:
+        """How far S may be below and above."""
         plate = model.h, model.b, model.lam, model.mu
         if model.edge == SUPPORTED:
-            return Bound(none_of(a), kernels.supported_edge_bound(a, *plate))
-        return Bound(kernels.clamped_edge_bound(a, *plate), none_of(a))
+            return none_of(a), kernels.supported_edge_bound(a, *plate)
+        return kernels.clamped_edge_bound(a, *plate), none_of(a)
 
     def share(self, model: Model, a: Array) -> Share:
         """By sums over a few modes, or the thin plate's closed form."""

@@ -6,6 +6,7 @@ E* of the law, a^3 = 3 P R/(4 E*),
     delta = (a^2/R) (1 + F),   d delta/da = (2a/R) S.
 """
 
+from dataclasses import dataclass, replace
 from typing import ClassVar, NamedTuple
 
 import numpy as np
@@ -26,6 +27,46 @@ class Share(NamedTuple):
     slope: Array
 
 
+class Along(NamedTuple):
+    """The law taken at contact radii up to its largest.
+
+    Force [N], indentation [m], stiffness [N/m], energy [J] and d log delta/d log a [1].
+    """
+
+    force: Array
+    depth: Array
+    stiffness: Array
+    energy: Array
+    growth: Array
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a bound is asked for.
+
+    Attributes
+    ----------
+    radii
+        Hertz' radii of the force [m], from 0 on, growing.
+    depth
+        Largest indentation [m], of an impact.
+    along
+        The law taken, of an impact.
+    """
+
+    radii: Array
+    depth: float = 0.0
+    along: Along | None = None
+
+    def stretched(self, factor: float) -> "Place":
+        """The same with all radii larger."""
+        return replace(self, radii=self.radii * factor)
+
+
+Results = tuple[float, float, float, float, float]
+"""A number for each of the outputs."""
+
+
 class Bound(NamedTuple):
     """What leaving an effect out changes at most.
 
@@ -38,12 +79,15 @@ class Bound(NamedTuple):
         Logarithm of the factor by which more energy may go into the contact [1].
     radius
         Logarithm of the factor by which the contact radius may differ besides [1].
+    results
+        The same of every result, in the order of the outputs [1].
     """
 
     low: Array
     up: Array
     energy: float = 0.0
     radius: float = 0.0
+    results: Results = (0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 class Effect:
@@ -80,8 +124,8 @@ class Effect:
         """The dimensionless number at a largest contact radius [m]."""
         raise NotImplementedError
 
-    def bound(self, model: Model, a: Array) -> Bound:
-        """What leaving it out changes at most, at contact radii [m] from 0 on, growing."""
+    def bound(self, model: Model, place: Place) -> Bound:
+        """What leaving it out changes at most."""
         raise NotImplementedError
 
 

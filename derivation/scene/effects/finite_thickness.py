@@ -4,7 +4,7 @@ import numpy as np
 
 from derivation.scene import kernels
 from derivation.scene.effects.bending import Bending
-from derivation.scene.effects.effect import Array, Bound, PlateEffect, Share, plate_of
+from derivation.scene.effects.effect import Array, Bound, Place, PlateEffect, Share, plate_of
 from derivation.scene.effects.side_wall import SideWall
 from derivation.scene.model import Model
 
@@ -23,8 +23,9 @@ class FiniteThickness(PlateEffect):
         linear = plate_of(model).bend * a / model.h
         return float(linear - kernels.bending(a / model.h, model.eta).depth)
 
-    def bound(self, model: Model, a: Array) -> Bound:
+    def bound(self, model: Model, place: Place) -> Bound:
         """3/2 c_1 A - K_3 A^3 <= S - 1 <= 3/2 c_1 A, less bending and the side wall."""
+        a = place.radii
         plate, A, alpha = plate_of(model), a / model.h, a / model.b
         linear = 1.5 * plate.bend * A - kernels.bending(A, model.eta).slope
         doubt = 1.5 * plate.doubt * A

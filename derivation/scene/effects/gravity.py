@@ -2,7 +2,7 @@
 
 import math
 
-from derivation.scene.effects.effect import Array, Bound, Effect, none_of
+from derivation.scene.effects.effect import Bound, Effect, Place, none_of
 from derivation.scene.model import Model
 
 
@@ -23,12 +23,9 @@ class Gravity(Effect):
         """Work of the weight over Hertz' indentation, over the sphere's energy."""
         return 2.0 * model.gravity * a * (a / model.R) / model.v0 / model.v0
 
-    def bound(self, model: Model, a: Array) -> Bound:
-        """As `of_depth`, of Hertz' indentation; the gate knows the law's."""
-        return self.of_depth(model, a, float(a[-1] * (a[-1] / model.R)))
-
-    def of_depth(self, model: Model, a: Array, depth: float) -> Bound:
+    def bound(self, model: Model, place: Place) -> Bound:
         """-log(1 - e), e the work of the weight over the largest indentation over the energy."""
-        share = 2.0 * model.gravity * depth / model.v0 / model.v0
+        share = 2.0 * model.gravity * place.depth / model.v0 / model.v0
         energy = -math.log1p(-share) if share < 1.0 else math.inf
-        return Bound(none_of(a), none_of(a), energy=energy)
+        none = none_of(place.radii)
+        return Bound(none, none, energy=energy)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from derivation.scene import kernels
-from derivation.scene.effects.effect import Array, Bound, Effect, plate_of
+from derivation.scene.effects.effect import Bound, Effect, Place, plate_of
 from derivation.scene.model import Model
 
 WIDEST = 0.4
@@ -25,12 +25,13 @@ class Pressure(Effect):
         """Contact radius over thickness."""
         return a / (2.0 * model.h)
 
-    def bound(self, model: Model, a: Array) -> Bound:
+    def bound(self, model: Model, place: Place) -> Bound:
         """theta >= (-(15/2) c_3 + (2/25) eta^3) A^3: 5/3 of it downwards, 2/3 upwards.
 
         -(5/2) c_3 is at most K_3. It is proved for a paraboloid; a sphere's pressure is
         steeper, and theta is taken larger by its force over the paraboloid's.
         """
+        a = place.radii
         cubic = (
             3.0 * plate_of(model).rest + kernels.PRESSURE_WALL * model.eta * model.eta * model.eta
         )

@@ -1,7 +1,7 @@
 """Side wall: the plate's finite radius makes it stiffer."""
 
 from derivation.scene import kernels
-from derivation.scene.effects.effect import Array, Bound, PlateEffect, Share, none_of
+from derivation.scene.effects.effect import Array, Bound, Place, PlateEffect, Share, none_of
 from derivation.scene.model import Model
 
 
@@ -18,8 +18,9 @@ class SideWall(PlateEffect):
         """Its leading share of the indentation over Hertz'."""
         return 2.0 / 3.0 * kernels.WALL_LINEAR * a / model.b
 
-    def bound(self, model: Model, a: Array) -> Bound:
+    def bound(self, model: Model, place: Place) -> Bound:
         """Between nothing and the leading terms."""
+        a = place.radii
         alpha = a / model.b
         return Bound(kernels.WALL_LINEAR * alpha + kernels.WALL_CUBIC * alpha**3, none_of(a))
 

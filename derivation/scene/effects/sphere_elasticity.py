@@ -3,7 +3,7 @@
 import numpy as np
 
 from derivation.scene import kernels
-from derivation.scene.effects.effect import Array, Bound, Effect, plate_of
+from derivation.scene.effects.effect import Bound, Effect, Place, plate_of
 from derivation.scene.model import Model
 
 
@@ -24,8 +24,9 @@ class SphereElasticity(Effect):
         """E* of the plate over that of the sphere."""
         return model.softness
 
-    def bound(self, model: Model, a: Array) -> Bound:
+    def bound(self, model: Model, place: Place) -> Bound:
         """s^2 - 1, s^3 = 1 + E*/E_1*, and of it K A^3 in the plate either way."""
+        a = place.radii
         log = np.log1p(model.softness) / 3.0
         growth = np.expm1(2.0 * log)
         plate, alpha = plate_of(model), a / model.b

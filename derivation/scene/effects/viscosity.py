@@ -1,0 +1,51 @@
+"""Viscosity: the half-space's force lags, so that the contact takes a part of the speed."""
+
+import numpy as np
+
+from derivation.scene import kernels
+from derivation.scene.effects.effect import Bound, Effect, Place, none_of
+from derivation.scene.model import Model
+
+MARGIN = 1.05
+"""What is largest on the way is sampled, and widened by this."""
+
+
+class Viscosity(Effect):
+    """Acts on the local indentation alone, never on the plate's deflection, and cannot pull."""
+
+    name = "viscosity"
+    adds = "a contact that lags"
+    equation = "P = P_e + A_v dP_e/dt >= 0, P_e the half-space's force"
+    number = "x = (3/2) A_v (K/m)^(2/5) v0^(1/5)"
+    source = "Kuwabara and Kono 1987, Brilliantov et al. 1996; link 24"
+
+    def absent(self, model: Model) -> str:
+        """A plate without a time is not viscous."""
+        return "" if model.viscous_time else "no plate.viscous_time"
+
+    def value(self, model: Model, a: float) -> float:  # noqa: ARG002
+        """Viscous number of Hertz' contact."""
+        modulus = model.lam, model.mu
+        number = kernels.viscous_number(model.R, model.m, model.v0, *modulus, model.viscous_time)
+        return float(number * (1.0 + model.softness) ** -0.4)
+
+    def bound(self, model: Model, place: Place) -> Bound:
+        """By the spiral of link 24, proved for a half-space; a plate, which does not lag, helps."""
+        assert place.along is not None
+        force, depth, stiffness, energy, growth = place.along
+        speed = np.sqrt(2.0 * (energy / model.m))
+        epsilon = model.viscous_time * float(np.max(stiffness / force * speed))
+        steepness = stiffness / force * depth
+        steepening = 2.0 * stiffness / force * (energy / force) - 1.0
+        deepening = 2.0 * energy / force / depth
+        course = kernels.Course(
+            MARGIN * epsilon,
+            MARGIN * float(np.max(steepness) / steepness[-1]),
+            MARGIN * max(0.0, -float(np.min(steepening))),
+            MARGIN * max(0.0, float(np.max(steepening))),
+            MARGIN * float(np.max(deepening)),
+            MARGIN * float(np.max(deepening / growth)),
+            max(1.0, MARGIN * float(energy[-1] / model.m) * 2.0 / model.v0 / model.v0),
+        )
+        none = none_of(place.radii)
+        return Bound(none, none, results=kernels.viscous_logarithms(course))

@@ -1,0 +1,388 @@
+"""Impact on a viscous contact: collocation in time, since energy alone no longer tells.
+
+The contact lags (Kuwabara and Kono 1987, Brilliantov et al. 1996), bending does not. With a the
+contact radius, P_e and delta_e force and indentation of the law at it, w the plate's bending:
+
+    m z'' = m g - P,   P = P_e + A_v dP_e/dt,   z = delta_e + w(P) - w(P_e)
+
+until P falls to zero: there is no tension. In x = (t/T)^(1/6), T the time without viscosity,
+the onset is analytic. On each of a row of elements da/dx is a polynomial through Radau's nodes,
+found by Newton's iteration; elements are as long as their last coefficients are rounding.
+"""
+
+import math
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.polynomial.chebyshev import Chebyshev
+from numpy.polynomial.legendre import leggauss
+
+from derivation.scene import motion
+from derivation.scene.collocation import Element, Radau, radau
+from derivation.scene.effects.effect import Array
+from derivation.scene.law import Law
+from derivation.scene.motion import Ledger, Motion
+from derivation.scene.scene import SceneError
+
+STAGES = 9, 12
+"""Nodes of an element, of the run that checks and of the one that counts."""
+ONSET = 6
+"""t = T x^6: a half-space's onset goes by t^(1/2), a bent plate's by t^(1/3)."""
+FIRST, LONGEST, SHORTEST, MOST = 0.05, 0.25, 1e-13, 2000
+"""First, largest and least length of an element in x, and how many are tried."""
+TOLERANCE = 1e-11
+"""An element's last coefficients over the largest there are."""
+ROUNDING = 2e-12
+"""What tests hold the results to, beside the change with the nodes [1]."""
+TABLE = 64, 40
+"""Nodes and degree of the law where the pressure is solved for."""
+_NEWTON, _CLOSE, _NEARLY, _ROUGH = 30, 1e-15, 1e-12, 1e-3
+A, V, Z, P, LOST = range(5)
+"""Rows of an element: contact radius, velocity, indentation, force, and energy lost per x."""
+
+
+class Point(NamedTuple):
+    """Contact radius, velocity and indentation at a time, in the problem's units."""
+
+    radius: float
+    velocity: float
+    depth: float
+
+
+class Contact(NamedTuple):
+    """Force [N] and indentation [m] of the law at radii [m], and their slopes by the radius."""
+
+    force: Array
+    depth: Array
+    force_a: Array
+    depth_a: Array
+
+
+class States(NamedTuple):
+    """Force, depth, loss per x, and slopes: of both by the radius a and by da/dx."""
+
+    P: Array
+    depth: Array
+    lost: Array
+    P_a: Array
+    P_y: Array
+    depth_a: Array
+    depth_y: Array
+
+
+@dataclass(frozen=True)
+class Curve:
+    """The law's force and indentation by the contact radius."""
+
+    law: Law
+
+    def at(self, a: Array) -> Contact:
+        """Force and indentation at radii [m]."""
+        law = self.law
+        shape = law.at(a)
+        slope = 2.0 * (a / law.model.R) * shape.slope
+        force_a = law.stiffness(a, shape) * slope
+        return Contact(law.force(a, shape), law.indentation(a, shape), force_a, slope)
+
+
+@dataclass(frozen=True)
+class Solved(Curve):
+    """The same where the pressure is solved for: polynomials of a/top, times their powers."""
+
+    top: float
+    force: Chebyshev
+    depth: Chebyshev
+
+    def at(self, a: Array) -> Contact:
+        """Force and indentation at radii [m]; NaN beyond what was solved for."""
+        x = np.where(a <= self.top, a / self.top, np.nan)
+        force, depth = self.force(x), self.depth(x)
+        force_a = (3.0 * force + x * self.force.deriv()(x)) * x * x / self.top
+        depth_a = (2.0 * depth + x * self.depth.deriv()(x)) * x / self.top
+        return Contact(force * x**3, depth * x * x, force_a, depth_a)
+
+
+def curve_of(law: Law, a: float) -> Curve:
+    """The law up to a contact radius [m], which viscosity does not let grow."""
+    if "pressure" not in law.effects:
+        return Curve(law)
+    nodes, degree = TABLE
+    x = (1.0 - np.cos(np.pi * (np.arange(nodes) + 0.5) / nodes)) / 2.0
+    top = min(1.001 * a, law.limit)
+    shape = law.at(x * top)
+    force, depth = law.force(x * top, shape) / x**3, law.indentation(x * top, shape) / x**2
+    fitted = (Chebyshev.fit(x, values, degree, domain=[0.0, 1.0]) for values in (force, depth))
+    return Solved(law, top, *fitted)
+
+
+@dataclass(frozen=True)
+class Bending:
+    """What of the plate's deflection does not lag: bending, on its edge, where that yields."""
+
+    law: Law
+
+    def at(self, force: Array) -> tuple[Array, Array]:
+        """Deflection [m] at forces [N], odd in them, and its slope [m/N]."""
+        law = self.law
+        if not law.effects:
+            return np.zeros_like(force), np.zeros_like(force)
+        radius = np.maximum(law.hertz_radius(np.abs(force)), 1e-9 * law.model.h)
+        share = law.deflection(radius)
+        part = 1.0 / (1.0 + law.softness)
+        slope = part * share.slope / (2.0 * law.modulus * radius)
+        # The deflection over the force is constant where the contact is small.
+        depth = part * radius / law.model.R * share.depth * radius
+        return force * (depth / law.force(radius, law.at(radius))), slope
+
+
+def bending_of(law: Law, a: float) -> Bending:
+    """Bending and the edge; nothing where a thick plate's edge takes more than bending gives."""
+    bent = replace(law, effects=law.effects & {"bending", "edge"})
+    if "bending" not in law.effects or float(bent.deflection(np.array([a])).slope[0]) <= 0.0:
+        bent = replace(law, effects=frozenset())
+    return Bending(bent)
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A scene in units of the impact without viscosity.
+
+    Attributes
+    ----------
+    curve, bending
+        The contact law, and what of it does not lag.
+    a, T
+        Units of radius [m] and time [s]; those of velocity, depth and force are v0, v0 T and
+        m v0/T.
+    """
+
+    curve: Curve
+    bending: Bending
+    a: float
+    T: float
+
+    @property
+    def law(self) -> Law:
+        """The contact law."""
+        return self.curve.law
+
+    @property
+    def force(self) -> float:
+        """Unit of forces [N]."""
+        return self.law.model.m * (self.law.model.v0 / self.T)
+
+    @property
+    def depth(self) -> float:
+        """Unit of depths [m]."""
+        return self.law.model.v0 * self.T
+
+    @property
+    def weight(self) -> float:
+        """What presses the sphere on, in units of v0/T."""
+        return self.law.gravity * (self.T / self.law.model.v0)
+
+    def states(self, x: Array, a: Array, y: Array) -> States:
+        """Forces and depths at radii a that grow with x by y."""
+        found = self.curve.at(self.a * a)
+        delay = self.law.model.viscous_time / self.T / (ONSET * x ** (ONSET - 1))
+        force_a = found.force_a * (self.a / self.force)
+        elastic, P_y = found.force / self.force, delay * force_a
+        P = elastic + P_y * y
+        # dP_e/da has the slope 2/a of itself for Hertz' law, and nearly so for others.
+        P_a = force_a + 2.0 * P_y * y / a
+        (bent, bent_P), (calm, calm_P) = (self.bending.at(f * self.force) for f in (P, elastic))
+        unit = self.force / self.depth
+        local = found.depth_a * (self.a / self.depth) - unit * calm_P * force_a
+        depth = (found.depth + bent - calm) / self.depth
+        return States(
+            P,
+            depth,
+            P_y * local * y * y,
+            P_a,
+            P_y,
+            local + unit * bent_P * P_a,
+            unit * bent_P * P_y,
+        )
+
+
+def element(
+    problem: Problem, n: int, x: float, length: float, start: Point, y: Array
+) -> tuple[Element, Point] | None:
+    """The element and the state after it, by Newton's iteration from a guess of da/dx.
+
+    None if it does not converge.
+    """
+    rule = radau(n)
+    xs = x + length * rule.x
+    by_x = length * rule.integral
+    by_t = by_x * (ONSET * xs ** (ONSET - 1))
+    t, size = xs**ONSET, math.inf
+    for _ in range(_NEWTON):
+        a = start.radius + by_x @ y
+        if not np.all(a > 0.0):
+            return None
+        at = problem.states(xs, a, y)
+        v = start.velocity + problem.weight * (t - x**ONSET) - by_t @ at.P
+        z = start.depth + by_t @ v
+        P_y = at.P_a[:, None] * by_x + np.diag(at.P_y)
+        slope = at.depth_a[:, None] * by_x + np.diag(at.depth_y) + by_t @ (by_t @ P_y)
+        system, residual = slope / t[:, None], (z - at.depth) / t
+        if not (np.all(np.isfinite(system)) and np.all(np.isfinite(residual))):
+            return None
+        step = np.linalg.solve(system, residual)
+        moved = by_x @ step
+        y = y + step / max(1.0, -2.0 * float(np.min(moved / a)))  # radii at most halve
+        before, size = size, float(np.max(np.abs(moved)) / np.max(a))
+        if size <= _CLOSE or (size <= _NEARLY and size > 0.1 * before):
+            break
+    else:
+        return None
+    rows = np.array([a, v, z, at.P, at.lost]) @ rule.analysis.T
+    found = Element(x, length, rows, rule.analysis @ y)
+    return found, Point(float(a[-1]), float(v[-1]), float(z[-1]))
+
+
+def elements(problem: Problem, n: int) -> tuple[Element, ...]:
+    """The impact, element by element, until the force is gone.
+
+    Raises
+    ------
+    SceneError
+        If it does not end, or no element is short enough.
+    """
+    found: list[Element] = []
+    x, length, start = 0.0, FIRST, Point(0.0, 1.0, 0.0)
+    # Before a quantity has grown, what counts is how large it will be.
+    scale, last = np.full((5, 1), 0.1), None
+    for _ in range(MOST):
+        if length < SHORTEST:
+            break
+        xs = x + length * radau(n).x
+        guess = last.slope_at(xs) if found and last else _onset(problem, radau(n), length)
+        made = element(problem, n, x, length, start, guess)
+        if made is None:
+            length *= 0.5
+            continue
+        last, end = made
+        largest = np.maximum(scale, np.max(np.abs(last.rows), axis=1, keepdims=True))
+        error = float(np.max(np.abs(last.rows[V:LOST, -2:]) / largest[V:LOST]))
+        change = 0.9 * (TOLERANCE / max(error, 1e-300)) ** (1.0 / n)
+        if error > TOLERANCE:
+            length *= min(0.8, max(0.1, change))
+            continue
+        found.append(last)
+        if float(np.sum(last.rows[P])) <= 0.0:
+            return tuple(found)
+        if start.velocity < 0.0 < end.velocity:
+            raise SceneError(
+                "plate.viscous_time: expected a sphere that comes off again, but its weight keeps "
+                "it on the plate; give a shorter time or a higher impact.speed"
+            )
+        x, start, scale = x + length, end, largest
+        length = min(LONGEST, length * min(2.0, change))
+    raise SceneError(
+        "plate.viscous_time: expected a contact that can be followed to its end, got one that "
+        f"cannot at {problem.T * x**ONSET:.6g} s; give a shorter time"
+    )
+
+
+def _onset(problem: Problem, rule: Radau, length: float) -> Array:
+    """da/dx where the contact begins, delta = v0 t, by Euler's method backwards.
+
+    The depth grows with the radius, and faster and faster, so that Newton's iteration comes
+    down from Hertz' radius, which is the largest there can be.
+    """
+    xs, a, last = length * rule.x, np.zeros(rule.x.size), 0.0
+    for index, x in enumerate(xs):
+        here, step = xs[index : index + 1], x - (xs[index - 1] if index else 0.0)
+        radius = np.array([math.sqrt(problem.law.model.R * problem.depth) / problem.a * x**3])
+        for _ in range(_NEWTON):
+            at = problem.states(here, radius, (radius - last) / step)
+            move = (at.depth - x**ONSET) / (at.depth_a + at.depth_y / step)
+            radius = np.maximum(radius - move, 0.5 * radius)
+            if abs(float(move[0])) <= _ROUGH * float(radius[0]):
+                break
+        a[index] = last = float(radius[0])
+    return np.asarray(np.linalg.solve(length * rule.integral, a), dtype=np.float64)
+
+
+@dataclass(frozen=True)
+class ViscousMotion(Motion):
+    """An impact on a viscous contact, with its course."""
+
+    problem: Problem | None = None
+    course: tuple[Element, ...] = ()
+
+    def history(self, law: Law, times: Array) -> tuple[Array, Array, Array, Array]:  # noqa: ARG002
+        """Indentation [m], velocity [m/s], contact radius [m] and force [N] at times [s]."""
+        problem = self.problem
+        assert problem is not None
+        x = (np.minimum(times, self.contact_time) / problem.T) ** (1.0 / ONSET)
+        starts = [element.x for element in self.course]
+        place = np.searchsorted(starts, x, side="right") - 1
+        rows = np.empty((LOST + 1, x.size))
+        for index in np.unique(place):
+            rows[:, place == index] = self.course[index].at(x[place == index])
+        velocity, force = problem.law.model.v0 * rows[V], problem.force * np.maximum(rows[P], 0.0)
+        return problem.depth * rows[Z], velocity, problem.a * rows[A], force
+
+
+def impact(law: Law) -> ViscousMotion | None:
+    """The impact by a law with viscosity; None beyond the law's limit.
+
+    Raises
+    ------
+    SceneError
+        If the sphere does not come off again, or its course cannot be resolved.
+    """
+    calm = motion.impact(replace(law, effects=law.effects - {"viscosity"}))
+    if calm is None or not all(0.0 < value < math.inf for value in calm.numbers):
+        return None
+    a, T = calm.max_contact_radius, calm.contact_time
+    problem = Problem(curve_of(law, a), bending_of(law, a), a, T)
+    rough, found = (_motion(problem, elements(problem, n)) for n in STAGES)
+    pairs = zip(found.numbers, rough.numbers, strict=True)
+    return replace(found, quadrature=max(abs(new / old - 1.0) for new, old in pairs))
+
+
+def _motion(problem: Problem, course: tuple[Element, ...]) -> ViscousMotion:
+    """The results of a course."""
+    last = course[-1].end(P)
+    a, v, z, _, _ = course[-1].at(np.array([last]))[:, 0]
+    depth, force, radius = (max(element.largest(row) for element in course) for row in (Z, P, A))
+    energy = problem.law.model.m * problem.law.model.v0 * problem.law.model.v0
+    ledger = Ledger(
+        brought=0.5 * energy,
+        weight=energy * problem.weight * float(z),
+        returned=0.5 * energy * float(v) ** 2,
+        dissipated=energy * sum(_lost(element, last) for element in course),
+        left=_left(problem, problem.a * float(a)),
+    )
+    return ViscousMotion(
+        problem.T * last**ONSET,
+        problem.depth * depth,
+        problem.force * force,
+        problem.a * radius,
+        0.0,
+        -float(v),
+        ledger,
+        problem,
+        course,
+    )
+
+
+def _lost(element: Element, last: float) -> float:
+    """Energy lost in an element up to x = last, by Gauss' rule."""
+    nodes, weights = leggauss(element.slope.size)
+    length = min(element.length, last - element.x)
+    x = element.x + length * (1.0 + nodes) / 2.0
+    return length / 2.0 * float(weights @ element.at(x)[LOST])
+
+
+def _left(problem: Problem, a: float) -> float:
+    """Energy [J] that the lagging part holds at a radius [m]: int P_e d(delta_e - w)."""
+    nodes, weights = leggauss(48)
+    found = problem.curve.at(a * (1.0 + nodes) / 2.0)
+    slope = found.depth_a - problem.bending.at(found.force)[1] * found.force_a
+    return a / 2.0 * float(weights @ (found.force * slope))

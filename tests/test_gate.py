@@ -17,7 +17,6 @@ from derivation.scene import (
     SceneError,
     explain,
     gate,
-    kernels,
     motion,
     simulate,
 )
@@ -118,23 +117,6 @@ def test_outputs_that_do_not_matter_take_in_nothing() -> None:
     rtol = math.sqrt(errors["max_contact_radius"] * errors["max_force"])
     assert "curvature" in decide(m, {}, rtol, ("max_contact_radius",)).law.effects
     assert "curvature" not in decide(m, {}, rtol, ("max_force",)).law.effects
-
-
-def test_what_is_out_is_not_called(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A half-space's impact calls no kernel of the plate's law, of the profile or of zeros."""
-    calls: list[str] = []
-    for name in ("indentation", "indentation_slope", "impact", "leading", "side_wall"):
-        monkeypatch.setattr(
-            kernels, name, lambda *_, name=name, **__: calls.append(name) or math.nan
-        )
-    thick = {"half_thickness": 1e3, "radius": 1e4}
-    for name in ("supported_edge", "supported_edge_slope"):
-        monkeypatch.setattr(kernels, name, lambda *_, name=name: calls.append(name) or math.nan)
-    result = simulate(scene(plate=thick, effects={"curvature": False, "gravity": False}))
-    assert result.gate.law.effects == {"hertz", "sphere_elasticity"}
-    assert calls == []
-    assert motion.impact(Law(model(), frozenset({"hertz", "bending"}))) is not None
-    assert calls == []
 
 
 def test_the_paper_scene_without_any_choice() -> None:

@@ -6,14 +6,13 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
-from given import changed, scene, thick
+from given import MENDED, changed, scene, thick
 
 from derivation.scene import indent, kernels, limits, read, simulate
 from derivation.scene.model import model_of
 from derivation.scene.result import Result
 
 Tables = dict[str, dict[str, Any]]
-MENDED = pytest.mark.xfail(strict=True, reason="known fault: the test passes once it is mended")
 
 
 def either_side(

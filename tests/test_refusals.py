@@ -8,7 +8,7 @@ from typing import Any
 import hertz_double as hertz
 import numpy as np
 import pytest
-from given import ALL, changed, model, scene, thick
+from given import ALL, MENDED, changed, model, scene, thick
 
 from derivation.files import measurements
 from derivation.scene import SceneError, indent, limits, read, simulate
@@ -18,7 +18,6 @@ from derivation.scene.model import model_of
 from derivation.scene.result import Result
 
 Tables = dict[str, dict[str, Any]]
-MENDED = pytest.mark.xfail(strict=True, reason="known fault: the test passes once it is mended")
 
 
 def refused_from(make: Callable[[float], Any], fine: float, bad: float) -> tuple[float, str]:

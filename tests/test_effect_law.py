@@ -88,6 +88,16 @@ def test_flat_spheres_tend_to_hertz() -> None:
     assert flat.max_pressure(0.01) == pytest.approx(1.5 * P / (math.pi * 1e-4), rel=1e-13)
 
 
+def test_pressure_in_the_middle_by_the_solved_equation() -> None:
+    """Of a steep sphere on a block: the punches' sum against the Fredholm equation's pressure."""
+    m = model(h=1e3, b=1e4, sphere_modulus=math.inf)
+    summed = Law(m, frozenset({"hertz", "curvature"}))
+    solved = Law(m, WHOLE_PLATE | {"hertz", "curvature", "pressure"})
+    for rho in (0.1, 0.5, 0.8):
+        a = rho * m.R
+        assert summed.max_pressure(a) == pytest.approx(solved.max_pressure(a), rel=1e-4)
+
+
 def by_steps(law: Law) -> tuple[float, float, float, float]:
     """The same impact by an adaptive integration in time, contact radius by bisection."""
     m = law.model

@@ -144,6 +144,29 @@ def test_both_sides_of_every_threshold(name: str) -> None:
     assert found.law.effects == applicable(m)
 
 
+@pytest.mark.parametrize(
+    ("one", "other", "edge"),
+    [
+        ("bending", "edge", "simply-supported"),
+        ("bending", "curvature", "simply-supported"),
+        ("side_wall", "edge", "clamped"),
+        ("gravity", "bending", "clamped"),
+    ],
+)
+def test_bounds_of_what_is_left_out_together_add_up(one: str, other: str, edge: str) -> None:
+    """To leading order, what may go wrong of either may go wrong of both, in the same direction."""
+    m = model(h=5.0, b=5.0, v0=0.3, gravity=0.01, edge=edge)
+
+    def error(*out: str) -> float:
+        wanted = {e.name: "auto" if e.name in out else False for e in EFFECTS}
+        found = decide(m, wanted, 1.0, ("max_indentation",))
+        assert found.law.effects == {"hertz"}
+        return found.error
+
+    both, apiece = error(one, other), error(one) + error(other)
+    assert both == pytest.approx(apiece, rel=0.01)
+
+
 def test_every_effect_has_a_threshold_there() -> None:
     m = model(**SCENES["block"])
     assert applicable(m) == ALL

@@ -9,6 +9,7 @@ import hertz_double as hertz
 import numpy as np
 import pytest
 from given import ALL, MENDED, changed, model, scene, thick
+from scipy.integrate import quad
 
 from derivation.files import measurements
 from derivation.scene import SceneError, indent, limits, read, simulate
@@ -219,6 +220,20 @@ def test_impact_beyond_the_law_is_refused_at_the_speed_named(plate: dict[str, fl
         simulate(read(changed(plate=plate, impact={"speed": 1.0001 * fastest})))
     below = simulate(read(changed(plate=plate, impact={"speed": 0.9999 * fastest})))
     assert 0.999 * limit < below.max_contact_radius < limit
+
+
+def test_energy_of_a_sphere_close_to_its_limit_by_another_quadrature() -> None:
+    """Sneddon's force along his indentation, steep there, up to 0.99 R."""
+    m = model(sphere_modulus=math.inf, h=1e3, b=1e4)
+    law = Law(m, frozenset({"hertz", "curvature"}))
+    E, R, last = m.modulus, m.R, limits.last_radius(law)
+
+    def power(a: float) -> float:
+        log = math.log((R + a) / (R - a))
+        return E * ((a * a + R * R) / 2 * log - a * R) * (log / 2 + a * R / (R * R - a * a))
+
+    true, _ = quad(power, 0.0, last, epsrel=1e-12, limit=200)
+    assert limits.energy_of(law, last) == pytest.approx(true, rel=1e-9)
 
 
 def test_energy_is_the_integral_of_the_force() -> None:

@@ -113,6 +113,19 @@ def test_prices_hold_under_the_true_pressure(name: str) -> None:
     assert 0.2 < apart(impact(m, ALL - {name}), impact(m, ALL)) / bound <= 1
 
 
+@pytest.mark.parametrize("edge", ["simply-supported", "clamped"])
+def test_what_is_in_is_priced_too(edge: str) -> None:
+    """What leaving one out of all would change, by the table of the law with all."""
+    m = model(h=5.0, b=5.0, v0=0.3, edge=edge, sphere_modulus=1e13)
+    every = applicable(m) - {"pressure"}
+    gate = decide(m, {"pressure": False}, 0.0)
+    assert gate.law.effects == every
+    for row in gate.rows:
+        if row.included and row.name != "hertz":
+            change = apart(impact(m, every - {row.name}), impact(m, every))
+            assert 0.03 * row.bound < change <= 1.02 * row.bound
+
+
 # --- together
 
 

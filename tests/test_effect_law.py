@@ -204,6 +204,32 @@ def test_history_of_a_slow_and_heavy_sphere_keeps_the_energy() -> None:
     np.testing.assert_allclose(whole / (0.5 * m.m * m.v0**2), 1.0, rtol=1e-8)
 
 
+def test_an_impact_is_followed_until_twice_the_nodes_change_nothing(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Of a slow and heavy sphere, where fewer nodes in time leave more, and say so."""
+    law = Law(model(v0=1e-5), frozenset({"hertz", "bending", "gravity", "curvature"}))
+    found = motion.impact(law)
+    monkeypatch.setattr(motion, "MORE_TIMES", ())
+    few = motion.impact(law)
+    assert found is not None
+    assert few is not None
+    assert found.quadrature < 1e-13
+    assert 1e-9 < abs(few.contact_time / found.contact_time - 1) <= few.quadrature
+
+
+def test_a_history_moves_as_fast_as_it_says() -> None:
+    """Differences of the indentation over a hundred-thousandth of the contact are the velocity."""
+    law = Law(model(), frozenset({"hertz", "bending", "gravity", "curvature"}))
+    found = motion.impact(law)
+    assert found is not None
+    T = found.contact_time
+    middle, step = np.linspace(0.05, 0.95, 47) * T, 1e-5 * T
+    after, before = (motion.history(law, found, middle + x)[0] for x in (step, -step))
+    _, velocity, _, _ = motion.history(law, found, middle)
+    np.testing.assert_allclose((after - before) / (2 * step), velocity, atol=1e-6)
+
+
 def test_at_rest_under_a_force() -> None:
     """A force of m g gives the static state; both bodies' modulus, the exact profile."""
     [row] = indent(scene(plate={"half_thickness": 1e3, "radius": 1e4}), force=30.0)

@@ -107,6 +107,34 @@ def test_the_pressure_needs_the_whole_plate() -> None:
         decide(model(), {"bending": False, "pressure": True}, 1e-6)
 
 
+def test_the_pressure_is_solved_with_all_that_its_equation_holds() -> None:
+    law = decide(model(), {"pressure": True}, 10.0).law
+    assert law.effects >= {"pressure", "curvature", "sphere_elasticity"} | WHOLE_PLATE
+    law = decide(model(), {"pressure": True, "curvature": False}, 10.0).law
+    assert "curvature" not in law.effects
+
+
+def test_numbers_are_those_of_the_largest_contact() -> None:
+    m = model()
+    found = motion.impact(Law(m, ALL))
+    assert found is not None
+    a, rows = found.max_contact_radius, {row.name: row for row in decide(m, {}, 0.0).rows}
+    depth = a * a / m.R
+    true = {
+        "hertz": a / m.R, "curvature": a / m.R, "pressure": a / (2 * m.h),
+        "sphere_elasticity": m.modulus / m.sphere_modulus,
+        "gravity": m.m * m.gravity * depth / (m.m * m.v0**2 / 2),
+        "bending": 2 / math.pi * a * m.b**2 / (2 * m.h) ** 3,
+    }  # fmt: skip
+    for name, value in true.items():
+        assert rows[name].value == pytest.approx(value, rel=0.02)
+    assert rows["side_wall"].value == pytest.approx(0.37 * a / m.b, rel=0.01)
+    # The static plate's: supported over hinged is (3 + nu)/(2 (1 + nu)).
+    nu = m.lam / (2 * (m.lam + m.mu))
+    share = rows["bending"].value * ((3 + nu) / (2 * (1 + nu)) - 1)
+    assert rows["edge"].value == pytest.approx(share, rel=0.15)
+
+
 def test_outputs_that_do_not_matter_take_in_nothing() -> None:
     """The sphere's profile moves the contact radius half as much again as the force."""
     m = model(sphere_modulus=math.inf, gravity=0.0, h=1e3, b=1e4, v0=0.1, edge="soft-hinge")

@@ -152,6 +152,38 @@ def test_good_scenes_are_read_alike(tmp_path: Path) -> None:
     assert model_of(by_young).mu == pytest.approx(mu, rel=1e-14)
 
 
+@pytest.mark.parametrize(
+    ("name", "E", "nu", "density"),
+    [
+        ("steel", 210e9, 0.3, 7850.0),
+        ("glass", 70e9, 0.2, 2500.0),
+        ("aluminium", 70e9, 0.3, 2700.0),
+        ("concrete", 33e9, 0.2, 2400.0),
+        ("PMMA", 3.3e9, 0.37, 1190.0),
+    ],
+)
+def test_named_materials_hold_what_their_standards_say(
+    name: str, E: float, nu: float, density: float
+) -> None:
+    """In a plate, and in a sphere that gets its mass from it."""
+    keys = {"lame_lambda": None, "lame_mu": None, "material": name}
+    model = model_of(read(changed(plate=keys, sphere={"mass": None, "material": name})))
+    shear, bulk = E / (2 * (1 + nu)), E / (3 * (1 - 2 * nu))
+    assert model.mu == pytest.approx(shear, rel=1e-14)
+    assert model.lam + 2 / 3 * model.mu == pytest.approx(bulk, rel=1e-14)
+    assert model.modulus == pytest.approx(E / (1 - nu**2), rel=1e-14)
+    assert model.sphere_modulus == pytest.approx(E / (1 - nu**2), rel=1e-14)
+    assert model.density == density
+    assert model.m == pytest.approx(density * math.pi * 0.26**3 / 6, rel=1e-14)
+
+
+def test_poissons_ratio_next_to_its_lower_end_is_refused_by_name() -> None:
+    keys = {"lame_lambda": None, "lame_mu": None, "youngs_modulus": 1e9}
+    scene = read(changed(plate=keys | {"poissons_ratio": math.nextafter(-1.0, 0.0)}))
+    with pytest.raises(SceneError, match=r"poissons_ratio: .* by more than rounding"):
+        model_of(scene)
+
+
 def test_negative_lame_lambda_of_a_stable_material_is_allowed() -> None:
     model = model_of(read(changed(plate={"lame_lambda": -0.28e9})))
     assert model.lam == -0.28e9

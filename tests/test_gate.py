@@ -5,6 +5,7 @@ import math
 from itertools import pairwise
 from pathlib import Path
 
+import numpy as np
 import pytest
 from given import ALL, model, random_models, scene
 
@@ -18,6 +19,7 @@ from derivation.scene import (
     explain,
     gate,
     motion,
+    read,
     simulate,
 )
 from derivation.scene import map as map_
@@ -147,6 +149,18 @@ def test_outputs_that_do_not_matter_take_in_nothing() -> None:
     assert "curvature" not in decide(m, {}, rtol, ("max_force",)).law.effects
 
 
+def test_the_scenes_outputs_are_those_the_tolerance_applies_to() -> None:
+    block = {"half_thickness": 1e3, "radius": 1e4, "edge": "soft-hinge"}
+    given = scene(plate=block, sphere={"material": None}, impact={"gravity": None}).to_json()
+    m = model_of(read(given))
+    errors = [decide(m, {}, 1.0, (name,)).error for name in ("max_contact_radius", "max_force")]
+    rtol = math.sqrt(errors[0] * errors[1])
+    for name, wanted in (("max_contact_radius", True), ("max_force", False)):
+        result = simulate(read(given | {"accuracy": {"rtol": rtol, "outputs": [name]}}))
+        assert ("curvature" in result.gate.law.effects) is wanted
+    assert result.accuracy.bound >= result.accuracy.parts["effects"].bound == result.gate.error > 0
+
+
 def test_the_paper_scene_without_any_choice() -> None:
     """Deciding what is unnecessary does not cost the whole law's time in calls of its kernels."""
     thick = scene(plate={"half_thickness": 1e3, "radius": 1e4}, sphere={"material": None})
@@ -185,6 +199,13 @@ def test_the_map_marks_the_scene(tmp_path: Path) -> None:
     for name in ("curvature", "bending", "edge", "pressure", "the scene"):
         assert name in drawn
     assert main(["map", str(example), "--plot", f"{tmp_path}/m.txt"]) == 2
+
+
+def test_the_star_on_the_map_is_the_scenes_contact() -> None:
+    result = simulate(scene())
+    [star] = [x for x in map_.figure(result, 1e-3).axes[0].lines if x.get_marker() == "*"]
+    place = 0.02 / 0.5, result.max_contact_radius / 0.02
+    assert np.ravel(star.get_data()) == pytest.approx(place, rel=1e-12)
 
 
 def test_a_maps_line_is_where_the_bound_is_the_tolerance() -> None:

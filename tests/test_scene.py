@@ -1,22 +1,21 @@
-"""Scenes: what is read, what is refused and in which words, and what an impact gives."""
+"""Scene files: what is read, what is refused and in which words."""
 
 import json
 import math
 import random
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import hertz_double as hertz
-import numpy as np
 import pytest
+from given import changed
 
-import derivation.scene
-from derivation.scene import SceneError, indent, kernels, limits, load, read, schema, simulate
-from derivation.scene.law import WHOLE_PLATE, Law
+from derivation.scene import (
+    SceneError,
+    load,
+    read,
+    schema,
+)
 from derivation.scene.model import model_of
-
-EXAMPLES = Path(derivation.scene.__file__).parent / "examples"
 
 GOOD = """[sphere]
 radius = 0.13
@@ -82,19 +81,6 @@ BAD = [
     ("lame_lambda = 0.36e9", "lame_lambda = 0,36e9", "not valid TOML|line 7"),
     ("radius = 1.0", "radius = 1.0\nradius = 2.0", "not valid TOML|line 6"),
 ]  # fmt: skip
-
-
-def changed(**tables: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
-    """The good scene, Hertz' pressure under a paraboloid, keys replaced or removed by None."""
-    made: dict[str, dict[str, Any]] = {
-        "sphere": {"radius": 0.13, "mass": 72.0},
-        "plate": {"radius": 1.0, "thickness": 0.2, "lame_lambda": 0.36e9, "lame_mu": 0.43e9},
-        "impact": {"speed": 1.0},
-        "effects": {"curvature": False, "pressure": False},
-    }
-    for name, keys in tables.items():
-        made[name] = {k: v for k, v in (made[name] | dict(keys)).items() if v is not None}
-    return made
 
 
 @pytest.mark.parametrize(("old", "new", "says"), BAD)
@@ -166,6 +152,38 @@ def test_good_scenes_are_read_alike(tmp_path: Path) -> None:
     assert model_of(by_young).mu == pytest.approx(mu, rel=1e-14)
 
 
+@pytest.mark.parametrize(
+    ("name", "E", "nu", "density"),
+    [
+        ("steel", 210e9, 0.3, 7850.0),
+        ("glass", 70e9, 0.2, 2500.0),
+        ("aluminium", 70e9, 0.3, 2700.0),
+        ("concrete", 33e9, 0.2, 2400.0),
+        ("PMMA", 3.3e9, 0.37, 1190.0),
+    ],
+)
+def test_named_materials_hold_what_their_standards_say(
+    name: str, E: float, nu: float, density: float
+) -> None:
+    """In a plate, and in a sphere that gets its mass from it."""
+    keys = {"lame_lambda": None, "lame_mu": None, "material": name}
+    model = model_of(read(changed(plate=keys, sphere={"mass": None, "material": name})))
+    shear, bulk = E / (2 * (1 + nu)), E / (3 * (1 - 2 * nu))
+    assert model.mu == pytest.approx(shear, rel=1e-14)
+    assert model.lam + 2 / 3 * model.mu == pytest.approx(bulk, rel=1e-14)
+    assert model.modulus == pytest.approx(E / (1 - nu**2), rel=1e-14)
+    assert model.sphere_modulus == pytest.approx(E / (1 - nu**2), rel=1e-14)
+    assert model.density == density
+    assert model.m == pytest.approx(density * math.pi * 0.26**3 / 6, rel=1e-14)
+
+
+def test_poissons_ratio_next_to_its_lower_end_is_refused_by_name() -> None:
+    keys = {"lame_lambda": None, "lame_mu": None, "youngs_modulus": 1e9}
+    scene = read(changed(plate=keys | {"poissons_ratio": math.nextafter(-1.0, 0.0)}))
+    with pytest.raises(SceneError, match=r"poissons_ratio: .* by more than rounding"):
+        model_of(scene)
+
+
 def test_negative_lame_lambda_of_a_stable_material_is_allowed() -> None:
     model = model_of(read(changed(plate={"lame_lambda": -0.28e9})))
     assert model.lam == -0.28e9
@@ -223,272 +241,3 @@ def test_schema_describes_every_key_and_choice() -> None:
     assert made["$defs"]["Effects"]["properties"]["bending"]["anyOf"] == [
         {"const": "auto", "type": "string"}, {"type": "boolean"},
     ]  # fmt: skip
-
-
-def thick(speed: float = 1.0, size: float = 1e6) -> Any:
-    """A plate so large that it is Hertz's half-space."""
-    return read(changed(plate={"radius": size, "thickness": 2 * size}, impact={"speed": speed}))
-
-
-def test_thick_plate_gives_hertz() -> None:
-    scene = thick()
-    m = model_of(scene)
-    found = simulate(scene)
-    truth = hertz.impact(m.R, m.m, m.v0, m.h, m.b, m.lam, m.mu)
-    ours = (
-        found.contact_time, found.max_indentation, found.max_force, found.max_contact_radius,
-    )  # fmt: skip
-    np.testing.assert_allclose(ours, truth, rtol=1e-6)
-    assert found.warnings == ()
-
-
-def test_history_starts_and_ends_free_and_keeps_the_energy() -> None:
-    result = simulate(load(EXAMPLES / "paper.toml"))
-    history = result.history(101)
-    assert len(history.time) == 101
-    assert history.time[-1] == result.contact_time
-    assert history.indentation[0] == history.force[0] == 0
-    assert history.velocity[0] == 1
-    assert history.velocity[-1] == pytest.approx(-1, rel=1e-9)
-    assert history.indentation[-1] == pytest.approx(0, abs=1e-9 * result.max_indentation)
-    assert history.indentation[50] == pytest.approx(result.max_indentation, rel=1e-9)
-    assert history.force[50] == pytest.approx(result.max_force, rel=1e-9)
-    assert (history.force[1:-1] > 0).all()
-    taken = np.trapezoid(history.force, history.time)
-    assert taken == pytest.approx(2 * result.model.m * result.model.v0, rel=1e-3)
-
-
-def test_history_at_times_asked_for() -> None:
-    scene = read(changed())
-    whole = simulate(scene)
-    times = [0.0, whole.contact_time / 3, whole.contact_time]
-    found = simulate(scene, times=times)
-    assert found.history().time.tolist() == times
-    assert found.history(5).time.shape == (5,)
-    assert whole.history().time.shape == (201,)
-    for bad in ([-1e-9], [2 * whole.contact_time], [math.nan], [math.inf]):
-        with pytest.raises(SceneError, match="times: expected times from 0 to the contact time"):
-            simulate(scene, times=bad)
-    with pytest.raises(SceneError, match="at least 2"):
-        whole.history(1)
-
-
-def test_json_keys_and_notebook_table() -> None:
-    scene = read(changed())
-    result = simulate(scene)
-    made = result.to_json()
-    assert list(made) == [
-        "contact_time", "max_indentation", "max_force", "max_contact_radius", "max_pressure",
-        "accuracy", "model_error", "effects", "warnings", "scene",
-    ]  # fmt: skip
-    again = json.loads(json.dumps(made))
-    assert again["contact_time"] == result.contact_time
-    assert read(again["scene"]) == scene
-    shown = result._repr_html_()
-    assert shown.startswith("<table>")
-    assert f"{result.max_force:.6g}" in shown
-
-
-def test_units_do_not_matter() -> None:
-    """Millimetre, tonne, second: stress in MPa, force in N; dimensionless results agree."""
-    metre = simulate(read(changed()))
-    millimetre = simulate(read({
-        "sphere": {"radius": 130.0, "mass": 0.072},
-        "plate": {"radius": 1000.0, "thickness": 200.0, "lame_lambda": 360.0, "lame_mu": 430.0},
-        "impact": {"speed": 1000.0},
-        "effects": {"curvature": False, "pressure": False},
-    }))  # fmt: skip
-    assert millimetre.contact_time == pytest.approx(metre.contact_time, rel=1e-13)
-    assert millimetre.max_indentation == pytest.approx(1e3 * metre.max_indentation, rel=1e-13)
-    assert millimetre.max_contact_radius == pytest.approx(1e3 * metre.max_contact_radius, rel=1e-13)
-    assert millimetre.max_force == pytest.approx(metre.max_force, rel=1e-13)
-    numbers = metre.model.dimensionless()
-    for name, number in millimetre.model.dimensionless().items():
-        assert number == pytest.approx(numbers[name], rel=1e-14)
-
-
-@pytest.mark.parametrize("plate", [{}, {"radius": 0.05, "thickness": 0.02}])
-def test_impact_beyond_the_law_is_refused_at_the_speed_named(plate: dict[str, float]) -> None:
-    with pytest.raises(SceneError, match=r"impact\.speed: expected less than") as caught:
-        simulate(read(changed(plate=plate, impact={"speed": 1e9})))
-    limit = min(0.13, plate.get("radius", 1.0))
-    assert f"min(b, R) = {limit} m" in str(caught.value)
-    fastest = float(str(caught.value).split("less than ")[1].split()[0])
-    with pytest.raises(SceneError, match=r"impact\.speed"):
-        simulate(read(changed(plate=plate, impact={"speed": 1.0001 * fastest})))
-    below = simulate(read(changed(plate=plate, impact={"speed": 0.9999 * fastest})))
-    assert 0.999 * limit < below.max_contact_radius < limit
-
-
-@pytest.mark.parametrize(
-    "tables",
-    [
-        {"impact": {"speed": 1e-300}},
-        {"impact": {"speed": 1e300}},
-        {"sphere": {"radius": 1e150, "mass": None, "density": 7850.0}},
-        {"sphere": {"mass": 1e-320}},
-        {"plate": {"lame_lambda": 1e308, "lame_mu": 1e308}},
-        {"plate": {"radius": 1e-300}},
-        {
-            "plate": {
-                "lame_lambda": None, "lame_mu": None,
-                "youngs_modulus": 1e9, "poissons_ratio": -0.9999999999999999,
-            }
-        },
-    ],
-)  # fmt: skip
-@pytest.mark.filterwarnings("error")
-def test_extreme_scene_gives_numbers_or_words(tables: dict[str, dict[str, float]]) -> None:
-    try:
-        found = simulate(read(changed(**tables)))
-    except SceneError as error:
-        found, words = None, str(error)
-    if found is None:
-        assert "expected" in words or "less extreme" in words
-    else:
-        numbers = (found.contact_time, found.max_indentation, found.max_force)
-        assert all(0 < number < math.inf for number in numbers)
-
-
-def test_kernel_without_a_number_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    nothing = hertz.Impact(*(np.array(math.nan) for _ in range(4)))
-    monkeypatch.setattr(kernels, "impact", lambda *_, **__: nothing)
-    with pytest.raises(SceneError, match=r"no number for h/b = 0\.1"):
-        simulate(read(changed()))
-
-
-def test_kernel_beyond_the_radius_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(kernels, "impact", lambda *_, **__: hertz.Impact(1.0, 1.0, 1.0, 0.14))
-    with pytest.raises(SceneError, match=r"below min\(b, R\) = 0\.13 m, got 0\.14 m"):
-        simulate(read(changed()))
-
-
-def test_energy_is_the_integral_of_the_force() -> None:
-    m = model_of(thick())
-    a = 0.1
-    P = float(hertz.force_of_radius(a, m.R, m.lam, m.mu))
-    assert limits.energy_of(Law(m, WHOLE_PLATE), a) == pytest.approx(0.4 * P * a**2 / m.R, rel=1e-5)
-
-
-def test_warning_where_the_pressure_is_not_hertz(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The cost is (5/3) c3 (a/h)^3 of a^2/R, here in a made-up law with c1 and c3."""
-    m = model_of(read(changed()))
-    c3 = -0.09
-
-    def law(a: float, R: float, h: float, _b: float) -> float:
-        return a**2 / R * (1 + 8 * (a / h) + c3 * (a / h) ** 3)
-
-    monkeypatch.setattr(kernels, "indentation", law)
-    assert limits.warnings_at(m, 0.0299, law(0.0299, m.R, m.h, m.b)) == ()
-    delta = law(0.0301, m.R, m.h, m.b)
-    cost = 5 / 3 * c3 * 0.301**3 * 0.0301**2 / 0.13 / delta
-    assert limits.hertz_cost(m, 0.0301, delta) == pytest.approx(cost, rel=1e-10)
-    [text] = limits.warnings_at(m, 0.0301, delta)
-    assert "a/H = 0.15" in text
-    assert f"{100 * cost:+.2g} %" in text
-    c3 = -90.0
-    [loud] = limits.warnings_at(m, 0.035, law(0.035, m.R, m.h, m.b))
-    assert "too large to estimate" in loud
-
-
-def test_warning_reaches_the_result() -> None:
-    result = simulate(read(changed(plate={"thickness": 0.02}, impact={"speed": 0.4})))
-    assert result.max_contact_radius / 0.02 > 0.15
-    assert any("a/H" in warning for warning in result.warnings)
-    assert result.to_json()["warnings"] == list(result.warnings)
-    assert "a/H" in result._repr_html_()
-
-
-def test_curvature_cost_is_that_of_the_exact_profile() -> None:
-    """Sneddon's sphere and the paraboloid pressed by the same force into a half-space."""
-    m = model_of(thick())
-    t = 0.2
-    log = math.log((1 + t) / (1 - t))
-    a = m.R * (0.75 * ((1 + t * t) / 2 * log - t)) ** (1 / 3)
-    change = (t / 2 * log) / (a / m.R) ** 2 - 1
-    assert limits.curvature_cost(m, a, a * a / m.R) == pytest.approx(change, rel=0.1)
-    texts = limits.warnings_at(m, 0.31 * m.R, 0.31**2 * m.R)
-    assert [("a/R" in text) for text in texts] == [True]
-
-
-def test_deflection_beyond_half_the_thickness_is_said() -> None:
-    m = model_of(read(changed()))
-    assert limits.warnings_at(m, 0.01, 0.1) == ()
-    [text] = limits.warnings_at(m, 0.01, 0.102)
-    assert "w/H" in text
-
-
-def test_indent_by_each_of_the_three_agrees() -> None:
-    scene = read(changed())
-    rows = indent(scene, contact_radius=[1e-3, 5e-3, 2e-2])
-    assert [row.contact_radius for row in rows] == [1e-3, 5e-3, 2e-2]
-    by_force = indent(scene, force=np.array([row.force for row in rows]))
-    by_depth = indent(scene, indentation=tuple(row.indentation for row in rows))
-    for row, other, third in zip(rows, by_force, by_depth, strict=True):
-        for found in (other, third):
-            assert found.contact_radius == pytest.approx(row.contact_radius, rel=1e-12)
-            assert found.stiffness == pytest.approx(row.stiffness, rel=1e-12)
-            assert found.max_pressure == pytest.approx(row.max_pressure, rel=1e-12)
-        assert other.force == row.force
-        assert third.indentation == row.indentation
-    step = 1e-4
-    lower, upper = indent(scene, indentation=[rows[1].indentation * (1 + s) for s in (-step, step)])
-    slope = (upper.force - lower.force) / (upper.indentation - lower.indentation)
-    assert rows[1].stiffness == pytest.approx(slope, rel=1e-6)
-    assert rows[1].max_pressure == pytest.approx(
-        1.5 * rows[1].force / (math.pi * rows[1].contact_radius ** 2), rel=1e-12
-    )
-
-
-def test_indent_takes_a_single_number() -> None:
-    [row] = indent(read(changed()), force=10.0)
-    assert row.force == 10.0
-    assert row.to_json().keys() == {
-        "contact_radius", "indentation", "force", "stiffness", "max_pressure", "warnings",
-    }  # fmt: skip
-
-
-@pytest.mark.parametrize(
-    ("given", "says"),
-    [
-        ({}, "exactly one of contact_radius, force and indentation, got none"),
-        ({"force": 1.0, "indentation": 1e-3}, "got force and indentation"),
-        ({"force": []}, "force: expected one or more positive numbers"),
-        ({"force": "10"}, "got a string"),
-        ({"force": [1.0, -1.0]}, "got -1"),
-        ({"force": [0.0]}, "got 0"),
-        ({"force": [math.nan]}, "got nan"),
-        ({"force": [math.inf]}, "got inf"),
-        ({"force": [True]}, "got true"),
-        ({"force": ["1"]}, "got the string"),
-        ({"force": 1e30}, "force: expected less than .* got 1e\\+30 N; give a smaller force"),
-        ({"contact_radius": 0.13}, "contact_radius = 0.13 m: .* min\\(b, R\\) = 0.13 m"),
-        ({"indentation": 1e3}, "indentation: expected less than .* got 1000 m"),
-        ({"contact_radius": 1e-300}, "no number"),
-    ],
-)
-@pytest.mark.filterwarnings("error")
-def test_indent_refuses(given: dict[str, Any], says: str) -> None:
-    with pytest.raises(SceneError, match=says):
-        indent(read(changed()), **given)
-
-
-@pytest.mark.parametrize("path", sorted(EXAMPLES.glob("*.toml")), ids=lambda path: path.stem)
-def test_examples_run(path: Path) -> None:
-    result = simulate(load(path))
-    assert (result.warnings == ()) == (path.stem == "paper")  # each other is near some limit
-    assert result.contact_time > 0
-
-
-def test_paper_example_holds_what_the_paper_gives() -> None:
-    model = model_of(load(EXAMPLES / "paper.toml"))
-    assert (model.R, model.v0, model.lam, model.mu) == (0.13, 1.0, 0.36e9, 0.43e9)
-    assert model.eta == 0.1
-    assert simulate(load(EXAMPLES / "paper.toml")).max_contact_radius / (2 * model.h) < 0.1
-
-
-def test_public_names() -> None:
-    for name in derivation.scene.__all__:
-        assert callable(getattr(derivation.scene, name))
-    with pytest.raises(AttributeError, match="nonsense"):
-        _ = derivation.scene.nonsense

@@ -37,6 +37,14 @@ def test_a_key_stands_in_for_its_alternative() -> None:
     assert heavy[1].results["contact_time"] > heavy[0].results["contact_time"]
 
 
+def test_a_sweeps_tolerance_is_that_of_its_simulations() -> None:
+    [row] = sweep.run(load(PAPER), sweep.parse("impact.speed=1:1:1"), rtol=0.9)
+    result = simulate(load(PAPER), rtol=0.9)
+    assert row.results["contact_time"] == result.contact_time
+    assert set(row.effects) == result.gate.law.effects
+    assert result.gate.law.effects < simulate(load(PAPER)).gate.law.effects
+
+
 def test_a_refused_value_is_a_row_and_the_others_go_on(capsys: Captured) -> None:
     assert main(["simulate", str(PAPER), "--sweep", "impact.speed=-1:1:3", "--json", "-"]) == 0
     shown = capsys.readouterr()

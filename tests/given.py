@@ -1,0 +1,71 @@
+"""Models and scenes that the tests of the scene room begin with."""
+
+import random
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import derivation.scene
+from derivation.scene import read
+from derivation.scene.effects import BY_NAME
+from derivation.scene.model import Model
+
+EXAMPLES = Path(derivation.scene.__file__).parent / "examples"
+ALL = frozenset(BY_NAME)
+"""Every effect; the plate of `model` is simply supported."""
+MENDED = pytest.mark.xfail(strict=True, reason="known fault: the test passes once it is mended")
+
+
+def model(**changes: Any) -> Model:
+    """A steel-like ball on a plate of some softness, with changes."""
+    values: dict[str, Any] = {
+        "R": 0.1, "m": 3.0, "v0": 1.0, "h": 0.02, "b": 0.5, "lam": 2e9, "mu": 3e9,
+        "sphere_modulus": 5e10, "gravity": 9.81, "edge": "simply-supported",
+    }  # fmt: skip
+    return Model(**{**values, **changes})
+
+
+def scene(**tables: Mapping[str, Any]) -> Any:
+    """The same as a scene, its sphere of glass, with keys replaced, or removed by None."""
+    made: dict[str, dict[str, Any]] = {
+        "sphere": {"radius": 0.1, "mass": 3.0, "material": "glass"},
+        "plate": {
+            "radius": 0.5, "half_thickness": 0.02, "lame_lambda": 2e9, "lame_mu": 3e9,
+            "edge": "simply-supported",
+        },
+        "impact": {"speed": 1.0, "gravity": 9.81},
+        "effects": {},
+    }  # fmt: skip
+    for name, keys in tables.items():
+        merged = made.get(name, {}) | dict(keys)
+        made[name] = {k: v for k, v in merged.items() if v is not None}
+    return read(made)
+
+
+def random_models(count: int) -> Iterator[Model]:
+    generator = random.Random(4)
+    for _ in range(count):
+        yield model(
+            h=10 ** generator.uniform(-3, 0.5), v0=10 ** generator.uniform(-3, 1),
+            sphere_modulus=10 ** generator.uniform(9, 12), gravity=generator.choice([0.0, 9.81]),
+        )  # fmt: skip
+
+
+def changed(**tables: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
+    """The good scene, Hertz' pressure under a paraboloid, keys replaced or removed by None."""
+    made: dict[str, dict[str, Any]] = {
+        "sphere": {"radius": 0.13, "mass": 72.0},
+        "plate": {"radius": 1.0, "thickness": 0.2, "lame_lambda": 0.36e9, "lame_mu": 0.43e9},
+        "impact": {"speed": 1.0},
+        "effects": {"curvature": False, "pressure": False},
+    }
+    for name, keys in tables.items():
+        made[name] = {k: v for k, v in (made[name] | dict(keys)).items() if v is not None}
+    return made
+
+
+def thick(speed: float = 1.0, size: float = 1e6) -> Any:
+    """A plate so large that it is Hertz's half-space."""
+    return read(changed(plate={"radius": size, "thickness": 2 * size}, impact={"speed": speed}))

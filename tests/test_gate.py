@@ -1,0 +1,232 @@
+"""The gate: honest bounds, decisions, what is out is not computed, and what is said of it."""
+
+import json
+import math
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+from given import ALL, model, random_models, scene
+
+import derivation.effects_check
+import derivation.scene
+from derivation import pipeline
+from derivation.cli import main
+from derivation.measure import effects as measure
+from derivation.scene import (
+    SceneError,
+    explain,
+    gate,
+    motion,
+    read,
+    simulate,
+)
+from derivation.scene import map as map_
+from derivation.scene.effects import BY_NAME, EFFECTS
+from derivation.scene.gate import OUTPUTS, decide
+from derivation.scene.law import WHOLE_PLATE, Law
+from derivation.scene.model import model_of
+
+Captured = pytest.CaptureFixture[str]
+
+
+def test_bounds_hold_in_random_scenes() -> None:
+    rows = measure.judge(25, derivation.effects_check.gated, derivation.effects_check.everything)
+    assert [row for row in rows if not row.kept] == []
+    assert max(row.tightest for row in rows) > 0.5  # and are no mere caution
+    included = [row.included for row in rows]
+    assert included == sorted(included)
+
+
+def test_a_bound_that_does_not_hold_is_noticed() -> None:
+    rows = measure.judge(
+        3, lambda *_: ([1.0, 1.0, 1.02, 1.0], ["hertz"], 1e-3), lambda _: ([1.0] * 4, ["hertz"])
+    )
+    assert not any(row.kept for row in rows)
+    assert rows[0].quantity == "max_force"
+
+
+def test_a_looser_tolerance_takes_in_no_more() -> None:
+    for m in random_models(10):
+        taken = [decide(m, {}, rtol).law.effects for rtol in (1e-9, 1e-6, 1e-4, 1e-2, 1e-1)]
+        for tight, loose in pairwise(taken):
+            assert loose <= tight
+
+
+def test_both_sides_of_a_threshold() -> None:
+    """At the bound itself the effects may stay out; just below it one more is taken in."""
+    for m in random_models(4):
+        for rtol in (1e-2, 1e-4):
+            found = decide(m, {}, rtol)
+            if not 0 < found.error < math.inf:
+                continue
+            assert decide(m, {}, found.error).law.effects == found.law.effects
+            tighter = decide(m, {}, found.error * (1 - 1e-9))
+            assert len(tighter.law.effects) > len(found.law.effects)
+            whole = motion.impact(Law(m, decide(m, {}, 0.0).law.effects))
+            parts = motion.impact(found.law)
+            assert whole is not None
+            assert parts is not None
+            for one, other in zip(whole.numbers, parts.numbers, strict=True):
+                assert abs(other / one - 1) <= found.error * (1 + 1e-9)
+
+
+def test_weight_under_the_true_pressure_moves_the_radius_within_the_bound() -> None:
+    """There the contact radius grows up to 3.5 times as fast as Hertz' radius of the force."""
+    data = measure.scene(226)
+    whole = derivation.effects_check.everything(data)
+    values, effects, bound = derivation.effects_check.gated(data, 1e-2)
+    assert whole is not None
+    assert "gravity" not in effects
+    assert "pressure" in effects
+    assert 0.5 * bound < abs(values[3] / whole[0][3] - 1) <= bound
+
+
+def test_forced_choices_are_honoured_and_priced() -> None:
+    m = model()
+    out = decide(m, {"bending": False, "gravity": True}, 1e-1)
+    assert "bending" not in out.law.effects
+    assert "gravity" in out.law.effects
+    rows = {row.name: row for row in out.rows}
+    assert rows["bending"].why.startswith("false in the scene: costs")
+    assert rows["gravity"].why == "true in the scene"
+    small = {row.name: row for row in decide(m, {"side_wall": False}, 1e-9).rows}["side_wall"]
+    assert f"up to {100 * small.bound:.2g} %" in small.why
+    hertz = ALL - {"pressure"}
+    whole, without = (motion.impact(Law(m, e)) for e in (hertz, hertz - {"side_wall"}))
+    assert whole is not None
+    assert without is not None
+    changes = [abs(b / a - 1) for a, b in zip(whole.numbers, without.numbers, strict=True)]
+    assert 0.3 * small.bound < max(changes) <= small.bound
+
+
+def test_the_pressure_needs_the_whole_plate() -> None:
+    off = decide(model(), {"bending": False}, 1e-6)
+    assert "pressure" not in off.law.effects
+    assert "bending is false" in {row.name: row.why for row in off.rows}["pressure"]
+    with pytest.raises(SceneError, match=r"got bending = false; leave out effects\.bending"):
+        decide(model(), {"bending": False, "pressure": True}, 1e-6)
+
+
+def test_the_pressure_is_solved_with_all_that_its_equation_holds() -> None:
+    law = decide(model(), {"pressure": True}, 10.0).law
+    assert law.effects >= {"pressure", "curvature", "sphere_elasticity"} | WHOLE_PLATE
+    law = decide(model(), {"pressure": True, "curvature": False}, 10.0).law
+    assert "curvature" not in law.effects
+
+
+def test_numbers_are_those_of_the_largest_contact() -> None:
+    m = model()
+    found = motion.impact(Law(m, ALL))
+    assert found is not None
+    a, rows = found.max_contact_radius, {row.name: row for row in decide(m, {}, 0.0).rows}
+    depth = a * a / m.R
+    true = {
+        "hertz": a / m.R, "curvature": a / m.R, "pressure": a / (2 * m.h),
+        "sphere_elasticity": m.modulus / m.sphere_modulus,
+        "gravity": m.m * m.gravity * depth / (m.m * m.v0**2 / 2),
+        "bending": 2 / math.pi * a * m.b**2 / (2 * m.h) ** 3,
+    }  # fmt: skip
+    for name, value in true.items():
+        assert rows[name].value == pytest.approx(value, rel=0.02)
+    assert rows["side_wall"].value == pytest.approx(0.37 * a / m.b, rel=0.01)
+    # The static plate's: supported over hinged is (3 + nu)/(2 (1 + nu)).
+    nu = m.lam / (2 * (m.lam + m.mu))
+    share = rows["bending"].value * ((3 + nu) / (2 * (1 + nu)) - 1)
+    assert rows["edge"].value == pytest.approx(share, rel=0.15)
+
+
+def test_outputs_that_do_not_matter_take_in_nothing() -> None:
+    """The sphere's profile moves the contact radius half as much again as the force."""
+    m = model(sphere_modulus=math.inf, gravity=0.0, h=1e3, b=1e4, v0=0.1, edge="soft-hinge")
+    worst = decide(m, {}, 0.0, OUTPUTS)
+    assert "curvature" in worst.law.effects
+    errors = {name: decide(m, {"curvature": "auto"}, 1.0, (name,)).error for name in OUTPUTS}
+    assert errors["max_contact_radius"] > 1.4 * errors["max_force"]
+    rtol = math.sqrt(errors["max_contact_radius"] * errors["max_force"])
+    assert "curvature" in decide(m, {}, rtol, ("max_contact_radius",)).law.effects
+    assert "curvature" not in decide(m, {}, rtol, ("max_force",)).law.effects
+
+
+def test_the_scenes_outputs_are_those_the_tolerance_applies_to() -> None:
+    block = {"half_thickness": 1e3, "radius": 1e4, "edge": "soft-hinge"}
+    given = scene(plate=block, sphere={"material": None}, impact={"gravity": None}).to_json()
+    m = model_of(read(given))
+    errors = [decide(m, {}, 1.0, (name,)).error for name in ("max_contact_radius", "max_force")]
+    rtol = math.sqrt(errors[0] * errors[1])
+    for name, wanted in (("max_contact_radius", True), ("max_force", False)):
+        result = simulate(read(given | {"accuracy": {"rtol": rtol, "outputs": [name]}}))
+        assert ("curvature" in result.gate.law.effects) is wanted
+    assert result.accuracy.bound >= result.accuracy.parts["effects"].bound == result.gate.error > 0
+
+
+def test_the_paper_scene_without_any_choice() -> None:
+    """Deciding what is unnecessary does not cost the whole law's time in calls of its kernels."""
+    thick = scene(plate={"half_thickness": 1e3, "radius": 1e4}, sphere={"material": None})
+    result = simulate(thick, rtol=1e-2)
+    assert result.accuracy.method == "hertz"
+    assert result.gate.law.effects == {"hertz"}
+    assert result.accuracy.bound <= 1e-2
+
+
+def test_explain_simulates_nothing_and_says_why(capsys: Captured, tmp_path: Path) -> None:
+    path = tmp_path / "scene.toml"
+    path.write_text(
+        "[sphere]\nradius = 0.01\nmaterial = 'steel'\n[plate]\nradius = 0.5\nthickness = 0.01\n"
+        "material = 'glass'\n[impact]\nspeed = 1\n[effects]\nside_wall = false\n"
+    )
+    assert main(["explain", str(path), "--rtol", "1e-4", "--json", f"{tmp_path}/e.json"]) == 0
+    shown = capsys.readouterr().out
+    data = json.loads((tmp_path / "e.json").read_text())
+    assert [row["name"] for row in data["effects"]] == [effect.name for effect in EFFECTS]
+    assert set(data["costs"]) == set(data["included"])
+    assert "false in the scene" in json.dumps(data["effects"])
+    assert "no impact.gravity" in json.dumps(data["effects"])
+    assert data["bound"] <= data["rtol"]
+    for row in data["effects"]:
+        assert row["name"] in shown
+    assert data["notes"] == []
+    found = explain(scene())
+    assert "inertia is not judged" in found.notes[0]
+    assert "<table>" in found._repr_html_()
+
+
+def test_the_map_marks_the_scene(tmp_path: Path) -> None:
+    example = Path(derivation.scene.__file__).parent / "examples" / "ball_drop.toml"
+    assert main(["map", str(example), "--plot", f"{tmp_path}/m.svg"]) == 0
+    drawn = (tmp_path / "m.svg").read_text()
+    for name in ("curvature", "bending", "edge", "pressure", "the scene"):
+        assert name in drawn
+    assert main(["map", str(example), "--plot", f"{tmp_path}/m.txt"]) == 2
+
+
+def test_the_star_on_the_map_is_the_scenes_contact() -> None:
+    result = simulate(scene())
+    [star] = [x for x in map_.figure(result, 1e-3).axes[0].lines if x.get_marker() == "*"]
+    place = 0.02 / 0.5, result.max_contact_radius / 0.02
+    assert np.ravel(star.get_data()) == pytest.approx(place, rel=1e-12)
+
+
+def test_a_maps_line_is_where_the_bound_is_the_tolerance() -> None:
+    """Bending's share of S, 3/2 A/(4 pi eta^2), at a point of the grid."""
+    m = model()
+    found = map_.shares(m, BY_NAME["bending"])
+    true = 1.5 * map_.RADII[20] / (4 * math.pi * map_.THICKNESSES[30] ** 2)
+    assert found[20, 30] == pytest.approx(true, rel=1e-12)
+
+
+def test_the_reference_names_what_it_leaves_out() -> None:
+    example = Path(derivation.scene.__file__).parent / "examples" / "glass_pane.toml"
+    found = pipeline.in_doubles(example)
+    assert found.gate.law.effects == WHOLE_PLATE | {"hertz"}
+    assert "leaves out edge, gravity, sphere_elasticity" in found.warnings[-1]
+
+
+def test_rows_are_shown_in_every_output() -> None:
+    result = simulate(scene())
+    made = result.to_json()["effects"]
+    assert json.loads(json.dumps(made)) == made
+    assert [row["name"] for row in made] == [effect.name for effect in EFFECTS]
+    assert gate.HEADS[0] in result._repr_html_()
+    assert result.model == model_of(scene())

@@ -5,8 +5,6 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-import pytest
-
 import derivation.scene
 from derivation.scene import read
 from derivation.scene.effects import BY_NAME
@@ -15,7 +13,6 @@ from derivation.scene.model import Model
 EXAMPLES = Path(derivation.scene.__file__).parent / "examples"
 ALL = frozenset(BY_NAME)
 """Every effect; the plate of `model` is simply supported."""
-MENDED = pytest.mark.xfail(strict=True, reason="known fault: the test passes once it is mended")
 
 
 def model(**changes: Any) -> Model:

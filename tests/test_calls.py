@@ -13,6 +13,7 @@ from given import ALL, model, scene
 
 import derivation
 from derivation.scene import kernels, motion, simulate
+from derivation.scene.choice import moved
 from derivation.scene.law import WHOLE_PLATE, Law
 from generated import contact_series, edge, true_pressure
 
@@ -27,6 +28,7 @@ ALONE: dict[str, set[str]] = {
     "hertz": set(),
     "sphere_elasticity": set(),
     "gravity": set(),
+    "viscosity": set(),
     "curvature": {"sphere_contact"},
     "bending": {"bending"},
     "side_wall": {"side_wall"},
@@ -64,7 +66,8 @@ def calls(monkeypatch: pytest.MonkeyPatch) -> set[str]:
 
 @pytest.mark.parametrize("name", sorted(ALL))
 def test_an_effect_alone_calls_its_own_kernels_and_no_other(name: str, calls: set[str]) -> None:
-    assert motion.impact(Law(model(b=0.51, h=0.123), frozenset({"hertz", name}))) is not None
+    law = Law(model(b=0.51, h=0.123, viscous_time=1e-6), frozenset({"hertz", name}))
+    assert moved(law) is not None
     assert calls == ALONE[name]
 
 
@@ -131,16 +134,22 @@ COUNT = """
 import sys
 from derivation.scene import load, simulate
 result = simulate(load(sys.argv[1]))
-print("pressure" in result.gate.law.effects, "generated.true_pressure" in sys.modules)
+for effect, module in (
+    ("pressure", "generated.true_pressure"), ("viscosity", "derivation.scene.viscous")
+):
+    print(effect in result.gate.law.effects, module in sys.modules)
 """
 
 
-@pytest.mark.parametrize(("name", "wanted"), [("block", "False"), ("soft_layer", "True")])
-def test_the_true_pressure_is_imported_where_it_is_solved_for(name: str, wanted: str) -> None:
+@pytest.mark.parametrize(
+    ("name", "pressure", "viscosity"),
+    [("block", "False", "False"), ("soft_layer", "True", "False"), ("pad", "True", "True")],
+)
+def test_what_is_computed_alone_is_imported(name: str, pressure: str, viscosity: str) -> None:
     folder = Path(derivation.__file__).parent
     example = folder / "scene" / "examples" / f"{name}.toml"
     run = subprocess.run(
         [sys.executable, "-c", COUNT, str(example)],
         cwd=folder.parent, capture_output=True, text=True, check=True,
     )  # fmt: skip
-    assert run.stdout.split() == [wanted, wanted]
+    assert run.stdout.split() == [pressure, pressure, viscosity, viscosity]

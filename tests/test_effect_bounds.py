@@ -6,13 +6,13 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given import ALL, MENDED, model
+from given import ALL, model
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from derivation.scene import motion
 from derivation.scene.effects import BY_NAME, EFFECTS
-from derivation.scene.effects.effect import PlateEffect
+from derivation.scene.effects.effect import Place, PlateEffect
 from derivation.scene.gate import OUTPUTS, decide
 from derivation.scene.law import Law
 from derivation.scene.model import Model
@@ -52,9 +52,9 @@ def test_a_share_of_the_slope_lies_within_its_bound_at_every_radius(name: str) -
         edge = ("simply-supported", "clamped")[number % 2]
         m = model(b=1.0, h=h, lam=2 * 3e9 * nu / (1 - 2 * nu), edge=edge)
         a = np.geomspace(1e-4, 0.89, 60) * min(1.0, 6 * h)
-        bound, slope = effect.bound(m, a), effect.share(m, a).slope
+        bound, slope = effect.bound(m, Place(a)), effect.share(m, a).slope
         # Parts are what is left of larger ones: their rounding is of these.
-        room = TINY * (1 + np.abs(slope) + BY_NAME["bending"].bound(m, a).up)
+        room = TINY * (1 + np.abs(slope) + BY_NAME["bending"].bound(m, Place(a)).up)
         assert (slope <= bound.up + room).all()
         assert (-slope <= bound.low + room).all()
         assert (np.diff(bound.up) >= 0).all()
@@ -96,14 +96,16 @@ def test_what_an_effect_changes_is_within_its_bound_and_near_it(
     for output, x, y in zip(OUTPUTS, one, other, strict=True):
         gate = decide(m, wanted, 1.0, (output,))
         assert gate.law.effects == every - {name}
-        shares.append(abs(x / y - 1) / {row.name: row.bound for row in gate.rows}[name])
+        bound = {row.name: row.bound for row in gate.rows}[name]
+        if output == "restitution":  # which is 1 without viscosity
+            assert (x, y, bound) == (1.0, 1.0, 0.0)
+        else:
+            shares.append(abs(x / y - 1) / bound)
     assert used < max(shares)
     assert all(share <= 1 for share in shares)
 
 
-@pytest.mark.parametrize(
-    "name", [pytest.param("curvature", marks=MENDED), "sphere_elasticity", "gravity", "edge"]
-)
+@pytest.mark.parametrize("name", ["curvature", "sphere_elasticity", "gravity", "edge"])
 def test_prices_hold_under_the_true_pressure(name: str) -> None:
     """There the contact radius grows faster than Hertz' radius of the force."""
     b = 1.76595204337641
@@ -186,7 +188,7 @@ def test_bounds_of_what_is_left_out_together_add_up(one: str, other: str, edge: 
 
 
 def test_every_effect_has_a_threshold_there() -> None:
-    m = model(**SCENES["block"])
+    m = model(**SCENES["block"], viscous_time=1e-8)
     assert applicable(m) == ALL
     assert decide(m, {}, 10.0).law.effects == {"hertz"}
     assert decide(m, {}, 0.0).law.effects == ALL

@@ -150,7 +150,7 @@ def test_impact_of_the_whole_plate_is_the_generated_one() -> None:
         m = model(**changes)
         found = motion.impact(Law(m, WHOLE_PLATE))
         assert found is not None
-        np.testing.assert_allclose(found.numbers, kernels.impact(*m.numbers), rtol=4e-14)
+        np.testing.assert_allclose(found.numbers[:4], kernels.impact(*m.numbers), rtol=4e-14)
 
 
 @pytest.mark.parametrize(
@@ -198,7 +198,7 @@ def test_history_of_a_slow_and_heavy_sphere_keeps_the_energy() -> None:
     m, found = law.model, motion.impact(law)
     assert found is not None
     times = np.linspace(0.0, found.contact_time, 101)
-    depth, velocity, radius, _ = motion.history(law, found, times)
+    depth, velocity, radius, _ = found.history(law, times)
     stored = [derivation.scene.limits.energy_of(law, float(a)) if a else 0.0 for a in radius]
     whole = 0.5 * m.m * velocity**2 - m.m * m.gravity * depth + np.array(stored)
     np.testing.assert_allclose(whole / (0.5 * m.m * m.v0**2), 1.0, rtol=1e-8)
@@ -225,8 +225,8 @@ def test_a_history_moves_as_fast_as_it_says() -> None:
     assert found is not None
     T = found.contact_time
     middle, step = np.linspace(0.05, 0.95, 47) * T, 1e-5 * T
-    after, before = (motion.history(law, found, middle + x)[0] for x in (step, -step))
-    _, velocity, _, _ = motion.history(law, found, middle)
+    after, before = (found.history(law, middle + x)[0] for x in (step, -step))
+    _, velocity, _, _ = found.history(law, middle)
     np.testing.assert_allclose((after - before) / (2 * step), velocity, atol=1e-6)
 
 

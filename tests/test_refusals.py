@@ -8,7 +8,7 @@ from typing import Any
 import hertz_double as hertz
 import numpy as np
 import pytest
-from given import ALL, MENDED, changed, model, scene, thick
+from given import ALL, changed, model, scene, thick
 from scipy.integrate import quad
 
 from derivation.files import measurements
@@ -73,7 +73,7 @@ def test_a_contact_is_refused_where_it_opens_in_its_middle() -> None:
 
 @pytest.mark.parametrize(
     ("gravity", "solved"),
-    [(None, False), (9.81, False), pytest.param(9.81, True, marks=MENDED)],
+    [(None, False), (9.81, False), (9.81, True)],
 )
 def test_impacts_are_refused_from_the_speed_named(gravity: float | None, solved: bool) -> None:
     """The weight of a heavy sphere takes a good part of what the contact can store."""

@@ -275,7 +275,7 @@ def _worst(state: _State, bound: Bound, outputs: Sequence[str]) -> float:
     logarithms = np.log1p([*found, 0.0]) + wider * np.array(results)
     logarithms[-1] += (wider - 1.0) * kept
     # Link 18 speaks of Hertz' radius of the force, with which the contact's own may grow faster.
-    logarithms[3] += (state.growth - 1.0) * math.log1p(found[3]) + radius
+    logarithms[3] += (state.growth - 1.0) * math.log1p(found[3]) + state.growth * radius
     errors = dict(zip(OUTPUTS, np.expm1(logarithms), strict=True))
     return float(max(errors[name] for name in outputs))
 
@@ -310,11 +310,11 @@ def _row(
 ) -> Row:
     """The effect's line, at the largest radius of the law decided on."""
     model, name = state.law.model, effect.name
-    radius = state.place.radii[-1] / TOP
+    radius = state.law.limit if math.isnan(state.a) else state.a
     included = name in state.law.effects
     if reasons[name]:
         return Row(name, effect.adds, effect.number, math.nan, 0.0, False, reasons[name])
-    value = effect.value(model, float(radius))
+    value = effect.value(model, radius)
     bound = _price(state, effect, outputs) if included else _error(state, [effect], outputs)
     if effect.forced:
         why = "always"

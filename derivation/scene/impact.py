@@ -8,6 +8,7 @@ from derivation.scene.gate import Gate, decide
 from derivation.scene.limits import (
     check_numbers,
     check_radius,
+    local_indentation,
     motion_warnings,
     pressure_warnings,
     warnings_at,
@@ -58,7 +59,7 @@ def simulate(
     check_numbers(model, *numbers)
     pressure = gate.law.max_pressure(a)
     model_error = edge_remainder(model, a) if "edge" in gate.law.effects else 0.0
-    deflection = 1.0 - a * (a / model.R) / delta
+    deflection = 1.0 - local_indentation(model, a, gate.law.effects) / delta
     warnings = (
         *warnings_at(model, a, delta, gate.law.effects),
         *motion_warnings(model, contact_time, deflection),

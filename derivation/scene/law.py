@@ -161,7 +161,7 @@ class Law:
     def _solved(self, a: Array) -> Shape:
         """By the pressure that is solved for; the edge adds what it does under Hertz's."""
         # Next to a = 0 it is Hertz's.
-        a = np.maximum(a, 1e-6 * min(self.model.h, self.model.b, self.model.R))
+        a = np.maximum(a, 1e-12 * min(self.model.h, self.model.b, self.model.R))
         found = self._contact(a)
         R, scale = self.model.R, 4.0 / 3.0 * self.modulus * a * a * (a / self.model.R)
         force = found.force / scale

@@ -31,6 +31,8 @@ SOLVED_WITH = WHOLE_PLATE | {"curvature", "sphere_elasticity"}
 """Effects that the true pressure's equation holds in itself."""
 TOP = 1.02
 """Bounds are taken up to this times the largest radius."""
+NEAR = 1e-6
+"""How near the largest radius has to be known for that."""
 MARGIN = 1.05
 """Elasticities of S are sampled at nodes and widened by this."""
 HEADS = ("effect", "number", "value", "if left out", "", "why")
@@ -183,7 +185,7 @@ def _state(law: Law) -> _State:
     """The law at its largest radius, or at its limit if that is beyond."""
     nodes = rule(NODES[0])
     with np.errstate(all="ignore"):
-        a = largest_radius(law)
+        a = largest_radius(law, close=NEAR)
         top = min(TOP * a, law.limit) if a < law.limit else law.limit
         radii = np.append(nodes.x, 1.0) * top
         shape = law.at(radii)

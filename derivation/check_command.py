@@ -172,8 +172,9 @@ def _check_effects(count: int, record: bool, json: str | None) -> int:
              f"{r.included:.2f}", f"{r.applicable:.2f}", r.refused)
             for r in rows
         ]  # fmt: skip
-        heads = ("#rtol", "#scenes", "#worst error/rtol", "#error/bound", "of")
-        table(f"Effects in {count} scenes", (*heads, "#effects in", "#that apply", "#refused"), cells)
+        heads = ("#rtol", "#scenes", "#worst error/rtol", "#error/bound", "of", "#effects in",
+                 "#that apply", "#refused")  # fmt: skip
+        table(f"Effects in {count} scenes", heads, cells)
     if json:
         put_json([asdict(row) for row in rows], json)
     return 0 if all(row.kept for row in rows) else 1

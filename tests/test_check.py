@@ -27,7 +27,7 @@ BY_BLOCK = {
     "sinh_cubic": "mode_rz",
     "cosh_quartic": "mode_zz",
     "sinh_quintic": "mode_zz",
-    "cosh_cubic": "mode_rr",
+    "cosh_quintic": "mode_rr",
 }
 SIGN = re.compile(r"(?<=[\w)\]] )[+-](?= [\w(])|(?<=[(= ])-(?=[\w(])")
 

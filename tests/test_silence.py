@@ -35,6 +35,7 @@ EXAMPLE = {
     "lam": 0.36e9, "mu": 0.43e9, "P": 1000.0, "A_j": -1e6, "J1": 0.52, "x": 1.3, "n": 7.0,
     "k": 4.0, "delta": 1e-6, "m": 0.2, "v0": 1.5, "t": 1e-4, "eta": 0.1,
     "a_over_R": 0.03, "a_ratio": 0.4, "alpha": 0.04, "rho": 2500.0,
+    "viscous_time": 1e-5, "x_v": 0.2,
 }  # fmt: skip
 Values = Mapping[str, Any]
 
@@ -106,6 +107,7 @@ def test_whole_numbers_are_numbers() -> None:
         "r": 1, "z": 1, "phi": 1, "h": 1, "T": 2, "b": 9, "R": 8, "a": 2, "lam": 3, "mu": 2,
         "P": 5, "A_j": -4, "J1": 1, "x": 3, "n": 7, "k": 4, "delta": 1, "m": 2, "v0": 1, "t": 1,
         "eta": 1, "a_over_R": 0, "a_ratio": 2, "alpha": 0, "rho": 2500,
+        "viscous_time": 1, "x_v": 2,
     }  # fmt: skip
     for name in POINTWISE:
         if name == "force_by_series":  # its radius is smaller
@@ -131,6 +133,8 @@ def shapes() -> list[dict[str, float]]:
         stiff /= values["lam"] + 2 * values["mu"]
         values["P"] = stiff * values["a"] ** 3 / values["R"]
         values["v0"] = math.sqrt(0.5 * values["P"] * values["delta"] / values["m"])
+        values["viscous_time"] = values["delta"] / values["v0"] / 10 ** (i % 7)
+        values["x_v"] = 10.0 ** (1 - i % 9)
         values["t"] = (i % 9) / 3 * values["delta"] / values["v0"]
     return found
 
@@ -155,7 +159,7 @@ def test_contacts_are_silent(row: dict[str, Any], kind: type) -> None:
 UNITS = {
     "a": (1, 0, 0), "R": (1, 0, 0), "h": (1, 0, 0), "b": (1, 0, 0), "delta": (1, 0, 0),
     "lam": (0, 1, 0), "mu": (0, 1, 0), "P": (2, 1, 0), "m": (1, 1, 2), "v0": (1, 0, -1),
-    "t": (0, 0, 1), "eta": (0, 0, 0),
+    "t": (0, 0, 1), "viscous_time": (0, 0, 1), "x_v": (0, 0, 0), "eta": (0, 0, 0),
 }  # fmt: skip
 """Powers of length, stress and time by argument."""
 RESULTS = {

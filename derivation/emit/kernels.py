@@ -15,9 +15,9 @@ from derivation.rewrite.form import Branch, Form, Seam, Step
 MODAL_SUMS = {
     "u": "mode_g(z, phi, h, lam, mu, A) * phi * bessel_j1(phi * r)",
     "w": "mode_f(z, phi, h, lam, mu, A) * bessel_j0(phi * r)",
-    # 2 mu phi^2 mode_g is mode_rr - mode_tt: with both of these nothing cancels on the axis.
-    "sigma_rr": "mode_rr(z, phi, h, lam, mu, A) * slope + mode_tt(z, phi, h, lam, mu, A) * chord",
-    "sigma_tt": "mode_tt(z, phi, h, lam, mu, A) * slope + mode_rr(z, phi, h, lam, mu, A) * chord",
+    # Their sum is small where Poisson's ratio is almost -1: it is rounded as little as can be.
+    "sigma_rr": "((radial + hoop) * chord + radial * twist) * (A / unit)",
+    "sigma_tt": "((radial + hoop) * chord + hoop * twist) * (A / unit)",
     "sigma_zz": "mode_zz(z, phi, h, lam, mu, A) * bessel_j0(phi * r)",
     "sigma_rz": "mode_rz(z, phi, h, lam, mu, A) * bessel_j1(phi * r)",
 }
@@ -40,7 +40,6 @@ class BranchText:
     guards: tuple[Line, ...]
     steps: tuple[Line, ...]
     value: str
-    result: str
 
 
 @dataclass(frozen=True)
@@ -88,11 +87,11 @@ class Kernel:
     @property
     def loaded(self) -> bool:
         """Whether the sum's share needs the pressure coefficient."""
-        return self.modes and "A)" in self.value
+        return self.modes and ("A)" in self.value or self.in_plane)
 
     @property
     def in_plane(self) -> bool:
-        """Whether the sum's share needs the slope and the chord of J1."""
+        """Whether the sum's share is made of both stresses in plane and the chord of J1."""
         return self.modes and "chord" in self.value
 
     @property
@@ -110,7 +109,7 @@ def budget_notes(budget: Budget) -> tuple[str, ...]:
 
 def kernel_of_form(stable: Form, formula: Formula, budget: Budget) -> Kernel:
     """Row of a kernel that evaluates a stable form."""
-    seam = seam_text(stable.value) if isinstance(stable.value, Seam) else None
+    seam = seam_text(stable.value, whole=True) if isinstance(stable.value, Seam) else None
     return _kernel(
         formula,
         formula.arguments,
@@ -209,31 +208,31 @@ def lines(steps: tuple[Step, ...]) -> tuple[Line, ...]:
     return tuple(Line(str(s.symbol), to_numpy(s.expression), s.comment) for s in steps)
 
 
-def seam_text(seam: Seam) -> SeamText:
-    """A seam as text: each branch works on copies of its variables that are safe everywhere."""
-    variable = str(seam.variable)
+def seam_text(seam: Seam, *, whole: bool = False) -> SeamText:
+    """A seam as text: the branch above guards itself against points below.
+
+    The one below is given those alone, by itself or, in a whole function, by that.
+    """
+    name = str(seam.variable)
+    clamped = {seam.variable: f"np.maximum({name}, {float(seam.at)})"}
+    below = _branch_text(seam.below, {} if whole else _picked(seam.below), "low")
     return SeamText(
-        "below",
-        variable,
-        to_numpy(seam.at),
-        (
-            _branch_text(seam, seam.below, "below", "low"),
-            _branch_text(seam, seam.above, "~below", "high"),
-        ),
+        "below", name, to_numpy(seam.at), (below, _branch_text(seam.above, clamped, "high"))
     )
 
 
-def _branch_text(seam: Seam, branch: Branch, mask: str, suffix: str) -> BranchText:
-    copies = {s: sp.Symbol(f"{s}_{suffix}", real=True) for s in branch.guards}
+def _picked(branch: Branch) -> dict[sp.Symbol, str]:
+    """What a branch needs, at its own points alone."""
+    used = sp.Tuple(branch.value, *(step.expression for step in branch.steps)).free_symbols
+    given = sorted(used - {step.symbol for step in branch.steps}, key=str)
+    return {symbol: f"np.asarray({symbol})[below]" for symbol in given}
 
-    def guarded(symbol: sp.Symbol, safe: sp.Rational) -> str:
-        if (symbol, safe) == (seam.variable, seam.at):  # the same, without a mask
-            return f"np.{'minimum' if suffix == 'low' else 'maximum'}({symbol}, {float(safe)})"
-        return f"np.where({mask}, {symbol}, {float(safe)})"
 
-    guards = tuple(Line(str(copies[s]), guarded(s, safe)) for s, safe in branch.guards.items())
+def _branch_text(branch: Branch, guards: Mapping[sp.Symbol, str], suffix: str) -> BranchText:
+    copies = {symbol: sp.Symbol(f"{symbol}_{suffix}", real=True) for symbol in guards}
+    own = tuple(Line(str(copies[symbol]), code) for symbol, code in guards.items())
     steps = tuple(Step(s.symbol, s.expression.xreplace(copies), s.comment) for s in branch.steps)
-    return BranchText(guards, lines(steps), to_numpy(branch.value.xreplace(copies)), suffix)
+    return BranchText(own, lines(steps), to_numpy(branch.value.xreplace(copies)))
 
 
 @dataclass(frozen=True)

@@ -46,7 +46,7 @@ from derivation.rewrite.blocks import blocks
 from derivation.rewrite.contact_tables import contact_context, impact_context, sensitivity_context
 from derivation.rewrite.edge_tables import edge_context
 from derivation.rewrite.effect_tables import effect_context
-from derivation.rewrite.form import Block, Form, Seam
+from derivation.rewrite.form import ONCE, SCALINGS, Block, Form, Seam
 from derivation.rewrite.moment_tables import moment_context
 from derivation.rewrite.pressure_tables import pressure_context
 from derivation.rewrite.sections import sections
@@ -105,7 +105,7 @@ def modules(kernels: tuple[Kernel, ...]) -> tuple[Module, ...]:
 
     planned = [
         Module("arrays", "arrays", {}),
-        Module("ranges", "ranges", {}),
+        Module("ranges", "ranges", {"once": ONCE}),
         Module("blocks", "blocks", {"functions": [block_text(b) for b in known.values()]}),
         tables("bessel", bessel_context()),
         tables("moments", moment_context()),
@@ -134,9 +134,7 @@ def modules(kernels: tuple[Kernel, ...]) -> tuple[Module, ...]:
         template = "modal_sum" if name == "modal_sum" else "kernels"
         text = repr(group)
         used = [block for block in known if f"{block}(" in text]
-        scalings = [
-            scaling for scaling in ("lost", "times", "times_closely") if f"{scaling}(" in text
-        ]
+        scalings = [f.__name__ for f in SCALINGS if f"{f.__name__}(" in text]
         context = {"title": TITLES[name], "functions": group, "blocks": used, "scalings": scalings}
         planned.append(Module(name, template, context))
     exported = {name: [k.name for k in group] for name, group in grouped.items()}

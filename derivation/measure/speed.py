@@ -18,7 +18,19 @@ from typing import Any
 
 import numpy as np
 
-from generated import G, G_minus_1, K_j, Omega_1, Omega_2, Omega_3, Omega_4, as_printed, sonine
+from derivation.measure.naive_fields import FIELDS, naive_field
+from generated import (
+    G,
+    G_minus_1,
+    K_j,
+    Omega_1,
+    Omega_2,
+    Omega_3,
+    Omega_4,
+    as_printed,
+    mode_shapes,
+    sonine,
+)
 from generated.arrays import as_doubles, as_result, inside
 from generated.contact_law import force_of_radius, indentation
 from generated.impact import impact
@@ -101,6 +113,18 @@ def _as_kernel(naive: Callable[[Any], Any]) -> Callable[[Any], Any]:
     return call
 
 
+NAIVE_POINTS = 10_000
+
+
+def _field(name: str) -> tuple[Callable[[Any], Any], Callable[[Any], Any]]:
+    """A field of a mode and its naive form, both of x = phi h, from face to face."""
+    stable, depths = getattr(mode_shapes, name), np.linspace(-1.0, 1.0, NAIVE_POINTS)
+    return (
+        lambda x: stable(depths, x, 1.0, 1.2, 0.8, -1.0),
+        lambda x: naive_field(name, depths, x, 1.0, 1.2, 0.8, -1.0),
+    )
+
+
 NAIVE: Mapping[str, tuple[Callable[..., Any], Callable[..., Any]]] = {
     "G": (G, _as_kernel(_naive_G)),
     "G_minus_1": (G_minus_1, _as_kernel(lambda T: _naive_G(T) - 1)),
@@ -116,13 +140,11 @@ NAIVE: Mapping[str, tuple[Callable[..., Any], Callable[..., Any]]] = {
         lambda x: K_j(x, 1.0, 1.0, 2.0, 0.5),
         lambda x: as_printed.K_j(x, 1.0, 1.0, 2.0, 0.5),
     ),
-}
+} | {name: _field(name) for name in FIELDS}
 """Stable kernels and their naive forms, printed ones where the print is right but for factors."""
 
 NAIVE_RIGHT = (2.0, 80.0)
 """Where naive forms neither cancel by more than a factor of two nor overflow."""
-
-NAIVE_POINTS = 10_000
 
 
 def stable_over_naive(name: str) -> Timing:

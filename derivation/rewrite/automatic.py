@@ -19,7 +19,7 @@ from itertools import combinations
 import sympy as sp
 
 from derivation.formula.symbols import a, h, lam, mu, phi
-from derivation.rewrite.form import FAR, LARGEST, TIMES, Block, Step, held
+from derivation.rewrite.form import CLOSELY, FAR, LARGEST, TIMES, Block, Step, held
 from derivation.rewrite.rules import decay, fraction, parts_of
 from derivation.rewrite.series import leading_power
 from derivation.rewrite.shape import Factor, Shape
@@ -72,7 +72,7 @@ def dimensionless(expression: sp.Expr) -> Reduced:
 Automatic = tuple[tuple[Step, ...], sp.Expr]
 
 
-def automatic(expression: sp.Expr, known: Mapping[str, Block]) -> Automatic:
+def automatic(expression: sp.Expr, known: Mapping[str, Block], closely: bool = False) -> Automatic:
     """Steps and value of the formula's stable form.
 
     Parameters
@@ -81,6 +81,8 @@ def automatic(expression: sp.Expr, known: Mapping[str, Block]) -> Automatic:
         The derived formula, all its symbols positive where a sign matters.
     known
         Building blocks by name.
+    closely
+        Whether the powers' roundings are most of what the budget allows.
 
     Raises
     ------
@@ -115,7 +117,8 @@ def automatic(expression: sp.Expr, known: Mapping[str, Block]) -> Automatic:
     core = core.xreplace({step.expression: near for step in steps if step.symbol == near})
     factors = [part for base in sorted(powers, key=str) for part in (base, powers[base])]
     value = sp.Mul(size, core, evaluate=False) if core.is_Add and size != 1 else size * core
-    return tuple(steps), TIMES(value, *factors) if factors else value
+    put = CLOSELY if closely else TIMES
+    return tuple(steps), put(value, *factors) if factors else value
 
 
 Taken = tuple[sp.Expr, sp.Expr, dict[sp.Expr, int]]

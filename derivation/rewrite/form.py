@@ -18,6 +18,17 @@ CLOSELY = sp.Function("times_closely")
 LOST = sp.Function("lost")
 """A product of two less what it is rounded to: exactly nothing."""
 
+SUM = sp.Function("sum_closely")
+"""A sum, rounded as if once; its last term is small."""
+
+ONCE = sp.Integer(512)
+"""e^(-v) is applied in one piece up to this v; e^(-745) is the smallest double."""
+
+TAIL = sp.Function("tail")
+"""What e^(-min(v, ONCE)) lacks of e^(-v), lest it underflow alone."""
+
+SCALINGS = (LOST, SUM, TAIL, TIMES, CLOSELY)
+"""Functions of the generated module `ranges`."""
 
 TINY, FAR, LARGEST = sp.Float("5e-324"), sp.Integer(10**9), sp.Float("1e308")
 """A product held between two of them neither vanishes nor overflows. Beyond FAR, what depends on
@@ -40,7 +51,7 @@ class Step:
 
 @dataclass(frozen=True)
 class Branch:
-    """One way to evaluate a form, with values that keep it harmless where it is not used.
+    """One way to evaluate a form.
 
     Parameters
     ----------
@@ -48,13 +59,10 @@ class Branch:
         Intermediates, in order.
     value
         The result.
-    guards
-        Stand-ins for the variables outside the branch's own region.
     """
 
     steps: tuple[Step, ...]
     value: sp.Expr
-    guards: Mapping[sp.Symbol, sp.Rational]
 
 
 @dataclass(frozen=True)
@@ -151,7 +159,8 @@ def undo(expression: sp.Expr, steps: tuple[Step, ...], blocks: Mapping[str, Bloc
     for step in reversed(steps):
         expression = expression.subs(step.symbol, step.expression)
     expression = expression.replace(TIMES, _product).replace(CLOSELY, _product)
-    expression = expression.replace(LOST, lambda *_: sp.Integer(0))
+    expression = expression.replace(LOST, lambda *_: sp.Integer(0)).replace(SUM, sp.Add)
+    expression = expression.replace(TAIL, lambda v: sp.exp(sp.Min(v, ONCE) - v))
     for block in blocks.values():
         expression = expression.replace(sp.Function(block.name), block.definition)
     expression = expression.replace(sp.Abs, lambda x: x)  # roots of squares, in what is even
@@ -214,4 +223,4 @@ def branches(value: sp.Expr | Seam) -> list[tuple[str, Branch]]:
             (f"{value.variable} < {value.at}", value.below),
             (f"{value.variable} >= {value.at}", value.above),
         ]
-    return [("everywhere", Branch((), value, {}))]
+    return [("everywhere", Branch((), value))]

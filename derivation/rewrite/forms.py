@@ -33,7 +33,7 @@ def stable_forms(formulas: Mapping[str, Formula]) -> tuple[Form, ...]:
     known = blocks()
 
     def found(name: str) -> _Shape:
-        return automatic(formulas[name].expression, known)
+        return automatic(formulas[name].expression, known, name in CLOSE)
 
     groups: dict[str, dict[str, _Shape]] = {
         "omega": {name: found(name) for name in OMEGAS},
@@ -53,6 +53,9 @@ OMEGAS = tuple(f"Omega_{k}{tail}" for tail in ("", "_scaled") for k in range(1, 
 INFLUENCE = ("G", "G_m", "G_minus_1", "C_top", "C_bottom", "K_j", "K_j_bottom", "G_slope")
 AUTOMATIC = (*OMEGAS, *INFLUENCE, "sonine", "A_j")
 """Formulas whose forms the rules find."""
+
+CLOSE = ("G_m",)
+"""Those among them whose budget leaves no room for the roundings of their powers."""
 
 _Shape = tuple[tuple[Step, ...], sp.Expr | Seam]
 

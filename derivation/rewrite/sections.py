@@ -15,14 +15,14 @@ from derivation.rewrite.series import POLYNOMIAL, UNIT_ROUNDOFF
 
 y = sp.Symbol("y", real=True)
 square = sp.Symbol("square", nonnegative=True)
-END = sp.Integer(3)
+END = sp.Rational(9, 4)
 
 DEFINITIONS: tuple[tuple[str, sp.Expr, int], ...] = (
     ("cosh_square", sp.cosh(y) - 1, 2),
     ("sinh_cubic", sp.sinh(y) - y, 3),
     ("cosh_quartic", sp.cosh(y) - 1 - y**2 / 2, 4),
     ("sinh_quintic", sp.sinh(y) - y - y**3 / 6, 5),
-    ("cosh_cubic", y * sp.cosh(y) - sp.sinh(y), 3),
+    ("cosh_quintic", y * sp.cosh(y) - sp.sinh(y) - y**3 / 3, 5),
 )
 """Name, the sum in y, and the power of y that it is divided by."""
 

@@ -123,11 +123,7 @@ def _side(
     value = shape.front * x**power * product * sp.exp(rate * x)
     if steps and value == steps[-1].symbol:
         value = steps.pop().expression
-    return Branch(tuple(steps), value, _guards(shape))
-
-
-def _guards(shape: Shape) -> dict[sp.Symbol, sp.Rational]:
-    return {} if shape.seam is None else {shape.x: shape.seam}
+    return Branch(tuple(steps), value)
 
 
 def _names(factors: Iterable[Factor]) -> list[sp.Symbol]:

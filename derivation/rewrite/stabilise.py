@@ -165,7 +165,7 @@ def operations(form: Rewritten) -> int:
 def _operations(form: Rewritten) -> list[int]:
     """Operations of every branch."""
     steps, value = assembled(form) if isinstance(form, Shape) else ((), form)
-    sides = (value.below, value.above) if isinstance(value, Seam) else (Branch((), value, {}),)
+    sides = (value.below, value.above) if isinstance(value, Seam) else (Branch((), value),)
     return [
         int(sum(sp.count_ops(step.expression) for step in (*steps, *side.steps)))
         + int(sp.count_ops(side.value))

@@ -37,6 +37,8 @@ ROUNDING = 2e-12
 """What tests hold the results to, beside the change with the nodes [1]."""
 TABLE = 64, 40
 """Nodes and degree of the law where the pressure is solved for."""
+OWN = 1e3
+"""How much less exact the radius may be beside the largest of its element."""
 _NEWTON, _CLOSE, _NEARLY, _ROUGH = 30, 1e-15, 1e-12, 1e-3
 A, V, Z, P, LOST = range(5)
 """Rows of an element: contact radius, velocity, indentation, force, and energy lost per x."""
@@ -265,8 +267,11 @@ def elements(problem: Problem, n: int) -> tuple[Element, ...]:
             length *= 0.5
             continue
         last, end = made
-        largest = np.maximum(scale, np.max(np.abs(last.rows), axis=1, keepdims=True))
-        error = float(np.max(np.abs(last.rows[V:LOST, -2:]) / largest[V:LOST]))
+        own = np.max(np.abs(last.rows), axis=1, keepdims=True)
+        largest = np.maximum(scale, own)
+        # Where the contact closes its radius matters beside itself: it says when.
+        unit = np.vstack((OWN * own[A], largest[V:LOST]))
+        error = float(np.max(np.abs(last.rows[:LOST, -2:]) / unit))
         change = 0.9 * (TOLERANCE / max(error, 1e-300)) ** (1.0 / n)
         if error > TOLERANCE:
             length *= min(0.8, max(0.1, change))

@@ -1,0 +1,62 @@
+"""The fields of a mode as one would write them down: hyperbolic functions, as the formulas say."""
+
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from generated.arrays import as_doubles, as_result, inside
+
+
+class _Place(NamedTuple):
+    """T = 2 phi h, distances from both faces times phi, 1 - 2 nu, and sinh T."""
+
+    T: Any
+    u: Any
+    v: Any
+    c: Any
+    s: Any
+
+
+def _f(p: _Place) -> Any:
+    by_far = p.s * ((1 + p.c) * np.cosh(p.u) + p.v * np.sinh(p.u))
+    return (by_far + p.T * ((1 + p.c) * np.cosh(p.v) + p.u * np.sinh(p.v))) / 2
+
+
+def _in_plane(p: _Place, c: Any) -> Any:
+    by_far = p.s * (c * np.sinh(p.u) - p.v * np.cosh(p.u))
+    return by_far - p.T * (c * np.sinh(p.v) - p.u * np.cosh(p.v))
+
+
+def _zz(p: _Place) -> Any:
+    versine, cubic = np.cosh(p.u) - 1, np.sinh(p.u) - p.u
+    return p.s * (p.v * versine + cubic) + p.T * (np.sinh(p.v) * versine + np.cosh(p.v) * cubic)
+
+
+FIELDS: Mapping[str, Callable[[_Place], Any]] = {
+    "mode_f": _f,
+    "mode_g": lambda p: _in_plane(p, p.c) / 2,
+    "mode_zz": _zz,
+    "mode_rz": lambda p: -p.s * p.v * np.sinh(p.u) - p.T * p.u * np.sinh(p.v),
+    "mode_rr": lambda p: _in_plane(p, 1.0),
+    "mode_tt": lambda p: p.s * np.sinh(p.u) - p.T * np.sinh(p.v),
+}
+"""Both faces' shares times sinh^2 T - T^2, by field."""
+
+
+def naive_field(name: str, *given: Any) -> Any:
+    """A field's naive form of z, phi, h, lam, mu and A_j, checked and cast as every kernel does."""
+    kind, [z, phi, h, lam, mu, A_j] = as_doubles(*given)
+    [z, phi, h, lam, mu, A_j] = inside(
+        [z, phi, h, lam, mu, A_j], abs(z) <= h, phi > 0, h > 0, 3 * lam > -2 * mu, mu > 0
+    )
+    T = 2 * phi * h
+    place = _Place(T, phi * (h + z), phi * (h - z), mu / (lam + mu), np.sinh(T))
+    value = A_j * FIELDS[name](place) / (place.s**2 - T**2)
+    if name == "mode_f":
+        value = value / (mu * phi)
+    elif name == "mode_g":
+        value = value / (mu * phi**2)
+    elif name == "mode_tt":
+        value = value * lam / (lam + mu)
+    return as_result(value, kind)

@@ -37,6 +37,7 @@ from derivation.emit.kernels import (
     seam_text,
     table_rows,
 )
+from derivation.emit.perturbation import perturbation_context
 from derivation.emit.printer import to_numpy
 from derivation.formula.record import Formula
 from derivation.formula.symbols import BY_NAME, arguments_of
@@ -119,6 +120,7 @@ def modules(kernels: tuple[Kernel, ...]) -> tuple[Module, ...]:
         tables("effects", effect_context()),
         tables("viscosity", viscosity_context()),
         Module("simple_impact", "simple_impact", simple_impact_context()),
+        Module("perturbation", "perturbation", perturbation_context()),
         Module("true_pressure", "true_pressure", pressure_context() | read_promises("pressure")),
         Module(
             "manifest",

@@ -9,10 +9,11 @@ from typing import Any
 import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
-from derivation.measure.printed_motion import Array, plane_strain_modulus, printed_motion
 from derivation.scene.model import Model
 from generated.impact import Impact, history, impact
+from generated.perturbation import printed_motion
 
 TRUNCATIONS = (25, 50, 100, 200, 400)
 THICKNESS = np.geomspace(0.04, 1.0, 49)
@@ -57,13 +58,13 @@ def draw_history(figure: Figure, case: Model) -> None:
     t = np.linspace(0.0, float(truth.contact_time), 400)
     right = history(t, case.R, case.m, case.v0, case.h, case.b, case.lam, case.mu)
     for ax, modes in zip(axes, (100, 400), strict=True):
-        motion = printed_motion(case, modes)
+        motion = printed_motion(*case.numbers, modes)
         early = np.linspace(0.0, motion.contact_time, 4001)
         half = early[early <= motion.contact_time / 2]
         ax.plot(1e3 * t, 1e3 * right.indentation, "k", label="right law")
         ax.plot(1e3 * early, 1e3 * motion.linear(early), "--", label="linear term (15)")
         ax.plot(1e3 * half, 1e3 * motion.corrected(half), label="with correction (16), printed")
-        mended = printed_motion(case, modes, corrected=True)
+        mended = printed_motion(*case.numbers, modes, corrected=True)
         ax.plot(1e3 * half, 1e3 * mended.corrected(half), ":", label=r"the same, $\xi_3$ mended")
         breaks = np.array([motion.breaks_at, mended.breaks_at])
         ax.plot(1e3 * breaks, 1e3 * motion.linear(breaks), "kx", label="(17), (18) break")
@@ -78,7 +79,7 @@ def draw_contact_time(figure: Figure, case: Model) -> None:
     ax = figure.subplots()
     plates = [replace(case, h=case.b * ratio) for ratio in THICKNESS]
     for modes in TRUNCATIONS:
-        times = [printed_motion(plate, modes).contact_time for plate in plates]
+        times = [printed_motion(*plate.numbers, modes).contact_time for plate in plates]
         ax.plot(THICKNESS, 1e3 * np.array(times), "--", lw=0.9, label=f"printed, {modes} modes")
     right = _impacts(case, THICKNESS)
     ax.plot(THICKNESS, 1e3 * right.contact_time, "k", label="right law")
@@ -101,14 +102,14 @@ def draw_peaks(figure: Figure, case: Model) -> None:
     ax.legend(fontsize=7)
 
 
-def _impacts(case: Model, ratios: Array) -> Impact:
+def _impacts(case: Model, ratios: NDArray[np.float64]) -> Impact:
     """Impacts by the right law for several h/b at once."""
     return impact(case.R, case.m, case.v0, ratios * case.b, case.b, case.lam, case.mu)
 
 
 def hertz_peaks(case: Model) -> tuple[float, float]:
     """Largest force [N] and indentation [m] on a half-space, P = (4/3) E* sqrt(R) delta^(3/2)."""
-    K = 4 / 3 * plane_strain_modulus(case) * np.sqrt(case.R)
+    K = 4 / 3 * case.modulus * np.sqrt(case.R)
     indentation = (5 * case.m * case.v0**2 / (4 * K)) ** 0.4
     return float(K * indentation**1.5), float(indentation)
 
@@ -124,8 +125,8 @@ def motion_context(case: Model) -> dict[str, Any]:
     truth = impact(case.R, case.m, case.v0, case.h, case.b, case.lam, case.mu)
     rows = []
     for modes in TRUNCATIONS:
-        printed = printed_motion(case, modes)
-        mended = printed_motion(case, modes, corrected=True)
+        printed = printed_motion(*case.numbers, modes)
+        mended = printed_motion(*case.numbers, modes, corrected=True)
         times = (printed.contact_time, printed.breaks_at, mended.breaks_at)
         rows.append((modes, *(f"{1e3 * time:.3f}" for time in times)))
     return {

@@ -1,7 +1,6 @@
 """The contact time of an impact without stepping: paper's formulas, quadrature, oracle."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 from flint import arb
@@ -10,10 +9,10 @@ from derivation.measure.accuracy.arithmetic import Array, Balls
 from derivation.measure.accuracy.by_series import sure_duration
 from derivation.measure.accuracy.interface import Call, Method, Regime
 from derivation.measure.accuracy.law_sums import EXACT, wrapped
-from derivation.measure.printed_motion import printed_motion
 from derivation.reference import contact_impact
 from derivation.reference.contact_balls import modulus
 from generated.impact import _kernel, _parts, _solve, impact
+from generated.perturbation import PrintedMotion, printed_motion
 from generated.ranges import product
 
 NODES = 24
@@ -46,11 +45,19 @@ def hertz() -> Method:
     return Method("impact", "Hertz", "", hertz_time, same=same)
 
 
+def paper_motion(
+    regime: Regime, v0: float, modes: int, *, corrected: bool = False
+) -> PrintedMotion:
+    """The paper's motion in a regime at a speed [m/s]."""
+    r = regime
+    return printed_motion(r.R, r.m, v0, r.h, r.b, r.lam, r.mu, modes, corrected=corrected)
+
+
 def linear(modes: int) -> Method:
     """The paper's linear term (15), whose contact time does not know the speed."""
 
     def prepare(regime: Regime) -> Call:
-        time = printed_motion(regime, modes).contact_time
+        time = paper_motion(regime, regime.v0, modes).contact_time
         return lambda v0: np.full(np.shape(v0), time)
 
     def same(regime: Regime) -> Call:
@@ -71,7 +78,7 @@ def perturbation(corrected: bool) -> Method:
     kind = "corrected" if corrected else "as printed"
 
     def fails(regime: Regime) -> str | None:
-        motion = printed_motion(regime, MODES, corrected=corrected)
+        motion = paper_motion(regime, regime.v0, MODES, corrected=corrected)
         share = motion.breaks_at / (motion.contact_time / 2)
         if math.isnan(share):
             return None
@@ -79,7 +86,7 @@ def perturbation(corrected: bool) -> Method:
 
     def prepare(regime: Regime) -> Call:
         def one(v0: float) -> float:
-            motion = printed_motion(replace(regime, speed=v0), MODES, corrected=corrected)
+            motion = paper_motion(regime, v0, MODES, corrected=corrected)
             t = np.linspace(0, motion.contact_time / 2, 2001)
             return float(2 * t[int(np.nanargmax(motion.corrected(t)))])
 

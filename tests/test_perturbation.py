@@ -1,0 +1,166 @@
+"""The paper's own motion: its coefficients, (15), (16) to (18), where they break, and scenes."""
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+import sympy as sp
+from mpmath import besseljzero, j1, mp, mpf, quad, sinh
+from mpmath import pi as mp_pi
+
+from derivation.formula.symbols import BY_NAME as SYMBOLS
+from derivation.formula.symbols import delta_0, m, v0, xi_k
+from derivation.theory.impact import linear_motion, linearisation
+from generated.perturbation import PrintedMotion, printed_motion
+
+PAPER = (0.13, 72.2, 1.0, 0.1, 1.0, 0.36e9, 0.43e9)
+CASES = {
+    "paper": PAPER,
+    "thin": (1.3, 72.2, 0.0039, 1e-3, 1.0, 0.36e9, 0.43e9),
+    "thick": (1.3, 72.2, 480.0, 1.0, 1.0, 0.36e9, 0.43e9),
+}
+Real = Callable[..., mpf]
+
+
+def truncated_gamma(k: int, modes: int, case: tuple[float, ...]) -> mpf:
+    """gamma_k of (10) from its definition, K_j by the plate factor G(T) and zeros of J0."""
+    R, _, _, h, b, lam, mu = map(mpf, case)
+    modulus = 4 * mu * (lam + mu) / (lam + 2 * mu)
+
+    def share(n: int) -> mpf:
+        j = besseljzero(0, n)
+        T = 2 * h * j / b
+        G = (sinh(2 * T) / 2 + T) / (sinh(T) ** 2 - T**2)
+        K = 8 * G / (mp_pi * R * b**2 * (j / b) ** 4 * j1(j) ** 2)
+        return (j / b) ** (2 * k - 1) * K
+
+    total = mp.fsum(share(n) for n in range(1, modes + 1))
+    scale = mpf((-1) ** k * (2 * k - 2)) / mp.factorial(2 * k - 1)
+    return scale * (3 * R / (4 * modulus)) ** (mpf(2 * k - 1) / 3) * total
+
+
+@pytest.mark.parametrize("modes", [1, 25])
+@pytest.mark.parametrize("name", CASES)
+def test_coefficients_are_the_truncated_sums(name: str, modes: int) -> None:
+    with mp.workdps(30):
+        gamma_2, gamma_3 = (truncated_gamma(k, modes, CASES[name]) for k in (2, 3))
+        printed = printed_motion(*CASES[name], modes)
+        derived = printed_motion(*CASES[name], modes, corrected=True)
+        assert printed.xi_2 == derived.xi_2 == pytest.approx(float(1 / gamma_2), rel=1e-13)
+        assert printed.xi_3 == pytest.approx(float(-gamma_3 / gamma_2**3), rel=1e-13)
+        assert derived.xi_3 == pytest.approx(float(-gamma_3 / gamma_2 ** mpf("8/3")), rel=1e-13)
+
+
+def test_the_sums_do_not_settle() -> None:
+    times = [printed_motion(*PAPER, modes).contact_time for modes in (100, 400, 1600, 6400)]
+    assert (np.diff(times) > 0.2 * times[0]).all()
+
+
+def theory(motion: PrintedMotion) -> tuple[Real, Real, mpf, mpf]:
+    """F and G of the records as functions of delta_0, and peak and rate of (15)."""
+    values = {m: motion.m, v0: motion.v0, xi_k[2]: motion.xi_2, xi_k[3]: motion.xi_3}
+    exact = {key: sp.Float(value, 40) for key, value in values.items()}
+    F, G = (
+        sp.lambdify(delta_0, formula.expression.subs(exact), "mpmath")
+        for formula in linearisation()[:2]
+    )
+    peak = mpf(motion.v0) * mp.sqrt(mpf(motion.m) / motion.xi_2)
+    return F, G, peak, mp.sqrt(mpf(motion.xi_2) / motion.m)
+
+
+def correction(motion: PrintedMotion, t: mpf) -> mpf:
+    """(16) as it stands, an integral over time of one over time."""
+    F, G, peak, rate = theory(motion)
+
+    def before(end: mpf) -> mpf:
+        return quad(lambda x: F(peak * mp.sin(rate * x)), [0, end / 2, end])
+
+    whole = before(t)
+    return -quad(
+        lambda x: G(peak * mp.sin(rate * x)) * mp.exp(before(x) - whole), [0, t / 2, t], maxdegree=4
+    )
+
+
+@pytest.mark.parametrize("corrected", [False, True])
+def test_correction_is_16_with_the_F_and_G_of_the_theory(corrected: bool) -> None:
+    motion = printed_motion(*PAPER, 100, corrected=corrected)
+    t = 0.9 * motion.breaks_at
+    with mp.workdps(16):
+        eta = float(correction(motion, mpf(t)))
+    assert float(motion.corrected(t) - motion.linear(t)) == pytest.approx(eta, rel=1e-10)
+    assert eta < 0
+
+
+@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("corrected", [False, True])
+def test_eta_solves_its_equation_up_to_where_it_breaks(name: str, corrected: bool) -> None:
+    """eta' + F eta + G = 0 by differences that grow as fine as the end comes near."""
+    motion = printed_motion(*CASES[name], 100, corrected=corrected)
+    F, G, _, _ = theory(motion)
+    for left in (0.5, 0.1, 1e-2):
+        t = (1 - left) * motion.breaks_at
+        step = 1e-2 * left * motion.breaks_at
+        times = t + step * np.array([-2.0, -1.0, 1.0, 2.0])
+        eta = motion.corrected(times) - motion.linear(times)
+        slope = (eta[0] - 8 * eta[1] + 8 * eta[2] - eta[3]) / (12 * step)
+        at, here = float(motion.linear(t)), float(motion.corrected(t) - motion.linear(t))
+        parts = float(F(at)) * here, float(G(at))
+        assert slope + sum(parts) == pytest.approx(0, abs=1e-6 * max(map(abs, parts)))
+
+
+def test_linear_motion_is_15() -> None:
+    motion = printed_motion(*PAPER, 50)
+    values = {m: motion.m, v0: motion.v0, xi_k[2]: motion.xi_2}
+    exact = sp.lambdify(SYMBOLS["t"].symbol, linear_motion().expression.subs(values))
+    times = np.linspace(0, motion.contact_time, 7)
+    np.testing.assert_allclose(
+        motion.linear(times), exact(times), rtol=1e-14, atol=1e-14 * motion.max_indentation
+    )
+    assert motion.contact_time == pytest.approx(math.pi * math.sqrt(motion.m / motion.xi_2))
+    assert motion.linear(motion.contact_time / 2) == pytest.approx(motion.max_indentation)
+    # A spring knows no speed: only its depth does.
+    faster = printed_motion(*PAPER[:2], 3.0, *PAPER[3:], 50)
+    assert faster.contact_time == motion.contact_time
+    assert faster.max_indentation == pytest.approx(3 * motion.max_indentation, rel=1e-15)
+
+
+@pytest.mark.parametrize("corrected", [False, True])
+@pytest.mark.parametrize("modes", [1, 10, 100, 1000])
+@pytest.mark.parametrize("name", CASES)
+def test_breaks_before_the_turning_point(name: str, modes: int, corrected: bool) -> None:
+    motion = printed_motion(*CASES[name], modes, corrected=corrected)
+    assert motion.xi_3 > 0
+    assert 0 < motion.breaks_at < motion.contact_time / 2
+    at = motion.linear(motion.breaks_at)
+    used = motion.xi_2 * at**2 + 0.75 * motion.xi_3 * at ** (8 / 3)
+    assert used / (motion.m * motion.v0**2) == pytest.approx(1, rel=1e-13)
+    times = np.linspace(0, motion.breaks_at, 401)
+    found = motion.corrected(times)
+    assert (np.diff(found) > 0).all()  # no turning point of its own
+    assert (found <= motion.linear(times) + 1e-16 * motion.max_indentation).all()
+    assert np.isnan(motion.corrected(np.nextafter(motion.breaks_at, np.inf)))
+    assert np.isnan(motion.corrected(-1e-9))
+
+
+def test_printed_exponent_depends_on_the_units() -> None:
+    """Millimetre, tonne, second: the derived motion is the same, the printed one another."""
+    R, mass, speed, h, b, lam, mu = PAPER
+    other = 1e3 * R, 1e-3 * mass, 1e3 * speed, 1e3 * h, 1e3 * b, 1e-6 * lam, 1e-6 * mu
+    ours, theirs = (printed_motion(*x, 100, corrected=True) for x in (PAPER, other))
+    assert theirs.breaks_at == pytest.approx(ours.breaks_at, rel=1e-13)
+    ours, theirs = (printed_motion(*x, 100) for x in (PAPER, other))
+    assert theirs.contact_time == pytest.approx(ours.contact_time, rel=1e-13)
+    assert abs(theirs.breaks_at / ours.breaks_at - 1) > 0.1
+
+
+@pytest.mark.filterwarnings("error")
+def test_nan_outside_the_domain_and_for_extreme_numbers() -> None:
+    for place in range(7):
+        for bad in (0.0, -1e9, math.nan, math.inf, 1e-300):
+            case = [*PAPER]
+            case[place] = bad
+            motion = printed_motion(*case, 10)
+            found = motion.corrected(1e-4), motion.breaks_at, motion.last, motion.contact_time
+            if bad != 1e-300 and (place, bad) != (5, 0.0):
+                assert all(map(math.isnan, found)), (place, bad)

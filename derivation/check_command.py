@@ -169,11 +169,11 @@ def _check_effects(count: int, record: bool, json: str | None) -> int:
     if json != "-":
         cells = [
             (f"{r.rtol:g}", r.scenes, f"{r.ratio:.3f}", f"{r.tightest:.3f}", r.quantity,
-             f"{r.included:.2f}", f"{r.applicable:.2f}")
+             f"{r.included:.2f}", f"{r.applicable:.2f}", r.refused)
             for r in rows
         ]  # fmt: skip
         heads = ("#rtol", "#scenes", "#worst error/rtol", "#error/bound", "of")
-        table(f"Effects in {count} scenes", (*heads, "#effects in", "#that apply"), cells)
+        table(f"Effects in {count} scenes", (*heads, "#effects in", "#that apply", "#refused"), cells)
     if json:
         put_json([asdict(row) for row in rows], json)
     return 0 if all(row.kept for row in rows) else 1

@@ -4,18 +4,15 @@ import math
 from collections.abc import Sequence
 from pathlib import Path
 
-import numpy as np
-
 from derivation.files import ROOT, measurements, write_file
 from derivation.measure import effects
 from derivation.produce import folder_for
-from derivation.scene import motion
-from derivation.scene.choice import solve_gated
+from derivation.scene.choice import moved, solve_gated
 from derivation.scene.effects import EFFECTS
 from derivation.scene.impact import gated as decided
 from derivation.scene.law import Law
 from derivation.scene.model import model_of
-from derivation.scene.scene import read
+from derivation.scene.scene import SceneError, read
 
 MEASURED: Path = measurements() / "effects.json"
 
@@ -31,10 +28,13 @@ def check_effects(
     return rows
 
 
-def gated(data: effects.Scene, rtol: float) -> tuple[Sequence[float], Sequence[str], float]:
+def gated(data: effects.Scene, rtol: float) -> tuple[Sequence[float], Sequence[str], float] | None:
     """A scene as `simulate` computes it at a tolerance; model errors stand apart."""
     _, gate = decided(read(data), rtol)
-    values, accuracy = solve_gated(gate, rtol)
+    try:
+        values, accuracy = solve_gated(gate, rtol)
+    except SceneError:
+        return None
     return values, sorted(gate.law.effects), accuracy.bound
 
 
@@ -42,8 +42,10 @@ def everything(data: effects.Scene) -> tuple[Sequence[float], Sequence[str]] | N
     """The same scene with every effect that applies; None beyond the range of the models."""
     model = model_of(read(data))
     present = sorted(effect.name for effect in EFFECTS if not effect.absent(model))
-    with np.errstate(all="ignore"):
-        found = motion.impact(Law(model, frozenset(present)))
+    try:
+        found = moved(Law(model, frozenset(present)))
+    except SceneError:  # a sphere that stays on the plate
+        return None
     if found is None or not all(map(math.isfinite, found.numbers)):
         return None
     return found.numbers, present

@@ -32,7 +32,7 @@ from derivation.measure.accuracy.interface import PAPER, REGIMES
 from derivation.measure.accuracy.pareto import winners
 from derivation.measure.accuracy.rows import Row
 from derivation.report import readme
-from derivation.report.accuracy import accuracy_context, duration
+from derivation.report.accuracy import accuracy_context, duration, unsplit
 from derivation.report.accuracy_figures import as_pdf, pareto_front, work_precision
 from derivation.report.accuracy_figures import scaling as scaling_figure
 from derivation.scene import choice
@@ -434,3 +434,17 @@ sys.exit(cli.main(["accuracy", "--quick", "--out", sys.argv[1]]))
     assert "interrupted" in message
     assert [path.name for path in tmp_path.iterdir()] == ["accuracy.json"]
     assert out.read_text() == "old"
+
+
+def test_report_names_what_is_not_split_with_the_reason() -> None:
+    """A reason once, with families and regimes; rows that fail, or are split, are not named."""
+    why = "no long J0 here"
+    row = {"family": "a_b", "regime": "thin", "fails": None, "errors": {"unsplit": why}}
+    rows = [
+        row,
+        row | {"regime": "thick"},
+        row | {"family": "c", "fails": "overflow"},
+        row | {"family": "d", "errors": {"unsplit": None}},
+        row | {"family": "e", "errors": None},
+    ]
+    assert list(unsplit({"rows": rows})) == [r"no long $J_{0}$ here: a\_b (thin, thick)."]

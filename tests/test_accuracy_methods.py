@@ -13,6 +13,7 @@ from derivation.measure.accuracy import (
     law_own,
     law_series,
     law_sums,
+    levin,
     motion,
     panels,
     problems,
@@ -34,6 +35,7 @@ from derivation.measure.accuracy.headline import zeros
 from derivation.measure.accuracy.interface import PAPER, REGIMES, Method, deepest
 from derivation.measure.accuracy.levin import u_transform
 from derivation.measure.accuracy.problems import Problem
+from derivation.measure.accuracy.replay import turning_time
 from derivation.measure.accuracy.stepping import scalar_force
 from derivation.reference import contact_balls, contact_impact
 from generated.contact_law import force, indentation
@@ -205,6 +207,7 @@ SPLITS = {
     "Gauss on the series": (by_series.gauss(8, 12), 8.2, 15),
     "Gauss on the series, float32": (by_series.gauss(8, 12, SINGLE), 8.2, 7),
     "production, float32": (motion.production(np.float32), 21.7, 7.5),
+    "DOP853": (stepping.solver("DOP853", 1e-6), 7.0, 15),
     "Verlet": (stepping.verlet(20), 3.3, 15),
     "Verlet, float32": (stepping.verlet(20, dtype=np.float32), 3.3, 7),
 }
@@ -273,6 +276,57 @@ def test_error_split_adds_up(law: Problem) -> None:
     assert judge(law_series.small_contacts(1), law, lambda: 0.0).errors.total == pytest.approx(
         judge(law_series.small_contacts(1), law, lambda: 0.0).errors.truncation, abs=1e-3
     )
+
+
+@pytest.mark.parametrize(
+    ("method", "truncation"),
+    [
+        (law_series.chebyshev(2), 9.7),
+        (law_series.chebyshev(6, SINGLE), 21.2),
+        (law_series.table(3), 13.0),
+        (levin.levin(4), 6.0),
+    ],
+    ids=lambda x: getattr(x, "name", None),
+)
+def test_surrogates_and_samples_are_split(law: Problem, method: Method, truncation: float) -> None:
+    found = judge(method, law, lambda: 0.0).errors
+    assert found.truncation == pytest.approx(truncation, abs=1.5)
+    assert found.rounding is not None
+    assert found.rounding > (6.5 if method.arithmetic == "float32" else 14)
+    assert 10**-found.total <= 1.01 * (10**-found.truncation + 10**-found.rounding)
+    assert 10**-found.total >= 0.9 * abs(10**-found.truncation - 10**-found.rounding)
+
+
+def test_what_is_not_split_says_why(law: Problem, bounced: Problem) -> None:
+    """Every method that is tried and none of whose errors is known apart has its reason."""
+    for problem, method, reason in (
+        (bounced, stepping.solver("LSODA", 1e-6), "compiled"),
+        (bounced, stepping.solver("Radau", 1e-3), "tolerance"),
+        (law, law_sums.direct(2000), "zeros"),
+    ):
+        found = judge(method, problem, lambda: 0.0).errors
+        assert (found.truncation, found.rounding) == (None, None)
+        assert reason in (found.unsplit or "")
+    assert judge(law_series.chebyshev(2), law, lambda: 0.0).errors.unsplit is None
+    assert all(m.same or m.exact or m.certified or "perturbation" in m.family for m in methods())
+
+
+def test_repeated_steps_are_dop853s() -> None:
+    """A force that is linear: the time is pi/2 over the frequency, but for the steps' own error."""
+    from scipy.integrate import solve_ivp
+
+    def top(t: float, y: np.ndarray) -> float:  # noqa: ARG001
+        return float(y[1])
+
+    top.terminal = True  # type: ignore[attr-defined]
+    found = solve_ivp(
+        lambda t, y: (y[1], -4 * y[0]), (0, 2), (0.0, 3.0), method="DOP853",  # noqa: ARG005
+        rtol=1e-4, atol=1e-6, events=top, dense_output=True,
+    )  # fmt: skip
+    ends = [p.t_old for p in found.sol.interpolants] + [found.sol.interpolants[-1].t]
+    time = float(turning_time(3.0, 2.0, ends, lambda x: 8 * x))
+    assert time == pytest.approx(float(found.t_events[0][0]), rel=1e-14)
+    assert 1e-12 < abs(time / (math.pi / 4) - 1) < 1e-4
 
 
 def test_digits_of_no_number_and_of_exact_ones() -> None:

@@ -21,6 +21,8 @@ from derivation.reference import (
     contact_wall,
     many_costs,
     many_digits,
+    residue_law,
+    residue_routes,
 )
 from derivation.reference.contact_balls import ratio_of
 from derivation.reference.routes import to_ball
@@ -50,24 +52,84 @@ def test_series_and_integrals_overlap(eta: float, alpha: float, digits: int) -> 
             assert by_series.rel_accuracy_bits() >= bits_of(digits)
 
 
-@pytest.mark.parametrize(
-    ("eta", "alpha", "digits"),
-    [*PLATES, (0.1, 0.3, 100), (1e-3, 2e-4, 30), (1e-3, 4e-3, 50)],
-)
-def test_the_second_oracle_lies_in_the_ball(eta: float, alpha: float, digits: int) -> None:
+DEPTHS = [
+    *PLATES,
+    (0.1, 0.3, 120),
+    (0.1, 0.58, 60),
+    (5.0, 0.9, 60),
+    (1e-3, 2e-4, 30),
+    (1e-3, 4e-3, 50),
+]
+
+
+@pytest.mark.parametrize("way", ["sums", "residues"])
+@pytest.mark.parametrize(("eta", "alpha", "digits"), DEPTHS)
+def test_the_second_oracle_lies_in_the_ball(
+    eta: float, alpha: float, digits: int, way: str
+) -> None:
     """As balls: the second oracle's number, blurred by what it is asked to be exact to."""
     R, lam, mu = 2.0, 0.36e9, 0.43e9
     law = many_digits.law_of(ratio_of(eta, 1.0), alpha, digits, lambda *_: None)
     balls = many_digits.pressed(alpha, R, 1.0, lam, mu, law, digits + 3)
-    how = contact_routes.setting(digits)
-    others = (
-        contact_routes.indentation(alpha, R, eta, 1.0, digits, how),
-        contact_routes.stiffness(alpha, R, eta, 1.0, lam, mu, digits, how),
-    )
+    if way == "sums":
+        how = contact_routes.setting(digits)
+        others = (
+            contact_routes.indentation(alpha, R, eta, 1.0, digits, how),
+            contact_routes.stiffness(alpha, R, eta, 1.0, lam, mu, digits, how),
+        )
+    else:
+        of = residue_law.law(eta, 1.0, alpha, digits)
+        others = (
+            residue_law.indentation(alpha, R, of, digits),
+            residue_law.stiffness(alpha, R, lam, mu, of, digits),
+        )
     for ball, other in zip(balls, others, strict=True):
         with flint.ctx.workprec(bits_of(digits) + 64):
             assert ball.overlaps(to_ball(other) * arb(1, arb(10) ** -digits))
         assert many_digits.shared(ball, other) > digits
+
+
+@pytest.mark.parametrize(
+    ("h", "v0", "digits"),
+    [(0.1, 1.0, 60), (0.1, 1.0, 120), (0.5, 30.0, 60), (0.02, 0.1, 30), (0.1, 600.0, 30)],
+)
+def test_both_oracles_of_an_impact(h: float, v0: float, digits: int) -> None:
+    """From a = h/7 to a = 5 h, where the powers of both oracles cancel."""
+    motion = (2.0, 1000.0, v0, h, 1.0, 0.36e9, 0.43e9)
+    found = many_digits.reference(motion, digits, lambda *_: None)
+    assert [quantity.compared for quantity in found.quantities] == [digits] * 10
+    assert min(quantity.shared for quantity in found.quantities) > digits
+
+
+def test_no_digit_depends_on_the_scale_of_the_powers() -> None:
+    """Half as many digits again, and another reach: what is left out is below the digits asked."""
+    R, lam, mu, digits = 2.0, 0.36e9, 0.43e9, 40
+    motion = (R, 72.0, 1.0, lam, mu)
+    near, far = residue_law.law(0.1, 1.0, 0.04, digits), residue_law.law(0.1, 1.0, 0.09, 60)
+    found = residue_law.impact(*motion, near, digits), residue_law.impact(*motion, far, 60)
+    with mp.workdps(80):
+        for one, other in zip(*found, strict=True):
+            assert 0 < abs(one / other - 1) < mpf(10) ** -digits
+
+
+def test_roots_and_bessel_functions_of_the_residues() -> None:
+    with mp.workdps(60):
+        for n in (1, 2, 40):
+            T = residue_routes._root(n)
+            assert abs(mp.sinh(T) - (-1) ** n * T) < mpf(10) ** -55 * abs(T)
+            assert mp.pi * n < T.imag < mp.pi * (n + 0.5)
+        for w in (mp.mpc(0.3, -0.2), mp.mpc(12, -3), mp.mpc(40, -5)):
+            direct = mp.besselk(0, w) / mp.besseli(0, w)
+            assert abs(residue_routes._bessel_quotient(w) - direct) < mpf(10) ** -58
+
+
+def test_nodes_of_the_impacts_rule() -> None:
+    with mp.workdps(60):
+        nodes = residue_law._fejer(24, 200)
+        for power in range(0, 24, 2):
+            total = sum(w * u**power for u, w in nodes)
+            assert abs(total - mpf(1) / (power + 1)) < mpf(10) ** -55
+        assert abs(sum(w * u**24 for u, w in nodes) - mpf(1) / 25) > mpf(10) ** -20
 
 
 @pytest.mark.parametrize("share", [1 / 8, 1 / 12, 1 / 16])
@@ -231,7 +293,7 @@ def test_every_result_is_held_to_the_second_oracle(
     name: str, monkeypatch: pytest.MonkeyPatch, capsys: Captured
 ) -> None:
     """One of its routes is off in the thirteenth digit: so is what it gives, and no more."""
-    right = getattr(contact_routes, name)
+    right = getattr(residue_law, name)
 
     def off(*arguments: Any) -> Any:
         found = right(*arguments)
@@ -239,7 +301,7 @@ def test_every_result_is_held_to_the_second_oracle(
             factor = 1 + mpf(10) ** -12
             return tuple(x * factor for x in found) if name == "impact" else found * factor
 
-    monkeypatch.setattr(contact_routes, name, off)
+    monkeypatch.setattr(residue_law, name, off)
     assert main(["reference", str(PAPER), "--digits", "15"]) == 1
     said = capsys.readouterr().out
     wrong = 4 if name == "impact" else 3
@@ -273,6 +335,20 @@ def test_estimates_grow_with_the_digits() -> None:
     assert seconds == sorted(seconds)
     assert seconds[0] < 10
     assert not many_costs.by_series(1e-3, 0.1, 30)
-    assert many_costs.second_digits(1e-3, 1000) == (100, 100)
+    assert seconds[-1] < 600
+    assert many_costs.second_digits(0.1, 0.5, 1000) == 1000
+    assert many_costs.second_digits(1e-3, 0.1, 1000) == 100
     with pytest.raises(ValueError, match="digits"):
         many_digits.reference(motion, 0, lambda *_: None)
+
+
+def test_a_contact_too_deep_for_powers_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The sums over modes take over, for as many digits as they serve: here made to be few."""
+    monkeypatch.setattr(many_costs, "SECOND_DEEP", 12)
+    monkeypatch.setattr(many_costs, "PATIENCE", 0.0)
+    monkeypatch.setattr(many_costs, "first_seconds", lambda *_: 0.0)
+    motion = (0.5, 0.01, 0.1, 0.01, 1.0, 0.36e9, 0.43e9)
+    found = many_digits.reference(motion, 20, lambda *_: None)
+    assert found.agrees
+    assert {quantity.compared for quantity in found.quantities} == {12}
+    assert any("asked for 12 digits" in line for line in found.lines())

@@ -14,12 +14,12 @@ from typing import Any
 
 SEED = 1
 TOLERANCES = (1e-2, 1e-4, 1e-6, 1e-9)
-OUTPUTS = ("contact_time", "max_indentation", "max_force", "max_contact_radius")
+OUTPUTS = ("contact_time", "max_indentation", "max_force", "max_contact_radius", "restitution")
 
 Scene = Mapping[str, Mapping[str, Any]]
 """Tables of keys, as a scene file holds them."""
-Solve = Callable[[Scene, float], tuple[Sequence[float], Sequence[str], float]]
-"""Results, effects included and bound of a scene at a tolerance."""
+Solve = Callable[[Scene, float], tuple[Sequence[float], Sequence[str], float] | None]
+"""Results, effects included and bound of a scene at a tolerance; None if it is refused."""
 Everything = Callable[[Scene], tuple[Sequence[float], Sequence[str]] | None]
 """Results and effects of a scene with every effect; None if it is out of every model's range."""
 Tell = Callable[[str, int, int], None]
@@ -45,6 +45,8 @@ class Row:
         Effects that applied, on average, beside it.
     quantity, number
         Of which result the largest ratio was, and in which scene.
+    refused
+        How many scenes were told that the tolerance is out of reach.
     """
 
     rtol: float
@@ -55,6 +57,7 @@ class Row:
     applicable: float
     quantity: str
     number: int
+    refused: int
 
     @property
     def kept(self) -> bool:
@@ -83,6 +86,9 @@ def scene(number: int, seed: int = SEED) -> dict[str, dict[str, Any]]:
     impact: dict[str, Any] = {"speed": spread(1e-3, 50.0)}
     if generator.random() < 0.5:
         impact["gravity"] = 9.81
+    if generator.random() < 0.3:
+        # From nothing to much beside a fall through the sphere's own radius.
+        plate["viscous_time"] = sphere["radius"] / impact["speed"] * spread(1e-12, 1e-1)
     return {"sphere": sphere, "plate": plate, "impact": impact}
 
 
@@ -93,6 +99,7 @@ def judge(
     found: dict[float, list[tuple[float, float, str, int, int, int]]] = {
         rtol: [] for rtol in TOLERANCES
     }
+    refused = dict.fromkeys(TOLERANCES, 0)
     for number in range(count):
         if tell is not None:
             tell("scene", number + 1, count)
@@ -102,17 +109,21 @@ def judge(
             continue
         true, applicable = whole
         for rtol in TOLERANCES:
-            values, effects, bound = solve(data, rtol)
+            solved = solve(data, rtol)
+            if solved is None:
+                refused[rtol] += 1
+                continue
+            values, effects, bound = solved
             errors = [abs(value / x - 1.0) for value, x in zip(values, true, strict=True)]
             error = max(errors) if all(map(math.isfinite, errors)) else math.inf
             name = OUTPUTS[errors.index(max(errors))]
             found[rtol].append(
                 (error / rtol, error / bound, name, number, len(effects) - 1, len(applicable) - 1)
             )
-    return tuple(_row(rtol, rows) for rtol, rows in found.items())
+    return tuple(_row(rtol, rows, refused[rtol]) for rtol, rows in found.items())
 
 
-def _row(rtol: float, rows: Sequence[tuple[float, float, str, int, int, int]]) -> Row:
+def _row(rtol: float, rows: Sequence[tuple[float, float, str, int, int, int]], refused: int) -> Row:
     worst = max(rows)
     n = len(rows)
     return Row(
@@ -124,6 +135,7 @@ def _row(rtol: float, rows: Sequence[tuple[float, float, str, int, int, int]]) -
         sum(row[5] for row in rows) / n,
         worst[2],
         worst[3],
+        refused,
     )
 
 

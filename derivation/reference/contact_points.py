@@ -49,11 +49,14 @@ class Series(NamedTuple):
         Largest alpha = a/b [1] that `rest` holds for.
     rest
         Upper bound of what L leaves out [1], for each of the kernels.
+    working
+        Bits that sums of the powers take: beyond a = 4h they cancel.
     """
 
     powers: Mapping[str, arb_poly]
     reach: arb
     rest: arb
+    working: int
 
     def excess(self, name: str, alpha: arb) -> arb:
         """What the plate adds to the 1 of Hertz, see `contact_sums.excess`.
@@ -65,7 +68,8 @@ class Series(NamedTuple):
         """
         if not (alpha > 0 and alpha <= self.reach):
             raise PrecisionError(f"the series is made for a/b up to {self.reach}, got {alpha}")
-        value = self.powers[name](alpha * alpha) + arb(0, self.rest)
+        with flint.ctx.workprec(max(flint.ctx.prec, self.working)):
+            value = self.powers[name](alpha * alpha) + arb(0, self.rest)
         return SHARES[name] * alpha / arb.pi() * value
 
     def slope(self, alpha: arb) -> tuple[arb_poly, arb]:
@@ -196,4 +200,4 @@ def series(eta: Fraction, reach: float, bits: int) -> Series:
             name: arb_poly([(-1) ** m * arb(size(m)) * term for m, term in enumerate(moments)])
             for name, size in COEFFICIENTS.items()
         }
-        return Series(powers, alpha, rest.abs_upper())
+        return Series(powers, alpha, rest.abs_upper(), working)

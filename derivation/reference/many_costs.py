@@ -15,16 +15,23 @@ Motion = tuple[float, float, float, float, float, float, float]
 
 INPUTS = ("R", "m", "v0", "h", "b", "lam", "mu")
 
-SECOND_LAW, SECOND_IMPACT, SECOND_THIN = 300, 200, 100
-"""Digits that oracle 2 is asked for at most, so that it takes minutes: of the law, of the
-impact, and of either in thin plates, where its integral of G - 1 takes the most nodes.
+SECOND_DEEP, PATIENCE = 100, 600.0
+"""Digits that oracle 2 is asked for at most in contacts so much wider than a thin plate is thick
+that its powers take longer than this [s] and than oracle 1.
 """
 
 
-def second_digits(eta: float, digits: int) -> tuple[int, int]:
+def by_residues(eta: float, reach: float, digits: int) -> bool:
+    """Whether oracle 2 takes its power series for contacts up to a/b = reach."""
+    longest = sums_seconds(digits)
+    if digits > SECOND_DEEP:
+        longest = max(PATIENCE, first_seconds(eta, reach, digits))
+    return eta >= THIN or residues_seconds(eta, reach, digits) <= longest
+
+
+def second_digits(eta: float, reach: float, digits: int) -> int:
     """To how many digits oracle 2 is asked for law and impact of a plate of h/b = eta."""
-    limits = (SECOND_THIN,) * 2 if eta < THIN else (SECOND_LAW, SECOND_IMPACT)
-    return min(digits, limits[0]), min(digits, limits[1])
+    return digits if by_residues(eta, reach, digits) else min(digits, SECOND_DEEP)
 
 
 def by_series(eta: float, reach: float, digits: int) -> bool:
@@ -47,12 +54,28 @@ def expected_seconds(motion: Motion, radius: float, digits: int) -> float:
         Digits asked for.
     """
     eta, reach = motion[3] / motion[4], radius / motion[4]
-    first = integrals_seconds(digits)
+    second = residues_seconds(eta, reach, digits)
+    if not by_residues(eta, reach, digits):
+        second = sums_seconds(second_digits(eta, reach, digits))
+    return 1 + first_seconds(eta, reach, digits) + second
+
+
+def first_seconds(eta: float, reach: float, digits: int) -> float:
+    """About how long oracle 1 takes [s]."""
     if by_series(eta, reach, digits):
-        first = series_seconds(eta, digits)
-    law, impact = second_digits(eta, digits)
-    seconds = float(10 * (law / 200) ** 2.3 + 150 * (impact / 200) ** 2.6)
-    return 1 + first + seconds * (4.0 if eta < THIN else 1.0)
+        return series_seconds(eta, digits)
+    return integrals_seconds(digits)
+
+
+def residues_seconds(eta: float, reach: float, digits: int) -> float:
+    """About how long oracle 2 takes by its power series [s]: its powers, and the poles."""
+    powers = 30 * (digits / 1000) ** 3 * (1 + (reach / eta / 2.5) ** 2.5)
+    return float(powers + 50 * eta * 2 / (2 - reach) * (digits / 1000) ** 2.2)
+
+
+def sums_seconds(digits: int) -> float:
+    """About how long oracle 2 takes by its sums over modes [s], for a thin plate."""
+    return float(40 * (digits / 200) ** 2.3 + 600 * (digits / 200) ** 2.6)
 
 
 def series_seconds(eta: float, digits: int) -> float:

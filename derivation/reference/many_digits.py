@@ -2,8 +2,9 @@
 
 Oracle 1 takes the law as a power series (`contact_points`), or in integrals
 (`contact_sums`) where a contact is too deep or a plate too thin for that. Oracle 2 is
-`contact_routes`, evaluated once, for as many digits as it reaches in minutes: what it is
-compared with is certified. Arguments are doubles, taken exactly.
+`residue_law`, or `contact_routes` where a contact is so deep that the former's powers would
+take too long. Either is evaluated once: what it is compared with is certified. Arguments are
+doubles, taken exactly.
 """
 
 import math
@@ -16,10 +17,10 @@ from flint import arb
 from mpmath import mpf
 
 from derivation.formula.ball import to_ball
-from derivation.reference import contact_impact, contact_points, contact_routes
+from derivation.reference import contact_impact, contact_points, contact_routes, residue_law
 from derivation.reference.contact_balls import modulus, ratio_of, settle
 from derivation.reference.contact_impact import Integrals, Law
-from derivation.reference.many_costs import INPUTS, Motion, by_series, second_digits
+from derivation.reference.many_costs import INPUTS, Motion, by_residues, by_series, second_digits
 from derivation.reference.routes import to_ball as exactly
 
 Tell = Callable[[str, int, int], None]
@@ -193,32 +194,47 @@ def reference(motion: Motion, digits: int, tell: Tell) -> Reference:
     found = contact_impact.impact(*motion, wanted, law)
     radii = [float(found.max_contact_radius) * share for share in SHARES]
     balls = [pressed(a, R, b, lam, mu, law, wanted) for a in radii]
-    asked = second_digits(float(eta), digits)
+    second = _second(motion, reach, digits)
     laws: list[Pressed] = []
     for a, both in zip(radii, balls, strict=True):
         tell("oracle 2: law", len(laws) + 1, len(radii))
-        laws.append(Pressed(a, _law_again(a, both, motion, asked[0])))
+        again = _beside(("indentation", "stiffness"), both, second.law(a), second.digits)
+        laws.append(Pressed(a, again))
     tell("oracle 2: impact", 1, 1)
-    return Reference(motion, digits, _impact_again(found, motion, asked[1]), tuple(laws))
+    moved = _beside(found._fields, found, second.impact(), second.digits)
+    return Reference(motion, digits, moved, tuple(laws))
 
 
-def _law_again(a: float, balls: Sequence[arb], motion: Motion, digits: int) -> tuple[Quantity, ...]:
-    """Indentation and stiffness at a contact radius beside oracle 2's."""
-    R, _, _, h, b, lam, mu = motion
-    how = contact_routes.setting(digits)
-    others = (
-        contact_routes.indentation(a, R, h, b, digits, how),
-        contact_routes.stiffness(a, R, h, b, lam, mu, digits, how),
+class _Second(NamedTuple):
+    """Oracle 2 to so many digits: indentation and stiffness at a contact radius, the impact."""
+
+    digits: int
+    law: Callable[[float], Sequence[mpf]]
+    impact: Callable[[], Sequence[mpf]]
+
+
+def _second(motion: Motion, reach: float, digits: int) -> _Second:
+    R, m, v0, h, b, lam, mu = motion
+    asked = second_digits(h / b, reach, digits)
+    if by_residues(h / b, reach, digits):
+        of = residue_law.law(h, b, reach, asked)
+        return _Second(
+            asked,
+            lambda a: (
+                residue_law.indentation(a, R, of, asked),
+                residue_law.stiffness(a, R, lam, mu, of, asked),
+            ),
+            lambda: residue_law.impact(R, m, v0, lam, mu, of, asked),
+        )
+    how = contact_routes.setting(asked)
+    return _Second(
+        asked,
+        lambda a: (
+            contact_routes.indentation(a, R, h, b, asked, how),
+            contact_routes.stiffness(a, R, h, b, lam, mu, asked, how),
+        ),
+        lambda: contact_routes.impact(*motion, asked, how),
     )
-    return _beside(("indentation", "stiffness"), balls, others, digits)
-
-
-def _impact_again(
-    found: contact_impact.Impact, motion: Motion, digits: int
-) -> tuple[Quantity, ...]:
-    """The impact beside oracle 2's."""
-    others = contact_routes.impact(*motion, digits, contact_routes.setting(digits))
-    return _beside(found._fields, found, others, digits)
 
 
 def law_of(eta: Fraction, reach: float, digits: int, tell: Tell) -> Callable[[int], Law]:

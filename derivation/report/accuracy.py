@@ -29,6 +29,7 @@ def accuracy_context(data: Data) -> dict[str, Any]:
         ],
         "case": data["regimes"][1]["name"],
         "errors": list(error_rows(data)),
+        "unsplit": list(unsplit(data)),
         "failures": list(failures(data["rows"])),
         "scaling": [scaling_row(growth) for growth in data["scaling"]],
         "tools": list(tool_rows(data["tools"])),
@@ -90,6 +91,19 @@ def error_rows(data: Data) -> Iterator[str]:
         times = [duration(row[key]["seconds"] if row[key] else None) for key in KINDS]
         cells = [TASKS[row["task"]], method_name(row), *errors, *times, duration(row["setup"])]
         yield " & ".join(cells)
+
+
+def unsplit(data: Data) -> Iterator[str]:
+    """Why truncation and rounding are not told apart, and of which families in which regimes."""
+    groups: dict[str, dict[str, dict[str, None]]] = {}
+    for row in data["rows"]:
+        reason = (row["errors"] or {}).get("unsplit")
+        if reason and not row["fails"]:
+            places = groups.setdefault(reason, {}).setdefault(row["family"], {})
+            places[row["regime"]] = None
+    for reason, families in groups.items():
+        listed = [f"{family} ({', '.join(places)})" for family, places in families.items()]
+        yield f"{prose(reason)}: {escape('; '.join(listed))}."
 
 
 def method_name(row: Data) -> str:

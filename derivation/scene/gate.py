@@ -24,13 +24,15 @@ from derivation.scene.effects.effect import Along, Array, Bound, Effect, Place, 
 from derivation.scene.law import WHOLE_PLATE, Law, Shape
 from derivation.scene.model import Model
 from derivation.scene.motion import largest_radius
-from derivation.scene.quadrature import NODES, rule
+from derivation.scene.quadrature import NODES, rule, stored
 from derivation.scene.scene import OUTPUTS, SceneError
 
 SOLVED_WITH = WHOLE_PLATE | {"curvature", "sphere_elasticity"}
 """Effects that the true pressure's equation holds in itself."""
 TOP = 1.02
 """Bounds are taken up to this times the largest radius."""
+NEAR = 1e-6
+"""How near the largest radius has to be known for that."""
 MARGIN = 1.05
 """Elasticities of S are sampled at nodes and widened by this."""
 HEADS = ("effect", "number", "value", "if left out", "", "why")
@@ -183,7 +185,7 @@ def _state(law: Law) -> _State:
     """The law at its largest radius, or at its limit if that is beyond."""
     nodes = rule(NODES[0])
     with np.errstate(all="ignore"):
-        a = largest_radius(law)
+        a = largest_radius(law, close=NEAR)
         top = min(TOP * a, law.limit) if a < law.limit else law.limit
         radii = np.append(nodes.x, 1.0) * top
         shape = law.at(radii)
@@ -191,7 +193,7 @@ def _state(law: Law) -> _State:
         inner, last = (Shape(*(x[part] for x in shape)) for part in (slice(-1), slice(-1, None)))
         elasticity = nodes.x * (nodes.derivative @ inner.additive) / inner.additive
         equal = np.concatenate(([0.0], radii * np.cbrt(shape.force)))
-        along = _along(law, radii, shape)
+        along = _along(law, radii, shape) if law.model.viscous_time else None
     fall, rise = max(0.0, -float(np.min(elasticity))), max(0.0, float(np.max(elasticity)))
     # P goes with the cube of Hertz' radius, and dP = 2 E* a_H d delta/S.
     swelling = inner.slope / (inner.additive * np.cbrt(inner.force) ** 2)
@@ -206,7 +208,7 @@ def _along(law: Law, radii: Array, shape: Shape) -> Along:
     """Force, indentation, stiffness and energy at the nodes and the largest radius."""
     nodes, top = rule(NODES[0]), radii[-1]
     power = (shape.force * shape.slope)[:-1]
-    share = np.append(nodes.energy @ power, np.sum(nodes.weights * nodes.x**4 * power))
+    share = np.append(stored(NODES[0]) @ power, np.sum(nodes.weights * nodes.x**4 * power))
     unit = law.force(top, Shape(*np.ones(4))) * law.indentation(top, Shape(*np.ones(4)))
     return Along(
         law.force(radii, shape),
@@ -276,7 +278,8 @@ def _worst(state: _State, bound: Bound, outputs: Sequence[str]) -> float:
     logarithms[-1] += (wider - 1.0) * kept
     # Link 18 speaks of Hertz' radius of the force, with which the contact's own may grow faster.
     logarithms[3] += (state.growth - 1.0) * math.log1p(found[3]) + state.growth * radius
-    errors = dict(zip(OUTPUTS, np.expm1(logarithms), strict=True))
+    with np.errstate(over="ignore"):  # no bound, as good as
+        errors = dict(zip(OUTPUTS, np.expm1(logarithms), strict=True))
     return float(max(errors[name] for name in outputs))
 
 

@@ -21,7 +21,7 @@ from derivation.scene.effects import BY_NAME
 from derivation.scene.effects.effect import Array, PlateEffect, Share
 from derivation.scene.effects.finite_thickness import plate_share
 from derivation.scene.model import Model
-from derivation.scene.quadrature import NODES, rule
+from derivation.scene.quadrature import NODES, gauss
 
 if TYPE_CHECKING:
     from generated.true_pressure import Contact, Plate
@@ -136,8 +136,8 @@ class Law:
         """
         if "pressure" in self.effects:
             return float(self._contact(np.array([a])).centre_pressure[0])
-        nodes = rule(NODES[2])
-        mean = float(np.sum(nodes.weights * self._sphere(nodes.x * a).slope))
+        x, weights = gauss(NODES[2])
+        mean = float(np.sum(weights * self._sphere(x * a).slope))
         return 2.0 / np.pi * self.modulus * (a / self.model.R) * mean
 
     def pressure(self, r: Array, a: float) -> Array:

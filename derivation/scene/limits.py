@@ -8,7 +8,7 @@ import numpy as np
 from derivation.scene import kernels
 from derivation.scene.law import Law
 from derivation.scene.model import Model
-from derivation.scene.quadrature import rule
+from derivation.scene.quadrature import gauss
 from derivation.scene.scene import SceneError
 
 HERTZ_LIMIT = 0.15
@@ -101,9 +101,9 @@ def check_numbers(model: Model, *values: float) -> None:
 
 def energy_of(law: Law, a: float) -> float:
     """Energy [J] the contact takes up to a contact radius [m], the integral of P over delta."""
-    nodes = rule(POINTS)
-    shape = law.at(nodes.x * a)
-    mean = float(np.sum(nodes.weights * nodes.x**4 * shape.force * shape.slope))
+    x, weights = gauss(POINTS)
+    shape = law.at(x * a)
+    mean = float(np.sum(weights * x**4 * shape.force * shape.slope))
     return 8.0 / 3.0 * law.modulus * a * a * (a / law.model.R) * a * (a / law.model.R) * mean
 
 

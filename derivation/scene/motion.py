@@ -98,12 +98,14 @@ class Motion:
         return _history(law, self, times)
 
 
-def largest_radius(law: Law, n: int = NODES[0], start: float = math.inf) -> float:
+def largest_radius(
+    law: Law, n: int = NODES[0], start: float = math.inf, close: float = _CLOSE
+) -> float:
     """Contact radius [m] at which the sphere turns; NaN if it is beyond the law's range.
 
     Newton's iteration in the logarithms of energy and radius, whose relation is nearly
-    linear, from `start` or from what Hertz' and the thin plate's law say. No energy is formed,
-    which could leave the range of doubles.
+    linear, from `start` or from what Hertz' and the thin plate's law say, until a step is as
+    small as `close`. No energy is formed, which could leave the range of doubles.
     """
     model, x = law.model, rule(n).x
     goal = math.log(3.0 / 16.0) + math.log(model.m) - float(np.log(law.modulus))
@@ -124,9 +126,9 @@ def largest_radius(law: Law, n: int = NODES[0], start: float = math.inf) -> floa
         step = (goal + math.log(share) - math.log(mean) - 5.0 * math.log(a)) / steep
         if not steep > 0.0 or (a >= limit and step > 0.0):
             return math.nan
-        if abs(step) <= _CLOSE:
-            break
         a = min(a * math.exp(max(-1.0, min(1.0, step))), limit)
+        if abs(step) <= close:
+            break
     return a
 
 

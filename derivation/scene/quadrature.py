@@ -19,7 +19,7 @@ class Rule(NamedTuple):
 
     `u` and `u_weights` are nodes in time. `at_times` gives the polynomial at q = 1 - u^2,
     `work` the mean of q^4 times it over [1 - u^2, 1], `path` that of q times it; `derivative`
-    its slope at the nodes x, `energy` the integral of q^4 times it from 0 to each of them.
+    its slope at the nodes x.
     """
 
     x: Array
@@ -30,15 +30,14 @@ class Rule(NamedTuple):
     work: Array
     path: Array
     derivative: Array
-    energy: Array
 
 
 @cache
 def rule(n: int, times: int | None = None) -> Rule:
     """Gauss' rule of n nodes, n in time if not said otherwise, and its matrices."""
     nodes, weights = leggauss(n)
-    x, w = _unit(n)
-    u, u_weights = _unit(times or n)
+    x, w = gauss(n)
+    u, u_weights = gauss(times or n)
     # Legendre coefficients of the polynomial through values at the nodes.
     analysis = (legvander(nodes, n - 1) * weights[:, None] * (np.arange(n) + 0.5)).T
 
@@ -52,12 +51,22 @@ def rule(n: int, times: int | None = None) -> Rule:
     derivative = 2.0 * legvander(nodes, n - 2) @ slopes @ analysis
     work = np.einsum("ij,ijk->ik", w * inner**4, spread)
     path = np.einsum("ij,ijk->ik", w * inner, spread)
-    below = np.outer(x, x)
-    energy = np.einsum("i,ij,ijk->ik", x, w * below**4, values(below))
-    return Rule(x, w, u, u_weights, values(q), work, path, derivative, energy)
+    return Rule(x, w, u, u_weights, values(q), work, path, derivative)
 
 
-def _unit(n: int) -> tuple[Array, Array]:
+@cache
+def stored(n: int) -> Array:
+    """Matrix of the integral of q^4 times a polynomial from 0 to each node."""
+    nodes, weights = leggauss(n)
+    x, w = gauss(n)
+    analysis = (legvander(nodes, n - 1) * weights[:, None] * (np.arange(n) + 0.5)).T
+    inner = np.outer(x, x)
+    values = legvander(2.0 * inner - 1.0, n - 1) @ analysis
+    return np.asarray(np.einsum("i,ij,ijk->ik", x, w * inner**4, values), dtype=np.float64)
+
+
+@cache
+def gauss(n: int) -> tuple[Array, Array]:
     """Gauss' nodes and weights on [0, 1]."""
     nodes, weights = leggauss(n)
     return ((1.0 + nodes) / 2.0).astype(np.float64), (weights / 2.0).astype(np.float64)

@@ -47,7 +47,7 @@ def expect_sure(regime: Regime) -> None:
         If it does not.
     """
     if deepest(regime) > SURE_DEPTH * regime.h:
-        raise NotImplementedError("the series does not reach so far")
+        raise NotImplementedError("the series that stands for the law does not reach so far")
 
 
 class Law:

@@ -29,12 +29,15 @@ class Errors:
         The method against the same without rounding; the total where nothing is truncated.
     worst
         Argument of the worst point, in hexadecimal.
+    unsplit
+        Why truncation and rounding are not told apart, or None.
     """
 
     total: float
     truncation: float | None
     rounding: float | None
     worst: str
+    unsplit: str | None = None
 
 
 @dataclass(frozen=True)
@@ -63,7 +66,8 @@ def certified(values: Sequence[arb], points: Any) -> Errors:
     """Of balls that enclose the truth: their radii."""
     with flint.ctx.workprec(64):
         worst = max(float((x.rad() / abs(x).abs_lower()).log()) for x in values)
-    return Errors(-worst / math.log(10), None, None, float(points[0]).hex())
+    reason = "a ball's radius holds both"
+    return Errors(-worst / math.log(10), None, None, float(points[0]).hex(), reason)
 
 
 def split(method: Method, problem: Problem, values: Sequence[Any]) -> Errors:
@@ -71,24 +75,26 @@ def split(method: Method, problem: Problem, values: Sequence[Any]) -> Errors:
     most = problem.digits
     with flint.ctx.workprec(math.ceil(most * LOG2_10) + 128):
         total = [digits(v, t, most) for v, t in zip(values, problem.truths, strict=True)]
-        same = _same(method, problem)
+        same, unsplit = _same(method, problem)
         truncation, rounding = None, min(total) if method.exact else None
         if same is not None:
             balls = [as_ball(value) for value in same]
             truncation = min(digits(s, t, most) for s, t in zip(balls, problem.truths, strict=True))
             rounding = min(digits(v, s, most) for v, s in zip(values, balls, strict=True))
     place = int(np.argmin(total))
-    return Errors(total[place], truncation, rounding, float(problem.points[place]).hex())
+    worst = float(problem.points[place]).hex()
+    return Errors(total[place], truncation, rounding, worst, unsplit)
 
 
-def _same(method: Method, problem: Problem) -> Sequence[Any] | None:
+def _same(method: Method, problem: Problem) -> tuple[Sequence[Any] | None, str | None]:
+    """Results without rounding; or why there are none."""
     if method.same is None:
-        return None
+        return None, None if method.exact else "the method exists in this arithmetic alone"
     try:
         found: Sequence[Any] = method.same(problem.regime)(problem.points)
-    except NotImplementedError:
-        return None
-    return found
+    except NotImplementedError as reason:
+        return None, str(reason)
+    return found, None
 
 
 def digits(value: Any, true: arb, most: float) -> float:

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from functools import cache
 
 import numpy as np
 from flint import arb
@@ -9,9 +10,12 @@ from flint import arb
 from derivation.measure.accuracy.arithmetic import DOUBLE, Arithmetic, Array
 from derivation.measure.accuracy.coefficients import closed_form, series
 from derivation.measure.accuracy.interface import Call, Method, Regime
-from derivation.measure.accuracy.law_sums import exact_for, wrapped
+from derivation.measure.accuracy.law_sums import EXACT, exact_for, wrapped
 from derivation.reference import contact_balls
 from generated import contact_series
+
+SURE_DIGITS = 26
+"""Of the law where a surrogate is made without rounding: a truncation below it is a bound."""
 
 Coefficients = Callable[[float, float, int, int], list[arb]]
 
@@ -75,8 +79,7 @@ def chebyshev(degree: int, ar: Arithmetic = DOUBLE) -> Method:
 
     def prepare(regime: Regime) -> Call:
         low, high = regime.low**2, regime.high**2
-        x = np.cos(math.pi * (np.arange(degree + 1) + 0.5) / (degree + 1))
-        A = np.sqrt((high + low) / 2 + (high - low) / 2 * x)
+        A, x = _places(regime, degree), _chebyshev(degree)
         shares = [contact_balls.departure(float(r) * regime.h, regime.h, regime.b, 20) for r in A]
         values = np.array([float(F) for F in shares]) / A
         fitted = np.polynomial.chebyshev.chebfit(x, values, degree)
@@ -103,7 +106,55 @@ def chebyshev(degree: int, ar: Arithmetic = DOUBLE) -> Method:
 
         return wrapped(ar, call)
 
-    return Method("law", "Chebyshev surrogate", f"degree {degree}", prepare, ar.name)
+    def same(regime: Regime) -> Call:
+        A = _places(regime, degree)
+        return wrapped(EXACT, _interpolant([float(r) * regime.h for r in A], regime))
+
+    return Method("law", "Chebyshev surrogate", f"degree {degree}", prepare, ar.name, same)
+
+
+def _places(regime: Regime, degree: int) -> Array:
+    """a/h of the Chebyshev nodes in A^2."""
+    low, high = regime.low**2, regime.high**2
+    return np.sqrt((high + low) / 2 + (high - low) / 2 * _chebyshev(degree))
+
+
+def _chebyshev(degree: int) -> Array:
+    return np.cos(math.pi * (np.arange(degree + 1) + 0.5) / (degree + 1))
+
+
+def _interpolant(radii: list[float], regime: Regime) -> Call:
+    """The polynomial in A^2 through F/A at contact radii, by divided differences in balls."""
+    with EXACT.context():
+        h, R = arb(regime.h), arb(regime.R)
+        A = [arb(a) / h for a in radii]
+        t = [x * x for x in A]
+        rows = [_lift(a, regime) / x for a, x in zip(radii, A, strict=True)]
+        for k in range(1, len(rows)):
+            for i in reversed(range(k, len(rows))):
+                rows[i] = (rows[i] - rows[i - 1]) / (t[i] - t[i - k])
+
+    def call(a: Array) -> Array:
+        A = a / h
+        value = 0 * A
+        for row, place in zip(reversed(rows), reversed(t), strict=True):
+            value = value * (A * A - place) + row
+        return (1 + A * value) * a * a / R
+
+    return call
+
+
+@cache
+def _departures(a: float, h: float, b: float) -> tuple[arb, arb]:
+    """F, and A F' = 2 ((R/2a) d delta/da - 1 - F), in balls."""
+    with EXACT.context():
+        lift = contact_balls.departure(a, h, b, SURE_DIGITS)
+        slope = contact_balls.slope(a, 1.0, h, b, SURE_DIGITS) / (2 * arb(a)) - 1
+        return lift, 2 * (slope - lift)
+
+
+def _lift(a: float, regime: Regime) -> arb:
+    return contact_balls.departure(a, regime.h, regime.b, SURE_DIGITS)
 
 
 def table(knots: int) -> Method:
@@ -122,7 +173,33 @@ def table(knots: int) -> Method:
 
         return call
 
-    return Method("law", "table of cubics", f"{knots} knots", prepare)
+    def same(regime: Regime) -> Call:
+        t = np.linspace(regime.low**2, regime.high**2, knots)
+        return wrapped(EXACT, lambda a: np.array([_cubic(x, t, regime) for x in a]))
+
+    return Method("law", "table of cubics", f"{knots} knots", prepare, same=same)
+
+
+def _cubic(a: arb, t: Array, regime: Regime) -> arb:
+    """The indentation by the cubic between the two knots about a contact radius.
+
+    Knots are radii a in doubles: that moves them by half a unit in the last place.
+    """
+    h, R = arb(regime.h), arb(regime.R)
+    A = a / h
+    step = (t[-1] - t[0]) / (t.size - 1)
+    first = min(max(int((float(A) ** 2 - t[0]) / step), 0), t.size - 2)
+    radii = [math.sqrt(t[0] + (first + k) * step) * regime.h for k in (0, 1)]
+    places, values, slopes = [], [], []
+    for radius in radii:
+        lift, rise = _departures(radius, regime.h, regime.b)
+        share = arb(radius) / h
+        places.append(share * share)
+        values.append(lift / share)
+        slopes.append((rise - lift) / (2 * share**3))
+    width = places[1] - places[0]
+    bent = _between((A * A - places[0]) / width, *values, *(width * slope for slope in slopes))
+    return (1 + A * bent) * a * a / R
 
 
 def hermite(t: Array, values: Array, slopes: Array) -> Call:
@@ -135,7 +212,11 @@ def hermite(t: Array, values: Array, slopes: Array) -> Call:
         u = (x - start) / step
         i = np.clip(u.astype(np.intp), 0, most)
         u -= i
-        f0, f1, d0, d1 = values[i], values[i + 1], rises[i], rises[i + 1]
-        return f0 + u * (d0 + u * (3 * (f1 - f0) - 2 * d0 - d1 + u * (2 * (f0 - f1) + d0 + d1)))
+        return _between(u, values[i], values[i + 1], rises[i], rises[i + 1])
 
     return call
+
+
+def _between(u: Array, f0: Array, f1: Array, d0: Array, d1: Array) -> Array:
+    """The cubic on [0, 1] through two values with two slopes."""
+    return f0 + u * (d0 + u * (3 * (f1 - f0) - 2 * d0 - d1 + u * (2 * (f0 - f1) + d0 + d1)))

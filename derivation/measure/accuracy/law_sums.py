@@ -8,13 +8,15 @@ import flint
 from flint import arb
 
 from derivation.measure.accuracy.arithmetic import DOUBLE, Arithmetic, Array, Balls
-from derivation.measure.accuracy.interface import Call, Method, Regime
+from derivation.measure.accuracy.interface import Call, Method, Regime, unsplit
 
 EXACT = Balls(40)
 """What stands for exact arithmetic where a truncated method in doubles is judged."""
 
 SAME_MODES = 1000
 """Direct sums of more modes have no counterpart in balls: their zeros would take minutes."""
+
+DEAR = "so many zeros of J0 in balls would take minutes"
 
 _MODES, _ELEMENTS = 4096, 65536
 """Modes, and elements of an array, worked on at a time, so that they stay in the cache."""
@@ -101,7 +103,7 @@ def direct(modes: int, ar: Arithmetic = DOUBLE, quick: bool = True) -> Method:
     """The same sum with a plate factor that neither overflows nor cancels."""
     return Method(
         "law", "direct sum", f"{modes:g} modes", _direct(ar, modes, False), ar.name,
-        _direct(EXACT, modes, False) if modes <= SAME_MODES else None, quick=quick,
+        _direct(EXACT, modes, False) if modes <= SAME_MODES else unsplit(DEAR), quick=quick,
     )  # fmt: skip
 
 
@@ -183,7 +185,7 @@ def split(
 
     def same(regime: Regime) -> Call:
         if modes_of(regime, share) > SAME_MODES:
-            raise NotImplementedError("zeros in balls would take minutes")
+            raise NotImplementedError(DEAR)
         return _split(exact_for(ar), nodes, share, double_exponential, digits)(regime)
 
     return Method(

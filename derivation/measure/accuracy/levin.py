@@ -1,16 +1,24 @@
 """The contact law by Levin's u-transformation of the direct sum's partial sums."""
 
 import math
+from functools import cache
 
 import numpy as np
+from flint import acb, arb
 
 from derivation.measure.accuracy.arithmetic import DOUBLE
 from derivation.measure.accuracy.interface import Call, Method, Regime
+from derivation.measure.accuracy.law_sums import EXACT
+from derivation.reference import zeros as certified
+from derivation.reference.contact_sums import plate_excess
 
 TURN = 2 * math.pi / 3
 """Phase between two samples of the partial sums: a third of a circle separates them best."""
 
 MOST_MODES = 100_000
+
+ZERO_BITS = 150
+"""Of zeros in balls: the transformation takes digits, and the head of the sum too."""
 
 
 def levin(samples: int) -> Method:
@@ -46,7 +54,58 @@ def levin(samples: int) -> Method:
 
         return lambda a: np.array([one(float(x)) for x in np.atleast_1d(a)])
 
-    return Method("law", "Levin u", f"{samples} samples", prepare, fails=fails, one_by_one=True)
+    def same(regime: Regime) -> Call:
+        def one(a: float) -> arb:
+            with EXACT.context():
+                return _in_balls(a, regime, samples)
+
+        return lambda a: [one(float(x)) for x in a]
+
+    return Method(
+        "law", "Levin u", f"{samples} samples", prepare, same=same, fails=fails, one_by_one=True
+    )  # fmt: skip
+
+
+def _in_balls(a: float, regime: Regime, samples: int) -> arb:
+    """The same samples of the same sum, without rounding."""
+    alpha = arb(a) / arb(regime.b)
+    scale = 8 * arb(regime.b) ** 2 / (arb.pi() * arb(regime.R))
+    stride = max(1, round(TURN / (a / regime.b * math.pi)))
+    head, total = arb(0), acb(0)
+    sums, estimates, places = [], [], []
+    for n in range(1, stride * (samples + 2) + 1):
+        j, weight = _mode(n, regime.h, regime.b)
+        y = alpha * j
+        if n <= stride:
+            head += weight * EXACT.shape(y)
+            continue
+        sine, cosine = y.sin_cos()
+        term = weight * acb(cosine + y * sine, sine - y * cosine)
+        total += term
+        if n % stride == 0:
+            sums.append(total)
+            estimates.append(n * term)
+            places.append(arb(n))
+    return scale * (head + _limit(sums, estimates, places).imag)
+
+
+@cache
+def _mode(n: int, h: float, b: float) -> tuple[arb, arb]:
+    """j_n, and G/(j_n^4 J1(j_n)^2)."""
+    j, slope = certified.j0_zero(n, ZERO_BITS), certified.j1_at_zero(n, ZERO_BITS)
+    factor = 1 + plate_excess(acb(2 * j * arb(h) / arb(b))).real
+    return j, factor / (j**4 * slope**2)
+
+
+def _limit(sums: list[acb], estimates: list[acb], places: list[arb]) -> acb:
+    """`u_transform` in balls."""
+    k = len(sums) - 1
+    weights = [
+        (-1) ** i * math.comb(k, i) * (places[i] / places[-1]) ** (k - 1) / estimates[i]
+        for i in range(k + 1)
+    ]
+    above = (weight * value for weight, value in zip(weights, sums, strict=True))
+    return sum(above, acb(0)) / sum(weights, acb(0))
 
 
 def u_transform(sums: np.ndarray, estimates: np.ndarray, places: np.ndarray) -> complex:

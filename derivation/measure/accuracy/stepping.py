@@ -7,11 +7,18 @@ from typing import Any
 
 import numpy as np
 
-from derivation.measure.accuracy.arithmetic import Array
-from derivation.measure.accuracy.by_series import LONG_NUMBERS, sure_law
-from derivation.measure.accuracy.interface import Call, Doubles, Method, Regime
+from derivation.measure.accuracy.arithmetic import HAS_LONG, LONG, Array
+from derivation.measure.accuracy.by_series import (
+    LONG_NUMBERS,
+    SURE_TERMS,
+    Law,
+    expect_sure,
+    sure_law,
+)
+from derivation.measure.accuracy.interface import Call, Doubles, Method, Regime, unsplit
 from derivation.measure.accuracy.law_sums import wrapped
 from derivation.measure.accuracy.motion import hertz_time
+from derivation.measure.accuracy.replay import turning_time
 from generated import contact_law, contact_series
 from generated.impact import impact
 
@@ -21,8 +28,8 @@ LONGEST = 40.0
 MOST_STEPS = 80_000
 """Enough for 1000 steps of the longest of these, twice over."""
 
-SAME_STEPS = 1500
-"""Steps in long numbers at most: each takes some milliseconds."""
+SAME_STEPS, LONG_STEPS = 1500, 20_000
+"""Steps at most in long numbers, each of which takes some milliseconds, and in long doubles."""
 
 
 def scalar_force(regime: Regime) -> Callable[[float], float]:
@@ -70,6 +77,13 @@ def scalar_force(regime: Regime) -> Callable[[float], float]:
     return force
 
 
+UNSPLIT = {
+    "Radau": "it leaves its stages' equations at a tolerance of its own, neither one nor the other",
+    "LSODA": "its orders and its past steps stay inside compiled code: they cannot be repeated",
+}
+"""Solvers without a counterpart in longer numbers, and why."""
+
+
 def solver(name: str, rtol: float, share: float | None = None, quick: bool = True) -> Method:
     """SciPy's solve_ivp up to the turning point; `share` of the contact bounds its steps."""
     limited = "" if share is None else f", steps below T/{1 / share:g}"
@@ -78,33 +92,52 @@ def solver(name: str, rtol: float, share: float | None = None, quick: bool = Tru
         return None if find_spec("scipy") else "SciPy not installed"
 
     def prepare(regime: Regime) -> Call:
-        from scipy.integrate import solve_ivp
-
-        r = regime
-
         def one(v0: float) -> float:
-            force = scalar_force(regime)
-            time = float(impact(r.R, r.m, v0, r.h, r.b, r.lam, r.mu).contact_time)
-            depth = v0 * time
-
-            def rate(t: float, state: Doubles) -> tuple[float, float]:  # noqa: ARG001
-                return state[1], -force(state[0]) / r.m
-
-            def top(t: float, state: Doubles) -> float:  # noqa: ARG001
-                return float(state[1])
-
-            top.terminal = True  # type: ignore[attr-defined]
-            found = solve_ivp(
-                rate, (0, 2 * time), (0.0, v0), method=name, rtol=rtol,
-                atol=(1e-3 * rtol * depth, 1e-3 * rtol * v0), events=top,
-                max_step=np.inf if share is None else share * time,
-            )  # fmt: skip
+            found = solved(regime, v0)
             return 2 * float(found.t_events[0][0]) if found.t_events[0].size else math.nan
 
         return lambda v0: np.array([one(float(v)) for v in np.atleast_1d(v0)])
 
+    def solved(regime: Regime, v0: float, dense: bool = False) -> Any:
+        from scipy.integrate import solve_ivp
+
+        r = regime
+        force = scalar_force(regime)
+        time = float(impact(r.R, r.m, v0, r.h, r.b, r.lam, r.mu).contact_time)
+        depth = v0 * time
+
+        def rate(t: float, state: Doubles) -> tuple[float, float]:  # noqa: ARG001
+            return state[1], -force(state[0]) / r.m
+
+        def top(t: float, state: Doubles) -> float:  # noqa: ARG001
+            return float(state[1])
+
+        top.terminal = True  # type: ignore[attr-defined]
+        return solve_ivp(
+            rate, (0, 2 * time), (0.0, v0), method=name, rtol=rtol,
+            atol=(1e-3 * rtol * depth, 1e-3 * rtol * v0), events=top, dense_output=dense,
+            max_step=np.inf if share is None else share * time,
+        )  # fmt: skip
+
+    def same(regime: Regime) -> Call:
+        expect_sure(regime)
+        if not HAS_LONG:
+            raise NotImplementedError("the platform's long double is no longer than double")
+        force = Law(regime, SURE_TERMS, LONG).force
+
+        def one(v0: float) -> Any:
+            found = solved(regime, v0, dense=True)
+            if not found.t_events[0].size:
+                raise NotImplementedError("it steps over the whole contact")
+            pieces = found.sol.interpolants
+            ends = [piece.t_old for piece in pieces] + [pieces[-1].t]
+            return 2 * turning_time(v0, regime.m, ends, force)
+
+        return lambda v0: [one(float(v)) for v in v0]
+
     return Method(
-        "impact", f"solve_ivp {name}{limited}", f"rtol {rtol:g}", prepare, fails=fails,
+        "impact", f"solve_ivp {name}{limited}", f"rtol {rtol:g}", prepare,
+        same=unsplit(UNSPLIT[name]) if name in UNSPLIT else same, fails=fails,
         one_by_one=True, quick=quick,
     )  # fmt: skip
 
@@ -133,12 +166,16 @@ def verlet(
         return lambda v0: _verlet(v0.astype(dtype), free(v0.astype(dtype)) / steps, r.m, force)
 
     def same(regime: Regime) -> Call:
-        if steps * _longer(regime) > SAME_STEPS:
-            raise NotImplementedError("so many steps in long numbers would take minutes")
-        law, free = sure_law(regime), hertz_time(regime)
+        expect_sure(regime)
+        count, free = steps * _longer(regime), hertz_time(regime)
+        if count > (LONG_STEPS if HAS_LONG else SAME_STEPS):
+            raise NotImplementedError("so many steps in longer numbers would take minutes")
+        few = count <= SAME_STEPS
+        law = sure_law(regime) if few else Law(regime, SURE_TERMS, LONG)
         return wrapped(
-            LONG_NUMBERS, lambda v0: _verlet(v0, free(v0) / steps, law.m, law.force)
-        )  # fmt: skip
+            LONG_NUMBERS if few else LONG,
+            lambda v0: _verlet(v0, free(v0) / steps, law.m, law.force),
+        )
 
     return Method(
         "impact", "velocity Verlet", f"Hertz's time/{steps}", prepare, np.dtype(dtype).name, same,

@@ -30,14 +30,14 @@ def far_sum(a: Exact, h: Exact, b: Exact, digits: int = 30) -> arb:
     Raises
     ------
     ValueError
-        Unless 0 < a < b.
+        Unless all are above 0 and a < b.
     """
     width, eta = ratio_of(a, b), ratio_of(h, b)
-    if not 0 < width < 1:
-        raise ValueError(f"the sum has meaning for 0 < a < b, got a/b = {float(width)}")
-    return settle(
-        lambda bits: (_summed(width, eta, bits),), digits, f"S at a/b = {float(width)}"
-    )[0]
+    if not width < 1:
+        raise ValueError(f"the sum has meaning for a < b, got a/b = {float(width)}")
+    return settle(lambda bits: (_summed(width, eta, bits),), digits, f"S at a/b = {float(width)}")[
+        0
+    ]
 
 
 def _summed(width: Fraction, eta: Fraction, bits: int) -> arb:

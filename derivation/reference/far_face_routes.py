@@ -35,7 +35,7 @@ def _finite_part(A: mpf) -> mpf:
     with mp.workdps(2 * mp.dps + 10):  # F - 6/T cancels near 0, as F itself does
 
         def near(T: mpf) -> mpf:
-            return _weight(T, A) - 6 / T if T > mpf(10) ** (-mp.dps // 6) else mpf(0)
+            return _weight(T, A) - 6 / T if mpf(10) ** (-mp.dps // 6) < T else mpf(0)
 
         start = mp.quad(near, [mpf(0), min(mpf(1), step / 2), mpf(1)])
     return start + mp.quad(lambda T: _weight(T, A), points)

@@ -155,9 +155,11 @@ class Law:
                 r, self._solved_plate, a, R, self.modulus, own, sphere=curved
             )
             return found
-        nodes, width = rule(NODES[2]), np.sqrt((a - r) * (a + r))
-        slopes = self._sphere(np.hypot(r[:, None], width[:, None] * nodes.x)).slope
-        return 2.0 / np.pi * self.modulus * (width / R) * (slopes @ nodes.weights)
+        x, weights = gauss(NODES[2])
+        width = np.sqrt((a - r) * (a + r))
+        slopes = self._sphere(np.hypot(r[:, None], width[:, None] * x)).slope
+        mean: Array = slopes @ weights
+        return 2.0 / np.pi * self.modulus * (width / R) * mean
 
     def max_tension(self, a: float, force: float, held: bool = True) -> float:
         """Stress on the far face under the axis [Pa], of a force [N] spread as Hertz' over a.

@@ -147,9 +147,11 @@ class Result:
     def pressures(self, points: int = POINTS) -> Pressures:
         """The largest contact's pressure over the distance from its axis, beside Hertz'.
 
-        Hertz' is that of the same force, on the radius that belongs to it.
+        Hertz' is that of the same force, on the radius that belongs to it; of a viscous contact
+        both are the elastic part at its widest.
         """
-        law, a, force = self.gate.law, self.max_contact_radius, self.max_force
+        law, a = self.gate.law, self.max_contact_radius
+        force = float(law.force(np.array([a]), law.at(np.array([a])))[0])
         hertz = float(law.hertz_radius(np.array(force)))
         # Closer towards the edge, where the pressure ends like a root.
         r = max(a, hertz) * np.sin(np.linspace(0.0, np.pi / 2, points))

@@ -25,10 +25,8 @@ themselves at z = -h: of S a clamp takes sum g [12 (1 + 3 n - n Q)/(j^3 J1) + 8 
 
 from functools import cache
 
-import flint
 import sympy as sp
 
-from derivation.formula.ball import to_ball
 from derivation.formula.proof import Proof, prove
 from derivation.formula.record import Formula
 from derivation.formula.symbols import (
@@ -36,7 +34,6 @@ from derivation.formula.symbols import (
     A_j,
     P,
     PlateRoot,
-    R,
     T,
     a,
     a_ratio,
@@ -124,7 +121,7 @@ def _mode() -> sp.Expr:
 
 
 @cache
-def far_stress() -> tuple[Formula, Formula]:
+def far_stress() -> tuple[Formula, ...]:
     """One mode of the stress on the far face's centre, and of S."""
     far_factor()
     stress = -ONE_AND_NU / 2 * A_j * far_function().subs(T, 2 * phi * h)
@@ -255,10 +252,7 @@ def far_powers(count: int = WIDE_TERMS) -> tuple[sp.Rational, ...]:
     prove(
         "Stress factor at T = 0",
         "The first powers by SymPy's own series.",
-        {
-            f"T^{2 * k - 2}": series.coeff(T, 2 * k - 2) - found[k]
-            for k in range(min(3, count + 1))
-        },
+        {f"T^{2 * k - 2}": series.coeff(T, 2 * k - 2) - found[k] for k in range(min(3, count + 1))},
     )
     return tuple(found[1:])
 

@@ -86,6 +86,7 @@ def test_plot_shows_what_was_computed() -> None:
         ("time", "velocity"),
         ("time", "contact force"),
         ("indentation", "contact force"),
+        ("distance from the axis", "largest pressure"),
     ]
     assert labels[0] == ("time [ms]", "indentation [mm]")
     x, y = axes[3].lines[0].get_data()

@@ -319,6 +319,18 @@ EDGE_FUNCTIONS: tuple[ContactRow, ...] = tuple(
     )
     for kind, what in (("supported", "simple support"), ("clamped", "clamp"))
 )
+FAR_FACE_FUNCTIONS: tuple[ContactRow, ...] = tuple(
+    (
+        f"{kind}far_stress",
+        "far_face",
+        ("P", "a", *PLATE[1:], *ELASTIC),
+        "Pa",
+        r"\sigma_{rr}(0, -h)",
+        "",
+        f"tension of the far face under the axis{what}",
+    )
+    for kind, what in (("", ""), ("supported_", ", simple support"), ("clamped_", ", clamp"))
+)
 CONTACT_FUNCTIONS: tuple[ContactRow, ...] = (
     # name, module, arguments, unit, symbol, equation, meaning
     ("indentation", "contact_law", ("a", *PLATE), "m", r"\delta", "6", "indentation"),
@@ -374,6 +386,7 @@ CONTACT_FUNCTIONS: tuple[ContactRow, ...] = (
         "logarithmic derivatives of time and peaks by every parameter",
     ),
     *EDGE_FUNCTIONS,
+    *FAR_FACE_FUNCTIONS,
     ("history", "impact", ("t", *IMPACT), "m, m/s, m, N", "", "13", "an impact over time"),
     ("sphere_contact", "effects", ("a_over_R",), "1", "", "7", "a sphere over a paraboloid"),
     (

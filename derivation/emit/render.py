@@ -47,6 +47,7 @@ from derivation.rewrite.blocks import blocks
 from derivation.rewrite.contact_tables import contact_context, impact_context, sensitivity_context
 from derivation.rewrite.edge_tables import edge_context
 from derivation.rewrite.effect_tables import effect_context
+from derivation.rewrite.far_face_tables import far_face_context
 from derivation.rewrite.form import ONCE, SCALINGS, Block, Form, Seam
 from derivation.rewrite.moment_tables import moment_context
 from derivation.rewrite.pressure_tables import pressure_context
@@ -117,6 +118,7 @@ def modules(kernels: tuple[Kernel, ...]) -> tuple[Module, ...]:
         tables("impact", {**impact_context(), "promises": read_promises()}),
         tables("sensitivity", sensitivity_context()),
         tables("edge", edge_context()),
+        tables("far_face", far_face_context()),
         tables("effects", effect_context()),
         tables("viscosity", viscosity_context()),
         Module("simple_impact", "simple_impact", simple_impact_context()),

@@ -70,6 +70,9 @@ ABOUT = {
     "viscosity": "A contact whose force lags behind its elastic part by a time A_v takes a part of "
     "the speed. In the plane of the velocity and the root of the elastic energy the motion is a "
     "spiral, which says how much at most.",
+    "far face": "A plate breaks where it is drawn most: on the far face, under the axis. What its "
+    "modes add up to there is, of a thin plate, a function of a/h and a logarithm of b/h; the "
+    "edge's states of stretching and bending add their own stress.",
 }
 
 

@@ -58,8 +58,8 @@ def simulate(
         table(f"Impact of {scene.name}", ("quantity", "#value", "unit"), result.rows())
         table("Effects", HEADS, result.gate.lines())
         OUT.print(str(result.accuracy), markup=False, highlight=False, soft_wrap=True)
-        if result.model_note:
-            OUT.print(result.model_note, markup=False, highlight=False, soft_wrap=True)
+        for note in filter(None, (result.model_note, result.verdict)):
+            OUT.print(note, markup=False, highlight=False, soft_wrap=True)
     for path, content in files.items():
         write_file(path, content)
     if json:

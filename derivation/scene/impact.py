@@ -11,6 +11,7 @@ from derivation.scene.limits import (
     local_indentation,
     motion_warnings,
     pressure_warnings,
+    tension_warnings,
     warnings_at,
 )
 from derivation.scene.model import model_of
@@ -53,7 +54,7 @@ def simulate(
     """
     rtol, gate = gated(scene, rtol)
     numbers, accuracy = solve_gated(gate, rtol)
-    contact_time, delta, _, a, _ = numbers
+    contact_time, delta, force, a, _ = numbers
     model = gate.law.model
     check_radius(gate.law, a, "impact.speed", "lower the speed")
     check_numbers(model, *numbers)
@@ -65,6 +66,9 @@ def simulate(
         *motion_warnings(model, contact_time, deflection),
         *pressure_warnings(pressure, scene.plate.yield_stress),
     )
+    if scene.plate.strength is not None:
+        tension = gate.law.max_tension(a, force, scene.effects.edge is not False)
+        warnings += tension_warnings(tension, scene.plate.strength)
     result = Result(*numbers, pressure, accuracy, model_error, warnings, scene, gate)
     return result if times is None else result.at(times)
 

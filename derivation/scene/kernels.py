@@ -29,6 +29,7 @@ from generated.effects import (
     sphere_contact,
     zener_number,
 )
+from generated.far_face import clamped_far_stress, far_stress, supported_far_stress
 from generated.impact import COARSE_QUADRATURE, FULL_QUADRATURE, ROUNDING, history, impact
 from generated.sensitivity import indentation_slope
 from generated.simple_impact import Plate, hertz, law_errors, leading, plate_of
@@ -50,8 +51,10 @@ __all__ = [
     "clamped_edge",
     "clamped_edge_bound",
     "clamped_edge_slope",
+    "clamped_far_stress",
     "contact_radius",
     "echo_time",
+    "far_stress",
     "force_of_radius",
     "hertz",
     "history",
@@ -69,6 +72,7 @@ __all__ = [
     "supported_edge",
     "supported_edge_bound",
     "supported_edge_slope",
+    "supported_far_stress",
     "viscous_logarithms",
     "viscous_number",
     "zener_number",

@@ -140,6 +140,42 @@ class Law:
         mean = float(np.sum(weights * self._sphere(x * a).slope))
         return 2.0 / np.pi * self.modulus * (a / self.model.R) * mean
 
+    def pressure(self, r: Array, a: float) -> Array:
+        """Contact pressure [Pa] at distances r [m] from the axis, 0 <= r <= a.
+
+        (E*/pi) int_r^a delta'(c)/sqrt(c^2 - r^2) dc of the half-space's delta, with
+        c^2 = r^2 + (a^2 - r^2) x^2; or solved for.
+        """
+        R = self.model.R
+        if "pressure" in self.effects:
+            from generated import true_pressure
+
+            curved, own = "curvature" in self.effects, self.model.modulus
+            found: Array = true_pressure.pressure(
+                r, self._solved_plate, a, R, self.modulus, own, sphere=curved
+            )
+            return found
+        x, weights = gauss(NODES[2])
+        width = np.sqrt((a - r) * (a + r))
+        slopes = self._sphere(np.hypot(r[:, None], width[:, None] * x)).slope
+        mean: Array = slopes @ weights
+        return 2.0 / np.pi * self.modulus * (width / R) * mean
+
+    def max_tension(self, a: float, force: float, held: bool = True) -> float:
+        """Stress on the far face under the axis [Pa], of a force [N] spread as Hertz' over a.
+
+        Of the whole plate, whatever effects are in the law; on the paper's edge unless `held`,
+        or where the contact is wider than the support's model reaches.
+        """
+        of = {
+            "simply-supported": kernels.supported_far_stress,
+            "clamped": kernels.clamped_far_stress,
+        }
+        model = self.model
+        edge = model.edge if held and a <= HELD * model.b else "soft-hinge"
+        stress = of.get(edge, kernels.far_stress)
+        return float(stress(force, a, model.h, model.b, model.lam, model.mu))
+
     def hertz_radius(self, force: Array) -> Array:
         """Radius [m] at which Hertz' law has a force [N]."""
         return np.cbrt(0.75 * (force / self.modulus) * self.model.R)

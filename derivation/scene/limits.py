@@ -27,6 +27,8 @@ YIELD_LIMIT = 1.6
 """Pressure over yield stress at which a metal begins to yield below the contact."""
 MILD = 0.3
 """Relative correction above which its leading term is no estimate any more."""
+INERTIA = "the plate's inertia is left out"
+"""How the warning of it begins."""
 POINTS = 192
 """Gauss points of the energy up to the law's limit, close to which a sphere's slope is steep."""
 
@@ -161,7 +163,7 @@ def motion_warnings(model: Model, contact_time: float, deflection: float) -> tup
     matters = zener > ZENER_LIMIT or deflection > SHARE_LIMIT
     if matters and contact_time < SLOW * period:
         found.append(
-            f"the plate's inertia is left out: Zener's number lambda = {zener:.3g} (small: below "
+            f"{INERTIA}: Zener's number lambda = {zener:.3g} (small: below "
             f"{ZENER_LIMIT}), contact time over first bending period = "
             f"{contact_time / period:.3g} (slow: above {SLOW:g}), and the deflection makes "
             f"{100 * deflection:.2g} % of the indentation"
@@ -181,6 +183,17 @@ def pressure_warnings(pressure: float, yield_stress: float | None) -> tuple[str,
     text = (
         f"largest pressure over yield stress = {pressure / yield_stress:.3g} exceeds "
         f"{YIELD_LIMIT}: the plate yields below the contact, and takes energy"
+    )
+    return (text,)
+
+
+def tension_warnings(tension: float, strength: float) -> tuple[str, ...]:
+    """Whether the plate breaks, by the tension of its far face and its strength, both in Pa."""
+    if tension <= strength:
+        return ()
+    text = (
+        f"largest tension on the far face over strength = {tension / strength:.3g} exceeds 1: "
+        "the plate breaks there, under the axis, and what follows is no impact of a whole plate"
     )
     return (text,)
 

@@ -1,4 +1,4 @@
-"""Draws an impact: indentation, velocity and force against time, force against indentation."""
+"""Draws an impact: its course, force against indentation, and the largest contact's pressure."""
 
 import io
 import math
@@ -82,20 +82,30 @@ def figure(result: Result) -> "Figure":
     indentation, d_label = scaled(history.indentation, "indentation", "m")
     velocity, v_label = scaled(history.velocity, "velocity", "m/s")
     force, f_label = scaled(history.force, "contact force", "N")
-    made = Figure(figsize=(8.0, 6.0), layout="constrained")
+    profile = result.pressures()
+    distance, r_label = scaled(profile.distance, "distance from the axis", "m")
+    (pressure, hertz), p_label = scaled(np.array(profile[1:]), "largest pressure", "Pa")
+    made = Figure(figsize=(8.0, 9.0), layout="constrained")
     panels = (
         (time, indentation, t_label, d_label),
         (time, velocity, t_label, v_label),
         (time, force, t_label, f_label),
         (indentation, force, d_label, f_label),
+        (distance, pressure, r_label, p_label),
     )
-    for axes, (x, y, x_label, y_label) in zip(made.subplots(2, 2).flat, panels, strict=True):
+    drawn = made.subplot_mosaic([["z", "v"], ["P", "law"], ["p", "p"]])
+    for axes, (x, y, x_label, y_label) in zip(drawn.values(), panels, strict=True):
         axes.plot(x, y, color="#1f4e79", linewidth=1.5)
         axes.set_xlabel(x_label)
         axes.set_ylabel(y_label)
         axes.axhline(0.0, color="0.6", linewidth=0.6)
         axes.grid(visible=True, color="0.9", linewidth=0.6)
         axes.spines[["top", "right"]].set_visible(False)
+    lines = [
+        drawn["p"].lines[0],
+        *drawn["p"].plot(distance, hertz, color="#b5651d", linewidth=1.2, linestyle="--"),
+    ]
+    drawn["p"].legend(lines, ["this contact", "Hertz, at the same force"], frameon=False)
     return made
 
 

@@ -150,6 +150,9 @@ class Plate(Table):
     yield_stress: Positive | None = Field(
         None, description="yield stress of the plate [Pa]", examples=[235e6]
     )
+    strength: Positive | None = Field(
+        None, description="tensile strength of the plate [Pa]", examples=[45e6]
+    )
 
     @classmethod
     def conflicts(cls, given: Mapping[str, Any]) -> list[str]:

@@ -15,13 +15,13 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
-from numpy.polynomial.chebyshev import Chebyshev
+from numpy.polynomial.chebyshev import chebder, chebfit, chebval
 from numpy.polynomial.legendre import leggauss
 
 from derivation.scene import motion
 from derivation.scene.collocation import Element, Radau, radau
 from derivation.scene.effects.effect import Array
-from derivation.scene.law import Law
+from derivation.scene.law import HELD, Law, Shape
 from derivation.scene.motion import Ledger, Motion
 from derivation.scene.scene import SceneError
 
@@ -35,8 +35,10 @@ TOLERANCE = 1e-11
 """An element's last coefficients over the largest there are."""
 ROUNDING = 2e-12
 """What tests hold the results to, beside the change with the nodes [1]."""
-TABLE = 64, 40
-"""Nodes and degree of the law where the pressure is solved for."""
+DEGREE, FITTED = 30, 1e-12
+"""Degree of the law's tables, and the relative error up to which they stand for it."""
+BEYOND = 2.0
+"""How far a viscous contact's force may go beyond a calm one's, in Hertz' radii."""
 OWN = 1e3
 """How much less exact the radius may be beside the largest of its element."""
 _NEWTON, _CLOSE, _NEARLY, _ROUGH = 30, 1e-15, 1e-12, 1e-3
@@ -89,61 +91,81 @@ class Curve:
 
 
 @dataclass(frozen=True)
-class Solved(Curve):
-    """The same where the pressure is solved for: polynomials of a/top, times their powers."""
+class Tabled(Curve):
+    """The same by polynomials of a/top, which cost less: of force and depth over their powers."""
 
     top: float
-    force: Chebyshev
-    depth: Chebyshev
+    table: Array
 
     def at(self, a: Array) -> Contact:
-        """Force and indentation at radii [m]; NaN beyond what was solved for."""
+        """Force and indentation at radii [m]; NaN beyond the top."""
         x = np.where(a <= self.top, a / self.top, np.nan)
-        force, depth = self.force(x), self.depth(x)
-        force_a = (3.0 * force + x * self.force.deriv()(x)) * x * x / self.top
-        depth_a = (2.0 * depth + x * self.depth.deriv()(x)) * x / self.top
+        force, depth, force_x, depth_x = chebval(2.0 * x - 1.0, self.table)
+        force_a = (3.0 * force + x * force_x) * x * x / self.top
+        depth_a = (2.0 * depth + x * depth_x) * x / self.top
         return Contact(force * x**3, depth * x * x, force_a, depth_a)
+
+
+def tabled(x: Array, *values: Array) -> Array:
+    """Chebyshev coefficients of polynomials through values at x in [0, 1], and of their slopes."""
+    rows = np.array([chebfit(2.0 * x - 1.0, row, DEGREE) for row in values])
+    slopes = np.zeros_like(rows)
+    slopes[:, :-1] = 2.0 * chebder(rows, axis=1)
+    return np.concatenate((rows, slopes)).T
+
+
+def _knots() -> Array:
+    """Chebyshev's points on [0, 1], twice as many as coefficients."""
+    n = 2 * DEGREE
+    return np.asarray((1.0 - np.cos(np.pi * (np.arange(n) + 0.5) / n)) / 2.0, dtype=np.float64)
 
 
 def curve_of(law: Law, a: float) -> Curve:
     """The law up to a contact radius [m], which viscosity does not let grow."""
-    if "pressure" not in law.effects:
-        return Curve(law)
-    nodes, degree = TABLE
-    x = (1.0 - np.cos(np.pi * (np.arange(nodes) + 0.5) / nodes)) / 2.0
-    top = min(1.001 * a, law.limit)
-    shape = law.at(x * top)
-    force, depth = law.force(x * top, shape) / x**3, law.indentation(x * top, shape) / x**2
-    fitted = (Chebyshev.fit(x, values, degree, domain=[0.0, 1.0]) for values in (force, depth))
-    return Solved(law, top, *fitted)
+    top, x, direct = min(1.001 * a, law.limit), _knots(), Curve(law)
+    found = direct.at(top * x)
+    made = Tabled(law, top, tabled(x, found.force / x**3, found.depth / x**2))
+    between = top * (x[1:] + x[:-1]) / 2.0
+    pairs = zip(made.at(between), direct.at(between), strict=True)
+    error = max(float(np.max(np.abs(one / other - 1.0))) for one, other in pairs)
+    return made if error <= FITTED else direct
 
 
 @dataclass(frozen=True)
 class Bending:
-    """What of the plate's deflection does not lag: bending, on its edge, where that yields."""
+    """What of the plate's deflection does not lag: bending, on its edge, where that yields.
+
+    Attributes
+    ----------
+    law
+        Bending and edge alone; no effect where nothing is left of them.
+    top
+        Hertz' radius [m] up to which deflection over force is tabled.
+    """
 
     law: Law
+    top: float = 1.0
+    table: Array | None = None
 
     def at(self, force: Array) -> tuple[Array, Array]:
-        """Deflection [m] at forces [N], odd in them, and its slope [m/N]."""
-        law = self.law
-        if not law.effects:
+        """Deflection [m] at forces [N], odd in them, and its slope [m/N]; NaN beyond the top."""
+        if self.table is None:
             return np.zeros_like(force), np.zeros_like(force)
-        radius = np.maximum(law.hertz_radius(np.abs(force)), 1e-9 * law.model.h)
-        share = law.deflection(radius)
-        part = 1.0 / (1.0 + law.softness)
-        slope = part * share.slope / (2.0 * law.modulus * radius)
-        # The deflection over the force is constant where the contact is small.
-        depth = part * radius / law.model.R * share.depth * radius
-        return force * (depth / law.force(radius, law.at(radius))), slope
+        x = self.law.hertz_radius(np.abs(force)) / self.top
+        yields, slope = chebval(2.0 * np.where(x <= 1.0, x, np.nan) - 1.0, self.table)
+        return force * yields, yields + x * slope / 3.0
 
 
 def bending_of(law: Law, a: float) -> Bending:
     """Bending and the edge; nothing where a thick plate's edge takes more than bending gives."""
     bent = replace(law, effects=law.effects & {"bending", "edge"})
     if "bending" not in law.effects or float(bent.deflection(np.array([a])).slope[0]) <= 0.0:
-        bent = replace(law, effects=frozenset())
-    return Bending(bent)
+        return Bending(replace(law, effects=frozenset()))
+    top, x = min(BEYOND * a, HELD * law.model.b), _knots()
+    radius = top * x
+    depth = radius * (radius / law.model.R) * bent.deflection(radius).depth
+    force = law.force(radius, Shape(*(np.ones_like(x),) * 4))
+    return Bending(bent, top, tabled(x, depth / (1.0 + law.softness) / force))
 
 
 @dataclass(frozen=True)

@@ -27,6 +27,7 @@ and from the contact law to the motion:
 22 effects          how much each effect can change the law
 23 plate motion     when the plate's own motion matters: Zener's number, periods
 24 viscosity        a contact whose force lags: restitution, and what it changes at most
+25 far face         the tension under the axis on the far face, where a plate breaks first
 """
 
 from collections.abc import Callable, Iterator
@@ -41,6 +42,7 @@ from derivation.theory.edge_sums import edge_sums
 from derivation.theory.effects import effects
 from derivation.theory.equilibrium import equilibrium
 from derivation.theory.face_conditions import omegas, scaled_omegas
+from derivation.theory.far_face import far_face
 from derivation.theory.hertz import contact_radius, pressure, pressure_coefficient, sonine
 from derivation.theory.impact import impact
 from derivation.theory.influence import influence_coefficients
@@ -88,6 +90,7 @@ MOTION_LINKS: tuple[Link, ...] = (
     ("effects", effects),
     ("plate motion", plate_motion),
     ("viscosity", viscosity),
+    ("far face", far_face),
 )
 """What follows from the contact law. Apart: these formulas hold integrals and constants too."""
 

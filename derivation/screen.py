@@ -71,11 +71,20 @@ def clocked(name: str) -> Iterator[Callable[[str, int, float], None]]:
 
 
 def table(title: str, columns: Sequence[str], rows: Sequence[Sequence[object]]) -> None:
-    """Print a table; columns whose name starts with `#` are numbers, set flush right."""
+    """Print a table; columns whose name starts with `#` are numbers, set flush right.
+
+    Names, one word each, in the first column are not broken.
+    """
     made = Table(title=title, title_justify="left")
-    for column in columns:
+    names = not any(" " in str(row[0]) for row in rows)
+    for index, column in enumerate(columns):
         number = column.startswith("#")
-        made.add_column(column.lstrip("#"), justify="right" if number else "left", overflow="fold")
+        made.add_column(
+            column.lstrip("#"),
+            justify="right" if number else "left",
+            overflow="fold",
+            no_wrap=names and index == 0 and not number,
+        )
     for row in rows:
         made.add_row(*(escape(str(cell)) for cell in row))
     OUT.print(made)

@@ -11,8 +11,8 @@ from derivation.scene.effects import BY_NAME
 from derivation.scene.model import Model
 
 EXAMPLES = Path(derivation.scene.__file__).parent / "examples"
-ALL = frozenset(BY_NAME)
-"""Every effect; the plate of `model` is simply supported."""
+ALL = frozenset(name for name, effect in BY_NAME.items() if effect.by_itself)
+"""Every effect of a law; the plate of `model` is simply supported."""
 
 
 def model(**changes: Any) -> Model:

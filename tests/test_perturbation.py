@@ -1,17 +1,31 @@
 """The paper's own motion: its coefficients, (15), (16) to (18), where they break, and scenes."""
 
+import json
 import math
+import subprocess
+import sys
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 import pytest
 import sympy as sp
+from given import EXAMPLES, changed, model, scene
 from mpmath import besseljzero, j1, mp, mpf, quad, sinh
 from mpmath import pi as mp_pi
 
+import derivation.effects_check
+from derivation.cli import main
 from derivation.formula.symbols import BY_NAME as SYMBOLS
 from derivation.formula.symbols import delta_0, m, v0, xi_k
+from derivation.scene import SceneError, explain, indent, kernels, load, read, simulate
+from derivation.scene.comparison import compare
+from derivation.scene.effects.perturbation import MODES
+from derivation.scene.gate import decide
+from derivation.scene.indentation import AT_REST
+from derivation.scene.model import Model, model_of
 from derivation.theory.impact import linear_motion, linearisation
+from generated.impact import impact
 from generated.perturbation import PrintedMotion, printed_motion
 
 PAPER = (0.13, 72.2, 1.0, 0.1, 1.0, 0.36e9, 0.43e9)
@@ -164,3 +178,143 @@ def test_nan_outside_the_domain_and_for_extreme_numbers() -> None:
             found = motion.corrected(1e-4), motion.breaks_at, motion.last, motion.contact_time
             if bad != 1e-300 and (place, bad) != (5, 0.0):
                 assert all(map(math.isnan, found)), (place, bad)
+
+
+def compared(**effects: object) -> dict[str, dict[str, object]]:
+    return changed(effects=effects)
+
+
+def test_comparison_is_the_generated_motion_beside_the_result() -> None:
+    found = simulate(read(compared(perturbation=True)))
+    assert found.comparison is not None
+    numbers = found.model.numbers
+    linear, *broken = found.comparison.motions
+    assert found.comparison.modes == MODES
+    motion = printed_motion(*numbers, MODES)
+    assert (linear.contact_time, linear.breaks_at) == (motion.contact_time, None)
+    assert linear.contact_time_difference == motion.contact_time / found.contact_time - 1
+    for row, corrected in zip(broken, (False, True), strict=True):
+        motion = printed_motion(*numbers, MODES, corrected=corrected)
+        last = float(motion.corrected(motion.breaks_at))
+        assert (row.contact_time, row.contact_time_difference) == (None, None)
+        assert (row.breaks_at, row.share, row.max_indentation) == (
+            motion.breaks_at, motion.share, last,
+        )  # fmt: skip
+        assert row.max_indentation_difference == last / found.max_indentation - 1
+        assert row.share == pytest.approx(2 * motion.breaks_at / motion.contact_time, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    "name", ["paper", "glass_pane", "concrete_floor", "pad", "block", "soft_layer"]
+)
+@pytest.mark.parametrize("rtol", [None, 1e-2, 1e-6])
+def test_it_changes_no_result(name: str, rtol: float | None) -> None:
+    data = load(EXAMPLES / f"{name}.toml").to_json()
+    without = simulate(read(data), rtol=rtol)
+    data["effects"] = {**data.get("effects", {}), "perturbation": True}
+    found = simulate(read(data), rtol=rtol)
+    assert found.gate.law == without.gate.law
+    assert found.gate.error == without.gate.error
+    assert found.accuracy == without.accuracy
+    assert found.warnings == without.warnings
+    made, plain = found.to_json(), without.to_json()
+    assert made.pop("perturbation")["modes"] == MODES
+    for part in (made, plain):
+        del part["scene"]
+        assert part["effects"].pop()["name"] == "perturbation"
+    assert made == plain
+    for one, other in zip(found.history(5), without.history(5), strict=True):
+        np.testing.assert_array_equal(one, other)
+
+
+def test_it_is_in_only_where_the_scene_says_true() -> None:
+    for wanted in ({}, {"perturbation": False}, {"perturbation": "auto"}):
+        for rtol in (1e-12, 1.0):
+            found = decide(model(), wanted, rtol)
+            row = found.rows[-1]
+            assert (row.name, row.included, row.bound) == ("perturbation", False, 0.0)
+            assert row.why == "never by itself: for comparison only"
+    row = decide(model(), {"perturbation": True}, 1e-3).rows[-1]
+    assert (row.included, row.bound, row.why) == (True, 0.0, "true in the scene")
+    assert row.value == printed_motion(*model().numbers, MODES).share
+    assert (
+        explain(scene(effects={"perturbation": True})).gate.rows[-1]
+        == decide(model_of(scene()), {"perturbation": True}, 1e-3).rows[-1]
+    )
+
+
+def test_it_is_no_part_of_any_law() -> None:
+    assert "perturbation" not in AT_REST
+    assert indent(read(compared(perturbation=True)), force=[10.0]) == indent(
+        read(compared()), force=[10.0]
+    )
+    found = derivation.effects_check.everything(compared(perturbation=True))
+    assert found is not None
+    assert "perturbation" not in found[1]
+    assert found == derivation.effects_check.everything(compared())
+
+
+def test_the_fast_ways_are_taken_with_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    calls = []
+    monkeypatch.setattr(kernels, "impact", lambda *x, **y: calls.append(x) or impact(*x, **y))
+    simulate(read(compared(perturbation=True)))
+    assert len(calls) == 1
+    thick = {"radius": 1e3, "thickness": 2e3}
+    found = simulate(read(changed(plate=thick, effects={"perturbation": True})), rtol=1e-2)
+    assert found.accuracy.method == "hertz"
+    assert len(calls) == 1
+
+
+@pytest.mark.parametrize("wanted", ["auto", 1, "true"])
+def test_what_the_key_takes(wanted: object) -> None:
+    with pytest.raises(SceneError, match=r'perturbation: expected true or false \(it is never "a'):
+        read(compared(perturbation=wanted))
+
+
+def test_what_is_shown(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "scene.toml"
+    text = (EXAMPLES / "paper.toml").read_text()
+    assert text.count("[effects]") == 1
+    path.write_text(text.replace("[effects]", "[effects]\nperturbation = true"))
+    out = tmp_path / "out.json"
+    assert main(["simulate", str(path), "--json", str(out)]) == 0
+    shown = " ".join(capsys.readouterr().out.split())
+    assert f"after {MODES} modes" in shown
+    assert "for comparison only" in shown
+    rows = json.loads(out.read_text())["perturbation"]["motions"]
+    assert [row["contact_time"] is None for row in rows] == [False, True, True]
+    assert [row["breaks_at"] is None for row in rows] == [True, False, False]
+    html = simulate(load(path))._repr_html_()
+    assert "linear term (15)" in html
+    assert f"{rows[0]['contact_time']:.6g}" in html
+    plain = simulate(load(EXAMPLES / "paper.toml"))
+    assert plain.comparison is None
+    assert "perturbation" not in plain.to_json()
+    assert "linear term (15)" not in plain._repr_html_()
+
+
+@pytest.mark.parametrize("wanted", ["false", "true"])
+def test_nothing_of_it_is_imported_unless_asked_for(wanted: str) -> None:
+    program = f"""
+import sys
+from derivation.scene import explain, load, read, simulate
+data = load({str(EXAMPLES / "paper.toml")!r}).to_json()
+scene = read(data | {{"effects": {{"perturbation": {wanted.title()}}}}})
+explain(scene)
+found = simulate(scene)
+found.to_json(), found._repr_html_(), found.history()
+for name in ("derivation.scene.comparison", "generated.perturbation"):
+    assert (name in sys.modules) is {wanted.title()}, name
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize("size", [1e-200, 1e-60, 1e60])
+@pytest.mark.filterwarnings("error")
+def test_what_is_no_number_is_null(size: float) -> None:
+    """Where the sums leave the doubles, whatever the result."""
+    made = compare(Model(size, 1.0, 1.0, size, size, 1.0, 1.0), 1.0, 1.0).to_json()
+    assert json.loads(json.dumps(made, allow_nan=False)) == made

@@ -60,6 +60,11 @@ def simulate(
         OUT.print(str(result.accuracy), markup=False, highlight=False, soft_wrap=True)
         for note in filter(None, (result.model_note, result.verdict)):
             OUT.print(note, markup=False, highlight=False, soft_wrap=True)
+        if result.comparison:
+            from derivation.scene import comparison
+
+            table(result.comparison.title, comparison.HEADS, result.comparison.lines())
+            OUT.print(result.comparison.note, markup=False, highlight=False, soft_wrap=True)
     for path, content in files.items():
         write_file(path, content)
     if json:

@@ -153,7 +153,8 @@ def decide(
     SceneError
         If the pressure is to be solved for without a part of the plate.
     """
-    reasons = {effect.name: effect.absent(model) for effect in EFFECTS}
+    asked = {e.name for e in EFFECTS if not e.by_itself and wanted.get(e.name) is True}
+    reasons = {e.name: "" if e.name in asked else e.absent(model) for e in EFFECTS}
     missing = sorted(name for name in WHOLE_PLATE if wanted.get(name) is False)
     if missing and wanted.get("pressure") is True:
         raise SceneError(
@@ -164,6 +165,7 @@ def decide(
         reasons["pressure"] = f"it holds the whole plate, but {', '.join(missing)} is false"
     present = [effect for effect in EFFECTS if not reasons[effect.name]]
     choice = {effect.name: wanted.get(effect.name, "auto") for effect in present}
+    present = [effect for effect in present if effect.by_itself]
     # What the pressure is solved with, at no cost; their bounds are those of Hertz' pressure.
     along = {e.name for e in present if e.name in SOLVED_WITH and choice[e.name] is not False}
     included = {e.name for e in present if e.forced or choice[e.name] is True}
@@ -314,7 +316,7 @@ def _row(
     """The effect's line, at the largest radius of the law decided on."""
     model, name = state.law.model, effect.name
     radius = state.law.limit if math.isnan(state.a) else state.a
-    included = name in state.law.effects
+    included = name in state.law.effects or not effect.by_itself
     if reasons[name]:
         return Row(name, effect.adds, effect.number, math.nan, 0.0, False, reasons[name])
     value = effect.value(model, radius)

@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from html import escape
-from typing import Any, NamedTuple, cast
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +16,9 @@ from derivation.scene.law import WHOLE_PLATE
 from derivation.scene.limits import INERTIA
 from derivation.scene.model import Model
 from derivation.scene.scene import Scene, SceneError
+
+if TYPE_CHECKING:
+    from derivation.scene.comparison import Comparison
 
 Array = NDArray[np.float64]
 
@@ -85,6 +88,8 @@ class Result:
         Speed after over speed before [1]; 1 unless the contact is viscous.
     max_pressure
         Largest contact pressure, in the middle of the widest contact [Pa].
+    comparison
+        The paper's own motion beside the result; None unless the scene asks for it.
     max_tension
         Largest tensile stress on the far face, under the axis [Pa]; below 0 if it is pressed.
     accuracy
@@ -161,6 +166,15 @@ class Result:
         peak = 1.5 * force / (np.pi * hertz * hertz)
         return Pressures(r, own, peak * np.sqrt(np.maximum(1.0 - (r / hertz) ** 2, 0.0)))
 
+    @cached_property
+    def comparison(self) -> "Comparison | None":
+        """The paper's own motion beside the result, if the scene asks for `perturbation`."""
+        if not any(row.included for row in self.gate.rows if row.name == "perturbation"):
+            return None
+        from derivation.scene.comparison import compare
+
+        return compare(self.model, self.contact_time, self.max_indentation)
+
     @property
     def model(self) -> Model:
         """The scene in the kernels' numbers."""
@@ -218,13 +232,18 @@ class Result:
     def to_json(self) -> dict[str, Any]:
         """The result in SI, with its accuracy, its warnings and the scene it belongs to."""
         numbers = {name: getattr(self, name) for name in UNITS}
-        return numbers | {
-            "accuracy": self.accuracy.to_json(),
-            "model_error": self.model_error,
-            "effects": [row.to_json() for row in self.gate.rows],
-            "warnings": list(self.warnings),
-            "scene": self.scene.to_json(),
-        }
+        beside = {"perturbation": self.comparison.to_json()} if self.comparison else {}
+        return (
+            numbers
+            | {
+                "accuracy": self.accuracy.to_json(),
+                "model_error": self.model_error,
+                "effects": [row.to_json() for row in self.gate.rows],
+                "warnings": list(self.warnings),
+                "scene": self.scene.to_json(),
+            }
+            | beside
+        )
 
     @property
     def model_note(self) -> str:
@@ -252,7 +271,8 @@ class Result:
         notes = f"<p>{escape(str(self.accuracy))}</p><p>{escape(self.model_note)}</p>"
         notes += f"<p>{escape(self.verdict)}</p>"
         notes += "".join(f"<p><b>Warning:</b> {escape(text)}</p>" for text in self.warnings)
-        return f"<table>{''.join(cells)}</table>{notes}{self.gate.to_html()}"
+        beside = self.comparison.to_html() if self.comparison else ""
+        return f"<table>{''.join(cells)}</table>{notes}{self.gate.to_html()}{beside}"
 
 
 UNITS = {

@@ -18,6 +18,7 @@ EXPECTED = {
     "lame_lambda": "a finite number",
     "poissons_ratio": "a number above -1 and below 0.5",
     "rtol": "a number from 1e-13 to 1",
+    "perturbation": 'true or false (it is never "auto")',
 }
 """What a key is to hold, if not a positive number."""
 

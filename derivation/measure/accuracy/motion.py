@@ -78,8 +78,7 @@ def perturbation(corrected: bool) -> Method:
     kind = "corrected" if corrected else "as printed"
 
     def fails(regime: Regime) -> str | None:
-        motion = paper_motion(regime, regime.v0, MODES, corrected=corrected)
-        share = motion.breaks_at / (motion.contact_time / 2)
+        share = paper_motion(regime, regime.v0, MODES, corrected=corrected).share
         if math.isnan(share):
             return None
         return f"root of a negative number in (17), (18) from {share:.3g} of the way to the top on"

@@ -107,6 +107,9 @@ class Effect:
         Who derived it, and the link of the chain that proves it here.
     forced
         Whether it cannot be left out.
+    by_itself
+        Whether the gate may take it in. If not, it is no part of the law, and stands beside the
+        result where a scene asks for it.
     """
 
     name: ClassVar[str]
@@ -115,10 +118,11 @@ class Effect:
     number: ClassVar[str]
     source: ClassVar[str]
     forced: ClassVar[bool] = False
+    by_itself: ClassVar[bool] = True
 
     def absent(self, model: Model) -> str:  # noqa: ARG002
-        """Why the scene has no such effect; empty if it has."""
-        return ""
+        """Why the scene has no such effect by itself; empty if it has."""
+        return "" if self.by_itself else "never by itself: for comparison only"
 
     def value(self, model: Model, a: float) -> float:
         """The dimensionless number at a largest contact radius [m]."""

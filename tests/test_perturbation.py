@@ -286,7 +286,7 @@ def test_what_is_shown(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> No
     assert [row["breaks_at"] is None for row in rows] == [True, False, False]
     html = simulate(load(path))._repr_html_()
     assert "linear term (15)" in html
-    assert f"{rows[0]['contact_time']:.6g}" in html
+    assert f"{rows[0]['contact_time']:.4g}" in html
     plain = simulate(load(EXAMPLES / "paper.toml"))
     assert plain.comparison is None
     assert "perturbation" not in plain.to_json()

@@ -11,7 +11,8 @@ Read in this order:
    that takes any law, `viscous` by `collocation` the one that also takes a contact that lags.
 7. `impact`, `indentation`: simulate an impact, press the sphere in by a given amount.
 8. `sweep`: one simulation per value of a key.
-9. `result`: what comes out, as JSON, CSV and a notebook table; `plot` draws it.
+9. `result`: what comes out, as JSON, CSV and a notebook table; `plot` draws it, `comparison`
+   sets the paper's own motion beside it.
 
 `kernels` is the only door to the generated package; `commands` is the command line.
 

@@ -10,7 +10,7 @@ from derivation.scene.model import Model
 from generated.perturbation import PrintedMotion, printed_motion
 
 HEADS = (
-    "motion", "#contact time [s]", "#off by", "#max. indentation [m]", "#off by",
+    "motion", "#contact time [s]", "#off by", "#largest indentation [m]", "#off by",
     "#breaks at [s]", "#t/t_c",
 )  # fmt: skip
 """Heads of the table."""
@@ -50,11 +50,11 @@ class PaperMotion:
         """The motion as it is shown."""
         return (
             self.name,
-            _shown(self.contact_time, ".6g"),
+            _shown(self.contact_time, ".4g"),
             _shown(self.contact_time_difference, "+.2%"),
-            _shown(self.max_indentation, ".6g"),
+            _shown(self.max_indentation, ".4g"),
             _shown(self.max_indentation_difference, "+.2%"),
-            _shown(self.breaks_at, ".6g"),
+            _shown(self.breaks_at, ".4g"),
             _shown(self.share, ".3g"),
         )
 

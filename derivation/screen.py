@@ -80,7 +80,7 @@ def table(title: str, columns: Sequence[str], rows: Sequence[Sequence[object]]) 
     for index, column in enumerate(columns):
         number = column.startswith("#")
         made.add_column(
-            column.lstrip("#"),
+            escape(column.lstrip("#")),  # "[m]" is a unit, no markup
             justify="right" if number else "left",
             overflow="fold",
             no_wrap=names and index == 0 and not number,

@@ -10,8 +10,8 @@ from derivation.scene.model import Model
 from generated.perturbation import PrintedMotion, printed_motion
 
 HEADS = (
-    "motion", "#contact time [s]", "#off by", "#largest indentation [m]", "#off by",
-    "#breaks at [s]", "#t/t_c",
+    "motion", "#time [s]", "#off by", "#indentation [m]", "#off by",
+    "#breaks [s]", "#t/t_c",
 )  # fmt: skip
 """Heads of the table."""
 

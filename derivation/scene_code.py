@@ -1,5 +1,6 @@
 """The code of one scene as text: its law's numbers filled in, measured, formatted."""
 
+import math
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -55,5 +56,5 @@ def _run(context: dict[str, Any]) -> dict[str, Any]:
 
 def _above(error: float) -> str:
     """One digit of an error, rounded up."""
-    text = f"{max(error, 1e-15):.0e}"
-    return text if float(text) >= error else f"{2.0 * float(text):.0e}"
+    least = max(error, 1e-15)
+    return f"{least + 0.5 * 10.0 ** math.floor(math.log10(least)):.0e}"

@@ -43,6 +43,7 @@ def format_files(source: Mapping[str, str]) -> dict[str, str]:
                 "ruff",
                 task[0],
                 "--isolated",
+                "--no-cache",
                 "--quiet",
                 *task[1:],
                 folder,

@@ -61,12 +61,29 @@ def generate(
     check: Annotated[
         bool, typer.Option("--check", help="Compare only: show what differs, write nothing.")
     ] = False,
-    out: Out = None,
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            "--out", metavar="PATH", help="Write into this folder, or the code of a scene here."
+        ),
+    ] = None,
+    scene: Annotated[
+        Path | None,
+        typer.Option("--scene", metavar="SCENE.toml", help="Write one module for this scene."),
+    ] = None,
 ) -> None:
     """Write the NumPy package `generated`, or check that it is fresh.
 
     Example: platecontact generate --out mypackage/plate
+
+    With --scene: one module that imports NumPy alone, with the contact law and the impact of a
+    scene, of the effects that it calls for.
+
+    Example: platecontact generate --scene glass_pane.toml --out glass_pane.py
     """
+    if scene is not None:
+        _scene_code(scene, out, check)
+        return
     from derivation import produce
 
     if check:
@@ -77,6 +94,20 @@ def generate(
     with stage("derive and generate"):
         written = produce.generate(out)
     NOTES.print(f"{len(written)} files in {written[0].parent}")
+
+
+def _scene_code(scene: Path, out: Path | None, check: bool) -> None:
+    """Write the module of one scene."""
+    from derivation.scene import SceneError, load
+    from derivation.scene_code import write_scene_code
+
+    if check:
+        raise SceneError("--check: expected the package, got --scene; leave out one of them")
+    if out is None:
+        raise SceneError("--out: expected a file for the scene's code, got none; add --out FILE.py")
+    scene_commands.check_outputs(scene, None, csv=out)
+    write_scene_code(load(scene), out)
+    NOTES.print(f"{out}", markup=False, highlight=False, soft_wrap=True)
 
 
 @app.command()

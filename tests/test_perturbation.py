@@ -318,3 +318,11 @@ def test_what_is_no_number_is_null(size: float) -> None:
     """Where the sums leave the doubles, whatever the result."""
     made = compare(Model(size, 1.0, 1.0, size, size, 1.0, 1.0), 1.0, 1.0).to_json()
     assert json.loads(json.dumps(made, allow_nan=False)) == made
+
+
+def test_a_module_of_the_scene_does_not_speak_of_it(tmp_path: Path) -> None:
+    path, out = tmp_path / "scene.toml", tmp_path / "made.py"
+    text = (EXAMPLES / "paper.toml").read_text()
+    path.write_text(text.replace("[effects]", "[effects]\nperturbation = true"))
+    assert main(["generate", "--scene", str(path), "--out", str(out)]) == 0
+    assert "(14) to (18)" not in out.read_text()

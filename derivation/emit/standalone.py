@@ -6,7 +6,8 @@ import sympy as sp
 
 from derivation.emit.kernels import lines, seam_text
 from derivation.emit.printer import to_numpy
-from derivation.emit.render import Module, fill, format_files
+from derivation.emit.render import Module, fill
+from derivation.emit.source import format_files
 from derivation.rewrite.form import Seam
 from derivation.rewrite.series import POLYNOMIAL
 from derivation.rewrite.stabilise import Stable

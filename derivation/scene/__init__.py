@@ -13,6 +13,7 @@ Read in this order:
 8. `sweep`: one simulation per value of a key.
 9. `result`: what comes out, as JSON, CSV and a notebook table; `plot` draws it, `comparison`
    sets the paper's own motion beside it.
+10. `code`: what a module with the law and the impact of one scene is made of.
 
 `kernels` is the only door to the generated package; `commands` is the command line.
 

@@ -1,0 +1,306 @@
+"""What the code for one scene is made of: the law of its effects, constants folded, as plain data.
+
+Effects that have a closed form keep it. All others together become polynomials of the contact
+radius a on panels: p, the force over Hertz' at that radius, and F, by which the indentation over
+Hertz' grows,
+
+    P = K a^3 p,   delta = (a^2/R) (1 + a F),   K = (4/3) E*/R
+
+Panels are halved until the last coefficients are rounding.
+"""
+
+import hashlib
+import json
+import math
+import textwrap
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.polynomial.chebyshev import cheb2poly, chebfit
+
+from derivation.scene import choice
+from derivation.scene.edge_remainder import edge_remainder
+from derivation.scene.effects import BY_NAME
+from derivation.scene.effects.effect import Array, PlateEffect
+from derivation.scene.gate import Gate
+from derivation.scene.impact import simulate
+from derivation.scene.law import Law
+from derivation.scene.limits import last_radius
+from derivation.scene.motion import Motion
+from derivation.scene.quadrature import NODES
+from derivation.scene.scene import Scene, SceneError
+from derivation.scene.viscous import bending_of
+
+HALF_SPACE = frozenset({"hertz", "sphere_elasticity", "gravity", "viscosity"})
+"""Effects that leave Hertz' law its form."""
+COEFFICIENTS = 16
+"""Of a panel's polynomial."""
+SETTLED, NARROWEST = 5e-14, 1e-3
+"""Last coefficients over the largest that are small enough; least width of a panel [1]."""
+POINTS, SMALL = 60, 1e-5
+"""Contact radii at which code is compared with the law, and the least of them over its limit."""
+WRONG = {"force": 1e-10, "stiffness": 1e-6, "contact_radius": 1e-10, "impact": 1e-10}
+"""Relative difference from the law above which code is not given out.
+
+The law's own stiffness, the pressure solved for, is right to 1e-7 alone at a = 0.99 R."""
+STIFFEST = 2e-3
+"""Least time scale, over the contact time, of an inner state that explicit steps follow [1]."""
+WIDTH = 94
+"""Of lines of text."""
+_HALVINGS = 50
+
+
+class Table(NamedTuple):
+    """Coefficients on panels, a row each, of s from -1 to 1, the constant first.
+
+    `ends` are the contact radii [m] where panels begin and end; `growth` is F, `force` is p, or
+    None where that is 1.
+    """
+
+    ends: Array
+    growth: Array
+    force: Array | None
+
+
+class Recipe(NamedTuple):
+    """The law of a scene, its impact, and what the template of its code takes."""
+
+    law: Law
+    motion: Motion
+    context: dict[str, Any]
+
+
+def recipe(scene: Scene) -> Recipe:
+    """What the code of a scene is made of.
+
+    Raises
+    ------
+    SceneError
+        As `simulate` does, and where no force follows from indentation and rate.
+    """
+    result = simulate(scene)
+    gate, law = result.gate, result.gate.law
+    motion = choice.moved(law)
+    assert motion is not None
+    model, effects = law.model, law.effects
+    compliance = _compliance(law, motion.max_contact_radius)
+    end = end_of(law, motion.max_contact_radius)
+    kind = _kind(law)
+    notes = (*result.warnings, *([result.model_note] if result.model_note else []))
+    last, viscous = np.array([end]), "viscosity" in effects
+    context = {
+        "kind": kind,
+        "R": model.R,
+        "modulus": law.modulus,
+        "bend": _bend(law) if kind == "bent" else 0.0,
+        "table": _shown(tabulated(law, end)) if kind == "table" else None,
+        "limit": end,
+        "max_indentation": float(law.indentation(last, law.at(last))[0]),
+        "mass": model.m,
+        "speed": model.v0,
+        "gravity": law.gravity,
+        "viscous_time": model.viscous_time if viscous else 0.0,
+        "compliance": compliance,
+        "with_impact": not compliance or _slowness(law, motion, compliance) > STIFFEST,
+        "largest_radius": motion.max_contact_radius,
+        "rise": motion.max_indentation / model.v0,
+        "quadrature": not viscous and (bool(law.gravity) or not effects <= HALF_SPACE),
+        "hertz_time": 0.8 * math.sqrt(math.pi) * math.gamma(0.4) / math.gamma(0.9),
+        "nodes": NODES[1] if "curvature" not in effects else NODES[2],
+        **_words(scene, gate, motion.max_indentation, notes),
+    }
+    return Recipe(law, motion, context)
+
+
+def _kind(law: Law) -> str:
+    """What the law's formula is: Hertz', with bending added, or polynomials."""
+    more = law.effects - HALF_SPACE
+    return "table" if more - {"bending"} else "bent" if more else "hertz"
+
+
+def _bend(law: Law) -> float:
+    """Bending's share of the indentation over Hertz', over the contact radius [1/m]."""
+    bending, h = BY_NAME["bending"], law.model.h
+    assert isinstance(bending, PlateEffect)
+    return float(bending.share(law.model, np.array([h])).depth[0]) / (1.0 + law.softness) / h
+
+
+def _compliance(law: Law, a: float) -> float:
+    """Deflection over force [m/N] of what does not lag in a viscous contact, 0 for none.
+
+    Raises
+    ------
+    SceneError
+        If it is not proportional to the force.
+    """
+    if "viscosity" not in law.effects:
+        return 0.0
+    bent = bending_of(law, a)
+    if "edge" in bent.law.effects:
+        raise SceneError(
+            "plate.edge: expected a soft hinge for the code of a viscous scene with bending, as "
+            f"the deflection on a {law.model.edge} edge, which does not lag, is not proportional "
+            "to the force; write effects.edge = false, or leave out plate.viscous_time"
+        )
+    return float(bent.at(law.force(np.array([a]), law.at(np.array([a]))))[1][0])
+
+
+def _slowness(law: Law, motion: Motion, compliance: float) -> float:
+    """Time scale of a viscous contact's inner state over the contact time [1]."""
+    a = np.array([motion.max_contact_radius])
+    slack = law.model.viscous_time * compliance * float(law.stiffness(a, law.at(a))[0])
+    return slack / motion.contact_time
+
+
+def end_of(law: Law, a: float) -> float:
+    """Contact radius [m] at which the code's range ends, from one in an impact's on.
+
+    That of the law's limit, or before it where a held edge's model is not known to be right, or
+    says that the plate gives way towards the sphere.
+    """
+    last = last_radius(law)
+    if "edge" not in law.effects:
+        return last
+
+    def sound(a: float) -> bool:
+        try:
+            edge_remainder(law.model, a)
+        except SceneError:
+            return False
+        return float(law.at(np.array([a])).slope[0]) > 0.0
+
+    low, high = a, last
+    for _ in range(0 if sound(last) else _HALVINGS):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if sound(middle) else (low, middle)
+    return last if sound(last) else low
+
+
+def tabulated(law: Law, last: float) -> Table:
+    """Polynomials of the law on panels up to a contact radius [m]."""
+    nodes = -np.cos(np.pi * (np.arange(COEFFICIENTS) + 0.5) / COEFFICIENTS)
+    ends, rows, todo = [0.0], [], [(0.0, last)]
+    while todo:
+        low, high = todo.pop()
+        a = low + (high - low) * (1.0 + nodes) / 2.0
+        shape = law.at(a)
+        values = np.array([(shape.depth - 1.0) / a, shape.force])
+        found = chebfit(nodes, values.T, COEFFICIENTS - 1)
+        tail = np.max(np.abs(found[-2:]), axis=0)
+        off = max(tail[0] * a[-1] / shape.depth[-1], tail[1] / np.max(shape.force))
+        if off > SETTLED and high - low > NARROWEST * last:
+            middle = 0.5 * (low + high)
+            todo += [(middle, high), (low, middle)]
+            continue
+        ends.append(high)
+        rows.append(np.array([cheb2poly(column) for column in found.T]))
+    growth, force = np.stack(rows, axis=1)
+    parabolic = not law.effects & {"curvature", "pressure"}
+    return Table(np.array(ends), growth, None if parabolic else force)
+
+
+def _shown(table: Table) -> dict[str, Any]:
+    """Numbers as lines of Python."""
+    many = len(table.growth) > 1
+
+    def lines(rows: Array) -> list[str]:
+        found = []
+        for row in rows:
+            inner = textwrap.wrap(", ".join(repr(float(x)) for x in row) + ",", WIDTH - 4)
+            found += ["(", *(f"    {line}" for line in inner), "),"] if many else inner
+        return found
+
+    return {
+        "many": many,
+        "ends": [f"{float(end)!r}," for end in table.ends],
+        "growth": lines(table.growth),
+        "force": [] if table.force is None else lines(table.force),
+    }
+
+
+def _words(scene: Scene, gate: Gate, deepest: float, notes: tuple[str, ...]) -> dict[str, Any]:
+    """The module's head: the scene, effects in and out, tolerance, what to know."""
+    data = scene.to_json()
+    keys = [
+        f"[{table}] " + ", ".join(f"{key} = {json.dumps(value)}" for key, value in keys.items())
+        for table, keys in data.items()
+    ]
+    rows = [
+        f"{row.name}: {BY_NAME[row.name].equation}; {row.number} = {row.value:.3g}, {row.why}"
+        for row in gate.rows
+        if row.included and BY_NAME[row.name].by_itself  # what stands beside the law is not in it
+    ]
+    out = [
+        f"{row.name}: " + (row.why if math.isnan(row.value) else f"{_bound(row.bound)}; {row.why}")
+        for row in gate.rows
+        if not row.included
+    ]
+    promise = "Nothing that applies is left out, unless the scene itself says false."
+    if gate.error:
+        promise = (
+            "What is left out, unless the scene itself says false, changes no result of this "
+            f"impact by more than {gate.error:.1e} (tolerance {gate.rtol:.3g}). This holds up to "
+            f"its largest indentation, {deepest:.6g} m; beyond, up to MAX_INDENTATION, the "
+            "effects stay the same."
+        )
+    return {
+        "scene": _wrapped(keys),
+        "included": _wrapped(rows),
+        "left_out": _wrapped(out),
+        "notes": _wrapped(notes),
+        "promise": textwrap.wrap(promise, WIDTH),
+        "hash": hashlib.sha256(json.dumps(data, sort_keys=True).encode()).hexdigest()[:16],
+    }
+
+
+def _bound(bound: float) -> str:
+    return f"changes {bound:.1e} at most" if math.isfinite(bound) else "no bound is shown"
+
+
+def _wrapped(items: list[str] | tuple[str, ...]) -> list[str]:
+    """Items of a list, broken into lines that fit below a margin."""
+    return [
+        line
+        for item in items
+        for line in textwrap.wrap(item, WIDTH, initial_indent="- ", subsequent_indent="  ")
+    ]
+
+
+def errors(of: Recipe, made: Mapping[str, Any]) -> dict[str, float]:
+    """Relative differences of code from its law, absolute ones of the restitution.
+
+    Parameters
+    ----------
+    of
+        What the code is made of.
+    made
+        The names that the code defines.
+
+    Raises
+    ------
+    SceneError
+        If one is too large, as extreme scenes may make it.
+    """
+    law = of.law
+    small, even = np.geomspace(SMALL, 1.0, POINTS), np.linspace(0.01, 1.0, POINTS)
+    a = of.context["limit"] * np.unique(np.append(small, even))
+    shape = law.at(a)
+    delta = np.minimum(law.indentation(a, shape), made["MAX_INDENTATION"])  # to the last bit
+    static = made["elastic_force" if "elastic_force" in made else "force"]
+    found = {
+        "force": (static(delta), law.force(a, shape)),
+        "stiffness": (made["stiffness"](delta), law.stiffness(a, shape)),
+        "contact_radius": (made["contact_radius"](delta), a),
+    }
+    worst = {name: float(np.max(np.abs(x / y - 1.0))) for name, (x, y) in found.items()}
+    if "impact" in made:
+        told, truth = np.array(made["impact"]()), np.array(of.motion.numbers)
+        worst["impact"] = float(np.max(np.abs(told - truth) / np.append(truth[:4], 1.0)))
+    for name, error in worst.items():
+        if not error <= WRONG[name]:
+            raise SceneError(
+                f"scene: expected code that repeats its {name.replace('_', ' ')} to "
+                f"{WRONG[name]:g}, got {error:.1e}; give less extreme numbers"
+            )
+    return worst

@@ -186,7 +186,8 @@ def test_explain_simulates_nothing_and_says_why(capsys: Captured, tmp_path: Path
     assert data["bound"] <= data["rtol"]
     for row in data["effects"]:
         assert row["name"] in shown
-    assert data["notes"] == []
+    assert "lambda = " in data["notes"][0]
+    assert "the scene leaves out side_wall" in " ".join(shown.split())
     found = explain(scene())
     assert "inertia is not judged" in found.notes[0]
     assert "<table>" in found._repr_html_()

@@ -155,7 +155,7 @@ def test_inertia_is_warned_of_on_one_side_of_each_number(
 ) -> None:
     """Above lambda = 0.006, or 1 % of deflection, if the contact takes less than ten periods."""
     below, above, text = either_side(make, "inertia", silent, loud)
-    said = re.findall(r"lambda = (\S+) .* period = (\S+) .* makes (\S+) %", text)
+    said = re.findall(r"lambda = (\S+) .* period of a soft hinge = (\S+) .* makes (\S+) %", text)
     for result in (below, above):
         for found, limit in zip(motion_numbers(result), limits, strict=True):
             assert limit is None or found == pytest.approx(limit, rel=3e-6)

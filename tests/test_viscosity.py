@@ -254,6 +254,28 @@ def test_logarithms_hold_for_hertz() -> None:
         assert max(wide[:2] + wide[3:]) < 10.0
 
 
+@pytest.mark.parametrize("output", OUTPUTS)
+@pytest.mark.parametrize("viscous_time", [1e-9, 1e-8, 1e-7, 1e-6])
+def test_each_output_of_a_heavy_sphere_is_within_its_bound(
+    output: str, viscous_time: float
+) -> None:
+    """A sphere that falls in by its weight takes longer to leave if it leaves more slowly."""
+    model = Model(
+        R=0.1, m=32.9, v0=1e-3, h=10.0, b=10.0, lam=2.3e7, mu=1.54e7,
+        gravity=9.81, viscous_time=viscous_time,
+    )  # fmt: skip
+    wanted = dict.fromkeys((*WHOLE_PLATE, "gravity", "curvature"), True) | {"viscosity": False}
+    gate = decide(model, wanted | {"pressure": False}, 1.0, (output,))
+    bound = {row.name: row.bound for row in gate.rows}["viscosity"]
+    place = OUTPUTS.index(output)
+    try:
+        true = moves(replace(gate.law, effects=gate.law.effects | {"viscosity"})).numbers[place]
+    except SceneError:  # it stays
+        assert bound == math.inf
+    else:
+        assert abs(moves(gate.law).numbers[place] / true - 1.0) <= bound
+
+
 @pytest.mark.parametrize("edge", ["soft-hinge", "clamped"])
 @pytest.mark.parametrize("gravity", [0.0, 9.81])
 def test_gate_keeps_its_word_either_side_of_its_threshold(edge: str, gravity: float) -> None:

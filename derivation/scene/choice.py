@@ -18,7 +18,7 @@ from derivation.scene.gate import Gate
 from derivation.scene.law import WHOLE_PLATE, Law
 from derivation.scene.limits import check_energy
 from derivation.scene.model import Model
-from derivation.scene.scene import TIGHTEST, SceneError
+from derivation.scene.scene import OUTPUTS, TIGHTEST, SceneError
 from derivation.scene.words import shown
 
 METHODS = {
@@ -63,6 +63,8 @@ class Accuracy:
         contact time misses, and the arithmetic, of the law's tables too.
     effects
         Another part: the effects that the gate left out.
+    outputs
+        The results that the bound is one of.
     """
 
     method: str
@@ -71,6 +73,7 @@ class Accuracy:
     quadrature: Part
     rounding: Part
     effects: Part = Part(0.0, PROVED)
+    outputs: tuple[str, ...] = OUTPUTS
 
     @property
     def parts(self) -> dict[str, Part]:
@@ -80,7 +83,7 @@ class Accuracy:
 
     @property
     def bound(self) -> float:
-        """Bound of the relative error of every result [1]."""
+        """Bound of the relative error of every result it is one of [1]."""
         return math.expm1(sum(math.log1p(part.bound) for part in self.parts.values()))
 
     def to_json(self) -> dict[str, Any]:
@@ -88,7 +91,15 @@ class Accuracy:
         parts = {
             name: {"bound": part.bound, "basis": part.basis} for name, part in self.parts.items()
         }
-        return {"method": self.method, "rtol": self.rtol, "bound": self.bound, "parts": parts}
+        made = {"method": self.method, "rtol": self.rtol, "bound": self.bound, "parts": parts}
+        return made | {"outputs": list(self.outputs)}
+
+    @property
+    def _of(self) -> str:
+        """Whose error, if not that of every result."""
+        if self.outputs == OUTPUTS:
+            return ""
+        return " of " + ", ".join(name.replace("_", " ") for name in self.outputs)
 
     def __str__(self) -> str:
         """Method and bound in a sentence."""
@@ -99,7 +110,7 @@ class Accuracy:
         )
         return (
             f"method {self.method} ({METHODS[self.method]}): "
-            f"relative error at most {_above(self.bound)}, of this {parts}"
+            f"relative error{self._of} at most {_above(self.bound)}, of this {parts}"
         )
 
 
@@ -151,7 +162,9 @@ def solve_gated(gate: Gate, rtol: float | None = None) -> tuple[Numbers, Accurac
         found, accuracy = solve(law.model, rest)
     else:
         found, accuracy = _composed(law)
-    accuracy = replace(accuracy, rtol=rtol, effects=Part(gate.error, _basis(gate)))
+    accuracy = replace(
+        accuracy, rtol=rtol, effects=Part(gate.error, _basis(gate)), outputs=gate.outputs
+    )
     if rtol is not None and accuracy.bound > rtol:
         raise SceneError(
             f"rtol: expected at least {_above(accuracy.bound)} for a contact as wide as "

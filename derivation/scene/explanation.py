@@ -9,7 +9,9 @@ import numpy as np
 from derivation.scene.effects import EFFECTS
 from derivation.scene.gate import HEADS, Gate, cost
 from derivation.scene.impact import gated
-from derivation.scene.scene import Scene
+from derivation.scene.limits import ZENER_LIMIT, zener_number
+from derivation.scene.model import Model
+from derivation.scene.scene import OUTPUTS, Scene
 
 
 @dataclass(frozen=True)
@@ -41,9 +43,14 @@ class Explanation:
     def __str__(self) -> str:
         """The decision in a sentence."""
         effects = ", ".join(row.name for row in self.gate.rows if row.included)
+        of = "no result"
+        if self.gate.outputs != OUTPUTS:
+            of = "none of " + ", ".join(name.replace("_", " ") for name in self.gate.outputs)
+        forced = ", ".join(self.gate.forced_out)
+        priced = f"; the scene leaves out {forced}, at the price in the table" if forced else ""
         return (
-            f"included: {effects}; all that is left out changes no result by more than "
-            f"{self.gate.error:.1e} (tolerance {self.gate.rtol:.3g})"
+            f"included: {effects}; all that the gate leaves out changes {of} by more than "
+            f"{self.gate.error:.1e} (tolerance {self.gate.rtol:.3g}){priced}"
         )
 
     def to_json(self) -> dict[str, Any]:
@@ -85,7 +92,15 @@ def explain(scene: Scene, rtol: float | None = None) -> Explanation:
     costs = {
         effect.name: cost(gate.law, effect) for effect in EFFECTS if effect.name in gate.law.effects
     }
-    notes = () if gate.law.model.density else (
-        "the plate's inertia is not judged: no plate.density or material of known density",
-    )  # fmt: skip
-    return Explanation(gate, costs, notes)
+    return Explanation(gate, costs, (_inertia(gate.law.model),))
+
+
+def _inertia(model: Model) -> str:
+    """What can be said of the plate's inertia, which is not computed, before the impact is."""
+    if not model.density:
+        return "the plate's inertia is not judged: no plate.density or material of known density"
+    return (
+        f"the plate's inertia is not computed: Zener's number lambda = {zener_number(model):.3g} "
+        f"(small: below {ZENER_LIMIT}); simulate also compares the contact time with the first "
+        "bending period"
+    )

@@ -35,6 +35,7 @@ NEAR = 1e-6
 """How near the largest radius has to be known for that."""
 MARGIN = 1.05
 """Elasticities of S are sampled at nodes and widened by this."""
+FORCED_OUT = "false in the scene"
 HEADS = ("effect", "number", "value", "if left out", "", "why")
 """Heads of the effects table."""
 
@@ -97,12 +98,20 @@ class Gate:
         outputs [1].
     rows
         The effects table.
+    outputs
+        The results that the tolerance and the bounds apply to.
     """
 
     law: Law
     rtol: float
     error: float
     rows: tuple[Row, ...]
+    outputs: tuple[str, ...] = OUTPUTS
+
+    @property
+    def forced_out(self) -> tuple[str, ...]:
+        """Effects that the scene has and leaves out by itself."""
+        return tuple(row.name for row in self.rows if row.why.startswith(FORCED_OUT))
 
     def lines(self) -> list[tuple[str, str, str, str, str, str]]:
         """Effect, number, value, bound, in or out, and why, to be read by people."""
@@ -180,7 +189,7 @@ def decide(
         included |= {worst.name} | (along if worst.name == "pressure" else set())
         open_ = [effect for effect in open_ if effect.name not in included]
     rows = [_row(effect, state, choice, reasons, rtol, error, outputs) for effect in EFFECTS]
-    return Gate(state.law, rtol, error, tuple(rows))
+    return Gate(state.law, rtol, error, tuple(rows), tuple(outputs))
 
 
 def _state(law: Law) -> _State:
@@ -225,6 +234,8 @@ def _bound(state: _State, effect: Effect, stretch: float = 1.0) -> Bound:
     """An effect's bound at the state's place, whose radii the sphere's elasticity may stretch."""
     with np.errstate(all="ignore"):
         found = effect.bound(state.law.model, state.place.stretched(stretch))
+    if effect.name == "curvature" and "pressure" in state.law.effects:
+        return found._replace(up=found.up + math.inf)  # known under Hertz' pressure alone
     if isinstance(effect, PlateEffect):
         part = 1.0 / (1.0 + state.law.softness)
         return found._replace(low=part * found.low, up=part * found.up)
@@ -337,7 +348,7 @@ def _forced(included: bool, bound: float) -> str:
     if included:
         return "true in the scene"
     price = f"up to {100 * bound:.2g} %" if math.isfinite(bound) else "more than a bound can say"
-    return f"false in the scene: costs {price}"
+    return f"{FORCED_OUT}: costs {price}"
 
 
 def cost(law: Law, effect: Effect, repeats: int = 5) -> float:

@@ -64,7 +64,7 @@ def simulate(
     warnings = (
         *warnings_at(model, a, delta, gate.law.effects),
         *motion_warnings(model, contact_time, deflection),
-        *pressure_warnings(pressure, scene.plate.yield_stress),
+        *pressure_warnings(pressure, scene.plate.yield_stress, "viscosity" in gate.law.effects),
     )
     if scene.plate.strength is not None:
         tension = gate.law.max_tension(a, force, scene.effects.edge is not False)

@@ -143,6 +143,13 @@ def warnings_at(
     return tuple(found)
 
 
+def zener_number(model: Model) -> float:
+    """Zener's number of the contact's own modulus, the sphere's elasticity included [1]."""
+    R, m, v0, h, _, lam, mu = model.numbers
+    found = float(kernels.zener_number(R, m, v0, h, lam, mu, model.density))
+    return found / math.pow(1.0 + model.softness, 0.4)
+
+
 def motion_warnings(model: Model, contact_time: float, deflection: float) -> tuple[str, ...]:
     """Where the plate's own motion, which is left out, is not small; needs its density.
 
@@ -155,8 +162,8 @@ def motion_warnings(model: Model, contact_time: float, deflection: float) -> tup
     """
     if not model.density:
         return ()
-    R, m, v0, h, b, lam, mu = model.numbers
-    zener = float(kernels.zener_number(R, m, v0, h, lam, mu, model.density))
+    h, b, lam, mu = model.numbers[3:]
+    zener = zener_number(model)
     period = float(kernels.bending_period(h, b, lam, mu, model.density))
     echoes = float(kernels.echo_time(h, lam, mu, model.density))
     found = []
@@ -164,9 +171,9 @@ def motion_warnings(model: Model, contact_time: float, deflection: float) -> tup
     if matters and contact_time < SLOW * period:
         found.append(
             f"{INERTIA}: Zener's number lambda = {zener:.3g} (small: below "
-            f"{ZENER_LIMIT}), contact time over first bending period = "
+            f"{ZENER_LIMIT}), contact time over the first bending period of a soft hinge = "
             f"{contact_time / period:.3g} (slow: above {SLOW:g}), and the deflection makes "
-            f"{100 * deflection:.2g} % of the indentation"
+            f"{100 * deflection:.3g} % of the indentation"
         )
     if contact_time < echoes:
         found.append(
@@ -176,8 +183,16 @@ def motion_warnings(model: Model, contact_time: float, deflection: float) -> tup
     return tuple(found)
 
 
-def pressure_warnings(pressure: float, yield_stress: float | None) -> tuple[str, ...]:
+def pressure_warnings(
+    pressure: float, yield_stress: float | None, viscous: bool = False
+) -> tuple[str, ...]:
     """Whether the plate yields below the contact, if its yield stress [Pa] is given."""
+    if yield_stress is not None and viscous:
+        text = (
+            "whether the plate yields is not judged: the largest pressure is that of the elastic "
+            "part, beside which a viscous contact has more while it grows"
+        )
+        return (text,)
     if yield_stress is None or pressure <= YIELD_LIMIT * yield_stress:
         return ()
     text = (

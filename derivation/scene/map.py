@@ -29,12 +29,12 @@ WITHOUT = {"hertz", "gravity", "viscosity"}
 COLOURS = ("#1f4e79", "#b35806", "#1b7837", "#762a83", "#b2182b", "#01665e", "#e7298a")
 
 
-def shares(model: Model, effect: Effect) -> Array:
+def shares(model: Model, effect: Effect, radii: Array = RADII) -> Array:
     """The effect's bound of S at every a/h (rows) and h/b (columns); NaN beyond min(b, R)."""
     columns = []
     for eta in THICKNESSES:
         plate = replace(model, h=float(eta) * model.b)
-        a = RADII * plate.h
+        a = radii * plate.h
         inside = a < min(model.b, model.R)
         with np.errstate(all="ignore"):
             bound = effect.bound(plate, Place(a))
@@ -48,7 +48,10 @@ def figure(result: Result, rtol: float) -> "Figure":
 
     model = result.model
     drawn = [e for e in EFFECTS if e.name not in WITHOUT and not e.absent(model)]
-    found = {effect.name: shares(model, effect) for effect in drawn}
+    place = model.eta, result.max_contact_radius / model.h
+    # From the scene's own contact on, if that is smaller.
+    radii = np.geomspace(min(RADII[0], place[1] / 2), RADII[-1], RADII.size)
+    found = {effect.name: shares(model, effect, radii) for effect in drawn}
     whole = 1.0 + sum(np.where(np.isfinite(x), x, 0.0) for x in found.values())
     made = Figure(figsize=(7.5, 6.0), layout="constrained")
     axes = made.subplots()
@@ -58,15 +61,14 @@ def figure(result: Result, rtol: float) -> "Figure":
             everywhere = "everywhere" if np.nanmin(ratio) > rtol else "nowhere"
             axes.plot([], [], color=colour, label=f"{name}: {everywhere}")
             continue
-        axes.contour(THICKNESSES, RADII, ratio, levels=[rtol], colors=[colour])
-        axes.contourf(THICKNESSES, RADII, ratio, levels=[rtol, np.inf], colors=[colour], alpha=0.1)
+        axes.contour(THICKNESSES, radii, ratio, levels=[rtol], colors=[colour])
+        axes.contourf(THICKNESSES, radii, ratio, levels=[rtol, np.inf], colors=[colour], alpha=0.1)
         axes.plot([], [], color=colour, label=name)
-    place = model.eta, result.max_contact_radius / model.h
     axes.plot(*place, marker="*", markersize=14, color="black", linestyle="none", label="the scene")
     axes.set(xscale="log", yscale="log", xlabel="h/b", ylabel="a/h")
     axes.set_xlim(min(THICKNESSES[0], place[0] / 2), max(THICKNESSES[-1], place[0] * 2))
-    axes.set_ylim(min(RADII[0], place[1] / 2), max(RADII[-1], place[1] * 2))
-    axes.set_title(f"where leaving out an effect may change more than {rtol:g}", fontsize=10)
+    axes.set_ylim(radii[0], max(radii[-1], place[1] * 2))
+    axes.set_title(f"where an effect's bound is above {rtol:g} of the law's slope", fontsize=10)
     made.legend(loc="outside lower center", ncols=4, fontsize=8, frameon=False)
     return made
 

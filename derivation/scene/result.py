@@ -87,7 +87,8 @@ class Result:
     restitution
         Speed after over speed before [1]; 1 unless the contact is viscous.
     max_pressure
-        Largest contact pressure, in the middle of the widest contact [Pa].
+        Largest contact pressure, in the middle of the widest contact [Pa]; of a viscous contact
+        that of its elastic part, beside which there is more while it grows.
     comparison
         The paper's own motion beside the result; None unless the scene asks for it.
     max_tension

@@ -172,7 +172,7 @@ class Impact(Table):
     """How the sphere arrives."""
 
     speed: Positive = Field(description="impact speed [m/s]", examples=[1.0])
-    gravity: Positive | None = Field(
+    gravity: Annotated[float, Field(ge=0)] | None = Field(
         None, description="acceleration that presses the sphere on [m/s^2]", examples=[9.81]
     )
 
@@ -301,7 +301,8 @@ def read(data: Mapping[str, Any], source: str = "scene") -> Scene:
     try:
         return Scene.model_validate(dict(data))
     except ValidationError as error:
-        problems = list(_problems(error, data))
+        # Each alternative that a key has complains by itself.
+        problems = list(dict.fromkeys(_problems(error, data)))
     if len(problems) == 1:
         raise SceneError(f"{source}: {problems[0]}")
     lines = "".join(f"\n  - {problem}" for problem in problems)

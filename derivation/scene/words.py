@@ -75,7 +75,10 @@ def explain(kind: str, place: tuple[int | str, ...], value: Any, fields: Fields)
     table, key = str(place[0]), str(place[1])
     field = fields[table][key]
     usual = WANTED if table == "effects" else "a positive number"
-    expected = f"expected {EXPECTED.get(key, usual)}, the {field.description}"
+    name = f"{table}.{key}"  # not which alternative of it failed
+    said = field.description or ""
+    told = said if said.startswith(("the ", "how ")) else f"the {said}"
+    expected = f"expected {EXPECTED.get(key, usual)}, {told}"
     example = _line(table, (key, field))
     if kind == "missing":
         return f"{name}: {expected}, got nothing; add {example} to [{table}]"

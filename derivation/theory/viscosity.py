@@ -25,6 +25,9 @@ without weight; with a plate, whose bending lags not at all, epsilon is taken of
 The weight, sinking by delta_m, makes the largest U that of the sphere times u > 1. Of this the
 same share is lost, so that e^2 >= 1 - u (1 - exp(-2 Lambda)/(1 + epsilon^2)); and what sinks less
 than it rises, z <= n_z A_v |v| at the end, may leave faster: e^2 <= 1 + (u - 1) n epsilon.
+The time of a sphere that rises against its weight grows like what it lost of its speed, by which
+its bound is widened. What is said of the end takes epsilon(s) and P_e to fall with s, P_e
+convex; with weight and plates these are no proofs, and random scenes hold them.
 """
 
 from functools import cache

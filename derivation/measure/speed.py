@@ -8,8 +8,9 @@ upper quartile is kept as a sign of contention.
 import os
 import subprocess
 import sys
+import tempfile
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from functools import partial
 from importlib.util import find_spec
@@ -38,6 +39,11 @@ from generated.impact import impact
 POINTS = 1_000_000
 SCENES = 100_000
 ROUNDS = 25
+COMMAND = "from derivation.cli import main; main()"
+START, SOLVED_START, EXPLAINED = 2.0, 4.0, 1.3
+"""Cold starts of simulate, of one that solves for the pressure, and of explain: at most."""
+SWITCHES = "curvature", "bending", "finite_thickness", "side_wall", "pressure"
+"""Effects of `block.toml` that can be off."""
 COLD_ROUNDS = 9
 LIBRARIES = "import numpy, scipy.special, pydantic, typer, rich"
 ETA = 0.1
@@ -183,29 +189,47 @@ def impact_rate(low: float, high: float, limit: float) -> Timing:
     return Timing(name, rate, "1/s", limit, spread, rate >= limit)
 
 
-def cold_start(scene: Path, limit: float) -> Timing:
-    """`platecontact simulate` over the imports of the libraries it builds on, as processes."""
-    command = "from derivation.cli import main; main()"
-
-    def run(code: str, *arguments: str) -> Callable[[], object]:
-        return lambda: subprocess.run(
-            [sys.executable, "-c", code, *arguments], check=True, capture_output=True
-        )
-
+def cold_start(command: str, scene: Path, limit: float) -> Timing:
+    """A command over the imports of the libraries it builds on, as processes."""
     if find_spec("scipy") is None:
         raise ValueError("the cold start is compared with imports that need SciPy: install scipy")
-    simulate = run(command, "simulate", str(scene), "--json", "-")
-    return ratio("platecontact simulate, cold, over its libraries' imports", simulate,
-                 run(LIBRARIES), limit, COLD_ROUNDS)  # fmt: skip
+    name = f"platecontact {command} {scene.name}, cold, over its libraries' imports"
+    return ratio(name, process(COMMAND, command, str(scene), "--json", "-"), process(LIBRARIES),
+                 limit, COLD_ROUNDS)  # fmt: skip
 
 
-def measure(scene: Path, tell: Callable[[str, int, int], None] | None = None) -> list[Timing]:
+def process(code: str, *arguments: str) -> Callable[[], object]:
+    """Python code with arguments in a process of its own."""
+    call = [sys.executable, "-c", code, *arguments]
+    return lambda: subprocess.run(call, check=True, capture_output=True)
+
+
+def hertz_alone(scene: Path, limit: float) -> Timing:
+    """A scene where Hertz' law is enough, over the same with every other effect switched off."""
+    with tempfile.TemporaryDirectory() as folder:
+        plain = Path(folder) / scene.name
+        keys = "".join(f"{name} = false\n" for name in SWITCHES)
+        plain.write_text(f"{scene.read_text()}\n[effects]\n{keys}")
+        name = f"platecontact simulate {scene.name}, where Hertz is enough, over all else off"
+        auto, off = (
+            process(COMMAND, "simulate", str(path), "--json", "-") for path in (scene, plain)
+        )
+        return ratio(name, auto, off, limit, COLD_ROUNDS)
+
+
+def measure(
+    examples: Sequence[Path],
+    solved: Collection[Path] = (),
+    tell: Callable[[str, int, int], None] | None = None,
+) -> list[Timing]:
     """Every comparison, one after the other.
 
     Parameters
     ----------
-    scene
-        The scene file of the cold start.
+    examples
+        The scene files of the cold starts, one of them `block.toml`, where Hertz is enough.
+    solved
+        Those among them for which the pressure is solved for.
     tell
         Called before each with its name, number and how many there are.
     """
@@ -214,8 +238,15 @@ def measure(scene: Path, tell: Callable[[str, int, int], None] | None = None) ->
         ("contacts up to 3 h", lambda: law_over_exp(3.0, 15.0)),
         ("impacts", lambda: impact_rate(0.01, 2.9, 5e4)),
         ("deep impacts", lambda: impact_rate(0.01, 5.9, 5e4)),
-        ("cold start", lambda: cold_start(scene, 2.0)),
     )
+    for scene in examples:
+        limit = SOLVED_START if scene in solved else START
+        planned += (
+            ("cold start", partial(cold_start, "simulate", scene, limit)),
+            ("cold start", partial(cold_start, "explain", scene, EXPLAINED)),
+        )
+        if scene.name == "block.toml":
+            planned += (("Hertz alone", partial(hertz_alone, scene, 1.2)),)
     planned += tuple((name, partial(stable_over_naive, name)) for name in NAIVE)
     found = []
     for number, (name, timing) in enumerate(planned, start=1):

@@ -335,7 +335,8 @@ def _row(
     if effect.forced:
         why = "always"
     elif choice[name] != "auto":
-        why = _forced(bool(choice[name]), bound)
+        worst = max(outputs, key=lambda output: _error(state, [effect], [output]))
+        why = _forced(bool(choice[name]), bound, worst)
     elif included:
         why = f"left out it could exceed rtol = {rtol:.3g}"
     else:
@@ -343,11 +344,12 @@ def _row(
     return Row(name, effect.adds, effect.number, value, bound, included, why)
 
 
-def _forced(included: bool, bound: float) -> str:
-    """What the scene's own choice means."""
+def _forced(included: bool, bound: float, output: str) -> str:
+    """What the scene's own choice means, and in which result most."""
     if included:
         return "true in the scene"
-    price = f"up to {100 * bound:.2g} %" if math.isfinite(bound) else "more than a bound can say"
+    known = math.isfinite(bound)
+    price = f"up to {100 * bound:.2g} % in {output}" if known else "more than a bound can say"
     return f"{FORCED_OUT}: costs {price}"
 
 

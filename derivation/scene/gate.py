@@ -353,7 +353,7 @@ def _forced(included: bool, bound: float, output: str) -> str:
     return f"{FORCED_OUT}: costs {price}"
 
 
-def cost(law: Law, effect: Effect, repeats: int = 5) -> float:
+def cost(law: Law, effect: Effect, repeats: int = 3) -> float:
     """Time [s] that a law with this effect alone takes at an impact's nodes, the least of a few."""
     a = rule(NODES[0]).x * min(law.limit, law.model.h)
     alone = Law(law.model, frozenset({"hertz", effect.name}))

@@ -276,6 +276,15 @@ def test_each_output_of_a_heavy_sphere_is_within_its_bound(
         assert abs(moves(gate.law).numbers[place] / true - 1.0) <= bound
 
 
+def test_bending_stays_with_an_edge_that_does_not_lag() -> None:
+    """Without it the edge would lag, which changes more than bending itself does."""
+    model = replace(BALL, h=0.5, edge="simply-supported", viscous_time=2e-6)
+    for row in decide(model, {"edge": True, "viscosity": True}, 0.1).rows:
+        assert row.name != "bending" or row.included
+    alone = decide(model, {"edge": False, "viscosity": True}, 0.1)
+    assert "bending" not in alone.law.effects
+
+
 @pytest.mark.parametrize("edge", ["soft-hinge", "clamped"])
 @pytest.mark.parametrize("gravity", [0.0, 9.81])
 def test_gate_keeps_its_word_either_side_of_its_threshold(edge: str, gravity: float) -> None:

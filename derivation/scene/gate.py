@@ -236,6 +236,8 @@ def _bound(state: _State, effect: Effect, stretch: float = 1.0) -> Bound:
         found = effect.bound(state.law.model, state.place.stretched(stretch))
     if effect.name == "curvature" and "pressure" in state.law.effects:
         return found._replace(up=found.up + math.inf)  # known under Hertz' pressure alone
+    if effect.name == "bending" and {"edge", "viscosity"} <= state.law.effects:
+        return found._replace(up=found.up + math.inf)  # without it the edge lags too
     if isinstance(effect, PlateEffect):
         part = 1.0 / (1.0 + state.law.softness)
         return found._replace(low=part * found.low, up=part * found.up)

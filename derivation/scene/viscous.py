@@ -254,7 +254,10 @@ def element(
         system, residual = slope / t[:, None], (z - at.depth) / t
         if not (np.all(np.isfinite(system)) and np.all(np.isfinite(residual))):
             return None
-        step = np.linalg.solve(system, residual)
+        try:
+            step = np.linalg.solve(system, residual)
+        except np.linalg.LinAlgError:
+            return None
         moved = by_x @ step
         y = y + step / max(1.0, -2.0 * float(np.min(moved / a)))  # radii at most halve
         before, size = size, float(np.max(np.abs(moved)) / np.max(a))

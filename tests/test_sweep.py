@@ -51,7 +51,8 @@ def test_a_refused_value_is_a_row_and_the_others_go_on(capsys: Captured) -> None
     rows = json.loads(shown.out)
     assert [bool(row["results"]) for row in rows] == [False, False, True]
     assert "expected a positive number" in rows[0]["remark"]
-    assert "refused" in shown.err
+    assert "at impact.speed = -1: refused" in shown.err
+    assert "at impact.speed = 0: refused" in shown.err
 
 
 @pytest.mark.parametrize(

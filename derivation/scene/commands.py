@@ -1,4 +1,4 @@
-"""The commands `simulate` and `indent`: check the file names, make one call, show the result."""
+"""The commands that take a scene file: check the names, make one call, show the result."""
 
 from collections.abc import Sequence
 from dataclasses import asdict
@@ -91,11 +91,12 @@ def _sweep(
     loaded = load(scene)
     with counted("simulate") as tell:
         rows = sweeps.run(loaded, sweep, rtol, tell)
-    warn([row.remark for row in rows if row.remark])
+    key = f"{sweep.table}.{sweep.key}"
+    warn([f"at {key} = {row.value:.6g}: {row.remark}" for row in rows if row.remark])
     if csv is not None:
         write_file(csv, sweeps.to_csv(sweep, rows).encode())
     elif json != "-":
-        heads = (f"#{sweep.table}.{sweep.key}", *(f"#{n} [{u}]" for n, u in UNITS.items()))
+        heads = (f"#{key}", *(f"#{n} [{u}]" for n, u in UNITS.items()))
         cells = [
             [f"{row.value:.6g}"]
             + [f"{row.results[name]:.6g}" if row.results else "-" for name in UNITS]
@@ -196,6 +197,20 @@ def indent(
         put_json([contact.to_json() for contact in contacts], json)
 
 
+def schema(
+    out: Annotated[
+        str, typer.Option(metavar="FILE|-", help="Write here; standard output without it.")
+    ] = "-",
+) -> None:
+    """Print the JSON schema of scene files, for editors that check and complete TOML.
+
+    Example: platecontact schema --out scene.schema.json
+    """
+    from derivation.scene import schema as made
+
+    put_json(made(), out)
+
+
 def _numbers(name: str, texts: Sequence[str], more: Sequence[str] | None) -> list[float]:
     """Numbers after an option: `--force 1 2`, `--force 1,2` and `--force 1 --force 2` alike."""
     from derivation.scene import SceneError
@@ -227,6 +242,8 @@ def check_outputs(
     places += [path for path in (plot, csv) if path is not None]
     taken = {scene.resolve(): "the scene file"}
     for place in places:
+        if place == Path("-"):
+            raise SceneError("-: expected a file to write; only --json takes standard output as -")
         if place.is_dir():
             raise SceneError(f"{place}: expected a file to write, got a folder; add a file name")
         if place.resolve() in taken:

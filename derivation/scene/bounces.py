@@ -28,18 +28,14 @@ ROUGH = 1e2
 """How much less exact the force of a contact that lags may be."""
 STEP, BLOCK, BLOCKS = 0.3, 256, 4000
 """Phase of the fastest oscillator between looks in flight, looks at once, and how many times."""
-CONTACTS = 500
+CONTACTS = 100
 """How many contacts are followed."""
 RECOVERED = 60.0
 """Time over A_v after which a face is held to have recovered."""
 STAYS = 20.0
 """Contact time over half a swing on the resting plate from which a sphere is held to stay."""
 _HALVINGS = 80
-LEFT, LOST_SIGHT, TOO_MANY = (
-    "the sphere has left the plate's reach",
-    "the sphere hovers within the plate's reach for too long to be followed",
-    f"the sphere touches the plate more than {CONTACTS} times",
-)
+LEFT = "the sphere has left the plate's reach"
 """Why a course ends."""
 
 
@@ -75,18 +71,21 @@ def course(problem: Problem, n: int) -> Course:
         If a contact cannot be followed, or the sphere's weight keeps it on the plate.
     """
     t, radius, state, found = 0.0, 0.0, problem.begin(), list[Touching]()
-    reason = TOO_MANY
-    while len(found) < CONTACTS:
+    while True:
         touching = contact(problem, n, state, t, radius)
         found.append(touching)
         wait, radius = meeting(problem, touching.after, touching.pieces[-1].radius)
-        if not wait < math.inf:
-            reason = LEFT if wait == math.inf else LOST_SIGHT
-            break
+        if wait == math.inf:
+            return Course(problem, tuple(found), LEFT)
+        if math.isnan(wait) or len(found) == CONTACTS:
+            raise SceneError(
+                f"effects.inertia: expected a sphere that leaves the plate, got one that still "
+                f"{'hovers above' if math.isnan(wait) else 'touches'} it after {len(found)} "
+                "contacts; give a thicker plate or a lighter sphere, or false for a plate at rest"
+            )
         t, state = touching.end + wait, problem.flown(touching.after, wait)
         if not radius:
             state = state._replace(into=0.0)
-    return Course(problem, tuple(found), reason)
 
 
 def contact(problem: Problem, n: int, begin: State, start: float, radius: float) -> Touching:
@@ -138,9 +137,21 @@ def contact(problem: Problem, n: int, begin: State, start: float, radius: float)
         if left < CLOSED * x**ONSET and not problem.lag:
             more, after = _released(problem, made, left)
             return Touching(start, start + x**ONSET + more, first, tuple(found), begin, after)
-    raise SceneError(
-        "effects.inertia: expected a contact that can be followed to its end, got one that cannot "
-        f"at {problem.T * (origin + x**ONSET):.6g} s; give less extreme numbers"
+    raise _lost(problem, state, radius, problem.T * (origin + x**ONSET))
+
+
+def _lost(problem: Problem, state: State, radius: float, time: float) -> SceneError:
+    """Why a contact cannot be followed any further."""
+    why = "that cannot; give less extreme numbers"
+    beyond = np.nextafter(problem.contact.top, 0.0) / problem.a
+    for a in (radius, 1.2 * radius):  # where it is, and where it would go
+        at = problem.contact.at(problem.a * np.array([min(a, beyond)]))
+        if not at.depth_a[0] / problem.depth + at.less_a[0] @ state.q > 0.0:
+            why = "under which the plate bends more sharply than the sphere is round; give a "
+            why += "smaller sphere or a thicker plate"
+    return SceneError(
+        f"effects.inertia: expected a contact that can be followed to its end, got one at "
+        f"{time:.6g} s {why}"
     )
 
 
@@ -220,7 +231,7 @@ def meeting(problem: Problem, after: State, radius: float) -> tuple[float, float
         into -= np.sum(bent, axis=1)
         opening = cos @ state.rate - sin @ (state.q * omega) - state.velocity - problem.weight * t
         if problem.lag:
-            into -= _pressed(problem, begin + t, radius, state.q + bent)
+            into -= _pressed(problem, np.add(begin, t), radius, np.add(state.q, bent))
         turned = (opening[:-1] < 0.0) & (opening[1:] > 0.0)  # they come closest in between
         for k in np.flatnonzero((into[1:] >= 0.0) | turned):
             low, high = begin + float(t[k]), begin + float(t[k + 1])

@@ -16,6 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial.chebyshev import chebder, chebvander
+from numpy.typing import NDArray
 
 from derivation.scene.effects.effect import Array
 from derivation.scene.law import Law
@@ -47,11 +48,6 @@ class Modes:
     drive: Array
     admittance: float = 0.0
 
-    def first(self, count: int) -> "Modes":
-        """The slowest of them alone."""
-        parts = (row[:count] for row in (self.phi, self.omega, self.drive))
-        return Modes(*parts, self.admittance)
-
     @property
     def compliance(self) -> Array:
         """Static deflection at the axis by a unit force [m/N]."""
@@ -74,15 +70,35 @@ class Touch(NamedTuple):
 
 
 def modes_of(model: Model, count: int) -> Modes:
-    """The first bending modes J_0(phi_j r) of the plate, of the branch A0 at their wave numbers."""
+    """The first bending modes J_0(phi_j r) of the plate, of the branch A0 at their wave numbers.
+
+    Of all branches, if the scene wants them, those no faster than the last of these.
+    """
     from generated import inertia
     from generated.bessel import bessel_j0_zeros, bessel_j1_at_j0_zeros
 
     j, J1 = bessel_j0_zeros(count), bessel_j1_at_j0_zeros(count)
     h, b, x, nu = model.h, model.b, j * model.eta, model.poissons_ratio
-    omega = inertia.bending_frequency(x, nu) * (shear_speed(model) / h)
-    drive = inertia.bending_residue(x, nu) / (np.pi * model.density * h * b * b * J1**2)
-    return Modes(j / b, omega, drive)
+    root, residue = inertia.bending_frequency(x, nu), inertia.bending_residue(x, nu)
+    if model.inertia.branches == "all":
+        place, root, residue = _all_branches(x, nu, float(root[-1]))
+        j, J1 = j[place], J1[place]
+    drive = residue / (np.pi * model.density * h * b * b * J1**2)
+    return Modes(j / b, root * (model.shear_speed / h), drive)
+
+
+def _all_branches(x: Array, nu: float, highest: float) -> tuple[NDArray[np.intp], Array, Array]:
+    """Which x, frequency and residue, of every branch up to a frequency."""
+    from generated.plate_waves import branches
+
+    # At x = 0 branches begin pi/2 apart or wider, and none of them falls by much.
+    count = math.ceil(highest / (math.pi / 2.0)) + 2
+    kinds = [branches(x, nu, count, parity) for parity in ("antisymmetric", "symmetric")]
+    root, residue = (np.hstack(parts) for parts in zip(*kinds, strict=True))
+    place, which = np.nonzero((root <= highest * (1.0 + 1e-12)) & (residue > 0.0))
+    order = np.argsort(root[place, which], kind="stable")
+    place, which = place[order], which[order]
+    return place, root[place, which], residue[place, which]
 
 
 def far_plate(model: Model) -> Modes:
@@ -90,11 +106,6 @@ def far_plate(model: Model) -> Modes:
     H, none = 2.0 * model.h, np.zeros(0)
     bending = model.modulus * H**3 / 12.0
     return Modes(none, none, none, 1.0 / (8.0 * math.sqrt(bending * model.density * H)))
-
-
-def shear_speed(model: Model) -> float:
-    """Speed of shear waves [m/s]."""
-    return math.sqrt(model.mu / model.density)
 
 
 @dataclass(frozen=True)
@@ -166,4 +177,5 @@ def _knots() -> tuple[Array, Array, Array]:
     analysis = np.linalg.pinv(chebvander(2.0 * x - 1.0, DEGREE))
     t, weights = gauss(INNER)
     inner = chebvander(2.0 * np.outer(x, t) - 1.0, DEGREE)
-    return x, analysis, np.einsum("i,kij->kj", weights * t * t, inner)
+    mean = np.einsum("i,kij->kj", weights * t * t, inner)
+    return x, np.asarray(analysis, dtype=np.float64), np.asarray(mean, dtype=np.float64)

@@ -82,6 +82,11 @@ class Model:
         return plane_strain_modulus(self.lam, self.mu)
 
     @property
+    def shear_speed(self) -> float:
+        """Speed of shear waves in the plate [m/s]."""
+        return math.sqrt(self.mu / self.density)
+
+    @property
     def softness(self) -> float:
         """E* of the plate over that of the sphere, 0 for a rigid one [1]."""
         return self.modulus / self.sphere_modulus

@@ -8,6 +8,7 @@ P/(8 sqrt(D rho H)), whatever is left of the plate's static deflection without b
 
 import math
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -16,9 +17,11 @@ from derivation.scene import bounces, motion
 from derivation.scene.bounces import Course
 from derivation.scene.dynamics import LEAK, LOST, ONSET, A, E, P, Piece, Problem, State, V, W, Z
 from derivation.scene.effects.effect import Array
+from derivation.scene.effects.inertia import further_branches
 from derivation.scene.law import Law
 from derivation.scene.limits import zener_number
-from derivation.scene.modal import Modes, contact_of, far_plate, modes_of, shear_speed
+from derivation.scene.modal import Modes, contact_of, far_plate, modes_of
+from derivation.scene.model import Model
 from derivation.scene.motion import Ledger, Motion
 from derivation.scene.quadrature import NODES, gauss
 
@@ -26,14 +29,14 @@ STAGES = 12, 16
 """Nodes of an element, of the run that checks and of the one that counts."""
 PHASE = 25.0
 """omega_M That/max(1, lambda^(2/3)) of the fastest oscillator, of the run that checks."""
-FEWEST, MOST = 8, 1500
+FEWEST, MOST = 2, 1500
 """Oscillators of the run that checks; the one that counts has twice as many."""
 WIDER = 1.05
 """Radius up to which the contact is tabled, over that on a plate that does not yield."""
-THICKNESS = 0.01
-"""What further branches are worth, over H/(c_T T): measured."""
-ROUNDING = 2e-12
-"""What tests hold the results to, beside the change with the modes [1]."""
+LOOSE = 3e-4
+"""Change with the number of modes that is small enough where no tolerance is given [1]."""
+INTEGRATION, ROUNDING = 1e-10, 2e-12
+"""What tests hold elements and arithmetic to, beside the change with the modes [1]."""
 
 
 class Touch(NamedTuple):
@@ -141,8 +144,20 @@ def _rows(problem: Problem, touching: bounces.Touching, t: Array) -> Array:
     return found
 
 
-def impact(law: Law) -> WaveMotion | None:
+def goal(rtol: float | None) -> float:
+    """How much the modes left out may change, of a tolerance of everything [1]."""
+    return LOOSE if rtol is None else rtol / 3.0
+
+
+@lru_cache(maxsize=16)
+def impact(law: Law, goal: float = LOOSE) -> WaveMotion | None:
     """The impact by a law with inertia; None beyond the law's limit.
+
+    Parameters
+    ----------
+    goal
+        Relative change of the results with the number of modes that is small enough: while it
+        is larger the modes are doubled, unless the scene says how many there are.
 
     Raises
     ------
@@ -153,21 +168,32 @@ def impact(law: Law) -> WaveMotion | None:
     quick = motion.impact(replace(law, effects=law.effects & stiff))
     if quick is None or not all(0.0 < value < math.inf for value in quick.numbers):
         return None
+    model = law.model
     rest = replace(law, effects=law.effects - {"inertia", "viscosity", "gravity"})
-    if law.model.inertia.infinite_plate:
-        rest = replace(rest, effects=rest.effects - {"bending"})
-        modes = rough_modes = far_plate(law.model)
-    else:
-        count = _count(law)
-        modes = modes_of(law.model, 2 * count)
-        rough_modes = modes.first(count)
-    rough, found = (
-        _motion(law, bounces.course(_problem(law, rest, chosen, quick), n))
-        for n, chosen in zip(STAGES, (rough_modes, modes), strict=True)
-    )
+    if model.inertia.infinite_plate:
+        rest, plate = replace(rest, effects=rest.effects - {"bending"}), far_plate(model)
+        runs = [_run(law, rest, plate, quick, n) for n in STAGES]
+        return _judged(*runs)
+    count = _count(law)
+    rough = _run(law, rest, modes_of(model, count), quick, STAGES[0])
+    while True:
+        found = _run(law, rest, modes_of(model, 2 * count), quick, STAGES[1])
+        judged, count, rough = _judged(rough, found), 2 * count, found
+        assert judged.inertia is not None
+        if model.inertia.modes or judged.inertia.doubt <= goal or count >= MOST:
+            return judged
+
+
+def _run(law: Law, rest: Law, modes: Modes, quick: Motion, n: int) -> WaveMotion:
+    """The impact with given oscillators by elements of n nodes."""
+    return _motion(law, bounces.course(_problem(law, rest, modes, quick), n))
+
+
+def _judged(rough: WaveMotion, found: WaveMotion) -> WaveMotion:
+    """A run with what it differs by from one with fewer modes."""
+    assert found.inertia is not None
     pairs = zip(found.numbers, rough.numbers, strict=True)
     doubt = max(abs(new - old) / abs(new) for new, old in pairs)
-    assert found.inertia is not None
     return replace(found, inertia=replace(found.inertia, doubt=doubt))
 
 
@@ -221,7 +247,7 @@ def _motion(law: Law, course: Course) -> WaveMotion:
         problem.omega.size,
         tuple((energy * energies).tolist()),
         0.0,
-        THICKNESS * 2.0 * law.model.h / (shear_speed(law.model) * problem.T * first.end),
+        _branches(law.model, problem.a * largest[A], problem.T * first.end),
     )
     return WaveMotion(
         problem.T * first.end,
@@ -234,6 +260,12 @@ def _motion(law: Law, course: Course) -> WaveMotion:
         course,
         inertia,
     )
+
+
+def _branches(model: Model, a: float, T: float) -> float:
+    """What the branches left out may change [1]."""
+    left_out = model.inertia.branches == "A0" and not model.inertia.infinite_plate
+    return further_branches(model, a, T) if left_out else 0.0
 
 
 def _given_up(problem: Problem, touching: bounces.Touching) -> float:

@@ -156,8 +156,7 @@ def solve_gated(gate: Gate, rtol: float | None = None) -> tuple[Numbers, Accurac
     SceneError
         If the impact leaves the law's range, or the tolerance is out of reach.
     """
-    law = gate.law
-    rest = None if rtol is None else (rtol - gate.error) / (1.0 + gate.error)
+    law, rest = gate.law, remaining(gate, rtol)
     if law.effects == WHOLE_PLATE | {"hertz"}:
         found, accuracy = solve(law.model, rest)
     else:
@@ -166,11 +165,20 @@ def solve_gated(gate: Gate, rtol: float | None = None) -> tuple[Numbers, Accurac
         accuracy, rtol=rtol, effects=Part(gate.error, _basis(gate)), outputs=gate.outputs
     )
     if rtol is not None and accuracy.bound > rtol:
+        where = f"for a contact as wide as a/R = {found[3] / law.model.R:.4g}"
+        mend = "give a larger tolerance"
+        if "inertia" in law.effects:
+            where = "with the modes and branches that move"
+            mend += ', more inertia.modes, or inertia.branches = "all"'
         raise SceneError(
-            f"rtol: expected at least {_above(accuracy.bound)} for a contact as wide as "
-            f"a/R = {found[3] / law.model.R:.4g}, got {rtol:.3g}; give a larger tolerance"
+            f"rtol: expected at least {_above(accuracy.bound)} {where}, got {rtol:.3g}; {mend}"
         )
     return found, accuracy
+
+
+def remaining(gate: Gate, rtol: float | None) -> float | None:
+    """What a tolerance leaves beside the effects left out [1]."""
+    return None if rtol is None else (rtol - gate.error) / (1.0 + gate.error)
 
 
 def _basis(gate: Gate) -> str:
@@ -215,7 +223,6 @@ def _on_moving_plate(law: Law, rtol: float | None) -> tuple[Numbers, Accuracy]:
     if found is None:
         check_energy(replace(law, effects=law.effects - {"inertia", "viscosity"}), DOUBT)
         return (math.nan,) * 5, whole_law("full", None)
-    assert found.inertia is not None
     left = (1.0 + found.inertia.doubt) * (1.0 + found.inertia.branches) - 1.0
     return found.numbers, Accuracy(
         "full",

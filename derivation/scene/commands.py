@@ -60,6 +60,12 @@ def simulate(
         OUT.print(str(result.accuracy), markup=False, highlight=False, soft_wrap=True)
         for note in filter(None, (result.model_note, result.verdict)):
             OUT.print(note, markup=False, highlight=False, soft_wrap=True)
+        if result.moving is not None:
+            from derivation.scene import waves
+
+            table("Contacts", waves.HEADS, result.moving.lines())
+            for note in result.moving.notes():
+                OUT.print(note, markup=False, highlight=False, soft_wrap=True)
         if result.comparison:
             from derivation.scene import comparison
 

@@ -7,9 +7,9 @@ P/(8 sqrt(D rho H)), whatever is left of the plate's static deflection without b
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from functools import lru_cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -33,10 +33,16 @@ FEWEST, MOST = 2, 1500
 """Oscillators of the run that checks; the one that counts has twice as many."""
 WIDER = 1.05
 """Radius up to which the contact is tabled, over that on a plate that does not yield."""
+LOOKS = 2001
+"""Times at which a contact's force is looked at."""
 LOOSE = 3e-4
 """Change with the number of modes that is small enough where no tolerance is given [1]."""
 INTEGRATION, ROUNDING = 1e-10, 2e-12
 """What tests hold elements and arithmetic to, beside the change with the modes [1]."""
+
+
+HEADS = ("#start [s]", "#end [s]", "#impulse [N s]", "#peak force [N]", "#closing speed [v0]")
+"""Heads of the table of contacts."""
 
 
 class Touch(NamedTuple):
@@ -96,8 +102,52 @@ class Inertia:
 class WaveMotion(Motion):
     """An impact on a moving plate, with its course."""
 
-    course: Course | None = None
-    inertia: Inertia | None = None
+    course: Course = field(kw_only=True, repr=False)
+    inertia: Inertia = field(kw_only=True)
+    ledger: Ledger = field(kw_only=True)
+
+    @property
+    def least(self) -> float:
+        """Smallest force between two maxima of a contact, over the largest; 1 if there is none."""
+        found = [1.0]
+        for touching in self.course.contacts:
+            times = np.linspace(touching.start, touching.end, LOOKS) * self.course.problem.T
+            force = self.rows(times)[P] / self.max_force
+            inner = (force[1:-1] <= force[:-2]) & (force[1:-1] < force[2:])
+            found += force[1:-1][inner].tolist()
+        return min(found)
+
+    def to_json(self) -> dict[str, Any]:
+        """Contacts, energies and what the modes are worth, under fixed keys."""
+        inertia, ledger = self.inertia, self.ledger
+        return {
+            "total_time": inertia.total_time,
+            "reason": inertia.reason,
+            "contacts": [touch._asdict() for touch in inertia.contacts],
+            "modes": inertia.modes,
+            "mode_energies": list(inertia.energies),
+            "change_with_modes": inertia.doubt,
+            "further_branches": inertia.branches,
+            "ledger": asdict(ledger) | {"closure": ledger.closure},
+        }
+
+    def lines(self) -> list[tuple[str, ...]]:
+        """Start, end, impulse, peak force and closing speed of every contact."""
+        return [tuple(f"{value:.6g}" for value in touch) for touch in self.inertia.contacts]
+
+    def notes(self) -> tuple[str, ...]:
+        """Where the energy went, and why the course ends, in sentences."""
+        ledger, inertia = self.ledger, self.inertia
+        shares = {
+            "the sphere": ledger.returned,
+            "the plate": ledger.plate,
+            "the viscous contact": ledger.dissipated + ledger.left,
+            "the closure's leak": ledger.leak,
+        }
+        told = ", ".join(f"{100 * e / ledger.brought:.3g} % in {n}" for n, e in shares.items() if e)
+        energies = f"energy after: {told}; the ledger closes to {abs(ledger.closure):.1e}"
+        ended = f"{inertia.reason} after {len(inertia.contacts)} contact(s); {inertia.modes} "
+        return energies, ended + f"oscillators, half as many change it by {inertia.doubt:.1e}"
 
     def history(self, law: Law, times: Array) -> tuple[Array, Array, Array, Array]:  # noqa: ARG002
         """Way of the sphere [m], velocity [m/s], contact radius [m] and force [N] at times [s]."""
@@ -106,7 +156,6 @@ class WaveMotion(Motion):
 
     def rows(self, times: Array) -> Array:
         """Everything at times [s], in SI: the rows of `dynamics`, energies in J."""
-        assert self.course is not None
         problem, t = self.course.problem, np.asarray(times, dtype=np.float64)
         found = np.zeros((LEAK + 1, t.size))
         starts = np.array([touching.start for touching in self.course.contacts])
@@ -179,7 +228,6 @@ def impact(law: Law, goal: float = LOOSE) -> WaveMotion | None:
     while True:
         found = _run(law, rest, modes_of(model, 2 * count), quick, STAGES[1])
         judged, count, rough = _judged(rough, found), 2 * count, found
-        assert judged.inertia is not None
         if model.inertia.modes or judged.inertia.doubt <= goal or count >= MOST:
             return judged
 
@@ -191,7 +239,6 @@ def _run(law: Law, rest: Law, modes: Modes, quick: Motion, n: int) -> WaveMotion
 
 def _judged(rough: WaveMotion, found: WaveMotion) -> WaveMotion:
     """A run with what it differs by from one with fewer modes."""
-    assert found.inertia is not None
     pairs = zip(found.numbers, rough.numbers, strict=True)
     doubt = max(abs(new - old) / abs(new) for new, old in pairs)
     return replace(found, inertia=replace(found.inertia, doubt=doubt))
@@ -256,9 +303,9 @@ def _motion(law: Law, course: Course) -> WaveMotion:
         problem.a * largest[A],
         0.0,
         -last.velocity,
-        ledger,
-        course,
-        inertia,
+        ledger=ledger,
+        course=course,
+        inertia=inertia,
     )
 
 

@@ -9,8 +9,8 @@ import numpy as np
 from derivation.scene.effects import EFFECTS
 from derivation.scene.gate import HEADS, Gate, cost
 from derivation.scene.impact import gated
+from derivation.scene.law import Law
 from derivation.scene.limits import ZENER_LIMIT, zener_number
-from derivation.scene.model import Model
 from derivation.scene.scene import OUTPUTS, Scene
 
 
@@ -92,15 +92,23 @@ def explain(scene: Scene, rtol: float | None = None) -> Explanation:
     costs = {
         effect.name: cost(gate.law, effect) for effect in EFFECTS if effect.name in gate.law.effects
     }
-    return Explanation(gate, costs, (_inertia(gate.law.model),))
+    return Explanation(gate, costs, (_inertia(gate.law),))
 
 
-def _inertia(model: Model) -> str:
-    """What can be said of the plate's inertia, which is not computed, before the impact is."""
+def _inertia(law: Law) -> str:
+    """What can be said of the plate's inertia before the impact is computed."""
+    model = law.model
+    if "inertia" in law.effects:
+        from derivation.scene.waves import count_of
+
+        return (
+            f"the plate moves: Zener's number lambda = {zener_number(model):.3g}; "
+            f"{2 * count_of(law)} oscillators to begin with"
+        )
     if not model.density:
         return "the plate's inertia is not judged: no plate.density or material of known density"
     return (
-        f"the plate's inertia is not computed: Zener's number lambda = {zener_number(model):.3g} "
+        f"the plate's inertia is left out: Zener's number lambda = {zener_number(model):.3g} "
         f"(small: below {ZENER_LIMIT}); simulate also compares the contact time with the first "
         "bending period"
     )

@@ -165,15 +165,14 @@ def contact_warnings(closing: Sequence[float], least: float) -> tuple[str, ...]:
     slow = min(closing)
     if slow >= GRAZING and least >= GRAZING:
         return ()
-    how = (
-        f"meet again at {slow:.2g} of the impact's speed"
-        if slow < GRAZING
-        else (f"all but part while they touch, at {least:.2g} of the largest force")
-    )
-    return (
+    how = f"all but part while they touch, at {least:.2g} of the largest force"
+    if slow < GRAZING:
+        how = f"meet again at {slow:.2g} of the impact's speed"
+    text = (
         f"grazing contact: sphere and plate {how}; how many contacts there are depends on the "
-        "last digits of the scene, and with it the restitution",
+        "last digits of the scene, and with it the restitution"
     )
+    return (text,)
 
 
 def motion_warnings(

@@ -223,7 +223,7 @@ def impact(law: Law, goal: float = LOOSE) -> WaveMotion | None:
         rest, plate = replace(rest, effects=rest.effects - {"bending"}), far_plate(model)
         runs = [_run(law, rest, plate, quick, n) for n in STAGES]
         return _judged(*runs)
-    count = _count(law)
+    count = count_of(law)
     rough = _run(law, rest, modes_of(model, count), quick, STAGES[0])
     while True:
         found = _run(law, rest, modes_of(model, 2 * count), quick, STAGES[1])
@@ -244,7 +244,7 @@ def _judged(rough: WaveMotion, found: WaveMotion) -> WaveMotion:
     return replace(found, inertia=replace(found.inertia, doubt=doubt))
 
 
-def _count(law: Law) -> int:
+def count_of(law: Law) -> int:
     """How many oscillators the run that checks has."""
     model = law.model
     if model.inertia.modes:

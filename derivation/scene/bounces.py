@@ -16,8 +16,8 @@ FIRST, LONGEST, SHORTEST, MOST = 0.05, 0.25, 1e-13, 20000
 """First, largest and least length of an element in x, and how many are tried."""
 TOLERANCE = 1e-11
 """An element's last coefficients over the largest there are."""
-PHASE = 3.5
-"""Largest phase of an oscillator over an element."""
+PHASE = 0.45
+"""Largest phase of an oscillator over an element, for each of its nodes."""
 CLOSED = 1e-5
 """What is left of a contact when its end is taken in one step, over the time it took."""
 TOWARDS = 0.75
@@ -103,7 +103,7 @@ def contact(problem: Problem, n: int, begin: State, start: float, radius: float)
     # Before a quantity has grown, what counts is how large it will be.
     scale = np.full((LOST, 1), 0.1)
     for _ in range(MOST):
-        length = min(length, _longest(problem, x, state if found else None))
+        length = min(length, _longest(problem, n, x, state if found else None))
         if length < SHORTEST * max(x, 1.0):
             break
         if found:
@@ -160,10 +160,10 @@ def _left(state: State) -> float:
     return state.into / state.opening if state.opening > 0.0 else math.inf
 
 
-def _longest(problem: Problem, x: float, state: State | None) -> float:
+def _longest(problem: Problem, n: int, x: float, state: State | None) -> float:
     """Length an element may have: by the fastest oscillator, and not beyond the release."""
     most = float(np.max(problem.omega, initial=0.0))
-    ahead = PHASE / most if most else math.inf
+    ahead = PHASE * n / most if most else math.inf
     if state is not None:
         ahead = min(ahead, TOWARDS * _left(state))
     return float((x**ONSET + ahead) ** (1.0 / ONSET) - x)

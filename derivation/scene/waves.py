@@ -25,7 +25,7 @@ from derivation.scene.model import Model
 from derivation.scene.motion import Ledger, Motion
 from derivation.scene.quadrature import NODES, gauss
 
-STAGES = 12, 16
+STAGES = 14, 16
 """Nodes of an element, of the run that checks and of the one that counts."""
 PHASE = 25.0
 """omega_M That/max(1, lambda^(2/3)) of the fastest oscillator, of the run that checks."""

@@ -1,0 +1,62 @@
+"""Turns the theory of the plate's own motion into the numbers its generated code needs."""
+
+import sympy as sp
+
+from derivation.rewrite.series import UNIT_ROUNDOFF
+
+SHALLOW = 2
+"""x up to which F is a power series: S^2 = (p + q)^2 <= 4 x^2."""
+NEAR = 3
+"""S up to which F is a power series where kap is given."""
+CLOSE = sp.Rational(1, 4)
+"""p^2 up to which differences of hyperbolic functions of p are power series."""
+STEPS = 5
+"""Newton's: from a start right to 10 % to below a rounding, for any x and nu (measured)."""
+PLACES = (sp.Integer(0), sp.Rational(1, 4), sp.Rational(1, 2), sp.Rational(3, 4))
+"""gam from nu = 1/2 to nu = -1."""
+_MOST = 40
+
+
+def inertia_context() -> dict[str, object]:
+    """What the template of the generated inertia needs, numbers as text."""
+    return {
+        "shallow": repr(float(SHALLOW)),
+        "near": repr(float(NEAR)),
+        "steps": STEPS,
+        "rayleigh": ", ".join(map(repr, rayleigh_polynomial())),
+        "factorials": [f"1 / {sp.factorial(2 * n + 3)}" for n in range(terms(2 * SHALLOW))],
+    }
+
+
+def waves_context() -> dict[str, object]:
+    """What the template of the further branches needs, numbers as text."""
+    return {"close": repr(float(CLOSE))}
+
+
+def terms(largest: int) -> int:
+    """How many terms of F = sum h_n/(2n + 3)! serve for S up to a largest one.
+
+    h_n = sum S^(2i) d^(2n-2i) <= (n + 1) S^(2n), all positive; the first is 1/6.
+    """
+    for count in range(2, _MOST):
+        size = sp.Rational((count + 1) * largest ** (2 * count), sp.factorial(2 * count + 3))
+        growth = (2 * count + 4) * (2 * count + 5)
+        ratio = sp.Rational((count + 2) * largest**2, (count + 1) * growth)
+        if ratio < 1 and 6 * size / (1 - ratio) < UNIT_ROUNDOFF / 4:
+            return count
+    raise ValueError(f"F takes more than {_MOST} terms up to S = {largest}")
+
+
+def rayleigh_polynomial() -> tuple[float, ...]:
+    """A cubic in gam through four of Rayleigh's xi: where Newton's method begins."""
+    xi, gam = sp.symbols("xi gam")
+    cubic = xi**3 - 8 * xi**2 + 8 * (3 - 2 * gam) * xi - 16 * (1 - gam)
+    places = [(place, _below_one(cubic.subs(gam, place), xi)) for place in PLACES]
+    polynomial = sp.Poly(sp.interpolate(places, gam), gam)
+    return tuple(round(float(c), 4) for c in reversed(polynomial.all_coeffs()))
+
+
+def _below_one(cubic: sp.Expr, xi: sp.Symbol) -> sp.Rational:
+    roots = (root for root in sp.Poly(cubic, xi).nroots() if root.is_real and 0 < root < 1)
+    (root,) = (sp.Rational(root) for root in roots)
+    return root

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from derivation.files import write_file
-from derivation.screen import NOTES, OUT, Json, counted, put_json, table
+from derivation.screen import NOTES, OUT, Json, counted, put_json, stage, table
 
 SceneFile = Annotated[Path, typer.Argument(metavar="SCENE.toml", help="Scene file.")]
 
@@ -22,6 +22,9 @@ def simulate(
     csv: Annotated[
         Path | None,
         typer.Option(metavar="FILE", help="Write time, indentation, velocity, radius and force."),
+    ] = None,
+    animate: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Show the plate move: .gif or .html.")
     ] = None,
     rtol: Annotated[
         float | None,
@@ -39,13 +42,13 @@ def simulate(
     With --sweep plate.thickness=1e-3:1e-2:50 the table, --csv and --json have a row per value.
     """
     if sweep is not None:
-        _sweep(scene, sweep, json, plot, csv, rtol)
+        _sweep(scene, sweep, json, plot or animate, csv, rtol)
         return
     from derivation.scene import load
     from derivation.scene import simulate as run
     from derivation.scene.gate import HEADS
 
-    check_outputs(scene, json, plot, csv)
+    check_outputs(scene, json, plot, csv, animate)
     result = run(load(scene), rtol=rtol)
     warn(result.warnings)
     # Everything is made before anything is written.
@@ -54,6 +57,11 @@ def simulate(
         from derivation.scene.plot import render
 
         files[plot] = render(result, plot.suffix)
+    if animate is not None:
+        from derivation.scene import animation
+
+        with stage("animate"):
+            files[animate] = animation.render(result, animate.suffix)
     if json != "-":
         table(f"Impact of {scene.name}", ("quantity", "#value", "unit"), result.rows())
         table("Effects", HEADS, result.gate.lines())
@@ -91,7 +99,7 @@ def _sweep(
     from derivation.scene.result import UNITS
 
     if plot is not None:
-        raise SceneError("--plot: expected no plot of a sweep; leave it out, or --sweep")
+        raise SceneError("--plot, --animate: expected none of a sweep; leave it out, or --sweep")
     check_outputs(scene, json, csv=csv)
     sweep = sweeps.parse(text)
     loaded = load(scene)
@@ -235,7 +243,11 @@ def _numbers(name: str, texts: Sequence[str], more: Sequence[str] | None) -> lis
 
 
 def check_outputs(
-    scene: Path, json: str | None, plot: Path | None = None, csv: Path | None = None
+    scene: Path,
+    json: str | None,
+    plot: Path | None = None,
+    csv: Path | None = None,
+    animate: Path | None = None,
 ) -> None:
     """Refuse output names that say no format or would overwrite the scene or each other."""
     from derivation.scene import SceneError
@@ -244,8 +256,12 @@ def check_outputs(
         from derivation.scene.plot import check_suffix
 
         check_suffix(plot)
+    if animate is not None:
+        from derivation.scene import animation
+
+        animation.check_suffix(animate)
     places = [Path(json)] if json and json != "-" else []
-    places += [path for path in (plot, csv) if path is not None]
+    places += [path for path in (plot, csv, animate) if path is not None]
     taken = {scene.resolve(): "the scene file"}
     for place in places:
         if place == Path("-"):

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
+from numpy.polynomial.legendre import legvander
 
 from derivation.scene.collocation import Element, radau
 from derivation.scene.effects.effect import Array
@@ -273,6 +274,15 @@ def _piece(
     made = Element(x, length, rows, rule.analysis @ at.y)
     z, v, far, into = (float(row[-1]) for row in (at.z, at.v, at.far, at.into))
     return Piece(made, State(z, v, at.q[-1], moving[-1], far, into), float(at.a[-1]), driven[-1])
+
+
+def oscillating(problem: Problem, found: Element, start: State, radius: float, x: float) -> Array:
+    """The oscillators' deflections at a place of an element."""
+    n = found.slope.size
+    nodes = nodes_of(problem, n, found.x, found.length, start)
+    q = values_at(problem, nodes, start, radius, found.slope_at(nodes.x)).q
+    s = 2.0 * (x - found.x) / found.length - 1.0
+    return np.asarray(legvander([s], n - 1)[0] @ (radau(n).analysis @ q), dtype=np.float64)
 
 
 def onset(problem: Problem, n: int, length: float, meeting: float) -> Array:

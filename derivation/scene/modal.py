@@ -53,6 +53,12 @@ class Modes:
         """Static deflection at the axis by a unit force [m/N]."""
         return self.drive / self.omega**2
 
+    def shapes(self, r: Array) -> Array:
+        """Each mode at distances [m] over itself at the axis, shape (modes, distances)."""
+        from generated.bessel import bessel_j0
+
+        return np.asarray(bessel_j0(np.outer(self.phi, r)), dtype=np.float64)
+
 
 class Touch(NamedTuple):
     """The contact at radii: force [N], depth at rest [m], slopes by the radius, and of each mode

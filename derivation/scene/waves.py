@@ -15,7 +15,21 @@ import numpy as np
 
 from derivation.scene import bounces, motion
 from derivation.scene.bounces import Course
-from derivation.scene.dynamics import LEAK, LOST, ONSET, A, E, P, Piece, Problem, State, V, W, Z
+from derivation.scene.dynamics import (
+    LEAK,
+    LOST,
+    ONSET,
+    A,
+    E,
+    P,
+    Piece,
+    Problem,
+    State,
+    V,
+    W,
+    Z,
+    oscillating,
+)
 from derivation.scene.effects.effect import Array
 from derivation.scene.effects.inertia import further_branches
 from derivation.scene.law import Law
@@ -169,6 +183,29 @@ class WaveMotion(Motion):
             problem.a, problem.v0, problem.depth, problem.force, problem.depth, energy
         )  # fmt: skip
         return found * units[:, None]
+
+    def profiles(self, times: Array, r: Array) -> Array:
+        """Deflection [m] of the plate's modes at times [s] (rows) and distances [m] (columns)."""
+        problem = self.course.problem
+        shapes = problem.contact.modes.shapes(r)
+        found = [deflections(self.course, float(t) / problem.T) @ shapes for t in times]
+        return problem.depth * np.array(found)
+
+
+def deflections(course: Course, t: float) -> Array:
+    """Deflection of every oscillator at the axis at a time, in units of the problem."""
+    problem = course.problem
+    starts = [touching.start for touching in course.contacts]
+    touching = course.contacts[max(int(np.searchsorted(starts, t, side="right")) - 1, 0)]
+    if t > touching.end:
+        return problem.flown(touching.after, t - touching.end).q
+    pieces = touching.pieces
+    x = (max(t - touching.start, 0.0) + pieces[0].element.x ** ONSET) ** (1.0 / ONSET)
+    index = max(int(np.searchsorted([piece.element.x for piece in pieces], x, side="right")) - 1, 0)
+    before, radius = touching.before, touching.radius
+    if index:
+        before, radius = pieces[index - 1].end, pieces[index - 1].radius
+    return oscillating(problem, pieces[index].element, before, radius, x)
 
 
 def _rows(problem: Problem, touching: bounces.Touching, t: Array) -> Array:

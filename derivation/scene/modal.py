@@ -39,6 +39,8 @@ class Modes:
         Angular frequencies [1/s].
     drive
         Acceleration by a unit force [1/kg]; over omega^2 the static compliance.
+    held
+        c_j of modes J_0(phi_j r) - c_j I_0(phi_j r), which are 1 at the axis over 1 - c_j.
     admittance
         Velocity of an endless plate by a unit force [s/kg], 0 for one with an edge.
     """
@@ -46,6 +48,7 @@ class Modes:
     phi: Array
     omega: Array
     drive: Array
+    held: Array
     admittance: float = 0.0
 
     @property
@@ -57,7 +60,14 @@ class Modes:
         """Each mode at distances [m] over itself at the axis, shape (modes, distances)."""
         from generated.bessel import bessel_j0
 
-        return np.asarray(bessel_j0(np.outer(self.phi, r)), dtype=np.float64)
+        x, c = np.outer(self.phi, r), self.held[:, None]
+        bent = c * np.i0(np.where(c == 0.0, 0.0, x))
+        return np.asarray((bessel_j0(x) - bent) / (1.0 - c), dtype=np.float64)
+
+    def shares_less_one(self, a: Array) -> Array:
+        """s_j - 1 at contact radii [m], shape (radii, modes)."""
+        y, c = np.outer(a, self.phi), self.held
+        return (sinc_less_one(y) - c * _sinhc_less_one(np.where(c == 0.0, 0.0, y))) / (1.0 - c)
 
 
 class Touch(NamedTuple):
@@ -76,21 +86,36 @@ class Touch(NamedTuple):
 
 
 def modes_of(model: Model, count: int) -> Modes:
-    """The first bending modes J_0(phi_j r) of the plate, of the branch A0 at their wave numbers.
+    """The first bending modes of the plate on its edge, of the branch A0 at their wave numbers.
 
-    Of all branches, if the scene wants them, those no faster than the last of these.
+    On the paper's edge J_0(phi_j r) are modes of every branch: of all of them, if the scene wants
+    them, those no faster than the last of these. A plate simply supported or clamped has a thin
+    plate's shapes.
     """
     from generated import inertia
-    from generated.bessel import bessel_j0_zeros, bessel_j1_at_j0_zeros
 
-    j, J1 = bessel_j0_zeros(count), bessel_j1_at_j0_zeros(count)
-    h, b, x, nu = model.h, model.b, j * model.eta, model.poissons_ratio
+    k, c, weight = _shapes_on_edge(model, count)
+    x, nu = k * model.eta, model.poissons_ratio
     root, residue = inertia.bending_frequency(x, nu), inertia.bending_residue(x, nu)
     if model.inertia.branches == "all":
         place, root, residue = _all_branches(x, nu, float(root[-1]))
-        j, J1 = j[place], J1[place]
-    drive = residue / (np.pi * model.density * h * b * b * J1**2)
-    return Modes(j / b, root * (model.shear_speed / h), drive)
+        k, c, weight = k[place], c[place], weight[place]
+    drive = residue * weight / (model.density * model.h * model.b * model.b)
+    return Modes(k / model.b, root * (model.shear_speed / model.h), drive, c)
+
+
+def _shapes_on_edge(model: Model, count: int) -> tuple[Array, Array, Array]:
+    """Wave numbers times b, c_j, and w(0)^2 over the mean of w^2 over the plate's pi."""
+    if model.edge == "soft-hinge":
+        from generated.bessel import bessel_j0_zeros, bessel_j1_at_j0_zeros
+
+        weight = 1.0 / (np.pi * bessel_j1_at_j0_zeros(count) ** 2)
+        return bessel_j0_zeros(count), np.zeros(count), weight
+    from generated.held_modes import clamped_modes, supported_modes
+
+    if model.edge == "clamped":
+        return clamped_modes(count)
+    return supported_modes(count, model.poissons_ratio)
 
 
 def _all_branches(x: Array, nu: float, highest: float) -> tuple[NDArray[np.intp], Array, Array]:
@@ -111,7 +136,7 @@ def far_plate(model: Model) -> Modes:
     """No oscillator, but an endless thin plate: it yields at P/(8 sqrt(D rho H))."""
     H, none = 2.0 * model.h, np.zeros(0)
     bending = model.modulus * H**3 / 12.0
-    return Modes(none, none, none, 1.0 / (8.0 * math.sqrt(bending * model.density * H)))
+    return Modes(none, none, none, none, 1.0 / (8.0 * math.sqrt(bending * model.density * H)))
 
 
 @dataclass(frozen=True)
@@ -154,12 +179,12 @@ def contact_of(law: Law, modes: Modes, top: float, pointwise: bool) -> Contact:
     shape = law.at(a)
     slope = 2.0 * (a / law.model.R) * shape.slope
     force, depth = law.force(a, shape), law.indentation(a, shape)
-    y = np.outer(a, modes.phi)
-    share = np.sinc(y / np.pi)
+    less = modes.shares_less_one(a)
     # P' sh over x^2 is a polynomial, whose mean weighted by x^2 is P_j over x^3.
     growth = (law.stiffness(a, shape) * slope * top / x**2)[:, None]
-    cubes = mean @ (analysis @ np.concatenate((growth, growth * share), axis=1))
-    less = np.zeros_like(y) if pointwise else sinc_less_one(y)
+    cubes = mean @ (analysis @ np.concatenate((growth, growth * (1.0 + less)), axis=1))
+    if pointwise:
+        less = np.zeros_like(less)
     moved = (cubes[:, 1:] * (1.0 + less)) @ modes.compliance * x
     rest = depth / x**2 - moved
     values = np.column_stack((force / x**3, cubes[:, 1:], rest, less / x[:, None] ** 2))
@@ -173,6 +198,13 @@ def sinc_less_one(y: Array) -> Array:
     """sin(y)/y - 1."""
     small = -y * y / 6.0 * (1.0 - y * y / 20.0 * (1.0 - y * y / 42.0 * (1.0 - y * y / 72.0)))
     return np.where(np.abs(y) < 0.1, small, np.sinc(y / np.pi) - 1.0)
+
+
+def _sinhc_less_one(y: Array) -> Array:
+    """sinh(y)/y - 1."""
+    small = y * y / 6.0 * (1.0 + y * y / 20.0 * (1.0 + y * y / 42.0 * (1.0 + y * y / 72.0)))
+    large = np.where(np.abs(y) < 0.1, 1.0, y)
+    return np.where(np.abs(y) < 0.1, small, np.sinh(large) / large - 1.0)
 
 
 @cache

@@ -335,6 +335,8 @@ class Result:
         notes += f"<p>{escape(self.verdict)}</p>"
         notes += "".join(f"<p><b>Warning:</b> {escape(text)}</p>" for text in self.warnings)
         beside = self.comparison.to_html() if self.comparison else ""
+        if self.moving is not None:
+            beside += self.moving.to_html()
         return f"<table>{''.join(cells)}</table>{notes}{self.gate.to_html()}{beside}"
 
 

@@ -95,7 +95,7 @@ def zener_restitution(number: float) -> float:
     model = Model(R=1e4, m=1.0, v0=1.0, h=1e4, b=1e4, lam=0.0, mu=0.00375)
     law = Law(model, frozenset({"hertz"}))
     none = np.zeros(0)
-    yields = Modes(none, none, none, number)
+    yields = Modes(none, none, none, none, number)
     a = largest_radius(law)
     contact = contact_of(law, yields, 1.01 * a, pointwise=False)
     problem = Problem(contact, a, 3.0, model.m, model.v0)

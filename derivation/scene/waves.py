@@ -9,6 +9,7 @@ P/(8 sqrt(D rho H)), whatever is left of the plate's static deflection without b
 import math
 from dataclasses import asdict, dataclass, field, replace
 from functools import lru_cache
+from html import escape
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -41,7 +42,7 @@ from derivation.scene.quadrature import NODES, gauss
 
 STAGES = 14, 16
 """Nodes of an element, of the run that checks and of the one that counts."""
-PHASE = 25.0
+PHASE = 12.5
 """omega_M That/max(1, lambda^(2/3)) of the fastest oscillator, of the run that checks."""
 FEWEST, MOST = 2, 1500
 """Oscillators of the run that checks; the one that counts has twice as many."""
@@ -163,6 +164,14 @@ class WaveMotion(Motion):
         ended = f"{inertia.reason} after {len(inertia.contacts)} contact(s); {inertia.modes} "
         return energies, ended + f"oscillators, half as many change it by {inertia.doubt:.1e}"
 
+    def to_html(self) -> str:
+        """The contacts and where the energy went, for a notebook."""
+        heads = "".join(f"<th>{escape(head.lstrip('#'))}</th>" for head in HEADS)
+        lines = ("".join(f"<td>{cell}</td>" for cell in line) for line in self.lines())
+        rows = "".join(f"<tr>{line}</tr>" for line in (heads, *lines))
+        notes = "".join(f"<p>{escape(note)}</p>" for note in self.notes())
+        return f"<table>{rows}</table>{notes}"
+
     def history(self, law: Law, times: Array) -> tuple[Array, Array, Array, Array]:  # noqa: ARG002
         """Way of the sphere [m], velocity [m/s], contact radius [m] and force [N] at times [s]."""
         rows = self.rows(times)
@@ -250,9 +259,8 @@ def impact(law: Law, goal: float = LOOSE) -> WaveMotion | None:
     SceneError
         If a contact cannot be followed, or the sphere's weight keeps it on the plate.
     """
-    stiff = {"hertz", "sphere_elasticity", "curvature", "gravity"}
-    quick = motion.impact(replace(law, effects=law.effects & stiff))
-    if quick is None or not all(0.0 < value < math.inf for value in quick.numbers):
+    quick = _quick(law)
+    if quick is None:
         return None
     model = law.model
     rest = replace(law, effects=law.effects - {"inertia", "viscosity", "gravity"})
@@ -267,6 +275,23 @@ def impact(law: Law, goal: float = LOOSE) -> WaveMotion | None:
         judged, count, rough = _judged(rough, found), 2 * count, found
         if model.inertia.modes or judged.inertia.doubt <= goal or count >= MOST:
             return judged
+
+
+def _quick(law: Law) -> Motion | None:
+    """The impact on a plate that does not yield; None if there is none in the law's range."""
+    stiff = {"hertz", "sphere_elasticity", "curvature", "gravity"}
+    found = motion.impact(replace(law, effects=law.effects & stiff))
+    if found is None or not all(0.0 < value < math.inf for value in found.numbers):
+        return None
+    return found
+
+
+def prepared(law: Law) -> None:
+    """Make the oscillators and tables of an impact, to see how long that takes."""
+    quick = _quick(law)
+    if quick is not None:
+        rest = replace(law, effects=law.effects - {"inertia", "viscosity", "gravity"})
+        _problem(law, rest, modes_of(law.model, 2 * count_of(law)), quick)
 
 
 def _run(law: Law, rest: Law, modes: Modes, quick: Motion, n: int) -> WaveMotion:

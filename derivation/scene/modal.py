@@ -22,7 +22,10 @@ from derivation.scene.effects.effect import Array
 from derivation.scene.law import Law
 from derivation.scene.model import Model
 from derivation.scene.quadrature import gauss
+from derivation.scene.scene import SceneError
 
+MANY = 5000
+"""Most oscillators of all branches, as many as memory and patience take."""
 DEGREE, INNER = 32, 40
 """Degree of the tables, and nodes of the integral over the contact's growth."""
 
@@ -127,6 +130,11 @@ def _all_branches(x: Array, nu: float, highest: float) -> tuple[NDArray[np.intp]
     kinds = [branches(x, nu, count, parity) for parity in ("antisymmetric", "symmetric")]
     root, residue = (np.hstack(parts) for parts in zip(*kinds, strict=True))
     place, which = np.nonzero((root <= highest * (1.0 + 1e-12)) & (residue > 0.0))
+    if place.size > MANY:
+        raise SceneError(
+            f"inertia.branches: expected no more than {MANY} oscillators, got {place.size} with "
+            f'{x.size} modes of all branches; give fewer inertia.modes, or branches = "A0"'
+        )
     order = np.argsort(root[place, which], kind="stable")
     place, which = place[order], which[order]
     return place, root[place, which], residue[place, which]

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from derivation.emit.budgets import Budget
+from derivation.emit.inertia_rows import INERTIA_FUNCTIONS
 from derivation.emit.printer import to_numpy
 from derivation.formula.record import Formula
 from derivation.formula.symbols import ARGUMENTS, C1, C3, Argument, applicable
@@ -416,42 +417,7 @@ CONTACT_FUNCTIONS: tuple[ContactRow, ...] = (
         "",
         "restitution of a weakly viscous contact",
     ),
-    (
-        "bending_frequency",
-        "inertia",
-        ("x", "nu"),
-        "1",
-        r"\omega_0 h/c_T",
-        "",
-        "frequency of the lowest bending branch",
-    ),
-    (
-        "bending_residue",
-        "inertia",
-        ("x", "nu"),
-        "1",
-        r"\rho h r_0",
-        "",
-        "how the lowest bending branch answers a load",
-    ),
-    (
-        "bending_share",
-        "inertia",
-        ("x", "nu"),
-        "1",
-        "s_0",
-        "",
-        "share of the lowest bending branch in the deflection at rest",
-    ),
-    (
-        "dynamic_influence",
-        "inertia",
-        ("x", "kap", "nu"),
-        "1",
-        r"1/B_a, 1/B_s",
-        "",
-        "deflection of the loaded face per pressure coefficient, over h/mu: bending, stretching",
-    ),
+    *INERTIA_FUNCTIONS,
     ("bending_period", "effects", ("h", "b", *ELASTIC, "rho"), "s", "T_1", "", "bending period"),
     ("echo_time", "effects", ("h", *ELASTIC, "rho"), "s", "T_e", "", "time of two echoes"),
     ("side_wall", "effects", ("alpha",), "1", "F_W", "6", "what the finite radius adds"),

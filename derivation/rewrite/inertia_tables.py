@@ -2,10 +2,14 @@
 
 import sympy as sp
 
+from derivation.formula.symbols import gam, xi_R
 from derivation.rewrite.series import UNIT_ROUNDOFF
+from derivation.theory.bending_branch import rayleigh
 
-SHALLOW = 2
-"""x up to which F is a power series: S^2 = (p + q)^2 <= 4 x^2."""
+SHALLOW = sp.Rational(9, 4)
+"""x up to which F of A0 is a power series: S^2 = (p + q)^2 <= 4 x^2."""
+SMALL = sp.Rational(19, 10)
+"""x up to which the share of A0 is 1 less what it lacks; beyond that is not small."""
 NEAR = 3
 """S up to which F is a power series where kap is given."""
 CLOSE = sp.Rational(1, 4)
@@ -21,6 +25,7 @@ def inertia_context() -> dict[str, object]:
     """What the template of the generated inertia needs, numbers as text."""
     return {
         "shallow": repr(float(SHALLOW)),
+        "small": repr(float(SMALL)),
         "near": repr(float(NEAR)),
         "steps": STEPS,
         "rayleigh": ", ".join(map(repr, rayleigh_polynomial())),
@@ -33,7 +38,7 @@ def waves_context() -> dict[str, object]:
     return {"close": repr(float(CLOSE))}
 
 
-def terms(largest: int) -> int:
+def terms(largest: sp.Rational) -> int:
     """How many terms of F = sum h_n/(2n + 3)! serve for S up to a largest one.
 
     h_n = sum S^(2i) d^(2n-2i) <= (n + 1) S^(2n), all positive; the first is 1/6.
@@ -49,14 +54,13 @@ def terms(largest: int) -> int:
 
 def rayleigh_polynomial() -> tuple[float, ...]:
     """A cubic in gam through four of Rayleigh's xi: where Newton's method begins."""
-    xi, gam = sp.symbols("xi gam")
-    cubic = xi**3 - 8 * xi**2 + 8 * (3 - 2 * gam) * xi - 16 * (1 - gam)
-    places = [(place, _below_one(cubic.subs(gam, place), xi)) for place in PLACES]
+    cubic = rayleigh()[0].expression
+    places = [(place, _below_one(cubic.subs(gam, place))) for place in PLACES]
     polynomial = sp.Poly(sp.interpolate(places, gam), gam)
     return tuple(round(float(c), 4) for c in reversed(polynomial.all_coeffs()))
 
 
-def _below_one(cubic: sp.Expr, xi: sp.Symbol) -> sp.Rational:
-    roots = (root for root in sp.Poly(cubic, xi).nroots() if root.is_real and 0 < root < 1)
+def _below_one(cubic: sp.Expr) -> sp.Rational:
+    roots = (root for root in sp.Poly(cubic, xi_R).nroots() if root.is_real and 0 < root < 1)
     (root,) = (sp.Rational(root) for root in roots)
     return root

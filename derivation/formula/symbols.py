@@ -51,6 +51,7 @@ eta, alpha, a_ratio, j_n, eps, m, v0, t, delta, delta_0, N, k, u_t, rho = sp.sym
     "eta alpha a_ratio j_n eps m v0 t delta delta_0 N k u_t rho", positive=True
 )
 viscous_time, x_v = sp.symbols("viscous_time x_v", positive=True)
+q_j, q_rate = sp.symbols("q_j q_rate", real=True)
 kappa = {n: sp.Symbol(f"kappa_{n}", positive=True) for n in range(0, 10, 2)}
 """kappa_n, the integral of y^n K0(y)/I0(y) over y > 0, by n."""
 M = {k: sp.Symbol(f"M_{k}", real=True) for k in range(2, 7)}
@@ -114,6 +115,8 @@ ARGUMENTS = (
         viscous_time, "s", "A_v", "time by which the contact's force lags", ("viscous_time > 0",)
     ),
     Argument(x_v, "1", "x", "viscous number", ("x_v >= 0",)),
+    Argument(q_j, "m", "q_j", "deflection of the axis by a mode of the plate", ()),
+    Argument(q_rate, "m/s", r"\dot q_j", "velocity of the axis by a mode of the plate", ()),
     Argument(t, "s", "t", "time since first contact", ("t >= 0",)),
     Argument(delta, "m", r"\delta", "indentation", ("delta > 0",)),
     Argument(delta_0, "m", r"\delta_0", "indentation by the linear law", ("delta_0 > 0",)),

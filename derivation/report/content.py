@@ -73,6 +73,11 @@ ABOUT = {
     "far face": "A plate breaks where it is drawn most: on the far face, under the axis. What its "
     "modes add up to there is, of a thin plate, a function of a/h and a logarithm of b/h; the "
     "edge's states of stretching and bending add their own stress.",
+    "closure": "A plate that moves is a set of oscillators q_j of static compliance c_j, and each "
+    "feels only the part P_j of the force. With z = D + sum s_j q_j, s_j = dP_j/dP and D = delta - "
+    "sum c_j P_j s_j no energy is lost or made, whatever the static law: int P dD + sum q_j (P s_j "
+    "- P_j) is the contact's. With s_j = 1, the indentation at the axis, some leaks. The same "
+    "weight turns the static law into the variational one.",
 }
 
 

@@ -28,11 +28,13 @@ and from the contact law to the motion:
 23 plate motion     when the plate's own motion matters: Zener's number, periods
 24 viscosity        a contact whose force lags: restitution, and what it changes at most
 25 far face         the tension under the axis on the far face, where a plate breaks first
+26 closure          a contact beside a plate of oscillators that neither loses nor makes energy
 """
 
 from collections.abc import Callable, Iterator
 
 from derivation.formula.record import Formula
+from derivation.theory.closure import closure
 from derivation.theory.contact_law import contact_law
 from derivation.theory.contact_split import contact_split, reduced_split
 from derivation.theory.curvature import curvature
@@ -91,6 +93,7 @@ MOTION_LINKS: tuple[Link, ...] = (
     ("plate motion", plate_motion),
     ("viscosity", viscosity),
     ("far face", far_face),
+    ("closure", closure),
 )
 """What follows from the contact law. Apart: these formulas hold integrals and constants too."""
 

@@ -51,7 +51,8 @@ eta, alpha, a_ratio, j_n, eps, m, v0, t, delta, delta_0, N, k, u_t, rho = sp.sym
     "eta alpha a_ratio j_n eps m v0 t delta delta_0 N k u_t rho", positive=True
 )
 viscous_time, x_v = sp.symbols("viscous_time x_v", positive=True)
-q_j, q_rate = sp.symbols("q_j q_rate", real=True)
+q_j, q_rate, nu = sp.symbols("q_j q_rate nu", real=True)
+k_n = sp.Symbol("k_n", positive=True)
 kappa = {n: sp.Symbol(f"kappa_{n}", positive=True) for n in range(0, 10, 2)}
 """kappa_n, the integral of y^n K0(y)/I0(y) over y > 0, by n."""
 M = {k: sp.Symbol(f"M_{k}", real=True) for k in range(2, 7)}
@@ -118,6 +119,8 @@ ARGUMENTS = (
     Argument(q_j, "m", "q_j", "deflection of the axis by a mode of the plate", ()),
     Argument(q_rate, "m/s", r"\dot q_j", "velocity of the axis by a mode of the plate", ()),
     Argument(t, "s", "t", "time since first contact", ("t >= 0",)),
+    Argument(k_n, "1", "k_n", "wave number of a held plate's mode times b", ("k_n > 0",)),
+    Argument(nu, "1", r"\nu", "Poisson's ratio of the plate", ("nu > -1", "nu < 0.5")),
     Argument(delta, "m", r"\delta", "indentation", ("delta > 0",)),
     Argument(delta_0, "m", r"\delta_0", "indentation by the linear law", ("delta_0 > 0",)),
     Argument(N, "1", "N", "number of modes kept", ("N >= 1",)),

@@ -29,6 +29,7 @@ and from the contact law to the motion:
 24 viscosity        a contact whose force lags: restitution, and what it changes at most
 25 far face         the tension under the axis on the far face, where a plate breaks first
 26 closure          a contact beside a plate of oscillators that neither loses nor makes energy
+27 held modes       bending modes of a plate that is clamped or simply supported
 """
 
 from collections.abc import Callable, Iterator
@@ -45,6 +46,7 @@ from derivation.theory.effects import effects
 from derivation.theory.equilibrium import equilibrium
 from derivation.theory.face_conditions import omegas, scaled_omegas
 from derivation.theory.far_face import far_face
+from derivation.theory.held_modes import held_modes
 from derivation.theory.hertz import contact_radius, pressure, pressure_coefficient, sonine
 from derivation.theory.impact import impact
 from derivation.theory.influence import influence_coefficients
@@ -94,6 +96,7 @@ MOTION_LINKS: tuple[Link, ...] = (
     ("viscosity", viscosity),
     ("far face", far_face),
     ("closure", closure),
+    ("held modes", held_modes),
 )
 """What follows from the contact law. Apart: these formulas hold integrals and constants too."""
 

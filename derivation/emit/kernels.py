@@ -388,6 +388,8 @@ CONTACT_FUNCTIONS: tuple[ContactRow, ...] = (
     ),
     *EDGE_FUNCTIONS,
     *FAR_FACE_FUNCTIONS,
+    ("clamped_modes", "held_modes", ("count",), "1", "k_n, c, W_n", "", "modes, clamp"),
+    ("supported_modes", "held_modes", ("count", "nu"), "1", "k_n, c, W_n", "", "modes, support"),
     ("history", "impact", ("t", *IMPACT), "m, m/s, m, N", "", "13", "an impact over time"),
     ("sphere_contact", "effects", ("a_over_R",), "1", "", "7", "a sphere over a paraboloid"),
     (

@@ -81,6 +81,15 @@ ABOUT = {
     "bending branch": "Below the speed of shear waves B_a vanishes once: on A0, the lowest branch. "
     "For thin plates it is Kirchhoff's bending and carries the whole load, for short waves it is "
     "Rayleigh's wave. Its share q of the face's deflection obeys q'' + omega_0^2 q = r_0 A_j.",
+    "closure": "A plate that moves is a set of oscillators q_j of static compliance c_j, and each "
+    "feels only the part P_j of the force. With z = D + sum s_j q_j, s_j = dP_j/dP and D = delta - "
+    "sum c_j P_j s_j no energy is lost or made, whatever the static law: int P dD + sum q_j (P s_j "
+    "- P_j) is the contact's. With s_j = 1, the indentation at the axis, some leaks. The same "
+    "weight turns the static law into the variational one.",
+    "held modes": "A thin plate's modes J0(k r/b) - c I0(k r/b) whose edge has no slope, or no "
+    "moment. Green's identity makes them orthogonal, and makes (J1/J0 + I1/I0)/k grow from one "
+    "zero of J0 to the next, so that there is one mode between neighbouring ones. W_n says how a "
+    "force on the axis moves it: the sum of W_n/k_n^4 is the deflection at rest.",
 }
 
 

@@ -219,11 +219,11 @@ class Inertia(Table):
     )
     closure: Literal["variational", "pointwise"] = Field(
         "variational",
-        description="what indentation is: the gap's mean that conserves energy, or at the axis",
+        description="how indentation is meant: the gap's mean that keeps energy, or at the axis",
         examples=["pointwise"],
     )
     plate: Literal["modes", "infinite"] = Field(
-        "modes", description="with its edge, or without one (Zener)", examples=["infinite"]
+        "modes", description="the plate with its edge, or endless (Zener)", examples=["infinite"]
     )
 
 

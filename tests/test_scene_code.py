@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given import EXAMPLES, changed
+from given import EXAMPLES, STILL, changed
 from scipy.integrate import solve_ivp
 
 from derivation.cli import main
@@ -35,6 +35,7 @@ PAD = {
         "viscous_time": 1e-4,
     },
     "impact": {"speed": 1.0},
+    "effects": STILL,
 }  # fmt: skip
 VISCOUS: dict[str, dict[str, dict[str, Any]]] = {
     "viscous": {
@@ -85,7 +86,8 @@ def scene_of(case: str) -> Any:
     if case in VISCOUS:
         tables = PAD.keys() | VISCOUS[case].keys()
         return read({t: {**PAD.get(t, {}), **VISCOUS[case].get(t, {})} for t in tables})
-    return load(EXAMPLES / f"{case}.toml")
+    data = load(EXAMPLES / f"{case}.toml").to_json()
+    return read(data | {"effects": data.get("effects", {}) | STILL})
 
 
 @cache
@@ -280,6 +282,13 @@ def test_a_held_plate_that_bends_under_a_lagging_contact_is_refused() -> None:
     held = read({**PAD, "plate": PAD["plate"] | {"thickness": 0.02, "edge": "clamped"}})
     with pytest.raises(SceneError, match=r"plate\.edge: expected a soft hinge .* effects\.edge"):
         scene_code(held)
+
+
+@pytest.mark.parametrize("wanted", ["auto", True])
+def test_a_plate_that_moves_is_refused(wanted: Any) -> None:
+    data = load(EXAMPLES / "glass_pane.toml").to_json() | {"effects": {"inertia": wanted}}
+    with pytest.raises(SceneError, match=r"effects\.inertia: .* write effects\.inertia = false$"):
+        scene_code(read(data))
 
 
 MARKS = {

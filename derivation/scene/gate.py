@@ -40,6 +40,7 @@ NEAR = 1e-6
 MARGIN = 1.05
 """Elasticities of S are sampled at nodes and widened by this."""
 FORCED_OUT = "false in the scene"
+STILL = "the plate is at rest unless effects.inertia is auto or true"
 HEADS = ("effect", "number", "value", "if left out", "", "why")
 """Heads of the effects table."""
 
@@ -169,6 +170,8 @@ def decide(
     """
     asked = {e.name for e in EFFECTS if not e.by_itself and wanted.get(e.name) is True}
     reasons = {e.name: "" if e.name in asked else e.absent(model) for e in EFFECTS}
+    if wanted.get("inertia", False) is False:
+        reasons["inertia"] = STILL
     missing = sorted(name for name in WHOLE_PLATE if wanted.get(name) is False)
     for name in WHOLES if missing else ():
         if wanted.get(name) is True:

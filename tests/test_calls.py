@@ -9,7 +9,7 @@ from types import FunctionType
 from typing import Any
 
 import pytest
-from given import ALL, model, scene
+from given import ALL, EXAMPLES, model, scene
 
 import derivation
 from derivation.scene import kernels, motion, simulate
@@ -144,15 +144,22 @@ for effect, module in (
 
 
 @pytest.mark.parametrize(
-    ("name", "effects"),
-    [("block", set()), ("soft_layer", {"pressure", "inertia"}), ("pad", {"pressure", "viscosity"})],
+    ("name", "more", "effects"),
+    [
+        ("block", "", set()),
+        ("soft_layer", "", {"pressure"}),
+        ("pad", "", {"pressure", "viscosity"}),
+        ("soft_layer", "inertia = 'auto'", {"pressure", "inertia"}),
+    ],
 )
-def test_what_is_computed_alone_is_imported(name: str, effects: set[str]) -> None:
-    folder = Path(derivation.__file__).parent
-    example = folder / "scene" / "examples" / f"{name}.toml"
+def test_what_is_computed_alone_is_imported(
+    name: str, more: str, effects: set[str], tmp_path: Path
+) -> None:
+    place = tmp_path / "scene.toml"
+    place.write_text(f"{(EXAMPLES / name).with_suffix('.toml').read_text()}\n[effects]\n{more}\n")
     run = subprocess.run(
-        [sys.executable, "-c", COUNT, str(example)],
-        cwd=folder.parent, capture_output=True, text=True, check=True,
+        [sys.executable, "-c", COUNT, str(place)],
+        cwd=Path(derivation.__file__).parent.parent, capture_output=True, text=True, check=True,
     )  # fmt: skip
     asked = ("pressure", "viscosity", "inertia", "inertia")
     assert run.stdout.split() == [str(x in effects) for x in asked for _ in range(2)]

@@ -21,6 +21,7 @@ SCENE: dict[str, dict[str, Any]] = {
     "sphere": {"radius": 0.02, "material": "steel"},
     "plate": {"radius": 0.2, "thickness": 0.01, "material": "aluminium"},
     "impact": {"speed": 1.0},
+    "effects": {"inertia": "auto"},
 }
 
 
@@ -41,7 +42,7 @@ def test_a_scene_that_calls_for_inertia_gets_it(result: Any) -> None:
     assert not any("inertia" in text for text in result.warnings)
     assert result.restitution < 0.9 < still.restitution == 1.0
     row = next(row for row in still.gate.rows if row.name == "inertia")
-    assert row.why.startswith("false in the scene: costs")
+    assert "at rest unless effects.inertia" in row.why
 
 
 def test_the_density_is_asked_for_where_inertia_is() -> None:
@@ -54,6 +55,7 @@ def test_the_density_is_asked_for_where_inertia_is() -> None:
     # A thick block does not move, whatever its density.
     block = own | {"radius": 1.0, "thickness": 1.0}
     known = read({**bare, "plate": block, "impact": {"speed": 1e-3}})
+    assert known.effects.inertia == "auto"
     assert "inertia" not in simulate(known, rtol=1e-2).gate.law.effects
 
 
@@ -122,7 +124,7 @@ def test_the_animation_shows_the_plate_move(tmp_path: Path, monkeypatch: Any) ->
     with Image.open(place) as movie:
         assert movie.n_frames == 6
     assert main(["simulate", str(toml), "--animate", str(tmp_path / "plate.mp4")]) == 2
-    toml.write_text(toml.read_text() + "\n[effects]\ninertia = false\n")
+    toml.write_text(toml.read_text().replace('inertia = "auto"', "inertia = false"))
     assert main(["simulate", str(toml), "--animate", str(tmp_path / "still.gif")]) == 2
     assert not (tmp_path / "still.gif").exists()
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import sympy as sp
-from given import EXAMPLES, STILL, changed, model, scene
+from given import EXAMPLES, changed, model, scene
 from mpmath import besseljzero, j1, mp, mpf, quad, sinh
 from mpmath import pi as mp_pi
 
@@ -230,16 +230,16 @@ def test_it_changes_no_result(name: str, rtol: float | None) -> None:
 def test_it_is_in_only_where_the_scene_says_true() -> None:
     for wanted in ({}, {"perturbation": False}, {"perturbation": "auto"}):
         for rtol in (1e-12, 1.0):
-            found = decide(model(), STILL | wanted, rtol)
+            found = decide(model(), wanted, rtol)
             row = found.rows[-1]
             assert (row.name, row.included, row.bound) == ("perturbation", False, 0.0)
             assert row.why == "never by itself: for comparison only"
-    row = decide(model(), STILL | {"perturbation": True}, 1e-3).rows[-1]
+    row = decide(model(), {"perturbation": True}, 1e-3).rows[-1]
     assert (row.included, row.bound, row.why) == (True, 0.0, "true in the scene")
     assert row.value == printed_motion(*model().numbers, MODES).share
     assert (
         explain(scene(effects={"perturbation": True})).gate.rows[-1]
-        == decide(model_of(scene()), STILL | {"perturbation": True}, 1e-3).rows[-1]
+        == decide(model_of(scene()), {"perturbation": True}, 1e-3).rows[-1]
     )
 
 

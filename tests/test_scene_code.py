@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given import EXAMPLES, STILL, changed
+from given import EXAMPLES, changed
 from scipy.integrate import solve_ivp
 
 from derivation.cli import main
@@ -35,7 +35,6 @@ PAD = {
         "viscous_time": 1e-4,
     },
     "impact": {"speed": 1.0},
-    "effects": STILL,
 }  # fmt: skip
 VISCOUS: dict[str, dict[str, dict[str, Any]]] = {
     "viscous": {
@@ -86,8 +85,7 @@ def scene_of(case: str) -> Any:
     if case in VISCOUS:
         tables = PAD.keys() | VISCOUS[case].keys()
         return read({t: {**PAD.get(t, {}), **VISCOUS[case].get(t, {})} for t in tables})
-    data = load(EXAMPLES / f"{case}.toml").to_json()
-    return read(data | {"effects": data.get("effects", {}) | STILL})
+    return load(EXAMPLES / f"{case}.toml")
 
 
 @cache

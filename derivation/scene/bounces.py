@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -71,10 +71,14 @@ def course(problem: Problem, n: int) -> Course:
         If a contact cannot be followed, or the sphere's weight keeps it on the plate.
     """
     t, radius, state, found = 0.0, 0.0, problem.begin(), list[Touching]()
+    # Who would not come back but by the weight has left: what follows is another impact.
+    weightless = replace(problem, weight=0.0)
     while True:
         touching = contact(problem, n, state, t, radius)
         found.append(touching)
-        wait, radius = meeting(problem, touching.after, touching.pieces[-1].radius)
+        wait, radius = meeting(weightless, touching.after, touching.pieces[-1].radius)
+        if problem.weight and wait < math.inf:
+            wait, radius = meeting(problem, touching.after, touching.pieces[-1].radius)
         if wait == math.inf:
             return Course(problem, tuple(found), LEFT)
         if math.isnan(wait) or len(found) == CONTACTS:

@@ -187,7 +187,7 @@ def _basis(gate: Gate) -> str:
     Proofs speak of contacts that do not lag, and of the pressure under a paraboloid; what goes
     beyond them is held to random scenes.
     """
-    out = {row.name for row in gate.rows if not row.included and row.bound} - {*gate.forced_out}
+    out = {row.name for row in gate.rows if not row.included and row.bound}
     steeper = "pressure" in out and "curvature" in gate.law.effects
     moving = "inertia" in out | gate.law.effects
     return MEASURED if gate.law.model.viscous_time or steeper or moving else PROVED

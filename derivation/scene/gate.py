@@ -40,6 +40,7 @@ NEAR = 1e-6
 MARGIN = 1.05
 """Elasticities of S are sampled at nodes and widened by this."""
 FORCED_OUT = "false in the scene"
+STILL = "the plate is at rest unless effects.inertia is auto or true"
 HEADS = ("effect", "number", "value", "if left out", "", "why")
 """Heads of the effects table."""
 
@@ -177,6 +178,8 @@ def decide(
                 f"false; leave out effects.{missing[0]} or effects.{name}"
             )
         reasons[name] = f"it holds the whole plate, but {', '.join(missing)} is false"
+    if wanted.get("inertia", False) is False:
+        reasons["inertia"] = STILL
     present = [effect for effect in EFFECTS if not reasons[effect.name]]
     choice = {effect.name: wanted.get(effect.name, "auto") for effect in present}
     present = [effect for effect in present if effect.by_itself]

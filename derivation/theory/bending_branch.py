@@ -102,8 +102,8 @@ def rise_anywhere() -> Proof:
 
 
 @cache
-def bending_zero() -> tuple[Formula, Formula]:
-    """The quotient that is 1 on A0, and the residue there."""
+def bending_zero() -> tuple[Formula, ...]:
+    """The quotient that is 1 on A0, its fall and the residue there."""
     kinetic_slope()
     rise_anywhere()
     B_a = stiffness(sp.tanh(p), sp.tanh(q))
@@ -113,6 +113,13 @@ def bending_zero() -> tuple[Formula, Formula]:
     bare = slope.subs({sp.tanh(p): tanh_p, sp.tanh(q): tanh_q}).subs(tanh_p, at_zero)
     found = in_p_and_q(residue_at_zero(tanh_p, tanh_q)).subs(tanh_p, at_zero)
     anywhere = p * q**2 / (2 * x_h**2 * at_zero * in_p_and_q(steepness(at_zero, tanh_q)))
+    x_i, w, s = sp.symbols("xi w s", positive=True)
+    plus, tanh = (1 + w) ** 2, (sp.tanh(p), sp.tanh(q))
+    faded_p, faded_q = (2 * y / sp.sinh(2 * y) for y in (p, q))
+    fading = plus / 2 * (faded_q - faded_p * gam * w * x_h**2 / p**2)
+    fading -= 8 * w**2 / (plus * x_i) * (1 - tanh[1] ** 2 / tanh[0] ** 2)
+    steep = sp.Rational(1, 2) + w * (1 - 2 / plus) + fading / x_i
+    reduced = {w: q**2 / x_h**2, x_i: kap / x_h**2}
     proof = prove(
         "The lowest bending branch",
         "B_a by its quotient; B_a differentiated, at its zero tanh p in terms of tanh q.",
@@ -121,17 +128,28 @@ def bending_zero() -> tuple[Formula, Formula]:
             "zero": sp.cancel(in_p_and_q(stiffness(at_zero, tanh_q))),
             "residue": sp.cancel(1 / bare + found),
             "by the quotient": sp.cancel(1 / bare + anywhere),
+            "steepness": in_sines(in_p_and_q(steep.subs(reduced) - steepness(*tanh))),
         },
     )
-    return (
-        Formula(
+    rows = (
+        (
             "bending_quotient", r"q_0(\kappa)", "first over second term of B_a, 1 on A0",
-            with_roots(quotient()), "1", "", ("B_a_slow",), proof,
+            quotient(), quotient(), "B_a_slow",
         ),
-        Formula(
+        (
+            "steepness", "s", "how fast that quotient falls on A0 as log kappa grows, times w",
+            steepness(*tanh), steep, "bending_quotient",
+        ),
+        (
             "residue_at_zero", r"\rho h\,r_0", "how A0 answers a load",
-            with_roots(residue_at_zero(sp.tanh(p), sp.tanh(q))), "1", "", ("B_a",), proof,
+            residue_at_zero(*tanh), plus * q / (8 * tanh[1] * s), "steepness",
         ),
+    )  # fmt: skip
+    return tuple(
+        Formula(
+            name, latex, meaning, with_roots(value), "1", "", (source,), proof, stated=stated
+        )
+        for name, latex, meaning, value, stated, source in rows
     )  # fmt: skip
 
 
@@ -139,7 +157,7 @@ def bending_zero() -> tuple[Formula, Formula]:
 def share_at_zero() -> Formula:
     """A0's part of the deflection under a load at rest."""
     static_limit()
-    residue = bending_zero()[1]
+    residue = bending_zero()[2]
     T_x, steep = 2 * x_h, sp.Symbol("steep", positive=True)
     at_rest = (shc(T_x) - 1) / T_x**2
     bent = 16 * x_h**4 * (1 - gam) * at_rest / sp.cosh(x_h) ** 2
@@ -164,10 +182,12 @@ def share_at_zero() -> Formula:
         },
     )
     steep_value = steepness(sp.tanh(p), sp.tanh(q))
+    beta = sp.Symbol("beta", positive=True)
+    stated = (value / (1 + beta)).subs(steep, sp.Symbol("s", positive=True))
     return Formula(
-        "share_at_zero", "s_0", "A0's share of the deflection at rest",
+        "share_at_zero", "s_0", "A0's share of the deflection at rest, beta being B_a/B_s there",
         with_roots(value.subs(steep, steep_value) / (1 + unlike)), "1", "",
-        (residue.name, "C_top"), proof,
+        (residue.name, "C_top"), proof, stated=stated,
     )  # fmt: skip
 
 
@@ -177,7 +197,7 @@ def share_at_zero() -> Formula:
 @cache
 def rayleigh() -> tuple[Formula, Formula]:
     """x -> oo: tanh p = tanh q = 1."""
-    proof_of_residue = bending_zero()[1].proof
+    proof_of_residue = bending_zero()[2].proof
     w, P = 1 - xi_R, sp.sqrt(1 - gam * xi_R)
     cubic = xi_R**3 - 8 * xi_R**2 + 8 * (3 - 2 * gam) * xi_R - 16 * (1 - gam)
     share = residue_at_zero(sp.Integer(1), sp.Integer(1)) / x_h

@@ -222,39 +222,33 @@ def dynamic_influence() -> tuple[Formula, ...]:
         "The tractions are solved for the constants, kappa and gamma in terms of p and q.",
         residuals,
     )
-    B_a, B_s = (with_roots(value) for value in printed)
+    shapes, names = ("wave_f", "wave_g"), sp.symbols("B_a B_s")
+    total = h / mu * sum(1 / with_roots(value) for value in printed)
+    slowly = "the same, without cancellation for kappa < x^2"
     rows = (
-        ("B_a", "B_a", "stiffness in bending, over mu/h", B_a, "1", ("wave_f", "wave_g")),
-        ("B_s", "B_s", "stiffness in stretching, over mu/h", B_s, "1", ("wave_f", "wave_g")),
-        (
-            "B_a_slow",
-            "B_a",
-            "the same, without cancellation for kappa < x^2",
-            with_roots(slow[0]),
-            "1",
-            ("B_a",),
-        ),
-        (
-            "B_s_slow",
-            "B_s",
-            "the same, without cancellation for kappa < x^2",
-            with_roots(slow[1]),
-            "1",
-            ("B_s",),
-        ),
-        (
-            "C_dynamic",
-            r"C(\phi_j, \omega)",
-            "deflection of the loaded face per pressure coefficient that oscillates",
-            h / mu * (1 / B_a + 1 / B_s),
-            "m/Pa",
-            ("B_a", "B_s"),
-        ),
+        ("B_a", "B_a", "stiffness in bending, over mu/h", "1", shapes, printed[0]),
+        ("B_s", "B_s", "stiffness in stretching, over mu/h", "1", shapes, printed[1]),
+        ("B_a_slow", "B_a", slowly, "1", ("B_a",), slow[0]),
+        ("B_s_slow", "B_s", slowly, "1", ("B_s",), slow[1]),
     )
-    return tuple(
-        Formula(name, latex, meaning, value, unit, "", sources, proof)
-        for name, latex, meaning, value, unit, sources in rows
+    parts_of_both = tuple(
+        Formula(
+            name, latex, meaning, with_roots(value), unit, "", sources, proof, stated=value
+        )
+        for name, latex, meaning, unit, sources, value in rows
+    )  # fmt: skip
+    both = Formula(
+        "C_dynamic",
+        r"C(\phi_j, \omega)",
+        "deflection of the loaded face per pressure coefficient that oscillates",
+        total,
+        "m/Pa",
+        "",
+        ("B_a", "B_s"),
+        static_limit(),
+        stated=h / mu * sum(1 / name for name in names),
     )
+    return (*parts_of_both, both)
 
 
 @cache
@@ -372,6 +366,5 @@ def in_sines(expression: sp.Expr) -> sp.Expr:
 
 def dynamic_modes() -> tuple[Formula, ...]:
     """The formulas of the link."""
-    static_limit()
     kinetic_slope()
     return (*wave_equations(), *wave_shapes(), *dynamic_influence())

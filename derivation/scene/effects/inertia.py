@@ -45,9 +45,9 @@ class Inertia(Effect):
         T = SLOWEST * place.depth / model.v0
         a, force = float(place.radii[-1]), float(place.along.force[-1])
         off = force / place.depth * _off_rest(model, a, T)
-        off += further_branches(model, a, T) if model.density else 0.0
+        more = further_branches(model, a, T) if model.density else 0.0
         none = none_of(place.radii)
-        logs = tuple(factor * off for factor in WORTH)
+        logs = tuple(factor * off + more for factor in WORTH)
         return Bound(none, none, results=(logs[0], logs[1], logs[2], logs[3], logs[4]))
 
 

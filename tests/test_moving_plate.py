@@ -163,6 +163,13 @@ def test_a_held_plate_moves_on_its_own_edge(edge: str) -> None:
     assert 0.0 < held.restitution < 1.0
 
 
+def test_no_code_is_written_of_a_plate_that_moves() -> None:
+    from derivation.scene.code import recipe
+
+    with pytest.raises(SceneError, match=r"write effects\.inertia = false"):
+        recipe(scene())
+
+
 def test_explain_says_that_the_plate_moves() -> None:
     told = explain(scene())
     assert any(note.startswith("the plate moves") for note in told.notes)

@@ -147,11 +147,18 @@ def accuracy(
             "--out", metavar="FILE", help="Write here instead of reports/data/accuracy.json."
         ),
     ] = None,
+    moving: Annotated[
+        bool,
+        typer.Option("--moving", help="Of a plate that moves instead: reports/data/moving.json."),
+    ] = False,
 ) -> None:
     """Measure what each digit costs in time with every method: minutes.
 
     Example: platecontact accuracy --quick --out accuracy.json
     """
+    if moving:
+        _moving(out, others=quick or bool(method) or scene is not None)
+        return
     from derivation import pipeline
     from derivation.measure.accuracy.summary import COLUMNS, cells, headline
 
@@ -159,6 +166,18 @@ def accuracy(
         data, path = pipeline.accuracy(method or (), quick, scene, out, tell)
     table("Cheapest methods in arrays", COLUMNS, cells(data))
     OUT.print(headline(data), markup=False, highlight=False, soft_wrap=True)
+    NOTES.print(f"written to {path}", markup=False, soft_wrap=True)
+
+
+def _moving(out: Path | None, others: bool) -> None:
+    """Measure what accuracy costs where the plate moves."""
+    from derivation import moving_costs
+
+    if others:
+        raise typer.BadParameter("expected --moving with --out alone; leave the others out")
+    with counted("accuracy") as tell:
+        data, path = moving_costs.record(out, tell)
+    table("An impact on a plate that moves", moving_costs.COLUMNS, moving_costs.cells(data))
     NOTES.print(f"written to {path}", markup=False, soft_wrap=True)
 
 

@@ -51,6 +51,18 @@ def write_file(path: Path, content: str | bytes) -> None:
             temporary.unlink()
 
 
+def expect_writable(path: Path) -> None:
+    """Refuse a file that cannot be written before minutes are spent on what it is to hold."""
+    folder = next(parent for parent in path.absolute().parents if parent.exists())
+    try:
+        with tempfile.TemporaryFile(dir=folder):
+            pass
+    except OSError as error:
+        raise OSError(f"cannot write {path}: {error.strerror}; name another folder") from None
+    if path.is_dir():
+        raise OSError(f"cannot write {path}: expected a file, got a folder")
+
+
 def sources(*rooms: str) -> Iterator[Path]:
     """Source files of the rooms, templates and data included, in a fixed order."""
     for room in rooms:

@@ -14,7 +14,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import asdict, replace
 from importlib.metadata import version
 from pathlib import Path
-from tempfile import TemporaryFile
 from typing import Any
 
 import sympy as sp
@@ -23,7 +22,7 @@ from derivation.derived import chain, formulas, misprints
 from derivation.emit.freshness import Freshness, compare
 from derivation.emit.render import CITATION
 from derivation.emit.standalone import standalone
-from derivation.files import PACKAGE, ROOT, measurements, write_file
+from derivation.files import PACKAGE, ROOT, expect_writable, measurements, write_file
 from derivation.formula.parse import parse
 from derivation.measure import bounds, hard_check, speed
 from derivation.measure.accuracy import run as accuracy_run
@@ -220,22 +219,10 @@ def accuracy(
         case = model_of(load(scene))
         regime = accuracy_run.scene_regime(**dict(zip(NUMBERS, case.numbers, strict=True)))
     path = folder_for(None, REPORTS) / "data" / MEASURED_ACCURACY.name if out is None else out
-    _expect_writable(path)
+    expect_writable(path)
     data = accuracy_run.measure(methods, quick, regime, tell)
     write_file(path, json.dumps(data, indent=1, sort_keys=True, allow_nan=False) + "\n")
     return data, path
-
-
-def _expect_writable(path: Path) -> None:
-    """Refuse a file that cannot be written before minutes are spent on what it is to hold."""
-    folder = next(parent for parent in path.absolute().parents if parent.exists())
-    try:
-        with TemporaryFile(dir=folder):
-            pass
-    except OSError as error:
-        raise OSError(f"cannot write {path}: {error.strerror}; name another folder") from None
-    if path.is_dir():
-        raise OSError(f"cannot write {path}: expected a file, got a folder")
 
 
 def rewriting(record: bool = False, tell: Progress | None = None) -> tuple[Account, ...]:

@@ -2,6 +2,8 @@
 
 import csv
 import json
+import os
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -84,3 +86,17 @@ def test_a_sweep_has_no_plot(capsys: Captured) -> None:
     arguments = ["simulate", str(PAPER), "--sweep", "impact.speed=1:2:2", "--plot", "x.pdf"]
     assert main(arguments) == 2
     assert "leave it out" in capsys.readouterr().err
+
+
+def test_processes_share_a_long_sweep_and_change_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    scene, span = load(PAPER), sweep.parse("impact.speed=0.5:1:4")
+    alone = sweep.run(scene, span)
+    monkeypatch.setattr(sweep, "LONG", 0.0)
+    assert sweep.run(scene, span, workers=2) == alone
+
+
+def test_a_process_that_is_ended_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sweep, "LONG", 0.0)
+    monkeypatch.setattr(sweep, "_leave_interrupts", partial(os._exit, 1))
+    with pytest.raises(SceneError, match=r"one was ended from outside.*fewer values"):
+        sweep.run(load(PAPER), sweep.parse("impact.speed=0.5:1:4"), workers=2)

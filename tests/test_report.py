@@ -5,14 +5,14 @@ from pathlib import Path
 
 import pytest
 
-from derivation import pipeline
+from derivation import reporting
 from derivation.report.latex import LINE_WIDTH, equation, escape, prose, typeset_width
 from derivation.report.pdf import TexError, compile_pdf
 from derivation.theory.chain import LINKS
 
 
 def test_committed_tex_is_fresh() -> None:
-    freshness = pipeline.check_report()
+    freshness = reporting.check_report()
     assert freshness.fresh, str(freshness)
 
 
@@ -61,20 +61,21 @@ def test_long_sums_are_broken_and_short_ones_are_not(formulas) -> None:
 
 
 def test_every_link_and_formula_is_in_the_report(formulas) -> None:
-    text = pipeline.report_files()["report.tex"]
+    text = reporting.report_files()["report.tex"]
     for name, _ in LINKS:
         assert rf"\subsection{{{name[0].upper() + name[1:]}}}" in text
     for name in formulas:
-        assert rf"\texttt{{{escape(name)}}}" in text
+        assert rf"\formula{{{escape(name)}}}" in text
+        assert rf"\label{{eq:{name}}}" in text
 
 
 @pytest.mark.skipif(shutil.which("pdflatex") is None, reason="needs pdflatex")
 def test_pdf_compiles_twice_to_the_same_bytes(tmp_path: Path) -> None:
-    first, second = (pipeline.report(tmp_path / name)[-1] for name in ("one", "two"))
+    first, second = (reporting.report(tmp_path / name)[-1] for name in ("one", "two"))
     assert first.name == "report.pdf"
     assert first.read_bytes() == second.read_bytes()
     left = sorted(p.name for p in first.parent.iterdir())
-    assert left == ["figures", "report.pdf", "report.tex"]
+    assert left == ["figures", "report.bib", "report.pdf", "report.tex"]
 
 
 @pytest.mark.skipif(shutil.which("pdflatex") is None, reason="needs pdflatex")

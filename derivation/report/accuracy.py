@@ -22,7 +22,7 @@ def accuracy_context(data: Data) -> dict[str, Any]:
         "tasks": [
             {
                 "title": title,
-                "figures": [f"work_precision_{task}_{kind}.pdf" for kind in KINDS],
+                "figures": [f"work_precision_{task}_{kind}" for kind in KINDS],
                 "winners": list(winners(data, task)),
             }
             for task, title in TASKS.items()

@@ -18,8 +18,10 @@ from derivation.report import readme
 from derivation.report.accuracy_figures import accuracy_figures
 from derivation.report.figures import figures, saved
 from derivation.report.fragments import pasted
+from derivation.report.front import TITLE
+from derivation.report.html import page
 from derivation.report.references import bib
-from derivation.report.sections import Material, chosen, text
+from derivation.report.sections import Material, Text, chosen, text
 from derivation.scene.impact import simulate
 from derivation.scene.model import Model, model_of
 from derivation.scene.scene import load
@@ -91,8 +93,8 @@ def material() -> Material:
     )
 
 
-def report_files(sections: Sequence[str] = ()) -> dict[str, str]:
-    """The report's text files by name; of chosen sections the LaTeX is named after them.
+def report_text(sections: Sequence[str] = ()) -> Text:
+    """The report's LaTeX in parts.
 
     Raises
     ------
@@ -101,9 +103,14 @@ def report_files(sections: Sequence[str] = ()) -> dict[str, str]:
     ValueError
         If there is no section of a name.
     """
-    name = "-".join(["report", *(chosen(sections) if sections else ())])
-    document = text(material(), sections).document(version("platecontact"))
-    return {f"{name}.tex": document, "report.bib": bib()}
+    chosen(sections)  # before anything is derived
+    return text(material(), sections)
+
+
+def report_files() -> dict[str, str]:
+    """The committed files of the report by name."""
+    document = report_text().document(version("platecontact"))
+    return {"report.tex": document, "report.bib": bib()}
 
 
 def report_figures() -> dict[str, Figure]:
@@ -116,7 +123,8 @@ def report(
 ) -> tuple[Path, ...]:
     """Write the report and, if asked, its PDF; returns the files written.
 
-    The checkout's own whole report takes the README's measured numbers along.
+    Files of chosen sections are named after them. The checkout's own whole report takes the
+    README's measured numbers along.
 
     Raises
     ------
@@ -128,9 +136,17 @@ def report(
         If LaTeX is missing or refuses the text; all else is there all the same.
     """
     folder = folder_for(out, REPORTS)
-    files = report_files(sections)
-    for name, figure in report_figures().items():
-        write_file(folder / "figures" / f"{name}.pdf", saved(figure, ".pdf"))
+    name = "-".join(["report", *(chosen(sections) if sections else ())])
+    parts = report_text(sections)
+    drawn = {key: figure for key, figure in report_figures().items() if parts.shows(key)}
+    for key, figure in drawn.items():
+        write_file(folder / "figures" / f"{key}.pdf", saved(figure, ".pdf"))
+    vectors = {key: saved(figure, ".svg") for key, figure in drawn.items()}
+    files = {
+        f"{name}.tex": parts.document(version("platecontact")),
+        f"{name}.html": page(parts, TITLE, vectors),
+        "report.bib": bib(),
+    }
     if out is None and not sections:
         write_file(README, readme.renewed(README.read_text(), measured_accuracy()))
     written = write_files(folder, files)

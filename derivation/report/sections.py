@@ -144,6 +144,10 @@ class Text:
     sections: tuple[str, ...]
     references: str
 
+    def shows(self, figure: str) -> bool:
+        """Whether a figure stands in a section."""
+        return any(f"figures/{figure}.pdf" in section for section in self.sections)
+
     def document(self, version: str) -> str:
         """The whole file."""
         return (

@@ -275,7 +275,7 @@ def build(out: Out = None) -> None:
         try:
             reporting.report(out / "reports" if out else None)
         except TexError as error:
-            NOTES.print(f"no PDF: {error}", markup=False, highlight=False)
+            NOTES.print(f"no PDF, all else is there: {error}", markup=False, highlight=False)
     for line in pipeline.verdict(rows):
         NOTES.print(line, markup=False, highlight=False)
     raise typer.Exit(0 if passed(rows) else 1)

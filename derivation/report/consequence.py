@@ -16,7 +16,7 @@ from derivation.formula.symbols import BY_NAME, J1, A_j, k, phi
 from derivation.paper.misprints import Finding
 from derivation.paper.printed_motion import PrintedPower, PrintedSeries
 from derivation.report.content import finding_context, number
-from derivation.report.content import unit as in_latex
+from derivation.report.latex import unit as in_latex
 from derivation.scene.model import Model
 from generated.bessel import bessel_j0_zeros, bessel_j1_at_j0_zeros
 from generated.contact_series import plate_coefficients
@@ -96,7 +96,7 @@ class Consequences:
         ratio = values[0] / values[1]
         return (
             f"{place}: {number(values[0])} in place of {number(values[1])} {unit}, "
-            f"{number(ratio)} times as much"
+            f"{times(ratio)} times as much"
         )
 
     def _power(self, printed: sp.Expr, derived: sp.Expr) -> str:
@@ -130,6 +130,11 @@ def misprints_context(findings: Sequence[Finding], cost: Consequences) -> dict[s
         "counts": {"all": len(findings), "equal": len(findings) - wrong},
         "point": cost.context(),
     }
+
+
+def times(ratio: float) -> str:
+    """A ratio to four figures, large ones as powers of ten."""
+    return f"${ratio:.4g}$" if 1e-2 <= abs(ratio) < 1e4 else number(ratio)
 
 
 def evaluated(expression: sp.Expr, point: Point) -> float:

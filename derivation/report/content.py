@@ -13,8 +13,9 @@ from derivation.formula.record import Formula
 from derivation.formula.symbols import M, eta, r, z
 from derivation.paper.misprints import Finding
 from derivation.reference.contact_balls import finite_part
-from derivation.report.latex import equation, escape, prose
+from derivation.report.latex import equation, escape, unit
 from derivation.report.references import cited
+from derivation.report.spoken import spoken
 from derivation.theory.equilibrium import force_balance, hooke
 from derivation.theory.thin_remainder import coefficient_remainder_ball
 from derivation.theory.thin_roots import root
@@ -196,11 +197,6 @@ def reference(name: str, known: Collection[str]) -> str:
     return rf"\texttt{{{escape(name)}}}{number}"
 
 
-def unit(text: str) -> str:
-    """A unit as LaTeX: m^2 raised."""
-    return re.sub(r"\^(?:\(([^)]*)\)|(-?\d+(?:/\d+)?))", lambda m: f"$^{{{m[1] or m[2]}}}$", text)
-
-
 def finding_context(finding: Finding) -> dict[str, Any]:
     """A comparison as the template shows it."""
     printed, diagnosis = finding.printed, finding.diagnosis
@@ -214,8 +210,8 @@ def finding_context(finding: Finding) -> dict[str, Any]:
         "derived": equation(formula.latex, derived, SUM if formula.summed else ""),
         "equal": not finding.is_misprint,
         "kind": diagnosis.kind[0].upper() + diagnosis.kind[1:],
-        "repair": finding.repair[0].upper() + finding.repair[1:].rstrip("."),
-        "dimension": unit(prose(diagnosis.dimension or "").replace(r"\textasciicircum{}", "^")),
+        "repair": spoken(finding.repair[0].upper() + finding.repair[1:].rstrip(".")),
+        "dimension": spoken(diagnosis.dimension or ""),
         "method": diagnosis.method,
     }
 

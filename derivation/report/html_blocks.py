@@ -22,9 +22,9 @@ _BLOCK = re.compile(
     r"|\\begin\{figure\}\[H\](?P<figure>.*?)\\end\{figure\}"
     r"|\\begin\{itemize\}(?P<items>.*?)\\end\{itemize\}"
     r"|\\begin\{thebibliography\}\{99\}(?P<sources>.*?)\\end\{thebibliography\}"
-    r"|\\(?P<pair>formula|reporttitle)(?=\{)"
+    r"|\\(?:begin\{)?(?P<pair>formula|reporttitle)\}?(?=\{)"
     r"|(?P<appendix>\\appendix)"
-    r"|(?P<skipped>\\(?:begin|end)\{(?:center|listing)\}|\\(?:begingroup|endgroup|scriptsize|clearpage"
+    r"|(?P<skipped>\\(?:begin|end)\{(?:center|listing)\}|\\end\{formula\}|\\(?:begingroup|endgroup|scriptsize|clearpage"
     r"|sloppy)\b|\\setlength\{[^}]*\}\{[^}]*\})",
     re.DOTALL,
 )

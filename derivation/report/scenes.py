@@ -30,13 +30,20 @@ def scene_context(name: str, scene: Scene) -> dict[str, Any]:
                     decided, prose(why)])
         for effect, number, value, bound, decided, why in found.gate.lines()
     ]  # fmt: skip
-    return {"name": name, "rows": rows, "says": sentence(str(found)), "notes": found.notes}
+    return {
+        "name": name,
+        "rows": rows,
+        "says": sentence(str(found)),
+        "notes": [capital(note) for note in found.notes],
+    }
 
 
 def cell(text: str) -> str:
     """A number of the table; small ones as powers of ten."""
     mantissa, e, power = text.partition("e")
-    return rf"${mantissa}\cdot10^{{{int(power)}}}$" if e and power.lstrip("+-").isdigit() else text
+    if not (e and power.lstrip("+-").isdigit()):
+        return text
+    return rf"${mantissa}\cdot10^{{{int(power)}}}$" if int(power) else mantissa
 
 
 def sentence(text: str) -> str:
@@ -44,7 +51,12 @@ def sentence(text: str) -> str:
     head, colon, rest = text.partition(";")
     label, _, names = head.partition(": ")
     shown = ", ".join(rf"\texttt{{{escape(name)}}}" for name in names.split(", "))
-    return f"{label}: {shown}{colon}{prose(rest)}"
+    return f"{capital(label)}: {shown}{colon}{prose(rest)}"
+
+
+def capital(text: str) -> str:
+    """A text that begins a sentence."""
+    return text[:1].upper() + text[1:]
 
 
 def source(text: str) -> str:

@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import Any
 
 from derivation.formula.record import Formula
+from derivation.measure.contact_grid import RATIOS, THICKNESSES
 from derivation.paper.misprints import Finding
 from derivation.report import content
 from derivation.report.accuracy import accuracy_context
@@ -20,6 +21,7 @@ from derivation.report.references import items
 from derivation.report.reproducibility import reproducibility_context
 from derivation.report.scenes import effects_context
 from derivation.report.validity import law_context
+from derivation.rewrite.account import ENDS
 from derivation.scene.model import Model
 from derivation.scene.scene import Scene
 
@@ -89,12 +91,21 @@ def _accuracy(material: Material) -> dict[str, Any]:
         "contact_digits": contact["provenance"]["digits"],
         "contact_limit": content.number(contact["limit"]),
         "contact_impacts": content.contact_impacts(contact["rows"]),
+        "grid": {
+            "thinnest": content.ending(min(THICKNESSES)),
+            "thickest": content.ending(max(THICKNESSES)),
+            "smallest": content.ending(min(RATIOS)),
+            "largest": content.ending(max(RATIOS)),
+        },
     }
 
 
 def _rewriting(material: Material) -> dict[str, Any]:
     rows = material.measured["rewrite"]["rows"]
-    return {"rewrites": [line for row in rows for line in content.rewrite_rows(row)]}
+    return {
+        "rewrites": [line for row in rows for line in content.rewrite_rows(row)],
+        "ends": [content.ending(end) for end in ENDS],
+    }
 
 
 def _speed(material: Material) -> dict[str, Any]:

@@ -290,4 +290,5 @@ def ending(value: float) -> str:
     if 1e-2 <= abs(value) < 1e4:
         return f"${value:.3g}$"
     mantissa, _, exponent = f"{value:.1e}".partition("e")
-    return rf"${mantissa}\cdot10^{{{int(exponent)}}}$"
+    lead = "" if mantissa == "1.0" else rf"{mantissa}\cdot"
+    return rf"${lead}10^{{{int(exponent)}}}$"

@@ -91,8 +91,8 @@ def test_nothing_is_loaded_and_every_link_leads_somewhere(html: str, parsed: Par
     assert {link[1:] for link in parsed.links} <= set(parsed.ids)
 
 
-def test_no_latex_is_left(parsed: Parsed) -> None:
-    assert re.findall(r"\\[A-Za-z]+|[{}]|\$", "".join(parsed.words)) == []
+def test_no_latex_and_no_markup_is_left(parsed: Parsed) -> None:
+    assert re.findall(r"\\[A-Za-z]+|[{}]|\$|</?[a-z]", "".join(parsed.words)) == []
 
 
 def test_it_holds_what_the_latex_holds(text: Text, html: str, parsed: Parsed) -> None:
@@ -116,6 +116,7 @@ def test_words_are_escaped_and_what_is_not_known_is_refused() -> None:
     words = Words({"eq:K_j": "7"}, {"paper": 3})
     assert words.read(r"a<b \& \emph{c}~1--2") == "a&lt;b &amp; <em>c</em>&nbsp;1\u20132"
     assert words.read(r"(\ref{eq:K_j})") == '(<a href="#eq-K_j">7</a>)'
+    assert words.read("of $a$, it") == f"of <span>{mathml('a')},</span> it"
     assert words.read(r"\cite{paper}") == '[<a href="#source-paper">3</a>]'
     for wrong in (r"\nonsense{x}", r"\emph x", r"\emph{x"):
         with pytest.raises(HtmlError):
@@ -135,6 +136,10 @@ def test_sums_that_are_broken_into_lines_are_aligned() -> None:
     found = mathml(r"\fit{\begin{aligned}a ={}& b \\ & c\end{aligned}}", display=True)
     assert found.count("<mtr>") == 2
     assert found.count("<mtd>") == 4
+
+
+def test_a_displayed_sum_has_its_limits_below_and_above() -> None:
+    assert "<munderover>" in mathml(r"\fit[1]{\sum_{j=1}^{\infty} a}", display=True)
 
 
 def test_figures_repeat_byte_for_byte_and_do_not_share_ids() -> None:

@@ -48,7 +48,7 @@ def page(text: Text, title: str, figures: Mapping[str, bytes]) -> str:
         lstrip_blocks=True,
         keep_trailing_newline=True,
     )
-    style = Markup((TEMPLATES / "page.css").read_text())  # noqa: S704: a file of our own
+    style = Markup((TEMPLATES / "page.css").read_text())
     return environment.get_template("page.html.j2").render(
         title=title, style=style, front=front, sections=sections, headings=blocks.headings
     )
@@ -58,4 +58,4 @@ def drawing(name: str, content: bytes) -> Markup:
     """A figure's SVG element, its ids its own."""
     text = _METADATA.sub("", _PROLOG.sub(b"", content, count=1).decode())
     text = text.replace("xlink:href", "href")
-    return Markup(_OWN.sub(rf"\g<1>{name}-", text))  # noqa: S704: drawn by Matplotlib
+    return Markup(_OWN.sub(rf"\g<1>{name}-", text))

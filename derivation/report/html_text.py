@@ -19,6 +19,8 @@ _TOKEN = re.compile(
     r"|(?P<open>\{)|(?P<close>\})|(?P<tie>~)|(?P<dash>--)|(?P<plain>[^\\{}$~%-]+|-)",
     re.DOTALL,
 )
+_BOUND = re.compile(r"(<math>(?:(?!</math>).)*</math>[.,;:)\]]+)", re.DOTALL)
+"""A formula and the point or comma behind it, which stay on its line."""
 
 
 class HtmlError(ValueError):
@@ -102,7 +104,8 @@ class Words:
                 pieces.append(mathml(match["math"]))
             else:
                 pieces.append(_plain(match))
-        return Markup("").join(pieces)
+        whole = str(Markup("").join(pieces))
+        return Markup(_BOUND.sub(r"<span>\1</span>", whole))  # escaped above
 
     def _command(self, name: str, text: str, place: int) -> tuple[Markup, int]:
         """A command whose arguments, if any, follow at a place; and where they end."""

@@ -14,7 +14,7 @@ from derivation.report.html import drawing, page
 from derivation.report.html_text import HtmlError, Words, argument, parts
 from derivation.report.mathml import MathError, mathml
 from derivation.report.pdf import TexError
-from derivation.report.sections import Text
+from derivation.report.sections import SECTIONS, Text
 from derivation.scene.impact import simulate
 from derivation.scene.scene import load
 
@@ -151,6 +151,15 @@ def test_figures_repeat_byte_for_byte_and_do_not_share_ids() -> None:
     ids = [re.findall(r'\bid="([^"]*)"', drawing(name, first)) for name in ("one", "two")]
     assert ids[0]
     assert not set(ids[0]) & set(ids[1])
+
+
+@pytest.mark.parametrize("name", SECTIONS)
+def test_each_section_stands_alone(name: str) -> None:
+    alone = reporting.report_text([name])
+    whole = "\n".join([*alone.sections, alone.front, alone.references])
+    assert set(re.findall(r"\\ref\{(.*?)\}", whole)) <= set(re.findall(r"\\label\{(.*?)\}", whole))
+    drawn = dict.fromkeys(re.findall(r"figures/([\w-]+)\.pdf", whole), b"<svg></svg>")
+    assert Parsed(page(alone, TITLE, drawn)).tags.count("h2") == 2
 
 
 def test_without_tex_the_html_is_there(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -181,7 +181,7 @@ def text(material: Material, names: Sequence[str] = ()) -> Text:
     ValueError
         If a name is no section's.
     """
-    made = environment()
+    made, shown = environment(), chosen(names)
     front = made.get_template("front.tex.j2").render(
         title=TITLE,
         subtitle=SUBTITLE,
@@ -190,8 +190,8 @@ def text(material: Material, names: Sequence[str] = ()) -> Text:
         front=front_context(material.links, material.findings, material.measured),
     )
     sections = (
-        made.get_template(f"sections/{name}.tex.j2").render(**SECTIONS[name](material))
-        for name in chosen(names)
+        made.get_template(f"sections/{name}.tex.j2").render(**SECTIONS[name](material), shown=shown)
+        for name in shown
     )
     references = made.get_template("references.tex.j2").render(references=items())
     return Text(front, tuple(sections), references)

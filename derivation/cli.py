@@ -225,23 +225,45 @@ def rewrite(
 def report(
     pdf: Annotated[bool, typer.Option("--pdf/--no-pdf", help="Compile the PDF too.")] = True,
     check: Annotated[
-        bool, typer.Option("--check", help="Compare the committed .tex only, write nothing.")
+        bool, typer.Option("--check", help="Compare the committed files only, write nothing.")
     ] = False,
+    section: Annotated[
+        list[str] | None,
+        typer.Option("--section", metavar="NAME", help="This section only; repeatable."),
+    ] = None,
+    fragment: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--fragment",
+            metavar="NAME",
+            help="Print a formula, or all of a link of the chain, as LaTeX to paste; repeatable.",
+        ),
+    ] = None,
     out: Out = None,
 ) -> None:
-    """Write the LaTeX report and compile it.
+    """Write the report as LaTeX and HTML, and compile the PDF.
 
-    Example: platecontact report --no-pdf
+    Example: platecontact report --section misprints --section accuracy
+
+    With --fragment: to the screen, or with --out into a folder, the bibliography beside it.
+
+    Example: platecontact report --fragment K_j --fragment "contact split" --out pieces
     """
-    from derivation import pipeline
+    from derivation import reporting
 
     if check:
         with stage("compare"):
-            freshness = pipeline.check_report(out)
+            freshness = reporting.check_report(out)
         OUT.print(str(freshness), markup=False, highlight=False, soft_wrap=True)
         raise typer.Exit(0 if freshness.fresh else 1)
-    with stage("report"):
-        written = pipeline.report(out, pdf)
+    if fragment:
+        if out is None:
+            print(reporting.fragments(fragment), end="")
+            return
+        written = reporting.write_fragments(fragment, out)
+    else:
+        with stage("report"):
+            written = reporting.report(out, pdf, section or ())
     NOTES.print("\n".join(str(path) for path in written), markup=False)
 
 
@@ -262,7 +284,7 @@ def build(out: Out = None) -> None:
     with stage("misprints"):
         derived.misprints()
     # Only now, as these import what has just been generated.
-    from derivation import pipeline
+    from derivation import pipeline, reporting
     from derivation.measure.record import passed
     from derivation.report.pdf import TexError
 
@@ -270,9 +292,9 @@ def build(out: Out = None) -> None:
         rows = pipeline.check(tell=tell)
     with stage("report"):
         try:
-            pipeline.report(out / "reports" if out else None)
+            reporting.report(out / "reports" if out else None)
         except TexError as error:
-            NOTES.print(f"no PDF: {error}", markup=False, highlight=False)
+            NOTES.print(f"no PDF, all else is there: {error}", markup=False, highlight=False)
     for line in pipeline.verdict(rows):
         NOTES.print(line, markup=False, highlight=False)
     raise typer.Exit(0 if passed(rows) else 1)

@@ -5,22 +5,19 @@
 3 generate   forms -> the NumPy package
 4 misprints  printed formulas against derived ones
 5 check      generated code against both oracles
-6 report     LaTeX and PDF
+6 report     LaTeX, PDF and HTML, in `reporting`
 """
 
 import json
 import os
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, replace
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
 import sympy as sp
 
-from derivation.derived import chain, formulas, misprints
-from derivation.emit.freshness import Freshness, compare
-from derivation.emit.render import CITATION
+from derivation.derived import formulas
 from derivation.emit.standalone import standalone
 from derivation.files import PACKAGE, ROOT, expect_writable, measurements, write_file
 from derivation.formula.parse import parse
@@ -36,13 +33,8 @@ from derivation.measure.record import plain, provenance, to_json
 from derivation.measure.search import Search, Tell, search
 from derivation.measure.search_cases import Book, seconds_of
 from derivation.measure.search_targets import targets
-from derivation.produce import folder_for, write_files
+from derivation.produce import folder_for
 from derivation.reference import many_costs, many_digits
-from derivation.report import pdf as compiler
-from derivation.report import readme
-from derivation.report.accuracy_figures import accuracy_figures
-from derivation.report.content import tex
-from derivation.report.figures import figures, motion_context
 from derivation.rewrite.account import Account, accounts
 from derivation.rewrite.stabilise import Stable, stabilise
 from derivation.scene.choice import solve
@@ -54,7 +46,7 @@ from derivation.scene.result import Result
 from derivation.scene.scene import load, read
 from generated import contact_law, impact
 
-REPORTS, README = ROOT / "reports", ROOT / "README.md"
+REPORTS = ROOT / "reports"
 KEPT_EVERY = 20
 """Truths of random scenes after which they are written."""
 MEASURED = measurements() / "check.json"
@@ -333,85 +325,3 @@ def verdict(rows: tuple[Row, ...]) -> list[str]:
         if moved:
             lines.append(f"not as committed in {MEASURED.name}: {', '.join(moved)}")
     return lines
-
-
-def report_files() -> dict[str, str]:
-    """The report's LaTeX by file name, from the theory and the committed measurements.
-
-    Raises
-    ------
-    FileNotFoundError
-        If there are no committed measurements.
-    """
-    for path in (MEASURED, MEASURED_CONTACT, MEASURED_SPEED, MEASURED_HARD, REWRITTEN):
-        if not path.is_file():
-            raise FileNotFoundError(f"no measurements in {path}: run `platecontact check --record`")
-    work_precision = measured_accuracy()
-    measured = json.loads(MEASURED.read_text())
-    contact = json.loads(MEASURED_CONTACT.read_text())
-    timed = json.loads(MEASURED_SPEED.read_text())
-    hard = json.loads(MEASURED_HARD.read_text())
-    rules = json.loads(REWRITTEN.read_text())
-    motion = motion_context(paper_case())
-    text = tex(
-        chain(),
-        misprints(),
-        measured,
-        contact,
-        hard,
-        timed,
-        rules,
-        motion,
-        work_precision,
-        version("platecontact"),
-        CITATION,
-    )
-    return {"report.tex": text}
-
-
-def measured_accuracy() -> dict[str, Any]:
-    """The committed measurement of what accuracy costs.
-
-    Raises
-    ------
-    FileNotFoundError
-        If there is none.
-    """
-    if not MEASURED_ACCURACY.is_file():
-        raise FileNotFoundError(
-            f"no measurements in {MEASURED_ACCURACY}: run `platecontact accuracy`"
-        )
-    found: dict[str, Any] = json.loads(MEASURED_ACCURACY.read_text())
-    return found
-
-
-def paper_case() -> Model:
-    """The paper's example, as the example scene states it."""
-    return model_of(load(EXAMPLE))
-
-
-def report(out: Path | None = None, pdf: bool = True) -> tuple[Path, ...]:
-    """Write the report and, if asked, its PDF; returns the files written.
-
-    The checkout's own report takes the README's measured numbers along.
-
-    Raises
-    ------
-    OSError
-        If the folder cannot be written to, or there are no measurements.
-    derivation.report.pdf.TexError
-        If LaTeX is missing or refuses the text; the .tex is there all the same.
-    """
-    folder = folder_for(out, REPORTS)
-    drawn = figures(paper_case()) | accuracy_figures(measured_accuracy())
-    for name, figure in drawn.items():
-        write_file(folder / "figures" / name, figure)
-    if out is None:
-        write_file(README, readme.renewed(README.read_text(), measured_accuracy()))
-    written = write_files(folder, report_files())
-    return (*written, *(compiler.compile_pdf(path) for path in written if pdf))
-
-
-def check_report(out: Path | None = None) -> Freshness:
-    """Compare the report's LaTeX with what would be written."""
-    return compare(folder_for(out, REPORTS), report_files(), "platecontact report", "*.tex")

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from derivation import pipeline
+from derivation import reporting
 from derivation.cli import main
 from derivation.files import ROOT
 from derivation.measure.accuracy import (
@@ -33,8 +33,9 @@ from derivation.measure.accuracy.pareto import winners
 from derivation.measure.accuracy.rows import Row
 from derivation.report import readme
 from derivation.report.accuracy import accuracy_context, duration, reasons
-from derivation.report.accuracy_figures import as_pdf, pareto_front, work_precision
+from derivation.report.accuracy_figures import pareto_front, work_precision
 from derivation.report.accuracy_figures import scaling as scaling_figure
+from derivation.report.figures import saved
 from derivation.scene import choice
 
 # --- interface
@@ -272,7 +273,7 @@ def test_scripts_of_tools_import_nothing_of_the_project() -> None:
 
 @pytest.fixture(scope="module")
 def committed() -> dict[str, Any]:
-    return pipeline.measured_accuracy()
+    return reporting.measured_accuracy()
 
 
 def test_data_have_rows_of_every_kind(committed: dict[str, Any]) -> None:
@@ -298,9 +299,11 @@ def test_production_beats_direct_summation_a_thousandfold(committed: dict[str, A
 
 
 def test_figures_repeat_byte_for_byte(committed: dict[str, Any]) -> None:
-    first, second = (as_pdf(work_precision(committed, "inversion", "single")) for _ in range(2))
+    first, second = (
+        saved(work_precision(committed, "inversion", "single"), ".pdf") for _ in range(2)
+    )
     assert first == second
-    assert as_pdf(scaling_figure(committed)).startswith(b"%PDF")
+    assert saved(scaling_figure(committed), ".pdf").startswith(b"%PDF")
 
 
 def test_the_section_names_every_failure(committed: dict[str, Any]) -> None:
@@ -312,7 +315,7 @@ def test_the_section_names_every_failure(committed: dict[str, Any]) -> None:
 
 
 def test_the_readme_shows_what_was_measured(committed: dict[str, Any]) -> None:
-    text = pipeline.README.read_text()
+    text = reporting.README.read_text()
     assert readme.renewed(text, committed) == text, "to mend: platecontact report"
 
 

@@ -1,18 +1,34 @@
 """The report: a pure function of theory and committed measurements, escaped and compiled."""
 
+import re
 import shutil
+import tomllib
 from pathlib import Path
 
 import pytest
+import sympy as sp
 
-from derivation import pipeline
+from derivation import derived, reporting
+from derivation.formula.notation import to_latex
+from derivation.formula.parse import NAMES
+from derivation.report.consequence import Consequences
+from derivation.report.content import number
 from derivation.report.latex import LINE_WIDTH, equation, escape, prose, typeset_width
-from derivation.report.pdf import TexError, compile_pdf
+from derivation.report.listings import source_of
+from derivation.report.pdf import TexError, blemishes, compile_pdf, typeset
+from derivation.report.references import TABLE, bib, cited, references
+from derivation.report.spoken import spoken
+from derivation.scene.effects import EFFECTS
+from derivation.scene.impact import simulate
+from derivation.scene.scene import load
 from derivation.theory.chain import LINKS
+from generated import influence
+
+NEEDS_TEX = pytest.mark.skipif(shutil.which("pdflatex") is None, reason="needs pdflatex")
 
 
 def test_committed_tex_is_fresh() -> None:
-    freshness = pipeline.check_report()
+    freshness = reporting.check_report()
     assert freshness.fresh, str(freshness)
 
 
@@ -37,11 +53,38 @@ def test_escape(plain: str, latex: str) -> None:
         ("h = b = 1e+20 a", "$h$ = $b$ = $10^{20}$ a"),
         ("1.5e-07 off", r"$1.5\cdot10^{-7}$ off"),
         ("the root of c1, J0 and v0", "the root of $c_{1}$, $J_{0}$ and $v_{0}$"),
+        (
+            "of (a/h)^3, P^(2/3) and (K/m)^(2/5)",
+            "of (a/$h$)$^{3}$, $P^{2/3}$ and ($K$/$m$)$^{2/5}$",
+        ),
+        ("eps^2 of (a/h)^k, e^x", r"$\varepsilon^{2}$ of (a/$h$)$^{k}$, $e^{x}$"),
+        (
+            "E*/E_1*, (E* phi), sinh^2 T, a*b >= 0",
+            r"$E^*$/$E_{1}^*$, ($E^*$ $\phi$), $\sinh^{2}$ $T$, \texttt{a*\allowbreak{}b} $\ge$ 0",
+        ),
+        ("by more than 0.0e+00 of it", "by more than 0 of it"),
         ("x1e5, 0x1p+3 and e^(-x)", r"x1e5, 0x1p+3 and $e^{-x}$"),
     ],
 )
 def test_numbers_and_symbols_in_words(plain: str, latex: str) -> None:
     assert prose(plain) == latex
+
+
+@pytest.mark.parametrize(
+    ("plain", "latex"),
+    [
+        ("per s(a phi), z = -h", r"per $s$(a $\phi$), $z$ = $-h$"),
+        ("the factor mu*(lam + mu)/(pi*R) of it", r"the factor ${}$ of it"),
+        ("read 2*a + sin(a*phi), not b", r"read ${}$, not $b$"),
+        ("found [kg^2 m^-2]", "found [kg$^{2}$ m$^{-2}$]"),
+        ("where x*y is none", r"where \texttt{x*\allowbreak{}y} is none"),
+    ],
+)
+def test_formulas_typed_as_code_are_typeset(plain: str, latex: str) -> None:
+    inner = {"the": NAMES["mu"] * (NAMES["lam"] + NAMES["mu"]) / (sp.pi * NAMES["R"]),
+             "read": 2 * NAMES["a"] + sp.sin(NAMES["a"] * NAMES["phi"])}  # fmt: skip
+    expected = inner.get(plain.split(" ")[0])
+    assert spoken(plain) == (latex if expected is None else latex.replace("{}", to_latex(expected)))
 
 
 def test_what_would_be_illegible_on_a_line_stands_in_parts(formulas) -> None:
@@ -61,23 +104,132 @@ def test_long_sums_are_broken_and_short_ones_are_not(formulas) -> None:
 
 
 def test_every_link_and_formula_is_in_the_report(formulas) -> None:
-    text = pipeline.report_files()["report.tex"]
+    text = reporting.report_files()["report.tex"]
     for name, _ in LINKS:
         assert rf"\subsection{{{name[0].upper() + name[1:]}}}" in text
     for name in formulas:
-        assert rf"\texttt{{{escape(name)}}}" in text
+        assert rf"\begin{{formula}}{{{escape(name)}}}" in text
+        assert rf"\label{{eq:{name}}}" in text
 
 
-@pytest.mark.skipif(shutil.which("pdflatex") is None, reason="needs pdflatex")
-def test_pdf_compiles_twice_to_the_same_bytes(tmp_path: Path) -> None:
-    first, second = (pipeline.report(tmp_path / name)[-1] for name in ("one", "two"))
-    assert first.name == "report.pdf"
-    assert first.read_bytes() == second.read_bytes()
-    left = sorted(p.name for p in first.parent.iterdir())
-    assert left == ["figures", "report.pdf", "report.tex"]
+@NEEDS_TEX
+def test_pdf_is_the_same_bytes_anywhere_and_nothing_stands_out(tmp_path: Path) -> None:
+    files = reporting.report(tmp_path / "one")
+    assert sorted(path.name for path in files) == [
+        "report.bib", "report.html", "report.pdf", "report.tex",
+    ]  # fmt: skip
+    left = {path.name for path in (tmp_path / "one").iterdir()}
+    assert left == {path.name for path in files} | {"figures"}
+    shutil.copytree(tmp_path / "one", tmp_path / "two")
+    again, log = typeset(tmp_path / "two" / "report.tex")
+    assert again == (tmp_path / "one" / "report.pdf").read_bytes()
+    assert blemishes(log) == []
 
 
-@pytest.mark.skipif(shutil.which("pdflatex") is None, reason="needs pdflatex")
+@NEEDS_TEX
+def test_blemishes_are_seen(tmp_path: Path) -> None:
+    path = tmp_path / "bad.tex"
+    path.write_text(
+        r"\documentclass{article}\begin{document}\hbox to 10pt{\vrule width 13pt}"
+        r"\hbox to 10pt{\vrule width 11pt}\ref{none}\end{document}"
+    )
+    found = blemishes(typeset(path)[1])
+    assert sum(line.startswith("Overfull") for line in found) == 1
+    assert any("none" in line for line in found)
+
+
+@NEEDS_TEX
+def test_chosen_sections_compile_by_themselves(tmp_path: Path) -> None:
+    written = reporting.report(tmp_path, sections=["speed", "misprints"])
+    assert written[-1].name == "report-misprints-speed.pdf"
+    tex = written[0].read_text()
+    assert re.findall(r"\\section\{(.*?)\}", tex) == ["Misprints", "Speed"]
+    assert blemishes(typeset(written[0])[1]) == []
+
+
+def test_a_section_that_is_not_there_is_refused_with_the_names_of_all() -> None:
+    with pytest.raises(ValueError, match=r"did you mean misprints\?.*derivation, misprints, law"):
+        reporting.report_text(["misprint"])
+
+
+def test_what_misprints_cost_is_as_found_by_hand(formulas) -> None:
+    """By hand: phi_1 = j_1/b, of which the printed Omega_3 has one too many below."""
+    cost = Consequences(reporting.paper_case(), formulas)
+    known = {finding.printed.name: cost.of(finding) for finding in derived.misprints()
+             if finding.is_misprint}  # fmt: skip
+    assert f"{1 / 2.404825557695773:.4g}$ times" in known["Omega_3"]
+    assert "0.500 of its largest value, in place of 0.354" in known["force_power"]
+    depth = float(simulate(load(reporting.PAPER)).max_indentation)
+    assert f"in place of {number(depth)} m" in known["delta"]
+    assert "$-1$ times" in known["u"]
+    assert set(known) == {finding.printed.name for finding in derived.misprints()
+                          if finding.is_misprint}  # fmt: skip
+
+
+def test_every_author_cited_in_the_effects_is_in_the_references() -> None:
+    for effect in EFFECTS:
+        for author, year in re.findall(r"(\w+)(?: and \w+| et al\.)? (1[89]\d\d)", effect.source):
+            assert f"{author.lower()}{year}" in references(), effect.source
+    assert bib().count("@") == len(references())
+
+
+def test_links_that_references_name_are_the_chains() -> None:
+    known = {name for name, _ in derived.chain()}
+    named = {link for entry in tomllib.loads(TABLE.read_text()).values() for link in entry["links"]}
+    assert named <= known
+    assert set(cited("curvature")) == {"sneddon1965"}
+
+
+@NEEDS_TEX
+def test_fragments_of_the_whole_chain_compile_once_pasted(tmp_path: Path) -> None:
+    pasted = reporting.fragments([name for name, _ in derived.chain()])
+    head = re.findall(r"^\\(?:newsavebox|newcommand)\{.*\n(?:  .*\n)?", pasted, re.MULTILINE)
+    path = tmp_path / "paste.tex"
+    path.write_text(
+        r"\documentclass{article}\usepackage[margin=22mm]{geometry}"
+        r"\usepackage{amsmath,amssymb,graphicx}\allowdisplaybreaks\sloppy\begin{document}"
+        + pasted
+        + r"\end{document}"
+    )
+    assert len(head) == 2
+    log = typeset(path)[1]
+    assert [
+        line for line in blemishes(log) if "Citation" not in line and "undefined refer" not in line
+    ] == []
+
+
+def test_a_fragment_is_one_formula_with_its_source(formulas) -> None:
+    text = reporting.fragments(["K_j"])
+    assert text.count(r"\begin{equation}") == 1
+    assert r"\label{eq:K_j}" in text
+    assert r"equation~(6) of~\cite{paper}" in text
+    assert equation(formulas["K_j"].latex, formulas["K_j"].expression) in text
+    with pytest.raises(ValueError, match="did you mean K_j"):
+        reporting.fragments(["Kj"])
+
+
+def test_fragments_are_written_with_the_bibliography(tmp_path: Path) -> None:
+    names = [path.name for path in reporting.write_fragments(["G", "G_m"], tmp_path)]
+    assert names == ["fragment.tex", "report.bib"]
+    assert (tmp_path / "fragment.tex").read_text().count(r"\begin{equation}") == 2
+
+
+def test_listings_are_the_generated_functions_without_docstrings() -> None:
+    source = Path(influence.__file__).read_text()
+    cut = source_of(source, "G")
+    assert cut.startswith("@quiet\ndef G(")
+    assert '"""' not in cut
+    names: dict[str, object] = {}
+    exec(
+        compile(source.replace("from .", "from generated.").split("@quiet")[0] + cut, "G", "exec"),
+        names,
+    )
+    assert names["G"](2.0) == influence.G(2.0)
+    with pytest.raises(ValueError, match="no_such"):
+        source_of(source, "no_such")
+
+
+@NEEDS_TEX
 def test_refused_tex_names_the_error(tmp_path: Path) -> None:
     path = tmp_path / "bad.tex"
     path.write_text(r"\documentclass{article}\begin{document}\nonsense\end{document}")

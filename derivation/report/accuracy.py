@@ -4,6 +4,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Literal
 
+from derivation.measure.accuracy.interface import TIE
 from derivation.measure.accuracy.panels import SLOW
 from derivation.report.accuracy_figures import KINDS, TASKS
 from derivation.report.hard import error as power
@@ -22,11 +23,13 @@ def accuracy_context(data: Data) -> dict[str, Any]:
         "tasks": [
             {
                 "title": title,
-                "figures": [f"work_precision_{task}_{kind}.pdf" for kind in KINDS],
+                "figures": [f"work_precision_{task}_{kind}" for kind in KINDS],
                 "winners": list(winners(data, task)),
             }
             for task, title in TASKS.items()
         ],
+        "regimes": len(data["regimes"]),
+        "tie": f"{100 * (TIE - 1):.0f}",
         "case": data["regimes"][1]["name"],
         "errors": list(error_rows(data)),
         "unsplit": list(reasons(data, "unsplit")),

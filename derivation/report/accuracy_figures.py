@@ -1,6 +1,5 @@
 """Figures of what accuracy costs, from the committed measurement: digits over time, and scaling."""
 
-import io
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
@@ -33,24 +32,14 @@ COLOURS = (*mpl.color_sequences["tab10"], *mpl.color_sequences["Dark2"])
 Row = Mapping[str, Any]
 
 
-def accuracy_figures(data: Mapping[str, Any]) -> dict[str, bytes]:
-    """Every figure as PDF by file name; the same bytes for the same data."""
+def accuracy_figures(data: Mapping[str, Any]) -> dict[str, Figure]:
+    """Every figure by name; the same for the same data."""
     found = {
-        f"work_precision_{task}_{kind}.pdf": work_precision(data, task, kind)
+        f"work_precision_{task}_{kind}": work_precision(data, task, kind)
         for task in TASKS
         for kind in KINDS
     }
-    return {
-        name: as_pdf(figure) for name, figure in (found | {"scaling.pdf": scaling(data)}).items()
-    }
-
-
-def as_pdf(figure: Figure) -> bytes:
-    """A figure as PDF, without the time at which it was drawn."""
-    with mpl.rc_context(STYLE):
-        buffer = io.BytesIO()
-        figure.savefig(buffer, format="pdf", metadata={"CreationDate": None, "Producer": None})
-    return buffer.getvalue()
+    return found | {"scaling": scaling(data)}
 
 
 def work_precision(data: Mapping[str, Any], task: str, kind: str) -> Figure:

@@ -1,18 +1,22 @@
-"""Formulas, findings and committed measurements -> the text of the LaTeX report."""
+"""Formulas, findings and committed measurements -> what the report's templates show."""
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections import Counter
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
+import sympy as sp
+
 from derivation.formula.ball import enclose, to_ball
 from derivation.formula.record import Formula
-from derivation.formula.symbols import M, eta
+from derivation.formula.symbols import M, eta, r, z
 from derivation.paper.misprints import Finding
 from derivation.reference.contact_balls import finite_part
-from derivation.report.accuracy import accuracy_context
-from derivation.report.hard import hard_context
-from derivation.report.latex import environment, equation, escape
+from derivation.report.latex import equation, escape, unit
+from derivation.report.references import cited
+from derivation.report.spoken import spoken
+from derivation.theory.equilibrium import force_balance, hooke
 from derivation.theory.thin_remainder import coefficient_remainder_ball
 from derivation.theory.thin_roots import root
 
@@ -94,55 +98,48 @@ ABOUT = {
 }
 
 
-def tex(
-    links: Sequence[tuple[str, Sequence[Formula]]],
-    findings: Sequence[Finding],
-    check: Mapping[str, Any],
-    contact: Mapping[str, Any],
-    hard: Mapping[str, Any],
-    timed: Mapping[str, Any],
-    rewritten: Mapping[str, Any],
-    motion: Mapping[str, Any],
-    work_precision: Mapping[str, Any],
-    version: str,
-    citation: str,
-) -> str:
-    """The report's LaTeX, a pure function of theory, generated code and committed measurements."""
-    wrong = sum(finding.is_misprint for finding in findings)
-    return (
-        environment()
-        .get_template("report.tex.j2")
-        .render(
-            version=version,
-            citation=citation,
-            links=[link_context(name, formulas) for name, formulas in links],
-            roots=roots_context({f.name: f for _, found in links for f in found}),
-            findings=[finding_context(finding) for finding in findings],
-            counts={"all": len(findings), "equal": len(findings) - wrong},
-            tables=list(accuracy_tables(check)),
-            provenance=sorted((k, v) for k, v in check["provenance"].items() if k != "digits"),
-            digits=check["provenance"]["digits"],
-            motion=motion,
-            cost=accuracy_context(work_precision),
-            contact_rows=[contact_row(row) for row in contact["rows"]],
-            contact_digits=contact["provenance"]["digits"],
-            contact_limit=number(contact["limit"]),
-            contact_impacts=contact_impacts(contact["rows"]),
-            hard=hard_context(hard),
-            timings=timed["rows"],
-            rewrites=[line for row in rewritten["rows"] for line in rewrite_rows(row)],
-            machine=sorted(timed["machine"].items()),
-        )
-    )
+def navier() -> list[str]:
+    """Navier's equations of a field u(r, z), w(r, z): what Hooke's law leaves of the balance."""
+    u, w = (sp.Function(name)(r, z) for name in "uw")
+    rows = []
+    for force in force_balance(hooke(u, w)):
+        terms = sp.expand(force.doit())
+        whole = sp.collect(terms, [*sorted(terms.atoms(sp.Derivative), key=str), u, w])
+        rows.append(equation("0", whole).replace(r"{\left(r,z \right)}", ""))
+    return rows
 
 
-def link_context(name: str, formulas: Sequence[Formula]) -> dict[str, Any]:
-    """A link of the chain: its formulas, and each proof once."""
+def chain_context(links: Sequence[tuple[str, Sequence[Formula]]]) -> dict[str, Any]:
+    """The chain at a glance: what each link is built on, how much it holds."""
+    home = {f.name: number for number, (_, found) in enumerate(links, 1) for f in found}
+    rows = []
+    for number, (name, found) in enumerate(links, start=1):
+        built = {home[name] for f in found for name in f.sources if name in home} - {number}
+        on = ", ".join(str(n) for n in sorted(built)) or "--"
+        equations = sorted({f.equation for f in found if f.equation}, key=_equation_order)
+        printed = ", ".join(f"({e})" for e in equations)
+        rows.append(f"{number} & {escape(name)} & {on} & {len(found)} & {printed}")
+    decided = Counter(f.proof.method for _, found in links for f in found)
+    return {
+        "formulas": sum(decided.values()),
+        "decided": ", ".join(f"{count} were decided {how}" for how, count in decided.items()),
+        "rows": rows,
+    }
+
+
+def _equation_order(text: str) -> tuple[int, str]:
+    digits = re.match(r"\d+", text)
+    return (int(digits[0]) if digits else 0, text)
+
+
+def link_context(name: str, formulas: Sequence[Formula], shown: Collection[str]) -> dict[str, Any]:
+    """A link of the chain: its formulas, which refer to those shown, and each proof once."""
     proofs = {formula.proof.step: formula.proof for formula in formulas}
     return {
         "title": name[0].upper() + name[1:],
         "about": ABOUT[name],
-        "formulas": [formula_context(formula) for formula in formulas],
+        "cited": cited(name),
+        "formulas": [formula_context(formula, shown) for formula in formulas],
         "proofs": [
             {
                 "step": proof.step,
@@ -177,22 +174,27 @@ def root_text(n: int) -> str:
     return rf"{T.real.str(6, radius=False)} + {T.imag.str(6, radius=False)}\,\mathrm{{i}}"
 
 
-def formula_context(formula: Formula) -> dict[str, Any]:
-    """A formula as the template shows it."""
+def formula_context(formula: Formula, known: Collection[str] = ()) -> dict[str, Any]:
+    """A formula as the template shows it, with the numbers of those known that it comes from."""
     shown = formula.expression if formula.stated is None else formula.stated
     return {
         "name": formula.name,
         "meaning": formula.meaning,
         "unit": unit(formula.unit),
         "equation": formula.equation,
-        "sources": ", ".join(rf"\texttt{{{escape(source)}}}" for source in formula.sources),
+        "sources": ", ".join(
+            rf"\texttt{{{escape(source)}}}"
+            + (rf"~(\ref{{eq:{source}}})" if source in known else "")
+            for source in formula.sources
+        ),
         "body": equation(formula.latex, shown, SUM if formula.summed else ""),
     }
 
 
-def unit(text: str) -> str:
-    """A unit as LaTeX: m^2 raised."""
-    return re.sub(r"\^(?:\(([^)]*)\)|(\d+))", lambda m: f"$^{{{m[1] or m[2]}}}$", text)
+def reference(name: str, known: Collection[str]) -> str:
+    """A formula's name, with the number of its equation if it is known."""
+    number = rf" (\ref{{eq:{name}}})" if name in known else ""
+    return rf"\texttt{{{escape(name)}}}{number}"
 
 
 def finding_context(finding: Finding) -> dict[str, Any]:
@@ -208,8 +210,8 @@ def finding_context(finding: Finding) -> dict[str, Any]:
         "derived": equation(formula.latex, derived, SUM if formula.summed else ""),
         "equal": not finding.is_misprint,
         "kind": diagnosis.kind[0].upper() + diagnosis.kind[1:],
-        "repair": finding.repair[0].upper() + finding.repair[1:].rstrip("."),
-        "dimension": diagnosis.dimension,
+        "repair": spoken(finding.repair[0].upper() + finding.repair[1:].rstrip(".")),
+        "dimension": spoken(diagnosis.dimension or ""),
         "method": diagnosis.method,
     }
 
@@ -288,4 +290,5 @@ def ending(value: float) -> str:
     if 1e-2 <= abs(value) < 1e4:
         return f"${value:.3g}$"
     mantissa, _, exponent = f"{value:.1e}".partition("e")
-    return rf"${mantissa}\cdot10^{{{int(exponent)}}}$"
+    lead = "" if mantissa == "1.0" else rf"{mantissa}\cdot"
+    return rf"${lead}10^{{{int(exponent)}}}$"

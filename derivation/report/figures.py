@@ -1,4 +1,4 @@
-"""Figures 1 and 2 as the paper draws them and as they should be, and the peaks it speaks of."""
+"""Figures 1 and 2 as the paper draws them and as they should be; the peaks, the law and its map."""
 
 import io
 from collections.abc import Callable
@@ -11,7 +11,10 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from derivation.scene.map import figure as scene_map
 from derivation.scene.model import Model
+from derivation.scene.result import Result
+from generated.contact_law import indentation
 from generated.impact import Impact, history, impact
 from generated.perturbation import printed_motion
 
@@ -29,26 +32,43 @@ STYLE: dict[Any, Any] = {
     "lines.linewidth": 1.3,
     "pdf.fonttype": 42,
     "svg.hashsalt": "platecontact",
+    "svg.fonttype": "none",
 }
+METADATA: dict[str, dict[str, Any]] = {
+    ".pdf": {"CreationDate": None, "Producer": None},
+    ".svg": {"Date": None, "Creator": None},
+}
+"""What is left out of a file, as it differs from run to run."""
+PLATES = (0.02, 0.05, 0.1, 0.2, 0.53, 2.0)
+"""h/b of the law's figure; at 0.53 the first correction changes sign."""
 
 
-def figures(case: Model) -> dict[str, bytes]:
-    """Every figure as PDF by file name; the same bytes for the same case."""
+def figures(case: Model, impact_of: Result) -> dict[str, Figure]:
+    """Every figure of the paper's case by name, `impact_of` being its simulation."""
     drawings: dict[str, Callable[[Figure, Model], None]] = {
-        "figure1.pdf": draw_history,
-        "figure2.pdf": draw_contact_time,
-        "peaks.pdf": draw_peaks,
+        "figure1": draw_history,
+        "figure2": draw_contact_time,
+        "peaks": draw_peaks,
+        "law": draw_law,
     }
-    return {name: _pdf(draw, case) for name, draw in drawings.items()}
+    found = {name: _drawn(draw, case) for name, draw in drawings.items()}
+    with mpl.rc_context({"font.family": "serif"}):
+        return found | {"map": scene_map(impact_of, impact_of.gate.rtol)}
 
 
-def _pdf(draw: Callable[[Figure, Model], None], case: Model) -> bytes:
+def _drawn(draw: Callable[[Figure, Model], None], case: Model) -> Figure:
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(6.3, 3.1), layout="constrained")
         draw(figure, case)
-        buffer = io.BytesIO()
-        figure.savefig(buffer, format="pdf", metadata={"CreationDate": None, "Producer": None})
-    return buffer.getvalue()
+    return figure
+
+
+def saved(figure: Figure, suffix: str) -> bytes:
+    """A figure as the content of a file, `.pdf` or `.svg`, the same bytes for the same drawing."""
+    stream = io.BytesIO()
+    with mpl.rc_context(STYLE):
+        figure.savefig(stream, format=suffix[1:], transparent=True, metadata=METADATA[suffix])
+    return stream.getvalue()
 
 
 def draw_history(figure: Figure, case: Model) -> None:
@@ -102,6 +122,20 @@ def draw_peaks(figure: Figure, case: Model) -> None:
     ax.legend(fontsize=7)
 
 
+def draw_law(figure: Figure, case: Model) -> None:
+    """Indentation and force over those on a half-space, against the contact radius."""
+    axes = figure.subplots(1, 2)
+    for ratio in PLATES:
+        h = ratio * case.b
+        a = np.geomspace(1e-3 * h, min(6.0 * h, case.b), 200)
+        depth = indentation(a, case.R, h, case.b) * case.R / a**2
+        axes[0].plot(a / h, depth, label=f"h/b = {ratio:g}")
+        axes[1].plot(a / h, depth**-1.5, label=f"h/b = {ratio:g}")
+    for ax, what in zip(axes, ("indentation", "force"), strict=True):
+        ax.set(xscale="log", yscale="log", xlabel="a/h", title=f"{what} / Hertz's")
+    axes[0].legend(fontsize=7)
+
+
 def _impacts(case: Model, ratios: NDArray[np.float64]) -> Impact:
     """Impacts by the right law for several h/b at once."""
     return impact(case.R, case.m, case.v0, ratios * case.b, case.b, case.lam, case.mu)
@@ -130,6 +164,9 @@ def motion_context(case: Model) -> dict[str, Any]:
         times = (printed.contact_time, printed.breaks_at, mended.breaks_at)
         rows.append((modes, *(f"{1e3 * time:.3f}" for time in times)))
     return {
+        "R": f"{case.R:g}",
+        "v0": f"{case.v0:g}",
+        "ratio": f"{case.h / case.b:.2f}",
         "mass": f"{case.m:.1f}",
         "radius": f"{case.b:g}",
         "rows": rows,

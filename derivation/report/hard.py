@@ -4,6 +4,7 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from derivation.measure.hard_check import CONTACT_BUDGET
 from derivation.report.latex import escape, prose
 
 SHOWN = 7
@@ -20,8 +21,10 @@ def hard_context(data: Mapping[str, Any]) -> dict[str, Any]:
     return {
         "count": len(data["cases"]),
         "digits": data["provenance"]["digits"],
+        "contact_budget": f"{CONTACT_BUDGET:g}",
         "failed": sum(not case["kept"] for case in data["cases"]),
         "summary": [summary_row(name, cases) for name, cases in groups.items()],
+        "nearest": [case_row(max(cases, key=used)) for cases in groups.values()],
         "groups": [
             {"name": name, "rows": [case_row(case) for case in cases]}
             for name, cases in groups.items()
@@ -31,18 +34,22 @@ def hard_context(data: Mapping[str, Any]) -> dict[str, Any]:
 
 def summary_row(name: str, cases: Sequence[Mapping[str, Any]]) -> str:
     """Cells of a group: how many cases, the largest errors, and how many failed."""
-    used = max(float(case["error"]) / float(case["allowed"] or 1) for case in cases)
     printed = [float(case["printed"]) for case in cases if case["printed"] is not None]
     failed = sum(not case["kept"] for case in cases)
-    cells = [prose(name), str(len(cases)), error(used)]
+    cells = [prose(name), str(len(cases)), error(max(map(used, cases)))]
     return " & ".join([*cells, error(max(printed)) if printed else "", str(failed)])
 
 
+def used(case: Mapping[str, Any]) -> float:
+    """How much of what is allowed a case takes."""
+    return float(case["error"]) / float(case["allowed"] or 1)
+
+
 def case_row(case: Mapping[str, Any]) -> str:
-    """Cells of a case: kernel, cause, reference and errors; below them its exact inputs."""
+    """Cells of a case: kernel and cause, reference, errors; below them its exact inputs."""
     note = "" if case["kept"] else r" \textbf{Failed.}"
     kernel = rf"\texttt{{{escape(case['kernel'])}}}"
-    cells = [kernel, prose(case["cause"]) + note, references(case["references"])]
+    cells = [f"{kernel}: {prose(case['cause'])}{note}", references(case["references"])]
     printed = "" if case["printed"] is None else error(case["printed"])
     first = " & ".join([*cells, error(case["error"]), printed, error(case["allowed"])])
     return rf"{first}\\*{chr(10)}\given{{{inputs(case)}}}"

@@ -38,12 +38,17 @@ def escape(text: object) -> str:
     return "".join(SPECIAL.get(character, character) for character in str(text))
 
 
-GREEK = "alpha|beta|gamma|delta|eta|kappa|lambda|lam|mu|nu|omega|Omega|phi|pi|sigma|theta|xi"
+GREEK = (
+    "alpha|beta|gamma|delta|eps|eta|kappa|lambda|lam|mu|nabla|nu|omega|Omega|phi|pi|sigma|theta|xi"
+)
 _SYMBOL = re.compile(
     rf"(?<![\\A-Za-z0-9_'\[])(?P<minus>(?<=[ (])-)?(?:(?P<greek>{GREEK})|(?P<latin>[A-Za-z]))"
     r"(?:_(?P<sub>[A-Za-z0-9]{1,2})(?![A-Za-z0-9_]))?"
-    r"(?:\^(?:\((?P<group>[^()]*)\)|(?P<power>\d+)))?(?![A-Za-z0-9_^])"
+    r"(?:\^(?:\((?P<group>[^()]*)\)|(?P<power>\d+|[a-z](?![A-Za-z]))))?(?![A-Za-z0-9_^])"
 )
+_MODULUS = re.compile(r"((?<![A-Za-z0-9_*])E(?:_[0-9])?\*(?![A-Za-z0-9(*]))")
+_FUNCTION = re.compile(r"\b(sinh|cosh|tanh|coth|sin|cos|tan|log)\\textasciicircum\{\}(\d+)")
+_POWER = re.compile(r"\)\\textasciicircum\{\}(?:\((\d+/\d+)\)|(\d+)|\$(\w)\$)")
 
 
 def prose(text: object) -> str:
@@ -51,7 +56,20 @@ def prose(text: object) -> str:
 
     Words and code (whatever holds a `*`) stay as they are; 1e-12 is set as a power of ten.
     """
-    pieces = re.split(r"(\S*\*\S*)", str(text))
+    return "".join(_modulus(piece) or _mixed(piece) for piece in _MODULUS.split(str(text)))
+
+
+def _modulus(text: str) -> str:
+    """E* and E_1*, whose star multiplies nothing."""
+    if _MODULUS.fullmatch(text) is None:
+        return ""
+    index = text[1:-1].lstrip("_")
+    return rf"$E_{{{index}}}^*$" if index else "$E^*$"
+
+
+def _mixed(text: str) -> str:
+    """Words and code, which holds a star."""
+    pieces = re.split(r"(\S*\*\S*)", text)
     return "".join(_code(p) if "*" in p else _numbers(p) for p in pieces)
 
 
@@ -61,7 +79,8 @@ def _numbers(text: str) -> str:
     found = [_words(pieces[0])]
     for mantissa, power, after in zip(pieces[1::3], pieces[2::3], pieces[3::3], strict=True):
         lead = "" if mantissa == "1" else rf"{mantissa}\cdot"
-        found += [rf"${lead}10^{{{int(power)}}}$", _words(after)]
+        number = rf"${lead}10^{{{int(power)}}}$" if float(mantissa) else "0"
+        found += [number, _words(after)]
     return "".join(found)
 
 
@@ -77,7 +96,14 @@ def _words(text: str) -> str:
     for match in _SYMBOL.finditer(source):
         pieces += [escape(source[last : match.start()]), _mathematics(match)]
         last = match.end()
-    return "".join(pieces) + escape(source[last:])
+    return _raised("".join(pieces) + escape(source[last:]))
+
+
+def _raised(text: str) -> str:
+    """LaTeX of words with powers of parentheses and functions raised: (a/h)^3, sinh^2; with >=."""
+    text = _POWER.sub(lambda m: f")$^{{{m[1] or m[2] or m[3]}}}$", text)
+    text = text.replace(r"\textgreater{}=", r"$\ge$").replace(r"\textless{}=", r"$\le$")
+    return _FUNCTION.sub(r"$\\\1^{\2}$", text)
 
 
 def _mathematics(match: re.Match[str]) -> str:
@@ -86,10 +112,15 @@ def _mathematics(match: re.Match[str]) -> str:
     subscript, power = match["sub"], match["group"] or match["power"]
     if latin in ("a", "A", "I") and not (subscript or power or match["minus"]):
         return str(latin)
-    name = {"lam": r"\lambda"}.get(greek, rf"\{greek}") if greek else latin
+    name = {"lam": r"\lambda", "eps": r"\varepsilon"}.get(greek, rf"\{greek}") if greek else latin
     power = re.sub(rf"\b({GREEK})\b", r"\\\1 ", power) if power else ""
     tail = (f"_{{{subscript}}}" if subscript else "") + (f"^{{{power}}}" if power else "")
     return f"${match['minus'] or ''}{name}{tail}$"
+
+
+def unit(text: str) -> str:
+    """A unit as LaTeX: m^2 raised."""
+    return re.sub(r"\^(?:\(([^)]*)\)|(-?\d+(?:/\d+)?))", lambda m: f"$^{{{m[1] or m[2]}}}$", text)
 
 
 def environment() -> jinja2.Environment:

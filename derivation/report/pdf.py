@@ -1,6 +1,7 @@
 """A .tex file -> its PDF, the same bytes for the same text, without leftovers beside it."""
 
 import os
+import re
 import shutil
 import subprocess
 import tempfile
@@ -13,12 +14,30 @@ PASSES = 3
 PACKAGES = "texlive-latex-base texlive-latex-recommended lmodern"
 
 
+HAIR = 2.0
+"""Points by which a box may stand out unseen."""
+
+
 class TexError(OSError):
     """There is no PDF; the message says why and how to get one."""
 
 
 def compile_pdf(source: Path) -> Path:
     """Compile a LaTeX file with pdflatex; returns the PDF beside it.
+
+    Raises
+    ------
+    TexError
+        If there is no pdflatex, or it refuses the text: the message quotes its
+        first error.
+    """
+    target = source.with_suffix(".pdf")
+    write_file(target, typeset(source)[0])
+    return target
+
+
+def typeset(source: Path) -> tuple[bytes, str]:
+    """The PDF of a LaTeX file and the log of the last run.
 
     Raises
     ------
@@ -38,6 +57,7 @@ def compile_pdf(source: Path) -> Path:
         ]
         environment = {**os.environ, "SOURCE_DATE_EPOCH": "0", "FORCE_SOURCE_DATE": "1"}
         environment["TEXINPUTS"] = f"{source.parent.resolve()}:"  # where the figures are
+        environment["max_print_line"] = "1000"  # or the log breaks its lines
         for _ in range(PASSES):
             run = subprocess.run(
                 [*command, source.resolve()],
@@ -50,9 +70,15 @@ def compile_pdf(source: Path) -> Path:
             )
             if run.returncode:
                 raise TexError(f"pdflatex refused {source}: {first_error(run.stdout)}")
-        target = source.with_suffix(".pdf")
-        write_file(target, (Path(folder) / target.name).read_bytes())
-    return target
+        made = Path(folder) / source.name
+        return made.with_suffix(".pdf").read_bytes(), made.with_suffix(".log").read_text("latin-1")
+
+
+def blemishes(log: str) -> list[str]:
+    """What a log complains of: boxes that stand out by more than a hair, and warnings."""
+    boxes = re.finditer(r"^Overfull .*?\(([\d.]+)pt too .*$", log, re.MULTILINE)
+    warnings = re.findall(r"^(?:LaTeX|Package \S+|pdfTeX) [Ww]arning.*$", log, re.MULTILINE)
+    return [box[0] for box in boxes if float(box[1]) > HAIR] + warnings
 
 
 def first_error(log: str) -> str:

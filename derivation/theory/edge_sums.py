@@ -238,9 +238,9 @@ def alternating_sums() -> tuple[Formula, Formula]:
     """sum k/(j^2 J1) for both kernels, functions of alpha alone."""
     half_plane()
     found = []
-    for name, kernel, what in (
-        ("edge_sum", indentation_kernel, "g(alpha j)/(j^2 J1)"),
-        ("edge_slope_sum", slope_kernel, "(3/2) sinc(alpha j)/(j^2 J1)"),
+    for name, kernel, factor, what in (
+        ("edge_sum", indentation_kernel, "g", "g(alpha j)"),
+        ("edge_slope_sum", slope_kernel, r"\tfrac{3}{2} \mathrm{sinc}", "(3/2) sinc(alpha j)"),
     ):
         at_zero = sp.limit(kernel(_y), _y, 0)
         turned = sp.simplify(kernel(sp.I * alpha * _y))
@@ -256,8 +256,8 @@ def alternating_sums() -> tuple[Formula, Formula]:
         found.append(
             Formula(
                 name,
-                rf"\sum {what}",
-                f"sum over the modes of {what}",
+                rf"\sum {factor}(\alpha j_n)/(j_n^2 J_1(j_n))",
+                f"sum over the modes of {what}/(j^2 J1)",
                 sp.Integral(value, (_y, 0, sp.oo)),
                 "1",
                 "6",

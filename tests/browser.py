@@ -1,0 +1,99 @@
+"""A headless Chromium, driven by chromedriver's own protocol: JSON over HTTP."""
+
+import base64
+import contextlib
+import json
+import re
+import shutil
+import subprocess
+import urllib.request
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+FLAGS = (
+    "--headless=new",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--hide-scrollbars",
+)
+
+
+def missing() -> str:
+    """Why there is no browser; empty if there is one."""
+    absent = [name for name in ("chromium", "chromedriver") if shutil.which(name) is None]
+    return f"needs {' and '.join(absent)}" if absent else ""
+
+
+class Browser:
+    """A session of chromedriver."""
+
+    def __init__(self, address: str, profile: Path) -> None:
+        self.address = address
+        options = {
+            "binary": shutil.which("chromium"),
+            "args": [*FLAGS, f"--user-data-dir={profile}"],
+        }
+        wanted = {"goog:chromeOptions": options, "goog:loggingPrefs": {"browser": "ALL"}}
+        made = self.call("session", {"capabilities": {"alwaysMatch": wanted}})
+        self.session = f"session/{made['sessionId']}"
+
+    def call(self, path: str, body: dict[str, Any] | None = None, method: str = "POST") -> Any:
+        """One command; its value."""
+        data = None if body is None else json.dumps(body).encode()
+        request = urllib.request.Request(f"{self.address}/{path}", data, method=method)
+        with urllib.request.urlopen(request, timeout=120) as answer:
+            return json.loads(answer.read())["value"]
+
+    def tool(self, command: str, **arguments: Any) -> Any:
+        """A command of Chromium's own protocol."""
+        body = {"cmd": command, "params": arguments}
+        return self.call(f"{self.session}/goog/cdp/execute", body)
+
+    def open(self, path: Path, width: int, dark: bool = False) -> None:
+        """Show a file in a window of a width."""
+        self.tool(
+            "Emulation.setDeviceMetricsOverride",
+            width=width, height=900, deviceScaleFactor=1, mobile=False,
+        )  # fmt: skip
+        scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
+        self.tool("Emulation.setEmulatedMedia", features=[scheme])
+        self.call(f"{self.session}/url", {"url": path.resolve().as_uri()})
+
+    def run(self, script: str) -> Any:
+        """What a script returns."""
+        return self.call(f"{self.session}/execute/sync", {"script": script, "args": []})
+
+    def complaints(self) -> list[str]:
+        """What the console says since it was last asked."""
+        log = self.call(f"{self.session}/se/log", {"type": "browser"})
+        return [entry["message"] for entry in log]
+
+    def picture(self) -> bytes:
+        """What is on the screen, as PNG."""
+        shot = self.call(f"{self.session}/screenshot", method="GET")
+        return base64.b64decode(shot)
+
+
+@contextlib.contextmanager
+def browser(folder: Path) -> Iterator[Browser]:
+    """A browser with a profile of its own, ended when it is left."""
+    command = [str(shutil.which("chromedriver")), "--port=0"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as driver:
+        try:
+            assert driver.stdout is not None
+            line = next(line for line in driver.stdout if "started successfully" in line)
+            port = re.search(r"port (\d+)", line)
+            assert port is not None
+            session = Browser(f"http://127.0.0.1:{port[1]}", folder / "profile")
+            try:
+                yield session
+            finally:
+                session.call(session.session, method="DELETE")
+        finally:
+            driver.terminate()

@@ -128,6 +128,7 @@ def measure(tell: Tell | None = None) -> dict[str, Any]:
         "machine": dict(machine()),
         "run": {"load_before": before, "load_after": os.getloadavg()[0], "spread": spread},
         "scene": SCENE,
+        "truth": {"tolerance": FINEST, "modes": MOST, "modes of all branches": MOST_ALL},
         "rows": [
             asdict(
                 Row(t.study, t.method, t.setting, out.oscillators, spent.seconds, errors, out.bound)

@@ -20,6 +20,7 @@ from derivation.report.figures import figures, saved
 from derivation.report.fragments import pasted
 from derivation.report.front import TITLE
 from derivation.report.html import page
+from derivation.report.moving import moving_costs
 from derivation.report.references import bib
 from derivation.report.sections import Material, Text, chosen, text
 from derivation.scene.impact import simulate
@@ -35,6 +36,7 @@ NEEDED = {
     "check": "check --record",
     "contact": "check --contact --record",
     "hard": "check --hard --record",
+    "moving": "accuracy --moving",
     "rewrite": "rewrite --record",
     "speed": "check --speed --record",
 }
@@ -115,7 +117,12 @@ def report_files() -> dict[str, str]:
 
 def report_figures() -> dict[str, Figure]:
     """Every figure of the report by name."""
-    return figures(paper_case(), simulate(load(PAPER))) | accuracy_figures(measured_accuracy())
+    data = {name: json.loads(content) for name, content in measured().items()}
+    return (
+        figures(paper_case(), simulate(load(PAPER)))
+        | accuracy_figures(data["accuracy"])
+        | {"moving": moving_costs(data["moving"])}
+    )
 
 
 def report(

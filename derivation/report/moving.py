@@ -7,6 +7,7 @@ import matplotlib as mpl
 from matplotlib.figure import Figure
 
 from derivation.report.figures import STYLE
+from derivation.report.latex import escape
 
 LINES = {
     "elements, tolerance": "elements",
@@ -30,7 +31,7 @@ KNOBS = {
 
 def worst(row: Mapping[str, Any]) -> float:
     """The largest error of a row's results."""
-    return max(row["errors"].values())
+    return max(map(float, row["errors"].values()))
 
 
 def moving_costs(data: Mapping[str, Any]) -> Figure:
@@ -57,6 +58,48 @@ def _line(ax: Any, rows: Sequence[Mapping[str, Any]], style: str, label: str) ->
     ax.plot(
         [row["seconds"] for row in rows], [worst(row) for row in rows], style, ms=3, label=label
     )
+
+
+def moving_context(data: Mapping[str, Any]) -> dict[str, Any]:
+    """What the section says: scene, rows, and how much faster elements are."""
+    shared = next(row for row in data["rows"] if row["study"] == "integrator")
+    plate, ball = data["scene"]["plate"], data["scene"]["sphere"]
+    return {
+        "scene": (
+            f"A {ball['material']} ball of {2e3 * ball['radius']:g}\\,mm meets a plate of "
+            f"{plate['material']}, {1e3 * plate['thickness']:g}\\,mm thick and "
+            f"{2 * plate['radius']:g}\\,m wide, at {data['scene']['impact']['speed']:g}\\,m/s"
+        ),
+        "oscillators": shared["oscillators"],
+        "finest": _power(data["truth"]["tolerance"]),
+        "most": data["truth"]["modes"],
+        "all": data["truth"]["modes of all branches"],
+        "gain": gain(data),
+        "rows": [" & ".join(_typeset(cell) for cell in row.values()) for row in moving_rows(data)],
+    }
+
+
+def gain(data: Mapping[str, Any]) -> str:
+    """How many times as long the other integrators take to as many digits as they reach."""
+    own = next(row for row in data["rows"] if row["method"] == "elements, tolerance")
+    told = []
+    for method in ("DOP853", "velocity Verlet"):
+        best = min((row for row in data["rows"] if row["method"] == method), key=worst)
+        times = best["seconds"] / own["seconds"]
+        told.append(f"{LINES[method]} takes {times:.0f} times as long for {_power(worst(best))}")
+    return f"{'; '.join(told)}; elements reach {_power(worst(own))}."
+
+
+def _power(value: float) -> str:
+    """A number as a power of ten."""
+    mantissa, _, power = f"{value:.1e}".partition("e")
+    lead = "" if mantissa == "1.0" else rf"{mantissa}\cdot"
+    return f"${lead}10^{{{int(power)}}}$"
+
+
+def _typeset(cell: str) -> str:
+    """A cell of the table; errors as powers of ten."""
+    return _power(float(cell)) if "e-" in cell and " " not in cell else escape(cell)
 
 
 def moving_rows(data: Mapping[str, Any]) -> Iterator[dict[str, str]]:

@@ -17,6 +17,7 @@ from derivation.report.front import SUBTITLE, TITLE, front_context
 from derivation.report.hard import hard_context
 from derivation.report.latex import environment
 from derivation.report.listings import listings_context
+from derivation.report.moving import moving_context
 from derivation.report.references import items
 from derivation.report.reproducibility import reproducibility_context
 from derivation.report.scenes import effects_context
@@ -123,7 +124,10 @@ SECTIONS: dict[str, Callable[[Material], dict[str, Any]]] = {
     "accuracy": _accuracy,
     "hard": lambda m: {"hard": hard_context(m.measured["hard"])},
     "speed": _speed,
-    "work-precision": lambda m: {"cost": accuracy_context(m.measured["accuracy"])},
+    "work-precision": lambda m: {
+        "cost": accuracy_context(m.measured["accuracy"]),
+        "moving": moving_context(m.measured["moving"]),
+    },
     "effects": lambda m: {"effects": effects_context(m.scenes)},
     "reproducibility": lambda m: {"reproducibility": reproducibility_context(m.data, m.measured)},
     "cases": lambda m: {"hard": hard_context(m.measured["hard"])},

@@ -245,11 +245,18 @@ def stored_energy(
 def history(
     radii: Sequence[Exact],
     R: Exact, m: Exact, v0: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact,
-    digits: int = 40,
+    digits: int = 40, law: Callable[[int], Law] | None = None,
 ) -> tuple[arb, ...]:  # fmt: skip
-    """Times since first touch at which the growing contact reaches the given radii."""
-    law = Integrals(ratio_of(h, b))
-    return settle(lambda _: _impact(R, m, v0, h, b, lam, mu, radii, law)[1], digits, "history")
+    """Times since first touch at which the growing contact reaches the given radii.
+
+    `law` is as for `impact`.
+    """
+    chosen = law or (lambda _: Integrals(ratio_of(h, b)))
+
+    def compute(bits: int) -> tuple[arb, ...]:
+        return _impact(R, m, v0, h, b, lam, mu, radii, chosen(bits))[1]
+
+    return settle(compute, digits, "history")
 
 
 def largest_ratio(

@@ -18,8 +18,9 @@ from derivation.formula.ulp import from_ordinal, ordinal
 from derivation.measure import hard_check
 from derivation.measure.grids import seams
 from derivation.measure.hard import FORMS, Case, checked, handed_over, written
-from derivation.measure.hard_families import OFFSETS
-from derivation.measure.hard_truth import LAWS, Stored, references, restored
+from derivation.measure.hard_laws import LAWS
+from derivation.measure.hard_places import OFFSETS
+from derivation.measure.hard_truth import Stored, references, restored
 from derivation.reference import routes
 from derivation.reference.contact_agreement import agree
 
@@ -46,10 +47,19 @@ GROUPS = {
     "sums over the modes": 8,
     "seams of the building blocks": 30,
     "seams of the Bessel functions": 80,
-    "seams of the contact law": 40,
+    "seams of the contact law": 90,
     "Bessel zeros by index": 24,
     "doubles next to zeros of J0 and J1": 12,
     "moments by index": 30,
+    "seams of the closed formulas": 50,
+    "seams of the sums over modes": 30,
+    "seams of the edge": 80,
+    "seams of the far face": 30,
+    "seams of the sphere": 1,
+    "seams of the true pressure": 15,
+    "seams of the impact": 10,
+    "seams of simple impacts": 10,
+    "seams of the paper's motion": 3,
 }
 """What the suite must hold, and at least how many cases of it."""
 
@@ -149,7 +159,9 @@ def test_references_repeat(cases: tuple[Case, ...], truth: dict[str, list[Stored
     values = [case for case in cases if case.expect == "value" and 0 < len(case.points) < 6]
     closed = [case for case in values if case.kernel not in LAWS]
     laws = [c for c in values if c.kernel in ("indentation", "stiffness") and not c.shape]
-    for case in (*generator.sample(closed, 24), *generator.sample(laws, 3)):
+    quick = ("sphere_contact", "plate_of", "far_stress", "contact", "clamped_edge_bound")
+    seams = [next(c for c in values if c.kernel == kernel) for kernel in quick]
+    for case in (*generator.sample(closed, 24), *generator.sample(laws, 3), *seams):
         fresh = references(case, hard_check.kernels()[case.kernel])
         for old, new in zip(truth[case.key], fresh, strict=True):
             if new["value"] in ("nan", "inf", "-inf"):
@@ -205,6 +217,10 @@ def test_printed_forms_stand_beside(
         ("contact_series", "REACH", {"indentation"}),
         ("bessel", "_INVERSE_ROOT_PI", {"bessel_j0"}),
         ("impact", "_WEIGHTS", {"impact"}),
+        ("edge", "_FIRST_THIRD", {"clamped_edge", "supported_edge_slope"}),
+        ("far_face", "_KIRCHHOFF", {"far_stress"}),
+        ("true_pressure", "_WEIGHTS", {"contact"}),
+        ("simple_impact", "_THIN_LINEAR", {"plate_of"}),
     ],
 )
 def test_a_tampered_constant_is_noticed(

@@ -13,17 +13,15 @@ from typing import Any, Literal
 
 import numpy as np
 
-from derivation.formula.ulp import Format, ulp_error
+from derivation.formula.ulp import Format, spacing_exponent, ulp_error
 from derivation.measure.check import Progress
 from derivation.measure.hard import Case, handed_over, written
 from derivation.measure.hard_families import families
+from derivation.measure.hard_kernels import Stating, others
 from derivation.measure.hard_truth import DIGITS, Stored, outputs, references, restored
 from derivation.measure.judge import allowed_ulp
 from derivation.measure.kernels import Kernel, generated_kernels, printed_kernels
 from derivation.measure.record import provenance
-
-CONTACT_BUDGET = 8.0
-"""ULP allowed before conditioning where the manifest promises a relative error."""
 
 COMMAND = "platecontact check --hard --record"
 COLUMNS = ("group", "kernel", "cause", "#generated", "#printed", "#allowed", "kept")
@@ -86,12 +84,12 @@ def kernels() -> dict[str, Kernel]:
     """Everything a hard case can be about, by name."""
     manifest = importlib.import_module("generated.manifest")
     found = {kernel.name: kernel for kernel in generated_kernels()}
-    rows = [(row["name"], row["module"], tuple(row["arguments"])) for row in manifest.CONTACT]
-    series = ("delta", "R", "h", "b", "lam", "mu")
-    for name, place, arguments in (*rows, ("force_by_series", "reversed_series", series)):
-        module = importlib.import_module(f"generated.{place}")
-        found[name] = Kernel(name, place, arguments, getattr(module, name), CONTACT_BUDGET)
-    return found
+    for row in manifest.CONTACT:
+        call = getattr(importlib.import_module(f"generated.{row['module']}"), row["name"])
+        found[row["name"]] = Kernel(
+            row["name"], row["module"], tuple(row["arguments"]), call, float(row["budget"])
+        )
+    return found | {kernel.name: kernel for kernel in others()}
 
 
 def find_references(
@@ -168,7 +166,10 @@ def _row(case: Case, stored: Sequence[Stored], kernel: Kernel, printed: Kernel |
     if len(values) != len(stored):
         problem = problem or f"{len(values)} results for {len(stored)} references"
         values = [math.nan] * len(stored)
-    error, allowed = _worst(values, stored, kernel.budget or 0.0, case.format)
+    error, allowed = 0.0, kernel.budget or 0.0
+    if stored:
+        budgets = _budgets(case, kernel, stored)
+        error, allowed = _worst(values, stored, budgets, case.format)
     if problem:
         error = math.inf
     if not problem and not error <= allowed:
@@ -215,12 +216,21 @@ def _call(case: Case, kernel: Kernel) -> np.ndarray[Any, Any]:
     return np.stack([np.asarray(result) for result in results])
 
 
+def _budgets(case: Case, kernel: Kernel, stored: Sequence[Stored]) -> list[float]:
+    """What is allowed in ULP before conditioning, result by result."""
+    if not isinstance(kernel, Stating):
+        return [kernel.budget or 0.0] * len(stored)
+    stated = np.ravel(kernel.stated(*handed_over(case, kernel.arguments))).tolist()
+    units = (spacing_exponent(restored(row).value, case.format) for row in stored)
+    return [error * 2.0**-unit for error, unit in zip(stated, units, strict=True)]
+
+
 def _worst(
-    values: Sequence[float], stored: Sequence[Stored], budget: float, fmt: Format
+    values: Sequence[float], stored: Sequence[Stored], budgets: Sequence[float], fmt: Format
 ) -> tuple[float, float]:
     """Error and allowance in ULP where their ratio is largest."""
-    pairs = [_judged(v, row, budget, fmt) for v, row in zip(values, stored, strict=True)]
-    return max(pairs, key=lambda pair: pair[0] / pair[1], default=(0.0, budget))
+    pairs = [_judged(*row, fmt) for row in zip(values, stored, budgets, strict=True)]
+    return max(pairs, key=lambda pair: pair[0] / pair[1])
 
 
 def _judged(value: float, row: Stored, budget: float, fmt: Format) -> tuple[float, float]:

@@ -10,7 +10,7 @@ from derivation.formula.ball import Exact, PrecisionError, to_ball
 from derivation.reference import contact_balls, contact_impact
 from derivation.reference.contact_balls import modulus, settle
 
-_GRID, _STEPS = 32, 12
+_GRID, _STEPS = 8, 12
 _LEAST = 14
 _NEXT = 13
 """Next to the turning point: 10^-_NEXT of the contact time and less."""

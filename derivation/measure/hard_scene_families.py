@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from fractions import Fraction
 from itertools import chain, product
 
@@ -76,24 +77,18 @@ def _edge() -> Iterator[Case]:
         yield from _one_by_one(EDGE, EDGES[1:3], place, why, "h", same)
     yield from _shape(EDGE, EDGES[:2], {})
     yield from _materials()
-    widest = float(edge_tables.WIDEST)
-    for case in _one_by_one(
-        EDGE, (*EDGES[1:3], ), widest, f"a = {widest:g} b, the tables' end", "a",
-        {"h": 0.3, "b": 1.0, **_STEEL},
-    ):  # fmt: skip
-        yield _refused(case, widest)
-    for case in _one_by_one(
-        EDGE, FAR_EDGES[:1], widest, f"a = {widest:g} b, the tables' end", "a",
-        {"P": _FORCE, "h": 0.3, "b": 1.0, **_STEEL},
-    ):  # fmt: skip
-        yield _refused(case, widest)
+    widest, same = float(edge_tables.WIDEST), {"h": 0.3, "b": 1.0, **_STEEL}
+    why = f"a = {widest:g} b, the tables' end"
+    yield from _last(EDGE, EDGES[1:3], widest, why, same)
+    yield from _last(EDGE, FAR_EDGES[:1], widest, why, {"P": _FORCE, **same})
 
 
-def _refused(case: Case, end: float) -> Case:
-    """The case with NaN expected if its contact radius lies beyond the end of a domain."""
-    beyond = case.numbers["a"][0] > end
-    expect = "nan" if beyond else "value"
-    return Case(case.group, case.kernel, case.cause, case.inputs, case.form, expect=expect)
+def _last(
+    group: str, kernels: tuple[str, ...], end: float, why: str, same: dict[str, float]
+) -> Iterator[Case]:
+    """About the end of a domain in a, beyond which NaN is expected."""
+    for case in _one_by_one(group, kernels, end, why, "a", same):
+        yield replace(case, expect="nan") if case.numbers["a"][0] > end else case
 
 
 def _shape(group: str, kernels: tuple[str, ...], more: dict[str, float]) -> Iterator[Case]:
@@ -173,5 +168,4 @@ def _pressure() -> Iterator[Case]:
         yield from _beside(PRESSURE, ("contact",), why, given)
     widest = float(pressure_tables.WIDEST_SHARE)
     why = f"a = {widest:g} b, the widest contact that is solved"
-    for case in _one_by_one(PRESSURE, ("contact",), widest, why, "a", {"h": 1.0, "b": 1.0, **same}):
-        yield _refused(case, widest)
+    yield from _last(PRESSURE, ("contact",), widest, why, {"h": 1.0, "b": 1.0, **same})

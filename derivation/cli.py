@@ -318,6 +318,7 @@ app.command()(scene_commands.simulate)
 app.command()(scene_commands.explain)
 app.command("map")(scene_commands.map_)
 app.command()(scene_commands.indent)
+app.command()(scene_commands.schema)
 
 
 def main(argv: Sequence[str] | None = None) -> int:

@@ -286,8 +286,8 @@ def search_worse(
 def in_doubles(path: Path) -> Result:
     """The impact of a scene file in doubles by the law that the oracles know.
 
-    That is the whole plate's on the paper's edge, under a rigid paraboloid and Hertz' pressure;
-    a warning names what the scene calls for beyond it.
+    That is the whole plate's at rest on the paper's edge, under a rigid paraboloid and Hertz'
+    pressure; a warning names what the scene calls for beyond it.
 
     Raises
     ------
@@ -297,6 +297,9 @@ def in_doubles(path: Path) -> Result:
     scene = load(path)
     known = {name: name in WHOLE_PLATE for name in BY_NAME if name != "hertz"}
     found = simulate(read(scene.to_json() | {"effects": known}))
+    if not model_of(scene).density:  # then whether the plate moves cannot be judged
+        at_rest = scene.effects.model_dump() | {"inertia": False}
+        scene = read(scene.to_json() | {"effects": at_rest})
     called = sorted(gated(scene)[1].law.effects - WHOLE_PLATE - {"hertz"})
     if not called:
         return found

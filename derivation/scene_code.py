@@ -22,8 +22,8 @@ def scene_code(scene: Scene) -> str:
     Raises
     ------
     SceneError
-        As `simulate` does; for a viscous contact on a held plate that bends; and where the
-        code would not repeat the law.
+        As `simulate` does; for a plate that moves; for a viscous contact on a held plate that
+        bends; and where the code would not repeat the law.
     """
     made = recipe(scene)
     context = made.context | {"version": version("platecontact")}

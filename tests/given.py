@@ -11,8 +11,10 @@ from derivation.scene.effects import BY_NAME
 from derivation.scene.model import Model
 
 EXAMPLES = Path(derivation.scene.__file__).parent / "examples"
-ALL = frozenset(name for name, effect in BY_NAME.items() if effect.by_itself)
-"""Every effect of a law; the plate of `model` is simply supported."""
+AT_REST = {"inertia": False}
+"""What a scene wants whose plate follows at rest."""
+ALL = frozenset(name for name, effect in BY_NAME.items() if effect.by_itself) - AT_REST.keys()
+"""Every effect of a law at rest; the plate of `model` is simply supported."""
 
 
 def model(**changes: Any) -> Model:
@@ -33,7 +35,7 @@ def scene(**tables: Mapping[str, Any]) -> Any:
             "edge": "simply-supported",
         },
         "impact": {"speed": 1.0, "gravity": 9.81},
-        "effects": {},
+        "effects": dict(AT_REST),
     }  # fmt: skip
     for name, keys in tables.items():
         merged = made.get(name, {}) | dict(keys)
@@ -56,7 +58,7 @@ def changed(**tables: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
         "sphere": {"radius": 0.13, "mass": 72.0},
         "plate": {"radius": 1.0, "thickness": 0.2, "lame_lambda": 0.36e9, "lame_mu": 0.43e9},
         "impact": {"speed": 1.0},
-        "effects": {"curvature": False, "pressure": False},
+        "effects": {"curvature": False, "pressure": False} | AT_REST,
     }
     for name, keys in tables.items():
         made[name] = {k: v for k, v in (made[name] | dict(keys)).items() if v is not None}

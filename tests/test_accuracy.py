@@ -32,7 +32,7 @@ from derivation.measure.accuracy.interface import PAPER, REGIMES
 from derivation.measure.accuracy.pareto import winners
 from derivation.measure.accuracy.rows import Row
 from derivation.report import readme
-from derivation.report.accuracy import accuracy_context, duration, unsplit
+from derivation.report.accuracy import accuracy_context, duration, reasons
 from derivation.report.accuracy_figures import as_pdf, pareto_front, work_precision
 from derivation.report.accuracy_figures import scaling as scaling_figure
 from derivation.scene import choice
@@ -281,6 +281,8 @@ def test_data_have_rows_of_every_kind(committed: dict[str, Any]) -> None:
     for entry in committed["rows"]:
         assert entry.keys() == set(Row.__dataclass_fields__)
         assert entry["fails"] or (entry["errors"] and entry["vector"] and entry["single"])
+        # Of no method that works is truncation not told from rounding.
+        assert entry["fails"] or entry["errors"]["rounding"] is not None
     assert {entry["task"] for entry in committed["rows"]} == {"law", "inversion", "impact"}
     assert {g["what"] for g in committed["scaling"]} == {"points", "b/h", "digits", "scenes"}
     assert committed["headline"]["reached"]
@@ -436,8 +438,8 @@ sys.exit(cli.main(["accuracy", "--quick", "--out", sys.argv[1]]))
     assert out.read_text() == "old"
 
 
-def test_report_names_what_is_not_split_with_the_reason() -> None:
-    """A reason once, with families and regimes; rows that fail, or are split, are not named."""
+def test_report_names_what_is_not_split_with_the_reason_and_what_is_with_its_remark() -> None:
+    """A reason once, with families and regimes; rows that fail, or have none, are not named."""
     why = "no long J0 here"
     row = {"family": "a_b", "regime": "thin", "fails": None, "errors": {"unsplit": why}}
     rows = [
@@ -447,4 +449,9 @@ def test_report_names_what_is_not_split_with_the_reason() -> None:
         row | {"family": "d", "errors": {"unsplit": None}},
         row | {"family": "e", "errors": None},
     ]
-    assert list(unsplit({"rows": rows})) == [r"no long $J_{0}$ here: a\_b (thin, thick)."]
+    assert list(reasons({"rows": rows}, "unsplit")) == [
+        r"no long $J_{0}$ here: a\_b (thin, thick)."
+    ]
+    assert list(reasons({"rows": rows}, "remark")) == []
+    rows[3]["errors"]["remark"] = "an estimate"
+    assert list(reasons({"rows": rows}, "remark")) == ["an estimate: d (thin)."]

@@ -9,7 +9,7 @@ from types import FunctionType
 from typing import Any
 
 import pytest
-from given import ALL, model, scene
+from given import ALL, EXAMPLES, model, scene
 
 import derivation
 from derivation.scene import kernels, motion, simulate
@@ -107,9 +107,10 @@ def test_out_is_to_the_last_bit_as_if_the_scene_had_none(name: str, without: Any
 def test_a_half_space_calls_bounds_and_its_closed_form_alone(calls: set[str]) -> None:
     """Everything on "auto", and nothing needed: the gate's bounds, and Hertz' impact."""
     block = {"half_thickness": 1e4, "radius": 1e4}
-    result = simulate(scene(plate=block, sphere={"material": None}), rtol=0.02)
+    auto = {"inertia": "auto"}
+    result = simulate(scene(plate=block, sphere={"material": None}, effects=auto), rtol=0.02)
     assert result.gate.law.effects == {"hertz"}
-    assert {row.name for row in result.gate.rows if row.bound > 0} >= {"edge", "pressure"}
+    assert {row.name for row in result.gate.rows if row.bound > 0} >= {"edge", "pressure", *auto}
     assert calls <= BOUNDS | {"hertz"}
 
 
@@ -135,21 +136,30 @@ import sys
 from derivation.scene import load, simulate
 result = simulate(load(sys.argv[1]))
 for effect, module in (
-    ("pressure", "generated.true_pressure"), ("viscosity", "derivation.scene.viscous")
+    ("pressure", "generated.true_pressure"), ("viscosity", "derivation.scene.viscous"),
+    ("inertia", "derivation.scene.waves"), ("inertia", "generated.inertia"),
 ):
     print(effect in result.gate.law.effects, module in sys.modules)
 """
 
 
 @pytest.mark.parametrize(
-    ("name", "pressure", "viscosity"),
-    [("block", "False", "False"), ("soft_layer", "True", "False"), ("pad", "True", "True")],
+    ("name", "more", "effects"),
+    [
+        ("block", "", set()),
+        ("soft_layer", "", {"pressure"}),
+        ("pad", "", {"pressure", "viscosity"}),
+        ("soft_layer", "inertia = 'auto'", {"pressure", "inertia"}),
+    ],
 )
-def test_what_is_computed_alone_is_imported(name: str, pressure: str, viscosity: str) -> None:
-    folder = Path(derivation.__file__).parent
-    example = folder / "scene" / "examples" / f"{name}.toml"
+def test_what_is_computed_alone_is_imported(
+    name: str, more: str, effects: set[str], tmp_path: Path
+) -> None:
+    place = tmp_path / "scene.toml"
+    place.write_text(f"{(EXAMPLES / name).with_suffix('.toml').read_text()}\n[effects]\n{more}\n")
     run = subprocess.run(
-        [sys.executable, "-c", COUNT, str(example)],
-        cwd=folder.parent, capture_output=True, text=True, check=True,
+        [sys.executable, "-c", COUNT, str(place)],
+        cwd=Path(derivation.__file__).parent.parent, capture_output=True, text=True, check=True,
     )  # fmt: skip
-    assert run.stdout.split() == [pressure, pressure, viscosity, viscosity]
+    asked = ("pressure", "viscosity", "inertia", "inertia")
+    assert run.stdout.split() == [str(x in effects) for x in asked for _ in range(2)]

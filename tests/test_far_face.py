@@ -22,7 +22,7 @@ from derivation.formula.proof import SYMBOLIC, ProofError, prove
 from derivation.formula.symbols import T
 from derivation.reference import edge_balls, far_face_balls, far_face_routes
 from derivation.reference.exponentials import Material, unit_mode
-from derivation.scene import load, simulate
+from derivation.scene import load, read, simulate
 from derivation.scene.effects.effect import Array
 from derivation.theory import far_face
 from generated import contact_law, modal_sum
@@ -274,6 +274,16 @@ def test_the_panes_tension_is_that_of_its_force() -> None:
     assert f"= {45e6 / result.max_tension:.3g}" in result.verdict
     assert "without inertia" in result.verdict
     assert result.verdict in result._repr_html_().replace("&#x27;", "'")
+
+
+def test_the_tension_of_a_pane_that_moves_is_that_of_its_largest_force_at_rest() -> None:
+    data = load(PANE).to_json() | {"effects": {"inertia": "auto"}}
+    result = simulate(read(data | {"plate": data["plate"] | {"strength": 1e9}}))
+    assert "inertia" in result.gate.law.effects
+    force, a, m = result.max_force, result.max_contact_radius, result.model
+    expected = kernels.supported_far_stress(force, a, m.h, m.b, m.lam, m.mu)
+    assert result.max_tension == float(expected)
+    assert result.verdict.endswith(", at rest under the largest force")
 
 
 def test_it_breaks_on_one_side_of_its_strength_only() -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from given import ALL, model, random_models, scene
+from given import ALL, EXAMPLES, model, random_models, scene
 
 import derivation.effects_check
 import derivation.scene
@@ -19,6 +19,7 @@ from derivation.scene import (
     SceneError,
     explain,
     gate,
+    load,
     motion,
     read,
     simulate,
@@ -102,12 +103,13 @@ def test_forced_choices_are_honoured_and_priced() -> None:
     assert 0.3 * small.bound < max(changes) <= small.bound
 
 
-def test_the_pressure_needs_the_whole_plate() -> None:
-    off = decide(model(), {"bending": False}, 1e-6)
-    assert "pressure" not in off.law.effects
-    assert "bending is false" in {row.name: row.why for row in off.rows}["pressure"]
-    with pytest.raises(SceneError, match=r"got bending = false; leave out effects\.bending"):
-        decide(model(), {"bending": False, "pressure": True}, 1e-6)
+def test_pressure_and_inertia_need_the_whole_plate() -> None:
+    off = decide(model(), {"bending": False, "inertia": "auto"}, 1e-6)
+    for name in ("pressure", "inertia"):
+        assert name not in off.law.effects
+        assert "bending is false" in {row.name: row.why for row in off.rows}[name]
+        with pytest.raises(SceneError, match=r"got bending = false; leave out effects\.bending"):
+            decide(model(), {"bending": False, name: True}, 1e-6)
 
 
 def test_the_pressure_is_solved_with_all_that_its_equation_holds() -> None:
@@ -193,11 +195,13 @@ def test_explain_simulates_nothing_and_says_why(capsys: Captured, tmp_path: Path
     assert "the scene leaves out side_wall" in " ".join(shown.split())
     found = explain(scene())
     assert "inertia is not judged" in found.notes[0]
+    block = scene(plate={"half_thickness": 1e3, "radius": 1e4}, effects={"inertia": "auto"})
+    assert "inertia is left out by its bound" in explain(block, 0.02).notes[0]
     assert "<table>" in found._repr_html_()
 
 
 def test_the_map_marks_the_scene(tmp_path: Path) -> None:
-    example = Path(derivation.scene.__file__).parent / "examples" / "ball_drop.toml"
+    example = EXAMPLES / "ball_drop.toml"
     assert main(["map", str(example), "--plot", f"{tmp_path}/m.svg"]) == 0
     drawn = (tmp_path / "m.svg").read_text()
     for name in ("curvature", "bending", "edge", "pressure", "the scene"):
@@ -220,11 +224,27 @@ def test_a_maps_line_is_where_the_bound_is_the_tolerance() -> None:
     assert found[20, 30] == pytest.approx(true, rel=1e-12)
 
 
-def test_the_reference_names_what_it_leaves_out() -> None:
-    example = Path(derivation.scene.__file__).parent / "examples" / "glass_pane.toml"
+def test_the_reference_names_what_it_leaves_out(tmp_path: Path) -> None:
+    example = EXAMPLES / "glass_pane.toml"
     found = pipeline.in_doubles(example)
     assert found.gate.law.effects == WHOLE_PLATE | {"hertz"}
-    assert "leaves out edge, gravity, sphere_elasticity" in found.warnings[-1]
+    assert "leaves out edge, gravity, sphere_elasticity, which" in found.warnings[-1]
+    place = tmp_path / "scene.toml"
+    place.write_text(example.read_text() + "\n[effects]\ninertia = 'auto'\n")
+    moving = pipeline.in_doubles(place)
+    assert moving.to_json() | {"warnings": []} == found.to_json() | {"warnings": []}
+    called = sorted(explain(load(place)).gate.law.effects - WHOLE_PLATE - {"hertz"})
+    assert {"edge", "gravity", "inertia", "sphere_elasticity"} <= set(called)
+    assert f"leaves out {', '.join(called)}, which" in moving.warnings[-1]
+
+
+def test_the_reference_of_a_plate_at_rest_asks_for_no_density(tmp_path: Path) -> None:
+    text, place = (EXAMPLES / "paper.toml").read_text(), tmp_path / "scene.toml"
+    place.write_text(text.replace("[effects]", "[effects]\ninertia = true"))
+    with pytest.raises(SceneError, match=r"plate\.density"):
+        simulate(load(place))
+    known = pipeline.in_doubles(EXAMPLES / "paper.toml")
+    assert pipeline.in_doubles(place).contact_time == known.contact_time
 
 
 def test_rows_are_shown_in_every_output() -> None:

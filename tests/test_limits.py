@@ -3,13 +3,14 @@
 import math
 import re
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import pytest
 from given import changed, scene, thick
 
 from derivation.scene import indent, kernels, limits, read, simulate
-from derivation.scene.model import model_of
+from derivation.scene.model import Inertia, model_of
 from derivation.scene.result import Result
 
 Tables = dict[str, dict[str, Any]]
@@ -172,6 +173,19 @@ def test_echoes_are_warned_of_below_four_thicknesses_of_sound() -> None:
         sound = math.sqrt(70e9 * 0.8 / (1.2 * 0.6) / result.model.density)
         assert result.contact_time == pytest.approx(4 * 0.6 / sound, rel=3e-6)
     assert f"4 H/c_P = {above.contact_time:.3g} s" in text
+
+
+def test_echoes_are_not_warned_of_where_branches_hold_them() -> None:
+    slab = model_of(read(steel_on_glass(0.6, 2500.0)))
+    for inertia, told in (
+        (Inertia(), True),
+        (Inertia(branches="all"), False),
+        (Inertia(branches="all", infinite_plate=True), True),
+    ):
+        texts = limits.motion_warnings(replace(slab, inertia=inertia), 1e-5, 0.0, moving=True)
+        assert any("echoes" in text for text in texts) is told
+    held = replace(slab, inertia=Inertia(branches="all"))
+    assert any("echoes" in text for text in limits.motion_warnings(held, 1e-5, 0.0))
 
 
 def test_inertia_is_warned_of_by_its_numbers() -> None:

@@ -15,6 +15,7 @@ from derivation.scene import (
     read,
     schema,
 )
+from derivation.scene.effects import EFFECTS
 from derivation.scene.model import model_of
 
 GOOD = """[sphere]
@@ -75,6 +76,13 @@ BAD = [
     ("[impact]", "[accuracy]\n[impact]", "accuracy.rtol|got nothing|`rtol = 1e-06`"),
     ("[impact]", "[accuracy]\ntol = 1\n[impact]", "accuracy.tol: unknown key|did you mean rtol?"),
     ("[impact]", "[accuracy]\nrtol = 1e-14\n[impact]", "from 1e-13 to 1|got 1e-14|reference"),
+    ("[impact]", "[inertia]\nmodes = 2.5\n[impact]", "inertia.modes|whole number from 2|got 2.5"),
+    ("[impact]", "[inertia]\nmodes = 'all'\n[impact]", '"auto" or|without quotes|`modes = 40`'),
+    ("[impact]", "[inertia]\nbranches = 'A1'\n[impact]", '"A0" or "all"|like `branches = "all"`'),
+    ("[impact]", "[inertia]\nclosure = 1\n[impact]", '"variational" or "pointwise"|got 1'),
+    ("[impact]", "[inertia]\nplate = 'x'\n[impact]", 'inertia.plate|"modes" or "infinite"'),
+    ("[impact]", "[inertia]\nmode = 3\n[impact]", "inertia.mode: unknown|did you mean modes?"),
+    ("[impact]", "[effects]\ninertia = 1\n[impact]", 'inertia: expected "auto", true or|got 1'),
     ("lame_mu = 0.43e9", "lame_mu = 0.0", "plate.lame_mu: expected a positive number|got 0"),
     ("lame_lambda = 0.36e9", "lame_lambda = -0.3e9", "3 lame_lambda + 2 lame_mu|got|raise"),
     ("lame_lambda = 0.36e9", "lame_lambda = -inf", "plate.lame_lambda: expected a finite number"),
@@ -241,3 +249,8 @@ def test_schema_describes_every_key_and_choice() -> None:
     assert made["$defs"]["Effects"]["properties"]["bending"]["anyOf"] == [
         {"const": "auto", "type": "string"}, {"type": "boolean"},
     ]  # fmt: skip
+    assert list(made["$defs"]["Effects"]["properties"]) == [
+        effect.name for effect in EFFECTS if not effect.forced
+    ]
+    modes = made["$defs"]["Inertia"]["properties"]["modes"]["anyOf"]
+    assert modes[1] == {"maximum": 3000, "minimum": 2, "type": "integer"}

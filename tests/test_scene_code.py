@@ -282,6 +282,13 @@ def test_a_held_plate_that_bends_under_a_lagging_contact_is_refused() -> None:
         scene_code(held)
 
 
+@pytest.mark.parametrize("wanted", ["auto", True])
+def test_a_plate_that_moves_is_refused(wanted: Any) -> None:
+    data = load(EXAMPLES / "glass_pane.toml").to_json() | {"effects": {"inertia": wanted}}
+    with pytest.raises(SceneError, match=r"effects\.inertia: .* write effects\.inertia = false$"):
+        scene_code(read(data))
+
+
 MARKS = {
     "bending": {"BEND", "COMPLIANCE", "_GROWTH", "_polynomial"},
     "gravity": {"GRAVITY"},

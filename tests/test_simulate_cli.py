@@ -13,7 +13,7 @@ import pytest
 
 import derivation.scene
 from derivation.cli import main
-from derivation.scene import load, simulate
+from derivation.scene import load, schema, simulate
 from derivation.scene.plot import figure, scaled, write_plot
 
 PAPER = Path(derivation.scene.__file__).parent / "examples" / "paper.toml"
@@ -62,6 +62,13 @@ def test_simulate_writes_all_files(scene: Path) -> None:
     assert list(rows[0]) == ["time", "indentation", "velocity", "contact_radius", "force"]
     for name, column in result.history()._asdict().items():
         np.testing.assert_array_equal([float(row[name]) for row in rows], column)
+
+
+def test_schema_is_written_and_printed(tmp_path: Path, capsys: Captured) -> None:
+    assert main(["schema", "--out", str(tmp_path / "scene.schema.json")]) == 0
+    assert main(["schema"]) == 0
+    made = json.loads(capsys.readouterr().out)
+    assert made == json.loads((tmp_path / "scene.schema.json").read_text()) == schema()
 
 
 @pytest.mark.parametrize("suffix", [".png", ".svg", ".pdf", ".PNG"])
@@ -166,6 +173,7 @@ def test_warning_goes_to_the_screen_beside_the_result(scene: Path, capsys: Captu
         (["simulate", "scene.toml", "--csv", "x.svg", "--plot", "x.svg"], "another output"),
         (["simulate", "scene.toml", "--json", "."], "got a folder"),
         (["simulate", "scene.toml", "--csv", "/proc/nowhere/x.csv"], "/proc/nowhere"),
+        (["simulate", "scene.toml", "--csv", "-"], "only --json takes standard output"),
         (["simulate", "scene.toml", "extra"], "extra"),
         (["simulate", "scene.toml", "--rtol", "1e-14"], "reference SCENE.toml --digits N"),
         (["simulate", "scene.toml", "--rtol", "nan"], "from 1e-13 to 1, got nan"),

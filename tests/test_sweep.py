@@ -45,13 +45,24 @@ def test_a_sweeps_tolerance_is_that_of_its_simulations() -> None:
     assert result.gate.law.effects < simulate(load(PAPER)).gate.law.effects
 
 
+def test_whole_numbers_are_swept_as_such() -> None:
+    plate = {"radius": 0.2, "thickness": 0.01, "material": "aluminium"}
+    scene = read({"sphere": {"radius": 0.02, "material": "steel"}, "plate": plate,
+                  "impact": {"speed": 1.0}})  # fmt: skip
+    few, half, _ = sweep.run(scene, sweep.parse("inertia.modes=6:7:3"))
+    assert 'expected "auto" or a whole number' in half.remark
+    assert "inertia" in few.effects
+    assert few.results
+
+
 def test_a_refused_value_is_a_row_and_the_others_go_on(capsys: Captured) -> None:
     assert main(["simulate", str(PAPER), "--sweep", "impact.speed=-1:1:3", "--json", "-"]) == 0
     shown = capsys.readouterr()
     rows = json.loads(shown.out)
     assert [bool(row["results"]) for row in rows] == [False, False, True]
     assert "expected a positive number" in rows[0]["remark"]
-    assert "refused" in shown.err
+    assert "at impact.speed = -1: refused" in shown.err
+    assert "at impact.speed = 0: refused" in shown.err
 
 
 @pytest.mark.parametrize(

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from given import ALL
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mpmath import beta, mp, mpf
@@ -289,12 +290,12 @@ def test_bending_stays_with_an_edge_that_does_not_lag() -> None:
 @pytest.mark.parametrize("gravity", [0.0, 9.81])
 def test_gate_keeps_its_word_either_side_of_its_threshold(edge: str, gravity: float) -> None:
     model = replace(BALL, edge=edge, gravity=gravity, h=0.008, viscous_time=3e-8)
-    others = {name: True for name in BY_NAME if name not in ("hertz", "viscosity")}
+    others = dict.fromkeys(ALL - {"hertz", "viscosity"}, True)
     price = {row.name: row.bound for row in decide(model, others, 1e-12).rows}["viscosity"]
     for rtol, included in ((price / 2, True), (price * 1.05, False)):
         gate = decide(model, others, rtol)
         assert ("viscosity" in gate.law.effects) is included
-        whole = moves(Law(model, frozenset(n for n in BY_NAME if not BY_NAME[n].absent(model))))
+        whole = moves(Law(model, frozenset(n for n in ALL if not BY_NAME[n].absent(model))))
         found = moves(gate.law)
         errors = [abs(x / y - 1) for x, y in zip(found.numbers, whole.numbers, strict=True)]
         assert max(errors) <= gate.error + 1e-11 <= rtol + 1e-11

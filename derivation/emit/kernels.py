@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from derivation.emit.budgets import Budget
+from derivation.emit.inertia_rows import INERTIA_FUNCTIONS
 from derivation.emit.printer import to_numpy
 from derivation.formula.record import Formula
 from derivation.formula.symbols import ARGUMENTS, C1, C3, Argument, applicable
@@ -395,6 +396,8 @@ CONTACT_FUNCTIONS: tuple[ContactRow, ...] = (
     ),
     *EDGE_FUNCTIONS,
     *FAR_FACE_FUNCTIONS,
+    ("clamped_modes", "held_modes", ("count",), "1", "k_n, c, W_n", "", "modes, clamp"),
+    ("supported_modes", "held_modes", ("count", "nu"), "1", "k_n, c, W_n", "", "modes, support"),
     ("history", "impact", ("t", *IMPACT), "m, m/s, m, N", "", "13", "an impact over time"),
     ("sphere_contact", "effects", ("a_over_R",), "1", "", "7", "a sphere over a paraboloid"),
     (
@@ -424,6 +427,7 @@ CONTACT_FUNCTIONS: tuple[ContactRow, ...] = (
         "",
         "restitution of a weakly viscous contact",
     ),
+    *INERTIA_FUNCTIONS,
     ("bending_period", "effects", ("h", "b", *ELASTIC, "rho"), "s", "T_1", "", "bending period"),
     ("echo_time", "effects", ("h", *ELASTIC, "rho"), "s", "T_e", "", "time of two echoes"),
     ("side_wall", "effects", ("alpha",), "1", "F_W", "6", "what the finite radius adds"),

@@ -45,6 +45,8 @@ from derivation.rewrite.edge_tables import edge_context
 from derivation.rewrite.effect_tables import effect_context
 from derivation.rewrite.far_face_tables import far_face_context
 from derivation.rewrite.form import ONCE, SCALINGS, Block, Form, Seam
+from derivation.rewrite.held_tables import held_context
+from derivation.rewrite.inertia_tables import inertia_context, waves_context
 from derivation.rewrite.moment_tables import moment_context
 from derivation.rewrite.pressure_tables import pressure_context
 from derivation.rewrite.sections import sections
@@ -114,8 +116,11 @@ def modules(kernels: tuple[Kernel, ...]) -> tuple[Module, ...]:
         tables("sensitivity", sensitivity_context()),
         tables("edge", edge_context()),
         tables("far_face", far_face_context()),
+        tables("held_modes", held_context()),
         tables("effects", effect_context()),
         tables("viscosity", viscosity_context()),
+        tables("inertia", inertia_context()),
+        Module("plate_waves", "plate_waves", waves_context()),
         Module("simple_impact", "simple_impact", simple_impact_context()),
         Module("perturbation", "perturbation", perturbation_context()),
         Module("true_pressure", "true_pressure", pressure_context() | read_promises("pressure")),

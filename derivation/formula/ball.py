@@ -83,6 +83,8 @@ def _node(node: sp.Basic, visit: Callable[[sp.Basic], flint.arb]) -> flint.arb:
         return _power(visit(node.base), node.exp, visit)
     if isinstance(node, sp.besselj):
         return visit(node.args[1]).bessel_j(visit(node.args[0]))
+    if isinstance(node, sp.besseli):
+        return visit(node.args[1]).bessel_i(visit(node.args[0]))
     if node.func in _FUNCTIONS:
         return _FUNCTIONS[node.func](visit(node.args[0]))
     raise NotImplementedError(f"no ball arithmetic for {node.func.__name__} in {node}")

@@ -47,6 +47,8 @@ UNITS = {
     "m^3": LENGTH**3,
     "1/m": LENGTH**-1,
     "N": FORCE,
+    "J": FORCE * LENGTH,
+    "W": FORCE * LENGTH / TIME,
     "Pa": STRESS,
     "Pa/m": STRESS / LENGTH,
     "m/Pa": LENGTH / STRESS,

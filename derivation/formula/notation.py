@@ -9,14 +9,20 @@ SYMBOL_NAMES = {argument.symbol: argument.latex for argument in ARGUMENTS}
 
 
 class _Printer(LatexPrinter):
-    """SymPy's LaTeX printer with J_0, J_1 as the paper writes them."""
+    """SymPy's LaTeX printer with J_0, J_1 as the paper writes them, and I_0, I_1 likewise."""
 
     def _print_BesselJ(self, expr: sp.besselj, exp: str | None = None) -> str:
+        return self._bessel("J", expr, exp)
+
+    def _print_BesselI(self, expr: sp.besseli, exp: str | None = None) -> str:
+        return self._bessel("I", expr, exp)
+
+    def _bessel(self, letter: str, expr: sp.Function, exp: str | None) -> str:
         order, argument = (self._print(part) for part in expr.args)
         power = f"^{{{exp}}}" if exp is not None else ""
-        return rf"J_{{{order}}}{power}\left({argument}\right)"
+        return rf"{letter}_{{{order}}}{power}\left({argument}\right)"
 
-    _print_besselj = _print_BesselJ
+    _print_besselj, _print_besseli = _print_BesselJ, _print_BesselI
 
     def _as_ordered_terms(self, expr: sp.Add, order: str | None = None) -> list[sp.Expr]:
         return positive_first(super()._as_ordered_terms(expr, order=order))

@@ -1,7 +1,7 @@
 """Proofs: a residual is reduced to zero by rewriting, or decided by balls at two precisions."""
 
 import random
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -78,16 +78,23 @@ def reduces_to_zero(expression: sp.Expr) -> bool:
 
 
 def lower_bessel(expression: sp.Expr) -> sp.Expr:
-    """The expression with J_n, n >= 2 or n < 0, replaced by J0 and J1 through the recurrence."""
+    """The expression with J_n and I_n, n >= 2 or n < 0, replaced by those of orders 0 and 1."""
+    for kind, sign in ((sp.besselj, -1), (sp.besseli, 1)):
+        expression = expression.replace(kind, _lowered(kind, sign))
+    return expression
+
+
+def _lowered(kind: type[sp.Function], sign: int) -> Callable[[sp.Expr, sp.Expr], sp.Expr]:
+    """A Bessel function by its recurrence; `sign` is that of Z_(n-2) less 2 (n - 1)/x Z_(n-1)."""
 
     def step(order: sp.Expr, x: sp.Expr) -> sp.Expr:
         if order.is_Integer and order < 0:
-            return (-1) ** order * sp.besselj(-order, x)
+            return sign**order * kind(-order, x)
         if order.is_Integer and order >= 2:
-            return 2 * (order - 1) / x * step(order - 1, x) - step(order - 2, x)
-        return sp.besselj(order, x)
+            return sign * (step(order - 2, x) - 2 * (order - 1) / x * step(order - 1, x))
+        return kind(order, x)
 
-    return expression.replace(sp.besselj, step)
+    return step
 
 
 def balls_contain_zero(expression: sp.Expr) -> bool:

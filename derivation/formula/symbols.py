@@ -51,6 +51,9 @@ eta, alpha, a_ratio, j_n, eps, m, v0, t, delta, delta_0, N, k, u_t, rho = sp.sym
     "eta alpha a_ratio j_n eps m v0 t delta delta_0 N k u_t rho", positive=True
 )
 viscous_time, x_v = sp.symbols("viscous_time x_v", positive=True)
+omega, x_h, kap, gam, xi_R = sp.symbols("omega x_h kap gam xi_R", positive=True)
+q_j, q_rate, nu = sp.symbols("q_j q_rate nu", real=True)
+k_n = sp.Symbol("k_n", positive=True)
 kappa = {n: sp.Symbol(f"kappa_{n}", positive=True) for n in range(0, 10, 2)}
 """kappa_n, the integral of y^n K0(y)/I0(y) over y > 0, by n."""
 M = {k: sp.Symbol(f"M_{k}", real=True) for k in range(2, 7)}
@@ -114,7 +117,16 @@ ARGUMENTS = (
         viscous_time, "s", "A_v", "time by which the contact's force lags", ("viscous_time > 0",)
     ),
     Argument(x_v, "1", "x", "viscous number", ("x_v >= 0",)),
+    Argument(omega, "1/s", r"\omega", "angular frequency", ("omega > 0",)),
+    Argument(x_h, "1", "x", "wave number times half-thickness, phi h", ("x_h > 0",)),
+    Argument(kap, "1", r"\kappa", "(omega h/c_T)^2, c_T^2 = mu/rho", ("kap >= 0",)),
+    Argument(gam, "1", r"\gamma", "mu/(lam + 2 mu)", ("gam > 0", "4 * gam < 3")),
+    Argument(xi_R, "1", r"\xi", "(c_R/c_T)^2 of Rayleigh's wave", ("xi_R > 0", "xi_R < 1")),
+    Argument(q_j, "m", "q_j", "deflection of the axis by a mode of the plate", ()),
+    Argument(q_rate, "m/s", r"\dot q_j", "velocity of the axis by a mode of the plate", ()),
     Argument(t, "s", "t", "time since first contact", ("t >= 0",)),
+    Argument(k_n, "1", "k_n", "wave number of a held plate's mode times b", ("k_n > 0",)),
+    Argument(nu, "1", r"\nu", "Poisson's ratio of the plate", ("nu > -1", "nu < 0.5")),
     Argument(delta, "m", r"\delta", "indentation", ("delta > 0",)),
     Argument(delta_0, "m", r"\delta_0", "indentation by the linear law", ("delta_0 > 0",)),
     Argument(N, "1", "N", "number of modes kept", ("N >= 1",)),

@@ -89,7 +89,8 @@ def scene(number: int, seed: int = SEED) -> dict[str, dict[str, Any]]:
     if generator.random() < 0.3:
         # From nothing to much beside a fall through the sphere's own radius.
         plate["viscous_time"] = sphere["radius"] / impact["speed"] * spread(1e-12, 1e-1)
-    return {"sphere": sphere, "plate": plate, "impact": impact}
+    still = {"inertia": False}  # what that is worth is another check
+    return {"sphere": sphere, "plate": plate, "impact": impact, "effects": still}
 
 
 def judge(

@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
+from typing import Any, Literal
 
 from derivation.measure.accuracy.panels import SLOW
 from derivation.report.accuracy_figures import KINDS, TASKS
@@ -29,7 +29,8 @@ def accuracy_context(data: Data) -> dict[str, Any]:
         ],
         "case": data["regimes"][1]["name"],
         "errors": list(error_rows(data)),
-        "unsplit": list(unsplit(data)),
+        "unsplit": list(reasons(data, "unsplit")),
+        "remarks": list(reasons(data, "remark")),
         "failures": list(failures(data["rows"])),
         "scaling": [scaling_row(growth) for growth in data["scaling"]],
         "tools": list(tool_rows(data["tools"])),
@@ -93,11 +94,14 @@ def error_rows(data: Data) -> Iterator[str]:
         yield " & ".join(cells)
 
 
-def unsplit(data: Data) -> Iterator[str]:
-    """Why truncation and rounding are not told apart, and of which families in which regimes."""
+def reasons(data: Data, key: Literal["unsplit", "remark"]) -> Iterator[str]:
+    """Why truncation and rounding are not told apart, or what is to be said of how they are.
+
+    Of which families, and in which regimes.
+    """
     groups: dict[str, dict[str, dict[str, None]]] = {}
     for row in data["rows"]:
-        reason = (row["errors"] or {}).get("unsplit")
+        reason = (row["errors"] or {}).get(key)
         if reason and not row["fails"]:
             places = groups.setdefault(reason, {}).setdefault(row["family"], {})
             places[row["regime"]] = None
@@ -168,6 +172,7 @@ def headline(found: Data) -> dict[str, Any]:
         "radius": f"{1e3 * found['contact_radius']:.2f}",
         "rows": [
             f"{r['digits']} & {power(r['modes'])} & {duration(r['seconds'])}"
+            f" & {digits(r['truncation'])} & {digits(r['rounding'])}"
             for r in found["reached"]
         ],
         "best": best["digits"],

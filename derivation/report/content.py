@@ -73,6 +73,24 @@ ABOUT = {
     "far face": "A plate breaks where it is drawn most: on the far face, under the axis. What its "
     "modes add up to there is, of a thin plate, a function of a/h and a logarithm of b/h; the "
     "edge's states of stretching and bending add their own stress.",
+    "dynamic modes": "The first six links again, with the plate's own inertia. A load that "
+    "oscillates bends and stretches the plate apart, with stiffnesses B_a and B_s: x = phi h, "
+    "kappa = (omega h/c_T)^2, gamma = mu/(lambda + 2 mu), p^2 = x^2 - gamma kappa, q^2 = x^2 - "
+    "kappa. Both fall with the frequency where they are finite, by the motion's kinetic energy, so "
+    "that between two poles of either there is one branch of free waves; these are orthogonal.",
+    "bending branch": "Below the speed of shear waves B_a vanishes once: on A0, the lowest branch. "
+    "For thin plates it is Kirchhoff's bending and carries the whole load, for short waves it is "
+    "Rayleigh's wave. Its share y of the face's deflection obeys y'' + omega_0^2 y = r_0 A_j. Here "
+    "xi = kappa/x^2 and w = 1 - xi.",
+    "closure": "A plate that moves is a set of oscillators q_j of static compliance c_j, and each "
+    "feels only the part P_j of the force. With z = D + sum s_j q_j, s_j = dP_j/dP and D = delta - "
+    "sum c_j P_j s_j no energy is lost or made, whatever the static law: int P dD + sum q_j (P s_j "
+    "- P_j) is the contact's. With s_j = 1, the indentation at the axis, some leaks. The same "
+    "weight turns the static law into the variational one.",
+    "held modes": "A thin plate's modes J0(k r/b) - c I0(k r/b) whose edge has no slope, or no "
+    "moment. Green's identity makes them orthogonal, and makes (J1/J0 + I1/I0)/k grow from one "
+    "zero of J0 to the next, so that there is one mode between neighbouring ones. W_n says how a "
+    "force on the axis moves it: the sum of W_n/k_n^4 is the deflection at rest.",
 }
 
 

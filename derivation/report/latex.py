@@ -72,7 +72,7 @@ def _code(text: str) -> str:
 
 def _words(text: str) -> str:
     """Words with the symbols among them typeset."""
-    source = re.sub(r"\b([Jcv])([013])\b", r"\1_\2", text)
+    source = re.sub(r"\b([IJKcv])([013])\b", r"\1_\2", text)
     pieces, last = [], 0
     for match in _SYMBOL.finditer(source):
         pieces += [escape(source[last : match.start()]), _mathematics(match)]

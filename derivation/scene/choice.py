@@ -156,21 +156,29 @@ def solve_gated(gate: Gate, rtol: float | None = None) -> tuple[Numbers, Accurac
     SceneError
         If the impact leaves the law's range, or the tolerance is out of reach.
     """
-    law = gate.law
-    rest = None if rtol is None else (rtol - gate.error) / (1.0 + gate.error)
+    law, rest = gate.law, remaining(gate, rtol)
     if law.effects == WHOLE_PLATE | {"hertz"}:
         found, accuracy = solve(law.model, rest)
     else:
-        found, accuracy = _composed(law)
+        found, accuracy = _composed(law, rest)
     accuracy = replace(
         accuracy, rtol=rtol, effects=Part(gate.error, _basis(gate)), outputs=gate.outputs
     )
     if rtol is not None and accuracy.bound > rtol:
+        where = f"for a contact as wide as a/R = {found[3] / law.model.R:.4g}"
+        mend = "give a larger tolerance"
+        if "inertia" in law.effects:
+            where = "with the modes and branches that move"
+            mend += ', more inertia.modes, or inertia.branches = "all"'
         raise SceneError(
-            f"rtol: expected at least {_above(accuracy.bound)} for a contact as wide as "
-            f"a/R = {found[3] / law.model.R:.4g}, got {rtol:.3g}; give a larger tolerance"
+            f"rtol: expected at least {_above(accuracy.bound)} {where}, got {rtol:.3g}; {mend}"
         )
     return found, accuracy
+
+
+def remaining(gate: Gate, rtol: float | None) -> float | None:
+    """What a tolerance leaves beside the effects left out [1]."""
+    return None if rtol is None else (rtol - gate.error) / (1.0 + gate.error)
 
 
 def _basis(gate: Gate) -> str:
@@ -181,15 +189,18 @@ def _basis(gate: Gate) -> str:
     """
     out = {row.name for row in gate.rows if not row.included and row.bound}
     steeper = "pressure" in out and "curvature" in gate.law.effects
-    return MEASURED if gate.law.model.viscous_time or steeper else PROVED
+    moving = "inertia" in out | gate.law.effects
+    return MEASURED if gate.law.model.viscous_time or steeper or moving else PROVED
 
 
-def _composed(law: Law) -> tuple[Numbers, Accuracy]:
+def _composed(law: Law, rtol: float | None) -> tuple[Numbers, Accuracy]:
     """The results by a law of any effects, and their bounds."""
     if law.effects <= {"hertz", "sphere_elasticity"}:
         closed = _half_space(law)
         if closed is not None:
             return closed
+    if "inertia" in law.effects:
+        return _on_moving_plate(law, rtol)
     found = moved(law)
     if found is None:
         check_energy(law, DOUBT)
@@ -203,9 +214,35 @@ def _composed(law: Law) -> tuple[Numbers, Accuracy]:
     )
 
 
-def moved(law: Law) -> motion.Motion | None:
-    """The impact by a law of any effects; None if it leaves the law's range."""
+def _on_moving_plate(law: Law, rtol: float | None) -> tuple[Numbers, Accuracy]:
+    """The results with inertia, and their bounds."""
+    from derivation.scene import waves
+
+    with np.errstate(all="ignore"):
+        found = waves.impact(law, waves.goal(rtol))
+    if found is None:
+        check_energy(replace(law, effects=law.effects - {"inertia", "viscosity"}), DOUBT)
+        return (math.nan,) * 5, whole_law("full", None)
+    left = (1.0 + found.inertia.doubt) * (1.0 + found.inertia.branches) - 1.0
+    return found.numbers, Accuracy(
+        "full",
+        None,
+        law=Part(left, MEASURED),
+        quadrature=Part(waves.INTEGRATION, MEASURED),
+        rounding=Part(_rounding(law), MEASURED),
+    )
+
+
+def moved(law: Law, rtol: float | None = None) -> motion.Motion | None:
+    """The impact by a law of any effects; None if it leaves the law's range.
+
+    A tolerance says how many modes a plate that moves has.
+    """
     with np.errstate(all="ignore"):  # extreme scenes end in NaN, which is looked for
+        if "inertia" in law.effects:
+            from derivation.scene import waves
+
+            return waves.impact(law, waves.goal(rtol))
         if "viscosity" not in law.effects:
             return motion.impact(law)
         from derivation.scene import viscous

@@ -24,7 +24,7 @@ from derivation.scene.edge_remainder import edge_remainder
 from derivation.scene.effects import BY_NAME
 from derivation.scene.effects.effect import Array, PlateEffect
 from derivation.scene.gate import Gate
-from derivation.scene.impact import simulate
+from derivation.scene.impact import gated, simulate
 from derivation.scene.law import Law
 from derivation.scene.limits import last_radius
 from derivation.scene.motion import Motion
@@ -79,8 +79,14 @@ def recipe(scene: Scene) -> Recipe:
     SceneError
         As `simulate` does, and where no force follows from indentation and rate.
     """
+    _check_at_rest(scene)
     result = simulate(scene)
     gate, law = result.gate, result.gate.law
+    if "inertia" in law.effects:
+        raise SceneError(
+            "effects.inertia: expected a plate at rest for the code of a scene, as no force "
+            "follows from indentation and rate on one that moves; write effects.inertia = false"
+        )
     motion = choice.moved(law)
     assert motion is not None
     model, effects = law.model, law.effects
@@ -111,6 +117,21 @@ def recipe(scene: Scene) -> Recipe:
         **_words(scene, gate, motion.max_indentation, notes),
     }
     return Recipe(law, motion, context)
+
+
+def _check_at_rest(scene: Scene) -> None:
+    """Refuse a plate that moves: its force depends on all that went before.
+
+    Raises
+    ------
+    SceneError
+        If the scene calls for inertia.
+    """
+    if "inertia" in gated(scene)[1].law.effects:
+        raise SceneError(
+            "effects.inertia: expected false for the code of a scene, whose plate follows at rest, "
+            "got a plate that moves; write effects.inertia = false"
+        )
 
 
 def _kind(law: Law) -> str:

@@ -1,4 +1,4 @@
-"""The commands `simulate` and `indent`: check the file names, make one call, show the result."""
+"""The commands that take a scene file: check the names, make one call, show the result."""
 
 from collections.abc import Sequence
 from dataclasses import asdict
@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from derivation.files import write_file
-from derivation.screen import NOTES, OUT, Json, counted, put_json, table
+from derivation.screen import NOTES, OUT, Json, counted, put_json, stage, table
 
 SceneFile = Annotated[Path, typer.Argument(metavar="SCENE.toml", help="Scene file.")]
 
@@ -22,6 +22,9 @@ def simulate(
     csv: Annotated[
         Path | None,
         typer.Option(metavar="FILE", help="Write time, indentation, velocity, radius and force."),
+    ] = None,
+    animate: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Show the plate move: .gif or .html.")
     ] = None,
     rtol: Annotated[
         float | None,
@@ -39,13 +42,13 @@ def simulate(
     With --sweep plate.thickness=1e-3:1e-2:50 the table, --csv and --json have a row per value.
     """
     if sweep is not None:
-        _sweep(scene, sweep, json, plot, csv, rtol)
+        _sweep(scene, sweep, json, plot or animate, csv, rtol)
         return
     from derivation.scene import load
     from derivation.scene import simulate as run
     from derivation.scene.gate import HEADS
 
-    check_outputs(scene, json, plot, csv)
+    check_outputs(scene, json, plot, csv, animate)
     result = run(load(scene), rtol=rtol)
     warn(result.warnings)
     # Everything is made before anything is written.
@@ -54,12 +57,23 @@ def simulate(
         from derivation.scene.plot import render
 
         files[plot] = render(result, plot.suffix)
+    if animate is not None:
+        from derivation.scene import animation
+
+        with stage("animate"):
+            files[animate] = animation.render(result, animate.suffix)
     if json != "-":
         table(f"Impact of {scene.name}", ("quantity", "#value", "unit"), result.rows())
         table("Effects", HEADS, result.gate.lines())
         OUT.print(str(result.accuracy), markup=False, highlight=False, soft_wrap=True)
         for note in filter(None, (result.model_note, result.verdict)):
             OUT.print(note, markup=False, highlight=False, soft_wrap=True)
+        if result.moving is not None:
+            from derivation.scene import waves
+
+            table("Contacts", waves.HEADS, result.moving.lines())
+            for note in result.moving.notes():
+                OUT.print(note, markup=False, highlight=False, soft_wrap=True)
         if result.comparison:
             from derivation.scene import comparison
 
@@ -85,17 +99,18 @@ def _sweep(
     from derivation.scene.result import UNITS
 
     if plot is not None:
-        raise SceneError("--plot: expected no plot of a sweep; leave it out, or --sweep")
+        raise SceneError("--plot, --animate: expected none of a sweep; leave it out, or --sweep")
     check_outputs(scene, json, csv=csv)
     sweep = sweeps.parse(text)
     loaded = load(scene)
     with counted("simulate") as tell:
         rows = sweeps.run(loaded, sweep, rtol, tell)
-    warn([row.remark for row in rows if row.remark])
+    key = f"{sweep.table}.{sweep.key}"
+    warn([f"at {key} = {row.value:.6g}: {row.remark}" for row in rows if row.remark])
     if csv is not None:
         write_file(csv, sweeps.to_csv(sweep, rows).encode())
     elif json != "-":
-        heads = (f"#{sweep.table}.{sweep.key}", *(f"#{n} [{u}]" for n, u in UNITS.items()))
+        heads = (f"#{key}", *(f"#{n} [{u}]" for n, u in UNITS.items()))
         cells = [
             [f"{row.value:.6g}"]
             + [f"{row.results[name]:.6g}" if row.results else "-" for name in UNITS]
@@ -196,6 +211,20 @@ def indent(
         put_json([contact.to_json() for contact in contacts], json)
 
 
+def schema(
+    out: Annotated[
+        str, typer.Option(metavar="FILE|-", help="Write here; standard output without it.")
+    ] = "-",
+) -> None:
+    """Print the JSON schema of scene files, for editors that check and complete TOML.
+
+    Example: platecontact schema --out scene.schema.json
+    """
+    from derivation.scene import schema as made
+
+    put_json(made(), out)
+
+
 def _numbers(name: str, texts: Sequence[str], more: Sequence[str] | None) -> list[float]:
     """Numbers after an option: `--force 1 2`, `--force 1,2` and `--force 1 --force 2` alike."""
     from derivation.scene import SceneError
@@ -214,7 +243,11 @@ def _numbers(name: str, texts: Sequence[str], more: Sequence[str] | None) -> lis
 
 
 def check_outputs(
-    scene: Path, json: str | None, plot: Path | None = None, csv: Path | None = None
+    scene: Path,
+    json: str | None,
+    plot: Path | None = None,
+    csv: Path | None = None,
+    animate: Path | None = None,
 ) -> None:
     """Refuse output names that say no format or would overwrite the scene or each other."""
     from derivation.scene import SceneError
@@ -223,10 +256,16 @@ def check_outputs(
         from derivation.scene.plot import check_suffix
 
         check_suffix(plot)
+    if animate is not None:
+        from derivation.scene import animation
+
+        animation.check_suffix(animate)
     places = [Path(json)] if json and json != "-" else []
-    places += [path for path in (plot, csv) if path is not None]
+    places += [path for path in (plot, csv, animate) if path is not None]
     taken = {scene.resolve(): "the scene file"}
     for place in places:
+        if place == Path("-"):
+            raise SceneError("-: expected a file to write; only --json takes standard output as -")
         if place.is_dir():
             raise SceneError(f"{place}: expected a file to write, got a folder; add a file name")
         if place.resolve() in taken:

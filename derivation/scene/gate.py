@@ -11,8 +11,8 @@ up to 1.02 times the largest; link 18 says what this does to the results.
 
 import math
 import time
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from html import escape
 from typing import Any
 
@@ -29,6 +29,10 @@ from derivation.scene.scene import OUTPUTS, SceneError
 
 SOLVED_WITH = WHOLE_PLATE | {"curvature", "sphere_elasticity"}
 """Effects that the true pressure's equation holds in itself."""
+MOVED_WITH = WHOLE_PLATE | {"edge"}
+"""Effects that a plate's modes hold, at rest and in motion."""
+WHOLES = {"pressure": SOLVED_WITH, "inertia": MOVED_WITH}
+"""Effects that hold the whole plate, and what comes in with them."""
 TOP = 1.02
 """Bounds are taken up to this times the largest radius."""
 NEAR = 1e-6
@@ -36,6 +40,7 @@ NEAR = 1e-6
 MARGIN = 1.05
 """Elasticities of S are sampled at nodes and widened by this."""
 FORCED_OUT = "false in the scene"
+STILL = "the plate is at rest unless effects.inertia is auto or true"
 HEADS = ("effect", "number", "value", "if left out", "", "why")
 """Heads of the effects table."""
 
@@ -160,40 +165,76 @@ def decide(
     Raises
     ------
     SceneError
-        If the pressure is to be solved for without a part of the plate.
+        If the pressure is to be solved for, or the plate to move, without a part of it; or if
+        it has to move and its density is not known.
     """
     asked = {e.name for e in EFFECTS if not e.by_itself and wanted.get(e.name) is True}
     reasons = {e.name: "" if e.name in asked else e.absent(model) for e in EFFECTS}
     missing = sorted(name for name in WHOLE_PLATE if wanted.get(name) is False)
-    if missing and wanted.get("pressure") is True:
-        raise SceneError(
-            f"effects.pressure: expected true with the whole plate only, got {missing[0]} = false; "
-            f"leave out effects.{missing[0]} or effects.pressure"
-        )
-    if missing:
-        reasons["pressure"] = f"it holds the whole plate, but {', '.join(missing)} is false"
+    for name in WHOLES if missing else ():
+        if wanted.get(name) is True:
+            raise SceneError(
+                f"effects.{name}: expected true with the whole plate only, got {missing[0]} = "
+                f"false; leave out effects.{missing[0]} or effects.{name}"
+            )
+        reasons[name] = f"it holds the whole plate, but {', '.join(missing)} is false"
+    if wanted.get("inertia", False) is False:
+        reasons["inertia"] = STILL
     present = [effect for effect in EFFECTS if not reasons[effect.name]]
     choice = {effect.name: wanted.get(effect.name, "auto") for effect in present}
     present = [effect for effect in present if effect.by_itself]
-    # What the pressure is solved with, at no cost; their bounds are those of Hertz' pressure.
-    along = {e.name for e in present if e.name in SOLVED_WITH and choice[e.name] is not False}
+    free = {effect.name for effect in present if choice[effect.name] is not False}
+    # What comes in with an effect costs nothing there; of pressure the bounds are Hertz'.
+    along = {name: with_it & free for name, with_it in WHOLES.items()}
     included = {e.name for e in present if e.forced or choice[e.name] is True}
-    included |= along if "pressure" in included else set()
+    included |= _all(along[name] for name in included & WHOLES.keys())
     open_ = [e for e in present if e.name not in included and choice[e.name] is not False]
     while True:
         state = _state(Law(model, frozenset(included)))
         error = _error(state, open_, outputs)
-        if error <= rtol or not open_:
+        # A plate that moves leaves modes and branches out too: half the tolerance is theirs.
+        if error <= (0.5 * rtol if "inertia" in included else rtol) or not open_:
             break
         worst = max(open_, key=lambda effect: _size(state, effect, outputs))
-        included |= {worst.name} | (along if worst.name == "pressure" else set())
+        included |= {worst.name} | along.get(worst.name, set())
         open_ = [effect for effect in open_ if effect.name not in included]
+    if "inertia" in included:
+        check_movable(model, asked)
     rows = [_row(effect, state, choice, reasons, rtol, error, outputs) for effect in EFFECTS]
     return Gate(state.law, rtol, error, tuple(rows), tuple(outputs))
 
 
+def _all(sets: Iterable[Collection[str]]) -> set[str]:
+    """Everything in any of them."""
+    return set().union(*sets)
+
+
+def check_movable(model: Model, asked: Collection[str]) -> None:
+    """Refuse a plate that has to move and cannot.
+
+    Raises
+    ------
+    SceneError
+        If its density is not known.
+    """
+    if model.density:
+        return
+    why = "effects.inertia = true" if "inertia" in asked else "its inertia may change the results"
+    raise SceneError(
+        f"plate.density: expected a density, since {why}, got none; give plate.density "
+        "[kg/m^3], or effects.inertia = false for a plate without inertia"
+    )
+
+
 def _state(law: Law) -> _State:
-    """The law at its largest radius, or at its limit if that is beyond."""
+    """The law at its largest radius, or at its limit if that is beyond.
+
+    Of a plate that moves that of a plate that does not yield: no contact grows wider.
+    """
+    if "inertia" in law.effects:
+        return replace(
+            _state(replace(law, effects=law.effects - MOVED_WITH - {"inertia"})), law=law
+        )
     nodes = rule(NODES[0])
     with np.errstate(all="ignore"):
         a = largest_radius(law, close=NEAR)
@@ -204,7 +245,7 @@ def _state(law: Law) -> _State:
         inner, last = (Shape(*(x[part] for x in shape)) for part in (slice(-1), slice(-1, None)))
         elasticity = nodes.x * (nodes.derivative @ inner.additive) / inner.additive
         equal = np.concatenate(([0.0], radii * np.cbrt(shape.force)))
-        along = _along(law, radii, shape) if law.model.viscous_time else None
+        along = _along(law, radii, shape)
     fall, rise = max(0.0, -float(np.min(elasticity))), max(0.0, float(np.max(elasticity)))
     # P goes with the cube of Hertz' radius, and dP = 2 E* a_H d delta/S.
     swelling = inner.slope / (inner.additive * np.cbrt(inner.force) ** 2)
@@ -313,6 +354,10 @@ def _price(state: _State, effect: Effect, outputs: Sequence[str]) -> float:
     """What leaving out an effect that is in would change: the law with it lies beside S_1."""
     if effect.forced or math.isnan(state.a):
         return math.inf
+    if effect.name == "inertia":
+        law = state.law
+        state = _state(replace(law, effects=law.effects - {"inertia"}))
+        return _error(state, [effect], outputs)
     bound = _bound(state, effect)
     return _worst(state, bound._replace(low=bound.up, up=bound.low), outputs)
 
@@ -356,13 +401,21 @@ def _forced(included: bool, bound: float, output: str) -> str:
 
 
 def cost(law: Law, effect: Effect, repeats: int = 3) -> float:
-    """Time [s] that a law with this effect alone takes at an impact's nodes, the least of a few."""
+    """Time [s] that a law with this effect alone takes at an impact's nodes, the least of a few.
+
+    Of inertia what its oscillators and tables take.
+    """
     a = rule(NODES[0]).x * min(law.limit, law.model.h)
     alone = Law(law.model, frozenset({"hertz", effect.name}))
     best = math.inf
     with np.errstate(all="ignore"):
         for _ in range(repeats):
             start = time.perf_counter()
-            alone.at(a)
+            if effect.name == "inertia":
+                from derivation.scene import waves
+
+                waves.prepared(law)
+            else:
+                alone.at(a)
             best = min(best, time.perf_counter() - start)
     return best

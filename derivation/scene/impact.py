@@ -1,6 +1,7 @@
 """Simulates an impact: from the scene to contact time, indentation, force and their history."""
 
 from collections.abc import Iterable
+from dataclasses import replace
 
 from derivation.scene.choice import check_rtol, solve_gated
 from derivation.scene.edge_remainder import edge_remainder
@@ -8,6 +9,7 @@ from derivation.scene.gate import Gate, decide
 from derivation.scene.limits import (
     check_numbers,
     check_radius,
+    contact_warnings,
     local_indentation,
     motion_warnings,
     pressure_warnings,
@@ -63,13 +65,17 @@ def simulate(
     deflection = 1.0 - local_indentation(model, a, gate.law.effects) / delta
     warnings = (
         *warnings_at(model, a, delta, gate.law.effects),
-        *motion_warnings(model, contact_time, deflection),
+        *motion_warnings(model, contact_time, deflection, "inertia" in gate.law.effects),
         *pressure_warnings(pressure, scene.plate.yield_stress, "viscosity" in gate.law.effects),
     )
     if scene.plate.strength is not None:
         tension = gate.law.max_tension(a, force, scene.effects.edge is not False)
         warnings += tension_warnings(tension, scene.plate.strength)
     result = Result(*numbers, pressure, accuracy, model_error, warnings, scene, gate)
+    if result.moving is not None:
+        closing = [touch.closing for touch in result.moving.inertia.contacts]
+        more = contact_warnings(closing, result.moving.least)
+        result = replace(result, warnings=result.warnings + more)
     return result if times is None else result.at(times)
 
 

@@ -25,7 +25,7 @@ from derivation.scene.scene import Scene, SceneError
 from derivation.scene.words import shown
 
 UNITS = {"contact_radius": "m", "force": "N", "indentation": "m"}
-AT_REST = frozenset(effect.name for effect in EFFECTS if effect.by_itself) - {"gravity"}
+AT_REST = frozenset(effect.name for effect in EFFECTS if effect.by_itself) - {"gravity", "inertia"}
 """Effects of a contact that does not move."""
 _STEPS, _CLOSE = 60, 4e-16
 Values = float | Iterable[float]

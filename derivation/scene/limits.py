@@ -1,7 +1,7 @@
 """Where the contact law ends or grows inexact: refusals and warnings, each with its number."""
 
 import math
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 
 import numpy as np
 
@@ -25,6 +25,8 @@ SHARE_LIMIT = 0.01
 """Share of the plate's deflection in the indentation below which its inertia is no matter."""
 YIELD_LIMIT = 1.6
 """Pressure over yield stress at which a metal begins to yield below the contact."""
+GRAZING = 1e-3
+"""Closing speed over the impact's, or force over the largest, below which a contact grazes."""
 MILD = 0.3
 """Relative correction above which its leading term is no estimate any more."""
 INERTIA = "the plate's inertia is left out"
@@ -150,7 +152,32 @@ def zener_number(model: Model) -> float:
     return found / math.pow(1.0 + model.softness, 0.4)
 
 
-def motion_warnings(model: Model, contact_time: float, deflection: float) -> tuple[str, ...]:
+def contact_warnings(closing: Sequence[float], least: float) -> tuple[str, ...]:
+    """Where the number of contacts hangs by a thread.
+
+    Parameters
+    ----------
+    closing
+        Speeds at which sphere and plate meet, over that of the impact [1].
+    least
+        Smallest force between two maxima of it, over the largest [1]; 1 if there is none.
+    """
+    slow = min(closing)
+    if slow >= GRAZING and least >= GRAZING:
+        return ()
+    how = f"all but part while they touch, at {least:.2g} of the largest force"
+    if slow < GRAZING:
+        how = f"meet again at {slow:.2g} of the impact's speed"
+    text = (
+        f"grazing contact: sphere and plate {how}; how many contacts there are depends on the "
+        "last digits of the scene, and with it the restitution"
+    )
+    return (text,)
+
+
+def motion_warnings(
+    model: Model, contact_time: float, deflection: float, moving: bool = False
+) -> tuple[str, ...]:
     """Where the plate's own motion, which is left out, is not small; needs its density.
 
     Parameters
@@ -159,6 +186,8 @@ def motion_warnings(model: Model, contact_time: float, deflection: float) -> tup
         Contact time [s].
     deflection
         Share of the plate's deflection in the largest indentation [1].
+    moving
+        Whether its motion in bending is computed.
     """
     if not model.density:
         return ()
@@ -167,7 +196,7 @@ def motion_warnings(model: Model, contact_time: float, deflection: float) -> tup
     period = float(kernels.bending_period(h, b, lam, mu, model.density))
     echoes = float(kernels.echo_time(h, lam, mu, model.density))
     found = []
-    matters = zener > ZENER_LIMIT or deflection > SHARE_LIMIT
+    matters = not moving and (zener > ZENER_LIMIT or deflection > SHARE_LIMIT)
     if matters and contact_time < SLOW * period:
         found.append(
             f"{INERTIA}: Zener's number lambda = {zener:.3g} (small: below "
@@ -175,7 +204,9 @@ def motion_warnings(model: Model, contact_time: float, deflection: float) -> tup
             f"{contact_time / period:.3g} (slow: above {SLOW:g}), and the deflection makes "
             f"{100 * deflection:.3g} % of the indentation"
         )
-    if contact_time < echoes:
+    plate = model.inertia
+    echoing = moving and plate.branches == "all" and not plate.infinite_plate
+    if contact_time < echoes and not echoing:
         found.append(
             f"the contact time is below 4 H/c_P = {echoes:.3g} s: echoes through the thickness, "
             "which are left out, return during the contact"

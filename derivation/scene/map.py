@@ -24,7 +24,7 @@ THICKNESSES = np.geomspace(1e-3, 10.0, 61)
 """h/b of the map."""
 RADII = np.geomspace(1e-3, 6.0, 61)
 """a/h of the map."""
-WITHOUT = {"hertz", "gravity", "viscosity"}
+WITHOUT = {"hertz", "gravity", "viscosity", "inertia"}
 """Effects that are always there, or depend on the speed beside the contact."""
 COLOURS = ("#1f4e79", "#b35806", "#1b7837", "#762a83", "#b2182b", "#01665e", "#e7298a")
 

@@ -10,6 +10,28 @@ NUMBERS = ("R", "m", "v0", "h", "b", "lam", "mu")
 
 
 @dataclass(frozen=True)
+class Inertia:
+    """How the plate's inertia is computed.
+
+    Attributes
+    ----------
+    modes
+        Oscillators; 0 for as many as it takes.
+    branches
+        "A0", or "all" of the plate's branches.
+    pointwise
+        Whether the indentation is taken at the axis, which leaks energy.
+    infinite_plate
+        Whether the plate has no edge and bends alone.
+    """
+
+    modes: int = 0
+    branches: str = "A0"
+    pointwise: bool = False
+    infinite_plate: bool = False
+
+
+@dataclass(frozen=True)
 class Model:
     """A scene in the quantities of the paper.
 
@@ -31,6 +53,8 @@ class Model:
         A_v, by which the half-space's force lags [s].
     edge
         How the plate's edge is held.
+    inertia
+        How the plate's inertia is computed, where it is.
     """
 
     R: float
@@ -45,11 +69,22 @@ class Model:
     density: float = 0.0
     viscous_time: float = 0.0
     edge: str = "soft-hinge"
+    inertia: Inertia = Inertia()
+
+    @property
+    def poissons_ratio(self) -> float:
+        """Poisson's ratio of the plate [1]."""
+        return self.lam / (2.0 * (self.lam + self.mu))
 
     @property
     def modulus(self) -> float:
         """E* of the plate, 4 mu (lam + mu)/(lam + 2 mu) [Pa]."""
         return plane_strain_modulus(self.lam, self.mu)
+
+    @property
+    def shear_speed(self) -> float:
+        """Speed of shear waves in the plate [m/s]."""
+        return math.sqrt(self.mu / self.density)
 
     @property
     def softness(self) -> float:
@@ -113,6 +148,7 @@ def model_of(scene: Scene) -> Model:
         density=_density(scene.plate),
         viscous_time=scene.plate.viscous_time or 0.0,
         edge=scene.plate.edge,
+        inertia=_inertia(scene),
     )
     for name, value in zip(NUMBERS, model.numbers, strict=True):
         if not math.isfinite(value) or (value <= 0 and name != "lam"):
@@ -126,6 +162,15 @@ def model_of(scene: Scene) -> Model:
             f"got {scene.plate.poissons_ratio!r}; give the Lame constants instead"
         )
     return model
+
+
+def _inertia(scene: Scene) -> Inertia:
+    wanted = scene.inertia
+    if wanted is None:
+        return Inertia()
+    modes = 0 if wanted.modes == "auto" else wanted.modes
+    pointwise, endless = wanted.closure == "pointwise", wanted.plate == "infinite"
+    return Inertia(modes, wanted.branches, pointwise, endless)
 
 
 def _mass(sphere: Sphere) -> float:

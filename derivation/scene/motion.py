@@ -43,6 +43,10 @@ class Ledger:
         Kinetic energy of the sphere after.
     dissipated, left
         Lost in the viscous contact, and left in its elastic part when the force is gone.
+    plate
+        Left in the plate's motion, or gone into an endless plate.
+    leak
+        What a closure at the axis loses: no physics.
     """
 
     brought: float
@@ -50,11 +54,13 @@ class Ledger:
     returned: float
     dissipated: float
     left: float
+    plate: float = 0.0
+    leak: float = 0.0
 
     @property
     def closure(self) -> float:
         """What does not add up, over the energy brought [1]."""
-        gone = self.returned + self.dissipated + self.left
+        gone = self.returned + self.dissipated + self.left + self.plate + self.leak
         return (self.brought + self.weight - gone) / self.brought
 
 

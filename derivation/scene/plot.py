@@ -12,6 +12,7 @@ from derivation.scene.result import Array, Result
 from derivation.scene.scene import SceneError
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 METADATA: dict[str, dict[str, None]] = {
@@ -20,6 +21,7 @@ METADATA: dict[str, dict[str, None]] = {
     ".svg": {"Date": None},
 }
 """Per suffix what is left out of the file, so that equal results give equal files."""
+BLUE, BROWN = "#1f4e79", "#b5651d"
 PREFIXES = {-9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 
 
@@ -77,6 +79,10 @@ def figure(result: Result) -> "Figure":
     """The drawing as a Matplotlib figure, to be shown or changed."""
     from matplotlib.figure import Figure
 
+    if result.moving is not None:
+        from derivation.scene import wave_plot
+
+        return wave_plot.figure(result)
     history = result.history()
     time, t_label = scaled(history.time, "time", "s")
     indentation, d_label = scaled(history.indentation, "indentation", "m")
@@ -95,18 +101,23 @@ def figure(result: Result) -> "Figure":
     )
     drawn = made.subplot_mosaic([["z", "v"], ["P", "law"], ["p", "p"]])
     for axes, (x, y, x_label, y_label) in zip(drawn.values(), panels, strict=True):
-        axes.plot(x, y, color="#1f4e79", linewidth=1.5)
-        axes.set_xlabel(x_label)
-        axes.set_ylabel(y_label)
-        axes.axhline(0.0, color="0.6", linewidth=0.6)
-        axes.grid(visible=True, color="0.9", linewidth=0.6)
-        axes.spines[["top", "right"]].set_visible(False)
+        axes.plot(x, y, color=BLUE, linewidth=1.5)
+        frame(axes, x_label, y_label)
     lines = [
         drawn["p"].lines[0],
-        *drawn["p"].plot(distance, hertz, color="#b5651d", linewidth=1.2, linestyle="--"),
+        *drawn["p"].plot(distance, hertz, color=BROWN, linewidth=1.2, linestyle="--"),
     ]
     drawn["p"].legend(lines, ["this contact", "Hertz, at the same force"], frameon=False)
     return made
+
+
+def frame(axes: "Axes", x_label: str, y_label: str) -> None:
+    """Labels, a thin grid, and no box."""
+    axes.set_xlabel(x_label)
+    axes.set_ylabel(y_label)
+    axes.axhline(0.0, color="0.6", linewidth=0.6)
+    axes.grid(visible=True, color="0.9", linewidth=0.6)
+    axes.spines[["top", "right"]].set_visible(False)
 
 
 def scaled(values: Array, name: str, unit: str) -> tuple[Array, str]:

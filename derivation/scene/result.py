@@ -1,6 +1,6 @@
 """What a simulation returns: numbers in SI, their history, JSON, CSV and a notebook table."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from html import escape
@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from derivation.scene import kernels
-from derivation.scene.choice import Accuracy, moved
+from derivation.scene.choice import Accuracy, moved, remaining
 from derivation.scene.gate import Gate
 from derivation.scene.law import WHOLE_PLATE
 from derivation.scene.limits import INERTIA
@@ -19,6 +19,7 @@ from derivation.scene.scene import Scene, SceneError
 
 if TYPE_CHECKING:
     from derivation.scene.comparison import Comparison
+    from derivation.scene.waves import WaveMotion
 
 Array = NDArray[np.float64]
 
@@ -49,9 +50,45 @@ class History(NamedTuple):
 
     def to_csv(self) -> str:
         """The history as CSV, one line per time, numbers to the last bit."""
-        rows = zip(*(column.tolist() for column in self), strict=True)
-        lines = [",".join(self._fields), *(",".join(map(repr, row)) for row in rows)]
-        return "\n".join(lines) + "\n"
+        return _csv(self._asdict())
+
+
+class MovingHistory(NamedTuple):
+    """The course of an impact on a plate that moves.
+
+    Attributes
+    ----------
+    time
+        Time since first contact [s].
+    indentation, velocity
+        Way of the sphere [m] and its rate [m/s].
+    contact_radius
+        Contact radius [m].
+    force
+        Contact force [N].
+    deflection
+        Of the plate's modes at the axis [m].
+    plate_energy
+        Energy of the plate's modes [J].
+    """
+
+    time: Array
+    indentation: Array
+    velocity: Array
+    contact_radius: Array
+    force: Array
+    deflection: Array
+    plate_energy: Array
+
+    def to_csv(self) -> str:
+        """The history as CSV, one line per time, numbers to the last bit."""
+        return _csv(self._asdict())
+
+
+def _csv(columns: Mapping[str, Array]) -> str:
+    rows = zip(*(column.tolist() for column in columns.values()), strict=True)
+    lines = [",".join(columns), *(",".join(map(repr, row)) for row in rows)]
+    return "\n".join(lines) + "\n"
 
 
 class Pressures(NamedTuple):
@@ -77,15 +114,15 @@ class Result:
     Attributes
     ----------
     contact_time
-        Time from first contact to release [s].
+        Time from first contact to release [s]; of a plate that moves to the first release.
     max_indentation
-        Largest indentation [m].
+        Largest indentation [m]; of a plate that moves the sphere's largest way.
     max_force
         Largest contact force [N].
     max_contact_radius
         Largest contact radius [m].
     restitution
-        Speed after over speed before [1]; 1 unless the contact is viscous.
+        Speed after over speed before [1]; 1 unless the contact is viscous or the plate moves.
     max_pressure
         Largest contact pressure, in the middle of the widest contact [Pa]; of a viscous contact
         that of its elastic part, beside which there is more while it grows.
@@ -145,7 +182,7 @@ class Result:
             return ""
         if self.max_tension <= 0:
             return "the far face holds: it bears no tension under the axis"
-        doubt = ""
+        doubt = ", at rest under the largest force" if self.moving is not None else ""
         if any(text.startswith(INERTIA) for text in self.warnings):
             doubt = ", of a plate without inertia: see the warning"
         times = strength / self.max_tension
@@ -176,6 +213,24 @@ class Result:
 
         return compare(self.model, self.contact_time, self.max_indentation)
 
+    @cached_property
+    def moving(self) -> "WaveMotion | None":
+        """Contacts, energies and course on a plate that moves; None of a plate at rest."""
+        if "inertia" not in self.gate.law.effects:
+            return None
+        from derivation.scene.waves import WaveMotion
+
+        found = moved(self.gate.law, remaining(self.gate, self.accuracy.rtol))
+        assert isinstance(found, WaveMotion)  # or there were no result
+        return found
+
+    @property
+    def total_time(self) -> float:
+        """From the first contact to the last release [s]."""
+        if self.moving is None:
+            return self.contact_time
+        return self.moving.inertia.total_time
+
     @property
     def model(self) -> Model:
         """The scene in the kernels' numbers."""
@@ -191,14 +246,14 @@ class Result:
         """
         wanted = tuple(float(time) for time in np.atleast_1d(cast(Any, times)))
         for time in wanted:
-            if not 0 <= time <= self.contact_time:
+            if not 0 <= time <= self.total_time:
                 raise SceneError(
-                    f"times: expected times from 0 to the contact time {self.contact_time:.6g} s, "
+                    f"times: expected times from 0 to the contact time {self.total_time:.6g} s, "
                     f"got {time:.6g} s; leave it out"
                 )
         return replace(self, times=wanted)
 
-    def history(self, n: int | None = None) -> History:
+    def history(self, n: int | None = None) -> History | MovingHistory:
         """The course of the impact, of the same effects, by the full method.
 
         Parameters
@@ -215,6 +270,11 @@ class Result:
         if n is not None and n < 2:
             raise SceneError(f"n: expected at least 2 times, got {n}; give 2 or more")
         law = self.gate.law
+        if self.moving is not None:
+            from derivation.scene.dynamics import A, E, P, V, W, Z
+
+            times = self._times(n, self.total_time)
+            return MovingHistory(times, *self.moving.rows(times)[[Z, V, A, P, W, E]])
         if law.effects == WHOLE_PLATE | {"hertz"}:
             end = float(kernels.impact(*self.model.numbers).contact_time)
             times = self._times(n, end)
@@ -234,6 +294,8 @@ class Result:
         """The result in SI, with its accuracy, its warnings and the scene it belongs to."""
         numbers = {name: getattr(self, name) for name in UNITS}
         beside = {"perturbation": self.comparison.to_json()} if self.comparison else {}
+        if self.moving is not None:
+            beside["inertia"] = self.moving.to_json()
         return (
             numbers
             | {
@@ -273,6 +335,8 @@ class Result:
         notes += f"<p>{escape(self.verdict)}</p>"
         notes += "".join(f"<p><b>Warning:</b> {escape(text)}</p>" for text in self.warnings)
         beside = self.comparison.to_html() if self.comparison else ""
+        if self.moving is not None:
+            beside += self.moving.to_html()
         return f"<table>{''.join(cells)}</table>{notes}{self.gate.to_html()}{beside}"
 
 

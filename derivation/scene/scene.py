@@ -189,6 +189,7 @@ class Effects(Table):
     pressure: Wanted = Field("auto", description="pressure solved for", examples=[False])
     viscosity: Wanted = Field("auto", description="viscous contact", examples=[True])
     gravity: Wanted = Field("auto", description="weight during contact", examples=[False])
+    inertia: Wanted = Field(False, description="the plate's own motion", examples=["auto"])
     perturbation: bool = Field(False, description="paper's own motion to compare", examples=[True])
 
 
@@ -207,6 +208,25 @@ class Accuracy(Table):
     )
 
 
+class Inertia(Table):
+    """How the plate's inertia is computed, where it is."""
+
+    modes: Literal["auto"] | Annotated[int, Field(ge=2, le=3000)] = Field(
+        "auto", description="bending modes that oscillate, the others follow at rest", examples=[40]
+    )
+    branches: Literal["A0", "all"] = Field(
+        "A0", description="the lowest bending branch, or all branches", examples=["all"]
+    )
+    closure: Literal["variational", "pointwise"] = Field(
+        "variational",
+        description="how indentation is meant: the gap's mean that keeps energy, or at the axis",
+        examples=["pointwise"],
+    )
+    plate: Literal["modes", "infinite"] = Field(
+        "modes", description="the plate with its edge, or endless (Zener)", examples=["infinite"]
+    )
+
+
 class Scene(Table):
     """A sphere striking a plate."""
 
@@ -217,6 +237,7 @@ class Scene(Table):
         default_factory=lambda: Effects.model_validate({}),
         description="which effects are computed",
     )
+    inertia: Inertia | None = Field(None, description="how the plate's inertia is computed")
     accuracy: Accuracy | None = Field(None, description="how exact the result is to be")
 
     @classmethod
@@ -234,6 +255,7 @@ TABLES: dict[str, type[Table]] = {
     "plate": Plate,
     "impact": Impact,
     "effects": Effects,
+    "inertia": Inertia,
     "accuracy": Accuracy,
 }
 

@@ -107,7 +107,8 @@ def _row(scene: Scene, sweep: Sweep, value: float, rtol: float | None) -> Row:
     given = data.setdefault(sweep.table, {})
     for other in _instead(sweep):
         given.pop(other, None)
-    given[sweep.key] = value
+    [example, *_] = TABLES[sweep.table].model_fields[sweep.key].examples or [value]
+    given[sweep.key] = int(value) if isinstance(example, int) and value.is_integer() else value
     try:
         found = simulate(read(data), rtol=rtol)
     except SceneError as error:

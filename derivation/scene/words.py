@@ -1,6 +1,7 @@
 """Words for what is wrong with a scene: expected, got, and how to mend it."""
 
 import difflib
+import json
 from collections.abc import Iterable, Mapping
 from typing import Any
 
@@ -19,6 +20,10 @@ EXPECTED = {
     "poissons_ratio": "a number above -1 and below 0.5",
     "rtol": "a number from 1e-13 to 1",
     "perturbation": 'true or false (it is never "auto")',
+    "modes": '"auto" or a whole number from 2 to 3000',
+    "branches": '"A0" or "all"',
+    "closure": '"variational" or "pointwise"',
+    "plate": '"modes" or "infinite"',
 }
 """What a key is to hold, if not a positive number."""
 
@@ -83,7 +88,8 @@ def explain(kind: str, place: tuple[int | str, ...], value: Any, fields: Fields)
     if kind == "missing":
         return f"{name}: {expected}, got nothing; add {example} to [{table}]"
     elsewhere = ELSEWHERE.get(key, "")
-    quotes = " without quotes" if isinstance(value, str) else ""
+    words = field.examples and not isinstance(field.examples[0], (int, float))
+    quotes = " without quotes" if isinstance(value, str) and not words else ""
     return f"{name}: {expected}, got {shown(value)}; write it{quotes} like {example}{elsewhere}"
 
 
@@ -160,4 +166,6 @@ def _group(table: str, keys: tuple[str, ...]) -> str:
 def _line(table: str, item: tuple[str, FieldInfo]) -> str:
     key, field = item
     examples = field.examples or [f"... in [{table}]"]
-    return f"`{key} = {shown(examples[0])}`"
+    example = examples[0]
+    text = shown(example) if isinstance(example, (int, float)) else json.dumps(example)
+    return f"`{key} = {text}`"

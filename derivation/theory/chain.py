@@ -28,21 +28,29 @@ and from the contact law to the motion:
 23 plate motion     when the plate's own motion matters: Zener's number, periods
 24 viscosity        a contact whose force lags: restitution, and what it changes at most
 25 far face         the tension under the axis on the far face, where a plate breaks first
+26 dynamic modes    the first six links with the plate's inertia: influence at any frequency
+27 bending branch   the lowest branch of free waves: frequency, answer to a load, limits
+28 closure          a contact beside a plate of oscillators that neither loses nor makes energy
+29 held modes       bending modes of a plate that is clamped or simply supported
 """
 
 from collections.abc import Callable, Iterator
 
 from derivation.formula.record import Formula
+from derivation.theory.bending_branch import bending_branch
+from derivation.theory.closure import closure
 from derivation.theory.contact_law import contact_law
 from derivation.theory.contact_split import contact_split, reduced_split
 from derivation.theory.curvature import curvature
 from derivation.theory.divergence import divergence
+from derivation.theory.dynamic_modes import dynamic_modes
 from derivation.theory.edge import edge
 from derivation.theory.edge_sums import edge_sums
 from derivation.theory.effects import effects
 from derivation.theory.equilibrium import equilibrium
 from derivation.theory.face_conditions import omegas, scaled_omegas
 from derivation.theory.far_face import far_face
+from derivation.theory.held_modes import held_modes
 from derivation.theory.hertz import contact_radius, pressure, pressure_coefficient, sonine
 from derivation.theory.impact import impact
 from derivation.theory.influence import influence_coefficients
@@ -91,6 +99,10 @@ MOTION_LINKS: tuple[Link, ...] = (
     ("plate motion", plate_motion),
     ("viscosity", viscosity),
     ("far face", far_face),
+    ("dynamic modes", dynamic_modes),
+    ("bending branch", bending_branch),
+    ("closure", closure),
+    ("held modes", held_modes),
 )
 """What follows from the contact law. Apart: these formulas hold integrals and constants too."""
 

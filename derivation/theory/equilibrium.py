@@ -70,8 +70,8 @@ def equilibrium() -> tuple[Formula, Formula]:
         "Hooke's law put into both equilibrium equations leaves nothing but "
         "phi J1(phi r) times the first and J0(phi r) times the second ODE.",
         {
-            "radial balance": _without_functions(balance_r - radial * BESSEL_J1),
-            "axial balance": _without_functions(balance_z - axial * BESSEL_J0),
+            "radial balance": without_functions(balance_r - radial * BESSEL_J1),
+            "axial balance": without_functions(balance_z - axial * BESSEL_J0),
         },
     )
     return (
@@ -98,7 +98,8 @@ def equilibrium() -> tuple[Formula, Formula]:
     )
 
 
-def _without_functions(expression: sp.Expr) -> sp.Expr:
-    """The expression with f, g and their derivatives replaced by independent symbols."""
-    atoms = sorted(expression.atoms(sp.Derivative) | {f, g}, key=sp.default_sort_key, reverse=True)
+def without_functions(expression: sp.Expr, *functions: sp.Expr) -> sp.Expr:
+    """The expression with f, g (or others) and their derivatives made independent symbols."""
+    found = expression.atoms(sp.Derivative) | set(functions or (f, g))
+    atoms = sorted(found, key=sp.default_sort_key, reverse=True)
     return expression.subs({atom: sp.Dummy(f"d{i}") for i, atom in enumerate(atoms)})

@@ -15,6 +15,7 @@ from flint import acb, arb
 from mpmath import mp, mpf
 
 from derivation.formula.ball import LOG2_10
+from derivation.measure.accuracy.far_zeros import FIRST, far_zeros
 from derivation.reference import zeros as certified
 from derivation.reference.contact_sums import kernel, plate_excess
 from derivation.reference.routes import to_ball
@@ -77,10 +78,11 @@ class Floats:
 
     def _series(self, term: Callable[[int], mpf], end: float, least: float) -> Array:
         """Coefficients of a power series in x^2 up to those too small to count at x = end."""
-        terms = [term(0)]
-        while terms[-1] * end ** (2 * len(terms)) > least * terms[0]:
-            terms.append(term(len(terms)))
-        return np.array([self.dtype.type(mp.nstr(x, 22)) for x in terms])
+        with mp.workdps(self.digits + 10):
+            terms = [term(0)]
+            while terms[-1] * end ** (2 * len(terms)) > least * terms[0]:
+                terms.append(term(len(terms)))
+            return np.array([self.dtype.type(mp.nstr(x, self.digits + 5)) for x in terms])
 
     def context(self) -> AbstractContextManager[Any]:
         """Overflow is a result here, not an error."""
@@ -95,13 +97,18 @@ class Floats:
         return np.asarray(values, self.dtype)
 
     def zeros(self, count: int) -> tuple[Array, Array]:
-        """From the generated code up to double precision, beyond it certified ones."""
+        """From the generated code up to double precision; beyond it certified ones, then far."""
         if self.dtype.itemsize <= 8:
             return self.array(bessel_j0_zeros(count)), self.array(bessel_j1_at_j0_zeros(count))
-        j = [certified.j0_zero(n, 80) for n in range(1, count + 1)]
-        slopes = [certified.j1_at_zero(n, 80) for n in range(1, count + 1)]
+        near = range(1, min(count, FIRST) + 1)
+        j = [certified.j0_zero(n, 80) for n in near]
+        slopes = [certified.j1_at_zero(n, 80) for n in near]
         with flint.ctx.workprec(96):
-            return self.array(j), self.array(slopes)
+            found, pi = (self.array(j), self.array(slopes)), self.array(arb.pi())
+        if count <= FIRST:
+            return found
+        far = far_zeros(FIRST, count, pi)
+        return np.concatenate([found[0], far[0]]), np.concatenate([found[1], far[1]])
 
     def _taylor(self, y: Array, sign: int) -> Array:
         t = np.minimum(y, self.array(SERIES_END)) ** 2

@@ -15,12 +15,6 @@ from derivation.measure.accuracy.coefficients import series
 from derivation.measure.accuracy.interface import Call, Method, Regime, deepest
 from derivation.measure.accuracy.law_sums import bits_for, wrapped
 
-SURE_TERMS = 28
-"""Terms that stand for the law: at a/h = 0.5 they leave out 1e-50."""
-
-SURE_DEPTH = 0.6
-"""a/h up to which they do."""
-
 LONG_NUMBERS = Mpmath(40)
 """What stands for exact arithmetic beside doubles where a root is sought, which balls do not do."""
 
@@ -38,54 +32,64 @@ def diverges(regime: Regime) -> str | None:
     return None if most < radius else f"diverges: a/h up to {most:.3g}, its radius is {radius:g}"
 
 
-def expect_sure(regime: Regime) -> None:
-    """Refuse contacts so large that the series does not stand for the law.
-
-    Raises
-    ------
-    NotImplementedError
-        If it does not.
-    """
-    if deepest(regime) > SURE_DEPTH * regime.h:
-        raise NotImplementedError("the series that stands for the law does not reach so far")
-
-
 class Law:
-    """The series of a regime in an arithmetic, made in its context; of it, A at an indentation."""
+    """The law of a regime's plate in an arithmetic, made in its context, and its inverses.
 
-    def __init__(self, regime: Regime, terms: int, ar: Arithmetic) -> None:
-        digits = max(40, ar.digits + 5)
-        self.c = list(ar.array(series(regime.h, regime.b, terms, digits)))
-        # (R/2a) d delta/da = 1 + A (s_1 + s_3 A^2 + ...)
-        self.s = [c * (2 * k + 3) / 2 for k, c in enumerate(self.c)]
+    Attributes
+    ----------
+    c, s, e
+        Coefficients in `variable` of what A multiplies in `lift`, `slope` and `work`.
+    """
+
+    c: list[Array]
+    s: list[Array]
+    e: list[Array]
+
+    def __init__(self, regime: Regime, ar: Arithmetic) -> None:
         self.R, self.h, self.m = (ar.array(x) for x in (regime.R, regime.h, regime.m))
         lam, mu = ar.array(regime.lam), ar.array(regime.mu)
         self.modulus = 4 * mu * (lam + mu) / (lam + 2 * mu)
         self.top = ar.array(1.05 * deepest(regime) / regime.h)
         self.close = 10.0 ** (-0.6 * ar.digits)
 
+    def variable(self, A: Array) -> Array:
+        """What the polynomials are in."""
+        return A * A
+
+    def lift(self, A: Array) -> Array:
+        """delta R/a^2 = 1 + F."""
+        return 1 + A * horner(self.c, self.variable(A))
+
+    def slope(self, A: Array) -> Array:
+        """S = (R/2a) d delta/da."""
+        return 1 + A * horner(self.s, self.variable(A))
+
+    def work(self, A: Array) -> Array:
+        """Stored energy over that on a half-space: 5/A^5 int_0^A x^4 S dx."""
+        return 1 + A * horner(self.e, self.variable(A))
+
+    def quotient(self, A: Array, q: Array) -> Array:
+        """(1 - W(q A)/W(A))/(1 - q) of the stored energy W."""
+        raise NotImplementedError
+
     def share(self, delta: Array) -> Array:
         """A at indentations above 0."""
         goal = delta * self.R / (self.h * self.h)
 
         def miss(A: Array) -> tuple[Array, Array]:
-            square = A * A
-            lifted = square * (1 + A * horner(self.c, square))
-            return lifted - goal, 2 * A * (1 + A * horner(self.s, square))
+            return A * A * self.lift(A) - goal, 2 * A * self.slope(A)
 
         return self.root(np.sqrt(goal), miss)
 
     def largest(self, v0: Array) -> Array:
-        """A where a sphere of speed v0 stops: A^5 (1/5 + sum s A^(2k+1)/(2k+6)) = goal."""
+        """A where a sphere of speed v0 stops: its energy is stored."""
         h5 = self.h * self.h * self.h * self.h * self.h
         goal = 3 * self.m * v0 * v0 * self.R * self.R / (16 * self.modulus * h5)
-        e = [s / (2 * k + 6) for k, s in enumerate(self.s)]
 
         def miss(A: Array) -> tuple[Array, Array]:
             square = A * A
             fourth = square * square
-            work = fourth * A * (1 + 5 * A * horner(e, square)) / 5
-            return work - goal, fourth * (1 + A * horner(self.s, square))
+            return fourth * A * self.work(A) / 5 - goal, fourth * self.slope(A)
 
         return self.root((5 * goal) ** 0.2, miss)
 
@@ -106,6 +110,27 @@ class Law:
         return 4 * self.modulus * a * a * a / (3 * self.R)
 
 
+class SeriesLaw(Law):
+    """By the power series in a/h, cut off."""
+
+    def __init__(self, regime: Regime, terms: int, ar: Arithmetic) -> None:
+        super().__init__(regime, ar)
+        digits = max(40, ar.digits + 5)
+        self.c = list(ar.array(series(regime.h, regime.b, terms, digits)))
+        self.s = [c * (2 * k + 3) / 2 for k, c in enumerate(self.c)]
+        self.e = [5 * s / (2 * k + 6) for k, s in enumerate(self.s)]
+
+    def quotient(self, A: Array, q: Array) -> Array:
+        """With W = q^5 + sum e q^(2k+6) its terms are sums of the e that follow."""
+        square, power, e = A * A, A, []
+        for coefficient in self.e:
+            e.append(coefficient * power)
+            power = power * square
+        tails = list(np.cumsum(np.array(e[::-1]), axis=0)[::-1])
+        rest = tails[0] + q * (1 + q) * horner([*tails[1:], 0 * A], q * q)
+        return (1 + q * (1 + q * (1 + q * (1 + q)))) + q**5 * rest / (1 + tails[0])
+
+
 def horner(coefficients: list[Array], x: Array) -> Array:
     """A polynomial."""
     value = coefficients[-1] + 0 * x
@@ -119,7 +144,7 @@ def inverse(terms: int, ar: Arithmetic) -> Callable[[Regime], Call]:
 
     def prepare(regime: Regime) -> Call:
         with ar.context():
-            return wrapped(ar, Law(regime, terms, ar).force)
+            return wrapped(ar, SeriesLaw(regime, terms, ar).force)
 
     return prepare
 
@@ -132,8 +157,10 @@ def newton(terms: int, ar: Arithmetic = DOUBLE, quick: bool = True) -> Method:
     )  # fmt: skip
 
 
-def duration(nodes: int, terms: int, ar: Arithmetic) -> Callable[[Regime], Call]:
-    """Contact time over speed by so many terms and Gauss-Legendre nodes, prepared for a regime.
+def duration(
+    nodes: int, made: Callable[[Regime, Arithmetic], Law], ar: Arithmetic
+) -> Callable[[Regime], Call]:
+    """Contact time over speed by a law and so many Gauss-Legendre nodes, prepared for a regime.
 
     At a contact radius q a_m, q = 1 - u^2, and with W(q) the energy stored there,
     T = 8 h^2 A^2/(R v0) int_0^1 q S(q A)/sqrt(H(q)) du, H = (1 - W(q)/W(1))/(1 - q).
@@ -144,13 +171,13 @@ def duration(nodes: int, terms: int, ar: Arithmetic) -> Callable[[Regime], Call]
             rule = [arb.legendre_p_root(nodes, k, weight=True) for k in range(nodes)]
             places, weights = [(1 + x) / 2 for x, _ in rule], [w / 2 for _, w in rule]
         with ar.context():
-            law, u, w = Law(regime, terms, ar), ar.array(places), ar.array(weights)
+            law, u, w = made(regime, ar), ar.array(places), ar.array(weights)
 
             def call(v0: Array) -> Array:
                 A = law.largest(v0)
                 q = 1 - u * u
-                slope = q * (1 + (A[:, None] * q) * horner(law.s, (A[:, None] * q) ** 2))
-                integral = (w * slope / np.sqrt(_quotient(law, A[:, None], q))).sum(axis=1)
+                slope = q * law.slope(A[:, None] * q)
+                integral = (w * slope / np.sqrt(law.quotient(A[:, None], q))).sum(axis=1)
                 return 8 * law.h * law.h * A * A * integral / (law.R * v0)
 
             return wrapped(ar, call)
@@ -158,39 +185,14 @@ def duration(nodes: int, terms: int, ar: Arithmetic) -> Callable[[Regime], Call]
     return prepare
 
 
-def _quotient(law: Law, A: Array, q: Array) -> Array:
-    """H of `duration`: with W = q^5/5 + sum e q^(2k+6) its terms are sums of the e that follow."""
-    square, power, e = A * A, A, []
-    for k, s in enumerate(law.s):
-        e.append(s * power / (2 * k + 6))
-        power = power * square
-    tails = list(np.cumsum(np.array(e[::-1]), axis=0)[::-1])
-    whole = tails[0] + 1 / (5 + 0 * A)
-    rest = tails[0] + q * (1 + q) * horner([*tails[1:], 0 * A], q * q)
-    return (1 + q * (1 + q * (1 + q * (1 + q)))) + q**5 * rest / whole
-
-
 def gauss(nodes: int, terms: int, ar: Arithmetic = DOUBLE, quick: bool = True) -> Method:
     """Gauss-Legendre on the series."""
+
+    def made(regime: Regime, ar: Arithmetic) -> Law:
+        return SeriesLaw(regime, terms, ar)
+
     return Method(
         "impact", "Gauss-Legendre, small-a series", f"{nodes} nodes, {terms} terms",
-        duration(nodes, terms, ar), ar.name, duration(nodes, terms, exact_for(ar)), diverges,
+        duration(nodes, made, ar), ar.name, duration(nodes, made, exact_for(ar)), diverges,
         ar.wide, quick=quick,
     )  # fmt: skip
-
-
-def sure_duration(nodes: int) -> Callable[[Regime], Call]:
-    """Gauss-Legendre without rounding, where the series stands for the law."""
-
-    def prepare(regime: Regime) -> Call:
-        expect_sure(regime)
-        return duration(nodes, SURE_TERMS, LONG_NUMBERS)(regime)
-
-    return prepare
-
-
-def sure_law(regime: Regime) -> Law:
-    """The law without rounding, to be used in the context of LONG_NUMBERS."""
-    expect_sure(regime)
-    with LONG_NUMBERS.context():
-        return Law(regime, SURE_TERMS, LONG_NUMBERS)

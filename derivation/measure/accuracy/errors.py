@@ -31,6 +31,8 @@ class Errors:
         Argument of the worst point, in hexadecimal.
     unsplit
         Why truncation and rounding are not told apart, or None.
+    remark
+        What is to be said of how they are, or None.
     """
 
     total: float
@@ -38,6 +40,7 @@ class Errors:
     rounding: float | None
     worst: str
     unsplit: str | None = None
+    remark: str | None = None
 
 
 @dataclass(frozen=True)
@@ -63,11 +66,16 @@ def judge(method: Method, problem: Problem, clock: Callable[[], float]) -> Judge
 
 
 def certified(values: Sequence[arb], points: Any) -> Errors:
-    """Of balls that enclose the truth: their radii."""
+    """Of balls that enclose the truth: their radii, which are rounding.
+
+    A radius holds a bound of what the method leaves out as well. But at each precision the
+    oracles leave out less than its last bit: without that bound the radius is the same to
+    more digits than it has of its own. Hence nothing is truncated that a ball tells.
+    """
     with flint.ctx.workprec(64):
         worst = max(float((x.rad() / abs(x).abs_lower()).log()) for x in values)
-    reason = "a ball's radius holds both"
-    return Errors(-worst / math.log(10), None, None, float(points[0]).hex(), reason)
+    found = -worst / math.log(10)
+    return Errors(found, None, found, float(points[0]).hex())
 
 
 def split(method: Method, problem: Problem, values: Sequence[Any]) -> Errors:
@@ -83,7 +91,8 @@ def split(method: Method, problem: Problem, values: Sequence[Any]) -> Errors:
             rounding = min(digits(v, s, most) for v, s in zip(values, balls, strict=True))
     place = int(np.argmin(total))
     worst = float(problem.points[place]).hex()
-    return Errors(total[place], truncation, rounding, worst, unsplit)
+    remark = None if same is None else method.remark
+    return Errors(total[place], truncation, rounding, worst, unsplit, remark)
 
 
 def _same(method: Method, problem: Problem) -> tuple[Sequence[Any] | None, str | None]:

@@ -2,13 +2,24 @@
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
+import flint
 import numpy as np
+from flint import arb
 
 from derivation.measure.accuracy import clock, law_own
-from derivation.measure.accuracy.arithmetic import DOUBLE
+from derivation.measure.accuracy.arithmetic import (
+    DOUBLE,
+    HAS_LONG,
+    LONG,
+    SERIES_END,
+    Array,
+    as_ball,
+)
 from derivation.measure.accuracy.clock import CPU
+from derivation.measure.accuracy.errors import digits
+from derivation.measure.accuracy.far_zeros import far_zeros
 from derivation.measure.accuracy.interface import Doubles, Regime, deepest
 from derivation.reference import contact_balls
 from generated.contact_law import indentation
@@ -21,17 +32,29 @@ KNOWN_ZEROS = 1 << 16
 """So many zeros come from the generated code; beyond, two terms of McMahon's expansion are
 exact to the last place."""
 
+FADED = 100
+"""Exponent 4 h phi from which G - 1 < e^-FADED (1 + 4 h phi)^2 is nothing beside 1."""
+
 DIGITS = (6, 9, 10, 11, 12)
+TRUE_DIGITS = 30
+"""Of the indentation that the sums are held to."""
+
 POINTS = 1_000_000
 
 
 @dataclass(frozen=True)
 class Reached:
-    """Digits reached by a direct sum: modes, and time per point [s] without set-up."""
+    """Digits reached by a direct sum: modes, and time per point [s] without set-up.
+
+    `truncation` and `rounding` are the digits that so many modes have in long doubles, and those
+    of the sum in doubles against them; None where there is no long double.
+    """
 
     digits: int
     modes: int
     seconds: float
+    truncation: float | None = None
+    rounding: float | None = None
 
 
 @dataclass(frozen=True)
@@ -63,10 +86,14 @@ class Headline:
 def headline(regime: Regime, quick: bool) -> Headline:
     """Measure it."""
     a = deepest(regime)
-    true = float(contact_balls.indentation(a, regime.R, regime.h, regime.b, 20))
+    ball = contact_balls.indentation(a, regime.R, regime.h, regime.b, TRUE_DIGITS)
+    true = float(ball)
     own = float(indentation(a, regime.R, regime.h, regime.b))
     miss = abs(own / true - 1) or float(np.finfo(np.float64).eps) / 2
-    errors, times, setup = direct(regime, a, true, QUICK_MODES if quick else MOST_MODES)
+    partial, times, setup = direct(regime, a, QUICK_MODES if quick else MOST_MODES)
+    reached = tuple(_reached(np.abs(partial / true - 1), times))
+    if HAS_LONG:
+        reached = told_apart(regime, a, ball, reached, partial)
     radii = np.random.default_rng(clock.SEED).uniform(0.1 * a, a, POINTS)
     # As called, the whole array at once: that is how it is meant to be used.
     large = clock.Candidate(
@@ -75,14 +102,13 @@ def headline(regime: Regime, quick: bool) -> Headline:
     ready = clock.Candidate(law_own.prepared().prepare(regime), radii, 1)
     called, prepared = clock.session((large, ready), clock.QUICK if quick else clock.FULL).timings
     return Headline(
-        a, tuple(_reached(errors, times)), BLOCK * errors.size, setup,
-        float(times[-1]) / (BLOCK * errors.size), -math.log10(miss), called.seconds,
-        prepared.seconds,
+        a, reached, BLOCK * partial.size, setup, float(times[-1]) / (BLOCK * partial.size),
+        -math.log10(miss), called.seconds, prepared.seconds,
     )  # fmt: skip
 
 
-def direct(regime: Regime, a: float, true: float, most: int) -> tuple[Doubles, Doubles, float]:
-    """Relative error and time so far after each block of modes, and time of the set-up."""
+def direct(regime: Regime, a: float, most: int) -> tuple[Doubles, Doubles, float]:
+    """The sum and the time so far after each block of modes, and time of the set-up."""
     partial, times, setup, total, spent = [], [], 0.0, 0.0, 0.0
     for begin in range(0, most, CHUNK):
         start = CPU()
@@ -100,7 +126,49 @@ def direct(regime: Regime, a: float, true: float, most: int) -> tuple[Doubles, D
             spent += CPU() - start
             partial.append(total)
             times.append(spent)
-    return np.abs(np.array(partial) / true - 1), np.array(times), setup
+    return np.array(partial), np.array(times), setup
+
+
+def told_apart(
+    regime: Regime, a: float, true: arb, reached: tuple[Reached, ...], partial: Doubles
+) -> tuple[Reached, ...]:
+    """The same with truncation and rounding."""
+    if not reached:
+        return reached
+    longer = long_sums(regime, a, max(found.modes for found in reached))
+
+    def parts(found: Reached) -> Reached:
+        block = found.modes // BLOCK - 1
+        same = as_ball(longer[block])
+        truncation = digits(same, true, TRUE_DIGITS)
+        rounding = digits(partial[block], same, TRUE_DIGITS)
+        return replace(found, truncation=truncation, rounding=rounding)
+
+    with flint.ctx.workprec(128):
+        return tuple(parts(found) for found in reached)
+
+
+def long_sums(regime: Regime, a: float, most: int) -> Array:
+    """The sum of `direct` after each block, in long doubles: it has next to no rounding.
+
+    What is not rounded to doubles either: zeros, weights, and a/b.
+    """
+    R, h, b, radius = (LONG.array(x) for x in (regime.R, regime.h, regime.b, a))
+    with flint.ctx.workprec(96):
+        pi = LONG.array(arb.pi())
+    near, blocks = LONG.zeros(CHUNK), []
+    for begin in range(0, most, CHUNK):
+        j, slope = far_zeros(begin, begin + CHUNK, pi) if begin else near
+        square, factor = j * j * slope, 8 * b * b / (pi * R)
+        weights = factor / (square * square)
+        if 4 * regime.eta * float(j[0]) < FADED:
+            with LONG.context():
+                weights = weights * (1 + LONG.excess(2 * h / b * j))
+        y = radius / b * j
+        shape = LONG.shape(y) if y[0] < SERIES_END else np.sin(y) - y * np.cos(y)
+        terms = weights * shape
+        blocks.append(terms.reshape(-1, BLOCK).sum(axis=1))
+    return np.cumsum(np.concatenate(blocks))
 
 
 def zeros(begin: int, end: int) -> tuple[Doubles, Doubles]:
@@ -119,8 +187,8 @@ def zeros(begin: int, end: int) -> tuple[Doubles, Doubles]:
 
 def _reached(errors: Doubles, times: Doubles) -> Iterator[Reached]:
     """From which block on the error stays below each power of ten."""
-    for digits in DIGITS:
-        late = np.flatnonzero(errors > 10.0**-digits)
+    for wanted in DIGITS:
+        late = np.flatnonzero(errors > 10.0**-wanted)
         first = int(late[-1]) + 1 if late.size else 0
         if first < errors.size:
-            yield Reached(digits, (first + 1) * BLOCK, float(times[first]))
+            yield Reached(wanted, (first + 1) * BLOCK, float(times[first]))

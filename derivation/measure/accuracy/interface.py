@@ -84,15 +84,6 @@ def deepest(regime: Regime) -> float:
     return float(impact(r.R, r.m, r.speed, r.h, r.b, r.lam, r.mu).max_contact_radius)
 
 
-def unsplit(reason: str) -> Callable[[Regime], Call]:
-    """`same` of a method that has no counterpart without rounding, for a reason."""
-
-    def same(regime: Regime) -> Call:
-        raise NotImplementedError(reason)
-
-    return same
-
-
 def never_fails(regime: Regime) -> str | None:  # noqa: ARG001
     """The reason of a failure, for a method that has none."""
     return None
@@ -110,7 +101,8 @@ class Method:
         Set-up for a regime: coefficients, zeros, tables. What it returns is timed.
     same
         The same truncated method in balls or long numbers, where there is one: it has no rounding
-        error, or next to none. NotImplementedError says why there is none in a regime.
+        error, or next to none; or an estimate of its results as balls. NotImplementedError says
+        why there is none in a regime.
     fails
         Why the method is not tried in a regime, or None.
     one_by_one
@@ -121,6 +113,8 @@ class Method:
         Whether a quick run takes it along.
     exact
         Whether nothing is truncated, or less than its arithmetic tells: all error is rounding.
+    remark
+        What is to be said of how `same` tells truncation from rounding, or None.
     """
 
     task: Task
@@ -134,6 +128,7 @@ class Method:
     certified: bool = False
     quick: bool = True
     exact: bool = False
+    remark: str | None = None
 
     @property
     def name(self) -> str:

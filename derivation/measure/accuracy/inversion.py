@@ -8,11 +8,12 @@ from flint import arb
 from mpmath import mp, mpf
 
 from derivation.measure.accuracy.arithmetic import DOUBLE, Arithmetic, Array, Balls
-from derivation.measure.accuracy.by_series import LONG_NUMBERS, Law, horner, sure_law
+from derivation.measure.accuracy.by_series import LONG_NUMBERS, Law, horner
 from derivation.measure.accuracy.coefficients import series
 from derivation.measure.accuracy.interface import Call, Doubles, Method, Regime, deepest
 from derivation.measure.accuracy.law_series import hermite
 from derivation.measure.accuracy.law_sums import EXACT, wrapped
+from derivation.measure.accuracy.sure import sure_law
 from derivation.reference import contact_balls
 from generated import contact_law, contact_series
 from generated.reversed_series import _reversed
@@ -165,9 +166,8 @@ def _cubics_without_rounding(law: Law, t: Doubles, delta: Array) -> Array:
         first = min(max(int((place - start) / step), 0), t.size - 2)
         ends = np.array([start + first * step, start + (first + 1) * step])
         A = law.share(np.array([mp.exp(end) / per_h for end in ends]))
-        lift, slope = (1 + A * horner(c, A * A) for c in (law.c, law.s))
         logs = np.array([mp.log(y) for y in A])
-        bent = hermite(ends, logs, lift / (2 * slope))(np.array([place]))[0]
+        bent = hermite(ends, logs, law.lift(A) / (2 * law.slope(A)))(np.array([place]))[0]
         found.append(4 * law.modulus * (law.h * mp.exp(bent)) ** 3 / (3 * law.R))
     return np.array(found)
 

@@ -7,16 +7,18 @@ from functools import cache
 import flint
 from flint import arb
 
-from derivation.measure.accuracy.arithmetic import DOUBLE, Arithmetic, Array, Balls
-from derivation.measure.accuracy.interface import Call, Method, Regime, unsplit
+from derivation.measure.accuracy.arithmetic import DOUBLE, HAS_LONG, LONG, Arithmetic, Array, Balls
+from derivation.measure.accuracy.interface import Call, Method, Regime
 
 EXACT = Balls(40)
 """What stands for exact arithmetic where a truncated method in doubles is judged."""
 
-SAME_MODES = 1000
-"""Direct sums of more modes have no counterpart in balls: their zeros would take minutes."""
+DIRECT_MODES, SPLIT_MODES = 1000, 10_000
+"""Sums of more modes are repeated in long doubles, not in balls. A direct sum leaves out so much
+that these tell it; a split one, whose modes decay, far less than they tell."""
 
-DEAR = "so many zeros of J0 in balls would take minutes"
+WIDE_MODES = 1000
+"""Split sums of more modes are left out where numbers are taken one by one."""
 
 _MODES, _ELEMENTS = 4096, 65536
 """Modes, and elements of an array, worked on at a time, so that they stay in the cache."""
@@ -68,6 +70,21 @@ def bits_for(ar: Arithmetic) -> int:
     return math.ceil(3.33 * (ar.digits + 10)) + 64
 
 
+def same_sum(ar: Arithmetic, modes: int, most: int) -> Arithmetic:
+    """In what a sum is repeated for its rounding: balls up to so many modes, else long doubles.
+
+    Raises
+    ------
+    NotImplementedError
+        If it is of more modes, and in numbers as long as the long doubles there are.
+    """
+    if modes <= most:
+        return exact_for(ar)
+    if not HAS_LONG or ar.digits >= LONG.digits:
+        raise NotImplementedError("so many modes in balls would take minutes")
+    return LONG
+
+
 def _direct(ar: Arithmetic, modes: int, printed: bool) -> Callable[[Regime], Call]:
     def prepare(regime: Regime) -> Call:
         with ar.context():
@@ -101,9 +118,13 @@ def printed(modes: int) -> Method:
 
 def direct(modes: int, ar: Arithmetic = DOUBLE, quick: bool = True) -> Method:
     """The same sum with a plate factor that neither overflows nor cancels."""
+
+    def same(regime: Regime) -> Call:
+        return _direct(same_sum(ar, modes, DIRECT_MODES), modes, False)(regime)
+
     return Method(
-        "law", "direct sum", f"{modes:g} modes", _direct(ar, modes, False), ar.name,
-        _direct(EXACT, modes, False) if modes <= SAME_MODES else unsplit(DEAR), quick=quick,
+        "law", "direct sum", f"{modes:g} modes", _direct(ar, modes, False), ar.name, same,
+        quick=quick,
     )  # fmt: skip
 
 
@@ -180,13 +201,12 @@ def split(
 
     def fails(regime: Regime) -> str | None:
         modes = modes_of(regime, share)
-        dear = modes > SAME_MODES and ar.name != DOUBLE.name
+        dear = modes > WIDE_MODES and ar.name != DOUBLE.name
         return f"takes {modes} modes a point in numbers other than doubles" if dear else None
 
     def same(regime: Regime) -> Call:
-        if modes_of(regime, share) > SAME_MODES:
-            raise NotImplementedError(DEAR)
-        return _split(exact_for(ar), nodes, share, double_exponential, digits)(regime)
+        numbers = same_sum(ar, modes_of(regime, share), SPLIT_MODES)
+        return _split(numbers, nodes, share, double_exponential, digits)(regime)
 
     return Method(
         "law", f"split{rule}", f"{nodes} nodes, {share:g} b/h modes",

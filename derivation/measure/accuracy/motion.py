@@ -6,9 +6,9 @@ import numpy as np
 from flint import arb
 
 from derivation.measure.accuracy.arithmetic import Array, Balls
-from derivation.measure.accuracy.by_series import sure_duration
 from derivation.measure.accuracy.interface import Call, Method, Regime
 from derivation.measure.accuracy.law_sums import EXACT, wrapped
+from derivation.measure.accuracy.sure import sure_duration
 from derivation.reference import contact_impact
 from derivation.reference.contact_balls import modulus
 from generated.impact import _kernel, _parts, _solve, impact

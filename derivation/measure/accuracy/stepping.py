@@ -2,23 +2,22 @@
 
 import math
 from collections.abc import Callable
+from functools import cache
 from importlib.util import find_spec
 from typing import Any
 
+import flint
 import numpy as np
+from flint import arb
 
 from derivation.measure.accuracy.arithmetic import HAS_LONG, LONG, Array
-from derivation.measure.accuracy.by_series import (
-    LONG_NUMBERS,
-    SURE_TERMS,
-    Law,
-    expect_sure,
-    sure_law,
-)
-from derivation.measure.accuracy.interface import Call, Doubles, Method, Regime, unsplit
+from derivation.measure.accuracy.by_series import LONG_NUMBERS
+from derivation.measure.accuracy.collocation import radau_step
+from derivation.measure.accuracy.interface import Call, Doubles, Method, Regime
 from derivation.measure.accuracy.law_sums import wrapped
 from derivation.measure.accuracy.motion import hertz_time
-from derivation.measure.accuracy.replay import turning_time
+from derivation.measure.accuracy.replay import Step, dop853_step, turning_time
+from derivation.measure.accuracy.sure import sure_law
 from generated import contact_law, contact_series
 from generated.impact import impact
 
@@ -28,8 +27,8 @@ LONGEST = 40.0
 MOST_STEPS = 80_000
 """Enough for 1000 steps of the longest of these, twice over."""
 
-SAME_STEPS, LONG_STEPS = 1500, 20_000
-"""Steps at most in long numbers, each of which takes some milliseconds, and in long doubles."""
+SAME_STEPS = 20_000 if HAS_LONG else 1500
+"""Steps at most without rounding: in long doubles each takes up to a millisecond, else many."""
 
 
 def scalar_force(regime: Regime) -> Callable[[float], float]:
@@ -77,15 +76,34 @@ def scalar_force(regime: Regime) -> Callable[[float], float]:
     return force
 
 
-UNSPLIT = {
-    "Radau": "it leaves its stages' equations at a tolerance of its own, neither one nor the other",
-    "LSODA": "its orders and its past steps stay inside compiled code: they cannot be repeated",
+REPEATED: dict[str, Step] = {"DOP853": dop853_step, "Radau": radau_step}
+"""Solvers whose steps are taken again. LSODA's orders and past steps stay in compiled code."""
+
+REMARKS = {
+    "DOP853": "the search of the turning point, which ends within 9e-16 seconds, counts as "
+    "rounding",
+    "Radau": "what its Newton iteration leaves of the stages' equations counts as rounding, and "
+    "so does the search of the turning point, which ends within 9e-16 seconds",
+    "LSODA": "an estimate: rounding is the spread of runs in other units of length and of time, "
+    "which change nothing but rounding, and by it the choice of steps",
 }
-"""Solvers without a counterpart in longer numbers, and why."""
+"""What is to be said of a solver's split."""
+
+RUNS, SEED = 8, 5
+"""Runs in other units, and the seed of these."""
+
+Units = tuple[float, float]
 
 
 def solver(name: str, rtol: float, share: float | None = None, quick: bool = True) -> Method:
-    """SciPy's solve_ivp up to the turning point; `share` of the contact bounds its steps."""
+    """SciPy's solve_ivp up to the turning point; `share` of the contact bounds its steps.
+
+    Steps are repeated in long doubles (`replay`) where that is possible. Of LSODA the result
+    without rounding is estimated, as a ball: mean and deviation of runs in random units of
+    length and time. In exact arithmetic they would take the same steps to the same result, for
+    tolerances go with the units; what is rounded where differs in each, inside the solver
+    too (stochastic arithmetic after Vignes, 1993).
+    """
     limited = "" if share is None else f", steps below T/{1 / share:g}"
 
     def fails(regime: Regime) -> str | None:  # noqa: ARG001
@@ -98,12 +116,14 @@ def solver(name: str, rtol: float, share: float | None = None, quick: bool = Tru
 
         return lambda v0: np.array([one(float(v)) for v in np.atleast_1d(v0)])
 
-    def solved(regime: Regime, v0: float, dense: bool = False) -> Any:
+    def solved(regime: Regime, v0: float, dense: bool = False, units: Units | None = None) -> Any:
         from scipy.integrate import solve_ivp
 
         r = regime
         force = scalar_force(regime)
         time = float(impact(r.R, r.m, v0, r.h, r.b, r.lam, r.mu).contact_time)
+        if units is not None:
+            force, v0, time = _in_units(force, v0, time, units)
         depth = v0 * time
 
         def rate(t: float, state: Doubles) -> tuple[float, float]:  # noqa: ARG001
@@ -119,27 +139,69 @@ def solver(name: str, rtol: float, share: float | None = None, quick: bool = Tru
             max_step=np.inf if share is None else share * time,
         )  # fmt: skip
 
-    def same(regime: Regime) -> Call:
-        expect_sure(regime)
-        if not HAS_LONG:
-            raise NotImplementedError("the platform's long double is no longer than double")
-        force = Law(regime, SURE_TERMS, LONG).force
+    def met(found: Any) -> float:
+        if not found.t_events[0].size:
+            raise NotImplementedError("it steps over the whole contact")
+        return float(found.t_events[0][0])
 
+    def same(regime: Regime) -> Call:
         def one(v0: float) -> Any:
             found = solved(regime, v0, dense=True)
-            if not found.t_events[0].size:
-                raise NotImplementedError("it steps over the whole contact")
+            met(found)
             pieces = found.sol.interpolants
-            ends = [piece.t_old for piece in pieces] + [pieces[-1].t]
-            return 2 * turning_time(v0, regime.m, ends, force)
+            ends = (*(piece.t_old for piece in pieces), pieces[-1].t)
+            return 2 * _repeated(regime, name, v0, ends)
+
+        return lambda v0: [one(float(v)) for v in v0]
+
+    def estimated(regime: Regime) -> Call:
+        def one(v0: float) -> arb:
+            draws = np.random.default_rng(SEED).uniform(1, 2, (RUNS, 2)).tolist()
+            times = [2 * met(solved(regime, v0, units=(L, T))) for L, T in draws]
+            with flint.ctx.workprec(128):
+                return spread([arb(T) * t for (_, T), t in zip(draws, times, strict=True)])
 
         return lambda v0: [one(float(v)) for v in v0]
 
     return Method(
         "impact", f"solve_ivp {name}{limited}", f"rtol {rtol:g}", prepare,
-        same=unsplit(UNSPLIT[name]) if name in UNSPLIT else same, fails=fails,
-        one_by_one=True, quick=quick,
+        same=same if name in REPEATED else estimated, fails=fails, one_by_one=True, quick=quick,
+        remark=REMARKS.get(name),
     )  # fmt: skip
+
+
+def _in_units(
+    force: Callable[[float], float], v0: float, time: float, units: Units
+) -> tuple[Callable[[float], float], float, float]:
+    """A force, a speed and a time where lengths and times are counted in other units [m, s]."""
+    length, span = units
+    scale = span * span / length
+    return lambda x: force(length * x) * scale, v0 * span / length, time / span
+
+
+def spread(values: list[arb]) -> arb:
+    """Mean of some values, and the standard deviation of one of them as its radius."""
+    mean = sum(values, arb(0)) / len(values)
+    square = sum(((x - mean) ** 2 for x in values), arb(0)) / (len(values) - 1)
+    return mean + arb(0, square.sqrt().abs_upper())
+
+
+@cache
+def _repeated(regime: Regime, name: str, v0: float, ends: tuple[float, ...]) -> Any:
+    """The turning point by a solver's steps between given times, in long doubles [s].
+
+    Runs whose bound on the steps never counts have the same ones: kept, they are repeated once.
+    """
+    if not HAS_LONG:
+        raise NotImplementedError("the platform's long double is no longer than double")
+    force = sure_law(regime, LONG).force
+    try:
+        found = turning_time(REPEATED[name], v0, regime.m, ends, force)
+    except ArithmeticError as reason:
+        raise NotImplementedError(str(reason)) from reason
+    if np.isnan(found):
+        raise NotImplementedError("in long doubles the sphere does not stop in the last step")
+    return found
 
 
 def verlet(
@@ -166,16 +228,12 @@ def verlet(
         return lambda v0: _verlet(v0.astype(dtype), free(v0.astype(dtype)) / steps, r.m, force)
 
     def same(regime: Regime) -> Call:
-        expect_sure(regime)
         count, free = steps * _longer(regime), hertz_time(regime)
-        if count > (LONG_STEPS if HAS_LONG else SAME_STEPS):
+        if count > SAME_STEPS:
             raise NotImplementedError("so many steps in longer numbers would take minutes")
-        few = count <= SAME_STEPS
-        law = sure_law(regime) if few else Law(regime, SURE_TERMS, LONG)
-        return wrapped(
-            LONG_NUMBERS if few else LONG,
-            lambda v0: _verlet(v0, free(v0) / steps, law.m, law.force),
-        )
+        numbers = LONG if HAS_LONG else LONG_NUMBERS
+        law = sure_law(regime, numbers)
+        return wrapped(numbers, lambda v0: _verlet(v0, free(v0) / steps, law.m, law.force))
 
     return Method(
         "impact", "velocity Verlet", f"Hertz's time/{steps}", prepare, np.dtype(dtype).name, same,

@@ -10,6 +10,7 @@ from derivation.scene.effects.effect import Effect
 from derivation.scene.effects.finite_thickness import FiniteThickness
 from derivation.scene.effects.gravity import Gravity
 from derivation.scene.effects.hertz import Hertz
+from derivation.scene.effects.inertia import Inertia
 from derivation.scene.effects.perturbation import Perturbation
 from derivation.scene.effects.pressure import Pressure
 from derivation.scene.effects.side_wall import SideWall
@@ -27,6 +28,7 @@ EFFECTS: tuple[Effect, ...] = (
     Pressure(),
     Viscosity(),
     Gravity(),
+    Inertia(),
     Perturbation(),
 )
 """Every effect there is, in the order of the effects table."""

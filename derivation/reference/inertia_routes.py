@@ -1,0 +1,126 @@
+"""Oracle 2 of the plate's own motion: its equations as a system of first order, in mpmath.
+
+With h = mu = 1, phi = x and rho omega^2 = kap the state y = (U, W, S_rz, S_zz) of u = U J1(phi r),
+w = W J0(phi r) obeys y' = A y,
+
+    U' = x W + S_rz,                         W' = (S_zz - lam x U)/(lam + 2),
+    S_rz' = x (lam W' + (lam + 2) x U) - kap U,    S_zz' = -x S_rz - kap W.
+
+A's eigenvectors, found in numbers, and the 4x4 system of the faces' tractions give the
+deflection of the loaded face; its poles are sought in it, and approached for their residues.
+"""
+
+from collections.abc import Callable
+
+from mpmath import mp, mpf
+
+_BITS = 200
+"""Halvings at most between a frequency too low and one too high."""
+
+
+class RouteError(ArithmeticError):
+    """The route does not lead to the digits asked for."""
+
+
+def influence(x: float, kap: float, nu: float, digits: int = 30) -> tuple[mpf, mpf]:
+    """w(+h) mu/(h A) under A/2 on both faces, alike and against each other.
+
+    Parameters
+    ----------
+    x, kap, nu
+        phi h, (omega h/c_T)^2 > 0 and Poisson's ratio, exact as they are.
+    digits
+        Decimal digits asked for.
+    """
+    with mp.workdps(_working(x, kap, digits)):
+        bending, stretching = _answers(mpf(x), mpf(kap), mpf(nu))
+        return +bending, +stretching
+
+
+def zero(x: float, nu: float, digits: int = 30) -> mpf:
+    """Kap of A0: where the deflection in bending has its only pole below x^2."""
+    with mp.workdps(_working(x, x**4 if x < 1 else x * x, digits)):
+        return +_zero(mpf(x), mpf(nu), digits)
+
+
+def residue(x: float, nu: float, digits: int = 30) -> mpf:
+    """Rho h r: (kap_0 - kap) times the deflection near the pole, from both sides."""
+    with mp.workdps(_working(x, x**4 if x < 1 else x * x, 3 * digits)):
+        wave, ratio = mpf(x), mpf(nu)
+        kap = _zero(wave, ratio, 3 * digits)
+        step = kap * mpf(10) ** -(digits // 2 + 3)
+        sides = [-shift * _answers(wave, kap + shift, ratio)[0] for shift in (step, -step)]
+        return +((sides[0] + sides[1]) / 2)
+
+
+def share(x: float, nu: float, digits: int = 30) -> mpf:
+    """A0's share of the deflection at rest: of a frequency so low that it does not matter."""
+    with mp.workdps(3 * digits):
+        kap, answer = zero(x, nu, digits), residue(x, nu, digits)
+        return answer / kap / sum(influence(x, float(kap) * 10.0 ** -(digits + 2), nu, digits))
+
+
+def _working(x: float, kap: float, digits: int) -> int:
+    """Digits to work with: the exponents differ by kap/x alone, the tractions cancel likewise."""
+    size = abs(mp.log10(mpf(x))) + abs(mp.log10(mpf(kap)))
+    return int(2 * digits + 20 + 3 * size)
+
+
+def _answers(x: mpf, kap: mpf, nu: mpf) -> tuple[mpf, mpf]:
+    """Deflection of the upper face, loads alike and against each other."""
+    lam = 2 * nu / (1 - 2 * nu)
+    stiff = lam + 2
+    rows = mp.matrix(
+        [
+            [0, x, 1, 0],
+            [-lam * x / stiff, 0, 0, 1 / stiff],
+            [(stiff - lam**2 / stiff) * x**2 - kap, 0, 0, lam * x / stiff],
+            [0, -kap, -x, 0],
+        ]
+    )
+    exponents, vectors = mp.eig(rows)
+    # Each exponential is 1 on the face towards which it grows.
+    feet = [1 if mp.re(s) >= 0 else -1 for s in exponents]
+    above, below = (
+        [mp.exp(s * (face - foot)) for s, foot in zip(exponents, feet, strict=True)]
+        for face in (1, -1)
+    )
+    tractions = mp.matrix(
+        [
+            [vectors[row, k] * growth[k] for k in range(4)]
+            for growth in (above, below)
+            for row in (2, 3)
+        ]
+    )
+    found = []
+    for sign in (-1, 1):
+        half = mpf(1) / 2
+        weights = mp.lu_solve(tractions, mp.matrix([0, half, 0, sign * half]))
+        found.append(mp.fsum(weights[k] * vectors[1, k] * above[k] for k in range(4)).real)
+    return found[0], found[1]
+
+
+def _zero(x: mpf, nu: mpf, digits: int) -> mpf:
+    """Halving, then the secant's method, of the stiffness."""
+
+    def stiffness(kap: mpf) -> mpf:
+        return 1 / _answers(x, kap, nu)[0]
+
+    high = x * x * (1 - mpf(10) ** -6)
+    low = min(x * x, x**4) / 1000
+    if not (stiffness(low) > 0 > stiffness(high)):
+        raise RouteError(f"no zero between {mp.nstr(low)} and {mp.nstr(high)}")
+    for _ in range(12):
+        middle = mp.sqrt(low * high)
+        low, high = (middle, high) if stiffness(middle) > 0 else (low, middle)
+    return _secant(stiffness, low, high, digits)
+
+
+def _secant(function: Callable[[mpf], mpf], first: mpf, second: mpf, digits: int) -> mpf:
+    before, here = function(first), function(second)
+    for _ in range(_BITS):
+        new = second - here * (second - first) / (here - before)
+        if abs(new - second) < abs(new) * mpf(10) ** -(digits + 5):
+            return new
+        first, second, before, here = second, new, here, function(new)
+    raise RouteError("the secant's method does not converge")

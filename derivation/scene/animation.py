@@ -1,0 +1,91 @@
+"""Animates an impact on a plate that moves: the plate's profile under the sphere."""
+
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+from derivation.scene.dynamics import Z
+from derivation.scene.effects.effect import Array
+from derivation.scene.plot import BLUE, BROWN, frame, scaled
+from derivation.scene.result import Result
+from derivation.scene.scene import SceneError
+
+SUFFIXES = ".gif", ".html"
+FRAMES, POINTS, PER_SECOND = 120, 201, 20
+"""Pictures, points of the profile, and pictures shown per second."""
+
+
+def check_suffix(path: Path) -> None:
+    """Refuse a file name that says no format.
+
+    Raises
+    ------
+    SceneError
+        If the name ends in none of the formats' suffixes.
+    """
+    if path.suffix.lower() not in SUFFIXES:
+        raise SceneError(
+            f"{path}: expected an animation ending in {', '.join(SUFFIXES)}, "
+            f"got {path.suffix or 'no suffix'}; change its name"
+        )
+
+
+def render(result: Result, suffix: str) -> bytes:
+    """The animation as the content of a file.
+
+    Parameters
+    ----------
+    suffix
+        Format: ``.gif``, or ``.html`` that holds its pictures in itself.
+
+    Raises
+    ------
+    SceneError
+        If the plate does not move.
+    """
+    import matplotlib as mpl
+    from matplotlib.animation import FuncAnimation, PillowWriter
+    from matplotlib.figure import Figure
+
+    if result.moving is None or result.model.inertia.infinite_plate:
+        raise SceneError(
+            "--animate: expected a plate with modes that move, but this scene has none; "
+            "leave it out, or set effects.inertia = true"
+        )
+    times = np.linspace(0.0, result.total_time, FRAMES)
+    r = np.linspace(-1.0, 1.0, POINTS) * result.model.b
+    profiles, way = result.moving.profiles(times, np.abs(r)), result.moving.rows(times)[Z]
+    t, t_label = scaled(times, "time", "s")
+    both, w_label = scaled(np.vstack((profiles, way[:, None] * np.ones_like(r))), "way", "m")
+    profiles, way = both[:FRAMES], both[FRAMES:, 0]
+    x, x_label = scaled(r, "distance from the axis", "m")
+    made = Figure(figsize=(7.0, 3.5), layout="constrained")
+    axes = made.subplots()
+    frame(axes, x_label, w_label)
+    axes.set_ylim(*_limits(profiles, way))
+    (plate,) = axes.plot(x, profiles[0], color=BROWN, linewidth=2.0)
+    (sphere,) = axes.plot([0.0], [way[0]], "v", color=BLUE, markersize=12.0)
+    unit = t_label[t_label.index("[") + 1 : -1]
+
+    def draw(k: int) -> list[object]:
+        plate.set_ydata(profiles[k])
+        sphere.set_ydata([way[k]])
+        axes.set_title(f"{t[k]:.3g} {unit}; the sphere's lowest point and the plate's deflection")
+        return [plate, sphere]
+
+    movie = FuncAnimation(made, draw, frames=FRAMES, interval=1000.0 / PER_SECOND)  # type: ignore[arg-type]
+    if suffix.lower() == ".html":
+        with mpl.rc_context({"animation.embed_limit": 50.0}):
+            return movie.to_jshtml(fps=PER_SECOND).encode()
+    with tempfile.TemporaryDirectory() as folder:
+        place = Path(folder) / "impact.gif"
+        movie.save(place, writer=PillowWriter(fps=PER_SECOND), dpi=100)
+        return place.read_bytes()
+
+
+def _limits(profiles: Array, way: Array) -> tuple[float, float]:
+    """Way downwards, with some room."""
+    low, high = min(profiles.min(), way.min()), max(profiles.max(), way.max())
+    room = 0.1 * (high - low)
+    return float(high + room), float(low - 3.0 * room)

@@ -1,0 +1,102 @@
+"""Draws an impact on a plate that moves: its course, where the energy is, and restitution."""
+
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from derivation.scene import bounces
+from derivation.scene.dynamics import E, P, Problem, V, W, Z
+from derivation.scene.effects.effect import Array
+from derivation.scene.law import Law
+from derivation.scene.limits import zener_number
+from derivation.scene.modal import Modes, contact_of
+from derivation.scene.model import Model
+from derivation.scene.motion import largest_radius
+from derivation.scene.plot import BLUE, BROWN, frame, scaled
+from derivation.scene.result import Result
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+POINTS = 1201
+"""Times of the drawn course."""
+NUMBERS = np.geomspace(1e-3, 10.0, 25)
+"""Zener's numbers of the drawn curve."""
+NODES = 14
+GREEN = "#5a8f5a"
+
+
+def figure(result: Result) -> "Figure":
+    """The drawing as a Matplotlib figure."""
+    from matplotlib.figure import Figure
+
+    moving = result.moving
+    assert moving is not None
+    times = np.linspace(0.0, result.total_time, POINTS)
+    rows = moving.rows(times)
+    t, label = scaled(times, "time", "s")
+    made = Figure(figsize=(8.0, 9.5), layout="constrained")
+    drawn = made.subplot_mosaic([["z", "z"], ["P", "v"], ["energy", "e"]])
+    (way, face), w_label = scaled(rows[[Z, W]], "way", "m")
+    drawn["z"].plot(t, way, color=BLUE, linewidth=1.5, label="sphere")
+    drawn["z"].plot(t, face, color=BROWN, linewidth=1.2, label="plate under it")
+    drawn["z"].legend(frameon=False)
+    force, f_label = scaled(rows[P], "contact force", "N")
+    drawn["P"].plot(t, force, color=BLUE, linewidth=1.5)
+    velocity, v_label = scaled(rows[V], "sphere's velocity", "m/s")
+    drawn["v"].plot(t, velocity, color=BLUE, linewidth=1.5)
+    _energies(drawn["energy"], result, t, rows)
+    _restitution(drawn["e"], result)
+    for name, y_label in (("z", w_label), ("P", f_label), ("v", v_label), ("energy", "")):
+        frame(drawn[name], label, y_label or "energy over the energy brought")
+        for touch in moving.inertia.contacts:
+            begin, end = np.array([touch.start, touch.end]) * (t[-1] / times[-1])
+            drawn[name].axvspan(begin, end, color="0.9", zorder=0, linewidth=0)
+    drawn["z"].invert_yaxis()
+    return made
+
+
+def _energies(axes: "Axes", result: Result, t: Array, rows: Array) -> None:
+    """Sphere, plate and contact, stacked."""
+    m, v0 = result.model.m, result.model.v0
+    sphere, plate = (rows[V] / v0) ** 2, 2.0 * rows[E] / m / v0**2
+    contact = np.maximum(1.0 - sphere - plate, 0.0)
+    names = ["sphere", "plate", "contact"]
+    if result.gate.law.gravity or "viscosity" in result.gate.law.effects:
+        names[2] = "contact, and gone"
+    axes.stackplot(t, sphere, plate, contact, labels=names, colors=(BLUE, BROWN, GREEN), alpha=0.75)
+    axes.legend(frameon=True, loc="center right")
+    axes.set_ylim(0.0, 1.0)
+
+
+def _restitution(axes: "Axes", result: Result) -> None:
+    """The impact beside Zener's curve."""
+    curve = [zener_restitution(number) for number in NUMBERS]
+    axes.semilogx(NUMBERS, curve, color="0.4", linewidth=1.2, label="endless plate (Zener)")
+    number = zener_number(result.model)
+    axes.plot([number], [result.restitution], "o", color=BROWN, label="this impact")
+    frame(axes, "Zener's number", "restitution")
+    axes.set_ylim(0.0, 1.05)
+    axes.legend(frameon=False)
+
+
+@lru_cache(maxsize=64)
+def zener_restitution(number: float) -> float:
+    """Speed after over speed before on an endless thin plate under Hertz' contact (Zener, 1941).
+
+    Parameters
+    ----------
+    number
+        Zener's number [1].
+    """
+    # Any sphere will do: of this one m, v0 and K = (4/3) E* sqrt(R) are 1, and That therefore.
+    model = Model(R=1e4, m=1.0, v0=1.0, h=1e4, b=1e4, lam=0.0, mu=0.00375)
+    law = Law(model, frozenset({"hertz"}))
+    none = np.zeros(0)
+    yields = Modes(none, none, none, none, number)
+    a = largest_radius(law)
+    contact = contact_of(law, yields, 1.01 * a, pointwise=False)
+    problem = Problem(contact, a, 3.0, model.m, model.v0)
+    return -bounces.course(problem, NODES).contacts[-1].after.velocity

@@ -8,6 +8,7 @@ with the square, and by b, which stands in eta alone, of impacts by the law's po
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
+from functools import cache
 from typing import Any, NamedTuple
 
 import flint
@@ -61,7 +62,7 @@ def rounding(scene: Sequence[Any], values: Sequence[arb]) -> list[arb]:
     lam, mu, bend = map(to_ball, shares)
     with flint.ctx.workprec(4 * _STEP_DIGITS):
         for number, (rows, (YY, Y_eta, eta_eta)) in enumerate(
-            zip(_exponents(), _curvatures(scene), strict=True)
+            zip(_exponents(), _curvatures(_coarsely(scene)), strict=True)
         ):
             changes = [
                 [e * (x * YY + y * Y_eta) + q * (x * Y_eta + y * eta_eta) for _, x, y in rows]
@@ -114,14 +115,22 @@ def _by(scene: Sequence[Any], place: int, digits: int, bits: int) -> tuple[arb, 
     return logarithmic(results, Fraction(1, 2**halvings), bits, 10.0**-digits)
 
 
-def _curvatures(scene: Sequence[Any]) -> Iterator[tuple[arb, arb, arb]]:
+def _coarsely(scene: Sequence[Any]) -> tuple[float, ...]:
+    """The scene to ten digits, which are enough for allowances: neighbours have them in common."""
+    return tuple(float(f"{float(x):.10g}") for x in scene)
+
+
+@cache
+def _curvatures(scene: tuple[float, ...]) -> list[tuple[arb, arb, arb]]:
     """Of every result the second derivatives of log f by Y twice, by Y and eta, by eta twice."""
     steps = (1 / (1 + _STEP), Fraction(1), 1 + _STEP)  # logarithms at equal distances
     grid = [[_results(scene, v, b, _STEP_DIGITS) for b in steps] for v in steps]
+    found = []
     for number in range(len(RESULTS)):
-        f = [[found[number].log() for found in row] for row in grid]
+        f = [[of[number].log() for of in row] for row in grid]
         square = to_ball(_STEP) ** 2
         by_speed = (f[2][1] - 2 * f[1][1] + f[0][1]) / square
         by_radius = (f[1][2] - 2 * f[1][1] + f[1][0]) / square
         mixed = (f[2][2] - f[2][0] - f[0][2] + f[0][0]) / (4 * square)
-        yield by_speed / 4, -mixed / 2, by_radius
+        found.append((by_speed / 4, -mixed / 2, by_radius))
+    return found

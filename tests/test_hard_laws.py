@@ -14,7 +14,7 @@ from derivation.measure import hard_check
 from derivation.measure.hard import Case
 from derivation.measure.hard_kernels import Stating
 from derivation.measure.hard_laws import LAWS
-from derivation.measure.hard_truth import Stored, restored
+from derivation.measure.hard_truth import Known, restored
 from derivation.reference import edge_routes, far_face_routes, pressure_routes
 from derivation.reference.routes import to_ball as as_ball
 from generated.impact import history
@@ -26,16 +26,16 @@ def cases() -> tuple[Case, ...]:
 
 
 @pytest.fixture(scope="module")
-def truth(cases: tuple[Case, ...]) -> dict[str, list[Stored]]:
+def truth(cases: tuple[Case, ...]) -> dict[str, Known]:
     return hard_check.committed(json.loads(pipeline.MEASURED_HARD.read_text()), cases)
 
 
-def test_the_second_oracle_agrees(cases: tuple[Case, ...], truth: dict[str, list[Stored]]) -> None:
+def test_the_second_oracle_agrees(cases: tuple[Case, ...], truth: dict[str, Known]) -> None:
     """At the first point of a case; nothing of it is in units."""
 
     def first(kernel: str) -> tuple[dict[str, float], flint.arb]:
         case = next(c for c in cases if c.kernel == kernel)
-        return case.points[0], restored(truth[case.key][0]).value
+        return case.points[0], restored(truth[case.key].references[0]).value
 
     with mp.workdps(40), flint.ctx.workprec(200):
         p, value = first("clamped_edge")
@@ -57,7 +57,7 @@ def test_the_second_oracle_agrees(cases: tuple[Case, ...], truth: dict[str, list
 
 
 def test_who_states_an_error_is_held_to_it(
-    cases: tuple[Case, ...], truth: dict[str, list[Stored]]
+    cases: tuple[Case, ...], truth: dict[str, Known]
 ) -> None:
     known = hard_check.kernels()["leading"]
     assert isinstance(known, Stating)

@@ -3,10 +3,8 @@
 import importlib
 import json
 import math
-import multiprocessing
 import warnings
 from collections.abc import Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import asdict, dataclass
 from functools import cache
 from typing import Any, Literal
@@ -14,11 +12,10 @@ from typing import Any, Literal
 import numpy as np
 
 from derivation.formula.ulp import Format, spacing_exponent, ulp_error
-from derivation.measure.check import Progress
 from derivation.measure.hard import Case, handed_over, written
 from derivation.measure.hard_families import families
 from derivation.measure.hard_kernels import Stating, others
-from derivation.measure.hard_truth import DIGITS, Stored, outputs, references, restored
+from derivation.measure.hard_truth import DIGITS, Known, Stored, known_of, outputs, restored
 from derivation.measure.judge import allowed_ulp
 from derivation.measure.kernels import Kernel, generated_kernels, printed_kernels
 from derivation.measure.record import provenance
@@ -38,8 +35,8 @@ class Row:
     ----------
     case
         The case.
-    references
-        Its true values, as text.
+    truth
+        Its true values.
     error, allowed
         Error of the generated form and what is allowed, in ULP, where their ratio is
         largest. Infinite for NaN where the truth is finite, and the other way round.
@@ -50,7 +47,7 @@ class Row:
     """
 
     case: Case
-    references: Sequence[Stored]
+    truth: Known
     error: float
     allowed: float
     printed: float | None
@@ -92,41 +89,7 @@ def kernels() -> dict[str, Kernel]:
     return found | {kernel.name: kernel for kernel in others()}
 
 
-def find_references(
-    given: Sequence[Case], processes: int = 1, tell: Progress | None = None
-) -> dict[str, list[Stored]]:
-    """The truth of every case by its key, from the original expressions: minutes.
-
-    Parameters
-    ----------
-    given
-        The cases.
-    processes
-        How many are worked on at a time; 1 starts no process.
-    tell
-        Told about every case that is done.
-    """
-    if processes == 1:
-        return {case.key: find(case) for case in given}
-    # Fresh processes, since a copy of one with threads may hang.
-    pool = ProcessPoolExecutor(processes, multiprocessing.get_context("spawn"))
-    try:
-        futures = {pool.submit(find, case): case for case in given}
-        for number, future in enumerate(as_completed(futures), start=1):
-            future.result()
-            if tell is not None:
-                tell(futures[future].kernel, number, len(given))
-        return {case.key: future.result() for future, case in futures.items()}
-    finally:
-        pool.shutdown(cancel_futures=True)
-
-
-def find(case: Case) -> list[Stored]:
-    """The truth of a case."""
-    return references(case, kernels()[case.kernel])
-
-
-def committed(data: Data, given: Sequence[Case]) -> dict[str, list[Stored]]:
+def committed(data: Data, given: Sequence[Case]) -> dict[str, Known]:
     """The references that were recorded.
 
     Raises
@@ -134,19 +97,18 @@ def committed(data: Data, given: Sequence[Case]) -> dict[str, list[Stored]]:
     ValueError
         Naming a case without one, and the command that finds it.
     """
-    found = {row["key"]: row["references"] for row in data["cases"]}
-    missing = [case.key for case in given if not found.get(case.key)]
-    missing = [case.key for case in given if case.key in missing and 0 not in case.shape]
+    found = known_of(data)
+    missing = [case.key for case in given if case.key not in found]
     if missing:
         raise ValueError(
             f"no reference for {len(missing)} hard cases, the first: {missing[0]}; run `{COMMAND}`"
         )
-    return {case.key: found.get(case.key, []) for case in given}
+    return {case.key: found[case.key] for case in given}
 
 
 def check(
     given: Sequence[Case],
-    truth: Mapping[str, list[Stored]],
+    truth: Mapping[str, Known],
     known: Mapping[str, Kernel],
 ) -> tuple[Row, ...]:
     """Hold generated and printed forms to the references, case by case."""
@@ -156,7 +118,8 @@ def check(
     )
 
 
-def _row(case: Case, stored: Sequence[Stored], kernel: Kernel, printed: Kernel | None) -> Row:
+def _row(case: Case, known: Known, kernel: Kernel, printed: Kernel | None) -> Row:
+    stored = known.references
     results, problem = _results(case, kernel, stored)
     if not problem and results.shape[1:] != case.shape:
         problem = f"shape {results.shape[1:]}, expected {case.shape}"
@@ -178,7 +141,7 @@ def _row(case: Case, stored: Sequence[Stored], kernel: Kernel, printed: Kernel |
     if printed is not None and case.expect == "value" and stored:
         with np.errstate(all="ignore"):
             shown = _largest(_call(case, printed).ravel().tolist(), stored, case.format)
-    return Row(case, stored, error, allowed, shown, problem)
+    return Row(case, known, error, allowed, shown, problem)
 
 
 def _results(
@@ -204,7 +167,9 @@ def _call(case: Case, kernel: Kernel) -> np.ndarray[Any, Any]:
     """The kernel's results, of shape (outputs, *shape)."""
     if kernel.by_count:
         (count,) = case.numbers["count"]
-        return np.asarray(kernel.call(int(count)))[None, -1]
+        found = kernel.call(int(count))
+        tables = found if outputs(kernel.name) > 1 else (found,)
+        return np.stack([table[-1] for table in tables])
     arguments = handed_over(case, kernel.arguments)
     before = [np.array(x, copy=True) for x in arguments]
     modes = {} if case.modes is None else {"modes": case.modes}
@@ -276,7 +241,8 @@ def _plain(row: Row) -> dict[str, Any]:
     return case | {
         "inputs": {name: list(texts) for name, texts in row.case.inputs.items()},
         "key": row.case.key,
-        "references": list(row.references),
+        "origin": row.truth.origin,
+        "references": list(row.truth.references),
         "error": _rounded(row.error),
         "allowed": _rounded(row.allowed),
         "printed": None if row.printed is None else _rounded(row.printed),

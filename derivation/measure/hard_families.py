@@ -16,6 +16,7 @@ from derivation.measure.hard_mode_families import mode_families
 from derivation.measure.hard_motion_families import motion_families
 from derivation.measure.hard_places import LAM, MU, OFFSETS, Inputs, around, beside, exactly
 from derivation.measure.hard_scene_families import scene_families
+from derivation.measure.hard_wave_families import wave_families
 from derivation.reference import contact_balls, contact_impact
 from derivation.reference.zeros import j0_zero, j1_zero
 from derivation.rewrite import bessel_tables, contact_tables
@@ -29,7 +30,8 @@ LAST_KAPPA, LAST_FINITE_PART = 196, 99
 def families() -> tuple[Case, ...]:
     """Every systematic case; kept until what they follow from changes."""
     rooms = ("files.py", "formula", "theory", "rewrite", "reference", "emit")
-    parts = ("places", "families", "mode_families", "scene_families", "motion_families")
+    parts = ("places", "families", "mode_families", "scene_families", "motion_families",
+             "wave_families", "wave_places")  # fmt: skip
     own = ("measure/hard.py", "measure/grids.py", *(f"measure/hard_{part}.py" for part in parts))
     return cached("hard_families", (*rooms, *own), _families)
 
@@ -38,7 +40,7 @@ def _families() -> tuple[Case, ...]:
     made = chain(
         _block_seams(), _bessel_seams(), _zeros_by_index(), _beside_zeros(), _moments(),
         _contact_seams(), _thickness_seams(), _thinnest(), _impact_seams(), mode_families(),
-        scene_families(), motion_families(),
+        scene_families(), motion_families(), wave_families(),
     )  # fmt: skip
     return tuple(checked(case) for case in made)
 

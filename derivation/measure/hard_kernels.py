@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -9,13 +10,18 @@ import numpy as np
 from derivation.emit.budgets import read_budgets, read_promises
 from derivation.measure.kernels import Kernel
 from generated import sensitivity, simple_impact, true_pressure
+from generated.held_modes import supported_modes
 from generated.perturbation import PrintedMotion
+from generated.plate_waves import branches
 
 _ULP = 2.0**52
 """A relative error of 1 in units in the last place, at least so many."""
 
 _INTEGRALS = 1e-14
 """Of the largest indentation: what `PrintedMotion.corrected` says of its integrals."""
+
+_FREQUENCY, _RESIDUE = 8.0, 1e-12 * _ULP
+"""In ULP, and in those of the largest residue: what `plate_waves` says of its branches."""
 
 _SCENE = ("R", "m", "v0", "h", "b", "lam", "mu")
 
@@ -48,6 +54,7 @@ def others() -> tuple[Kernel, ...]:
         ),
         Stating("plate_of", "simple_impact", ("eta",), _each(_bend), 0.0, stated=_each(_doubt)),
     ]  # fmt: skip
+    found += _of_waves()
     for name in ("hertz", "leading"):
         results, errors = _estimates(getattr(simple_impact, name))
         found.append(
@@ -97,6 +104,35 @@ def _bend(eta: float) -> float:
 
 def _doubt(eta: float) -> float:
     return simple_impact.plate_of(eta).doubt
+
+
+def _of_waves() -> list[Kernel]:
+    """One branch by its index, counted from 0, and one mode of a simply supported plate."""
+    budget = read_budgets()["supported_modes"].ulp
+    found = [Kernel("supported_modes", "held_modes", ("count", "nu"), _supported, budget)]
+    for parity in ("antisymmetric", "symmetric"):
+        for part, (name, allowed) in enumerate((("frequency", _FREQUENCY), ("residue", _RESIDUE))):
+            call = partial(_branch, parity, part)
+            arguments = ("x", "nu", "index")
+            found.append(Kernel(f"{parity}_{name}", "plate_waves", arguments, call, allowed))
+    return found
+
+
+def _branch(parity: str, part: int, x: Any, nu: Any, index: Any) -> Any:
+    return _picked(branches(x, nu, int(np.max(index)) + 1, parity)[part], index)
+
+
+def _supported(count: Any, nu: Any) -> Any:
+    found = supported_modes(int(np.max(count)), nu)
+    return tuple(_picked(table, np.asarray(count) - 1) for table in found)
+
+
+def _picked(table: Any, place: Any) -> Any:
+    """Entries of a table's last axis, broadcast with all others."""
+    index = np.asarray(place, dtype=int)[..., None]
+    shape = np.broadcast_shapes(table.shape[:-1], index.shape[:-1])
+    wide = np.broadcast_to(table, (*shape, table.shape[-1]))
+    return np.take_along_axis(wide, np.broadcast_to(index, (*shape, 1)), axis=-1)[..., 0]
 
 
 class _Estimates(NamedTuple):

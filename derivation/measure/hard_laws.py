@@ -1,7 +1,6 @@
 """What kernels without a closed formula of the chain are held to in the hard cases: balls."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, partial
 from typing import Any
@@ -11,6 +10,8 @@ from flint import arb
 
 from derivation.formula import symbols
 from derivation.formula.ball import Exact, enclose, evaluate, to_ball
+from derivation.measure.hard_law import Given, Law
+from derivation.measure.hard_wave_laws import WAVES
 from derivation.reference import (
     contact_balls,
     contact_impact,
@@ -18,45 +19,15 @@ from derivation.reference import (
     edge_balls,
     far_face_balls,
     many_digits,
+    many_sensitivities,
     pressure_balls,
     printed_motion_balls,
     state_rounding,
 )
-from derivation.reference.many_sensitivities import impact_sensitivities, rounding
-from derivation.theory.curvature import spherical_contact
-from derivation.theory.edge_sums import edge_bound
+from derivation.theory import curvature, edge_sums
 
 _SPARE, _FEW = 8, 20
 """Digits beyond those asked for, and of magnitudes, which only set allowances."""
-
-Given = Sequence[Any]
-Values = Callable[[Given, int], tuple[arb, ...]]
-"""Arguments and digits -> balls, one for each result."""
-
-
-@dataclass(frozen=True)
-class Law:
-    """A kernel's truth.
-
-    Parameters
-    ----------
-    values
-        Its results.
-    sizes
-        From arguments and results, what the budget counts in units of; the results' own
-        magnitudes if there is nothing else to say.
-    conditioned
-        Whether what rounding the arguments does is allowed on top; not where a kernel
-        promises a relative error.
-    slopes
-        From arguments and results, the sum of |x df/dx| over the arguments, of each result;
-        found by differences if there is no quicker way.
-    """
-
-    values: Values
-    sizes: Callable[[Given, Sequence[arb]], tuple[arb, ...]] | None = None
-    conditioned: bool = True
-    slopes: Callable[[Given, Sequence[arb]], Sequence[arb]] | None = None
 
 
 def _bits(digits: int) -> int:
@@ -64,11 +35,16 @@ def _bits(digits: int) -> int:
 
 
 def _one(function: Callable[..., arb]) -> Law:
-    return Law(lambda given, digits: (function(*given, digits=digits),))
+    return Law(
+        lambda given, digits: (function(*given, digits=digits),), oracle=(function.__module__,)
+    )
 
 
 def _several(function: Callable[..., tuple[arb, ...]], count: int = 4) -> Law:
-    return Law(lambda given, digits: tuple(function(*given, digits=digits))[:count])
+    return Law(
+        lambda given, digits: tuple(function(*given, digits=digits))[:count],
+        oracle=(function.__module__,),
+    )
 
 
 # --- the edge
@@ -92,21 +68,21 @@ def _edge(kind: str, support: str) -> Law:
         with flint.ctx.workprec(_bits(digits)):
             return (to_ball(_share(support, *given[3:])) * taken,)
 
-    return Law(values)
+    return Law(values, oracle=(edge_balls.__name__,))
 
 
 def _edge_bound(support: str) -> Law:
     names = (symbols.alpha, symbols.eta, symbols.lam, symbols.mu)
 
     def values(given: Given, digits: int) -> tuple[arb]:
-        expression = edge_bound().expression
+        expression = edge_sums.edge_bound().expression
         a, h, b, lam, mu = (Fraction(x) for x in given)
         known = dict(zip(names, (a / b, h / b, lam, mu), strict=True))
         found = evaluate(expression, known, digits)
         with flint.ctx.workprec(_bits(digits)):
             return (abs(to_ball(_share(support, lam, mu))) * found,)
 
-    return Law(values)
+    return Law(values, oracle=(edge_sums.__name__, edge_balls.__name__))
 
 
 # --- the far face
@@ -143,7 +119,7 @@ def _far(support: str) -> Law:
             share = abs(to_ball(_share(support, lam, mu)))
             return (abs(_stiff(P, h, lam, mu)) * (abs(plain) + share * states),)
 
-    return Law(values, sizes if support else None)
+    return Law(values, sizes if support else None, oracle=(far_face_balls.__name__,))
 
 
 # --- the sphere and the pressure
@@ -152,7 +128,7 @@ def _far(support: str) -> Law:
 def _sphere(given: Given, digits: int) -> tuple[arb, ...]:
     """P, delta and its slope over those of Hertz, by the theory's formulas with R = 1, E* = 1."""
     x = Fraction(given[0])
-    depth, force = (formula.expression for formula in spherical_contact())
+    depth, force = (formula.expression for formula in curvature.spherical_contact())
     # E* is 1 for lam = 0 and mu = 1/2.
     at: dict[Any, Exact] = {symbols.a: x, symbols.R: 1, symbols.lam: 0, symbols.mu: Fraction(1, 2)}
     rise = depth.diff(symbols.a)
@@ -207,7 +183,8 @@ def _mean(given: Given, _: Sequence[arb]) -> tuple[arb, ...]:
 def _impact(given: tuple[Any, ...], digits: int) -> tuple[arb, ...]:
     """Kept, since several kernels are held to the same impact."""
     R, m, v0, h, b, lam, mu = given
-    return tuple(contact_impact.impact(R, m, v0, h, b, lam, mu, digits))
+    law = many_digits.law_for(given, digits)
+    return tuple(contact_impact.impact(R, m, v0, h, b, lam, mu, digits, law))
 
 
 def _state(given: Given, digits: int) -> tuple[arb, ...]:
@@ -218,7 +195,11 @@ def _state(given: Given, digits: int) -> tuple[arb, ...]:
     return contact_quantities.state(t, R, m, v0, h, b, lam, mu, digits, law)
 
 
-_ESTIMATE = Law(lambda given, digits: _impact(tuple(given), digits), conditioned=False)
+_ESTIMATE = Law(
+    lambda given, digits: _impact(tuple(given), digits),
+    conditioned=False,
+    oracle=(many_digits.__name__,),
+)
 """A simple law states its own error: of the impact by the law that holds."""
 
 
@@ -251,9 +232,20 @@ LAWS: Mapping[str, Law] = {
     "radius_of_force": _one(contact_quantities.radius_of_force),
     "max_pressure": _one(contact_quantities.max_pressure),
     "force_by_series": _several(contact_quantities.truncated_series, 1),
-    "impact": _several(contact_impact.impact),
-    "history": Law(_state, slopes=partial(state_rounding.rounding, _state)),
-    "impact_sensitivities": Law(impact_sensitivities, _at_least_one, slopes=rounding),
+    "impact": Law(
+        lambda given, digits: _impact(tuple(given), digits), oracle=(many_digits.__name__,)
+    ),
+    "history": Law(
+        _state,
+        slopes=partial(state_rounding.rounding, _state),
+        oracle=(many_digits.__name__, contact_quantities.__name__),
+    ),
+    "impact_sensitivities": Law(
+        many_sensitivities.impact_sensitivities,
+        _at_least_one,
+        slopes=many_sensitivities.rounding,
+        oracle=(many_sensitivities.__name__,),
+    ),
     "supported_edge": _edge("indentation", "supported"),
     "clamped_edge": _edge("indentation", "clamped"),
     "supported_edge_slope": _edge("slope", "supported"),
@@ -263,13 +255,14 @@ LAWS: Mapping[str, Law] = {
     "far_stress": _far(""),
     "supported_far_stress": _far("supported"),
     "clamped_far_stress": _far("clamped"),
-    "sphere_contact": Law(_sphere),
-    "contact": Law(_contact, _of_means, conditioned=False),
-    "pressure": Law(_pressure, _mean, conditioned=False),
-    "plate_of": Law(_first_coefficient, conditioned=False),
+    "sphere_contact": Law(_sphere, oracle=(curvature.__name__,)),
+    "contact": Law(_contact, _of_means, conditioned=False, oracle=(pressure_balls.__name__,)),
+    "pressure": Law(_pressure, _mean, conditioned=False, oracle=(pressure_balls.__name__,)),
+    "plate_of": Law(_first_coefficient, conditioned=False, oracle=(contact_balls.__name__,)),
     "hertz": _ESTIMATE,
     "leading": _ESTIMATE,
-    "corrected": Law(_corrected, _largest),
+    "corrected": Law(_corrected, _largest, oracle=(printed_motion_balls.__name__,)),
+    **WAVES,
 }
 """By kernel."""
 
@@ -281,5 +274,8 @@ OUTPUTS: Mapping[str, int] = {
     "sphere_contact": 3,
     "contact": 6,
     "impact_sensitivities": 28,
+    "dynamic_influence": 2,
+    "clamped_modes": 3,
+    "supported_modes": 3,
 }
 """How many results a kernel has, if not one."""

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from typing import Any
+from typing import Any, NamedTuple
 
 import flint
 from flint import arb
@@ -11,7 +11,8 @@ from derivation.formula.ball import to_ball
 from derivation.formula.ulp import overflows, upper_float
 from derivation.measure.contact_truth import tolerance
 from derivation.measure.hard import Case
-from derivation.measure.hard_laws import LAWS, OUTPUTS, Law
+from derivation.measure.hard_law import Law
+from derivation.measure.hard_laws import LAWS, OUTPUTS
 from derivation.measure.kernels import Kernel
 from derivation.reference import contact_balls, contact_quantities
 from derivation.reference.balls import Reference, reference
@@ -29,6 +30,18 @@ Stored = dict[str, str]
 """A reference as text: "value" and "radius" of the ball, "rounding" for the sum of the
 sensitivities |x df/dx|, "magnitude" as of `Reference`, and "scale", by which the budget is
 multiplied. Of a value "nan", "inf" or "-inf" there is nothing else to say."""
+
+
+class Known(NamedTuple):
+    """The references of a case, and the hash of what they follow from, see `hard_origin`."""
+
+    origin: str
+    references: Sequence[Stored]
+
+
+def known_of(data: Mapping[str, Any]) -> dict[str, Known]:
+    """What is recorded, by key."""
+    return {row["key"]: Known(row["origin"], row["references"]) for row in data["cases"]}
 
 
 def references(case: Case, kernel: Kernel) -> list[Stored]:

@@ -147,9 +147,9 @@ for effect, module in (
     ("name", "more", "effects"),
     [
         ("block", "", set()),
-        ("soft_layer", "", {"pressure"}),
-        ("pad", "", {"pressure", "viscosity"}),
-        ("soft_layer", "inertia = 'auto'", {"pressure", "inertia"}),
+        ("soft_layer", "inertia = false", {"pressure"}),
+        ("pad", "inertia = false", {"pressure", "viscosity"}),
+        ("soft_layer", "", {"pressure", "inertia"}),
     ],
 )
 def test_what_is_computed_alone_is_imported(

@@ -95,7 +95,7 @@ def test_what_an_effect_changes_is_within_its_bound_and_near_it(
     one, other = impact(m, every - {name}).numbers, impact(m, every).numbers
     shares = []
     for output, x, y in zip(OUTPUTS, one, other, strict=True):
-        gate = decide(m, wanted, 1.0, (output,))
+        gate = decide(m, AT_REST | wanted, 1.0, (output,))
         assert gate.law.effects == every - {name}
         bound = {row.name: row.bound for row in gate.rows}[name]
         if output == "restitution":  # which is 1 without viscosity
@@ -116,11 +116,11 @@ def test_prices_hold_under_the_true_pressure(name: str) -> None:
         sphere_modulus=1e10, gravity=0.05,
     )  # fmt: skip
     wanted = {effect.name: effect.name != name for effect in EFFECTS} | AT_REST
-    gate = decide(m, wanted, 1.0)
+    gate = decide(m, AT_REST | wanted, 1.0)
     bound = {row.name: row.bound for row in gate.rows}[name]
     assert 0.2 < apart(impact(m, ALL - {name}), impact(m, ALL)) / bound <= 1
     # What the profile adds is known under Hertz' pressure alone.
-    flat = decide(m, wanted | {"curvature": False}, 1.0)
+    flat = decide(m, AT_REST | wanted | {"curvature": False}, 1.0)
     assert {row.name: row.bound for row in flat.rows}["curvature"] == math.inf
 
 
@@ -129,7 +129,7 @@ def test_what_is_in_is_priced_too(edge: str) -> None:
     """What leaving one out of all would change, by the table of the law with all."""
     m = model(h=5.0, b=5.0, v0=0.3, edge=edge, sphere_modulus=1e13)
     every = applicable(m) - {"pressure"}
-    gate = decide(m, {"pressure": False}, 0.0)
+    gate = decide(m, AT_REST | {"pressure": False}, 0.0)
     assert gate.law.effects == every
     for row in gate.rows:
         if row.included and row.name != "hertz":
@@ -157,13 +157,13 @@ def test_both_sides_of_every_threshold(name: str) -> None:
     m = model(**SCENES[name])
     whole, rtol, before = impact(m, applicable(m)), 10.0, frozenset[str]()
     while True:
-        found = decide(m, {}, rtol)
+        found = decide(m, AT_REST, rtol)
         assert found.law.effects > before
         assert found.error <= rtol
         assert apart(impact(m, found.law.effects), whole) <= found.error + 5e-14
         if not found.error:
             break
-        assert decide(m, {}, found.error).law.effects == found.law.effects
+        assert decide(m, AT_REST, found.error).law.effects == found.law.effects
         before, rtol = found.law.effects, found.error * (1 - 1e-9)
     assert found.law.effects == applicable(m)
 
@@ -183,7 +183,7 @@ def test_bounds_of_what_is_left_out_together_add_up(one: str, other: str, edge: 
 
     def error(*out: str) -> float:
         wanted = {e.name: "auto" if e.name in out else False for e in EFFECTS}
-        found = decide(m, wanted, 1.0, ("max_indentation",))
+        found = decide(m, AT_REST | wanted, 1.0, ("max_indentation",))
         assert found.law.effects == {"hertz"}
         return found.error
 
@@ -194,8 +194,8 @@ def test_bounds_of_what_is_left_out_together_add_up(one: str, other: str, edge: 
 def test_every_effect_has_a_threshold_there() -> None:
     m = model(**SCENES["block"], viscous_time=1e-8)
     assert applicable(m) == ALL
-    assert decide(m, {}, 10.0).law.effects == {"hertz"}
-    assert decide(m, {}, 0.0).law.effects == ALL
+    assert decide(m, AT_REST, 10.0).law.effects == {"hertz"}
+    assert decide(m, AT_REST, 0.0).law.effects == ALL
 
 
 decades = st.floats(-1.0, 1.0)
@@ -214,5 +214,5 @@ def test_the_count_of_effects_falls_as_the_tolerance_loosens(
         h=0.05 * 10**thick, v0=0.1 * 10 ** (2 * fast), m=3 * 10**heavy, edge=edge,
         sphere_modulus=3e10 * 10**soft,
     )  # fmt: skip
-    taken = [decide(m, {}, 10**power).law.effects for power in sorted(tolerances)]
+    taken = [decide(m, AT_REST, 10**power).law.effects for power in sorted(tolerances)]
     assert taken[0] >= taken[1] >= taken[2]

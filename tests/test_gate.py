@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from given import ALL, EXAMPLES, model, random_models, scene
+from given import ALL, AT_REST, EXAMPLES, model, random_models, scene
 
 import derivation.effects_check
 import derivation.scene
@@ -51,7 +51,7 @@ def test_a_bound_that_does_not_hold_is_noticed() -> None:
 
 def test_a_looser_tolerance_takes_in_no_more() -> None:
     for m in random_models(10):
-        taken = [decide(m, {}, rtol).law.effects for rtol in (1e-9, 1e-6, 1e-4, 1e-2, 1e-1)]
+        taken = [decide(m, AT_REST, rtol).law.effects for rtol in (1e-9, 1e-6, 1e-4, 1e-2, 1e-1)]
         for tight, loose in pairwise(taken):
             assert loose <= tight
 
@@ -60,13 +60,13 @@ def test_both_sides_of_a_threshold() -> None:
     """At the bound itself the effects may stay out; just below it one more is taken in."""
     for m in random_models(4):
         for rtol in (1e-2, 1e-4):
-            found = decide(m, {}, rtol)
+            found = decide(m, AT_REST, rtol)
             if not 0 < found.error < math.inf:
                 continue
-            assert decide(m, {}, found.error).law.effects == found.law.effects
-            tighter = decide(m, {}, found.error * (1 - 1e-9))
+            assert decide(m, AT_REST, found.error).law.effects == found.law.effects
+            tighter = decide(m, AT_REST, found.error * (1 - 1e-9))
             assert len(tighter.law.effects) > len(found.law.effects)
-            whole = motion.impact(Law(m, decide(m, {}, 0.0).law.effects))
+            whole = motion.impact(Law(m, decide(m, AT_REST, 0.0).law.effects))
             parts = motion.impact(found.law)
             assert whole is not None
             assert parts is not None
@@ -87,13 +87,15 @@ def test_weight_under_the_true_pressure_moves_the_radius_within_the_bound() -> N
 
 def test_forced_choices_are_honoured_and_priced() -> None:
     m = model()
-    out = decide(m, {"bending": False, "gravity": True}, 1e-1)
+    out = decide(m, AT_REST | {"bending": False, "gravity": True}, 1e-1)
     assert "bending" not in out.law.effects
     assert "gravity" in out.law.effects
     rows = {row.name: row for row in out.rows}
     assert rows["bending"].why.startswith("false in the scene: costs")
     assert rows["gravity"].why == "true in the scene"
-    small = {row.name: row for row in decide(m, {"side_wall": False}, 1e-9).rows}["side_wall"]
+    small = {row.name: row for row in decide(m, AT_REST | {"side_wall": False}, 1e-9).rows}[
+        "side_wall"
+    ]
     assert f"up to {100 * small.bound:.2g} %" in small.why
     hertz = ALL - {"pressure"}
     whole, without = (motion.impact(Law(m, e)) for e in (hertz, hertz - {"side_wall"}))
@@ -113,9 +115,9 @@ def test_pressure_and_inertia_need_the_whole_plate() -> None:
 
 
 def test_the_pressure_is_solved_with_all_that_its_equation_holds() -> None:
-    law = decide(model(), {"pressure": True}, 10.0).law
+    law = decide(model(), AT_REST | {"pressure": True}, 10.0).law
     assert law.effects >= {"pressure", "curvature", "sphere_elasticity"} | WHOLE_PLATE
-    law = decide(model(), {"pressure": True, "curvature": False}, 10.0).law
+    law = decide(model(), AT_REST | {"pressure": True, "curvature": False}, 10.0).law
     assert "curvature" not in law.effects
 
 
@@ -123,7 +125,7 @@ def test_numbers_are_those_of_the_largest_contact() -> None:
     m = model()
     found = motion.impact(Law(m, ALL))
     assert found is not None
-    a, rows = found.max_contact_radius, {row.name: row for row in decide(m, {}, 0.0).rows}
+    a, rows = found.max_contact_radius, {row.name: row for row in decide(m, AT_REST, 0.0).rows}
     depth = a * a / m.R
     true = {
         "hertz": a / m.R, "curvature": a / m.R, "pressure": a / (2 * m.h),
@@ -143,20 +145,24 @@ def test_numbers_are_those_of_the_largest_contact() -> None:
 def test_outputs_that_do_not_matter_take_in_nothing() -> None:
     """The sphere's profile moves the contact radius half as much again as the force."""
     m = model(sphere_modulus=math.inf, gravity=0.0, h=1e3, b=1e4, v0=0.1, edge="soft-hinge")
-    worst = decide(m, {}, 0.0, OUTPUTS)
+    worst = decide(m, AT_REST, 0.0, OUTPUTS)
     assert "curvature" in worst.law.effects
-    errors = {name: decide(m, {"curvature": "auto"}, 1.0, (name,)).error for name in OUTPUTS}
+    errors = {
+        name: decide(m, AT_REST | {"curvature": "auto"}, 1.0, (name,)).error for name in OUTPUTS
+    }
     assert errors["max_contact_radius"] > 1.4 * errors["max_force"]
     rtol = math.sqrt(errors["max_contact_radius"] * errors["max_force"])
-    assert "curvature" in decide(m, {}, rtol, ("max_contact_radius",)).law.effects
-    assert "curvature" not in decide(m, {}, rtol, ("max_force",)).law.effects
+    assert "curvature" in decide(m, AT_REST, rtol, ("max_contact_radius",)).law.effects
+    assert "curvature" not in decide(m, AT_REST, rtol, ("max_force",)).law.effects
 
 
 def test_the_scenes_outputs_are_those_the_tolerance_applies_to() -> None:
     block = {"half_thickness": 1e3, "radius": 1e4, "edge": "soft-hinge"}
     given = scene(plate=block, sphere={"material": None}, impact={"gravity": None}).to_json()
     m = model_of(read(given))
-    errors = [decide(m, {}, 1.0, (name,)).error for name in ("max_contact_radius", "max_force")]
+    errors = [
+        decide(m, AT_REST, 1.0, (name,)).error for name in ("max_contact_radius", "max_force")
+    ]
     rtol = math.sqrt(errors[0] * errors[1])
     for name, wanted in (("max_contact_radius", True), ("max_force", False)):
         result = simulate(read(given | {"accuracy": {"rtol": rtol, "outputs": [name]}}))
@@ -228,19 +234,19 @@ def test_the_reference_names_what_it_leaves_out(tmp_path: Path) -> None:
     example = EXAMPLES / "glass_pane.toml"
     found = pipeline.in_doubles(example)
     assert found.gate.law.effects == WHOLE_PLATE | {"hertz"}
-    assert "leaves out edge, gravity, sphere_elasticity, which" in found.warnings[-1]
-    place = tmp_path / "scene.toml"
-    place.write_text(example.read_text() + "\n[effects]\ninertia = 'auto'\n")
-    moving = pipeline.in_doubles(place)
-    assert moving.to_json() | {"warnings": []} == found.to_json() | {"warnings": []}
-    called = sorted(explain(load(place)).gate.law.effects - WHOLE_PLATE - {"hertz"})
+    called = sorted(explain(load(example)).gate.law.effects - WHOLE_PLATE - {"hertz"})
     assert {"edge", "gravity", "inertia", "sphere_elasticity"} <= set(called)
-    assert f"leaves out {', '.join(called)}, which" in moving.warnings[-1]
+    assert f"leaves out {', '.join(called)}, which" in found.warnings[-1]
+    place = tmp_path / "scene.toml"
+    place.write_text(example.read_text() + "\n[effects]\ninertia = false\n")
+    still = pipeline.in_doubles(place)
+    assert still.to_json() | {"warnings": []} == found.to_json() | {"warnings": []}
+    assert "leaves out edge, gravity, sphere_elasticity, which" in still.warnings[-1]
 
 
 def test_the_reference_of_a_plate_at_rest_asks_for_no_density(tmp_path: Path) -> None:
     text, place = (EXAMPLES / "paper.toml").read_text(), tmp_path / "scene.toml"
-    place.write_text(text.replace("[effects]", "[effects]\ninertia = true"))
+    place.write_text(text.replace("inertia = false", "inertia = true"))
     with pytest.raises(SceneError, match=r"plate\.density"):
         simulate(load(place))
     known = pipeline.in_doubles(EXAMPLES / "paper.toml")

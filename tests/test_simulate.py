@@ -207,7 +207,8 @@ def test_indent_refuses(given: dict[str, Any], says: str) -> None:
 @pytest.mark.parametrize("path", sorted(EXAMPLES.glob("*.toml")), ids=lambda path: path.stem)
 def test_examples_run(path: Path) -> None:
     result = simulate(load(path))
-    assert (result.warnings == ()) == (path.stem == "paper")  # each other is near some limit
+    calm = {"paper", "concrete_floor", "membrane", "pad"}  # each other is near some limit
+    assert (result.warnings == ()) == (path.stem in calm)
     assert result.contact_time > 0
 
 

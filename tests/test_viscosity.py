@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from given import ALL
+from given import ALL, AT_REST
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mpmath import beta, mp, mpf
@@ -266,7 +266,7 @@ def test_each_output_of_a_heavy_sphere_is_within_its_bound(
         gravity=9.81, viscous_time=viscous_time,
     )  # fmt: skip
     wanted = dict.fromkeys((*WHOLE_PLATE, "gravity", "curvature"), True) | {"viscosity": False}
-    gate = decide(model, wanted | {"pressure": False}, 1.0, (output,))
+    gate = decide(model, AT_REST | wanted | {"pressure": False}, 1.0, (output,))
     bound = {row.name: row.bound for row in gate.rows}["viscosity"]
     place = OUTPUTS.index(output)
     try:
@@ -280,9 +280,9 @@ def test_each_output_of_a_heavy_sphere_is_within_its_bound(
 def test_bending_stays_with_an_edge_that_does_not_lag() -> None:
     """Without it the edge would lag, which changes more than bending itself does."""
     model = replace(BALL, h=0.5, edge="simply-supported", viscous_time=2e-6)
-    for row in decide(model, {"edge": True, "viscosity": True}, 0.1).rows:
+    for row in decide(model, AT_REST | {"edge": True, "viscosity": True}, 0.1).rows:
         assert row.name != "bending" or row.included
-    alone = decide(model, {"edge": False, "viscosity": True}, 0.1)
+    alone = decide(model, AT_REST | {"edge": False, "viscosity": True}, 0.1)
     assert "bending" not in alone.law.effects
 
 
@@ -291,9 +291,11 @@ def test_bending_stays_with_an_edge_that_does_not_lag() -> None:
 def test_gate_keeps_its_word_either_side_of_its_threshold(edge: str, gravity: float) -> None:
     model = replace(BALL, edge=edge, gravity=gravity, h=0.008, viscous_time=3e-8)
     others = dict.fromkeys(ALL - {"hertz", "viscosity"}, True)
-    price = {row.name: row.bound for row in decide(model, others, 1e-12).rows}["viscosity"]
+    price = {row.name: row.bound for row in decide(model, AT_REST | others, 1e-12).rows}[
+        "viscosity"
+    ]
     for rtol, included in ((price / 2, True), (price * 1.05, False)):
-        gate = decide(model, others, rtol)
+        gate = decide(model, AT_REST | others, rtol)
         assert ("viscosity" in gate.law.effects) is included
         whole = moves(Law(model, frozenset(n for n in ALL if not BY_NAME[n].absent(model))))
         found = moves(gate.law)

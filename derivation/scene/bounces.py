@@ -62,8 +62,13 @@ class Course:
     reason: str
 
 
-def course(problem: Problem, n: int) -> Course:
+def course(problem: Problem, n: int, tolerance: float = TOLERANCE) -> Course:
     """An impact from the first contact on, by elements of n nodes.
+
+    Parameters
+    ----------
+    tolerance
+        Of an element's last coefficients over the largest there are [1].
 
     Raises
     ------
@@ -74,7 +79,7 @@ def course(problem: Problem, n: int) -> Course:
     # Who would not come back but by the weight has left: what follows is another impact.
     weightless = replace(problem, weight=0.0)
     while True:
-        touching = contact(problem, n, state, t, radius)
+        touching = contact(problem, n, state, t, radius, tolerance)
         found.append(touching)
         wait, radius = meeting(weightless, touching.after, touching.pieces[-1].radius)
         if problem.weight and wait < math.inf:
@@ -92,13 +97,22 @@ def course(problem: Problem, n: int) -> Course:
             state = state._replace(into=0.0)
 
 
-def contact(problem: Problem, n: int, begin: State, start: float, radius: float) -> Touching:
+def contact(
+    problem: Problem,
+    n: int,
+    begin: State,
+    start: float,
+    radius: float,
+    tolerance: float = TOLERANCE,
+) -> Touching:
     """A contact, element by element, until the force is gone.
 
     Parameters
     ----------
     radius
         At its beginning: above 0 where the face has not recovered from the contact before.
+    tolerance
+        As `course` takes it.
     """
     found: list[Piece] = []
     # A contact that goes on has no onset; counted from an earlier x its times are regular.
@@ -125,8 +139,8 @@ def contact(problem: Problem, n: int, begin: State, start: float, radius: float)
         if problem.lag:  # a force by the radius' rate is as rough as that, and only integrated
             unit[P] *= ROUGH
         error = float(np.max(np.abs(rows[:, -2:]) / unit))
-        change = 0.9 * (TOLERANCE / max(error, 1e-300)) ** (1.0 / n)
-        if error > TOLERANCE:
+        change = 0.9 * (tolerance / max(error, 1e-300)) ** (1.0 / n)
+        if error > tolerance:
             length *= min(0.8, max(0.1, change))
             continue
         if float(np.sum(rows[P])) <= 0.0:  # a contact that lags lets go before it is flat

@@ -9,7 +9,7 @@ being the doubles that the scene turns into.
 
 import math
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -20,6 +20,9 @@ from derivation.scene.limits import check_energy
 from derivation.scene.model import Model
 from derivation.scene.scene import OUTPUTS, TIGHTEST, SceneError
 from derivation.scene.words import shown
+
+if TYPE_CHECKING:
+    from derivation.scene.wave_motion import WaveMotion
 
 METHODS = {
     "hertz": "Hertz' law alone",
@@ -159,8 +162,10 @@ def solve_gated(gate: Gate, rtol: float | None = None) -> tuple[Numbers, Accurac
     law, rest = gate.law, remaining(gate, rtol)
     if law.effects == WHOLE_PLATE | {"hertz"}:
         found, accuracy = solve(law.model, rest)
+    elif "inertia" in law.effects:
+        found, accuracy = _on_moving_plate(gate, rtol)
     else:
-        found, accuracy = _composed(law, rest)
+        found, accuracy = _composed(law)
     accuracy = replace(
         accuracy, rtol=rtol, effects=Part(gate.error, _basis(gate)), outputs=gate.outputs
     )
@@ -193,14 +198,12 @@ def _basis(gate: Gate) -> str:
     return MEASURED if gate.law.model.viscous_time or steeper or moving else PROVED
 
 
-def _composed(law: Law, rtol: float | None) -> tuple[Numbers, Accuracy]:
-    """The results by a law of any effects, and their bounds."""
+def _composed(law: Law) -> tuple[Numbers, Accuracy]:
+    """The results on a plate at rest by a law of any effects, and their bounds."""
     if law.effects <= {"hertz", "sphere_elasticity"}:
         closed = _half_space(law)
         if closed is not None:
             return closed
-    if "inertia" in law.effects:
-        return _on_moving_plate(law, rtol)
     found = moved(law)
     if found is None:
         check_energy(law, DOUBT)
@@ -214,35 +217,34 @@ def _composed(law: Law, rtol: float | None) -> tuple[Numbers, Accuracy]:
     )
 
 
-def _on_moving_plate(law: Law, rtol: float | None) -> tuple[Numbers, Accuracy]:
+def _on_moving_plate(gate: Gate, rtol: float | None) -> tuple[Numbers, Accuracy]:
     """The results with inertia, and their bounds."""
     from derivation.scene import waves
 
-    with np.errstate(all="ignore"):
-        found = waves.impact(law, waves.goal(rtol))
+    law, found = gate.law, moving(gate, rtol)
     if found is None:
         check_energy(replace(law, effects=law.effects - {"inertia", "viscosity"}), DOUBT)
         return (math.nan,) * 5, whole_law("full", None)
-    left = (1.0 + found.inertia.doubt) * (1.0 + found.inertia.branches) - 1.0
     return found.numbers, Accuracy(
         "full",
         None,
-        law=Part(left, MEASURED),
+        law=Part(math.fsum(found.inertia.left(gate.outputs)), MEASURED),
         quadrature=Part(waves.INTEGRATION, MEASURED),
         rounding=Part(_rounding(law), MEASURED),
     )
 
 
-def moved(law: Law, rtol: float | None = None) -> motion.Motion | None:
-    """The impact by a law of any effects; None if it leaves the law's range.
+def moving(gate: Gate, rtol: float | None) -> "WaveMotion | None":
+    """The impact on a plate that moves, as the tolerance asks for; None beyond the law's range."""
+    from derivation.scene import waves
 
-    A tolerance says how many modes a plate that moves has.
-    """
     with np.errstate(all="ignore"):  # extreme scenes end in NaN, which is looked for
-        if "inertia" in law.effects:
-            from derivation.scene import waves
+        return waves.impact(gate.law, waves.goal(remaining(gate, rtol)), gate.outputs)
 
-            return waves.impact(law, waves.goal(rtol))
+
+def moved(law: Law) -> motion.Motion | None:
+    """The impact on a plate at rest by a law of any effects; None if it leaves the law's range."""
+    with np.errstate(all="ignore"):
         if "viscosity" not in law.effects:
             return motion.impact(law)
         from derivation.scene import viscous

@@ -1,5 +1,6 @@
 """The commands that take a scene file: check the names, make one call, show the result."""
 
+import os
 from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
@@ -69,9 +70,9 @@ def simulate(
         for note in filter(None, (result.model_note, result.verdict)):
             OUT.print(note, markup=False, highlight=False, soft_wrap=True)
         if result.moving is not None:
-            from derivation.scene import waves
+            from derivation.scene import wave_motion
 
-            table("Contacts", waves.HEADS, result.moving.lines())
+            table("Contacts", wave_motion.HEADS, result.moving.lines())
             for note in result.moving.notes():
                 OUT.print(note, markup=False, highlight=False, soft_wrap=True)
         if result.comparison:
@@ -104,7 +105,7 @@ def _sweep(
     sweep = sweeps.parse(text)
     loaded = load(scene)
     with counted("simulate") as tell:
-        rows = sweeps.run(loaded, sweep, rtol, tell)
+        rows = sweeps.run(loaded, sweep, rtol, tell, workers=os.cpu_count() or 1)
     key = f"{sweep.table}.{sweep.key}"
     warn([f"at {key} = {row.value:.6g}: {row.remark}" for row in rows if row.remark])
     if csv is not None:

@@ -39,8 +39,9 @@ NEAR = 1e-6
 """How near the largest radius has to be known for that."""
 MARGIN = 1.05
 """Elasticities of S are sampled at nodes and widened by this."""
+SAYS_NOTHING = 10.0
+"""A bound so far above what it bounds is shown as none."""
 FORCED_OUT = "false in the scene"
-STILL = "the plate is at rest unless effects.inertia is auto or true"
 HEADS = ("effect", "number", "value", "if left out", "", "why")
 """Heads of the effects table."""
 
@@ -83,7 +84,7 @@ class Row:
         """The row as it is shown."""
         applies = not math.isnan(self.value)
         value = f"{self.value:.3g}" if applies else "-"
-        bound = f"{self.bound:.1e}" if math.isfinite(self.bound) else "none"
+        bound = f"{self.bound:.1e}" if self.bound < SAYS_NOTHING else "none"
         decided = "in" if self.included else "out"
         return self.name, self.number, value, bound if applies else "-", decided, self.why
 
@@ -178,8 +179,6 @@ def decide(
                 f"false; leave out effects.{missing[0]} or effects.{name}"
             )
         reasons[name] = f"it holds the whole plate, but {', '.join(missing)} is false"
-    if wanted.get("inertia", False) is False:
-        reasons["inertia"] = STILL
     present = [effect for effect in EFFECTS if not reasons[effect.name]]
     choice = {effect.name: wanted.get(effect.name, "auto") for effect in present}
     present = [effect for effect in present if effect.by_itself]
@@ -199,7 +198,7 @@ def decide(
         included |= {worst.name} | along.get(worst.name, set())
         open_ = [effect for effect in open_ if effect.name not in included]
     if "inertia" in included:
-        check_movable(model, asked)
+        check_movable(model, asked, "viscosity" in included)
     rows = [_row(effect, state, choice, reasons, rtol, error, outputs) for effect in EFFECTS]
     return Gate(state.law, rtol, error, tuple(rows), tuple(outputs))
 
@@ -209,14 +208,20 @@ def _all(sets: Iterable[Collection[str]]) -> set[str]:
     return set().union(*sets)
 
 
-def check_movable(model: Model, asked: Collection[str]) -> None:
+def check_movable(model: Model, asked: Collection[str], lagging: bool) -> None:
     """Refuse a plate that has to move and cannot.
 
     Raises
     ------
     SceneError
-        If its density is not known.
+        If its density is not known; if branches beyond bending are to move under a contact that
+        lags, where they would lag too.
     """
+    if lagging and model.inertia.branches == "all":
+        raise SceneError(
+            'inertia.branches: expected "A0" under a viscous contact, where what is not bending '
+            'lags, got "all"; write branches = "A0", or effects.viscosity = false'
+        )
     if model.density:
         return
     why = "effects.inertia = true" if "inertia" in asked else "its inertia may change the results"
@@ -395,7 +400,7 @@ def _forced(included: bool, bound: float, output: str) -> str:
     """What the scene's own choice means, and in which result most."""
     if included:
         return "true in the scene"
-    known = math.isfinite(bound)
+    known = bound < SAYS_NOTHING
     price = f"up to {100 * bound:.2g} % in {output}" if known else "more than a bound can say"
     return f"{FORCED_OUT}: costs {price}"
 
@@ -414,7 +419,7 @@ def cost(law: Law, effect: Effect, repeats: int = 3) -> float:
             if effect.name == "inertia":
                 from derivation.scene import waves
 
-                waves.prepared(law)
+                waves.problem_of(law, 2 * waves.count_of(law))
             else:
                 alone.at(a)
             best = min(best, time.perf_counter() - start)

@@ -88,12 +88,18 @@ class Touch(NamedTuple):
     less_a: Array
 
 
-def modes_of(model: Model, count: int) -> Modes:
+def modes_of(model: Model, count: int, lagging: bool = False) -> Modes:
     """The first bending modes of the plate on its edge, of the branch A0 at their wave numbers.
 
     On the paper's edge J_0(phi_j r) are modes of every branch: of all of them, if the scene wants
     them, those no faster than the last of these. A plate simply supported or clamped has a thin
     plate's shapes.
+
+    Parameters
+    ----------
+    lagging
+        Whether the contact is viscous. Bending does not lag: modes then have a thin plate's
+        compliance alone, and what else deflects them at rest stays with the contact.
     """
     from generated import inertia
 
@@ -103,6 +109,8 @@ def modes_of(model: Model, count: int) -> Modes:
     if model.inertia.branches == "all":
         place, root, residue = _all_branches(x, nu, float(root[-1]))
         k, c, weight = k[place], c[place], weight[place]
+    if lagging:
+        residue = 0.5 * (root / (x * x * math.sqrt(2.0 / (3.0 * (1.0 - nu))))) ** 2
     drive = residue * weight / (model.density * model.h * model.b * model.b)
     return Modes(k / model.b, root * (model.shear_speed / model.h), drive, c)
 

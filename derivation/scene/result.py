@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from derivation.scene import kernels
-from derivation.scene.choice import Accuracy, moved, remaining
+from derivation.scene.choice import Accuracy, moved, moving
 from derivation.scene.gate import Gate
 from derivation.scene.law import WHOLE_PLATE
 from derivation.scene.limits import INERTIA
@@ -19,7 +19,7 @@ from derivation.scene.scene import Scene, SceneError
 
 if TYPE_CHECKING:
     from derivation.scene.comparison import Comparison
-    from derivation.scene.waves import WaveMotion
+    from derivation.scene.wave_motion import WaveMotion
 
 Array = NDArray[np.float64]
 
@@ -218,10 +218,8 @@ class Result:
         """Contacts, energies and course on a plate that moves; None of a plate at rest."""
         if "inertia" not in self.gate.law.effects:
             return None
-        from derivation.scene.waves import WaveMotion
-
-        found = moved(self.gate.law, remaining(self.gate, self.accuracy.rtol))
-        assert isinstance(found, WaveMotion)  # or there were no result
+        found = moving(self.gate, self.accuracy.rtol)
+        assert found is not None  # or there were no result
         return found
 
     @property

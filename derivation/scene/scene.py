@@ -189,7 +189,7 @@ class Effects(Table):
     pressure: Wanted = Field("auto", description="pressure solved for", examples=[False])
     viscosity: Wanted = Field("auto", description="viscous contact", examples=[True])
     gravity: Wanted = Field("auto", description="weight during contact", examples=[False])
-    inertia: Wanted = Field(False, description="the plate's own motion", examples=["auto"])
+    inertia: Wanted = Field("auto", description="the plate's own motion", examples=[False])
     perturbation: bool = Field(False, description="paper's own motion to compare", examples=[True])
 
 

@@ -2,8 +2,14 @@
 
 import csv
 import io
-from collections.abc import Callable, Sequence
+import signal
+import time
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
+from functools import partial
+from multiprocessing import get_context
 
 import numpy as np
 
@@ -13,6 +19,8 @@ from derivation.scene.scene import TABLES, Scene, SceneError, is_number, read
 
 MOST = 100_000
 """Largest number of values of a sweep."""
+LONG = 3.0
+"""Seconds of work from which other processes are worth their start."""
 Tell = Callable[[str, int, int], None]
 
 
@@ -83,7 +91,11 @@ def parse(text: str) -> Sweep:
 
 
 def run(
-    scene: Scene, sweep: Sweep, rtol: float | None = None, tell: Tell | None = None
+    scene: Scene,
+    sweep: Sweep,
+    rtol: float | None = None,
+    tell: Tell | None = None,
+    workers: int = 1,
 ) -> tuple[Row, ...]:
     """Simulate the scene once per value; a scene that is refused is a row that says why.
 
@@ -93,16 +105,43 @@ def run(
         As `simulate` takes it.
     tell
         Called before each, with what is done, its number and how many there are.
+    workers
+        Processes that share the work if it takes long. Each of several begins by importing the
+        main module: a script that asks for them has to guard what it runs.
     """
-    rows = []
-    for number, value in enumerate(sweep.values, start=1):
+    found, rows = _rows(scene, sweep, rtol, workers), list[Row]()
+    for number in range(1, len(sweep.values) + 1):
         if tell is not None:
             tell(f"{sweep.table}.{sweep.key}", number, len(sweep.values))
-        rows.append(_row(scene, sweep, value, rtol))
+        rows.append(next(found))
     return tuple(rows)
 
 
-def _row(scene: Scene, sweep: Sweep, value: float, rtol: float | None) -> Row:
+def _rows(scene: Scene, sweep: Sweep, rtol: float | None, workers: int) -> Iterator[Row]:
+    """The rows in the order of the values; by the first it is judged how long they take."""
+    one, start = partial(_row, scene, sweep, rtol), time.perf_counter()
+    yield one(sweep.values[0])
+    if workers == 1 or (time.perf_counter() - start) * len(sweep.values) < LONG:
+        yield from map(one, sweep.values[1:])
+        return
+    pool = ProcessPoolExecutor(workers, get_context("spawn"), initializer=_leave_interrupts)
+    try:
+        yield from pool.map(one, sweep.values[1:])
+    except BrokenProcessPool:
+        raise SceneError(
+            "sweep: expected every process to finish its share, but one was ended from outside, "
+            "for want of memory perhaps; run it again with fewer values"
+        ) from None
+    finally:
+        pool.shutdown(wait=False, cancel_futures=True)
+
+
+def _leave_interrupts() -> None:
+    """Ctrl-C is the main process's, which ends the others."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+def _row(scene: Scene, sweep: Sweep, rtol: float | None, value: float) -> Row:
     data = {name: dict(keys) for name, keys in scene.to_json().items()}
     given = data.setdefault(sweep.table, {})
     for other in _instead(sweep):

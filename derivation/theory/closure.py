@@ -1,4 +1,4 @@
-"""Link 26: a contact beside a plate of oscillators, closed so that no energy is lost or made.
+"""Link 28: a contact beside a plate of oscillators, closed so that no energy is lost or made.
 
 A growing contact is taken as a sequence of flat punches, each step of its static law P(a),
 delta(a) one. A punch of radius c spreads dP so that J0(phi r) has the mean sh(c phi) under it,
@@ -17,11 +17,11 @@ so that oscillators at rest leave z = delta(a), and
     m z'^2/2 - m g z + E_c + sum (q_j'^2 + omega_j^2 q_j^2)/(2 omega_j^2 c_j),
     E_c = int P dD + sum q_j (P s_j - P_j)
 
-is conserved whatever delta(a) is. If the contact lags, P + A_v dP/dt and P_j + A_v dP_j/dt in
-the place of P and P_j, it falls at the rate A_v P' (D' + sum s_j' q_j) a'^2, which is not negative
-where force and depth grow with a; an endless plate's deflection w beside them, w' = Y P, takes
-Y P^2. With s_j = 1, the indentation taken at the axis, and E_c = int P dD it falls at the rate
-sum (P - P_j) q_j'.
+is conserved whatever delta(a) is. If the contact lags, its pressure keeps its shape: it is that
+of P times (1 + A_v P'/P), and so is what a mode feels, which ends with the force. The energy then
+falls at the rate A_v P' (z' - sum (P_j/P) q_j'); an endless plate's deflection w beside them,
+w' = Y P, takes Y P^2. With s_j = 1, the indentation taken at the axis, and E_c = int P dD, it
+falls at the rate sum (P - P_j) q_j'.
 
 The same weight makes a static law of its own. If the gap is closed in the mean under the punch
 that comes next, where a sphere's r^2/(2R) is a^2/(3R), then delta = a^2/(3R) + sum K_j sh(y) s(y),
@@ -105,7 +105,7 @@ def _loss(weights: list[sp.Expr], stored: sp.Expr, lag: sp.Expr, admittance: sp.
 
     The contact stores int P dD and `stored`; it lags, and an endless plate yields beside.
     """
-    load = [f + lag * _growth * sp.diff(f, a) for f in (_P, *_felt)]
+    load = [f * (1 + lag * _growth * sp.diff(_P, a) / _P) for f in (_P, *_felt)]
     energy = _m * _v**2 / 2 - _m * _g * _z + _work + stored
     for q, v, omega, c in zip(_q, _rate, _omega, _c, strict=True):
         energy += (v**2 + omega**2 * q**2) / (2 * omega**2 * c)
@@ -124,7 +124,9 @@ def conservation() -> Proof:
     triples = list(zip(_q, _share, _felt, strict=True))
     stored = sp.Add(*(q * (_P * s - f) for q, s, f in triples))
     slope = sp.diff(_D + sp.Add(*(q * s for q, s, _ in triples)), a)
-    lost = _A * sp.diff(_P, a) * slope * _growth**2
+    way = slope * _growth + sp.Add(*(s * v for s, v in zip(_share, _rate, strict=True)))
+    moved = sp.Add(*(f / _P * v for f, v in zip(_felt, _rate, strict=True)))
+    lost = _A * sp.diff(_P, a) * _growth * (way - moved)
     taken = _Y * (_P + _A * _growth * sp.diff(_P, a)) ** 2
     nothing, axis = sp.Integer(0), [sp.Integer(1)] * MODES
     leaked = sp.Add(*((_P - f) * v for f, v in zip(_felt, _rate, strict=True)))

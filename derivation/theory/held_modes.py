@@ -1,4 +1,4 @@
-"""Link 27: bending modes of a plate whose edge is clamped or simply supported.
+"""Link 29: bending modes of a plate whose edge is clamped or simply supported.
 
 A thin plate, D nabla^4 w + rho H w'' = p, with b = 1. What is regular on the axis, bends with
 omega = k^2 sqrt(D/(rho H)) and vanishes at the edge is w = J0(k r) - c I0(k r), c = J0(k)/I0(k).

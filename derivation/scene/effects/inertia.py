@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from derivation.scene import kernels
-from derivation.scene.effects.effect import Array, Bound, Effect, Place, none_of
+from derivation.scene.effects.effect import Array, Bound, Effect, Place, Results, none_of
 from derivation.scene.model import Model
 
 SWINGS = 2.0, 16.0
@@ -14,8 +14,9 @@ COUNTED, ALONG = 32, 64
 """Modes taken one by one, and nodes of the integral over those beyond."""
 PASSED = 3.0, 30.0
 """Up to which a phi modes feel the contact: beyond that they die like 3/(a phi)^2."""
-BRANCHES = 3.0
-"""What branches beyond the first are worth, over a/H times H/(c_T T), squared where below 1."""
+RADIATED, RINGS = (1.3, 1.0, 2.5, 0.9, 3.0), (6.0, 0.5, 40.0, 13.0, 2.0)
+"""What branches beyond the first are worth for each result: what a half-space would radiate, over
+a/(c_T T), and the thickness that rings under a wide contact, over (a/H)^2 (H/(c_T T))^(3/2)."""
 SLOWEST = 2.9
 """Contact time times speed over indentation: of Hertz' law 2.94, of a spring 3.14."""
 WORTH = (4.0, 3.0, 10.0, 4.0, 4.0)
@@ -45,22 +46,27 @@ class Inertia(Effect):
         T = SLOWEST * place.depth / model.v0
         a, force = float(place.radii[-1]), float(place.along.force[-1])
         off = force / place.depth * _off_rest(model, a, T)
-        more = further_branches(model, a, T) if model.density else 0.0
+        more = further_branches(model, a, T) if model.density else 5 * (0.0,)
         none = none_of(place.radii)
-        logs = tuple(factor * off + more for factor in WORTH)
+        logs = [factor * off + part for factor, part in zip(WORTH, more, strict=True)]
         return Bound(none, none, results=(logs[0], logs[1], logs[2], logs[3], logs[4]))
 
 
-def further_branches(model: Model, a: float, T: float) -> float:
-    """What branches beyond the first may change in the results [1]: measured.
+def further_branches(model: Model, a: float, T: float) -> Results:
+    """What branches beyond the first may change in each result [1]: measured.
 
     Parameters
     ----------
     a, T
         Contact radius [m] and time [s].
     """
-    echo = 2.0 * model.h / model.shear_speed / T
-    return BRANCHES * a / (2.0 * model.h) * echo * min(1.0, echo)
+    wide, echo = a / (2.0 * model.h), 2.0 * model.h / (model.shear_speed * T)
+    # Less is lost where echoes return many times in a contact.
+    radiated, ring = wide * echo * min(1.0, 2.0 * echo), wide * wide * math.pow(echo, 1.5)
+    time, depth, force, radius, speed = (
+        one * radiated + two * ring for one, two in zip(RADIATED, RINGS, strict=True)
+    )
+    return time, depth, force, radius, speed
 
 
 def _off_rest(model: Model, a: float, T: float) -> float:

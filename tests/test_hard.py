@@ -15,11 +15,10 @@ import pytest
 from derivation import pipeline
 from derivation.cli import main
 from derivation.formula.ulp import from_ordinal, ordinal
-from derivation.measure import hard_check, hard_record
+from derivation.measure import hard_check, hard_origin, hard_record
 from derivation.measure.grids import seams
 from derivation.measure.hard import FORMS, Case, checked, handed_over, written
 from derivation.measure.hard_laws import LAWS
-from derivation.measure.hard_origin import origin
 from derivation.measure.hard_places import OFFSETS
 from derivation.measure.hard_record import find_references
 from derivation.measure.hard_truth import Known, references, restored
@@ -203,11 +202,19 @@ def test_references_follow_from_the_expressions_as_they_are(
     """Those of closed formulas; what balls come to does not change with their oracle's text."""
     closed = {case.kernel: case for case in cases if case.kernel not in LAWS}
     assert {name: truth[case.key].origin for name, case in closed.items()} == {
-        name: origin(name) for name in closed
+        name: hard_origin.origin(name) for name in closed
     }
 
 
 # --- how they are found
+
+
+def test_an_origin_changes_with_code_alone(tmp_path: Path) -> None:
+    plain, said, other = (tmp_path / f"{name}.py" for name in ("plain", "said", "other"))
+    plain.write_text("def f(x):\n    return x\n")
+    said.write_text('"""What it does."""\ndef f(x):\n    """Same."""\n    return x  # as it is\n')
+    other.write_text("def f(x):\n    return -x\n")
+    assert hard_origin._code(plain) == hard_origin._code(said) != hard_origin._code(other)
 
 
 def test_a_stopped_record_goes_on_where_it_was(

@@ -50,7 +50,16 @@ def _of_modules(names: tuple[str, ...]) -> str:
         if path not in found:
             found.add(path)
             waiting += _imports(path)
-    return _hash("".join(ast.dump(ast.parse(path.read_text())) for path in sorted(found)))
+    return _hash("".join(_code(path) for path in sorted(found)))
+
+
+def _code(path: Path) -> str:
+    """A module without its comments and docstrings."""
+    tree = ast.parse(path.read_text())
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef):
+            node.body = node.body[ast.get_docstring(node) is not None :]
+    return ast.dump(tree)
 
 
 def _imports(path: Path) -> Iterator[Path]:

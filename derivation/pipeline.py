@@ -29,6 +29,7 @@ from derivation.measure.contact import KERNELS, LIMIT
 from derivation.measure.contact import Row as ContactRow
 from derivation.measure.contact import check as measure_contact
 from derivation.measure.contact_truth import DIGITS
+from derivation.measure.hard_record import find_references
 from derivation.measure.record import plain, provenance, to_json
 from derivation.measure.search import Search, Tell, search
 from derivation.measure.search_cases import Book, seconds_of
@@ -122,7 +123,8 @@ def contact_data(rows: tuple[ContactRow, ...]) -> dict[str, Any]:
 def check_hard(record: bool = False, tell: Progress | None = None) -> tuple[hard_check.Row, ...]:
     """Hold generated and printed forms to the hard cases' references.
 
-    These are the committed ones, or found anew, which takes minutes, and recorded.
+    These are the committed ones; or found anew where they follow from something else now, which
+    takes minutes, and recorded. A run that was stopped goes on where it was.
 
     Raises
     ------
@@ -137,10 +139,12 @@ def check_hard(record: bool = False, tell: Progress | None = None) -> tuple[hard
             raise FileNotFoundError(f"no references in {MEASURED_HARD}: run `{hard_check.COMMAND}`")
         truth = hard_check.committed(json.loads(MEASURED_HARD.read_text()), cases)
         return hard_check.check(cases, truth, known)
-    truth = hard_check.find_references(cases, os.cpu_count() or 1, tell)
-    rows = hard_check.check(cases, truth, known)
     folder_for(None, REPORTS)
+    part = MEASURED_HARD.with_suffix(".part.json")
+    truth = find_references(cases, known, MEASURED_HARD, part, tell)
+    rows = hard_check.check(cases, truth, known)
     write_file(MEASURED_HARD, hard_check.to_json(rows))
+    part.unlink()
     return rows
 
 

@@ -10,12 +10,20 @@ from typing import Any
 import flint
 import numpy as np
 import pytest
+from flint import arb
 from mpmath import mp, mpf
 
 from derivation.formula.ulp import DOUBLE, SINGLE
 from derivation.measure import contact, contact_grid, contact_judge, contact_truth
 from derivation.pipeline import MEASURED_CONTACT
-from derivation.reference import contact_agreement, contact_balls, contact_impact, contact_routes
+from derivation.reference import (
+    contact_agreement,
+    contact_balls,
+    contact_impact,
+    contact_quantities,
+    contact_routes,
+    many_digits,
+)
 from derivation.reference.contact_sums import plate_excess
 from derivation.reference.routes import OracleError, RouteError
 from generated import contact_law
@@ -142,6 +150,43 @@ def test_history_ends_at_half_the_contact_time() -> None:
     early, late = contact_impact.history((1e-5, edge), *case, digits=20)
     assert float(early) == pytest.approx(1e-10 / 0.01, rel=1e-3)
     assert float(late) == pytest.approx(float(found.contact_time) / 2, rel=1e-6)
+
+
+def test_states_about_the_turning_point_keep_the_energy_and_meet() -> None:
+    """By a series next to it, by Newton's iteration farther off: the rate goes with the time."""
+    case = (0.01, 0.03, 1.0, 0.1, 1.0, 1.2e11, 8e10)
+    law = many_digits.law_for(case, 60)
+    whole = contact_impact.impact(*case, digits=60, law=law).contact_time
+    shares = (-4e-13, -5e-14, 2e-16, 5e-14, 4e-13)
+    times = [float(whole) / 2 * (1 + 2 * share) for share in shares]
+    rates = []
+    for t in times:
+        depth, speed, radius, load = contact_quantities.state(t, *case, digits=40, law=law)
+        R, m, v0, h, b, lam, mu = case
+        with flint.ctx.workprec(300):
+            at = contact_quantities.fraction(radius)
+            stored = contact_impact.stored_energy(at, R, h, b, lam, mu, 45)
+            assert abs(2 * stored / (arb(m) * arb(v0) ** 2) + (speed / arb(v0)) ** 2 - 1) < 1e-38
+            assert abs(contact_balls.indentation(at, R, h, b, 45) / depth - 1) < 1e-38
+            assert abs(contact_quantities.force_of_radius(at, R, lam, mu) / load - 1) < 1e-38
+            rates.append(speed / (whole / 2 - arb(t)))
+    with flint.ctx.workprec(300):
+        # What the iteration knows of the rate there, it knows by the energy that is left.
+        assert all(abs(rate / rates[2] - 1) < 1e-15 for rate in rates)
+        assert all(abs(rate / rates[2] - 1) < 1e-22 for rate in rates[1:4])
+
+
+def test_states_of_a_grazing_contact_fly_freely() -> None:
+    case = (0.01, 0.03, 1.0, 0.1, 1.0, 1.2e11, 8e10)
+    law = many_digits.law_for(case, 40)
+    whole = contact_impact.impact(*case, digits=40, law=law).contact_time
+    for t in (1e-20, math.nextafter(float(whole), 0.0) * (1 - 1e-15)):
+        depth, speed, radius, _ = contact_quantities.state(t, *case, digits=30, law=law)
+        with flint.ctx.workprec(200):
+            left = min(arb(t), whole - arb(t), key=float)
+            assert abs(depth / left - 1) < 1e-9
+            assert abs(abs(speed) - 1) < 1e-20
+            assert abs(radius**2 / (arb(0.01) * left) - 1) < 1e-6
 
 
 def test_edge_of_the_plate_is_refused() -> None:

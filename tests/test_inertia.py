@@ -152,6 +152,34 @@ def test_oracles_agree_on_the_lowest_branch(x: float, nu: float) -> None:
                 assert abs(ball / arb(route) - 1) < 10.0**-digits
 
 
+@pytest.mark.parametrize("x", [1e-3, 0.7, 30.0])
+def test_oracle_encloses_its_limits(x: float) -> None:
+    """At rest the plate factor tells, and at kap = x^2, where q = 0, the other oracle beside it."""
+    still = inertia_balls.influence(x, 0.0, 0.3, 25)
+    turn = inertia_balls.influence(x, Fraction(x) ** 2, 0.3, 25)
+    with flint.ctx.workprec(200):
+        T = 2 * arb(x)
+        G = (T.sinh() * T.cosh() + T) / (T.sinh() ** 2 - T**2)
+        whole = G / (2 * (1 - to_ball(material(0.3))) * arb(x))
+        assert abs((still[0] + still[1]) / whole - 1) < 1e-24
+    with mp.workdps(40):
+        beside = inertia_routes.influence(x, mpf(x) ** 2 * (1 + mpf(10) ** -18), 0.3, 25)
+        with flint.ctx.workprec(BITS):
+            for ball, route in zip(turn, beside, strict=True):
+                assert abs(ball / arb(mp.nstr(route, 35)) - 1) < 1e-14
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_oracle_far_out(kind: str) -> None:
+    """A branch keeps between its poles in plates of any thickness, also where B has no room."""
+    for x in (1e-40, 1e40):
+        kap_1 = inertia_balls.zero(x, 0.3, kind, 1, DIGITS)
+        with flint.ctx.workprec(1000):
+            low, high = (((n + 0.5 * (kind == KINDS[0])) * arb.pi()) ** 2 for n in (0, 2))
+            assert low < kap_1 - arb(x) ** 2 < high
+        assert inertia_balls.residue(x, 0.3, kind, 1, DIGITS) > 0
+
+
 def test_oracle_says_when_it_cannot_tell() -> None:
     """At p = 0 the expression has no value, though it has a limit."""
     with pytest.raises(PrecisionError, match="digits"):

@@ -7,6 +7,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
+import flint
 import numpy as np
 import pytest
 import sympy as sp
@@ -18,6 +19,7 @@ import derivation.effects_check
 from derivation.cli import main
 from derivation.formula.symbols import BY_NAME as SYMBOLS
 from derivation.formula.symbols import delta_0, m, v0, xi_k
+from derivation.reference import printed_motion_balls
 from derivation.scene import SceneError, explain, indent, indentation, kernels, load, read, simulate
 from derivation.scene.comparison import compare
 from derivation.scene.effects.perturbation import MODES
@@ -103,6 +105,31 @@ def test_correction_is_16_with_the_F_and_G_of_the_theory(corrected: bool) -> Non
         eta = float(correction(motion, mpf(t)))
     assert float(motion.corrected(t) - motion.linear(t)) == pytest.approx(eta, rel=1e-10)
     assert eta < 0
+
+
+@pytest.mark.parametrize("share", [0.2, 0.9])
+def test_the_oracle_in_balls_says_the_same(share: float) -> None:
+    """Collocation in space against the integrals over time, and the generated code against it."""
+    motion = printed_motion(*PAPER, 100, corrected=True)
+    t = share * motion.breaks_at
+    numbers = (motion.m, motion.v0, motion.xi_2, motion.xi_3)
+    ball = printed_motion_balls.corrected(t, *numbers, digits=45)
+    with mp.workdps(16):
+        _, _, peak, rate = theory(motion)
+        other = peak * mp.sin(rate * mpf(t)) + correction(motion, mpf(t))
+    assert ball.rel_accuracy_bits() > 149
+    assert abs(float(ball) - float(other)) < 1e-12 * motion.max_indentation
+    assert abs(ball - float(motion.corrected(t))) < 1e-14 * motion.max_indentation
+
+
+def test_the_oracle_in_balls_ends_where_the_radicand_does() -> None:
+    motion = printed_motion(*PAPER, 100)
+    numbers = (motion.m, motion.v0, motion.xi_2, motion.xi_3)
+    with flint.ctx.workprec(100):
+        last = printed_motion_balls.last_share(*numbers)
+    assert float(last) == pytest.approx(motion.last, rel=1e-14)
+    with pytest.raises(ValueError, match="has vanished"):
+        printed_motion_balls.corrected(1.001 * motion.breaks_at, *numbers)
 
 
 @pytest.mark.parametrize("name", CASES)

@@ -18,7 +18,12 @@ from mpmath import mp, mpf
 from derivation.formula.dimension import UNITS
 from derivation.formula.proof import ProofError, prove
 from derivation.formula.symbols import BY_NAME, T
-from derivation.reference import contact_balls, contact_routes, contact_sensitivity
+from derivation.reference import (
+    contact_balls,
+    contact_routes,
+    contact_sensitivity,
+    many_sensitivities,
+)
 from derivation.reference.contact_impact import stored_energy
 from derivation.theory import sensitivity as theory
 from derivation.theory.plate_factor import plate_factor_slope, plate_factors
@@ -154,6 +159,36 @@ def test_the_table_is_what_the_oracle_says() -> None:
     with flint.ctx.workprec(128):
         for ball, text in zip(found, row["v0"], strict=True):
             assert abs(ball - flint.arb(text)) < 1e-19
+
+
+def test_more_digits_begin_with_those_of_the_table() -> None:
+    row = next(row for row in TRUTH["rows"] if row["h_over_b"] == 100.0)
+    scene = [float.fromhex(x) for x in row["scene"]]
+    found = many_sensitivities.impact_sensitivities(scene, 40)
+    by_speed = found[PARAMETERS.index("v0") :: len(PARAMETERS)]
+    by_radius = found[PARAMETERS.index("b") :: len(PARAMETERS)]
+    with flint.ctx.workprec(160):
+        for balls, texts in ((by_speed, row["v0"]), (by_radius, row["b"])):
+            for ball, text in zip(balls, texts, strict=True):
+                assert ball.rad() < 1e-39
+                assert abs(ball - flint.arb(text)) < 1e-19
+        assert all(abs(sum(found[k + 5 : k + 7], flint.arb(0))) < 1 for k in range(0, 28, 7))
+
+
+def test_rounding_is_what_the_parameters_change() -> None:
+    """Differences of the generated code say what moving every parameter does, added up."""
+    row = next(row for row in TRUTH["rows"] if row["h_over_b"] == 100.0)
+    scene, step = [float.fromhex(x) for x in row["scene"]], 1e-4
+    total = np.zeros((len(RESULTS), len(PARAMETERS)))
+    for index in range(len(PARAMETERS)):
+        ends = [
+            [*scene[:index], scene[index] * f, *scene[index + 1 :]] for f in (1 + step, 1 - step)
+        ]
+        upper, lower = (impact_sensitivities(*moved) for moved in ends)
+        total += np.abs(upper - lower) / (2 * step)
+    values = many_sensitivities.impact_sensitivities(scene, 20)
+    found = [float(x) for x in many_sensitivities.rounding(scene, values)]
+    np.testing.assert_allclose(np.reshape(found, total.shape), total, rtol=1e-4, atol=1e-8)
 
 
 def test_a_second_route_says_the_same() -> None:

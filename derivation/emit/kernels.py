@@ -1,5 +1,6 @@
 """Formulas, forms and budgets -> rows: what each generated function is and how it reads."""
 
+import re
 import textwrap
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -94,6 +95,13 @@ class Kernel:
     def in_plane(self) -> bool:
         """Whether the sum's share is made of both stresses in plane and the chord of J1."""
         return self.modes and "chord" in self.value
+
+    @property
+    def carried(self) -> tuple[str, ...]:
+        """Of a value that does not depend on all arguments: the last it needs, then the idle."""
+        code = set(re.findall(r"\w+", repr((self.value, self.steps, self.seam))))
+        idle = [x.name for x in self.arguments if x.name not in code and not self.modes]
+        return ([x.name for x in self.arguments if x.name in code][-1], *idle) if idle else ()
 
     @property
     def notes(self) -> tuple[str, ...]:

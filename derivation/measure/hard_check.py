@@ -3,27 +3,22 @@
 import importlib
 import json
 import math
-import multiprocessing
 import warnings
 from collections.abc import Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import asdict, dataclass
 from functools import cache
 from typing import Any, Literal
 
 import numpy as np
 
-from derivation.formula.ulp import Format, ulp_error
-from derivation.measure.check import Progress
+from derivation.formula.ulp import Format, spacing_exponent, ulp_error
 from derivation.measure.hard import Case, handed_over, written
 from derivation.measure.hard_families import families
-from derivation.measure.hard_truth import DIGITS, Stored, outputs, references, restored
+from derivation.measure.hard_kernels import Stating, others
+from derivation.measure.hard_truth import DIGITS, Known, Stored, known_of, outputs, restored
 from derivation.measure.judge import allowed_ulp
 from derivation.measure.kernels import Kernel, generated_kernels, printed_kernels
 from derivation.measure.record import provenance
-
-CONTACT_BUDGET = 8.0
-"""ULP allowed before conditioning where the manifest promises a relative error."""
 
 COMMAND = "platecontact check --hard --record"
 COLUMNS = ("group", "kernel", "cause", "#generated", "#printed", "#allowed", "kept")
@@ -40,8 +35,8 @@ class Row:
     ----------
     case
         The case.
-    references
-        Its true values, as text.
+    truth
+        Its true values.
     error, allowed
         Error of the generated form and what is allowed, in ULP, where their ratio is
         largest. Infinite for NaN where the truth is finite, and the other way round.
@@ -52,7 +47,7 @@ class Row:
     """
 
     case: Case
-    references: Sequence[Stored]
+    truth: Known
     error: float
     allowed: float
     printed: float | None
@@ -86,49 +81,15 @@ def kernels() -> dict[str, Kernel]:
     """Everything a hard case can be about, by name."""
     manifest = importlib.import_module("generated.manifest")
     found = {kernel.name: kernel for kernel in generated_kernels()}
-    rows = [(row["name"], row["module"], tuple(row["arguments"])) for row in manifest.CONTACT]
-    series = ("delta", "R", "h", "b", "lam", "mu")
-    for name, place, arguments in (*rows, ("force_by_series", "reversed_series", series)):
-        module = importlib.import_module(f"generated.{place}")
-        found[name] = Kernel(name, place, arguments, getattr(module, name), CONTACT_BUDGET)
-    return found
+    for row in manifest.CONTACT:
+        call = getattr(importlib.import_module(f"generated.{row['module']}"), row["name"])
+        found[row["name"]] = Kernel(
+            row["name"], row["module"], tuple(row["arguments"]), call, float(row["budget"])
+        )
+    return found | {kernel.name: kernel for kernel in others()}
 
 
-def find_references(
-    given: Sequence[Case], processes: int = 1, tell: Progress | None = None
-) -> dict[str, list[Stored]]:
-    """The truth of every case by its key, from the original expressions: minutes.
-
-    Parameters
-    ----------
-    given
-        The cases.
-    processes
-        How many are worked on at a time; 1 starts no process.
-    tell
-        Told about every case that is done.
-    """
-    if processes == 1:
-        return {case.key: find(case) for case in given}
-    # Fresh processes, since a copy of one with threads may hang.
-    pool = ProcessPoolExecutor(processes, multiprocessing.get_context("spawn"))
-    try:
-        futures = {pool.submit(find, case): case for case in given}
-        for number, future in enumerate(as_completed(futures), start=1):
-            future.result()
-            if tell is not None:
-                tell(futures[future].kernel, number, len(given))
-        return {case.key: future.result() for future, case in futures.items()}
-    finally:
-        pool.shutdown(cancel_futures=True)
-
-
-def find(case: Case) -> list[Stored]:
-    """The truth of a case."""
-    return references(case, kernels()[case.kernel])
-
-
-def committed(data: Data, given: Sequence[Case]) -> dict[str, list[Stored]]:
+def committed(data: Data, given: Sequence[Case]) -> dict[str, Known]:
     """The references that were recorded.
 
     Raises
@@ -136,19 +97,18 @@ def committed(data: Data, given: Sequence[Case]) -> dict[str, list[Stored]]:
     ValueError
         Naming a case without one, and the command that finds it.
     """
-    found = {row["key"]: row["references"] for row in data["cases"]}
-    missing = [case.key for case in given if not found.get(case.key)]
-    missing = [case.key for case in given if case.key in missing and 0 not in case.shape]
+    found = known_of(data)
+    missing = [case.key for case in given if case.key not in found]
     if missing:
         raise ValueError(
             f"no reference for {len(missing)} hard cases, the first: {missing[0]}; run `{COMMAND}`"
         )
-    return {case.key: found.get(case.key, []) for case in given}
+    return {case.key: found[case.key] for case in given}
 
 
 def check(
     given: Sequence[Case],
-    truth: Mapping[str, list[Stored]],
+    truth: Mapping[str, Known],
     known: Mapping[str, Kernel],
 ) -> tuple[Row, ...]:
     """Hold generated and printed forms to the references, case by case."""
@@ -158,7 +118,8 @@ def check(
     )
 
 
-def _row(case: Case, stored: Sequence[Stored], kernel: Kernel, printed: Kernel | None) -> Row:
+def _row(case: Case, known: Known, kernel: Kernel, printed: Kernel | None) -> Row:
+    stored = known.references
     results, problem = _results(case, kernel, stored)
     if not problem and results.shape[1:] != case.shape:
         problem = f"shape {results.shape[1:]}, expected {case.shape}"
@@ -168,7 +129,10 @@ def _row(case: Case, stored: Sequence[Stored], kernel: Kernel, printed: Kernel |
     if len(values) != len(stored):
         problem = problem or f"{len(values)} results for {len(stored)} references"
         values = [math.nan] * len(stored)
-    error, allowed = _worst(values, stored, kernel.budget or 0.0, case.format)
+    error, allowed = 0.0, kernel.budget or 0.0
+    if stored:
+        budgets = _budgets(case, kernel, stored)
+        error, allowed = _worst(values, stored, budgets, case.format)
     if problem:
         error = math.inf
     if not problem and not error <= allowed:
@@ -177,7 +141,7 @@ def _row(case: Case, stored: Sequence[Stored], kernel: Kernel, printed: Kernel |
     if printed is not None and case.expect == "value" and stored:
         with np.errstate(all="ignore"):
             shown = _largest(_call(case, printed).ravel().tolist(), stored, case.format)
-    return Row(case, stored, error, allowed, shown, problem)
+    return Row(case, known, error, allowed, shown, problem)
 
 
 def _results(
@@ -203,7 +167,9 @@ def _call(case: Case, kernel: Kernel) -> np.ndarray[Any, Any]:
     """The kernel's results, of shape (outputs, *shape)."""
     if kernel.by_count:
         (count,) = case.numbers["count"]
-        return np.asarray(kernel.call(int(count)))[None, -1]
+        found = kernel.call(int(count))
+        tables = found if outputs(kernel.name) > 1 else (found,)
+        return np.stack([table[-1] for table in tables])
     arguments = handed_over(case, kernel.arguments)
     before = [np.array(x, copy=True) for x in arguments]
     modes = {} if case.modes is None else {"modes": case.modes}
@@ -215,12 +181,21 @@ def _call(case: Case, kernel: Kernel) -> np.ndarray[Any, Any]:
     return np.stack([np.asarray(result) for result in results])
 
 
+def _budgets(case: Case, kernel: Kernel, stored: Sequence[Stored]) -> list[float]:
+    """What is allowed in ULP before conditioning, result by result."""
+    if not isinstance(kernel, Stating):
+        return [kernel.budget or 0.0] * len(stored)
+    stated = np.ravel(kernel.stated(*handed_over(case, kernel.arguments))).tolist()
+    units = (spacing_exponent(restored(row).value, case.format) for row in stored)
+    return [error * 2.0**-unit for error, unit in zip(stated, units, strict=True)]
+
+
 def _worst(
-    values: Sequence[float], stored: Sequence[Stored], budget: float, fmt: Format
+    values: Sequence[float], stored: Sequence[Stored], budgets: Sequence[float], fmt: Format
 ) -> tuple[float, float]:
     """Error and allowance in ULP where their ratio is largest."""
-    pairs = [_judged(v, row, budget, fmt) for v, row in zip(values, stored, strict=True)]
-    return max(pairs, key=lambda pair: pair[0] / pair[1], default=(0.0, budget))
+    pairs = [_judged(*row, fmt) for row in zip(values, stored, budgets, strict=True)]
+    return max(pairs, key=lambda pair: pair[0] / pair[1])
 
 
 def _judged(value: float, row: Stored, budget: float, fmt: Format) -> tuple[float, float]:
@@ -266,7 +241,8 @@ def _plain(row: Row) -> dict[str, Any]:
     return case | {
         "inputs": {name: list(texts) for name, texts in row.case.inputs.items()},
         "key": row.case.key,
-        "references": list(row.references),
+        "origin": row.truth.origin,
+        "references": list(row.truth.references),
         "error": _rounded(row.error),
         "allowed": _rounded(row.allowed),
         "printed": None if row.printed is None else _rounded(row.printed),

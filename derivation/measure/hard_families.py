@@ -5,82 +5,66 @@ its cases along.
 """
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from itertools import chain
 
 from derivation.files import cached
-from derivation.formula.ulp import from_ordinal, neighbours, ordinal
+from derivation.formula.ulp import neighbours
 from derivation.measure.grids import seams
 from derivation.measure.hard import Case, checked
+from derivation.measure.hard_mode_families import mode_families
+from derivation.measure.hard_motion_families import motion_families
+from derivation.measure.hard_places import LAM, MU, OFFSETS, Inputs, around, beside, exactly
+from derivation.measure.hard_scene_families import scene_families
+from derivation.measure.hard_wave_families import wave_families
 from derivation.reference import contact_balls, contact_impact
 from derivation.reference.zeros import j0_zero, j1_zero
 from derivation.rewrite import bessel_tables, contact_tables
 from derivation.rewrite.moment_tables import FIRST_K, finite_part_start, kappa_start
 
-OFFSETS = (-32, -1, 0, 1, 32)
-"""How many doubles from a seam its cases lie."""
-
 INDICES = (1, 2, 10, 100, 1000, 10**4, 10**5, 10**6)
 LAST_KAPPA, LAST_FINITE_PART = 196, 99
 """The last that doubles hold."""
 
-LAM, MU = 1.2e11, 8.1e10
-"""Steel [Pa]."""
-
 
 def families() -> tuple[Case, ...]:
     """Every systematic case; kept until what they follow from changes."""
-    rooms = ("files.py", "formula", "theory", "rewrite", "reference")
-    own = ("measure/hard.py", "measure/grids.py", "measure/hard_families.py")
+    rooms = ("files.py", "formula", "theory", "rewrite", "reference", "emit")
+    parts = ("places", "families", "mode_families", "scene_families", "motion_families",
+             "wave_families", "wave_places")  # fmt: skip
+    own = ("measure/hard.py", "measure/grids.py", *(f"measure/hard_{part}.py" for part in parts))
     return cached("hard_families", (*rooms, *own), _families)
 
 
 def _families() -> tuple[Case, ...]:
     made = chain(
         _block_seams(), _bessel_seams(), _zeros_by_index(), _beside_zeros(), _moments(),
-        _contact_seams(), _thickness_seams(), _thinnest(), _impact_seams(),
+        _contact_seams(), _thickness_seams(), _thinnest(), _impact_seams(), mode_families(),
+        scene_families(), motion_families(), wave_families(),
     )  # fmt: skip
     return tuple(checked(case) for case in made)
 
 
-def beside(place: float, offset: int) -> float:
-    """The double so many places away."""
-    return from_ordinal(ordinal(place) + offset)
-
-
-def around(place: float) -> tuple[float, ...]:
-    """The doubles at all offsets from a place."""
-    return tuple(beside(place, offset) for offset in OFFSETS)
-
-
-def _hex(**values: float | Sequence[float]) -> dict[str, tuple[str, ...]]:
-    return {
-        name: (value.hex(),) if isinstance(value, float) else tuple(x.hex() for x in value)
-        for name, value in values.items()
-    }
-
-
-_Inputs = dict[str, tuple[str, ...]]
 _MODE = {"lam": LAM, "mu": MU, "A_j": -1e6}
 
-_OF_SEAM: dict[str, tuple[tuple[str, Callable[[float], _Inputs]], ...]] = {
+_OF_SEAM: dict[str, tuple[tuple[str, Callable[[float], Inputs]], ...]] = {
     "T": (
-        ("G", lambda T: _hex(T=T)),
-        ("G_minus_1", lambda T: _hex(T=T)),
-        ("Omega_1_scaled", lambda T: _hex(phi=T / 2, h=1.0, lam=LAM, mu=MU)),
-        ("K_j", lambda T: _hex(phi=T / 2, h=1.0, b=10.0, R=3.0, J1=0.25)),
-        ("mode_zz", lambda T: _hex(z=0.25, phi=T / 2, h=1.0, **_MODE)),
-        ("mode_rz", lambda T: _hex(z=-0.5, phi=T / 2, h=1.0, **_MODE)),
-        ("mode_g", lambda T: _hex(z=0.0625, phi=T / 2, h=1.0, **_MODE)),
-        ("mode_rr", lambda T: _hex(z=-0.0625, phi=T / 2, h=1.0, **_MODE)),
-        ("mode_tt", lambda T: _hex(z=0.0625, phi=T / 2, h=1.0, **_MODE)),
-        ("mode_g", lambda T: _hex(z=-0.875, phi=T / 2, h=1.0, **_MODE)),
-        ("mode_rr", lambda T: _hex(z=0.875, phi=T / 2, h=1.0, **_MODE)),
-        ("mode_tt", lambda T: _hex(z=0.25, phi=T / 2, h=1.0, **_MODE)),
+        ("G", lambda T: exactly(T=T)),
+        ("G_minus_1", lambda T: exactly(T=T)),
+        ("Omega_1_scaled", lambda T: exactly(phi=T / 2, h=1.0, lam=LAM, mu=MU)),
+        ("K_j", lambda T: exactly(phi=T / 2, h=1.0, b=10.0, R=3.0, J1=0.25)),
+        ("mode_zz", lambda T: exactly(z=0.25, phi=T / 2, h=1.0, **_MODE)),
+        ("mode_rz", lambda T: exactly(z=-0.5, phi=T / 2, h=1.0, **_MODE)),
+        ("mode_g", lambda T: exactly(z=0.0625, phi=T / 2, h=1.0, **_MODE)),
+        ("mode_rr", lambda T: exactly(z=-0.0625, phi=T / 2, h=1.0, **_MODE)),
+        ("mode_tt", lambda T: exactly(z=0.0625, phi=T / 2, h=1.0, **_MODE)),
+        ("mode_g", lambda T: exactly(z=-0.875, phi=T / 2, h=1.0, **_MODE)),
+        ("mode_rr", lambda T: exactly(z=0.875, phi=T / 2, h=1.0, **_MODE)),
+        ("mode_tt", lambda T: exactly(z=0.25, phi=T / 2, h=1.0, **_MODE)),
     ),
     "y": (
-        ("sonine", lambda y: _hex(phi=y, a=1.0)),
-        ("A_j", lambda y: _hex(phi=y, b=10.0, R=3.0, a=1.0, lam=LAM, mu=MU, J1=0.25)),
+        ("sonine", lambda y: exactly(phi=y, a=1.0)),
+        ("A_j", lambda y: exactly(phi=y, b=10.0, R=3.0, a=1.0, lam=LAM, mu=MU, J1=0.25)),
     ),
 }
 """Kernels that pass through a seam in T = 2 phi h or y = a phi, and arguments
@@ -112,7 +96,7 @@ def _bessel_seams() -> Iterator[Case]:
             what = "multiples of pi/4 cease to be exact doubles"
         cause = f"0, 1 and 32 ULP to either side of x = {place:g}, where {what}."
         for kernel in ("bessel_j0", "bessel_j1"):
-            yield Case("seams of the Bessel functions", kernel, cause, _hex(x=around(place)),
+            yield Case("seams of the Bessel functions", kernel, cause, exactly(x=around(place)),
                        "array")  # fmt: skip
 
 
@@ -124,7 +108,7 @@ def _zeros_by_index() -> Iterator[Case]:
             cause = f"Zero number {count}: all bits of it are asked, and no iteration."
             if count in (start - 1, start):
                 cause = f"Zero number {count}: the expansion begins with number {start}."
-            yield Case("Bessel zeros by index", kernel, cause, _hex(count=float(count)))
+            yield Case("Bessel zeros by index", kernel, cause, exactly(count=float(count)))
 
 
 def _beside_zeros() -> Iterator[Case]:
@@ -132,7 +116,9 @@ def _beside_zeros() -> Iterator[Case]:
         for index in (1, 3, 11, 100, 1000, 10**6):
             near = neighbours(float(zero(index, 80)), 1)
             cause = f"The doubles next to zero number {index}: the leading digits cancel."
-            yield Case("doubles next to zeros of J0 and J1", kernel, cause, _hex(x=near), "array")
+            yield Case(
+                "doubles next to zeros of J0 and J1", kernel, cause, exactly(x=near), "array"
+            )
 
 
 def _moments() -> Iterator[Case]:
@@ -143,12 +129,12 @@ def _moments() -> Iterator[Case]:
     ):  # fmt: skip
         for index in (low, low + 1, low + 2, low + 9, low + 40, high - 1, high):
             cause = "An integral that grows like a factorial, to half a unit in the last place."
-            yield Case(group, kernel, cause, _hex(**{argument: index}))
+            yield Case(group, kernel, cause, exactly(**{argument: index}))
         cause = "The first index whose value no double holds."
-        yield Case(group, kernel, cause, _hex(**{argument: high + 1}), expect="nan")
+        yield Case(group, kernel, cause, exactly(**{argument: high + 1}), expect="nan")
         for index in (low, low + 1, 1e3, 1e6):
             cause = "The value over its leading term, far beyond where the value itself overflows."
-            yield Case(group, f"{kernel}_ratio", cause, _hex(**{argument: index}))
+            yield Case(group, f"{kernel}_ratio", cause, exactly(**{argument: index}))
     for argument, kernel, start in (
         ("n", "kappa_ratio", kappa_start()), ("k", "finite_part_ratio", finite_part_start()),
     ):  # fmt: skip
@@ -156,7 +142,7 @@ def _moments() -> Iterator[Case]:
             cause = (
                 f"{offset:+d} from index {start}, where the expansion takes over from the table."
             )
-            yield Case(group, kernel, cause, _hex(**{argument: float(start + offset)}))
+            yield Case(group, kernel, cause, exactly(**{argument: float(start + offset)}))
 
 
 def _contact_seams() -> Iterator[Case]:
@@ -173,12 +159,17 @@ def _contact_seams() -> Iterator[Case]:
             cause = f"0, 1 and 32 ULP to either side of a = {place:g} h, where {what}."
             same: dict[str, float] = {"R": 50.0, "h": 1.0, "b": b}
             near = around(place)
-            yield Case(group, "indentation", cause, _hex(a=near, **same), "array")
-            yield Case(group, "stiffness", cause, _hex(a=near, **same, lam=LAM, mu=MU), "array")
+            yield Case(group, "indentation", cause, exactly(a=near, **same), "array")
+            yield Case(group, "stiffness", cause, exactly(a=near, **same, lam=LAM, mu=MU), "array")
+            if place in (contact_tables.REACH, contact_tables.FAR_REACH):
+                yield Case(group, "indentation_slope", cause, exactly(a=near, **same), "array")
             if place == contact_tables.FAR_REACH:
                 continue  # the inversion ends here
             depth = float(contact_balls.indentation(place, 50.0, 1.0, b, 30))
-            yield Case(group, "contact_radius", cause, _hex(delta=around(depth), **same), "array")
+            given = exactly(delta=around(depth), **same)
+            yield Case(group, "contact_radius", cause, given, "array")
+            if b == 10.0 and place == reach:
+                yield Case(group, "force", cause, given | exactly(lam=LAM, mu=MU), "array")
 
 
 def _thickness_seams() -> Iterator[Case]:
@@ -194,15 +185,17 @@ def _thickness_seams() -> Iterator[Case]:
             cause += f" takes over; a = {a:g} h."
             same: dict[str, float] = {"a": a, "R": 50.0, "h": 1.0}
             group = "seams of the contact law"
-            yield Case(group, "indentation", cause, _hex(**same, b=around(b)), "array")
-            given = _hex(**same, b=around(b), lam=LAM, mu=MU)
+            given = exactly(**same, b=around(b))
+            yield Case(group, "indentation", cause, given, "array")
+            yield Case(group, "indentation_slope", cause, given, "array")
+            given = exactly(**same, b=around(b), lam=LAM, mu=MU)
             yield Case(group, "stiffness", cause, given, "array")
 
 
 def _thinnest() -> Iterator[Case]:
     """The thinnest plate whose modes are summed directly, 1e-5: b is 1."""
     for offset in OFFSETS:
-        given = _hex(a=6.5e-5, R=1e-2, h=beside(1e-5, offset), b=1.0)
+        given = exactly(a=6.5e-5, R=1e-2, h=beside(1e-5, offset), b=1.0)
         cause = f"{offset:+d} ULP from h/b = 1e-5, below which no sum is taken for a > 6 h."
         expect = "nan" if offset < 0 else "value"
         yield Case("seams of the contact law", "indentation", cause, given, expect=expect)
@@ -215,5 +208,5 @@ def _impact_seams() -> Iterator[Case]:
         energy = float(contact_impact.stored_energy(place, 50.0, 1.0, b, LAM, MU, 30))
         speeds = around(math.sqrt(2.0 * energy / 1e3))
         cause = f"0, 1 and 32 ULP to either side of the speed that reaches a = {place:g} h."
-        given = _hex(R=50.0, m=1e3, v0=speeds, h=1.0, b=b, lam=LAM, mu=MU)
+        given = exactly(R=50.0, m=1e3, v0=speeds, h=1.0, b=b, lam=LAM, mu=MU)
         yield Case("seams of the contact law", "impact", cause, given, "array")

@@ -1,8 +1,8 @@
 """References of the hard cases: balls from the original expressions, as text and back."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from typing import Any
+from typing import Any, NamedTuple
 
 import flint
 from flint import arb
@@ -11,8 +11,10 @@ from derivation.formula.ball import to_ball
 from derivation.formula.ulp import overflows, upper_float
 from derivation.measure.contact_truth import tolerance
 from derivation.measure.hard import Case
+from derivation.measure.hard_law import Law
+from derivation.measure.hard_laws import LAWS, OUTPUTS
 from derivation.measure.kernels import Kernel
-from derivation.reference import contact_balls, contact_impact, contact_quantities
+from derivation.reference import contact_balls, contact_quantities
 from derivation.reference.balls import Reference, reference
 
 DIGITS = 45
@@ -30,6 +32,18 @@ sensitivities |x df/dx|, "magnitude" as of `Reference`, and "scale", by which th
 multiplied. Of a value "nan", "inf" or "-inf" there is nothing else to say."""
 
 
+class Known(NamedTuple):
+    """The references of a case, and the hash of what they follow from, see `hard_origin`."""
+
+    origin: str
+    references: Sequence[Stored]
+
+
+def known_of(data: Mapping[str, Any]) -> dict[str, Known]:
+    """What is recorded, by key."""
+    return {row["key"]: Known(row["origin"], row["references"]) for row in data["cases"]}
+
+
 def references(case: Case, kernel: Kernel) -> list[Stored]:
     """The truth of a case: for every result, and of each for every point."""
     if case.expect != "value":
@@ -45,7 +59,7 @@ def references(case: Case, kernel: Kernel) -> list[Stored]:
 
 def outputs(name: str) -> int:
     """How many results a kernel has."""
-    return 4 if name in ("impact", "history") else 1
+    return OUTPUTS.get(name, 1)
 
 
 def _closed(case: Case, kernel: Kernel, point: Mapping[str, float]) -> Stored:
@@ -56,27 +70,30 @@ def _closed(case: Case, kernel: Kernel, point: Mapping[str, float]) -> Stored:
     return _stored(case, found.value, found.total, found.magnitude, 1.0)
 
 
-def _of_law(case: Case, kernel: Kernel, law: "Law", point: Mapping[str, float]) -> list[Stored]:
+def _of_law(case: Case, kernel: Kernel, law: Law, point: Mapping[str, float]) -> list[Stored]:
     given = [point[name] for name in kernel.arguments]
-    values = law(given, DIGITS + 2)
-    slopes = _sensitivities(kernel, law, given)
+    values = law.values(given, DIGITS + 2)
+    slopes: Sequence[arb] = [arb(0)] * len(values)
+    if law.conditioned:
+        slopes = law.slopes(given, values) if law.slopes else _sensitivities(kernel, law, given)
+    sizes = law.sizes(given, values) if law.sizes else [abs(value) for value in values]
     scale = _scale(kernel.name, given, values[0])
     return [
-        _stored(case, value, slope, abs(value), scale)
-        for value, slope in zip(values, slopes, strict=True)
+        _stored(case, value, slope, size, scale)
+        for value, slope, size in zip(values, slopes, sizes, strict=True)
     ]
 
 
-def _sensitivities(kernel: Kernel, law: "Law", given: Sequence[float]) -> list[arb]:
+def _sensitivities(kernel: Kernel, law: Law, given: Sequence[float]) -> list[arb]:
     """Of every result, the sum of |x df/dx| over the arguments."""
-    here = law(given, _SLOPE_DIGITS)
+    here = law.values(given, _SLOPE_DIGITS)
     totals = [arb(0)] * len(here)
     for place, name in enumerate(kernel.arguments):
         # Plates grow and contacts shrink, so that none comes to lie beyond the edge.
         step = _SLOPE_STEP if name in ("b", "h", "R", "lam", "mu") else -_SLOPE_STEP
         moved: list[Any] = list(given)
         moved[place] = Fraction(given[place]) * (1 + step)
-        there = law(moved, _SLOPE_DIGITS)
+        there = law.values(moved, _SLOPE_DIGITS)
         with flint.ctx.workprec(_BITS):
             totals = [
                 total + abs(new - old) / to_ball(_SLOPE_STEP)
@@ -96,33 +113,6 @@ def _scale(name: str, given: Sequence[Any], value: arb) -> float:
     if name == "force_by_series":
         return upper_float(contact_quantities.truncated_series(*given)[1])
     return 1.0
-
-
-Law = Callable[[Sequence[Any], int], tuple[arb, ...]]
-"""A contact law's quantity: arguments and digits -> balls."""
-
-
-def _one(function: Callable[..., arb]) -> Law:
-    return lambda given, digits: (function(*given, digits=digits),)
-
-
-def _several(function: Callable[..., tuple[arb, ...]], count: int = 4) -> Law:
-    return lambda given, digits: tuple(function(*given, digits=digits))[:count]
-
-
-LAWS: Mapping[str, Law] = {
-    "indentation": _one(contact_balls.indentation),
-    "contact_radius": _one(contact_balls.contact_radius),
-    "stiffness": _one(contact_balls.stiffness),
-    "force": _one(contact_quantities.force),
-    "force_of_radius": _one(contact_quantities.force_of_radius),
-    "radius_of_force": _one(contact_quantities.radius_of_force),
-    "max_pressure": _one(contact_quantities.max_pressure),
-    "force_by_series": _several(contact_quantities.truncated_series, 1),
-    "impact": _several(contact_impact.impact),
-    "history": _several(contact_quantities.state),
-}
-"""What the contact law's kernels are held to."""
 
 
 def _bare(value: str) -> Stored:

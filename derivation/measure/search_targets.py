@@ -149,7 +149,8 @@ def _law_target(name: str) -> Target:
     """A kernel of the contact law, held to so many ULP of its largest part."""
     module = importlib.import_module(f"generated.{'impact' if name == 'impact' else 'contact_law'}")
     function = getattr(module, name)
-    domain = domain_of_law(name, tuple(inspect.signature(function).parameters))
+    parameters = inspect.signature(function).parameters.values()
+    domain = domain_of_law(name, tuple(p.name for p in parameters if p.default is p.empty))
 
     def call(points: Sequence[Point]) -> list[Numbers]:
         columns = [np.array([p.values[key] for p in points]) for key in domain.arguments]

@@ -22,6 +22,9 @@ from derivation.formula.ball import Exact, PrecisionError, to_ball
 from derivation.reference.contact_balls import modulus, ratio_of, ratio_where, settle
 from derivation.reference.contact_sums import excess, excess_bound, hankel_bound
 
+_PIECES = (16, 256)
+"""Of [0, 1], to show that the slope is positive: few, and more if they do not suffice."""
+
 
 class Impact(NamedTuple):
     """What an impact comes to: balls."""
@@ -161,11 +164,13 @@ def _doubt(polynomial: flint.arb_poly, error: arb) -> arb:
     nothing is lost against S(0) = 1.
     """
     p = flint.acb_poly(polynomial)
-    cover = (_at(p, acb(arb(arb(2 * k + 1) / 512, arb(1) / 512))) for k in range(256))
-    least = min((1 + value.real.lower() for value in cover), key=float) - error
-    if not least > 0:
-        raise PrecisionError("the slope could not be shown to be positive")
-    return (error / least).abs_upper()
+    for count in _PIECES:
+        half = arb(1) / (2 * count)
+        cover = (_at(p, acb(arb((2 * k + 1) * half, half))) for k in range(count))
+        least = min((1 + value.real.lower() for value in cover), key=float) - error
+        if least > 0:
+            return (error / least).abs_upper()
+    raise PrecisionError("the slope could not be shown to be positive")
 
 
 def _at(polynomial: flint.acb_poly, q: acb) -> acb:
@@ -245,11 +250,18 @@ def stored_energy(
 def history(
     radii: Sequence[Exact],
     R: Exact, m: Exact, v0: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact,
-    digits: int = 40,
+    digits: int = 40, law: Callable[[int], Law] | None = None,
 ) -> tuple[arb, ...]:  # fmt: skip
-    """Times since first touch at which the growing contact reaches the given radii."""
-    law = Integrals(ratio_of(h, b))
-    return settle(lambda _: _impact(R, m, v0, h, b, lam, mu, radii, law)[1], digits, "history")
+    """Times since first touch at which the growing contact reaches the given radii.
+
+    `law` is as for `impact`.
+    """
+    chosen = law or (lambda _: Integrals(ratio_of(h, b)))
+
+    def compute(bits: int) -> tuple[arb, ...]:
+        return _impact(R, m, v0, h, b, lam, mu, radii, chosen(bits))[1]
+
+    return settle(compute, digits, "history")
 
 
 def largest_ratio(

@@ -1,8 +1,7 @@
 """Oracle 1 of what follows from the contact law: forces, the reversed series, the motion."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
-from itertools import pairwise
 
 import flint
 from flint import arb
@@ -11,8 +10,10 @@ from derivation.formula.ball import Exact, PrecisionError, to_ball
 from derivation.reference import contact_balls, contact_impact
 from derivation.reference.contact_balls import modulus, settle
 
-_GRID, _STEPS = 32, 12
+_GRID, _STEPS = 8, 12
 _LEAST = 14
+_NEXT = 13
+"""Next to the turning point: 10^-_NEXT of the contact time and less."""
 
 Motion = tuple[Exact, Exact, Exact, Exact, Exact, Exact, Exact]
 """R, m, v0, h, b, lam, mu of an impact."""
@@ -81,30 +82,33 @@ def power(series: Sequence[arb], exponent: arb) -> list[arb]:
 
 def state(
     t: Exact, R: Exact, m: Exact, v0: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact,
-    digits: int = 40,
+    digits: int = 40, law: Callable[[int], contact_impact.Law] | None = None,
 ) -> tuple[arb, arb, arb, arb]:  # fmt: skip
     """Indentation, its rate, contact radius and force at a time since the first touch.
 
-    The contact radius is found by Newton's iteration on the times that it is reached
-    at, certified by a time on either side; the rate follows from the energy.
+    `law` is as for `contact_impact.impact`. The contact radius is found by Newton's iteration on
+    the times that it is reached at, certified by a time on either side; the rate follows from
+    the energy. Next to the turning point a power series serves, see `_turned`.
 
     Raises
     ------
     PrecisionError
-        If the ends do not enclose the time, for instance too close to the turning point.
+        If the ends do not enclose the time.
     """
-    course = contact_impact.impact(R, m, v0, h, b, lam, mu, digits + 8)
+    motion: Motion = (R, m, v0, h, b, lam, mu)
+    course = contact_impact.impact(*motion, digits + 8, law)
     with flint.ctx.workprec(8 * digits + 64):
+        if abs(to_ball(t) / course.contact_time - 0.5) < arb(10) ** -_NEXT:
+            return _turned(t, contact_impact.impact(*motion, digits + 2 * _NEXT, law), motion)
         left = course.contact_time - to_ball(t)
         if t <= 0 or left <= 0:
             return arb(0), to_ball(v0) * (1 if t <= 0 else -1), arb(0), arb(0)
         falling = bool(left < to_ball(t))
         goal = left if falling else to_ball(t)
-    motion: Motion = (R, m, v0, h, b, lam, mu)
-    a = _start(goal, course.max_contact_radius, motion)
+    a = _start(goal, course, motion, law)
     for step in range(_STEPS):
         shown = min(digits + 8, _LEAST * 2**step)
-        (reached,) = contact_impact.history([a], *motion, shown)
+        (reached,) = contact_impact.history([a], *motion, shown, law)
         with flint.ctx.workprec(8 * digits + 64):
             rate = _speed(a, motion, shown) / contact_balls.slope(a, R, h, b, shown)
             change = (goal - reached) * rate
@@ -114,7 +118,7 @@ def state(
     with flint.ctx.workprec(8 * digits + 64):
         width = to_ball(a) * arb(10) ** -(digits + 1)
         low, high = fraction(to_ball(a) - width), fraction(to_ball(a) + width)
-        before, after = contact_impact.history([low, high], *motion, digits + 6)
+        before, after = contact_impact.history([low, high], *motion, digits + 6, law)
         if not (before < goal < after):
             raise PrecisionError(f"the state at {t} is not enclosed by {low} and {high}")
         speeds = (_speed(end, motion, digits + 6) for end in (low, high))
@@ -126,16 +130,48 @@ def state(
         return depth, -speed if falling else speed, radius, load
 
 
-def _start(goal: arb, largest: arb, motion: Motion) -> Fraction:
-    """Contact radius near a time, interpolated between times of a grid dense at the largest."""
-    shares = [1 - (1 - Fraction(k, _GRID)) ** 2 for k in range(1, _GRID)]
-    radii = [fraction(largest) * share for share in shares]
-    times = [float(time) for time in contact_impact.history(radii, *motion, _LEAST)]
-    known = [(0.0, Fraction(0)), *zip(times, radii, strict=True)]
-    for (early, inner), (late, outer) in pairwise(known):
-        if float(goal) <= late:
-            return inner + (outer - inner) * Fraction((float(goal) - early) / (late - early))
-    raise PrecisionError("the time asked for is too close to the turning point")
+def _turned(t: Exact, course: contact_impact.Impact, motion: Motion) -> tuple[arb, arb, arb, arb]:
+    """The state next to the turning point, at the precision now set.
+
+    m z'' = -P(z) from rest at z_m, with K = dP/dz there: in powers of x = (K/m) tau^2,
+
+        z = z_m - (P_m/K) (x/2 - x^2/24 ...),  z' = -(P_m/m) tau (1 - x/6 ...)
+
+    What is left out is of the order of x^2 beside what is kept, below 10^-50; ten times as much
+    is put on as the radius, which is an estimate and no proof.
+    """
+    R, m, _, h, b, lam, mu = motion
+    tau = to_ball(t) - course.contact_time / 2
+    a = fraction(course.max_contact_radius)
+    force = course.max_force
+    stiff = contact_balls.stiffness(a, R, h, b, lam, mu, 4 * _NEXT)
+    x = stiff / to_ball(m) * tau**2
+    doubt = arb(1, (10 * x).abs_upper())
+    sunk = force / stiff * x / 2 * (1 - x / 12 * doubt)
+    speed = -force / to_ball(m) * tau * (1 - x / 6 * doubt)
+    load = force * (1 - x / 2 * doubt)
+    radius = (3 * load * to_ball(R) / (4 * modulus(lam, mu))).root(3)
+    return course.max_indentation - sunk, speed, radius, load
+
+
+def _start(
+    goal: arb, course: contact_impact.Impact, motion: Motion,
+    law: Callable[[int], contact_impact.Law] | None,
+) -> Fraction:  # fmt: skip
+    """Contact radius a_m (1 - u^2) near a time, u interpolated between times of a grid.
+
+    In the first panel it is a root of the time, as in free flight.
+    """
+    largest, grid = fraction(course.max_contact_radius), range(1, _GRID)
+    radii = [largest * (1 - (1 - Fraction(k, _GRID)) ** 2) for k in grid]
+    times = [float(time) for time in contact_impact.history(radii, *motion, _LEAST, law)]
+    if float(goal) <= times[0]:
+        return radii[0] * fraction((goal / times[0]).sqrt())
+    ends = [*times, float(course.contact_time) / 2]
+    panel = next((k for k, late in enumerate(ends) if float(goal) <= late), len(times))
+    early, late = ends[panel - 1 : panel + 1]
+    u = 1 - (panel + Fraction((float(goal) - early) / (late - early))) / _GRID
+    return largest * (1 - u**2)
 
 
 def _speed(a: Exact, motion: Motion, digits: int) -> arb:

@@ -25,19 +25,34 @@ PARAMETERS = ("R", "m", "v0", "h", "b", "lam", "mu")
 
 
 def logarithmic(
-    results: Callable[[Fraction], Sequence[arb]], step: Fraction = STEP
+    results: Callable[[Fraction], Sequence[arb]],
+    step: Fraction = STEP,
+    bits: int = _BITS,
+    floor: float = _FLOOR,
 ) -> tuple[arb, ...]:
-    """d log(result)/d log(parameter) of results as functions of the parameter's factor, near 1."""
+    """d log(result)/d log(parameter) of results as functions of the parameter's factor, near 1.
+
+    Parameters
+    ----------
+    results
+        Factor -> balls, of so many digits that differences of the step's size keep enough.
+    step
+        Of the differences.
+    bits
+        Precision they are taken at.
+    floor
+        Least radius put on.
+    """
     found = []
     for size in (step, 2 * step):
         upper, lower = results(1 + size), results(1 - size)
-        with flint.ctx.workprec(_BITS):
+        with flint.ctx.workprec(bits):
             found.append(
                 [(u / v).log() / (2 * to_ball(size)) for u, v in zip(upper, lower, strict=True)]
             )
-    with flint.ctx.workprec(_BITS):
+    with flint.ctx.workprec(bits):
         return tuple(
-            near + (near - far) / 3 + arb(0, _FLOOR + 1e-8 * float(abs(near - far)))
+            near + (near - far) / 3 + arb(0, floor + 1e-8 * float(abs(near - far)))
             for near, far in zip(*found, strict=True)
         )
 

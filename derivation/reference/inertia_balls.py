@@ -31,15 +31,31 @@ def influence(x: Exact, kap: Exact, nu: Exact, digits: int = 30) -> tuple[arb, a
     Parameters
     ----------
     x, kap, nu
-        phi h, (omega h/c_T)^2 > 0 and Poisson's ratio, exact numbers.
+        phi h, (omega h/c_T)^2 >= 0 and Poisson's ratio, exact numbers.
     digits
         Decimal digits the balls' radii warrant.
     """
+    places = _beside(Fraction(x), Fraction(kap), digits)
+
+    def between(kind: str) -> arb:
+        values = [1 / _value(kind, x, to_ball(place), nu) for place in places]
+        return values[0].union(values[-1])
 
     def compliance(kind: str) -> arb:
-        return _settled(x, digits, lambda: 1 / _value(kind, x, to_ball(kap), nu))
+        return _settled(x, digits, lambda: between(kind))
 
     return compliance(KINDS[0]), compliance(KINDS[1])
+
+
+def _beside(x: Fraction, kap: Fraction, digits: int) -> list[Fraction]:
+    """kap, or where the expression has no value but a limit, at 0 and x^2, two that enclose it.
+
+    For 1/B grows with kap wherever it is finite (link 26), and changes with the waves' own kap.
+    """
+    if kap not in (0, x * x):
+        return [kap]
+    step = min(x**2, x**4) / 10 ** (2 * digits)
+    return [kap - step, kap + step]
 
 
 def condition(x: Exact, kap: Exact, nu: Exact, kind: str) -> tuple[float, float]:
@@ -47,7 +63,8 @@ def condition(x: Exact, kap: Exact, nu: Exact, kind: str) -> tuple[float, float]
 
     By steps so small that double precision sees no difference.
     """
-    with flint.ctx.workprec(400 + 8 * max(0, -math.frexp(float(x))[1])):
+    small = -math.frexp(float(x))[1], -math.frexp(float(kap))[1]
+    with flint.ctx.workprec(400 + 8 * max(0, *small)):
         shift = arb(2) ** -100
         wave, load, ratio = to_ball(x), to_ball(kap), to_ball(nu)
         p, q = _roots(wave, acb(load), _gam_of(ratio))
@@ -111,9 +128,12 @@ def share(x: Exact, nu: Exact, digits: int = 30) -> arb:
 
 
 def _settled(x: Exact, digits: int, compute: Callable[[], arb]) -> arb:
-    """Repeat with more bits until the ball is narrow; thin plates cancel by up to eight powers."""
+    """Repeat with more bits until the ball is narrow.
+
+    Thin plates cancel by up to eight powers; of large x all branches are near x^2.
+    """
     target = math.ceil(digits * LOG2_10) + 1
-    bits = target + 64 + 8 * max(0, -math.frexp(float(x))[1])
+    bits = target + 64 + 8 * abs(math.frexp(float(x))[1])
     while bits < _MOST_BITS:
         with flint.ctx.workprec(bits):
             ball = compute()
@@ -124,8 +144,11 @@ def _settled(x: Exact, digits: int, compute: Callable[[], arb]) -> arb:
 
 
 def _finer(x: Exact, digits: int) -> int:
-    """Digits of kap for that many of the slope, which kap's width enters divided by x^2."""
-    return 2 * digits + 2 * max(0, math.ceil(-math.log10(x)))
+    """Digits of kap for that many of the slope.
+
+    kap's width enters it divided by x^2, and for large x by a pole's distance.
+    """
+    return 2 * digits + 4 * math.ceil(abs(math.log10(x)))
 
 
 def _gam(nu: Exact) -> arb:
@@ -146,9 +169,15 @@ def _printed(kind: str, x: arb, kap: Complex, p: Complex, q: Complex) -> Complex
     """B_a or B_s."""
     square = acb(x**2)
     sign = 1 if kind == KINDS[0] else -1
-    t_p, t_q = (1 - sign * 2 / ((2 * y).exp() + sign) for y in (p, q))
+    t_p, t_q = (_tanh(y, sign) for y in (p, q))
     bracket = (2 * square - kap) ** 2 * t_p / p - 4 * square * q * t_q
     return -2 * bracket / kap
+
+
+def _tanh(y: Complex, sign: int) -> Complex:
+    """tanh y of sign 1, coth y of -1, however large y is."""
+    fading = sign * (-2 * y).exp()
+    return (1 - fading) / (1 + fading)
 
 
 def _stiffness(kind: str, x: Exact, kap: Complex, nu: Exact) -> Complex:
@@ -168,8 +197,11 @@ def _slope(kind: str, x: Exact, kap: arb, nu: Exact) -> arb:
 
 def _zero(kind: str, x: Exact, nu: Exact, index: int, digits: int) -> arb:
     """The enclosure at the precision now set; not finite if that does not suffice."""
-    (low, high), fall = _poles(kind, x, nu, index), 4
-    for _ in range(_HALVINGS):
+    poles, fall = _poles(kind, x, nu, index), 4
+    low, high = poles
+    # Branches are as close to a pole as powers of x or 1/x are to 0, and in soft plates as gam is.
+    close = abs(math.frexp(float(x))[1]) + abs(math.frexp(float(_gam(nu)))[1])
+    for _ in range(_HALVINGS + 4 * close):
         # Of A0, whose kap may be x^2 times a small number, the logarithm is halved.
         geometric = low > 0 and bool(high > 2 * low)
         middle = ((low * high).sqrt() if geometric else (low + high) / 2).mid()
@@ -192,6 +224,7 @@ def _zero(kind: str, x: Exact, nu: Exact, index: int, digits: int) -> arb:
         if moved < abs(place) * arb(10) ** -(digits + 4):
             break
     width = abs(place) * arb(10) ** -(digits + 3)
+    width = width.min((place - poles[0]) / 4).min((poles[1] - place) / 4)
     before, after = place - width, place + width
     certain = _value(kind, x, before.mid(), nu) > 0 and _value(kind, x, after.mid(), nu) < 0
     return before.union(after) if certain else arb("nan")

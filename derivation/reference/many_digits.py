@@ -186,11 +186,8 @@ def reference(motion: Motion, digits: int, tell: Tell) -> Reference:
         raise ValueError(f"expected 1 to {MOST} digits, got {digits}")
     R, _, _, h, b, lam, mu = motion
     tell("largest contact radius", 1, 1)
-    eta = ratio_of(h, b)
-    with flint.ctx.workprec(64):
-        largest = contact_impact.largest_ratio(*motion, Integrals(eta))
-    reach = min(float(largest.upper()) * _MARGIN, math.nextafter(1.0, 0.0))
-    law, wanted = law_of(eta, reach, digits, tell), digits + _SPARE
+    reach = _reach(motion)
+    law, wanted = law_of(ratio_of(h, b), reach, digits, tell), digits + _SPARE
     found = contact_impact.impact(*motion, wanted, law)
     radii = [float(found.max_contact_radius) * share for share in SHARES]
     balls = [pressed(a, R, b, lam, mu, law, wanted) for a in radii]
@@ -235,6 +232,20 @@ def _second(motion: Motion, reach: float, digits: int) -> _Second:
         ),
         lambda: contact_routes.impact(*motion, asked, how),
     )
+
+
+def law_for(motion: Sequence[Any], digits: int) -> Callable[[int], Law]:
+    """Oracle 1's law at so many bits, up to the largest contact of an impact of exact numbers."""
+    return law_of(ratio_of(motion[3], motion[4]), _reach(motion), digits, lambda *_: None)
+
+
+def _reach(motion: Sequence[Any]) -> float:
+    """Somewhat above the largest a/b of an impact, and below 1."""
+    R, m, v0, h, b, lam, mu = motion
+    with flint.ctx.workprec(64):
+        law = Integrals(ratio_of(h, b))
+        largest = contact_impact.largest_ratio(R, m, v0, h, b, lam, mu, law)
+    return min(float(largest.upper()) * _MARGIN, math.nextafter(1.0, 0.0))
 
 
 def law_of(eta: Fraction, reach: float, digits: int, tell: Tell) -> Callable[[int], Law]:

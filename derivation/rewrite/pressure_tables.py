@@ -65,6 +65,12 @@ def _waves() -> list[tuple[Ball, Ball]]:
     return [(T / 2, w * plate_excess(T) / Ball.pi()) for T, w in places]
 
 
+def wall_places() -> list[float]:
+    """Places y of the side wall's integral, rising."""
+    with flint.ctx.workprec(3 * BITS):
+        return [nearest_double(y) for y, _ in _wall()]
+
+
 def _wall() -> list[tuple[Ball, Ball]]:
     """Places y and weights of the side wall's integral, times e^(2y): (4/pi^2) K0/I0 in them."""
     found = []

@@ -1,0 +1,34 @@
+"""The doubles beside a place, and how families of hard cases write their arguments."""
+
+from collections.abc import Sequence
+
+from derivation.formula.ulp import from_ordinal, ordinal
+
+OFFSETS = (-32, -1, 0, 1, 32)
+"""How many doubles from a seam its cases lie."""
+
+LAM, MU = 1.2e11, 8.1e10
+"""Steel [Pa]."""
+
+SIDES = "0, 1 and 32 ULP to either side of"
+"""How the cause of such a case begins."""
+
+Inputs = dict[str, tuple[str, ...]]
+
+
+def beside(place: float, offset: int) -> float:
+    """The double so many places away."""
+    return from_ordinal(ordinal(place) + offset)
+
+
+def around(place: float) -> tuple[float, ...]:
+    """The doubles at all offsets from a place."""
+    return tuple(beside(place, offset) for offset in OFFSETS)
+
+
+def exactly(**values: float | Sequence[float]) -> Inputs:
+    """Arguments as hexadecimal doubles."""
+    return {
+        name: (value.hex(),) if isinstance(value, float) else tuple(x.hex() for x in value)
+        for name, value in values.items()
+    }

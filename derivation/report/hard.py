@@ -4,7 +4,6 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from derivation.measure.hard_check import CONTACT_BUDGET
 from derivation.report.latex import escape, prose
 
 SHOWN = 7
@@ -21,7 +20,6 @@ def hard_context(data: Mapping[str, Any]) -> dict[str, Any]:
     return {
         "count": len(data["cases"]),
         "digits": data["provenance"]["digits"],
-        "contact_budget": f"{CONTACT_BUDGET:g}",
         "failed": sum(not case["kept"] for case in data["cases"]),
         "summary": [summary_row(name, cases) for name, cases in groups.items()],
         "nearest": [case_row(max(cases, key=used)) for cases in groups.values()],

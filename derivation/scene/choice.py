@@ -192,7 +192,8 @@ def _basis(gate: Gate) -> str:
     Proofs speak of contacts that do not lag, and of the pressure under a paraboloid; what goes
     beyond them is held to random scenes.
     """
-    out = {row.name for row in gate.rows if not row.included and row.bound}
+    open_ = (row for row in gate.rows if not row.included and row.name not in gate.forced_out)
+    out = {row.name for row in open_ if row.bound}
     steeper = "pressure" in out and "curvature" in gate.law.effects
     moving = "inertia" in out | gate.law.effects
     return MEASURED if gate.law.model.viscous_time or steeper or moving else PROVED

@@ -42,7 +42,7 @@ def test_a_scene_that_calls_for_inertia_gets_it(result: Any) -> None:
     assert not any("inertia" in text for text in result.warnings)
     assert result.restitution < 0.9 < still.restitution == 1.0
     row = next(row for row in still.gate.rows if row.name == "inertia")
-    assert "at rest unless effects.inertia" in row.why
+    assert row.why.startswith("false in the scene")
 
 
 def test_the_density_is_asked_for_where_inertia_is() -> None:

@@ -42,6 +42,10 @@ def check(
         int | None,
         typer.Option("--effects", metavar="N", min=1, help="Hold the gate to N random scenes."),
     ] = None,
+    inertia: Annotated[
+        int | None,
+        typer.Option("--inertia", metavar="N", min=1, help="Hold plates that move to N scenes."),
+    ] = None,
     propose: Annotated[
         bool, typer.Option("--propose", help="Print tighter error budgets; write nothing.")
     ] = False,
@@ -49,7 +53,9 @@ def check(
         str | None,
         typer.Option("--search", metavar="60s|5m|1h", help="Look for worse, for so long."),
     ] = None,
-    seed: Annotated[int, typer.Option(help="Of the search, which repeats by it.")] = 1,
+    seed: Annotated[
+        int, typer.Option(help="Of the search or of --inertia, which repeat by it.")
+    ] = 1,
     kernel: Annotated[
         list[str] | None, typer.Option("--kernel", metavar="NAME", help="Search this one only.")
     ] = None,
@@ -66,12 +72,12 @@ def check(
     from derivation.measure.record import COLUMNS, as_data, cells, passed, worst
 
     if search is not None:
-        if contact or speed or hard or bounds or effects or record or propose:
+        if contact or speed or hard or bounds or effects or inertia or record or propose:
             raise ValueError("--search stands alone: expected no other of check's options")
         raise typer.Exit(_check_search(search, seed, kernel or [], out, json))
-    if contact + speed + hard + bool(bounds) + bool(effects) > 1:
+    if contact + speed + hard + bool(bounds) + bool(effects) + bool(inertia) > 1:
         raise ValueError(
-            "expected one of --contact, --speed, --hard, --bounds and --effects: "
+            "expected one of --contact, --speed, --hard, --bounds, --effects and --inertia: "
             "run them one after the other"
         )
     if kernel or out:
@@ -86,6 +92,8 @@ def check(
         raise typer.Exit(_check_bounds(bounds, record, json))
     if effects:
         raise typer.Exit(_check_effects(effects, record, json))
+    if inertia:
+        raise typer.Exit(_check_inertia(inertia, seed, record, json))
     with counted("check") as tell:
         rows = pipeline.check(digits, record, tell)
     if json != "-":
@@ -178,6 +186,23 @@ def _check_effects(count: int, record: bool, json: str | None) -> int:
     if json:
         put_json([asdict(row) for row in rows], json)
     return 0 if all(row.kept for row in rows) else 1
+
+
+def _check_inertia(count: int, seed: int, record: bool, json: str | None) -> int:
+    """Hold plates that move to random scenes; returns the exit status."""
+    from derivation.inertia_check import check_inertia
+    from derivation.measure.inertia import COLUMNS, as_data, cells, sides
+
+    with counted("check") as tell:
+        found = check_inertia(count, seed, record, tell)
+    if json != "-":
+        table(f"Inertia in {count} of {found.drawn} scenes drawn", COLUMNS, cells(found))
+        reasons = {"refused": found.refused, "passed over": found.passed_over}
+        lines = [f"{n} {what}: {why}" for what, by in reasons.items() for why, n in by.items()]
+        listing("The others", lines)
+    if json:
+        put_json(as_data(found, seed), json)
+    return 0 if all(side.kept for side in sides(found.rows)) else 1
 
 
 def _check_speed(record: bool, json: str | None) -> int:

@@ -162,6 +162,9 @@ def _lost(problem: Problem, state: State, radius: float, time: float) -> SceneEr
     """Why a contact cannot be followed any further."""
     why = "that cannot; give less extreme numbers"
     beyond = np.nextafter(problem.contact.top, 0.0) / problem.a
+    if radius > 0.99 * beyond:
+        why = f"that grows wider than {problem.a * beyond:.4g} m, which is more than a blow on a "
+        why += "stiff plate does; give a lower speed, a lighter sphere or less weight"
     for a in (radius, 1.2 * radius):  # where it is, and where it would go
         at = problem.contact.at(problem.a * np.array([min(a, beyond)]))
         if not at.depth_a[0] / problem.depth + at.less_a[0] @ state.q > 0.0:

@@ -21,6 +21,7 @@ import numpy as np
 from derivation.scene import kernels
 from derivation.scene.effects import BY_NAME, EFFECTS
 from derivation.scene.effects.effect import Along, Array, Bound, Effect, Place, PlateEffect, Results
+from derivation.scene.effects.inertia import WIDER
 from derivation.scene.law import WHOLE_PLATE, Law, Shape
 from derivation.scene.model import Model
 from derivation.scene.motion import largest_radius
@@ -231,19 +232,19 @@ def check_movable(model: Model, asked: Collection[str], lagging: bool) -> None:
     )
 
 
-def _state(law: Law) -> _State:
+def _state(law: Law, top: float = TOP) -> _State:
     """The law at its largest radius, or at its limit if that is beyond.
 
-    Of a plate that moves that of a plate that does not yield: no contact grows wider.
+    Of a plate that moves that of a plate that does not yield, and so much wider as a contact may
+    become there at most.
     """
     if "inertia" in law.effects:
-        return replace(
-            _state(replace(law, effects=law.effects - MOVED_WITH - {"inertia"})), law=law
-        )
+        stiff = replace(law, effects=law.effects - MOVED_WITH - {"inertia"})
+        return replace(_state(stiff, WIDER), law=law)
     nodes = rule(NODES[0])
     with np.errstate(all="ignore"):
         a = largest_radius(law, close=NEAR)
-        top = min(TOP * a, law.limit) if a < law.limit else law.limit
+        top = min(top * a, law.limit) if a < law.limit else law.limit
         radii = np.append(nodes.x, 1.0) * top
         shape = law.at(radii)
         # Once more without the end, where a sphere's slope may be steep: of the polynomial.

@@ -62,7 +62,7 @@ class Inertia:
     doubt
         Relative change of each result with the number of modes [1].
     branches
-        What branches beyond the first may change each result besides [1].
+        What the branches left out may change each result besides [1].
     """
 
     contacts: tuple[Touch, ...]

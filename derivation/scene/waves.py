@@ -25,11 +25,10 @@ from derivation.scene.dynamics import (
     Z,
 )
 from derivation.scene.effects.effect import Results
-from derivation.scene.effects.inertia import further_branches
+from derivation.scene.effects.inertia import WIDER, further_branches, weight_share
 from derivation.scene.law import Law
 from derivation.scene.limits import zener_number
 from derivation.scene.modal import Modes, contact_of, far_plate, modes_of
-from derivation.scene.model import Model
 from derivation.scene.motion import Ledger, Motion
 from derivation.scene.quadrature import NODES, gauss
 from derivation.scene.scene import OUTPUTS
@@ -41,8 +40,6 @@ PHASE = 12.5
 """omega_M That/max(1, lambda^(2/3)) of the fastest oscillator, of the run that checks."""
 FEWEST, MOST = 2, 750
 """Oscillators of the run that checks; the one that counts has twice as many."""
-WIDER = 1.05
-"""Radius up to which the contact is tabled, over that on a plate that does not yield."""
 LOOSE, SHARE = 3e-4, 1.0 / 3.0
 """Change with the number of modes that is small enough: where no tolerance is given [1], and of
 one that is given."""
@@ -131,14 +128,22 @@ def count_of(law: Law) -> int:
     model = law.model
     if model.inertia.modes:
         return model.inertia.modes // 2
-    stiffness = 4.0 / 3.0 * law.modulus * math.sqrt(model.R)
-    duration = (model.m / stiffness) ** 0.4 / model.v0**0.2
-    highest = PHASE * max(1.0, zener_number(model) ** (2.0 / 3.0)) / duration
+    highest = _highest(law)
+    # Modes are counted by their bending: of all branches there are far more oscillators.
+    model = replace(model, inertia=replace(model.inertia, branches="A0"))
     count = FEWEST
     while count < MOST and modes_of(model, count).omega[-1] < highest:
         count = min(2 * count, MOST)
     slower = int(np.searchsorted(modes_of(model, count).omega, highest))
     return max(FEWEST, min(count, slower + 1))
+
+
+def _highest(law: Law) -> float:
+    """Angular frequency [1/s] of the fastest oscillator of the run that checks."""
+    model = law.model
+    stiffness = 4.0 / 3.0 * law.modulus * math.sqrt(model.R)
+    duration = math.pow(model.m / stiffness, 0.4) / math.pow(model.v0, 0.2)
+    return PHASE * max(1.0, math.pow(zener_number(model), 2.0 / 3.0)) / duration
 
 
 def _problem(law: Law, rest: Law, modes: Modes, quick: Motion) -> Problem:
@@ -176,7 +181,7 @@ def _motion(law: Law, course: Course) -> WaveMotion:
         problem.omega.size,
         tuple((energy * energies).tolist()),
         NONE,
-        _branches(law.model, problem.a * largest[A], problem.T * first.end),
+        _branches(law, problem, problem.a * largest[A], problem.depth * way, problem.T * first.end),
     )
     return WaveMotion(
         problem.T * first.end,
@@ -191,10 +196,19 @@ def _motion(law: Law, course: Course) -> WaveMotion:
     )
 
 
-def _branches(model: Model, a: float, T: float) -> Results:
-    """What the branches left out may change in each result [1]."""
-    left_out = model.inertia.branches == "A0" and not model.inertia.infinite_plate
-    return further_branches(model, a, T) if left_out else NONE
+def _branches(law: Law, problem: Problem, a: float, way: float, T: float) -> Results:
+    """What the branches left out may change in each result [1]: also of all, those too fast.
+
+    Where there is a weight, all but the way change by more.
+    """
+    model = law.model
+    if model.inertia.infinite_plate:
+        return NONE
+    share, heavier = 1.0, 1.0 + weight_share(model, way)
+    if model.inertia.branches == "all":
+        share = min(1.0, _highest(law) / float(np.max(problem.contact.modes.omega)))
+    time, depth, force, radius, speed = (share * x for x in further_branches(model, a, T))
+    return heavier * time, depth, heavier * force, heavier * radius, heavier * speed
 
 
 def _given_up(problem: Problem, touching: bounces.Touching) -> float:

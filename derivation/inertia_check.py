@@ -1,0 +1,141 @@
+"""Holds plates that move to random scenes: bounds against twice the modes and all branches."""
+
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from derivation.files import ROOT, measurements, write_file
+from derivation.measure import inertia
+from derivation.measure.inertia import Found, Judged
+from derivation.produce import folder_for
+from derivation.scene import motion, waves
+from derivation.scene.choice import moved, moving, solve_gated
+from derivation.scene.effects import EFFECTS
+from derivation.scene.effects.inertia import weight_share
+from derivation.scene.impact import gated
+from derivation.scene.law import Law
+from derivation.scene.limits import zener_number
+from derivation.scene.model import Inertia, Model, model_of
+from derivation.scene.scene import SceneError, read
+from derivation.scene.wave_motion import WaveMotion
+from generated.inertia import bending_frequency
+
+MEASURED: Path = measurements() / "inertia.json"
+HEAVIEST = 5.0
+"""Zener's number up to which scenes are looked at."""
+FALLEN = 100.0
+"""Work of the weight over the energy brought up to which they are."""
+MODES = {"A0": 100, "all": 10}
+"""Modes up to which they are, of the first run."""
+OSCILLATORS = 2000
+"""Oscillators that the truth may have."""
+
+
+def check_inertia(
+    count: int,
+    seed: int = inertia.SEED,
+    record: bool = False,
+    tell: inertia.Tell | None = None,
+) -> Judged:
+    """Random scenes with a plate that may move against more modes; keep the rows if asked."""
+    found = inertia.judge(count, solve, pass_over, seed, tell)
+    if record:
+        folder_for(None, ROOT / "reports")
+        write_file(MEASURED, inertia.to_json(found, seed))
+    return found
+
+
+def pass_over(data: inertia.Scene) -> str:
+    """Why a scene takes too long to be looked at, or has no impact at all; empty if none."""
+    model = bending(model_of(read(data)))
+    if zener_number(model) > HEAVIEST:
+        return f"Zener's number above {HEAVIEST:g}"
+    still = at_rest(model)
+    if still is None:
+        return "no impact on the plate at rest"
+    if weight_share(model, still.max_indentation) > FALLEN:
+        return f"work of the weight over the energy brought above {FALLEN:g}"
+    most = MODES[data["inertia"]["branches"]]
+    if waves.count_of(Law(model, frozenset({"hertz", "inertia"}))) > most:
+        return "too many modes"
+    return ""
+
+
+def solve(data: inertia.Scene, rtol: float) -> Found | str:
+    """A scene as `simulate` computes it, and the truth; or the key that a message begins with."""
+    try:
+        _, gate = gated(read(data), rtol)
+        values, accuracy = solve_gated(gate, rtol)
+        known = "inertia" in gate.law.effects
+        used = moving(gate, rtol) if known else None
+        model = bending(gate.law.model)
+        modes = _modes(used or _moving(model, rtol))
+        many = replace(model, inertia=Inertia(modes=2 * modes, branches="all"))
+        if oscillators(many) > OSCILLATORS:
+            return f"truth: more than {OSCILLATORS} oscillators"
+        truth = _moving(many, rtol)
+    except SceneError as error:
+        return str(error).partition(":")[0]
+    still = at_rest(model)
+    assert still is not None  # such scenes are passed over
+    price = next(row.bound for row in gate.rows if row.name == "inertia")
+    total = used.inertia.total_time if used is not None else values[0]
+    return Found(
+        known,
+        values,
+        truth.numbers,
+        accuracy.bound,
+        total,
+        truth.inertia.total_time,
+        still.numbers,
+        price,
+        len(truth.inertia.contacts),
+        _modes(truth),
+        truth.inertia.modes,
+    )
+
+
+def bending(model: Model) -> Model:
+    """The same in its bending modes, as many as it takes."""
+    return replace(model, inertia=Inertia())
+
+
+def at_rest(model: Model) -> motion.Motion | None:
+    """The impact with every effect but inertia; None beyond the range of the models."""
+    try:
+        found = moved(Law(model, present(model) - {"inertia"}))
+    except SceneError:
+        return None
+    return found if found is not None and all(map(math.isfinite, found.numbers)) else None
+
+
+def present(model: Model) -> frozenset[str]:
+    """Every effect that applies."""
+    return frozenset(e.name for e in EFFECTS if e.by_itself and not e.absent(model))
+
+
+def oscillators(model: Model) -> int:
+    """About how many oscillators the modes of all branches are, by Weyl's law.
+
+    Across the thickness stand (2/pi) sqrt(Omega^2 - x^2) shear waves and as many of pressure with
+    gam Omega^2, x = phi h being n pi eta.
+    """
+    modes, gam = model.inertia.modes, model.mu / (model.lam + 2.0 * model.mu)
+    root = bending_frequency(np.array([modes * math.pi * model.eta]), model.poissons_ratio)
+    return modes + int((1.0 + gam) * float(root[0]) ** 2 / (2.0 * math.pi * model.eta))
+
+
+def _moving(model: Model, rtol: float) -> WaveMotion:
+    """The impact with every effect."""
+    with np.errstate(all="ignore"):
+        found = waves.impact(Law(model, present(model)), waves.goal(rtol))
+    if found is None:
+        raise SceneError("impact.speed: expected an impact in the law's range, got none")
+    return found
+
+
+def _modes(found: WaveMotion) -> int:
+    """How many wave numbers the plate has."""
+    return len(np.unique(found.course.problem.contact.modes.phi))

@@ -1,0 +1,143 @@
+"""Inertia: bounds against twice the modes and all branches, on both sides of the threshold."""
+
+import json
+import math
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from derivation import inertia_check
+from derivation.cli import main
+from derivation.measure import inertia as measure
+from derivation.measure.inertia import Found
+from derivation.scene import waves
+from derivation.scene.effects.inertia import further_branches, weight_share
+from derivation.scene.gate import Gate, decide
+from derivation.scene.law import Law
+from derivation.scene.model import Model
+from derivation.scene.motion import impact
+from derivation.scene.scene import OUTPUTS
+
+SLOW = Model(
+    R=0.05, m=0.4, v0=2e-3, h=0.05, b=0.15, lam=40e9, mu=27e9, density=2700.0, edge="clamped"
+)
+"""A ball laid on a thick disc, nearly."""
+
+
+def gate_of(model: Model, rtol: float) -> Gate:
+    """With every other effect in."""
+    others = inertia_check.present(model) - {"inertia", "hertz"}
+    return decide(model, dict.fromkeys(others, True) | {"inertia": "auto"}, rtol)
+
+
+@pytest.mark.parametrize("changes", [{}, {"gravity": 9.81}, {"R": 0.02, "v0": 0.01}])
+def test_both_sides_of_the_threshold(changes: dict[str, Any]) -> None:
+    """At its bound inertia may stay out, just below it comes in; what it changes is below that."""
+    model = replace(SLOW, **changes)
+    every = inertia_check.present(model)
+    price = gate_of(model, 1.0).error
+    assert 0.0 < price < 3e-2
+    above, below = gate_of(model, price), gate_of(model, price * (1.0 - 1e-9))
+    assert above.law.effects == every - {"inertia"}
+    assert below.law.effects == every
+    still, moving = impact(above.law), waves.impact(below.law, price / 100.0)
+    assert still is not None
+    assert moving is not None
+    changed = [abs(x / y - 1.0) for x, y in zip(still.numbers, moving.numbers, strict=True)]
+    assert 1e-3 * price < max(changed) <= price
+
+
+def test_a_weight_makes_inertia_matter_more() -> None:
+    """A ball that its weight drives into the plate loses more of what it brought."""
+    heavy = replace(SLOW, v0=1e-3, gravity=9.81)
+    light = replace(heavy, gravity=0.0)
+    prices = [gate_of(model, 1.0).error for model in (light, heavy)]
+    every = [inertia_check.present(model) for model in (light, heavy)]
+    still = inertia_check.at_rest(heavy)
+    assert still is not None
+    share = weight_share(heavy, still.max_indentation)
+    assert share > 1.0
+    assert prices[1] > share * prices[0]
+    lost = []
+    for model, effects in zip((light, heavy), every, strict=True):
+        moving = waves.impact(Law(model, effects), 1e-4)
+        assert moving is not None
+        lost.append(1.0 - moving.restitution)
+    assert lost[1] > 2.0 * lost[0]
+    assert lost[1] <= prices[1]
+    # And of what branches may change the speed after has more too.
+    found = waves.impact(Law(heavy, every[1]), 1e-3)
+    assert found is not None
+    a, time = found.max_contact_radius, found.contact_time
+    assert found.inertia.branches[-1] > share * further_branches(heavy, a, time)[-1]
+
+
+NUMBERS, OUT = (9, 17, 96), ()
+
+
+@pytest.mark.parametrize("number", NUMBERS)
+def test_bounds_hold_in_random_scenes(number: int) -> None:
+    data, rtol = measure.scene(number)
+    assert inertia_check.pass_over(data) == ""
+    found = inertia_check.solve(data, rtol)
+    assert isinstance(found, Found)
+    row = measure._row(number, rtol, found)
+    assert row.included is (number not in OUT)
+    assert row.error <= min(row.bound, row.rtol)
+    assert row.alone <= row.price
+
+
+def test_a_bound_that_does_not_hold_is_noticed() -> None:
+    def solve(data: measure.Scene, rtol: float) -> Found | str:  # noqa: ARG001
+        return Found(True, [1.0, 1.0, 1.02, 1.0, 1.0], [1.0] * 5, 1e-3, 1.0, 1.0, [1.0] * 5,
+                     1e-3, 1, 4, 8)  # fmt: skip
+
+    found = measure.judge(3, solve, lambda _: "")
+    (side,) = measure.sides(found.rows)
+    assert not side.kept
+    assert side.quantity == "max_force"
+    assert side.tightest == pytest.approx(20.0)
+    assert found.drawn == 3
+
+
+def test_what_is_refused_or_passed_over_is_counted() -> None:
+    turns = iter(["", "too dear", "", ""])
+    found = measure.judge(2, lambda *_: "rtol", lambda _: next(turns))
+    assert found.refused == {"rtol": 2}
+    assert found.passed_over == {"too dear": 1}
+    assert found.rows == ()
+    assert json.loads(measure.to_json(found, 1))["drawn"] == 3
+
+
+def test_the_oscillators_of_all_branches_are_as_many_as_weyl_says() -> None:
+    from derivation.scene.modal import modes_of
+    from derivation.scene.model import Inertia
+
+    for eta, modes in ((0.3, 24), (0.06, 80)):
+        model = replace(SLOW, h=eta * SLOW.b, edge="soft-hinge",
+                        inertia=Inertia(modes=modes, branches="all"))  # fmt: skip
+        true = modes_of(model, modes).omega.size
+        assert inertia_check.oscillators(model) == pytest.approx(true, rel=0.15)
+
+
+def test_the_command_shows_both_sides(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def solve(data: measure.Scene, rtol: float) -> Found | str:
+        known = data["inertia"]["branches"] == "A0"
+        return Found(known, [1.0] * 5, [1.0] * 5, rtol, 1.0, 1.0, [1.0] * 5, math.inf, 1, 4, 8)
+
+    monkeypatch.setattr(inertia_check, "solve", solve)
+    monkeypatch.setattr(inertia_check, "pass_over", lambda _: "")
+    monkeypatch.setattr(inertia_check, "MEASURED", tmp_path / "inertia.json")
+    assert main(["check", "--inertia", "12", "--seed", "7", "--record"]) == 0
+    shown = capsys.readouterr().out
+    assert "12 of 12 scenes drawn" in shown
+    stored = json.loads((tmp_path / "inertia.json").read_text())
+    assert stored["seed"] == 7
+    assert [side["included"] for side in stored["sides"]] == [True, False]
+    assert stored["rows"][0]["price"] is None
+    assert set(OUTPUTS) >= {row["quantity"] for row in stored["rows"]}
+    assert main(["check", "--inertia", "3", "--effects", "3"]) == 2

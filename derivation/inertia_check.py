@@ -13,7 +13,8 @@ from derivation.produce import folder_for
 from derivation.scene import motion, waves
 from derivation.scene.choice import moved, moving, solve_gated
 from derivation.scene.effects import EFFECTS
-from derivation.scene.effects.inertia import weight_share
+from derivation.scene.effects.inertia import further_branches, weight_share
+from derivation.scene.gate import decide
 from derivation.scene.impact import gated
 from derivation.scene.law import Law
 from derivation.scene.limits import zener_number
@@ -29,8 +30,12 @@ FALLEN = 100.0
 """Work of the weight over the energy brought up to which they are."""
 MODES = {"A0": 100, "all": 10}
 """Modes up to which they are, of the first run."""
-OSCILLATORS = 2000
+OSCILLATORS = 1200
 """Oscillators that the truth may have."""
+ANY, MUCH = 1.0, 0.3
+"""A tolerance that leaves inertia out whatever it changes; a change too large to be left out."""
+MET, TIGHT = 3.0, 1e-4
+"""A tolerance that can be met, over what branches may be worth at rest; and at least [1]."""
 
 
 def check_inertia(
@@ -63,9 +68,28 @@ def pass_over(data: inertia.Scene) -> str:
     return ""
 
 
-def solve(data: inertia.Scene, rtol: float) -> Found | str:
+def placed(data: inertia.Scene, place: float) -> tuple[inertia.Scene, float]:
+    """A scene and its tolerance, by a number in [0, 1).
+
+    From the lower half, and where inertia changes little, a scene with all other effects and a
+    tolerance that lets inertia be left out; else one that needs it, and can be met.
+    """
+    model = model_of(read(data))
+    still = at_rest(model)
+    assert still is not None  # such scenes are passed over
+    others = dict.fromkeys(present(model) - {"inertia", "hertz"}, True)
+    price = decide(model, others | {"inertia": "auto"}, ANY).error
+    radiated = max(further_branches(model, still.max_contact_radius, still.contact_time))
+    least = MET * radiated * (1.0 + weight_share(model, still.max_indentation)) + TIGHT
+    if price < MUCH and (place < 0.5 or least > price):
+        return {**data, "effects": {**others, "inertia": "auto"}}, price * (1.0 + place)
+    return data, min(least * math.pow(10.0, 2.0 * place - 1.0), max(least, 0.9 * min(price, ANY)))
+
+
+def solve(data: inertia.Scene, place: float) -> Found | str:
     """A scene as `simulate` computes it, and the truth; or the key that a message begins with."""
     try:
+        data, rtol = placed(data, place)
         _, gate = gated(read(data), rtol)
         values, accuracy = solve_gated(gate, rtol)
         known = "inertia" in gate.law.effects
@@ -83,6 +107,7 @@ def solve(data: inertia.Scene, rtol: float) -> Found | str:
     price = next(row.bound for row in gate.rows if row.name == "inertia")
     total = used.inertia.total_time if used is not None else values[0]
     return Found(
+        rtol,
         known,
         values,
         truth.numbers,

@@ -24,7 +24,7 @@ from derivation.scene.model import Model
 from derivation.scene.quadrature import gauss
 from derivation.scene.scene import SceneError
 
-MANY = 5000
+MANY = 2000
 """Most oscillators of all branches, as many as memory and patience take."""
 DEGREE, INNER = 32, 40
 """Degree of the tables, and nodes of the integral over the contact's growth."""

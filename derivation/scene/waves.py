@@ -28,7 +28,7 @@ from derivation.scene.effects.effect import Results
 from derivation.scene.effects.inertia import WIDER, further_branches, weight_share
 from derivation.scene.law import Law
 from derivation.scene.limits import zener_number
-from derivation.scene.modal import Modes, contact_of, far_plate, modes_of
+from derivation.scene.modal import MANY, Modes, contact_of, far_plate, modes_of
 from derivation.scene.motion import Ledger, Motion
 from derivation.scene.quadrature import NODES, gauss
 from derivation.scene.scene import OUTPUTS
@@ -39,7 +39,7 @@ STAGES = 14, 16
 PHASE = 12.5
 """omega_M That/max(1, lambda^(2/3)) of the fastest oscillator, of the run that checks."""
 FEWEST, MOST = 2, 750
-"""Oscillators of the run that checks; the one that counts has twice as many."""
+"""Modes of the run that checks, to begin with; the one that counts has twice as many."""
 LOOSE, SHARE = 3e-4, 1.0 / 3.0
 """Change with the number of modes that is small enough: where no tolerance is given [1], and of
 one that is given."""
@@ -88,7 +88,9 @@ def impact(law: Law, goal: float = LOOSE, outputs: tuple[str, ...] = OUTPUTS) ->
         judged, count, rough = _judged(rough, found), 2 * count, found
         doubt, beyond = judged.inertia.left(outputs)
         enough = goal if beyond <= goal / SHARE else max(goal, 0.1 * beyond)
-        if model.inertia.modes or doubt <= enough or count >= MOST:
+        # Of all branches there are four times as many up to twice the frequency.
+        next_ = (4 if model.inertia.branches == "all" else 2) * judged.inertia.modes
+        if model.inertia.modes or doubt <= enough or next_ > MANY:
             return judged
 
 

@@ -44,7 +44,7 @@ STEPS, RELATIVE = (8, 10, 12), (1e-3, 1e-5, 1e-7, 1e-9, 1e-11)
 """Powers of two of Verlet's steps in a contact; tolerances of the Runge-Kutta method."""
 MODES, MOST = (5, 10, 20, 40, 80, 160), 320
 ALL, MOST_ALL = (5, 10, 20, 40, 80), 160
-ASKED = ((1e-2, "A0"), (3e-3, "A0"), (1e-3, "all"), (3e-4, "all"))
+ASKED = ((1e-2, "A0"), (5e-3, "A0"), (1e-3, "all"), (3e-4, "all"))
 ROUNDS = 5
 BEGUN = 0.1
 """Root of time from which a release is looked for."""

@@ -21,6 +21,7 @@ from derivation.report.fragments import pasted
 from derivation.report.front import TITLE
 from derivation.report.html import page
 from derivation.report.moving import moving_costs
+from derivation.report.overview import overview
 from derivation.report.references import bib
 from derivation.report.sections import Material, Text, chosen, text
 from derivation.scene.impact import simulate
@@ -30,7 +31,8 @@ from generated import contact_law
 
 REPORTS, README = ROOT / "reports", ROOT / "README.md"
 EXAMPLES = PACKAGE / "scene" / "examples"
-PAPER = EXAMPLES / "paper.toml"
+PAPER, PANE = EXAMPLES / "paper.toml", EXAMPLES / "glass_pane.toml"
+PICTURE = REPORTS / "overview.svg"
 NEEDED = {
     "accuracy": "accuracy",
     "check": "check --record",
@@ -131,7 +133,7 @@ def report(
     """Write the report and, if asked, its PDF; returns the files written.
 
     Files of chosen sections are named after them. The checkout's own whole report takes the
-    README's measured numbers along.
+    README's measured numbers and its picture along.
 
     Raises
     ------
@@ -155,7 +157,9 @@ def report(
         "report.bib": bib(),
     }
     if out is None and not sections:
-        write_file(README, readme.renewed(README.read_text(), measured_accuracy()))
+        costs = measured_accuracy()
+        write_file(README, readme.renewed(README.read_text(), costs))
+        write_file(PICTURE, saved(overview(load(PANE), costs), ".svg"))
     written = write_files(folder, files)
     return (*written, *([compiler.compile_pdf(written[0])] if pdf else []))
 

@@ -1,6 +1,32 @@
-"""Rows of the plate's own motion: name, module, arguments, unit, symbol, equation, meaning."""
+"""Manifest rows of viscous contacts and of the plate's own motion.
 
-INERTIA_FUNCTIONS: tuple[tuple[str, str, tuple[str, ...], str, str, str, str], ...] = (
+Name, module, arguments, unit, symbol, equation, meaning.
+"""
+
+Row = tuple[str, str, tuple[str, ...], str, str, str, str]
+
+VISCOSITY_FUNCTIONS: tuple[Row, ...] = (
+    (
+        "viscous_number",
+        "viscosity",
+        ("R", "m", "v0", "lam", "mu", "viscous_time"),
+        "1",
+        "x",
+        "",
+        "what a viscous contact takes of the speed",
+    ),
+    (
+        "restitution_weak",
+        "viscosity",
+        ("x_v",),
+        "1",
+        "e",
+        "",
+        "restitution of a weakly viscous contact",
+    ),
+)
+
+INERTIA_FUNCTIONS: tuple[Row, ...] = (
     (
         "bending_frequency",
         "inertia",

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from derivation.emit.budgets import Budget
-from derivation.emit.inertia_rows import INERTIA_FUNCTIONS
+from derivation.emit.inertia_rows import INERTIA_FUNCTIONS, VISCOSITY_FUNCTIONS
 from derivation.emit.printer import to_numpy
 from derivation.formula.record import Formula
 from derivation.formula.symbols import ARGUMENTS, C1, C3, Argument, applicable
@@ -409,24 +409,7 @@ CONTACT_FUNCTIONS: tuple[ContactRow, ...] = (
         "",
         "how much of the impact the plate's waves carry away",
     ),
-    (
-        "viscous_number",
-        "viscosity",
-        ("R", "m", "v0", *ELASTIC, "viscous_time"),
-        "1",
-        "x",
-        "",
-        "what a viscous contact takes of the speed",
-    ),
-    (
-        "restitution_weak",
-        "viscosity",
-        ("x_v",),
-        "1",
-        "e",
-        "",
-        "restitution of a weakly viscous contact",
-    ),
+    *VISCOSITY_FUNCTIONS,
     *INERTIA_FUNCTIONS,
     ("bending_period", "effects", ("h", "b", *ELASTIC, "rho"), "s", "T_1", "", "bending period"),
     ("echo_time", "effects", ("h", *ELASTIC, "rho"), "s", "T_e", "", "time of two echoes"),

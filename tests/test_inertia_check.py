@@ -10,6 +10,7 @@ import pytest
 
 from derivation import inertia_check
 from derivation.cli import main
+from derivation.files import measurements
 from derivation.measure import inertia as measure
 from derivation.measure.inertia import Found
 from derivation.scene import waves
@@ -122,6 +123,16 @@ def test_the_oscillators_of_all_branches_are_as_many_as_weyl_says() -> None:
                         inertia=Inertia(modes=modes, branches="all"))  # fmt: skip
         true = modes_of(model, modes).omega.size
         assert inertia_check.oscillators(model) == pytest.approx(true, rel=0.15)
+
+
+def test_the_committed_scenes_keep_their_bounds() -> None:
+    data = json.loads((measurements() / "inertia.json").read_text())
+    assert len(data["rows"]) >= 500
+    assert min(side["scenes"] for side in data["sides"]) >= 100
+    assert {side["included"] for side in data["sides"]} == {True, False}
+    for row in data["rows"]:
+        assert row["error"] <= min(row["bound"], row["rtol"])
+        assert row["price"] is None or row["alone"] <= row["price"]
 
 
 def test_the_command_shows_both_sides(

@@ -1,4 +1,4 @@
-"""The README's picture: a blow on a pane, at rest and in motion; and what digits of the law cost."""
+"""The README's picture: a blow on a pane, at rest and in motion; what digits of the law cost."""
 
 from collections.abc import Mapping
 from typing import Any

@@ -15,6 +15,7 @@ from derivation.report.consequence import Consequences, misprints_context
 from derivation.report.figures import motion_context
 from derivation.report.front import SUBTITLE, TITLE, front_context
 from derivation.report.hard import hard_context
+from derivation.report.inertia import inertia_context
 from derivation.report.latex import environment
 from derivation.report.listings import listings_context
 from derivation.report.moving import moving_context
@@ -86,6 +87,7 @@ def _misprints(material: Material) -> dict[str, Any]:
 def _accuracy(material: Material) -> dict[str, Any]:
     check, contact = material.measured["check"], material.measured["contact"]
     return {
+        "moving": inertia_context(material.measured["inertia"]),
         "tables": list(content.accuracy_tables(check)),
         "digits": check["provenance"]["digits"],
         "contact_rows": [content.contact_row(row) for row in contact["rows"]],

@@ -3,6 +3,7 @@
 Exit status: 0 fine, 1 a check failed or formulas differ, 2 bad input.
 """
 
+import os
 import sys
 from collections.abc import Sequence
 from dataclasses import asdict
@@ -14,6 +15,7 @@ from typer.exceptions import TyperException
 from typer.main import get_command
 
 from derivation import check_command
+from derivation.files import ROOT
 from derivation.scene import commands as scene_commands
 from derivation.screen import (
     INTERRUPTED,
@@ -275,6 +277,8 @@ def build(out: Out = None) -> None:
     """
     from derivation import derived, produce
 
+    for room in ("generated", "reports"):
+        produce.writable_folder(out / room if out else None, ROOT / room)
     with stage("derive"):
         derived.chain()
     with stage("rewrite"):
@@ -367,9 +371,13 @@ def main(argv: Sequence[str] | None = None) -> int:
     command = get_command(app)
     try:
         status = command(args=argv, prog_name="platecontact", standalone_mode=False)
+        sys.stdout.flush()
     except TyperException as error:
         advice = "see `platecontact --help`"
         NOTES.print(f"platecontact: {error.format_message()} ({advice})", markup=False)
+        return 2
+    except BrokenPipeError:  # whoever reads has had enough, like `head`
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 2
     except (OSError, ValueError) as error:
         NOTES.print(f"platecontact: {error}", markup=False, highlight=False, soft_wrap=True)

@@ -49,7 +49,9 @@ def check(
         str | None,
         typer.Option("--search", metavar="60s|5m|1h", help="Look for worse, for so long."),
     ] = None,
-    seed: Annotated[int, typer.Option(help="Of the search, which repeats by it.")] = 1,
+    seed: Annotated[
+        int | None, typer.Option(help="Of the search, which repeats by it; 1 if none is given.")
+    ] = None,
     kernel: Annotated[
         list[str] | None, typer.Option("--kernel", metavar="NAME", help="Search this one only.")
     ] = None,
@@ -68,14 +70,18 @@ def check(
     if search is not None:
         if contact or speed or hard or bounds or effects or record or propose:
             raise ValueError("--search stands alone: expected no other of check's options")
-        raise typer.Exit(_check_search(search, seed, kernel or [], out, json))
+        raise typer.Exit(
+            _check_search(search, 1 if seed is None else seed, kernel or [], out, json)
+        )
     if contact + speed + hard + bool(bounds) + bool(effects) > 1:
         raise ValueError(
             "expected one of --contact, --speed, --hard, --bounds and --effects: "
             "run them one after the other"
         )
-    if kernel or out:
-        raise ValueError("--kernel and --out belong to --search: add --search 60s")
+    if kernel or out or seed is not None:
+        raise ValueError("--kernel, --seed and --out belong to --search: add --search 60s")
+    if propose and (speed or hard or bounds or effects):
+        raise ValueError("--propose: expected alone or with --contact; leave the others out")
     if contact:
         raise typer.Exit(_check_contact(record, json, propose))
     if speed:

@@ -202,6 +202,8 @@ def rewrite(
     from derivation.measure.record import plain
 
     if formula:
+        if record:
+            raise ValueError("--record keeps the paper's formulas: leave out the formula, or it")
         with stage("rewrite"):
             stable, source = pipeline.rewritten(formula, variable)
         found = [("", applied) for applied in stable.applied]
@@ -253,6 +255,8 @@ def report(
     """
     from derivation import reporting
 
+    if bool(check) + bool(section) + bool(fragment) > 1:
+        raise ValueError("expected one of --check, --section and --fragment: run one by one")
     if check:
         with stage("compare"):
             freshness = reporting.check_report(out)
@@ -374,7 +378,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         sys.stdout.flush()
     except TyperException as error:
         advice = "see `platecontact --help`"
-        NOTES.print(f"platecontact: {error.format_message()} ({advice})", markup=False)
+        text = f"platecontact: {error.format_message()} ({advice})"
+        NOTES.print(text, markup=False, highlight=False, soft_wrap=True)
         return 2
     except BrokenPipeError:  # whoever reads has had enough, like `head`
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -86,19 +86,24 @@ def _make_folder(folder: Path) -> list[Path]:
 def expect_writable(path: Path) -> None:
     """Refuse a file that cannot be written before minutes are spent on what it is to hold."""
     target = path.resolve()
-    if target.exists() and not target.is_file():
-        kind = "folder" if target.is_dir() else "device"
-        raise OSError(f"cannot write {path}: expected a file, got a {kind}; name a file")
     with _explained(path):
-        if target.exists() and not os.access(target, os.W_OK):
+        there, fine = target.exists(), target.is_file()
+        if fine and not os.access(target, os.W_OK):
             raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
         _try_folder(target.parent)
+    if there and not fine:
+        kind = "folder" if target.is_dir() else "device"
+        raise OSError(f"cannot write {path}: expected a file, got a {kind}; name a file")
 
 
 def expect_folder(folder: Path) -> None:
     """Refuse a folder that cannot be written into, there or still to be made."""
     with _explained(folder):
-        _try_folder(folder.resolve())
+        other = folder.exists() and not folder.is_dir()
+        if not other:
+            _try_folder(folder.resolve())
+    if other:
+        raise OSError(f"cannot write {folder}: expected a folder, got a file; name a folder")
 
 
 def _try_folder(folder: Path) -> None:

@@ -240,6 +240,8 @@ def rewritten(text: str, variable: str = "x") -> tuple[Stable, str]:
     ValueError
         If the formula cannot be read, or is out of the rules' reach.
     """
+    if not variable.isidentifier():
+        raise ValueError(f"--variable: expected a name like x, got {variable!r}")
     symbol = sp.Symbol(variable, positive=True)
     stable = stabilise(parse(text, {variable: symbol}), symbol)
     return stable, standalone(stable)

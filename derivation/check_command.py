@@ -54,8 +54,9 @@ def check(
         typer.Option("--search", metavar="60s|5m|1h", help="Look for worse, for so long."),
     ] = None,
     seed: Annotated[
-        int, typer.Option(help="Of the search or of --inertia, which repeat by it.")
-    ] = 1,
+        int | None,
+        typer.Option(help="Of the search or of --inertia, which repeat by it; 1 if none is given."),
+    ] = None,
     kernel: Annotated[
         list[str] | None, typer.Option("--kernel", metavar="NAME", help="Search this one only.")
     ] = None,
@@ -74,7 +75,9 @@ def check(
     if search is not None:
         if contact or speed or hard or bounds or effects or inertia or record or propose:
             raise ValueError("--search stands alone: expected no other of check's options")
-        raise typer.Exit(_check_search(search, seed, kernel or [], out, json))
+        raise typer.Exit(
+            _check_search(search, 1 if seed is None else seed, kernel or [], out, json)
+        )
     if contact + speed + hard + bool(bounds) + bool(effects) + bool(inertia) > 1:
         raise ValueError(
             "expected one of --contact, --speed, --hard, --bounds, --effects and --inertia: "
@@ -82,6 +85,10 @@ def check(
         )
     if kernel or out:
         raise ValueError("--kernel and --out belong to --search: add --search 60s")
+    if seed is not None and not inertia:
+        raise ValueError("--seed belongs to --search and --inertia: add --search 60s")
+    if propose and (speed or hard or bounds or effects or inertia):
+        raise ValueError("--propose: expected alone or with --contact; leave the others out")
     if contact:
         raise typer.Exit(_check_contact(record, json, propose))
     if speed:
@@ -93,7 +100,7 @@ def check(
     if effects:
         raise typer.Exit(_check_effects(effects, record, json))
     if inertia:
-        raise typer.Exit(_check_inertia(inertia, seed, record, json))
+        raise typer.Exit(_check_inertia(inertia, 1 if seed is None else seed, record, json))
     with counted("check") as tell:
         rows = pipeline.check(digits, record, tell)
     if json != "-":

@@ -3,6 +3,7 @@
 Exit status: 0 fine, 1 a check failed or formulas differ, 2 bad input.
 """
 
+import os
 import sys
 from collections.abc import Sequence
 from dataclasses import asdict
@@ -14,6 +15,7 @@ from typer.exceptions import TyperException
 from typer.main import get_command
 
 from derivation import check_command
+from derivation.files import ROOT
 from derivation.scene import commands as scene_commands
 from derivation.screen import (
     INTERRUPTED,
@@ -200,6 +202,8 @@ def rewrite(
     from derivation.measure.record import plain
 
     if formula:
+        if record:
+            raise ValueError("--record keeps the paper's formulas: leave out the formula, or it")
         with stage("rewrite"):
             stable, source = pipeline.rewritten(formula, variable)
         found = [("", applied) for applied in stable.applied]
@@ -251,6 +255,8 @@ def report(
     """
     from derivation import reporting
 
+    if bool(check) + bool(section) + bool(fragment) > 1:
+        raise ValueError("expected one of --check, --section and --fragment: run one by one")
     if check:
         with stage("compare"):
             freshness = reporting.check_report(out)
@@ -275,6 +281,8 @@ def build(out: Out = None) -> None:
     """
     from derivation import derived, produce
 
+    for room in ("generated", "reports"):
+        produce.writable_folder(out / room if out else None, ROOT / room)
     with stage("derive"):
         derived.chain()
     with stage("rewrite"):
@@ -367,9 +375,14 @@ def main(argv: Sequence[str] | None = None) -> int:
     command = get_command(app)
     try:
         status = command(args=argv, prog_name="platecontact", standalone_mode=False)
+        sys.stdout.flush()
     except TyperException as error:
         advice = "see `platecontact --help`"
-        NOTES.print(f"platecontact: {error.format_message()} ({advice})", markup=False)
+        text = f"platecontact: {error.format_message()} ({advice})"
+        NOTES.print(text, markup=False, highlight=False, soft_wrap=True)
+        return 2
+    except BrokenPipeError:  # whoever reads has had enough, like `head`
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 2
     except (OSError, ValueError) as error:
         NOTES.print(f"platecontact: {error}", markup=False, highlight=False, soft_wrap=True)

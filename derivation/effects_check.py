@@ -4,9 +4,9 @@ import math
 from collections.abc import Sequence
 from pathlib import Path
 
-from derivation.files import ROOT, measurements, write_file
+from derivation.files import measurements, write_file
 from derivation.measure import effects
-from derivation.produce import folder_for
+from derivation.produce import expect_recordable
 from derivation.scene.choice import moved, solve_gated
 from derivation.scene.effects import EFFECTS
 from derivation.scene.impact import gated as decided
@@ -21,9 +21,10 @@ def check_effects(
     count: int, record: bool = False, tell: effects.Tell | None = None
 ) -> tuple[effects.Row, ...]:
     """Random scenes at several tolerances against everything on; keep the rows if asked."""
+    if record:
+        expect_recordable(MEASURED)
     rows = effects.judge(count, gated, everything, tell=tell)
     if record:
-        folder_for(None, ROOT / "reports")
         write_file(MEASURED, effects.to_json(rows, count))
     return rows
 

@@ -1,18 +1,21 @@
 """Files written whole or not at all, and a cache keyed by what its content was computed from."""
 
 import contextlib
+import errno
 import hashlib
 import os
 import pickle
 import platform
 import tempfile
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from importlib.metadata import version
 from pathlib import Path
 from typing import TypeVar
 
 Value = TypeVar("Value")
 
+PAGE = 4096
+"""Least room for a file that a disk takes, in bytes."""
 PACKAGE = Path(__file__).parent
 ROOT = PACKAGE.parent
 PINNED = ("sympy", "python-flint", "mpmath", "jinja2", "ruff")
@@ -37,30 +40,90 @@ def write_file(path: Path, content: str | bytes) -> None:
     OSError
         If the folder cannot be made or written to.
     """
-    path.parent.mkdir(parents=True, exist_ok=True)
-    data = content.encode() if isinstance(content, str) else content
-    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    temporary = Path(name)
+    write_files({path: content})
+
+
+def write_files(contents: Mapping[Path, str | bytes]) -> tuple[Path, ...]:
+    """Write all of the files or, where there is no leave or no room for one, none; returns them.
+
+    Raises
+    ------
+    OSError
+        Naming the file that cannot be written, why, and how to mend it.
+    """
+    made: list[Path] = []
+    temporaries: dict[Path, Path] = {}
     try:
-        with os.fdopen(handle, "wb") as stream:
-            stream.write(data)
-        temporary.chmod(0o644)
-        temporary.replace(path)
-    finally:
-        with contextlib.suppress(FileNotFoundError):
-            temporary.unlink()
+        for path, content in contents.items():
+            expect_writable(path)
+            target = path.resolve()
+            with _explained(path):
+                made += _make_folder(target.parent)
+                handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
+                temporaries[target] = Path(name)
+                with os.fdopen(handle, "wb") as stream:
+                    stream.write(content.encode() if isinstance(content, str) else content)
+                temporaries[target].chmod(0o644)
+        for target, temporary in temporaries.items():
+            temporary.replace(target)
+    except BaseException:  # Ctrl-C too
+        for temporary in temporaries.values():
+            temporary.unlink(missing_ok=True)
+        for folder in reversed(made):
+            with contextlib.suppress(OSError):
+                folder.rmdir()
+        raise
+    return tuple(contents)
+
+
+def _make_folder(folder: Path) -> list[Path]:
+    """Make a folder; returns what had to be made, outermost first."""
+    missing = [place for place in (folder, *folder.parents) if not place.exists()][::-1]
+    folder.mkdir(parents=True, exist_ok=True)
+    return missing
 
 
 def expect_writable(path: Path) -> None:
     """Refuse a file that cannot be written before minutes are spent on what it is to hold."""
-    folder = next(parent for parent in path.absolute().parents if parent.exists())
+    target = path.resolve()
+    with _explained(path):
+        there, fine = target.exists(), target.is_file()
+        if fine and not os.access(target, os.W_OK):
+            raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+        _try_folder(target.parent)
+    if there and not fine:
+        kind = "folder" if target.is_dir() else "device"
+        raise OSError(f"cannot write {path}: expected a file, got a {kind}; name a file")
+
+
+def expect_folder(folder: Path) -> None:
+    """Refuse a folder that cannot be written into, there or still to be made."""
+    with _explained(folder):
+        other = folder.exists() and not folder.is_dir()
+        if not other:
+            _try_folder(folder.resolve())
+    if other:
+        raise OSError(f"cannot write {folder}: expected a folder, got a file; name a folder")
+
+
+def _try_folder(folder: Path) -> None:
+    """Write a page into a folder, or into that in which it would be made, unseen."""
+    there = next(place for place in (folder, *folder.parents) if place.exists())
+    with tempfile.TemporaryFile(dir=there) as stream:
+        stream.write(bytes(PAGE))
+
+
+@contextlib.contextmanager
+def _explained(path: Path) -> Iterator[None]:
+    """Say which file could not be written, and what to do."""
     try:
-        with tempfile.TemporaryFile(dir=folder):
-            pass
+        yield
     except OSError as error:
-        raise OSError(f"cannot write {path}: {error.strerror}; name another folder") from None
-    if path.is_dir():
-        raise OSError(f"cannot write {path}: expected a file, got a folder")
+        full = error.errno in (errno.ENOSPC, errno.EDQUOT)
+        mend = "free some space" if full else "ask for leave to write there"
+        raise OSError(
+            f"cannot write {path}: {error.strerror}; {mend}, or name another folder"
+        ) from None
 
 
 def sources(*rooms: str) -> Iterator[Path]:

@@ -34,7 +34,7 @@ from derivation.measure.record import plain, provenance, to_json
 from derivation.measure.search import Search, Tell, search
 from derivation.measure.search_cases import Book, seconds_of
 from derivation.measure.search_targets import targets
-from derivation.produce import folder_for
+from derivation.produce import expect_recordable, folder_for
 from derivation.reference import many_costs, many_digits
 from derivation.rewrite.account import Account, accounts
 from derivation.rewrite.stabilise import Stable, stabilise
@@ -68,9 +68,10 @@ def check(digits: int = 50, record: bool = False, tell: Progress | None = None) 
     derivation.reference.routes.OracleError
         If the two oracles contradict each other.
     """
+    if record:
+        expect_recordable(MEASURED)
     rows = measure(digits, progress=tell)
     if record:
-        folder_for(None, REPORTS)
         write_file(MEASURED, to_json(rows, digits))
     return rows
 
@@ -83,12 +84,13 @@ def check_contact(record: bool = False, tell: Progress | None = None) -> tuple[C
     derivation.reference.routes.OracleError
         If the two oracles contradict each other.
     """
+    if record:
+        expect_recordable(MEASURED_CONTACT)
     kernels: dict[str, Callable[..., Any]] = {
         name: impact.impact if name == "impact" else getattr(contact_law, name) for name in KERNELS
     }
     rows = measure_contact(kernels, processes=os.cpu_count() or 1, tell=tell)
     if record:
-        folder_for(None, REPORTS)
         text = json.dumps(contact_data(rows), indent=1, sort_keys=True) + "\n"
         write_file(MEASURED_CONTACT, text)
     return rows
@@ -133,6 +135,8 @@ def check_hard(record: bool = False, tell: Progress | None = None) -> tuple[hard
     ValueError
         If a case has none.
     """
+    if record:
+        expect_recordable(MEASURED_HARD)
     cases, known = hard_check.cases(), hard_check.kernels()
     if not record:
         if not MEASURED_HARD.is_file():
@@ -150,11 +154,12 @@ def check_hard(record: bool = False, tell: Progress | None = None) -> tuple[hard
 
 def check_speed(record: bool = False, tell: Progress | None = None) -> list[speed.Timing]:
     """Measure the speed of contact law, impact and cold starts on this machine."""
+    if record:
+        expect_recordable(MEASURED_SPEED)
     examples = sorted(EXAMPLE.parent.glob("*.toml"))
     solved = [path for path in examples if "pressure" in gated(load(path))[1].law.effects]
     timings = speed.measure(examples, solved, tell)
     if record:
-        folder_for(None, REPORTS)
         text = json.dumps(speed.as_data(timings), indent=1, sort_keys=True) + "\n"
         write_file(MEASURED_SPEED, text)
     return timings
@@ -168,9 +173,9 @@ def check_bounds(
     Truths that are committed are taken as they are; others are sought, about a second each,
     and if asked kept every few, so that a run that was stopped goes on where it was.
     """
-    known = committed_truths()
     if record:
-        folder_for(None, REPORTS)
+        expect_recordable(MEASURED_BOUNDS)
+    known = committed_truths()
     found: list[bounds.Truth] = []
     for true in bounds.truths(count, known, tell=tell):
         found.append(true)
@@ -223,9 +228,10 @@ def accuracy(
 
 def rewriting(record: bool = False, tell: Progress | None = None) -> tuple[Account, ...]:
     """What the rules did to each formula, measured without and with every one of them."""
+    if record:
+        expect_recordable(REWRITTEN)
     found = accounts(formulas(), tell)
     if record:
-        folder_for(None, REPORTS)
         data = {"rows": plain([asdict(account) for account in found])}
         write_file(REWRITTEN, json.dumps(data, indent=1, sort_keys=True) + "\n")
     return found
@@ -239,6 +245,8 @@ def rewritten(text: str, variable: str = "x") -> tuple[Stable, str]:
     ValueError
         If the formula cannot be read, or is out of the rules' reach.
     """
+    if not variable.isidentifier():
+        raise ValueError(f"--variable: expected a name like x, got {variable!r}")
     symbol = sp.Symbol(variable, positive=True)
     stable = stabilise(parse(text, {variable: symbol}), symbol)
     return stable, standalone(stable)
@@ -260,6 +268,7 @@ def search_worse(
     """
     seconds, chosen = seconds_of(duration), targets(kernels)
     path = folder_for(None, REPORTS) / "search.toml" if out is None else out
+    expect_writable(path)
     book = Book(path, chosen, MEASURED, MEASURED_CONTACT)
     found = search(chosen, seed, seconds, tell=tell, keep=book.keep)
     book.keep(found)

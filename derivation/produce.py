@@ -8,7 +8,7 @@ from pathlib import Path
 from derivation.derived import GROUND, formulas
 from derivation.emit.freshness import Freshness, compare
 from derivation.emit.render import render
-from derivation.files import ROOT, cached, in_checkout, write_file
+from derivation.files import ROOT, cached, expect_folder, expect_writable, in_checkout, write_files
 from derivation.rewrite.form import Form
 from derivation.rewrite.forms import stable_forms
 
@@ -39,6 +39,36 @@ def folder_for(out: Path | None, own: Path) -> Path:
     return own if out is None else out
 
 
+def writable_folder(out: Path | None, own: Path) -> Path:
+    """The same, refused before anything is computed if it cannot be written to.
+
+    Raises
+    ------
+    OSError
+        If it cannot be written to.
+    """
+    folder = folder_for(out, own)
+    expect_folder(folder)
+    return folder
+
+
+def expect_recordable(path: Path) -> None:
+    """Refuse to measure for minutes what cannot be kept among the project's measurements.
+
+    Raises
+    ------
+    ValueError
+        If this is an installed copy.
+    OSError
+        If the file cannot be written.
+    """
+    if not in_checkout():
+        raise ValueError(
+            "--record: expected a checkout, got an installed copy; keep the result by --json FILE"
+        )
+    expect_writable(path)
+
+
 def generate(out: Path | None = None) -> tuple[Path, ...]:
     """Write the generated package; returns the files written.
 
@@ -47,18 +77,11 @@ def generate(out: Path | None = None) -> tuple[Path, ...]:
     OSError
         If the folder cannot be written to.
     """
-    folder = folder_for(out, GENERATED)
-    return write_files(folder, package())
+    folder = writable_folder(out, GENERATED)
+    return write_files({folder / name: text for name, text in package().items()})
 
 
 def check_generated(out: Path | None = None) -> Freshness:
     """Compare the generated package with what would be written."""
     mend = "platecontact generate" + (f" --out {out}" if out else "")
     return compare(folder_for(out, GENERATED), package(), mend)
-
-
-def write_files(folder: Path, files: dict[str, str]) -> tuple[Path, ...]:
-    """Write files into a folder, each whole or not at all; returns their paths."""
-    for name, text in files.items():
-        write_file(folder / name, text)
-    return tuple(folder / name for name in files)

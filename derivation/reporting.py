@@ -11,8 +11,8 @@ from matplotlib.figure import Figure
 from derivation.derived import chain, misprints
 from derivation.emit.freshness import Freshness, compare
 from derivation.emit.render import CITATION
-from derivation.files import PACKAGE, ROOT, measurements, write_file
-from derivation.produce import folder_for, write_files
+from derivation.files import PACKAGE, ROOT, expect_folder, measurements, write_files
+from derivation.produce import folder_for, writable_folder
 from derivation.report import pdf as compiler
 from derivation.report import readme
 from derivation.report.accuracy_figures import accuracy_figures
@@ -145,23 +145,25 @@ def report(
     derivation.report.pdf.TexError
         If LaTeX is missing or refuses the text; all else is there all the same.
     """
-    folder = folder_for(out, REPORTS)
+    folder = writable_folder(out, REPORTS)
     name = "-".join(["report", *(chosen(sections) if sections else ())])
     parts = report_text(sections)
     drawn = {key: figure for key, figure in report_figures().items() if parts.shows(key)}
-    for key, figure in drawn.items():
-        write_file(folder / "figures" / f"{key}.pdf", saved(figure, ".pdf"))
     vectors = {key: saved(figure, ".svg") for key, figure in drawn.items()}
     files = {
         f"{name}.tex": parts.document(version("platecontact")),
         f"{name}.html": page(parts, TITLE, vectors),
         "report.bib": bib(),
     }
+    written = tuple(folder / name for name in files)
+    contents: dict[Path, str | bytes] = dict(zip(written, files.values(), strict=True))
+    for key, figure in drawn.items():
+        contents[folder / "figures" / f"{key}.pdf"] = saved(figure, ".pdf")
     if out is None and not sections:
         costs = measured_accuracy()
-        write_file(README, readme.renewed(README.read_text(), costs))
-        write_file(PICTURE, saved(overview(load(PANE), costs), ".svg"))
-    written = write_files(folder, files)
+        contents[README] = readme.renewed(README.read_text(), costs)
+        contents[PICTURE] = saved(overview(load(PANE), costs), ".svg")
+    write_files(contents)
     return (*written, *([compiler.compile_pdf(written[0])] if pdf else []))
 
 
@@ -191,4 +193,5 @@ def write_fragments(names: Sequence[str], out: Path) -> tuple[Path, ...]:
     OSError
         If the folder cannot be written to.
     """
-    return write_files(out, {"fragment.tex": fragments(names), "report.bib": bib()})
+    expect_folder(out)
+    return write_files({out / "fragment.tex": fragments(names), out / "report.bib": bib()})

@@ -20,15 +20,23 @@ from rich.progress import (
 )
 from rich.table import Table
 
-from derivation.files import write_file
+from derivation.files import expect_writable, write_file
 
 OUT = Console()
 NOTES = Console(stderr=True)
 """Progress and remarks, kept apart from results so that these can be piped."""
 
 
+def _checked(where: str | None) -> str | None:
+    """Refuse a file that cannot be written, before anything is computed."""
+    if where and where != "-":
+        expect_writable(Path(where))
+    return where
+
+
 Json = Annotated[
-    str | None, typer.Option("--json", metavar="FILE|-", help="Write the result as JSON.")
+    str | None,
+    typer.Option("--json", metavar="FILE|-", help="Write the result as JSON.", callback=_checked),
 ]
 """The option of every command that has a result."""
 
@@ -97,10 +105,14 @@ def listing(title: str, lines: Sequence[str]) -> None:
         OUT.print(line, markup=False, highlight=False, soft_wrap=True)
 
 
+def json_text(result: Any) -> str:
+    """A result as JSON to be read by people too."""
+    return json.dumps(result, indent=2, ensure_ascii=False) + "\n"
+
+
 def put_json(result: Any, where: str) -> None:
     """Write a result as JSON to a file, or to standard output for `-`."""
-    text = json.dumps(result, indent=2, ensure_ascii=False) + "\n"
     if where == "-":
-        print(text, end="")
+        print(json_text(result), end="")
     else:
-        write_file(Path(where), text)
+        write_file(Path(where), json_text(result))

@@ -1,4 +1,6 @@
-"""LaTeX of expressions in the paper's notation."""
+"""LaTeX of expressions in the paper's notation, and sentences as Markdown."""
+
+import re
 
 import sympy as sp
 from sympy.printing.latex import LatexPrinter
@@ -38,3 +40,8 @@ def to_latex(expression: sp.Basic) -> str:
     return str(
         _Printer({"symbol_names": SYMBOL_NAMES, "fold_short_frac": False}).doprint(expression)
     )
+
+
+def to_markdown(text: str) -> str:
+    """A sentence with its stars and underscores as they are, which would be emphasis."""
+    return re.sub(r"([*_])", r"\\\1", text)

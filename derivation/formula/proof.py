@@ -9,6 +9,7 @@ import flint
 import sympy as sp
 
 from derivation.formula.ball import enclose, to_ball
+from derivation.formula.notation import to_markdown
 
 SYMBOLIC = "symbolically"
 BY_BALLS = "by ball arithmetic at two precisions"
@@ -28,6 +29,11 @@ class Proof:
     argument: str
     residuals: tuple[str, ...]
     method: str
+
+    def _repr_markdown_(self) -> str:
+        """The step, its argument and what was shown to vanish, for a notebook."""
+        vanish, argument = (to_markdown(s) for s in (", ".join(self.residuals), self.argument))
+        return f"**{self.step}.** {argument} Reduced to zero {self.method}: {vanish}."
 
 
 def prove(step: str, argument: str, residuals: Mapping[str, sp.Expr]) -> Proof:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from derivation.formula.dimension import UNITS, DimensionError, dimension
-from derivation.formula.notation import to_latex
+from derivation.formula.notation import to_latex, to_markdown
 from derivation.formula.proof import Proof
 from derivation.formula.symbols import UNKNOWNS, Argument, applicable, arguments_of
 
@@ -103,6 +103,11 @@ class Formula:
                 "method": self.proof.method,
             },
         }
+
+    def _repr_markdown_(self) -> str:
+        """The formula, what it is and how it was proved, for a notebook."""
+        what = f"{to_markdown(self.meaning)} [{self.unit}], equation ({self.equation})"
+        return f"{self._repr_latex_()}\n\n{what}\n\n{self.proof._repr_markdown_()}"
 
     def _repr_latex_(self) -> str:
         return f"$\\displaystyle {self.latex} = {self.right_hand_side}$"

@@ -11,7 +11,7 @@ from itertools import combinations
 import flint
 import sympy as sp
 
-from derivation.formula.notation import to_latex
+from derivation.formula.notation import to_latex, to_markdown
 from derivation.formula.parse import FormulaError
 from derivation.formula.proof import SYMBOLIC, reduces_to_zero
 from derivation.formula.record import Formula
@@ -73,6 +73,12 @@ class Diagnosis:
     def _repr_latex_(self) -> str:
         sign = "=" if self.verdict == EQUAL else r"\neq"
         return f"$\\displaystyle {to_latex(self.given)} {sign} {to_latex(self.derived)}$"
+
+    def _repr_markdown_(self) -> str:
+        """Verdict, both formulas and what mends the given one, for a notebook."""
+        repair = "" if self.verdict == EQUAL else f"\n\n{self.kind}: {to_markdown(self.repair)}."
+        name = to_markdown(self.name)
+        return f"**{name}: {self.verdict}**, {self.method}\n\n{self._repr_latex_()}{repair}"
 
     def to_json(self) -> dict[str, str | int | None]:
         """Plain text under fixed keys."""

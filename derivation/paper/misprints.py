@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import sympy as sp
 
-from derivation.formula.notation import to_latex
+from derivation.formula.notation import to_latex, to_markdown
 from derivation.formula.proof import SYMBOLIC
 from derivation.formula.record import Formula
 from derivation.formula.symbols import k
@@ -62,6 +62,14 @@ class Finding:
         sign = r"\neq" if self.is_misprint else "="
         printed = self.printed.full or self.printed.latex
         return f"$\\displaystyle {printed} \\;{sign}\\; {self.formula.right_hand_side}$"
+
+    def _repr_markdown_(self) -> str:
+        """Print against derivation, and what mends the print, for a notebook."""
+        where = (
+            f"**({self.printed.equation}) {to_markdown(self.printed.name)}: {self.diagnosis.kind}**"
+        )
+        repair = f"\n\n{to_markdown(self.repair)}." if self.is_misprint else ""
+        return f"{where}\n\n{self._repr_latex_()}{repair}"
 
 
 def misprints(formulas: Mapping[str, Formula]) -> tuple[Finding, ...]:

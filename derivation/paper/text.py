@@ -121,6 +121,12 @@ class TextDiagnosis:
     def _repr_latex_(self) -> str:
         return self.diagnosis._repr_latex_()
 
+    def _repr_markdown_(self) -> str:
+        """The comparison, and both values at the point."""
+        at = ", ".join(f"{name} = {value}" for name, value in self.point)
+        values = f"given {self.given_value}\n\nderived {self.derived_value}"
+        return f"{self.diagnosis._repr_markdown_()}\n\nAt {at}:\n\n{values}"
+
 
 def diagnose_text(
     name: str,

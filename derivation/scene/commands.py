@@ -8,8 +8,8 @@ from typing import Annotated
 
 import typer
 
-from derivation.files import write_file
-from derivation.screen import NOTES, OUT, Json, counted, put_json, stage, table
+from derivation.files import expect_writable, write_file, write_files
+from derivation.screen import NOTES, OUT, Json, counted, json_text, put_json, stage, table
 
 SceneFile = Annotated[Path, typer.Argument(metavar="SCENE.toml", help="Scene file.")]
 
@@ -53,7 +53,9 @@ def simulate(
     result = run(load(scene), rtol=rtol)
     warn(result.warnings)
     # Everything is made before anything is written.
-    files = {} if csv is None else {csv: result.history().to_csv().encode()}
+    files: dict[Path, str | bytes] = {}
+    if csv is not None:
+        files[csv] = result.history().to_csv()
     if plot is not None:
         from derivation.scene.plot import render
 
@@ -80,10 +82,16 @@ def simulate(
 
             table(result.comparison.title, comparison.HEADS, result.comparison.lines())
             OUT.print(result.comparison.note, markup=False, highlight=False, soft_wrap=True)
-    for path, content in files.items():
-        write_file(path, content)
-    if json:
-        put_json(result.to_json(), json)
+    _write(files, json, result.to_json())
+
+
+def _write(files: dict[Path, str | bytes], json: str | None, result: object) -> None:
+    """Write files and result, all or none; the result to standard output for `-`."""
+    if json and json != "-":
+        files[Path(json)] = json_text(result)
+    write_files(files)
+    if json == "-":
+        put_json(result, json)
 
 
 def _sweep(
@@ -108,8 +116,9 @@ def _sweep(
         rows = sweeps.run(loaded, sweep, rtol, tell, workers=os.cpu_count() or 1)
     key = f"{sweep.table}.{sweep.key}"
     warn([f"at {key} = {row.value:.6g}: {row.remark}" for row in rows if row.remark])
+    files: dict[Path, str | bytes] = {}
     if csv is not None:
-        write_file(csv, sweeps.to_csv(sweep, rows).encode())
+        files[csv] = sweeps.to_csv(sweep, rows)
     elif json != "-":
         heads = (f"#{key}", *(f"#{n} [{u}]" for n, u in UNITS.items()))
         cells = [
@@ -118,8 +127,7 @@ def _sweep(
             for row in rows
         ]
         table(f"Sweep of {scene.name}", heads, cells)
-    if json:
-        put_json([asdict(row) for row in rows], json)
+    _write(files, json, [asdict(row) for row in rows])
 
 
 def explain(
@@ -267,8 +275,7 @@ def check_outputs(
     for place in places:
         if place == Path("-"):
             raise SceneError("-: expected a file to write; only --json takes standard output as -")
-        if place.is_dir():
-            raise SceneError(f"{place}: expected a file to write, got a folder; add a file name")
+        expect_writable(place)
         if place.resolve() in taken:
             raise SceneError(
                 f"{place}: expected a file of its own for each output, "

@@ -6,6 +6,7 @@ from html import escape
 from typing import Any
 
 from derivation.scene.effects.perturbation import MODES
+from derivation.scene.html import html_table
 from derivation.scene.model import Model
 from generated.perturbation import PrintedMotion, printed_motion
 
@@ -98,13 +99,10 @@ class Comparison:
 
     def to_html(self) -> str:
         """The table for a notebook."""
-        heads = tuple(head.removeprefix("#") for head in HEADS)
-        rows = (
-            "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in line) + "</tr>"
-            for line in (heads, *self.lines())
-        )
-        table = f"<table>{''.join(rows)}</table>"
+        table = html_table(HEADS, self.lines())
         return f"<p>{escape(self.title)}</p>{table}<p>{escape(self.note)}</p>"
+
+    _repr_html_ = to_html
 
 
 def compare(model: Model, contact_time: float, max_indentation: float) -> Comparison:

@@ -13,7 +13,6 @@ import math
 import time
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from html import escape
 from typing import Any
 
 import numpy as np
@@ -22,6 +21,7 @@ from derivation.scene import kernels
 from derivation.scene.effects import BY_NAME, EFFECTS
 from derivation.scene.effects.effect import Along, Array, Bound, Effect, Place, PlateEffect, Results
 from derivation.scene.effects.inertia import WIDER
+from derivation.scene.html import html_table
 from derivation.scene.law import WHOLE_PLATE, Law, Shape
 from derivation.scene.model import Model
 from derivation.scene.motion import largest_radius
@@ -126,11 +126,9 @@ class Gate:
 
     def to_html(self) -> str:
         """The effects table for a notebook."""
-        rows = (
-            "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in line) + "</tr>"
-            for line in (HEADS, *self.lines())
-        )
-        return f"<table>{''.join(rows)}</table>"
+        return html_table(HEADS, self.lines())
+
+    _repr_html_ = to_html
 
 
 @dataclass(frozen=True)

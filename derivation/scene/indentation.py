@@ -8,11 +8,13 @@ iteration in logarithms.
 import math
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass
+from html import escape
 from typing import Any
 
 import numpy as np
 
 from derivation.scene.effects import EFFECTS
+from derivation.scene.html import html_table
 from derivation.scene.law import Law, Shape
 from derivation.scene.limits import (
     check_numbers,
@@ -61,13 +63,28 @@ class Contact:
         return asdict(self) | {"warnings": list(self.warnings)}
 
 
+class Contacts(tuple[Contact, ...]):
+    """Contacts in the order asked for."""
+
+    __slots__ = ()
+
+    def _repr_html_(self) -> str:
+        """Table for a notebook, warnings below it."""
+        heads = ("radius [m]", "indentation [m]", "force [N]", "stiffness [N/m]", "pressure [Pa]")
+        rows = ([f"{x:.6g}" for x in list(asdict(c).values())[: len(heads)]] for c in self)
+        texts = dict.fromkeys(text for contact in self for text in contact.warnings)
+        return html_table(heads, rows) + "".join(
+            f"<p><b>Warning:</b> {escape(text)}</p>" for text in texts
+        )
+
+
 def indent(
     scene: Scene,
     *,
     contact_radius: Values | None = None,
     force: Values | None = None,
     indentation: Values | None = None,
-) -> tuple[Contact, ...]:
+) -> Contacts:
     """Press the sphere in, at rest; exactly one of the three is to be given.
 
     Parameters
@@ -83,8 +100,8 @@ def indent(
 
     Returns
     -------
-    tuple of Contact
-        One row for each value, in the order given.
+    Contacts
+        A tuple: one row for each value, in the order given.
 
     Raises
     ------
@@ -103,7 +120,7 @@ def indent(
     law = law_at_rest(scene)
     numbers = _numbers(name, values)
     with np.errstate(all="ignore"):  # extreme scenes end in NaN, which is looked for
-        return tuple(_contact(law, name, value) for value in numbers)
+        return Contacts(_contact(law, name, value) for value in numbers)
 
 
 def law_at_rest(scene: Scene) -> Law:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from derivation.scene import kernels
 from derivation.scene.choice import Accuracy, moved, moving
 from derivation.scene.gate import Gate
+from derivation.scene.html import html_table
 from derivation.scene.law import WHOLE_PLATE
 from derivation.scene.limits import INERTIA
 from derivation.scene.model import Model
@@ -25,6 +26,17 @@ Array = NDArray[np.float64]
 
 POINTS = 201
 """Times of a history, if not said otherwise."""
+SHOWN = 12
+"""Rows of a history that a notebook shows."""
+HISTORY_UNITS = {
+    "time": "s",
+    "indentation": "m",
+    "velocity": "m/s",
+    "contact_radius": "m",
+    "force": "N",
+    "deflection": "m",
+    "plate_energy": "J",
+}
 
 
 class History(NamedTuple):
@@ -51,6 +63,10 @@ class History(NamedTuple):
     def to_csv(self) -> str:
         """The history as CSV, one line per time, numbers to the last bit."""
         return _csv(self._asdict())
+
+    def _repr_html_(self) -> str:
+        """Some of its times as a table for a notebook."""
+        return _some_rows(self._asdict())
 
 
 class MovingHistory(NamedTuple):
@@ -83,6 +99,19 @@ class MovingHistory(NamedTuple):
     def to_csv(self) -> str:
         """The history as CSV, one line per time, numbers to the last bit."""
         return _csv(self._asdict())
+
+    def _repr_html_(self) -> str:
+        """Some of its times as a table for a notebook."""
+        return _some_rows(self._asdict())
+
+
+def _some_rows(columns: Mapping[str, Array]) -> str:
+    """At most a dozen rows, evenly chosen, first and last among them, and how many there are."""
+    count = len(columns["time"])
+    chosen = np.unique(np.linspace(0, count - 1, min(count, SHOWN)).round().astype(int))
+    heads = [f"{name.replace('_', ' ')} [{HISTORY_UNITS[name]}]" for name in columns]
+    rows = ([f"{column[k]:.6g}" for column in columns.values()] for k in chosen)
+    return f"{html_table(heads, rows)}<p>{len(chosen)} of {count} times</p>"
 
 
 def _csv(columns: Mapping[str, Array]) -> str:

@@ -10,6 +10,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 from pydantic.config import JsonDict
 from pydantic_core import PydanticCustomError
 
+from derivation.scene.html import html_table
 from derivation.scene.materials import MATERIALS
 from derivation.scene.words import choice_problem, explain, shown
 
@@ -248,6 +249,12 @@ class Scene(Table):
     def to_json(self) -> dict[str, dict[str, Any]]:
         """The scene as it was given."""
         return self.model_dump(mode="json", exclude_none=True, exclude_unset=True)
+
+    def _repr_html_(self) -> str:
+        """The keys given, for a notebook."""
+        given = self.to_json().items()
+        rows = ((table, key, value) for table, keys in given for key, value in keys.items())
+        return html_table(("table", "key", "value in SI"), rows)
 
 
 TABLES: dict[str, type[Table]] = {

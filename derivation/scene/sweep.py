@@ -133,7 +133,8 @@ def _rows(scene: Scene, sweep: Sweep, rtol: float | None, workers: int) -> Itera
             "for want of memory perhaps; run it again with fewer values"
         ) from None
     finally:
-        pool.shutdown(wait=False, cancel_futures=True)
+        # Not waited for, it would be forgotten, and what was to be cancelled computed to the end.
+        pool.shutdown(wait=True, cancel_futures=True)
 
 
 def _leave_interrupts() -> None:

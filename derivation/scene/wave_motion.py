@@ -11,6 +11,7 @@ from derivation.scene import bounces
 from derivation.scene.bounces import Course
 from derivation.scene.dynamics import LEAK, ONSET, A, E, P, Problem, V, W, Z, oscillating
 from derivation.scene.effects.effect import Array, Results
+from derivation.scene.html import html_table
 from derivation.scene.law import Law
 from derivation.scene.motion import Ledger, Motion
 from derivation.scene.scene import OUTPUTS
@@ -134,11 +135,10 @@ class WaveMotion(Motion):
 
     def to_html(self) -> str:
         """The contacts and where the energy went, for a notebook."""
-        heads = "".join(f"<th>{escape(head.lstrip('#'))}</th>" for head in HEADS)
-        lines = ("".join(f"<td>{cell}</td>" for cell in line) for line in self.lines())
-        rows = "".join(f"<tr>{line}</tr>" for line in (heads, *lines))
         notes = "".join(f"<p>{escape(note)}</p>" for note in self.notes())
-        return f"<table>{rows}</table>{notes}"
+        return html_table(HEADS, self.lines()) + notes
+
+    _repr_html_ = to_html
 
     def history(self, law: Law, times: Array) -> tuple[Array, Array, Array, Array]:  # noqa: ARG002
         """Way of the sphere [m], velocity [m/s], contact radius [m] and force [N] at times [s]."""

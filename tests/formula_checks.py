@@ -1,0 +1,380 @@
+"""Checks of the chain's core formulas by what does not contain them, for `test_formula_mutants`.
+
+An expression in the place of a formula passes if the equations hold that the formula solves, or
+if an oracle agrees that never reads the chain.
+"""
+
+import random
+from collections.abc import Callable, Mapping
+from fractions import Fraction
+from functools import cache
+
+import mpmath as mp
+import numpy as np
+import scipy.special
+import sympy as sp
+
+from derivation import derived
+from derivation.formula.proof import decide_zero
+from derivation.formula.record import Formula
+from derivation.formula.symbols import A_j, c_A, kappa
+from derivation.reference import contact_balls, edge_routes, inertia_routes, routes
+from derivation.theory.face_conditions import tractions
+from derivation.theory.impact import orders
+from derivation.theory.mode_shapes import CONSTANTS, substitute
+
+Numbers = Mapping[str, mp.mpf]
+Check = Callable[[sp.Expr], bool]
+"""Whether an expression in the place of a formula passes."""
+
+DIGITS = 30
+
+
+@cache
+def chain() -> Mapping[str, Formula]:
+    return derived.formulas()
+
+
+def evaluator(expression: sp.Expr) -> Callable[[Numbers], mp.mpf]:
+    symbols = sorted(expression.free_symbols, key=str)
+    call = sp.lambdify(symbols, expression, "mpmath")
+    return lambda numbers: call(*(numbers[str(symbol)] for symbol in symbols))
+
+
+def close(found: mp.mpf, expected: mp.mpf, tolerance: float = 1e-18) -> bool:
+    return bool(abs(found - expected) <= tolerance * abs(expected))
+
+
+def number(ball: object) -> mp.mpf:
+    return mp.mpf(ball.str(25, radius=False))  # type: ignore[attr-defined]
+
+
+def drawn(names: set[str], seed: str, count: int = 2) -> list[Numbers]:
+    """Values between 1/4 and 9/4, doubles; pressures are negative."""
+    generator = random.Random(seed)
+    points = []
+    for _ in range(count):
+        values = {name: mp.mpf(generator.uniform(0.25, 2.25)) for name in sorted(names)}
+        points.append({k: -v if k == "A_j" else v for k, v in values.items()})
+    return points
+
+
+# --- links 1 to 9: equations that the formula solves, and oracle 2
+
+
+def in_the_equations(name: str) -> Check:
+    """f_j and g_j with the other one as it is, in both equations of motion."""
+    other = chain()["g_j" if name == "f_j" else "f_j"].expression
+
+    def passes(expression: sp.Expr) -> bool:
+        pair = (expression, other) if name == "f_j" else (other, expression)
+        return all(decide_zero(residual) for residual in substitute(*pair))
+
+    return passes
+
+
+def in_the_tractions(name: str) -> Check:
+    """One Omega beside the other three, in the tractions of both faces."""
+    own = {c: A_j * chain()[f"Omega_{k}"].expression for k, c in enumerate(CONSTANTS, start=1)}
+    constant = CONSTANTS[int(name[-1]) - 1]
+
+    def passes(expression: sp.Expr) -> bool:
+        with_it = own | {constant: A_j * expression}
+        return all(decide_zero(value.subs(with_it)) for value in tractions().values())
+
+    return passes
+
+
+def by_route(name: str) -> Check:
+    names = {str(symbol) for symbol in chain()[name].expression.free_symbols}
+    points = drawn(names, name)
+    if name == "p":
+        points = [point | {"r": point["r"] * point["a"] / 3} for point in points]
+    true = [routes.value(name, {k: float(v) for k, v in p.items()}, 22) for p in points]
+
+    def passes(expression: sp.Expr) -> bool:
+        call = evaluator(expression)
+        return all(close(call(p), t) for p, t in zip(points, true, strict=True))
+
+    return passes
+
+
+# --- the contact law
+
+
+@cache
+def zeros(count: int) -> tuple[Numbers, ...]:
+    with mp.workdps(DIGITS):
+        found = [mp.besseljzero(0, n) for n in range(1, count + 1)]
+        return tuple({"j_n": j, "J1": mp.besselj(1, j)} for j in found)
+
+
+def summed(expression: sp.Expr, numbers: Numbers, count: int = 34) -> mp.mpf:
+    """One mode's share, added up; shares die like e^(-4 h j_n/b)."""
+    call = evaluator(expression)
+    return mp.fsum(call({**numbers, **mode}) for mode in zeros(count))
+
+
+ETAS = (Fraction(2, 5), Fraction(4, 5))
+
+
+def by_coefficient(name: str) -> Check:
+    """c_k of modes and side wall together, against oracle 1 of the contact law."""
+    order, part = int(name.split("_")[1]), name.split("_")[2]
+    true = [number(contact_balls.coefficient(order, eta, Fraction(1), 20)) for eta in ETAS]
+    moment = {f"kappa_{order - 1}": number(contact_balls.kappa(order - 1, 25))}
+    assert str(kappa[order - 1]) in moment
+    etas = [{"eta": mp.mpf(eta.numerator) / eta.denominator} for eta in ETAS]
+    rest = chain()[f"c_{order}_{'side' if part == 'modes' else 'modes'}"].expression
+
+    def passes(expression: sp.Expr) -> bool:
+        modes, side = (expression, rest) if part == "modes" else (rest, expression)
+        return all(
+            close(summed(modes, values) + evaluator(side)({**moment, **values}), c, 1e-17)
+            for c, values in zip(true, etas, strict=True)
+        )
+
+    return passes
+
+
+def by_departure(_: str) -> Check:
+    """The split's part of the modes: the whole less the side wall, by oracle 1."""
+    alphas = Fraction(1, 5), Fraction(1, 2)
+    walls = [contact_balls.side_wall(alpha, 20) for alpha in alphas]
+    points = [
+        ({"alpha": mp.mpf(x.numerator) / x.denominator, "eta": mp.mpf(e.numerator) / e.denominator},
+         number(contact_balls.departure(x, e, Fraction(1), 20)) - number(wall))
+        for x, wall in zip(alphas, walls, strict=True) for e in ETAS
+    ]  # fmt: skip
+    return lambda e: all(close(summed(e, values), true, 1e-16) for values, true in points)
+
+
+def by_the_law(_: str) -> Check:
+    """1 + c_1 A + ... at the coefficients of oracle 1, against its indentation at a small A."""
+    eta, A = Fraction(1, 2), Fraction(1, 16)
+    values = {str(c_A[n]): number(contact_balls.coefficient(n, eta, 1, 25)) for n in (1, 3, 5, 7)}
+    at = values | {"a_ratio": mp.mpf(A.numerator) / A.denominator}
+    true = 1 + number(contact_balls.departure(A * eta, eta, 1, 25))
+    last = abs(values["c_7"]) * at["a_ratio"] ** 7
+    return lambda expression: bool(abs(evaluator(expression)(at) - true) < 0.01 * last)
+
+
+def by_inversion(name: str) -> Check:
+    """xi_k or p_n among their like: the law of a tiny contact, turned round term by term."""
+    formal = name.startswith("xi")
+    family = [x for x in chain() if x.startswith(name[:-1]) and x[-1].isdigit()]
+    gammas = [f"gamma_{k}" for k in range(2, len(family) + 2)]
+    odd = [f"c_{n}" for n in (1, 3, 5, 7)]
+    with mp.workdps(120):
+        numbers = drawn({*gammas, *odd}, name, 1)[0]
+        small = mp.mpf(2) ** -30
+        own = {x: evaluator(chain()[x].expression)(numbers) for x in family}
+        if formal:  # of x = P^(1/3), the indentation divided by gamma_2 x^3
+            depth = mp.fsum(numbers[g] * small ** (2 * i) for i, g in enumerate(gammas))
+            root = mp.cbrt(depth) * small
+            shares = {x: root ** (2 * i + 3) / small**3 for i, x in enumerate(family)}
+            true, rest = mp.mpf(1), small ** (2 * len(family))
+        else:  # of A
+            F = mp.fsum(numbers[c] * small ** int(c[2:]) for c in odd)
+            eps = small * mp.sqrt(1 + F)
+            shares = {x: eps ** int(x[2:]) for x in family}
+            true, rest = (small / eps) ** 3 - 1, small ** (len(family) + 1)
+
+    def passes(expression: sp.Expr) -> bool:
+        with mp.workdps(120):
+            terms = own | {name: evaluator(expression)(numbers)}
+            total = mp.fsum(value * shares[x] for x, value in terms.items())
+            return bool(abs(total - true) < 1e4 * rest)
+
+    return passes
+
+
+def by_wall(_: str) -> Check:
+    """The side wall's integral by Gauss' rule, near 0 spread by y = u^3, against oracle 1."""
+    true = float(number(contact_balls.side_wall(Fraction(3, 5), 20)))
+    nodes, weights = scipy.special.roots_legendre(300)
+    u = 1.8 * (nodes + 1)
+
+    def passes(expression: sp.Expr) -> bool:
+        factor, integral = expression.as_independent(sp.Integral)
+        (height,) = integral.variables
+        call = sp.lambdify((height, "alpha"), factor * integral.function, "scipy")
+        with np.errstate(all="ignore"):
+            found = (weights * 1.8 * 3 * u**2 * call(u**3, 0.6)).sum()
+        return bool(abs(found / true - 1) < 1e-6)
+
+    return passes
+
+
+# --- the impact
+
+
+def by_energy(name: str) -> Check:
+    """The integrand of the contact time and the work, by the energy at every place.
+
+    C = a_m = R = 1, m = 2: 2 u dx/dq over the root of the work between q = 1 - u^2 and 1.
+    """
+    weights = drawn({f"D_{n}" for n in orders()[1:]}, name, 1)[0]
+
+    def rate(q: mp.mpf) -> mp.mpf:
+        return mp.fsum(n * weights.get(f"D_{n}", 1) * q ** (n - 1) for n in orders())
+
+    def work(start: mp.mpf) -> mp.mpf:
+        return mp.quad(lambda q: q**3 * rate(q), [start, 1], method="gauss-legendre")
+
+    if name == "contact_work":
+        return lambda expression: close(evaluator(expression)(weights), work(mp.mpf(0)))
+    at = [mp.mpf("0.3"), mp.mpf("0.8")]
+    true = [2 * u * rate(1 - u**2) / mp.sqrt(work(1 - u**2)) for u in at]
+
+    def passes(expression: sp.Expr) -> bool:
+        call = evaluator(expression)
+        return all(close(call(weights | {"u_t": u}), t) for u, t in zip(at, true, strict=True))
+
+    return passes
+
+
+def by_hertz_motion(_: str) -> Check:
+    """2 int_0^1 dx/sqrt(1 - x^(5/2)), x = 1 - u^2."""
+
+    def integrand(u: mp.mpf) -> mp.mpf:
+        return 4 * u / mp.sqrt(-mp.expm1(mp.mpf("2.5") * mp.log1p(-(u**2))))
+
+    with mp.workdps(20):
+        true = mp.quad(integrand, [0, 1])
+    return lambda expression: close(evaluator(expression)({}), true, 1e-14)
+
+
+MOTION = {
+    key: mp.mpf(text)
+    for key, text in (
+        ("m", "0.7"), ("v0", "3"), ("xi_2", "1.3"), ("xi_3", "0.4"), ("delta", "0.6"), ("t", "0.9"),
+    )
+}  # fmt: skip
+
+
+def by_motion(name: str) -> Check:
+    """Newton's equation under xi_2 delta + xi_3 delta^(5/3), its work by quadrature."""
+
+    def force(at: mp.mpf) -> mp.mpf:
+        return MOTION["xi_2"] * at + MOTION["xi_3"] * mp.cbrt(at) ** 5
+
+    depth, m, v0 = MOTION["delta"], MOTION["m"], MOTION["v0"]
+    if name == "acceleration":
+        return lambda expression: close(evaluator(expression)(MOTION), -force(depth) / m)
+    true = mp.sqrt(v0**2 - 2 / m * mp.quad(force, [0, depth]))
+    return lambda expression: close(evaluator(expression)(MOTION), true, 1e-12)
+
+
+def by_linear_motion(_: str) -> Check:
+    """m x'' + xi_2 x = 0, x(0) = 0 and x'(0) = v0, differentiated in numbers."""
+    m, v0, stiff, at = (MOTION[key] for key in ("m", "v0", "xi_2", "t"))
+
+    def passes(expression: sp.Expr) -> bool:
+        call = evaluator(expression)
+
+        def place(time: mp.mpf) -> mp.mpf:
+            return call(MOTION | {"t": time})
+
+        return (
+            abs(place(mp.mpf(0))) < 1e-15
+            and close(mp.diff(place, 0), v0, 1e-8)
+            and close(m * mp.diff(place, at, 2), -stiff * place(at), 1e-8)
+        )
+
+    return passes
+
+
+# --- sphere, edge, inertia
+
+
+def by_profile(name: str) -> Check:
+    """Flat punches that fit a sphere (Sneddon 1965), by quadrature; dP = 2 E* a d delta."""
+    numbers = drawn({"lam", "mu"}, name, 1)[0] | {"R": mp.mpf(3), "a": mp.mpf("1.7")}
+    E = 2 / routes.value("C_half", {"phi": 1.0} | {k: float(numbers[k]) for k in ("lam", "mu")}, 20)
+    R, a = numbers["R"], numbers["a"]
+    radius = sp.Symbol("a", positive=True)
+
+    def passes(expression: sp.Expr) -> bool:
+        start, slope = evaluator(expression), evaluator(sp.diff(expression, radius))
+        if not abs(start(numbers | {"a": mp.mpf("1e-12")})) < 1e-10:
+            return False
+        if name == "P_sphere":
+            depth = evaluator(sp.diff(chain()["delta_sphere"].expression, radius))
+            return close(slope(numbers), 2 * E * a * depth(numbers), 1e-15)
+        fitted = mp.quad(
+            lambda angle: angle * mp.sin(angle) * slope(numbers | {"a": a * mp.cos(angle)}),
+            [0, mp.pi / 2], method="gauss-legendre",
+        )  # fmt: skip
+        return close(2 / mp.pi * a * fitted, R - mp.sqrt(R**2 - a**2), 1e-12)
+
+    return passes
+
+
+def by_rim(name: str) -> Check:
+    """u at the rim, mean and first moment through the thickness, by oracle 2's mode."""
+    numbers = drawn({"phi", "h", "b", "lam", "mu", "A_j", "J1"}, name, 1)[0]
+    given = {key: float(numbers[key]) for key in ("phi", "h", "lam", "mu", "A_j")}
+    h, b, turns = numbers["h"], numbers["b"], name == "edge_turn"
+    nodes, weights = scipy.special.roots_legendre(24)
+    total = mp.fsum(
+        mp.mpf(w) * h * routes.value("mode_g", given | {"z": float(h) * x}, 20) * (h * x) ** turns
+        for x, w in zip(nodes, weights, strict=True)
+    )
+    share = 3 / (2 * h**3 * b) if turns else 1 / (2 * h * b)
+    true = numbers["phi"] * numbers["J1"] * total * share
+    return lambda expression: close(evaluator(expression)(numbers), true, 1e-10)
+
+
+def by_residues(name: str) -> Check:
+    """The edge's part of the law: its sum over the modes against oracle 2's sum over residues."""
+    kind = "indentation" if name == "F_edge" else "slope"
+    lam, mu, alpha = 1.3, 0.7, 0.6
+    nu = lam / (2 * (lam + mu))
+    cases = [(0.05, scipy.special.jn_zeros(0, 1800)), (0.4, scipy.special.jn_zeros(0, 260))]
+    true = [float(edge_routes.edge_part(kind, alpha, eta, 1.0, nu, 15)) for eta, _ in cases]
+
+    def passes(expression: sp.Expr) -> bool:
+        names = sorted(expression.free_symbols, key=str)
+        call = sp.lambdify(names, expression, "numpy")
+        for (eta, zeros), expected in zip(cases, true, strict=True):
+            values = {"alpha": alpha, "eta": eta, "lam": lam, "mu": mu, "j_n": zeros}
+            values["J1"] = scipy.special.j1(zeros)
+            with np.errstate(all="ignore"):
+                sums = np.cumsum(call(*(values[str(symbol)] for symbol in names)))
+            for _ in range(8):  # terms alternate
+                sums = (sums[1:] + sums[:-1]) / 2
+            if not abs(sums[-1] / expected - 1) < 1e-7:
+                return False
+        return True
+
+    return passes
+
+
+def by_poissons_ratio(_: str) -> Check:
+    values = drawn({"lam", "mu"}, "support")
+    ratios = [v["lam"] / (2 * (v["lam"] + v["mu"])) for v in values]
+    pairs = [(v, (1 - nu) / (1 + nu)) for v, nu in zip(values, ratios, strict=True)]
+    return lambda expression: all(close(evaluator(expression)(v), true) for v, true in pairs)
+
+
+def by_first_order_system(name: str) -> Check:
+    """The waves' influence against oracle 2: eigenvectors of the equations of first order."""
+    places = [(1.5, 0.75, 0.25), (0.5, 0.125, 0.375)]
+    h, mu = mp.mpf("0.3"), mp.mpf("1.7")
+    true = []
+    for place in places:
+        bent, stretched = inertia_routes.influence(*place, 20)
+        parts = {"B_a": 1 / bent, "B_s": 1 / stretched}
+        true.append(parts.get(name.removesuffix("_slow"), h / mu * (bent + stretched)))
+
+    def passes(expression: sp.Expr) -> bool:
+        call = evaluator(expression)
+        for (x, kap, nu), expected in zip(places, true, strict=True):
+            gam = (1 - 2 * mp.mpf(nu)) / (2 - 2 * mp.mpf(nu))
+            values = {"x_h": mp.mpf(x), "kap": mp.mpf(kap), "gam": gam, "h": h, "mu": mu}
+            if not close(call(values), expected, 1e-15):
+                return False
+        return True
+
+    return passes

@@ -1,0 +1,184 @@
+"""Systematic mutants, always the same: of a SymPy expression, and of a Python module's text."""
+
+import ast
+import copy
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import sympy as sp
+
+SWAPPED = {
+    sp.sin: sp.cos, sp.cos: sp.sin, sp.sinh: sp.cosh, sp.cosh: sp.sinh, sp.tanh: sp.coth,
+    sp.coth: sp.tanh, sp.exp: sp.cosh, sp.log: sp.exp,
+}  # fmt: skip
+
+
+class Mutant(NamedTuple):
+    """What was done where, and what came of it."""
+
+    name: str
+    expression: sp.Expr
+
+
+def of_expression(expression: sp.Expr) -> list[Mutant]:
+    """Every sign flipped, exponent raised, coefficient doubled or dropped, function swapped.
+
+    One change each, at every place of the tree. What SymPy finds to be the same expression again
+    is left out, as cosh(-x); of several that are the same, all but the first.
+    """
+    found = {expression: ""}
+    for path, node in _places(expression):
+        for what, new in _changes(node):
+            mutant = _with(expression, path, new)
+            found.setdefault(mutant, f"{what}: {node}")
+    return [Mutant(name, mutant) for mutant, name in found.items() if name]
+
+
+def _places(
+    node: sp.Basic, path: tuple[int, ...] = ()
+) -> Iterator[tuple[tuple[int, ...], sp.Expr]]:
+    if isinstance(node, sp.Expr):
+        yield path, node
+    for index, part in enumerate(node.args):
+        if not isinstance(part, sp.Tuple):  # a variable of integration
+            yield from _places(part, (*path, index))
+
+
+def _with(node: sp.Basic, path: tuple[int, ...], new: sp.Expr) -> sp.Expr:
+    if not path:
+        return new
+    parts = list(node.args)
+    parts[path[0]] = _with(parts[path[0]], path[1:], new)
+    return node.func(*parts)
+
+
+def _changes(node: sp.Expr) -> Iterator[tuple[str, sp.Expr]]:
+    if node.is_Rational:
+        return
+    yield "sign", -node
+    yield "doubled", 2 * node
+    coefficient, rest = node.as_coeff_Mul()
+    if abs(coefficient) != 1:
+        yield "coefficient dropped", sp.sign(coefficient) * rest
+    if node.is_Add:
+        for term in node.args:
+            yield f"{term} dropped from", node - term
+    if node.is_Symbol:
+        yield "exponent", node**2
+    if node.is_Pow and node.exp.is_number:
+        yield "exponent", node.base ** (node.exp + 1)
+    if type(node) in SWAPPED:
+        yield "function", SWAPPED[type(node)](*node.args)
+    if isinstance(node, sp.besselj | sp.besseli | sp.besselk):
+        yield "function", node.func(1 - node.args[0], node.args[1])
+
+
+class CodeMutant(NamedTuple):
+    """Where a module was changed, how, and the whole of it."""
+
+    name: str
+    tree: ast.Module
+
+
+OPERATORS: dict[type[ast.operator], ast.operator] = {
+    ast.Add: ast.Sub(), ast.Sub: ast.Add(), ast.Mult: ast.Div(), ast.Div: ast.Mult(),
+}  # fmt: skip
+CALLS = {
+    "sqrt": "cbrt", "cbrt": "sqrt", "minimum": "maximum", "maximum": "minimum", "exp": "expm1",
+    "expm1": "exp", "times": "times_closely",
+}  # fmt: skip
+
+
+def of_module(text: str) -> Iterator[CodeMutant]:
+    """Every number, sign, operator and function of NumPy's changed, one at a time.
+
+    Numbers are doubled, 0 becomes 1, and an exponent is raised by one; + and -, * and / are
+    interchanged. Annotations, indices, and what is said of axes and shapes are no formulas.
+    """
+    tree = ast.parse(text)
+    for node in ast.walk(tree):  # docstrings take time to copy
+        if isinstance(node, ast.FunctionDef | ast.ClassDef | ast.Module) and ast.get_docstring(
+            node
+        ):
+            node.body[0] = ast.Pass()
+    for place in _formulas(tree):
+        original = ast.unparse(place.node)
+        inside = f" in {ast.unparse(place.parent)}" if isinstance(place.node, ast.Constant) else ""
+        for new in _rewritten(place.node, place.exponent):
+            changed = _put(tree, place.node, new)
+            yield CodeMutant(f"{place.home}: {original} -> {ast.unparse(new)}{inside}", changed)
+
+
+class _Place(NamedTuple):
+    home: str
+    node: ast.expr
+    parent: ast.AST
+    exponent: bool
+
+
+SKIPPED = ("shape", "axis", "dtype", "reshape", "broadcast_to", "arange")
+
+
+def _formulas(tree: ast.Module) -> Iterator[_Place]:
+    """Arithmetic of all functions and of module constants."""
+
+    def walk(node: ast.AST, home: str, parent: ast.AST, exponent: bool) -> Iterator[_Place]:
+        if isinstance(node, ast.Subscript | ast.arguments | ast.AnnAssign | ast.ClassDef):
+            return
+        if isinstance(node, ast.Call) and ast.unparse(node.func).split(".")[-1] in SKIPPED:
+            return
+        if isinstance(node, ast.keyword) and node.arg in SKIPPED:
+            return
+        if isinstance(node, ast.FunctionDef):
+            home = node.name
+        if isinstance(node, ast.Assign) and not home:
+            home = ast.unparse(node.targets[0])
+        if isinstance(node, ast.BinOp | ast.UnaryOp | ast.Constant | ast.Call):
+            yield _Place(home, node, parent, exponent)
+        power = isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow)
+        for name, child in ast.iter_fields(node):
+            for part in child if isinstance(child, list) else [child]:
+                if isinstance(part, ast.AST):
+                    yield from walk(part, home, node, power and name == "right")
+
+    for statement in tree.body:
+        yield from walk(statement, "", tree, False)
+
+
+def _rewritten(node: ast.expr, exponent: bool) -> Iterator[ast.expr]:
+    match node:
+        case ast.BinOp(op=op) if type(op) in OPERATORS:
+            yield ast.BinOp(node.left, OPERATORS[type(op)], node.right)
+        case ast.UnaryOp(op=ast.USub()):
+            yield node.operand
+        case ast.Constant(value=bool()):
+            return
+        case ast.Constant(value=int() | float() as value):
+            yield ast.Constant(value + 1 if exponent else 2 * value or 1)
+        case ast.Call(func=ast.Attribute(attr=name) as of) if name in CALLS:
+            yield ast.Call(ast.Attribute(of.value, CALLS[name], of.ctx), node.args, node.keywords)
+
+
+def _put(tree: ast.Module, old: ast.expr, new: ast.expr) -> ast.Module:
+    """A copy of the tree with one node replaced; what is not on the way to it is shared."""
+
+    class Replace(ast.NodeTransformer):
+        def visit(self, node: ast.AST) -> ast.AST:
+            if node is old:
+                return new
+            for name, child in ast.iter_fields(node):
+                if isinstance(child, list):
+                    parts = [self.visit(x) if isinstance(x, ast.AST) else x for x in child]
+                    if any(a is not b for a, b in zip(parts, child, strict=True)):
+                        node = copy.copy(node)
+                        setattr(node, name, parts)
+                elif isinstance(child, ast.AST):
+                    part = self.visit(child)
+                    if part is not child:
+                        node = copy.copy(node)
+                        setattr(node, name, part)
+            return node
+
+    changed = Replace().visit(tree)
+    assert isinstance(changed, ast.Module)
+    return ast.fix_missing_locations(changed)

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import numpy as np
 
-from derivation.files import ROOT, measurements, write_file
+from derivation.files import measurements, write_file
 from derivation.measure import inertia
 from derivation.measure.inertia import Found, Judged
-from derivation.produce import folder_for
+from derivation.produce import expect_recordable
 from derivation.scene import motion, waves
 from derivation.scene.choice import moved, moving, solve_gated
 from derivation.scene.effects import EFFECTS
@@ -45,9 +45,10 @@ def check_inertia(
     tell: inertia.Tell | None = None,
 ) -> Judged:
     """Random scenes with a plate that may move against more modes; keep the rows if asked."""
+    if record:
+        expect_recordable(MEASURED)
     found = inertia.judge(count, solve, pass_over, seed, tell)
     if record:
-        folder_for(None, ROOT / "reports")
         write_file(MEASURED, inertia.to_json(found, seed))
     return found
 

@@ -83,9 +83,14 @@ print(made.name, "proved, to", read_budgets()["p_mean"].ulp, "ULP")
 """
 HARD = """
 import json
+from pathlib import Path
 from derivation.measure import hard_check
+from derivation.measure.hard_record import find_references
 [case] = [c for c in hard_check.cases() if c.cause == "T is a third, which no double is."]
-rows = hard_check.check([case], {case.key: hard_check.find(case)}, hard_check.kernels())
+kernels = hard_check.kernels()
+nowhere = Path("nowhere.json")
+truth = find_references([case], kernels, nowhere, nowhere)
+rows = hard_check.check([case], truth, kernels)
 print(json.dumps([[row.kept, row.error, row.allowed] for row in rows]))
 """
 

@@ -16,7 +16,7 @@ from pathlib import Path
 import pytest
 from typer.main import get_command
 
-from derivation import effects_check, moving_costs, pipeline, produce, reporting
+from derivation import effects_check, inertia_check, moving_costs, pipeline, produce, reporting
 from derivation.cli import app, main
 from derivation.files import ROOT
 
@@ -169,6 +169,7 @@ def test_without_leave_to_write_nothing_is_computed(
         (["--hard"], pipeline, "MEASURED_HARD"),
         (["--bounds", "3000"], pipeline, "MEASURED_BOUNDS"),
         (["--effects", "3000"], effects_check, "MEASURED"),
+        (["--inertia", "500"], inertia_check, "MEASURED"),
     ],
 )
 def test_what_cannot_be_recorded_is_not_measured(

@@ -38,7 +38,7 @@ NEEDED = {
     "check": "check --record",
     "contact": "check --contact --record",
     "hard": "check --hard --record",
-    "inertia": "check --inertia 500 --seed 2 --record",
+    "inertia": "check --inertia 500 --seed 3 --record",
     "moving": "accuracy --moving",
     "rewrite": "rewrite --record",
     "speed": "check --speed --record",

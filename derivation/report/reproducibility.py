@@ -14,7 +14,7 @@ RENEWED = {
     "edge_remainder": "python -m derivation.measure.edge_remainder",
     "effects": "platecontact check --effects 3000 --record",
     "hard": "platecontact check --hard --record",
-    "inertia": "platecontact check --inertia 500 --seed 2 --record",
+    "inertia": "platecontact check --inertia 500 --seed 3 --record",
     "moving": "platecontact accuracy --moving",
     "rewrite": "platecontact rewrite --record",
     "speed": "platecontact check --speed --record",

@@ -28,8 +28,8 @@ contact may be faster than the first."""
 SLOWEST = 2.9
 """Contact time times speed over indentation: of Hertz' law 2.94, of a spring 3.14."""
 WORTH = (12.0, 6.0, 40.0, 14.0, 30.0)
-"""What a mode's share off its rest means for each result, as a logarithm: measured, and half as much
-again as the worst of 500 scenes."""
+"""What a mode's share off its rest means for each result, as a logarithm: measured, and half as
+much again as the worst of 500 scenes."""
 
 
 class Inertia(Effect):

@@ -56,7 +56,7 @@ def test_the_density_is_asked_for_where_inertia_is() -> None:
     block = own | {"radius": 1.0, "thickness": 1.0}
     known = read({**bare, "plate": block, "impact": {"speed": 1e-3}})
     assert known.effects.inertia == "auto"
-    assert "inertia" not in simulate(known, rtol=1e-2).gate.law.effects
+    assert "inertia" not in simulate(known, rtol=1e-1).gate.law.effects
 
 
 def test_the_whole_plate_has_to_move() -> None:

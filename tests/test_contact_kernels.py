@@ -17,9 +17,9 @@ from flint import arb
 
 import derivation
 from derivation.emit.budgets import read_budgets, read_promises
-from derivation.emit.kernels import notes_of
 from derivation.emit.render import Module, fill
 from derivation.emit.source import format_files
+from derivation.emit.table_rows import notes_of
 from derivation.rewrite import contact_tables as tables
 from derivation.rewrite.contact_tables import contact_context, impact_context
 from derivation.rewrite.moment_tables import finite_parts, kappas

@@ -4,6 +4,7 @@ A budget is a number of units in the last place (ULP), a domain and a conditioni
 rule, which says what the number counts in and what comes on top of it.
 """
 
+import textwrap
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -32,6 +33,17 @@ class Budget:
     ulp: float
     domain: str
     rule: str
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Its three parts as lines of a docstring."""
+        promise = f"Error budget: {self.ulp:g} units in the last place of {self.rule}."
+        where = f"Domain: {self.domain or 'all real numbers'}; wherever the value is representable."
+        return (*textwrap.wrap(promise, 84), *textwrap.wrap(where, 84, break_on_hyphens=False))
+
+    def row(self) -> dict[str, object]:
+        """Its three parts under the manifest's keys."""
+        return {"domain": self.domain, "budget": self.ulp, "rule": self.rule}
 
 
 def read_budgets() -> dict[str, Budget]:

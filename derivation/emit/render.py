@@ -22,19 +22,16 @@ from derivation.emit.kernels import (
     AsPrinted,
     Kernel,
     argument_text,
-    contact_rows,
     kernel_of_form,
     kernel_of_sum,
     lines,
-    notes_of,
-    promise,
     rows_by_module,
     seam_text,
-    table_rows,
 )
 from derivation.emit.perturbation import perturbation_context
 from derivation.emit.printer import to_numpy
 from derivation.emit.source import TEMPLATES, filled, format_files
+from derivation.emit.table_rows import contact_rows, notes_of, table_rows
 from derivation.formula.record import Formula
 from derivation.formula.symbols import BY_NAME, arguments_of
 from derivation.paper.printed import PRINTED
@@ -204,7 +201,7 @@ def manifest_rows(kernels: tuple[Kernel, ...]) -> list[dict[str, Any]]:
             "equation": k.equation,
             "modes": k.modes,
         }
-        | promise(k.budget)
+        | k.budget.row()
         for k in kernels
     ]
     return rows + table_rows(read_budgets())

@@ -5,7 +5,8 @@ Read in this order:
 1. `scene`: reads and validates the scene file.
 2. `model`: turns the scene into the numbers the kernels take.
 3. `effects`: one file each; `law` adds up those that are in.
-4. `gate`: which effects the scene calls for, by bounds; `explanation` shows it.
+4. `gate`: which effects the scene calls for, by bounds of what leaving them out changes
+   (`left_out`); `explanation` shows it.
 5. `limits`: refuses what lies outside the contact law, warns where it grows inexact.
 6. `choice`: the cheapest method whose error bound meets a tolerance; `motion` is the one
    that takes any law, `viscous` by `collocation` the one that also takes a contact that lags,

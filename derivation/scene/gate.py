@@ -4,42 +4,25 @@ Begun with what is always in, the effect with the largest bound is taken in unti
 of all that is left out, together, stay within the tolerance. As S_1 grows with each effect
 taken in and radii shrink, bounds are taken anew each time. The order does not depend on the
 tolerance, so that a looser one never takes in more.
-
-S of the whole law lies within 1 - low and 1 + up times that of the law taken, at every radius
-up to 1.02 times the largest; link 18 says what this does to the results.
 """
 
 import math
-import time
-from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
-from derivation.scene import kernels
-from derivation.scene.effects import BY_NAME, EFFECTS
-from derivation.scene.effects.effect import Along, Array, Bound, Effect, Place, PlateEffect, Results
-from derivation.scene.effects.inertia import WIDER
+from derivation.scene.effects import EFFECTS
+from derivation.scene.effects.effect import Effect
 from derivation.scene.html import html_table
-from derivation.scene.law import WHOLE_PLATE, Law, Shape
+from derivation.scene.law import WHOLE_PLATE, Law
+from derivation.scene.left_out import MOVED_WITH, State, error_of, price_of, size_of, state_of
 from derivation.scene.model import Model
-from derivation.scene.motion import largest_radius
-from derivation.scene.quadrature import NODES, rule, stored
 from derivation.scene.scene import OUTPUTS, SceneError
 
 SOLVED_WITH = WHOLE_PLATE | {"curvature", "sphere_elasticity"}
 """Effects that the true pressure's equation holds in itself."""
-MOVED_WITH = WHOLE_PLATE | {"edge"}
-"""Effects that a plate's modes hold, at rest and in motion."""
 WHOLES = {"pressure": SOLVED_WITH, "inertia": MOVED_WITH}
 """Effects that hold the whole plate, and what comes in with them."""
-TOP = 1.02
-"""Bounds are taken up to this times the largest radius."""
-NEAR = 1e-6
-"""How near the largest radius has to be known for that."""
-MARGIN = 1.05
-"""Elasticities of S are sampled at nodes and widened by this."""
 SAYS_NOTHING = 10.0
 """A bound so far above what it bounds is shown as none."""
 FORCED_OUT = "false in the scene"
@@ -131,23 +114,6 @@ class Gate:
     _repr_html_ = to_html
 
 
-@dataclass(frozen=True)
-class _State:
-    """A law at its largest radius [m]: S_1 at the place's radii, and elasticities of S_1.
-
-    `growth` is the largest elasticity of the contact radius by Hertz' radius of the force, at
-    least 1. `a` is NaN if the law ends before.
-    """
-
-    law: Law
-    a: float
-    place: Place
-    slope: Array
-    fall: float
-    rise: float
-    growth: float
-
-
 def decide(
     model: Model, wanted: Mapping[str, Any], rtol: float, outputs: Sequence[str] = OUTPUTS
 ) -> Gate:
@@ -185,26 +151,21 @@ def decide(
     # What comes in with an effect costs nothing there; of pressure the bounds are Hertz'.
     along = {name: with_it & free for name, with_it in WHOLES.items()}
     included = {e.name for e in present if e.forced or choice[e.name] is True}
-    included |= _all(along[name] for name in included & WHOLES.keys())
+    included.update(*(along[name] for name in included & WHOLES.keys()))
     open_ = [e for e in present if e.name not in included and choice[e.name] is not False]
     while True:
-        state = _state(Law(model, frozenset(included)))
-        error = _error(state, open_, outputs)
+        state = state_of(Law(model, frozenset(included)))
+        error = error_of(state, open_, outputs)
         # A plate that moves leaves modes and branches out too: half the tolerance is theirs.
         if error <= (0.5 * rtol if "inertia" in included else rtol) or not open_:
             break
-        worst = max(open_, key=lambda effect: _size(state, effect, outputs))
+        worst = max(open_, key=lambda effect: size_of(state, effect, outputs))
         included |= {worst.name} | along.get(worst.name, set())
         open_ = [effect for effect in open_ if effect.name not in included]
     if "inertia" in included:
         check_movable(model, asked, "viscosity" in included)
     rows = [_row(effect, state, choice, reasons, rtol, error, outputs) for effect in EFFECTS]
     return Gate(state.law, rtol, error, tuple(rows), tuple(outputs))
-
-
-def _all(sets: Iterable[Collection[str]]) -> set[str]:
-    """Everything in any of them."""
-    return set().union(*sets)
 
 
 def check_movable(model: Model, asked: Collection[str], lagging: bool) -> None:
@@ -230,145 +191,9 @@ def check_movable(model: Model, asked: Collection[str], lagging: bool) -> None:
     )
 
 
-def _state(law: Law, top: float = TOP) -> _State:
-    """The law at its largest radius, or at its limit if that is beyond.
-
-    Of a plate that moves that of a plate that does not yield, and so much wider as a contact may
-    become there at most.
-    """
-    if "inertia" in law.effects:
-        stiff = replace(law, effects=law.effects - MOVED_WITH - {"inertia"})
-        return replace(_state(stiff, WIDER), law=law)
-    nodes = rule(NODES[0])
-    with np.errstate(all="ignore"):
-        a = largest_radius(law, close=NEAR)
-        top = min(top * a, law.limit) if a < law.limit else law.limit
-        radii = np.append(nodes.x, 1.0) * top
-        shape = law.at(radii)
-        # Once more without the end, where a sphere's slope may be steep: of the polynomial.
-        inner, last = (Shape(*(x[part] for x in shape)) for part in (slice(-1), slice(-1, None)))
-        elasticity = nodes.x * (nodes.derivative @ inner.additive) / inner.additive
-        equal = np.concatenate(([0.0], radii * np.cbrt(shape.force)))
-        along = _along(law, radii, shape)
-    fall, rise = max(0.0, -float(np.min(elasticity))), max(0.0, float(np.max(elasticity)))
-    # P goes with the cube of Hertz' radius, and dP = 2 E* a_H d delta/S.
-    swelling = inner.slope / (inner.additive * np.cbrt(inner.force) ** 2)
-    growth = 1.0 + MARGIN * max(0.0, float(np.max(1.0 / swelling)) - 1.0)
-    place = Place(equal, a * (a / law.model.R) * float(last.depth[0]), along)
-    slope = np.concatenate(([1.0], shape.additive))
-    reached = a if a < law.limit else math.nan
-    return _State(law, reached, place, slope, MARGIN * fall, MARGIN * rise, growth)
-
-
-def _along(law: Law, radii: Array, shape: Shape) -> Along:
-    """Force, indentation, stiffness and energy at the nodes and the largest radius."""
-    nodes, top = rule(NODES[0]), radii[-1]
-    power = (shape.force * shape.slope)[:-1]
-    share = np.append(stored(NODES[0]) @ power, np.sum(nodes.weights * nodes.x**4 * power))
-    unit = law.force(top, Shape(*np.ones(4))) * law.indentation(top, Shape(*np.ones(4)))
-    return Along(
-        law.force(radii, shape),
-        law.indentation(radii, shape),
-        law.stiffness(radii, shape),
-        2.0 * unit * share,
-        2.0 * shape.slope / shape.depth,
-    )
-
-
-def _bound(state: _State, effect: Effect, stretch: float = 1.0) -> Bound:
-    """An effect's bound at the state's place, whose radii the sphere's elasticity may stretch."""
-    with np.errstate(all="ignore"):
-        found = effect.bound(state.law.model, state.place.stretched(stretch))
-    if effect.name == "curvature" and "pressure" in state.law.effects:
-        return found._replace(up=found.up + math.inf)  # known under Hertz' pressure alone
-    if effect.name == "bending" and {"edge", "viscosity"} <= state.law.effects:
-        return found._replace(up=found.up + math.inf)  # without it the edge lags too
-    if isinstance(effect, PlateEffect):
-        part = 1.0 / (1.0 + state.law.softness)
-        return found._replace(low=part * found.low, up=part * found.up)
-    return found
-
-
-def _error(state: _State, effects: Sequence[Effect], outputs: Sequence[str]) -> float:
-    """What leaving effects out changes together at most, the worst of the outputs."""
-    if not effects:
-        return 0.0
-    if math.isnan(state.a):
-        return math.inf
-    elastic = [e for e in effects if e.name == "sphere_elasticity"]
-    stretch = math.exp(_bound(state, elastic[0]).radius) if elastic else 1.0
-    bounds = [_bound(state, e, 1.0 if e in elastic else stretch) for e in effects]
-    together = Bound(
-        low=np.sum([bound.low for bound in bounds], axis=0),
-        # The half-space's effects multiply; a product is above the sum where they only add.
-        up=np.prod([1.0 + bound.up for bound in bounds], axis=0) - 1.0,
-        energy=sum(bound.energy for bound in bounds),
-        radius=sum(bound.radius for bound in bounds),
-        results=_sums(bound.results for bound in bounds),
-    )
-    return _worst(state, together, outputs)
-
-
-def _sums(rows: Iterable[Results]) -> Results:
-    """Sums of the rows' columns."""
-    time, depth, force, radius, speed = (math.fsum(column) for column in zip(*rows, strict=True))
-    return time, depth, force, radius, speed
-
-
-def _worst(state: _State, bound: Bound, outputs: Sequence[str]) -> float:
-    """The worst of the outputs' errors by link 18, and by what changes results besides."""
-    low, up, energy, radius, results = bound
-    if not (np.all(np.isfinite(low)) and np.all(np.isfinite(up)) and state.slope.min() > 0.0):
-        return math.inf
-    below, above = float(np.max(low / state.slope)), float(np.max(up / state.slope))
-    if energy:
-        # The weight works along the whole law's indentation, not along this one's.
-        free = kernels.law_errors(below, above, state.fall, state.rise)[1]
-        share = -math.expm1(-energy) * (1.0 + free)
-        energy = -math.log1p(-share) if share < 1.0 else math.inf
-    found = kernels.law_errors(below, above, state.fall, state.rise, energy)
-    if not math.isfinite(found[0]):
-        return math.inf
-    # Viscosity's own bound, taken of this law, is widened for that of everything.
-    wider = (1.0 + max(found)) ** 2
-    kept = (
-        _bound(state, BY_NAME["viscosity"]).results[-1] if "viscosity" in state.law.effects else 0.0
-    )
-    logarithms = np.log1p([*found, 0.0]) + wider * np.array(results)
-    logarithms[-1] += (wider - 1.0) * kept
-    # Link 18 speaks of Hertz' radius of the force, with which the contact's own may grow faster.
-    logarithms[3] += (state.growth - 1.0) * math.log1p(found[3]) + state.growth * radius
-    with np.errstate(over="ignore"):  # no bound, as good as
-        errors = dict(zip(OUTPUTS, np.expm1(logarithms), strict=True))
-    return float(max(errors[name] for name in outputs))
-
-
-def _size(state: _State, effect: Effect, outputs: Sequence[str]) -> float:
-    """By how much an effect alone matters: its error, or where none is shown its share of S."""
-    error = _error(state, [effect], outputs)
-    if math.isfinite(error):
-        return error
-    bound = _bound(state, effect)
-    share = np.maximum(bound.low, bound.up) / np.abs(state.slope)
-    most = float(np.max(share, where=np.isfinite(share), initial=0.0))
-    return 10.0 + most + bound.energy + bound.results[-1]
-
-
-def _price(state: _State, effect: Effect, outputs: Sequence[str]) -> float:
-    """What leaving out an effect that is in would change: the law with it lies beside S_1."""
-    if effect.forced or math.isnan(state.a):
-        return math.inf
-    if effect.name == "inertia":
-        law = state.law
-        state = _state(replace(law, effects=law.effects - {"inertia"}))
-        return _error(state, [effect], outputs)
-    bound = _bound(state, effect)
-    return _worst(state, bound._replace(low=bound.up, up=bound.low), outputs)
-
-
 def _row(
     effect: Effect,
-    state: _State,
+    state: State,
     choice: Mapping[str, Any],
     reasons: Mapping[str, str],
     rtol: float,
@@ -382,11 +207,11 @@ def _row(
     if reasons[name]:
         return Row(name, effect.adds, effect.number, math.nan, 0.0, False, reasons[name])
     value = effect.value(model, radius)
-    bound = _price(state, effect, outputs) if included else _error(state, [effect], outputs)
+    bound = price_of(state, effect, outputs) if included else error_of(state, [effect], outputs)
     if effect.forced:
         why = "always"
     elif choice[name] != "auto":
-        worst = max(outputs, key=lambda output: _error(state, [effect], [output]))
+        worst = max(outputs, key=lambda output: error_of(state, [effect], [output]))
         why = _forced(bool(choice[name]), bound, worst)
     elif included:
         why = f"left out it could exceed rtol = {rtol:.3g}"
@@ -402,24 +227,3 @@ def _forced(included: bool, bound: float, output: str) -> str:
     known = bound < SAYS_NOTHING
     price = f"up to {100 * bound:.2g} % in {output}" if known else "more than a bound can say"
     return f"{FORCED_OUT}: costs {price}"
-
-
-def cost(law: Law, effect: Effect, repeats: int = 3) -> float:
-    """Time [s] that a law with this effect alone takes at an impact's nodes, the least of a few.
-
-    Of inertia what its oscillators and tables take.
-    """
-    a = rule(NODES[0]).x * min(law.limit, law.model.h)
-    alone = Law(law.model, frozenset({"hertz", effect.name}))
-    best = math.inf
-    with np.errstate(all="ignore"):
-        for _ in range(repeats):
-            start = time.perf_counter()
-            if effect.name == "inertia":
-                from derivation.scene import waves
-
-                waves.problem_of(law, 2 * waves.count_of(law))
-            else:
-                alone.at(a)
-            best = min(best, time.perf_counter() - start)
-    return best

@@ -9,9 +9,10 @@ Read in this order:
    (`left_out`); `explanation` shows it.
 5. `limits`: refuses what lies outside the contact law, warns where it grows inexact.
 6. `choice`: the cheapest method whose error bound meets a tolerance; `motion` is the one
-   that takes any law, `viscous` by `collocation` the one that also takes a contact that lags,
-   `waves` the one for a plate that moves: of its oscillators (`modal`) an element of time
-   (`dynamics`), contacts one after the other (`bounces`), and their course (`wave_motion`).
+   that takes any law, `viscous` by `collocation` the one that also takes a contact that lags
+   (`viscous_law`), `waves` the one for a plate that moves: of its oscillators (`modal`) an
+   element of time (`dynamics`), contacts one after the other (`bounces`), and their course
+   (`wave_motion`).
 7. `impact`, `indentation`: simulate an impact, press the sphere in by a given amount.
 8. `sweep`: one simulation per value of a key.
 9. `result`: what comes out, as JSON, CSV and a notebook table; `plot` draws it, `comparison`

@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from derivation.scene.collocation import radau
-from derivation.scene.dynamics import LOST, ONSET, A, P, Piece, Problem, State, V, element, onset
+from derivation.scene.collocation import ONSET, radau
+from derivation.scene.dynamics import LOST, A, P, Piece, Problem, State, V, element, onset
 from derivation.scene.effects.effect import Array
 from derivation.scene.scene import SceneError
 

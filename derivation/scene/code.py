@@ -30,7 +30,7 @@ from derivation.scene.limits import last_radius
 from derivation.scene.motion import Motion
 from derivation.scene.quadrature import NODES
 from derivation.scene.scene import Scene, SceneError
-from derivation.scene.viscous import bending_of
+from derivation.scene.viscous_law import bending_of
 
 HALF_SPACE = frozenset({"hertz", "sphere_elasticity", "gravity", "viscosity"})
 """Effects that leave Hertz' law its form."""

@@ -1,4 +1,4 @@
-"""Collocation on an element: Radau's nodes, and what is found at them as polynomials."""
+"""Collocation on an element of a contact in x = (t/T)^(1/6): nodes, Newton's step, polynomials."""
 
 from functools import cache
 from typing import NamedTuple
@@ -8,6 +8,11 @@ from numpy.polynomial.legendre import legder, leggauss, legroots, legvander
 
 from derivation.scene.effects.effect import Array
 
+ONSET = 6
+"""t = T x^6: a half-space's onset goes by t^(1/2), a bent plate's by t^(1/3)."""
+NEWTON = 30
+"""Steps of Newton's iteration at most."""
+_CLOSE, _NEARLY = 1e-15, 1e-12
 _HALVINGS, _REAL = 60, 1e-9
 
 
@@ -32,6 +37,37 @@ def radau(n: int) -> Radau:
     values = legvander(np.outer(half, 1.0 + x) - 1.0, n - 1) @ analysis
     integral = np.einsum("i,j,ijk->ik", half, weights / 2.0, values)
     return Radau(half, integral, np.asarray(analysis, dtype=np.float64))
+
+
+def newton_step(
+    system: Array, residual: Array, by_x: Array, a: Array
+) -> tuple[Array, float] | None:
+    """Step of da/dx, so short that radii at most halve, and its own size; None if there is none.
+
+    Parameters
+    ----------
+    system
+        What the residual falls by per da/dx.
+    by_x
+        Integrals to the nodes.
+    a
+        Radii there.
+    """
+    if not (np.all(np.isfinite(system)) and np.all(np.isfinite(residual))):
+        return None
+    try:
+        step = np.linalg.solve(system, residual)
+    except np.linalg.LinAlgError:
+        return None
+    moved = by_x @ step
+    size = float(np.max(np.abs(moved)) / np.max(a))
+    shorter = step / max(1.0, -2.0 * float(np.min(moved / a)))
+    return np.asarray(shorter, dtype=np.float64), size
+
+
+def settled(size: float, before: float) -> bool:
+    """Whether steps of the radii are rounding: tiny, or small and no longer falling."""
+    return size <= _CLOSE or (size <= _NEARLY and size > 0.1 * before)
 
 
 class Element(NamedTuple):

@@ -16,13 +16,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.polynomial.legendre import legvander
 
-from derivation.scene.collocation import Element, radau
+from derivation.scene.collocation import NEWTON, ONSET, Element, newton_step, radau, settled
 from derivation.scene.effects.effect import Array
 from derivation.scene.modal import Contact, sinc_less_one
 
-ONSET = 6
-"""t = T x^6: a half-space's onset goes by t^(1/2), a bent plate's by t^(1/3)."""
-_NEWTON, _CLOSE, _NEARLY = 30, 1e-15, 1e-12
 A, V, Z, P, W, E, LOST, LEAK = range(8)
 """Rows of an element: radius, velocity, way, force, the plate's deflection and energy, and per x
 the energy lost and that which a closure at the axis leaks."""
@@ -218,22 +215,16 @@ def element(
 ) -> Piece | None:
     """An element, by Newton's iteration from a guess of da/dx; None if it does not converge."""
     nodes, size = nodes_of(problem, n, x, length, start), math.inf
-    for _ in range(_NEWTON):
+    for _ in range(NEWTON):
         at = values_at(problem, nodes, start, radius, y)
         if not np.all(at.a > 0.0):
             return None
         system = _system(problem, nodes, at) / nodes.t[:, None]
-        residual = (at.into - at.depth) / nodes.t
-        if not (np.all(np.isfinite(system)) and np.all(np.isfinite(residual))):
+        step = newton_step(system, (at.into - at.depth) / nodes.t, nodes.by_x, at.a)
+        if step is None:
             return None
-        try:
-            step = np.linalg.solve(system, residual)
-        except np.linalg.LinAlgError:
-            return None
-        moved = nodes.by_x @ step
-        y = y + step / max(1.0, -2.0 * float(np.min(moved / at.a)))  # radii at most halve
-        before, size = size, float(np.max(np.abs(moved)) / np.max(at.a))
-        if size <= _CLOSE or (size <= _NEARLY and size > 0.1 * before):
+        y, before, size = y + step[0], size, step[1]
+        if settled(size, before):
             return _piece(problem, nodes, at, start, x, length)
     return None
 
@@ -290,7 +281,7 @@ def onset(problem: Problem, n: int, length: float, meeting: float) -> Array:
     rule = radau(n)
     goal = meeting * (length * rule.x) ** ONSET
     a = np.sqrt(goal * problem.depth * problem.contact.R) / problem.a
-    for _ in range(_NEWTON):  # depth grows faster than a^2: the iteration comes down
+    for _ in range(NEWTON):  # depth grows faster than a^2: the iteration comes down
         at = problem.contact.at(problem.a * a)
         move = (at.depth / problem.depth - goal) / (at.depth_a * (problem.a / problem.depth))
         a = np.maximum(a - move, 0.5 * a)

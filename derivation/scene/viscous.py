@@ -15,33 +15,27 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
-from numpy.polynomial.chebyshev import chebder, chebfit, chebval
 from numpy.polynomial.legendre import leggauss
 
 from derivation.scene import motion
-from derivation.scene.collocation import Element, Radau, radau
+from derivation.scene.collocation import NEWTON, ONSET, Element, Radau, newton_step, radau, settled
 from derivation.scene.effects.effect import Array
-from derivation.scene.law import HELD, Law, Shape
+from derivation.scene.law import Law
 from derivation.scene.motion import Ledger, Motion
 from derivation.scene.scene import SceneError
+from derivation.scene.viscous_law import Bending, Curve, bending_of, curve_of
 
 STAGES = 9, 12
 """Nodes of an element, of the run that checks and of the one that counts."""
-ONSET = 6
-"""t = T x^6: a half-space's onset goes by t^(1/2), a bent plate's by t^(1/3)."""
 FIRST, LONGEST, SHORTEST, MOST = 0.05, 0.25, 1e-13, 2000
 """First, largest and least length of an element in x, and how many are tried."""
 TOLERANCE = 1e-11
 """An element's last coefficients over the largest there are."""
 ROUNDING = 2e-12
 """What tests hold the results to, beside the change with the nodes [1]."""
-DEGREE, FITTED = 30, 1e-12
-"""Degree of the law's tables, and the relative error up to which they stand for it."""
-BEYOND = 2.0
-"""How far a viscous contact's force may go beyond a calm one's, in Hertz' radii."""
 OWN = 1e3
 """How much less exact the radius may be beside the largest of its element."""
-_NEWTON, _CLOSE, _NEARLY, _ROUGH = 30, 1e-15, 1e-12, 1e-3
+_ROUGH = 1e-3
 A, V, Z, P, LOST = range(5)
 """Rows of an element: contact radius, velocity, indentation, force, and energy lost per x."""
 
@@ -54,15 +48,6 @@ class Point(NamedTuple):
     depth: float
 
 
-class Contact(NamedTuple):
-    """Force [N] and indentation [m] of the law at radii [m], and their slopes by the radius."""
-
-    force: Array
-    depth: Array
-    force_a: Array
-    depth_a: Array
-
-
 class States(NamedTuple):
     """Force, depth, loss per x, and slopes: of both by the radius a and by da/dx."""
 
@@ -73,99 +58,6 @@ class States(NamedTuple):
     P_y: Array
     depth_a: Array
     depth_y: Array
-
-
-@dataclass(frozen=True)
-class Curve:
-    """The law's force and indentation by the contact radius."""
-
-    law: Law
-
-    def at(self, a: Array) -> Contact:
-        """Force and indentation at radii [m]."""
-        law = self.law
-        shape = law.at(a)
-        slope = 2.0 * (a / law.model.R) * shape.slope
-        force_a = law.stiffness(a, shape) * slope
-        return Contact(law.force(a, shape), law.indentation(a, shape), force_a, slope)
-
-
-@dataclass(frozen=True)
-class Tabled(Curve):
-    """The same by polynomials of a/top, which cost less: of force and depth over their powers."""
-
-    top: float
-    table: Array
-
-    def at(self, a: Array) -> Contact:
-        """Force and indentation at radii [m]; NaN beyond the top."""
-        x = np.where(a <= self.top, a / self.top, np.nan)
-        force, depth, force_x, depth_x = chebval(2.0 * x - 1.0, self.table)
-        force_a = (3.0 * force + x * force_x) * x * x / self.top
-        depth_a = (2.0 * depth + x * depth_x) * x / self.top
-        return Contact(force * x**3, depth * x * x, force_a, depth_a)
-
-
-def tabled(x: Array, *values: Array) -> Array:
-    """Chebyshev coefficients of polynomials through values at x in [0, 1], and of their slopes."""
-    rows = np.array([chebfit(2.0 * x - 1.0, row, DEGREE) for row in values])
-    slopes = np.zeros_like(rows)
-    slopes[:, :-1] = 2.0 * chebder(rows, axis=1)
-    return np.concatenate((rows, slopes)).T
-
-
-def _knots() -> Array:
-    """Chebyshev's points on [0, 1], twice as many as coefficients."""
-    n = 2 * DEGREE
-    return np.asarray((1.0 - np.cos(np.pi * (np.arange(n) + 0.5) / n)) / 2.0, dtype=np.float64)
-
-
-def curve_of(law: Law, a: float) -> Curve:
-    """The law up to a contact radius [m], which viscosity does not let grow."""
-    top, x, direct = min(1.001 * a, law.limit), _knots(), Curve(law)
-    found = direct.at(top * x)
-    made = Tabled(law, top, tabled(x, found.force / x**3, found.depth / x**2))
-    between = top * (x[1:] + x[:-1]) / 2.0
-    pairs = zip(made.at(between), direct.at(between), strict=True)
-    error = max(float(np.max(np.abs(one / other - 1.0))) for one, other in pairs)
-    return made if error <= FITTED else direct
-
-
-@dataclass(frozen=True)
-class Bending:
-    """What of the plate's deflection does not lag: bending, on its edge, where that yields.
-
-    Attributes
-    ----------
-    law
-        Bending and edge alone; no effect where nothing is left of them.
-    top
-        Hertz' radius [m] up to which deflection over force is tabled.
-    """
-
-    law: Law
-    top: float = 1.0
-    table: Array | None = None
-
-    def at(self, force: Array) -> tuple[Array, Array]:
-        """Deflection [m] at forces [N], odd in them, and its slope [m/N]; NaN beyond the top."""
-        if self.table is None:
-            return np.zeros_like(force), np.zeros_like(force)
-        x = self.law.hertz_radius(np.abs(force)) / self.top
-        yields, slope = chebval(2.0 * np.where(x <= 1.0, x, np.nan) - 1.0, self.table)
-        return force * yields, yields + x * slope / 3.0
-
-
-def bending_of(law: Law, a: float) -> Bending:
-    """Bending and the edge; nothing where a thick plate's edge takes more than bending gives."""
-    bent = replace(law, effects=law.effects & {"bending", "edge"})
-    if "bending" not in law.effects or float(bent.deflection(np.array([a])).slope[0]) <= 0.0:
-        return Bending(replace(law, effects=frozenset()))
-    top, x = min(BEYOND * a, HELD * law.model.b), _knots()
-    radius = top * x
-    depth = radius * (radius / law.model.R) * bent.deflection(radius).depth
-    force = law.force(radius, Shape(*(np.ones_like(x),) * 4))
-    return Bending(bent, top, tabled(x, depth / (1.0 + law.softness) / force))
 
 
 @dataclass(frozen=True)
@@ -242,7 +134,7 @@ def element(
     by_x = length * rule.integral
     by_t = by_x * (ONSET * xs ** (ONSET - 1))
     t, size = xs**ONSET, math.inf
-    for _ in range(_NEWTON):
+    for _ in range(NEWTON):
         a = start.radius + by_x @ y
         if not np.all(a > 0.0):
             return None
@@ -251,17 +143,11 @@ def element(
         z = start.depth + by_t @ v
         P_y = at.P_a[:, None] * by_x + np.diag(at.P_y)
         slope = at.depth_a[:, None] * by_x + np.diag(at.depth_y) + by_t @ (by_t @ P_y)
-        system, residual = slope / t[:, None], (z - at.depth) / t
-        if not (np.all(np.isfinite(system)) and np.all(np.isfinite(residual))):
+        step = newton_step(slope / t[:, None], (z - at.depth) / t, by_x, a)
+        if step is None:
             return None
-        try:
-            step = np.linalg.solve(system, residual)
-        except np.linalg.LinAlgError:
-            return None
-        moved = by_x @ step
-        y = y + step / max(1.0, -2.0 * float(np.min(moved / a)))  # radii at most halve
-        before, size = size, float(np.max(np.abs(moved)) / np.max(a))
-        if size <= _CLOSE or (size <= _NEARLY and size > 0.1 * before):
+        y, before, size = y + step[0], size, step[1]
+        if settled(size, before):
             break
     else:
         return None
@@ -327,7 +213,7 @@ def _onset(problem: Problem, rule: Radau, length: float) -> Array:
     for index, x in enumerate(xs):
         here, step = xs[index : index + 1], x - (xs[index - 1] if index else 0.0)
         radius = np.array([math.sqrt(problem.law.model.R * problem.depth) / problem.a * x**3])
-        for _ in range(_NEWTON):
+        for _ in range(NEWTON):
             at = problem.states(here, radius, (radius - last) / step)
             move = (at.depth - x**ONSET) / (at.depth_a + at.depth_y / step)
             radius = np.maximum(radius - move, 0.5 * radius)

@@ -9,7 +9,8 @@ import numpy as np
 
 from derivation.scene import bounces
 from derivation.scene.bounces import Course
-from derivation.scene.dynamics import LEAK, ONSET, A, E, P, Problem, V, W, Z, oscillating
+from derivation.scene.collocation import ONSET
+from derivation.scene.dynamics import LEAK, A, E, P, Problem, V, W, Z, oscillating
 from derivation.scene.effects.effect import Array, Results
 from derivation.scene.html import html_table
 from derivation.scene.law import Law

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from derivation.files import measurements, write_file
 from derivation.measure import effects
+from derivation.measure.random_scenes import Scene, Tell
 from derivation.produce import expect_recordable
 from derivation.scene.choice import moved, solve_gated
 from derivation.scene.effects import EFFECTS
@@ -18,7 +19,7 @@ MEASURED: Path = measurements() / "effects.json"
 
 
 def check_effects(
-    count: int, record: bool = False, tell: effects.Tell | None = None
+    count: int, record: bool = False, tell: Tell | None = None
 ) -> tuple[effects.Row, ...]:
     """Random scenes at several tolerances against everything on; keep the rows if asked."""
     if record:
@@ -29,7 +30,7 @@ def check_effects(
     return rows
 
 
-def gated(data: effects.Scene, rtol: float) -> tuple[Sequence[float], Sequence[str], float] | None:
+def gated(data: Scene, rtol: float) -> tuple[Sequence[float], Sequence[str], float] | None:
     """A scene as `simulate` computes it at a tolerance; model errors stand apart."""
     _, gate = decided(read(data), rtol)
     try:
@@ -39,7 +40,7 @@ def gated(data: effects.Scene, rtol: float) -> tuple[Sequence[float], Sequence[s
     return values, sorted(gate.law.effects), accuracy.bound
 
 
-def everything(data: effects.Scene) -> tuple[Sequence[float], Sequence[str]] | None:
+def everything(data: Scene) -> tuple[Sequence[float], Sequence[str]] | None:
     """The same scene with every effect that applies, on a plate at rest.
 
     None beyond the range of the models.

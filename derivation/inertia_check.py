@@ -9,6 +9,7 @@ import numpy as np
 from derivation.files import measurements, write_file
 from derivation.measure import inertia
 from derivation.measure.inertia import Found, Judged
+from derivation.measure.random_scenes import Scene, Tell
 from derivation.produce import expect_recordable
 from derivation.scene import motion, waves
 from derivation.scene.choice import moved, moving, solve_gated
@@ -42,7 +43,7 @@ def check_inertia(
     count: int,
     seed: int = inertia.SEED,
     record: bool = False,
-    tell: inertia.Tell | None = None,
+    tell: Tell | None = None,
 ) -> Judged:
     """Random scenes with a plate that may move against more modes; keep the rows if asked."""
     if record:
@@ -53,7 +54,7 @@ def check_inertia(
     return found
 
 
-def pass_over(data: inertia.Scene) -> str:
+def pass_over(data: Scene) -> str:
     """Why a scene takes too long to be looked at, or has no impact at all; empty if none."""
     model = bending(model_of(read(data)))
     if zener_number(model) > HEAVIEST:
@@ -69,7 +70,7 @@ def pass_over(data: inertia.Scene) -> str:
     return ""
 
 
-def placed(data: inertia.Scene, place: float) -> tuple[inertia.Scene, float]:
+def placed(data: Scene, place: float) -> tuple[Scene, float]:
     """A scene and its tolerance, by a number in [0, 1).
 
     From the lower half, and where inertia changes little, a scene with all other effects and a
@@ -87,7 +88,7 @@ def placed(data: inertia.Scene, place: float) -> tuple[inertia.Scene, float]:
     return data, min(least * math.pow(10.0, 2.0 * place - 1.0), max(least, 0.9 * min(price, ANY)))
 
 
-def solve(data: inertia.Scene, place: float) -> Found | str:
+def solve(data: Scene, place: float) -> Found | str:
     """A scene as `simulate` computes it, and the truth; or the key that a message begins with."""
     try:
         data, rtol = placed(data, place)

@@ -13,6 +13,7 @@ from derivation.cli import main
 from derivation.files import measurements
 from derivation.measure import inertia as measure
 from derivation.measure.inertia import Found
+from derivation.measure.random_scenes import Scene
 from derivation.scene import waves
 from derivation.scene.effects.inertia import further_branches, weight_share
 from derivation.scene.gate import Gate, decide
@@ -91,7 +92,7 @@ def test_bounds_hold_in_random_scenes(number: int) -> None:
 
 
 def test_a_bound_that_does_not_hold_is_noticed() -> None:
-    def solve(data: measure.Scene, place: float) -> Found | str:  # noqa: ARG001
+    def solve(data: Scene, place: float) -> Found | str:  # noqa: ARG001
         return Found(1e-2, True, [1.0, 1.0, 1.02, 1.0, 1.0], [1.0] * 5, 1e-3, 1.0, 1.0, [1.0] * 5,
                      1e-3, 1, 4, 8)  # fmt: skip
 
@@ -138,7 +139,7 @@ def test_the_committed_scenes_keep_their_bounds() -> None:
 def test_the_command_shows_both_sides(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def solve(data: measure.Scene, place: float) -> Found | str:
+    def solve(data: Scene, place: float) -> Found | str:
         known = data["inertia"]["branches"] == "A0"
         return Found(
             place, known, [1.0] * 5, [1.0] * 5, place, 1.0, 1.0, [1.0] * 5, math.inf, 1, 4, 8

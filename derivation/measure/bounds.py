@@ -14,6 +14,7 @@ from typing import Any
 
 import flint
 
+from derivation.measure.random_scenes import Tell, spreading
 from derivation.reference import contact_impact
 from generated.contact_law import force_of_radius, indentation
 
@@ -29,7 +30,6 @@ Point = tuple[float, ...]
 Solve = Callable[[Point, float], tuple[Sequence[float], str, float]]
 """Results, method and bound of an impact at a tolerance."""
 ORACLE: Callable[..., tuple[flint.arb, ...]] = contact_impact.impact
-Tell = Callable[[str, int, int], None]
 
 
 @dataclass(frozen=True)
@@ -75,10 +75,7 @@ class Row:
 def scene(number: int, seed: int = SEED) -> Point:
     """The scene of a number: h/b from 1e-4 to 100, a_m from 1e-8 of the law's range up."""
     generator = random.Random(f"bounds {seed} {number}")
-
-    def spread(low: float, high: float) -> float:
-        return 10 ** generator.uniform(math.log10(low), math.log10(high))
-
+    spread = spreading(generator)
     b, eta = spread(1e-3, 1e2), spread(1e-4, 1e2)
     h, R = b * eta, b * spread(0.1, 1e3)
     mu, nu = spread(1e4, 1e12), generator.uniform(-0.9, 0.49)

@@ -8,21 +8,19 @@ caller, so that this file knows no scene.
 import json
 import math
 import random
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from derivation.measure.random_scenes import OUTPUTS, Scene, Tell, spreading
+
 SEED = 1
 TOLERANCES = (1e-2, 1e-4, 1e-6, 1e-9)
-OUTPUTS = ("contact_time", "max_indentation", "max_force", "max_contact_radius", "restitution")
 
-Scene = Mapping[str, Mapping[str, Any]]
-"""Tables of keys, as a scene file holds them."""
 Solve = Callable[[Scene, float], tuple[Sequence[float], Sequence[str], float] | None]
 """Results, effects included and bound of a scene at a tolerance; None if it is refused."""
 Everything = Callable[[Scene], tuple[Sequence[float], Sequence[str]] | None]
 """Results and effects of a scene with every effect; None if it is out of every model's range."""
-Tell = Callable[[str, int, int], None]
 
 
 @dataclass(frozen=True)
@@ -68,10 +66,7 @@ class Row:
 def scene(number: int, seed: int = SEED) -> dict[str, dict[str, Any]]:
     """The scene of a number: pebbles to boulders on panes, plates and blocks."""
     generator = random.Random(f"effects {seed} {number}")
-
-    def spread(low: float, high: float) -> float:
-        return 10 ** generator.uniform(math.log10(low), math.log10(high))
-
+    spread = spreading(generator)
     b = spread(1e-2, 10.0)
     plate: dict[str, Any] = {
         "radius": b,

@@ -5,7 +5,7 @@ from itertools import chain
 
 from derivation.measure.grids import seams
 from derivation.measure.hard import Case
-from derivation.measure.hard_places import LAM, MU, OFFSETS, SIDES, around, beside, exactly
+from derivation.measure.hard_places import LAM, MU, OFFSETS, about, around, beside, exactly
 from derivation.reference.balls import arguments
 from derivation.reference.zeros import j0_zero
 from derivation.rewrite.automatic import FADES
@@ -62,7 +62,7 @@ def _case(
 ) -> Case:
     """A case of the arguments that its kernel has."""
     own = exactly(**{name: given[name] for name in arguments(kernel)})
-    return Case(group, kernel, f"{SIDES} {why}.", own, "array", modes)
+    return about(group, kernel, why, own, modes)
 
 
 def _by_depth(kernel: str, T: float, why: str) -> Case:

@@ -7,7 +7,7 @@ from itertools import chain
 import flint
 
 from derivation.measure.hard import Case
-from derivation.measure.hard_places import LAM, MU, SIDES, Inputs, around, exactly
+from derivation.measure.hard_places import LAM, MU, about, around, exactly
 from derivation.reference import contact_balls, contact_impact, printed_motion_balls
 from derivation.reference.zeros import j0_zero
 from derivation.rewrite import contact_tables, simple_impact_tables
@@ -31,23 +31,19 @@ def _speed(a: float, h: float, b: float) -> float:
     return math.sqrt(2.0 * float(energy) / _SPHERE["m"])
 
 
-def _case(group: str, kernel: str, why: str, given: Inputs) -> Case:
-    return Case(group, kernel, f"{SIDES} {why}.", given, "array")
-
-
 def _sensitivities() -> Iterator[Case]:
     reach, b = float(contact_tables.REACH), 10.0
     given = exactly(**_SPHERE, v0=around(_speed(reach, 1.0, b)), h=1.0, b=b, **_STEEL)
     why = f"the speed that reaches a = {reach:g} h, where the second polynomial comes in"
-    yield _case(IMPACTS, "impact_sensitivities", why, given)
+    yield about(IMPACTS, "impact_sensitivities", why, given)
     ends = {end for cell in (*contact_tables.CELLS, *contact_tables.FAR_CELLS) for end in cell[:2]}
     for end in sorted(float(end) for end in ends):
         a = 2.5 if end == reach else min(4.5, (reach + end) / 2)
         given = exactly(**_SPHERE, v0=_speed(a, 1.0, end), h=1.0, b=around(end), **_STEEL)
         why = f"b = {end:g} h, where other tables take over; the largest a is {a:g} h"
-        yield _case(IMPACTS, "impact_sensitivities", why, given)
+        yield about(IMPACTS, "impact_sensitivities", why, given)
         if end == contact_tables.FAR_REACH:  # its tables are those of the indentation
-            yield _case(IMPACTS, "impact", why, given)
+            yield about(IMPACTS, "impact", why, given)
 
 
 def _history() -> Iterator[Case]:
@@ -61,7 +57,7 @@ def _history() -> Iterator[Case]:
         (float(crossing), f"the time when a = {reach:g} h, where the second polynomial comes in"),
         (float(end) / 2, "the turning point, where the rate changes its sign"),
     ):
-        yield _case(IMPACTS, "history", what, exactly(t=around(place), **same))
+        yield about(IMPACTS, "history", what, exactly(t=around(place), **same))
 
 
 # --- simple impacts
@@ -71,16 +67,16 @@ def _simple_impacts() -> Iterator[Case]:
     inverse = float(simple_impact_tables.THIN)
     thin = f"b = {inverse:g} h, beyond which c_1 is the thin plate's closed form"
     yield from _estimates(thin, 1.0, around(inverse))
-    yield _case(SIMPLE, "plate_of", thin, exactly(eta=around(1 / inverse)))
+    yield about(SIMPLE, "plate_of", thin, exactly(eta=around(1 / inverse)))
     for mode in (1, 2, 17):
         place = simple_impact_tables.FADED / (2 * float(j0_zero(mode, 80)))
         why = f"h/b = {place:.4g}, beyond which mode {mode} is left out"
-        yield _case(SIMPLE, "plate_of", why, exactly(eta=around(place)))
+        yield about(SIMPLE, "plate_of", why, exactly(eta=around(place)))
         if mode == 1:
             yield from _estimates(why, around(place), 1.0)
     root = _root()
     why = f"h/b = {root:.4f}, where c_1 passes zero"
-    yield _case(SIMPLE, "plate_of", why, exactly(eta=around(root)))
+    yield about(SIMPLE, "plate_of", why, exactly(eta=around(root)))
     yield from _estimates(why, around(root), 1.0)
 
 
@@ -92,7 +88,7 @@ def _estimates(
     speed = _speed(0.1 * min(thickness, radius), thickness, radius)
     for kernel in ("hertz", "leading"):
         given = exactly(**_SPHERE, v0=speed, h=h, b=b, **_STEEL)
-        yield _case(SIMPLE, kernel, why, given)
+        yield about(SIMPLE, kernel, why, given)
 
 
 def _root() -> float:
@@ -116,4 +112,4 @@ def _paper() -> Iterator[Case]:
         place = math.asin(last * (1 - u * u) ** 3) / math.sqrt(xi_2 / m)
         given = exactly(t=around(place), m=m, v0=v0, xi_2=xi_2, xi_3=xi_3)
         why = f"the time when u = {u:g}, where one panel of the integrals ends"
-        yield _case(PAPER, "corrected", why, given)
+        yield about(PAPER, "corrected", why, given)

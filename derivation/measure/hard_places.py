@@ -3,15 +3,13 @@
 from collections.abc import Sequence
 
 from derivation.formula.ulp import from_ordinal, ordinal
+from derivation.measure.hard import Case
 
 OFFSETS = (-32, -1, 0, 1, 32)
 """How many doubles from a seam its cases lie."""
 
 LAM, MU = 1.2e11, 8.1e10
 """Steel [Pa]."""
-
-SIDES = "0, 1 and 32 ULP to either side of"
-"""How the cause of such a case begins."""
 
 Inputs = dict[str, tuple[str, ...]]
 
@@ -32,3 +30,8 @@ def exactly(**values: float | Sequence[float]) -> Inputs:
         name: (value.hex(),) if isinstance(value, float) else tuple(x.hex() for x in value)
         for name, value in values.items()
     }
+
+
+def about(group: str, kernel: str, why: str, given: Inputs, modes: int | None = None) -> Case:
+    """A case of the doubles about a place, as an array."""
+    return Case(group, kernel, f"0, 1 and 32 ULP to either side of {why}.", given, "array", modes)

@@ -8,7 +8,7 @@ from itertools import chain, product
 
 from derivation.measure.grids import seams
 from derivation.measure.hard import Case
-from derivation.measure.hard_places import LAM, MU, OFFSETS, SIDES, Inputs, around, beside, exactly
+from derivation.measure.hard_places import LAM, MU, OFFSETS, Inputs, about, around, beside, exactly
 from derivation.reference.zeros import j0_zero
 from derivation.rewrite import edge_tables, effect_tables, far_face_tables, pressure_tables
 from derivation.rewrite.blocks import blocks
@@ -38,7 +38,7 @@ def _zero(mode: int) -> float:
 
 def _beside(group: str, kernels: tuple[str, ...], why: str, given: Inputs) -> Iterator[Case]:
     """A case for each kernel, with the doubles about a place."""
-    return (Case(group, kernel, f"{SIDES} {why}.", given, "array") for kernel in kernels)
+    return (about(group, kernel, why, given) for kernel in kernels)
 
 
 def _one_by_one(

@@ -6,7 +6,7 @@ from fractions import Fraction
 from itertools import chain, product
 
 from derivation.measure.hard import Case
-from derivation.measure.hard_places import SIDES, Inputs, around, beside, exactly
+from derivation.measure.hard_places import Inputs, about, around, beside, exactly
 from derivation.measure.hard_wave_places import CROSSINGS, crossing, half_part
 from derivation.reference import inertia_balls
 from derivation.rewrite.bessel_tables import asymptotic_start
@@ -37,10 +37,6 @@ def wave_families() -> Iterator[Case]:
     )  # fmt: skip
 
 
-def _sides(group: str, kernel: str, why: str, given: Inputs) -> Case:
-    return Case(group, kernel, f"{SIDES} {why}.", given, "array")
-
-
 # --- seams
 
 
@@ -54,7 +50,7 @@ def _lowest_seams() -> Iterator[Case]:
     for (place, kernels), nu in product(everywhere.items(), (_METAL, _LAST, _FIRST)):
         for kernel in kernels:
             given = exactly(x=around(place), nu=nu)
-            yield _sides(WAVES, kernel, f"x = {place:g}, {what[place]}", given)
+            yield about(WAVES, kernel, f"x = {place:g}, {what[place]}", given)
 
 
 def _influence_seams() -> Iterator[Case]:
@@ -67,13 +63,13 @@ def _influence_seams() -> Iterator[Case]:
             (3 * square / (4 - gam), "2 q = p, where two ways to take a difference part"),
         ):
             given = exactly(x=x, kap=around(float(load)), nu=_METAL)
-            yield _sides(WAVES, INFLUENCE, f"{what}; x = {x:g}", given)
+            yield about(WAVES, INFLUENCE, f"{what}; x = {x:g}", given)
     for kap in (0.0, 2.0):
         # p + q = S and p - q = (1 - gam) kap/S.
         p = (Fraction(_NEAR) + (1 - gam) * Fraction(kap) / Fraction(_NEAR)) / 2
         x = math.sqrt(p * p + gam * Fraction(kap))
         why = f"p + q = {_NEAR:g} at kap = {kap:g}, up to where F is a power series"
-        yield _sides(WAVES, INFLUENCE, why, exactly(x=around(x), kap=kap, nu=_METAL))
+        yield about(WAVES, INFLUENCE, why, exactly(x=around(x), kap=kap, nu=_METAL))
 
 
 def _level(nu: float) -> Fraction:
@@ -85,7 +81,7 @@ def _branch_seams() -> Iterator[Case]:
     for name, of in CROSSINGS.items():
         place = crossing(name)
         given = exactly(x=around(place), nu=of.nu, index=float(of.index))
-        yield _sides(WAVES, f"{of.kind}_residue", f"x = {place:g}, where {name}", given)
+        yield about(WAVES, f"{of.kind}_residue", f"x = {place:g}, where {name}", given)
 
 
 def _mode_seams() -> Iterator[Case]:
@@ -97,7 +93,7 @@ def _mode_seams() -> Iterator[Case]:
         yield Case(MODES, "supported_modes", cause, exactly(count=count, nu=_METAL))
     place = half_part()
     why = f"nu = {place:g}, where the part of I0 in the first mode passes 1/2"
-    yield _sides(MODES, "supported_modes", why, exactly(count=1.0, nu=around(place)))
+    yield about(MODES, "supported_modes", why, exactly(count=1.0, nu=around(place)))
 
 
 # --- ends of ranges

@@ -14,12 +14,9 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
-SEED = 1
-OUTPUTS = ("contact_time", "max_indentation", "max_force", "max_contact_radius", "restitution")
+from derivation.measure.random_scenes import OUTPUTS, Scene, Tell, spreading
 
-Scene = Mapping[str, Mapping[str, Any]]
-"""Tables of keys, as a scene file holds them."""
-Tell = Callable[[str, int, int], None]
+SEED = 1
 
 
 @dataclass(frozen=True)
@@ -161,10 +158,7 @@ def scene(number: int, seed: int = SEED) -> tuple[dict[str, dict[str, Any]], flo
     [0, 1) that places its tolerance.
     """
     generator = random.Random(f"inertia {seed} {number}")
-
-    def spread(low: float, high: float) -> float:
-        return 10 ** generator.uniform(math.log10(low), math.log10(high))
-
+    spread = spreading(generator)
     b = spread(0.05, 5.0)
     plate: dict[str, Any] = {
         "radius": b,

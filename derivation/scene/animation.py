@@ -16,21 +16,6 @@ FRAMES, POINTS, PER_SECOND = 120, 201, 20
 """Pictures, points of the profile, and pictures shown per second."""
 
 
-def check_suffix(path: Path) -> None:
-    """Refuse a file name that says no format.
-
-    Raises
-    ------
-    SceneError
-        If the name ends in none of the formats' suffixes.
-    """
-    if path.suffix.lower() not in SUFFIXES:
-        raise SceneError(
-            f"{path}: expected an animation ending in {', '.join(SUFFIXES)}, "
-            f"got {path.suffix or 'no suffix'}; change its name"
-        )
-
-
 def render(result: Result, suffix: str) -> bytes:
     """The animation as the content of a file.
 

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from derivation.scene import kernels, motion
+from derivation.scene.effects.effect import Results
 from derivation.scene.gate import Gate
 from derivation.scene.law import WHOLE_PLATE, Law
 from derivation.scene.limits import check_energy
@@ -125,7 +126,6 @@ def _above(bound: float) -> str:
 
 DOUBT = 1e-3
 """By how much an impact's quadrature may misjudge the fastest speed, where a law is steep [1]."""
-Numbers = tuple[float, float, float, float, float]
 
 
 def check_rtol(rtol: float) -> float:
@@ -145,7 +145,7 @@ def check_rtol(rtol: float) -> float:
     return float(rtol)
 
 
-def solve_gated(gate: Gate, rtol: float | None = None) -> tuple[Numbers, Accuracy]:
+def solve_gated(gate: Gate, rtol: float | None = None) -> tuple[Results, Accuracy]:
     """The five results by the law that the gate decided on.
 
     Parameters
@@ -199,7 +199,7 @@ def _basis(gate: Gate) -> str:
     return MEASURED if gate.law.model.viscous_time or steeper or moving else PROVED
 
 
-def _composed(law: Law) -> tuple[Numbers, Accuracy]:
+def _composed(law: Law) -> tuple[Results, Accuracy]:
     """The results on a plate at rest by a law of any effects, and their bounds."""
     if law.effects <= {"hertz", "sphere_elasticity"}:
         closed = _half_space(law)
@@ -218,7 +218,7 @@ def _composed(law: Law) -> tuple[Numbers, Accuracy]:
     )
 
 
-def _on_moving_plate(gate: Gate, rtol: float | None) -> tuple[Numbers, Accuracy]:
+def _on_moving_plate(gate: Gate, rtol: float | None) -> tuple[Results, Accuracy]:
     """The results with inertia, and their bounds."""
     from derivation.scene import waves
 
@@ -267,7 +267,7 @@ def _rounding(law: Law) -> float:
     return rounding
 
 
-def _half_space(law: Law) -> tuple[Numbers, Accuracy] | None:
+def _half_space(law: Law) -> tuple[Results, Accuracy] | None:
     """Hertz' law in closed form, the modulus that of the contact; None for extreme numbers."""
     R, m, v0, h, b, lam, mu = law.model.numbers
     share = 1.0 / (1.0 + law.softness)
@@ -280,7 +280,7 @@ def _half_space(law: Law) -> tuple[Numbers, Accuracy] | None:
     )
 
 
-def solve(model: Model, rtol: float | None = None) -> tuple[Numbers, Accuracy]:
+def solve(model: Model, rtol: float | None = None) -> tuple[Results, Accuracy]:
     """The five results by the paper's law, of a rigid paraboloid, by the cheapest method.
 
     Parameters
@@ -322,7 +322,7 @@ def whole_law(method: str, rtol: float | None) -> Accuracy:
     )
 
 
-def _simple(model: Model, method: str, rtol: float) -> tuple[Numbers, Accuracy] | None:
+def _simple(model: Model, method: str, rtol: float) -> tuple[Results, Accuracy] | None:
     """Results and bounds of `hertz` or `leading`; None where nothing is shown."""
     run = kernels.hertz if method == "hertz" else kernels.leading
     found = run(*model.numbers)

@@ -266,9 +266,10 @@ def check_outputs(
 
         check_suffix(plot)
     if animate is not None:
-        from derivation.scene import animation
+        from derivation.scene.animation import SUFFIXES
+        from derivation.scene.plot import check_suffix
 
-        animation.check_suffix(animate)
+        check_suffix(animate, SUFFIXES, "an animation")
     places = [Path(json)] if json and json != "-" else []
     places += [path for path in (plot, csv, animate) if path is not None]
     taken = {scene.resolve(): "the scene file"}

@@ -2,6 +2,7 @@
 
 import io
 import math
+from collections.abc import Collection
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -25,7 +26,9 @@ BLUE, BROWN = "#1f4e79", "#b5651d"
 PREFIXES = {-9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 
 
-def check_suffix(path: Path) -> None:
+def check_suffix(
+    path: Path, suffixes: Collection[str] = METADATA.keys(), kind: str = "a plot file"
+) -> None:
     """Refuse a file name that says no format.
 
     Raises
@@ -33,9 +36,9 @@ def check_suffix(path: Path) -> None:
     SceneError
         If the name ends in none of the formats' suffixes.
     """
-    if path.suffix.lower() not in METADATA:
+    if path.suffix.lower() not in suffixes:
         raise SceneError(
-            f"{path}: expected a plot file ending in {', '.join(METADATA)}, "
+            f"{path}: expected {kind} ending in {', '.join(suffixes)}, "
             f"got {path.suffix or 'no suffix'}; change its name"
         )
 

@@ -34,10 +34,10 @@ from derivation.rewrite.moment_tables import (
     excess_nodes,
     finite_parts,
     kappas,
-    plate_excess,
     sharp,
 )
 from derivation.theory.sensitivity import RESULTS, exponents
+from derivation.theory.thin_plate import plate_excess
 
 REACH = 3
 """The first polynomial ends at A = REACH or alpha = 1, whichever comes first."""

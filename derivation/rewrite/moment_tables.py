@@ -24,6 +24,7 @@ from derivation.theory.moments import (
     kappa_bound,
     kappa_steps,
 )
+from derivation.theory.thin_plate import plate_excess
 
 TOLERANCE = Fraction(1, 2**60)
 """What the expansions may leave out, of values near 1."""
@@ -89,11 +90,6 @@ def _by_power(points: Sequence[tuple[Ball, Ball]], step: int, count: int) -> tup
         found.append(sharp(sum((share for _, share in points), Ball(0))))
         points = [(y, share * y**step) for y, share in points]
     return tuple(found)
-
-
-def plate_excess(T: Ball) -> Ball:
-    """G(T) - 1 = ((1 - e^(-2T))/2 + T + T^2)/(sinh^2 T - T^2)."""
-    return ((1 - (-2 * T).exp()) / 2 + T + T * T) / (T.sinh() ** 2 - T * T)
 
 
 @cache

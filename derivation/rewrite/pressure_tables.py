@@ -13,7 +13,8 @@ import flint
 from flint import arb as Ball
 
 from derivation.rewrite.bessel_tables import nearest_double, wrapped
-from derivation.rewrite.moment_tables import BITS, plate_excess
+from derivation.rewrite.moment_tables import BITS
+from derivation.theory.thin_plate import plate_excess
 
 NODES = 24
 """Collocation points: the positive ones of a rule on (-a, a) exact up to the degree 95."""

@@ -20,13 +20,11 @@ from functools import cache
 import flint
 import sympy as sp
 
-from derivation.formula.ball import refine
 from derivation.formula.proof import Proof, prove
 from derivation.formula.record import Formula
 from derivation.formula.symbols import a_ratio, alpha, c_A, eta, kappa
-from derivation.theory.contact_split import wall_tail
 from derivation.theory.plate_series import coefficient
-from derivation.theory.substitution import one_sided
+from derivation.theory.substitution import one_sided, wall_integral
 from derivation.theory.thin_plate import thin_plate
 
 _y, _u, _q = sp.symbols("y u q", positive=True)
@@ -154,12 +152,4 @@ def wall_growth_ball(digits: int = 12) -> flint.arb:
     def integrand(y: flint.acb, _: bool) -> flint.acb:
         return (y.sinh() - y.shi()) / (2 * y * y.bessel_i(0) ** 2)
 
-    def compute() -> flint.arb:
-        bits = flint.ctx.prec
-        start, end = flint.arb(2) ** -(bits // 2), flint.arb(bits)
-        with flint.ctx.workprec(2 * bits):
-            body = flint.acb.integral(integrand, flint.acb(start), flint.acb(end)).real
-        rest = start**3 / 36 + end.exp() * wall_tail(0, end)
-        return 4 * (body + flint.arb(0, rest.upper())) / flint.arb.pi() ** 2
-
-    return refine(compute, digits, "the side wall's growth")
+    return wall_integral(integrand, digits, "the side wall's growth")

@@ -55,6 +55,7 @@ from derivation.theory.edge import (
     states,
     stretching_function,
 )
+from derivation.theory.edge_sums import indentation_kernel
 from derivation.theory.equilibrium import hooke
 from derivation.theory.face_conditions import loaded
 from derivation.theory.hertz import contact_radius, pressure_coefficient
@@ -71,11 +72,6 @@ ONE_AND_NU = (3 * lam + 2 * mu) / (2 * (lam + mu))
 SCALE = ONE_AND_NU * P / (8 * sp.pi * h**2)
 """(1 + nu) P/(2 pi H^2), of which the stress is S times."""
 _REDUCED = {a: alpha * b, h: eta * b, phi: j_n / b}
-
-
-def wave(y: sp.Expr) -> sp.Expr:
-    """g(y) = 3 (sin y - y cos y)/y^3: 1 at 0."""
-    return 3 * (sp.sin(y) - y * sp.cos(y)) / y**3
 
 
 def far_function() -> sp.Expr:
@@ -117,7 +113,8 @@ def far_factor() -> Formula:
 
 def _mode() -> sp.Expr:
     """One mode's share of S."""
-    return 4 * eta**2 * wave(alpha * j_n) * far_function().subs(T, 2 * eta * j_n) / J1**2
+    face = far_function().subs(T, 2 * eta * j_n)
+    return 4 * eta**2 * indentation_kernel(alpha * j_n) * face / J1**2
 
 
 @cache
@@ -179,7 +176,7 @@ def pole_at_zero() -> Proof:
 
 def odd_weight(ratio: sp.Expr = a_ratio) -> sp.Expr:
     """F(T) = T g(A T/2) B(T), 6/T at 0."""
-    return T * wave(ratio * T / 2) * far_function()
+    return T * indentation_kernel(ratio * T / 2) * far_function()
 
 
 def _pole_of(weight: sp.Expr) -> sp.Expr:
@@ -221,7 +218,7 @@ def thin_far_face() -> tuple[Formula, Formula]:
     value = (near + far) / 2 + 3 * (sp.EulerGamma - sp.log(4 * eta))
     at = PlateRoot(_n)
     hankel = sp.hankel1(0, at / (2 * eta)) / sp.besselj(0, at / (2 * eta))
-    share = (-1) ** _n * wave(a_ratio * at / 2) * (1 + sp.sqrt(1 + at**2)) * hankel
+    share = (-1) ** _n * indentation_kernel(a_ratio * at / 2) * (1 + sp.sqrt(1 + at**2)) * hankel
     roots = sp.pi * sp.im(sp.Sum(share, (_n, 1, sp.oo)))
     where = ("a_ratio * eta < 1",)
     return (
@@ -322,7 +319,7 @@ def far_edge() -> Formula:
     stress = (mean * uniform[0] + turn * uniform[1]).subs(A_j, pressure_coefficient().expression)
     Q, H = (f.subs(T, 2 * eta * j_n) for f in (bending_function(), stretching_function()))
     bent = 12 * (1 + 3 * RATIO - RATIO * Q) / (j_n**3 * J1)
-    value = wave(alpha * j_n) * (bent + 8 * RATIO * eta * H / (j_n**2 * J1))
+    value = indentation_kernel(alpha * j_n) * (bent + 8 * RATIO * eta * H / (j_n**2 * J1))
     scale = SCALE.subs(P, contact_radius().expression)
     hoop = [hooke(state.u, state.w).tt.subs(z, -h) for state in (stretching, bending)]
     proof = prove(

@@ -20,7 +20,7 @@ force as its cube; indentation and time add the factors [l, u] and [l/sqrt u, u/
 change with a_m by `exponents`.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import cache
 
 import flint
@@ -176,6 +176,14 @@ def wall_rest_ball(digits: int = 12) -> flint.arb:
     def integrand(y: flint.acb, _: bool) -> flint.acb:
         return (y.shi() - y) / (y * y.bessel_i(0) ** 2)
 
+    return wall_integral(integrand, digits, "the side wall's rest")
+
+
+def wall_integral(
+    integrand: Callable[[flint.acb, bool], flint.acb], digits: int, what: str
+) -> flint.arb:
+    """(4/pi^2) int_0^oo of what is below y^2/12 for y <= 1 and below e^y/I0^2 beyond."""
+
     def compute() -> flint.arb:
         bits = flint.ctx.prec
         start, end = flint.arb(2) ** -(bits // 2), flint.arb(bits)
@@ -184,7 +192,7 @@ def wall_rest_ball(digits: int = 12) -> flint.arb:
         rest = start**3 / 36 + end.exp() * wall_tail(0, end)
         return 4 * (body + flint.arb(0, rest.upper())) / flint.arb.pi() ** 2
 
-    return refine(compute, digits, "the side wall's rest")
+    return refine(compute, digits, what)
 
 
 def roots_bound(k: int) -> flint.arb:

@@ -20,9 +20,9 @@ from derivation.formula.symbols import M, T, a_ratio, eta
 from derivation.theory.plate_factor import plate_factors
 from derivation.theory.plate_series import FIRST, LAST, sine_coefficient
 from derivation.theory.thin_plate import (
-    excess,
     excess_for_large,
     finite_part_ball,
+    plate_excess,
     plate_factor_at_zero,
     regular_part,
     thin_coefficient,
@@ -117,7 +117,7 @@ def universal_ball(A: Exact, digits: int = 30) -> flint.arb:
             return _kernel(half * x) * (third * x + first * x**3 + x**4 * (regular_part(x) - 1))
 
         def far(x: flint.acb, _: bool) -> flint.acb:
-            return _kernel(half * x) * x**4 * excess(x)
+            return _kernel(half * x) * x**4 * plate_excess(x)
 
         total = flint.acb.integral(near, flint.acb(0), flint.acb(1)).real
         total += flint.acb.integral(far, flint.acb(1), flint.acb(end)).real

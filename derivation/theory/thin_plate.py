@@ -17,6 +17,7 @@ link (`thin_remainder`) finds it, as a sum that makes these coefficients exact.
 
 from dataclasses import dataclass
 from functools import cache
+from typing import TypeVar
 
 import flint
 import sympy as sp
@@ -32,6 +33,7 @@ from derivation.theory.plate_series import FIRST, LAST, coefficient, sine_coeffi
 _EULER = sp.Symbol("gamma_E", positive=True)
 _LOG = sp.Symbol("L", real=True)
 _u = sp.Symbol("u", positive=True)
+Ball = TypeVar("Ball", flint.arb, flint.acb)
 
 
 @dataclass(frozen=True)
@@ -246,7 +248,7 @@ def finite_part_ball(k: int, digits: int = 30) -> flint.arb:
             lambda x, _: x ** (2 * k - 4) * regular_part(x), flint.acb(0), flint.acb(1)
         )
         outer = flint.acb.integral(
-            lambda x, _: x ** (2 * k - 4) * excess(x), flint.acb(1), flint.acb(end)
+            lambda x, _: x ** (2 * k - 4) * plate_excess(x), flint.acb(1), flint.acb(end)
         )
         # For T >= 2, sinh^2 T - T^2 >= e^(2T)/8 and 1/2 + T + T^2 <= 2 T^2; with
         # T >= 4 k the integrand's logarithm falls at least by 1 per unit of T.
@@ -268,7 +270,7 @@ def excess_for_large() -> Proof:
     )
 
 
-def excess(x: flint.acb) -> flint.acb:
+def plate_excess(x: Ball) -> Ball:
     """G - 1 by `excess_for_large`."""
     return ((1 - (-2 * x).exp()) / 2 + x + x * x) / (x.sinh() ** 2 - x * x)
 

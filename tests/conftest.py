@@ -1,13 +1,53 @@
-"""Fixtures shared by all tests."""
+"""Fixtures that several test files share."""
 
-from collections.abc import Mapping
+import json
+import warnings
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING
 
+import numpy as np
 import pytest
 
 from derivation import derived
 from derivation.formula.record import Formula
 
+if TYPE_CHECKING:  # they load the generated package, without which its own tests have to run
+    from derivation.measure.hard import Case
+    from derivation.measure.hard_truth import Known
+
 
 @pytest.fixture(scope="session")
 def formulas() -> Mapping[str, Formula]:
     return derived.formulas()
+
+
+@pytest.fixture
+def no_warning() -> Iterator[None]:
+    """No warning is given."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        yield
+
+
+@pytest.fixture
+def silent(no_warning: None) -> Iterator[None]:  # noqa: ARG001
+    """Nor does any step of NumPy's overflow, underflow or have no value."""
+    with np.errstate(all="raise"):
+        yield
+
+
+@pytest.fixture(scope="session")
+def cases() -> "tuple[Case, ...]":
+    """The hard cases."""
+    from derivation.measure import hard_check
+
+    return hard_check.cases()
+
+
+@pytest.fixture(scope="session")
+def truth(cases: "tuple[Case, ...]") -> "dict[str, Known]":
+    """Their references, as recorded."""
+    from derivation import pipeline
+    from derivation.measure import hard_check
+
+    return hard_check.committed(json.loads(pipeline.MEASURED_HARD.read_text()), cases)

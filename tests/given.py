@@ -1,7 +1,8 @@
-"""Models and scenes that the tests of the scene room begin with."""
+"""Models and scenes that tests begin with."""
 
 import random
 from collections.abc import Iterator, Mapping
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,7 @@ from derivation.scene.effects import BY_NAME
 from derivation.scene.model import Model
 
 EXAMPLES = Path(derivation.scene.__file__).parent / "examples"
+PAPER = EXAMPLES / "paper.toml"
 AT_REST = {"inertia": False}
 """What a scene wants whose plate follows at rest."""
 ALL = frozenset(name for name, effect in BY_NAME.items() if effect.by_itself) - AT_REST.keys()
@@ -41,6 +43,16 @@ def scene(**tables: Mapping[str, Any]) -> Any:
         merged = made.get(name, {}) | dict(keys)
         made[name] = {k: v for k, v in merged.items() if v is not None}
     return read(made)
+
+
+def lame(ratio: float) -> tuple[float, float]:
+    """Lame's constants of a Poisson's ratio, over mu."""
+    return 2.0 * ratio / (1.0 - 2.0 * ratio), 1.0
+
+
+def material(ratio: float) -> Fraction:
+    """gam of a Poisson's ratio."""
+    return (1 - 2 * Fraction(ratio)) / (2 * (1 - Fraction(ratio)))
 
 
 def random_models(count: int) -> Iterator[Model]:

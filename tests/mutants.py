@@ -29,7 +29,7 @@ def of_expression(expression: sp.Expr) -> list[Mutant]:
     found = {expression: ""}
     for path, node in _places(expression):
         for what, new in _changes(node):
-            mutant = _with(expression, path, new)
+            mutant = replaced(expression, path, new)
             found.setdefault(mutant, f"{what}: {node}")
     return [Mutant(name, mutant) for mutant, name in found.items() if name]
 
@@ -44,11 +44,11 @@ def _places(
             yield from _places(part, (*path, index))
 
 
-def _with(node: sp.Basic, path: tuple[int, ...], new: sp.Expr) -> sp.Expr:
+def replaced(node: sp.Basic, path: tuple[int, ...], new: sp.Expr) -> sp.Expr:
     if not path:
         return new
     parts = list(node.args)
-    parts[path[0]] = _with(parts[path[0]], path[1:], new)
+    parts[path[0]] = replaced(parts[path[0]], path[1:], new)
     return node.func(*parts)
 
 

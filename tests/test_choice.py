@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from given import PAPER
 
-import derivation.scene
 from derivation import pipeline
 from derivation.cli import main
 from derivation.emit import budgets
@@ -22,7 +22,6 @@ from generated import simple_impact
 from generated.impact import impact
 from generated.sensitivity import impact_sensitivities
 
-PAPER = Path(derivation.scene.__file__).parent / "examples" / "paper.toml"
 TOLERANCES = [10.0**-n for n in range(13)] + [1e-13, 9e-9, 3e-4]
 COST = {name: rank for rank, name in enumerate(choice.METHODS)}
 Captured = pytest.CaptureFixture[str]

@@ -4,7 +4,6 @@ import importlib
 import itertools
 import shutil
 import sys
-import warnings
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
@@ -74,11 +73,7 @@ def collision(rendered: dict[str, ModuleType]) -> ModuleType:
     return rendered["impact"]
 
 
-@pytest.fixture(autouse=True)
-def no_warning() -> Iterator[None]:
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        yield
+pytestmark = pytest.mark.usefixtures("no_warning")
 
 
 # Truth: modes summed one by one, the edge's integral by trapezoids in ln y.

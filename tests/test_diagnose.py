@@ -11,6 +11,7 @@ from itertools import islice
 import mpmath
 import pytest
 import sympy as sp
+from mutants import replaced
 
 from derivation import derived
 from derivation.formula.parse import FormulaError
@@ -48,14 +49,6 @@ def nodes(expression: sp.Expr, path: Path = ()) -> Iterator[tuple[Path, sp.Expr]
     for index, argument in enumerate(expression.args):
         if not (expression.is_Pow and index == 1):
             yield from nodes(argument, (*path, index))
-
-
-def replaced(expression: sp.Expr, path: Path, new: sp.Expr) -> sp.Expr:
-    if not path:
-        return new
-    args = list(expression.args)
-    args[path[0]] = replaced(args[path[0]], path[1:], new)
-    return expression.func(*args)
 
 
 def damaged_node(kind: str, node: sp.Expr, draw: random.Random) -> sp.Expr | None:

@@ -2,8 +2,7 @@
 
 import itertools
 import math
-import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from fractions import Fraction
 
 import flint
@@ -11,6 +10,7 @@ import numpy as np
 import pytest
 import sympy as sp
 from flint import arb
+from given import lame
 from mpmath import mp, mpf
 
 from derivation.emit.budgets import read_budgets
@@ -32,15 +32,7 @@ BITS = 140
 BELOW, ABOVE = 1 - 1e-9, 1 + 1e-9
 
 
-@pytest.fixture(autouse=True)
-def _silent() -> Iterator[None]:
-    with warnings.catch_warnings(), np.errstate(all="raise"):
-        warnings.simplefilter("error")
-        yield
-
-
-def lame(ratio: float) -> tuple[float, float]:
-    return 2.0 * ratio / (1.0 - 2.0 * ratio), 1.0
+pytestmark = pytest.mark.usefixtures("silent")
 
 
 # --- theory

@@ -2,7 +2,6 @@
 
 import itertools
 import math
-import warnings
 from collections.abc import Callable, Iterator
 from fractions import Fraction
 from typing import Any
@@ -12,7 +11,7 @@ import numpy as np
 import pytest
 import sympy as sp
 from flint import arb
-from given import scene
+from given import lame, scene
 from mpmath import mp, mpf
 
 from derivation import derived
@@ -37,15 +36,7 @@ KERNELS: dict[str, Callable[..., np.ndarray]] = {
 Point = tuple[float, float, float, float, float, float]
 
 
-@pytest.fixture(autouse=True)
-def _silent() -> Iterator[None]:
-    with warnings.catch_warnings(), np.errstate(all="raise"):
-        warnings.simplefilter("error")
-        yield
-
-
-def lame(ratio: float) -> tuple[float, float]:
-    return 2.0 * ratio / (1.0 - 2.0 * ratio), 1.0
+pytestmark = pytest.mark.usefixtures("silent")
 
 
 def scaled(stress: np.ndarray, P: float, h: float, ratio: float) -> float:

@@ -1,15 +1,12 @@
 """What hard cases of laws are held to: by a second oracle, and what kernels state themselves."""
 
 import dataclasses
-import json
 from fractions import Fraction
 
 import flint
 import numpy as np
-import pytest
 from mpmath import mp, mpf
 
-from derivation import pipeline
 from derivation.measure import hard_check
 from derivation.measure.hard import Case
 from derivation.measure.hard_kernels import Stating
@@ -18,16 +15,6 @@ from derivation.measure.hard_truth import Known, restored
 from derivation.reference import edge_routes, far_face_routes, pressure_routes
 from derivation.reference.routes import to_ball as as_ball
 from generated.impact import history
-
-
-@pytest.fixture(scope="module")
-def cases() -> tuple[Case, ...]:
-    return hard_check.cases()
-
-
-@pytest.fixture(scope="module")
-def truth(cases: tuple[Case, ...]) -> dict[str, Known]:
-    return hard_check.committed(json.loads(pipeline.MEASURED_HARD.read_text()), cases)
 
 
 def test_the_second_oracle_agrees(cases: tuple[Case, ...], truth: dict[str, Known]) -> None:

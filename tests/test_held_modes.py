@@ -1,8 +1,6 @@
 """Modes of held plates: theory, oracles, kernels in ULP, published values, sums, orthogonality."""
 
 import math
-import warnings
-from collections.abc import Iterator
 from fractions import Fraction
 
 import flint
@@ -37,11 +35,7 @@ RATIOS = (
 )  # fmt: skip
 
 
-@pytest.fixture(autouse=True)
-def _silent() -> Iterator[None]:
-    with warnings.catch_warnings(), np.errstate(all="raise"):
-        warnings.simplefilter("error")
-        yield
+pytestmark = pytest.mark.usefixtures("silent")
 
 
 # --- theory

@@ -18,9 +18,11 @@ from derivation.scene.law import WHOLE_PLATE, Law
 from derivation.scene.limits import zener_number
 from derivation.scene.modal import Modes, contact_of, modes_of
 from derivation.scene.model import Inertia, Model
+from derivation.scene.wave_plot import zener_restitution
 from generated.inertia import bending_frequency
 
 REST = WHOLE_PLATE | {"hertz"}
+
 BALL = Model(R=0.02, m=0.25, v0=1.0, h=0.02, b=0.15, lam=40e9, mu=27e9, density=2700.0)
 
 
@@ -66,6 +68,11 @@ def thin_plate(number: float, count: int, phase: float) -> tuple[float, float]:
     problem = Problem(contact, a, That, model.m, speed)
     found = bounces.contact(problem, 16, problem.begin(), 0.0, 0.0)
     return -found.after.velocity, a * j[-1]
+
+
+@pytest.mark.parametrize("number", [0.02, 0.3, 2.0])
+def test_zeners_equation_of_an_endless_plate(number: float) -> None:
+    assert zener_restitution(number) == pytest.approx(zener(number)[0], abs=1e-9)
 
 
 @pytest.mark.parametrize("number", [0.02, 0.3, 1.0, 2.0])

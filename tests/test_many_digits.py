@@ -8,9 +8,9 @@ from typing import Any
 import flint
 import pytest
 from flint import acb, arb
+from given import PAPER
 from mpmath import mp, mpf
 
-import derivation.scene
 from derivation.cli import main
 from derivation.formula.ball import PrecisionError
 from derivation.reference import (
@@ -27,7 +27,6 @@ from derivation.reference import (
 from derivation.reference.contact_balls import ratio_of
 from derivation.reference.routes import to_ball
 
-PAPER = Path(derivation.scene.__file__).parent / "examples" / "paper.toml"
 PLATES = [
     pytest.param(0.02, 0.03, 30, id="thin"),
     pytest.param(0.1, 0.0134, 50, id="the paper's"),

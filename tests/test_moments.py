@@ -1,7 +1,6 @@
 """kappa_n and M_k: the generated kernels and their expansions against certified integrals."""
 
-import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from fractions import Fraction
 from itertools import pairwise
 
@@ -32,11 +31,7 @@ FIRST = {kappa: 0, kappa_ratio: 0, finite_part: 2, finite_part_ratio: 2}
 SWITCHES = {kappa_ratio: tables.kappa_start(), finite_part_ratio: tables.finite_part_start()}
 
 
-@pytest.fixture(autouse=True)
-def _silent() -> Iterator[None]:
-    with warnings.catch_warnings(), np.errstate(all="raise"):
-        warnings.simplefilter("error")
-        yield
+pytestmark = pytest.mark.usefixtures("silent")
 
 
 def errors(kernel: Callable, number: Callable[[int, int], arb], indices: list[int]) -> list[float]:

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given import AT_REST, EXAMPLES, changed
+from given import AT_REST, EXAMPLES, PAPER, changed
 from scipy.integrate import solve_ivp
 
 from derivation.cli import main
@@ -26,7 +26,6 @@ from derivation.scene.code import recipe
 from derivation.scene.law import Law
 from derivation.scene_code import scene_code
 
-PAPER = EXAMPLES / "paper.toml"
 RANDOM = {f"random {n}": (n, rtol) for n, rtol in ((0, 1e-2), (3, 1e-4), (15, 1e-6), (11, 1e-9))}
 PAD = {
     "sphere": {"radius": 0.01, "mass": 0.03},

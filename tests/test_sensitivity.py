@@ -2,8 +2,6 @@
 
 import json
 import math
-import warnings
-from collections.abc import Iterator
 from fractions import Fraction
 from pathlib import Path
 
@@ -41,11 +39,7 @@ ULP_SLOPE = 8
 LIMIT = 2e-15
 
 
-@pytest.fixture(autouse=True)
-def no_warning() -> Iterator[None]:
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        yield
+pytestmark = pytest.mark.usefixtures("no_warning")
 
 
 def numbers(texts: list[str]) -> list[Fraction]:

@@ -10,13 +10,12 @@ from pathlib import Path
 import hertz_double as hertz
 import numpy as np
 import pytest
+from given import PAPER
 
-import derivation.scene
 from derivation.cli import main
 from derivation.scene import load, schema, simulate
 from derivation.scene.plot import figure, scaled, write_plot
 
-PAPER = Path(derivation.scene.__file__).parent / "examples" / "paper.toml"
 START = {b"\x89PNG": ".png", b"%PDF": ".pdf", b"<?xml": ".svg"}
 MODULES = """
 import importlib.util, json, sys

@@ -7,12 +7,11 @@ from functools import partial
 from pathlib import Path
 
 import pytest
+from given import PAPER
 
-import derivation.scene
 from derivation.cli import main
 from derivation.scene import SceneError, load, read, simulate, sweep
 
-PAPER = Path(derivation.scene.__file__).parent / "examples" / "paper.toml"
 Captured = pytest.CaptureFixture[str]
 
 

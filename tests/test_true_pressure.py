@@ -2,8 +2,6 @@
 
 import itertools
 import math
-import warnings
-from collections.abc import Iterator
 from fractions import Fraction
 
 import numpy as np
@@ -27,11 +25,7 @@ OPEN = 3.012493
 """a/H, H = 2 h, at which the contact opens, in every thin plate."""
 
 
-@pytest.fixture(autouse=True)
-def no_warning() -> Iterator[None]:
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        yield
+pytestmark = pytest.mark.usefixtures("no_warning")
 
 
 # --- theory

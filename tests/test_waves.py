@@ -1,4 +1,4 @@
-"""Impacts on a plate that moves against an independent integrator, Zener's equation and a limit."""
+"""Impacts on a plate that moves against an independent integrator, and a limit."""
 
 import math
 from dataclasses import replace
@@ -12,7 +12,6 @@ from derivation.scene import bounces, motion, waves
 from derivation.scene.law import WHOLE_PLATE, Law
 from derivation.scene.modal import modes_of
 from derivation.scene.model import Inertia, Model
-from derivation.scene.wave_plot import zener_restitution
 from generated.contact_law import force_of_radius
 from generated.sensitivity import indentation_slope
 
@@ -160,25 +159,6 @@ def test_a_plate_without_mass_is_at_rest() -> None:
     assert time < 2e-3
     assert way < 1e-4
     assert speed < 2e-5
-
-
-@pytest.mark.parametrize("number", [0.02, 0.3, 2.0])
-def test_an_endless_plate_is_zeners(number: float) -> None:
-    """m z'' = -P, z = P^(2/3) + w, w' = lambda P, in s = sqrt(t) by another integrator."""
-
-    def rate(s: float, state: np.ndarray) -> Any:
-        depth = max(state[0] - state[2], 0.0)
-        P = depth**1.5
-        return 2.0 * s * np.array([state[1], -P, number * P])
-
-    def released(s: float, state: np.ndarray) -> float:  # noqa: ARG001
-        return float(state[0] - state[2])
-
-    released.direction = -1  # type: ignore[attr-defined]
-    released.terminal = True  # type: ignore[attr-defined]
-    found = solve_ivp(rate, (1e-8, 40.0), [1e-16, 1.0, 0.0], "DOP853", events=released,
-                      rtol=1e-13, atol=1e-15)  # fmt: skip
-    assert zener_restitution(number) == pytest.approx(-found.y_events[0][-1][1], abs=1e-9)
 
 
 def test_more_modes_change_less() -> None:

@@ -15,7 +15,7 @@ from derivation.report.consequence import Consequences
 from derivation.report.content import number
 from derivation.report.latex import LINE_WIDTH, equation, escape, prose, typeset_width
 from derivation.report.listings import source_of
-from derivation.report.pdf import TexError, blemishes, compile_pdf, typeset
+from derivation.report.pdf import TexError, compile_pdf, typeset
 from derivation.report.references import TABLE, bib, cited, references
 from derivation.report.spoken import spoken
 from derivation.scene.effects import EFFECTS
@@ -25,6 +25,15 @@ from derivation.theory.chain import LINKS
 from generated import influence
 
 NEEDS_TEX = pytest.mark.skipif(shutil.which("pdflatex") is None, reason="needs pdflatex")
+HAIR = 2.0
+"""Points by which a box may stand out unseen."""
+
+
+def blemishes(log: str) -> list[str]:
+    """What a log complains of: boxes that stand out by more than a hair, and warnings."""
+    boxes = re.finditer(r"^Overfull .*?\(([\d.]+)pt too .*$", log, re.MULTILINE)
+    warnings = re.findall(r"^(?:LaTeX|Package \S+|pdfTeX) [Ww]arning.*$", log, re.MULTILINE)
+    return [box[0] for box in boxes if float(box[1]) > HAIR] + warnings
 
 
 def test_committed_tex_is_fresh() -> None:

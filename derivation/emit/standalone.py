@@ -13,21 +13,13 @@ from derivation.rewrite.series import POLYNOMIAL
 from derivation.rewrite.stabilise import Stable
 
 
-def standalone(stable: Stable, name: str = "f") -> str:
-    """Source of a module with the form as a function.
-
-    Parameters
-    ----------
-    stable
-        The form.
-    name
-        What the function is called.
-    """
+def standalone(stable: Stable) -> str:
+    """Source of a module with the form as a function `f`."""
     seam = seam_text(stable.value) if isinstance(stable.value, Seam) else None
     sides = (stable.value.below, stable.value.above) if isinstance(stable.value, Seam) else ()
     context = {
         "summary": f"A stable form by platecontact {version('platecontact')}.",
-        "name": name,
+        "name": "f",
         "variable": str(stable.variable),
         "formula": sp.sstr(stable.expression),
         "worst": f"{stable.worst:.1f}",
@@ -42,4 +34,4 @@ def standalone(stable: Stable, name: str = "f") -> str:
             "value": "" if seam else to_numpy(stable.value),
         },
     }
-    return format_files({"f.py": fill(Module(name, "standalone", context))})["f.py"]
+    return format_files({"f.py": fill(Module("f", "standalone", context))})["f.py"]

@@ -242,10 +242,10 @@ def added(case: Case, a: float) -> tuple[float, float]:
     return more, more + float(indentation(a, RADIUS, case.h, 1.0))
 
 
-def remainders(case: Case, mesh: Mesh, widths: Sequence[float] = WIDTHS) -> list[float]:
+def remainders(case: Case, mesh: Mesh) -> list[float]:
     """The remainder's share of the indentation, by a/b."""
-    depths = Field(case, mesh).depths(widths)
-    return [depth / added(case, a)[1] for a, depth in zip(widths, depths, strict=True)]
+    depths = Field(case, mesh).depths(WIDTHS)
+    return [depth / added(case, a)[1] for a, depth in zip(WIDTHS, depths, strict=True)]
 
 
 def rows(

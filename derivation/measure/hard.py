@@ -103,7 +103,7 @@ class Case:
         return found
 
 
-def written(path: Path = WRITTEN) -> Iterator[Case]:
+def written() -> Iterator[Case]:
     """The cases written by hand.
 
     Raises
@@ -111,7 +111,7 @@ def written(path: Path = WRITTEN) -> Iterator[Case]:
     ValueError
         Naming a case that does not say what it must.
     """
-    with path.open("rb") as stream:
+    with WRITTEN.open("rb") as stream:
         rows = tomllib.load(stream)["case"]
     yield from (_read(row) for row in rows)
 

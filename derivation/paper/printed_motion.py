@@ -158,16 +158,3 @@ PRINTED_MOTION: tuple[Printed, ...] = (
     _SOURCE,
 )
 """Every printed formula of the motion that has a derived counterpart, in the paper's order."""
-
-PREMISES = (
-    ("9", r"m\ddot{\delta}(t) + P(t)", "0"),
-    ("12", r"\delta(0)", "0"),
-    ("12", r"\dot{\delta}(0)", "v_0"),
-    ("14", r"\delta(t)", r"\delta_0(t) + \eta(t)"),
-    (
-        "16",
-        r"\eta(t)",
-        r"\left( -\int G(t) e^{\int F(t) dt} dt + C \right) e^{-\int F(t) dt}",
-    ),
-)
-"""Equations that the derivation starts from or that only name things; (16) is proved with (17)."""

@@ -1,7 +1,6 @@
 """A .tex file -> its PDF, the same bytes for the same text, without leftovers beside it."""
 
 import os
-import re
 import shutil
 import subprocess
 import tempfile
@@ -12,10 +11,6 @@ from derivation.files import write_file
 PASSES = 3
 """The table of contents and longtable's columns settle by the third run."""
 PACKAGES = "texlive-latex-base texlive-latex-recommended lmodern"
-
-
-HAIR = 2.0
-"""Points by which a box may stand out unseen."""
 
 
 class TexError(OSError):
@@ -72,13 +67,6 @@ def typeset(source: Path) -> tuple[bytes, str]:
                 raise TexError(f"pdflatex refused {source}: {first_error(run.stdout)}")
         made = Path(folder) / source.name
         return made.with_suffix(".pdf").read_bytes(), made.with_suffix(".log").read_text("latin-1")
-
-
-def blemishes(log: str) -> list[str]:
-    """What a log complains of: boxes that stand out by more than a hair, and warnings."""
-    boxes = re.finditer(r"^Overfull .*?\(([\d.]+)pt too .*$", log, re.MULTILINE)
-    warnings = re.findall(r"^(?:LaTeX|Package \S+|pdfTeX) [Ww]arning.*$", log, re.MULTILINE)
-    return [box[0] for box in boxes if float(box[1]) > HAIR] + warnings
 
 
 def first_error(log: str) -> str:

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from derivation.files import write_file
 from derivation.scene.result import Array, Result
 from derivation.scene.scene import SceneError
 
@@ -41,21 +40,6 @@ def check_suffix(
             f"{path}: expected {kind} ending in {', '.join(suffixes)}, "
             f"got {path.suffix or 'no suffix'}; change its name"
         )
-
-
-def write_plot(result: Result, path: str | Path) -> None:
-    """Draw a result into a file, as PNG, SVG or PDF by its suffix.
-
-    Raises
-    ------
-    SceneError
-        If the suffix is none of these.
-    OSError
-        If the file cannot be written.
-    """
-    path = Path(path)
-    check_suffix(path)
-    write_file(path, render(result, path.suffix))
 
 
 def render(result: Result, suffix: str) -> bytes:

@@ -212,16 +212,6 @@ def truncated_gamma(k: int) -> Formula:
     )
 
 
-def statement(k: int) -> str:
-    """What the growth of gamma_k means, in a sentence built from the result."""
-    found = tail(printed_term(k))
-    power = found.exponent + 1
-    return (
-        f"gamma_{k} is {found.kind}: {found.says}; cut after N modes the sum grows like "
-        f"{_power('N', power)}, so that every number computed from it depends on N without limit"
-    )
-
-
 def divergence() -> tuple[Formula, ...]:
     """The limit of phi^3 K_j, and the growth of the first truncated coefficients."""
     return (influence_at_infinity(), truncated_gamma(2), truncated_gamma(3))

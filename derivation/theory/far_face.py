@@ -174,9 +174,9 @@ def pole_at_zero() -> Proof:
     )
 
 
-def odd_weight(ratio: sp.Expr = a_ratio) -> sp.Expr:
+def odd_weight() -> sp.Expr:
     """F(T) = T g(A T/2) B(T), 6/T at 0."""
-    return T * indentation_kernel(ratio * T / 2) * far_function()
+    return T * indentation_kernel(a_ratio * T / 2) * far_function()
 
 
 def _pole_of(weight: sp.Expr) -> sp.Expr:

@@ -5,13 +5,10 @@ With the right law both P and delta are polynomials in the contact radius a, so
 the contact time is an integral over q = a/a_m; its root at q = 1 divides out.
 """
 
-from collections.abc import Sequence
 from functools import cache
 
-import flint
 import sympy as sp
 
-from derivation.formula.ball import refine
 from derivation.formula.proof import Proof, prove
 from derivation.formula.record import Formula
 from derivation.formula.symbols import D, R, a, delta, delta_0, h, m, t, u_t, v0, xi_k
@@ -31,9 +28,9 @@ def formal_force(at: sp.Expr, last: int = 3) -> sp.Expr:
 
 
 @cache
-def formal_speed_squared(last: int = 3) -> sp.Expr:
+def formal_speed_squared() -> sp.Expr:
     """delta'^2 as a function of delta: v0^2 - 2/m int P d delta."""
-    work = sp.integrate(sp.expand(formal_force(delta, last)), (delta, 0, delta))
+    work = sp.integrate(sp.expand(formal_force(delta)), (delta, 0, delta))
     return v0**2 - sp.expand(2 / m * work)
 
 
@@ -219,27 +216,6 @@ def hertz_time() -> Formula:
         ("contact_integrand",),
         proof,
     )
-
-
-def contact_integral_ball(weights: Sequence[float], digits: int = 30) -> flint.arb:
-    """Ball around I = int_0^1 of the contact-time integrand, for given D_3, D_5, ..."""
-    pairs = [(2, 1.0), *((2 * i + 3, value) for i, value in enumerate(weights))]
-
-    def integrand(u: flint.acb, analytic: bool) -> flint.acb:
-        q = 1 - u * u
-        powers = [flint.acb(1)]
-        for _ in range(pairs[-1][0] + 3):
-            powers.append(powers[-1] * q)
-        rate = sum((n * d * powers[n - 1] for n, d in pairs), flint.acb(0))
-        stored = flint.acb(0)
-        for n, d in pairs:
-            stored += flint.acb(n) * d / (n + 3) * sum(powers[: n + 3], flint.acb(0))
-        return 2 * rate / stored.sqrt(analytic=analytic)
-
-    def compute() -> flint.arb:
-        return flint.acb.integral(integrand, flint.acb(0), flint.acb(1)).real
-
-    return refine(compute, digits, "the contact-time integral")
 
 
 @cache

@@ -149,11 +149,11 @@ def inverse(terms: int, ar: Arithmetic) -> Callable[[Regime], Call]:
     return prepare
 
 
-def newton(terms: int, ar: Arithmetic = DOUBLE, quick: bool = True) -> Method:
+def newton(terms: int, ar: Arithmetic = DOUBLE) -> Method:
     """Newton's iteration on the series."""
     return Method(
         "inversion", "Newton, small-a series", f"{terms} terms", inverse(terms, ar), ar.name,
-        inverse(terms, exact_for(ar)), diverges, ar.wide, quick=quick,
+        inverse(terms, exact_for(ar)), diverges, ar.wide,
     )  # fmt: skip
 
 
@@ -185,7 +185,7 @@ def duration(
     return prepare
 
 
-def gauss(nodes: int, terms: int, ar: Arithmetic = DOUBLE, quick: bool = True) -> Method:
+def gauss(nodes: int, terms: int, ar: Arithmetic = DOUBLE) -> Method:
     """Gauss-Legendre on the series."""
 
     def made(regime: Regime, ar: Arithmetic) -> Law:
@@ -194,5 +194,5 @@ def gauss(nodes: int, terms: int, ar: Arithmetic = DOUBLE, quick: bool = True) -
     return Method(
         "impact", "Gauss-Legendre, small-a series", f"{nodes} nodes, {terms} terms",
         duration(nodes, made, ar), ar.name, duration(nodes, made, exact_for(ar)), diverges,
-        ar.wide, quick=quick,
+        ar.wide,
     )  # fmt: skip

@@ -158,7 +158,7 @@ def _bessel_arguments(generator: random.Random) -> list[float]:
 
 
 def _lame(index: int, generator: random.Random) -> tuple[float, float]:
-    """Lame's constants of the next of the listed Poisson numbers, in the next unit."""
+    """Lame's constants of the next of the listed Poisson's ratios, in the next unit."""
     nu = NU[index % len(NU)]
     mu = STRESSES[index % len(STRESSES)] * generator.uniform(0.7, 1.4)
     return 2 * mu * nu / (1 - 2 * nu), mu

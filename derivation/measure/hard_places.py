@@ -1,4 +1,4 @@
-"""The doubles beside a place, and how families of hard cases write their arguments."""
+"""The doubles beside a place, and how families of hard cases are written."""
 
 from collections.abc import Sequence
 

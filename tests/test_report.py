@@ -9,15 +9,26 @@ import pytest
 import sympy as sp
 
 from derivation import derived, reporting
+from derivation.formula import symbols
 from derivation.formula.notation import to_latex
 from derivation.formula.parse import NAMES
 from derivation.report.consequence import Consequences
-from derivation.report.content import number
-from derivation.report.latex import LINE_WIDTH, equation, escape, prose, typeset_width
+from derivation.report.equations import (
+    DEEPEST,
+    LINE_WIDTH,
+    displayed,
+    equation,
+    folded,
+    in_parts,
+)
+from derivation.report.html_text import argument
+from derivation.report.latex import escape, prose
 from derivation.report.listings import source_of
+from derivation.report.numbers import number
 from derivation.report.pdf import TexError, compile_pdf, typeset
 from derivation.report.references import TABLE, bib, cited, references
 from derivation.report.spoken import spoken
+from derivation.report.width import typeset_width
 from derivation.scene.effects import EFFECTS
 from derivation.scene.impact import simulate
 from derivation.scene.scene import load
@@ -71,6 +82,12 @@ def test_escape(plain: str, latex: str) -> None:
             "E*/E_1*, (E* phi), sinh^2 T, a*b >= 0",
             r"$E^*$/$E_{1}^*$, ($E^*$ $\phi$), $\sinh^{2}$ $T$, \texttt{a*\allowbreak{}b} $\ge$ 0",
         ),
+        (
+            "a/R -> 0, h -> oo, int P d delta",
+            r"a/$R$ $\to$ 0, $h$ $\to$ $\infty$, $\int$ $P$ $d$ $\delta$",
+        ),
+        ("m/(8 That sqrt(D rho H))", r"$m$/(8 $\hat{T}$ $\sqrt{D \rho H}$)"),
+        ("P^((2k-1)/3) at a point", "$P^{(2k-1)/3}$ at a point"),
         ("by more than 0.0e+00 of it", "by more than 0 of it"),
         ("x1e5, 0x1p+3 and e^(-x)", r"x1e5, 0x1p+3 and $e^{-x}$"),
     ],
@@ -97,19 +114,81 @@ def test_formulas_typed_as_code_are_typeset(plain: str, latex: str) -> None:
 
 
 def test_what_would_be_illegible_on_a_line_stands_in_parts(formulas) -> None:
-    """No line has to be shrunk to less than half."""
-    for name in ("time_by_radius", "time_by_thickness"):
+    """Every line fits the page, and no fraction stands within two others."""
+    for name in ("time_by_radius", "F_edge", "c_1_roots", "far_sum_thin"):
         text = equation("", formulas[name].expression)
         assert text.startswith(r"\begin{aligned}")
-        lines = text.split(r"\\")
-        assert [line.split("=")[0].strip() for line in lines[1:]] == ["X_1", "X_2", "X_3", "X_4"]
-        assert all(typeset_width(line) < 2 * LINE_WIDTH for line in lines)
+        lines = text.removeprefix(r"\begin{aligned}").removesuffix(r"\end{aligned}").split(r"\\")
+        named = [line.split("=")[0].strip() for line in lines[1:] if "=" in line]
+        assert named == [f"Z_{k}" for k in range(1, len(named) + 1)]
+        assert all(typeset_width(line) <= 1.1 * LINE_WIDTH for line in lines)
+        assert all(fractions_within(line) <= DEEPEST for line in lines)
+
+
+def fractions_within(latex: str) -> int:
+    """How many fractions stand within each other."""
+    depth = 0
+    for match in re.finditer(r"\\frac(?=\{)", latex):
+        above, place = argument(latex, match.end())
+        below, _ = argument(latex, place)
+        depth = max(depth, 1 + fractions_within(above), 1 + fractions_within(below))
+    return depth
+
+
+def test_parts_put_back_are_the_formula(formulas) -> None:
+    """Whatever is named on the way to lines that can be read."""
+    for formula in formulas.values():
+        value, parts = in_parts(formula.expression, LINE_WIDTH)
+        for symbol, part in reversed(parts):
+            value = value.xreplace({symbol: part})
+        assert value == formula.expression
+
+
+def test_plate_factor_is_called_by_its_name(formulas) -> None:
+    whole = formulas["c_1_modes"].expression
+    short = folded(whole, formulas["G"])
+    assert "G{" in to_latex(short)
+    assert "sinh" not in to_latex(short)
+    G = sp.Function("G")
+    again = short.replace(G, lambda T: formulas["G"].expression.xreplace({symbols.T: T}))
+    assert again == whole
+    assert folded(formulas["K_j"].expression, formulas["G"]) == formulas["K_j"].expression
+
+
+@pytest.mark.parametrize(
+    ("latex", "width"),
+    [
+        ("abc", 3), ("a + b", 4.6), (r"\frac{abc}{d}", 3.5), (r"\lambda_{jk} \mu^{2}", 4.1),
+        (r"\sin{\left(x \right)}", 6.2), (r"\frac{\frac{abcd}{e}}{f}", 3.8),
+    ],
+)  # fmt: skip
+def test_width_of_what_is_typeset(latex: str, width: float) -> None:
+    """By hand: letters, signs with their space, scripts and fractions inside others smaller."""
+    assert typeset_width(latex) == pytest.approx(width)
+
+
+@NEEDS_TEX
+def test_widths_are_those_of_tex(formulas, tmp_path: Path) -> None:
+    """Within a quarter for nearly all formulas of the report, by a box of TeX's own."""
+    shown = [displayed(formula.expression) for formula in formulas.values()]
+    boxes = "".join(rf"\sbox0{{$\displaystyle {text}$}}\typeout{{W\the\wd0}}" for text in shown)
+    source = tmp_path / "boxes.tex"
+    source.write_text(
+        rf"\documentclass[11pt]{{article}}\usepackage{{amsmath,lmodern}}"
+        rf"\begin{{document}}{boxes}x\end{{document}}"
+    )
+    _, log = typeset(source)
+    widths = [float(found) for found in re.findall(r"^W([\d.]+)pt", log, re.MULTILINE)]
+    assert len(widths) == len(shown)
+    ratios = sorted(w / typeset_width(text) for w, text in zip(widths, shown, strict=True))
+    middle = ratios[len(ratios) // 2]
+    off = [ratio for ratio in ratios if not 0.8 < ratio / middle < 1.25]
+    assert len(off) <= len(ratios) // 20
 
 
 def test_long_sums_are_broken_and_short_ones_are_not(formulas) -> None:
     assert "aligned" in equation("g", formulas["g_j"].expression)
     assert "aligned" not in equation("G", formulas["G"].expression)
-    assert typeset_width(r"\frac{a + b}{c}") == 3
 
 
 def test_every_link_and_formula_is_in_the_report(formulas) -> None:

@@ -10,7 +10,7 @@ from derivation.formula.symbols import ARGUMENTS
 SYMBOL_NAMES = {argument.symbol: argument.latex for argument in ARGUMENTS}
 
 
-class _Printer(LatexPrinter):
+class PaperPrinter(LatexPrinter):
     """SymPy's LaTeX printer with J_0, J_1 as the paper writes them, and I_0, I_1 likewise."""
 
     def _print_BesselJ(self, expr: sp.besselj, exp: str | None = None) -> str:
@@ -38,7 +38,7 @@ def positive_first(terms: list[sp.Expr]) -> list[sp.Expr]:
 def to_latex(expression: sp.Basic) -> str:
     """LaTeX of an expression, symbols as in the paper."""
     return str(
-        _Printer({"symbol_names": SYMBOL_NAMES, "fold_short_frac": False}).doprint(expression)
+        PaperPrinter({"symbol_names": SYMBOL_NAMES, "fold_short_frac": False}).doprint(expression)
     )
 
 

@@ -48,7 +48,7 @@ def work_precision(data: Mapping[str, Any], task: str, kind: str) -> Figure:
     families = list(dict.fromkeys(row["family"] for row in rows))
     colours = dict(zip(families, COLOURS, strict=False))
     with mpl.rc_context(STYLE | {"font.size": 8, "lines.linewidth": 1.0}):
-        figure = Figure(figsize=(6.5, 5.6), layout="constrained")
+        figure = Figure(figsize=(6.5, 4.0), layout="constrained")
         *axes, legend = figure.subplots(2, 3, sharex=True).flat
         for ax, regime in zip(axes, data["regimes"], strict=True):
             mine = [row for row in rows if row["regime"] == regime["name"] and drawn(row, kind)]
@@ -59,7 +59,13 @@ def work_precision(data: Mapping[str, Any], task: str, kind: str) -> Figure:
         figure.supxlabel(f"time per point {KINDS[kind]} [s]", fontsize=8)
         figure.supylabel("digits", fontsize=8)
         legend.axis("off")
-        legend.legend(handles=[*keys(rows, colours)], fontsize=6, loc="center", handlelength=1.2)
+        legend.legend(
+            handles=[*keys(rows, colours)],
+            fontsize=5.5,
+            loc="center",
+            handlelength=1.2,
+            labelspacing=0.25,
+        )
     return figure
 
 

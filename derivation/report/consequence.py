@@ -15,8 +15,9 @@ from derivation.formula.record import Formula
 from derivation.formula.symbols import BY_NAME, J1, A_j, k, phi
 from derivation.paper.misprints import Finding
 from derivation.paper.printed_motion import PrintedPower, PrintedSeries
-from derivation.report.content import finding_context, number
+from derivation.report.content import finding_context
 from derivation.report.latex import unit as in_latex
+from derivation.report.numbers import number
 from derivation.scene.model import Model
 from generated.bessel import bessel_j0_zeros, bessel_j1_at_j0_zeros
 from generated.contact_series import plate_coefficients

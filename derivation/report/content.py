@@ -13,7 +13,9 @@ from derivation.formula.record import Formula
 from derivation.formula.symbols import M, eta, r, z
 from derivation.paper.misprints import Finding
 from derivation.reference.contact_balls import finite_part
-from derivation.report.latex import equation, escape, unit
+from derivation.report.equations import equation, folded
+from derivation.report.latex import escape, unit
+from derivation.report.numbers import number, rounded
 from derivation.report.references import cited
 from derivation.report.spoken import spoken
 from derivation.theory.equilibrium import force_balance, hooke
@@ -23,6 +25,8 @@ from derivation.theory.thin_roots import root
 ROOT_DIGITS = 12
 """Digits certified of what the roots add, more than are shown."""
 SUM = r"\sum_{j=1}^{\infty} "
+FACTOR = "G"
+"""The plate factor, by whose name it is called in formulas after its own link."""
 ABOUT = {
     "equilibrium": "One mode of the plate is u = g(z) phi J1(phi r), w = f(z) J0(phi r). Put into "
     "Hooke's law and the balance of forces it leaves two ordinary differential equations in z.",
@@ -111,14 +115,14 @@ def navier() -> list[str]:
 
 def chain_context(links: Sequence[tuple[str, Sequence[Formula]]]) -> dict[str, Any]:
     """The chain at a glance: what each link is built on, how much it holds."""
-    home = {f.name: number for number, (_, found) in enumerate(links, 1) for f in found}
+    home = {f.name: place for place, (_, found) in enumerate(links, 1) for f in found}
     rows = []
-    for number, (name, found) in enumerate(links, start=1):
-        built = {home[name] for f in found for name in f.sources if name in home} - {number}
+    for place, (name, found) in enumerate(links, start=1):
+        built = {home[name] for f in found for name in f.sources if name in home} - {place}
         on = ", ".join(str(n) for n in sorted(built)) or "--"
         equations = sorted({f.equation for f in found if f.equation}, key=_equation_order)
         printed = ", ".join(f"({e})" for e in equations)
-        rows.append(f"{number} & {escape(name)} & {on} & {len(found)} & {printed}")
+        rows.append(f"{place} & {escape(name)} & {on} & {len(found)} & {printed}")
     decided = Counter(f.proof.method for _, found in links for f in found)
     return {
         "formulas": sum(decided.values()),
@@ -132,7 +136,9 @@ def _equation_order(text: str) -> tuple[int, str]:
     return (int(digits[0]) if digits else 0, text)
 
 
-def link_context(name: str, formulas: Sequence[Formula], shown: Collection[str]) -> dict[str, Any]:
+def link_context(
+    name: str, formulas: Sequence[Formula], shown: Mapping[str, Formula]
+) -> dict[str, Any]:
     """A link of the chain: its formulas, which refer to those shown, and each proof once."""
     proofs = {formula.proof.step: formula.proof for formula in formulas}
     return {
@@ -174,27 +180,28 @@ def root_text(n: int) -> str:
     return rf"{T.real.str(6, radius=False)} + {T.imag.str(6, radius=False)}\,\mathrm{{i}}"
 
 
-def formula_context(formula: Formula, known: Collection[str] = ()) -> dict[str, Any]:
+def formula_context(formula: Formula, known: Mapping[str, Formula] | None = None) -> dict[str, Any]:
     """A formula as the template shows it, with the numbers of those known that it comes from."""
+    known = known or {}
     shown = formula.expression if formula.stated is None else formula.stated
+    sources = [reference(source, known) for source in formula.sources]
+    if FACTOR in known and FACTOR not in (formula.name, *formula.sources):
+        shown, whole = folded(shown, known[FACTOR]), shown
+        sources += [f"with {reference(FACTOR, known)}"] * (shown != whole)
     return {
         "name": formula.name,
         "meaning": formula.meaning,
         "unit": unit(formula.unit),
         "equation": formula.equation,
-        "sources": ", ".join(
-            rf"\texttt{{{escape(source)}}}"
-            + (rf"~(\ref{{eq:{source}}})" if source in known else "")
-            for source in formula.sources
-        ),
+        "sources": ", ".join(sources),
         "body": equation(formula.latex, shown, SUM if formula.summed else ""),
     }
 
 
 def reference(name: str, known: Collection[str]) -> str:
     """A formula's name, with the number of its equation if it is known."""
-    number = rf" (\ref{{eq:{name}}})" if name in known else ""
-    return rf"\texttt{{{escape(name)}}}{number}"
+    place = rf"~(\ref{{eq:{name}}})" if name in known else ""
+    return rf"\texttt{{{escape(name)}}}{place}"
 
 
 def finding_context(finding: Finding) -> dict[str, Any]:
@@ -250,16 +257,6 @@ def accuracy_row(row: Mapping[str, Any]) -> str:
     return " & ".join(cells)
 
 
-def number(value: float | str) -> str:
-    """Two or three significant figures, large ones as powers of ten."""
-    if isinstance(value, str):
-        return r"$\infty$"
-    if 0 < abs(value) < 1e-2 or abs(value) >= 1e4:
-        mantissa, _, exponent = f"{value:.1e}".partition("e")
-        return rf"${mantissa}\cdot10^{{{int(exponent)}}}$"
-    return f"{value:.2f}"
-
-
 def rewrite_rows(row: Mapping[str, Any]) -> Iterator[str]:
     """Cells of a formula's rules: what the form is without and with each."""
     for index, applied in enumerate(row["applied"]):
@@ -281,14 +278,5 @@ def contact_impacts(rows: Sequence[Mapping[str, Any]]) -> dict[str, str]:
     ends = {}
     for key in ("c1_A", "h_over_b", "a_over_h"):
         values = [case[key] for case in cases]
-        ends[f"{key}_low"], ends[f"{key}_high"] = ending(min(values)), ending(max(values))
+        ends[f"{key}_low"], ends[f"{key}_high"] = rounded(min(values)), rounded(max(values))
     return ends
-
-
-def ending(value: float) -> str:
-    """An end of a range: three significant figures, small and large ones as powers of ten."""
-    if 1e-2 <= abs(value) < 1e4:
-        return f"${value:.3g}$"
-    mantissa, _, exponent = f"{value:.1e}".partition("e")
-    lead = "" if mantissa == "1.0" else rf"{mantissa}\cdot"
-    return rf"${lead}10^{{{int(exponent)}}}$"

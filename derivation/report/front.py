@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from derivation.formula.record import Formula
+from derivation.measure.record import generated_hash
 from derivation.paper.misprints import Finding
 from derivation.report.latex import escape
 from generated.manifest import KERNELS
@@ -17,15 +18,16 @@ def front_context(
     links: Sequence[tuple[str, Sequence[Formula]]],
     findings: Sequence[Finding],
     measured: Mapping[str, Data],
+    sources: Mapping[str, str],
 ) -> dict[str, Any]:
     """Stages with what came out of each, and the versions they were measured with."""
     provenance = measured["check"]["provenance"]
     versions = sorted((k, v) for k, v in provenance.items() if k not in ("digits", "generated"))
     return {
         "subtitle": SUBTITLE,
-        "stages": [" & ".join(row) for row in stages(links, findings, measured)],
+        "stages": [" & ".join(row) for row in stages(links, findings, measured, sources)],
         "versions": ", ".join(f"{escape(name)} {escape(value)}" for name, value in versions),
-        "generated": provenance["generated"][:16],
+        "generated": generated_hash()[:16],
     }
 
 
@@ -33,6 +35,7 @@ def stages(
     links: Sequence[tuple[str, Sequence[Formula]]],
     findings: Sequence[Finding],
     measured: Mapping[str, Data],
+    sources: Mapping[str, str],
 ) -> Iterator[tuple[str, str]]:
     """Command, and its outcome in numbers."""
     formulas = [formula for _, found in links for formula in found]
@@ -52,8 +55,10 @@ def stages(
             "each kept for the error it saves"
         ),
     )
-    modules = {kernel["module"] for kernel in KERNELS}
-    yield code("generate"), f"{len(KERNELS)} NumPy functions in {len(modules)} modules"
+    yield (
+        code("generate"),
+        f"{len(sources)} NumPy modules, {len(KERNELS)} of their functions of one formula each",
+    )
     wrong = sum(finding.is_misprint for finding in findings)
     yield code("misprints"), f"{len(findings)} printed formulas compared, {wrong} differ"
     yield from checks(measured)
@@ -90,6 +95,13 @@ def checks(measured: Mapping[str, Data]) -> Iterator[tuple[str, str]]:
             code("check --effects"),
             (f"{measured['effects']['drawn']} random scenes, {used(worst, 'bound')}"),
         )
+    if "inertia" in measured:
+        moving = measured["inertia"]
+        worst = max(float(side["tightest"]) for side in moving["sides"])
+        yield (
+            code("check --inertia"),
+            f"{len(moving['rows'])} impacts on plates that move, {used(worst, 'bound')}",
+        )
     rows = measured["speed"]["rows"]
     kept = sum(row["kept"] for row in rows)
     yield code("check --speed"), f"{len(rows)} times measured, {kept} within their limits"
@@ -102,6 +114,8 @@ def checks(measured: Mapping[str, Data]) -> Iterator[tuple[str, str]]:
             f"{len(rows)} settings"
         ),
     )
+    if "moving" in measured:
+        yield code("accuracy --moving"), f"{len(measured['moving']['rows'])} settings"
 
 
 def used(ratio: float, what: str = "allowed error") -> str:

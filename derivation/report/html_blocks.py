@@ -19,13 +19,14 @@ _BLOCK = re.compile(
     r"|\\\[(?P<display>.*?)\\\]"
     r"|\\begin\{verbatim\}\n(?P<code>.*?)\n\\end\{verbatim\}"
     r"|\\begin\{(?P<kind>longtable|tabular)\}(?=\{)"
-    r"|\\begin\{figure\}\[H\](?P<figure>.*?)\\end\{figure\}"
+    r"|\\begin\{figure\}\[\w+\](?P<figure>.*?)\\end\{figure\}"
     r"|\\begin\{itemize\}(?P<items>.*?)\\end\{itemize\}"
     r"|\\begin\{thebibliography\}\{99\}(?P<sources>.*?)\\end\{thebibliography\}"
     r"|\\(?:begin\{)?(?P<pair>formula|reporttitle)\}?(?=\{)"
     r"|(?P<appendix>\\appendix)"
     r"|(?P<skipped>\\(?:begin|end)\{(?:center|listing)\}|\\end\{formula\}|\\(?:begingroup|endgroup|scriptsize|clearpage"
-    r"|sloppy)\b|\\setlength\{[^}]*\}\{[^}]*\})",
+    r"|sloppy)\b|\\setlength\{[^}]*\}\{[^}]*\}|\\stepcounter\{captioned\}"
+    r"|\\lines\{\d+\})",
     re.DOTALL,
 )
 _LABEL = re.compile(r"\\label\{(sec:[^}]*)\}")
@@ -100,6 +101,7 @@ class Blocks:
         self.words, self.figures = words, figures
         self.counter = Counter()
         self.headings: list[Heading] = []
+        self.captions = {"Table": 0, "Figure": 0}
 
     def read(self, text: str) -> Markup:
         """A section as HTML.
@@ -190,10 +192,15 @@ class Blocks:
         start = text.index(r"\caption") + len(r"\caption")
         if name is None:
             raise HtmlError(f"expected a figure's name, got {text:.60}")
-        caption = self.words.read(argument(text, start)[0])
+        caption = self._caption("Figure", argument(text, start)[0])
         return Markup(
             '<figure><div class="wide">{}</div><figcaption>{}</figcaption></figure>'
         ).format(self.figures[name[1]], caption)
+
+    def _caption(self, kind: str, text: str) -> Markup:
+        """A caption with the number of its figure or table."""
+        self.captions[kind] += 1
+        return Markup("{} {}: {}").format(kind, self.captions[kind], self.words.read(text))
 
     def _sources(self, text: str) -> Markup:
         items = []
@@ -218,7 +225,7 @@ class Blocks:
         if body.lstrip().startswith(r"\caption"):
             start = body.index(r"\caption") + len(r"\caption")
             words, after = argument(body, start)
-            caption = Markup("<caption>{}</caption>").format(self.words.read(words))
+            caption = Markup("<caption>{}</caption>").format(self._caption("Table", words))
             body = body[after:].lstrip().removeprefix(r"\\")
         head, body = _head_and_body(body)
         columns = [m["column"][0] for m in _COLUMN.finditer(spec) if m["column"]]

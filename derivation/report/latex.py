@@ -1,21 +1,12 @@
-"""Jinja2 for LaTeX: its delimiters, an escape filter, and sums broken into lines."""
+"""Jinja2 for LaTeX: its delimiters, and filters that escape text and typeset symbols in it."""
 
 import re
+from itertools import chain, zip_longest
 from pathlib import Path
 
 import jinja2
-import sympy as sp
-
-from derivation.formula.notation import to_latex
 
 TEMPLATES = Path(__file__).parent / "templates"
-LINE_WIDTH = 92
-"""Characters, as typeset, after which a sum is broken."""
-
-FAR_TOO_WIDE, LEAST_PART = 2 * LINE_WIDTH, 12
-"""Characters from which a formula would be illegible on one line; of parts worth a name."""
-LONG_LEFT = 16
-"""Characters of a left side from which the right one begins a line of its own."""
 
 SPECIAL = {
     "\\": r"\textbackslash{}",
@@ -39,15 +30,27 @@ def escape(text: object) -> str:
 
 
 GREEK = (
-    "alpha|beta|gamma|delta|eps|eta|kappa|lambda|lam|mu|nabla|nu|omega|Omega|phi|pi|sigma|theta|xi"
+    "alpha|beta|gamma|delta|eps|eta|kappa|lambda|lam|mu|nabla|nu|omega|Omega|phi|pi|rho|sigma|theta"
+    "|chi|xi"
 )
 _SYMBOL = re.compile(
     rf"(?<![\\A-Za-z0-9_'\[])(?P<minus>(?<=[ (])-)?(?:(?P<greek>{GREEK})|(?P<latin>[A-Za-z]))"
     r"(?:_(?P<sub>[A-Za-z0-9]{1,2})(?![A-Za-z0-9_]))?"
-    r"(?:\^(?:\((?P<group>[^()]*)\)|(?P<power>\d+|[a-z](?![A-Za-z]))))?(?![A-Za-z0-9_^])"
+    r"(?:\^(?:\((?P<group>(?:[^()]|\([^()]*\))*)\)|(?P<power>\d+|[a-z](?![A-Za-z]))))?(?![A-Za-z0-9_^])"
 )
 _MODULUS = re.compile(r"((?<![A-Za-z0-9_*])E(?:_[0-9])?\*(?![A-Za-z0-9(*]))")
-_FUNCTION = re.compile(r"\b(sinh|cosh|tanh|coth|sin|cos|tan|log)\\textasciicircum\{\}(\d+)")
+_SIGNS = {
+    r"\\textgreater\{\}=": r"$\\ge$",
+    r"\\textless\{\}=": r"$\\le$",
+    r"-\\textgreater\{\}": r"$\\to$",
+    r"\boo\b": r"$\\infty$",
+    r"\bint(?= )": r"$\\int$",
+    r"\bThat(?= *$)": r"$\\hat{T}$",
+    r"\b(sinh|cosh|tanh|coth|sin|cos|tan|log)\\textasciicircum\{\}(\d+)": r"$\\\1^{\2}$",
+    r"\\textasciicircum\{\}(\d+)": r"$^{\1}$",
+}
+"""What words make of signs, once escaped; in this order."""
+_ROOT = re.compile(r"sqrt\(([^()]*)\)")
 _POWER = re.compile(r"\)\\textasciicircum\{\}(?:\((\d+/\d+)\)|(\d+)|\$(\w)\$)")
 
 
@@ -90,6 +93,18 @@ def _code(text: str) -> str:
 
 
 def _words(text: str) -> str:
+    """Words with the symbols among them typeset, roots as roots."""
+    pieces = _ROOT.split(text)
+    roots = [rf"$\sqrt{{{_bare(inner)}}}$" for inner in pieces[1::2]]
+    return "".join(chain(*zip_longest(map(_symbols, pieces[::2]), roots, fillvalue="")))
+
+
+def _bare(text: str) -> str:
+    """Words' symbols within mathematics."""
+    return _symbols(text).replace("$", "")
+
+
+def _symbols(text: str) -> str:
     """Words with the symbols among them typeset."""
     source = re.sub(r"\b([IJKcv])([013])\b", r"\1_\2", text)
     pieces, last = [], 0
@@ -102,8 +117,9 @@ def _words(text: str) -> str:
 def _raised(text: str) -> str:
     """LaTeX of words with powers of parentheses and functions raised: (a/h)^3, sinh^2; with >=."""
     text = _POWER.sub(lambda m: f")$^{{{m[1] or m[2] or m[3]}}}$", text)
-    text = text.replace(r"\textgreater{}=", r"$\ge$").replace(r"\textless{}=", r"$\le$")
-    return _FUNCTION.sub(r"$\\\1^{\2}$", text)
+    for plain, typeset in _SIGNS.items():
+        text = re.sub(plain, typeset, text)
+    return text
 
 
 def _mathematics(match: re.Match[str]) -> str:
@@ -142,73 +158,3 @@ def environment() -> jinja2.Environment:
     made.filters["tex"] = escape
     made.filters["prose"] = prose
     return made
-
-
-def typeset_width(latex: str) -> int:
-    """Rough width of a formula in characters, fractions as wide as their wider part."""
-    text = latex
-    fraction = re.compile(r"\\frac\{([^{}]*)\}\{([^{}]*)\}")
-    text = re.sub(r"\\(left|right|displaystyle|,|;|quad)\b", "", text)
-    text = re.sub(r"\\([a-zA-Z]+)", lambda m: m[0] if m[1] == "frac" else m[1][:4], text)
-    for _ in range(8):
-        text = re.sub(r"([\^_])\{([^{}]*)\}", r"\2", text)
-        text, found = fraction.subn(lambda m: max(m[1], m[2], key=len), text)
-        text = re.sub(r"\{((?:[^{}\\]|\\[{}])*)\}", r"\1", text) if not found else text
-    return len(re.sub(r"[\s{}\\]", "", text))
-
-
-def equation(left: str, expression: sp.Expr, prefix: str = "") -> str:
-    """Body of a displayed equation, its sum broken over as many lines as it needs."""
-    whole = f"{left} = {prefix}{to_latex(expression)}"
-    if typeset_width(whole) <= LINE_WIDTH:
-        return whole
-    if not isinstance(expression, sp.Add):
-        expression = _expanded(expression)
-    if not isinstance(expression, sp.Add):
-        if typeset_width(whole) > FAR_TOO_WIDE:
-            return _in_parts(f"{left} = {prefix}", expression)
-        return rf"\fit{{{whole}}}"
-    lines = [f"{left} = {{}}& {prefix}"]
-    for index, term in enumerate(_signed_terms(expression)):
-        if index and typeset_width(lines[-1] + term) > LINE_WIDTH:
-            lines.append(r"& \quad ")
-        lines[-1] += f" {term}"
-    return r"\begin{aligned}" + " \\\\\n".join(lines) + r"\end{aligned}"
-
-
-def _in_parts(left: str, expression: sp.Expr) -> str:
-    """A formula whose sums and repeated parts are named, X_1, X_2 ..., and stand below it."""
-    sums = sorted(expression.atoms(sp.Sum), key=sp.default_sort_key)
-    rows = [(sp.Symbol(f"X_{k}"), part) for k, part in enumerate(sums, start=1)]
-    named, (value,) = sp.cse(
-        expression.xreplace({part: symbol for symbol, part in rows}), sp.numbered_symbols("_")
-    )
-    short: dict[sp.Symbol, sp.Expr] = {}
-    for symbol, part in named:
-        part = part.xreplace(short)
-        if typeset_width(to_latex(part)) <= LEAST_PART:
-            short[symbol] = part
-        else:
-            short[symbol] = sp.Symbol(f"X_{len(rows) + 1}")
-            rows.append((short[symbol], part))
-    body = rf"\fit[0.75]{{{to_latex(value.xreplace(short))}}}"
-    lines = [f"{left}& {body}"] if typeset_width(left) <= LONG_LEFT else [f"{left}&", f"& {body}"]
-    lines += [rf"{symbol} = {{}}& \fit[0.75]{{{to_latex(part)}}}" for symbol, part in rows]
-    return r"\begin{aligned}" + " \\\\\n".join(lines) + r"\end{aligned}"
-
-
-def _expanded(expression: sp.Expr) -> sp.Expr:
-    """A product of powers multiplied out; functions and roots of sums only get worse by it."""
-    nested = any(not p.exp.is_Integer and p.base.is_Add for p in expression.atoms(sp.Pow))
-    worse = nested or expression.has(sp.Function, sp.Integral)
-    return expression if worse else sp.expand(expression)
-
-
-def _signed_terms(expression: sp.Add) -> list[str]:
-    """LaTeX of a sum's terms in printed order, each with its sign but the first's plus."""
-    text: list[str] = []
-    for term in expression.as_ordered_terms():
-        negative = term.could_extract_minus_sign()
-        sign = "-" if negative else "+" if text else ""
-        text.append(f"{sign} {to_latex(-term if negative else term)}")
-    return text

@@ -6,7 +6,7 @@ from typing import Any
 
 from derivation.formula.record import Formula
 from derivation.report.content import SUM
-from derivation.report.latex import equation
+from derivation.report.equations import equation
 
 SHOWN = {
     "G": "influence",

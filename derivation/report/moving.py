@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 
 from derivation.report.figures import STYLE
 from derivation.report.latex import escape
+from derivation.report.numbers import rounded
 
 LINES = {
     "elements, tolerance": "elements",
@@ -71,7 +72,7 @@ def moving_context(data: Mapping[str, Any]) -> dict[str, Any]:
             f"{2 * plate['radius']:g}\\,m wide, at {data['scene']['impact']['speed']:g}\\,m/s"
         ),
         "oscillators": shared["oscillators"],
-        "finest": _power(data["truth"]["tolerance"]),
+        "finest": rounded(data["truth"]["tolerance"]),
         "most": data["truth"]["modes"],
         "all": data["truth"]["modes of all branches"],
         "gain": gain(data),
@@ -86,20 +87,13 @@ def gain(data: Mapping[str, Any]) -> str:
     for method in ("DOP853", "velocity Verlet"):
         best = min((row for row in data["rows"] if row["method"] == method), key=worst)
         times = best["seconds"] / own["seconds"]
-        told.append(f"{LINES[method]} takes {times:.0f} times as long for {_power(worst(best))}")
-    return f"{'; '.join(told)}; elements reach {_power(worst(own))}."
-
-
-def _power(value: float) -> str:
-    """A number as a power of ten."""
-    mantissa, _, power = f"{value:.1e}".partition("e")
-    lead = "" if mantissa == "1.0" else rf"{mantissa}\cdot"
-    return f"${lead}10^{{{int(power)}}}$"
+        told.append(f"{LINES[method]} takes {times:.0f} times as long for {rounded(worst(best))}")
+    return f"{'; '.join(told)}; elements reach {rounded(worst(own))}."
 
 
 def _typeset(cell: str) -> str:
     """A cell of the table; errors as powers of ten."""
-    return _power(float(cell)) if "e-" in cell and " " not in cell else escape(cell)
+    return rounded(float(cell)) if "e-" in cell and " " not in cell else escape(cell)
 
 
 def moving_rows(data: Mapping[str, Any]) -> Iterator[dict[str, str]]:
@@ -116,7 +110,7 @@ def moving_rows(data: Mapping[str, Any]) -> Iterator[dict[str, str]]:
             "study": NAMES[row["study"]],
             "method": what,
             "oscillators": str(row["oscillators"]),
-            "milliseconds": f"{1e3 * row['seconds']:.3g}",
+            "milliseconds": f"{1e3 * row['seconds']:.0f}",
             "error": f"{worst(row):.1e}",
             "bound": "" if row["bound"] is None else f"{row['bound']:.1e}",
         }

@@ -19,6 +19,7 @@ from derivation.report.inertia import inertia_context
 from derivation.report.latex import environment
 from derivation.report.listings import listings_context
 from derivation.report.moving import moving_context
+from derivation.report.numbers import number, rounded
 from derivation.report.references import items
 from derivation.report.reproducibility import reproducibility_context
 from derivation.report.scenes import effects_context
@@ -92,13 +93,13 @@ def _accuracy(material: Material) -> dict[str, Any]:
         "digits": check["provenance"]["digits"],
         "contact_rows": [content.contact_row(row) for row in contact["rows"]],
         "contact_digits": contact["provenance"]["digits"],
-        "contact_limit": content.number(contact["limit"]),
+        "contact_limit": number(contact["limit"]),
         "contact_impacts": content.contact_impacts(contact["rows"]),
         "grid": {
-            "thinnest": content.ending(min(THICKNESSES)),
-            "thickest": content.ending(max(THICKNESSES)),
-            "smallest": content.ending(min(RATIOS)),
-            "largest": content.ending(max(RATIOS)),
+            "thinnest": rounded(min(THICKNESSES)),
+            "thickest": rounded(max(THICKNESSES)),
+            "smallest": rounded(min(RATIOS)),
+            "largest": rounded(max(RATIOS)),
         },
     }
 
@@ -107,13 +108,17 @@ def _rewriting(material: Material) -> dict[str, Any]:
     rows = material.measured["rewrite"]["rows"]
     return {
         "rewrites": [line for row in rows for line in content.rewrite_rows(row)],
-        "ends": [content.ending(end) for end in ENDS],
+        "ends": [rounded(end) for end in ENDS],
     }
 
 
 def _speed(material: Material) -> dict[str, Any]:
     timed = material.measured["speed"]
-    return {"timings": timed["rows"], "machine": sorted(timed["machine"].items())}
+    rows = [
+        row | {"value": rounded(row["value"]), "limit": rounded(row["limit"])}
+        for row in timed["rows"]
+    ]
+    return {"timings": rows, "machine": sorted(timed["machine"].items())}
 
 
 SECTIONS: dict[str, Callable[[Material], dict[str, Any]]] = {
@@ -193,7 +198,7 @@ def text(material: Material, names: Sequence[str] = ()) -> Text:
         subtitle=SUBTITLE,
         version=material.version,
         citation=material.citation,
-        front=front_context(material.links, material.findings, material.measured),
+        front=front_context(material.links, material.findings, material.measured, material.sources),
     )
     sections = (
         made.get_template(f"sections/{name}.tex.j2").render(**SECTIONS[name](material), shown=shown)

@@ -4,8 +4,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from derivation.formula.record import Formula
-from derivation.report.content import ending
 from derivation.report.listings import body
+from derivation.report.numbers import rounded
 from derivation.scene import edge_remainder, law, limits
 from derivation.scene.effects.effect import PLATES
 
@@ -30,7 +30,7 @@ def law_context(formulas: Mapping[str, Formula]) -> dict[str, Any]:
 def limit_rows() -> list[str]:
     """Number, limit, what happens beyond it and why; the limits are those of the code."""
     open_, held, curved = f"{law.OPEN:g}", f"{law.HELD:g}", f"{law.CURVED:g}"
-    thin, thick = (ending(ratio) for ratio in PLATES)
+    thin, thick = (rounded(ratio) for ratio in PLATES)
     rows = (
         (r"$a/b$, $a/R$", "1", "refused", "the contact would reach the edge, or past the sphere"),
         (r"$a/b$", held, "refused with an edge that is no soft hinge, or solved pressure",

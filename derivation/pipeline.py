@@ -278,7 +278,7 @@ def search_worse(
 def in_doubles(path: Path) -> Result:
     """The impact of a scene file in doubles by the law that the oracles know.
 
-    That is the whole plate's at rest on the paper's edge, under a rigid paraboloid and Hertz'
+    That is the whole plate's at rest on the paper's edge, under a rigid paraboloid and Hertz's
     pressure; a warning names what the scene calls for beyond it.
 
     Raises

@@ -65,7 +65,7 @@ def random_models(count: int) -> Iterator[Model]:
 
 
 def changed(**tables: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
-    """The good scene, Hertz' pressure under a paraboloid, keys replaced or removed by None."""
+    """The good scene, Hertz's pressure under a paraboloid, keys replaced or removed by None."""
     made: dict[str, dict[str, Any]] = {
         "sphere": {"radius": 0.13, "mass": 72.0},
         "plate": {"radius": 1.0, "thickness": 0.2, "lame_lambda": 0.36e9, "lame_mu": 0.43e9},

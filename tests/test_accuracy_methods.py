@@ -203,7 +203,7 @@ SPLITS = {
     "table": (inversion.table(64), 7.5, 14),
     "Newton on 4 terms": (by_series.newton(4), 7.8, 15),
     "Newton on 4 terms, float32": (by_series.newton(4, SINGLE), 7.8, 6),
-    "Hertz' impact": (motion.hertz(), 0.5, 15),
+    "Hertz's impact": (motion.hertz(), 0.5, 15),
     "linear term": (motion.linear(25), 0.8, 15),
     "Gauss": (motion.gauss(8), 8.2, 15),
     "Gauss on the series": (by_series.gauss(8, 12), 8.2, 15),

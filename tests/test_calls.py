@@ -36,7 +36,7 @@ ALONE: dict[str, set[str]] = {
     "edge": ZEROS | {"supported_edge", "supported_edge_slope"},
     "pressure": ZEROS | {"contact", "plate"},
 }
-"""What the impact of each effect alone, beside Hertz', calls."""
+"""What the impact of each effect alone, beside Hertz's, calls."""
 
 
 @pytest.fixture
@@ -105,7 +105,7 @@ def test_out_is_to_the_last_bit_as_if_the_scene_had_none(name: str, without: Any
 
 
 def test_a_half_space_calls_bounds_and_its_closed_form_alone(calls: set[str]) -> None:
-    """Everything on "auto", and nothing needed: the gate's bounds, and Hertz' impact."""
+    """Everything on "auto", and nothing needed: the gate's bounds, and Hertz's impact."""
     block = {"half_thickness": 1e4, "radius": 1e4}
     auto = {"inertia": "auto"}
     result = simulate(scene(plate=block, sphere={"material": None}, effects=auto), rtol=0.02)

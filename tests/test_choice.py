@@ -110,7 +110,7 @@ def test_the_laws_slope_lies_between_the_bounds(eta: float) -> None:
 
 @pytest.mark.parametrize("factor", [0.93, 0.99, 1.01, 1.5])
 def test_the_lemma_holds_for_a_law_times_a_number(factor: float) -> None:
-    """S = c S_1, Hertz' S_1 = 1: radius, force, depth and time change by known powers of c."""
+    """S = c S_1, Hertz's S_1 = 1: radius, force, depth and time change by known powers of c."""
     low, up = max(0.0, 1 - factor), max(0.0, factor - 1)
     said = simple_impact.law_error(low, up, 0.0, 0.0)
     for power in (-1 / 5, -3 / 5, 3 / 5, 3 / 5):

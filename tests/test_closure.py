@@ -49,7 +49,7 @@ def test_another_energy_or_weight_is_refused() -> None:
 
 @pytest.mark.parametrize("y", ["0.3", "2", "11"])
 def test_means_under_punch_and_sphere_by_quadrature(y: str) -> None:
-    """r = sin t: a flat punch's pressure has the weight sin t dt, Hertz' 3 sin t cos^2 t dt."""
+    """r = sin t: a flat punch's pressure has the weight sin t dt, Hertz's 3 sin t cos^2 t dt."""
     with mp.workdps(25):
         for weight, name in ((mp.sin, "mode_share"), (_hertz, "mode_force")):
 
@@ -172,7 +172,7 @@ def test_variational_law_has_the_true_pressures_third_coefficient() -> None:
     misses = []
     for A in (0.05, 0.1):
         true = true_pressure.contact(true_pressure.plate(h, b), A * h, R, 2.0)
-        # E* = 2 with lam = 0, mu = 1: Hertz' radius of the same force.
+        # E* = 2 with lam = 0, mu = 1: Hertz's radius of the same force.
         a = float((0.75 * true.force * R / 2.0) ** (1 / 3))
         laws = np.array([variational(a, h, b), contact_law.indentation(a, R, h, b)])
         misses.append(laws / float(true.indentation) - 1.0)

@@ -108,7 +108,7 @@ def test_what_an_effect_changes_is_within_its_bound_and_near_it(
 
 @pytest.mark.parametrize("name", ["sphere_elasticity", "gravity", "edge"])
 def test_prices_hold_under_the_true_pressure(name: str) -> None:
-    """There the contact radius grows faster than Hertz' radius of the force."""
+    """There the contact radius grows faster than Hertz's radius of the force."""
     b = 1.76595204337641
     m = model(
         R=1.8971866830973843, m=41077.25867811576, v0=0.42665213036895394, b=b,
@@ -119,7 +119,7 @@ def test_prices_hold_under_the_true_pressure(name: str) -> None:
     gate = decide(m, AT_REST | wanted, 1.0)
     bound = {row.name: row.bound for row in gate.rows}[name]
     assert 0.2 < apart(impact(m, ALL - {name}), impact(m, ALL)) / bound <= 1
-    # What the profile adds is known under Hertz' pressure alone.
+    # What the profile adds is known under Hertz's pressure alone.
     flat = decide(m, AT_REST | wanted | {"curvature": False}, 1.0)
     assert {row.name: row.bound for row in flat.rows}["curvature"] == math.inf
 

@@ -202,7 +202,7 @@ def test_domain() -> None:
 def test_kirchhoffs_plate_under_a_wide_load() -> None:
     """3 P/(2 pi H^2) [(1 + nu) <log b/r> + (1 - nu)/2 (1 - <r^2>/b^2)] of a supported plate.
 
-    Of Hertz' pressure <log a/r> = 4/3 - log 2 and <r^2> = 2 a^2/5; clamped, the last term is
+    Of Hertz's pressure <log a/r> = 4/3 - log 2 and <r^2> = 2 a^2/5; clamped, the last term is
     -(1 + nu)/2 (1 - <r^2>/b^2).
     """
     nu, h, a = 0.3, 1e-5, 0.2

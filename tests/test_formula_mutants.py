@@ -48,7 +48,7 @@ TARGETS: Mapping[str, Callable[[str], checks.Check]] = {
     "S_edge": checks.by_residues,
     "support_ratio": checks.by_poissons_ratio,
     **dict.fromkeys(
-        ("B_a", "B_s", "B_a_slow", "B_s_slow", "C_dynamic"), checks.by_first_order_system
+        ("B_a", "B_s", "B_a_slow", "B_s_slow", "dynamic_influence"), checks.by_first_order_system
     ),
 }
 

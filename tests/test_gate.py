@@ -75,7 +75,7 @@ def test_both_sides_of_a_threshold() -> None:
 
 
 def test_weight_under_the_true_pressure_moves_the_radius_within_the_bound() -> None:
-    """There the contact radius grows up to 3.5 times as fast as Hertz' radius of the force."""
+    """There the contact radius grows up to 3.5 times as fast as Hertz's radius of the force."""
     data = measure.scene(226)
     whole = derivation.effects_check.everything(data)
     values, effects, bound = derivation.effects_check.gated(data, 1e-2)

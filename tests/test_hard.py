@@ -36,7 +36,7 @@ GROUPS = {
     "reversed series": 8,
     "past the turning point": 4,
     "soft impacts": 6,
-    "Poisson number at its ends": 20,
+    "Poisson's ratio at its ends": 20,
     "systems of units": 12,
     "single precision": 15,
     "subnormal numbers": 12,

@@ -62,7 +62,7 @@ def test_another_influence_is_refused() -> None:
     ("x", "load", "nu"), [(0.3, 0.02, 0.25), (1.3, 1.1, -0.7), (4.0, 9.0, 0.4)]
 )
 def test_influence_against_tractions_solved_in_numbers(x: float, load: float, nu: float) -> None:
-    formula = derived.formulas()["C_dynamic"].expression
+    formula = derived.formulas()["dynamic_influence"].expression
     values = {x_h: x, kap: load, gam: material(nu), h: 1, mu: 1}
     ball = evaluate(formula, values, 25)
     with mp.workdps(40):

@@ -88,6 +88,7 @@ def test_escape(plain: str, latex: str) -> None:
         ),
         ("m/(8 That sqrt(D rho H))", r"$m$/(8 $\hat{T}$ $\sqrt{D \rho H}$)"),
         ("P^((2k-1)/3) at a point", "$P^{(2k-1)/3}$ at a point"),
+        ("f_j(+-h)", r"$f_{j}$($\pm$$h$)"),
         ("by more than 0.0e+00 of it", "by more than 0 of it"),
         ("x1e5, 0x1p+3 and e^(-x)", r"x1e5, 0x1p+3 and $e^{-x}$"),
     ],

@@ -52,7 +52,7 @@ def test_a_wall_share_that_is_too_small_is_refused(monkeypatch: pytest.MonkeyPat
 
 
 def law(case: pressure_balls.Case) -> tuple[float, float]:
-    """Hertz' radius of the force over the plate's half-thickness, and delta R/a_H^2."""
+    """Hertz's radius of the force over the plate's half-thickness, and delta R/a_H^2."""
     state = pressure_balls.solve(case)
     cube = 0.75 * state.force
     ratio = float(cube) ** (1 / 3)

@@ -39,7 +39,7 @@ def with_number(x: float, model: Model = BALL) -> Model:
 
 
 def spiral(x: float) -> tuple[float, float]:
-    """Restitution and time, over that without viscosity, of Hertz' contact: link 24 in phi."""
+    """Restitution and time, over that without viscosity, of Hertz's contact: link 24 in phi."""
     top = 0.8**0.4 * x
 
     def rates(u: float, state: np.ndarray) -> list[float]:

@@ -206,7 +206,7 @@ CONTACT_FUNCTIONS: tuple[ContactRow, ...] = (
     ),
     ("bending_period", "effects", ("h", "b", *ELASTIC, "rho"), "s", "T_1", "", "bending period"),
     ("echo_time", "effects", ("h", *ELASTIC, "rho"), "s", "T_e", "", "time of two echoes"),
-    ("side_wall", "effects", ("alpha",), "1", "F_W", "6", "what the finite radius adds"),
+    ("side_wall", "effects", ("alpha",), "1", "W", "6", "what the finite radius adds"),
     ("bending", "effects", ("a_ratio", "eta"), "1", "F_B", "6", "what a thin plate's bending adds"),
 )
 

@@ -116,7 +116,7 @@ ARGUMENTS = (
     Argument(
         viscous_time, "s", "A_v", "time by which the contact's force lags", ("viscous_time > 0",)
     ),
-    Argument(x_v, "1", "x", "viscous number", ("x_v >= 0",)),
+    Argument(x_v, "1", "x_v", "viscous number", ("x_v >= 0",)),
     Argument(omega, "1/s", r"\omega", "angular frequency", ("omega > 0",)),
     Argument(x_h, "1", "x", "wave number times half-thickness, phi h", ("x_h > 0",)),
     Argument(kap, "1", r"\kappa", "(omega h/c_T)^2, c_T^2 = mu/rho", ("kap >= 0",)),

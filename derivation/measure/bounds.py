@@ -81,7 +81,7 @@ def scene(number: int, seed: int = SEED) -> Point:
     mu, nu = spread(1e4, 1e12), generator.uniform(-0.9, 0.49)
     lam = 2 * mu * nu / (1 - 2 * nu)
     a = 0.85 * min(b, R, 6 * h) * spread(1e-8, 1.0)
-    # Hertz' share, 2/5; a stiffer or softer law needs not quite this work to come to a.
+    # Hertz's share, 2/5; a stiffer or softer law needs not quite this work to come to a.
     work = 0.4 * float(force_of_radius(a, R, lam, mu) * indentation(a, R, h, b))
     m = spread(1e-6, 1e6)
     return R, m, math.sqrt(2 * work / m), h, b, lam, mu

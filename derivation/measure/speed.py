@@ -206,7 +206,7 @@ def process(code: str, *arguments: str) -> Callable[[], object]:
 
 
 def hertz_alone(scene: Path, limit: float) -> Timing:
-    """A scene where Hertz' law is enough, over the same with every other effect switched off."""
+    """A scene where Hertz's law is enough, over the same with every other effect switched off."""
     with tempfile.TemporaryDirectory() as folder:
         plain = Path(folder) / scene.name
         keys = "".join(f"{name} = false\n" for name in SWITCHES)

@@ -28,18 +28,21 @@ def wall_moments(count: int, digits: int) -> tuple[mpf, ...]:
 
 
 def _wall(y: mpf) -> mpf:
-    """K0/I0 = -log(y/2) - gamma + sum H_m (y/2)^(2m)/m!^2 / I0, with digits for what cancels."""
+    """K0/I0 = -log(y/2) - gamma + sum H_m (y/2)^(2m)/m!^2 / I0, with digits for what cancels.
+
+    The sums are of whole numbers, in units of 2^-bits.
+    """
     with mp.workdps(mp.dps + 10 + int(0.9 * y)):
-        square, term, harmonic = y * y / 4, mpf(1), mpf(0)
-        below, above = mpf(1), mpf(0)
-        m = 0
-        while term * (1 + harmonic) > mp.eps * below:
+        bits = mp.prec + 20
+        square, term = int(mp.ldexp(y * y / 4, bits)), 1 << bits
+        below, above, harmonic, m = term, 0, 0, 0
+        while term > below >> bits:
             m += 1
-            term *= square / m**2
-            harmonic += mpf(1) / m
+            term = (term * square >> bits) // m**2
+            harmonic += (1 << bits) // m
             below += term
-            above += term * harmonic
-        return above / below - mp.log(y / 2) - mp.euler
+            above += term * harmonic >> bits
+        return mpf(above) / below - mp.log(y / 2) - mp.euler
 
 
 @cache

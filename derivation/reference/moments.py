@@ -37,7 +37,7 @@ def kappa(n: int, bits: int) -> arb:
     """kappa_n as a ball, its relative radius below 2^-bits."""
     ratio = kappa_ratio(n, bits)
     with flint.ctx.workprec(bits + 4 * _SPARE):
-        return ratio * arb.pi() * math.factorial(n) / arb(2) ** (n + 1)
+        return ratio * arb.pi() * arb(n + 1).gamma() / arb(2) ** (n + 1)
 
 
 @cache
@@ -81,7 +81,7 @@ def finite_part(k: int, bits: int) -> arb:
     """M_k as a ball, its relative radius below 2^-bits."""
     ratio = finite_part_ratio(k, bits)
     with flint.ctx.workprec(bits + 4 * _SPARE):
-        return ratio * math.factorial(2 * k - 2) / arb(2) ** (2 * k - 3)
+        return ratio * arb(2 * k - 1).gamma() / arb(2) ** (2 * k - 3)
 
 
 @cache

@@ -1,4 +1,4 @@
-"""Oracle 2 of the contact with the true pressure: Galerkin's method on pressures like Hertz'.
+"""Oracle 2 of the contact with the true pressure: Galerkin's method on pressures like Hertz's.
 
 The pressure is a sum of q_k = (1 - r^2/a^2)^(k + 1/2), that is chi = sum c_k (1 - x^2)^(k+1) with
 x = t/a, and the surface condition is tested with 1, 1 - x^2, ..., (1 - x^2)^m. Everything is in

@@ -13,7 +13,7 @@ from derivation.formula.record import Formula
 from derivation.formula.symbols import M, eta, r, z
 from derivation.paper.misprints import Finding
 from derivation.reference.contact_balls import finite_part
-from derivation.report.equations import equation, folded
+from derivation.report.equations import equation, folded, right_side
 from derivation.report.latex import escape, unit
 from derivation.report.numbers import number, rounded
 from derivation.report.references import cited
@@ -61,15 +61,15 @@ ABOUT = {
     "energy integral; the rest is exponents.",
     "substitution": "If the law's slope lies within known factors of a simpler one's, so do an "
     "impact's results. It lies between S_1 = 1 + 3 c_1 A/2 and S_1 - K_3 A^3 for every a < b, so "
-    "that Hertz' law, and its first correction, know their own error.",
+    "that Hertz's law, and its first correction, know their own error.",
     "edge": "The paper's edge is a soft hinge: w = 0 and sigma_rr = -2 mu u/b. A clamp takes its "
     "mean motion away, a simple support its force and moment, by the exact states of stretching "
     "and bending; w = 0 on the middle plane's rim. The sums over the modes are residues.",
     "true pressure": "Not assumed but solved for: the pressure is Abel's transform of chi(t), and "
     "chi(t) + int N(t, s) chi(s) ds = (E*/pi) (delta - f(t)) on (0, a), where f belongs to the "
     "sphere's profile and N(t, s) = [k((t + s)/b) + k((t - s)/b)]/(2b). The kernel k is the slope "
-    "by a/b of S = (R/2a) d delta/da of Hertz' pressure; chi(a) = 0 fixes delta. Last, a bound "
-    "of what assuming Hertz' pressure changes at given force, a being Hertz' radius of it.",
+    "by a/b of S = (R/2a) d delta/da of Hertz's pressure; chi(a) = 0 fixes delta. Last, a bound "
+    "of what assuming Hertz's pressure changes at given force, a being Hertz's radius of it.",
     "curvature": "A growing contact is a sequence of flat punches. Where it is not small beside "
     "the sphere the paraboloid gives way to the sphere's own profile.",
     "effects": "Each effect adds a share to the law's slope at equal force. What it can add at "
@@ -183,11 +183,12 @@ def root_text(n: int) -> str:
 def formula_context(formula: Formula, known: Mapping[str, Formula] | None = None) -> dict[str, Any]:
     """A formula as the template shows it, with the numbers of those known that it comes from."""
     known = known or {}
-    shown = formula.expression if formula.stated is None else formula.stated
+    shown = right_side(formula)
     sources = [reference(source, known) for source in formula.sources]
-    if FACTOR in known and FACTOR not in (formula.name, *formula.sources):
+    if FACTOR in known and shown.free_symbols != known[FACTOR].expression.free_symbols:
         shown, whole = folded(shown, known[FACTOR]), shown
-        sources += [f"with {reference(FACTOR, known)}"] * (shown != whole)
+        if shown != whole and FACTOR not in formula.sources:
+            sources.append(f"with {reference(FACTOR, known)}")
     return {
         "name": formula.name,
         "meaning": formula.meaning,
@@ -208,7 +209,7 @@ def finding_context(finding: Finding) -> dict[str, Any]:
     """A comparison as the template shows it."""
     printed, diagnosis = finding.printed, finding.diagnosis
     formula = finding.formula
-    derived = formula.expression if formula.stated is None else formula.stated
+    derived = right_side(formula)
     return {
         "equation": printed.equation,
         "name": printed.name,

@@ -100,6 +100,11 @@ def equation(left: str, expression: sp.Expr, prefix: str = "") -> str:
     return _aligned(rows)
 
 
+def right_side(formula: Formula) -> sp.Expr:
+    """What is shown of a formula: as it is stated, if that is not its value."""
+    return formula.expression if formula.stated is None else formula.stated
+
+
 def folded(expression: sp.Expr, formula: Formula) -> sp.Expr:
     """An expression with a function of one argument in it called by its name: G(2 phi h)."""
     (argument,) = formula.expression.free_symbols

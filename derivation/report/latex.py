@@ -44,6 +44,7 @@ _SIGNS = {
     r"\\textless\{\}=": r"$\\le$",
     r"-\\textgreater\{\}": r"$\\to$",
     r"\boo\b": r"$\\infty$",
+    r"\+-": r"$\\pm$",
     r"\bint(?= )": r"$\\int$",
     r"\bThat(?= *$)": r"$\\hat{T}$",
     r"\b(sinh|cosh|tanh|coth|sin|cos|tan|log)\\textasciicircum\{\}(\d+)": r"$\\\1^{\2}$",

@@ -6,7 +6,7 @@ from typing import Any
 
 from derivation.formula.record import Formula
 from derivation.report.content import SUM
-from derivation.report.equations import equation
+from derivation.report.equations import equation, right_side
 
 SHOWN = {
     "G": "influence",
@@ -50,8 +50,7 @@ def listings_context(sources: Mapping[str, str], formulas: Mapping[str, Formula]
 
 def body(formula: Formula) -> str:
     """The formula as a displayed equation's body."""
-    shown = formula.expression if formula.stated is None else formula.stated
-    return equation(formula.latex, shown, SUM if formula.summed else "")
+    return equation(formula.latex, right_side(formula), SUM if formula.summed else "")
 
 
 def source_of(text: str, name: str) -> str:

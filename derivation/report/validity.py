@@ -4,27 +4,36 @@ from collections.abc import Mapping
 from typing import Any
 
 from derivation.formula.record import Formula
-from derivation.report.listings import body
+from derivation.report.content import FACTOR, SUM
+from derivation.report.equations import equation, folded, right_side
 from derivation.report.numbers import rounded
 from derivation.scene import edge_remainder, law, limits
 from derivation.scene.effects.effect import PLATES
 
 FORMULAS = (
-    "P", "delta_half", "delta_side", "delta_thickness", "delta_reduced", "c_1_thin",
+    FACTOR, "P", "delta_half", "delta_side", "delta_thickness", "delta_reduced", "c_1_thin",
     "delta_slope", "contact_work", "contact_integrand",
 )  # fmt: skip
-"""The law, its small contacts, its slope, and what an impact makes of it."""
+"""The plate factor, the law, its small contacts, its slope, and what an impact makes of it."""
 
 
 def law_context(formulas: Mapping[str, Formula]) -> dict[str, Any]:
-    """Formulas of the law, and the table of its limits."""
+    """Formulas of the law, which call the plate factor by its name, and its limits."""
+    factor = formulas[FACTOR]
     return {
         "formulas": [
-            {"name": name, "meaning": formulas[name].meaning, "body": body(formulas[name])}
+            {"name": name, "meaning": formulas[name].meaning, "body": body(formulas[name], factor)}
             for name in FORMULAS
         ],
         "limits": list(limit_rows()),
     }
+
+
+def body(formula: Formula, factor: Formula) -> str:
+    """The formula as a displayed equation's body."""
+    shown = right_side(formula)
+    shown = shown if formula is factor else folded(shown, factor)
+    return equation(formula.latex, shown, SUM if formula.summed else "")
 
 
 def limit_rows() -> list[str]:

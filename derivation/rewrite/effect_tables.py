@@ -1,7 +1,7 @@
 """Constants of the effects: power series of the sphere's profile and of the side wall, bounds.
 
 With t = (a/R)^2 and L = (artanh sqrt(t) - sqrt(t))/t^(3/2) = 1/3 + t/5 + t^2/7 + ... the
-contact of link 21 is, over Hertz' at equal contact radius,
+contact of link 21 is, over Hertz's at equal contact radius,
 
     delta = 1 + t L,    P = (3/4) (1 + (1 + t) L),    S = (1 + t L + 1/(1 - t))/2.
 

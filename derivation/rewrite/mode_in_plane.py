@@ -189,7 +189,7 @@ def _radial() -> Shape:
             Step(
                 bending,
                 (cosh_x * (versine - small_t) - square_x * sinh_t * sinh_x) / (6 * cubic),
-                "what `level` times it makes the whole of bending of twice `_hoop`'s",
+                "what `level` times it makes the whole of bending of twice mode_tt's",
             ),
             Step(gap, square_x * sections()["cosh_quintic"](square_x)),
             Step(narrow, square_x * (sp.Rational(1, 3) + gap), "cosh x - sinh x/x"),

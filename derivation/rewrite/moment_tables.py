@@ -16,6 +16,7 @@ import flint
 import sympy as sp
 from flint import arb as Ball
 
+from derivation.files import cached
 from derivation.formula.symbols import k
 from derivation.rewrite.bessel_tables import first_true, nearest_double, wrapped
 from derivation.theory.moments import (
@@ -149,7 +150,12 @@ def kappa_start() -> int:
 
 @cache
 def finite_part_start() -> int:
-    """Smallest k from which the limit of M_k's ratio is within tolerance."""
+    """Smallest k from which the limit of M_k's ratio is within tolerance; kept between runs."""
+    rooms = ("files.py", "formula", "theory", "rewrite")
+    return cached("finite_part_start", rooms, _finite_part_start)
+
+
+def _finite_part_start() -> int:
     finite_part_limit()
     return first_true(lambda index: bool(finite_part_bound(index) <= TOLERANCE))
 

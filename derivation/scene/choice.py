@@ -26,8 +26,8 @@ if TYPE_CHECKING:
     from derivation.scene.wave_motion import WaveMotion
 
 METHODS = {
-    "hertz": "Hertz' law alone",
-    "leading": "Hertz' law and the plate's first correction",
+    "hertz": "Hertz's law alone",
+    "leading": "Hertz's law and the plate's first correction",
     "coarse": "the law of every effect included, half the nodes",
     "full": "the law of every effect included",
 }
@@ -268,7 +268,7 @@ def _rounding(law: Law) -> float:
 
 
 def _half_space(law: Law) -> tuple[Results, Accuracy] | None:
-    """Hertz' law in closed form, the modulus that of the contact; None for extreme numbers."""
+    """Hertz's law in closed form, the modulus that of the contact; None for extreme numbers."""
     R, m, v0, h, b, lam, mu = law.model.numbers
     share = 1.0 / (1.0 + law.softness)
     found = kernels.hertz(R, m, v0, h, b, share * lam, share * mu)

@@ -1,8 +1,8 @@
 """What the code for one scene is made of: the law of its effects, constants folded, as plain data.
 
 Effects that have a closed form keep it. All others together become polynomials of the contact
-radius a on panels: p, the force over Hertz' at that radius, and F, by which the indentation over
-Hertz' grows,
+radius a on panels: p, the force over Hertz's at that radius, and F, by which the indentation over
+Hertz's grows,
 
     P = K a^3 p,   delta = (a^2/R) (1 + a F),   K = (4/3) E*/R
 
@@ -33,7 +33,7 @@ from derivation.scene.scene import Scene, SceneError
 from derivation.scene.viscous_law import bending_of
 
 HALF_SPACE = frozenset({"hertz", "sphere_elasticity", "gravity", "viscosity"})
-"""Effects that leave Hertz' law its form."""
+"""Effects that leave Hertz's law its form."""
 COEFFICIENTS = 16
 """Of a panel's polynomial."""
 SETTLED, NARROWEST = 5e-14, 1e-3
@@ -135,13 +135,13 @@ def _check_at_rest(scene: Scene) -> None:
 
 
 def _kind(law: Law) -> str:
-    """What the law's formula is: Hertz', with bending added, or polynomials."""
+    """What the law's formula is: Hertz's, with bending added, or polynomials."""
     more = law.effects - HALF_SPACE
     return "table" if more - {"bending"} else "bent" if more else "hertz"
 
 
 def _bend(law: Law) -> float:
-    """Bending's share of the indentation over Hertz', over the contact radius [1/m]."""
+    """Bending's share of the indentation over Hertz's, over the contact radius [1/m]."""
     bending, h = BY_NAME["bending"], law.model.h
     assert isinstance(bending, PlateEffect)
     return float(bending.share(law.model, np.array([h])).depth[0]) / (1.0 + law.softness) / h

@@ -148,7 +148,7 @@ def decide(
     choice = {effect.name: wanted.get(effect.name, "auto") for effect in present}
     present = [effect for effect in present if effect.by_itself]
     free = {effect.name for effect in present if choice[effect.name] is not False}
-    # What comes in with an effect costs nothing there; of pressure the bounds are Hertz'.
+    # What comes in with an effect costs nothing there; of pressure the bounds are Hertz's.
     along = {name: with_it & free for name, with_it in WHOLES.items()}
     included = {e.name for e in present if e.forced or choice[e.name] is True}
     included.update(*(along[name] for name in included & WHOLES.keys()))

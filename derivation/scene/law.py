@@ -1,7 +1,7 @@
 """The contact law of a scene: force and indentation by the contact radius, of chosen effects.
 
-With the contact radius a itself as the variable, p the force over Hertz' at that radius and
-a_H = a p^(1/3) the radius at which Hertz' law has the same force,
+With the contact radius a itself as the variable, p the force over Hertz's at that radius and
+a_H = a p^(1/3) the radius at which Hertz's law has the same force,
 
     P = (4/3) E* a^3/R p,   delta = (a^2/R) D,   d delta/da = (2a/R) S
     D = D_sphere + k p^(2/3) sum F(a_H),   S = S_sphere (1 + k p^(-1/3) sum S_plate(a_H))
@@ -39,9 +39,9 @@ CURVED = 0.99
 
 
 class Shape(NamedTuple):
-    """Force, indentation and slope over Hertz' at contact radii [1]: p, D and S.
+    """Force, indentation and slope over Hertz's at contact radii [1]: p, D and S.
 
-    `additive` is the slope over that of Hertz' at equal force, p^(1/3) S/S_sphere, to which
+    `additive` is the slope over that of Hertz's at equal force, p^(1/3) S/S_sphere, to which
     every effect adds its part.
     """
 
@@ -125,7 +125,7 @@ class Law:
         return a * (a / self.model.R) * shape.depth
 
     def stiffness(self, a: Array, shape: Shape) -> Array:
-        """dP/d delta [N/m] at radii [m]: 2 E* times Hertz' radius over the additive slope."""
+        """dP/d delta [N/m] at radii [m]: 2 E* times Hertz's radius over the additive slope."""
         return 2.0 * self.modulus * a * np.cbrt(shape.force) / shape.additive
 
     def max_pressure(self, a: float) -> float:
@@ -162,7 +162,7 @@ class Law:
         return 2.0 / np.pi * self.modulus * (width / R) * mean
 
     def max_tension(self, a: float, force: float, held: bool = True) -> float:
-        """Stress on the far face under the axis [Pa], of a force [N] spread as Hertz' over a.
+        """Stress on the far face under the axis [Pa], of a force [N] spread as Hertz's over a.
 
         Of the whole plate, whatever effects are in the law; on the paper's edge unless `held`,
         or where the contact is wider than the support's model reaches.
@@ -177,7 +177,7 @@ class Law:
         return float(stress(force, a, model.h, model.b, model.lam, model.mu))
 
     def hertz_radius(self, force: Array) -> Array:
-        """Radius [m] at which Hertz' law has a force [N]."""
+        """Radius [m] at which Hertz's law has a force [N]."""
         return np.cbrt(0.75 * (force / self.modulus) * self.model.R)
 
     def at(self, a: Array) -> Shape:
@@ -204,7 +204,7 @@ class Law:
         equal = a * np.cbrt(force)
         depth = found.indentation / a * (R / a)
         additive = 2.0 * self.modulus * equal / found.stiffness
-        # Growth of Hertz' radius of the force with the radius itself.
+        # Growth of Hertz's radius of the force with the radius itself.
         growth = found.stiffness * found.slope / (4.0 * self.modulus * equal) * (R / equal)
         if "edge" in self.effects:
             part, held = 1.0 / (1.0 + self.softness), BY_NAME["edge"]
@@ -238,7 +238,7 @@ class Law:
         return kernels.Sphere(*(np.ones_like(a),) * 3)
 
     def deflection(self, a: Array) -> Share:
-        """The plate's parts of F and S at Hertz' radii [m], of a rigid sphere."""
+        """The plate's parts of F and S at Hertz's radii [m], of a rigid sphere."""
         if self.effects >= WHOLE_PLATE:
             found = [plate_share(self.model, a)]
             others = [e for e in self.plate_effects if e.name not in WHOLE_PLATE]

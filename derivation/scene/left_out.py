@@ -33,7 +33,7 @@ MARGIN = 1.05
 class State:
     """A law at its largest radius [m]: S_1 at the place's radii, and elasticities of S_1.
 
-    `growth` is the largest elasticity of the contact radius by Hertz' radius of the force, at
+    `growth` is the largest elasticity of the contact radius by Hertz's radius of the force, at
     least 1. `a` is NaN if the law ends before.
     """
 
@@ -67,7 +67,7 @@ def state_of(law: Law, top: float = TOP) -> State:
         equal = np.concatenate(([0.0], radii * np.cbrt(shape.force)))
         along = _along(law, radii, shape)
     fall, rise = max(0.0, -float(np.min(elasticity))), max(0.0, float(np.max(elasticity)))
-    # P goes with the cube of Hertz' radius, and dP = 2 E* a_H d delta/S.
+    # P goes with the cube of Hertz's radius, and dP = 2 E* a_H d delta/S.
     swelling = inner.slope / (inner.additive * np.cbrt(inner.force) ** 2)
     growth = 1.0 + MARGIN * max(0.0, float(np.max(1.0 / swelling)) - 1.0)
     place = Place(equal, a * (a / law.model.R) * float(last.depth[0]), along)
@@ -96,7 +96,7 @@ def bound_of(state: State, effect: Effect, stretch: float = 1.0) -> Bound:
     with np.errstate(all="ignore"):
         found = effect.bound(state.law.model, state.place.stretched(stretch))
     if effect.name == "curvature" and "pressure" in state.law.effects:
-        return found._replace(up=found.up + math.inf)  # known under Hertz' pressure alone
+        return found._replace(up=found.up + math.inf)  # known under Hertz's pressure alone
     if effect.name == "bending" and {"edge", "viscosity"} <= state.law.effects:
         return found._replace(up=found.up + math.inf)  # without it the edge lags too
     if isinstance(effect, PlateEffect):
@@ -154,7 +154,7 @@ def _worst(state: State, bound: Bound, outputs: Sequence[str]) -> float:
     )
     logarithms = np.log1p([*found, 0.0]) + wider * np.array(results)
     logarithms[-1] += (wider - 1.0) * kept
-    # Link 18 speaks of Hertz' radius of the force, with which the contact's own may grow faster.
+    # Link 18 speaks of Hertz's radius of the force, with which the contact's own may grow faster.
     logarithms[3] += (state.growth - 1.0) * math.log1p(found[3]) + state.growth * radius
     with np.errstate(over="ignore"):  # no bound, as good as
         errors = dict(zip(OUTPUTS, np.expm1(logarithms), strict=True))

@@ -110,7 +110,7 @@ def largest_radius(
     """Contact radius [m] at which the sphere turns; NaN if it is beyond the law's range.
 
     Newton's iteration in the logarithms of energy and radius, whose relation is nearly
-    linear, from `start` or from what Hertz' and the thin plate's law say, until a step is as
+    linear, from `start` or from what Hertz's and the thin plate's law say, until a step is as
     small as `close`. No energy is formed, which could leave the range of doubles.
     """
     model, x = law.model, rule(n).x

@@ -128,7 +128,7 @@ class Pressures(NamedTuple):
     distance
         Distance from the axis [m].
     pressure, hertz
-        Contact pressure and Hertz' of the same force [Pa], 0 outside the contact.
+        Contact pressure and Hertz's of the same force [Pa], 0 outside the contact.
     """
 
     distance: Array
@@ -191,7 +191,7 @@ class Result:
     def max_tension(self) -> float:
         """Largest tensile stress on the far face, under the axis [Pa]; below 0 if it is pressed.
 
-        That of the largest force, spread over the largest contact radius as Hertz' pressure
+        That of the largest force, spread over the largest contact radius as Hertz's pressure
         is, in the plate at rest: of the whole plate, whatever effects are computed, on the
         scene's edge unless that effect is switched off. The tolerance is of the declared
         outputs; this follows from two of them, but is none. Solved for, the pressure of the same
@@ -218,9 +218,9 @@ class Result:
         return f"the far face holds: strength over its largest tension = {times:.3g}{doubt}"
 
     def pressures(self, points: int = POINTS) -> Pressures:
-        """The largest contact's pressure over the distance from its axis, beside Hertz'.
+        """The largest contact's pressure over the distance from its axis, beside Hertz's.
 
-        Hertz' is that of the same force, on the radius that belongs to it; of a viscous contact
+        Hertz's is that of the same force, on the radius that belongs to it; of a viscous contact
         both are the elastic part at its widest.
         """
         law, a = self.gate.law, self.max_contact_radius

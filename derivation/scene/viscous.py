@@ -105,7 +105,7 @@ class Problem:
         force_a = found.force_a * (self.a / self.force)
         elastic, P_y = found.force / self.force, delay * force_a
         P = elastic + P_y * y
-        # dP_e/da has the slope 2/a of itself for Hertz' law, and nearly so for others.
+        # dP_e/da has the slope 2/a of itself for Hertz's law, and nearly so for others.
         P_a = force_a + 2.0 * P_y * y / a
         (bent, bent_P), (calm, calm_P) = (self.bending.at(f * self.force) for f in (P, elastic))
         unit = self.force / self.depth
@@ -207,7 +207,7 @@ def _onset(problem: Problem, rule: Radau, length: float) -> Array:
     """da/dx where the contact begins, delta = v0 t, by Euler's method backwards.
 
     The depth grows with the radius, and faster and faster, so that Newton's iteration comes
-    down from Hertz' radius, which is the largest there can be.
+    down from Hertz's radius, which is the largest there can be.
     """
     xs, a, last = length * rule.x, np.zeros(rule.x.size), 0.0
     for index, x in enumerate(xs):

@@ -12,7 +12,7 @@ from derivation.scene.law import HELD, Law, Shape
 DEGREE, FITTED = 30, 1e-12
 """Degree of the law's tables, and the relative error up to which they stand for it."""
 BEYOND = 2.0
-"""How far a viscous contact's force may go beyond a calm one's, in Hertz' radii."""
+"""How far a viscous contact's force may go beyond a calm one's, in Hertz's radii."""
 
 
 class Contact(NamedTuple):
@@ -89,7 +89,7 @@ class Bending:
     law
         Bending and edge alone; no effect where nothing is left of them.
     top
-        Hertz' radius [m] up to which deflection over force is tabled.
+        Hertz's radius [m] up to which deflection over force is tabled.
     """
 
     law: Law

@@ -84,7 +84,7 @@ def _restitution(axes: "Axes", result: Result) -> None:
 
 @lru_cache(maxsize=64)
 def zener_restitution(number: float) -> float:
-    """Speed after over speed before on an endless thin plate under Hertz' contact (Zener, 1941).
+    """Speed after over speed before on an endless thin plate under Hertz's contact (Zener, 1941).
 
     Parameters
     ----------

@@ -73,7 +73,7 @@ def steepness(tanh_p: sp.Expr, tanh_q: sp.Expr) -> sp.Expr:
     return sp.Rational(1, 2) + w * (1 - 2 / plus) + fading / xi
 
 
-def residue_at_zero(tanh_p: sp.Expr, tanh_q: sp.Expr) -> sp.Expr:
+def bending_residue(tanh_p: sp.Expr, tanh_q: sp.Expr) -> sp.Expr:
     """Rho h r of a zero of B_a, in x, kap, gam, p and q."""
     plus = (1 + q**2 / x_h**2) ** 2
     return plus * q / (8 * tanh_q * steepness(tanh_p, tanh_q))
@@ -111,7 +111,7 @@ def bending_zero() -> tuple[Formula, ...]:
     tanh_p, tanh_q = sp.symbols("t_p t_q", positive=True)
     at_zero = 4 * x_h**2 * p * q * tanh_q / (x_h**2 + q**2) ** 2
     bare = slope.subs({sp.tanh(p): tanh_p, sp.tanh(q): tanh_q}).subs(tanh_p, at_zero)
-    found = in_p_and_q(residue_at_zero(tanh_p, tanh_q)).subs(tanh_p, at_zero)
+    found = in_p_and_q(bending_residue(tanh_p, tanh_q)).subs(tanh_p, at_zero)
     anywhere = p * q**2 / (2 * x_h**2 * at_zero * in_p_and_q(steepness(at_zero, tanh_q)))
     x_i, w, s = sp.symbols("xi w s", positive=True)
     plus, tanh = (1 + w) ** 2, (sp.tanh(p), sp.tanh(q))
@@ -141,8 +141,8 @@ def bending_zero() -> tuple[Formula, ...]:
             steepness(*tanh), steep, "bending_quotient",
         ),
         (
-            "residue_at_zero", r"\rho h\,r_0", "how A0 answers a load",
-            residue_at_zero(*tanh), plus * q / (8 * tanh[1] * s), "steepness",
+            "bending_residue", r"\rho h\,r_0", "how A0 answers a load",
+            bending_residue(*tanh), plus * q / (8 * tanh[1] * s), "steepness",
         ),
     )  # fmt: skip
     return tuple(
@@ -154,7 +154,7 @@ def bending_zero() -> tuple[Formula, ...]:
 
 
 @cache
-def share_at_zero() -> Formula:
+def bending_share() -> Formula:
     """A0's part of the deflection under a load at rest."""
     static_limit()
     residue = bending_zero()[2]
@@ -185,7 +185,7 @@ def share_at_zero() -> Formula:
     beta = sp.Symbol("beta", positive=True)
     stated = (value / (1 + beta)).subs(steep, sp.Symbol("s", positive=True))
     return Formula(
-        "share_at_zero", "s_0", "A0's share of the deflection at rest, beta being B_a/B_s there",
+        "bending_share", "s_0", "A0's share of the deflection at rest, beta being B_a/B_s there",
         with_roots(value.subs(steep, steep_value) / (1 + unlike)), "1", "",
         (residue.name, "C_top"), proof, stated=stated,
     )  # fmt: skip
@@ -200,7 +200,7 @@ def rayleigh() -> tuple[Formula, Formula]:
     proof_of_residue = bending_zero()[2].proof
     w, P = 1 - xi_R, sp.sqrt(1 - gam * xi_R)
     cubic = xi_R**3 - 8 * xi_R**2 + 8 * (3 - 2 * gam) * xi_R - 16 * (1 - gam)
-    share = residue_at_zero(sp.Integer(1), sp.Integer(1)) / x_h
+    share = bending_residue(sp.Integer(1), sp.Integer(1)) / x_h
     share = share.subs({q: x_h * sp.sqrt(w), p: x_h * P, kap: x_h**2 * xi_R})
     plus = (2 - xi_R) ** 2
     limit = plus * sp.sqrt(w) / (8 * (sp.Rational(1, 2) + w * (1 - 2 / plus)))
@@ -220,7 +220,7 @@ def rayleigh() -> tuple[Formula, Formula]:
         ),
         Formula(
             "rayleigh_residue", r"\lim_{x\to\infty}\rho h\,r_0/x", "how short waves answer a load",
-            limit, "1", "", ("residue_at_zero",), proof,
+            limit, "1", "", ("bending_residue",), proof,
         ),
     )  # fmt: skip
 
@@ -361,4 +361,4 @@ def _share_at_rest(residue: tuple[sp.Expr, ...], slope: tuple[sp.Expr, ...]) -> 
 
 def bending_branch() -> tuple[Formula, ...]:
     """The formulas of the link."""
-    return (*bending_zero(), share_at_zero(), *thin_plates(), *rayleigh())
+    return (*bending_zero(), bending_share(), *thin_plates(), *rayleigh())

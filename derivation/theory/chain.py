@@ -22,7 +22,7 @@ and from the contact law to the motion:
 17 sensitivity      slopes of the law; what every parameter does to an impact
 18 substitution     how far an impact moves if its law is replaced by a simpler one
 19 edge             simply supported or clamped in the place of the paper's soft hinge
-20 true pressure    the pressure solved for: integral equation, and what assuming Hertz' changes
+20 true pressure    the pressure solved for: integral equation, and what assuming Hertz's changes
 21 curvature        a sphere instead of a paraboloid
 22 effects          how much each effect can change the law
 23 plate motion     when the plate's own motion matters: Zener's number, periods

@@ -6,7 +6,7 @@ sh y = sin(y)/y. Of the force a mode therefore feels, and in the gap it therefor
 
     P_j(a) = int_0^a P'(c) sh(c phi_j) dc,   s_j = dP_j/dP = sh(a phi_j);
 
-of Hertz' pressure P_j = P g(a phi_j), g(y) = 3 (sin y - y cos y)/y^3. With the static compliance
+of Hertz's pressure P_j = P g(a phi_j), g(y) = 3 (sin y - y cos y)/y^3. With the static compliance
 c_j of each mode at the axis, the sphere's way z and its weight m g
 
     m z'' = m g - P,   q_j'' + omega_j^2 q_j = omega_j^2 c_j P_j,   z = D + sum s_j q_j,
@@ -55,12 +55,12 @@ _q, _rate, _omega, _c = (
 SHARE = sp.sin(a * phi) / (a * phi)
 """sh(a phi)."""
 FELT = P * 3 * SINE_MINUS / (a * phi) ** 3
-"""P_j of Hertz' pressure."""
+"""P_j of Hertz's pressure."""
 
 
 @cache
 def growing_contact() -> Proof:
-    """What a mode feels of a growing contact, and that Hertz' pressure is one."""
+    """What a mode feels of a growing contact, and that Hertz's pressure is one."""
     flat_punch()
     c, depth = sp.symbols("c u_1", positive=True)
     step = sp.diff(P * (c / a) ** 3, c)
@@ -72,7 +72,7 @@ def growing_contact() -> Proof:
     return prove(
         "Growing contact",
         "Flat punches of every radius up to a, P growing like a^3: their pressures add up to "
-        "Hertz', what their transforms add up to is Sonine's integral.",
+        "Hertz's, what their transforms add up to is Sonine's integral.",
         {
             "pressure": spread + hertz,
             "felt": felt - FELT,
@@ -204,7 +204,7 @@ def closure() -> tuple[Formula, ...]:
         Formula(
             "mode_force",
             "P_j",
-            "part of the force of Hertz' pressure that a mode feels",
+            "part of the force of Hertz's pressure that a mode feels",
             FELT,
             "N",
             "",

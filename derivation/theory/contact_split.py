@@ -31,7 +31,7 @@ WALL = sp.besselk(0, _y) / sp.besseli(0, _y)
 
 
 @cache
-def residue_at_zero() -> Proof:
+def bending_residue() -> Proof:
     """Y0/J0 has the residue -2/(pi j_n J1(j_n)^2) at j_n.
 
     x (J1 Y0 - J0 Y1), the Wronskian times x, is constant by J0' = -J1 and
@@ -80,7 +80,7 @@ def imaginary_axis() -> Proof:
 @cache
 def contour() -> Proof:
     """The two quadrants added: half residues, real and imaginary axes in one balance."""
-    residue_at_zero()
+    bending_residue()
     imaginary_axis()
     integral, principal, total, up, down = sp.symbols("F V S U D")
     # S sums f(j_n)/(j_n J1^2); U and D are int f(+-iy) K0/I0 dy; dz = +-i dy.

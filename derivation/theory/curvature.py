@@ -9,7 +9,7 @@ so a contact that grows from 0 to a, each step a flat punch, fits the profile f 
     f(r) = (2/pi) int_0^r arccos(c/r) delta'(c) dc    for r <= a.
 
 For the sphere, f = R - sqrt(R^2 - r^2), this is solved by delta = (a/2) log((R+a)/(R-a)).
-At equal force, a_H being Hertz' radius, a_H^3 = 3 P R/(4 E*), the half-space's part of
+At equal force, a_H being Hertz's radius, a_H^3 = 3 P R/(4 E*), the half-space's part of
 S = (R/2a_H) d delta/d a_H is a_H/a: 1 at a = 0, and growing.
 """
 
@@ -73,7 +73,7 @@ def spherical_contact() -> tuple[Formula, Formula]:
     proof = prove(
         "Sphere on a half-space",
         "delta' expanded in a fits the sphere's profile power by power; dP = 2 E* a d delta; "
-        "a/R -> 0 is Hertz' law.",
+        "a/R -> 0 is Hertz's law.",
         {
             "profile": sp.simplify(sp.gammasimp(ratio)) - 1,
             "geometric series": atanh_slope - 1 / (1 - _x**2),

@@ -238,7 +238,7 @@ def dynamic_influence() -> tuple[Formula, ...]:
         for name, latex, meaning, unit, sources, value in rows
     )  # fmt: skip
     both = Formula(
-        "C_dynamic",
+        "dynamic_influence",
         r"C(\phi_j, \omega)",
         "deflection of the loaded face per pressure coefficient that oscillates",
         total,

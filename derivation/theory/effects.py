@@ -1,6 +1,6 @@
 """Link 22: how much an effect can change the contact law, before it is computed.
 
-All in S = (R/2a) d delta/da at equal force, a being Hertz' radius: the half-space has S = 1,
+All in S = (R/2a) d delta/da at equal force, a being Hertz's radius: the half-space has S = 1,
 and every effect adds its share. With A = a/h, alpha = a/b and, from link 18, c_1 and K_3:
 
     bending             3/2 A/(4 pi eta^2), exactly

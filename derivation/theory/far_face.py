@@ -1,7 +1,7 @@
 """Link 25: the stress on the far face under the axis, where a plate breaks first.
 
 There S_zz = 0, and a mode's stress sigma_rr = sigma_tt = S_rr - mu g phi^2 = (1 + nu)/2 S_rr, with
-S_rr = -A_j B(T), T = 2 phi h. Under Hertz' pressure of resultant P, H = 2h and alpha = a/b,
+S_rr = -A_j B(T), T = 2 phi h. Under Hertz's pressure of resultant P, H = 2h and alpha = a/b,
 
     sigma = (1 + nu) P/(2 pi H^2) S,   S = sum 4 eta^2 g(alpha j) B(2 eta j)/J1^2,
     B = 2 T sinh T/(sinh^2 T - T^2),   g(y) = 3 (sin y - y cos y)/y^3.
@@ -126,7 +126,7 @@ def far_stress() -> tuple[Formula, ...]:
     share, force = _mode(), contact_radius().expression
     proof = prove(
         "Stress under the axis",
-        "A_j of Hertz' pressure, R in terms of the force P.",
+        "A_j of Hertz's pressure, R in terms of the force P.",
         {"stress": (stress - SCALE.subs(P, force) * share).subs(_REDUCED)},
     )
     sources = ("far_factor", "A_j", "P")
@@ -332,7 +332,7 @@ def far_edge() -> Formula:
     )
     return Formula(
         "far_edge",
-        "S_e",
+        r"S_e^{\mathrm{far}}",
         "what a clamp takes from S",
         value,
         "1",

@@ -5,7 +5,7 @@ with omega = phi^2 sqrt(D/(rho H)); with the paper's edge phi_1 = j_1/b is the l
 
 Under a point force P an infinite plate moves with w' = P/(8 sqrt(D rho H)) (Boussinesq 1885):
 every wave number takes P phi/(2 pi rho H) sin(omega t)/omega, and int_0^oo sin(s)/s ds = pi/2.
-Hertz' impact on such a plate has one number only (Zener 1941),
+Hertz's impact on such a plate has one number only (Zener 1941),
 
     d'' + d^(3/2) + lambda (d^(3/2))' = 0,   lambda = m/(8 T sqrt(D rho H)),
     T = (m^2/(K^2 v0))^(1/5),   K = (4/3) E* sqrt(R),
@@ -55,7 +55,7 @@ def bending_waves() -> Proof:
 
 @cache
 def zener_number() -> Formula:
-    """lambda, by which Hertz' impact on an infinite plate differs from that on a half-space."""
+    """lambda, by which Hertz's impact on an infinite plate differs from that on a half-space."""
     bending_waves()
     K, T, impedance = sp.symbols("K T I", positive=True)
     scale = (m**2 / (K**2 * v0)) ** sp.Rational(1, 5)

@@ -1,7 +1,7 @@
-"""Link 20's bound: how far assuming Hertz' pressure moves the law at given force.
+"""Link 20's bound: how far assuming Hertz's pressure moves the law at given force.
 
-Let a_H be Hertz' radius of the force P and S = (R/2 a_H) d delta/d a_H, for the true pressure
-S_T, for Hertz' S_H. N_0 = N(0, 0) adds N_0 a_H to both. With x = t/a the rest M(x, s) of a N
+Let a_H be Hertz's radius of the force P and S = (R/2 a_H) d delta/d a_H, for the true pressure
+S_T, for Hertz's S_H. N_0 = N(0, 0) adds N_0 a_H to both. With x = t/a the rest M(x, s) of a N
 lies between -tau (x^2 + s^2) and 0, and M(x, s) - M(1, s) within tau (1 - x^2), where
 
     tau = Theta a^3,   Theta b^3 = (2/pi) sum w_n j_n^2 + (2/pi^2) int y sinh(g y)/g K0/I0 dy,
@@ -42,7 +42,7 @@ from derivation.theory.sensitivity import reduced_modulus
 WIDTH = sp.Rational(7, 8)
 """g: the true contact radius is at most g b/2."""
 WIDEST = sp.Rational(2, 5)
-"""Hertz' radius over that of the plate, at most."""
+"""Hertz's radius over that of the plate, at most."""
 WALL_EXTRA = sp.Rational(2, 25)
 """What (2/pi^2) int (y sinh(g y)/g - y^2) K0/I0 dy is at most."""
 LARGEST = sp.Rational(1, 5)
@@ -83,7 +83,7 @@ def wall_share_ball(digits: int = 12) -> flint.arb:
 
 @cache
 def wall_share() -> flint.arb:
-    """The share as a ball; WALL_EXTRA shown to hold, and Hertz' radius to keep a below g b/2.
+    """The share as a ball; WALL_EXTRA shown to hold, and Hertz's radius to keep a below g b/2.
 
     Raises
     ------
@@ -93,10 +93,10 @@ def wall_share() -> flint.arb:
     share = wall_share_ball()
     extra = 2 / flint.arb.pi() ** 2 * (share - 1) * kappa_ball(2)
     if not extra < flint.arb(int(WALL_EXTRA.p)) / int(WALL_EXTRA.q):
-        raise ProofError(f"Bound of Hertz' pressure: the side wall's share is {share}")
+        raise ProofError(f"Bound of Hertz's pressure: the side wall's share is {share}")
     # a^3 <= a_H^3/(1 - zeta) with zeta <= theta.
     if not WIDEST**3 / (1 - LARGEST) <= (WIDTH / 2) ** 3:
-        raise ProofError("Bound of Hertz' pressure: the true contact may be too wide")
+        raise ProofError("Bound of Hertz's pressure: the true contact may be too wide")
     return share
 
 
@@ -118,7 +118,7 @@ def estimates() -> Proof:
     E = sp.Symbol("E", positive=True)
     force_rise = sp.diff(contact_radius().expression, a) * E / reduced_modulus()
     return prove(
-        "Bound of what Hertz' pressure changes",
+        "Bound of what Hertz's pressure changes",
         "Both parts of Theta, the integrals of the estimates, and each inequality as a product.",
         {
             "Theta, modes": modes + sp.Rational(15, 2) * third.mode,
@@ -166,7 +166,7 @@ def pressure_bound() -> tuple[Formula, Formula]:
         return Formula(
             name,
             latex,
-            f"what Hertz' pressure changes of {what} at given force, at most",
+            f"what Hertz's pressure changes of {what} at given force, at most",
             share * theta,
             "1",
             "",

@@ -11,7 +11,7 @@ sphere for r < a into
 f = t^2/R for the paraboloid and t artanh(t/R) for the sphere. The part G = 1 of the modes gives
 chi itself and the side wall's part of k by the sum identity of link 12, as cos(t z) times the
 transform is entire, grows slower than e^(2 |Im z|) for t < b, and falls like 1/z^2. The kernel
-is the slope of the slope of the contact law: k = dS/d alpha, S = (R/2a) d delta/da of Hertz'
+is the slope of the slope of the contact law: k = dS/d alpha, S = (R/2a) d delta/da of Hertz's
 pressure. chi(a) = 0 fixes delta. A flat punch, (I + N) psi = 1, gives the stiffness.
 """
 
@@ -56,7 +56,7 @@ def abel_of_bessel() -> Proof:
 
 @cache
 def representation() -> Proof:
-    """Transform, resultant and Hertz' case of the pressure that chi stands for.
+    """Transform, resultant and Hertz's case of the pressure that chi stands for.
 
     The transform is -int chi' sin(phi t)/phi dt by the integral above, by parts int chi cos.
     """
@@ -70,11 +70,13 @@ def representation() -> Proof:
     force = 2 * sp.pi * sp.integrate(hertz, (_t, 0, a))
     return prove(
         "Pressure by its Abel transform",
-        "By parts with chi(a) = 0; chi = (E*/(pi R)) (a^2 - t^2) has Hertz' force and pressure.",
+        "By parts with chi(a) = 0; chi = (E*/(pi R)) (a^2 - t^2) has Hertz's force and pressure.",
         {
             "by parts": sp.expand(by_parts - chi * sp.cos(phi * _t)),
-            "Hertz' force": (force - contact_radius().expression).subs(_MODULUS, reduced_modulus()),
-            "Hertz' pressure": pressure().expression.subs({P: force})
+            "Hertz's force": (force - contact_radius().expression).subs(
+                _MODULUS, reduced_modulus()
+            ),
+            "Hertz's pressure": pressure().expression.subs({P: force})
             + peak * sp.sqrt(1 - r**2 / a**2),
         },
     )
@@ -111,7 +113,7 @@ def profiles() -> Proof:
             "indentation": sphere.subs(_t, a) - depth,
             "force": sp.diff(force, a) - 2 * _MODULUS * a * sp.diff(depth, a),
             "no contact": sp.limit(force, a, 0),
-            "Hertz' indentation": sp.series(depth, a, 0, 4).removeO() - a**2 / R,
+            "Hertz's indentation": sp.series(depth, a, 0, 4).removeO() - a**2 / R,
         },
     )
 
@@ -284,7 +286,7 @@ def at_given_force() -> tuple[Formula, Formula]:
         Formula(
             "hertz_radius_ratio",
             r"a_{\mathrm{Hertz}}(P)/a",
-            "Hertz' contact radius of the force over the true one, up to (a/h)^4",
+            "Hertz's contact radius of the force over the true one, up to (a/h)^4",
             ratio,
             "1",
             "",

@@ -75,7 +75,7 @@ def polar() -> Proof:
 
 @cache
 def viscous_number() -> Formula:
-    """x, on which Hertz' impact depends alone: epsilon = (4/5)^(2/5) x at the turning point."""
+    """x, on which Hertz's impact depends alone: epsilon = (4/5)^(2/5) x at the turning point."""
     polar()
     # Hertz: P = K z^(3/2), U = (2/5) K z^(5/2).
     speed = sp.sqrt(sp.Rational(4, 5) * _K * _z ** sp.Rational(5, 2) / m)
@@ -90,7 +90,7 @@ def viscous_number() -> Formula:
 
     proof = prove(
         "Viscous number",
-        "epsilon of Hertz' law goes with s^(1/5); at the turning point s = v0.",
+        "epsilon of Hertz's law goes with s^(1/5); at the turning point s = v0.",
         {
             "rise": sp.diff(plain(rise), _z),
             "turning point": plain(ratio.subs(_z, deepest))
@@ -102,7 +102,7 @@ def viscous_number() -> Formula:
     rate = hertz ** sp.Rational(2, 5) * (R * v0 / m**2) ** _FIFTH
     return Formula(
         "viscous_number",
-        "x",
+        "x_v",
         "viscous number: what a viscous contact takes of the speed, to leading order",
         sp.Rational(3, 2) * viscous_time * rate,
         "1",

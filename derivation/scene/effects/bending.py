@@ -15,7 +15,7 @@ class Bending(PlateEffect):
     source = "Kirchhoff plate; link 22"
 
     def value(self, model: Model, a: float) -> float:
-        """Its share of the indentation over Hertz'."""
+        """Its share of the indentation over Hertz's."""
         return float(kernels.bending(a / model.h, model.eta).depth)
 
     def bound(self, model: Model, place: Place) -> Bound:

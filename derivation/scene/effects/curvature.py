@@ -21,7 +21,7 @@ class Curvature(Effect):
         return a / model.R
 
     def bound(self, model: Model, place: Place) -> Bound:
-        """S - 1 = a_Hertz/a - 1 grows with a, and a is at most Hertz'."""
+        """S - 1 = a_Hertz/a - 1 grows with a, and a is at most Hertz's."""
         a = place.radii
         rho = a / model.R
         ratio = np.cbrt(kernels.sphere_contact(np.where(rho < 1, rho, np.nan)).force)

@@ -27,7 +27,7 @@ class Edge(PlateEffect):
         return "" if model.edge in (SUPPORTED, CLAMPED) else "the plate's edge is a soft hinge"
 
     def value(self, model: Model, a: float) -> float:
-        """Its share of the indentation over Hertz' at most, two thirds of its bound."""
+        """Its share of the indentation over Hertz's at most, two thirds of its bound."""
         low, up = self._range(model, np.array([a]))
         return float(up[0] - low[0]) / 1.5
 

@@ -1,6 +1,6 @@
 """What an effect answers: whether it applies, its number, its bound, its share of the law.
 
-Shares and bounds are parts of F and S: at equal force P, a being Hertz' radius with the modulus
+Shares and bounds are parts of F and S: at equal force P, a being Hertz's radius with the modulus
 E* of the law, a^3 = 3 P R/(4 E*),
 
     delta = (a^2/R) (1 + F),   d delta/da = (2a/R) S.
@@ -47,7 +47,7 @@ class Place:
     Attributes
     ----------
     radii
-        Hertz' radii of the force [m], from 0 on, growing.
+        Hertz's radii of the force [m], from 0 on, growing.
     depth
         Largest indentation [m], of an impact.
     along
@@ -137,7 +137,7 @@ class PlateEffect(Effect):
     """An effect that adds to the deflection of the plate under the contact force."""
 
     def share(self, model: Model, a: Array) -> Share:
-        """Its part of F and S at Hertz' radii [m], of a rigid sphere."""
+        """Its part of F and S at Hertz's radii [m], of a rigid sphere."""
         raise NotImplementedError
 
 

@@ -19,7 +19,7 @@ class FiniteThickness(PlateEffect):
     source = "sum over the modes; links 12, 18 and 22"
 
     def value(self, model: Model, a: float) -> float:
-        """Its leading share of the indentation over Hertz'."""
+        """Its leading share of the indentation over Hertz's."""
         linear = plate_of(model).bend * a / model.h
         return float(linear - kernels.bending(a / model.h, model.eta).depth)
 

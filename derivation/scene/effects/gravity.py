@@ -20,7 +20,7 @@ class Gravity(Effect):
         return "" if model.gravity else "no impact.gravity"
 
     def value(self, model: Model, a: float) -> float:
-        """Work of the weight over Hertz' indentation, over the sphere's energy."""
+        """Work of the weight over Hertz's indentation, over the sphere's energy."""
         return 2.0 * model.gravity * a * (a / model.R) / model.v0 / model.v0
 
     def bound(self, model: Model, place: Place) -> Bound:

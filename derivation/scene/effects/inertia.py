@@ -20,13 +20,13 @@ RADIATED, RINGS = (2.0, 1.0, 2.5, 0.9, 3.0), (6.0, 0.5, 40.0, 13.0, 2.0)
 """What branches beyond the first are worth for each result: what a half-space would radiate, over
 a/(c_T T), and the thickness that rings under a wide contact, over (a/H)^2 (H/(c_T T))^(3/2)."""
 ALONE, EARLIER = 3.3, 3.0
-"""Contact time over That, 2.94 by Hertz' law and little more where a plate hardly bends; and of
+"""Contact time over That, 2.94 by Hertz's law and little more where a plate hardly bends; and of
 Zener's number as it shortens a force: measured."""
 WIDER = 1.25
 """Contact radius that is reckoned with, over the largest on a plate that does not yield: a later
 contact may be faster than the first."""
 SLOWEST = 2.9
-"""Contact time times speed over indentation: of Hertz' law 2.94, of a spring 3.14."""
+"""Contact time times speed over indentation: of Hertz's law 2.94, of a spring 3.14."""
 WORTH = (12.0, 6.0, 40.0, 14.0, 30.0)
 """What a mode's share off its rest means for each result, as a logarithm: measured, and half as
 much again as the worst of 500 scenes."""
@@ -100,7 +100,7 @@ def _alone(model: Model) -> float:
 
 
 def _rise(model: Model) -> float:
-    """Time in which the force comes and goes [s]: Hertz', shorter where the plate gives way.
+    """Time in which the force comes and goes [s]: Hertz's, shorter where the plate gives way.
 
     It yields as fast as the sphere comes on where lambda P = v0, P^(2/3) by then being v0 t: after
     lambda^(-2/3) of That, whenever the sphere may leave.
@@ -114,7 +114,7 @@ def _off_rest(model: Model, a: float, T: float) -> float:
 
     Wave numbers are (n - 1/4) pi/b and frequencies those of a thin plate, held below Rayleigh's
     waves: neither a zero of J_0 nor a root of the branch is computed. A mode follows a force as
-    fast as it turns: P'' is of the order of P/T^2 by Hertz' law, and P/(T T_rise) of a plate that
+    fast as it turns: P'' is of the order of P/T^2 by Hertz's law, and P/(T T_rise) of a plate that
     bends, whose force begins as if suddenly. That it begins as t^(3/2) makes a fast mode ring.
     """
     rise = min(T, _rise(model)) / T if model.density else 1.0

@@ -15,7 +15,7 @@ class SideWall(PlateEffect):
     source = "contour integral over Y0/J0; links 12 and 22"
 
     def value(self, model: Model, a: float) -> float:
-        """Its leading share of the indentation over Hertz'."""
+        """Its leading share of the indentation over Hertz's."""
         return 2.0 / 3.0 * kernels.WALL_LINEAR * a / model.b
 
     def bound(self, model: Model, place: Place) -> Bound:

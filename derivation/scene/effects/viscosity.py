@@ -16,7 +16,7 @@ class Viscosity(Effect):
     name = "viscosity"
     adds = "a contact that lags"
     equation = "P = P_e + A_v dP_e/dt >= 0, P_e the half-space's force"
-    number = "x = (3/2) A_v (K/m)^(2/5) v0^(1/5)"
+    number = "x_v = (3/2) A_v (K/m)^(2/5) v0^(1/5)"
     source = "Kuwabara and Kono 1987, Brilliantov et al. 1996; link 24"
 
     def absent(self, model: Model) -> str:
@@ -24,7 +24,7 @@ class Viscosity(Effect):
         return "" if model.viscous_time else "no plate.viscous_time"
 
     def value(self, model: Model, a: float) -> float:  # noqa: ARG002
-        """Viscous number of Hertz' contact."""
+        """Viscous number of Hertz's contact."""
         modulus = model.lam, model.mu
         number = kernels.viscous_number(model.R, model.m, model.v0, *modulus, model.viscous_time)
         return float(number * (1.0 + model.softness) ** -0.4)

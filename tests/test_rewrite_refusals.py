@@ -31,6 +31,7 @@ from derivation.rewrite.series import leading_power, taylor_section
 from derivation.rewrite.shape import Shape
 from derivation.rewrite.stabilise import stabilise
 from derivation.rewrite.terms import UnreachableError, terms_of
+from derivation.theory.edge_sums import slope_kernel
 
 x = sp.Symbol("x", positive=True)
 
@@ -116,7 +117,7 @@ def test_a_condition_that_never_holds_has_no_first() -> None:
 
 def test_the_thin_plates_function_begins_as_its_slope() -> None:
     """Phi/A at 0 is 0, g(0) is 1; both are where their neighbours tend to."""
-    with flint.ctx.workprec(contact_tables.BITS):
+    with flint.ctx.workprec(moment_tables.BITS):
         assert contact_tables.shape(arb(0)) == 1
         assert abs(contact_tables.shape(arb(2) ** -20) - 1 + arb(2) ** -40 / 10) < 1e-24
         assert contact_tables.thin_part(arb(0)) == 0
@@ -129,10 +130,10 @@ def test_tables_whose_last_coefficients_count_are_refused(
 ) -> None:
     """A kink in the place of a sum, whose Chebyshev coefficients fall like 1/n^2."""
     monkeypatch.setattr(edge_tables, "alternating_sum", lambda _, at: abs(at - arb(0.25)))
-    with flint.ctx.workprec(edge_tables.BITS):
+    with flint.ctx.workprec(moment_tables.BITS):
         first = arb("2.404825557695772768621632")
         with pytest.raises(ArithmeticError, match="coefficients of rest_square leave out"):
-            edge_tables._tables(edge_tables.slope_kernel, first, [arb(0), arb(0)])
+            edge_tables._tables(slope_kernel, first, [arb(0), arb(0)])
 
 
 def test_series_that_end_too_early_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -150,7 +151,7 @@ def test_series_that_end_too_early_are_refused(monkeypatch: pytest.MonkeyPatch) 
 def test_asymptotic_series_have_three_terms_at_least(monkeypatch: pytest.MonkeyPatch) -> None:
     """Their bounds hold from there on, however much may be left out."""
     start = Fraction(40)
-    with flint.ctx.workprec(held_tables.BITS):
+    with flint.ctx.workprec(moment_tables.BITS):
         exact = held_tables.series_terms(start)
         monkeypatch.setattr(held_tables, "TOLERANCE", 1)
         assert held_tables.series_terms(start) == 3 < exact

@@ -7,7 +7,6 @@ from collections.abc import Mapping
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import given
@@ -30,6 +29,7 @@ from derivation.scene import (
 )
 from derivation.scene import map as effect_map
 from derivation.scene.choice import Accuracy, Part
+from derivation.scene.dynamics import P
 from derivation.scene.law import WHOLE_PLATE, Law
 from derivation.scene.limits import GRAZING
 from derivation.scene.model import Inertia, Model
@@ -39,6 +39,7 @@ BALL = Model(
     R=0.02, m=0.25, v0=1.0, h=0.005, b=0.15, lam=40e9, mu=27e9, density=2700.0,
     inertia=Inertia(modes=8),
 )  # fmt: skip
+HERTZ = frozenset({"hertz"})
 MOVING = WHOLE_PLATE | {"hertz", "inertia"}
 SCENE: dict[str, dict[str, Any]] = {
     "sphere": {"radius": 0.02, "material": "steel"},
@@ -137,12 +138,10 @@ def test_a_bound_names_the_outputs_it_is_of() -> None:
 
 
 def test_a_face_without_tension_holds() -> None:
-    found = SimpleNamespace(
-        scene=SimpleNamespace(plate=SimpleNamespace(strength=1e6)), max_tension=-1.0
-    )
-    from derivation.scene.result import Result
-
-    assert Result.verdict.fget(found).endswith("it bears no tension under the axis")  # type: ignore[attr-defined]
+    plate = {"half_thickness": 0.9, "edge": "clamped", "strength": 1e6}
+    found = simulate(given.scene(plate=plate, impact={"speed": 0.01}))
+    assert found.max_tension < 0.0
+    assert found.verdict == "the far face holds: it bears no tension under the axis"
 
 
 # --- warnings
@@ -300,6 +299,29 @@ def test_a_viscous_contact_that_is_not_followed(
     monkeypatch.setattr(viscous, name, value)
     with pytest.raises(SceneError, match=r"plate\.viscous_time: .* cannot at .* s; give a shorter"):
         viscous.impact(rest)
+
+
+def test_an_element_that_cannot_be_shortened_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A contact that lags ends within its last element, wherever that itself ends."""
+    found = waves.impact(law(MOVING | {"viscosity"}, viscous_time=1e-4))
+    assert found is not None
+    problem, touching = found.course.problem, found.course.contacts[0]
+    last, before = touching.pieces[-1], touching.pieces[-2]
+    again = bounces._let_go(problem, 10, last, before.end, before.radius)
+    assert again.element.end(P) == pytest.approx(last.element.end(P), rel=1e-6)
+    monkeypatch.setattr(bounces, "element", lambda *_: None)
+    assert bounces._let_go(problem, 10, last, before.end, before.radius) is last
+
+
+def test_a_guess_without_numbers_leads_nowhere() -> None:
+    found = viscous.impact(Law(replace(BALL, viscous_time=1e-5), HERTZ | {"viscosity"}))
+    assert found is not None
+    assert found.problem is not None
+    start, n = viscous.Point(0.0, 1.0, 0.0), 8
+    guess = viscous._onset(found.problem, viscous.radau(n), 1e-3)
+    assert viscous.element(found.problem, n, 0.0, 1e-3, start, guess) is not None
+    with np.errstate(all="ignore"):
+        assert viscous.element(found.problem, n, 0.0, 1e-3, start, guess * 1e200) is None
 
 
 # --- physics

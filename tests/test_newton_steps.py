@@ -1,4 +1,4 @@
-"""Newton's iterations of the generated code: they end after as many steps as it says."""
+"""Newton's iterations: they end after as many steps as is said, and converge on the way."""
 
 from collections.abc import Callable
 from types import ModuleType
@@ -6,7 +6,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from given import scene
 
+from derivation.scene import indent, indentation
 from generated import contact_law, impact, perturbation
 
 PLATE = (1.0, 0.36e9, 0.43e9)
@@ -42,6 +44,12 @@ def breaks() -> Any:
     return np.array([motion.last for motion in motions])
 
 
+def indented() -> Any:
+    """By the full law of an elastic sphere, which has no inverse of its own."""
+    found = indent(scene(), force=[1.0, 1e3, 1e5])
+    return np.array([contact.contact_radius for contact in found])
+
+
 @pytest.mark.parametrize(
     ("module", "results", "needed"),
     [
@@ -50,6 +58,7 @@ def breaks() -> Any:
         (impact, wide, 6),
         (impact, course, 6),
         (perturbation, breaks, 10),
+        (indentation, indented, 10),
     ],
 )
 def test_steps_that_are_said_to_be_enough_are(

@@ -54,6 +54,7 @@ ACTED_ON: tuple[tuple[str, sp.Expr], ...] = (
     ("fraction", 1 / (1 + x) - 1 / (2 + x)),
     ("decay", (sp.sinh(x) * sp.cosh(x) + x) / (sp.sinh(x) - x)),
     ("decay", x * sp.cos(x) - sp.sin(x)),
+    ("decay", sp.sqrt(1 + x) * sp.sinh(x)),
     ("difference", (x * sp.sinh(x) + 2 * sp.sinh(2 * x)) / sp.cosh(x)),
     ("balance", (x - sp.sin(x)) / x**3),
     ("share", (sp.sinh(x) - x) * sp.exp(-x)),

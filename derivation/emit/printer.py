@@ -92,7 +92,7 @@ def _split(product: sp.Expr) -> tuple[list[sp.Expr], list[sp.Expr]]:
         base, exponent = factor.as_base_exp()
         if exponent.is_Rational and exponent < 0:
             below.append(base**-exponent)
-        elif factor != 1:
+        else:
             above.append(factor)
     return above, below
 

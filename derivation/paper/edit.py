@@ -99,8 +99,7 @@ def ratio_edits(place: Place, need: Values, search: Search) -> Iterator[Edit]:
     ratio = [w / v for w, v in zip(need, have, strict=True)]
     simple = monomial(ratio, search.points)
     if simple is not None:
-        if simple != 1:
-            yield ratio_edit(place, simple)
+        yield ratio_edit(place, simple)
         return
     for factor in search.factors:
         values = search.points.values(factor)

@@ -99,8 +99,7 @@ def everywhere(place: Place) -> Iterator[Place]:
 
 def needed(part: Place, need: Values, points: Sample) -> list[flint.acb] | None:
     """Values an inner place needs, given those its parent needs; None where they do not follow."""
-    if part.parent is None:
-        raise ValueError("the root's needed values are the truth itself")
+    assert part.parent is not None  # what the root needs is the truth itself
     node = part.parent.node
     have = points.values(part.node)
     whole = points.values(node)

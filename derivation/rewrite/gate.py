@@ -124,7 +124,7 @@ def gate(
     expression: sp.Expr,
     x: sp.Symbol,
     ends: tuple[float, float],
-    equal: sp.Expr | None = None,
+    equal: sp.Expr,
     seed: str = "",
 ) -> Gate:
     """The gate of an expression.
@@ -173,13 +173,11 @@ def _truth(
     x: sp.Symbol,
     point: float,
     fixed: Sequence[tuple[sp.Symbol, float]],
-    equal: sp.Expr | None,
+    equal: sp.Expr,
 ) -> tuple[flint.arb | None, float]:
     """The value at a point and its slack; nothing where neither expression has a ball."""
     at: dict[sp.Symbol, Exact] = {x: point, **dict(fixed)}
     for candidate in (expression, equal):
-        if candidate is None:
-            continue
         try:
             value = evaluate(candidate, at, DIGITS)
         except (PrecisionError, NotImplementedError):

@@ -28,6 +28,10 @@ FADED = 18
 
 def simple_impact_context() -> dict[str, object]:
     """What the template of the generated simple impacts needs, numbers as text."""
+    # T_n = 2 eta j_n > FADED for n beyond these, for every 1/eta <= THIN.
+    count = math.ceil(FADED * THIN / (2 * math.pi) + 0.25)
+    if not 2 * zero_of_j0(count, 64) > FADED * THIN:
+        raise ArithmeticError("too few modes for the tail's bound")
     with flint.ctx.workprec(BITS):
         wall, rest = _wall(), wall_rest_ball()
         thin = {k: thin_coefficient_ball(k, 1) for k in (2, 3)}
@@ -46,11 +50,7 @@ def simple_impact_context() -> dict[str, object]:
             "hertz_time": nearest_double(evaluate(hertz_time().expression, {})),
             "quadrature": above(time_quadrature_bound(IMPACT_NODES)),
         }
-        # T_n = 2 eta j_n > FADED for n beyond these, for every 1/eta <= THIN.
-        count = math.ceil(FADED * THIN / (2 * math.pi) + 0.25)
         pairs = [(nearest_double(j), nearest_double(w)) for j, w in modes(count)]
-    if not 2 * zero_of_j0(count, 64) > FADED * THIN:
-        raise ArithmeticError("too few modes for the tail's bound")
     nodes, weights = gauss_legendre(IMPACT_NODES)
     rule = [_node(u, weight) for u, weight in zip(nodes, weights, strict=True)]
     return {name: repr(value) for name, value in constants.items()} | {

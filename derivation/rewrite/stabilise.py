@@ -146,15 +146,15 @@ def _account(
     return Applied(rule.name, rule.cause, (before, after), (pairs[0][1], pairs[1][1]))
 
 
-def _decayed(expression: sp.Expr, x: sp.Symbol) -> sp.Expr | None:
+def _decayed(expression: sp.Expr, x: sp.Symbol) -> sp.Expr:
     """The expression in decaying exponentials, which has balls where the original has none."""
     form: Rewritten = expression
     for rule in RULES[:4]:
         form = next(rule.apply(x, form), form)
-    if not isinstance(form, Shape):
-        return None
+    assert isinstance(form, Shape)  # as `decay` gives, the last of these
     _, value = assembled(form)
-    return value if isinstance(value, sp.Expr) else None
+    assert isinstance(value, sp.Expr)  # seams come later
+    return value
 
 
 def operations(form: Rewritten) -> int:

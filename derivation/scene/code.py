@@ -82,11 +82,6 @@ def recipe(scene: Scene) -> Recipe:
     _check_at_rest(scene)
     result = simulate(scene)
     gate, law = result.gate, result.gate.law
-    if "inertia" in law.effects:
-        raise SceneError(
-            "effects.inertia: expected a plate at rest for the code of a scene, as no force "
-            "follows from indentation and rate on one that moves; write effects.inertia = false"
-        )
     motion = choice.moved(law)
     assert motion is not None
     model, effects = law.model, law.effects

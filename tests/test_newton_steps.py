@@ -1,0 +1,77 @@
+"""Newton's iterations: they end after as many steps as is said, and converge on the way."""
+
+from collections.abc import Callable
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+import pytest
+from given import scene
+
+from derivation.scene import indent, indentation
+from generated import contact_law, impact, perturbation
+
+PLATE = (1.0, 0.36e9, 0.43e9)
+"""b, lam, mu."""
+HALF = np.array([0.02, 0.1, 1.0, 5.0])
+DEPTHS, SPEEDS = np.geomspace(1e-12, 2e-3, 150)[:, None], np.geomspace(1e-6, 30.0, 60)[:, None]
+
+
+def radius() -> Any:
+    return contact_law.contact_radius(DEPTHS, 0.13, HALF, 1.0)
+
+
+def largest() -> Any:
+    return np.array(impact.impact(0.13, 72.0, SPEEDS, HALF, *PLATE))
+
+
+def wide() -> Any:
+    """Contacts of two to six half-thicknesses, beyond the first polynomial."""
+    speeds = np.geomspace(6.0, 140.0, 20)
+    found = impact.impact(20.0, 72.0, speeds, 0.05, *PLATE)
+    assert np.all(found.max_contact_radius > 2 * 0.05)
+    return np.array(found)
+
+
+def course() -> Any:
+    times = np.linspace(0.0, impact.impact(0.13, 72.0, 1.0, 0.1, *PLATE).contact_time, 41)
+    return np.array(impact.history(times, 0.13, 72.0, 1.0, 0.1, *PLATE))
+
+
+def breaks() -> Any:
+    speeds = SPEEDS[SPEEDS > 1e-3]
+    motions = [perturbation.PrintedMotion(72.0, v, 2e7, xi) for v in speeds for xi in (1e5, 1e8)]
+    return np.array([motion.last for motion in motions])
+
+
+def indented() -> Any:
+    """By the full law of an elastic sphere, which has no inverse of its own."""
+    found = indent(scene(), force=[1.0, 1e3, 1e5])
+    return np.array([contact.contact_radius for contact in found])
+
+
+@pytest.mark.parametrize(
+    ("module", "results", "needed"),
+    [
+        (contact_law, radius, 6),
+        (impact, largest, 6),
+        (impact, wide, 6),
+        (impact, course, 6),
+        (perturbation, breaks, 10),
+        (indentation, indented, 10),
+    ],
+)
+def test_steps_that_are_said_to_be_enough_are(
+    module: ModuleType, results: Callable[[], Any], needed: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """To the last bit with as many, and the first converge faster than in proportion."""
+    exact = results()
+    assert np.all(np.isfinite(exact))
+    errors = []
+    for steps in (1, 2, 3, needed):
+        monkeypatch.setattr(module, "_STEPS", steps)
+        found = results()
+        size = np.max(np.abs(exact), axis=0)
+        errors.append(float(np.max(np.abs(found - exact) / size)))
+    assert errors[-1] == 0.0
+    assert errors[2] / errors[1] < errors[1] / errors[0] < 0.5

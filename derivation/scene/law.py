@@ -31,6 +31,8 @@ WHOLE_PLATE = frozenset({"bending", "finite_thickness", "side_wall"})
 
 HELD = 0.9
 """Largest contact radius over plate radius for an edge that is no soft hinge, or true pressure."""
+THICK = 1.0
+"""h/b up to which the supports' model is measured."""
 _HALVINGS = 30
 OPEN = 6.0
 """Contact radius over half-thickness at which the contact is about to open in its middle."""
@@ -165,14 +167,15 @@ class Law:
         """Stress on the far face under the axis [Pa], of a force [N] spread as Hertz's over a.
 
         Of the whole plate, whatever effects are in the law; on the paper's edge unless `held`,
-        or where the contact is wider than the support's model reaches.
+        or where contact or plate are wider or thicker than the support's model reaches.
         """
         of = {
             "simply-supported": kernels.supported_far_stress,
             "clamped": kernels.clamped_far_stress,
         }
         model = self.model
-        edge = model.edge if held and a <= HELD * model.b else "soft-hinge"
+        reached = a <= HELD * model.b and model.eta <= THICK
+        edge = model.edge if held and reached else "soft-hinge"
         stress = of.get(edge, kernels.far_stress)
         return float(stress(force, a, model.h, model.b, model.lam, model.mu))
 

@@ -24,11 +24,12 @@ from generated.contact_law import indentation
 from generated.impact import impact
 
 NOWHERE = Path("/nonexistent")
+NAMES = "contact_radius", "force_of_radius", "impact", "indentation"
 
 
 @pytest.fixture(scope="module")
 def law() -> dict[str, Target]:
-    return {t.name: t for t in targets(["contact_radius", "force_of_radius", "impact"])}
+    return {target.name: target for target in targets(NAMES)}
 
 
 @pytest.fixture(autouse=True)
@@ -41,7 +42,7 @@ def _quiet() -> Iterator[None]:
 # --- points, truth, allowance
 
 
-@pytest.mark.parametrize("name", ["contact_radius", "force_of_radius", "impact"])
+@pytest.mark.parametrize("name", NAMES)
 def test_law_is_judged_alone_and_in_company(name: str, law: dict[str, Target]) -> None:
     """What is right keeps its allowance, in an array too; a digit off does not."""
     target, generator = law[name], random.Random(4)

@@ -42,7 +42,7 @@ def test_a_tool_that_is_not_here_says_why_across_its_row() -> None:
 def test_checks_without_a_record_are_left_out() -> None:
     measured: dict[str, Any] = {k: json.loads(v) for k, v in reporting.measured().items()}
     every = dict(checks(measured))
-    for name in ("bounds", "effects", "inertia"):
+    for name in ("bounds", "effects"):
         fewer = dict(checks({key: data for key, data in measured.items() if key != name}))
         [gone] = every.keys() - fewer.keys()
         assert gone.endswith(f"{name}}}")

@@ -169,11 +169,11 @@ def changed(**tables: dict[str, Any]) -> dict[str, Any]:
 def test_scenes_are_passed_over_for_what_they_are() -> None:
     """By hand: the work 2 g delta over v^2, delta by the impact itself, no less than at rest."""
     assert inertia_check.pass_over(changed()) == ""
-    slow = changed(impact={"speed": 1e-4, "gravity": 9.81})
+    slow = changed(impact={"speed": 1e-3, "gravity": 9.81})
     assert "weight over the energy brought above 100" in inertia_check.pass_over(slow)
     still = inertia_check.at_rest(model_of(read(slow)))
     assert still is not None
-    assert 2.0 * 9.81 * still.max_indentation / 1e-8 > inertia_check.FALLEN
+    assert 2.0 * 9.81 * still.max_indentation / 1e-6 > inertia_check.FALLEN
     # Zener's number goes with the mass to the power 3/5 and is 5 in between.
     heavy, light = (changed(sphere={"density": rho}) for rho in (1e7, 1e3))
     assert inertia_check.pass_over(heavy) == "Zener's number above 5"

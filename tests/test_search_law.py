@@ -12,11 +12,12 @@ import numpy as np
 import pytest
 
 from derivation import pipeline
+from derivation.cli import main
 from derivation.measure import contact_judge, search
 from derivation.measure.contact_truth import truth
 from derivation.measure.grids import Point
 from derivation.measure.search import Found, Standing
-from derivation.measure.search_cases import Book, case_of, to_toml
+from derivation.measure.search_cases import Book, as_data, case_of, to_toml
 from derivation.measure.search_draw import Domain, draw
 from derivation.measure.search_targets import Error, Numbers, Target, targets
 from derivation.reference import contact_balls
@@ -184,3 +185,21 @@ def test_what_the_contact_laws_check_found_is_not_new(law: dict[str, Target]) ->
     worse = Found(elsewhere, None, Error(1.001 * error.ulp, error.allowed))
     assert book.is_new(target.name, worse)
     assert Book(NOWHERE, [target], NOWHERE, NOWHERE).is_new(target.name, same)
+
+
+@pytest.mark.parametrize(("off", "status"), [(0.5, 0), (2.0, 1)])
+def test_the_search_as_json_is_nothing_else(
+    off: float, status: int, tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    """Beyond the allowance the status is 1; a new case is said beside, on standard error."""
+    target = dataclasses.replace(plain("size", ("x",), ()), measure=lambda *_: Error(off, 1.0))
+    found = search.search([target], 1, evaluations=20)
+    book = Book(tmp_path / "cases.toml", [target], NOWHERE, NOWHERE)
+    book.keep(found)
+    monkeypatch.setattr(pipeline, "search_worse", lambda *_: (found, book))
+    assert main(["check", "--search", "1s", "--json", "-"]) == status
+    shown = capsys.readouterr()
+    assert json.loads(shown.out) == as_data(found)
+    assert "new worst cases in" in shown.err
+    assert len(tomllib.loads(book.path.read_text())["case"]) == 1

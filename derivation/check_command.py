@@ -160,6 +160,7 @@ def _check_hard(record: bool, json: str | None) -> int:
 def _check_bounds(count: int, record: bool, json: str | None) -> int:
     """Hold stated error bounds to random scenes; returns the exit status."""
     from derivation import pipeline
+    from derivation.measure.record import plain
 
     with counted("check") as tell:
         rows = pipeline.check_bounds(count, record, tell)
@@ -171,13 +172,14 @@ def _check_bounds(count: int, record: bool, json: str | None) -> int:
         heads = ("method", "#runs", "#worst error/bound", "#error", "#bound", "of")
         table(f"Stated bounds in {count} scenes", heads, cells)
     if json:
-        put_json([asdict(row) for row in rows], json)
+        put_json(plain([asdict(row) for row in rows]), json)
     return 0 if all(row.kept for row in rows) else 1
 
 
 def _check_effects(count: int, record: bool, json: str | None) -> int:
     """Hold the gate to random scenes; returns the exit status."""
     from derivation.effects_check import check_effects
+    from derivation.measure.record import plain
 
     with counted("check") as tell:
         rows = check_effects(count, record, tell)
@@ -191,7 +193,7 @@ def _check_effects(count: int, record: bool, json: str | None) -> int:
                  "#that apply", "#refused")  # fmt: skip
         table(f"Effects in {count} scenes", heads, cells)
     if json:
-        put_json([asdict(row) for row in rows], json)
+        put_json(plain([asdict(row) for row in rows]), json)
     return 0 if all(row.kept for row in rows) else 1
 
 

@@ -118,7 +118,7 @@ def contact_table(rows: tuple[ContactRow, ...]) -> tuple[tuple[str, ...], list[t
 
 def contact_data(rows: tuple[ContactRow, ...]) -> dict[str, Any]:
     """Rows of the contact law as plain data, with what they were measured with."""
-    found = [asdict(row) for row in rows]
+    found = plain([asdict(row) for row in rows])
     return {"provenance": provenance(DIGITS), "limit": LIMIT, "rows": found}
 
 

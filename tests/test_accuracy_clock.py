@@ -5,6 +5,7 @@ import math
 import sys
 from collections.abc import Callable, Iterator
 from dataclasses import asdict, replace
+from functools import partial
 from itertools import cycle
 from pathlib import Path
 from typing import Any
@@ -225,3 +226,70 @@ def test_scripts_of_tools_import_nothing_of_the_project() -> None:
     for script in tools.SCRIPTS.glob("*.py"):
         assert "derivation" not in script.read_text()
         assert "generated" not in script.read_text()
+
+
+def test_a_tool_that_says_nothing_or_cannot_be_started_is_missing(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    script, python = tmp_path / "mute.py", {tools.VARIABLE: sys.executable}
+    script.write_text("raise SystemExit(3)")
+    assert tools.run(script, python)[0].missing == "failed: no message"
+    nowhere = str(tmp_path / "no_python")
+    missing = tools.run(script, {tools.VARIABLE: nowhere})[0].missing
+    assert missing == f"not installed: {nowhere}: No such file or directory"
+    script.write_text("import time; time.sleep(60)")
+    monkeypatch.setattr(tools, "LIMIT", 0.2)
+    assert tools.run(script, python)[0].missing == "no result within 0.2 s"
+
+
+def test_own_results_are_hertzs_beside_every_tools(monkeypatch: pytest.MonkeyPatch) -> None:
+    """On a half-space the generated code is right to rounding; each script is asked once."""
+    monkeypatch.delenv(tools.VARIABLE, raising=False)
+    indentation, duration, *others = tools.tools()
+    for own in (indentation, duration):
+        assert own.name == "platecontact"
+        assert own.error is not None
+        assert own.error < 2e-15
+        assert own.seconds is not None
+        assert own.seconds > 0.0
+    assert {tool.name.replace(" ", "_") for tool in others} == {
+        script.stem for script in tools.SCRIPTS.glob("*.py")
+    }
+    assert all("names no Python" in (tool.missing or "") for tool in others)
+
+
+def test_growth_is_of_calls_on_a_clock(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Lower quartile of seven, of one alone where that takes long; the slope of both."""
+    now, calls = [0.0], list[float]()
+    monkeypatch.setattr(scaling, "CPU", lambda: now[0])
+
+    def work(seconds: float) -> None:
+        calls.append(seconds)
+        now[0] += seconds * (1.0 if calls.count(seconds) % 2 else 3.0)
+
+    sizes = [1, 10, 100]
+    grown = scaling.growth("points", "m", sizes, [partial(work, x / 100) for x in sizes], "why")
+    assert [calls.count(x / 100) for x in sizes] == [8, 8, 3]  # the last is traced too
+    assert grown.seconds[:2] == pytest.approx((0.01, 0.1))
+    assert grown.seconds[2] == pytest.approx(3.0)
+    assert (grown.what, grown.method, grown.why) == ("points", "m", "why")
+    assert 0.9 < grown.slope < 1.4
+
+
+def test_the_law_over_thinness_is_of_one_sphere_on_ever_thinner_plates(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Called and split in modes agree on each of them, and so do calls and what is prepared."""
+    monkeypatch.setattr(scaling, "growth", lambda *given: given)
+    monkeypatch.setattr(scaling, "ARRAY", scaling.SPLIT_POINTS)
+    called, split = scaling.thinness()
+    assert called[2] == split[2] == [10.0**k for k in range(5)]
+    for one, other in zip(called[3][:3], split[3][:3], strict=True):
+        np.testing.assert_allclose(one(), other(), rtol=1e-12)
+    whole, ready = scaling.points()
+    assert whole[2] == ready[2]
+    for count, one, other in zip(whole[2][:4], whole[3][:4], ready[3][:4], strict=True):
+        np.testing.assert_allclose(one(), other(), rtol=1e-14)
+        assert np.size(one()) == count
+    studies = dict(scaling.studies(quick=True))
+    assert list(studies) == ["points", "b/h", "digits", "scenes"]

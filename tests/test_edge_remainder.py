@@ -1,11 +1,13 @@
 """The measured remainder of the edge: convergence, linearity, and what the record says."""
 
 import json
+from functools import partial
 
 import numpy as np
 import pytest
 
 from derivation.files import measurements
+from derivation.measure import edge_remainder
 from derivation.measure.edge_remainder import (
     MESHES,
     POISSON,
@@ -79,3 +81,38 @@ def test_record() -> None:
         assert share < 0.03
         if row["support"] == "supported" and row["nu"] >= 0 and row["a_over_b"] <= 0.1:
             assert share < (1e-3 if row["h_over_b"] <= 0.5 else 3e-3)
+
+
+def test_rows_are_shares_and_their_changes(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Coarser elements come close to the record; both changes are to another mesh."""
+    meshes = (COARSE, Mesh(degree=5, layers=4), Mesh(degree=6, layers=3))
+    monkeypatch.setattr(edge_remainder, "MESHES", meshes)
+    monkeypatch.setattr(edge_remainder, "SIZES", (1.0,))
+    monkeypatch.setattr(edge_remainder, "POISSON", (0.3,))
+    monkeypatch.setattr(edge_remainder, "rows", partial(edge_remainder.rows, (1.0,), (0.3,)))
+    found = json.loads(edge_remainder.text())
+    assert [mesh["layers"] for mesh in found["meshes"]] == [4, 4, 3]
+    record = json.loads((measurements() / "edge_remainder.json").read_text())["rows"]
+    head = ("support", "h_over_b", "nu", "a_over_b")
+    known = {tuple(row[key] for key in head): row for row in record}
+    assert len(found["rows"]) == len(SUPPORTS) * len(WIDTHS)
+    for row in found["rows"]:
+        best = known[tuple(row[key] for key in head)]["share_of_indentation"]
+        assert abs(row["share_of_indentation"] / best - 1) < 1e-2
+    for support in SUPPORTS:
+        shares, lower, fewer = (remainders(Case(support, 1.0, 0.3), mesh) for mesh in meshes)
+        mine = [row for row in found["rows"] if row["support"] == support]
+        for row, share, one, other in zip(mine, shares, lower, fewer, strict=True):
+            assert row["lower_degree"] == pytest.approx(one - share, rel=0.06)
+            assert row["fewer_layers"] == pytest.approx(other - share, rel=0.06)
+
+
+@pytest.mark.parametrize("h", [0.22213133, *np.geomspace(0.01, 9.0, 60)])
+def test_no_element_is_a_sliver(h: float) -> None:
+    """At the axis, where halving ends, it is no thinner than a fifth of its neighbour."""
+    for layers in range(2, 8):
+        r = radii(h, layers)
+        assert (r[0], r[-1]) == (0.0, 1.0)
+        steps = np.diff(r)
+        assert steps[0] > 0.19 * steps[1]
+        assert steps[-1] == pytest.approx(min(h, 1.0) * 0.5**layers)

@@ -11,7 +11,7 @@ import pytest
 
 from derivation import pipeline
 from derivation.cli import main
-from derivation.measure import hard_check
+from derivation.measure import hard_check, hard_origin
 from derivation.measure.hard import Case
 from derivation.measure.hard_truth import Known
 
@@ -87,6 +87,32 @@ def test_every_kind_of_damage_is_noticed(cases: tuple[Case, ...], truth: dict[st
     assert "FloatingPointError" in one("G", lambda T: right(T) + np.log(T * 0), case, truth).problem
     assert "float64" in one("G", lambda T: right(T).astype(np.float64), short, truth).problem
     assert not one("G", lambda T: right(np.abs(T) + 1.0), refused, truth).kept
+
+
+def test_a_reference_is_of_the_modules_its_oracle_is_made_of(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Words about the code do not count; the code of those imported does."""
+    place = hard_origin._file("derivation.reference.contact_quantities")
+    before = {name: hard_origin.origin(name) for name in ("indentation", "force", "bessel_j0")}
+    assert len(set(before.values())) == 3
+
+    def origins(changed: str) -> dict[str, str]:
+        read = Path.read_text
+        with monkeypatch.context() as patched:
+            patched.setattr(
+                Path, "read_text", lambda path: changed if path == place else read(path)
+            )
+            hard_origin.origin.cache_clear()
+            hard_origin._of_modules.cache_clear()
+            return {name: hard_origin.origin(name) for name in before}
+
+    text = place.read_text()
+    assert origins(text + "\n# a remark\n") == before
+    other = origins(text + "\nOTHER = 1\n")
+    hard_origin.origin.cache_clear()
+    hard_origin._of_modules.cache_clear()
+    assert {name for name in before if other[name] != before[name]} == {"force"}
 
 
 # --- how it is asked

@@ -1,18 +1,20 @@
 """What hard cases of laws are held to: by a second oracle, and what kernels state themselves."""
 
 import dataclasses
+import math
 from fractions import Fraction
 
 import flint
 import numpy as np
+import pytest
 from mpmath import mp, mpf
 
-from derivation.measure import hard_check
+from derivation.measure import hard_check, hard_truth, hard_wave_places
 from derivation.measure.hard import Case
 from derivation.measure.hard_kernels import Stating
 from derivation.measure.hard_laws import LAWS
 from derivation.measure.hard_truth import Known, restored
-from derivation.reference import edge_routes, far_face_routes, pressure_routes
+from derivation.reference import contact_balls, edge_routes, far_face_routes, pressure_routes
 from derivation.reference.routes import to_ball as as_ball
 from generated.impact import history
 
@@ -75,3 +77,55 @@ def test_rounding_of_a_state_is_what_the_arguments_change() -> None:
     assert law.slopes is not None
     found = law.slopes(given, law.values(given, 20))
     np.testing.assert_allclose([float(x) for x in found], total, rtol=1e-4)
+
+
+def test_stress_below_a_clamped_edge_is_what_is_recorded_with_fewer_digits(
+    cases: tuple[Case, ...], truth: dict[str, Known]
+) -> None:
+    """And another than on the paper's edge."""
+    for kernel in ("clamped_far_stress", "far_stress"):
+        case = next(case for case in cases if case.kernel == "clamped_far_stress")
+        [given] = [tuple(case.points[0].values())]
+        [found] = LAWS[kernel].values(given, 10)
+        known = restored(truth[case.key].references[0]).value
+        assert (abs(float(found / known) - 1) < 1e-9) is (kernel == case.kernel)
+
+
+def test_a_force_is_excused_as_its_contact_radius_is() -> None:
+    """Of a thick plate, where the plate's part has a size of its own."""
+    a, R, h, b = 0.4, 1.0, 1.0, 1.0
+    delta = float(contact_balls.indentation(a, R, h, b, 20))
+    known = hard_truth._scale("contact_radius", (delta, R, h, b), flint.arb(a))
+    assert hard_truth._scale("force", (delta, R, h, b, 1.0, 1.0), flint.arb(1)) == known
+    assert known > 1.0
+    assert hard_truth._scale("impact", (), flint.arb(1)) == 1.0
+
+
+def test_a_supported_mode_of_no_bending_share_is_judged_without_conditioning() -> None:
+    """Next to nu = -1 results do not change with it; at an ordinary one they do."""
+    law = LAWS["supported_modes"]
+    assert law.slopes is not None
+    for nu, free in ((math.nextafter(-1.0, 0.0), True), (0.3, False)):
+        values = law.values((1.0, nu), 20)
+        slopes = law.slopes((1.0, nu), values)
+        assert len(slopes) == len(values)
+        assert all(slope == 0 for slope in slopes) is free
+
+
+@pytest.mark.parametrize("name", ["hertz", "leading"])
+def test_a_simple_law_shows_nothing_beyond_its_range(name: str) -> None:
+    """A sphere a thousand times too fast; what it states is NaN where its results are."""
+    known = hard_check.kernels()[name]
+    assert isinstance(known, Stating)
+    paper = (0.13, 72.2, 1.0, 0.1, 1.0, 0.36e9, 0.43e9)
+    for speed, shown in ((1.0, True), (1e9, False)):
+        scene = (*paper[:2], speed, *paper[3:])
+        for found in (known.call(*scene), known.stated(*scene)):
+            assert (np.isfinite(np.ravel(found)) == shown).all()
+
+
+def test_a_place_where_nothing_changes_is_none() -> None:
+    root = hard_wave_places._nearest(lambda x: x * x < 2, 1.0, 2.0)
+    assert root == math.sqrt(2.0)
+    with pytest.raises(ValueError, match=r"nothing changes between 2.0 and 3.0"):
+        hard_wave_places._nearest(lambda x: x * x < 2, 2.0, 3.0)

@@ -6,13 +6,16 @@ from pathlib import Path
 
 import pytest
 from browser import browser, missing
+from markupsafe import Markup
 
 from derivation import reporting
 from derivation.report.figures import figures, saved
 from derivation.report.front import TITLE
 from derivation.report.html import drawing, page
+from derivation.report.html_blocks import Blocks
 from derivation.report.html_text import HtmlError, Words, argument, parts
-from derivation.report.mathml import MathError, mathml
+from derivation.report.latex import _code
+from derivation.report.mathml import MathError, mathml, unwrapped
 from derivation.report.pdf import TexError
 from derivation.report.sections import SECTIONS, Text
 from derivation.scene.impact import simulate
@@ -121,6 +124,11 @@ def test_words_are_escaped_and_what_is_not_known_is_refused() -> None:
     for wrong in (r"\nonsense{x}", r"\emph x", r"\emph{x"):
         with pytest.raises(HtmlError):
             words.read(wrong)
+    for wrong in ("a}", "a$b", "a\\"):
+        with pytest.raises(HtmlError, match="no HTML for '"):
+            words.read(wrong)
+    assert words.read("a% the source's own remark\nb\\%") == "ab%"
+    assert words.read(_code("a*b<c")) == "<code>a*<wbr>b&lt;c</code>"  # may be broken there
     with pytest.raises(MathError):
         mathml(r"\nonsense{x}")
 
@@ -130,6 +138,23 @@ def test_cells_are_cut_outside_of_braces_and_formulas() -> None:
         "a ", " {b & c} ", " $d & e$ ", r" \& f",
     ]  # fmt: skip
     assert argument(r"{a\{{b}}c", 0) == (r"a\{{b}", 8)
+    for wrong in (r"\{a}", "}a{", "{a{b}", "a", "a{b}"):
+        with pytest.raises(HtmlError, match="expected an argument in braces"):
+            argument(wrong, 0)
+
+
+def test_a_figure_without_a_file_is_refused() -> None:
+    whole = r"\begin{figure}[htbp]\includegraphics{%s}\caption{A law.}\end{figure}"
+    blocks = Blocks(Words({}, {}), {"law": Markup("<svg/>")})
+    assert "<svg/>" in blocks.read(whole % "figures/law.pdf")
+    with pytest.raises(HtmlError, match="expected a figure's name"):
+        blocks.read(whole % "law.png")
+
+
+def test_braces_around_a_part_of_a_formula_stay() -> None:
+    assert unwrapped("{a + b}") == "a + b"
+    assert unwrapped("{a}{b}") == "{a}{b}"
+    assert unwrapped(r"{a}\{b\}") == r"{a}\{b\}"
 
 
 def test_sums_that_are_broken_into_lines_are_aligned() -> None:

@@ -18,9 +18,10 @@ from derivation.scene import waves
 from derivation.scene.effects.inertia import further_branches, weight_share
 from derivation.scene.gate import Gate, decide
 from derivation.scene.law import Law
-from derivation.scene.model import Model
+from derivation.scene.limits import zener_number
+from derivation.scene.model import Model, model_of
 from derivation.scene.motion import impact
-from derivation.scene.scene import OUTPUTS
+from derivation.scene.scene import OUTPUTS, read
 
 SLOW = Model(
     R=0.05, m=0.4, v0=2e-3, h=0.05, b=0.15, lam=40e9, mu=27e9, density=2700.0, edge="clamped"
@@ -157,3 +158,43 @@ def test_the_command_shows_both_sides(
     assert stored["rows"][0]["price"] is None
     assert set(OUTPUTS) >= {row["quantity"] for row in stored["rows"]}
     assert main(["check", "--inertia", "3", "--effects", "3"]) == 2
+
+
+def changed(**tables: dict[str, Any]) -> dict[str, Any]:
+    """A scene that is looked at, with some keys of its tables changed."""
+    data = measure.scene(1)[0]
+    return {**data, **{name: {**data[name], **keys} for name, keys in tables.items()}}
+
+
+def test_scenes_are_passed_over_for_what_they_are() -> None:
+    """By hand: the work 2 g delta over v^2, delta by the impact itself, no less than at rest."""
+    assert inertia_check.pass_over(changed()) == ""
+    slow = changed(impact={"speed": 1e-3, "gravity": 9.81})
+    assert "weight over the energy brought above 100" in inertia_check.pass_over(slow)
+    still = inertia_check.at_rest(model_of(read(slow)))
+    assert still is not None
+    assert 2.0 * 9.81 * still.max_indentation / 1e-6 > inertia_check.FALLEN
+    # Zener's number goes with the mass to the power 3/5 and is 5 in between.
+    heavy, light = (changed(sphere={"density": rho}) for rho in (1e7, 1e3))
+    assert inertia_check.pass_over(heavy) == "Zener's number above 5"
+    assert inertia_check.pass_over(light) == ""
+    numbers = [zener_number(model_of(read(data))) for data in (heavy, light)]
+    assert numbers[0] / numbers[1] == pytest.approx(1e4**0.6, rel=1e-9)
+    assert numbers[1] < 5.0 < numbers[0]
+    fast = changed(impact={"speed": 1e6})
+    assert inertia_check.pass_over(fast) == "no impact on the plate at rest"
+    assert inertia_check.at_rest(model_of(read(fast))) is None
+    assert inertia_check.pass_over(measure.scene(2)[0]) == "too many modes"
+
+
+def test_scenes_out_of_reach_are_refused_by_name(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A truth of too many oscillators; an impact beyond the law's range."""
+    data, place = measure.scene(9)
+    found = inertia_check.solve(data, place)
+    assert isinstance(found, Found)
+    monkeypatch.setattr(inertia_check, "OSCILLATORS", found.oscillators // 2)
+    assert inertia_check.solve(data, place) == (
+        f"truth: more than {found.oscillators // 2} oscillators"
+    )
+    monkeypatch.setattr(inertia_check.waves, "impact", lambda *_: None)
+    assert inertia_check.solve(data, place) == "impact.speed"

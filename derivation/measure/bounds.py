@@ -15,6 +15,7 @@ from typing import Any
 import flint
 
 from derivation.measure.random_scenes import Tell, spreading
+from derivation.measure.record import plain
 from derivation.reference import contact_impact
 from generated.contact_law import force_of_radius, indentation
 
@@ -160,7 +161,7 @@ def to_json(known: Sequence[Truth], rows: Sequence[Row]) -> str:
     listed: tuple[tuple[str, Sequence[Row] | Sequence[Truth]], ...]
     listed = ("rows", rows), ("truths", known)
     for name, items in listed:
-        body = ",\n ".join(json.dumps(asdict(item)) for item in items)
+        body = ",\n ".join(json.dumps(plain(asdict(item))) for item in items)
         parts.append(f'"{name}": [\n {body}\n]')
     return "{" + ",\n".join(parts) + "}\n"
 

@@ -97,10 +97,10 @@ def heights(h: float, layers: int) -> Double:
 
 def radii(h: float, layers: int) -> Double:
     """Ends of the elements along r: halved towards the rim, growing towards the axis."""
-    steps = [h * 0.5**k for k in range(layers, -1, -1)]
+    steps = [min(h, 1.0) * 0.5**k for k in range(layers, -1, -1)]
     while steps[-1] < 1.0:
         steps.append(min(steps[-1] + max(h, 0.5 * steps[-1]), 1.0))
-    if len(steps) > 1 and steps[-1] - steps[-2] < 0.2 * (steps[-2] - steps[-3]):
+    if steps[-1] - steps[-2] < 0.2 * (steps[-2] - steps[-3]):
         steps.pop(-2)
     return np.unique(np.concatenate(([0.0], 1.0 - np.array(steps[:-1]), [1.0])))
 

@@ -13,6 +13,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from derivation.measure.random_scenes import OUTPUTS, Scene, Tell, spreading
+from derivation.measure.record import plain
 
 SEED = 1
 TOLERANCES = (1e-2, 1e-4, 1e-6, 1e-9)
@@ -137,5 +138,5 @@ def _row(rtol: float, rows: Sequence[tuple[float, float, str, int, int, int]], r
 
 def to_json(rows: Sequence[Row], count: int) -> str:
     """The rows as JSON, one to a line."""
-    body = ",\n ".join(json.dumps(asdict(row)) for row in rows)
+    body = ",\n ".join(json.dumps(plain(asdict(row))) for row in rows)
     return f'{{"drawn": {count},\n"seed": {SEED},\n"rows": [\n {body}\n]}}\n'

@@ -15,6 +15,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from derivation.measure.random_scenes import OUTPUTS, Scene, Tell, spreading
+from derivation.measure.record import plain
 
 SEED = 1
 
@@ -266,8 +267,8 @@ def as_data(judged: Judged, seed: int) -> dict[str, Any]:
         "seed": seed,
         "passed_over": dict(sorted(judged.passed_over.items())),
         "refused": dict(sorted(judged.refused.items())),
-        "sides": [asdict(side) for side in sides(judged.rows)],
-        "rows": rows,
+        "sides": plain([asdict(side) for side in sides(judged.rows)]),
+        "rows": plain(rows),
     }
 
 

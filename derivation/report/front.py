@@ -95,13 +95,12 @@ def checks(measured: Mapping[str, Data]) -> Iterator[tuple[str, str]]:
             code("check --effects"),
             (f"{measured['effects']['drawn']} random scenes, {used(worst, 'bound')}"),
         )
-    if "inertia" in measured:
-        moving = measured["inertia"]
-        worst = max(float(side["tightest"]) for side in moving["sides"])
-        yield (
-            code("check --inertia"),
-            f"{len(moving['rows'])} impacts on plates that move, {used(worst, 'bound')}",
-        )
+    moving = measured["inertia"]
+    worst = max(float(side["tightest"]) for side in moving["sides"])
+    yield (
+        code("check --inertia"),
+        f"{len(moving['rows'])} impacts on plates that move, {used(worst, 'bound')}",
+    )
     rows = measured["speed"]["rows"]
     kept = sum(row["kept"] for row in rows)
     yield code("check --speed"), f"{len(rows)} times measured, {kept} within their limits"

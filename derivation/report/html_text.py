@@ -16,7 +16,7 @@ TAGS = {"emph": "em", "textbf": "strong", "textit": "em", "texttt": "code"}
 DROPPED = {"normalfont", "strut", "small"}
 _TOKEN = re.compile(
     r"(?P<comment>(?<!\\)%[^\n]*\n?)|(?<!\\)\$(?P<math>[^$]*)\$|\\(?P<command>[A-Za-z]+|.)"
-    r"|(?P<open>\{)|(?P<close>\})|(?P<tie>~)|(?P<dash>--)|(?P<plain>[^\\{}$~%-]+|-)",
+    r"|(?P<open>\{)|(?P<tie>~)|(?P<dash>--)|(?P<plain>[^\\{}$~%-]+|-)",
     re.DOTALL,
 )
 _BOUND = re.compile(r"(<math>(?:(?!</math>).)*</math>[.,;:)\]]+)", re.DOTALL)
@@ -36,12 +36,11 @@ def argument(text: str, start: int) -> tuple[str, int]:
         If there are none, or they are not closed.
     """
     depth = 0
-    for match in re.compile(r"\\.|[{}]", re.DOTALL).finditer(text, start):
+    braces = re.compile(r"\\.|[{}]", re.DOTALL)
+    for match in braces.finditer(text, start) if text.startswith("{", start) else ():
         depth += {"{": 1, "}": -1}.get(match[0], 0)
         if depth == 0:
             return text[start + 1 : match.start()], match.end()
-        if match.start() == start and match[0] != "{":
-            break
     raise HtmlError(f"expected an argument in braces, got {text[start : start + 30]!r}")
 
 

@@ -77,10 +77,9 @@ def perturbation(corrected: bool) -> Method:
     """The paper's correction (16) with xi_3 as printed or corrected: twice the turning point."""
     kind = "corrected" if corrected else "as printed"
 
-    def fails(regime: Regime) -> str | None:
+    def fails(regime: Regime) -> str:
+        # Everywhere: both xi_3 are sums of positive terms.
         share = paper_motion(regime, regime.v0, MODES, corrected=corrected).share
-        if math.isnan(share):
-            return None
         return f"root of a negative number in (17), (18) from {share:.3g} of the way to the top on"
 
     def prepare(regime: Regime) -> Call:

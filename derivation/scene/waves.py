@@ -125,6 +125,7 @@ def _judged(rough: WaveMotion, found: WaveMotion) -> WaveMotion:
     return replace(found, inertia=replace(found.inertia, doubt=doubt))
 
 
+@lru_cache(maxsize=64)
 def count_of(law: Law) -> int:
     """How many oscillators the run that checks has."""
     model = law.model

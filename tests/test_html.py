@@ -144,7 +144,7 @@ def test_cells_are_cut_outside_of_braces_and_formulas() -> None:
 
 
 def test_a_figure_without_a_file_is_refused() -> None:
-    whole = r"\begin{figure}[htbp]\includegraphics{%s}\caption{A law.}\end{figure}"
+    whole = r"\begin{figure}[H]\includegraphics{%s}\caption{A law.}\end{figure}"
     blocks = Blocks(Words({}, {}), {"law": Markup("<svg/>")})
     assert "<svg/>" in blocks.read(whole % "figures/law.pdf")
     with pytest.raises(HtmlError, match="expected a figure's name"):

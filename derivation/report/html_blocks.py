@@ -19,7 +19,7 @@ _BLOCK = re.compile(
     r"|\\\[(?P<display>.*?)\\\]"
     r"|\\begin\{verbatim\}\n(?P<code>.*?)\n\\end\{verbatim\}"
     r"|\\begin\{(?P<kind>longtable|tabular)\}(?=\{)"
-    r"|\\begin\{figure\}\[\w+\](?P<figure>.*?)\\end\{figure\}"
+    r"|\\begin\{figure\}\[H\](?P<figure>.*?)\\end\{figure\}"
     r"|\\begin\{itemize\}(?P<items>.*?)\\end\{itemize\}"
     r"|\\begin\{thebibliography\}\{99\}(?P<sources>.*?)\\end\{thebibliography\}"
     r"|\\(?:begin\{)?(?P<pair>formula|reporttitle)\}?(?=\{)"

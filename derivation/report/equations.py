@@ -92,7 +92,7 @@ def equation(left: str, expression: sp.Expr, prefix: str = "") -> str:
         return begin + displayed(expression)
     value = expression if isinstance(expression, sp.Add) else _expanded(expression)
     if isinstance(value, sp.Add) and all(legible(term) for term in value.args):
-        return _aligned(_rows(f"{begin or left}", value))
+        return _aligned(_rows(begin, value))
     value, parts = in_parts(expression, room)
     rows = _rows(begin, value)
     for symbol, part in parts:

@@ -7,8 +7,9 @@ SCRIPT, LEAST = 0.7, 0.5
 """Size of scripts, and of what stands in fractions within fractions, by what is around it."""
 NAMED = re.compile(r"\\(?:sin|cos|tan|log|lim|max)h?$|\\coth$")
 WIDE = {r"\sum": 2.7, r"\int": 1.9, r"\sqrt": 1.6, r"\quad": 1.9, "(": 0.9, ")": 0.9, ",": 0.6}
-NOTHING = re.compile(r"&$|\\(?:left|right|mathrm|operatorname|displaystyle|limits)$")
-ABOVE = re.compile(r"\\(?:dot|ddot|tilde|bar)$")
+NOTHING = re.compile(
+    r"&$|\\(?:left|right|mathrm|operatorname|displaystyle|limits|dot|ddot|tilde|bar)$"
+)
 OPERATORS = frozenset("+-=")
 SPACED = 2.6
 """An operator between two numbers, with the space around it."""
@@ -50,9 +51,9 @@ class _Measure:
             inner = size if depth == 0 else max(LEAST, SCRIPT * size)
             return max(self.one(inner, depth + 1, "="), self.one(inner, depth + 1, "=")) + 0.5
         if token in OPERATORS:
-            alone = before in OPERATORS or before in ("{", "(", r"\left")
+            alone = before in OPERATORS or before == "("
             return size * (1.0 if alone else SPACED)
-        if NOTHING.match(token) or ABOVE.match(token):
+        if NOTHING.match(token):
             return 0.0
         return size * (len(token) - 0.6 if NAMED.match(token) else WIDE.get(token, 1.0))
 

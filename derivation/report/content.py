@@ -13,7 +13,7 @@ from derivation.formula.record import Formula
 from derivation.formula.symbols import M, eta, r, z
 from derivation.paper.misprints import Finding
 from derivation.reference.contact_balls import finite_part
-from derivation.report.equations import equation, folded, right_side
+from derivation.report.equations import body, equation, folded, right_side
 from derivation.report.latex import escape, unit
 from derivation.report.numbers import number, rounded
 from derivation.report.references import cited
@@ -24,7 +24,6 @@ from derivation.theory.thin_roots import root
 
 ROOT_DIGITS = 12
 """Digits certified of what the roots add, more than are shown."""
-SUM = r"\sum_{j=1}^{\infty} "
 FACTOR = "G"
 """The plate factor, by whose name it is called in formulas after its own link."""
 ABOUT = {
@@ -183,19 +182,19 @@ def root_text(n: int) -> str:
 def formula_context(formula: Formula, known: Mapping[str, Formula] | None = None) -> dict[str, Any]:
     """A formula as the template shows it, with the numbers of those known that it comes from."""
     known = known or {}
-    shown = right_side(formula)
+    whole, factor = right_side(formula), known.get(FACTOR)
     sources = [reference(source, known) for source in formula.sources]
-    if FACTOR in known and shown.free_symbols != known[FACTOR].expression.free_symbols:
-        shown, whole = folded(shown, known[FACTOR]), shown
-        if shown != whole and FACTOR not in formula.sources:
-            sources.append(f"with {reference(FACTOR, known)}")
+    if factor and whole.free_symbols == factor.expression.free_symbols:
+        factor = None  # a formula of the plate factor's own link
+    if factor and folded(whole, factor) != whole and FACTOR not in formula.sources:
+        sources.append(f"with {reference(FACTOR, known)}")
     return {
         "name": formula.name,
         "meaning": formula.meaning,
         "unit": unit(formula.unit),
         "equation": formula.equation,
         "sources": ", ".join(sources),
-        "body": equation(formula.latex, shown, SUM if formula.summed else ""),
+        "body": body(formula, factor),
     }
 
 
@@ -209,13 +208,12 @@ def finding_context(finding: Finding) -> dict[str, Any]:
     """A comparison as the template shows it."""
     printed, diagnosis = finding.printed, finding.diagnosis
     formula = finding.formula
-    derived = right_side(formula)
     return {
         "equation": printed.equation,
         "name": printed.name,
         "says": printed.says,
         "printed": as_printed(printed.symbol, printed.full or printed.latex),
-        "derived": equation(formula.latex, derived, SUM if formula.summed else ""),
+        "derived": body(formula),
         "equal": not finding.is_misprint,
         "kind": diagnosis.kind[0].upper() + diagnosis.kind[1:],
         "repair": spoken(finding.repair[0].upper() + finding.repair[1:].rstrip(".")),

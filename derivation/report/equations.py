@@ -8,6 +8,7 @@ from derivation.formula.notation import SYMBOL_NAMES, PaperPrinter
 from derivation.formula.record import Formula
 from derivation.report.width import typeset_width
 
+SUM = r"\sum_{j=1}^{\infty} "
 LINE_WIDTH = 70
 """Characters, as typeset, after which a sum is broken."""
 DEEPEST = 2
@@ -103,6 +104,12 @@ def equation(left: str, expression: sp.Expr, prefix: str = "") -> str:
 def right_side(formula: Formula) -> sp.Expr:
     """What is shown of a formula: as it is stated, if that is not its value."""
     return formula.expression if formula.stated is None else formula.stated
+
+
+def body(formula: Formula, factor: Formula | None = None) -> str:
+    """A formula as a displayed equation, a factor in it called by its name where it is given."""
+    shown = right_side(formula) if factor is None else folded(right_side(formula), factor)
+    return equation(formula.latex, shown, SUM if formula.summed else "")
 
 
 def folded(expression: sp.Expr, formula: Formula) -> sp.Expr:

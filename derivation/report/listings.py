@@ -5,8 +5,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from derivation.formula.record import Formula
-from derivation.report.content import SUM
-from derivation.report.equations import equation, right_side
+from derivation.report.equations import body
 
 SHOWN = {
     "G": "influence",
@@ -46,11 +45,6 @@ def listings_context(sources: Mapping[str, str], formulas: Mapping[str, Formula]
         "lines": sum(text.count("\n") for text in sources.values()),
         "modules": len(sources),
     }
-
-
-def body(formula: Formula) -> str:
-    """The formula as a displayed equation's body."""
-    return equation(formula.latex, right_side(formula), SUM if formula.summed else "")
 
 
 def source_of(text: str, name: str) -> str:

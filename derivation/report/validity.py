@@ -4,8 +4,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from derivation.formula.record import Formula
-from derivation.report.content import FACTOR, SUM
-from derivation.report.equations import equation, folded, right_side
+from derivation.report.content import FACTOR
+from derivation.report.equations import body
 from derivation.report.numbers import rounded
 from derivation.scene import edge_remainder, law, limits
 from derivation.scene.effects.effect import PLATES
@@ -20,20 +20,14 @@ FORMULAS = (
 def law_context(formulas: Mapping[str, Formula]) -> dict[str, Any]:
     """Formulas of the law, which call the plate factor by its name, and its limits."""
     factor = formulas[FACTOR]
+    shown = [(formulas[name], None if name == FACTOR else factor) for name in FORMULAS]
     return {
         "formulas": [
-            {"name": name, "meaning": formulas[name].meaning, "body": body(formulas[name], factor)}
-            for name in FORMULAS
+            {"name": formula.name, "meaning": formula.meaning, "body": body(formula, named)}
+            for formula, named in shown
         ],
         "limits": list(limit_rows()),
     }
-
-
-def body(formula: Formula, factor: Formula) -> str:
-    """The formula as a displayed equation's body."""
-    shown = right_side(formula)
-    shown = shown if formula is factor else folded(shown, factor)
-    return equation(formula.latex, shown, SUM if formula.summed else "")
 
 
 def limit_rows() -> list[str]:

@@ -10,19 +10,15 @@ Importing this package alone loads neither SymPy nor anything else that is slow.
 import os
 from typing import TYPE_CHECKING
 
-# The room is loaded before the function below takes its name; modules in it are
-# reached by `from derivation.formula.record import ...` all the same.
-import derivation.formula as _room  # noqa: F401
-
 if TYPE_CHECKING:
-    from derivation.formula.record import Formula
-    from derivation.paper.text import TextDiagnosis
+    from derivation.engine.errata.text import TextDiagnosis
+    from derivation.engine.formula.record import Record
 
 # python-flint would silently become SymPy's ground types and change printed forms.
 os.environ["SYMPY_GROUND_TYPES"] = "python"
 
 
-def formula(name: str) -> "Formula":
+def formula(name: str) -> "Record":
     """A derived formula by name, with its proof; displays as LaTeX in a notebook.
 
     Raises
@@ -30,7 +26,7 @@ def formula(name: str) -> "Formula":
     KeyError
         If there is no formula of that name; the message lists those there are.
     """
-    from derivation import derived
+    from derivation.plate import derived
 
     known = derived.formulas()
     if name not in known:
@@ -59,6 +55,6 @@ def diagnose(
     ValueError
         For a name, formula or point that cannot be used.
     """
-    from derivation import derived
+    from derivation.plate import derived
 
     return derived.diagnose(name, text, latex, at, digits)

@@ -1,12 +1,11 @@
 """The command `platecontact`: each command unpacks its arguments and makes one call.
 
-Exit status: 0 fine, 1 a check failed or formulas differ, 2 bad input.
+Exit status: 0 fine, 1 a check failed or formulas differ, 2 bad input, 141 nobody reads the output.
 """
 
-import os
 import sys
 from collections.abc import Sequence
-from dataclasses import asdict
+from functools import partial
 from pathlib import Path
 from typing import Annotated
 
@@ -14,51 +13,66 @@ import typer
 from typer.exceptions import TyperException
 from typer.main import get_command
 
-from derivation import check_command
-from derivation.files import ROOT
-from derivation.scene import commands as scene_commands
-from derivation.screen import (
+from derivation.commands import check as check_command
+from derivation.commands import formulas as formula_commands
+from derivation.commands import paper as paper_commands
+from derivation.commands import scenes as scene_commands
+from derivation.commands.groups import Grouped
+from derivation.commands.paper_option import PaperFolder, alone, chosen
+from derivation.engine.console import (
     INTERRUPTED,
     NOTES,
     OUT,
+    UNREAD,
+    Command,
     Json,
+    UnreadError,
     counted,
     listing,
+    put,
     put_json,
+    silence,
     stage,
     table,
+    warn,
 )
+from derivation.engine.failed import FailedError
+from derivation.engine.files import ROOT, in_checkout
+from derivation.engine.staging import recover
 
 app = typer.Typer(
+    cls=Grouped,
     no_args_is_help=True,
     add_completion=True,
     rich_markup_mode=None,
     help="Derive, generate, check and report the contact law of a sphere on an elastic plate.",
 )
 
+command = partial(app.command, cls=Command)
 Out = Annotated[
     Path | None, typer.Option("--out", metavar="DIR", help="Write here instead of the checkout.")
 ]
 
 
-@app.command()
-def derive(json: Json = None) -> None:
-    """Derive every formula from the equilibrium equations and show how it was proved.
+@command()
+def derive(paper: PaperFolder = None, json: Json = None) -> None:
+    """Derive all formulas from the equilibrium equations.
+
+    Each is shown with how it was verified.
 
     Example: platecontact derive --json formulas.json
     """
-    from derivation import derived
+    from derivation.engine import build
 
+    own = chosen(paper)
     with stage("derive"):
-        found = derived.formulas()
-    if json != "-":
+        found = build.formulas(own)
+    if put_json(lambda: [formula.to_json() for formula in found.values()], json):
         rows = [(f.name, f.unit, f.equation, f.proof.step, f.proof.method) for f in found.values()]
-        table("Derived formulas", ("formula", "unit", "equation", "proof", "decided"), rows)
-    if json:
-        put_json([formula.to_json() for formula in found.values()], json)
+        table("Derived formulas", ("formula", "unit", "equation", "proof", "verified"), rows)
 
 
-@app.command()
+@command()
 def generate(
     check: Annotated[
         bool, typer.Option("--check", help="Compare only: show what differs, write nothing.")
@@ -73,6 +87,7 @@ def generate(
         Path | None,
         typer.Option("--scene", metavar="SCENE.toml", help="Write one module for this scene."),
     ] = None,
+    paper: PaperFolder = None,
 ) -> None:
     """Write the NumPy package `generated`, or check that it is fresh.
 
@@ -83,19 +98,27 @@ def generate(
 
     Example: platecontact generate --scene glass_pane.toml --out glass_pane.py
     """
+    alone(paper, "--check and --out", scene)
     if scene is not None:
         _scene_code(scene, out, check)
         return
-    from derivation import produce
+    from derivation.engine import build
+    from derivation.plate import package_pipeline
 
+    own = chosen(paper)
     if check:
         with stage("compare"):
-            freshness = produce.check_generated(out)
-        OUT.print(str(freshness), markup=False, highlight=False, soft_wrap=True)
+            mend = f"platecontact generate --paper {paper}" + (f" --out {out}" if out else "")
+            freshness = (
+                package_pipeline.check_generated(out)
+                if paper is None
+                else build.check_generated(own, out, mend)
+            )
+        OUT.say(str(freshness))
         raise typer.Exit(0 if freshness.fresh else 1)
     with stage("derive and generate"):
-        written = produce.generate(out)
-    NOTES.print(f"{len(written)} files in {written[0].parent}")
+        written = package_pipeline.generate(out) if paper is None else build.generate(own, out)
+    NOTES.say(f"{len(written)} files in {written[0].parent}")
 
 
 def _scene_code(scene: Path, out: Path | None, check: bool) -> None:
@@ -109,31 +132,31 @@ def _scene_code(scene: Path, out: Path | None, check: bool) -> None:
         raise SceneError("--out: expected a file for the scene's code, got none; add --out FILE.py")
     scene_commands.check_outputs(scene, None, csv=out)
     write_scene_code(load(scene), out)
-    NOTES.print(f"{out}", markup=False, highlight=False, soft_wrap=True)
+    NOTES.say(f"{out}")
 
 
-@app.command()
-def misprints(json: Json = None) -> None:
-    """Compare the paper's printed formulas with the derived ones and diagnose what differs.
+@command()
+def misprints(paper: PaperFolder = None, json: Json = None) -> None:
+    """Find what is wrong with the published formulas, and why.
 
     Example: platecontact misprints --json -
     """
-    from derivation import derived
+    from derivation.engine import build
 
+    own = chosen(paper)
     with stage("compare printed with derived"):
-        findings = derived.misprints()
-    if json != "-":
+        findings = build.misprints(own)
+    if put_json(lambda: [finding.to_json() for finding in findings], json):
         rows = [(f.printed.equation, f.printed.name, f.diagnosis.kind, f.repair) for f in findings]
-        table("Printed against derived", ("equation", "formula", "finding", "repair"), rows)
-    if json:
-        put_json([finding.to_json() for finding in findings], json)
+        table("Published and derived formulas", ("equation", "formula", "finding", "fix"), rows)
 
 
-app.command()(check_command.check)
+command()(check_command.check)
 
 
-@app.command()
-def accuracy(
+@command("accuracy", hidden=True)  # its former name
+@command()
+def benchmark(
     quick: Annotated[bool, typer.Option("--quick", help="Fewer methods and rounds.")] = False,
     method: Annotated[
         list[str] | None,
@@ -145,87 +168,64 @@ def accuracy(
     ] = None,
     out: Annotated[
         Path | None,
-        typer.Option(
-            "--out", metavar="FILE", help="Write here instead of reports/data/accuracy.json."
-        ),
+        typer.Option("--out", metavar="FILE", help="Write the result to this file."),
     ] = None,
     moving: Annotated[
+        bool, typer.Option("--moving", help="Benchmark impacts with plate inertia instead.")
+    ] = False,
+    record: Annotated[
         bool,
-        typer.Option("--moving", help="Of a plate that moves instead: reports/data/moving.json."),
+        typer.Option(
+            "--record",
+            help="Replace the committed reports/data/accuracy.json (with --moving: moving.json).",
+        ),
     ] = False,
 ) -> None:
-    """Measure what each digit costs in time with every method: minutes.
+    """Benchmark all methods: accuracy against run time.
 
-    Example: platecontact accuracy --quick --out accuracy.json
+    Takes minutes.
+
+    Files are written only with --out or --record.
+
+    Example: platecontact benchmark --quick --out accuracy.json
     """
     if moving:
-        _moving(out, others=quick or bool(method) or scene is not None)
+        _moving(out, record, others=quick or bool(method) or scene is not None)
         return
     from derivation import pipeline
-    from derivation.measure.accuracy.summary import COLUMNS, cells, headline
+    from derivation.plate.benchmark.summary import COLUMNS, cells, headline
 
-    with counted("accuracy") as tell:
-        data, path = pipeline.accuracy(method or (), quick, scene, out, tell)
-    table("Cheapest methods in arrays", COLUMNS, cells(data))
-    OUT.print(headline(data), markup=False, highlight=False, soft_wrap=True)
-    NOTES.print(f"written to {path}", markup=False, soft_wrap=True)
+    with counted("benchmark") as tell:
+        data, path = pipeline.accuracy(method or (), quick, scene, out, tell, record)
+    table("Fastest methods for arrays", COLUMNS, cells(data))
+    OUT.say(headline(data))
+    _written(path)
 
 
-def _moving(out: Path | None, others: bool) -> None:
-    """Measure what accuracy costs where the plate moves."""
-    from derivation import moving_costs
+def _written(path: Path | None) -> None:
+    """Say where a measurement was written, or how to keep it."""
+    said = f"written to {path}" if path else "not written: keep it with --out FILE or --record"
+    NOTES.say(said)
+
+
+def _moving(out: Path | None, record: bool, others: bool) -> None:
+    """Benchmark impacts with plate inertia."""
+    from derivation.checks import moving_costs
 
     if others:
-        raise typer.BadParameter("expected --moving with --out alone; leave the others out")
-    with counted("accuracy") as tell:
-        data, path = moving_costs.record(out, tell)
-    table("An impact on a plate that moves", moving_costs.COLUMNS, moving_costs.cells(data))
-    NOTES.print(f"written to {path}", markup=False, soft_wrap=True)
+        raise typer.BadParameter(
+            "--moving can be combined with --out or --record only; remove the other options"
+        )
+    with counted("benchmark") as tell:
+        data, path = moving_costs.record(out, tell, record)
+    table("An impact with plate inertia", moving_costs.COLUMNS, moving_costs.cells(data))
+    _written(path)
 
 
-@app.command()
-def rewrite(
-    formula: Annotated[
-        str, typer.Argument(help="A formula of one variable; none for the paper's own.")
-    ] = "",
-    variable: Annotated[str, typer.Option(help="Its variable, positive.")] = "x",
-    record: Annotated[
-        bool, typer.Option("--record", help="Keep the paper's as reports/data/rewrite.json.")
-    ] = False,
-    json: Json = None,
-) -> None:
-    """Find a stable form of a formula and print it as NumPy, or say what was done to the paper's.
-
-    Example: platecontact rewrite "(x - sin(x))/x**3"
-    """
-    from derivation import pipeline
-    from derivation.measure.record import plain
-
-    if formula:
-        if record:
-            raise ValueError("--record keeps the paper's formulas: leave out the formula, or it")
-        with stage("rewrite"):
-            stable, source = pipeline.rewritten(formula, variable)
-        found = [("", applied) for applied in stable.applied]
-        data: object = {"source": source, "applied": [asdict(a) for a in stable.applied]}
-    else:
-        with counted("rewrite") as tell:
-            accounts = pipeline.rewriting(record, tell)
-        found = [(account.name, applied) for account in accounts for applied in account.applied]
-        data, source = {"rows": [asdict(account) for account in accounts]}, ""
-    if json != "-":
-        rows = [
-            (name, a.rule, a.cause, *(f"{x:.3g}" for x in (*a.operations, *a.worst)))
-            for name, a in found
-        ]
-        heads = ("formula", "rule", "against", "#operations", "#with it", "#worst ULP", "#with it")
-        table("Without and with each rule", heads, rows)
-        OUT.print(source, markup=False, highlight=False, soft_wrap=True)
-    if json:
-        put_json(plain(data), json)
+command()(formula_commands.rewrite)
 
 
-@app.command()
+@command()
 def report(
     pdf: Annotated[bool, typer.Option("--pdf/--no-pdf", help="Compile the PDF too.")] = True,
     check: Annotated[
@@ -244,6 +244,7 @@ def report(
         ),
     ] = None,
     out: Out = None,
+    paper: PaperFolder = None,
 ) -> None:
     """Write the report as LaTeX and HTML, and compile the PDF.
 
@@ -253,48 +254,61 @@ def report(
 
     Example: platecontact report --fragment K_j --fragment "contact split" --out pieces
     """
-    from derivation import reporting
+    alone(paper, "--no-pdf and --out", check, section, fragment)
+    from derivation.engine import build
+
+    own = chosen(paper)
+    if paper is not None:
+        with stage("report"):
+            written = build.report(own, out, pdf)
+        NOTES.say("\n".join(str(path) for path in written))
+        return
+    from derivation.plate import reporting
 
     if bool(check) + bool(section) + bool(fragment) > 1:
         raise ValueError("expected one of --check, --section and --fragment: run one by one")
     if check:
         with stage("compare"):
             freshness = reporting.check_report(out)
-        OUT.print(str(freshness), markup=False, highlight=False, soft_wrap=True)
+        OUT.say(str(freshness))
         raise typer.Exit(0 if freshness.fresh else 1)
     if fragment:
         if out is None:
-            print(reporting.fragments(fragment), end="")
+            put(reporting.fragments(fragment))
             return
         written = reporting.write_fragments(fragment, out)
     else:
         with stage("report"):
             written = reporting.report(out, pdf, section or ())
-    NOTES.print("\n".join(str(path) for path in written), markup=False)
+    NOTES.say("\n".join(str(path) for path in written))
 
 
-@app.command()
-def build(out: Out = None) -> None:
-    """Run the main job: derive, generate, find misprints, check, report.
+@command()
+def build(out: Out = None, paper: PaperFolder = None) -> None:
+    """Run the main job, from derivation to report.
 
     Example: platecontact build
     """
-    from derivation import derived, produce
+    if paper is not None:
+        alone(paper, "no other option", out)
+        raise typer.Exit(paper_commands.build(paper))
+    from derivation.plate import derived, package_pipeline
 
     for room in ("generated", "reports"):
-        produce.writable_folder(out / room if out else None, ROOT / room)
+        package_pipeline.writable_folder(out / room if out else None, ROOT / room)
     with stage("derive"):
         derived.chain()
     with stage("rewrite"):
-        produce.forms()
+        package_pipeline.forms()
     with stage("generate"):
-        produce.generate(out / "generated" if out else None)
+        package_pipeline.generate(out / "generated" if out else None)
     with stage("misprints"):
         derived.misprints()
     # Only now, as these import what has just been generated.
-    from derivation import pipeline, reporting
-    from derivation.measure.record import passed
-    from derivation.report.pdf import TexError
+    from derivation import pipeline
+    from derivation.engine.measure.record import passed
+    from derivation.engine.report.pdf import TexError
+    from derivation.plate import reporting
 
     with counted("check") as tell:
         rows = pipeline.check(tell=tell)
@@ -302,46 +316,25 @@ def build(out: Out = None) -> None:
         try:
             reporting.report(out / "reports" if out else None)
         except TexError as error:
-            NOTES.print(f"no PDF, all else is there: {error}", markup=False, highlight=False)
+            NOTES.say(f"no PDF, all else is there: {error}")
     for line in pipeline.verdict(rows):
-        NOTES.print(line, markup=False, highlight=False)
+        NOTES.say(line)
     raise typer.Exit(0 if passed(rows) else 1)
 
 
-@app.command()
-def diagnose(
-    name: Annotated[str, typer.Argument(help="Quantity, for instance K_j.")],
-    formula: Annotated[str, typer.Option(help="Your formula for it, in SymPy syntax.")],
-    latex: Annotated[bool, typer.Option("--latex", help="The formula is LaTeX.")] = False,
-    at: Annotated[
-        str, typer.Option(metavar="phi=2.5,h=0.1,...", help="Point to evaluate both at.")
-    ] = "",
-    digits: Annotated[int, typer.Option(min=1, max=1000, help="Digits of the values.")] = 50,
-    json: Json = None,
-) -> None:
-    """Compare a formula of your own with the derived one; exit status 1 if they differ.
-
-    Example: platecontact diagnose G --formula "1 + 4*T*(1+T)*exp(-2*T)" --at T=3
-    """
-    from derivation import derived
-
-    with stage("compare"):
-        found = derived.diagnose(name, formula, latex, at, digits)
-    if json != "-":
-        rows = [(key, value) for key, value in found.to_json().items() if value is not None]
-        table(f"{name}: {found.verdict}", ("what", "value"), rows)
-    if json:
-        put_json(found.to_json(), json)
-    raise typer.Exit(0 if found.verdict == "equal" else 1)
+command()(formula_commands.diagnose)
+command()(paper_commands.new)
 
 
-@app.command()
+@command()
 def reference(
     scene: scene_commands.SceneFile,
     digits: Annotated[int, typer.Option(min=1, max=1000, help="Digits of every number.")] = 50,
     json: Json = None,
 ) -> None:
-    """Give contact law and impact of a scene file to many digits, by both oracles.
+    """Compute contact law and impact of a scene to many digits.
+
+    Both references, Arb and mpmath, have to agree.
 
     The scene's numbers are taken as the exact doubles they are read as. Exit status 1 if the
     oracles differ.
@@ -349,46 +342,47 @@ def reference(
     Example: platecontact reference scene.toml --digits 100
     """
     from derivation import pipeline
+    from derivation.scene import load
 
     scene_commands.check_outputs(scene, json)
-    known = pipeline.in_doubles(scene)
-    scene_commands.warn(known.warnings)
-    NOTES.print(pipeline.time_of_reference(known, digits), highlight=False)
+    known = pipeline.in_doubles(load(scene))
+    warn(known.warnings)
+    NOTES.say(pipeline.time_of_reference(known, digits))
     with counted("reference") as tell:
         found = pipeline.reference(known, digits, tell)
-    if json != "-":
+    if put_json(found.to_json, json):
         listing(f"{scene.name} to {digits} digits, its numbers being exact doubles", found.lines())
-    if json:
-        put_json(found.to_json(), json)
     raise typer.Exit(0 if found.agrees else 1)
 
 
-app.command()(scene_commands.simulate)
-app.command()(scene_commands.explain)
-app.command("map")(scene_commands.map_)
-app.command()(scene_commands.indent)
-app.command()(scene_commands.schema)
+command()(scene_commands.simulate)
+command()(scene_commands.explain)
+command("map")(scene_commands.map_)
+command()(scene_commands.indent)
+command()(scene_commands.schema)
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run a command; every error a user can cause is one message and status 2."""
-    command = get_command(app)
+    platecontact = get_command(app)
     try:
-        status = command(args=argv, prog_name="platecontact", standalone_mode=False)
-        sys.stdout.flush()
+        if in_checkout():
+            recover(ROOT / "generated")
+        status = platecontact(args=argv, prog_name="platecontact", standalone_mode=False)
+        put("")
     except TyperException as error:
         advice = "see `platecontact --help`"
         text = f"platecontact: {error.format_message()} ({advice})"
-        NOTES.print(text, markup=False, highlight=False, soft_wrap=True)
+        NOTES.say(text)
         return 2
-    except BrokenPipeError:  # whoever reads has had enough, like `head`
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 2
-    except (OSError, ValueError) as error:
-        NOTES.print(f"platecontact: {error}", markup=False, highlight=False, soft_wrap=True)
-        return 2
+    except UnreadError:
+        silence(sys.stdout)
+        return UNREAD
+    except (OSError, ValueError, FailedError) as error:
+        NOTES.say(f"platecontact: {error}")
+        return 1 if isinstance(error, FailedError) else 2
     if status == INTERRUPTED:
-        NOTES.print("platecontact: interrupted; no file is half-written, so simply run it again")
+        NOTES.say("platecontact: interrupted; no file is half-written, so simply run it again")
         return 2
     return int(status or 0)
 

@@ -1,53 +1,57 @@
-"""The main job, stage by stage; a stage's result is kept until its sources change.
-
-1 derive     equilibrium equations -> proven formulas
-2 rewrite    formulas -> stable forms, proved equal
-3 generate   forms -> the NumPy package
-4 misprints  printed formulas against derived ones
-5 check      generated code against both oracles
-6 report     LaTeX, PDF and HTML, in `reporting`
-"""
+"""What is measured of the plate beyond the stages of `derivation.engine.build`, and kept."""
 
 import json
+import keyword
 import os
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 import sympy as sp
 
-from derivation.derived import formulas
-from derivation.emit.standalone import standalone
-from derivation.files import PACKAGE, ROOT, expect_writable, measurements, write_file
-from derivation.formula.parse import parse
-from derivation.measure import bounds, hard_check, speed
-from derivation.measure.accuracy import run as accuracy_run
-from derivation.measure.check import Progress, Row
-from derivation.measure.check import check as measure
-from derivation.measure.contact import KERNELS, LIMIT
-from derivation.measure.contact import Row as ContactRow
-from derivation.measure.contact import check as measure_contact
-from derivation.measure.contact_truth import DIGITS
-from derivation.measure.hard_record import find_references
-from derivation.measure.record import plain, provenance, to_json
-from derivation.measure.search import Search, Tell, search
-from derivation.measure.search_cases import Book, seconds_of
-from derivation.measure.search_targets import targets
-from derivation.produce import expect_recordable, folder_for
-from derivation.reference import many_costs, many_digits
-from derivation.rewrite.account import Account, accounts
-from derivation.rewrite.stabilise import Stable, stabilise
-from derivation.scene.choice import solve
-from derivation.scene.effects import BY_NAME
+from derivation.checks import bounds
+from derivation.engine.bounded import bounded
+from derivation.engine.emit.standalone import standalone
+from derivation.engine.files import PACKAGE, ROOT, expect_writable, measurements, write_file
+from derivation.engine.formula.parse import FUNCTIONS, FormulaError, parse
+from derivation.engine.formula.size import terms_when_expanded
+from derivation.engine.formula.vocabulary import NOTHING
+from derivation.engine.measure.check import Progress, Row
+from derivation.engine.measure.record import plain, provenance, to_json
+from derivation.engine.rewrite.account import Account, accounts
+from derivation.engine.rewrite.stabilise import Stable, stabilise
+from derivation.engine.rewrite.tested import Tested
+from derivation.plate.benchmark import run as accuracy_run
+from derivation.plate.benchmark import speed
+from derivation.plate.contact.cases.check import KERNELS, LIMIT
+from derivation.plate.contact.cases.check import Row as ContactRow
+from derivation.plate.contact.cases.check import check as measure_contact
+from derivation.plate.contact.cases.truth import DIGITS
+from derivation.plate.derived import formulas
+from derivation.plate.forms import AUTOMATIC, SCALES
+from derivation.plate.hard import check as hard_check
+from derivation.plate.hard.record import find_references
+from derivation.plate.impact.oracle import many_costs, many_digits
+from derivation.plate.judge import PACKAGE as GENERATED
+from derivation.plate.judge import check as measure
+from derivation.plate.package_pipeline import expect_recordable, folder_for, recorded_in
+from derivation.plate.search.cases import Book, seconds_of
+from derivation.plate.search.search import Search, Tell, search
+from derivation.plate.search.targets import targets
+from derivation.scene.effects import BY_NAME, EFFECTS, WHOLE_PLATE
 from derivation.scene.impact import gated, simulate
-from derivation.scene.law import WHOLE_PLATE
+from derivation.scene.method_selection import solve
 from derivation.scene.model import NUMBERS, Model, model_of
 from derivation.scene.result import Result
-from derivation.scene.scene import load, read
+from derivation.scene.scene import Scene, SceneError, load, read
 from generated import contact_law, impact
 
 REPORTS = ROOT / "reports"
+MAX_TERMS = 5000
+"""Terms that a formula to rewrite may have when expanded."""
+REWRITE_SECONDS = 30
+"""Processor time [s] that rewriting a formula may take."""
 KEPT_EVERY = 20
 """Truths of random scenes after which they are written."""
 MEASURED = measurements() / "check.json"
@@ -65,14 +69,14 @@ def check(digits: int = 50, record: bool = False, tell: Progress | None = None) 
 
     Raises
     ------
-    derivation.reference.routes.OracleError
+    derivation.engine.oracle.agreement.OracleError
         If the two oracles contradict each other.
     """
     if record:
         expect_recordable(MEASURED)
     rows = measure(digits, progress=tell)
     if record:
-        write_file(MEASURED, to_json(rows, digits))
+        write_file(MEASURED, to_json(rows, digits, GENERATED))
     return rows
 
 
@@ -81,7 +85,7 @@ def check_contact(record: bool = False, tell: Progress | None = None) -> tuple[C
 
     Raises
     ------
-    derivation.reference.routes.OracleError
+    derivation.engine.oracle.agreement.OracleError
         If the two oracles contradict each other.
     """
     if record:
@@ -119,7 +123,7 @@ def contact_table(rows: tuple[ContactRow, ...]) -> tuple[tuple[str, ...], list[t
 def contact_data(rows: tuple[ContactRow, ...]) -> dict[str, Any]:
     """Rows of the contact law as plain data, with what they were measured with."""
     found = plain([asdict(row) for row in rows])
-    return {"provenance": provenance(DIGITS), "limit": LIMIT, "rows": found}
+    return {"provenance": provenance(DIGITS, GENERATED), "limit": LIMIT, "rows": found}
 
 
 def check_hard(record: bool = False, tell: Progress | None = None) -> tuple[hard_check.Row, ...]:
@@ -205,24 +209,45 @@ def accuracy(
     scene: Path | None = None,
     out: Path | None = None,
     tell: Progress | None = None,
-) -> tuple[dict[str, Any], Path]:
-    """Measure what accuracy costs in time, and write it to a file, whole or not at all.
+    record: bool = False,
+) -> tuple[dict[str, Any], Path | None]:
+    """Measure the run time that each accuracy takes, and write it to a file if asked.
+
+    Parameters
+    ----------
+    methods
+        Families to measure; all of them if empty.
+    quick
+        Fewer methods and rounds.
+    scene
+        A scene file instead of the paper's case.
+    out
+        Where to write the result.
+    tell
+        Told about each step.
+    record
+        Whether to replace the project's committed measurement.
 
     Raises
     ------
     ValueError
-        If a method is unknown, or the scene cannot be used.
+        If a method is unknown, the scene cannot be used, or a part is to be recorded.
     OSError
         If the file cannot be written.
     """
+    if record and (methods or scene is not None or out is not None):
+        raise ValueError(
+            "--record replaces the whole committed measurement and cannot be combined with "
+            "--method, --scene or --out; remove --record, or these"
+        )
+    path = recorded_in(MEASURED_ACCURACY, record, out)
     regime = None
     if scene is not None:
         case = model_of(load(scene))
         regime = accuracy_run.scene_regime(**dict(zip(NUMBERS, case.numbers, strict=True)))
-    path = folder_for(None, REPORTS) / "data" / MEASURED_ACCURACY.name if out is None else out
-    expect_writable(path)
     data = accuracy_run.measure(methods, quick, regime, tell)
-    write_file(path, json.dumps(data, indent=1, sort_keys=True, allow_nan=False) + "\n")
+    if path is not None:
+        write_file(path, json.dumps(data, indent=1, sort_keys=True, allow_nan=False) + "\n")
     return data, path
 
 
@@ -230,26 +255,35 @@ def rewriting(record: bool = False, tell: Progress | None = None) -> tuple[Accou
     """What the rules did to each formula, measured without and with every one of them."""
     if record:
         expect_recordable(REWRITTEN)
-    found = accounts(formulas(), tell)
+    found = accounts(formulas(), AUTOMATIC, SCALES, tell)
     if record:
         data = {"rows": plain([asdict(account) for account in found])}
         write_file(REWRITTEN, json.dumps(data, indent=1, sort_keys=True) + "\n")
     return found
 
 
-def rewritten(text: str, variable: str = "x") -> tuple[Stable, str]:
-    """A formula of one's own: its stable form, and that as a NumPy module.
+def rewritten(text: str, variable: str = "x") -> tuple[Stable, str, Tested]:
+    """The stable form of a user's formula, its NumPy module, and what testing that found.
 
     Raises
     ------
     ValueError
-        If the formula cannot be read, or is out of the rules' reach.
+        If the formula cannot be read, no rule reaches it, or it needs too much time or memory.
     """
-    if not variable.isidentifier():
+    if not variable.isidentifier() or keyword.iskeyword(variable) or variable in FUNCTIONS:
         raise ValueError(f"--variable: expected a name like x, got {variable!r}")
     symbol = sp.Symbol(variable, positive=True)
-    stable = stabilise(parse(text, {variable: symbol}), symbol)
-    return stable, standalone(stable)
+
+    def work() -> tuple[Stable, str, Tested]:
+        expression = parse(text, NOTHING, {variable: symbol})
+        if terms_when_expanded(expression) > MAX_TERMS:
+            raise FormulaError(
+                f"the formula has more than {MAX_TERMS} terms when expanded: simplify it"
+            )
+        stable = stabilise(expression, symbol)
+        return stable, *standalone(stable)
+
+    return bounded(work, "rewriting the formula", REWRITE_SECONDS)
 
 
 def search_worse(
@@ -275,28 +309,47 @@ def search_worse(
     return found, book
 
 
-def in_doubles(path: Path) -> Result:
-    """The impact of a scene file in doubles by the law that the oracles know.
+def in_doubles(scene: Scene) -> Result:
+    """The impact of a scene in doubles by the law that the oracles know.
 
-    That is the whole plate's at rest on the paper's edge, under a rigid paraboloid and Hertz's
-    pressure; a warning names what the scene calls for beyond it.
+    That is the whole quasi-static plate's on the paper's edge, under a rigid paraboloid and
+    Hertz's pressure.
 
     Raises
     ------
     derivation.scene.scene.SceneError
-        If the scene cannot be read or leaves the contact law's range.
+        If the scene needs an effect beyond that law or switches off one of it, or leaves the
+        law's range.
     """
-    scene = load(path)
+    switched = scene.effects.model_dump()
     known = {name: name in WHOLE_PLATE for name in BY_NAME if name != "hertz"}
-    found = simulate(read(scene.to_json() | {"effects": known}))
-    if not model_of(scene).density:  # then whether the plate moves cannot be judged
-        at_rest = scene.effects.model_dump() | {"inertia": False}
-        scene = read(scene.to_json() | {"effects": at_rest})
-    called = sorted(gated(scene)[1].law.effects - WHOLE_PLATE - {"hertz"})
-    if not called:
-        return found
-    text = f"the reference leaves out {', '.join(called)}, which the scene calls for; see `explain`"
-    return replace(found, warnings=(*found.warnings, text))
+    missing = sorted(name for name in WHOLE_PLATE if switched[name] is False)
+    needed = _needed(scene)
+    if missing or needed:
+        model = model_of(scene)
+        beyond = (e for e in EFFECTS if e.name in known and e.name not in WHOLE_PLATE)
+        applied = {e.name for e in beyond if not e.absent(model) and switched[e.name] is not False}
+        names = sorted({*missing, *needed, *applied})
+        lines = [f"{name} = {str(known[name]).lower()}" for name in names]
+        parts = [f"needs {', '.join(needed)}"] if needed else []
+        parts += [f"switches off {', '.join(missing)}"] if missing else []
+        raise SceneError(
+            "effects: expected a scene that the paper's contact law describes, as the reference "
+            f"knows no other, got one that {' and '.join(parts)}; run `simulate`, or to get the "
+            f"digits of the paper's law write below [effects] {', '.join(lines)}"
+        )
+    return simulate(read(scene.to_json() | {"effects": known}))
+
+
+def _needed(scene: Scene) -> list[str]:
+    """Effects beyond the paper's law that a scene asks for or the tolerance requires."""
+    wanted = scene.effects.model_dump()
+    if not model_of(scene).density and wanted["inertia"] is not True:
+        # Whether the plate's inertia matters cannot be told then.
+        wanted["inertia"] = False
+        scene = read(scene.to_json() | {"effects": wanted})
+    called = gated(scene)[1].law.effects - WHOLE_PLATE - {"hertz"}
+    return sorted(called | ({"perturbation"} if wanted["perturbation"] else set()))
 
 
 def time_of_reference(known: Result, digits: int) -> str:
@@ -333,7 +386,9 @@ def verdict(rows: tuple[Row, ...]) -> list[str]:
     lines = [f"beyond their budget: {', '.join(failed)}"] if failed else ["all budgets kept"]
     if MEASURED.is_file():
         kept = {(r["kernel"], r["module"]): r for r in json.loads(MEASURED.read_text())["rows"]}
-        fresh = {(r["kernel"], r["module"]): r for r in json.loads(to_json(rows, 50))["rows"]}
+        fresh = {
+            (r["kernel"], r["module"]): r for r in json.loads(to_json(rows, 50, GENERATED))["rows"]
+        }
         moved = sorted({n for n, m in fresh if fresh[n, m] != kept.get((n, m))})
         if moved:
             lines.append(f"not as committed in {MEASURED.name}: {', '.join(moved)}")

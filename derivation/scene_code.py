@@ -5,10 +5,12 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from derivation.emit.source import filled, format_files
-from derivation.files import write_file
+from derivation.engine.emit.source import filled, format_files
+from derivation.engine.files import PACKAGE, write_file
 from derivation.scene.code import errors, recipe
 from derivation.scene.scene import Scene, SceneError
+
+TEMPLATES = PACKAGE / "scene" / "templates"
 
 
 def scene_code(scene: Scene) -> str:
@@ -28,7 +30,9 @@ def scene_code(scene: Scene) -> str:
     made = recipe(scene)
     context = made.context | {"version": version("platecontact")}
     found = {name: _above(error) for name, error in errors(made, _run(context)).items()}
-    return format_files({"scene.py": filled("scene", context | {"errors": found})})["scene.py"]
+    return format_files({"scene.py": filled("scene", context | {"errors": found}, TEMPLATES)})[
+        "scene.py"
+    ]
 
 
 def write_scene_code(scene: Scene, out: Path) -> None:
@@ -50,7 +54,10 @@ def _run(context: dict[str, Any]) -> dict[str, Any]:
     """The names that the code defines, its errors not known yet."""
     unknown = dict.fromkeys(("force", "stiffness", "contact_radius", "impact"), "")
     names: dict[str, Any] = {"__name__": "scene"}
-    exec(compile(filled("scene", context | {"errors": unknown}), "scene.py", "exec"), names)
+    exec(
+        compile(filled("scene", context | {"errors": unknown}, TEMPLATES), "scene.py", "exec"),
+        names,
+    )
     return names
 
 

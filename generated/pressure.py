@@ -36,7 +36,8 @@ def p(r: ArrayLike, a: ArrayLike, P: ArrayLike) -> np.ndarray:
     -----
     Error budget: 1.5 units in the last place of the value, plus half the sum of the
     condition numbers of the arguments.
-    Domain: r >= 0, a > 0, P > 0, r <= a; wherever the value is representable.
+    Domain: r >= 0, a > 0, P > 0, r <= a. The budget holds wherever the value is a
+    normal number; smaller ones are rounded to a subnormal number or to zero.
     """
     kind, [r, a, P] = as_doubles(r, a, P)
     [r, a, P] = inside([r, a, P], r >= 0, a > 0, P > 0, r <= a)
@@ -74,8 +75,9 @@ def P(R: ArrayLike, a: ArrayLike, lam: ArrayLike, mu: ArrayLike) -> np.ndarray:
     -----
     Error budget: 1 units in the last place of the value, plus half the sum of the
     condition numbers of the arguments.
-    Domain: R > 0, a > 0, a < R, 3 * lam > -2 * mu, mu > 0; wherever the value is
-    representable.
+    Domain: R > 0, a > 0, a < R, 3 * lam > -2 * mu, mu > 0. The budget holds wherever
+    the value is a normal number; smaller ones are rounded to a subnormal number or to
+    zero.
     """
     kind, [R, a, lam, mu] = as_doubles(R, a, lam, mu)
     [R, a, lam, mu] = inside([R, a, lam, mu], R > 0, a > 0, a < R, 3 * lam > -2 * mu, mu > 0)
@@ -107,7 +109,8 @@ def sonine(phi: ArrayLike, a: ArrayLike) -> np.ndarray:
     -----
     Error budget: 2 units in the last place of the value, plus half the sum of the
     condition numbers of the arguments.
-    Domain: phi > 0, a > 0; wherever the value is representable.
+    Domain: phi > 0, a > 0. The budget holds wherever the value is a normal number;
+    smaller ones are rounded to a subnormal number or to zero.
     """
     kind, [phi, a] = as_doubles(phi, a)
     [phi, a] = inside([phi, a], phi > 0, a > 0)
@@ -160,7 +163,8 @@ def A_j(
     Error budget: 1 units in the last place of the value, plus half the sum of the
     condition numbers of the arguments.
     Domain: phi > 0, b > 0, R > 0, a > 0, a < b, a < R, 3 * lam > -2 * mu, mu > 0, J1 !=
-    0; wherever the value is representable.
+    0. The budget holds wherever the value is a normal number; smaller ones are rounded
+    to a subnormal number or to zero.
     """
     kind, [phi, b, R, a, lam, mu, J1] = as_doubles(phi, b, R, a, lam, mu, J1)
     [phi, b, R, a, lam, mu, J1] = inside(

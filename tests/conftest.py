@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
-from derivation import derived
-from derivation.formula.record import Formula
+from derivation.plate import derived
+from derivation.plate.vocabulary import Formula
 
 if TYPE_CHECKING:  # they load the generated package, without which its own tests have to run
-    from derivation.measure.hard import Case
-    from derivation.measure.hard_truth import Known
+    from derivation.plate.hard.case import Case
+    from derivation.plate.hard.truth import Known
 
 
 @pytest.fixture(scope="session")
@@ -39,7 +39,7 @@ def silent(no_warning: None) -> Iterator[None]:  # noqa: ARG001
 @pytest.fixture(scope="session")
 def cases() -> "tuple[Case, ...]":
     """The hard cases."""
-    from derivation.measure import hard_check
+    from derivation.plate.hard import check as hard_check
 
     return hard_check.cases()
 
@@ -48,6 +48,6 @@ def cases() -> "tuple[Case, ...]":
 def truth(cases: "tuple[Case, ...]") -> "dict[str, Known]":
     """Their references, as recorded."""
     from derivation import pipeline
-    from derivation.measure import hard_check
+    from derivation.plate.hard import check as hard_check
 
     return hard_check.committed(json.loads(pipeline.MEASURED_HARD.read_text()), cases)

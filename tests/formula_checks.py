@@ -14,14 +14,16 @@ import numpy as np
 import scipy.special
 import sympy as sp
 
-from derivation import derived
-from derivation.formula.proof import decide_zero
-from derivation.formula.record import Formula
-from derivation.formula.symbols import A_j, c_A, kappa
-from derivation.reference import contact_balls, edge_routes, inertia_routes, routes
-from derivation.theory.face_conditions import tractions
-from derivation.theory.impact import orders
-from derivation.theory.mode_shapes import CONSTANTS, substitute
+from derivation.engine.formula.proof import decide_zero
+from derivation.plate import derived
+from derivation.plate.contact.oracle import balls as contact_balls
+from derivation.plate.edge.route import supported as edge_routes
+from derivation.plate.impact.theory.impact import orders
+from derivation.plate.modes.route import routes
+from derivation.plate.modes.theory.face_conditions import tractions
+from derivation.plate.modes.theory.mode_shapes import CONSTANTS, substitute
+from derivation.plate.vocabulary import A_j, Formula, c_A, kappa
+from derivation.plate.waves import route as inertia_routes
 
 Numbers = Mapping[str, mp.mpf]
 Check = Callable[[sp.Expr], bool]

@@ -7,25 +7,24 @@ from fractions import Fraction
 
 import flint
 
-from derivation.measure import hard_check
-from derivation.measure.grids import seams
-from derivation.reference import contact_balls, contact_impact
-from derivation.reference.printed_motion_balls import last_share
-from derivation.reference.zeros import j0_zero
-from derivation.rewrite import (
-    bessel_tables,
-    contact_tables,
-    edge_tables,
-    effect_tables,
-    far_face_tables,
-    moment_tables,
-    pressure_tables,
-    simple_impact_tables,
-)
-from derivation.rewrite.automatic import FADES
-from derivation.rewrite.blocks import blocks
-from derivation.rewrite.form import FAR, ONCE
-from derivation.rewrite.mode_forms import mode_forms
+from derivation.engine.rewrite.automatic import FADES
+from derivation.engine.rewrite.form import FAR, ONCE
+from derivation.mathematics.bessel import kernels as bessel_tables
+from derivation.mathematics.bessel.oracle import j0_zero
+from derivation.plate.back_face import kernels as far_face_tables
+from derivation.plate.blocks import blocks
+from derivation.plate.contact.kernels import moments as moment_tables
+from derivation.plate.contact.kernels import tables as contact_tables
+from derivation.plate.contact.oracle import balls as contact_balls
+from derivation.plate.edge import kernels as edge_tables
+from derivation.plate.effects import kernels as effect_tables
+from derivation.plate.grids import seams
+from derivation.plate.hard import check as hard_check
+from derivation.plate.impact.kernels import simple as simple_impact_tables
+from derivation.plate.impact.oracle import impact as contact_impact
+from derivation.plate.impact.oracle.printed_motion import last_share
+from derivation.plate.modes.kernels.forms import mode_forms
+from derivation.plate.pressure import kernels as pressure_tables
 from generated import contact_series, true_pressure
 
 Point = Mapping[str, Fraction]
@@ -51,7 +50,8 @@ class Seam:
     places: Callable[[], Iterable[Place]]
 
 
-EDGES = ("supported_edge", "clamped_edge", "supported_edge_slope", "clamped_edge_slope")
+EDGE_SUMS = ("supported_edge", "supported_edge_slope")
+EDGES = (*EDGE_SUMS, "clamped_edge", "clamped_edge_slope")
 BOUNDS = ("supported_edge_bound", "clamped_edge_bound")
 FAR_EDGES = ("supported_far_stress", "clamped_far_stress")
 FAR_FACE = ("far_stress", *FAR_EDGES)
@@ -208,15 +208,15 @@ SEAMS: dict[str, Seam] = {
     "reach of an impact": Seam(("impact", "impact_sensitivities"), lambda p: p["v0"], speeds),
     "times of an impact": Seam(("history",), lambda p: p["t"], times),
     "thin edge": Seam(
-        (*EDGES, *FAR_EDGES), lambda p: (p["b"] - p["a"]) / p["h"],
+        (*EDGE_SUMS, *FAR_EDGES[:1]), lambda p: (p["b"] - p["a"]) / p["h"],
         lambda: [Fraction(int(edge_tables.THIN.p), int(edge_tables.THIN.q))],
     ),
-    "T of the edge": Seam(EDGES, ratio("h", "b"), of_mode(edge_tables.SEAM)),
+    "T of the edge": Seam(EDGE_SUMS, ratio("h", "b"), of_mode(edge_tables.SEAM)),
     "y of the edge": Seam(
-        (*EDGES[:2], *FAR_FACE), ratio("a", "b"), lambda: [y_of(1), y_of(2)]
+        (*EDGE_SUMS[:1], *FAR_FACE), ratio("a", "b"), lambda: [y_of(1), y_of(2)]
     ),
     "modes of the edge": Seam(
-        EDGES[1:3], ratio("h", "b"), last_modes(edge_tables.FADED, 1, 10)
+        EDGE_SUMS[1:], ratio("h", "b"), last_modes(edge_tables.FADED, 1, 10)
     ),
     "lam = mu": Seam((*EDGES, *BOUNDS, *FAR_EDGES, "mode_g"), ratio("lam", "mu"), lambda: [1]),
     "thin far face": Seam(FAR_FACE, ratio("h", "b"), lambda: [float(far_face_tables.THIN)]),

@@ -1,6 +1,7 @@
 """House rules: layers, length and first lines of modules, nothing heavy at the door."""
 
 import ast
+import re
 import subprocess
 import sys
 import tomllib
@@ -9,7 +10,7 @@ from pathlib import Path
 import pytest
 from importlinter.cli import lint_imports
 
-from derivation.files import ROOT
+from derivation.engine.files import ROOT
 
 HAND_WRITTEN = sorted(
     path for room in ("derivation", "tests") for path in (ROOT / room).rglob("*.py")
@@ -50,4 +51,21 @@ def test_every_package_is_installed() -> None:
         for room in ("derivation", "generated")
         for path in (ROOT / room).rglob("__init__.py")
     }
-    assert listed == found | {"derivation.data"}
+    # The public API is installed under the distribution's name.
+    assert listed == found - {"derivation.api"} | {"derivation.data", "platecontact"}
+
+
+def test_every_package_that_is_imported_is_installed_along() -> None:
+    """Tools that are compared with, in `plate/benchmark`, are used where they are found."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    names = {re.split(r"[<>=!]", text)[0].lower() for text in project["dependencies"]}
+    given = names | sys.stdlib_module_names | {"derivation", "generated", "flint", "pydantic_core"}
+    assert {"python-flint", "pydantic"} <= names
+    for path in (ROOT / "derivation").rglob("*.py"):
+        if "benchmark" in path.parts:
+            continue
+        for node in ast.walk(ast.parse(path.read_text())):
+            found = [a.name for a in node.names] if isinstance(node, ast.Import) else []
+            if isinstance(node, ast.ImportFrom) and not node.level:
+                found = [node.module or ""]
+            assert {name.partition(".")[0] for name in found} <= given, path

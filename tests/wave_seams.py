@@ -8,12 +8,14 @@ from typing import Any
 from mpmath import mp, mpf
 from seams import Place, Point, Seam
 
-from derivation.rewrite import (
-    bessel_tables,
-    held_tables,
-)
-from derivation.rewrite.blocks import blocks
-from generated import inertia, plate_waves
+from derivation.mathematics.bessel import kernels as bessel_tables
+from derivation.plate.blocks import blocks
+from derivation.plate.edge_modes import cases as hard_held_families
+from derivation.plate.edge_modes.kernels import tables as held_tables
+from derivation.plate.edge_modes.oracle import modes as held_balls
+from derivation.plate.edge_modes.oracle import waves as held_wave_balls
+from derivation.plate.hard import check as hard_check
+from generated import held_waves, inertia, plate_waves
 from generated.plate_waves import branches
 
 LOWEST = ("bending_frequency", "bending_residue", "bending_share")
@@ -113,12 +115,48 @@ S0_CLOSE: dict[float, Condition] = {
 }
 
 
+def partner_at_infinity(edge: held_balls.Edge) -> Callable[[], Iterable[Place]]:
+    """h/b of the hard case at which k2 of a mode passes the switch of I0, as the oracle says."""
+
+    def places() -> Iterable[Place]:
+        group = hard_held_families.SEAMS
+        (case,) = (
+            c for c in hard_check.cases() if c.group == group and c.kernel == f"{edge}_waves"
+        )
+        place, nu = case.numbers["eta"][2], case.numbers["nu"][0]
+        n = int(case.numbers["count"][0])
+        for side, below in ((2.0, True), (-2.0, False)):
+            k2 = held_wave_balls.wave(edge, n, place + side * math.ulp(place), nu, 25).k2
+            assert bool(k2 < held_waves._START) is below
+        return [place]
+
+    return places
+
+
+def on_face(p: Point) -> Fraction:
+    """The distance from the axis, or the punch's radius."""
+    return p["r"] if "r" in p else p["a"]
+
+
+FACE = ("wave_shape", "wave_share")
 WAVE_SEAMS: dict[str, Seam] = {
     "modes at infinity": Seam(
         ("clamped_modes", "supported_modes"), lambda p: p["count"],
         lambda: [held_tables.modes_before(bessel_tables.asymptotic_start()) + 1],
     ),
     "part of the first mode": Seam(("supported_modes",), lambda p: p["nu"], half_part),
+    "clamped partner at infinity": Seam(
+        ("clamped_waves",), lambda p: p["eta"], partner_at_infinity("clamped")
+    ),
+    "supported partner at infinity": Seam(
+        ("supported_waves",), lambda p: p["eta"], partner_at_infinity("supported")
+    ),
+    "small k on the face": Seam(
+        FACE, lambda p: p["k"] * on_face(p), lambda: [held_waves._SMALL]
+    ),
+    "small k2 on the face": Seam(
+        FACE, lambda p: p["k2"] * on_face(p), lambda: [held_waves._SMALL]
+    ),
     "x of the lowest branch": Seam(LOWEST, lambda p: p["x"], lambda: [inertia._SHALLOW]),
     "x of its share": Seam(LOWEST[2:], lambda p: p["x"], lambda: [inertia._SMALL]),
     "T of its share": Seam(

@@ -1,25 +1,29 @@
-"""From a scene file to the course of an impact, in numbers alone: SymPy is never loaded.
+"""From a scene file to the time history of an impact, in numbers alone: SymPy is never loaded.
 
 Read in this order:
 
 1. `scene`: reads and validates the scene file.
 2. `model`: turns the scene into the numbers the kernels take.
-3. `effects`: one file each; `law` adds up those that are in.
-4. `gate`: which effects the scene calls for, by bounds of what leaving them out changes
-   (`left_out`); `explanation` shows it.
+3. `effects`: one file each, which answers every question about the effect; `law` asks those that
+   are included, and no other file knows an effect by its name.
+4. `effect_selection`: which effects are included, by bounds on the change of the results if they
+   are omitted (`omission_bounds`); `explanation` shows it.
 5. `limits`: refuses what lies outside the contact law, warns where it grows inexact.
-6. `choice`: the cheapest method whose error bound meets a tolerance; `motion` is the one
-   that takes any law, `viscous` by `collocation` the one that also takes a contact that lags
-   (`viscous_law`), `waves` the one for a plate that moves: of its oscillators (`modal`) an
-   element of time (`dynamics`), contacts one after the other (`bounces`), and their course
+6. `method_selection`: the fastest method whose error bound meets a tolerance. `motion` takes any
+   law on a quasi-static plate, `viscous` by `collocation` also a viscoelastic contact
+   (`viscous_law`), and `waves` a plate with inertia: with its modes (`modal`) a time element
+   (`time_element`), contacts one after the other (`contact_sequence`), and their time history
    (`wave_motion`).
-7. `impact`, `indentation`: simulate an impact, press the sphere in by a given amount.
+7. `impact`, `indentation`: simulate an impact, compute a static contact.
 8. `sweep`: one simulation per value of a key.
-9. `result`: what comes out, as JSON, CSV and a notebook table; `plot` draws it, `comparison`
-   sets the paper's own motion beside it.
+9. `result`: the results as JSON, CSV and a notebook table; `plot` draws them, `comparison`
+   compares the paper's motion with them.
 10. `code`: what a module with the law and the impact of one scene is made of.
 
-`kernels` is the only door to the generated package; `commands` is the command line.
+What cannot be computed raises a `SceneError`; no function returns None or NaN instead. A value that
+is NaN is data: the restitution of an incomplete impact, a point of an array out of range.
+
+`kernels` imports the generated package; the commands are in `derivation.commands`.
 
     >>> from derivation.scene import load, simulate, indent
     >>> result = simulate(load("scene.toml"))

@@ -5,11 +5,11 @@ from pathlib import Path
 
 import numpy as np
 
-from derivation.scene.dynamics import Z
 from derivation.scene.effects.effect import Array
 from derivation.scene.plot import BLUE, BROWN, frame, scaled
 from derivation.scene.result import Result
 from derivation.scene.scene import SceneError
+from derivation.scene.time_element import Z
 
 SUFFIXES = ".gif", ".html"
 FRAMES, POINTS, PER_SECOND = 120, 201, 20
@@ -33,7 +33,7 @@ def render(result: Result, suffix: str) -> bytes:
     from matplotlib.animation import FuncAnimation, PillowWriter
     from matplotlib.figure import Figure
 
-    if result.moving is None or result.model.inertia.infinite_plate:
+    if result.moving is None:
         raise SceneError(
             "--animate: expected a plate with modes that move, but this scene has none; "
             "leave it out, or set effects.inertia = true"

@@ -19,21 +19,19 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.polynomial.chebyshev import cheb2poly, chebfit
 
-from derivation.scene import choice
+from derivation.scene import method_selection
 from derivation.scene.edge_remainder import edge_remainder
+from derivation.scene.effect_selection import Gate
 from derivation.scene.effects import BY_NAME
-from derivation.scene.effects.effect import Array, PlateEffect
-from derivation.scene.gate import Gate
+from derivation.scene.effects.effect import Array
 from derivation.scene.impact import gated, simulate
-from derivation.scene.law import Law
+from derivation.scene.law import ContactLaw
 from derivation.scene.limits import last_radius
 from derivation.scene.motion import Motion
 from derivation.scene.quadrature import NODES
 from derivation.scene.scene import Scene, SceneError
 from derivation.scene.viscous_law import bending_of
 
-HALF_SPACE = frozenset({"hertz", "sphere_elasticity", "gravity", "viscosity"})
-"""Effects that leave Hertz's law its form."""
 COEFFICIENTS = 16
 """Of a panel's polynomial."""
 SETTLED, NARROWEST = 5e-14, 1e-3
@@ -51,7 +49,7 @@ WIDTH = 94
 _HALVINGS = 50
 
 
-class Table(NamedTuple):
+class PanelTable(NamedTuple):
     """Coefficients on panels, a row each, of s from -1 to 1, the constant first.
 
     `ends` are the contact radii [m] where panels begin and end; `growth` is F, `force` is p, or
@@ -66,7 +64,7 @@ class Table(NamedTuple):
 class Recipe(NamedTuple):
     """The law of a scene, its impact, and what the template of its code takes."""
 
-    law: Law
+    law: ContactLaw
     motion: Motion
     context: dict[str, Any]
 
@@ -82,14 +80,13 @@ def recipe(scene: Scene) -> Recipe:
     _check_at_rest(scene)
     result = simulate(scene)
     gate, law = result.gate, result.gate.law
-    motion = choice.moved(law)
-    assert motion is not None
-    model, effects = law.model, law.effects
+    motion = method_selection.moved(law)
+    model = law.model
     compliance = _compliance(law, motion.max_contact_radius)
     end = end_of(law, motion.max_contact_radius)
     kind = _kind(law)
     notes = (*result.warnings, *([result.model_note] if result.model_note else []))
-    last, viscous = np.array([end]), "viscosity" in effects
+    last = np.array([end])
     context = {
         "kind": kind,
         "R": model.R,
@@ -101,14 +98,14 @@ def recipe(scene: Scene) -> Recipe:
         "mass": model.m,
         "speed": model.v0,
         "gravity": law.gravity,
-        "viscous_time": model.viscous_time if viscous else 0.0,
+        "viscous_time": model.viscous_time if law.viscous else 0.0,
         "compliance": compliance,
         "with_impact": not compliance or _slowness(law, motion, compliance) > STIFFEST,
         "largest_radius": motion.max_contact_radius,
         "rise": motion.max_indentation / model.v0,
-        "quadrature": not viscous and (bool(law.gravity) or not effects <= HALF_SPACE),
+        "quadrature": not law.viscous and (bool(law.gravity) or not law.hertzian),
         "hertz_time": 0.8 * math.sqrt(math.pi) * math.gamma(0.4) / math.gamma(0.9),
-        "nodes": NODES[1] if "curvature" not in effects else NODES[2],
+        "nodes": NODES[2] if law.spherical else NODES[1],
         **_words(scene, gate, motion.max_indentation, notes),
     }
     return Recipe(law, motion, context)
@@ -122,61 +119,61 @@ def _check_at_rest(scene: Scene) -> None:
     SceneError
         If the scene calls for inertia.
     """
-    if "inertia" in gated(scene)[1].law.effects:
+    if gated(scene)[1].law.dynamic:
         raise SceneError(
             "effects.inertia: expected false for the code of a scene, whose plate follows at rest, "
             "got a plate that moves; write effects.inertia = false"
         )
 
 
-def _kind(law: Law) -> str:
+def _kind(law: ContactLaw) -> str:
     """What the law's formula is: Hertz's, with bending added, or polynomials."""
-    more = law.effects - HALF_SPACE
-    return "table" if more - {"bending"} else "bent" if more else "hertz"
+    if law.hertzian:
+        return "hertz"
+    return "bent" if all(e.hertzian or e.bends for e in law.chosen) else "table"
 
 
-def _bend(law: Law) -> float:
-    """Bending's share of the indentation over Hertz's, over the contact radius [1/m]."""
-    bending, h = BY_NAME["bending"], law.model.h
-    assert isinstance(bending, PlateEffect)
-    return float(bending.share(law.model, np.array([h])).depth[0]) / (1.0 + law.softness) / h
+def _bend(law: ContactLaw) -> float:
+    """Deflection over Hertz's indentation, over the contact radius [1/m], of bending alone."""
+    h = law.model.h
+    return float(law.deflection(np.array([h])).depth[0]) / (1.0 + law.softness) / h
 
 
-def _compliance(law: Law, a: float) -> float:
-    """Deflection over force [m/N] of what does not lag in a viscous contact, 0 for none.
+def _compliance(law: ContactLaw, a: float) -> float:
+    """Deflection over force [m/N] of what is elastic in a viscous contact, 0 for none.
 
     Raises
     ------
     SceneError
         If it is not proportional to the force.
     """
-    if "viscosity" not in law.effects:
+    if not law.viscous:
         return 0.0
     bent = bending_of(law, a)
-    if "edge" in bent.law.effects:
+    if bent.law.other_edge:
         raise SceneError(
-            "plate.edge: expected a soft hinge for the code of a viscous scene with bending, as "
-            f"the deflection on a {law.model.edge} edge, which does not lag, is not proportional "
-            "to the force; write effects.edge = false, or leave out plate.viscous_time"
+            "plate.edge: expected the paper's edge for the code of a viscous scene with bending, "
+            f"as the deflection on a {law.model.edge} edge, which is elastic, is not "
+            "proportional to the force; write effects.edge = false, or leave out plate.viscous_time"
         )
     return float(bent.at(law.force(np.array([a]), law.at(np.array([a]))))[1][0])
 
 
-def _slowness(law: Law, motion: Motion, compliance: float) -> float:
+def _slowness(law: ContactLaw, motion: Motion, compliance: float) -> float:
     """Time scale of a viscous contact's inner state over the contact time [1]."""
     a = np.array([motion.max_contact_radius])
     slack = law.model.viscous_time * compliance * float(law.stiffness(a, law.at(a))[0])
     return slack / motion.contact_time
 
 
-def end_of(law: Law, a: float) -> float:
+def end_of(law: ContactLaw, a: float) -> float:
     """Contact radius [m] at which the code's range ends, from one in an impact's on.
 
     That of the law's limit, or before it where a held edge's model is not known to be right, or
     says that the plate gives way towards the sphere.
     """
     last = last_radius(law)
-    if "edge" not in law.effects:
+    if not law.other_edge:
         return last
 
     def sound(a: float) -> bool:
@@ -193,7 +190,7 @@ def end_of(law: Law, a: float) -> float:
     return last if sound(last) else low
 
 
-def tabulated(law: Law, last: float) -> Table:
+def tabulated(law: ContactLaw, last: float) -> PanelTable:
     """Polynomials of the law on panels up to a contact radius [m]."""
     nodes = -np.cos(np.pi * (np.arange(COEFFICIENTS) + 0.5) / COEFFICIENTS)
     ends, rows, todo = [0.0], [], [(0.0, last)]
@@ -212,11 +209,10 @@ def tabulated(law: Law, last: float) -> Table:
         ends.append(high)
         rows.append(np.array([cheb2poly(column) for column in found.T]))
     growth, force = np.stack(rows, axis=1)
-    parabolic = not law.effects & {"curvature", "pressure"}
-    return Table(np.array(ends), growth, None if parabolic else force)
+    return PanelTable(np.array(ends), growth, force if law.spherical or law.solved else None)
 
 
-def _shown(table: Table) -> dict[str, Any]:
+def _shown(table: PanelTable) -> dict[str, Any]:
     """Numbers as lines of Python."""
     many = len(table.growth) > 1
 
@@ -245,7 +241,7 @@ def _words(scene: Scene, gate: Gate, deepest: float, notes: tuple[str, ...]) -> 
     rows = [
         f"{row.name}: {BY_NAME[row.name].equation}; {row.number} = {row.value:.3g}, {row.why}"
         for row in gate.rows
-        if row.included and BY_NAME[row.name].by_itself  # what stands beside the law is not in it
+        if row.included and BY_NAME[row.name].by_itself  # what is only compared is not in the law
     ]
     out = [
         f"{row.name}: " + (row.why if math.isnan(row.value) else f"{_bound(row.bound)}; {row.why}")

@@ -1,8 +1,8 @@
 """What the edge's model leaves out: measured against a three-dimensional elastic plate.
 
-The table holds the share of the indentation by h/b, Poisson's ratio and a/b. Between its
-points the largest of the neighbours counts; it is a model error, and stands beside the bound
-of the computation, never in it.
+The table holds the share of the indentation by h/b, Poisson's ratio and a/b, and by how much
+coarser elements change it, which is added. Between its points the largest of the neighbours
+counts; it is a model error, and stands beside the bound of the computation, never in it.
 """
 
 import json
@@ -10,7 +10,7 @@ from functools import cache
 from itertools import product
 from typing import Any
 
-from derivation.files import measurements
+from derivation.engine.files import measurements
 from derivation.scene.effects.edge import SUPPORTED
 from derivation.scene.model import Model
 from derivation.scene.scene import SceneError
@@ -18,13 +18,14 @@ from derivation.scene.scene import SceneError
 LARGEST = 0.01
 """Share of the indentation above which the model is refused."""
 _KEYS = ("h_over_b", "nu", "a_over_b")
+_PARTS = ("share_of_indentation", "lower_degree", "fewer_layers")
 
 
 @cache
 def _table() -> dict[tuple[Any, ...], float]:
     rows = json.loads((measurements() / "edge_remainder.json").read_text())["rows"]
     return {
-        (row["support"], *(row[key] for key in _KEYS)): abs(row["share_of_indentation"])
+        (row["support"], *(row[key] for key in _KEYS)): sum(abs(row[part]) for part in _PARTS)
         for row in rows
     }
 

@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from derivation.scene.effects import EFFECTS
-from derivation.scene.effects.effect import Effect
-from derivation.scene.gate import HEADS, Gate
+from derivation.scene.effect_selection import HEADS, Gate
+from derivation.scene.effects import BY_NAME, EFFECTS
+from derivation.scene.effects.effect import NO_BOUND, Effect
 from derivation.scene.impact import gated
-from derivation.scene.law import Law
+from derivation.scene.law import ContactLaw
 from derivation.scene.limits import ZENER_LIMIT, zener_number
 from derivation.scene.quadrature import NODES, rule
 from derivation.scene.scene import OUTPUTS, Scene
@@ -47,15 +47,21 @@ class Explanation:
     def __str__(self) -> str:
         """The decision in a sentence."""
         effects = ", ".join(row.name for row in self.gate.rows if row.included)
-        of = "no result"
+        of = "each result"
         if self.gate.outputs != OUTPUTS:
-            of = "none of " + ", ".join(name.replace("_", " ") for name in self.gate.outputs)
-        forced = ", ".join(self.gate.forced_out)
-        priced = f"; the scene leaves out {forced}, at the price in the table" if forced else ""
-        return (
-            f"included: {effects}; all that the gate leaves out changes {of} by more than "
-            f"{self.gate.error:.1e} (tolerance {self.gate.rtol:.3g}){priced}"
+            of = "each of " + ", ".join(name.replace("_", " ") for name in self.gate.outputs)
+        omitted = any(row.bound and not (row.included or row.disabled) for row in self.gate.rows)
+        said = (
+            f"The omitted effects change {of} by at most {self.gate.error:.1e} "
+            f"(tolerance {self.gate.rtol:.3g})."
+            if omitted
+            else "No applicable effect was omitted automatically."
         )
+        disabled = ", ".join(
+            f"{row.name} ({_change(row.bound)})" for row in self.gate.rows if row.disabled
+        )
+        more = f" The scene disables {disabled}." if disabled else ""
+        return f"Included effects: {effects}. {said}{more}"
 
     def to_json(self) -> dict[str, Any]:
         """Decision and table under fixed keys; costs differ from run to run."""
@@ -71,6 +77,11 @@ class Explanation:
     def _repr_html_(self) -> str:
         """The table for a notebook."""
         return f"<p>{escape(str(self))}</p>{self.gate.to_html()}"
+
+
+def _change(bound: float) -> str:
+    """What disabling an effect changes at most."""
+    return f"changes the results by at most {bound:.1e}" if bound < NO_BOUND else "no bound"
 
 
 COLUMNS = (*HEADS, "term takes")
@@ -95,29 +106,26 @@ def explain(scene: Scene, rtol: float | None = None) -> Explanation:
         If the tolerance is not between 1e-13 and 1.
     """
     _, gate = gated(scene, rtol)
-    costs = {
-        effect.name: _cost(gate.law, effect)
-        for effect in EFFECTS
-        if effect.name in gate.law.effects
-    }
+    law = gate.law
+    costs = {effect.name: _cost(law, effect) for effect in EFFECTS if effect in law.chosen}
     return Explanation(gate, costs, (_inertia(gate),))
 
 
-def _cost(law: Law, effect: Effect) -> float:
+def _cost(law: ContactLaw, effect: Effect) -> float:
     """Time [s] that a law with this effect alone takes at an impact's nodes.
 
-    Of inertia what its oscillators and tables take.
+    Of plate inertia that of its modes and tables.
     """
     a = rule(NODES[0]).x * min(law.limit, law.model.h)
-    alone = Law(law.model, frozenset({"hertz", effect.name}))
+    alone = law.only(lambda e: e.forced or e == effect)
     best = math.inf
     with np.errstate(all="ignore"):
         for _ in range(REPEATS):
             start = time.perf_counter()
-            if effect.name == "inertia":
-                from derivation.scene import waves
+            if effect.dynamic:
+                from derivation.scene import mode_count, waves
 
-                waves.problem_of(law, 2 * waves.count_of(law))
+                waves.problem_of(law, 2 * mode_count.count_of(law))
             else:
                 alone.at(a)
             best = min(best, time.perf_counter() - start)
@@ -129,20 +137,21 @@ def _cost(law: Law, effect: Effect) -> float:
 def _inertia(gate: Gate) -> str:
     """What can be said of the plate's inertia before the impact is computed."""
     law, model = gate.law, gate.law.model
-    if "inertia" in law.effects:
-        plate = "an endless plate"
-        if not model.inertia.infinite_plate:
-            from derivation.scene.waves import count_of
+    if law.dynamic:
+        from derivation.scene.mode_count import count_of
 
-            plate = f"{2 * count_of(law)} bending modes to begin with"
-        return f"the plate moves: Zener's number lambda = {zener_number(model):.3g}; {plate}"
+        plate = f"{2 * count_of(law)} bending modes to begin with"
+        if model.inertia.infinite_plate:
+            plate += ", on a plate too large for a wave to return from its edge"
+        number = f"Zener's number lambda = {zener_number(model):.3g}"
+        return f"The plate's inertia is included: {number}; {plate}."
     if not model.density:
-        [row] = [row for row in gate.rows if row.name == "inertia"]
+        [row] = [row for row in gate.rows if BY_NAME[row.name].dynamic]
         if row.bound and row.name not in gate.forced_out:
-            return "the plate's inertia is left out by its bound, whatever the plate's density"
-        return "the plate's inertia is not judged: no plate.density or material of known density"
+            return "The plate's inertia is omitted by its bound, whatever the plate's density."
+        return "The plate's inertia is not judged: no plate.density or material of known density."
     return (
-        f"the plate's inertia is left out: Zener's number lambda = {zener_number(model):.3g} "
+        f"The plate's inertia is omitted: Zener's number lambda = {zener_number(model):.3g} "
         f"(small: below {ZENER_LIMIT}); simulate also compares the contact time with the first "
-        "bending period"
+        "bending period."
     )

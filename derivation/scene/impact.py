@@ -1,24 +1,28 @@
 """Simulates an impact: from the scene to contact time, indentation, force and their history."""
 
 from collections.abc import Iterable
-from dataclasses import replace
+from typing import TYPE_CHECKING
 
-from derivation.scene.choice import check_rtol, solve_gated
 from derivation.scene.edge_remainder import edge_remainder
-from derivation.scene.gate import Gate, decide
+from derivation.scene.effect_selection import Gate, decide
 from derivation.scene.limits import (
-    check_numbers,
     check_radius,
     contact_warnings,
     local_indentation,
     motion_warnings,
+    neglects_inertia,
     pressure_warnings,
     tension_warnings,
     warnings_at,
 )
+from derivation.scene.method_selection import check_rtol, moving, solve_gated
 from derivation.scene.model import model_of
+from derivation.scene.model_error import inertia_error
 from derivation.scene.result import Result
 from derivation.scene.scene import OUTPUTS, TIGHTEST, Scene
+
+if TYPE_CHECKING:
+    from derivation.scene.wave_motion import WaveMotion
 
 DEFAULT = 1e-3
 """What effects may change if they are to be left out and no tolerance is given [1]."""
@@ -57,26 +61,46 @@ def simulate(
     rtol, gate = gated(scene, rtol)
     numbers, accuracy = solve_gated(gate, rtol)
     contact_time, delta, force, a, _ = numbers
-    model = gate.law.model
-    check_radius(gate.law, a, "impact.speed", "lower the speed")
-    check_numbers(model, *numbers)
-    pressure = gate.law.max_pressure(a)
-    model_error = edge_remainder(model, a) if "edge" in gate.law.effects else 0.0
-    deflection = 1.0 - local_indentation(model, a, gate.law.effects) / delta
+    law, model = gate.law, gate.law.model
+    check_radius(law, a, "impact.speed", "lower the speed")
+    motion = moving(gate, rtol) if law.dynamic else None
+    pressure = law.max_pressure(a)
+    model_error = _model_error(gate, a, motion)
+    share = 1.0 - float(local_indentation(law, a)) / delta
+    deflection = motion.largest_deflection(law) if motion is not None else None
     warnings = (
-        *warnings_at(model, a, delta, gate.law.effects),
-        *motion_warnings(model, contact_time, deflection, "inertia" in gate.law.effects),
-        *pressure_warnings(pressure, scene.plate.yield_stress, "viscosity" in gate.law.effects),
+        *warnings_at(law, a, delta, deflection),
+        *motion_warnings(model, contact_time, share, motion is not None),
+        *pressure_warnings(pressure, scene.plate.yield_stress, law.viscous),
     )
-    if scene.plate.strength is not None:
-        tension = gate.law.max_tension(a, force, scene.effects.edge is not False)
-        warnings += tension_warnings(tension, scene.plate.strength)
-    result = Result(*numbers, pressure, accuracy, model_error, warnings, scene, gate)
-    if result.moving is not None:
-        closing = [touch.closing for touch in result.moving.inertia.contacts]
-        more = contact_warnings(closing, result.moving.least)
-        result = replace(result, warnings=result.warnings + more)
+    neglected = neglects_inertia(model, contact_time, share, motion is not None)
+    strength, yield_stress = scene.plate.strength, scene.plate.yield_stress
+    if strength is not None or yield_stress is not None:
+        tension = law.max_tension(a, force, not gate.edge_disabled)
+        warnings += tension_warnings(tension, strength, yield_stress)
+    if motion is not None:
+        closing = [touch.closing for touch in motion.inertia.contacts]
+        warnings += contact_warnings(closing, motion.least)
+    result = Result(
+        *numbers, pressure, accuracy, model_error, warnings, scene, gate,
+        inertia_neglected=neglected,
+    )  # fmt: skip
     return result if times is None else result.at(times)
+
+
+def _model_error(gate: Gate, a: float, motion: "WaveMotion | None") -> float:
+    """The largest model error of the outputs [1]: of the edge, and of the plate's inertia."""
+    model, other_edge = gate.law.model, gate.law.other_edge
+    if motion is None:
+        return edge_remainder(model, a) if other_edge else 0.0
+    found = inertia_error(model, a, motion.contact_time)
+    size = max(found[name] for name in gate.outputs)
+    from derivation.scene.waves import echo_time
+
+    # Before a wave has come back the edge has no effect.
+    if other_edge and motion.inertia.total_time > echo_time(motion.law.model):
+        size = max(size, edge_remainder(model, a))
+    return size
 
 
 def gated(scene: Scene, rtol: float | None = None) -> tuple[float | None, Gate]:
@@ -92,4 +116,5 @@ def gated(scene: Scene, rtol: float | None = None) -> tuple[float | None, Gate]:
         outputs = scene.accuracy.outputs
         rtol = scene.accuracy.rtol if rtol is None else rtol
     share = DEFAULT if rtol is None else max(check_rtol(rtol) - TIGHTEST, 0.0)
-    return rtol, decide(model_of(scene), scene.effects.model_dump(), share, outputs)
+    wanted = scene.effects.model_dump()
+    return rtol, decide(model_of(scene), wanted, share, outputs, default=rtol is None)

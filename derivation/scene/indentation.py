@@ -15,26 +15,24 @@ import numpy as np
 
 from derivation.scene.effects import EFFECTS
 from derivation.scene.html import html_table
-from derivation.scene.law import Law, Shape
+from derivation.scene.law import ContactLaw, Shape
 from derivation.scene.limits import (
     check_numbers,
     check_radius,
     last_radius,
     warnings_at,
 )
+from derivation.scene.messages import shown
 from derivation.scene.model import model_of
 from derivation.scene.scene import Scene, SceneError
-from derivation.scene.words import shown
 
 UNITS = {"contact_radius": "m", "force": "N", "indentation": "m"}
-AT_REST = frozenset(effect.name for effect in EFFECTS if effect.by_itself) - {"gravity", "inertia"}
-"""Effects of a contact that does not move."""
 _STEPS, _CLOSE = 60, 4e-16
 Values = float | Iterable[float]
 
 
 @dataclass(frozen=True)
-class Contact:
+class StaticContact:
     """The sphere at rest in the plate.
 
     Attributes
@@ -63,7 +61,7 @@ class Contact:
         return asdict(self) | {"warnings": list(self.warnings)}
 
 
-class Contacts(tuple[Contact, ...]):
+class StaticContacts(tuple[StaticContact, ...]):
     """Contacts in the order asked for."""
 
     __slots__ = ()
@@ -84,7 +82,7 @@ def indent(
     contact_radius: Values | None = None,
     force: Values | None = None,
     indentation: Values | None = None,
-) -> Contacts:
+) -> StaticContacts:
     """Press the sphere in, at rest; exactly one of the three is to be given.
 
     Parameters
@@ -120,14 +118,14 @@ def indent(
     law = law_at_rest(scene)
     numbers = _numbers(name, values)
     with np.errstate(all="ignore"):  # extreme scenes end in NaN, which is looked for
-        return Contacts(_contact(law, name, value) for value in numbers)
+        return StaticContacts(_contact(law, name, value) for value in numbers)
 
 
-def law_at_rest(scene: Scene) -> Law:
-    """The law of every effect that applies to a contact at rest and is not false."""
+def law_at_rest(scene: Scene) -> ContactLaw:
+    """The law of every effect that applies to a static contact and is not false."""
     model, wanted = model_of(scene), scene.effects.model_dump()
-    present = {effect.name for effect in EFFECTS if not effect.absent(model)}
-    return Law(model, frozenset(n for n in present & AT_REST if wanted.get(n) is not False))
+    present = (effect.name for effect in EFFECTS if effect.static and not effect.absent(model))
+    return ContactLaw(model, frozenset(name for name in present if wanted.get(name) is not False))
 
 
 def _numbers(name: str, values: Values) -> list[float]:
@@ -149,7 +147,7 @@ def _numbers(name: str, values: Values) -> list[float]:
     return [float(value) for value in listed]
 
 
-def _contact(law: Law, name: str, value: float) -> Contact:
+def _contact(law: ContactLaw, name: str, value: float) -> StaticContact:
     model = law.model
     a = value if name == "contact_radius" else _radius(law, name, value)
     check_radius(law, a, f"{name} = {value:.6g} {UNITS[name]}", f"give a smaller {name}")
@@ -162,16 +160,16 @@ def _contact(law: Law, name: str, value: float) -> Contact:
     check_numbers(model, a, delta, P, slope, pressure)
     # What was given is returned as it was given, not after a trip through its inverse.
     delta, P = (value if name == "indentation" else delta, value if name == "force" else P)
-    return Contact(a, delta, P, slope, pressure, warnings_at(model, a, delta, law.effects))
+    return StaticContact(a, delta, P, slope, pressure, warnings_at(law, a, delta))
 
 
-def _radius(law: Law, name: str, value: float) -> float:
+def _radius(law: ContactLaw, name: str, value: float) -> float:
     """Contact radius [m] of a force or an indentation.
 
     Raises
     ------
     SceneError
-        If it is beyond the law's range.
+        If it is beyond the law's range, or the law gives no number.
     """
     R, last = law.model.R, last_radius(law)
     largest, _ = _with_slope(law, name, last)
@@ -185,14 +183,15 @@ def _radius(law: Law, name: str, value: float) -> float:
         a = min(math.cbrt(0.75 * (value / law.modulus) * R), last)
     for _ in range(_STEPS):
         found, slope = _with_slope(law, name, a)
-        step = math.log(value / found) / slope if found > 0.0 < slope else math.nan
+        check_numbers(law.model, found, slope)
+        step = math.log(value / found) / slope
         if not abs(step) > _CLOSE:
             break
         a = min(a * math.exp(max(-1.0, min(1.0, step))), last)
-    return a if step == step else math.nan
+    return a
 
 
-def _with_slope(law: Law, name: str, a: float) -> tuple[float, float]:
+def _with_slope(law: ContactLaw, name: str, a: float) -> tuple[float, float]:
     """Force [N] or indentation [m] at a radius [m], and its elasticity d log/d log a [1]."""
     radius = np.array([a])
     shape: Shape = law.at(radius)

@@ -32,7 +32,7 @@ from generated.effects import (
 from generated.far_face import clamped_far_stress, far_stress, supported_far_stress
 from generated.impact import COARSE_QUADRATURE, FULL_QUADRATURE, ROUNDING, history, impact
 from generated.sensitivity import indentation_slope
-from generated.simple_impact import Plate, hertz, law_errors, leading, plate_of
+from generated.simple_impact import Estimate, Plate, hertz, law_errors, leading, plate_of
 from generated.viscosity import Course, viscous_logarithms, viscous_number
 
 __all__ = [
@@ -44,6 +44,7 @@ __all__ = [
     "WALL_GROWTH",
     "WALL_LINEAR",
     "Course",
+    "Estimate",
     "Plate",
     "Sphere",
     "bending",

@@ -10,15 +10,17 @@ the sums over the plate's effects, whose parts F and S are those of a rigid sphe
 modulus of the contact over the plate's. A paraboloid has p = D_sphere = S_sphere = 1.
 """
 
-from dataclasses import dataclass
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from derivation.scene import kernels
-from derivation.scene.effects import BY_NAME
-from derivation.scene.effects.effect import Array, PlateEffect, Share
+from derivation.scene.effects import BY_NAME, PAPER, WHOLE_PLATE, edge
+from derivation.scene.effects.effect import Array, Effect, PlateEffect, Reach, Share
 from derivation.scene.effects.finite_thickness import plate_share
 from derivation.scene.model import Model
 from derivation.scene.quadrature import NODES, gauss
@@ -26,18 +28,11 @@ from derivation.scene.quadrature import NODES, gauss
 if TYPE_CHECKING:
     from generated.true_pressure import Contact, Plate
 
-WHOLE_PLATE = frozenset({"bending", "finite_thickness", "side_wall"})
-"""Effects that one kernel holds together."""
-
-HELD = 0.9
-"""Largest contact radius over plate radius for an edge that is no soft hinge, or true pressure."""
 THICK = 1.0
 """h/b up to which the supports' model is measured."""
+CANCELLED = 8 * np.finfo(np.float64).eps
+"""Rounding error of the plate's share, over itself, as tests bound it."""
 _HALVINGS = 30
-OPEN = 6.0
-"""Contact radius over half-thickness at which the contact is about to open in its middle."""
-CURVED = 0.99
-"""Largest contact radius over sphere radius where the sphere is no paraboloid."""
 
 
 class Shape(NamedTuple):
@@ -54,7 +49,7 @@ class Shape(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Law:
+class ContactLaw:
     """Contact law of a scene.
 
     Attributes
@@ -69,9 +64,70 @@ class Law:
     effects: frozenset[str]
 
     @cached_property
+    def chosen(self) -> tuple[Effect, ...]:
+        """The effects in it, in the order of their names."""
+        return tuple(BY_NAME[name] for name in sorted(self.effects))
+
+    @cached_property
+    def plate_effects(self) -> tuple[PlateEffect, ...]:
+        """Those that add to the plate's deflection."""
+        return tuple(effect for effect in self.chosen if isinstance(effect, PlateEffect))
+
+    def only(self, wanted: Callable[[Effect], bool]) -> "ContactLaw":
+        """The law of those of its effects for which a condition holds."""
+        return replace(self, effects=frozenset(e.name for e in self.chosen if wanted(e)))
+
+    @property
+    def half_space(self) -> "ContactLaw":
+        """The law of an elastic contact on a half-space: no plate deflects or moves."""
+        return self.only(
+            lambda e: not (isinstance(e, PlateEffect) or e.solved or e.viscous or e.dynamic)
+        )
+
+    @property
+    def of_paper(self) -> bool:
+        """Whether this is the paper's law."""
+        return self.effects == PAPER
+
+    @cached_property
+    def hertzian(self) -> bool:
+        """Whether the elastic contact has the form of Hertz's law."""
+        return all(effect.hertzian for effect in self.chosen)
+
+    @cached_property
+    def spherical(self) -> bool:
+        """Whether the profile is a sphere's, not a paraboloid's."""
+        return any(effect.spherical for effect in self.chosen)
+
+    @cached_property
+    def bends(self) -> bool:
+        """Whether the plate deflects in proportion to the force."""
+        return any(effect.bends for effect in self.chosen)
+
+    @cached_property
+    def other_edge(self) -> bool:
+        """Whether the plate's edge is another than the paper's."""
+        return any(effect.other_edge for effect in self.chosen)
+
+    @cached_property
+    def solved(self) -> bool:
+        """Whether the pressure is solved for."""
+        return any(effect.solved for effect in self.chosen)
+
+    @cached_property
+    def viscous(self) -> bool:
+        """Whether the contact is viscoelastic."""
+        return any(effect.viscous for effect in self.chosen)
+
+    @cached_property
+    def dynamic(self) -> bool:
+        """Whether the plate has inertia."""
+        return any(effect.dynamic for effect in self.chosen)
+
+    @cached_property
     def softness(self) -> float:
         """E* of the plate over that of the sphere in this law, 0 for a rigid one [1]."""
-        return self.model.softness if "sphere_elasticity" in self.effects else 0.0
+        return sum((effect.softness(self.model) for effect in self.chosen), 0.0)
 
     @property
     def modulus(self) -> float:
@@ -80,15 +136,14 @@ class Law:
 
     @cached_property
     def limit(self) -> float:
-        """Contact radius [m] at which the law ends: min(b, R), but a sphere grows too steep.
+        """Contact radius [m] at which the law ends: min(b, R), or where an effect does before.
 
-        Where the pressure is solved for, the contact may open in its middle before that.
+        Where the pressure is solved for, contact may be lost at the centre before that.
         """
-        R = self.model.R * (CURVED if "curvature" in self.effects else 1.0)
-        b = self.model.b * (HELD if self.effects & {"edge", "pressure"} else 1.0)
-        if "pressure" not in self.effects:
-            return min(b, R)
-        low, high = 0.0, min(b, R, OPEN * self.model.h)
+        plate, sphere, thickness = self._reach
+        low, high = 0.0, min(plate * self.model.b, sphere * self.model.R, thickness * self.model.h)
+        if not self.solved:
+            return high
         if np.isfinite(self._contact(np.array([high])).force[0]):
             return high
         for _ in range(_HALVINGS):
@@ -100,23 +155,25 @@ class Law:
     @property
     def limit_in_words(self) -> str:
         """What the limit is, and how large."""
-        sphere = f"{CURVED} R" if "curvature" in self.effects else "R"
-        plate = f"{HELD} b" if self.effects & {"edge", "pressure"} else "b"
-        if "pressure" not in self.effects:
-            return f"min({plate}, {sphere}) = {self.limit:.6g} m"
-        thick = f"{OPEN:g} h"
-        return f"min({plate}, {sphere}, {thick}), or the contact opens, at {self.limit:.6g} m"
+        lengths = ", ".join(
+            length if reach == 1.0 else f"{reach:g} {length}"
+            for reach, length in zip(self._reach, ("b", "R", "h"), strict=True)
+            if reach < math.inf
+        )
+        if not self.solved:
+            return f"min({lengths}) = {self.limit:.6g} m"
+        return f"min({lengths}), or contact is lost at the centre, at {self.limit:.6g} m"
 
     @property
+    def _reach(self) -> Reach:
+        """The contacts that all effects can be computed for."""
+        each = zip(Reach(), *(effect.reach for effect in self.chosen), strict=True)
+        return Reach(*map(min, each))
+
+    @cached_property
     def gravity(self) -> float:
-        """What presses the sphere on in this law [m/s^2]."""
-        return self.model.gravity if "gravity" in self.effects else 0.0
-
-    @property
-    def plate_effects(self) -> tuple[PlateEffect, ...]:
-        """Those that add to the plate's deflection."""
-        chosen = (BY_NAME[name] for name in sorted(self.effects))
-        return tuple(effect for effect in chosen if isinstance(effect, PlateEffect))
+        """Gravitational acceleration during the contact in this law [m/s^2]."""
+        return sum((effect.gravity(self.model) for effect in self.chosen), 0.0)
 
     def force(self, a: Array, shape: Shape) -> Array:
         """Contact force [N] at radii [m]."""
@@ -136,7 +193,7 @@ class Law:
         Each step of the growing contact adds the pressure of a flat punch of radius c. For a
         paraboloid that is Hertz's (2/pi) E* a/R. Solved for, it is part of the solution.
         """
-        if "pressure" in self.effects:
+        if self.solved:
             return float(self._contact(np.array([a])).centre_pressure[0])
         x, weights = gauss(NODES[2])
         mean = float(np.sum(weights * self._sphere(x * a).slope))
@@ -149,12 +206,11 @@ class Law:
         c^2 = r^2 + (a^2 - r^2) x^2; or solved for.
         """
         R = self.model.R
-        if "pressure" in self.effects:
+        if self.solved:
             from generated import true_pressure
 
-            curved, own = "curvature" in self.effects, self.model.modulus
             found: Array = true_pressure.pressure(
-                r, self._solved_plate, a, R, self.modulus, own, sphere=curved
+                r, self._solved_plate, a, R, self.modulus, self.model.modulus, sphere=self.spherical
             )
             return found
         x, weights = gauss(NODES[2])
@@ -170,13 +226,12 @@ class Law:
         or where contact or plate are wider or thicker than the support's model reaches.
         """
         of = {
-            "simply-supported": kernels.supported_far_stress,
-            "clamped": kernels.clamped_far_stress,
+            edge.SUPPORTED: kernels.supported_far_stress,
+            edge.CLAMPED: kernels.clamped_far_stress,
         }
         model = self.model
-        reached = a <= HELD * model.b and model.eta <= THICK
-        edge = model.edge if held and reached else "soft-hinge"
-        stress = of.get(edge, kernels.far_stress)
+        reached = a <= edge.WIDEST * model.b and model.eta <= THICK
+        stress = of.get(model.edge if held and reached else "", kernels.far_stress)
         return float(stress(force, a, model.h, model.b, model.lam, model.mu))
 
     def hertz_radius(self, force: Array) -> Array:
@@ -185,7 +240,7 @@ class Law:
 
     def at(self, a: Array) -> Shape:
         """Force, indentation and slope at contact radii [m], which grow."""
-        if "pressure" in self.effects:
+        if self.solved:
             return self._solved(a)
         sphere = self._sphere(a)
         root = np.cbrt(sphere.force)
@@ -198,7 +253,7 @@ class Law:
         return Shape(sphere.force, depth, slope, root + part * share.slope)
 
     def _solved(self, a: Array) -> Shape:
-        """By the pressure that is solved for; the edge adds what it does under Hertz's."""
+        """By the pressure that is solved for; the edge adds its part under Hertz's pressure."""
         # Next to a = 0 it is Hertz's.
         a = np.maximum(a, 1e-12 * min(self.model.h, self.model.b, self.model.R))
         found = self._contact(a)
@@ -209,46 +264,61 @@ class Law:
         additive = 2.0 * self.modulus * equal / found.stiffness
         # Growth of Hertz's radius of the force with the radius itself.
         growth = found.stiffness * found.slope / (4.0 * self.modulus * equal) * (R / equal)
-        if "edge" in self.effects:
-            part, held = 1.0 / (1.0 + self.softness), BY_NAME["edge"]
-            assert isinstance(held, PlateEffect)
-            share = held.share(self.model, equal)
+        part = 1.0 / (1.0 + self.softness)
+        for effect in self._beyond_whole_plate:
+            share = effect.share(self.model, equal)
             depth = depth + part * (equal / a) ** 2 * share.depth
             additive = additive + part * share.slope
         return Shape(force, depth, additive * growth * (equal / a), additive)
 
     def _contact(self, a: Array) -> "Contact":
-        """The contact with its true pressure."""
+        """The contact with the pressure that is solved for."""
         from generated import true_pressure
 
         model = self.model
-        curved = "curvature" in self.effects
         return true_pressure.contact(
-            self._solved_plate, a, model.R, self.modulus, model.modulus, sphere=curved
+            self._solved_plate, a, model.R, self.modulus, model.modulus, sphere=self.spherical
         )
 
     @cached_property
     def _solved_plate(self) -> "Plate":
-        """The plate as the true pressure's equation takes it."""
+        """The plate as the integral equation of the pressure takes it."""
         from generated import true_pressure
 
         return true_pressure.plate(self.model.h, self.model.b)
 
     def _sphere(self, a: Array) -> kernels.Sphere:
         """Force, indentation and slope on a half-space."""
-        if "curvature" in self.effects:
+        if self.spherical:
             return kernels.sphere_contact(a / self.model.R)
         return kernels.Sphere(*(np.ones_like(a),) * 3)
+
+    def cancellation(self, a: float) -> float:
+        """Rounding error of the slope [1] at a radius [m] where an effect's part is a difference.
+
+        Unless the whole plate is in the law, that part is the whole plate's less that of effects
+        that are not, which may be much larger.
+        """
+        differs = any(effect.difference for effect in self.plate_effects)
+        if not differs or self.effects >= WHOLE_PLATE:
+            return 0.0
+        radii = np.array([a])
+        whole, slope = plate_share(self.model, radii), self.at(radii).additive
+        return float(CANCELLED * np.abs(whole.slope[0]) / slope[0])
 
     def deflection(self, a: Array) -> Share:
         """The plate's parts of F and S at Hertz's radii [m], of a rigid sphere."""
         if self.effects >= WHOLE_PLATE:
-            found = [plate_share(self.model, a)]
-            others = [e for e in self.plate_effects if e.name not in WHOLE_PLATE]
+            found, others = [plate_share(self.model, a)], self._beyond_whole_plate
         else:
-            found, others = [], list(self.plate_effects)
+            found, others = [], self.plate_effects
         found += [effect.share(self.model, a) for effect in others]
         depth, slope = found[0]
         for other in found[1:]:
             depth, slope = depth + other.depth, slope + other.slope
         return Share(depth, slope)
+
+    @property
+    def _beyond_whole_plate(self) -> tuple[PlateEffect, ...]:
+        """Effects that add to the deflection of the whole plate on the paper's edge."""
+        return tuple(e for e in self.plate_effects if e.name not in WHOLE_PLATE)

@@ -1,12 +1,14 @@
 """Where the contact law ends or grows inexact: refusals and warnings, each with its number."""
 
 import math
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
+from typing import NoReturn, TypeVar
 
 import numpy as np
 
 from derivation.scene import kernels
-from derivation.scene.law import Law
+from derivation.scene.effects.effect import Array
+from derivation.scene.law import ContactLaw
 from derivation.scene.model import Model
 from derivation.scene.quadrature import gauss
 from derivation.scene.scene import SceneError
@@ -29,13 +31,14 @@ GRAZING = 1e-3
 """Closing speed over the impact's, or force over the largest, below which a contact grazes."""
 MILD = 0.3
 """Relative correction above which its leading term is no estimate any more."""
-INERTIA = "the plate's inertia is left out"
-"""How the warning of it begins."""
+Values = TypeVar("Values", float, Array)
+DOUBT = 1e-3
+"""Relative error that quadratures may make in the fastest speed, where a law is steep."""
 POINTS = 192
 """Gauss points of the energy up to the law's limit, close to which a sphere's slope is steep."""
 
 
-def check_radius(law: Law, a: float, what: str, mend: str) -> None:
+def check_radius(law: ContactLaw, a: float, what: str, mend: str) -> None:
     """Refuse a contact radius beyond the law's range.
 
     Parameters
@@ -58,7 +61,19 @@ def check_radius(law: Law, a: float, what: str, mend: str) -> None:
         )
 
 
-def check_energy(law: Law, doubt: float = 0.0) -> None:
+def refuse(law: ContactLaw) -> NoReturn:
+    """Refuse an impact that has no largest contact radius in the law's range.
+
+    Raises
+    ------
+    SceneError
+        Of what is too large for the law, or for doubles.
+    """
+    check_energy(law, DOUBT)
+    raise _no_number(law.model)
+
+
+def check_energy(law: ContactLaw, doubt: float = 0.0) -> None:
     """Refuse an impact that presses the sphere in beyond the law's range.
 
     Parameters
@@ -76,7 +91,10 @@ def check_energy(law: Law, doubt: float = 0.0) -> None:
     with np.errstate(all="ignore"):
         capacity = energy_of(law, last)
         depth = float(law.indentation(np.array([last]), law.at(np.array([last])))[0])
-    capacity -= model.m * law.gravity * depth
+    weight = model.m * law.gravity * depth
+    if capacity <= weight:
+        raise _too_heavy(law) if weight else _no_energy(law)
+    capacity -= weight
     fastest = math.sqrt(2) * math.sqrt(max(capacity, 0.0)) / math.sqrt(model.m)
     if model.v0 >= fastest * (1.0 - doubt):
         fastest = min(fastest, model.v0)
@@ -84,6 +102,25 @@ def check_energy(law: Law, doubt: float = 0.0) -> None:
             f"impact.speed: expected less than {fastest:.6g} m/s, where the contact radius "
             f"reaches {law.limit_in_words}, got {model.v0:.6g} m/s; lower the speed"
         )
+
+
+def _too_heavy(law: ContactLaw) -> SceneError:
+    """Of a sphere whose weight alone presses it in beyond the law's range, at any speed."""
+    model = law.model
+    return SceneError(
+        f"impact.gravity: expected a sphere whose weight the plate carries, got {model.m:.4g} kg "
+        f"at {law.gravity:.4g} m/s^2, which press it in beyond {law.limit_in_words} even at zero "
+        "speed; give a lighter sphere, a thicker or stiffer plate, or effects.gravity = false"
+    )
+
+
+def _no_energy(law: ContactLaw) -> SceneError:
+    """Of a law that takes up no energy, which no speed can satisfy."""
+    return SceneError(
+        f"scene: expected a contact law that takes up energy up to {law.limit_in_words}, got one "
+        f"of {', '.join(sorted(law.effects))} that takes up none; give a thicker plate, or leave "
+        "out what [effects] switches off"
+    )
 
 
 def check_numbers(model: Model, *values: float) -> None:
@@ -95,13 +132,18 @@ def check_numbers(model: Model, *values: float) -> None:
         If a value is NaN, infinite, or zero by underflow.
     """
     if not all(math.isfinite(value) and value > 0 for value in values):
-        numbers = ", ".join(f"{name} = {x:.6g}" for name, x in model.dimensionless().items())
-        raise SceneError(
-            f"scene: the contact law gives no number for {numbers}; give less extreme numbers"
-        )
+        raise _no_number(model)
 
 
-def energy_of(law: Law, a: float) -> float:
+def _no_number(model: Model) -> SceneError:
+    """Of numbers so extreme that the contact law gives none."""
+    numbers = ", ".join(f"{name} = {x:.6g}" for name, x in model.dimensionless().items())
+    return SceneError(
+        f"scene: the contact law gives no number for {numbers}; give less extreme numbers"
+    )
+
+
+def energy_of(law: ContactLaw, a: float) -> float:
     """Energy [J] the contact takes up to a contact radius [m], the integral of P over delta."""
     x, weights = gauss(POINTS)
     shape = law.at(x * a)
@@ -110,33 +152,35 @@ def energy_of(law: Law, a: float) -> float:
 
 
 def warnings_at(
-    model: Model, a: float, indentation: float, effects: Collection[str] = ()
+    law: ContactLaw, a: float, indentation: float, deflection: float | None = None
 ) -> tuple[str, ...]:
     """What to know about a result that is still usable.
 
     Parameters
     ----------
-    effects
-        Names of the effects that are computed.
     a
         Largest contact radius [m].
     indentation
         Indentation at it [m].
+    deflection
+        Largest deflection of the plate at the axis [m], where its motion was computed; without
+        it that of the quasi-static plate.
     """
-    found = []
+    model, found = law.model, []
     thickness = 2 * model.h
-    if a / thickness > HERTZ_LIMIT and "pressure" not in effects:
+    if a / thickness > HERTZ_LIMIT and not law.solved:
         found.append(
             f"contact radius over thickness a/H = {a / thickness:.3g} exceeds {HERTZ_LIMIT}: the "
             f"pressure is no longer Hertz's; {_cost(hertz_cost(model, a, indentation))}"
         )
-    if a / model.R > CURVATURE_LIMIT and "curvature" not in effects:
+    if a / model.R > CURVATURE_LIMIT and not law.spherical:
         found.append(
             f"contact radius over sphere radius a/R = {a / model.R:.3g} exceeds "
             f"{CURVATURE_LIMIT}: the law takes the sphere for a paraboloid; "
             f"{_cost(curvature_cost(model, a, indentation))}"
         )
-    deflection = indentation - local_indentation(model, a, effects)
+    if deflection is None:
+        deflection = indentation - float(local_indentation(law, a))
     if deflection / thickness > STRETCH_LIMIT:
         found.append(
             f"plate deflection over thickness w/H = {deflection / thickness:.3g} exceeds "
@@ -175,6 +219,21 @@ def contact_warnings(closing: Sequence[float], least: float) -> tuple[str, ...]:
     return (text,)
 
 
+def neglects_inertia(
+    model: Model, contact_time: float, deflection: float, moving: bool = False
+) -> bool:
+    """Whether the plate's inertia is neglected and may matter, as far as its density is known.
+
+    The arguments are those of `motion_warnings`.
+    """
+    if moving or not model.density:
+        return False
+    h, b, lam, mu = model.numbers[3:]
+    period = float(kernels.bending_period(h, b, lam, mu, model.density))
+    slow = contact_time >= SLOW * period
+    return not slow and (zener_number(model) > ZENER_LIMIT or deflection > SHARE_LIMIT)
+
+
 def motion_warnings(
     model: Model, contact_time: float, deflection: float, moving: bool = False
 ) -> tuple[str, ...]:
@@ -196,13 +255,12 @@ def motion_warnings(
     period = float(kernels.bending_period(h, b, lam, mu, model.density))
     echoes = float(kernels.echo_time(h, lam, mu, model.density))
     found = []
-    matters = not moving and (zener > ZENER_LIMIT or deflection > SHARE_LIMIT)
-    if matters and contact_time < SLOW * period:
+    if neglects_inertia(model, contact_time, deflection, moving):
         found.append(
-            f"{INERTIA}: Zener's number lambda = {zener:.3g} (small: below "
-            f"{ZENER_LIMIT}), contact time over the first bending period of a soft hinge = "
-            f"{contact_time / period:.3g} (slow: above {SLOW:g}), and the deflection makes "
-            f"{100 * deflection:.3g} % of the indentation"
+            f"plate inertia is neglected but may matter: Zener's number lambda = {zener:.3g} "
+            f"(negligible below {ZENER_LIMIT}), contact time over the first bending period on the "
+            f"paper's edge = {contact_time / period:.3g} (quasi-static above {SLOW:g}), plate "
+            f"deflection {100 * deflection:.3g} % of the indentation"
         )
     plate = model.inertia
     echoing = moving and plate.branches == "all" and not plate.infinite_plate
@@ -233,21 +291,41 @@ def pressure_warnings(
     return (text,)
 
 
-def tension_warnings(tension: float, strength: float) -> tuple[str, ...]:
-    """Whether the plate breaks, by the tension of its far face and its strength, both in Pa."""
-    if tension <= strength:
-        return ()
-    text = (
-        f"largest tension on the far face over strength = {tension / strength:.3g} exceeds 1: "
-        "the plate breaks there, under the axis, and what follows is no impact of a whole plate"
-    )
-    return (text,)
+def tension_warnings(
+    tension: float, strength: float | None, yield_stress: float | None = None
+) -> tuple[str, ...]:
+    """Whether the back face fails or yields, by its largest tensile stress.
+
+    Parameters
+    ----------
+    tension
+        Largest tensile stress on the back face [Pa].
+    strength, yield_stress
+        Of the plate [Pa], if they are given. Under the axis the stress is the same in both
+        directions of the face, so that it alone says when the face yields.
+    """
+    found = []
+    if strength is not None and tension > strength:
+        found.append(
+            f"the largest tensile stress on the back face is {tension / strength:.3g} times the "
+            "strength: the plate is predicted to fail (quasi-static stress under the peak force), "
+            "and the results assume that it does not"
+        )
+    if yield_stress is not None and tension > yield_stress:
+        found.append(
+            f"the largest tensile stress on the back face is {tension / yield_stress:.3g} times "
+            "the yield stress: the plate is predicted to yield in bending (quasi-static stress "
+            "under the peak force), and the results assume that it does not"
+        )
+    return tuple(found)
 
 
-def local_indentation(model: Model, a: float, effects: Collection[str]) -> float:
-    """Indentation [m] of a half-space at a contact radius [m], which is no deflection."""
-    depth = float(kernels.sphere_contact(a / model.R).depth) if "curvature" in effects else 1.0
-    return a * (a / model.R) * depth
+def local_indentation(law: ContactLaw, a: Values) -> Values:
+    """Indentation [m] of a half-space at contact radii [m], which is no deflection."""
+    R = law.model.R
+    depth = kernels.sphere_contact(a / R).depth if law.spherical else 1.0
+    found: Values = a * (a / R) * depth  # type: ignore[assignment]
+    return found
 
 
 def hertz_cost(model: Model, a: float, indentation: float) -> float:
@@ -277,6 +355,6 @@ def _cost(change: float) -> str:
     return f"the indentation at this force would change by about {100 * change:+.2g} %"
 
 
-def last_radius(law: Law) -> float:
+def last_radius(law: ContactLaw) -> float:
     """Largest contact radius inside the law's range [m]."""
     return float(np.nextafter(law.limit, 0.0))

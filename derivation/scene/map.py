@@ -1,74 +1,148 @@
-"""Draws where each effect matters, over a/h and h/b, with the scene marked.
+"""Draws where the effect selection includes each effect, over a/h and h/b, with the scene marked.
 
-Sphere, materials and edge are the scene's; thickness and contact radius vary. A line is where
-the effect's bound, over the slope of the whole law, equals the tolerance; on the side of the
-label it matters.
+Sphere, materials, edge and tolerance are the scene's; thickness and speed vary, the speed such
+that a quasi-static plate has the contact radius. On every such scene the effects are selected
+as for the scene itself (`effect_selection.select`), so that map and `explain` cannot disagree.
 """
 
 import io
-from dataclasses import replace
+import math
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from derivation.scene.effects import EFFECTS
-from derivation.scene.effects.effect import Array, Effect, Place
+from derivation.scene.effect_selection import Selection, select
+from derivation.scene.effects import EFFECTS, PAPER
+from derivation.scene.effects.effect import Array
+from derivation.scene.law import ContactLaw
+from derivation.scene.limits import energy_of
 from derivation.scene.model import Model
+from derivation.scene.motion import largest_radius
 from derivation.scene.plot import METADATA
 from derivation.scene.result import Result
+from derivation.scene.scene import SceneError
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-THICKNESSES = np.geomspace(1e-3, 10.0, 61)
+THICKNESSES = np.geomspace(1e-3, 10.0, 17)
 """h/b of the map."""
-RADII = np.geomspace(1e-3, 6.0, 61)
+RADII = np.geomspace(1e-3, 6.0, 17)
 """a/h of the map."""
-WITHOUT = {"hertz", "gravity", "viscosity", "inertia"}
-"""Effects that are always there, or depend on the speed beside the contact."""
 COLOURS = ("#1f4e79", "#b35806", "#1b7837", "#762a83", "#b2182b", "#01665e", "#e7298a")
+MOST, SIDE = 100.0, 1.001
+"""Largest ratio that is drawn, and the least on the side of the line where an effect counts."""
 
 
-def shares(model: Model, effect: Effect, radii: Array = RADII) -> Array:
-    """The effect's bound of S at every a/h (rows) and h/b (columns); NaN beyond min(b, R)."""
-    columns = []
-    for eta in THICKNESSES:
-        plate = replace(model, h=float(eta) * model.b)
-        a = radii * plate.h
-        inside = a < min(model.b, model.R)
-        with np.errstate(all="ignore"):
-            bound = effect.bound(plate, Place(a))
-        columns.append(np.where(inside, np.maximum(bound.low, bound.up), np.nan))
-    return np.array(columns).T
+@dataclass(frozen=True)
+class Grid:
+    """What the selection says over thicknesses (columns) and contact radii (rows).
+
+    Attributes
+    ----------
+    thicknesses, radii
+        h/b and a/h, those of the scene among them [1].
+    ratios
+        By effect, how much it changes the results over the tolerance: above 1 where it is
+        included, below where it is omitted; NaN where there is no such scene [1].
+    """
+
+    thicknesses: Array
+    radii: Array
+    ratios: dict[str, Array]
+
+
+def drawn(result: Result) -> list[str]:
+    """Effects that the map has lines of: of a static contact, as others depend on the speed."""
+    model = result.model
+    return [e.name for e in EFFECTS if e.static and not (e.forced or e.absent(model))]
+
+
+def grid(result: Result, rtol: float) -> Grid:
+    """The selection over thicknesses and contact radii, at a tolerance [1]."""
+    model, wanted = result.model, result.scene.effects.model_dump()
+    eta, wide = model.eta, result.max_contact_radius / model.h
+    thicknesses = np.unique(np.append(THICKNESSES, eta))
+    # From the scene's own contact on, if that is smaller.
+    low = min(RADII[0], wide / 2)
+    radii = np.unique(np.append(np.geomspace(low, RADII[-1], RADII.size), wide))
+    names = drawn(result)
+    ratios = {name: np.full((radii.size, thicknesses.size), math.nan) for name in names}
+    with np.errstate(all="ignore"):
+        # By the paper's law the contact radius of the scene is another, if there is one.
+        try:
+            stretch = largest_radius(_law(model)) / result.max_contact_radius
+        except SceneError:
+            stretch = math.nan
+        for column, ratio in enumerate(thicknesses):
+            plate = replace(model, h=model.h if ratio == eta else float(ratio) * model.b)
+            for row, width in enumerate(radii):
+                a = float(width) * plate.h
+                own = ratio == eta and width == wide
+                if not (own or a < min(model.b, model.R)):
+                    continue
+                speed = model.v0 if own else _speed(plate, stretch * a)
+                if not 0.0 < speed < math.inf:
+                    continue
+                case = replace(plate, v0=speed)
+                found = select(case, wanted, rtol, result.gate.outputs)
+                for name in names:
+                    ratios[name][row, column] = _ratio(found, name, rtol)
+    return Grid(thicknesses, radii, ratios)
+
+
+def _law(model: Model) -> ContactLaw:
+    """The paper's law, by which contact radius and speed belong together."""
+    return ContactLaw(replace(model, gravity=0.0), PAPER)
+
+
+def _speed(model: Model, a: float) -> float:
+    """Speed [m/s] at which the paper's law has a largest contact radius [m]; NaN if none."""
+    law = _law(model)
+    energy = energy_of(law, a) if a < law.limit else math.nan
+    return math.sqrt(2.0 * energy / model.m) if energy > 0.0 else math.nan
+
+
+def _ratio(found: Selection, name: str, rtol: float) -> float:
+    """What an effect changes over the tolerance, on the side that the selection put it."""
+    if found.reasons[name]:
+        return math.nan
+    size = found.sizes.get(name, math.inf)
+    ratio = min(size / rtol, MOST)
+    if found.choice[name] is False:
+        return ratio
+    return max(ratio, SIDE) if name in found.included else min(ratio, 1.0 / SIDE)
 
 
 def figure(result: Result, rtol: float) -> "Figure":
     """The map of a scene as a Matplotlib figure, its largest contact marked."""
     from matplotlib.figure import Figure
 
-    model = result.model
-    drawn = [e for e in EFFECTS if e.name not in WITHOUT and not e.absent(model)]
-    place = model.eta, result.max_contact_radius / model.h
-    # From the scene's own contact on, if that is smaller.
-    radii = np.geomspace(min(RADII[0], place[1] / 2), RADII[-1], RADII.size)
-    found = {effect.name: shares(model, effect, radii) for effect in drawn}
-    whole = 1.0 + sum(np.where(np.isfinite(x), x, 0.0) for x in found.values())
+    place = result.model.eta, result.max_contact_radius / result.model.h
+    found, wanted = grid(result, rtol), result.scene.effects.model_dump()
     made = Figure(figsize=(7.5, 6.0), layout="constrained")
     axes = made.subplots()
-    for colour, (name, share) in zip(COLOURS, found.items(), strict=False):
-        ratio = np.where(np.isinf(share), 1.0, share / whole)
-        if np.nanmin(ratio) > rtol or np.nanmax(ratio) < rtol:
-            everywhere = "everywhere" if np.nanmin(ratio) > rtol else "nowhere"
-            axes.plot([], [], color=colour, label=f"{name}: {everywhere}")
+    for colour, (name, ratio) in zip(COLOURS, found.ratios.items(), strict=False):
+        chosen = "" if wanted[name] == "auto" else f" ({str(wanted[name]).lower()} in the scene)"
+        known = ratio[np.isfinite(ratio)]
+        if not known.size or known.min() > 1.0 or known.max() < 1.0:
+            everywhere = "everywhere" if known.size and known.min() > 1.0 else "nowhere"
+            axes.plot([], [], color=colour, label=f"{name}{chosen}: {everywhere}")
             continue
-        axes.contour(THICKNESSES, radii, ratio, levels=[rtol], colors=[colour])
-        axes.contourf(THICKNESSES, radii, ratio, levels=[rtol, np.inf], colors=[colour], alpha=0.1)
-        axes.plot([], [], color=colour, label=name)
+        values = np.log(np.maximum(ratio, 1.0 / MOST))
+        coordinates = found.thicknesses, found.radii, values
+        axes.contour(*coordinates, levels=[0.0], colors=[colour])
+        axes.contourf(*coordinates, levels=[0.0, np.inf], colors=[colour], alpha=0.1)
+        axes.plot([], [], color=colour, label=f"{name}{chosen}")
     axes.plot(*place, marker="*", markersize=14, color="black", linestyle="none", label="the scene")
     axes.set(xscale="log", yscale="log", xlabel="h/b", ylabel="a/h")
     axes.set_xlim(min(THICKNESSES[0], place[0] / 2), max(THICKNESSES[-1], place[0] * 2))
-    axes.set_ylim(radii[0], max(radii[-1], place[1] * 2))
-    axes.set_title(f"where an effect's bound is above {rtol:g} of the law's slope", fontsize=10)
+    axes.set_ylim(found.radii[0], max(found.radii[-1], place[1] * 2))
+    axes.set_title(
+        f"Shaded: the effect is included; omitting it could change a result by over {rtol:g}",
+        fontsize=9,
+    )
     made.legend(loc="outside lower center", ncols=4, fontsize=8, frameon=False)
     return made
 

@@ -1,81 +1,132 @@
-"""The plate as oscillators: its bending modes, and what of the contact law they leave at rest.
+"""The plate as oscillators: its modes, and what of the contact law remains quasi-static.
 
-With P_j = int_0^a P'(c) sh(c phi_j) dc the part of the force that mode j feels, sh y = sin(y)/y,
-and c_j its static compliance,
+A mode has a shape along the radius and, at that shape, one oscillator for each branch of the
+plate's waves. With P_j = int_0^a P'(c) s_j(c) dc the part of the contact force that drives shape
+j, s_j its mean under a flat punch of radius a, and c_j the static compliance of its oscillators,
 
-    z = delta(a) - sum c_j P_j s_j + sum s_j q_j,   q_j'' + omega_j^2 q_j = omega_j^2 c_j P_j
+    z = delta(a) - sum c_j P_j s_j + sum s_j q_j,   q'' + omega^2 q = omega^2 c P_j
 
-s_j = sh(a phi_j) = dP_j/dP conserves energy whatever the law delta(a); s_j = 1 takes the
-deflection at the axis, as the paper defines the indentation.
+s_j = dP_j/dP conserves energy for every law delta(a); s_j = 1 takes the deflection at the axis,
+as the paper defines the indentation.
+
+On the paper's edge J0(phi_j r) is an exact mode of every branch. For a clamped or simply supported
+edge the lowest branch A0 has the modes of `generated.held_waves`. The quasi-static remainder is
+that of the paper's edge: a remainder taken with the held edge's own law would know the edge before
+any wave has travelled there.
 """
 
 import math
 from dataclasses import dataclass
-from functools import cache
-from typing import NamedTuple
+from functools import cached_property, lru_cache
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.polynomial.chebyshev import chebder, chebvander
 from numpy.typing import NDArray
 
+from derivation.scene import kernels
+from derivation.scene.effects.edge import CLAMPED, SUPPORTED
 from derivation.scene.effects.effect import Array
-from derivation.scene.law import Law
+from derivation.scene.law import ContactLaw
 from derivation.scene.model import Model
 from derivation.scene.quadrature import gauss
 from derivation.scene.scene import SceneError
 
-MANY = 2000
-"""Most oscillators of all branches, as many as memory and patience take."""
-DEGREE, INNER = 32, 40
-"""Degree of the tables, and nodes of the integral over the contact's growth."""
+if TYPE_CHECKING:
+    from generated.held_waves import Waves
+
+Indices = NDArray[np.intp]
+DEGREE, RESOLVED = 32, 0.75
+"""Least degree of the tables, and by how much it grows with the largest wave number times a."""
+SMALL = 1e-6
+"""Contact radius over plate radius and thickness at which a contact counts as a point."""
 
 
 @dataclass(frozen=True)
 class Modes:
-    """Oscillators that the contact force drives.
+    """Oscillators that the contact force drives, ordered by the shape that they share.
 
     Attributes
     ----------
     phi
-        Wave numbers [1/m], shape (modes,).
+        Wave numbers of the shapes [1/m], shape (shapes,).
     omega
-        Angular frequencies [1/s].
+        Angular frequencies [1/s], shape (oscillators,).
     drive
         Acceleration by a unit force [1/kg]; over omega^2 the static compliance.
+    first
+        Index of each shape's first oscillator, shape (shapes,).
     held
-        c_j of modes J_0(phi_j r) - c_j I_0(phi_j r), which are 1 at the axis over 1 - c_j.
-    admittance
-        Velocity of an endless plate by a unit force [s/kg], 0 for one with an edge.
+        The first shapes, if the edge is clamped or simply supported; the others are
+        J0(phi r).
+    b
+        Plate radius [m], by which `held` is scaled.
     """
 
     phi: Array
     omega: Array
     drive: Array
-    held: Array
-    admittance: float = 0.0
+    first: Indices
+    held: "Waves | None" = None
+    b: float = 1.0
 
     @property
     def compliance(self) -> Array:
-        """Static deflection at the axis by a unit force [m/N]."""
-        return self.drive / self.omega**2
+        """Static deflection at the axis by a unit force [m/N], of each shape."""
+        return self.by_shape(self.drive / self.omega**2)
+
+    @cached_property
+    def shape(self) -> Indices:
+        """Index of the shape of each oscillator."""
+        ends = np.append(self.first[1:], self.omega.size)
+        return np.repeat(np.arange(self.first.size), ends - self.first)
+
+    def by_shape(self, values: Array) -> Array:
+        """Sums over the oscillators of each shape, along the last axis."""
+        if self.first.size == self.omega.size:
+            return values
+        return np.asarray(np.add.reduceat(values, self.first, axis=-1), dtype=np.float64)
 
     def shapes(self, r: Array) -> Array:
-        """Each mode at distances [m] over itself at the axis, shape (modes, distances)."""
+        """Each shape at distances [m] over its value on the axis, shape (shapes, distances)."""
         from generated.bessel import bessel_j0
 
-        x, c = np.outer(self.phi, r), self.held[:, None]
-        bent = c * np.i0(np.where(c == 0.0, 0.0, x))
-        return np.asarray((bessel_j0(x) - bent) / (1.0 - c), dtype=np.float64)
+        free = np.asarray(bessel_j0(np.outer(self.phi[self._held :], r)), dtype=np.float64)
+        if self.held is None:
+            return free
+        from generated.held_waves import shape
+
+        return np.concatenate((shape(self.held, r / self.b), free))
 
     def shares_less_one(self, a: Array) -> Array:
-        """s_j - 1 at contact radii [m], shape (radii, modes)."""
-        y, c = np.outer(a, self.phi), self.held
-        return (sinc_less_one(y) - c * _sinhc_less_one(np.where(c == 0.0, 0.0, y))) / (1.0 - c)
+        """s_j - 1 at contact radii [m], shape (radii, shapes)."""
+        free = sinc_less_one(np.outer(a, self.phi[self._held :]))
+        if self.held is None:
+            return free
+        from generated.held_waves import shares_less_one
+
+        return np.concatenate((shares_less_one(self.held, a / self.b), free), axis=1)
+
+    @property
+    def _held(self) -> int:
+        return 0 if self.held is None else self.held.k.size
 
 
-class Touch(NamedTuple):
-    """The contact at radii: force [N], depth at rest [m], slopes by the radius, and of each mode
-    the force it feels [N], its share in the depth less 1, and their slopes.
+class ModalPlate(NamedTuple):
+    """The plate of a contact: its oscillators, and the static shapes that stand in the law.
+
+    The quasi-static remainder is the law on the paper's edge less the deflection of `less`, which
+    are modes of that edge, plus that of `more`, which are modes of the scene's edge.
+    """
+
+    modes: Modes
+    less: Modes
+    more: Modes | None
+
+
+class ContactSamples(NamedTuple):
+    """The contact at radii: force [N], quasi-static depth [m], slopes by the radius, and of each
+    shape the force that drives it [N], its share in the depth less 1, and their slopes.
     """
 
     force: Array
@@ -88,76 +139,175 @@ class Touch(NamedTuple):
     less_a: Array
 
 
-def modes_of(model: Model, count: int, lagging: bool = False) -> Modes:
-    """The first bending modes of the plate on its edge, of the branch A0 at their wave numbers.
+def plate_of(law: ContactLaw, count: int) -> ModalPlate:
+    """The first modes of a law's plate on its edge.
 
-    On the paper's edge J_0(phi_j r) are modes of every branch: of all of them, if the scene wants
-    them, those no faster than the last of these. A plate simply supported or clamped has a thin
-    plate's shapes.
+    On the paper's edge these are modes of every branch. If the scene asks for all branches, those
+    no faster than the last mode of A0 are taken.
+    """
+    if not law.other_edge or law.model.edge not in (SUPPORTED, CLAMPED):
+        modes = free_modes(law.model, count, law.viscous)
+        return ModalPlate(modes, modes, None)
+    return _held_plate(law, count)
+
+
+def free_modes(model: Model, count: int, lagging: bool = False) -> Modes:
+    """The first modes of a plate on the paper's edge.
 
     Parameters
     ----------
     lagging
-        Whether the contact is viscous. Bending does not lag: modes then have a thin plate's
-        compliance alone, and what else deflects them at rest stays with the contact.
+        Whether the contact is viscoelastic. Bending is not: modes then have a thin plate's
+        compliance alone, and all other static deflection stays with the contact.
     """
+    found = _free(model, count, lagging)
+    branches = model.inertia.branches == "all" and not lagging
+    return _modes(model, _branches(model, found, float(found.root[-1])) if branches else found)
+
+
+class _Shapes(NamedTuple):
+    """Wave numbers times b of shapes, omega h/c_T, strength W rho h r, and first oscillators."""
+
+    k: Array
+    root: Array
+    strength: Array
+    first: Indices
+
+
+def _free(model: Model, count: int, lagging: bool) -> _Shapes:
+    """A0 on the paper's edge."""
     from generated import inertia
+    from generated.bessel import bessel_j0_zeros, bessel_j1_at_j0_zeros
 
-    k, c, weight = _shapes_on_edge(model, count)
-    x, nu = k * model.eta, model.poissons_ratio
-    root, residue = inertia.bending_frequency(x, nu), inertia.bending_residue(x, nu)
-    if model.inertia.branches == "all":
-        place, root, residue = _all_branches(x, nu, float(root[-1]))
-        k, c, weight = k[place], c[place], weight[place]
-    if lagging:
-        residue = 0.5 * (root / (x * x * math.sqrt(2.0 / (3.0 * (1.0 - nu))))) ** 2
-    drive = residue * weight / (model.density * model.h * model.b * model.b)
-    return Modes(k / model.b, root * (model.shear_speed / model.h), drive, c)
+    j, nu = bessel_j0_zeros(count), model.poissons_ratio
+    x = j * model.eta
+    root = inertia.bending_frequency(x, nu)
+    residue = _residue(x, root, inertia.bending_residue(x, nu), nu, lagging)
+    weight = 1.0 / (np.pi * bessel_j1_at_j0_zeros(count) ** 2)
+    return _Shapes(j, root, residue * weight, np.arange(count))
 
 
-def _shapes_on_edge(model: Model, count: int) -> tuple[Array, Array, Array]:
-    """Wave numbers times b, c_j, and w(0)^2 over the mean of w^2 over the plate's pi."""
-    if model.edge == "soft-hinge":
-        from generated.bessel import bessel_j0_zeros, bessel_j1_at_j0_zeros
-
-        weight = 1.0 / (np.pi * bessel_j1_at_j0_zeros(count) ** 2)
-        return bessel_j0_zeros(count), np.zeros(count), weight
-    from generated.held_modes import clamped_modes, supported_modes
-
-    if model.edge == "clamped":
-        return clamped_modes(count)
-    return supported_modes(count, model.poissons_ratio)
+def _residue(x: Array, root: Array, residue: Array, nu: float, lagging: bool) -> Array:
+    """Of A0, or such that a mode has a thin plate's static compliance."""
+    if not lagging:
+        return residue
+    return 0.5 * (root / (x * x * math.sqrt(2.0 / (3.0 * (1.0 - nu))))) ** 2
 
 
-def _all_branches(x: Array, nu: float, highest: float) -> tuple[NDArray[np.intp], Array, Array]:
-    """Which x, frequency and residue, of every branch up to a frequency."""
+def _modes(model: Model, shapes: _Shapes, held: "Waves | None" = None) -> Modes:
+    """Modes in SI."""
+    drive = shapes.strength / (model.density * model.h * model.b * model.b)
+    omega = shapes.root * (model.shear_speed / model.h)
+    return Modes(shapes.k / model.b, omega, drive, shapes.first, held, model.b)
+
+
+def _branches(model: Model, lowest: _Shapes, highest: float, without: int = 0) -> _Shapes:
+    """All branches of the paper's edge up to a frequency, but for A0 of the first shapes."""
+    from generated.bessel import bessel_j1_at_j0_zeros
     from generated.plate_waves import branches
 
+    nu, x = model.poissons_ratio, lowest.k * model.eta
+    weight = 1.0 / (np.pi * bessel_j1_at_j0_zeros(x.size)[:, None] ** 2)
     # At x = 0 branches begin pi/2 apart or wider, and none of them falls by much.
     count = math.ceil(highest / (math.pi / 2.0)) + 2
-    kinds = [branches(x, nu, count, parity) for parity in ("antisymmetric", "symmetric")]
-    root, residue = (np.hstack(parts) for parts in zip(*kinds, strict=True))
-    place, which = np.nonzero((root <= highest * (1.0 + 1e-12)) & (residue > 0.0))
-    if place.size > MANY:
-        raise SceneError(
-            f"inertia.branches: expected no more than {MANY} oscillators, got {place.size} with "
-            f'{x.size} modes of all branches; give fewer inertia.modes, or branches = "A0"'
-        )
-    order = np.argsort(root[place, which], kind="stable")
-    place, which = place[order], which[order]
-    return place, root[place, which], residue[place, which]
+    bent, stretched = (branches(x, nu, count, kind) for kind in ("antisymmetric", "symmetric"))
+    root = np.hstack((lowest.root[:, None], bent[0][:, 1:], stretched[0]))
+    further = weight * np.hstack((bent[1][:, 1:], stretched[1]))
+    strength = np.hstack((lowest.strength[:, None], further))
+    taken = (root <= highest * (1.0 + 1e-12)) & (strength > 0.0)
+    taken[:, 0] = np.arange(x.size) >= without
+    some = np.any(taken, axis=1)
+    sizes = np.sum(taken[some], axis=1)
+    return _Shapes(lowest.k[some], root[taken], strength[taken], np.cumsum(sizes) - sizes)
 
 
-def far_plate(model: Model) -> Modes:
-    """No oscillator, but an endless thin plate: it yields at P/(8 sqrt(D rho H))."""
-    H, none = 2.0 * model.h, np.zeros(0)
-    bending = model.modulus * H**3 / 12.0
-    return Modes(none, none, none, none, 1.0 / (8.0 * math.sqrt(bending * model.density * H)))
+def _held_plate(law: ContactLaw, count: int) -> ModalPlate:
+    """A plate whose edge is clamped or simply supported.
+
+    Held modes exist below the cut-off of their evanescent partner; beyond it modes are those of
+    the paper's edge. The static deflection by a force on a point is that of the law: the first
+    mode takes the difference between the law and the sum over modes.
+    """
+    model, lagging = law.model, law.viscous
+    every = _waves(model)
+    known, moving = every.k.size, min(count, every.k.size)
+    partner = _free(model, max(count, known), lagging)
+    residue = _residue(
+        every.k * model.eta, every.root, every.residue, model.poissons_ratio, lagging
+    )
+    held = _Shapes(every.k, every.root.copy(), residue * every.weight, np.arange(known))
+    own, other = (_modes(model, x).compliance for x in (held, partner))
+    lacking = _edge_compliance(law) - float(np.sum(own) - np.sum(other[:known]))
+    held.root[0] /= math.sqrt(1.0 + lacking / own[0])
+    free, waves = _first(partner, count), _some(every, slice(moving))
+    if model.inertia.branches == "all" and not lagging:
+        highest = float(free.root[-1])
+        less = _modes(model, _branches(model, partner, highest))
+        free = _branches(model, free, highest, moving)
+    else:
+        less = _modes(model, partner)
+        free = _first(free, count, moving)
+    modes = _modes(model, _joined(_first(held, moving), free), waves)
+    if moving == known:
+        return ModalPlate(modes, less, None)
+    rest = _first(held, known, moving)
+    return ModalPlate(modes, less, _modes(model, rest, _some(every, slice(moving, known))))
+
+
+def _first(shapes: _Shapes, end: int, begin: int = 0) -> _Shapes:
+    """Some shapes of one oscillator each."""
+    part = slice(begin, end)
+    k = shapes.k[part]
+    return _Shapes(k, shapes.root[part], shapes.strength[part], np.arange(k.size))
+
+
+def _joined(one: _Shapes, other: _Shapes) -> _Shapes:
+    """Shapes of both, in this order."""
+    k, root, strength = (np.concatenate(pair) for pair in zip(one[:3], other[:3], strict=True))
+    return _Shapes(k, root, strength, np.concatenate((one.first, one.root.size + other.first)))
+
+
+def _some(waves: "Waves", part: slice) -> "Waves":
+    """Some of the held modes."""
+    return type(waves)(*(values[part] for values in waves))
+
+
+@lru_cache(maxsize=8)
+def _waves(model: Model) -> "Waves":
+    """All modes of the model's edge below the cut-off."""
+    from generated.held_waves import THICKEST, clamped_waves, cutoff, supported_waves
+
+    if model.eta > THICKEST:
+        raise _too_thick(model)
+    count = math.ceil(cutoff(model.poissons_ratio) / (math.pi * model.eta)) + 1
+    run = clamped_waves if model.edge == CLAMPED else supported_waves
+    found = run(count, model.eta, model.poissons_ratio)
+    if not found.k.size:
+        raise _too_thick(model)
+    return found
+
+
+def _too_thick(model: Model) -> SceneError:
+    """A held plate so thick that no bending mode of it is known."""
+    return SceneError(
+        f"plate.edge: expected a {model.edge} plate with bending modes, h/b up to about 0.4, got "
+        f'h/b = {model.eta:.3g}; write edge = "soft-hinge", or effects.inertia = false'
+    )
+
+
+def _edge_compliance(law: ContactLaw) -> float:
+    """What the edge adds to the static deflection at the axis by a force on a point [m/N]."""
+    model = law.model
+    edge = kernels.supported_edge if model.edge == SUPPORTED else kernels.clamped_edge
+    a = SMALL * min(model.h, model.b)
+    share = float(edge(np.array([a]), model.h, model.b, model.lam, model.mu)[0])
+    # delta = (a^2/R) F and P = (4/3) E* a^3/R with the plate's own E*.
+    return 0.75 * share / (model.modulus * a)
 
 
 @dataclass(frozen=True)
-class Contact:
-    """Tables of a law beside oscillators, up to a contact radius [m]."""
+class ContactTables:
+    """Tables of a law with oscillators, up to a contact radius [m]."""
 
     modes: Modes
     R: float
@@ -165,18 +315,18 @@ class Contact:
     table: Array
     pointwise: bool = False
 
-    def at(self, a: Array) -> Touch:
+    def at(self, a: Array) -> ContactSamples:
         """The contact at radii [m]; NaN beyond the top."""
         x = np.where(a <= self.top, a / self.top, np.nan)
-        found = chebvander(2.0 * x - 1.0, DEGREE) @ self.table
-        value, slope = np.split(found, 2, axis=1)
-        cubes, squares = np.split(value, 2, axis=1)
-        cube_x, square_x = np.split(slope, 2, axis=1)
-        x = x[:, None]
-        cube_a = (3.0 * cubes + x * cube_x) * x * x / self.top
-        square_a = (2.0 * squares + x * square_x) * x / self.top
+        found = chebvander(2.0 * x - 1.0, self.table.shape[0] - 1) @ self.table
+        x, half = x[:, None], found.shape[1] // 2
+        count = half // 2
+        cubes, squares = found[:, :count], found[:, count:half]
+        cube_x, square_x = found[:, half : half + count], found[:, half + count :]
+        cube_a = (3.0 * cubes + x * cube_x) * (x * x / self.top)
+        square_a = (2.0 * squares + x * square_x) * (x / self.top)
         cubes, squares = cubes * x**3, squares * x**2
-        return Touch(
+        return ContactSamples(
             cubes[:, 0],
             squares[:, 0],
             cubes[:, 1:],
@@ -188,26 +338,37 @@ class Contact:
         )
 
 
-def contact_of(law: Law, modes: Modes, top: float, pointwise: bool) -> Contact:
-    """A law's tables up to a contact radius [m]."""
-    x, analysis, mean = _knots()
+def contact_of(law: ContactLaw, plate: ModalPlate, top: float, pointwise: bool) -> ContactTables:
+    """Tables of a law on the paper's edge with a plate's modes, up to a contact radius [m]."""
+    # sin(a phi) asks for a polynomial of a degree beyond half of a phi.
+    x, analysis, mean = _knots(max(DEGREE, int(16 + RESOLVED * top * float(plate.less.phi[-1]))))
     a = top * x
     shape = law.at(a)
     slope = 2.0 * (a / law.model.R) * shape.slope
     force, depth = law.force(a, shape), law.indentation(a, shape)
-    less = modes.shares_less_one(a)
-    # P' sh over x^2 is a polynomial, whose mean weighted by x^2 is P_j over x^3.
+    # P' over x^2 is a polynomial, whose mean weighted by x^2 is P over x^3.
     growth = (law.stiffness(a, shape) * slope * top / x**2)[:, None]
-    cubes = mean @ (analysis @ np.concatenate((growth, growth * (1.0 + less)), axis=1))
-    if pointwise:
-        less = np.zeros_like(less)
-    moved = (cubes[:, 1:] * (1.0 + less)) @ modes.compliance * x
-    rest = depth / x**2 - moved
-    values = np.column_stack((force / x**3, cubes[:, 1:], rest, less / x[:, None] ** 2))
+
+    def driven(modes: Modes) -> tuple[Array, Array]:
+        """P_j over x^3 and s_j - 1."""
+        less = modes.shares_less_one(a)
+        return mean @ (analysis @ (growth * (1.0 + less))), 0.0 * less if pointwise else less
+
+    def moved(modes: Modes) -> Array:
+        """Static deflection of modes over x^2."""
+        felt, less = driven(modes)
+        return np.asarray((felt * (1.0 + less)) @ modes.compliance * x, dtype=np.float64)
+
+    felt, less = driven(plate.modes)
+    rest = depth / x**2 - moved(plate.less)
+    if plate.more is not None:
+        rest += moved(plate.more)
+    values = np.column_stack((force / x**3, felt, rest, less / x[:, None] ** 2))
     table = analysis @ values
     slopes = np.zeros_like(table)
     slopes[:-1] = 2.0 * chebder(table)
-    return Contact(modes, law.model.R, top, np.concatenate((table, slopes), axis=1), pointwise)
+    whole = np.concatenate((table, slopes), axis=1)
+    return ContactTables(plate.modes, law.model.R, top, whole, pointwise)
 
 
 def sinc_less_one(y: Array) -> Array:
@@ -216,20 +377,13 @@ def sinc_less_one(y: Array) -> Array:
     return np.where(np.abs(y) < 0.1, small, np.sinc(y / np.pi) - 1.0)
 
 
-def _sinhc_less_one(y: Array) -> Array:
-    """sinh(y)/y - 1."""
-    small = y * y / 6.0 * (1.0 + y * y / 20.0 * (1.0 + y * y / 42.0 * (1.0 + y * y / 72.0)))
-    large = np.where(np.abs(y) < 0.1, 1.0, y)
-    return np.where(np.abs(y) < 0.1, small, np.sinh(large) / large - 1.0)
-
-
-@cache
-def _knots() -> tuple[Array, Array, Array]:
+@lru_cache(maxsize=8)
+def _knots(degree: int) -> tuple[Array, Array, Array]:
     """Chebyshev's points on [0, 1], coefficients from values there, and int_0^1 t^2 f(x t) dt."""
-    n = 2 * DEGREE
+    n = 2 * degree
     x = (1.0 - np.cos(np.pi * (np.arange(n) + 0.5) / n)) / 2.0
-    analysis = np.linalg.pinv(chebvander(2.0 * x - 1.0, DEGREE))
-    t, weights = gauss(INNER)
-    inner = chebvander(2.0 * np.outer(x, t) - 1.0, DEGREE)
+    analysis = np.linalg.pinv(chebvander(2.0 * x - 1.0, degree))
+    t, weights = gauss(degree + 8)
+    inner = chebvander(2.0 * np.outer(x, t) - 1.0, degree)
     mean = np.einsum("i,kij->kj", weights * t * t, inner)
     return x, np.asarray(analysis, dtype=np.float64), np.asarray(mean, dtype=np.float64)

@@ -1,32 +1,35 @@
 """Turns a scene into the numbers the kernels take, and into dimensionless ones."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from derivation.scene.materials import MATERIALS, lame_constants, plane_strain_modulus
 from derivation.scene.scene import Plate, Scene, SceneError, Sphere
 
 NUMBERS = ("R", "m", "v0", "h", "b", "lam", "mu")
+ALONE, LONGER = 3.3, 5.0
+"""Contact time over (m^2/(K^2 v0))^(1/5), 2.94 by Hertz's law and little more on a plate; and how
+it grows with Zener's number: a first guess, for the radius of an infinite plate."""
 
 
 @dataclass(frozen=True)
-class Inertia:
+class InertiaSettings:
     """How the plate's inertia is computed.
 
     Attributes
     ----------
     modes
-        Oscillators; 0 for as many as it takes.
+        Number of dynamic bending modes; 0 for as many as it takes.
     branches
-        "A0", or "all" of the plate's branches.
+        "A0", "all" of the plate's branches, or "auto" for all where the tolerance needs them.
     pointwise
         Whether the indentation is taken at the axis, which leaks energy.
     infinite_plate
-        Whether the plate has no edge and bends alone.
+        Whether the plate is so large that no wave returns from its edge.
     """
 
     modes: int = 0
-    branches: str = "A0"
+    branches: str = "auto"
     pointwise: bool = False
     infinite_plate: bool = False
 
@@ -50,7 +53,7 @@ class Model:
     density
         Of the plate [kg/m^3]; 0 if it is not known.
     viscous_time
-        A_v, by which the half-space's force lags [s].
+        Retardation time A_v of the viscoelastic contact [s].
     edge
         How the plate's edge is held.
     inertia
@@ -69,7 +72,7 @@ class Model:
     density: float = 0.0
     viscous_time: float = 0.0
     edge: str = "soft-hinge"
-    inertia: Inertia = Inertia()
+    inertia: InertiaSettings = InertiaSettings()
 
     @property
     def poissons_ratio(self) -> float:
@@ -150,6 +153,8 @@ def model_of(scene: Scene) -> Model:
         edge=scene.plate.edge,
         inertia=_inertia(scene),
     )
+    if model.inertia.infinite_plate and model.density:
+        model = replace(model, b=_unbounded(model), edge="soft-hinge")
     for name, value in zip(NUMBERS, model.numbers, strict=True):
         if not math.isfinite(value) or (value <= 0 and name != "lam"):
             raise SceneError(
@@ -164,13 +169,23 @@ def model_of(scene: Scene) -> Model:
     return model
 
 
-def _inertia(scene: Scene) -> Inertia:
+def _unbounded(model: Model) -> float:
+    """Radius [m] of a plate from whose edge no wave returns during a contact, as a first guess."""
+    stiffness = 4.0 / 3.0 * model.modulus / (1.0 + model.softness) * math.sqrt(model.R)
+    alone = math.pow(model.m / stiffness, 0.4) / math.pow(model.v0, 0.2)
+    bending = model.modulus * (2.0 * model.h) ** 3 / 12.0
+    zener = model.m / (8.0 * alone * math.sqrt(bending * 2.0 * model.h * model.density))
+    time = alone * (ALONE + LONGER * zener)
+    return max(model.shear_speed * time, 4.0 * model.h)
+
+
+def _inertia(scene: Scene) -> InertiaSettings:
     wanted = scene.inertia
     if wanted is None:
-        return Inertia()
+        return InertiaSettings()
     modes = 0 if wanted.modes == "auto" else wanted.modes
     pointwise, endless = wanted.closure == "pointwise", wanted.plate == "infinite"
-    return Inertia(modes, wanted.branches, pointwise, endless)
+    return InertiaSettings(modes, wanted.branches, pointwise, endless)
 
 
 def _mass(sphere: Sphere) -> float:

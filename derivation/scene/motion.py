@@ -17,8 +17,10 @@ import numpy as np
 from numpy.polynomial.legendre import leggauss, legint, legval, legvander
 
 from derivation.scene.effects.effect import Array
-from derivation.scene.law import Law, Shape
+from derivation.scene.law import ContactLaw, Shape
+from derivation.scene.limits import check_numbers, refuse
 from derivation.scene.quadrature import MORE_TIMES, NODES, Rule, rule
+from derivation.scene.scene import SceneError
 
 COURSE = (32, *MORE_TIMES)
 """Nodes of the course in time: no more than needed, as their rounding adds up at its ends."""
@@ -99,25 +101,30 @@ class Motion:
             self.restitution,
         )
 
-    def history(self, law: Law, times: Array) -> tuple[Array, Array, Array, Array]:
+    def history(self, law: ContactLaw, times: Array) -> tuple[Array, Array, Array, Array]:
         """Indentation [m], velocity [m/s], contact radius [m] and force [N] at times [s]."""
         return _history(law, self, times)
 
 
 def largest_radius(
-    law: Law, n: int = NODES[0], start: float = math.inf, close: float = _CLOSE
+    law: ContactLaw, n: int = NODES[0], start: float = math.inf, close: float = _CLOSE
 ) -> float:
-    """Contact radius [m] at which the sphere turns; NaN if it is beyond the law's range.
+    """Contact radius [m] at which the sphere turns.
 
     Newton's iteration in the logarithms of energy and radius, whose relation is nearly
     linear, from `start` or from what Hertz's and the thin plate's law say, until a step is as
     small as `close`. No energy is formed, which could leave the range of doubles.
+
+    Raises
+    ------
+    SceneError
+        If it is beyond the law's range.
     """
     model, x = law.model, rule(n).x
     goal = math.log(3.0 / 16.0) + math.log(model.m) - float(np.log(law.modulus))
     goal += 2.0 * (math.log(model.v0) + math.log(model.R))
     if not math.isfinite(goal):
-        return math.nan
+        raise _beyond(law)
     limit = law.limit
     a = min(_start(law, goal) if start == math.inf else start, limit)
     for _ in range(_STEPS):
@@ -127,39 +134,55 @@ def largest_radius(
         depth = 2.0 * law.gravity * a * (a / model.R) / model.v0 / model.v0
         share = 1.0 + depth * float(shape.depth[-1])
         if not (mean > 0.0 and share < math.inf):
-            return math.nan
+            raise _beyond(law)
         steep = float(power[-1]) / mean - depth * 2.0 * float(shape.slope[-1]) / share
         step = (goal + math.log(share) - math.log(mean) - 5.0 * math.log(a)) / steep
         if not steep > 0.0 or (a >= limit and step > 0.0):
-            return math.nan
+            raise _beyond(law)
         a = min(a * math.exp(max(-1.0, min(1.0, step))), limit)
         if abs(step) <= close:
             break
+    if not a < limit:
+        raise _beyond(law)
     return a
 
 
-def _start(law: Law, goal: float) -> float:
+def _beyond(law: ContactLaw) -> SceneError:
+    """Of an impact without a largest contact radius; `limits.refuse` says how fast is too fast."""
+    return SceneError(
+        f"impact.speed: expected a largest contact radius below {law.limit_in_words}, got none at "
+        f"{law.model.v0:.6g} m/s; lower the speed"
+    )
+
+
+def _start(law: ContactLaw, goal: float) -> float:
     """A radius [m] near the largest, from the logarithm of E over K: whichever law is stiffer."""
     model = law.model
     found = 0.2 * (goal + math.log(5.0))
-    if "bending" in law.effects:
+    if law.bends:
         # 3/2 a/h/(4 pi eta^2) instead of 1, with a^6/6 instead of a^5/5.
         steep = math.log(16.0 * math.pi) + math.log(model.h) + 2.0 * math.log(model.eta)
         found = min(found, (goal + steep) / 6.0)
     return math.exp(min(max(found, -700.0), 700.0))
 
 
-def impact(law: Law) -> Motion | None:
-    """The impact by a law; None if the contact radius reaches the law's limit."""
+def impact(law: ContactLaw) -> Motion:
+    """The impact by a law.
+
+    Raises
+    ------
+    SceneError
+        If the contact radius reaches the law's limit, or a result is no number above zero.
+    """
     before: Motion | None = None
     a = math.inf
     for n, times in [(n, n) for n in NODES] + [(NODES[1], n) for n in MORE_TIMES]:
-        a = largest_radius(law, n, a)
-        if not a < law.limit:
-            return None
+        try:
+            a = largest_radius(law, n, a)
+        except SceneError:
+            refuse(law)
         found = _results(law, a, n, times)
-        if not all(0.0 < value < math.inf for value in found.numbers):
-            return found
+        check_numbers(law.model, *found.numbers)
         if before is not None:
             pairs = zip(found.numbers, before.numbers, strict=True)
             change = max(abs(new / old - 1.0) for new, old in pairs)
@@ -167,10 +190,11 @@ def impact(law: Law) -> Motion | None:
             if change <= SETTLED:
                 return before
         before = before or found
+    assert before is not None
     return before
 
 
-def _results(law: Law, a: float, n: int, times: int) -> Motion:
+def _results(law: ContactLaw, a: float, n: int, times: int) -> Motion:
     """The results at a largest radius [m] by n nodes, and others in time."""
     known = rule(n, times)
     shape = law.at(np.append(known.x, 1.0) * a)
@@ -182,7 +206,7 @@ def _results(law: Law, a: float, n: int, times: int) -> Motion:
     return Motion(time, float(deepest[0]), float(strongest[0]), a, 0.0)
 
 
-def _course(law: Law, a: float, shape: Shape, known: Rule) -> tuple[Array, Array]:
+def _course(law: ContactLaw, a: float, shape: Shape, known: Rule) -> tuple[Array, Array]:
     """q S/sqrt(r) and sqrt(r) at the nodes in time."""
     model = law.model
     power, slope = shape.force[:-1] * shape.slope[:-1], shape.slope[:-1]
@@ -194,7 +218,7 @@ def _course(law: Law, a: float, shape: Shape, known: Rule) -> tuple[Array, Array
     return q * (known.at_times @ slope) / root, root
 
 
-def _history(law: Law, motion: Motion, times: Array) -> tuple[Array, Array, Array, Array]:
+def _history(law: ContactLaw, motion: Motion, times: Array) -> tuple[Array, Array, Array, Array]:
     """The course of an impact at times [s].
 
     The time since the turning point is a polynomial in u, which Newton's iteration inverts.
@@ -218,7 +242,10 @@ def _history(law: Law, motion: Motion, times: Array) -> tuple[Array, Array, Arra
     grid = np.linspace(-1.0, 1.0, 401)
     u = np.interp(since, legval(grid, elapsed), grid)
     for _ in range(_NEWTON):
-        u = np.clip(u - 2.0 * (legval(u, elapsed) - since) / legval(u, rate), -1.0, 1.0)
+        # At both ends the rate may be exactly zero, and the time is met there already.
+        off, slope = legval(u, elapsed) - since, legval(u, rate)
+        step = np.divide(off, slope, np.zeros_like(u), where=slope != 0.0)
+        u = np.clip(u - 2.0 * step, -1.0, 1.0)
     half = (1.0 + u) / 2.0
     radii = a * (1.0 - half) * (1.0 + half)
     found = law.at(radii)

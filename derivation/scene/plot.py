@@ -118,8 +118,18 @@ def scaled(values: Array, name: str, unit: str) -> tuple[Array, str]:
         What they are.
     unit
         SI unit without prefix.
+
+    Raises
+    ------
+    SceneError
+        If a value is not finite.
     """
     largest = float(np.max(np.abs(values)))
+    if not math.isfinite(largest):
+        raise SceneError(
+            f"plot: expected finite values of the {name}, got NaN or infinity; run it without "
+            "--plot and --animate, and check the scene for extreme numbers"
+        )
     order = 3 * math.floor(math.log10(largest) / 3) if largest > 0 else 0
     order = min(max(order, min(PREFIXES)), max(PREFIXES))
     return values / 10.0**order, f"{name} [{PREFIXES[order]}{unit}]"

@@ -67,6 +67,11 @@ def stored(n: int) -> Array:
 
 @cache
 def gauss(n: int) -> tuple[Array, Array]:
-    """Gauss' nodes and weights on [0, 1]."""
-    nodes, weights = leggauss(n)
+    """Gauss' nodes and weights on [0, 1]; of many by SciPy, as NumPy takes seconds."""
+    if n > NODES[-1]:
+        from scipy.special import roots_legendre
+
+        nodes, weights = roots_legendre(n)
+    else:
+        nodes, weights = leggauss(n)
     return ((1.0 + nodes) / 2.0).astype(np.float64), (weights / 2.0).astype(np.float64)

@@ -1,20 +1,21 @@
 """What a simulation returns: numbers in SI, their history, JSON, CSV and a notebook table."""
 
-from collections.abc import Iterable, Mapping
+import math
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from html import escape
-from typing import TYPE_CHECKING, Any, NamedTuple, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from derivation.scene import kernels
-from derivation.scene.choice import Accuracy, moved, moving
-from derivation.scene.gate import Gate
-from derivation.scene.html import html_table
-from derivation.scene.law import WHOLE_PLATE
-from derivation.scene.limits import INERTIA
+from derivation.scene.effect_selection import Gate
+from derivation.scene.effects import BY_NAME
+from derivation.scene.effects.effect import NO_BOUND
+from derivation.scene.history import POINTS, History, MovingHistory, Pressures
+from derivation.scene.method_selection import AchievedAccuracy, moved, moving
 from derivation.scene.model import Model
 from derivation.scene.scene import Scene, SceneError
 
@@ -24,116 +25,8 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-POINTS = 201
-"""Times of a history, if not said otherwise."""
-SHOWN = 12
-"""Rows of a history that a notebook shows."""
-HISTORY_UNITS = {
-    "time": "s",
-    "indentation": "m",
-    "velocity": "m/s",
-    "contact_radius": "m",
-    "force": "N",
-    "deflection": "m",
-    "plate_energy": "J",
-}
-
-
-class History(NamedTuple):
-    """The course of an impact.
-
-    Attributes
-    ----------
-    time
-        Time since first contact [s].
-    indentation, velocity
-        Indentation [m] and its rate [m/s].
-    contact_radius
-        Contact radius [m].
-    force
-        Contact force [N].
-    """
-
-    time: Array
-    indentation: Array
-    velocity: Array
-    contact_radius: Array
-    force: Array
-
-    def to_csv(self) -> str:
-        """The history as CSV, one line per time, numbers to the last bit."""
-        return _csv(self._asdict())
-
-    def _repr_html_(self) -> str:
-        """Some of its times as a table for a notebook."""
-        return _some_rows(self._asdict())
-
-
-class MovingHistory(NamedTuple):
-    """The course of an impact on a plate that moves.
-
-    Attributes
-    ----------
-    time
-        Time since first contact [s].
-    indentation, velocity
-        Way of the sphere [m] and its rate [m/s].
-    contact_radius
-        Contact radius [m].
-    force
-        Contact force [N].
-    deflection
-        Of the plate's modes at the axis [m].
-    plate_energy
-        Energy of the plate's modes [J].
-    """
-
-    time: Array
-    indentation: Array
-    velocity: Array
-    contact_radius: Array
-    force: Array
-    deflection: Array
-    plate_energy: Array
-
-    def to_csv(self) -> str:
-        """The history as CSV, one line per time, numbers to the last bit."""
-        return _csv(self._asdict())
-
-    def _repr_html_(self) -> str:
-        """Some of its times as a table for a notebook."""
-        return _some_rows(self._asdict())
-
-
-def _some_rows(columns: Mapping[str, Array]) -> str:
-    """At most a dozen rows, evenly chosen, first and last among them, and how many there are."""
-    count = len(columns["time"])
-    chosen = np.unique(np.linspace(0, count - 1, min(count, SHOWN)).round().astype(int))
-    heads = [f"{name.replace('_', ' ')} [{HISTORY_UNITS[name]}]" for name in columns]
-    rows = ([f"{column[k]:.6g}" for column in columns.values()] for k in chosen)
-    return f"{html_table(heads, rows)}<p>{len(chosen)} of {count} times</p>"
-
-
-def _csv(columns: Mapping[str, Array]) -> str:
-    rows = zip(*(column.tolist() for column in columns.values()), strict=True)
-    lines = [",".join(columns), *(",".join(map(repr, row)) for row in rows)]
-    return "\n".join(lines) + "\n"
-
-
-class Pressures(NamedTuple):
-    """Pressure of a contact.
-
-    Attributes
-    ----------
-    distance
-        Distance from the axis [m].
-    pressure, hertz
-        Contact pressure and Hertz's of the same force [Pa], 0 outside the contact.
-    """
-
-    distance: Array
-    pressure: Array
-    hertz: Array
+FEWEST_DIGITS, MOST_DIGITS = 2, 12
+"""Significant digits of a result that are shown."""
 
 
 @dataclass(frozen=True)
@@ -143,9 +36,10 @@ class Result:
     Attributes
     ----------
     contact_time
-        Time from first contact to release [s]; of a plate that moves to the first release.
+        Time from first contact to release [s]; of a plate with inertia that of the first contact.
     max_indentation
-        Largest indentation [m]; of a plate that moves the sphere's largest way.
+        Largest indentation [m]: displacement of the sphere since first contact, plate deflection
+        included.
     max_force
         Largest contact force [N].
     max_contact_radius
@@ -162,8 +56,9 @@ class Result:
     accuracy
         The method and the bound of its relative error.
     model_error
-        Largest share of the indentation [1] that the edge's model may be off by, measured
-        against a three-dimensional plate; beside the bound of `accuracy`, not in it.
+        Largest relative error of the model itself [1], not included in the bound of `accuracy`:
+        of the edge, as a share of the indentation, measured against a three-dimensional plate;
+        with plate inertia of all outputs, measured against explicit finite elements.
     warnings
         What to know about the result.
     scene
@@ -172,6 +67,8 @@ class Result:
         Which effects were computed, and why.
     times
         Times [s] asked for; none if the history is to cover the contact evenly.
+    inertia_neglected
+        Whether the plate's inertia is neglected and may matter, as a warning says.
     """
 
     contact_time: float
@@ -180,42 +77,44 @@ class Result:
     max_contact_radius: float
     restitution: float
     max_pressure: float
-    accuracy: Accuracy
+    accuracy: AchievedAccuracy
     model_error: float
     warnings: tuple[str, ...]
     scene: Scene
     gate: Gate = field(repr=False)
     times: tuple[float, ...] | None = None
+    inertia_neglected: bool = False
 
     @cached_property
     def max_tension(self) -> float:
-        """Largest tensile stress on the far face, under the axis [Pa]; below 0 if it is pressed.
+        """Largest tensile stress on the back face, under the axis [Pa]; below 0 if compressive.
 
-        That of the largest force, spread over the largest contact radius as Hertz's pressure
-        is, in the plate at rest: of the whole plate, whatever effects are computed, on the
-        scene's edge unless that effect is switched off. The tolerance is of the declared
-        outputs; this follows from two of them, but is none. Solved for, the pressure of the same
-        force and radius gives less: by up to 0.06 % at a/h = 1, 3 % at 2, 40 % at 4.
+        Quasi-static, of the plate without inertia under the peak force, spread over the largest
+        contact radius as Hertz's pressure is: of the whole plate, on the scene's edge unless that
+        effect is switched off. The tolerance is of the declared outputs; this follows from two of
+        them, but is none. Solved for, the pressure of the same force and radius gives less: by up
+        to 0.06 % at a/h = 1, 3 % at 2, 40 % at 4.
         """
-        held = self.scene.effects.edge is not False
+        held = not self.gate.edge_disabled
         return self.gate.law.max_tension(self.max_contact_radius, self.max_force, held)
 
     @property
     def verdict(self) -> str:
-        """How far the far face is from breaking; empty without a strength, or if it breaks.
+        """How far the back face is from failure; empty without a strength, or if it is predicted.
 
-        Cracks that start on the loaded face, around the contact, are another matter.
+        Cracks that start on the contact face, around the contact, are another matter.
         """
         strength = self.scene.plate.strength
         if strength is None or self.max_tension > strength:
             return ""
         if self.max_tension <= 0:
-            return "the far face holds: it bears no tension under the axis"
-        doubt = ", at rest under the largest force" if self.moving is not None else ""
-        if any(text.startswith(INERTIA) for text in self.warnings):
-            doubt = ", of a plate without inertia: see the warning"
+            return "no failure predicted on the back face: no tensile stress under the axis"
         times = strength / self.max_tension
-        return f"the far face holds: strength over its largest tension = {times:.3g}{doubt}"
+        doubt = "; plate inertia is neglected but may matter" if self.inertia_neglected else ""
+        return (
+            "no failure predicted on the back face: strength / largest tensile stress = "
+            f"{times:.3g} (quasi-static, under the peak force{doubt})"
+        )
 
     def pressures(self, points: int = POINTS) -> Pressures:
         """The largest contact's pressure over the distance from its axis, beside Hertz's.
@@ -235,8 +134,8 @@ class Result:
 
     @cached_property
     def comparison(self) -> "Comparison | None":
-        """The paper's own motion beside the result, if the scene asks for `perturbation`."""
-        if not any(row.included for row in self.gate.rows if row.name == "perturbation"):
+        """The paper's motion, to compare with the result; None unless the scene asks for it."""
+        if not any(BY_NAME[row.name].compared for row in self.gate.rows if row.included):
             return None
         from derivation.scene.comparison import compare
 
@@ -245,11 +144,9 @@ class Result:
     @cached_property
     def moving(self) -> "WaveMotion | None":
         """Contacts, energies and course on a plate that moves; None of a plate at rest."""
-        if "inertia" not in self.gate.law.effects:
+        if not self.gate.law.dynamic:
             return None
-        found = moving(self.gate, self.accuracy.rtol)
-        assert found is not None  # or there were no result
-        return found
+        return moving(self.gate, self.accuracy.rtol)
 
     @property
     def total_time(self) -> float:
@@ -292,22 +189,31 @@ class Result:
         Raises
         ------
         SceneError
-            If n is less than 2.
+            If n is less than 2, or a number of the history is not finite.
         """
         if n is not None and n < 2:
             raise SceneError(f"n: expected at least 2 times, got {n}; give 2 or more")
+        found = self._history(n)
+        if not all(np.isfinite(column).all() for column in found):
+            raise SceneError(
+                "history: expected finite numbers at all times, got NaN or infinity; give other "
+                "times, or a scene of less extreme numbers"
+            )
+        return found
+
+    def _history(self, n: int | None) -> History | MovingHistory:
+        """The course as it is computed."""
         law = self.gate.law
         if self.moving is not None:
-            from derivation.scene.dynamics import A, E, P, V, W, Z
+            from derivation.scene.time_element import A, E, P, V, W, Z
 
             times = self._times(n, self.total_time)
             return MovingHistory(times, *self.moving.rows(times)[[Z, V, A, P, W, E]])
-        if law.effects == WHOLE_PLATE | {"hertz"}:
+        if law.of_paper:
             end = float(kernels.impact(*self.model.numbers).contact_time)
             times = self._times(n, end)
             return History(times, *kernels.history(times, *self.model.numbers))
         whole = moved(law)
-        assert whole is not None  # or there were no result
         times = self._times(n, whole.contact_time)
         return History(times, *whole.history(law, times))
 
@@ -319,7 +225,9 @@ class Result:
 
     def to_json(self) -> dict[str, Any]:
         """The result in SI, with its accuracy, its warnings and the scene it belongs to."""
-        numbers = {name: getattr(self, name) for name in UNITS}
+        found = {name: getattr(self, name) for name in UNITS}
+        # JSON has no NaN: what is not known of an incomplete impact is null.
+        numbers = {name: x if math.isfinite(x) else None for name, x in found.items()}
         beside = {"perturbation": self.comparison.to_json()} if self.comparison else {}
         if self.moving is not None:
             beside["inertia"] = self.moving.to_json()
@@ -340,17 +248,63 @@ class Result:
         """The model error in a sentence; empty if there is none."""
         if not self.model_error:
             return ""
+        size = f"up to {100 * self.model_error:.2g} %"
+        if self.moving is not None:
+            return (
+                f"Not included in this bound: model error of plate and edge, {size} (measured "
+                "against explicit finite-element simulations)"
+            )
         return (
-            f"beside this bound: the model of the {self.model.edge} edge is off by up to "
-            f"{100 * self.model_error:.2g} % of the indentation (measured in three dimensions)"
+            f"Not included in this bound: model error of the {self.model.edge} edge, {size} of the "
+            "indentation (measured against a 3-D elastic solution)"
         )
 
+    @property
+    def complete(self) -> bool:
+        """Whether the sphere has left the plate for good."""
+        return self.moving is None or self.moving.inertia.complete
+
+    @property
+    def incomplete_note(self) -> str:
+        """Why the simulation ended before the sphere left, and what to do; empty if it did not."""
+        if self.moving is None or self.complete:
+            return ""
+        inertia = self.moving.inertia
+        return (
+            f"INCOMPLETE: {inertia.reason}. The results cover the first {len(inertia.contacts)} "
+            f"contact(s), up to {inertia.total_time:.6g} s; the restitution is not known. "
+            f"{inertia.remedy[0].upper()}{inertia.remedy[1:]}."
+        )
+
+    @property
+    def disabled_note(self) -> str:
+        """What the effects that the scene disables would change; empty if there are none."""
+        rows = [row for row in self.gate.rows if row.disabled]
+        known = ", ".join(
+            f"{row.name} ({f'at most {row.bound:.1e}' if row.bound < NO_BOUND else 'no bound'})"
+            for row in rows
+        )
+        return f"Disabled by the scene, not included in this bound: {known}." if rows else ""
+
+    @property
+    def digits(self) -> int:
+        """Number of significant digits that the bound and the model error support."""
+        error = self.accuracy.bound + self.model_error
+        if not math.isfinite(error):
+            return FEWEST_DIGITS
+        return min(MOST_DIGITS, max(FEWEST_DIGITS, math.ceil(-math.log10(max(error, 1e-300)))))
+
     def rows(self) -> list[tuple[str, str, str]]:
-        """Quantity, value and unit, to be read by people."""
-        return [
-            (name.replace("_", " "), f"{getattr(self, name):.6g}", unit)
+        """Quantity, value to the digits that the bound supports, and unit."""
+        found = [
+            (name.replace("_", " "), _shown(getattr(self, name), self.digits), unit)
             for name, unit in UNITS.items()
         ]
+        if self.moving is None:
+            return found
+        (_, first, unit), *others = found
+        total = ("total time", _shown(self.total_time, self.digits), unit)
+        return [("contact time (first contact)", first, unit), total, *others]
 
     def _repr_html_(self) -> str:
         """Table for a notebook."""
@@ -358,13 +312,19 @@ class Result:
             f"<tr><td>{name}</td><td style='text-align:right'>{value}</td><td>{unit}</td></tr>"
             for name, value, unit in self.rows()
         )
-        notes = f"<p>{escape(str(self.accuracy))}</p><p>{escape(self.model_note)}</p>"
+        told = (self.incomplete_note, str(self.accuracy), self.model_note, self.disabled_note)
+        notes = "".join(f"<p>{escape(text)}</p>" for text in told if text)
         notes += f"<p>{escape(self.verdict)}</p>"
         notes += "".join(f"<p><b>Warning:</b> {escape(text)}</p>" for text in self.warnings)
         beside = self.comparison.to_html() if self.comparison else ""
         if self.moving is not None:
             beside += self.moving.to_html()
         return f"<table>{''.join(cells)}</table>{notes}{self.gate.to_html()}{beside}"
+
+
+def _shown(value: float, digits: int) -> str:
+    """A number to so many significant digits."""
+    return f"{value:#.{digits}g}".removesuffix(".") if math.isfinite(value) else "unknown"
 
 
 UNITS = {

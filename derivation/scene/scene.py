@@ -2,7 +2,8 @@
 
 import sys
 import tomllib
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal, Self, TypeGuard
 
@@ -10,9 +11,11 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 from pydantic.config import JsonDict
 from pydantic_core import PydanticCustomError
 
+from derivation.engine.files import read_file
+from derivation.engine.printable import one_line
 from derivation.scene.html import html_table
 from derivation.scene.materials import MATERIALS
-from derivation.scene.words import choice_problem, explain, shown
+from derivation.scene.messages import choice_problem, explain, listed, shown
 
 Positive = Annotated[float, Field(gt=0)]
 MaterialName = Literal["steel", "glass", "aluminium", "concrete", "PMMA", "paper"]
@@ -25,6 +28,8 @@ OUTPUTS: tuple[Output, ...] = (
     "contact_time", "max_indentation", "max_force", "max_contact_radius", "restitution",
 )  # fmt: skip
 Groups = tuple[tuple[str, ...], ...]
+LARGEST = 2**20
+"""Bytes of a scene file at most."""
 TIGHTEST = 1e-13
 """Smallest relative tolerance: doubles promise no more."""
 CONFLICT = "conflict"
@@ -32,7 +37,21 @@ CONFLICT = "conflict"
 
 
 class SceneError(ValueError):
-    """A scene that cannot be used; the message says what was expected, what came, how to mend."""
+    """A scene that cannot be computed: the one way in which `scene` fails.
+
+    The message gives the key, what was expected, the value, and the remedy.
+    """
+
+
+class IncompleteError(SceneError):
+    """An impact with plate inertia that could not be followed to its end: why, and the remedy."""
+
+    def __init__(self, why: str, remedy: str) -> None:
+        super().__init__(why, remedy)  # as pickle makes it anew
+        self.why, self.remedy = why, remedy
+
+    def __str__(self) -> str:
+        return f"effects.inertia: {self.why}; {self.remedy}"
 
 
 class Table(BaseModel):
@@ -142,11 +161,13 @@ class Plate(Table):
     )
     material: MaterialName | None = Field(None, description="plate material", examples=["glass"])
     edge: Edge = Field(
-        "soft-hinge", description="how the plate's edge is held", examples=["clamped"]
+        "soft-hinge",
+        description="how the plate's edge is held; soft-hinge: the paper's, elastically restrained",
+        examples=["clamped"],
     )
     density: Positive | None = Field(None, description="plate density [kg/m^3]", examples=[2500.0])
     viscous_time: Positive | None = Field(
-        None, description="time A_v by which the contact's force lags [s]", examples=[1e-4]
+        None, description="retardation time A_v of a viscoelastic contact [s]", examples=[1e-4]
     )
     yield_stress: Positive | None = Field(
         None, description="yield stress of the plate [Pa]", examples=[235e6]
@@ -212,11 +233,16 @@ class Accuracy(Table):
 class Inertia(Table):
     """How the plate's inertia is computed, where it is."""
 
-    modes: Literal["auto"] | Annotated[int, Field(ge=2, le=3000)] = Field(
-        "auto", description="bending modes that oscillate, the others follow at rest", examples=[40]
+    modes: Literal["auto"] | Annotated[int, Field(ge=2, le=6000)] = Field(
+        "auto",
+        description="number of dynamic bending modes; higher modes respond quasi-statically",
+        examples=[40],
     )
-    branches: Literal["A0", "all"] = Field(
-        "A0", description="the lowest bending branch, or all branches", examples=["all"]
+    branches: Literal["auto", "A0", "all"] = Field(
+        "auto",
+        description="wave branches of the plate: the lowest (A0), all, or all where the tolerance "
+        "needs them",
+        examples=["all"],
     )
     closure: Literal["variational", "pointwise"] = Field(
         "variational",
@@ -224,7 +250,9 @@ class Inertia(Table):
         examples=["pointwise"],
     )
     plate: Literal["modes", "infinite"] = Field(
-        "modes", description="the plate with its edge, or endless (Zener)", examples=["infinite"]
+        "modes",
+        description="a plate with its edge, or one so large that no wave returns from the edge",
+        examples=["infinite"],
     )
 
 
@@ -281,32 +309,30 @@ def load(path: str | Path) -> Scene:
     SceneError
         If the file cannot be read, is not TOML, or describes no usable scene.
     """
-    path = Path(path)
-    if path.exists() and not path.is_file():
-        raise SceneError(f"{path}: expected a scene file, got something that is not a file")
+    name = one_line(str(path), 200)
     try:
         # Some editors begin a file with a byte-order mark, which TOML does not know.
-        data = tomllib.loads(path.read_bytes().decode("utf-8-sig"))
+        data = tomllib.loads(read_file(Path(path), LARGEST).decode("utf-8-sig"))
     except OSError as error:
         reason = error.strerror or error
         raise SceneError(
-            f"{path}: cannot read the scene file ({reason}); check its name and permissions"
+            f"{name}: cannot read the scene file ({reason}); check its name and permissions"
         ) from None
     except UnicodeDecodeError as error:
         raise SceneError(
-            f"{path}: expected a TOML file in UTF-8, got other bytes at {error.start}; "
+            f"{name}: expected a TOML file in UTF-8, got other bytes at {error.start}; "
             "save it as UTF-8 text"
         ) from None
     except tomllib.TOMLDecodeError as error:
         raise SceneError(
-            f"{path}: not valid TOML: {error}; a line reads like `radius = 0.13`"
+            f"{name}: not valid TOML: {error}; a line reads like `radius = 0.13`"
         ) from None
     except (ValueError, RecursionError):  # more digits or brackets than Python can read
         raise SceneError(
-            f"{path}: expected a scene of a few lines, got numbers too long or brackets too deep "
+            f"{name}: expected a scene of a few lines, got numbers too long or brackets too deep "
             "to read; a line reads like `radius = 0.13`"
         ) from None
-    return read(data, str(path))
+    return read(data, name)
 
 
 def read(data: Mapping[str, Any], source: str = "scene") -> Scene:
@@ -330,12 +356,9 @@ def read(data: Mapping[str, Any], source: str = "scene") -> Scene:
     try:
         return Scene.model_validate(dict(data))
     except ValidationError as error:
-        # Each alternative that a key has complains by itself.
-        problems = list(dict.fromkeys(_problems(error, data)))
-    if len(problems) == 1:
-        raise SceneError(f"{source}: {problems[0]}")
-    lines = "".join(f"\n  - {problem}" for problem in problems)
-    raise SceneError(f"{source}: {len(problems)} problems{lines}")
+        problems = _problems(error, data)
+    said = problems[0]() if len(problems) == 1 else listed(problems)
+    raise SceneError(f"{source}: {said}")
 
 
 def schema() -> dict[str, Any]:
@@ -344,15 +367,21 @@ def schema() -> dict[str, Any]:
     return dialect | Scene.model_json_schema()
 
 
-def _problems(error: ValidationError, data: Mapping[str, Any]) -> Iterator[str]:
+def _problems(error: ValidationError, data: Mapping[str, Any]) -> list[Callable[[], str]]:
+    """What is wrong, each still to be put into words."""
     fields = {name: table.model_fields for name, table in TABLES.items()}
+    found: dict[object, Callable[[], str]] = {}
     for item in error.errors(include_url=False):
         if item["type"] != CONFLICT:
-            yield explain(item["type"], item["loc"], item["input"], fields)
+            # Each alternative that a key has complains by itself.
+            place, value = item["loc"], item["input"]
+            told = partial(explain, item["type"], place, value, fields)
+            found.setdefault((place[:2], shown(value)), told)
     # Pydantic looks at keys together only if each is right; the user wants to hear all at once.
     for name, table in TABLES.items():
         if isinstance(data.get(name), Mapping):
-            yield from table.conflicts(data[name])
+            found |= {text: partial(str, text) for text in table.conflicts(data[name])}
+    return list(found.values())
 
 
 def _example(field: Any) -> str:

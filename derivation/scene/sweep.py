@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from multiprocessing import get_context
@@ -14,6 +15,7 @@ from multiprocessing import get_context
 import numpy as np
 
 from derivation.scene.impact import simulate
+from derivation.scene.messages import nearest
 from derivation.scene.result import UNITS
 from derivation.scene.scene import TABLES, Scene, SceneError, is_number, read
 
@@ -42,7 +44,7 @@ class Sweep:
 
 
 @dataclass(frozen=True)
-class Row:
+class SweepRow:
     """A value and what came of it.
 
     Attributes
@@ -78,16 +80,30 @@ def parse(text: str) -> Sweep:
     field = TABLES[table].model_fields.get(key) if table in TABLES else None
     numbers = [x for x in (field.examples if field else None) or [] if is_number(x)]
     if not numbers:
-        raise SceneError(f"sweep: expected a number of the scene file, got {place!r}; {example}")
+        near = nearest(place, _swept())
+        meant = f"did you mean {near}? " if near else ""
+        raise SceneError(
+            f"sweep: expected a number of the scene file, got {place!r:.60}; {meant}{example}"
+        )
     try:
         first, last, count = float(parts[0]), float(parts[1]), int(parts[2])
     except (ValueError, IndexError):
-        raise SceneError(f"sweep: expected first:last:count, got {span!r}; {example}") from None
+        raise SceneError(f"sweep: expected first:last:count, got {span!r:.60}; {example}") from None
     if len(parts) != 3 or not 1 <= count <= MOST or not np.isfinite([first, last]).all():
         raise SceneError(
-            f"sweep: expected finite ends and 1 to {MOST} values, got {span!r}; {example}"
+            f"sweep: expected finite ends and 1 to {MOST} values, got {span!r:.60}; {example}"
         )
     return Sweep(table, key, tuple(np.linspace(first, last, count).tolist()))
+
+
+def _swept() -> list[str]:
+    """Every key that holds a number, with its table."""
+    return [
+        f"{table}.{key}"
+        for table, model in TABLES.items()
+        for key, field in model.model_fields.items()
+        if any(map(is_number, field.examples or []))
+    ]
 
 
 def run(
@@ -96,7 +112,7 @@ def run(
     rtol: float | None = None,
     tell: Tell | None = None,
     workers: int = 1,
-) -> tuple[Row, ...]:
+) -> tuple[SweepRow, ...]:
     """Simulate the scene once per value; a scene that is refused is a row that says why.
 
     Parameters
@@ -109,7 +125,7 @@ def run(
         Processes that share the work if it takes long. Each of several begins by importing the
         main module: a script that asks for them has to guard what it runs.
     """
-    found, rows = _rows(scene, sweep, rtol, workers), list[Row]()
+    found, rows = _rows(scene, sweep, rtol, workers), list[SweepRow]()
     for number in range(1, len(sweep.values) + 1):
         if tell is not None:
             tell(f"{sweep.table}.{sweep.key}", number, len(sweep.values))
@@ -117,7 +133,7 @@ def run(
     return tuple(rows)
 
 
-def _rows(scene: Scene, sweep: Sweep, rtol: float | None, workers: int) -> Iterator[Row]:
+def _rows(scene: Scene, sweep: Sweep, rtol: float | None, workers: int) -> Iterator[SweepRow]:
     """The rows in the order of the values; by the first it is judged how long they take."""
     one, start = partial(_row, scene, sweep, rtol), time.perf_counter()
     yield one(sweep.values[0])
@@ -126,7 +142,9 @@ def _rows(scene: Scene, sweep: Sweep, rtol: float | None, workers: int) -> Itera
         return
     pool = ProcessPoolExecutor(workers, get_context("spawn"), initializer=_leave_interrupts)
     try:
-        yield from pool.map(one, sweep.values[1:])
+        with _unheard_interrupts():
+            found = pool.map(one, sweep.values[1:])
+        yield from found
     except BrokenProcessPool:
         raise SceneError(
             "sweep: expected every process to finish its share, but one was ended from outside, "
@@ -137,12 +155,25 @@ def _rows(scene: Scene, sweep: Sweep, rtol: float | None, workers: int) -> Itera
         pool.shutdown(wait=True, cancel_futures=True)
 
 
+@contextmanager
+def _unheard_interrupts() -> Iterator[None]:
+    """Let processes that are begun meanwhile never hear of Ctrl-C."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
 def _leave_interrupts() -> None:
     """Ctrl-C is the main process's, which ends the others."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
-def _row(scene: Scene, sweep: Sweep, rtol: float | None, value: float) -> Row:
+def _row(scene: Scene, sweep: Sweep, rtol: float | None, value: float) -> SweepRow:
     data = {name: dict(keys) for name, keys in scene.to_json().items()}
     given = data.setdefault(sweep.table, {})
     for other in _instead(sweep):
@@ -152,10 +183,12 @@ def _row(scene: Scene, sweep: Sweep, rtol: float | None, value: float) -> Row:
     try:
         found = simulate(read(data), rtol=rtol)
     except SceneError as error:
-        return Row(value, {}, (), f"refused: {error}")
+        return SweepRow(value, {}, (), f"refused: {error}")
     results = {name: getattr(found, name) for name in UNITS}
     included = tuple(row.name for row in found.gate.rows if row.included)
-    return Row(value, results, included, "; ".join(found.warnings))
+    if not found.complete:  # there is no restitution: an empty row with the reason
+        return SweepRow(value, {}, included, found.incomplete_note)
+    return SweepRow(value, results, included, "; ".join(found.warnings))
 
 
 def _instead(sweep: Sweep) -> set[str]:
@@ -171,7 +204,7 @@ def _instead(sweep: Sweep) -> set[str]:
     }
 
 
-def to_csv(sweep: Sweep, rows: Sequence[Row]) -> str:
+def to_csv(sweep: Sweep, rows: Sequence[SweepRow]) -> str:
     """The rows as CSV, numbers to the last bit; results that there are not are empty."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")

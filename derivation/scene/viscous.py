@@ -1,7 +1,8 @@
 """Impact on a viscous contact: collocation in time, since energy alone no longer tells.
 
-The contact lags (Kuwabara and Kono 1987, Brilliantov et al. 1996), bending does not. With a the
-contact radius, P_e and delta_e force and indentation of the law at it, w the plate's bending:
+The contact is viscoelastic (Kuwabara and Kono 1987, Brilliantov et al. 1996), bending elastic.
+With a the contact radius, P_e and delta_e force and indentation of the law at it, w the plate's
+bending:
 
     m z'' = m g - P,   P = P_e + A_v dP_e/dt,   z = delta_e + w(P) - w(P_e)
 
@@ -20,10 +21,10 @@ from numpy.polynomial.legendre import leggauss
 from derivation.scene import motion
 from derivation.scene.collocation import NEWTON, ONSET, Element, Radau, newton_step, radau, settled
 from derivation.scene.effects.effect import Array
-from derivation.scene.law import Law
+from derivation.scene.law import ContactLaw
 from derivation.scene.motion import Ledger, Motion
 from derivation.scene.scene import SceneError
-from derivation.scene.viscous_law import Bending, Curve, bending_of, curve_of
+from derivation.scene.viscous_law import Curve, ElasticBending, bending_of, curve_of
 
 STAGES = 9, 12
 """Nodes of an element, of the run that checks and of the one that counts."""
@@ -61,25 +62,25 @@ class States(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Problem:
+class ViscousProblem:
     """A scene in units of the impact without viscosity.
 
     Attributes
     ----------
     curve, bending
-        The contact law, and what of it does not lag.
+        The contact law, and what of it is elastic.
     a, T
         Units of radius [m] and time [s]; those of velocity, depth and force are v0, v0 T and
         m v0/T.
     """
 
     curve: Curve
-    bending: Bending
+    bending: ElasticBending
     a: float
     T: float
 
     @property
-    def law(self) -> Law:
+    def law(self) -> ContactLaw:
         """The contact law."""
         return self.curve.law
 
@@ -123,7 +124,7 @@ class Problem:
 
 
 def element(
-    problem: Problem, n: int, x: float, length: float, start: Point, y: Array
+    problem: ViscousProblem, n: int, x: float, length: float, start: Point, y: Array
 ) -> tuple[Element, Point] | None:
     """The element and the state after it, by Newton's iteration from a guess of da/dx.
 
@@ -156,7 +157,7 @@ def element(
     return found, Point(float(a[-1]), float(v[-1]), float(z[-1]))
 
 
-def elements(problem: Problem, n: int) -> tuple[Element, ...]:
+def elements(problem: ViscousProblem, n: int) -> tuple[Element, ...]:
     """The impact, element by element, until the force is gone.
 
     Raises
@@ -203,7 +204,7 @@ def elements(problem: Problem, n: int) -> tuple[Element, ...]:
     )
 
 
-def _onset(problem: Problem, rule: Radau, length: float) -> Array:
+def _onset(problem: ViscousProblem, rule: Radau, length: float) -> Array:
     """da/dx where the contact begins, delta = v0 t, by Euler's method backwards.
 
     The depth grows with the radius, and faster and faster, so that Newton's iteration comes
@@ -227,10 +228,10 @@ def _onset(problem: Problem, rule: Radau, length: float) -> Array:
 class ViscousMotion(Motion):
     """An impact on a viscous contact, with its course."""
 
-    problem: Problem | None = None
+    problem: ViscousProblem | None = None
     course: tuple[Element, ...] = ()
 
-    def history(self, law: Law, times: Array) -> tuple[Array, Array, Array, Array]:  # noqa: ARG002
+    def history(self, law: ContactLaw, times: Array) -> tuple[Array, Array, Array, Array]:  # noqa: ARG002
         """Indentation [m], velocity [m/s], contact radius [m] and force [N] at times [s]."""
         problem = self.problem
         assert problem is not None
@@ -244,25 +245,24 @@ class ViscousMotion(Motion):
         return problem.depth * rows[Z], velocity, problem.a * rows[A], force
 
 
-def impact(law: Law) -> ViscousMotion | None:
-    """The impact by a law with viscosity; None beyond the law's limit.
+def impact(law: ContactLaw) -> ViscousMotion:
+    """The impact by a law with viscosity.
 
     Raises
     ------
     SceneError
-        If the sphere does not come off again, or its course cannot be resolved.
+        If it exceeds the law's range, the sphere does not separate again, or the time history
+        cannot be resolved.
     """
-    calm = motion.impact(replace(law, effects=law.effects - {"viscosity"}))
-    if calm is None or not all(0.0 < value < math.inf for value in calm.numbers):
-        return None
+    calm = motion.impact(law.only(lambda e: not e.viscous))
     a, T = calm.max_contact_radius, calm.contact_time
-    problem = Problem(curve_of(law, a), bending_of(law, a), a, T)
+    problem = ViscousProblem(curve_of(law, a), bending_of(law, a), a, T)
     rough, found = (_motion(problem, elements(problem, n)) for n in STAGES)
     pairs = zip(found.numbers, rough.numbers, strict=True)
     return replace(found, quadrature=max(abs(new / old - 1.0) for new, old in pairs))
 
 
-def _motion(problem: Problem, course: tuple[Element, ...]) -> ViscousMotion:
+def _motion(problem: ViscousProblem, course: tuple[Element, ...]) -> ViscousMotion:
     """The results of a course."""
     last = course[-1].end(P)
     a, v, z, _, _ = course[-1].at(np.array([last]))[:, 0]
@@ -296,8 +296,8 @@ def _lost(element: Element, last: float) -> float:
     return length / 2.0 * float(weights @ element.at(x)[LOST])
 
 
-def _left(problem: Problem, a: float) -> float:
-    """Energy [J] that the lagging part holds at a radius [m]: int P_e d(delta_e - w)."""
+def _left(problem: ViscousProblem, a: float) -> float:
+    """Energy [J] that the viscoelastic part holds at a radius [m]: int P_e d(delta_e - w)."""
     nodes, weights = leggauss(48)
     found = problem.curve.at(a * (1.0 + nodes) / 2.0)
     slope = found.depth_a - problem.bending.at(found.force)[1] * found.force_a

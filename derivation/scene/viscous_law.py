@@ -1,4 +1,4 @@
-"""What a viscous contact knows of the law: force and depth by the radius, and what does not lag."""
+"""What a viscous contact knows of the law: force and depth by the radius, and what is elastic."""
 
 from dataclasses import dataclass, replace
 from typing import NamedTuple
@@ -6,8 +6,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.polynomial.chebyshev import chebder, chebfit, chebval
 
+from derivation.scene.effects.edge import WIDEST
 from derivation.scene.effects.effect import Array
-from derivation.scene.law import HELD, Law, Shape
+from derivation.scene.law import ContactLaw, Shape
 
 DEGREE, FITTED = 30, 1e-12
 """Degree of the law's tables, and the relative error up to which they stand for it."""
@@ -15,7 +16,7 @@ BEYOND = 2.0
 """How far a viscous contact's force may go beyond a calm one's, in Hertz's radii."""
 
 
-class Contact(NamedTuple):
+class CurvePoints(NamedTuple):
     """Force [N] and indentation [m] of the law at radii [m], and their slopes by the radius."""
 
     force: Array
@@ -28,15 +29,15 @@ class Contact(NamedTuple):
 class Curve:
     """The law's force and indentation by the contact radius."""
 
-    law: Law
+    law: ContactLaw
 
-    def at(self, a: Array) -> Contact:
+    def at(self, a: Array) -> CurvePoints:
         """Force and indentation at radii [m]."""
         law = self.law
         shape = law.at(a)
         slope = 2.0 * (a / law.model.R) * shape.slope
         force_a = law.stiffness(a, shape) * slope
-        return Contact(law.force(a, shape), law.indentation(a, shape), force_a, slope)
+        return CurvePoints(law.force(a, shape), law.indentation(a, shape), force_a, slope)
 
 
 @dataclass(frozen=True)
@@ -46,13 +47,13 @@ class Tabled(Curve):
     top: float
     table: Array
 
-    def at(self, a: Array) -> Contact:
+    def at(self, a: Array) -> CurvePoints:
         """Force and indentation at radii [m]; NaN beyond the top."""
         x = np.where(a <= self.top, a / self.top, np.nan)
         force, depth, force_x, depth_x = chebval(2.0 * x - 1.0, self.table)
         force_a = (3.0 * force + x * force_x) * x * x / self.top
         depth_a = (2.0 * depth + x * depth_x) * x / self.top
-        return Contact(force * x**3, depth * x * x, force_a, depth_a)
+        return CurvePoints(force * x**3, depth * x * x, force_a, depth_a)
 
 
 def tabled(x: Array, *values: Array) -> Array:
@@ -69,7 +70,7 @@ def _knots() -> Array:
     return np.asarray((1.0 - np.cos(np.pi * (np.arange(n) + 0.5) / n)) / 2.0, dtype=np.float64)
 
 
-def curve_of(law: Law, a: float) -> Curve:
+def curve_of(law: ContactLaw, a: float) -> Curve:
     """The law up to a contact radius [m], which viscosity does not let grow."""
     top, x, direct = min(1.001 * a, law.limit), _knots(), Curve(law)
     found = direct.at(top * x)
@@ -81,7 +82,7 @@ def curve_of(law: Law, a: float) -> Curve:
 
 
 @dataclass(frozen=True)
-class Bending:
+class ElasticBending:
     """What of the plate's deflection does not lag: bending, on its edge, where that yields.
 
     Attributes
@@ -92,7 +93,7 @@ class Bending:
         Hertz's radius [m] up to which deflection over force is tabled.
     """
 
-    law: Law
+    law: ContactLaw
     top: float = 1.0
     table: Array | None = None
 
@@ -105,13 +106,13 @@ class Bending:
         return force * yields, yields + x * slope / 3.0
 
 
-def bending_of(law: Law, a: float) -> Bending:
+def bending_of(law: ContactLaw, a: float) -> ElasticBending:
     """Bending and the edge; nothing where a thick plate's edge takes more than bending gives."""
-    bent = replace(law, effects=law.effects & {"bending", "edge"})
-    if "bending" not in law.effects or float(bent.deflection(np.array([a])).slope[0]) <= 0.0:
-        return Bending(replace(law, effects=frozenset()))
-    top, x = min(BEYOND * a, HELD * law.model.b), _knots()
+    bent = law.only(lambda e: e.bends or e.other_edge)
+    if not law.bends or float(bent.deflection(np.array([a])).slope[0]) <= 0.0:
+        return ElasticBending(replace(law, effects=frozenset()))
+    top, x = min(BEYOND * a, WIDEST * law.model.b), _knots()
     radius = top * x
     depth = radius * (radius / law.model.R) * bent.deflection(radius).depth
     force = law.force(radius, Shape(*(np.ones_like(x),) * 4))
-    return Bending(bent, top, tabled(x, depth / (1.0 + law.softness) / force))
+    return ElasticBending(bent, top, tabled(x, depth / (1.0 + law.softness) / force))

@@ -1,5 +1,6 @@
 """The course of an impact on a moving plate: contacts, histories, and where the energy goes."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
 from html import escape
@@ -7,25 +8,28 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from derivation.scene import bounces
-from derivation.scene.bounces import Course
+from derivation.scene import contact_sequence
 from derivation.scene.collocation import ONSET
-from derivation.scene.dynamics import LEAK, A, E, P, Problem, V, W, Z, oscillating
+from derivation.scene.contact_sequence import Course
 from derivation.scene.effects.effect import Array, Results
 from derivation.scene.html import html_table
-from derivation.scene.law import Law
+from derivation.scene.law import ContactLaw
+from derivation.scene.limits import local_indentation
 from derivation.scene.motion import Ledger, Motion
 from derivation.scene.scene import OUTPUTS
+from derivation.scene.time_element import LEAK, A, DynamicProblem, E, P, V, W, Z, oscillating
 
 IRREGULAR = 2.0
 """What modes left out may change, over what half of those there are did."""
 LOOKS = 2001
 """Times at which a contact's force is looked at."""
+FLIGHT = 129
+"""Times at which the plate is looked at while nothing touches it: a peak is missed by 1 %."""
 HEADS = ("#start [s]", "#end [s]", "#impulse [N s]", "#peak force [N]", "#closing speed [v0]")
 """Heads of the table of contacts."""
 
 
-class Touch(NamedTuple):
+class ContactInterval(NamedTuple):
     """A contact of an impact.
 
     Attributes
@@ -48,7 +52,7 @@ class Touch(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Inertia:
+class InertiaDetails:
     """What an impact on a moving plate has beside the results of every impact.
 
     Attributes
@@ -59,23 +63,32 @@ class Inertia:
         From the first contact to the last release [s].
     reason
         Why the course ends there.
+    remedy
+        What makes an incomplete course end with the sphere's departure; empty if it does.
     modes
         How many oscillators the plate has.
     energies
         Energy left in each of them [J].
     doubt
-        Relative change of each result with the number of modes [1].
+        Relative change of each result with the number of modes [1]; infinite if that says nothing,
+        as of modes slower than the contact.
     branches
         What the branches left out may change each result besides [1].
     """
 
-    contacts: tuple[Touch, ...]
+    contacts: tuple[ContactInterval, ...]
     total_time: float
     reason: str
+    remedy: str
     modes: int
     energies: tuple[float, ...]
     doubt: Results
     branches: Results
+
+    @property
+    def complete(self) -> bool:
+        """Whether the sphere has left the plate for good."""
+        return not self.remedy
 
     def left(self, outputs: Sequence[str]) -> tuple[float, float]:
         """What modes and branches left out may change, the worst of some results [1]."""
@@ -88,7 +101,8 @@ class WaveMotion(Motion):
     """An impact on a moving plate, with its course."""
 
     course: Course = field(kw_only=True, repr=False)
-    inertia: Inertia = field(kw_only=True)
+    law: ContactLaw = field(kw_only=True, repr=False)
+    inertia: InertiaDetails = field(kw_only=True)
     ledger: Ledger = field(kw_only=True)
 
     @property
@@ -102,16 +116,45 @@ class WaveMotion(Motion):
             found += force[1:-1][inner].tolist()
         return min(found)
 
+    def largest_deflection(self, law: ContactLaw) -> float:
+        """Largest deflection of the plate at the axis [m], either way.
+
+        That of its modes, or while they touch the sphere's displacement less its indentation of
+        a half-space if that is more; also in flight, and for one period of the slowest mode
+        after the last contact.
+        """
+        problem, found = self.course.problem, 0.0
+        slowest = float(np.min(problem.omega, initial=np.inf))
+        ends = [touching.start for touching in self.course.contacts[1:]]
+        ends.append(self.course.contacts[-1].end + 2.0 * np.pi / slowest)
+        for touching, end in zip(self.course.contacts, ends, strict=True):
+            times = np.linspace(touching.start, touching.end, LOOKS) * problem.T
+            rows = self.rows(times)
+            a = np.minimum(np.maximum(rows[A], 0.0), law.limit)
+            local = local_indentation(law, a)
+            flight = np.linspace(touching.end, end, FLIGHT) * problem.T
+            found = max(
+                found,
+                float(np.max(np.abs(rows[Z] - local))),
+                float(np.max(np.abs(rows[W]))),
+                float(np.max(np.abs(self.rows(flight)[W]))),
+            )
+        return found
+
     def to_json(self) -> dict[str, Any]:
         """Contacts, energies and what the modes are worth, under fixed keys."""
         inertia, ledger = self.inertia, self.ledger
         return {
             "total_time": inertia.total_time,
+            "complete": inertia.complete,
             "reason": inertia.reason,
             "contacts": [touch._asdict() for touch in inertia.contacts],
             "modes": inertia.modes,
             "mode_energies": list(inertia.energies),
-            "change_with_modes": dict(zip(OUTPUTS, inertia.doubt, strict=True)),
+            "change_with_modes": {
+                name: value if np.isfinite(value) else None
+                for name, value in zip(OUTPUTS, inertia.doubt, strict=True)
+            },
             "further_branches": dict(zip(OUTPUTS, inertia.branches, strict=True)),
             "ledger": asdict(ledger) | {"closure": ledger.closure},
         }
@@ -130,9 +173,18 @@ class WaveMotion(Motion):
             "the closure's leak": ledger.leak,
         }
         told = ", ".join(f"{100 * e / ledger.brought:.3g} % in {n}" for n, e in shares.items() if e)
-        energies = f"energy after: {told}; the ledger closes to {abs(ledger.closure):.1e}"
-        ended = f"{inertia.reason} after {len(inertia.contacts)} contact(s); {inertia.modes} "
-        return energies, ended + f"oscillators, half as many change it by {max(inertia.doubt):.1e}"
+        energies = f"final energy: {told}; the energy balance closes to {abs(ledger.closure):.1e}"
+        if not inertia.complete:
+            return (energies,)
+        ended = f"no further contact is possible after {len(inertia.contacts)} contact(s); "
+        branches = "all wave branches" if self.law.model.inertia.branches == "all" else "branch A0"
+        change = "more modes are needed for an error estimate: these are slower than the contact"
+        if math.isfinite(max(inertia.doubt)):
+            change = (
+                "halving the number of modes changes the results by at most "
+                f"{max(inertia.doubt):.1e}"
+            )
+        return energies, ended + f"{inertia.modes} oscillators ({branches}); {change}"
 
     def to_html(self) -> str:
         """The contacts and where the energy went, for a notebook."""
@@ -141,13 +193,13 @@ class WaveMotion(Motion):
 
     _repr_html_ = to_html
 
-    def history(self, law: Law, times: Array) -> tuple[Array, Array, Array, Array]:  # noqa: ARG002
+    def history(self, law: ContactLaw, times: Array) -> tuple[Array, Array, Array, Array]:  # noqa: ARG002
         """Way of the sphere [m], velocity [m/s], contact radius [m] and force [N] at times [s]."""
         rows = self.rows(times)
         return rows[Z], rows[V], rows[A], rows[P]
 
     def rows(self, times: Array) -> Array:
-        """Everything at times [s], in SI: the rows of `dynamics`, energies in J."""
+        """Everything at times [s], in SI: the rows of `time_element`, energies in J."""
         problem, t = self.course.problem, np.asarray(times, dtype=np.float64)
         found = np.zeros((LEAK + 1, t.size))
         starts = np.array([touching.start for touching in self.course.contacts])
@@ -171,12 +223,13 @@ class WaveMotion(Motion):
 
 
 def deflections(course: Course, t: float) -> Array:
-    """Deflection of every oscillator at the axis at a time, in units of the problem."""
+    """Deflection of every shape at the axis at a time, in units of the problem."""
     problem = course.problem
     starts = [touching.start for touching in course.contacts]
     touching = course.contacts[max(int(np.searchsorted(starts, t, side="right")) - 1, 0)]
     if t > touching.end:
-        return problem.flown(touching.after, t - touching.end).q
+        q = problem.flown(touching.after, t - touching.end).q
+        return problem.contact.modes.by_shape(q)
     pieces = touching.pieces
     x = (max(t - touching.start, 0.0) + pieces[0].element.x ** ONSET) ** (1.0 / ONSET)
     index = max(int(np.searchsorted([piece.element.x for piece in pieces], x, side="right")) - 1, 0)
@@ -186,7 +239,7 @@ def deflections(course: Course, t: float) -> Array:
     return oscillating(problem, pieces[index].element, before, radius, x)
 
 
-def _rows(problem: Problem, touching: bounces.Touching, t: Array) -> Array:
+def _rows(problem: DynamicProblem, touching: contact_sequence.Touching, t: Array) -> Array:
     """The rows in a contact and in the flight after it."""
     found = np.zeros((LEAK + 1, t.size))
     pieces, inside = touching.pieces, t <= touching.end
@@ -201,7 +254,7 @@ def _rows(problem: Problem, touching: bounces.Touching, t: Array) -> Array:
     for k in np.flatnonzero(~inside):
         state = problem.flown(touching.after, float(t[k]) - touching.end)
         found[[V, Z, W, E], k] = (
-            state.velocity, state.way, float(np.sum(state.q)) + state.far,
+            state.velocity, state.way, float(np.sum(state.q)),
             float(np.sum(problem.energies(state))),
         )  # fmt: skip
     found[P] = np.maximum(found[P], 0.0)

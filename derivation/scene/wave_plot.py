@@ -5,16 +5,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from derivation.scene import bounces
-from derivation.scene.dynamics import E, P, Problem, V, W, Z
 from derivation.scene.effects.effect import Array
-from derivation.scene.law import Law
 from derivation.scene.limits import zener_number
-from derivation.scene.modal import Modes, contact_of
-from derivation.scene.model import Model
-from derivation.scene.motion import largest_radius
 from derivation.scene.plot import BLUE, BROWN, frame, scaled
 from derivation.scene.result import Result
+from derivation.scene.time_element import E, P, V, W, Z
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -64,7 +59,7 @@ def _energies(axes: "Axes", result: Result, t: Array, rows: Array) -> None:
     sphere, plate = (rows[V] / v0) ** 2, 2.0 * rows[E] / m / v0**2
     contact = np.maximum(1.0 - sphere - plate, 0.0)
     names = ["sphere", "plate", "contact"]
-    if result.gate.law.gravity or "viscosity" in result.gate.law.effects:
+    if result.gate.law.gravity or result.gate.law.viscous:
         names[2] = "contact, and gone"
     axes.stackplot(t, sphere, plate, contact, labels=names, colors=(BLUE, BROWN, GREEN), alpha=0.75)
     axes.legend(frameon=True, loc="center right")
@@ -91,12 +86,18 @@ def zener_restitution(number: float) -> float:
     number
         Zener's number [1].
     """
-    # Any sphere will do: of this one m, v0 and K = (4/3) E* sqrt(R) are 1, and That therefore.
-    model = Model(R=1e4, m=1.0, v0=1.0, h=1e4, b=1e4, lam=0.0, mu=0.00375)
-    law = Law(model, frozenset({"hertz"}))
-    none = np.zeros(0)
-    yields = Modes(none, none, none, none, number)
-    a = largest_radius(law)
-    contact = contact_of(law, yields, 1.01 * a, pointwise=False)
-    problem = Problem(contact, a, 3.0, model.m, model.v0)
-    return -bounces.course(problem, NODES).contacts[-1].after.velocity
+    from scipy.integrate import solve_ivp
+
+    # In units of m, v0 and K = (4/3) E* sqrt(R): v' = -s^(3/2), s' = v - number s^(3/2).
+    def rate(_: float, state: Array) -> tuple[float, float]:
+        force = max(float(state[0]), 0.0) ** 1.5
+        return float(state[1]) - number * force, -force
+
+    def released(_: float, state: Array) -> float:
+        return float(state[0])
+
+    released.terminal, released.direction = True, -1.0  # type: ignore[attr-defined]
+    long = 10.0 * (1.0 + number) ** 2
+    times, begin = (0.0, long), (0.0, 1.0)
+    found = solve_ivp(rate, times, begin, "DOP853", events=released, rtol=1e-12, atol=1e-14)
+    return max(0.0, -float(found.y[1, -1]))

@@ -1,49 +1,51 @@
-"""Impact on a plate that moves: its oscillators, its contacts, and where the energy goes.
+"""Impact on a plate with inertia: its oscillators, its contacts, and where the energy goes.
 
-The modes up to some frequency are oscillators (see `modal`), the others follow at rest. With
-twice as many the impact is computed again, and that is the result: the difference says what the
-modes left out are worth. The endless plate of Zener (1941) has no modes: it yields at a speed
-P/(8 sqrt(D rho H)), whatever is left of the plate's static deflection without bending.
+The modes up to some frequency are oscillators (see `modal`), the others respond quasi-statically.
+With twice as many the impact is computed again, and that is the result: the difference is the
+estimated error of the omitted modes. Where the branches beyond the first are worth more than the
+tolerance, all of them oscillate. An infinite plate is one so large that no wave can return from
+its edge while the sphere is in contact.
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
 
-from derivation.scene import bounces, motion
-from derivation.scene.bounces import Course
-from derivation.scene.dynamics import (
-    LEAK,
-    LOST,
-    A,
-    P,
-    Piece,
-    Problem,
-    State,
-    Z,
-)
+from derivation.scene import contact_sequence, motion
+from derivation.scene.contact_sequence import Course
 from derivation.scene.effects.effect import Results
 from derivation.scene.effects.inertia import WIDER, further_branches, weight_share
-from derivation.scene.law import Law
-from derivation.scene.limits import zener_number
-from derivation.scene.modal import MANY, Modes, contact_of, far_plate, modes_of
+from derivation.scene.law import ContactLaw
+from derivation.scene.modal import ModalPlate, contact_of, plate_of
+from derivation.scene.mode_count import (
+    LAST,
+    affordable,
+    branching,
+    check_followed,
+    count_of,
+    fast,
+    followed,
+    too_dear,
+)
+from derivation.scene.model import Model
 from derivation.scene.motion import Ledger, Motion
 from derivation.scene.quadrature import NODES, gauss
-from derivation.scene.scene import OUTPUTS
-from derivation.scene.wave_motion import Inertia, Touch, WaveMotion
+from derivation.scene.scene import OUTPUTS, SceneError
+from derivation.scene.time_element import LEAK, LOST, A, DynamicProblem, ImpactState, P, Piece, Z
+from derivation.scene.wave_motion import ContactInterval, InertiaDetails, WaveMotion
 
 STAGES = 14, 16
 """Nodes of an element, of the run that checks and of the one that counts."""
-PHASE = 12.5
-"""omega_M That/max(1, lambda^(2/3)) of the fastest oscillator, of the run that checks."""
-FEWEST, MOST = 2, 750
-"""Modes of the run that checks, to begin with; the one that counts has twice as many."""
+WIDEST = 30.0
+"""How much larger than the first guess an infinite plate is made, to wait for a contact's end."""
 LOOSE, SHARE = 3e-4, 1.0 / 3.0
 """Change with the number of modes that is small enough: where no tolerance is given [1], and of
 one that is given."""
 NONE: Results = (0.0, 0.0, 0.0, 0.0, 0.0)
+UNKNOWN: Results = (math.inf, math.inf, math.inf, math.inf, math.inf)
 INTEGRATION, ROUNDING = 1e-10, 2e-12
 """What tests hold elements and arithmetic to, beside the change with the modes [1]."""
 
@@ -54,67 +56,101 @@ def goal(rtol: float | None) -> float:
 
 
 @lru_cache(maxsize=4)
-def impact(law: Law, goal: float = LOOSE, outputs: tuple[str, ...] = OUTPUTS) -> WaveMotion | None:
-    """The impact by a law with inertia; None beyond the law's limit.
+def impact(law: ContactLaw, goal: float = LOOSE, outputs: tuple[str, ...] = OUTPUTS) -> WaveMotion:
+    """The impact by a law with inertia.
 
     Parameters
     ----------
     goal
         Relative change of the results with the number of modes that is small enough: while it
-        is larger the modes are doubled, unless the scene says how many there are. Where branches
-        left out are worth more than modes could mend, a tenth of that is small enough.
+        is larger the modes are doubled, unless the scene says how many there are. If the scene
+        leaves the branches open, all of them oscillate where those beyond the first are worth
+        more.
     outputs
         The results that it applies to.
 
     Raises
     ------
     SceneError
-        If a contact cannot be followed, or the sphere's weight keeps it on the plate.
+        If an impact on a plate that does not deflect exceeds the law's range, or the first contact
+        cannot be followed to its end. If a later one cannot, the impact is incomplete.
     """
-    quick = _quick(law)
-    if quick is None:
-        return None
-    model = law.model
-    rest = replace(law, effects=law.effects - {"inertia", "viscosity", "gravity"})
-    if model.inertia.infinite_plate:
-        rest, plate = replace(rest, effects=rest.effects - {"bending"}), far_plate(model)
-        runs = [_run(law, rest, plate, quick, n) for n in STAGES]
-        return _judged(*runs)
-    count = count_of(law)
-    lagging = "viscosity" in law.effects
-    rough = _run(law, rest, modes_of(model, count, lagging), quick, STAGES[0])
-    while True:
-        found = _run(law, rest, modes_of(model, 2 * count, lagging), quick, STAGES[1])
-        judged, count, rough = _judged(rough, found), 2 * count, found
-        doubt, beyond = judged.inertia.left(outputs)
-        enough = goal if beyond <= goal / SHARE else max(goal, 0.1 * beyond)
-        # Of all branches there are four times as many up to twice the frequency.
-        next_ = (4 if model.inertia.branches == "all" else 2) * judged.inertia.modes
-        if model.inertia.modes or doubt <= enough or next_ > MANY:
-            return judged
-
-
-def _quick(law: Law) -> Motion | None:
-    """The impact on a plate that does not yield; None if there is none in the law's range."""
-    stiff = {"hertz", "sphere_elasticity", "curvature", "gravity"}
-    found = motion.impact(replace(law, effects=law.effects & stiff))
-    if found is None or not all(0.0 < value < math.inf for value in found.numbers):
-        return None
+    quick = motion.impact(law.half_space)
+    if law.model.inertia.branches == "auto" and not law.viscous:
+        law = branching(law, "all" if _branches_matter(law, quick, goal, outputs) else "A0")
+    found, first = _converged(law, quick, goal, outputs), law.model.b
+    while law.model.inertia.infinite_plate and _edge_heard(found):
+        if law.model.b > WIDEST * first:
+            raise SceneError(
+                f"inertia.plate: the contact on an infinite plate had not ended after "
+                f"{found.inertia.total_time:.6g} s; give a thicker plate or a lighter sphere"
+            )
+        law = replace(law, model=replace(law.model, b=2.0 * law.model.b))
+        found = _converged(law, quick, goal, outputs)
     return found
 
 
-def problem_of(law: Law, count: int) -> Problem | None:
-    """An impact with so many bending modes, to be followed by `bounces`; None as of `impact`."""
-    quick = _quick(law)
-    if quick is None:
-        return None
-    rest = replace(law, effects=law.effects - {"inertia", "viscosity", "gravity"})
-    return _problem(law, rest, modes_of(law.model, count, "viscosity" in law.effects), quick)
+def _branches_matter(law: ContactLaw, quick: Motion, goal: float, outputs: tuple[str, ...]) -> bool:
+    """Whether the branches beyond the first may change more than a tolerance has room for.
+
+    A rough run tells; besides them the tolerance covers the modes, which take up the goal. They
+    cannot be taken where the contact is so short that there would be too many.
+    """
+    every = branching(law, "all")
+    if not followed(every, 2 * affordable(every)):
+        return False
+    rough = _run(branching(law, "A0"), count_of(law), quick, STAGES[0])
+    return rough.inertia.complete and rough.inertia.left(outputs)[1] > goal / SHARE - goal
 
 
-def _run(law: Law, rest: Law, modes: Modes, quick: Motion, n: int) -> WaveMotion:
-    """The impact with given oscillators by elements of n nodes."""
-    return _motion(law, bounces.course(_problem(law, rest, modes, quick), n))
+def _edge_heard(found: WaveMotion) -> bool:
+    """Whether a wave may have come back from the edge before the last contact ended."""
+    model, problem = found.law.model, found.course.problem
+    return problem.T * found.course.contacts[-1].end > echo_time(model)
+
+
+def _converged(law: ContactLaw, quick: Motion, goal: float, outputs: tuple[str, ...]) -> WaveMotion:
+    """The impact with as many modes as it takes, or as can be afforded."""
+    count = affordable(law)
+    check_followed(law, 2 * count)
+    rough = _run(law, count, quick, STAGES[0])
+    if not rough.inertia.complete:  # and no finer run would be
+        return rough
+    best: WaveMotion | None = None
+    while True:
+        try:
+            found = _run(law, 2 * count, quick, STAGES[1])
+        except SceneError:
+            if best is None:
+                raise
+            return best  # with fewer modes it was followed to its end
+        if not found.inertia.complete:
+            return best or found
+        best, count, rough = _judged(rough, found), 2 * count, found
+        doubt, beyond = best.inertia.left(outputs)
+        # Where omitted branches are worth more than modes could mend, a tenth is small enough.
+        enough = goal if beyond <= goal / SHARE else max(goal, 0.1 * beyond)
+        if law.model.inertia.modes:
+            return best if fast(law, count) else _unjudged(best)
+        near = doubt <= LAST * enough
+        if doubt <= enough or too_dear(law, count, _work(best.course), near):
+            return best
+
+
+def _work(course: Course) -> float:
+    """Elements of a course, weighted by the time that each takes."""
+    elements = sum(len(touching.pieces) for touching in course.contacts)
+    return elements * contact_sequence.weight_of(course.problem)
+
+
+def problem_of(law: ContactLaw, count: int) -> DynamicProblem:
+    """An impact with so many bending modes, to be followed by `contact_sequence`."""
+    return _problem(law, plate_of(law, count), motion.impact(law.half_space))
+
+
+def _run(law: ContactLaw, count: int, quick: Motion, n: int) -> WaveMotion:
+    """The impact with so many bending modes by elements of n nodes."""
+    return _motion(law, contact_sequence.course(_problem(law, plate_of(law, count), quick), n))
 
 
 def _judged(rough: WaveMotion, found: WaveMotion) -> WaveMotion:
@@ -125,66 +161,61 @@ def _judged(rough: WaveMotion, found: WaveMotion) -> WaveMotion:
     return replace(found, inertia=replace(found.inertia, doubt=doubt))
 
 
-@lru_cache(maxsize=64)
-def count_of(law: Law) -> int:
-    """How many oscillators the run that checks has."""
-    model = law.model
-    if model.inertia.modes:
-        return model.inertia.modes // 2
-    highest = _highest(law)
-    # Modes are counted by their bending: of all branches there are far more oscillators.
-    model = replace(model, inertia=replace(model.inertia, branches="A0"))
-    count = FEWEST
-    while count < MOST and modes_of(model, count).omega[-1] < highest:
-        count = min(2 * count, MOST)
-    slower = int(np.searchsorted(modes_of(model, count).omega, highest))
-    return max(FEWEST, min(count, slower + 1))
+def _unjudged(found: WaveMotion) -> WaveMotion:
+    """A run of which nothing is known that its modes leave out."""
+    return replace(found, inertia=replace(found.inertia, doubt=UNKNOWN))
 
 
-def _highest(law: Law) -> float:
-    """Angular frequency [1/s] of the fastest oscillator of the run that checks."""
-    model = law.model
-    stiffness = 4.0 / 3.0 * law.modulus * math.sqrt(model.R)
-    duration = math.pow(model.m / stiffness, 0.4) / math.pow(model.v0, 0.2)
-    return PHASE * max(1.0, math.pow(zener_number(model), 2.0 / 3.0)) / duration
-
-
-def _problem(law: Law, rest: Law, modes: Modes, quick: Motion) -> Problem:
-    """The scene in units of the impact on a plate that does not yield."""
+def _problem(law: ContactLaw, plate: ModalPlate, quick: Motion) -> DynamicProblem:
+    """The scene in units of the impact on a plate that does not deflect."""
     model, (a, T) = law.model, (quick.max_contact_radius, quick.contact_time)
-    contact = contact_of(rest, modes, min(WIDER * a, rest.limit), model.inertia.pointwise)
-    lag = model.viscous_time / T if "viscosity" in law.effects else 0.0
-    return Problem(contact, a, T, model.m, model.v0, law.gravity * (T / model.v0), lag)
+    rest = law.only(lambda e: e.static and not e.other_edge)
+    contact = contact_of(rest, plate, min(WIDER * a, law.limit), model.inertia.pointwise)
+    lag = model.viscous_time / T if law.viscous else 0.0
+    heard = echo_time(model) / T if model.inertia.infinite_plate else math.inf
+    weight = law.gravity * (T / model.v0)
+    return DynamicProblem(contact, a, T, model.m, model.v0, weight, lag, heard)
 
 
-def _motion(law: Law, course: Course) -> WaveMotion:
+def echo_time(model: Model) -> float:
+    """Time [s] before which no wave returns from the edge: twice its way at the fastest speed.
+
+    Of A0 no group is faster than 1.1 times shear waves; of all branches none than pressure waves.
+    """
+    fastest = 1.1
+    if model.inertia.branches == "all":
+        fastest = math.sqrt((model.lam + 2.0 * model.mu) / model.mu)
+    return 2.0 * model.b / (fastest * model.shear_speed)
+
+
+def _motion(law: ContactLaw, course: Course) -> WaveMotion:
     """The results of a course."""
     problem, last = course.problem, course.contacts[-1].after
     energy = problem.m * problem.v0**2
     pieces = [piece for touching in course.contacts for piece in touching.pieces]
-    largest = {row: max(piece.element.largest(row) for piece in pieces) for row in (A, Z, P)}
+    largest = {row: _largest(pieces, row) for row in (A, Z, P)}
     way = max(largest[Z], max(touching.before.way for touching in course.contacts))
     energies = problem.energies(last)
     lost, leak = (sum(_sum(piece, row) for piece in pieces) for row in (LOST, LEAK))
-    endless = law.model.inertia.infinite_plate
     ledger = Ledger(
         brought=0.5 * energy,
         weight=energy * problem.weight * last.way,
         returned=0.5 * energy * last.velocity**2,
-        dissipated=0.0 if endless else energy * lost,
+        dissipated=energy * lost,
         left=energy * sum(_given_up(problem, touching) for touching in course.contacts),
-        plate=energy * (lost if endless else float(np.sum(energies))),
+        plate=energy * float(np.sum(energies)),
         leak=energy * leak,
     )
     first, total = course.contacts[0], course.contacts[-1].end
-    inertia = Inertia(
+    inertia = InertiaDetails(
         tuple(_touch(problem, touching) for touching in course.contacts),
         problem.T * total,
         course.reason,
+        course.remedy,
         problem.omega.size,
         tuple((energy * energies).tolist()),
-        NONE,
-        _branches(law, problem, problem.a * largest[A], problem.depth * way, problem.T * first.end),
+        NONE if course.complete else UNKNOWN,
+        _branches(law, problem.a * largest[A], problem.depth * way, problem.T * first.end),
     )
     return WaveMotion(
         problem.T * first.end,
@@ -192,57 +223,71 @@ def _motion(law: Law, course: Course) -> WaveMotion:
         problem.force * largest[P],
         problem.a * largest[A],
         0.0,
-        -last.velocity,
+        -last.velocity if course.complete else math.nan,
         ledger=ledger,
         course=course,
         inertia=inertia,
+        law=law,
     )
 
 
-def _branches(law: Law, problem: Problem, a: float, way: float, T: float) -> Results:
+def _branches(law: ContactLaw, a: float, way: float, T: float) -> Results:
     """What the branches left out may change in each result [1]: also of all, those too fast.
 
     Where there is a weight, all but the way change by more.
     """
     model = law.model
-    if model.inertia.infinite_plate:
-        return NONE
-    share, heavier = 1.0, 1.0 + weight_share(model, way)
     if model.inertia.branches == "all":
-        share = min(1.0, _highest(law) / float(np.max(problem.contact.modes.omega)))
-    time, depth, force, radius, speed = (share * x for x in further_branches(model, a, T))
+        return NONE
+    heavier = 1.0 + weight_share(model, way)
+    time, depth, force, radius, speed = further_branches(model, a, T)
     return heavier * time, depth, heavier * force, heavier * radius, heavier * speed
 
 
-def _given_up(problem: Problem, touching: bounces.Touching) -> float:
-    """Energy over m v0^2 in a contact that lags at its end, less what it found at its beginning."""
+def _given_up(problem: DynamicProblem, touching: contact_sequence.Touching) -> float:
+    """Energy over m v0^2 in a viscoelastic contact at its end, less that at its beginning."""
     if not problem.lag:
         return 0.0
     begun = _stored(problem, touching.radius, touching.before) if touching.radius else 0.0
     return _stored(problem, touching.pieces[-1].radius, touching.after) - begun
 
 
-def _stored(problem: Problem, radius: float, state: State) -> float:
+def _stored(problem: DynamicProblem, radius: float, state: ImpactState) -> float:
     """Energy over m v0^2 in a contact: int P dD + sum q_j (P s_j - P_j)."""
     nodes, weights = gauss(NODES[1])
     at = problem.contact.at(problem.a * radius * nodes)
     rest = problem.a * radius * float(weights @ (at.force * at.depth_a))
     end = problem.contact.at(problem.a * np.array([radius]))
-    more = float((end.force * (1.0 + end.less[0]) - end.felt[0]) @ state.q)
+    q = problem.contact.modes.by_shape(state.q)
+    more = float((end.force * (1.0 + end.less[0]) - end.felt[0]) @ q)
     return rest / (problem.force * problem.depth) + more / problem.force
 
 
-def _touch(problem: Problem, touching: bounces.Touching) -> Touch:
+def _touch(problem: DynamicProblem, touching: contact_sequence.Touching) -> ContactInterval:
     """A contact in SI."""
     before, after = touching.before, touching.after
     lasted = touching.end - touching.start
-    return Touch(
+    return ContactInterval(
         problem.T * touching.start,
         problem.T * touching.end,
         problem.m * problem.v0 * (before.velocity - after.velocity + problem.weight * lasted),
         problem.force * max(piece.element.largest(P) for piece in touching.pieces),
         -before.opening,
     )
+
+
+def _largest(pieces: Sequence[Piece], row: int) -> float:
+    """The largest value of a row; elements whose coefficients say that it is not theirs are passed.
+
+    No Legendre polynomial exceeds 1.
+    """
+    found = -math.inf
+    bounds = [(float(np.sum(np.abs(piece.element.rows[row]))), piece) for piece in pieces]
+    for bound, piece in sorted(bounds, key=lambda pair: -pair[0]):
+        if bound <= found:
+            break
+        found = max(found, piece.element.largest(row))
+    return found
 
 
 def _sum(piece: Piece, row: int) -> float:

@@ -7,10 +7,10 @@ from derivation.scene.effects.bending import Bending
 from derivation.scene.effects.curvature import Curvature
 from derivation.scene.effects.edge import Edge
 from derivation.scene.effects.effect import Effect
-from derivation.scene.effects.finite_thickness import FiniteThickness
+from derivation.scene.effects.finite_thickness import WHOLE_PLATE, FiniteThickness
 from derivation.scene.effects.gravity import Gravity
 from derivation.scene.effects.hertz import Hertz
-from derivation.scene.effects.inertia import Inertia
+from derivation.scene.effects.inertia import PlateInertia
 from derivation.scene.effects.perturbation import Perturbation
 from derivation.scene.effects.pressure import Pressure
 from derivation.scene.effects.side_wall import SideWall
@@ -28,9 +28,13 @@ EFFECTS: tuple[Effect, ...] = (
     Pressure(),
     Viscosity(),
     Gravity(),
-    Inertia(),
+    PlateInertia(),
     Perturbation(),
 )
 """Every effect there is, in the order of the effects table."""
 
 BY_NAME = {effect.name: effect for effect in EFFECTS}
+PAPER = WHOLE_PLATE | {effect.name for effect in EFFECTS if effect.forced}
+"""Effects of the paper's contact law."""
+
+__all__ = ["BY_NAME", "EFFECTS", "PAPER", "WHOLE_PLATE"]

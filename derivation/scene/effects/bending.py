@@ -1,8 +1,13 @@
 """Bending: the deflection of a thin plate under the force."""
 
+from typing import TYPE_CHECKING
+
 from derivation.scene import kernels
 from derivation.scene.effects.effect import Array, Bound, Place, PlateEffect, Share, none_of
 from derivation.scene.model import Model
+
+if TYPE_CHECKING:
+    from derivation.scene.law import ContactLaw
 
 
 class Bending(PlateEffect):
@@ -13,6 +18,7 @@ class Bending(PlateEffect):
     equation = "delta = P b^2/(8 pi D), D = E* H^3/12"
     number = "(2/pi) a b^2/H^3"
     source = "Kirchhoff plate; link 22"
+    bends = True
 
     def value(self, model: Model, a: float) -> float:
         """Its share of the indentation over Hertz's."""
@@ -22,6 +28,10 @@ class Bending(PlateEffect):
         """The share itself: exact."""
         a = place.radii
         return Bound(none_of(a), self.share(model, a).slope)
+
+    def bounded(self, law: "ContactLaw") -> bool:
+        """Not where the edge would become viscoelastic without it."""
+        return not (law.other_edge and law.viscous)
 
     def share(self, model: Model, a: Array) -> Share:
         """Linear in the radius."""

@@ -1,10 +1,18 @@
 """Curvature: the sphere is no paraboloid where the contact is not small beside it."""
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from derivation.scene import kernels
-from derivation.scene.effects.effect import Bound, Effect, Place
+from derivation.scene.effects.effect import Bound, Effect, Place, Reach
 from derivation.scene.model import Model
+
+if TYPE_CHECKING:
+    from derivation.scene.law import ContactLaw
+
+LARGEST = 0.99
+"""Contact radius over sphere radius up to which the profile's slope is resolved."""
 
 
 class Curvature(Effect):
@@ -15,6 +23,8 @@ class Curvature(Effect):
     equation = "delta = (a/2) log((R+a)/(R-a)), dP = 2 E* a d delta"
     number = "a/R"
     source = "Sneddon 1965; link 21"
+    reach = Reach(sphere=LARGEST)
+    spherical = True
 
     def value(self, model: Model, a: float) -> float:
         """Contact radius over sphere radius."""
@@ -27,3 +37,7 @@ class Curvature(Effect):
         ratio = np.cbrt(kernels.sphere_contact(np.where(rho < 1, rho, np.nan)).force)
         up = np.where(np.isfinite(ratio), ratio - 1.0, np.inf)
         return Bound(np.zeros_like(a), up, radius=float(np.log1p(up[-1])))
+
+    def bounded(self, law: "ContactLaw") -> bool:
+        """Under Hertz's pressure alone."""
+        return not law.solved

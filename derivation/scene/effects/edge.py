@@ -1,30 +1,34 @@
-"""Edge: how the plate is held, if not by the paper's soft hinge."""
+"""Edge: a simply supported or clamped plate instead of the paper's edge."""
 
 import numpy as np
 
 from derivation.scene import kernels
-from derivation.scene.effects.effect import Array, Bound, Place, PlateEffect, Share, none_of
+from derivation.scene.effects.effect import Array, Bound, Place, PlateEffect, Reach, Share, none_of
 from derivation.scene.model import Model
 
 SUPPORTED, CLAMPED = "simply-supported", "clamped"
+WIDEST = 0.9
+"""Contact radius over plate radius up to which its sums are known."""
 
 
 class Edge(PlateEffect):
-    """The soft hinge's edge moment and force taken away, or its mean rotation and displacement.
+    """The edge moment and force of the paper's edge taken away, or its displacement.
 
-    By the exact polynomial states of bending and stretching, w = 0 on the middle plane's rim.
-    What these leave dies within a thickness of the edge; see `edge_remainder`.
+    By the exact polynomial states of bending and stretching; a clamp has w = 0 on the whole edge
+    and forbids the plate's thinning there. See `edge.remainder` for what these leave.
     """
 
     name = "edge"
     adds = "a plate simply supported or clamped"
-    equation = "F = (1 - nu)/(1 + nu) X supported, -X clamped"
+    equation = "F = (1 - nu)/(1 + nu) X supported, -X_c clamped"
     number = "edge's c_1 a/h, at most"
     source = "polynomial states of bending and stretching; link 19"
+    reach = Reach(plate=WIDEST)
+    other_edge = True
 
     def absent(self, model: Model) -> str:
         """The law begins with the paper's edge."""
-        return "" if model.edge in (SUPPORTED, CLAMPED) else "the plate's edge is a soft hinge"
+        return "" if model.edge in (SUPPORTED, CLAMPED) else "the plate has the paper's edge"
 
     def value(self, model: Model, a: float) -> float:
         """Its share of the indentation over Hertz's at most, two thirds of its bound."""

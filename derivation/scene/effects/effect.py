@@ -1,4 +1,7 @@
-"""What an effect answers: whether it applies, its number, its bound, its share of the law.
+"""What an effect answers: whether it applies, its number, its bound, what it makes of the law.
+
+The rest of `scene` asks these questions and knows no effect by its name: what is particular to an
+effect is in its file.
 
 Shares and bounds are parts of F and S: at equal force P, a being Hertz's radius with the modulus
 E* of the law, a^3 = 3 P R/(4 E*),
@@ -6,8 +9,9 @@ E* of the law, a^3 = 3 P R/(4 E*),
     delta = (a^2/R) (1 + F),   d delta/da = (2a/R) S.
 """
 
+import math
 from dataclasses import dataclass, replace
-from typing import ClassVar, NamedTuple
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,8 +19,13 @@ from numpy.typing import NDArray
 from derivation.scene import kernels
 from derivation.scene.model import Model
 
+if TYPE_CHECKING:
+    from derivation.scene.law import ContactLaw
+
 PLATES = 1e-50, 1e50
 """h/b for which bounds are known."""
+NO_BOUND = 10.0
+"""A bound from here on is so far above what it bounds that it is shown as no bound."""
 Array = NDArray[np.float64]
 
 
@@ -90,8 +99,16 @@ class Bound(NamedTuple):
     results: Results = (0.0, 0.0, 0.0, 0.0, 0.0)
 
 
+class Reach(NamedTuple):
+    """Largest contact radius over the radii of plate and sphere and the half-thickness [1]."""
+
+    plate: float = 1.0
+    sphere: float = 1.0
+    thickness: float = math.inf
+
+
 class Effect:
-    """An effect: a base whose answers are those of one that is always there.
+    """An effect: a base whose answers are those of one that always applies and changes nothing.
 
     Attributes
     ----------
@@ -106,10 +123,33 @@ class Effect:
     source
         Who derived it, and the link of the chain that proves it here.
     forced
-        Whether it cannot be left out.
+        Whether it cannot be omitted.
     by_itself
-        Whether the gate may take it in. If not, it is no part of the law, and stands beside the
-        result where a scene asks for it.
+        Whether the selection may include it. If not, it is no part of the law, and is compared
+        with the result if a scene asks for it.
+    contains, requires
+        Names of the effects that it takes into its own equation, and so includes, and of those
+        without which it cannot be computed.
+    reach
+        The contacts it can be computed for.
+    static
+        Whether it acts in a static contact too.
+    hertzian
+        Whether the elastic contact keeps the form of Hertz's law.
+    spherical
+        Whether the profile is a sphere's, not a paraboloid's.
+    bends
+        Whether the plate deflects in proportion to the force.
+    other_edge
+        Whether the plate's edge is another than the paper's.
+    solved
+        Whether the pressure is solved for, so that the law is not a sum of the effects' parts.
+    viscous
+        Whether the contact is viscoelastic.
+    dynamic
+        Whether the plate has inertia.
+    compared
+        Whether the paper's motion is compared with the result.
     """
 
     name: ClassVar[str]
@@ -119,10 +159,30 @@ class Effect:
     source: ClassVar[str]
     forced: ClassVar[bool] = False
     by_itself: ClassVar[bool] = True
+    contains: ClassVar[frozenset[str]] = frozenset()
+    requires: ClassVar[frozenset[str]] = frozenset()
+    reach: ClassVar[Reach] = Reach()
+    static: ClassVar[bool] = True
+    hertzian: ClassVar[bool] = False
+    spherical: ClassVar[bool] = False
+    bends: ClassVar[bool] = False
+    other_edge: ClassVar[bool] = False
+    solved: ClassVar[bool] = False
+    viscous: ClassVar[bool] = False
+    dynamic: ClassVar[bool] = False
+    compared: ClassVar[bool] = False
 
     def absent(self, model: Model) -> str:  # noqa: ARG002
-        """Why the scene has no such effect by itself; empty if it has."""
+        """Why the effect does not apply to a scene; empty if it does."""
         return "" if self.by_itself else "never by itself: for comparison only"
+
+    def softness(self, model: Model) -> float:  # noqa: ARG002
+        """What it adds to E* of the plate over that of the sphere [1]."""
+        return 0.0
+
+    def gravity(self, model: Model) -> float:  # noqa: ARG002
+        """What it adds to the acceleration that presses the sphere on [m/s^2]."""
+        return 0.0
 
     def value(self, model: Model, a: float) -> float:
         """The dimensionless number at a largest contact radius [m]."""
@@ -132,9 +192,59 @@ class Effect:
         """What leaving it out changes at most."""
         raise NotImplementedError
 
+    def bounded(self, law: "ContactLaw") -> bool:  # noqa: ARG002
+        """Whether the bound holds beside the effects of a law."""
+        return True
+
+    def proved(self, law: "ContactLaw") -> bool:  # noqa: ARG002
+        """Whether the bound is proved beside the effects of a law."""
+        return True
+
+    def check(self, law: "ContactLaw", asked: bool) -> None:
+        """Refuse a scene that includes it and lacks what it takes to compute it.
+
+        Parameters
+        ----------
+        law
+            The law, this effect included.
+        asked
+            Whether the scene asks for it.
+
+        Raises
+        ------
+        SceneError
+            If a key is missing or conflicts with another effect.
+        """
+
+    def check_omitted(self, part: str, error: float, rtol: float) -> None:
+        """Refuse a scene that disables a part of it and must not omit it.
+
+        Parameters
+        ----------
+        part
+            Name of an effect that it requires and that the scene disables.
+        error
+            What omitting it changes at most [1].
+        rtol
+            What the omitted effects may change at most [1].
+
+        Raises
+        ------
+        SceneError
+            If the error is too large for an effect that nothing else warns of.
+        """
+
 
 class PlateEffect(Effect):
-    """An effect that adds to the deflection of the plate under the contact force."""
+    """An effect that adds to the deflection of the plate under the contact force.
+
+    Attributes
+    ----------
+    difference
+        Whether its part is computed as the whole plate's less that of others.
+    """
+
+    difference: ClassVar[bool] = False
 
     def share(self, model: Model, a: Array) -> Share:
         """Its part of F and S at Hertz's radii [m], of a rigid sphere."""

@@ -8,6 +8,9 @@ from derivation.scene.effects.effect import Array, Bound, Place, PlateEffect, Sh
 from derivation.scene.effects.side_wall import SideWall
 from derivation.scene.model import Model
 
+WHOLE_PLATE = frozenset({"bending", "finite_thickness", "side_wall"})
+"""Effects that `plate_share` holds together."""
+
 
 class FiniteThickness(PlateEffect):
     """The sum over G - 1 less its term in bending."""
@@ -17,6 +20,7 @@ class FiniteThickness(PlateEffect):
     equation = "F = (8/(pi alpha^2)) sum s(alpha j_n) (G(2 eta j_n) - 1)/(j_n^4 J_1^2) - F_bending"
     number = "c_1 a/h less bending's"
     source = "sum over the modes; links 12, 18 and 22"
+    difference = True
 
     def value(self, model: Model, a: float) -> float:
         """Its leading share of the indentation over Hertz's."""

@@ -14,10 +14,16 @@ class Gravity(Effect):
     equation = "m z'' = m g - P"
     number = "m g a^2/(R E)"
     source = "energy balance; link 22"
+    static = False
+    hertzian = True
 
     def absent(self, model: Model) -> str:
         """None where the scene gives none."""
         return "" if model.gravity else "no impact.gravity"
+
+    def gravity(self, model: Model) -> float:
+        """All of it."""
+        return model.gravity
 
     def value(self, model: Model, a: float) -> float:
         """Work of the weight over Hertz's indentation, over the sphere's energy."""

@@ -13,6 +13,7 @@ class Hertz(Effect):
     number = "a/R"
     source = "Hertz 1881; link 8"
     forced = True
+    hertzian = True
 
     def value(self, model: Model, a: float) -> float:
         """Contact radius over sphere radius."""

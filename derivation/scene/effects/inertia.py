@@ -1,12 +1,18 @@
 """Inertia: the plate moves, takes energy along in waves, and may give some of it back."""
 
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from derivation.scene import kernels
-from derivation.scene.effects.effect import Array, Bound, Effect, Place, Results, none_of
+from derivation.scene.effects.effect import NO_BOUND, Array, Bound, Effect, Place, Results, none_of
+from derivation.scene.effects.finite_thickness import WHOLE_PLATE
 from derivation.scene.model import Model
+from derivation.scene.scene import SceneError
+
+if TYPE_CHECKING:
+    from derivation.scene.law import ContactLaw
 
 SWINGS = 2.0
 """A mode is off its rest by no more than twice its deflection,"""
@@ -32,7 +38,7 @@ WORTH = (12.0, 6.0, 40.0, 14.0, 30.0)
 much again as the worst of 500 scenes."""
 
 
-class Inertia(Effect):
+class PlateInertia(Effect):
     """Bending modes that oscillate; those beyond follow at rest, as without inertia all do."""
 
     name = "inertia"
@@ -40,6 +46,10 @@ class Inertia(Effect):
     equation = "q_j'' + omega_j^2 q_j = omega_j^2 c_j P_j"
     number = "Zener's lambda = m/(8 That sqrt(D rho H))"
     source = "Zener 1941; Rayleigh 1888 and Lamb 1917; links 26 to 29"
+    contains = WHOLE_PLATE | {"edge"}
+    requires = frozenset({"bending"})
+    static = False
+    dynamic = True
 
     def value(self, model: Model, a: float) -> float:  # noqa: ARG002
         """Zener's number; none without a density."""
@@ -62,6 +72,37 @@ class Inertia(Effect):
         logs[0], logs[4] = heavier * logs[0], heavier * logs[4]
         return Bound(none, none, results=(logs[0], logs[1], logs[2], logs[3], logs[4]))
 
+    def proved(self, law: "ContactLaw") -> bool:  # noqa: ARG002
+        """Measured on random scenes."""
+        return False
+
+    def check(self, law: "ContactLaw", asked: bool) -> None:
+        """The density has to be known, and higher branches cannot be viscoelastic."""
+        model = law.model
+        if law.viscous and model.inertia.branches == "all":
+            raise SceneError(
+                'inertia.branches: expected "A0" in a viscoelastic contact, where only bending is '
+                'elastic, got "all"; write branches = "A0", or effects.viscosity = false'
+            )
+        if model.density:
+            return
+        why = "effects.inertia = true" if asked else "its inertia may change the results"
+        raise SceneError(
+            f"plate.density: expected a density, since {why}, got none; give plate.density "
+            "[kg/m^3], or effects.inertia = false for a plate without inertia"
+        )
+
+    def check_omitted(self, part: str, error: float, rtol: float) -> None:
+        """A quasi-static plate without bending is refused where bending waves may matter."""
+        if error <= rtol:
+            return
+        size = f"by up to {error:.1e}" if error < NO_BOUND else "by more than a bound says"
+        raise SceneError(
+            f"effects.{part}: expected true, since the plate's inertia may change the results "
+            f"{size} and needs {part}, got false; leave out effects.{part}, or set "
+            "effects.inertia = false for a quasi-static plate"
+        )
+
 
 def weight_share(model: Model, depth: float) -> float:
     """Work of the weight over the energy brought [1], at a largest indentation [m].
@@ -80,13 +121,15 @@ def further_branches(model: Model, a: float, T: float) -> Results:
     a, T
         Contact radius [m] and time [s]. A plate that bends keeps a sphere long, and feels it as
         suddenly as another: P'' is of the order of P/(T T_alone). One that gives way makes the
-        force come and go in a part of that time, by lambda^(-2/3).
+        force come and go in a part of that time, by lambda^(-2/3); if the contact goes on, the
+        thickness rings by that, all the less the slower it is.
     """
-    transit, number = 2.0 * model.h / model.shear_speed, Inertia().value(model, 0.0)
+    transit, number = 2.0 * model.h / model.shear_speed, PlateInertia().value(model, 0.0)
     wide, echo = a / (2.0 * model.h), transit / math.sqrt(T * min(T, _alone(model)))
     # Less is lost where echoes return many times in a contact.
     radiated = wide * echo * min(1.0, 2.0 * echo)
-    ring = wide * wide * math.pow(transit / T, 1.5) * math.sqrt(max(1.0, number))
+    whole = math.pow(transit / T, 1.5) * math.sqrt(max(1.0, number))
+    ring = wide * wide * max(whole, math.pow(transit / min(T, _rise(model)), 3.0))
     time, depth, force, radius, speed = (
         one * radiated + two * ring for one, two in zip(RADIATED, RINGS, strict=True)
     )
@@ -105,7 +148,7 @@ def _rise(model: Model) -> float:
     It yields as fast as the sphere comes on where lambda P = v0, P^(2/3) by then being v0 t: after
     lambda^(-2/3) of That, whenever the sphere may leave.
     """
-    number = Inertia().value(model, 0.0)
+    number = PlateInertia().value(model, 0.0)
     return _alone(model) / math.pow(max(1.0, EARLIER * number), 2.0 / 3.0)
 
 

@@ -16,6 +16,7 @@ class Perturbation(Effect):
     number = "t/t_c where (17), (18) break"
     source = "the paper, with gamma_k cut off; links 11, 15 and 16"
     by_itself = False
+    compared = True
 
     def value(self, model: Model, a: float) -> float:  # noqa: ARG002
         """Time at which they break, xi_3 as printed, over that of the linear turning point."""

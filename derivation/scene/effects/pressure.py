@@ -1,11 +1,20 @@
 """Pressure: solved for, where the contact is not small beside the thickness."""
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from derivation.scene import kernels
-from derivation.scene.effects.effect import Bound, Effect, Place, plate_of
+from derivation.scene.effects import edge
+from derivation.scene.effects.effect import Bound, Effect, Place, Reach, plate_of
+from derivation.scene.effects.finite_thickness import WHOLE_PLATE
 from derivation.scene.model import Model
 
+if TYPE_CHECKING:
+    from derivation.scene.law import ContactLaw
+
+OPEN = 6.0
+"""Contact radius over half-thickness at which contact is about to be lost at the centre."""
 WIDEST = 0.4
 """Contact radius over plate radius up to which the bound holds."""
 LARGEST = 0.2
@@ -20,6 +29,10 @@ class Pressure(Effect):
     equation = "chi + int N chi ds = (E*/pi) (delta - f), chi(a) = 0, P = 2 pi int chi dt"
     number = "a/H"
     source = "Abel's transform of the mixed problem; link 20"
+    contains = WHOLE_PLATE | {"curvature", "sphere_elasticity"}
+    requires = WHOLE_PLATE
+    reach = Reach(plate=edge.WIDEST, thickness=OPEN)
+    solved = True
 
     def value(self, model: Model, a: float) -> float:
         """Contact radius over thickness."""
@@ -42,3 +55,7 @@ class Pressure(Effect):
         low, up = (np.where(known, c * theta, np.inf) for c in (5.0 / 3.0, 2.0 / 3.0))
         radius = -np.log1p(-theta[-1]) / 3.0 if known[-1] else np.inf
         return Bound(low, up, radius=float(radius))
+
+    def proved(self, law: "ContactLaw") -> bool:
+        """Of a paraboloid."""
+        return not law.spherical

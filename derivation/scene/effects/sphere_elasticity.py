@@ -15,10 +15,15 @@ class SphereElasticity(Effect):
     equation = "1/E* = (1 - nu^2)/E + (1 - nu_1^2)/E_1"
     number = "E*/E_1*"
     source = "Hertz 1881; link 22"
+    hertzian = True
 
     def absent(self, model: Model) -> str:
         """A sphere without material is rigid."""
         return "" if model.softness else "the sphere is rigid: no sphere.material"
+
+    def softness(self, model: Model) -> float:
+        """All of it."""
+        return model.softness
 
     def value(self, model: Model, a: float) -> float:  # noqa: ARG002
         """E* of the plate over that of the sphere."""

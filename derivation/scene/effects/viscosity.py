@@ -1,10 +1,15 @@
-"""Viscosity: the half-space's force lags, so that the contact takes a part of the speed."""
+"""Viscosity: a viscoelastic contact, whose indentation lags the force and dissipates energy."""
+
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from derivation.scene import kernels
 from derivation.scene.effects.effect import Bound, Effect, Place, none_of
 from derivation.scene.model import Model
+
+if TYPE_CHECKING:
+    from derivation.scene.law import ContactLaw
 
 MARGIN = 1.05
 """What is largest on the way is sampled, and widened by this."""
@@ -14,10 +19,13 @@ class Viscosity(Effect):
     """Acts on the local indentation alone, never on the plate's deflection, and cannot pull."""
 
     name = "viscosity"
-    adds = "a contact that lags"
+    adds = "viscoelastic contact"
     equation = "P = P_e + A_v dP_e/dt >= 0, P_e the half-space's force"
     number = "x_v = (3/2) A_v (K/m)^(2/5) v0^(1/5)"
     source = "Kuwabara and Kono 1987, Brilliantov et al. 1996; link 24"
+    static = False
+    hertzian = True
+    viscous = True
 
     def absent(self, model: Model) -> str:
         """A plate without a time is not viscous."""
@@ -30,7 +38,7 @@ class Viscosity(Effect):
         return float(number * (1.0 + model.softness) ** -0.4)
 
     def bound(self, model: Model, place: Place) -> Bound:
-        """By the spiral of link 24, proved for a half-space; a plate, which does not lag, helps."""
+        """By the spiral of link 24, proved for a half-space; an elastic plate helps."""
         assert place.along is not None
         force, depth, stiffness, energy, growth = place.along
         speed = np.sqrt(2.0 * (energy / model.m))
@@ -49,3 +57,7 @@ class Viscosity(Effect):
         )
         none = none_of(place.radii)
         return Bound(none, none, results=kernels.viscous_logarithms(course))
+
+    def proved(self, law: "ContactLaw") -> bool:  # noqa: ARG002
+        """Of a half-space alone."""
+        return False

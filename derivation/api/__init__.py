@@ -1,0 +1,73 @@
+"""Contact and impact of a sphere on an elastic plate: formulas, scenes, and code for your own.
+
+    >>> import platecontact as pc
+    >>> pc.formula("G").unit
+    '1'
+    >>> scene = pc.read({
+    ...     "sphere": {"radius": 0.01, "material": "steel"},
+    ...     "plate": {"radius": 0.3, "thickness": 0.05, "material": "glass"},
+    ...     "impact": {"speed": 1.0},
+    ... })
+    >>> print(f"{pc.simulate(scene).contact_time:.3g} s")
+    9.26e-05 s
+
+All quantities are in SI units. Each name is loaded when it is first used: a simulation starts
+without SymPy.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from derivation import diagnose, formula
+    from derivation.scene import (
+        Scene,
+        SceneError,
+        explain,
+        indent,
+        load,
+        read,
+        schema,
+        simulate,
+    )
+
+    from .digits import reference
+    from .formulary import formulas, misprints, rewrite
+
+__all__ = [
+    "Scene",
+    "SceneError",
+    "diagnose",
+    "explain",
+    "formula",
+    "formulas",
+    "indent",
+    "load",
+    "misprints",
+    "read",
+    "reference",
+    "rewrite",
+    "schema",
+    "simulate",
+]
+
+HOMES = {
+    "diagnose": "derivation",
+    "formula": "derivation",
+    "formulas": ".formulary",
+    "misprints": ".formulary",
+    "reference": ".digits",
+    "rewrite": ".formulary",
+}
+"""The module of each name; of the others, `derivation.scene`. Relative, as an installed copy has
+this package under the name `platecontact` alone."""
+
+
+def __getattr__(name: str) -> Any:
+    if name not in __all__:
+        raise AttributeError(f"module 'platecontact' has no attribute {name!r}")
+    return getattr(import_module(HOMES.get(name, "derivation.scene"), __name__), name)
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

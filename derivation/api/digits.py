@@ -1,0 +1,41 @@
+"""Contact law and impact of a scene to many digits."""
+
+from derivation import pipeline
+from derivation.plate.impact.oracle import many_digits
+from derivation.scene import Scene
+
+
+def reference(scene: Scene, digits: int = 50) -> many_digits.Reference:
+    """Return contact law and impact to many digits, by both references (Arb and mpmath).
+
+    The scene's numbers are taken as the exact doubles they are read as.
+
+    Parameters
+    ----------
+    scene
+        A quasi-static impact that the paper's contact law describes.
+    digits
+        Digits of every number, from 1 to 1000.
+
+    Raises
+    ------
+    derivation.scene.SceneError
+        If the scene needs an effect beyond that law, switches off one of it, or leaves its range.
+    ValueError
+        If the references do not reach so many digits.
+
+    Examples
+    --------
+    >>> import platecontact as pc
+    >>> scene = pc.read({
+    ...     "sphere": {"radius": 0.13, "mass": 0.1},
+    ...     "plate": {"radius": 0.1, "thickness": 0.02, "lame_lambda": 0.36e9, "lame_mu": 0.43e9},
+    ...     "impact": {"speed": 0.1},
+    ...     "effects": {"inertia": False, "curvature": False, "pressure": False},
+    ... })
+    >>> pc.reference(scene, digits=30).agrees
+    True
+    """
+    if not 1 <= digits <= 1000:
+        raise ValueError(f"digits: expected 1 to 1000, got {digits}")
+    return pipeline.reference(pipeline.in_doubles(scene), digits, lambda *_: None)

@@ -1,0 +1,1 @@
+"""Random scenes against everything computed: what neither engine nor plate can hold."""

@@ -1,0 +1,311 @@
+"""A rigid sphere on the plate: static contact, and the time steps of an impact."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from derivation.checks.finite_elements.mesh import Double
+from derivation.checks.finite_elements.plate import System, factorised
+
+Nodes = NDArray[np.bool_]
+"""Whether each contact node touches the sphere."""
+DAMPING = 0.8
+"""Spectral radius of the time integration at infinite frequency."""
+ROUNDS = 60
+"""Changes of the set of touching nodes in one time step after which something is wrong."""
+CLEAR = 1.5
+"""Height of the sphere, over the plate's largest deflection, at which no contact can follow."""
+FLIGHT = 8
+"""Length of the time steps between contacts over that of those in a contact."""
+APART = 20
+"""Time steps without contact after which they are made longer."""
+END = 5
+"""Last steps of a contact from which its end is extrapolated."""
+PEAK = 0.05
+"""Time about the largest force, over the contact time, in which a polynomial is fitted to it."""
+
+
+class Wide(ArithmeticError):
+    """The contact is wider than the part of the mesh that is made for it."""
+
+
+@dataclass(frozen=True)
+class Sphere:
+    """A rigid sphere, or the paraboloid r^2/(2 R).
+
+    Parameters
+    ----------
+    radius, mass
+        Radius [m] and mass [kg].
+    speed
+        Impact speed [m/s].
+    exact
+        Whether the profile is that of a sphere.
+    """
+
+    radius: float
+    mass: float
+    speed: float
+    exact: bool = False
+
+    def profile(self, r: Double) -> Double:
+        """Return the height of the lower face over its lowest point [m]."""
+        R = self.radius
+        found: Double = r**2 / (R + np.sqrt(R**2 - r**2)) if self.exact else r**2 / (2.0 * R)
+        return found
+
+
+def touching(compliance: Double, gap: Double, start: Nodes) -> tuple[Double, Nodes]:
+    """Solve compliance @ force + gap >= 0, force >= 0, one of both being 0 at each node.
+
+    Returns the forces and the set of touching nodes, found from a first guess by the
+    primal-dual active-set method.
+    """
+    active = start
+    for _ in range(ROUNDS):
+        force = np.zeros_like(gap)
+        place = np.flatnonzero(active)
+        if place.size:
+            force[place] = np.linalg.solve(compliance[np.ix_(place, place)], -gap[place])
+        open_gap = compliance @ force + gap
+        following = np.where(active, force > 0.0, open_gap < -1e-13 * np.abs(gap).max())
+        if np.array_equal(following, active):
+            return force, active
+        active = following
+    raise ArithmeticError("contact: expected a set of touching nodes, got none that stays")
+
+
+def pressed(system: System, sphere: Sphere, way: float) -> tuple[Double, Double]:
+    """Press the sphere in by a way [m] statically; returns radii [m] and forces [N] of nodes."""
+    nodes = system.contact_nodes
+    columns = _unit_forces(system, system.static_solver)
+    compliance = columns[nodes]
+    gap = sphere.profile(system.contact_radii) - way
+    force, _ = touching(compliance, gap, gap < 0.0)
+    return system.contact_radii, force
+
+
+def _unit_forces(system: System, solver: Any) -> Double:
+    """Return the solutions under a unit downward force at each contact node, w upwards."""
+    load = np.zeros((system.free.size, system.contact_nodes.size))
+    load[system.contact_nodes, np.arange(system.contact_nodes.size)] = 1.0
+    found: Double = solver.solve(load)
+    return found
+
+
+@dataclass(frozen=True)
+class History:
+    """What was computed at every time step.
+
+    Parameters
+    ----------
+    time
+        Since the first contact [s].
+    way, speed
+        Displacement [m] and velocity [m/s] of the sphere, downwards.
+    force
+        Contact force [N].
+    width
+        Number of the outermost touching node, from 1; 0 without contact.
+    energy
+        Energy of plate and sphere after the last contact, over the initial one [1].
+    """
+
+    time: Double
+    way: Double
+    speed: Double
+    force: Double
+    width: Double
+    energy: float
+
+
+class Stepper:
+    """Generalised-alpha time steps of plate and sphere with the contact solved exactly in each.
+
+    The contact condition holds at the end of each step. The scheme is that of Arnold and Bruels,
+    of second order in displacements, velocities and contact forces.
+    """
+
+    def __init__(
+        self, system: System, sphere: Sphere, step: float, damping: float = DAMPING
+    ) -> None:
+        self.system, self.sphere, self.h = system, sphere, step
+        alpha_m = (2.0 * damping - 1.0) / (damping + 1.0)
+        alpha_f = damping / (damping + 1.0)
+        self.gamma = 0.5 + alpha_f - alpha_m
+        self.beta = 0.25 * (1.0 + alpha_f - alpha_m) ** 2
+        self.keep = alpha_f / (1.0 - alpha_m), alpha_m / (1.0 - alpha_m)
+        self.c = (1.0 - alpha_f) / (1.0 - alpha_m)
+        self.s = self.beta * step**2 * self.c
+        self.solver = factorised(system.mass + self.s * system.stiffness)
+        columns = _unit_forces(system, self.solver)
+        self.predictor = np.ascontiguousarray((system.mass @ columns).T)
+        self.compliance = self.s * (columns[system.contact_nodes] + 1.0 / sphere.mass)
+        self.profile = sphere.profile(system.contact_radii)
+        # The sphere is the last unknown, downwards.
+        self.state = State.resting(system.free.size + 1)
+        self.state.v[-1] = sphere.speed
+        self.active = np.zeros(system.contact_nodes.size, dtype=bool)
+
+    def advance(self) -> Double:
+        """Take one step; returns the contact forces [N] at the nodes."""
+        h, old, mass = self.h, self.state, self.sphere.mass
+        rest = self.keep[0] * old.real - self.keep[1] * old.a
+        start = old.q + h * old.v + h**2 * ((0.5 - self.beta) * old.a + self.beta * rest)
+        gap = self.profile - start[-1] - self.predictor @ start[:-1]
+        force, self.active = touching(self.compliance, gap, self.active)
+        load = self.system.mass @ start[:-1]
+        load[self.system.contact_nodes] -= self.s * force
+        q = np.append(self.solver.solve(load), start[-1] - self.s * force.sum() / mass)
+        real = (q - start) / self.s
+        a = self.c * real + rest
+        v = old.v + h * ((1.0 - self.gamma) * old.a + self.gamma * a)
+        self.state = State(q, v, a, real)
+        return force
+
+    def energy(self) -> float:
+        """Return the energy of plate and sphere [J]."""
+        q, v = self.state.q[:-1], self.state.v[:-1]
+        plate = v @ (self.system.mass @ v) + q @ (self.system.stiffness @ q)
+        return float(plate + self.sphere.mass * self.state.v[-1] ** 2) / 2.0
+
+
+@dataclass(frozen=True)
+class State:
+    """Displacements q, velocities v, and the scheme's and the equation's accelerations."""
+
+    q: Double
+    v: Double
+    a: Double
+    real: Double
+
+    @classmethod
+    def resting(cls, size: int) -> "State":
+        """Return the undeformed state, all velocities zero."""
+        return cls(*(np.zeros(size) for _ in range(4)))
+
+
+def struck(
+    system: System, sphere: Sphere, step: float, longest: float, *, until_end: bool = True
+) -> History:
+    """Let the sphere strike the plate until no further contact can follow.
+
+    Steps [s] are longer between contacts. Without `until_end` the impact ends with the first
+    contact.
+
+    Raises
+    ------
+    Wide
+        If the contact reaches the end of the fine mesh.
+    ArithmeticError
+        If the impact takes longer than the longest time [s].
+    """
+    fine, coarse = Stepper(system, sphere, step), None
+    brought, nodes = fine.energy(), system.contact_nodes
+    rows, deepest, apart, time = [(0.0, 0.0, sphere.speed, 0.0, 0.0)], 0.0, 0, 0.0
+    while True:
+        used = fine
+        if apart >= APART and rows[-1][1] < 0.0 < sphere.speed:
+            coarse = coarse or Stepper(system, sphere, FLIGHT * step)
+            before, coarse.state, used = fine.state, fine.state, coarse
+        force = used.advance()
+        if used is coarse and force.any():
+            # The coming contact is computed in short steps.
+            fine.state, used, apart = before, fine, -FLIGHT
+            force = used.advance()
+        fine.state = used.state
+        if force[-1] > 0.0:
+            raise Wide("contact: expected it within the fine mesh, got a wider one")
+        total, speed, way = float(force.sum()), float(fine.state.v[-1]), float(fine.state.q[-1])
+        time += used.h
+        rows.append((time, way, speed, total, float(np.max(np.flatnonzero(force), initial=-1) + 1)))
+        apart = 0 if total > 0.0 else apart + 1
+        deepest = max(deepest, float(np.abs(fine.state.q[nodes]).max()))
+        gone = speed < 0.0 and way < -CLEAR * deepest
+        if apart > 0 and (gone or (apart == APART and not until_end)):
+            times, ways, speeds, forces, widths = np.array(rows).T
+            return History(times, ways, speeds, forces, widths, fine.energy() / brought)
+        if time > longest:
+            raise ArithmeticError(f"impact: expected its end within {longest:g} s, got none")
+
+
+@dataclass(frozen=True)
+class Impact:
+    """Results of an impact.
+
+    Parameters
+    ----------
+    contact_time
+        Of the first contact [s].
+    max_indentation
+        Largest displacement of the sphere since first contact [m].
+    max_force
+        Largest contact force [N].
+    max_contact_radius
+        Largest contact radius, between the outermost touching node and the next one [m].
+    restitution
+        Speed after the last contact over the impact speed [1].
+    total_time
+        From the first contact to the end of the last one [s].
+    contacts
+        Number of contacts, those counted once that the sphere leaves for `APART` steps at least.
+    energy
+        Energy of plate and sphere after the last contact, over the initial one [1].
+    """
+
+    contact_time: float
+    max_indentation: float
+    max_force: float
+    max_contact_radius: float
+    restitution: float
+    total_time: float
+    contacts: int
+    energy: float
+
+
+def results(history: History, radii: Double) -> Impact:
+    """Return the results of an impact from its history and the radii [m] of the contact nodes."""
+    spans = _spans(history.force)
+    ends = [_end(history, start, stop) for start, stop in spans]
+    widest = int(history.width.max())
+    return Impact(
+        contact_time=ends[0],
+        max_indentation=float(history.way.max()),
+        max_force=_peak(history, ends[0]),
+        max_contact_radius=float(radii[widest - 1] + radii[widest]) / 2.0,
+        restitution=-float(history.speed[-1]) / float(history.speed[0]),
+        total_time=ends[-1],
+        contacts=len(spans),
+        energy=history.energy,
+    )
+
+
+def _spans(force: Double) -> list[tuple[int, int]]:
+    """Return first and last step of each contact."""
+    steps = np.flatnonzero(force > 0.0)
+    cuts = np.flatnonzero(np.diff(steps) > APART)
+    starts = np.concatenate((steps[:1], steps[cuts + 1]))
+    stops = np.concatenate((steps[cuts], steps[-1:]))
+    return [(int(a), int(b)) for a, b in zip(starts, stops, strict=True)]
+
+
+def _end(history: History, start: int, stop: int) -> float:
+    """Return when a contact ends, force^(2/3) falling linearly towards its end."""
+    last = np.arange(max(stop - END + 1, start), stop + 1)
+    last = last[history.force[last] > 0.0]
+    if last.size < 2:
+        return float(history.time[stop])
+    line = np.polynomial.Polynomial.fit(history.force[last] ** (2.0 / 3.0), history.time[last], 1)
+    return float(line(0.0))
+
+
+def _peak(history: History, contact_time: float) -> float:
+    """Return the largest force, nodal noise smoothed."""
+    place = int(np.argmax(history.force))
+    near = np.abs(history.time - history.time[place]) < PEAK * contact_time
+    near &= history.force > 0.0
+    time = history.time[near]
+    fit = np.polynomial.Polynomial.fit(time, history.force[near], 4)
+    return float(fit(np.linspace(time[0], time[-1], 1001)).max())

@@ -1,0 +1,232 @@
+"""Each case on several meshes and time steps, its error estimates, and the record of all."""
+
+import ast
+import hashlib
+import json
+import platform
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from derivation.checks.finite_elements import cases
+from derivation.checks.finite_elements.cases import Case
+from derivation.checks.finite_elements.impact import Impact, Wide, results, struck
+from derivation.checks.finite_elements.mesh import Grading, graded, resting
+from derivation.checks.finite_elements.plate import Plate, System
+from derivation.engine.files import measurements, write_file
+
+MEASURED: Path = measurements() / "elastodynamics.json"
+RESULTS = (
+    "contact_time", "max_indentation", "max_force", "max_contact_radius", "restitution",
+    "total_time",
+)  # fmt: skip
+SPREAD = 1.05, 1.25
+"""Reach of the fine mesh over the contact radius on a half-space; by so much more each time that
+is not enough."""
+LONGEST = 300.0
+"""Longest impact over the contact time on a half-space."""
+LEAST = {"contact_time": 1e-4, "total_time": 1e-4, "max_force": 1e-4}
+"""Least error estimates, of results that single nodes touch [1]; of others `LEAST_ERROR`."""
+LEAST_ERROR = 2e-5
+FREQUENCIES = 4
+Tell = Callable[[str, int, int], None]
+"""Shows what is done next, its number and how many there are."""
+
+
+@dataclass(frozen=True)
+class Setting:
+    """Mesh and time steps of a solution.
+
+    Parameters
+    ----------
+    grading
+        How fine the mesh is.
+    steps
+        Time steps over the contact time on a half-space.
+    """
+
+    grading: Grading
+    steps: int
+
+
+BEST = Setting(Grading(contact=12, far=2.0), 400)
+COARSER = Setting(Grading(contact=8, thickness=1.0, far=3.0, edge=1), 400)
+LONGER = Setting(BEST.grading, 200)
+"""The solution that is recorded, one on a coarser mesh and one with longer steps."""
+MODAL = ((5, 6), (4, 6), (5, 5))
+"""Layers towards the edge, where a clamp is singular, and degree: the best mesh, two others."""
+
+
+def solved(case: Case, setting: Setting, *, until_end: bool = True) -> tuple[Impact, float]:
+    """Return an impact's results, and half the distance of contact nodes at its widest [m]."""
+    plate, reach = case.plate, SPREAD[0] * case.radius
+    while True:
+        mesh = graded(plate.radius, plate.thickness, reach, setting.grading)
+        system = System(plate, mesh)
+        step = case.time / setting.steps
+        try:
+            history = struck(system, case.sphere, step, LONGEST * case.time, until_end=until_end)
+        except Wide:
+            reach *= SPREAD[1]
+            continue
+        widest = int(history.width.max())
+        apart = float(np.diff(system.contact_radii)[widest - 1])
+        return results(history, system.contact_radii), apart / 2.0
+
+
+def impact_row(case: Case) -> dict[str, Any]:
+    """Return the row of an impact: inputs, results and their relative error estimates."""
+    best, apart = solved(case, BEST)
+    others = [solved(case, setting)[0] for setting in (COARSER, LONGER)]
+    errors = {}
+    for name in RESULTS:
+        value = getattr(best, name)
+        changes = sum(abs(getattr(other, name) / value - 1.0) for other in others)
+        least = apart / value if name == "max_contact_radius" else LEAST.get(name, LEAST_ERROR)
+        errors[name] = float(f"{max(changes, least):.2g}")
+    return {
+        **inputs(case),
+        "parameters": {
+            "thickness_over_radius": case.plate.thickness / case.plate.radius,
+            "contact_radius_over_thickness": case.radius / case.plate.thickness,
+            "contact_time_over_echo": case.time / case.echo,
+        },
+        "edge_echo": case.edge_echo,
+        "elements": {name: float(f"{getattr(best, name):.7g}") for name in RESULTS},
+        "errors": errors,
+        "contacts": best.contacts,
+        "contacts_of_others": [other.contacts for other in others],
+        "energy_error": float(f"{best.energy - 1.0:.2g}"),
+    }
+
+
+def inputs(case: Case) -> dict[str, Any]:
+    """Return the inputs of an impact as tables of a scene, in SI units."""
+    plate, sphere = asdict(case.plate), asdict(case.sphere)
+    speed, exact = sphere.pop("speed"), sphere.pop("exact")
+    tables = {"sphere": sphere, "plate": plate, "impact": {"speed": speed}}
+    return {"name": case.name, "group": case.group, "scene": tables, "spherical_profile": exact}
+
+
+def plate_row(plate: Plate) -> dict[str, Any]:
+    """Return the row of a plate: its lowest natural frequencies omega b/c_S and their errors."""
+    found = []
+    for layers, degree in MODAL:
+        mesh = resting(plate.radius, plate.thickness, layers, degree)
+        scale = plate.radius / plate.shear_wave_speed
+        found.append(System(plate, mesh).bending_frequencies(FREQUENCIES) * scale)
+    errors = np.sum([np.abs(other / found[0] - 1.0) for other in found[1:]], axis=0)
+    return {
+        **plate_inputs(plate),
+        "frequencies": [float(f"{x:.8g}") for x in found[0]],
+        "errors": [float(f"{max(x, 1e-8):.2g}") for x in errors],
+    }
+
+
+def plate_inputs(plate: Plate) -> dict[str, Any]:
+    """Return what a plate's natural frequencies depend on."""
+    ratio = plate.thickness / plate.radius
+    return {
+        "edge": plate.edge,
+        "thickness_over_radius": ratio,
+        "poissons_ratio": plate.poissons_ratio,
+    }
+
+
+def computed(path: Path = MEASURED, tell: Tell | None = None) -> dict[str, Any]:
+    """Compute what is missing from a record, which is written after each case; returns it."""
+    record = read(path)
+    version = source_hash()
+    known = {_key(row): row for row in record["impacts"] + record["plates"]}
+    wanted: list[Case | Plate] = [*cases.impacts(), *cases.plates()]
+    impacts: list[dict[str, Any]] = []
+    plates: list[dict[str, Any]] = []
+    todo = []
+    for item in wanted:
+        row = known.get(_key(_inputs(item) | {"source": version}))
+        if row is None:
+            todo.append(item)
+        else:
+            (impacts if isinstance(item, Case) else plates).append(row)
+    for number, item in enumerate(todo):
+        if tell is not None:
+            tell(item.name if isinstance(item, Case) else "plate", number + 1, len(todo))
+        if isinstance(item, Case):
+            impacts.append(impact_row(item) | {"source": version})
+        else:
+            plates.append(plate_row(item) | {"source": version})
+        record = {**header(), "impacts": impacts, "plates": plates}
+        write_file(path, to_json(record))
+    return record
+
+
+def _inputs(item: Case | Plate) -> dict[str, Any]:
+    return inputs(item) if isinstance(item, Case) else plate_inputs(item)
+
+
+def _key(row: Mapping[str, Any]) -> str:
+    """Return what a row was computed from, as text."""
+    names = ("scene", "spherical_profile", "edge", "thickness_over_radius", "poissons_ratio")
+    return json.dumps([row.get(name) for name in (*names, "source")])
+
+
+def header() -> dict[str, Any]:
+    """Return with what the numbers were computed."""
+    import scipy
+
+    settings = {"best": BEST, "coarser_mesh": COARSER, "longer_steps": LONGER}
+    provenance = {
+        "numpy": np.__version__,
+        "python": platform.python_version(),
+        "scipy": scipy.__version__,
+    }
+    return {
+        "provenance": provenance,
+        "settings": {name: asdict(setting) for name, setting in settings.items()},
+    }
+
+
+def read(path: Path = MEASURED) -> dict[str, Any]:
+    """Return a record; an empty one if there is none."""
+    empty: dict[str, Any] = {"impacts": [], "plates": []}
+    if not path.exists():
+        return empty
+    found: dict[str, Any] = json.loads(path.read_text())
+    return empty | found
+
+
+def to_json(record: Mapping[str, Any]) -> str:
+    """Return a record as JSON, a row to a line."""
+    parts = []
+    for key, value in record.items():
+        if key in ("impacts", "plates"):
+            rows = ",\n ".join(json.dumps(row, allow_nan=False) for row in value)
+            parts.append(f"{json.dumps(key)}: [\n {rows}\n]")
+        else:
+            parts.append(f"{json.dumps(key)}: {json.dumps(value, sort_keys=True)}")
+    return "{" + ",\n".join(parts) + "}\n"
+
+
+def source_hash() -> str:
+    """Return a hash of the code that computes, docstrings, comments and imports left out."""
+    digest = hashlib.sha256(repr((BEST, COARSER, LONGER, MODAL)).encode())
+    for name in ("mesh", "plate", "impact"):
+        tree = ast.parse((Path(__file__).parent / f"{name}.py").read_text())
+        for node in ast.walk(tree):
+            body = getattr(node, "body", None)
+            if isinstance(body, list):
+                body[:] = [x for x in body if not (_is_text(x) or isinstance(x, ast.ImportFrom))]
+        digest.update(ast.dump(tree).encode())
+    return digest.hexdigest()[:16]
+
+
+def _is_text(node: ast.AST) -> bool:
+    """Whether a statement is a string alone."""
+    return (
+        isinstance(node, ast.Expr)
+        and isinstance(node.value, ast.Constant)
+        and isinstance(node.value.value, str)
+    )

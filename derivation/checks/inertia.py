@@ -1,0 +1,165 @@
+"""Holds plates that move to random scenes: bounds against twice the modes and all branches."""
+
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from derivation.checks import inertia_judged as inertia
+from derivation.checks.inertia_judged import Found, Judged
+from derivation.checks.random_scenes import Scene, Tell
+from derivation.engine.files import measurements, write_file
+from derivation.plate.package_pipeline import expect_recordable
+from derivation.scene import motion, waves
+from derivation.scene.effect_selection import decide
+from derivation.scene.effects import EFFECTS
+from derivation.scene.effects.inertia import further_branches, weight_share
+from derivation.scene.impact import gated
+from derivation.scene.law import ContactLaw
+from derivation.scene.limits import zener_number
+from derivation.scene.method_selection import moved, moving, solve_gated
+from derivation.scene.mode_count import count_of
+from derivation.scene.model import InertiaSettings, Model, model_of
+from derivation.scene.scene import SceneError, read
+from derivation.scene.wave_motion import WaveMotion
+from generated.inertia import bending_frequency
+
+MEASURED: Path = measurements() / "inertia.json"
+HEAVIEST = 5.0
+"""Zener's number up to which scenes are looked at."""
+FALLEN = 100.0
+"""Work of the weight over the energy brought up to which they are."""
+MODES = {"A0": 100, "all": 10}
+"""Modes up to which they are, of the first run."""
+OSCILLATORS = 1200
+"""Oscillators that the truth may have."""
+ANY, MUCH = 1.0, 0.3
+"""A tolerance that leaves inertia out whatever it changes; a change too large to be left out."""
+MET, TIGHT = 3.0, 1e-4
+"""A tolerance that can be met, over what branches may be worth at rest; and at least [1]."""
+
+
+def check_inertia(
+    count: int,
+    seed: int = inertia.SEED,
+    record: bool = False,
+    tell: Tell | None = None,
+) -> Judged:
+    """Random scenes with a plate that may move against more modes; keep the rows if asked."""
+    if record:
+        expect_recordable(MEASURED)
+    found = inertia.judge(count, solve, pass_over, seed, tell)
+    if record:
+        write_file(MEASURED, inertia.to_json(found, seed))
+    return found
+
+
+def pass_over(data: Scene) -> str:
+    """Why a scene takes too long to be looked at, or has no impact at all; empty if none."""
+    model = bending(model_of(read(data)))
+    if zener_number(model) > HEAVIEST:
+        return f"Zener's number above {HEAVIEST:g}"
+    still = at_rest(model)
+    if still is None:
+        return "no impact on the plate at rest"
+    if weight_share(model, still.max_indentation) > FALLEN:
+        return f"work of the weight over the energy brought above {FALLEN:g}"
+    most = MODES[data["inertia"]["branches"]]
+    if count_of(ContactLaw(model, frozenset({"hertz", "inertia"}))) > most:
+        return "too many modes"
+    return ""
+
+
+def placed(data: Scene, place: float) -> tuple[Scene, float]:
+    """A scene and its tolerance, by a number in [0, 1).
+
+    From the lower half, and where inertia changes little, a scene with all other effects and a
+    tolerance that lets inertia be left out; else one that needs it, and can be met.
+    """
+    model = model_of(read(data))
+    still = at_rest(model)
+    assert still is not None  # such scenes are passed over
+    others = dict.fromkeys(present(model) - {"inertia", "hertz"}, True)
+    price = decide(model, others | {"inertia": "auto"}, ANY).error
+    radiated = max(further_branches(model, still.max_contact_radius, still.contact_time))
+    least = MET * radiated * (1.0 + weight_share(model, still.max_indentation)) + TIGHT
+    if price < MUCH and (place < 0.5 or least > price):
+        return {**data, "effects": {**others, "inertia": "auto"}}, price * (1.0 + place)
+    return data, min(least * math.pow(10.0, 2.0 * place - 1.0), max(least, 0.9 * min(price, ANY)))
+
+
+def solve(data: Scene, place: float) -> Found | str:
+    """A scene as `simulate` computes it, and the truth; or the key that a message begins with."""
+    try:
+        data, rtol = placed(data, place)
+        _, gate = gated(read(data), rtol)
+        values, accuracy = solve_gated(gate, rtol)
+        known = "inertia" in gate.law.effects
+        used = moving(gate, rtol) if known else None
+        model = bending(gate.law.model)
+        modes = _modes(used or _moving(model, rtol))
+        many = replace(model, inertia=InertiaSettings(modes=2 * modes, branches="all"))
+        if oscillators(many) > OSCILLATORS:
+            return f"truth: more than {OSCILLATORS} oscillators"
+        truth = _moving(many, rtol)
+    except SceneError as error:
+        return str(error).partition(":")[0]
+    still = at_rest(model)
+    assert still is not None  # such scenes are passed over
+    price = next(row.bound for row in gate.rows if row.name == "inertia")
+    total = used.inertia.total_time if used is not None else values[0]
+    return Found(
+        rtol,
+        known,
+        values,
+        truth.numbers,
+        accuracy.bound,
+        total,
+        truth.inertia.total_time,
+        still.numbers,
+        price,
+        len(truth.inertia.contacts),
+        _modes(truth),
+        truth.inertia.modes,
+    )
+
+
+def bending(model: Model) -> Model:
+    """The same in its bending modes, as many as it takes."""
+    return replace(model, inertia=InertiaSettings())
+
+
+def at_rest(model: Model) -> motion.Motion | None:
+    """The impact with every effect but inertia; None beyond the range of the models."""
+    try:
+        return moved(ContactLaw(model, present(model) - {"inertia"}))
+    except SceneError:
+        return None
+
+
+def present(model: Model) -> frozenset[str]:
+    """Every effect that applies."""
+    return frozenset(e.name for e in EFFECTS if e.by_itself and not e.absent(model))
+
+
+def oscillators(model: Model) -> int:
+    """About how many oscillators the modes of all branches are, by Weyl's law.
+
+    Across the thickness stand (2/pi) sqrt(Omega^2 - x^2) shear waves and as many of pressure with
+    gam Omega^2, x = phi h being n pi eta.
+    """
+    modes, gam = model.inertia.modes, model.mu / (model.lam + 2.0 * model.mu)
+    root = bending_frequency(np.array([modes * math.pi * model.eta]), model.poissons_ratio)
+    return modes + int((1.0 + gam) * float(root[0]) ** 2 / (2.0 * math.pi * model.eta))
+
+
+def _moving(model: Model, rtol: float) -> WaveMotion:
+    """The impact with every effect."""
+    with np.errstate(all="ignore"):
+        return waves.impact(ContactLaw(model, present(model)), waves.goal(rtol))
+
+
+def _modes(found: WaveMotion) -> int:
+    """How many wave numbers the plate has."""
+    return len(np.unique(found.course.problem.contact.modes.phi))

@@ -1,0 +1,356 @@
+"""What accuracy costs on a plate that moves: integrators, modes, branches, and a tolerance.
+
+One scene, an impact that is over before the edge's echo matters little enough to be checked by
+every method. Integrators take the same oscillators and are held to the finest elements; modes and
+branches to the most of them; a tolerance to the tightest one.
+"""
+
+import json
+import os
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass
+from functools import cache, partial
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.integrate import solve_ivp
+from scipy.optimize import minimize_scalar
+
+from derivation.engine.files import measurements, write_file
+from derivation.engine.measure.record import provenance
+from derivation.plate.benchmark.clock import Candidate, interleaved
+from derivation.plate.benchmark.speed import machine
+from derivation.plate.judge import PACKAGE
+from derivation.plate.package_pipeline import recorded_in
+from derivation.scene import contact_sequence, waves
+from derivation.scene.effects.effect import Array
+from derivation.scene.impact import gated, simulate
+from derivation.scene.modal import ContactSamples
+from derivation.scene.scene import OUTPUTS, Scene, read
+from derivation.scene.time_element import DynamicProblem, P
+
+MEASURED: Path = measurements() / "moving.json"
+SCENE: dict[str, dict[str, Any]] = {
+    "sphere": {"radius": 0.01, "material": "steel"},
+    "plate": {"radius": 0.15, "thickness": 0.012, "material": "aluminium"},
+    "impact": {"speed": 2.0},
+    "effects": {"pressure": False},
+}
+"""A bearing ball on an aluminium plate, on the paper's edge."""
+OSCILLATORS, FINEST = 40, 1e-13
+"""Oscillators that integrators share, and tolerance of the Runge-Kutta method that judges them."""
+NODES, TOLERANCES = (6, 8, 10, 12, 16), (1e-3, 1e-5, 1e-7, 1e-9, 1e-11)
+"""Of an element, at the tightest tolerance; and tolerances, at 16 nodes."""
+STEPS, RELATIVE = (8, 10, 12), (1e-3, 1e-5, 1e-7, 1e-9, 1e-11)
+"""Powers of two of Verlet's steps in a contact; tolerances of the Runge-Kutta method."""
+MODES, MOST = (5, 10, 20, 40, 80, 160), 320
+ALL, MOST_ALL = (5, 10, 20, 40, 80), 160
+ASKED = ((1e-2, "A0"), (5e-3, "A0"), (1e-3, "all"), (3e-4, "all"))
+ROUNDS = 5
+BEGUN = 0.1
+"""Root of time from which a release is looked for."""
+LOOKS = 200
+"""Times at which an integrator is asked for the force, to find near which it is largest."""
+CLOSE = 1e-8
+"""How closely the time of the largest force is found, on which the force itself hardly depends."""
+Numbers = tuple[float, ...]
+Tell = Callable[[str, int, int], None]
+
+
+class Outcome(NamedTuple):
+    """Results, how many oscillators there were, and the bound that was stated, if any."""
+
+    numbers: Numbers
+    oscillators: int
+    bound: float | None = None
+
+
+@dataclass(frozen=True)
+class Row:
+    """A method at a setting.
+
+    Attributes
+    ----------
+    study
+        `integrator`, `modes`, `branches` or `rtol`.
+    method, setting
+        What is used, and its knob.
+    oscillators
+        How many there are.
+    seconds
+        Of the processor, for an impact [s].
+    errors
+        Relative, by result [1]; of an integrator those of the first contact.
+    bound
+        What was stated to be at most the largest of them [1]; of `rtol` alone.
+    """
+
+    study: str
+    method: str
+    setting: float
+    oscillators: int
+    seconds: float
+    errors: dict[str, float]
+    bound: float | None
+
+
+@dataclass(frozen=True)
+class Trial:
+    """A row before it is timed."""
+
+    study: str
+    method: str
+    setting: float
+    call: Callable[[], Outcome]
+    truth: Callable[[], Numbers]
+    names: Sequence[str]
+
+
+COLUMNS = ("study", "method", "#oscillators", "#time [ms]", "#largest error")
+FIRST = ("contact_time", "max_force", "restitution")
+"""Of the first contact; restitution is by the speed after it."""
+
+
+def measure(tell: Tell | None = None) -> dict[str, Any]:
+    """Every row, timed in turns, with the scene, the machine and its load."""
+    trials = [*integrators(), *modes(), *branches(), *tolerances()]
+    before, rows = os.getloadavg()[0], list[tuple[Trial, Outcome, dict[str, float]]]()
+    for number, trial in enumerate(trials, start=1):
+        if tell is not None:
+            tell(f"{trial.study}: {trial.method}", number, len(trials) + 1)
+        found = trial.call()
+        pairs = zip(trial.names, found.numbers, trial.truth(), strict=True)
+        rows.append((trial, found, {n: abs(x / true - 1.0) for n, x, true in pairs}))
+    if tell is not None:
+        tell("times", len(trials) + 1, len(trials) + 1)
+    nothing = np.zeros(1)
+    candidates = [Candidate(_timed(trial), nothing, 1) for trial in trials]
+    timings, spread = interleaved(candidates, ROUNDS)
+    return {
+        "provenance": provenance(16, PACKAGE),
+        "machine": dict(machine()),
+        "run": {"load_before": before, "load_after": os.getloadavg()[0], "spread": spread},
+        "scene": SCENE,
+        "truth": {"tolerance": FINEST, "modes": MOST, "modes of all branches": MOST_ALL},
+        "rows": [
+            asdict(
+                Row(t.study, t.method, t.setting, out.oscillators, spent.seconds, errors, out.bound)
+            )
+            for (t, out, errors), spent in zip(rows, timings, strict=True)
+        ],
+    }
+
+
+def record(
+    out: Path | None = None, tell: Tell | None = None, committed: bool = False
+) -> tuple[dict[str, Any], Path | None]:
+    """Measure, and write the result to a file or, if asked, as the committed measurement."""
+    path = recorded_in(MEASURED, committed, out)
+    data = measure(tell)
+    if path is not None:
+        write_file(path, json.dumps(data, indent=1, sort_keys=True, allow_nan=False) + "\n")
+    return data, path
+
+
+def cells(data: dict[str, Any]) -> list[tuple[str, ...]]:
+    """The rows as text."""
+    return [
+        (
+            row["study"],
+            f"{row['method']} {row['setting']:g}",
+            str(row["oscillators"]),
+            f"{1e3 * row['seconds']:.3g}",
+            f"{max(row['errors'].values()):.1e}",
+        )
+        for row in data["rows"]
+    ]
+
+
+def _timed(trial: Trial) -> Callable[[Array], object]:
+    """The call as the clock takes it; nothing is remembered from one to the next."""
+
+    def run(_: Array) -> object:
+        waves.impact.cache_clear()
+        return trial.call()
+
+    return run
+
+
+# --- integrators
+
+
+def integrators() -> list[Trial]:
+    """The first contact by elements, by a Runge-Kutta method and by fixed steps."""
+    truth = cache(lambda: by_runge_kutta(FINEST).numbers)
+    settings: list[tuple[str, float, Callable[[], Outcome]]] = [
+        ("elements, nodes", n, partial(by_elements, n, contact_sequence.TOLERANCE)) for n in NODES
+    ]
+    settings += [("elements, tolerance", t, partial(by_elements, 16, t)) for t in TOLERANCES]
+    settings += [("DOP853", t, partial(by_runge_kutta, t)) for t in RELATIVE]
+    settings += [("velocity Verlet", 2**k, partial(by_verlet, 2**k)) for k in STEPS]
+    return [Trial("integrator", name, x, call, truth, FIRST) for name, x, call in settings]
+
+
+def by_elements(n: int, tolerance: float) -> Outcome:
+    """By elements of n nodes."""
+    problem = _problem()
+    found = contact_sequence.contact(problem, n, problem.begin(), 0.0, 0.0, tolerance)
+    peak = max(piece.element.largest(P) for piece in found.pieces)
+    return Outcome((found.end, peak, -found.after.velocity), OSCILLATORS)
+
+
+def by_runge_kutta(rtol: float) -> Outcome:
+    """By SciPy's, in the root of time, in which the onset is smooth."""
+    problem = _problem()
+    motion = _Motion(problem)
+
+    def rate(s: float, state: Array) -> Array:
+        return 2.0 * s * motion.rate(state)
+
+    def apart(s: float, state: Array) -> float:
+        return motion.pressed(state) if s > BEGUN else 1.0
+
+    apart.terminal, apart.direction = True, -1  # type: ignore[attr-defined]
+    found = solve_ivp(
+        rate, (0.0, 2.0), motion.begin(), "DOP853", events=apart, rtol=rtol, atol=1e-3 * rtol,
+        dense_output=True,
+    )  # fmt: skip
+    end = float(found.t_events[0][0])
+
+    def force(s: float) -> float:
+        return motion.force(found.sol(s))
+
+    near = max(np.linspace(0.0, end, LOOKS).tolist(), key=force)
+    around = near - end / LOOKS, near + end / LOOKS
+    near_enough = {"xatol": CLOSE * end}
+    top = minimize_scalar(lambda s: -force(s), bounds=around, method="bounded", options=near_enough)
+    return Outcome((end * end, -float(top.fun), -float(found.y[1, -1])), OSCILLATORS)
+
+
+def by_verlet(steps: int) -> Outcome:
+    """By equal steps of the time that the contact takes on a plate that does not yield."""
+    motion = _Motion(_problem())
+    state, dt = motion.begin(), 1.0 / steps
+    half, times, forces = motion.accelerations(state), [0.0], [0.0]
+    while True:
+        before = motion.pressed(state)
+        velocity = state[1::2] + 0.5 * dt * half
+        state[::2] += dt * velocity
+        after = motion.pressed(state)
+        if after <= 0.0 and len(times) > 2:
+            break
+        half = motion.accelerations(state)
+        state[1::2] = velocity + 0.5 * dt * half
+        times.append(times[-1] + dt)
+        forces.append(motion.force(state))
+    end = times[-1] + dt * before / (before - after)
+    peak = _peak(np.array(times), np.array(forces))
+    return Outcome((end, peak, -float(velocity[0])), OSCILLATORS)
+
+
+def _peak(t: Array, force: Array) -> float:
+    """The top of a parabola through the largest of the forces and those beside it."""
+    k = min(max(int(np.argmax(force)), 1), force.size - 2)
+    parabola = np.polynomial.Polynomial.fit(t[k - 1 : k + 2], force[k - 1 : k + 2], 2)
+    return max(float(parabola(top)) for top in (*parabola.deriv().roots().real, t[k]))
+
+
+class _Motion:
+    """The same equations step by step: state z, z', q_1, q_1', ... in the problem's units."""
+
+    def __init__(self, problem: DynamicProblem) -> None:
+        self.problem, self.radius = problem, 1e-3
+
+    def begin(self) -> Array:
+        """Everything at the moment of first contact."""
+        state = np.zeros(2 + 2 * self.problem.omega.size)
+        state[1] = 1.0
+        return state
+
+    def pressed(self, state: Array) -> float:
+        """By how much the sphere is further than the free face."""
+        return float(state[0] - np.sum(state[2::2]))
+
+    def rate(self, state: Array) -> Array:
+        """Velocities and accelerations."""
+        found = np.empty_like(state)
+        found[::2], found[1::2] = state[1::2], self.accelerations(state)
+        return found
+
+    def accelerations(self, state: Array) -> Array:
+        """Of the sphere and the oscillators."""
+        problem, q = self.problem, state[2::2]
+        own = -(problem.omega**2) * q
+        if self.pressed(state) <= 0.0:
+            return np.concatenate(([0.0], own))
+        at, unit = self._touching(state), problem.force
+        return np.concatenate((-at.force / unit, own + problem.drive * at.felt[0] / unit))
+
+    def force(self, state: Array) -> float:
+        """Contact force."""
+        if self.pressed(state) <= 0.0:
+            return 0.0
+        return float(self._touching(state).force[0]) / self.problem.force
+
+    def _touching(self, state: Array) -> ContactSamples:
+        """The contact at the radius at which the sphere is as deep as the face, by Newton."""
+        problem, q, deep = self.problem, state[2::2], self.pressed(state)
+        a = self.radius
+        for _ in range(50):
+            at = problem.contact.at(np.array([problem.a * a]))
+            depth = at.depth[0] / problem.depth + at.less[0] @ q
+            slope = problem.a * (at.depth_a[0] / problem.depth + at.less_a[0] @ q)
+            step = (depth - deep) / slope
+            a = min(max(a - step, 0.1 * a), problem.contact.top / problem.a)
+            if abs(step) <= 1e-14 * a:
+                break
+        self.radius = float(a)
+        return at
+
+
+# --- modes, branches, tolerance
+
+
+def modes() -> list[Trial]:
+    """All results against those with the most bending modes."""
+    truth = cache(lambda: _simulated(modes=MOST).numbers)
+    return [Trial("modes", "A0", n, partial(_simulated, modes=n), truth, OUTPUTS) for n in MODES]
+
+
+def branches() -> list[Trial]:
+    """The same of all branches, and what A0 alone is off by them."""
+    truth = cache(lambda: _simulated(modes=MOST_ALL, branches="all").numbers)
+    found = [
+        Trial("branches", "all", n, partial(_simulated, modes=n, branches="all"), truth, OUTPUTS)
+        for n in ALL
+    ]
+    alone = partial(_simulated, modes=ALL[-1])
+    return [*found, Trial("branches", "A0", ALL[-1], alone, truth, OUTPUTS)]
+
+
+def tolerances() -> list[Trial]:
+    """All results by the tolerance asked for; the tightest ones need all branches."""
+    truth = cache(lambda: _simulated(modes=MOST_ALL, branches="all").numbers)
+    return [
+        Trial("rtol", name, x, partial(_simulated, rtol=x, branches=name), truth, OUTPUTS)
+        for x, name in ASKED
+    ]
+
+
+def _simulated(rtol: float | None = None, **inertia: Any) -> Outcome:
+    """The results of `simulate`, and how many oscillators there were."""
+    found = simulate(_scene(**inertia), rtol=rtol)
+    count = found.moving.inertia.modes if found.moving else 0
+    numbers = tuple(getattr(found, name) for name in OUTPUTS)
+    return Outcome(numbers, count, None if rtol is None else found.accuracy.bound)
+
+
+def _scene(**inertia: Any) -> Scene:
+    wanted = SCENE["effects"] | ({"inertia": True} if inertia else {})
+    return read({**SCENE, "effects": wanted, **({"inertia": inertia} if inertia else {})})
+
+
+def _problem() -> DynamicProblem:
+    """The scene with the integrators' oscillators."""
+    return waves.problem_of(gated(_scene(modes=OSCILLATORS))[1].law, OSCILLATORS)

@@ -1,0 +1,195 @@
+"""Random scenes as an engineer might write them, and what becomes of each run of one.
+
+Materials range from foam to steel, spheres from 1 mm to 0.1 m, plates from 0.5 mm to 0.2 m. Scenes
+that no elastic model could mean are drawn again.
+"""
+
+import json
+import math
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from random import Random
+from typing import Any, Literal
+
+from derivation.checks.random_scenes import Scene, spreading
+
+SEED = 1
+RTOLS = (None, 1e-3)
+"""Tolerances that every scene is run at."""
+MOST_REFUSED = 0.15
+"""Largest share of runs that may be refused or left incomplete."""
+WIDEST = 0.4
+"""Hertz's contact radius over sphere radius up to which a scene is realistic."""
+PLATES: Mapping[str, tuple[float, float, float]] = {
+    "foam": (1e7, 0.3, 100.0),
+    "rubber": (5e6, 0.45, 1100.0),
+    "polyethylene": (1e9, 0.42, 950.0),
+    "wood": (1e10, 0.3, 500.0),
+    "lead": (1.6e10, 0.44, 11340.0),
+    "titanium": (1.1e11, 0.34, 4500.0),
+}
+"""Young's modulus [Pa], Poisson's ratio [1] and density [kg/m^3] of plates without a name."""
+NAMED = ("steel", "glass", "aluminium", "concrete", "PMMA")
+"""Materials that a scene file knows by name."""
+STIFFNESS = {"steel": 210e9, "glass": 70e9, "aluminium": 70e9, "concrete": 33e9, "PMMA": 3.3e9}
+"""Their Young's moduli [Pa], to tell which scenes are realistic."""
+DENSITY = {"steel": 7850.0, "glass": 2500.0, "aluminium": 2700.0, "concrete": 2400.0,
+           "PMMA": 1190.0}  # fmt: skip
+"""Their densities [kg/m^3], for the same."""
+EDGES = ("soft-hinge", "simply-supported", "clamped")
+SOFT = ("foam", "rubber", "polyethylene")
+"""Materials that may be viscous."""
+Kind = Literal["finished", "refused", "incomplete", "NaN", "traceback", "overrun"]
+KINDS: tuple[Kind, ...] = ("finished", "refused", "incomplete", "NaN", "traceback", "overrun")
+COLUMNS = ("outcome", "#runs", "#share", "reason")
+"""Heads of the table."""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What became of a run.
+
+    Attributes
+    ----------
+    kind
+        One of `KINDS`: refused before the impact was followed, incomplete if during it.
+    message
+        Why, if it did not finish; of a traceback its last lines.
+    rtol
+        Relative tolerance of the run [1]; None if none was given.
+    scene
+        The scene.
+    """
+
+    kind: Kind
+    message: str
+    rtol: float | None
+    scene: Scene
+
+    @property
+    def group(self) -> str:
+        """The key that the message begins with."""
+        return self.message.partition(":")[0] if self.kind != "finished" else ""
+
+    @property
+    def remedied(self) -> bool:
+        """Whether a refusal says, after a semicolon, what would make the scene run."""
+        if self.kind not in ("refused", "incomplete"):
+            return True
+        return bool(self.message.rpartition("; ")[0] and self.message.rpartition("; ")[2].strip())
+
+
+def scenes(count: int, seed: int = SEED) -> Iterator[Scene]:
+    """So many realistic scenes, the same for the same seed."""
+    generator = Random(seed)
+    for _ in range(count):
+        scene = _draw(generator)
+        while not _realistic(scene):
+            scene = _draw(generator)
+        yield scene
+
+
+def _draw(generator: Random) -> Scene:
+    """A sphere, a plate, an impact, and which effects are asked for."""
+    spread = spreading(generator)
+    R = spread(1e-3, 0.1)
+    sphere: dict[str, Any] = {"radius": R, "material": generator.choice(NAMED)}
+    if generator.random() < 0.3:  # a rigid sphere, hollow or heavy
+        sphere = {"radius": R, "mass": 4.0 / 3.0 * math.pi * R**3 * spread(200.0, 1.2e4)}
+    thickness = spread(5e-4, 0.2)
+    plate: dict[str, Any] = {"thickness": thickness, "radius": thickness * spread(3.0, 100.0)}
+    name = generator.choice((*PLATES, *NAMED))
+    if name in NAMED:
+        plate["material"] = name
+    else:
+        keys = ("youngs_modulus", "poissons_ratio", "density")
+        plate |= dict(zip(keys, PLATES[name], strict=True))
+    plate["edge"] = generator.choice(EDGES)
+    impact = {"speed": spread(0.01, 50.0)}
+    effects: dict[str, Any] = {"inertia": generator.random() < 0.5}
+    if generator.random() < 0.3:
+        impact["gravity"] = 9.81
+    if name in SOFT and generator.random() < 0.3:
+        # A part of the contact time by Hertz's law.
+        scene = {"sphere": sphere, "plate": plate, "impact": impact}
+        plate["viscous_time"] = spread(1e-3, 0.3) * 3.0 * _widest(scene) ** 2 * R / impact["speed"]
+    if generator.random() < 0.2:
+        effects["pressure"] = True
+    return {"sphere": sphere, "plate": plate, "impact": impact, "effects": effects}
+
+
+def _realistic(scene: Scene) -> bool:
+    """Whether sphere and contact are small beside the plate, and the contact beside the sphere."""
+    R, b = scene["sphere"]["radius"], scene["plate"]["radius"]
+    wide = _widest(scene)
+    return bool(b > R and wide < WIDEST and wide * R < 0.5 * b)
+
+
+def _widest(scene: Scene) -> float:
+    """Largest contact radius over sphere radius [1] by Hertz's law, about."""
+    sphere, plate, v0 = scene["sphere"], scene["plate"], scene["impact"]["speed"]
+    R = sphere["radius"]
+    soft = 0.0 if "mass" in sphere else 1.0 / STIFFNESS[sphere["material"]]
+    own = plate.get("youngs_modulus") or STIFFNESS[plate["material"]]
+    mass = sphere.get("mass") or 4.0 / 3.0 * math.pi * R**3 * DENSITY[sphere["material"]]
+    modulus = 1.1 / (1.0 / own + soft)
+    return math.pow(15.0 / 16.0 * mass * v0**2 / (modulus * R**3), 0.2)
+
+
+def passed(found: Sequence[Outcome]) -> bool:
+    """Whether no run failed, every refusal has a remedy, and not too many were refused."""
+    many = Counter(outcome.kind for outcome in found)
+    refused = many["refused"] + many["incomplete"]
+    failed = many["NaN"] + many["traceback"] + many["overrun"]
+    remedied = all(outcome.remedied for outcome in found)
+    return not failed and remedied and refused <= MOST_REFUSED * len(found)
+
+
+def cells(found: Sequence[Outcome]) -> list[tuple[str, ...]]:
+    """Outcome, number and share of runs, and reason, to be read by people."""
+    groups = Counter((outcome.kind, outcome.group) for outcome in found)
+    order = sorted(groups.items(), key=lambda item: (KINDS.index(item[0][0]), -item[1]))
+    return [
+        (kind, str(many), f"{100 * many / len(found):.1f} %", group or "-")
+        for (kind, group), many in order
+    ]
+
+
+def failures(found: Sequence[Outcome]) -> list[str]:
+    """Of every group that did not finish one message and its scene as TOML in one line."""
+    firsts: dict[tuple[str, str, bool], Outcome] = {}
+    for outcome in found:
+        if outcome.kind != "finished":
+            firsts.setdefault((outcome.kind, outcome.group, outcome.remedied), outcome)
+    lines = []
+    for outcome in firsts.values():
+        remedy = "" if outcome.remedied else " (no remedy)"
+        asked = "" if outcome.rtol is None else f", rtol = {outcome.rtol:g}"
+        lines.append(f"{outcome.kind}{remedy}{asked}: {outcome.message.strip()}")
+        lines.append(f"  {one_line(outcome.scene)}")
+    return lines
+
+
+def one_line(scene: Scene) -> str:
+    """A scene as inline tables of TOML."""
+    tables = (
+        f"{table} = {{ " + ", ".join(f"{k} = {json.dumps(v)}" for k, v in keys.items()) + " }"
+        for table, keys in scene.items()
+    )
+    return "; ".join(tables)
+
+
+def as_data(found: Sequence[Outcome], seed: int) -> dict[str, Any]:
+    """The outcomes as plain data."""
+    rows = [
+        {
+            "kind": outcome.kind,
+            "message": outcome.message,
+            "remedied": outcome.remedied,
+            "rtol": outcome.rtol,
+            "scene": outcome.scene,
+        }
+        for outcome in found
+    ]
+    return {"seed": seed, "passed": passed(found), "runs": rows}

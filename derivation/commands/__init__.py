@@ -1,0 +1,1 @@
+"""The command line's commands; each makes one call and shows its result."""

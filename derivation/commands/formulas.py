@@ -1,0 +1,95 @@
+"""The commands `platecontact rewrite` and `platecontact diagnose`, for a user's own formulas."""
+
+from dataclasses import asdict
+from typing import Annotated
+
+import typer
+
+from derivation.commands.paper_option import PaperFolder, alone, chosen
+from derivation.engine.console import OUT, Json, counted, put_json, stage, table
+
+
+def rewrite(
+    formula: Annotated[
+        str, typer.Argument(help="A formula of one variable (default: the paper's formulas).")
+    ] = "",
+    variable: Annotated[str, typer.Option(help="Variable of the formula, positive.")] = "x",
+    record: Annotated[
+        bool, typer.Option("--record", help="Save the paper's result in reports/data/rewrite.json.")
+    ] = False,
+    paper: PaperFolder = None,
+    json: Json = None,
+) -> None:
+    """Find a numerically stable form of a formula, as NumPy code.
+
+    It is tested, and the range and the error found are stated.
+
+    Without a formula: show which rules were applied to the paper's formulas.
+
+    Example: platecontact rewrite "(x - sin(x))/x**3"
+    """
+    from derivation import pipeline
+    from derivation.engine import build
+    from derivation.engine.measure.record import plain
+
+    if formula:
+        alone(paper, "--json (and no formula)", formula)
+        if record:
+            raise ValueError(
+                "--record applies to the paper's formulas and cannot be combined with FORMULA; "
+                "remove one of them"
+            )
+        with stage("rewrite"):
+            stable, source, tested = pipeline.rewritten(formula, variable)
+        found = [("", applied) for applied in stable.applied]
+        applied = [asdict(a) for a in stable.applied]
+        data: object = {"source": source, "tested": asdict(tested), "applied": applied}
+    else:
+        alone(paper, "--json", record)
+        with counted("rewrite") as tell:
+            if paper is None:
+                accounts = pipeline.rewriting(record, tell)
+            else:
+                accounts = build.account(chosen(paper), tell)
+        found = [(account.name, applied) for account in accounts for applied in account.applied]
+        data, source = {"rows": [asdict(account) for account in accounts]}, ""
+    if put_json(lambda: plain(data), json):
+        rows = [
+            (name, a.rule, a.cause, *(f"{x:.3g}" for x in (*a.operations, *a.worst)))
+            for name, a in found
+        ]
+        heads = ("formula", "rule", "prevents", "#ops without", "#ops with",
+                 "#ULP without", "#ULP with")  # fmt: skip
+        table("Effect of each rule", heads, rows)
+        OUT.say(source)
+
+
+def diagnose(
+    name: Annotated[str, typer.Argument(help="Name of a derived formula, for instance K_j.")],
+    formula: Annotated[str, typer.Option(help="Your formula for it, in SymPy syntax.")],
+    latex: Annotated[bool, typer.Option("--latex", help="The formula is LaTeX.")] = False,
+    at: Annotated[
+        str, typer.Option(metavar="phi=2.5,h=0.1,...", help="Evaluate both at this point [SI].")
+    ] = "",
+    digits: Annotated[int, typer.Option(min=1, max=1000, help="Digits of both values.")] = 50,
+    paper: PaperFolder = None,
+    json: Json = None,
+) -> None:
+    """Compare your formula with the derived one.
+
+    The exit status is 1 if they differ.
+
+    E and nu stand for Young's modulus and Poisson's ratio. Of a sum over the modes, such as delta,
+    one term is compared.
+
+    Example: platecontact diagnose G --formula "1 + 4*T*(1+T)*exp(-2*T)" --at T=3
+    """
+    from derivation.engine import build
+
+    own = chosen(paper)
+    with stage("compare"):
+        found = build.diagnose(own, name, formula, latex, at, digits)
+    if put_json(found.to_json, json):
+        rows = [(key, value) for key, value in found.to_json().items() if value is not None]
+        table(f"{name}: {found.verdict}", ("item", "value"), rows)
+    raise typer.Exit(0 if found.verdict == "equal" else 1)

@@ -1,0 +1,26 @@
+"""The help of `platecontact`: the commands by what they are about."""
+
+from typing import Any
+
+from typer.core import TyperGroup
+
+GROUPS = {
+    "Scenes": ("simulate", "explain", "map", "indent", "reference", "schema"),
+    "Formulas": ("derive", "misprints", "diagnose", "rewrite"),
+    "Checks": ("check", "benchmark"),
+    "Papers (your own with --paper FOLDER)": ("build", "generate", "report", "new"),
+}
+"""Commands of each group, in the order of the help."""
+
+
+class Grouped(TyperGroup):
+    """Commands that the help lists by group."""
+
+    def format_commands(self, ctx: Any, formatter: Any) -> None:  # noqa: ARG002
+        """Write a section for each group."""
+        longest = max(len(name) for names in GROUPS.values() for name in names)
+        for title, names in GROUPS.items():
+            helps = (self.commands[x].get_short_help_str(formatter.width) for x in names)
+            rows = [(f"{name:{longest}}", text) for name, text in zip(names, helps, strict=True)]
+            with formatter.section(title):
+                formatter.write_dl(rows)

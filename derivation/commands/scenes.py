@@ -1,0 +1,334 @@
+"""The commands that take a scene file: check the names, make one call, show the result."""
+
+import os
+from collections.abc import Callable, Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from derivation.engine.console import (
+    NOTES,
+    OUT,
+    Json,
+    counted,
+    json_text,
+    put_json,
+    stage,
+    table,
+    warn,
+    watched,
+)
+from derivation.engine.files import expect_writable, real, write_file, write_files
+
+if TYPE_CHECKING:
+    from derivation.scene.result import Result
+
+SceneFile = Annotated[Path, typer.Argument(metavar="SCENE.toml", help="Scene file.")]
+
+
+def simulate(
+    scene: SceneFile,
+    json: Json = None,
+    plot: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Draw the impact: .png, .svg or .pdf.")
+    ] = None,
+    csv: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="Write time, indentation, velocity, radius and force."),
+    ] = None,
+    animate: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Show the plate move: .gif or .html.")
+    ] = None,
+    rtol: Annotated[
+        float | None,
+        typer.Option(metavar="X", help="Relative tolerance, 1e-13 to 1: cheapest method."),
+    ] = None,
+    sweep: Annotated[
+        str | None,
+        typer.Option(metavar="TABLE.KEY=A:B:N", help="Simulate for N values from A to B."),
+    ] = None,
+) -> None:
+    """Simulate the impact of a scene file.
+
+    Example: platecontact simulate scene.toml --plot impact.pdf --csv impact.csv
+
+    With --sweep plate.thickness=1e-3:1e-2:50 the table, --csv and --json have a row per value.
+    """
+    if sweep is not None:
+        _sweep(scene, sweep, json, plot or animate, csv, rtol)
+        return
+    from derivation.scene import SceneError, load
+    from derivation.scene import simulate as run
+
+    check_outputs(scene, json, plot, csv, animate)
+    with watched("simulate"):
+        result = run(load(scene), rtol=rtol)
+    # Everything is made before anything is written.
+    files: dict[Path, str | bytes] = {}
+    if csv is not None:
+        files[csv] = result.history().to_csv()
+    drawings, problems = _drawings(result, plot, animate)
+    files.update(drawings)
+    free = _write(files, json, result.to_json)
+    warn(result.warnings)
+    if free:
+        _show(scene, result)
+    if problems:
+        raise SceneError("; ".join(problems))
+    if not result.complete:
+        raise typer.Exit(1)
+
+
+def _drawings(
+    result: "Result", plot: Path | None, animate: Path | None
+) -> tuple[dict[Path, bytes], list[str]]:
+    """Plot and animation, and why one could not be drawn: no drawing may lose the result."""
+    made: dict[Path, bytes] = {}
+    problems = []
+    for option, path in (("--plot", plot), ("--animate", animate)):
+        if path is None:
+            continue
+        from derivation.scene import animation
+        from derivation.scene import plot as plots
+
+        try:
+            if path is animate:
+                with stage("animate"):
+                    made[path] = animation.render(result, path.suffix)
+            else:
+                made[path] = plots.render(result, path.suffix)
+        except (ArithmeticError, ValueError, RuntimeError, MemoryError, OSError) as error:
+            text = str(error) or type(error).__name__
+            problems.append(f"{option} {path}: no drawing was made ({text})")
+    return made, problems
+
+
+def _show(scene: Path, result: "Result") -> None:
+    """Accuracy first, then tables and notes of a simulation."""
+    from derivation.scene.effect_selection import HEADS
+
+    told = (result.incomplete_note, str(result.accuracy), result.model_note, result.disabled_note)
+    for note in filter(None, told):
+        OUT.say(note)
+    table(f"Impact of {scene.name}", ("quantity", "#value", "unit"), result.rows())
+    if result.verdict:
+        OUT.say(result.verdict)
+    table("Effects", HEADS, result.gate.lines())
+    if result.moving is not None:
+        from derivation.scene import wave_motion
+
+        table("Contacts", wave_motion.HEADS, result.moving.lines())
+        for note in result.moving.notes():
+            OUT.say(note)
+    if result.comparison:
+        from derivation.scene import comparison
+
+        table(result.comparison.title, comparison.HEADS, result.comparison.lines())
+        OUT.say(result.comparison.note)
+
+
+def _write(files: dict[Path, str | bytes], json: str | None, make: Callable[[], Any]) -> bool:
+    """Write files and result, all or none, before anything is shown; as `put_json` else."""
+    if json and json != "-":
+        files[Path(json)] = json_text(make())
+    write_files(files)
+    return put_json(make, json if json == "-" else None)
+
+
+def _sweep(
+    scene: Path,
+    text: str,
+    json: str | None,
+    plot: Path | None,
+    csv: Path | None,
+    rtol: float | None,
+) -> None:
+    """Simulate once per value of a key."""
+    from derivation.scene import SceneError, load
+    from derivation.scene import sweep as sweeps
+    from derivation.scene.result import UNITS
+
+    if plot is not None:
+        raise SceneError("--plot, --animate: expected none of a sweep; leave it out, or --sweep")
+    check_outputs(scene, json, csv=csv)
+    sweep = sweeps.parse(text)
+    loaded = load(scene)
+    with counted("simulate") as tell:
+        rows = sweeps.run(loaded, sweep, rtol, tell, workers=os.cpu_count() or 1)
+    key = f"{sweep.table}.{sweep.key}"
+    if not any(row.results for row in rows):
+        raise SceneError(
+            f"sweep: expected a value of {key} that can be simulated, but all {len(rows)} are "
+            f"refused; {rows[0].value:.6g} is {rows[0].remark}"
+        )
+    files: dict[Path, str | bytes] = {}
+    if csv is not None:
+        files[csv] = sweeps.to_csv(sweep, rows)
+    free = _write(files, json, lambda: [asdict(row) for row in rows])
+    warn([f"at {key} = {row.value:.6g}: {row.remark}" for row in rows if row.remark])
+    if free and csv is None:
+        heads = (f"#{key}", *(f"#{n} [{u}]" for n, u in UNITS.items()))
+        cells = [
+            [f"{row.value:.6g}"]
+            + [f"{row.results[name]:.6g}" if row.results else "-" for name in UNITS]
+            for row in rows
+        ]
+        table(f"Sweep of {scene.name}", heads, cells)
+
+
+def explain(
+    scene: SceneFile,
+    json: Json = None,
+    rtol: Annotated[
+        float | None, typer.Option(metavar="X", help="Relative tolerance, 1e-13 to 1.")
+    ] = None,
+) -> None:
+    """Show which effects a simulation of a scene includes, and why.
+
+    Example: platecontact explain scene.toml --rtol 1e-4
+    """
+    from derivation.scene import explain as run
+    from derivation.scene import load
+    from derivation.scene.explanation import COLUMNS
+
+    check_outputs(scene, json)
+    found = run(load(scene), rtol)
+    if put_json(found.to_json, json):
+        table(f"Effects in {scene.name}", COLUMNS, found.lines())
+        OUT.say(str(found))
+        for note in found.notes:
+            NOTES.say(note)
+
+
+def map_(
+    scene: SceneFile,
+    plot: Annotated[
+        Path, typer.Option("--plot", metavar="FILE", help="Where to: .png, .svg or .pdf.")
+    ] = Path("map.pdf"),
+    rtol: Annotated[
+        float | None, typer.Option(metavar="X", help="Relative tolerance, 1e-13 to 1.")
+    ] = None,
+) -> None:
+    """Draw which effects matter where, over a/h and h/b.
+
+    The scene is marked.
+
+    Example: platecontact map scene.toml --plot map.pdf
+    """
+    from derivation.scene import load
+    from derivation.scene import simulate as run
+    from derivation.scene.map import render
+
+    check_outputs(scene, None, plot)
+    result = run(load(scene), rtol=rtol)
+    write_file(plot, render(result, result.gate.rtol, plot.suffix))
+    NOTES.say(f"{plot}")
+
+
+def indent(
+    scene: SceneFile,
+    more: Annotated[list[str] | None, typer.Argument(metavar="V", hidden=True)] = None,
+    contact_radius: Annotated[
+        list[str] | None, typer.Option(metavar="V...", help="Contact radii [m].")
+    ] = None,
+    force: Annotated[
+        list[str] | None, typer.Option(metavar="V...", help="Contact forces [N].")
+    ] = None,
+    indentation: Annotated[
+        list[str] | None, typer.Option(metavar="V...", help="Indentations [m].")
+    ] = None,
+    json: Json = None,
+) -> None:
+    """Compute static contacts by radius, force or indentation.
+
+    Example: platecontact indent scene.toml --force 10 100 1000
+    """
+    from derivation.scene import indent as run
+    from derivation.scene import load
+
+    check_outputs(scene, json)
+    loaded = load(scene)
+    given = {"contact_radius": contact_radius, "force": force, "indentation": indentation}
+    chosen = {name: _numbers(name, texts, more) for name, texts in given.items() if texts}
+    contacts = run(loaded, **chosen)
+    free = put_json(lambda: [contact.to_json() for contact in contacts], json)
+    warn([text for contact in contacts for text in contact.warnings])
+    if free:
+        columns = ("#radius [m]", "#indentation [m]", "#force [N]", "#stiffness [N/m]")
+        rows = [
+            [
+                f"{value:.6g}"
+                for value in (c.contact_radius, c.indentation, c.force, c.stiffness, c.max_pressure)
+            ]
+            for c in contacts
+        ]
+        table(f"Contact in {scene.name}", (*columns, "#max. pressure [Pa]"), rows)
+
+
+def schema(
+    out: Annotated[
+        str, typer.Option(metavar="FILE|-", help="Write here; standard output without it.")
+    ] = "-",
+) -> None:
+    """Print the JSON schema of scene files.
+
+    Editors use it to check and complete TOML.
+
+    Example: platecontact schema --out scene.schema.json
+    """
+    from derivation.scene import schema as made
+
+    put_json(made, out)
+
+
+def _numbers(name: str, texts: Sequence[str], more: Sequence[str] | None) -> list[float]:
+    """Numbers after an option: `--force 1 2`, `--force 1,2` and `--force 1 --force 2` alike."""
+    from derivation.scene import SceneError
+
+    numbers = []
+    for text in ",".join([*texts, *(more or [])]).split(","):
+        try:
+            numbers.append(float(text))
+        except ValueError:
+            option = name.replace("_", "-")
+            raise SceneError(
+                f"--{option}: expected numbers, got {text!r}; "
+                f"write for instance --{option} 1e-3 2e-3, after the scene file"
+            ) from None
+    return numbers
+
+
+def check_outputs(
+    scene: Path,
+    json: str | None,
+    plot: Path | None = None,
+    csv: Path | None = None,
+    animate: Path | None = None,
+) -> None:
+    """Refuse output names that say no format or would overwrite the scene or each other."""
+    from derivation.scene import SceneError
+
+    if plot is not None:
+        from derivation.scene.plot import check_suffix
+
+        check_suffix(plot)
+    if animate is not None:
+        from derivation.scene.animation import SUFFIXES
+        from derivation.scene.plot import check_suffix
+
+        check_suffix(animate, SUFFIXES, "an animation")
+    places = [Path(json)] if json and json != "-" else []
+    places += [path for path in (plot, csv, animate) if path is not None]
+    taken = {real(scene): "the scene file"}
+    for place in places:
+        if place == Path("-"):
+            raise SceneError("-: expected a file to write; only --json takes standard output as -")
+        expect_writable(place)
+        if real(place) in taken:
+            raise SceneError(
+                f"{place}: expected a file of its own for each output, "
+                f"got {taken[real(place)]}; choose another name"
+            )
+        taken[real(place)] = "one that another output takes"

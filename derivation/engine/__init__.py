@@ -1,0 +1,1 @@
+"""The engine: what is done with a paper, whatever it is about."""

@@ -1,0 +1,221 @@
+"""Results kept as plain data, each under a key made of the sources that it was computed from.
+
+A file holds a checksum and a tree of JSON: numbers, texts, and lists of them under the name of what
+they make up. Reading it builds SymPy expressions and the records that the caller names, and runs
+nothing else. What cannot be read is computed again.
+"""
+
+import contextlib
+import hashlib
+import json
+import os
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import fields, is_dataclass
+from pathlib import Path
+from typing import Any, TypeVar
+
+import sympy as sp
+from sympy.codegen.cfunctions import expm1
+from sympy.core.function import Application, AppliedUndef
+
+from derivation.engine.files import content_hash, read_file, sources, write_file
+
+Value = TypeVar("Value")
+
+LARGEST = 2**26
+"""Bytes of a file beyond which it is none of these."""
+CONSTANTS: dict[str, sp.Basic] = {
+    "Pi": sp.pi, "EulerGamma": sp.EulerGamma, "Exp1": sp.E, "ImaginaryUnit": sp.I,
+    "Infinity": sp.oo, "NegativeInfinity": -sp.oo,
+}  # fmt: skip
+HEADS: dict[str, type] = {
+    head.__name__: head
+    for head in (sp.Add, sp.Mul, sp.Pow, sp.Derivative, sp.Integral, sp.Sum, sp.Tuple, expm1)
+}
+"""What expressions are built of besides SymPy's own functions."""
+
+
+def cached(
+    name: str, rooms: tuple[str | Path, ...], compute: Callable[[], Value], *kinds: type
+) -> Value:
+    """Result of `compute`, kept as long as the sources of the rooms stay the same.
+
+    The cache is a convenience: one that cannot be read or written is passed over.
+
+    Parameters
+    ----------
+    name, rooms
+        What is computed, and the sources it follows from: parts of this package by name, others
+        by their path.
+    compute
+        Computes it, of None, truth values, integers, text, SymPy expressions, `kinds`, and tuples
+        and mappings by text of those.
+    kinds
+        Dataclasses and SymPy functions of this project that occur in it.
+    """
+    key = f"{name}-{content_hash(sources(*rooms))[:32]}"
+    folder, known = cache_folder(), {kind.__name__: kind for kind in kinds}
+    path = None if folder is None else folder / f"{key}.json"
+    if path is not None:
+        with contextlib.suppress(Exception):  # whatever a damaged file raises
+            kept: Value = _read(key, read_file(path, LARGEST), known)
+            return kept
+    content = _written(key, compute(), known)
+    if path is not None:
+        with contextlib.suppress(OSError):
+            write_file(path, content)
+    # SymPy builds an expression that is read anew, which may regroup it: so that
+    # the first run sees what later ones will, it reads what it has written.
+    value: Value = _read(key, content, known)
+    return value
+
+
+def cache_folder() -> Path | None:
+    """Where results are kept; None if there is no folder of one's own for it.
+
+    A relative path in XDG_CACHE_HOME counts for nothing, as its standard says. A folder of
+    somebody else's, or one that everybody may write into, is not used.
+    """
+    said = Path(os.environ.get("XDG_CACHE_HOME", ""))
+    try:
+        folder = (said if said.is_absolute() else Path.home() / ".cache") / "platecontact"
+        if not folder.is_absolute():
+            return None
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        folder.mkdir(mode=0o700, exist_ok=True)
+        known = folder.stat()
+    except (OSError, RuntimeError, ValueError):
+        return None
+    own = not hasattr(os, "geteuid") or (known.st_uid == os.geteuid() and not known.st_mode & 0o002)
+    return folder if own else None
+
+
+# --- a file: a checksum, which covers the key, and a line of JSON
+
+
+def _written(key: str, value: object, kinds: Mapping[str, type]) -> bytes:
+    text = json.dumps(to_plain(value, kinds), separators=(",", ":")).encode()
+    return _checksum(key, text) + b"\n" + text
+
+
+def _read(key: str, content: bytes, kinds: Mapping[str, type]) -> Any:
+    checksum, _, text = content.partition(b"\n")
+    if checksum != _checksum(key, text):
+        raise ValueError(f"{key}: expected a checksum that fits, got another")
+    return from_plain(json.loads(text), kinds)
+
+
+def _checksum(key: str, text: bytes) -> bytes:
+    return hashlib.sha256(key.encode() + b"\n" + text).hexdigest().encode()
+
+
+# --- a value and its tree
+
+
+def to_plain(value: object, kinds: Mapping[str, type]) -> Any:
+    """A value as JSON's data.
+
+    Raises
+    ------
+    TypeError
+        If it holds something that cannot be kept.
+    """
+    if value is None or isinstance(value, (bool, int, str)):
+        return value
+    name = type(value).__name__
+    if isinstance(value, tuple) and type(value) is tuple:
+        return [to_plain(item, kinds) for item in value]
+    if isinstance(value, Mapping):
+        return {"mapping": [[_text(key), to_plain(item, kinds)] for key, item in value.items()]}
+    if is_dataclass(value) and kinds.get(name) is type(value):
+        return {name: [to_plain(getattr(value, field.name), kinds) for field in fields(value)]}
+    if isinstance(value, sp.Basic):
+        return _expression_to_plain(value, kinds)
+    raise TypeError(f"cache: expected what can be kept, got {type(value)}; name it among the kinds")
+
+
+def _expression_to_plain(value: sp.Basic, kinds: Mapping[str, type]) -> Any:
+    name = type(value).__name__
+    if type(value) is sp.Symbol:
+        return {"Symbol": [value.name, value.__getnewargs_ex__()[1]]}
+    if isinstance(value, sp.Rational):
+        return {"Rational": [value.p, value.q]}
+    if isinstance(value, sp.Float):
+        sign, mantissa, exponent, _ = value._mpf_
+        return {"Float": [int(sign), str(mantissa), int(exponent), int(value._prec)]}
+    if value in CONSTANTS.values():
+        return {name: []}
+    arguments = [to_plain(argument, kinds) for argument in value.args]
+    if isinstance(value, AppliedUndef):
+        return {"Function": [name, dict(value.func._kwargs), arguments]}
+    if _head(name, kinds) is type(value):
+        return {name: arguments}
+    raise TypeError(f"cache: expected SymPy's functions, got {type(value)}; name it in HEADS")
+
+
+def from_plain(plain: Any, kinds: Mapping[str, type]) -> Any:
+    """The value that a tree stands for.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If it stands for none.
+    """
+    if plain is None or isinstance(plain, (bool, int, str)):
+        return plain
+    if isinstance(plain, list):
+        return tuple(from_plain(item, kinds) for item in plain)
+    if not isinstance(plain, dict) or len(plain) != 1:
+        raise ValueError(f"expected one name and its parts, got {plain!r:.40}")
+    ((name, parts),) = plain.items()
+    if name == "mapping":
+        return {_text(key): from_plain(item, kinds) for key, item in parts}
+    if is_dataclass(kinds.get(name)):
+        return kinds[name](*(from_plain(part, kinds) for part in parts))
+    return _expression(name, parts, kinds)
+
+
+def _expression(name: str, parts: Any, kinds: Mapping[str, type]) -> sp.Basic:
+    if name == "Symbol":
+        own, assumptions = parts
+        return sp.Symbol(_text(own), **_truths(assumptions))
+    if name == "Rational":
+        p, q = parts
+        return sp.Rational(int(p), int(q))
+    if name == "Float":
+        sign, mantissa, exponent, bits = parts
+        made = (int(sign), int(mantissa), int(exponent), int(mantissa).bit_length())
+        return sp.Float(made, precision=int(bits))
+    if name in CONSTANTS:
+        return CONSTANTS[name]
+    head = _head(name, kinds)
+    if name == "Function":
+        own, assumptions, parts = parts
+        head = sp.Function(_text(own), **_truths(assumptions))
+    if head is None:
+        raise ValueError(f"expected a part of an expression, got {name!r:.40}")
+    return head(*_expressions(from_plain(part, kinds) for part in parts))
+
+
+def _head(name: str, kinds: Mapping[str, type]) -> Any:
+    """The class of expressions of a name: a head, a kind or a function of SymPy's; None if none."""
+    head = HEADS.get(name) or kinds.get(name) or getattr(sp, name, None)
+    known = isinstance(head, type) and issubclass(head, (Application, *HEADS.values()))
+    return head if known and head not in (Application, sp.Function) else None
+
+
+def _expressions(values: Iterable[Any]) -> tuple[sp.Basic, ...]:
+    found = tuple(values)
+    if not all(isinstance(value, sp.Basic) for value in found):
+        raise ValueError("expected expressions as the parts of one")
+    return found
+
+
+def _text(value: Any) -> str:
+    if not isinstance(value, str):
+        raise TypeError(f"expected text, got {type(value)}")
+    return value
+
+
+def _truths(values: Any) -> dict[str, bool]:
+    return {_text(key): bool(value) for key, value in values.items()}

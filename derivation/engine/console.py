@@ -1,0 +1,236 @@
+"""What the command line shows: stages with their times, tables, JSON to a file or the screen."""
+
+import json
+import os
+import sys
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated, Any, TextIO
+
+import typer
+from rich.console import Console
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    SpinnerColumn,
+    TextColumn,
+    TimeElapsedColumn,
+)
+from rich.table import Table
+from rich.text import Text
+from typer.core import TyperCommand, TyperOption
+
+from derivation.engine.files import expect_writable, write_file
+from derivation.engine.printable import in_json, one_line, printable
+
+
+class UnreadError(Exception):
+    """Whoever reads the output has had enough, like `head`."""
+
+
+def silence(stream: TextIO) -> None:
+    """Let what is written to a stream, and what is left in its buffer, go nowhere."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+
+
+class Screen(Console):
+    """A console on which no text of a user's moves the cursor or takes on a colour."""
+
+    def say(self, text: str) -> None:
+        """Show a text as it is, unbroken, so that it can be copied."""
+        plain = Text(printable(text))
+        self.print(plain, markup=False, highlight=False, soft_wrap=True)
+
+    def on_broken_pipe(self) -> None:
+        """Stop quietly if results are not read; remarks that are not read stop nothing."""
+        if not self.stderr:
+            raise UnreadError
+        silence(sys.stderr)
+
+
+OUT = Screen(emoji=False)
+NOTES = Screen(stderr=True, emoji=False)
+"""Progress and remarks, kept apart from results so that these can be piped."""
+
+
+def _checked(where: str | None) -> str | None:
+    """Refuse a file that cannot be written, before anything is computed."""
+    if where and where != "-":
+        expect_writable(Path(where))
+    return where
+
+
+Json = Annotated[
+    str | None,
+    typer.Option("--json", metavar="FILE|-", help="Write the result as JSON.", callback=_checked),
+]
+"""The option of every command that has a result."""
+
+INTERRUPTED = 130
+"""What typer returns after Ctrl-C."""
+UNREAD = 141
+"""What a shell sees of a program that writes to a pipe that nobody reads: 128 + SIGPIPE."""
+MOST = 20
+"""Lines of warnings that are shown."""
+
+
+class Command(TyperCommand):
+    """A command that refuses an option given twice where only one value counts."""
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Look at what is given more than once before anything is read."""
+        if not ctx.resilient_parsing:
+            given = self.make_parser(ctx).parse_args(args=list(args))[2]
+            options = [option for option in self.params if isinstance(option, TyperOption)]
+            for option in options:
+                count = given.count(option)
+                if count > 1 and not (option.multiple or option.is_flag):
+                    problem = f"expected once, got {count} times; leave out all but one"
+                    raise typer.BadParameter(problem, ctx=ctx, param=option)
+        return super().parse_args(ctx, args)
+
+
+@contextmanager
+def stage(name: str) -> Iterator[None]:
+    """Show that a stage is running, then how long it took."""
+    start = time.perf_counter()
+    with NOTES.status(f"{name} ..."):
+        yield
+    NOTES.print(f"[green]✓[/] {name} [dim]{time.perf_counter() - start:.1f} s[/]")
+
+
+@contextmanager
+def counted(name: str) -> Iterator[Callable[[str, int, int], None]]:
+    """Show a bar and a clock for work in parts; yields what wants to be told each part."""
+    start = time.perf_counter()
+    part = TextColumn("{task.description}", markup=False)
+    columns = (TextColumn(name), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), part)
+    with Progress(*columns, console=NOTES, transient=True) as bar:
+        task = bar.add_task("", total=None)
+        yield lambda part, number, total: bar.update(
+            task, description=part, completed=number - 1, total=total
+        )
+    NOTES.print(f"[green]✓[/] {name} [dim]{time.perf_counter() - start:.1f} s[/]")
+
+
+@contextmanager
+def clocked(name: str) -> Iterator[Callable[[str, int, float], None]]:
+    """Show a clock for work without end; yields what wants to be told part, count and worst."""
+    columns = (TextColumn(name), SpinnerColumn(), TimeElapsedColumn())
+    with Progress(
+        *columns, TextColumn("{task.description}", markup=False), console=NOTES, transient=True
+    ) as bar:
+        task = bar.add_task("", total=None)
+        yield lambda name, count, worst: bar.update(
+            task, description=f"{count} points, worst ratio {worst:.3g}, now {name}"
+        )
+
+
+@contextmanager
+def watched(name: str) -> Iterator[None]:
+    """Show what a computation of unknown length is doing; nothing of one that is quick."""
+    from derivation.engine.activity import heard
+
+    if not NOTES.is_terminal:
+        yield
+        return
+    with Progress(
+        SpinnerColumn(),
+        TextColumn(name),
+        TimeElapsedColumn(),
+        TextColumn("{task.description}"),
+        console=NOTES,
+        transient=True,
+    ) as shown:
+        task = shown.add_task("", total=None)
+        with heard(lambda text: shown.update(task, description=text)):
+            yield
+
+
+def table(title: str, columns: Sequence[str], rows: Sequence[Sequence[object]]) -> None:
+    """Print a table; columns whose name starts with `#` are numbers, set flush right.
+
+    Names, one word each, in the first column are not broken.
+    """
+    heading = Text(one_line(title, 200), style="table.title")
+    made = Table(title=heading, title_justify="left")
+    names = not any(" " in str(row[0]) for row in rows)
+    for index, column in enumerate(columns):
+        number = column.startswith("#")
+        made.add_column(
+            Text(printable(column.lstrip("#"))),  # "[m]" is a unit, no markup
+            justify="right" if number else "left",
+            overflow="fold",
+            no_wrap=names and index == 0 and not number,
+        )
+    for row in rows:
+        made.add_row(*(Text(printable(str(cell))) for cell in row))
+    OUT.print(made)
+
+
+def listing(title: str, lines: Sequence[str]) -> None:
+    """Print lines as they are, unbroken, so that they can be copied."""
+    OUT.print(Text(one_line(title, 200), style="italic"))
+    for line in lines:
+        OUT.say(line)
+
+
+def warn(warnings: Sequence[str]) -> None:
+    """Show each warning once, apart from the results; of very many the first."""
+    found = list(dict.fromkeys(warnings))
+    for text in found[:MOST]:
+        NOTES.say(f"warning: {text}")
+    if len(found) > MOST:
+        NOTES.say(f"warning: ... and {len(found) - MOST:,} more")
+
+
+def json_text(result: Any) -> str:
+    """A result as JSON to be read by people too.
+
+    Raises
+    ------
+    ValueError
+        If a number is NaN or infinite, which JSON does not know.
+    """
+    try:
+        text = json.dumps(result, indent=2, ensure_ascii=False, allow_nan=False)
+    except ValueError:
+        raise ValueError(
+            "--json: expected finite numbers, got NaN or infinity; run it without --json"
+        ) from None
+    return in_json(text) + "\n"
+
+
+def put(text: str) -> None:
+    """Write text to standard output as it is."""
+    try:
+        print(text, end="", flush=True)
+    except BrokenPipeError:
+        raise UnreadError from None
+
+
+def put_json(make: Callable[[], Any], where: str | None) -> bool:
+    """Write a result as JSON to a file, or to standard output for `-`.
+
+    Before anything is shown, as whoever reads the screen may stop reading.
+
+    Parameters
+    ----------
+    make
+        Makes the result, if it is wanted.
+    where
+        The file, `-`, or nothing for no JSON.
+
+    Returns
+    -------
+    bool
+        Whether the screen is free for tables.
+    """
+    if where == "-":
+        put(json_text(make()))
+    elif where:
+        write_file(Path(where), json_text(make()))
+    return where != "-"

@@ -1,0 +1,85 @@
+"""Budgets as committed data: what each generated function promises, and where.
+
+A budget is a number of units in the last place (ULP), a domain and a conditioning
+rule, which says what the number counts in and what comes on top of it.
+"""
+
+import textwrap
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+ORDINARY = "value"
+"""Name of the rule for kernels that no other one names."""
+
+
+@dataclass(frozen=True)
+class Budget:
+    """What a kernel promises.
+
+    Parameters
+    ----------
+    ulp
+        Allowed error in units in the last place.
+    domain
+        Conditions, separated by commas, outside which the kernel gives NaN.
+    rule
+        Of what these units are, and what is allowed on top.
+    """
+
+    ulp: float
+    domain: str
+    rule: str
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Its three parts as lines of a docstring."""
+        promise = f"Error budget: {self.ulp:g} units in the last place of {self.rule}."
+        domain = self.domain or "all real numbers"
+        where = (
+            f"Domain: {domain}. The budget holds wherever the value is a normal number; smaller "
+            "ones are rounded to a subnormal number or to zero."
+        )
+        return (*textwrap.wrap(promise, 84), *textwrap.wrap(where, 84, break_on_hyphens=False))
+
+    def row(self) -> dict[str, object]:
+        """Its three parts under the manifest's keys."""
+        return {"domain": self.domain, "budget": self.ulp, "rule": self.rule}
+
+
+def read_budgets(file: Path) -> dict[str, Budget]:
+    """Budgets by kernel, as committed.
+
+    Raises
+    ------
+    ValueError
+        If a kernel has a budget but no domain, or the other way round, or two rules.
+    """
+    return parse_budgets(tomllib.loads(file.read_text()))
+
+
+def read_promises(file: Path, table: str) -> dict[str, float]:
+    """Relative errors of a table, measured, not proven, as committed."""
+    found: dict[str, float] = tomllib.loads(file.read_text())[table]
+    return found
+
+
+def parse_budgets(data: Mapping[str, Any]) -> dict[str, Budget]:
+    """Budgets by kernel from the tables `ulp`, `domain` and `rule`."""
+    numbers, domains, rules = data["ulp"], data["domain"], data["rule"]
+    named = [name for rule in rules.values() for name in rule.get("kernels", ())]
+    unmatched = set(numbers) ^ set(domains) | set(named) - set(numbers)
+    twice = {name for name in named if named.count(name) > 1}
+    if unmatched or twice:
+        raise ValueError(
+            "expected one number, one domain and at most one rule per kernel in budgets.toml; "
+            f"mend {', '.join(sorted(unmatched | twice))}"
+        )
+    rule_of = {name: rule["text"] for rule in rules.values() for name in rule.get("kernels", ())}
+    ordinary = rules[ORDINARY]["text"]
+    return {
+        name: Budget(float(ulp), domains[name], rule_of.get(name, ordinary))
+        for name, ulp in numbers.items()
+    }

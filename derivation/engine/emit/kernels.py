@@ -1,0 +1,253 @@
+"""Formulas, forms and budgets -> rows: what each generated function is and how it reads."""
+
+import re
+import textwrap
+from collections.abc import Callable, Mapping, Set
+from dataclasses import dataclass, field
+
+import sympy as sp
+
+from derivation.engine.emit.budgets import Budget
+from derivation.engine.emit.printer import to_numpy
+from derivation.engine.formula.record import Record
+from derivation.engine.formula.vocabulary import Argument, applicable
+from derivation.engine.rewrite.form import Branch, Form, Seam, Step
+
+
+@dataclass(frozen=True)
+class Style:
+    """What a paper's functions say and test beyond the domains of their arguments.
+
+    Parameters
+    ----------
+    tested
+        Conditions that end a domain where the tests do, with the arguments they are about.
+    remark
+        What follows a formula's text, for its expression.
+    """
+
+    tested: Mapping[str, Set[str]] = field(default_factory=dict)
+    remark: Callable[[sp.Expr], str] = lambda _: ""
+
+
+@dataclass(frozen=True)
+class Line:
+    """A line of code: a name, its value and a comment."""
+
+    name: str
+    code: str
+    comment: str = ""
+
+
+@dataclass(frozen=True)
+class BranchText:
+    """One side of a seam as text."""
+
+    guards: tuple[Line, ...]
+    steps: tuple[Line, ...]
+    value: str
+
+
+@dataclass(frozen=True)
+class SeamText:
+    """A choice between two branches as text."""
+
+    mask: str
+    variable: str
+    at: str
+    branches: tuple[BranchText, BranchText]
+
+
+@dataclass(frozen=True)
+class ArgumentText:
+    """An argument as the docstring and the manifest name it."""
+
+    name: str
+    unit: str
+    meaning: str
+    domain: str
+
+
+@dataclass(frozen=True)
+class Kernel:
+    """A generated function: everything templates and manifest say about it."""
+
+    name: str
+    module: str
+    summary: str
+    meaning: str
+    symbol: str
+    latex: str
+    unit: str
+    equation: str
+    formula: tuple[str, ...]
+    original: tuple[str, ...]
+    arguments: tuple[ArgumentText, ...]
+    conditions: tuple[str, ...]
+    budget: Budget
+    modes: bool
+    steps: tuple[Line, ...] = ()
+    value: str = ""
+    seam: SeamText | None = None
+
+    @property
+    def loaded(self) -> bool:
+        """Whether the sum's share needs the pressure coefficient."""
+        return self.modes and re.search(r"\bA\b", self.value) is not None
+
+    @property
+    def in_plane(self) -> bool:
+        """Whether the sum's share is made of both stresses in plane and the chord of J1."""
+        return self.modes and "chord" in self.value
+
+    @property
+    def carried(self) -> tuple[str, ...]:
+        """Of a value that does not depend on all arguments: the last it needs, then the idle."""
+        code = set(re.findall(r"\w+", repr((self.value, self.steps, self.seam))))
+        idle = [x.name for x in self.arguments if x.name not in code and not self.modes]
+        return ([x.name for x in self.arguments if x.name in code][-1], *idle) if idle else ()
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What the docstring promises about the error."""
+        return self.budget.notes
+
+
+def kernel_of_form(stable: Form, formula: Record, budget: Budget, style: Style) -> Kernel:
+    """Row of a kernel that evaluates a stable form."""
+    seam = seam_text(stable.value, whole=True) if isinstance(stable.value, Seam) else None
+    return kernel(
+        formula,
+        formula.arguments,
+        stable.module,
+        budget,
+        style,
+        steps=lines(stable.steps),
+        value="" if seam else to_numpy(stable.value),
+        seam=seam,
+    )
+
+
+def kernel(
+    formula: Record,
+    arguments: tuple[Argument, ...],
+    module: str,
+    budget: Budget,
+    style: Style,
+    *,
+    steps: tuple[Line, ...] = (),
+    value: str,
+    seam: SeamText | None = None,
+    modes: bool = False,
+) -> Kernel:
+    """Row of a function of the given arguments.
+
+    Raises
+    ------
+    ValueError
+        If its budget names another domain than the formula.
+    """
+    names = {x.name for x in arguments}
+    where = conditions(arguments, formula.where, style)
+    if budget.domain != ", ".join(where):
+        raise ValueError(
+            f"the budget of {formula.name} names the domain {budget.domain!r}; "
+            f"the formula's is {', '.join(where)!r}"
+        )
+    total = "sum over j of " if modes else ""
+    stated = formula.expression if formula.stated is None else formula.stated
+    return Kernel(
+        name=formula.name,
+        module=module,
+        summary=formula.meaning[0].upper() + formula.meaning[1:] + ".",
+        meaning=formula.meaning,
+        symbol=formula.latex,
+        latex=f"{formula.latex} = {formula.right_hand_side}",
+        unit=formula.unit,
+        equation=formula.equation,
+        formula=_wrap(f"{formula.name} = {total}{sp.sstr(stated)}{style.remark(stated)}"),
+        original=() if stated == formula.expression else _wrap(sp.sstr(formula.expression)),
+        arguments=tuple(argument_text(x, names) for x in arguments),
+        conditions=where,
+        budget=budget,
+        modes=modes,
+        steps=steps,
+        value=value,
+        seam=seam,
+    )
+
+
+def _wrap(text: str) -> tuple[str, ...]:
+    """Lines of at most 88 characters, broken at spaces only."""
+    return tuple(
+        textwrap.wrap(
+            text, 88, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False
+        )
+    )
+
+
+def argument_text(argument: Argument, names: set[str]) -> ArgumentText:
+    """An argument's line, with those of its conditions that apply."""
+    domain = ", ".join(applicable(argument.domain, names))
+    return ArgumentText(argument.name, argument.unit, argument.meaning, domain)
+
+
+def conditions(
+    arguments: tuple[Argument, ...], extra: tuple[str, ...], style: Style
+) -> tuple[str, ...]:
+    """Every condition on the arguments that names nothing but arguments."""
+    own = (condition for x in arguments for condition in x.domain)
+    names = {x.name for x in arguments}
+    tested = (text for text, used in style.tested.items() if used <= names)
+    return (*applicable((*own, *extra), names), *tested)
+
+
+def lines(steps: tuple[Step, ...]) -> tuple[Line, ...]:
+    """Steps as lines of code."""
+    return tuple(Line(str(s.symbol), to_numpy(s.expression), s.comment) for s in steps)
+
+
+def seam_text(seam: Seam, *, whole: bool = False) -> SeamText:
+    """A seam as text: the branch above guards itself against points below.
+
+    The one below is given those alone, by itself or, in a whole function, by that.
+    """
+    name = str(seam.variable)
+    clamped = {seam.variable: f"np.maximum({name}, {float(seam.at)})"}
+    below = _branch_text(seam.below, {} if whole else _picked(seam.below), "low")
+    return SeamText(
+        "below", name, to_numpy(seam.at), (below, _branch_text(seam.above, clamped, "high"))
+    )
+
+
+def _picked(branch: Branch) -> dict[sp.Symbol, str]:
+    """What a branch needs, at its own points alone."""
+    used = sp.Tuple(branch.value, *(step.expression for step in branch.steps)).free_symbols
+    given = sorted(used - {step.symbol for step in branch.steps}, key=str)
+    return {symbol: f"np.asarray({symbol})[below]" for symbol in given}
+
+
+def _branch_text(branch: Branch, guards: Mapping[sp.Symbol, str], suffix: str) -> BranchText:
+    copies = {symbol: sp.Symbol(f"{symbol}_{suffix}", real=True) for symbol in guards}
+    own = tuple(Line(str(copies[symbol]), code) for symbol, code in guards.items())
+    steps = tuple(Step(s.symbol, s.expression.xreplace(copies), s.comment) for s in branch.steps)
+    return BranchText(own, lines(steps), to_numpy(branch.value.xreplace(copies)))
+
+
+@dataclass(frozen=True)
+class AsPrinted:
+    """A printed formula as a function."""
+
+    name: str
+    summary: str
+    equation: str
+    arguments: tuple[ArgumentText, ...]
+    value: str
+
+
+def rows_by_module(kernels: tuple[Kernel, ...]) -> Mapping[str, list[Kernel]]:
+    """Kernels grouped by module, in order of first appearance."""
+    grouped: dict[str, list[Kernel]] = {}
+    for kernel in kernels:
+        grouped.setdefault(kernel.module, []).append(kernel)
+    return grouped

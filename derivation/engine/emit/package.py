@@ -1,0 +1,207 @@
+"""A paper's forms -> the modules of its generated package, and a module -> its source."""
+
+import hashlib
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import sympy as sp
+
+from derivation.engine.emit.budgets import read_budgets
+from derivation.engine.emit.kernels import (
+    Kernel,
+    Style,
+    kernel_of_form,
+    lines,
+    rows_by_module,
+    seam_text,
+)
+from derivation.engine.emit.printer import to_numpy
+from derivation.engine.emit.source import TEMPLATES, filled, format_files
+from derivation.engine.formula.record import Record
+from derivation.engine.rewrite.automatic import automatic
+from derivation.engine.rewrite.blocks import HYPERBOLIC, Definition, built
+from derivation.engine.rewrite.form import ONCE, SCALINGS, Block, Form, Seam, Step, form
+from derivation.engine.rewrite.scales import Scales
+
+Shape = tuple[tuple[Step, ...], sp.Expr | Seam]
+"""Steps and value of a form."""
+
+
+@dataclass(frozen=True)
+class Module:
+    """A file to be: its template and what goes in, and the folder of the template."""
+
+    name: str
+    template: str
+    context: Mapping[str, Any]
+    folder: Path = TEMPLATES
+
+
+@dataclass(frozen=True)
+class Part:
+    """A module of printed formulas: its name, its first line, and the formulas' names."""
+
+    name: str
+    title: str
+    formulas: tuple[str, ...]
+
+
+NO_SCALES = Scales()
+
+
+def _nothing(_: Mapping[str, Block]) -> Mapping[str, Shape]:
+    return {}
+
+
+@dataclass(frozen=True, eq=False)
+class Printing:
+    """How formulas of a paper become a package: their forms by rule, or as stated.
+
+    Parameters
+    ----------
+    summary
+        First line of the package's docstring.
+    citation
+        What its manifest cites.
+    parts
+        Its modules, in order.
+    budgets
+        File with the error budget and the domain of every function.
+    scales
+        Dimensionless variables of the formulas whose forms are found by rule.
+    stated
+        Forms of the other ones, from the building blocks; each is proved equal to its formula.
+    blocks
+        Building blocks of the forms.
+    """
+
+    summary: str
+    citation: str
+    parts: tuple[Part, ...]
+    budgets: Path
+    scales: Scales = NO_SCALES
+    stated: Callable[[Mapping[str, Block]], Mapping[str, Shape]] = _nothing
+    blocks: tuple[Definition, ...] = HYPERBOLIC
+
+    def forms(self, formulas: Mapping[str, Record]) -> tuple[Form, ...]:
+        """The stable form of every formula of the parts.
+
+        Raises
+        ------
+        ProofError
+            Naming the form that is not its formula.
+        UnreachableError
+            Naming a formula that the rules do not reach.
+        """
+        known = built(self.blocks)
+        stated = self.stated(known)
+
+        def shape(name: str) -> Shape:
+            if name in stated:
+                return stated[name]
+            return automatic(formulas[name].expression, known, self.scales)
+
+        return tuple(
+            form(name, part.name, formulas[name].expression, *shape(name), known)
+            for part in self.parts
+            for name in part.formulas
+        )
+
+    def files(self, formulas: Mapping[str, Record], forms: tuple[Form, ...]) -> dict[str, str]:
+        """Files of the package by name."""
+        known, budgets = built(self.blocks), read_budgets(self.budgets)
+        style = Style()
+        kernels = tuple(kernel_of_form(f, formulas[f.name], budgets[f.name], style) for f in forms)
+        titles = {part.name: part.title for part in self.parts}
+        exported = {part.name: list(part.formulas) for part in self.parts}
+        names = sorted(name for group in exported.values() for name in group)
+        manifest = {"rows": [kernel_row(k) for k in kernels], "citation": self.citation}
+        package = {"summary": self.summary, "modules": exported, "all_names": names}
+        planned = (
+            *shared(known),
+            *kernel_modules(kernels, titles, known),
+            Module("manifest", "catalogue", manifest),
+            Module("__init__", "package", package),
+        )
+        return written(planned)
+
+
+def shared(known: Mapping[str, Block]) -> tuple[Module, ...]:
+    """The modules that every package begins with."""
+    return (
+        Module("arrays", "arrays", {}),
+        Module("ranges", "ranges", {"once": ONCE}),
+        Module("blocks", "blocks", {"functions": [block_text(b) for b in known.values()]}),
+    )
+
+
+def kernel_modules(
+    kernels: tuple[Kernel, ...], titles: Mapping[str, str], known: Mapping[str, Block]
+) -> tuple[Module, ...]:
+    """A module for every group of kernels."""
+    planned = []
+    for name, group in rows_by_module(kernels).items():
+        text = repr(group)
+        used = [block for block in known if f"{block}(" in text]
+        scalings = [f.__name__ for f in SCALINGS if f"{f.__name__}(" in text]
+        context = {"title": titles[name], "functions": group, "blocks": used, "scalings": scalings}
+        planned.append(Module(name, "kernels", context))
+    return tuple(planned)
+
+
+def written(planned: Sequence[Module]) -> dict[str, str]:
+    """The files of a package by name; the same bytes for the same modules."""
+    source = {f"{module.name}.py": fill(module) for module in planned}
+    return format_files(source) | {"py.typed": ""}
+
+
+def block_text(block: Block) -> dict[str, Any]:
+    """Context of a building block."""
+    seam = seam_text(block.value) if isinstance(block.value, Seam) else None
+    return {
+        "name": block.name,
+        "variable": str(block.arguments[0]),
+        "summary": block.summary,
+        "domain": ", ".join(block.domain),
+        "truncation": block.truncation,
+        "steps": lines(block.steps),
+        "seam": seam,
+        "value": "" if seam else to_numpy(block.value),
+    }
+
+
+def kernel_row(k: Kernel) -> dict[str, Any]:
+    """What the manifest says of a kernel."""
+    return {
+        "name": k.name,
+        "module": k.module,
+        "arguments": [x.name for x in k.arguments],
+        "argument_units": [x.unit for x in k.arguments],
+        "unit": k.unit,
+        "symbol": k.symbol,
+        "latex": k.latex,
+        "meaning": k.meaning,
+        "equation": k.equation,
+        "modes": k.modes,
+    } | k.budget.row()
+
+
+def fill(module: Module) -> str:
+    """Stage 3: a module's source, its header naming versions and the hash of what it came from."""
+    header = "# " + "\n# ".join(header_lines(module))
+    return filled(module.template, {"header": header, **module.context}, module.folder)
+
+
+def header_lines(module: Module) -> tuple[str, str]:
+    """Who generated a module, from what."""
+    digest = hashlib.sha256(repr(sorted(module.context.items())).encode())
+    digest.update((module.folder / f"{module.template}.py.j2").read_bytes())
+    digest.update((TEMPLATES / "macros.j2").read_bytes())
+    versions = f"platecontact {version('platecontact')} with SymPy {sp.__version__}"
+    return (
+        f"Generated by {versions} from {digest.hexdigest()[:16]}.",
+        "Do not edit: `platecontact generate` writes it anew.",
+    )

@@ -1,0 +1,109 @@
+"""SymPy expression -> one line of NumPy: `np.` in front, building blocks by name."""
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+from sympy.printing.numpy import NumPyPrinter
+from sympy.printing.precedence import PRECEDENCE
+
+from derivation.engine.formula.notation import positive_first
+from derivation.engine.rewrite.form import CLOSELY, TIMES
+from derivation.engine.rewrite.shape import decay
+
+SMALL_INTEGER = 1000
+"""Largest denominator printed as a divisor; beyond, 1/n is folded into a double first."""
+
+
+class _Printer(NumPyPrinter):
+    """SymPy's NumPy printer, with quotients as written by hand and undefined functions as calls."""
+
+    def _module_format(self, fqn: str, register: bool = True) -> str:
+        return str(super()._module_format(fqn, register)).replace("numpy.", "np.")
+
+    def _print_AppliedUndef(self, expr: AppliedUndef) -> str:
+        if expr.func in (TIMES, CLOSELY):
+            value, *powers = (self._print(x) for x in expr.args)
+            pairs = zip(powers[::2], powers[1::2], strict=True)
+            return f"{expr.func.__name__}({', '.join([value, *(f'({b}, {p})' for b, p in pairs)])})"
+        return f"{expr.func.__name__}({', '.join(self._print(x) for x in expr.args)})"
+
+    def _print_Heaviside(self, expr: sp.Heaviside) -> str:
+        return f"np.heaviside({self._print(expr.args[0])}, {self._print(expr.args[1])})"
+
+    def _print_Min(self, expr: sp.Min) -> str:
+        return self._bounds("np.minimum", expr)
+
+    def _print_Max(self, expr: sp.Max) -> str:
+        return self._bounds("np.maximum", expr)
+
+    def _bounds(self, function: str, expr: sp.Expr) -> str:
+        """Two arguments at a time: NumPy takes a third one for the array to write into."""
+        arguments = sorted(expr.args, key=lambda x: (not x.free_symbols, sp.default_sort_key(x)))
+        *others, text = (str(self._print(x)) for x in arguments)
+        for other in reversed(others):
+            text = f"{function}({other}, {text})"
+        return text
+
+    def _print_Float(self, expr: sp.Float) -> str:
+        return repr(float(expr))
+
+    def _print_BesselJ(self, expr: sp.besselj) -> str:
+        return f"bessel_j{expr.order}({self._print(expr.argument)})"
+
+    _print_besselj = _print_BesselJ
+
+    def _print_Add(self, expr: sp.Add, order: str | None = None) -> str:
+        number, rest = expr.as_coeff_Add()
+        if not (number > 0 and rest.is_Add and all(_fades(part) for part in rest.args)):
+            return str(super()._print_Add(expr, order=order))
+        # What decays is summed first: so the whole is rounded once where it hardly counts.
+        sign, rest = ("-", -rest) if rest.args[0].could_extract_minus_sign() else ("+", rest)
+        return f"{self._print(number)} {sign} ({self._print(rest)})"
+
+    def _print_Pow(self, expr: sp.Pow, rational: bool = False) -> str:
+        if expr.exp == -1:
+            return f"1/{self.parenthesize(expr.base, PRECEDENCE['Pow'], strict=False)}"
+        return str(super()._print_Pow(expr, rational))
+
+    def _print_Mul(self, expr: sp.Mul) -> str:
+        coefficient, rest = expr.as_coeff_Mul()
+        if not isinstance(coefficient, sp.Rational) or coefficient.q > SMALL_INTEGER:
+            return str(super()._print_Mul(expr))
+        above, below = _split(rest)
+        above = [sp.Integer(abs(coefficient.p))] * (abs(coefficient.p) != 1) + above
+        below = [sp.Integer(coefficient.q)] * (coefficient.q != 1) + below
+        text = self._product(above) or "1"
+        if below:
+            divisor = self._product(below)
+            text += f"/({divisor})" if len(below) > 1 else f"/{divisor}"
+        return f"-{text}" if coefficient < 0 else text
+
+    def _product(self, factors: list[sp.Expr]) -> str:
+        return "*".join(self.parenthesize(x, PRECEDENCE["Mul"], strict=False) for x in factors)
+
+    def _as_ordered_terms(self, expr: sp.Add, order: str | None = None) -> list[sp.Expr]:
+        return positive_first(super()._as_ordered_terms(expr, order=order))
+
+
+def _fades(part: sp.Expr) -> bool:
+    exponents = (function.args[0] for function in part.atoms(sp.exp))
+    return part.has(decay) or any(x.could_extract_minus_sign() for x in exponents)
+
+
+def _split(product: sp.Expr) -> tuple[list[sp.Expr], list[sp.Expr]]:
+    """Factors above and below the line, numbers and symbols before functions."""
+    above, below = [], []
+    for factor in product.as_ordered_factors():
+        base, exponent = factor.as_base_exp()
+        if exponent.is_Rational and exponent < 0:
+            below.append(base**-exponent)
+        else:
+            above.append(factor)
+    return above, below
+
+
+_PRINTER = _Printer({"allow_unknown_functions": True})
+
+
+def to_numpy(expression: sp.Expr) -> str:
+    """Source text of an expression, evaluated in the order printed."""
+    return str(_PRINTER.doprint(expression))

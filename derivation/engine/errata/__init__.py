@@ -1,0 +1,1 @@
+"""The published equations compared with the derived ones: misprints and their corrections."""

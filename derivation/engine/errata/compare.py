@@ -1,0 +1,386 @@
+"""Compare a formula with the derived one of the same name: equal, or different with a correction.
+
+Comparison is modulo the relations that tie the paper's symbols together.
+"""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from itertools import combinations
+
+import flint
+import sympy as sp
+
+from derivation.engine.errata.dimensions import dimension_note
+from derivation.engine.errata.edit import factor_pool, term_pool
+from derivation.engine.errata.relations import Relations
+from derivation.engine.errata.repairs import Repair, repairs
+from derivation.engine.errata.sample import BITS, Values, monomial, sample
+from derivation.engine.errata.variant import EXPONENT, FACE, MISSING, STRAY, TWICE, Search
+from derivation.engine.formula.ball import enclosable
+from derivation.engine.formula.notation import to_latex, to_markdown
+from derivation.engine.formula.parse import FormulaError
+from derivation.engine.formula.proof import SYMBOLIC, reduces_to_zero
+from derivation.engine.formula.record import Record
+from derivation.engine.formula.size import terms_when_expanded
+from derivation.engine.formula.vocabulary import Vocabulary
+
+EQUAL, DIFFERENT = "equal", "different"
+BY_BALLS = "by ball arithmetic"
+OTHER, DIMENSION, UNEXPLAINED = "other formula", "dimension", "unexplained"
+_MAX_TERMS = 4000
+_MAX_RATIO = 60
+_MAX_CANDIDATES = 6
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """What comparison of a formula with the derived one found.
+
+    Parameters
+    ----------
+    formula
+        The derived formula.
+    verdict
+        ``equal`` or ``different``.
+    kind
+        The kind of error; ``equal`` where there is none.
+    repair
+        A sentence that says how to correct the given formula.
+    repaired
+        The corrected formula, equal to the derived one; None if none was found.
+    edits
+        Number of changes the repair makes.
+    ratio
+        Given over derived, where that is short.
+    dimension
+        What is wrong with the given formula's dimension, if anything.
+    given
+        What was compared with it.
+    method
+        How equality was decided, of the given or of the repaired formula.
+    """
+
+    formula: Record
+    verdict: str
+    kind: str
+    repair: str
+    repaired: sp.Expr | None
+    edits: int
+    ratio: sp.Expr | None
+    dimension: str | None
+    given: sp.Expr
+    method: str
+
+    @property
+    def name(self) -> str:
+        """Name of the derived formula."""
+        return self.formula.name
+
+    @property
+    def derived(self) -> sp.Expr:
+        """The derived formula's expression."""
+        return self.formula.expression
+
+    def _repr_latex_(self) -> str:
+        sign = "=" if self.verdict == EQUAL else r"\neq"
+        given, derived = (to_latex(x, self.formula.vocabulary) for x in (self.given, self.derived))
+        return f"$\\displaystyle {given} {sign} {derived}$"
+
+    def _repr_markdown_(self) -> str:
+        """Verdict, both formulas and the correction, for a notebook."""
+        repair = "" if self.verdict == EQUAL else f"\n\n{self.kind}: {to_markdown(self.repair)}."
+        name = to_markdown(self.name)
+        return f"**{name}: {self.verdict}**, {self.method}\n\n{self._repr_latex_()}{repair}"
+
+    def to_json(self) -> dict[str, str | int | None]:
+        """Plain text under fixed keys."""
+        return {
+            "name": self.name,
+            "verdict": self.verdict,
+            "kind": self.kind,
+            "repair": self.repair,
+            "repaired": None if self.repaired is None else str(self.repaired),
+            "edits": self.edits,
+            "ratio": None if self.ratio is None else str(self.ratio),
+            "dimension": self.dimension,
+            "given": str(self.given),
+            "derived": str(self.derived),
+            "method": self.method,
+        }
+
+
+@dataclass(frozen=True)
+class _Case:
+    """One comparison: the formulas, the relations in force, and values at sample points."""
+
+    formula: Record
+    given: sp.Expr
+    relations: Mapping[sp.Symbol, sp.Expr]
+    search: Search
+    have: Values
+    truth: Values
+
+    def method(self, expression: sp.Expr) -> str | None:
+        """How an expression was found equal to the derived one; None if it is not."""
+        if not self.search.points.same(expression, self.truth):
+            return None
+        difference = (expression - self.formula.expression).subs(dict(self.relations))
+        if terms_when_expanded(difference) <= _MAX_TERMS and reduces_to_zero(difference):
+            return SYMBOLIC
+        return BY_BALLS
+
+
+def diagnose(
+    name: str, given: sp.Expr, formulas: Mapping[str, Record], relations: Relations
+) -> Diagnosis:
+    """Compare a formula with the derived one of that name, and search for a correction.
+
+    Parameters
+    ----------
+    name
+        Name of a formula of the chain, for instance ``Omega_3``.
+    given
+        The formula to compare, in the paper's symbols; names of other formulas stand for these.
+    formulas
+        The chain's formulas by name.
+    relations
+        Which of the symbols follow from others.
+
+    Raises
+    ------
+    FormulaError
+        If the name is not known, or the formula cannot be evaluated.
+    """
+    formula = known_formula(name, formulas)
+    given = resolved(given, formulas, formula.vocabulary)
+    with flint.ctx.workprec(BITS):
+        case = _case(formula, given, formulas, relations)
+        note = dimension_note(given, formula.unit, formula.vocabulary)
+        method = case.method(given)
+        if method is not None:
+            return _diagnosis(case, EQUAL, None, None, note, method)
+        for repair, ratio in _repairs(case, formulas):
+            method = case.method(repair.expression)
+            if method is not None:
+                short = _ratio(case) if ratio is None else ratio
+                repair = _as_power(case, repair)
+                return _diagnosis(case, DIFFERENT, repair, short, note, method)
+        return _diagnosis(case, DIFFERENT, None, _ratio(case), note, BY_BALLS)
+
+
+def comparable(formulas: Mapping[str, Record]) -> list[str]:
+    """Names of the formulas that can be evaluated: without unknown functions or integrals."""
+    return [name for name, formula in formulas.items() if enclosable(formula.expression)]
+
+
+def known_formula(name: str, formulas: Mapping[str, Record]) -> Record:
+    """The derived formula of a name.
+
+    Raises
+    ------
+    FormulaError
+        Listing the names there are.
+    """
+    names = comparable(formulas)
+    if name in formulas and name not in names:
+        raise FormulaError(
+            f"{name} is an equation, or is defined by an integral or an infinite sum, and cannot "
+            f"be compared: expected one of {', '.join(names)}"
+        )
+    if name not in names:
+        raise FormulaError(f"no formula {name!r:.60}: expected one of {', '.join(names)}")
+    return formulas[name]
+
+
+def resolved(given: sp.Expr, formulas: Mapping[str, Record], vocabulary: Vocabulary) -> sp.Expr:
+    """An expression in which names of formulas that are no symbols are replaced by these.
+
+    Raises
+    ------
+    FormulaError
+        If a symbol is neither one of the paper's nor the name of a formula.
+    """
+    known = {*vocabulary.by_name, *vocabulary.guest_names}
+    names = {s: s.name for s in given.free_symbols if s.name not in known}
+    unknown = sorted(name for name in names.values() if name not in comparable(formulas))
+    if unknown:
+        own = ", ".join(vocabulary.by_name)
+        raise FormulaError(f"unknown symbols {', '.join(unknown)}: expected some of {own}")
+    return given.subs({symbol: formulas[name].expression for symbol, name in names.items()})
+
+
+def relations_between(
+    name: str,
+    given: sp.Expr,
+    derived: sp.Expr,
+    formulas: Mapping[str, Record],
+    relations: Relations,
+) -> dict[sp.Symbol, sp.Expr]:
+    """Symbols that follow from others: only if the two sides are not in the same symbols."""
+    if given.free_symbols == derived.free_symbols:
+        return {}
+    return relations.between(name, given.free_symbols, derived.free_symbols, formulas)
+
+
+def _case(
+    formula: Record, given: sp.Expr, formulas: Mapping[str, Record], relations: Relations
+) -> _Case:
+    derived = formula.expression
+    meanings = relations_between(formula.name, given, derived, formulas, relations)
+    points = sample([given, derived], meanings, formula.vocabulary.within)
+    try:
+        for expression in (derived, given):
+            points.learn(expression)
+    except NotImplementedError as error:
+        raise FormulaError(f"{error}: write it with other functions") from None
+    have = points.values(given)
+    if not all(value.is_finite() for value in have):
+        raise FormulaError(
+            f"{given!s:.80} has no value at random points: check for a division by zero"
+        )
+    factors = factor_pool((given, derived))
+    for factor in factors:
+        points.learn(factor)
+    return _Case(
+        formula,
+        given,
+        meanings,
+        Search(points, factors, term_pool(derived)),
+        have,
+        points.values(derived),
+    )
+
+
+def _diagnosis(
+    case: _Case,
+    verdict: str,
+    repair: Repair | None,
+    ratio: sp.Expr | None,
+    note: str | None,
+    method: str,
+) -> Diagnosis:
+    if repair is not None:
+        kind, says = repair.kind, repair.says
+    elif verdict == EQUAL:
+        kind, says, ratio = EQUAL, "no correction needed", sp.Integer(1)
+    else:
+        kind = DIMENSION if note else UNEXPLAINED
+        says = "no small change corrects it" + (f"; its dimension is wrong: {note}" if note else "")
+    return Diagnosis(
+        formula=case.formula,
+        verdict=verdict,
+        kind=kind,
+        repair=says,
+        repaired=repair.expression if repair else case.given if verdict == EQUAL else None,
+        edits=repair.edits if repair else 0,
+        ratio=ratio,
+        dimension=note,
+        given=case.given,
+        method=method,
+    )
+
+
+def _repairs(
+    case: _Case, formulas: Mapping[str, Record]
+) -> Iterator[tuple[Repair, sp.Expr | None]]:
+    """Candidates in order: another derived formula, a factor counted twice, then single edits."""
+    yield from _mistaken(case, formulas)
+    yield from _counted_twice(case, formulas)
+    for count, repair in enumerate(repairs(case.given, case.truth, case.search)):
+        if count == _MAX_CANDIDATES:
+            return
+        yield repair, None
+
+
+def _mistaken(
+    case: _Case, formulas: Mapping[str, Record]
+) -> Iterator[tuple[Repair, sp.Expr | None]]:
+    """The given formula is another one of the chain, for instance that of the other face."""
+    derived = case.formula
+    for other in _formulas_with_values(case, formulas, case.have):
+        if other.unit == derived.unit:
+            faces = "face" in other.meaning and "face" in derived.meaning
+            says = (
+                f"it is {other.name}, {other.meaning}; {derived.name}, {derived.meaning}, "
+                f"is {derived.expression}"
+            )
+            repair = Repair(FACE if faces else OTHER, says, derived.expression, 1)
+            yield repair, other.expression / derived.expression
+
+
+def _formulas_with_values(
+    case: _Case, formulas: Mapping[str, Record], values: Values
+) -> Iterator[Record]:
+    """Other formulas of the chain that have these values at the sample points."""
+    points = case.search.points
+    for name in comparable(formulas):
+        expression = formulas[name].expression
+        evaluable = expression.free_symbols <= set(points.known[0])
+        if evaluable and name != case.formula.name and points.same(expression, values):
+            yield formulas[name]
+
+
+def _counted_twice(
+    case: _Case, formulas: Mapping[str, Record]
+) -> Iterator[tuple[Repair, sp.Expr | None]]:
+    """A factor named in a product is already part of what another factor was derived from."""
+    points = case.search.points
+    for factor in sp.Mul.make_args(case.given):
+        if factor not in case.relations or factor.name not in formulas:
+            continue
+        rest = case.given / factor
+        need = [w / v for w, v in zip(case.truth, points.values(rest), strict=True)]
+        for other in _formulas_with_values(case, formulas, points.values(rest)):
+            if factor.name not in ancestors(other.name, formulas):
+                continue
+            for left in _partial_products(case.relations[factor]):
+                if points.same(left, need):
+                    double = case.relations[factor] / left
+                    says = (
+                        f"{other.name} already holds the factor {double} of {factor.name}: "
+                        f"read {left} instead of {factor.name}"
+                    )
+                    yield Repair(TWICE, says, rest * left, 1), double
+
+
+def ancestors(name: str, formulas: Mapping[str, Record]) -> set[str]:
+    """All formulas that a formula was derived from, directly or not."""
+    found: set[str] = set()
+    todo = list(formulas[name].sources)
+    while todo:
+        source = todo.pop()
+        if source not in found and source in formulas:
+            found.add(source)
+            todo += formulas[source].sources
+    return found
+
+
+def _partial_products(expression: sp.Expr) -> Iterator[sp.Expr]:
+    """Products of some factors, the smallest first."""
+    factors = sp.Mul.make_args(expression)
+    for size in range(1, len(factors)):
+        for some in combinations(factors, size):
+            yield sp.Mul(*some)
+
+
+def _as_power(case: _Case, repair: Repair) -> Repair:
+    """A stray or missing root of a factor that stands in the given formula is a wrong power."""
+    excess = _ratio(case)
+    if repair.kind not in (STRAY, MISSING) or excess is None or not excess.is_Pow:
+        return repair
+    base, power = excess.as_base_exp()
+    printed = case.given.as_powers_dict().get(base, 0)
+    if power.is_Integer or printed == 0:
+        return repair
+    says = f"read the power {base}**({printed - power}) instead of {base}**({printed})"
+    return replace(repair, kind=EXPONENT, says=says)
+
+
+def _ratio(case: _Case) -> sp.Expr | None:
+    """Given over derived where that is a monomial, or short after cancelling equal factors."""
+    ratio = [v / w for v, w in zip(case.have, case.truth, strict=True)]
+    simple = monomial(ratio, case.search.points)
+    if simple is not None:
+        return simple
+    quotient = case.given / case.formula.expression
+    return quotient if quotient.count_ops() <= _MAX_RATIO else None

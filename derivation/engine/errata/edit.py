@@ -1,0 +1,254 @@
+"""Single edits: at each place of a formula, the changes that give it the required value."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import combinations
+from math import log
+
+import sympy as sp
+
+from derivation.engine.errata.place import BASE, TERM, TERMS, Place, inner, with_needs
+from derivation.engine.errata.sample import Values, agree, monomial, rational, real
+from derivation.engine.errata.variant import (
+    CONSTANT,
+    COST,
+    EXPONENT,
+    LOST,
+    MISSING,
+    SIGN,
+    STRAY,
+    SUM,
+    SUPERFLUOUS,
+    TWICE,
+    Search,
+    Variant,
+    name_of,
+    own_ratio,
+    raised_to,
+    variants,
+)
+
+_FEW = 3
+
+
+@dataclass(frozen=True, eq=False)
+class Edit:
+    """One change at one place, with its weight: the smaller, the more likely the error."""
+
+    kind: str
+    place: Place
+    new: sp.Expr
+    says: str
+    cost: float
+
+    def order(self) -> tuple[float, int, str]:
+        """Sort key: price, then nearness to the root, then text."""
+        return round(self.cost, 6), self.place.depth, self.says
+
+
+def single_edits(root: Place, truth: Values, search: Search) -> list[Edit]:
+    """Every edit below a place that gives it the true values, the likeliest first."""
+    found: list[Edit] = []
+    for place, need in with_needs(root, truth, search.points):
+        found += ratio_edits(place, need, search)
+        found += exponent_edits(place, need, search)
+        found += term_edits(place, need, search)
+        found += drawn_in_front(place, need, search)
+        for variant in variants(place, search):
+            if agree(variant.value, need[0]):
+                edit = edit_of(variant, place)
+                if search.points.same(edit.new, need):
+                    found.append(edit)
+    return sorted(found, key=Edit.order)
+
+
+def _edit(kind: str, place: Place, new: sp.Expr, says: str, extra: float = 0.0) -> Edit:
+    group = 0.5 if place.role == TERMS else 0.0
+    return Edit(kind, place, new, says, COST[kind] + group + extra)
+
+
+def edit_of(variant: Variant, place: Place) -> Edit:
+    """The edit that puts a variant at a place."""
+    new = variant.build()
+    if variant.kind == LOST:
+        shown = variant.shown() if variant.shown else sp.sstr(new)
+        says = f"set the parentheses {shown} in {name_of(place)}"
+    elif variant.kind == SUPERFLUOUS:
+        shown = variant.shown() if variant.shown else sp.sstr(new)
+        says = f"take the parentheses away, {shown}, in {name_of(place)}"
+    elif variant.kind in (SIGN, STRAY, MISSING, CONSTANT, TWICE) and own_ratio(place):
+        return ratio_edit(place, new / place.node, variant.extra, variant.kind)
+    else:
+        says = f"read {_text(new)} instead of {_text(place.node)}"
+    return _edit(variant.kind, place, new, says, variant.extra)
+
+
+def _text(expression: sp.Expr) -> str:
+    return str(sp.sstr(expression))
+
+
+# Ratio: the needed value is a simple multiple of what stands there.
+
+
+def ratio_edits(place: Place, need: Values, search: Search) -> Iterator[Edit]:
+    """Sign, constant, stray or missing factor, a factor counted twice."""
+    if not own_ratio(place):
+        return
+    have = search.points.values(place.node)
+    ratio = [w / v for w, v in zip(need, have, strict=True)]
+    simple = monomial(ratio, search.points)
+    if simple is not None:
+        yield ratio_edit(place, simple)
+        return
+    for factor in search.factors:
+        values = search.points.values(factor)
+        for power in (-1, 1, -2, 2):
+            left = monomial(
+                [q / v**power for q, v in zip(ratio, values, strict=True)], search.points
+            )
+            if left is not None:
+                extra = 0.3 * (abs(power) - 1) + (
+                    0.0 if left == 1 else 1.0 if left.is_number else 3.0
+                )
+                twice = power < 0 and place.node.has(factor)
+                kind = TWICE if twice else MISSING
+                extra += 0.0 if twice else 1.0
+                yield ratio_edit(place, left * factor**power, extra, kind)
+
+
+def ratio_edit(place: Place, ratio: sp.Expr, extra: float = 0.0, kind: str | None = None) -> Edit:
+    """Multiplication by a ratio, in the words that fit what stands there."""
+    new, where = ratio * place.node, name_of(place)
+    if ratio == -1:
+        return _edit(SIGN, place, new, f"reverse the sign of {where}", extra)
+    if ratio.is_number:
+        if place.node.is_number:
+            return _edit(CONSTANT, place, new, f"read {_text(new)} for {_text(place.node)}", extra)
+        return _edit(CONSTANT, place, new, f"multiply {where} by {_text(ratio)}", extra)
+    if kind not in (TWICE, MISSING) or ratio.as_numer_denom()[0].is_Symbol:
+        kind, extra = _stray_or_missing(place, ratio), extra + _size(ratio)
+    return _edit(kind, place, new, _ratio_words(where, ratio, kind), extra)
+
+
+def _stray_or_missing(place: Place, ratio: sp.Expr) -> str:
+    """Whether the ratio takes away what stands there, or adds what does not."""
+    above, below = sp.fraction(ratio)
+    numerator, denominator = sp.fraction(place.node)
+    taken = denominator.has(*above.free_symbols) or numerator.has(*below.free_symbols)
+    return STRAY if taken else MISSING
+
+
+def _ratio_words(where: str, ratio: sp.Expr, kind: str) -> str:
+    above, below = sp.fraction(ratio)
+    if kind in (STRAY, TWICE) and below == 1:
+        return f"leave out the factor {_text(above)} in the denominator of {where}"
+    if kind in (STRAY, TWICE) and above == 1:
+        return f"leave out the factor {_text(below)} in {where}"
+    if above == 1:
+        return f"divide {where} by the missing factor {_text(below)}"
+    if below == 1:
+        return f"multiply {where} by the missing factor {_text(above)}"
+    return f"multiply {where} by {_text(ratio)}"
+
+
+def _size(ratio: sp.Expr) -> float:
+    """Extra price of a monomial: every further symbol, power or constant makes it less likely."""
+    number, powers = ratio.as_coeff_Mul()
+    degree = sum(abs(factor.as_base_exp()[1]) for factor in sp.Mul.make_args(powers))
+    return 0.6 * (float(degree) - 1) + (0.0 if number == 1 else 0.6 if number == -1 else 1.0)
+
+
+# Exponent: the needed value is a power of what stands there.
+
+
+def exponent_edits(place: Place, need: Values, search: Search) -> Iterator[Edit]:
+    """Another power of the same base."""
+    node = place.node
+    if node.is_number or place.role in (BASE, TERMS):
+        return
+    have, want = real(search.points.value(node, 0)), real(need[0])
+    if have is None or want is None or abs(abs(have) - 1) < 1e-9:
+        return
+    power = rational(log(abs(want)) / log(abs(have)), 4)
+    if power is None or power in (Fraction(0), Fraction(1)) or abs(power) > 12:
+        return
+    new = raised_to(node, sp.Rational(power.numerator, power.denominator))
+    if search.points.same(new, need):
+        says = f"read {_text(new)} instead of {_text(node)}"
+        yield _edit(EXPONENT, place, new, says, 0.0 if node.is_Pow or node.is_Atom else 0.4)
+
+
+# Terms: one too many in a sum, or a simple one missing.
+
+
+def term_edits(place: Place, need: Values, search: Search) -> Iterator[Edit]:
+    """A term left out or added."""
+    if not isinstance(place.node, sp.Add) or place.role == TERMS:
+        return
+    have = search.points.values(place.node)
+    lack = [w - v for w, v in zip(need, have, strict=True)]
+    for part in inner(place):
+        if part.role == TERM and search.points.same(-part.node, lack):
+            yield _edit(SUM, place, place.node - part.node, f"leave out {name_of(part)}")
+    simple = monomial(lack, search.points)
+    for term in search.terms if simple is None else (simple,):
+        if term is simple or search.points.same(term, lack):
+            yield _edit(SUM, place, place.node + term, f"add the missing term {_text(term)}", 0.5)
+
+
+# Parentheses: the terms in them need the factor that stands before another term only.
+
+
+def drawn_in_front(place: Place, need: Values, search: Search) -> Iterator[Edit]:
+    """c (x + y) for c x + y, where c is found as the ratio that y needs."""
+    if place.role not in (TERM, TERMS) or place.parent is None:
+        return
+    have = search.points.values(place.node)
+    ratio = [w / v for w, v in zip(need, have, strict=True)]
+    total = place.parent.node
+    for index, term in enumerate(total.args):
+        if index in place.taken:
+            continue
+        lost = _cancelled(search) if len(total.args) <= _FEW else (sp.Integer(1),)
+        for product in (p * c for p in _products(term) for c in lost):
+            values = search.points.values(product)
+            left = monomial([q / v for q, v in zip(ratio, values, strict=True)], search.points)
+            if left is not None and not (product == 1 and left.is_number):
+                factor = left * product
+                inside = term / factor + place.node
+                new = total - term - place.node + factor * inside
+                says = f"set the parentheses {_text(factor)}*({_text(inside)})"
+                steep = 0.6 if (term / factor).count_ops() > term.count_ops() else 0.0
+                yield _edit(LOST, place.parent, new, says, steep)
+
+
+def _cancelled(search: Search) -> tuple[sp.Expr, ...]:
+    """Sums at hand that may have cancelled against a part of the term, and 1."""
+    sums = [factor for factor in search.factors if isinstance(factor, sp.Add)]
+    return (sp.Integer(1), *(1 / factor for factor in sums), *sums)
+
+
+def _products(term: sp.Expr) -> Iterator[sp.Expr]:
+    """Products of some of a term's sums and functions, the empty one included."""
+    parts = [f for f in sp.Mul.make_args(term) if f.atoms(sp.Add, sp.Function)]
+    for size in range(min(len(parts), 6) + 1):
+        for some in combinations(parts, size):
+            yield sp.Mul(*some)
+
+
+def factor_pool(expressions: Sequence[sp.Expr]) -> tuple[sp.Expr, ...]:
+    """Sums and functions that stand as factors anywhere in the expressions, in a fixed order."""
+    found: set[sp.Expr] = set()
+    for expression in expressions:
+        found |= expression.atoms(sp.Function)
+        for product in expression.atoms(sp.Mul):
+            bases = (factor.as_base_exp()[0] for factor in product.args)
+            found.update(base for base in bases if isinstance(base, sp.Add))
+    return tuple(sorted(found, key=sp.default_sort_key))
+
+
+def term_pool(expression: sp.Expr) -> tuple[sp.Expr, ...]:
+    """Terms of all sums in an expression, in a fixed order."""
+    found = {term for total in expression.atoms(sp.Add) for term in total.args}
+    return tuple(sorted(found, key=sp.default_sort_key))

@@ -1,0 +1,118 @@
+"""Printed formulas, and what comparison with the derived ones finds."""
+
+from dataclasses import dataclass
+
+import sympy as sp
+
+from derivation.engine.errata.compare import DIFFERENT, Diagnosis, diagnose
+from derivation.engine.errata.relations import Formulas, Relations
+from derivation.engine.formula.notation import to_latex, to_markdown
+from derivation.engine.formula.record import Record
+
+
+@dataclass(frozen=True)
+class Printed:
+    """One formula as printed.
+
+    Parameters
+    ----------
+    name
+        Name of the derived formula that it claims to be.
+    equation
+        Number of the paper's equation.
+    symbol
+        LaTeX of the left-hand side.
+    latex
+        LaTeX of the right-hand side; of one term of it where a sum is printed.
+    expression
+        The same in SymPy.
+    says
+        What the paper says about it in words, where that is part of the claim.
+    full
+        The printed right-hand side, where `latex` is only a part of it.
+    where
+        Names in the expression that another line of the paper defines.
+    solved
+        The expression solved for the quantity `name`, if it is printed another way round.
+    """
+
+    name: str
+    equation: str
+    symbol: str
+    latex: str
+    expression: sp.Expr
+    says: str = ""
+    full: str = ""
+    where: tuple[tuple[sp.Symbol, sp.Expr], ...] = ()
+    solved: sp.Expr | None = None
+
+    @property
+    def compared(self) -> sp.Expr:
+        """What is held against the derived formula: solved, and written out as printed."""
+        expression = self.expression if self.solved is None else self.solved
+        return expression.subs(dict(self.where))
+
+    def _repr_latex_(self) -> str:
+        return f"$\\displaystyle {self.symbol} = {self.full or self.latex}$"
+
+
+@dataclass(frozen=True)
+class Finding:
+    """A printed formula, the derived one, and what comparison found."""
+
+    printed: Printed
+    formula: Record
+    diagnosis: Diagnosis
+    remark: str = ""
+
+    @property
+    def is_misprint(self) -> bool:
+        """Whether print and derivation differ."""
+        return self.diagnosis.verdict == DIFFERENT
+
+    @property
+    def repair(self) -> str:
+        """The correction, with the remark if there is one."""
+        return f"{self.diagnosis.repair}. {self.remark}" if self.remark else self.diagnosis.repair
+
+    def to_json(self) -> dict[str, str | None]:
+        """Plain text under fixed keys."""
+        diagnosis, vocabulary = self.diagnosis, self.formula.vocabulary
+        return {
+            "equation": self.printed.equation,
+            "name": self.printed.name,
+            "says": self.printed.says,
+            "printed": str(self.printed.expression),
+            "printed_latex": f"{self.printed.symbol} = {self.printed.full or self.printed.latex}",
+            "derived": str(diagnosis.derived),
+            "derived_latex": f"{self.formula.latex} = {self.formula.right_hand_side}",
+            "verdict": diagnosis.verdict,
+            "kind": diagnosis.kind,
+            "repair": self.repair,
+            "repaired": None if diagnosis.repaired is None else str(diagnosis.repaired),
+            "ratio": None if diagnosis.ratio is None else str(diagnosis.ratio),
+            "ratio_latex": None
+            if diagnosis.ratio is None
+            else to_latex(diagnosis.ratio, vocabulary),
+            "dimension": diagnosis.dimension,
+            "method": diagnosis.method,
+        }
+
+    def _repr_latex_(self) -> str:
+        sign = r"\neq" if self.is_misprint else "="
+        printed = self.printed.full or self.printed.latex
+        return f"$\\displaystyle {printed} \\;{sign}\\; {self.formula.right_hand_side}$"
+
+    def _repr_markdown_(self) -> str:
+        """Published and derived formula, and the correction, for a notebook."""
+        where = (
+            f"**({self.printed.equation}) {to_markdown(self.printed.name)}: {self.diagnosis.kind}**"
+        )
+        repair = f"\n\n{to_markdown(self.repair)}." if self.is_misprint else ""
+        return f"{where}\n\n{self._repr_latex_()}{repair}"
+
+
+def finding(record: Printed, formulas: Formulas, relations: Relations) -> Finding:
+    """A printed formula compared with the derived one of its name."""
+    diagnosis = diagnose(record.name, record.compared, formulas, relations)
+    return Finding(record, formulas[record.name], diagnosis)

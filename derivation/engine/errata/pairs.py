@@ -1,0 +1,210 @@
+"""Two slips in different parts of a product or a sum, found by meeting in the middle.
+
+Every edit of one part changes the whole by a known ratio (in a sum: difference);
+its partner is the edit of another part that supplies the rest.
+"""
+
+from bisect import bisect_left
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from math import log2
+
+import flint
+import sympy as sp
+
+from derivation.engine.errata.edit import Edit, edit_of, ratio_edit
+from derivation.engine.errata.place import FACTOR, TERM, Place, everywhere
+from derivation.engine.errata.sample import Values, monomial, rational, real
+from derivation.engine.errata.variant import (
+    Search,
+    Variant,
+    multipliers,
+    superfluous_parentheses,
+    tried,
+)
+
+_CLOSE = 1e-12
+_MAX_MEETINGS = 300
+_OVERALL = -1
+
+
+@dataclass(frozen=True, eq=False)
+class Pair:
+    """Two edits that together give the true values, and the expression they lead to."""
+
+    first: Edit
+    second: Edit
+    new: sp.Expr
+
+    @property
+    def says(self) -> str:
+        """Both changes in a sentence."""
+        return f"{self.first.says}; and {self.second.says}"
+
+    def order(self) -> tuple[float, str]:
+        """Sort key: price, then text."""
+        return round(self.first.cost + self.second.cost, 6), self.says
+
+
+@dataclass(frozen=True, eq=False)
+class _Change:
+    """A variant somewhere inside one part (or of the whole), and its effect on the whole.
+
+    The effect is a ratio in a product and a difference in a sum.
+    """
+
+    part: int
+    place: Place
+    variant: Variant
+    effect: float
+
+    def applied(self, whole: sp.Expr, root: Place) -> sp.Expr:
+        """`whole`, a rewriting of the root's node, after this change as well."""
+        if self.part == _OVERALL:
+            return self.variant.build() / root.node * whole
+        old, new = root.node.args[self.part], self.part_after(root)
+        return whole / old * new if isinstance(root.node, sp.Mul) else whole - old + new
+
+    def part_after(self, root: Place) -> sp.Expr:
+        """The changed part of the root's node."""
+        part = self.place
+        while part.parent is not root and part.parent is not None:
+            part = part.parent
+        return self.place.put(self.variant.build(), part)
+
+
+def pair_edits(root: Place, truth: Values, search: Search) -> list[Pair]:
+    """Pairs of edits in different parts of a product or sum, the likeliest first."""
+    if not isinstance(root.node, sp.Add | sp.Mul):
+        return []
+    have = search.points.value(root.node, 0)
+    product = isinstance(root.node, sp.Mul)
+    goal = real(truth[0] / have if product else truth[0] - have)
+    if goal is None:
+        return []
+    changes = sorted(_changes(root, search), key=lambda change: change.effect)
+    found = list(_meetings(root, changes, goal, truth, search))
+    if product:
+        found += _with_overall_ratio(root, changes, truth, search)
+    return sorted(found, key=Pair.order)
+
+
+def _changes(root: Place, search: Search) -> Iterator[_Change]:
+    """Every variant inside every part of the root, and those of the whole, with their effects."""
+    product = isinstance(root.node, sp.Mul)
+    for index, node in enumerate(root.node.args):
+        part = Place(node, FACTOR if product else TERM, root, (index,))
+        own = search.points.value(node, 0)
+        for place in everywhere(part):
+            for variant in tried(place, search):
+                value = _lifted(place, variant.value, part, search)
+                effect = real(value / own if product else value - own)
+                if effect is not None:
+                    yield _Change(index, place, variant, effect)
+    if product:
+        have = search.points.value(root.node, 0)
+        for variant in _of_the_whole(root.node, search):
+            effect = real(variant.value / have)
+            if effect is not None:
+                yield _Change(_OVERALL, root, variant, effect)
+
+
+def _of_the_whole(node: sp.Expr, search: Search) -> Iterator[Variant]:
+    """Variants of a product that no single factor shows."""
+    yield from superfluous_parentheses(node, search)
+    have = search.points.value(node, 0)
+    for kind, factor, extra in multipliers(search):
+        times = have * search.points.value(factor, 0)
+        yield Variant(kind, times, lambda f=factor: f * node, extra)  # type: ignore[misc]
+
+
+def _lifted(place: Place, value: flint.acb, top: Place, search: Search) -> flint.acb:
+    """Value of the place `top` when the place inside it takes another value."""
+    while place is not top and place.parent is not None:
+        node = place.parent.node
+        whole = search.points.value(node, 0)
+        if isinstance(node, sp.Add):
+            value = whole - search.points.value(place.node, 0) + value
+        elif isinstance(node, sp.Mul):
+            value = whole / search.points.value(place.node, 0) * value
+        elif isinstance(node, sp.Pow) and place.role == FACTOR:
+            value = whole * (value / search.points.value(place.node, 0)) ** int(sp.sign(node.exp))
+        elif isinstance(node, sp.Pow):
+            value = value ** flint.arb(flint.fmpq(int(node.exp.p), int(node.exp.q)))
+        else:
+            value = search.points.applied(node.func, value)
+        place = place.parent
+    return value
+
+
+def _meetings(
+    root: Place, changes: Sequence[_Change], goal: float, truth: Values, search: Search
+) -> Iterator[Pair]:
+    """Pairs of changes in different parts whose effects make up the goal."""
+    product = isinstance(root.node, sp.Mul)
+    effects = [change.effect for change in changes]
+    seen = 0
+    for change in changes:
+        lack = goal / change.effect if product else goal - change.effect
+        margin = _CLOSE * max(abs(lack), 0.0 if product else abs(goal))
+        for index in range(bisect_left(effects, lack - margin), len(changes)):
+            other = changes[index]
+            if other.effect > lack + margin:
+                break
+            if change.part < other.part and seen < _MAX_MEETINGS:
+                seen += 1
+                new = other.applied(change.applied(root.node, root), root)
+                if search.points.same(new, truth):
+                    yield Pair(
+                        edit_of(change.variant, change.place),
+                        edit_of(other.variant, other.place),
+                        root.put(new),
+                    )
+
+
+def _with_overall_ratio(
+    root: Place, changes: Sequence[_Change], truth: Values, search: Search
+) -> Iterator[Pair]:
+    """Changes after which a monomial is all that is missing."""
+    points = search.points
+    last_effect = None
+    for change in changes:
+        if change.part == _OVERALL or change.effect == last_effect:
+            continue
+        last_effect = change.effect
+        if not _could_be_monomial(root, change, truth, search):
+            continue
+        new = change.applied(root.node, root)
+        ratio = [w / v for w, v in zip(truth, points.values(new), strict=True)]
+        simple = monomial(ratio, points)
+        if simple is not None and simple != 1:
+            yield Pair(
+                edit_of(change.variant, change.place),
+                ratio_edit(root, simple),
+                root.put(simple * new),
+            )
+
+
+def _could_be_monomial(root: Place, change: _Change, truth: Values, search: Search) -> bool:
+    """Whether what is missing after a change scales like a power of each symbol in turn."""
+    points = search.points
+    old = root.node.args[change.part]
+    new = change.part_after(root)
+    first = None
+    for point in _tell_tale_points(root, search):
+        value = truth[point] / points.value(root.node, point) * points.value(old, point)
+        lack = real(value / points.value(new, point))
+        if lack is None:
+            return False
+        if first is None:
+            first = lack
+        elif lack / first <= 0 or rational(log2(lack / first), 3) is None:
+            return False
+    return True
+
+
+def _tell_tale_points(root: Place, search: Search) -> list[int]:
+    """The first sample point, then those that double a symbol on which a function depends."""
+    inside: set[sp.Symbol] = set().union(*(f.free_symbols for f in root.node.atoms(sp.Function)))
+    symbols = enumerate(search.points.symbols, start=1)
+    return [0, *(index for index, symbol in symbols if symbol in inside)]

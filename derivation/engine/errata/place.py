@@ -1,0 +1,141 @@
+"""A place in an expression: what stands there, and what would have to stand there.
+
+The needed value of a place is the one that makes the whole equal to the truth;
+it follows from the root downwards by inverting sums, products, powers and
+functions.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from itertools import combinations
+
+import flint
+import sympy as sp
+
+from derivation.engine.errata.sample import Sample, Values
+
+MAX_TERMS = 7
+WHOLE, TERM, TERMS, FACTOR, BASE, ARGUMENT = "whole", "term", "terms", "factor", "base", "argument"
+
+_INVERSE: dict[type[sp.Basic], Callable[[flint.acb], flint.acb]] = {
+    sp.exp: lambda w: w.log(),
+    sp.log: lambda w: w.exp(),
+    sp.sinh: lambda w: w.asinh(),
+    sp.cosh: lambda w: w.acosh(),
+    sp.tanh: lambda w: w.atanh(),
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Place:
+    """A node of an expression, or some terms of a sum, with the way back to the root.
+
+    Parameters
+    ----------
+    node
+        What stands there.
+    role
+        What it is to its parent: a term, a factor, ...
+    parent
+        The place around it; None at the root.
+    taken
+        Indices among the parent's arguments that the place stands for.
+    """
+
+    node: sp.Expr
+    role: str = WHOLE
+    parent: "Place | None" = None
+    taken: tuple[int, ...] = ()
+
+    @property
+    def depth(self) -> int:
+        """Steps to the root."""
+        return 0 if self.parent is None else self.parent.depth + 1
+
+    def put(self, new: sp.Expr, top: "Place | None" = None) -> sp.Expr:
+        """The whole expression, or that of the place `top`, with `new` standing here."""
+        if self.parent is None or self is top:
+            return new
+        node = self.parent.node
+        if isinstance(node, sp.Pow) and self.role == FACTOR:
+            sign = sp.sign(node.exp)
+            return self.parent.put(node / self.node**sign * new**sign, top)
+        rest = list(node.args)
+        for index in reversed(self.taken):
+            del rest[index]
+        rest.insert(self.taken[0], new)
+        return self.parent.put(node.func(*rest), top)
+
+
+def inner(place: Place) -> Iterator[Place]:
+    """The places directly inside a place, groups of terms included."""
+    node, args = place.node, place.node.args
+    if isinstance(node, sp.Add):
+        for index, term in enumerate(args):
+            yield Place(term, TERM, place, (index,))
+        if len(args) <= MAX_TERMS:
+            for size in range(2, len(args)):
+                for group in combinations(range(len(args)), size):
+                    yield Place(sp.Add(*(args[i] for i in group)), TERMS, place, group)
+    elif isinstance(node, sp.Mul):
+        for index, factor in enumerate(args):
+            yield Place(factor, FACTOR, place, (index,))
+    elif isinstance(node, sp.Pow) and isinstance(node.exp, sp.Rational) and not node.base.is_Atom:
+        yield Place(node.base, BASE, place, (0,))
+        if isinstance(node.exp, sp.Integer) and abs(node.exp) > 1:
+            # SymPy writes equal factors as a power; the slip may be in one of them
+            yield Place(node.base, FACTOR, place, (0,))
+    elif isinstance(node, sp.Function) and len(args) == 1:
+        yield Place(args[0], ARGUMENT, place, (0,))
+
+
+def everywhere(place: Place) -> Iterator[Place]:
+    """The place and all places inside it; a group of terms is not entered again."""
+    yield place
+    if place.role != TERMS:
+        for part in inner(place):
+            yield from everywhere(part)
+
+
+def needed(part: Place, need: Values, points: Sample) -> list[flint.acb] | None:
+    """Values an inner place needs, given those its parent needs; None where they do not follow."""
+    assert part.parent is not None  # what the root needs is the truth itself
+    node = part.parent.node
+    have = points.values(part.node)
+    whole = points.values(node)
+    if isinstance(node, sp.Add):
+        others = sp.Add(*(t for i, t in enumerate(node.args) if i not in part.taken))
+        return [w - rest for w, rest in zip(need, points.values(others), strict=True)]
+    if isinstance(node, sp.Mul):
+        return [w / (v / x) for w, v, x in zip(need, whole, have, strict=True)]
+    if isinstance(node, sp.Pow) and part.role == FACTOR:
+        sign = int(sp.sign(node.exp))
+        return [x * (w / v) ** sign for w, v, x in zip(need, whole, have, strict=True)]
+    if isinstance(node, sp.Pow):
+        return [_root(w, node.exp, x) for w, x in zip(need, have, strict=True)]
+    if node.func in _INVERSE:
+        return [_INVERSE[node.func](w) for w in need]
+    return None
+
+
+def _root(value: flint.acb, exponent: sp.Rational, near: flint.acb) -> flint.acb:
+    """The base whose power is the value; of two signs the one of the base that stands there."""
+    root = value ** flint.arb(flint.fmpq(int(exponent.q), int(exponent.p)))
+    if exponent.p % 2:
+        if value.real < 0 and exponent.q == 1:
+            root = -((-value) ** flint.arb(flint.fmpq(1, int(exponent.p))))
+        return root
+    return -root if near.real < 0 else root
+
+
+def with_needs(
+    root: Place, truth: Values, points: Sample
+) -> Iterator[tuple[Place, list[flint.acb]]]:
+    """Every place with the values it needs, where these follow and are finite."""
+    yield root, list(truth)
+    if root.role == TERMS:
+        return
+    for part in inner(root):
+        need = needed(part, truth, points)
+        if need is not None and all(w.is_finite() for w in need):
+            yield from with_needs(part, need, points)

@@ -1,0 +1,55 @@
+"""Search for a correction of a formula: one edit, or else two, the most likely first."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import sympy as sp
+
+from derivation.engine.errata.edit import single_edits
+from derivation.engine.errata.pairs import pair_edits
+from derivation.engine.errata.place import TERMS, Place, inner, needed
+from derivation.engine.errata.sample import Values
+from derivation.engine.errata.variant import Search
+
+TWO = "two misprints"
+MAX_OPERATIONS = 400
+MAX_OPERATIONS_FOR_PAIRS = 150
+
+
+@dataclass(frozen=True)
+class Repair:
+    """A correction: kind of error, a sentence, the corrected expression, number of edits."""
+
+    kind: str
+    says: str
+    expression: sp.Expr
+    edits: int
+
+
+def repairs(given: sp.Expr, truth: Values, search: Search) -> Iterator[Repair]:
+    """Repairs with the true values at every sample point: single edits, then pairs.
+
+    Pairs are sought in different parts of the whole, then of each of its parts.
+    """
+    size = given.count_ops()
+    if size > MAX_OPERATIONS:
+        return
+    root = Place(given)
+    for edit in single_edits(root, truth, search):
+        yield Repair(edit.kind, edit.says, edit.place.put(edit.new), 1)
+    if size > MAX_OPERATIONS_FOR_PAIRS:
+        return
+    yield from _pairs(root, truth, search)
+    for part in inner(root):
+        need = needed(part, truth, search.points)
+        if part.role != TERMS and need is not None and all(w.is_finite() for w in need):
+            yield from _pairs(part, need, search)
+            if isinstance(part.node, sp.Pow):
+                for base in inner(part):
+                    inside = needed(base, need, search.points)
+                    yield from _pairs(base, inside, search) if inside else ()
+
+
+def _pairs(place: Place, need: Values, search: Search) -> Iterator[Repair]:
+    for pair in pair_edits(place, need, search):
+        yield Repair(TWO, pair.says, pair.new, 2)

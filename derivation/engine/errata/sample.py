@@ -1,0 +1,151 @@
+"""Sample points: values of expressions, in 448-bit balls, at which repairs are tried out.
+
+The first point is followed by copies of it with one symbol doubled each, which
+tell a monomial's exponents; further random points guard against coincidence.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import log2
+
+import flint
+import sympy as sp
+
+from derivation.engine.formula.ball import enclose, to_ball
+from derivation.engine.formula.proof import sample_points
+
+BITS = 448
+_RANDOM = 3
+_CLOSE = 1e-11
+
+Values = Sequence[flint.acb]
+"""One complex ball per sample point."""
+
+
+@dataclass(frozen=True, eq=False)
+class Sample:
+    """Sample points, with the values already known at each.
+
+    Parameters
+    ----------
+    symbols
+        The independent symbols, in the order in which the points double them.
+    known
+        Per point, the values of symbols and of expressions met before.
+    """
+
+    symbols: tuple[sp.Symbol, ...]
+    known: tuple[dict[sp.Basic, flint.acb], ...]
+
+    def value(self, expression: sp.Expr, point: int) -> flint.acb:
+        """Ball around the expression's value at one point."""
+        known = self.known[point]
+        if expression in known:
+            return known[expression]
+        return flint.acb(enclose(expression, known))
+
+    def applied(self, function: type[sp.Basic], value: flint.acb) -> flint.acb:
+        """Ball around a function of one argument that has the given value."""
+        argument = sp.Dummy()
+        return flint.acb(enclose(function(argument), {argument: value}))
+
+    def values(self, expression: sp.Expr) -> list[flint.acb]:
+        """Balls around the expression's values at all points."""
+        return [self.value(expression, point) for point in range(len(self.known))]
+
+    def learn(self, expression: sp.Expr) -> None:
+        """Keep the values of an expression and of all its parts."""
+        for node in sp.postorder_traversal(expression):
+            for point, known in enumerate(self.known):
+                if node not in known:
+                    known[node] = self.value(node, point)
+
+    def same(self, expression: sp.Expr, values: Values) -> bool:
+        """Whether an expression has these values at every point."""
+        return all(
+            agree(self.value(expression, point), value) for point, value in enumerate(values)
+        )
+
+
+def agree(x: flint.acb, y: flint.acb) -> bool:
+    """Whether two balls are finite and overlap, that is agree to all their digits."""
+    return bool(x.is_finite() and y.is_finite() and x.overlaps(y))
+
+
+def sample(
+    expressions: Sequence[sp.Expr],
+    relations: Mapping[sp.Symbol, sp.Expr],
+    within: Mapping[sp.Symbol, Fraction],
+) -> Sample:
+    """Points for all symbols of some expressions; a symbol with a relation follows the others.
+
+    The random values of the symbols in `within` are multiplied by these factors.
+    """
+    symbols: set[sp.Symbol] = set().union(*(e.free_symbols for e in expressions))
+    dependent = [s for s in relations if s in symbols]
+    for symbol in dependent:
+        symbols |= relations[symbol].free_symbols
+    free = tuple(sorted(symbols - set(relations), key=str))
+    first, *others = sample_points(free, _RANDOM)
+    doubled = [first | {symbol: 2 * first[symbol]} for symbol in free]
+    points = [
+        {s: v * within.get(s, 1) for s, v in point.items()} for point in (first, *doubled, *others)
+    ]
+    known: list[dict[sp.Basic, flint.acb]] = []
+    for point in points:
+        values: dict[sp.Basic, flint.acb] = {s: flint.acb(to_ball(v)) for s, v in point.items()}
+        for symbol in sorted(dependent, key=lambda s: len(relations[s].free_symbols)):
+            values[symbol] = flint.acb(enclose(relations[symbol], values))
+        known.append(values)
+    return Sample(free, tuple(known))
+
+
+def real(value: flint.acb) -> float | None:
+    """The value as a float, or None if it is not real, finite and of ordinary size."""
+    if not value.is_finite():
+        return None
+    number = complex(value)
+    ordinary = 1e-250 < abs(number.real) < 1e250
+    return number.real if ordinary and abs(number.imag) < 1e-30 * abs(number.real) else None
+
+
+def rational(number: float, denominator: int) -> Fraction | None:
+    """The simple fraction a number stands for, if any."""
+    if not abs(number) < 1e6:
+        return None
+    fraction = Fraction(number).limit_denominator(denominator)
+    return fraction if abs(number - fraction) <= _CLOSE * max(1.0, abs(number)) else None
+
+
+def constant(values: Values) -> sp.Expr | None:
+    """The simple rational, times a power of pi, that all values are, if any."""
+    number = real(values[0])
+    if number is None or not agree(values[0], values[-1]):
+        return None
+    for power in (0, 1, -1, 2, -2):
+        fraction = rational(number / 3.141592653589793**power, 64)
+        if fraction:
+            with_pi = sp.Rational(fraction.numerator, fraction.denominator) * sp.pi**power
+            ball = flint.acb(enclose(with_pi, {}))
+            if all(agree(ball, value) for value in values):
+                return with_pi
+    return None
+
+
+def monomial(values: Values, points: Sample) -> sp.Expr | None:
+    """The constant times powers of the symbols that the values are, if any."""
+    first = real(values[0])
+    if first is None:
+        return None
+    power = sp.Integer(1)
+    for index, symbol in enumerate(points.symbols, start=1):
+        other = real(values[index])
+        if other is None or other / first <= 0:
+            return None
+        exponent = rational(log2(other / first), 3)
+        if exponent is None or abs(exponent) > 12:
+            return None
+        power *= symbol ** sp.Rational(exponent.numerator, exponent.denominator)
+    factor = constant([v / p for v, p in zip(values, points.values(power), strict=True)])
+    return None if factor is None else factor * power

@@ -1,0 +1,117 @@
+"""Formulas that are sums over modes: the contribution of one mode is compared."""
+
+import ast
+import re
+from collections.abc import Mapping
+
+import sympy as sp
+
+from derivation.engine.formula.parse import FormulaError, parse
+from derivation.engine.formula.record import Record
+from derivation.engine.formula.vocabulary import Vocabulary
+
+_LATEX_SUM = (
+    r"(?P<factor>[^+]*?)\\sum(?:\\limits)?\s*_\s*(?:\{{\s*{index}\s*(?:=\s*1\s*)?\}}|{index})"
+    r"\s*(?:\^\s*(?:\{{\s*\\infty\s*\}}|\\infty))?(?P<term>.*)"
+)
+
+
+def note(formula: Record) -> str | None:
+    """What is compared, if the quantity is a sum over the modes."""
+    if not formula.summed:
+        return None
+    j = formula.vocabulary.indices[0]
+    return f"the contribution of one mode {j}; {formula.name} is the sum of it over {j} = 1, 2, ..."
+
+
+def without_latex_sum(text: str, vocabulary: Vocabulary) -> str:
+    r"""LaTeX of the contribution of one mode, from ``\sum_{j=1}^{\infty} ...`` or from itself."""
+    match = re.fullmatch(_LATEX_SUM.format(index=_index(vocabulary)), text, re.DOTALL)
+    if match is None:
+        return text
+    return f"{match['factor']} ({match['term'].strip().rstrip('.,;')})"
+
+
+def _index(vocabulary: Vocabulary) -> str:
+    """A pattern of the letters that count the terms, which nothing matches if there are none."""
+    return f"(?:{'|'.join(vocabulary.indices)})" if vocabulary.indices else "(?!)"
+
+
+def parse_contribution(text: str, vocabulary: Vocabulary, also: Mapping[str, sp.Basic]) -> sp.Expr:
+    """The contribution of one mode, from ``c*Sum(..., (j, 1, oo))`` or from itself.
+
+    Raises
+    ------
+    FormulaError
+        If it cannot be read, or is not linear in its sums.
+    """
+    plain = " ".join(text.split())
+    calls = _sums(plain)
+    if not calls:
+        return parse(text, vocabulary, also)
+    marks = {f"summand_{place}": sp.Symbol(f"summand_{place}") for place in range(len(calls))}
+    outer, terms = plain, {}
+    for (name, mark), call in zip(marks.items(), calls, strict=True):
+        source = plain[call.col_offset : call.end_col_offset]
+        _check_limits(call, source, vocabulary)
+        body = call.args[0]
+        terms[mark] = parse(plain[body.col_offset : body.end_col_offset], vocabulary, also)
+        outer = outer.replace(source, name, 1)
+    whole = parse(outer, vocabulary, {**also, **marks})
+    factors = [whole.diff(mark) for mark in terms]
+    rest = whole.xreplace(dict.fromkeys(terms, sp.Integer(0)))
+    if rest != 0 or any(f.free_symbols & (set(terms) | vocabulary.per_term) for f in factors):
+        raise FormulaError(
+            "expected sums over the modes times factors that are equal for all modes: "
+            "write everything that depends on the mode inside Sum(...)"
+        )
+    return whole.xreplace(terms)
+
+
+def _sums(plain: str) -> list[ast.Call]:
+    """The calls of Sum that are in no other one, in their order; none if it cannot be read."""
+    if "Sum" not in plain:
+        return []
+    try:
+        tree = ast.parse(plain, mode="eval")
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return []
+    return sorted(
+        (
+            node
+            for node in ast.walk(tree)
+            if isinstance(node, ast.Call)
+            and isinstance(node.func, ast.Name)
+            and node.func.id == "Sum"
+        ),
+        key=lambda node: node.col_offset,
+    )
+
+
+def _check_limits(call: ast.Call, source: str, vocabulary: Vocabulary) -> None:
+    limits = [ast.unparse(argument) for argument in call.args[1:]]
+    if (
+        len(limits) != 1
+        or re.fullmatch(rf"\({_index(vocabulary)}, 1, oo\)", limits[0]) is None
+        or call.keywords
+    ):
+        raise FormulaError(
+            f"expected a sum over all modes, got {source:.60}: write Sum(..., (j, 1, oo))"
+        )
+
+
+def check_contribution(formula: Record, given: sp.Expr) -> None:
+    """Refuse what cannot be the contribution of one mode, for instance the whole sum.
+
+    Raises
+    ------
+    FormulaError
+        If no symbol of the given formula depends on the mode.
+    """
+    per_term = formula.vocabulary.per_term
+    if formula.summed and not given.free_symbols & per_term:
+        per_mode = ", ".join(sorted(s.name for s in formula.expression.free_symbols & per_term))
+        raise FormulaError(
+            f"{formula.name} is a sum over the modes j: expected the contribution of one mode, "
+            f"which depends on {per_mode}, got {given!s:.60}; give one term of the sum"
+        )

@@ -1,0 +1,251 @@
+"""Compare a formula given as text with the derived one, and evaluate both at a point."""
+
+import itertools
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from decimal import ROUND_HALF_EVEN, Context, Decimal
+from fractions import Fraction
+
+import flint
+import sympy as sp
+
+from derivation.engine.bounded import bounded
+from derivation.engine.errata import summed
+from derivation.engine.errata.compare import (
+    Diagnosis,
+    comparable,
+    diagnose,
+    known_formula,
+    relations_between,
+    resolved,
+)
+from derivation.engine.errata.point import completed, exact, others, parse_point
+from derivation.engine.errata.relations import Point, Relations
+from derivation.engine.formula.ball import PrecisionError, enclose, evaluate, to_ball
+from derivation.engine.formula.chain import Chain
+from derivation.engine.formula.parse import FormulaError
+from derivation.engine.formula.parse_latex import parse_latex
+from derivation.engine.formula.record import Record
+from derivation.engine.formula.vocabulary import Vocabulary, applicable
+
+MAX_DIGITS = 1000
+_GUARD_DIGITS = (10, 100, 1000)
+_MAX_BINARY_EXPONENT = 1 << 18
+_ZERO_BITS = 8192
+
+
+@dataclass(frozen=True)
+class TextDiagnosis:
+    """A diagnosis with both values at a point, as text.
+
+    Parameters
+    ----------
+    diagnosis
+        The comparison of the formulas themselves.
+    point
+        The values at which both were evaluated.
+    given_value, derived_value
+        Decimal values, correctly rounded.
+    compared
+        What was compared, if it is not the quantity itself: one term of a sum.
+    """
+
+    diagnosis: Diagnosis
+    point: tuple[tuple[str, str], ...]
+    given_value: str
+    derived_value: str
+    compared: str | None = None
+
+    @property
+    def verdict(self) -> str:
+        """``equal`` or ``different``."""
+        return self.diagnosis.verdict
+
+    @property
+    def repair(self) -> str:
+        """How to correct the given formula, in a sentence."""
+        return self.diagnosis.repair
+
+    @property
+    def ratio(self) -> sp.Expr | None:
+        """Given over derived, where that is short."""
+        return self.diagnosis.ratio
+
+    def to_json(self) -> dict[str, object]:
+        """Plain text under fixed keys."""
+        more = self.diagnosis.to_json()
+        return {
+            "name": more["name"],
+            "compared": self.compared,
+            "verdict": more["verdict"],
+            "kind": more["kind"],
+            "repair": more["repair"],
+            "repaired": more["repaired"],
+            "ratio": more["ratio"],
+            "dimension": more["dimension"],
+            "method": more["method"],
+            "point": dict(self.point),
+            "given": self.given_value,
+            "derived": self.derived_value,
+        }
+
+    def _repr_latex_(self) -> str:
+        return self.diagnosis._repr_latex_()
+
+    def _repr_markdown_(self) -> str:
+        """The comparison, and both values at the point."""
+        at = ", ".join(f"{name} = {value}" for name, value in self.point)
+        values = f"given {self.given_value}\n\nderived {self.derived_value}"
+        return f"{self.diagnosis._repr_markdown_()}\n\nAt {at}:\n\n{values}"
+
+
+def diagnose_text(
+    name: str,
+    text: str,
+    formulas: Mapping[str, Record],
+    relations: Relations,
+    *,
+    latex: bool = False,
+    at: Mapping[str, str] | None = None,
+    digits: int = 50,
+) -> TextDiagnosis:
+    """Compare a formula given as text with the derived one; nothing in it is executed.
+
+    Parameters
+    ----------
+    name
+        Name of the derived formula it should equal.
+    text
+        The formula in SymPy syntax, or in LaTeX if `latex`. Names of other formulas
+        stand for these. Of a sum over modes one term is expected, or ``Sum(..., (j, 1, oo))``.
+    formulas
+        The chain's formulas by name.
+    relations
+        Which of the symbols follow from others.
+    at
+        Exact decimal values of symbols [SI]; the others take default values.
+    digits
+        Significant digits of both values.
+
+    Raises
+    ------
+    FormulaError
+        For a name, formula, point or number of digits that cannot be used.
+    """
+    if not 1 <= digits <= MAX_DIGITS:
+        raise FormulaError(f"expected 1 to {MAX_DIGITS} digits, got {digits}")
+    formula = known_formula(name, formulas)
+    own = formula.vocabulary
+    chosen = exact(at or {}, own, relations)
+    references = {n: sp.Symbol(n, real=True) for n in comparable(formulas)}
+    given = read(text, own, {**references, **own.guest_names}, latex)
+    summed.check_contribution(formula, resolved(given, formulas, own))
+    diagnosis = diagnose(name, given, formulas, relations)
+    derived = formula.expression
+    meanings = relations_between(name, diagnosis.given, derived, formulas, relations)
+    sides = [side.subs(meanings) for side in (diagnosis.given, derived)]
+    names = sorted({s.name for side in sides for s in side.free_symbols})
+    domain = [condition for n in names for condition in own.by_name[n].domain]
+    conditions = dict.fromkeys(applicable([*domain, *formula.where], set(names)))
+    point = completed(chosen, names, meanings, conditions, own)
+    points = itertools.chain([point], others(point, chosen, conditions, own))
+    point, derived_value = _first(sides[1], points, own, digits)
+    given_value = _at(sides[0], point, own, digits)
+    shown = tuple((n, literal) for n, (literal, _) in point.items())
+    return TextDiagnosis(diagnosis, shown, given_value, derived_value, summed.note(formula))
+
+
+def diagnosed(
+    chain: Chain,
+    relations: Relations,
+    name: str,
+    text: str,
+    *,
+    latex: bool = False,
+    at: str = "",
+    digits: int = 50,
+) -> TextDiagnosis:
+    """As `diagnose_text`, with limits of time and memory, the point as ``phi=2.5,h=0.1``.
+
+    Raises
+    ------
+    FormulaError
+        For a name, formula, point or number of digits that cannot be used.
+    """
+    point = parse_point(at)
+    # Text that cannot be read is refused before anything is derived, whatever names it uses.
+    anything = {word: sp.Symbol(word) for word in re.findall(r"[A-Za-z]\w*", text)}
+    own = chain.vocabulary
+    bounded(lambda: read(text, own, anything, latex) and None, "reading the formula")
+    known = chain.formulas()
+    return bounded(
+        lambda: diagnose_text(name, text, known, relations, latex=latex, at=point, digits=digits),
+        "comparing the formulas",
+    )
+
+
+def read(text: str, vocabulary: Vocabulary, also: Mapping[str, sp.Basic], latex: bool) -> sp.Expr:
+    """The expression of a text in SymPy syntax or LaTeX; of a sum over the modes one term."""
+    if latex:
+        return parse_latex(summed.without_latex_sum(text, vocabulary), vocabulary, also)
+    return summed.parse_contribution(text, vocabulary, also)
+
+
+def _first(
+    expression: sp.Expr, points: Iterable[Point], vocabulary: Vocabulary, digits: int
+) -> tuple[Point, str]:
+    """The first point at which the expression has a real value, and that value."""
+    errors = []
+    for point in points:
+        try:
+            return point, _at(expression, point, vocabulary, digits)
+        except FormulaError as error:
+            errors.append(error)
+    more = len(errors) - 1
+    raise FormulaError(f"{errors[0]}" + (f"; {more} points near it have none" if more else ""))
+
+
+def _at(expression: sp.Expr, point: Point, vocabulary: Vocabulary, digits: int) -> str:
+    """Value of an expression at a point, correctly rounded."""
+    values = {vocabulary.by_name[n].symbol: value for n, (_, value) in point.items()}
+    where = ", ".join(f"{n} = {literal}" for n, (literal, _) in point.items())
+    return _decimal(expression, values, digits, where)
+
+
+def _decimal(
+    expression: sp.Expr, values: Mapping[sp.Symbol, Fraction], digits: int, where: str
+) -> str:
+    """Value of an expression, correctly rounded to so many significant digits."""
+    try:
+        for guard in _GUARD_DIGITS:
+            ball = evaluate(expression, values, digits + guard)
+            middle, radius = _fraction(ball.mid()), _fraction(ball.rad())
+            ends = {_round(end, digits) for end in (middle - radius, middle + radius)}
+            if len(ends) == 1:
+                return ends.pop()
+    except PrecisionError:
+        return _zero_or_singular(expression, values, where)
+    # A tie as far as a thousand further digits tell: the value itself is half-way.
+    return _round(middle, digits)
+
+
+def _round(value: Fraction, digits: int) -> str:
+    context = Context(prec=digits, rounding=ROUND_HALF_EVEN, Emax=10**9, Emin=-(10**9))
+    return str(context.divide(Decimal(value.numerator), Decimal(value.denominator)))
+
+
+def _fraction(point: flint.arb) -> Fraction:
+    mantissa, exponent = point.man_exp()
+    if abs(int(exponent)) > _MAX_BINARY_EXPONENT:
+        raise FormulaError("the value is too large or too small to print: choose another point")
+    return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
+
+
+def _zero_or_singular(expression: sp.Expr, values: Mapping[sp.Symbol, Fraction], where: str) -> str:
+    """``0`` for a value that 8192 bits cannot tell from zero; otherwise there is none."""
+    with flint.ctx.workprec(_ZERO_BITS):
+        ball = enclose(expression, {symbol: to_ball(value) for symbol, value in values.items()})
+    if ball.is_finite() and ball.contains(0):
+        return "0"
+    raise FormulaError(f"{expression!s:.80} has no real value at {where}: choose another point")

@@ -1,0 +1,296 @@
+"""What could have been meant at a place: other functions, parentheses, faces, simple multiples.
+
+A variant carries its value at the first sample point, so that thousands can be
+looked through before one is written out as an expression.
+"""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import chain, combinations
+
+import flint
+import sympy as sp
+
+from derivation.engine.errata.place import BASE, FACTOR, TERMS, WHOLE, Place
+from derivation.engine.errata.sample import Sample
+
+SIGN, CONSTANT, EXPONENT, SWAP = "sign", "constant ratio", "wrong exponent", "swapped function"
+STRAY, MISSING = "extra factor", "missing factor"
+LOST, SUPERFLUOUS = "missing parentheses", "superfluous parentheses"
+FACE, TWICE, SUM = "other face", "factor counted twice", "wrong term"
+
+COST: Mapping[str, float] = {
+    SIGN: 1.0,
+    CONSTANT: 2.0,
+    EXPONENT: 2.2,
+    STRAY: 2.4,
+    MISSING: 2.4,
+    SWAP: 2.5,
+    LOST: 2.8,
+    SUPERFLUOUS: 2.9,
+    FACE: 3.0,
+    TWICE: 3.2,
+    SUM: 5.0,
+}
+"""Weight of each kind of error: the smaller, the more likely."""
+
+_SHAPES: tuple[type[sp.Basic], ...] = (
+    sp.sin,
+    sp.cos,
+    sp.sinh,
+    sp.cosh,
+    sp.exp,
+    sp.tan,
+    sp.tanh,
+    sp.coth,
+)
+_FACES = ("z", "h")
+_MAX_FACTORS = 9
+_EXPONENTS = tuple(sp.Rational(k) for k in (-1, 2, -2, 3, 4)) + tuple(
+    sp.Rational(*k) for k in ((1, 2), (1, 3), (2, 3), (3, 2), (4, 3), (3, 4), (5, 4), (5, 3))
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Variant:
+    """Something else that a place could hold.
+
+    Parameters
+    ----------
+    kind
+        The kind of error that would have turned it into what stands there.
+    value
+        Its value at the first sample point.
+    build
+        Writes it out.
+    extra
+        Price on top of that of its kind.
+    shown
+        Text of it, where the expression alone would not show the change.
+    """
+
+    kind: str
+    value: flint.acb
+    build: Callable[[], sp.Expr]
+    extra: float = 0.0
+    shown: Callable[[], str] | None = None
+
+
+@dataclass(frozen=True)
+class Search:
+    """What the search may use: the sample, factors of both formulas, terms of the right one."""
+
+    points: Sample
+    factors: tuple[sp.Expr, ...]
+    terms: tuple[sp.Expr, ...]
+
+    def variant(self, kind: str, new: sp.Expr, extra: float = 0.0) -> Variant:
+        """A variant that is at hand as an expression."""
+        return Variant(kind, self.points.value(new, 0), lambda: new, extra)
+
+
+def variants(place: Place, search: Search) -> Iterator[Variant]:
+    """Other functions, parentheses and faces: what only trying can find."""
+    if place.role != TERMS:
+        yield from other_functions(place.node, search)
+        yield from lost_parentheses(place.node, search)
+        if place.role != FACTOR:
+            yield from superfluous_parentheses(place.node, search)
+        yield from other_faces(place.node, search)
+
+
+def tried(place: Place, search: Search) -> Iterator[Variant]:
+    """All variants, simple multiples and powers included, for where nothing can be solved for."""
+    yield from variants(place, search)
+    node, value = place.node, search.points.value(place.node, 0)
+    if own_ratio(place):
+        for kind, factor, extra in multipliers(search):
+            times = value * search.points.value(factor, 0)
+            yield Variant(kind, times, lambda f=factor: f * node, extra)  # type: ignore[misc]
+    if not node.is_number and place.role not in (BASE, TERMS):
+        for power in _EXPONENTS:
+            raised = value ** flint.arb(flint.fmpq(int(power.p), int(power.q)))
+            yield Variant(EXPONENT, raised, lambda k=power: raised_to(node, k))  # type: ignore[misc]
+
+
+def raised_to(node: sp.Expr, power: sp.Rational) -> sp.Expr:
+    """The node to a power; of a power, that of its base, so that no root meets a square."""
+    base, exponent = node.as_base_exp()
+    return base ** (exponent * power)
+
+
+def own_ratio(place: Place) -> bool:
+    """Whether a ratio here is not simply the ratio of the product or power around it."""
+    if place.role == BASE:
+        return bool(place.parent is not None and abs(place.parent.node.exp) != 1)
+    return place.role != FACTOR
+
+
+def multipliers(search: Search) -> Iterator[tuple[str, sp.Expr, float]]:
+    """Sign, small numbers, powers of the symbols, and the factors at hand."""
+    yield SIGN, sp.Integer(-1), 0.0
+    for kind, factor in small_factors(search.points.symbols):
+        yield kind, factor, 0.2
+    for factor in search.factors:
+        yield TWICE, 1 / factor, 0.0
+        yield MISSING, factor, 0.8
+
+
+def small_factors(symbols: Sequence[sp.Symbol]) -> Iterator[tuple[str, sp.Expr]]:
+    """Simple multipliers to try where the ratio cannot be computed."""
+    for number in (2, 3, 4, 8, 16):
+        yield CONSTANT, sp.Integer(number)
+        yield CONSTANT, sp.Rational(1, number)
+    for above, below in ((2, 3), (3, 2), (3, 4), (4, 3)):
+        yield CONSTANT, sp.Rational(above, below)
+    yield CONSTANT, sp.pi
+    yield CONSTANT, 1 / sp.pi
+    for symbol in symbols:
+        for power in (-1, 1, -2, 2):
+            yield (STRAY if power < 0 else MISSING), symbol**power
+
+
+def other_functions(node: sp.Expr, search: Search) -> Iterator[Variant]:
+    """Another function of the same argument, or the same one of a slightly other argument."""
+    apply: Callable[[sp.Expr], sp.Expr]
+    if isinstance(node, sp.besselj):
+        order, argument = node.args
+        others = [sp.besselj(1 - order, argument)] if order in (0, 1) else []
+        apply = lambda x: sp.besselj(order, x)  # noqa: E731
+    elif node.func in _SHAPES:
+        argument, apply = node.args[0], node.func
+        others = [shape(argument) for shape in _SHAPES if shape is not node.func]
+    else:
+        return
+    for new in others:
+        yield search.variant(SWAP, new)
+    if isinstance(node, sp.sin | sp.cos | sp.tan | sp.besselj):
+        for kind, factor in small_factors(search.points.symbols):
+            yield search.variant(kind, apply(factor * argument), 0.2)
+
+
+def other_faces(node: sp.Expr, search: Search) -> Iterator[Variant]:
+    """The same with z or h reversed, where that changes it."""
+    if node.is_Atom:
+        return
+    for symbol in sorted(node.free_symbols, key=str):
+        if symbol.name in _FACES:
+            new = node.subs(symbol, -symbol)
+            if new != node:
+                yield search.variant(FACE, new)
+
+
+def lost_parentheses(node: sp.Expr, search: Search) -> Iterator[Variant]:
+    """c (x + y) for c x + y: a factor of one term of a sum drawn in front of further terms."""
+    if not isinstance(node, sp.Add):
+        return
+    terms = node.args
+    values = [search.points.value(term, 0) for term in terms]
+    whole = search.points.value(node, 0)
+    for index, term in enumerate(terms):
+        rest = [i for i in range(len(terms)) if i != index]
+        for factors, size in _partial_products(term, search):
+            for group in groups(rest):
+                value = whole + (size - 1) * sum(values[i] for i in group)
+                grouped = _Grouped(terms, index, factors, group)
+                yield Variant(LOST, value, grouped.build, 0.0, grouped.shown)
+
+
+@dataclass(frozen=True)
+class _Grouped:
+    """A sum with a factor of one term drawn in front of a group of others."""
+
+    terms: Sequence[sp.Expr]
+    index: int
+    factors: Sequence[sp.Expr]
+    group: Sequence[int]
+
+    def _parts(self) -> tuple[sp.Expr, sp.Expr, sp.Expr]:
+        factor = sp.Mul(*self.factors)
+        inside = self.terms[self.index] / factor + sp.Add(*(self.terms[i] for i in self.group))
+        used = {self.index, *self.group}
+        return factor, inside, sp.Add(*(t for i, t in enumerate(self.terms) if i not in used))
+
+    def build(self) -> sp.Expr:
+        factor, inside, kept = self._parts()
+        return kept + factor * inside
+
+    def shown(self) -> str:
+        factor, inside, _ = self._parts()
+        return f"{sp.sstr(factor)}*({sp.sstr(inside)})"
+
+
+def superfluous_parentheses(node: sp.Expr, search: Search) -> Iterator[Variant]:
+    """c x + y for c (x + y): a factor of a product stands before some terms of a sum only."""
+    for factor in node.args if isinstance(node, sp.Mul) else ():
+        base, exponent = factor.as_base_exp()
+        if not isinstance(base, sp.Add) or abs(exponent) != 1:
+            continue
+        others = (node / factor) ** exponent
+        others = sp.numer(others) if exponent < 0 else others
+        whole, sum_value = search.points.value(node, 0), search.points.value(base, 0)
+        values = [search.points.value(term, 0) for term in base.args]
+        for factors, size in _partial_products(others, search):
+            for group in groups(range(len(base.args))):
+                if len(group) < len(base.args):
+                    part = sum(values[i] for i in group)
+                    ratio = (sum_value + (size - 1) * part) / (sum_value * size)
+                    value = whole * ratio ** int(exponent)
+                    spread = _Spread(node, base, exponent, factors, group)
+                    yield Variant(SUPERFLUOUS, value, spread.build, 0.0, spread.shown)
+
+
+@dataclass(frozen=True)
+class _Spread:
+    """A product with a sum in which some factors stand before a group of terms only."""
+
+    node: sp.Expr
+    base: sp.Expr
+    exponent: sp.Expr
+    factors: Sequence[sp.Expr]
+    group: Sequence[int]
+
+    def _sum(self) -> sp.Expr:
+        inside = sp.Add(*(self.base.args[i] for i in self.group))
+        return sp.Mul(*self.factors) * inside + (self.base - inside)
+
+    def build(self) -> sp.Expr:
+        taken = self.base * sp.Mul(*self.factors)
+        return self.node * (self._sum() / taken) ** self.exponent
+
+    def shown(self) -> str:
+        return str(sp.sstr(self._sum()))
+
+
+def _partial_products(
+    term: sp.Expr, search: Search
+) -> Iterator[tuple[tuple[sp.Expr, ...], flint.acb]]:
+    """Some of a term's factors, their product other than +-1, and its value."""
+    factors = sp.Mul.make_args(term)
+    if len(factors) > _MAX_FACTORS:
+        return
+    for some in chain.from_iterable(
+        combinations(factors, size) for size in range(1, len(factors) + 1)
+    ):
+        if some == (sp.S.NegativeOne,):
+            continue
+        value = flint.acb(1)
+        for factor in some:
+            value *= search.points.value(factor, 0)
+        yield some, value
+        if some[0].is_number and some[0].is_negative:
+            yield (sp.S.NegativeOne, *some), -value
+
+
+def groups(members: Sequence[int]) -> Iterator[tuple[int, ...]]:
+    """Non-empty groups: every one where there are few members, else small ones and the whole."""
+    count = len(members)
+    sizes = range(1, count + 1) if count <= 5 else (1, 2, count)
+    return chain.from_iterable(combinations(members, size) for size in sizes)
+
+
+def name_of(place: Place) -> str:
+    """How a sentence calls what stands at a place."""
+    text = sp.sstr(place.node)
+    short = text if len(text) <= 90 else text[:87] + "..."
+    return "the whole expression" if place.role == WHOLE else f"the {place.role} {short}"

@@ -1,0 +1,173 @@
+"""Physical dimensions: units, and the dimension of a SymPy expression found term by term."""
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cache
+
+import sympy as sp
+
+
+class DimensionError(ValueError):
+    """An expression adds, exponentiates or feeds to a function what it must not."""
+
+
+@dataclass(frozen=True)
+class Dimension:
+    """Exponents of length, mass and time."""
+
+    length: Fraction = Fraction(0)
+    mass: Fraction = Fraction(0)
+    time: Fraction = Fraction(0)
+
+    def __mul__(self, other: "Dimension") -> "Dimension":
+        return Dimension(self.length + other.length, self.mass + other.mass, self.time + other.time)
+
+    def __pow__(self, exponent: Fraction | int) -> "Dimension":
+        return Dimension(self.length * exponent, self.mass * exponent, self.time * exponent)
+
+    def __truediv__(self, other: "Dimension") -> "Dimension":
+        return self * other**-1
+
+    def __str__(self) -> str:
+        exponents = (("m", self.length), ("kg", self.mass), ("s", self.time))
+        return " ".join(f"{u}^{e}" if e != 1 else u for u, e in exponents if e) or "1"
+
+
+ONE = Dimension()
+LENGTH = Dimension(length=Fraction(1))
+MASS = Dimension(mass=Fraction(1))
+TIME = Dimension(time=Fraction(1))
+FORCE = MASS * LENGTH / TIME**2
+STRESS = FORCE / LENGTH**2
+
+BASE = {
+    "1": ONE,
+    "m": LENGTH,
+    "kg": MASS,
+    "s": TIME,
+    "N": FORCE,
+    "J": FORCE * LENGTH,
+    "W": FORCE * LENGTH / TIME,
+    "Pa": STRESS,
+}
+"""Units that others are made of."""
+
+_FACTOR = re.compile(r"(1|[A-Za-z]+)(?:\^(?:(\d+)|\((\d+/\d+)\)))?")
+_SLASH = re.compile(r"/(?!\d+\))")
+
+
+@cache
+def unit(text: str) -> Dimension:
+    """Dimension of a unit: factors with powers, and after at most one slash those below it.
+
+    Several factors below stand in brackets: ``m/N^(5/3)``, ``kg m/s^2``, ``J/(kg m)``.
+
+    Raises
+    ------
+    ValueError
+        If the text is no such unit.
+    """
+    above, *below = _SLASH.split(text)
+    sides = [_product(above), *(_below(side) for side in below)]
+    if None in sides or len(sides) > 2:
+        raise ValueError(
+            f"expected a unit like m/N^(5/3) or J/(kg m), got {text!r:.40}; "
+            f"make it of {', '.join(BASE)}"
+        )
+    first, *others = (side for side in sides if side is not None)
+    return first / others[0] if others else first
+
+
+def _below(text: str) -> Dimension | None:
+    """Dimension of a factor, or of several in brackets; None if one of them is no unit."""
+    held = text.startswith("(") and text.endswith(")")
+    return _product(text[1:-1]) if held else _factor(text)
+
+
+def _product(text: str) -> Dimension | None:
+    """Dimension of factors separated by spaces; None if one of them is no unit."""
+    found = ONE
+    for part in text.split(" "):
+        factor = _factor(part)
+        if factor is None:
+            return None
+        found = found * factor
+    return found
+
+
+def _factor(text: str) -> Dimension | None:
+    """Dimension of a unit with its power; None if it is no unit."""
+    match = _FACTOR.fullmatch(text)
+    if match is None or match[1] not in BASE:
+        return None
+    return BASE[match[1]] ** Fraction(match[2] or match[3] or 1)
+
+
+def thirds(base: str, count: int) -> str:
+    """A unit or symbol to the power count/3, as text: ``m``, ``m^(5/3)``, ``m^3``."""
+    power = Fraction(count, 3)
+    if power == 1:
+        return base
+    return f"{base}^{power}" if power.denominator == 1 else f"{base}^({power})"
+
+
+def dimension(expression: sp.Basic, known: Mapping[sp.Basic, Dimension]) -> Dimension:
+    """Dimension of an expression whose symbols (and undefined functions) are in `known`.
+
+    Raises
+    ------
+    DimensionError
+        Where unlike dimensions are added, or an exponent or a function's
+        argument is not a pure number. The message names the offending part.
+    """
+    if expression in known:
+        return known[expression]
+    if expression.is_number:
+        return ONE
+    if isinstance(expression, sp.Add):
+        return _of_sum(expression, known)
+    if isinstance(expression, sp.Mul):
+        result = ONE
+        for factor in expression.args:
+            result = result * dimension(factor, known)
+        return result
+    if isinstance(expression, sp.Pow) and isinstance(expression.exp, sp.Rational):
+        return dimension(expression.base, known) ** Fraction(expression.exp.p, expression.exp.q)
+    if isinstance(expression, sp.Derivative):
+        result = dimension(expression.expr, known)
+        for variable, count in expression.variable_count:
+            result = result / dimension(variable, known) ** int(count)
+        return result
+    if isinstance(expression, sp.Sum):
+        indices = dict.fromkeys(expression.variables, ONE)
+        return dimension(expression.function, {**known, **indices})
+    if isinstance(expression, sp.Integral):
+        # A variable of integration that is no symbol of the paper is a pure number.
+        variables = {v: known.get(v, ONE) for v in expression.variables}
+        result = dimension(expression.function, {**known, **variables})
+        for variable in expression.variables:
+            result = result * variables[variable]
+        return result
+    if isinstance(expression, sp.Function | sp.Pow) and expression.args:
+        for argument in expression.args:
+            found = dimension(argument, known)
+            if found != ONE:
+                raise DimensionError(
+                    f"{argument} in {expression} has dimension [{found}], expected a pure number"
+                )
+        return ONE
+    raise DimensionError(f"the dimension of {expression} is not known")
+
+
+def _of_sum(expression: sp.Add, known: Mapping[sp.Basic, Dimension]) -> Dimension:
+    first, *rest = expression.args
+    expected = dimension(first, known)
+    for term in rest:
+        found = dimension(term, known)
+        if found != expected:
+            raise DimensionError(
+                f"in {expression} the terms {first} [{expected}] and {term} [{found}] are added"
+            )
+    return expected

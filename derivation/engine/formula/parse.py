@@ -1,0 +1,337 @@
+"""Parse text in SymPy syntax into an expression through a whitelist, without executing it.
+
+The text becomes a Python syntax tree, which is only read. The size of each operation is
+checked before it is performed, so that no input can produce a huge number or power.
+"""
+
+import ast
+import re
+from collections.abc import Callable, Mapping, Set
+from fractions import Fraction
+
+import flint
+import sympy as sp
+
+from derivation.engine.formula.ball import enclose
+from derivation.engine.formula.size import degree
+from derivation.engine.formula.vocabulary import Vocabulary
+
+MAX_TEXT = 20_000
+MAX_NESTING = 50
+MAX_DEPTH = 200
+MAX_NODES = 6_000
+MAX_DIGITS = 60
+MAX_BITS = 512
+MAX_EXPONENT = 100
+MAX_CONSTANT_ARGUMENT = 10_000
+MAX_ORDER = 10
+MAX_DEGREE = 1000
+"""Largest product of nested exponents: ((x + 1)**9 + 1)**9 has 81."""
+
+
+class FormulaError(ValueError):
+    """A formula that cannot be used; the message says what was expected, what came, what to do."""
+
+
+_CONSTANTS: Mapping[str, sp.Basic] = {"pi": sp.pi, "EulerGamma": sp.EulerGamma}
+
+_NAME_HINTS = {
+    "E": "E usually is Young's modulus, which has no meaning in this formula; "
+    "for the number 2.718... write exp(1)",
+    "e": "for powers of the number 2.718... write exp(...)",
+    "I": "formulas are real: leave out the imaginary unit",
+    "oo": "formulas are finite: leave out oo",
+    "inf": "formulas are finite: leave out inf",
+}
+
+_HINTS = {
+    "^": "'^' is not a power here: write **",
+    "=": "'=' is not allowed: give only the right-hand side",
+    "<": "a comparison is not a formula: give one expression",
+    ">": "a comparison is not a formula: give one expression",
+    "[": "square brackets are not used: write ( )",
+    "]": "square brackets are not used: write ( )",
+    "{": "braces belong to LaTeX: give it as LaTeX, or write ( )",
+    "}": "braces belong to LaTeX: give it as LaTeX, or write ( )",
+    "\\": "a backslash belongs to LaTeX: give the formula as LaTeX",
+    "'": "quoted text is not part of a formula",
+    '"': "quoted text is not part of a formula",
+    ":": "':' is not part of a formula",
+}
+_STRANGE = re.compile(r"[^A-Za-z0-9_.+\-*/(), ]")
+_NUMBER = re.compile(r"(\d+\.?\d*|\.\d+)(?:[eE]([+-]?\d+))?")
+
+
+def parse(text: str, vocabulary: Vocabulary, also: Mapping[str, sp.Basic] | None = None) -> sp.Expr:
+    """Expression that a text in SymPy syntax stands for.
+
+    Parameters
+    ----------
+    text
+        For instance ``-sinh(x)/(2*mu*(sinh(2*x) + 2*x))``.
+        Decimal numbers are exact: ``0.1`` is 1/10.
+    vocabulary
+        The symbols that may occur.
+    also
+        Further names that may occur, with what they stand for.
+
+    Raises
+    ------
+    FormulaError
+        If the text is anything but arithmetic in the allowed names and the
+        functions of `FUNCTIONS`, or needs a number or power beyond the limits above.
+    """
+    plain = _checked(text)
+    try:
+        tree = ast.parse(plain, mode="eval")
+    except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
+        raise FormulaError(
+            f"expected one formula, got {_short(plain)}: {_syntax_hint(error)}"
+        ) from None
+    if sum(1 for _ in ast.walk(tree)) > MAX_NODES:
+        raise FormulaError(f"the formula has more than {MAX_NODES} parts: split it")
+    return _Reader(plain, vocabulary, also or {}).read(tree.body, 0)
+
+
+def _syntax_hint(error: BaseException) -> str:
+    if isinstance(error, SyntaxError) and error.offset is not None:
+        return f"it breaks off near character {error.offset}; check brackets and write every *"
+    return "it is nested too deeply; write it with fewer brackets"
+
+
+def _short(text: str) -> str:
+    return repr(text if len(text) <= 60 else text[:57] + "...")
+
+
+def _checked(text: str) -> str:
+    """The text on one line, once its characters, length, nesting and numbers are harmless."""
+    if not isinstance(text, str):
+        raise FormulaError(f"expected a formula as text, got {type(text).__name__}")
+    if len(text) > MAX_TEXT:
+        raise FormulaError(f"expected at most {MAX_TEXT} characters, got {len(text)}: split it")
+    plain = " ".join(text.split())
+    if not plain:
+        raise FormulaError("expected a formula, got empty text: write for instance sinh(x)")
+    strange = _STRANGE.search(plain)
+    if strange:
+        mark = strange.group()
+        hint = _HINTS.get(mark, f"the character {mark!r} is not part of a formula")
+        raise FormulaError(f"expected a formula, got {_short(plain)}: {hint}")
+    check_nesting(plain, "(", ")")
+    if re.search(rf"\d{{{MAX_DIGITS + 1},}}", plain):
+        raise FormulaError(f"expected numbers of at most {MAX_DIGITS} digits: shorten them")
+    return re.sub(r"\blambda\b", "lam", plain)
+
+
+def check_nesting(text: str, opening: str, closing: str) -> None:
+    """Refuse brackets that are nested beyond what any formula needs, or do not pair."""
+    depth = 0
+    for mark in text:
+        depth += (mark in opening) - (mark in closing)
+        if depth > MAX_NESTING:
+            raise FormulaError(f"expected at most {MAX_NESTING} nested brackets: leave some out")
+        if depth < 0:
+            break
+    if depth:
+        missing = opening[0] if depth < 0 else closing[0]
+        raise FormulaError(f"expected brackets in pairs: add the missing {missing!r}")
+
+
+class _Reader:
+    """Walks a syntax tree and builds the expression, refusing all it does not know."""
+
+    def __init__(self, text: str, vocabulary: Vocabulary, also: Mapping[str, sp.Basic]) -> None:
+        self.text = text
+        self.vocabulary = vocabulary
+        self.names = {**_CONSTANTS, **also, **vocabulary.names}
+        self.degrees: dict[sp.Basic, float] = {}
+
+    def read(self, node: ast.expr, depth: int) -> sp.Expr:
+        if depth > MAX_DEPTH:
+            raise FormulaError(f"the formula is nested deeper than {MAX_DEPTH} levels: split it")
+        found = guarded(self._expression(node, depth + 1), self._source(node))
+        if degree(found, self.degrees) > MAX_DEGREE:
+            raise FormulaError(
+                f"expected nested powers of total degree up to {MAX_DEGREE}, "
+                f"got {_short(self._source(node))}: lower the exponents"
+            )
+        return found
+
+    def _expression(self, node: ast.expr, depth: int) -> sp.Expr:
+        if isinstance(node, ast.Constant):
+            return number(self._source(node))
+        if isinstance(node, ast.Name):
+            return self._named(node.id)
+        if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub | ast.UAdd):
+            value = self.read(node.operand, depth)
+            return -value if isinstance(node.op, ast.USub) else value
+        if isinstance(node, ast.BinOp):
+            left, right = self.read(node.left, depth), self.read(node.right, depth)
+            return self._arithmetic(node, left, right)
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
+            return self._call(node.func.id, node, depth)
+        raise FormulaError(
+            f"expected numbers, names, + - * / ** and functions, got {_short(self._source(node))} "
+            f"({type(node).__name__}): leave it out"
+        )
+
+    def _arithmetic(self, node: ast.BinOp, left: sp.Expr, right: sp.Expr) -> sp.Expr:
+        if isinstance(node.op, ast.Add):
+            return left + right
+        if isinstance(node.op, ast.Sub):
+            return left - right
+        if isinstance(node.op, ast.Mult):
+            return left * right
+        if isinstance(node.op, ast.Div):
+            if right == 0:
+                raise FormulaError(f"division by zero in {_short(self._source(node))}: correct it")
+            return left / right
+        if isinstance(node.op, ast.Pow):
+            return power(left, right, self.vocabulary.numbers)
+        raise FormulaError(
+            f"expected + - * / **, got the operator in {_short(self._source(node))}: leave it out"
+        )
+
+    def _named(self, name: str) -> sp.Expr:
+        if name in self.names:
+            return self.names[name]
+        if name in FUNCTIONS:
+            raise FormulaError(f"expected an argument after {name}: write {name}(x)")
+        allowed = ", ".join(sorted(self.names))
+        hint = f"{_NAME_HINTS[name]}; " if name in _NAME_HINTS else ""
+        raise FormulaError(f"unknown name {_short(name)}: {hint}expected one of {allowed}")
+
+    def _call(self, name: str, node: ast.Call, depth: int) -> sp.Expr:
+        if name not in FUNCTIONS:
+            allowed = ", ".join(sorted(FUNCTIONS))
+            hint = f"write {name}*(...)" if name in self.names else f"expected one of {allowed}"
+            raise FormulaError(f"unknown function {_short(name)}: {hint}")
+        count = 2 if name in _OF_TWO else 1
+        if node.keywords or len(node.args) != count:
+            raise FormulaError(
+                f"expected {name} with {count} plain argument{'s' * (count > 1)}, "
+                f"got {_short(self._source(node))}"
+            )
+        arguments = [self.read(argument, depth) for argument in node.args]
+        _check_constant(arguments[-1], name)
+        found = FUNCTIONS[name](*arguments)
+        return self.vocabulary.short.get(found, found)
+
+    def _source(self, node: ast.expr) -> str:
+        return self.text[node.col_offset : node.end_col_offset]
+
+
+def number(literal: str) -> sp.Rational:
+    """Exact rational a decimal literal stands for."""
+    match = _NUMBER.fullmatch(literal)
+    if match is None:
+        raise FormulaError(f"expected a decimal number, got {_short(literal)}: write it like 0.25")
+    exponent = int(match.group(2) or 0)
+    if abs(exponent) > MAX_EXPONENT:
+        raise FormulaError(
+            f"expected a power of ten within +-{MAX_EXPONENT}, got {_short(literal)}: rescale it"
+        )
+    value = Fraction(match.group(1)) * Fraction(10) ** exponent
+    return sp.Rational(value.numerator, value.denominator)
+
+
+def power(base: sp.Expr, exponent: sp.Expr, numbers: Set[sp.Symbol]) -> sp.Expr:
+    """base**exponent for a moderate rational exponent, or one in `numbers`, without a unit."""
+    if base == sp.E:
+        _check_constant(exponent, "exp")
+        return sp.exp(exponent)
+    if not exponent.is_number and exponent.free_symbols <= numbers:
+        return base**exponent
+    if not isinstance(exponent, sp.Rational):
+        raise FormulaError(
+            f"expected a number as exponent, got {_short(str(exponent))}: "
+            "write powers of 2.718... as exp(...)"
+        )
+    if base == 0 and exponent <= 0:
+        raise FormulaError(f"0**({exponent}) has no value: correct the base or the exponent")
+    for factor in sp.Mul.make_args(base):
+        bits = _bits(factor) * abs(exponent) if isinstance(factor, sp.Rational) else 0
+        _, inner = factor.as_base_exp()
+        steep = abs(inner * exponent) if isinstance(inner, sp.Rational) else abs(exponent)
+        if max(steep, exponent.q) > MAX_EXPONENT or bits > MAX_BITS:
+            raise FormulaError(
+                f"expected exponents up to {MAX_EXPONENT} and numbers below 2^{MAX_BITS}, "
+                f"got {_short(str(base))} to the power {_short(str(exponent))}: lower it"
+            )
+    return base**exponent
+
+
+def _bits(value: sp.Rational) -> int:
+    return max(int(value.p).bit_length(), int(value.q).bit_length())
+
+
+def guarded(expression: sp.Expr, source: str) -> sp.Expr:
+    """The expression, if it is finite and real as written and its numbers are modest."""
+    if expression.has(sp.zoo, sp.nan, sp.oo, -sp.oo):
+        raise FormulaError(f"{_short(source)} divides by zero or has no value: correct it")
+    if expression.has(sp.I):
+        raise FormulaError(f"{_short(source)} is not real: check the sign under the root or log")
+    for factor in sp.Mul.make_args(expression):
+        _, exponent = factor.as_base_exp()
+        steep = isinstance(exponent, sp.Rational) and abs(exponent) > MAX_EXPONENT
+        if steep or (isinstance(factor, sp.Rational) and _bits(factor) > MAX_BITS):
+            raise FormulaError(
+                f"a number or power in {_short(source)} is out of range: "
+                f"keep exponents up to {MAX_EXPONENT} and numbers below 2^{MAX_BITS}"
+            )
+    return expression
+
+
+def _check_constant(argument: sp.Expr, name: str) -> None:
+    """Refuse a function of a constant whose argument is too large to evaluate cheaply."""
+    if not argument.is_number:
+        return
+    with flint.ctx.workprec(128):
+        size = abs(enclose(argument, {}))
+    if not size < MAX_CONSTANT_ARGUMENT:
+        raise FormulaError(
+            f"expected |argument| of {name} below {MAX_CONSTANT_ARGUMENT}, "
+            f"got {_short(str(argument))}: lower it"
+        )
+
+
+def bessel(order: sp.Expr, argument: sp.Expr) -> sp.Expr:
+    """J_n(argument) of a small whole order."""
+    return sp.besselj(_order(order), argument)
+
+
+def _order(order: sp.Expr) -> sp.Integer:
+    """The order of a Bessel function, if it is a small integer."""
+    if not isinstance(order, sp.Integer) or abs(order) > MAX_ORDER:
+        raise FormulaError(
+            f"expected a whole order of a Bessel function within +-{MAX_ORDER}, "
+            f"got {_short(str(order))}"
+        )
+    return order
+
+
+_OF_TWO = ("besselj", "besseli", "beta")
+FUNCTIONS: Mapping[str, Callable[..., sp.Expr]] = {
+    "exp": sp.exp,
+    "log": sp.log,
+    "sqrt": sp.sqrt,
+    "sin": sp.sin,
+    "cos": sp.cos,
+    "tan": sp.tan,
+    "cot": lambda argument: sp.cos(argument) / sp.sin(argument),
+    "sinh": sp.sinh,
+    "cosh": sp.cosh,
+    "tanh": sp.tanh,
+    "coth": sp.coth,
+    "Abs": sp.Abs,
+    "abs": sp.Abs,
+    "gamma": sp.gamma,
+    "beta": sp.beta,
+    "besselj": bessel,
+    "besseli": lambda order, argument: sp.besseli(_order(order), argument),
+    "I0": lambda argument: sp.besseli(0, argument),
+    "I1": lambda argument: sp.besseli(1, argument),
+    "J0": lambda argument: bessel(sp.Integer(0), argument),
+    "J1": lambda argument: bessel(sp.Integer(1), argument),
+}
+"""Functions a formula may call."""

@@ -1,0 +1,242 @@
+"""Parse LaTeX of the paper and of the project's own printer, with the checks of `parse`.
+
+The LaTeX is translated into the plain syntax of `parse`, which alone decides
+what is allowed.
+"""
+
+import re
+from collections.abc import Mapping
+
+import sympy as sp
+
+from derivation.engine.formula.parse import (
+    MAX_NESTING,
+    MAX_TEXT,
+    FormulaError,
+    check_nesting,
+    parse,
+)
+from derivation.engine.formula.vocabulary import Vocabulary
+
+_TOKEN = re.compile(r"\\[A-Za-z]+|\\.|\d+(?:\.\d+)?|[A-Za-z]|[{}()\[\]^_+\-*/,.;&]")
+_SPACING = re.compile(
+    r"\\(?:left|right|[bB]igg?[lr]?|displaystyle|textstyle|q?quad|limits)(?![A-Za-z])"
+    r"|\\[,;:!>\\ ]|[&~\s]"
+)
+_FUNCTIONS = ("exp", "log", "sin", "cos", "tan", "cot", "sinh", "cosh", "tanh", "coth")
+_GREEK = {r"\lambda": "lam", r"\mu": "mu", r"\phi": "phi", r"\varphi": "phi", r"\pi": "pi"} | {
+    rf"\{name}": name
+    for name in (
+        *("Omega", "delta", "xi", "gamma", "eta", "alpha", "kappa", "nu", "omega", "rho"),
+        *("beta", "chi", "epsilon", "psi", "sigma", "tau", "theta", "zeta"),
+        *("varepsilon", "varkappa", "vartheta"),
+    )
+}
+_BRACKETS = {"(": ")", "[": "]", r"\{": r"\}", "{": "}"}
+_PRODUCT = {r"\cdot", r"\times", "*"}
+
+
+def parse_latex(
+    text: str, vocabulary: Vocabulary, also: Mapping[str, sp.Basic] | None = None
+) -> sp.Expr:
+    r"""Expression that a LaTeX formula stands for.
+
+    Parameters
+    ----------
+    text
+        For instance ``\frac{1}{\phi_j} \sinh(\phi_j z)``. A product needs no
+        sign.
+    vocabulary, also
+        As in `derivation.engine.formula.parse.parse`.
+
+    Raises
+    ------
+    FormulaError
+        Naming the token that is not understood, or as `parse` does.
+    """
+    if not isinstance(text, str):
+        raise FormulaError(f"expected a formula as text, got {type(text).__name__}")
+    if len(text) > MAX_TEXT:
+        raise FormulaError(f"expected at most {MAX_TEXT} characters, got {len(text)}: split it")
+    translator = _Translator(_tokens(text), vocabulary, {**(also or {}), **vocabulary.names})
+    plain = translator.sum()
+    if translator.here is not None:
+        raise FormulaError(
+            f"expected an operator or the end, got {translator.here!r}: leave it out"
+        )
+    return parse(plain, vocabulary, also)
+
+
+def _tokens(text: str) -> list[str]:
+    check_nesting(text, "{", "}")
+    check_nesting(text, "([", ")]")
+    rest = _SPACING.sub(" ", text).rstrip(" .,;")
+    tokens: list[str] = []
+    position = 0
+    while position < len(rest):
+        if rest[position] == " ":
+            position += 1
+            continue
+        match = _TOKEN.match(rest, position)
+        if match is None:
+            raise FormulaError(f"LaTeX token {rest[position]!r} is not known here: leave it out")
+        tokens.append(match.group())
+        position = match.end()
+    if not tokens:
+        raise FormulaError(r"expected a formula in LaTeX, got nothing: write for instance \phi_j h")
+    return tokens
+
+
+class _Translator:
+    """Recursive descent over the tokens; each method returns plain text for its part."""
+
+    def __init__(
+        self, tokens: list[str], vocabulary: Vocabulary, allowed: Mapping[str, sp.Basic]
+    ) -> None:
+        self.tokens = tokens
+        self.vocabulary = vocabulary
+        self.allowed = allowed
+        self.position = 0
+        self.depth = 0
+
+    @property
+    def here(self) -> str | None:
+        return self.tokens[self.position] if self.position < len(self.tokens) else None
+
+    def take(self, expected: str | None = None) -> str:
+        token = self.here
+        if token is None:
+            raise FormulaError(f"expected {expected or 'more'!r}, the LaTeX ends: complete it")
+        if expected is not None and token != expected:
+            raise FormulaError(f"expected {expected!r} in the LaTeX, got {token!r}: correct it")
+        self.position += 1
+        return token
+
+    def sum(self) -> str:
+        parts = [self._signs() + self.product()]
+        while self.here in ("+", "-"):
+            parts.append(self.take() + self._signs() + self.product())
+        return "".join(parts)
+
+    def _signs(self) -> str:
+        """Signs before a term; a sum broken over two lines repeats the operator."""
+        signs = ""
+        while self.here in ("+", "-"):
+            signs += self.take()
+        if len(signs) > 2:
+            raise FormulaError(f"expected at most two signs in a row, got {signs:.20}: merge them")
+        return signs
+
+    def product(self) -> str:
+        parts = [self.factor()]
+        while self.here is not None and self.here not in ("+", "-", ",", ")", "]", "}", r"\}"):
+            operator = "*"
+            if self.here in _PRODUCT or self.here == "/":
+                operator = "/" if self.take() == "/" else "*"
+            parts.append(operator + self.factor())
+        return "".join(parts)
+
+    def factor(self) -> str:
+        base = self.primary()
+        if self.here != "^":
+            return base
+        raised = f"({base})**({self.exponent()})"
+        if self.here == "^":
+            raise FormulaError("expected one power, got a second '^': set braces around the first")
+        return raised
+
+    def exponent(self) -> str:
+        self.take("^")
+        if self.here == "{":
+            return self.bracket()
+        return self.single()
+
+    def single(self) -> str:
+        """The one token that a power or a fraction takes where no braces follow."""
+        token = self.here
+        if token is not None and token.isdigit() and len(token) > 1:
+            self.tokens[self.position] = token[1:]
+            return token[0]
+        return self.primary()
+
+    def bracket(self) -> str:
+        """What stands between a pair of brackets."""
+        opening = self.take()
+        if opening not in _BRACKETS:
+            raise FormulaError(
+                f"expected brackets or braces in the LaTeX, got {opening!r}: add them"
+            )
+        inside = self.sum()
+        self.take(_BRACKETS[opening])
+        return inside
+
+    def primary(self) -> str:
+        self.depth += 1
+        if self.depth > MAX_NESTING:
+            raise FormulaError(f"the LaTeX is nested deeper than {MAX_NESTING} levels: split it")
+        text = self._primary()
+        self.depth -= 1
+        return text
+
+    def _primary(self) -> str:
+        token = self.here
+        if token in _BRACKETS:
+            return f"({self.bracket()})"
+        token = self.take()
+        if token[0].isdigit():
+            return token
+        if token in (r"\frac", r"\dfrac", r"\tfrac"):
+            above, below = (self.bracket() if self.here == "{" else self.single() for _ in range(2))
+            return f"(({above})/({below}))"
+        if token == r"\sqrt":
+            return self._root()
+        if token.startswith("\\") and token[1:] in _FUNCTIONS:
+            return self._function(token[1:])
+        if token == r"\Gamma":
+            return self._function("gamma")
+        if token == "e":
+            return f"exp({self.exponent()})" if self.here == "^" else "exp(1)"
+        if token in _GREEK or token.isalpha():
+            return self._symbol(_GREEK.get(token, token))
+        raise FormulaError(f"LaTeX token {token!r} is not known here: write it another way")
+
+    def _root(self) -> str:
+        if self.here == "[":
+            degree = self.bracket()
+            return f"({self.bracket()})**(1/({degree}))"
+        return f"sqrt({self.bracket()})"
+
+    def _function(self, name: str) -> str:
+        """A function, its power if any in front of the argument, and its argument in brackets."""
+        exponent = self.exponent() if self.here == "^" else None
+        applied = f"{name}({self.bracket()})"
+        return applied if exponent is None else f"({applied})**({exponent})"
+
+    def _symbol(self, name: str) -> str:
+        if self.here == "_":
+            self.take()
+            index = self.bracket() if self.here == "{" else self.single()
+            name = f"{name}_{index}"
+        if name in ("J_0", "J_1", "I_0", "I_1"):
+            return self._bessel(name.replace("_", ""))
+        self._pass_index()
+        applied = self.vocabulary.applied.get(name)
+        if applied and self._next(3) == ["(", *applied, ")"]:
+            self.position += 3
+        return name if name in self.allowed else self.vocabulary.name_of_latex.get(name, name)
+
+    def _pass_index(self) -> None:
+        """Pass over the index of a summed formula's term, as in ``C_1^{(j)}``."""
+        if self._next(5) in (["^", "{", "(", i, ")"] for i in self.vocabulary.indices):
+            self.position += 5
+            self.take("}")
+
+    def _next(self, count: int) -> list[str]:
+        return self.tokens[self.position : self.position + count]
+
+    def _bessel(self, name: str) -> str:
+        if self.here == "^":
+            exponent = self.exponent()
+            applied = f"{name}({self.bracket()})" if self.here in ("(", "[") else name
+            return f"({applied})**({exponent})"
+        return f"{name}({self.bracket()})" if self.here in ("(", "[") else name

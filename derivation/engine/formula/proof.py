@@ -1,0 +1,133 @@
+"""Proofs: a residual is reduced to zero by rewriting, or decided by balls at two precisions."""
+
+import random
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+
+import flint
+import sympy as sp
+
+from derivation.engine.failed import FailedError
+from derivation.engine.formula.ball import enclose, to_ball
+from derivation.engine.formula.notation import to_markdown
+
+SYMBOLIC = "symbolically"
+BY_BALLS = "by ball arithmetic at two precisions"
+_PRECISIONS = (256, 1024)
+_POINTS = 12
+
+
+class ProofError(FailedError):
+    """A step of the derivation does not hold; the message names it and shows what is left."""
+
+
+@dataclass(frozen=True)
+class Proof:
+    """That a step was proved, by which argument, and how its residuals were decided."""
+
+    step: str
+    argument: str
+    residuals: tuple[str, ...]
+    method: str
+
+    def _repr_markdown_(self) -> str:
+        """The step, its argument and what was shown to vanish, for a notebook."""
+        vanish, argument = (to_markdown(s) for s in (", ".join(self.residuals), self.argument))
+        return f"**{self.step}.** {argument} Reduced to zero {self.method}: {vanish}."
+
+
+def prove(step: str, argument: str, residuals: Mapping[str, sp.Expr]) -> Proof:
+    """Show that every residual is zero.
+
+    Parameters
+    ----------
+    step
+        Name of the step, quoted in the error.
+    argument
+        The reasoning in a sentence: what was substituted into what.
+    residuals
+        Labelled expressions that must vanish identically.
+
+    Raises
+    ------
+    ProofError
+        Naming step and label, with the residual left over.
+    """
+    methods = set()
+    for label, residual in residuals.items():
+        method = decide_zero(residual)
+        if method is None:
+            raise ProofError(f"{step}: {label} leaves the residual {sp.sstr(residual):.300}")
+        methods.add(method)
+    method = BY_BALLS if BY_BALLS in methods else SYMBOLIC
+    return Proof(step, argument, tuple(residuals), method)
+
+
+def decide_zero(expression: sp.Expr) -> str | None:
+    """How the expression was found to be identically zero, or None if it is not.
+
+    Balls come first: one that excludes zero settles the matter at once, and
+    spares the expansion of what is not zero anyway.
+    """
+    if expression.is_zero:
+        return SYMBOLIC
+    if not balls_contain_zero(expression):
+        return None
+    return SYMBOLIC if reduces_to_zero(expression) else BY_BALLS
+
+
+def reduces_to_zero(expression: sp.Expr) -> bool:
+    """Whether expansion over a common denominator, hyperbolics as exponentials, gives zero."""
+    rewritten = lower_bessel(expression).rewrite((sp.sinh, sp.cosh, sp.tanh, sp.coth), sp.exp)
+    numerator = sp.numer(sp.together(rewritten))
+    return bool(sp.expand(sp.powsimp(sp.expand(numerator))) == 0)
+
+
+def lower_bessel(expression: sp.Expr) -> sp.Expr:
+    """The expression with J_n and I_n, n >= 2 or n < 0, replaced by those of orders 0 and 1."""
+    for kind, sign in ((sp.besselj, -1), (sp.besseli, 1)):
+        expression = expression.replace(kind, _lowered(kind, sign))
+    return expression
+
+
+def _lowered(kind: type[sp.Function], sign: int) -> Callable[[sp.Expr, sp.Expr], sp.Expr]:
+    """A Bessel function by its recurrence; `sign` is that of Z_(n-2) less 2 (n - 1)/x Z_(n-1)."""
+
+    def step(order: sp.Expr, x: sp.Expr) -> sp.Expr:
+        if order.is_Integer and order < 0:
+            return sign**order * kind(-order, x)
+        if order.is_Integer and order >= 2:
+            return sign * (step(order - 2, x) - 2 * (order - 1) / x * step(order - 1, x))
+        return kind(order, x)
+
+    return step
+
+
+def balls_contain_zero(expression: sp.Expr) -> bool:
+    """Whether every finite ball, at random points and both precisions, contains zero.
+
+    Points outside the expression's domain give no finite ball and count for
+    nothing; at least two must lie inside.
+    """
+    inside = 0
+    for values in sample_points(expression.free_symbols, _POINTS):
+        for bits in _PRECISIONS:
+            with flint.ctx.workprec(bits):
+                ball = enclose(expression, {key: to_ball(value) for key, value in values.items()})
+            if ball.is_finite() and not ball.contains(0):
+                return False
+            inside += ball.is_finite()
+    return inside >= 2 * len(_PRECISIONS)
+
+
+def sample_points(
+    symbols: Iterable[sp.Symbol], count: int, seed: int = 2
+) -> list[dict[sp.Symbol, Fraction]]:
+    """Random rationals in (1/4, 9/4), the same for every run, as values for the symbols."""
+    symbols = sorted(symbols, key=str)
+    generator = random.Random(seed)
+    return [
+        {symbol: Fraction(generator.randrange(1001, 8999), 4001) for symbol in symbols}
+        for _ in range(count)
+    ]

@@ -1,0 +1,121 @@
+"""The formula record: symbol, expression, unit, source and the proof it cannot exist without."""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import sympy as sp
+
+from derivation.engine.formula.dimension import DimensionError, dimension, unit
+from derivation.engine.formula.notation import to_latex, to_markdown
+from derivation.engine.formula.proof import Proof
+from derivation.engine.formula.vocabulary import Argument, Vocabulary, applicable
+
+
+@dataclass(frozen=True)
+class Record:
+    """A proven formula. A paper's own class of them says in which vocabulary they are written.
+
+    Parameters
+    ----------
+    name
+        Name in code and on the command line, for instance ``Omega_1``.
+    latex
+        The left-hand side as typeset.
+    meaning
+        What the quantity is, in a few words.
+    expression
+        Exact right-hand side, or one term of it if `summed`.
+    unit
+        SI unit; the expression's dimension is checked against it.
+    equation
+        Number of the paper's equation it belongs to.
+    sources
+        Names of the formulas it was derived from.
+    proof
+        How it was proved.
+    summed
+        The quantity is the sum of `expression` over all terms.
+    where
+        Conditions on the arguments beyond those each one carries itself.
+    stated
+        The expression in terms of other formulas, where that is how it is read.
+
+    Raises
+    ------
+    DimensionError
+        If the expression has not the dimension of `unit`.
+    KeyError
+        If it contains a symbol the paper does not define.
+    """
+
+    vocabulary: ClassVar[Vocabulary]
+
+    name: str
+    latex: str
+    meaning: str
+    expression: sp.Expr
+    unit: str
+    equation: str
+    sources: tuple[str, ...]
+    proof: Proof
+    summed: bool = False
+    where: tuple[str, ...] = ()
+    stated: sp.Expr | None = None
+
+    def __post_init__(self) -> None:
+        self.vocabulary.arguments_of(self.expression)
+        found = dimension(self.expression, self.vocabulary.dimensions)
+        if found != unit(self.unit):
+            raise DimensionError(f"{self.name} has dimension [{found}], expected [{self.unit}]")
+
+    @property
+    def arguments(self) -> tuple[Argument, ...]:
+        """The symbols the expression depends on, in the fixed order of the notation."""
+        return self.vocabulary.arguments_of(self.expression)
+
+    @property
+    def domain(self) -> tuple[str, ...]:
+        """Every condition on the arguments, in Python's notation."""
+        names = {argument.name for argument in self.arguments}
+        own = [c for argument in self.arguments for c in argument.domain]
+        return applicable((*own, *self.where), names)
+
+    @property
+    def sum_sign(self) -> str:
+        """LaTeX of the sum over the terms, if there is one."""
+        index = self.vocabulary.indices[:1]
+        return rf"\sum_{{{index}=1}}^{{\infty}} " if self.summed else ""
+
+    @property
+    def right_hand_side(self) -> str:
+        """LaTeX of the right-hand side, with the sum over the terms if there is one."""
+        shown = self.expression if self.stated is None else self.stated
+        return self.sum_sign + to_latex(shown, self.vocabulary)
+
+    def to_json(self) -> dict[str, object]:
+        """Plain text under fixed keys."""
+        return {
+            "name": self.name,
+            "meaning": self.meaning,
+            "latex": f"{self.latex} = {self.right_hand_side}",
+            "expression": str(self.expression),
+            "summed": self.summed,
+            "unit": self.unit,
+            "domain": list(self.domain),
+            "equation": self.equation,
+            "sources": list(self.sources),
+            "proof": {
+                "step": self.proof.step,
+                "argument": self.proof.argument,
+                "residuals": list(self.proof.residuals),
+                "method": self.proof.method,
+            },
+        }
+
+    def _repr_markdown_(self) -> str:
+        """The formula, what it is and how it was proved, for a notebook."""
+        what = f"{to_markdown(self.meaning)} [{self.unit}], equation ({self.equation})"
+        return f"{self._repr_latex_()}\n\n{what}\n\n{self.proof._repr_markdown_()}"
+
+    def _repr_latex_(self) -> str:
+        return f"$\\displaystyle {self.latex} = {self.right_hand_side}$"

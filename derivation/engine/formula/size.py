@@ -1,0 +1,67 @@
+"""Upper estimates of how large an expression becomes, made before anything is expanded."""
+
+import sympy as sp
+
+MANY = 16_000_000
+"""Estimates stop counting here."""
+_MOST_FACTORS = 30
+
+
+def terms_when_expanded(expression: sp.Expr) -> int:
+    """Upper estimate of the terms that expansion over a common denominator yields."""
+    return _terms(expression, {})
+
+
+def _terms(expression: sp.Expr, memo: dict[sp.Basic, int]) -> int:
+    if expression not in memo:
+        memo[expression] = _estimate(expression, memo)
+    return memo[expression]
+
+
+def _estimate(expression: sp.Expr, memo: dict[sp.Basic, int]) -> int:
+    if isinstance(expression, sp.Add):
+        return _estimate_sum(expression, memo)
+    if isinstance(expression, sp.Mul):
+        product = 1
+        for factor in expression.args:
+            product = min(product * _terms(factor, memo), MANY)
+        return product
+    if isinstance(expression, sp.Pow) and isinstance(expression.exp, sp.Integer):
+        base = _terms(expression.base, memo)
+        return int(min(base ** min(abs(int(expression.exp)), _MOST_FACTORS), MANY))
+    return 2 if isinstance(expression, sp.sinh | sp.cosh | sp.tanh | sp.coth) else 1
+
+
+def _estimate_sum(expression: sp.Add, memo: dict[sp.Basic, int]) -> int:
+    """Every numerator meets the other denominators; equal denominators meet once."""
+    total = 0
+    below: set[sp.Expr] = set()
+    for term in expression.args:
+        above, under = sp.fraction(term)
+        total += _terms(above, memo)
+        below.update(f for f in sp.Mul.make_args(under) if not f.is_number)
+    product = 1
+    for factor in below:
+        product = min(product * _terms(factor, memo), MANY)
+    return min(total * product, MANY)
+
+
+def degree(expression: sp.Basic, memo: dict[sp.Basic, float]) -> float:
+    """Largest product of nested exponents, functions of powers included.
+
+    Parameters
+    ----------
+    expression
+        For instance ``((x + 1)**9 + 1)**9``, whose degree is 81.
+    memo
+        Degrees of expressions met before; extended.
+    """
+    if expression not in memo:
+        inner = [degree(argument, memo) for argument in expression.args]
+        if isinstance(expression, sp.Pow) and expression.exp.is_Rational:
+            memo[expression] = inner[0] * max(1.0, abs(float(expression.exp)))
+        elif isinstance(expression, sp.Mul):
+            memo[expression] = max(1.0, sum(d for d in inner if d > 1.0)) if inner else 1.0
+        else:
+            memo[expression] = max(inner, default=1.0)
+    return memo[expression]

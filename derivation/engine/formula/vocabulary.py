@@ -1,0 +1,154 @@
+"""The vocabulary of a paper: its symbols with units, domains, notation and sample values."""
+
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import cached_property
+
+import sympy as sp
+
+from derivation.engine.formula.dimension import Dimension, unit
+
+_LATEX_SYMBOL = re.compile(r"\\?([A-Za-z]+)(?:_(?:\{(\w+)\}|(\w)))?(?:\^\{\(\w+\)\})?")
+
+
+@dataclass(frozen=True)
+class Argument:
+    """One symbol a formula depends on.
+
+    Parameters
+    ----------
+    symbol
+        The SymPy symbol; its assumptions are those the proofs may use.
+    unit
+        SI unit, as `derivation.engine.formula.dimension.unit` reads it.
+    latex
+        How the symbol is typeset.
+    meaning
+        What it stands for, in a few words.
+    domain
+        Conditions under which formulas in it hold, each a comparison in
+        Python's notation; one that names another symbol applies where that
+        symbol is an argument too.
+    """
+
+    symbol: sp.Symbol
+    unit: str
+    latex: str
+    meaning: str
+    domain: tuple[str, ...]
+
+    @property
+    def name(self) -> str:
+        """The symbol's name in formulas typed by hand and in generated code."""
+        return str(self.symbol.name)
+
+
+@dataclass(frozen=True, eq=False)
+class Vocabulary:
+    """All symbols that the formulas of a paper may contain.
+
+    Parameters
+    ----------
+    arguments
+        The symbols, in the order in which functions take them.
+    unknowns
+        Units of the functions that the paper's equations determine.
+    aliases
+        Further names under which symbols may be typed.
+    guests
+        Symbols that a user's formula may contain although no derived one does.
+    short
+        Expressions that have a symbol of their own, and that symbol.
+    per_term
+        Symbols that have another value in each term of a summed formula.
+    indices
+        Letters that count these terms.
+    values
+        Sample values [SI] by name, inside the domain; others are searched for.
+    within
+        Factors on the random values of symbols that would leave the domain otherwise.
+    """
+
+    arguments: tuple[Argument, ...] = ()
+    unknowns: Mapping[sp.Basic, str] = field(default_factory=dict)
+    aliases: Mapping[str, sp.Symbol] = field(default_factory=dict)
+    guests: tuple[Argument, ...] = ()
+    short: Mapping[sp.Expr, sp.Symbol] = field(default_factory=dict)
+    per_term: frozenset[sp.Symbol] = frozenset()
+    indices: str = ""
+    values: Mapping[str, str] = field(default_factory=dict)
+    within: Mapping[sp.Symbol, Fraction] = field(default_factory=dict)
+
+    @cached_property
+    def by_name(self) -> dict[str, Argument]:
+        """The arguments by name."""
+        return {argument.name: argument for argument in self.arguments}
+
+    @cached_property
+    def names(self) -> dict[str, sp.Symbol]:
+        """The symbols by every name that may be typed for them."""
+        own = {name: argument.symbol for name, argument in self.by_name.items()}
+        return {**own, **self.aliases}
+
+    @cached_property
+    def guest_names(self) -> dict[str, sp.Symbol]:
+        """The guests' symbols by name."""
+        return {argument.name: argument.symbol for argument in self.guests}
+
+    @cached_property
+    def latex(self) -> dict[sp.Symbol, str]:
+        """How each symbol is typeset."""
+        return {argument.symbol: argument.latex for argument in self.arguments}
+
+    @cached_property
+    def name_of_latex(self) -> dict[str, str]:
+        """The name of each symbol by its LaTeX without backslashes and braces."""
+        matches = ((a.name, _LATEX_SYMBOL.fullmatch(a.latex)) for a in self.arguments)
+        return {"_".join(filter(None, found.groups())): name for name, found in matches if found}
+
+    @cached_property
+    def applied(self) -> dict[str, tuple[str, ...]]:
+        """The arguments that each unknown function is written with, by its name."""
+        functions = (unknown for unknown in self.unknowns if unknown.args)
+        return {str(f.func.__name__): tuple(map(str, f.args)) for f in functions}
+
+    @cached_property
+    def dimensions(self) -> dict[sp.Basic, Dimension]:
+        """Dimensions of all symbols and unknown functions."""
+        units = {argument.symbol: argument.unit for argument in (*self.arguments, *self.guests)}
+        return {symbol: unit(text) for symbol, text in {**units, **self.unknowns}.items()}
+
+    @cached_property
+    def numbers(self) -> frozenset[sp.Symbol]:
+        """The symbols without a unit."""
+        return frozenset(argument.symbol for argument in self.arguments if argument.unit == "1")
+
+    def arguments_of(self, expression: sp.Expr) -> tuple[Argument, ...]:
+        """Arguments an expression depends on, in their fixed order.
+
+        Raises
+        ------
+        KeyError
+            If a free symbol is not one of the paper's.
+        """
+        names = {str(symbol) for symbol in expression.free_symbols}
+        unknown = names - set(self.by_name)
+        if unknown:
+            raise KeyError(f"symbols without unit and domain: {', '.join(sorted(unknown))}")
+        return tuple(argument for argument in self.arguments if argument.name in names)
+
+
+NOTHING = Vocabulary()
+"""The vocabulary without a symbol."""
+
+
+def symbols_of(condition: str) -> set[str]:
+    """Names of the symbols in a condition."""
+    return set(re.findall(r"(?<![\w.])[A-Za-z]\w*", condition)) - {"abs"}
+
+
+def applicable(conditions: Iterable[str], names: set[str]) -> tuple[str, ...]:
+    """The conditions that name nothing but the given arguments."""
+    return tuple(c for c in conditions if symbols_of(c) <= names)

@@ -1,0 +1,109 @@
+"""Rows -> JSON with provenance, and the table's columns for whoever draws it."""
+
+import hashlib
+import importlib
+import json
+import math
+import platform
+from collections.abc import Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import flint
+import mpmath
+import numpy as np
+import sympy as sp
+
+from derivation.engine.measure.check import Row
+
+COLUMNS = (
+    "kernel",
+    "#points",
+    "#max ULP",
+    "#p99 ULP",
+    "#used",
+    "#budget",
+    "kept",
+)
+"""Headings of the table; `used` is the largest error over what is allowed."""
+
+
+def cells(row: Row) -> tuple[str, ...]:
+    """A row's entries under `COLUMNS`, as text."""
+    errors = row.double
+    infinite = f"{errors.not_finite} not finite" if errors.not_finite else f"{errors.max_ulp:.3g}"
+    return (
+        row.kernel if row.passed is not None else f"{row.module}.{row.kernel}",
+        str(errors.points),
+        infinite,
+        f"{errors.p99_ulp:.3g}",
+        "" if errors.ratio is None else f"{errors.ratio:.2f}",
+        "" if row.budget is None else f"{row.budget:g}",
+        {True: "yes", False: "NO", None: ""}[row.passed],
+    )
+
+
+def worst(row: Row) -> str:
+    """Where a row's error is largest in proportion to what is allowed, in exact doubles."""
+    found = row.double.worst
+    arguments = " ".join(f"{name}={exact}" for name, exact, _ in found.arguments) if found else ""
+    modes = f" modes={found.modes}" if found and found.modes else ""
+    return f"{row.kernel}: {arguments}{modes}"
+
+
+def passed(rows: Sequence[Row]) -> bool:
+    """Whether every promise is kept. Formulas as printed promise nothing."""
+    return all(row.passed is not False for row in rows)
+
+
+def provenance(digits: int, package: str) -> dict[str, str | int]:
+    """With what the numbers were made; no time, place or machine, so that they repeat."""
+    return {
+        "digits": digits,
+        "generated": generated_hash(package),
+        "mpmath": mpmath.__version__,
+        "numpy": np.__version__,
+        "python": platform.python_version(),
+        "python-flint": flint.__version__,
+        "sympy": sp.__version__,
+    }
+
+
+def generated_hash(package: str) -> str:
+    """SHA-256 of a generated package's sources, names and contents in the order of the names."""
+    origin = importlib.import_module(package).__file__
+    if origin is None:
+        raise FileNotFoundError(
+            f"the package {package!r} has no files: run `platecontact generate`"
+        )
+    digest = hashlib.sha256()
+    for path in sorted(Path(origin).parent.glob("*.py")):
+        digest.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
+    return digest.hexdigest()
+
+
+def as_data(rows: Sequence[Row], digits: int, package: str) -> dict[str, Any]:
+    """Rows and provenance as plain data; infinities as the text "inf"."""
+    return {
+        "provenance": provenance(digits, package),
+        "rows": [plain(asdict(row)) for row in rows],
+    }
+
+
+def plain(value: Any) -> Any:
+    """Data as JSON holds it, which has no infinities and no NaN: they become text."""
+    if isinstance(value, dict):
+        return {key: plain(part) for key, part in value.items()}
+    if isinstance(value, list | tuple):
+        return [plain(part) for part in value]
+    if isinstance(value, float) and not math.isfinite(value):
+        return repr(value)
+    return value
+
+
+def to_json(rows: Sequence[Row], digits: int, package: str) -> str:
+    """The rows as JSON text, byte for byte the same for the same measurement."""
+    return (
+        json.dumps(as_data(rows, digits, package), indent=1, sort_keys=True, allow_nan=False) + "\n"
+    )

@@ -1,0 +1,319 @@
+"""Reference 1: a paper's original expressions in ball arithmetic, at doubles taken as they are."""
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import flint
+import sympy as sp
+
+from derivation.engine.formula.ball import LOG2_10, MAX_BITS, SPARE_BITS, PrecisionError, enclosable
+from derivation.engine.formula.record import Record
+from derivation.engine.formula.vocabulary import Vocabulary
+from derivation.engine.oracle.tape import Tape, record
+
+FLOOR = flint.arb(2) ** -1200
+"""A ball inside +-2^-1200 is returned as zero.
+
+The smallest double is 2^-1074: to whatever a computed double is compared, a
+value below the floor and zero are the same. No ball around an exact zero can be
+relatively small, so this is also how exact zeros are recognised, without a guess.
+"""
+
+SLOPE_BITS = 20
+"""Accuracy asked of the sensitivities, which only set allowances."""
+
+
+@dataclass(frozen=True)
+class Reference:
+    """A formula's reference value at a point, and what its arguments' rounding does to it.
+
+    Parameters
+    ----------
+    value
+        Ball around the value.
+    sensitivity
+        |x_i df/dx_i| by argument. For a summed formula these are added over the
+        terms; an argument acts through those of a term too, which stand among the
+        arguments, as a function reads them from a table.
+    magnitude
+        |value|, or for a summed formula the sum of its terms' magnitudes.
+    """
+
+    value: flint.arb
+    sensitivity: Mapping[str, flint.arb]
+    magnitude: flint.arb
+
+    @property
+    def total(self) -> flint.arb:
+        """Sum of the sensitivities."""
+        return sum(self.sensitivity.values(), flint.arb(0))
+
+    @property
+    def condition(self) -> dict[str, float]:
+        """Condition number by argument; infinite (or NaN for 0/0) where the value is zero."""
+        if self.value == 0:
+            return {n: float("inf") if s > 0 else float("nan") for n, s in self.sensitivity.items()}
+        return {n: float((s / abs(self.value)).mid()) for n, s in self.sensitivity.items()}
+
+
+@dataclass(frozen=True)
+class Terms:
+    """What a term of a summed formula supplies by itself.
+
+    Parameters
+    ----------
+    symbols
+        The symbols it supplies.
+    at
+        Their values in the j-th term, from j, the arguments by name and a precision in bits.
+    through
+        By symbol the argument that acts through it, and as which power.
+    expression
+        The expression of one term, in its arguments and these symbols alone.
+    """
+
+    symbols: tuple[sp.Symbol, ...]
+    at: Callable[[int, Mapping[str, flint.arb], int], dict[str, flint.arb]]
+    through: Mapping[str, tuple[str, int]]
+    expression: Callable[[Record], sp.Expr]
+
+
+Numbers = Mapping[str, tuple[str, Callable[[int, int], flint.arb]]]
+"""Numbers by index: the argument's name and the ball at so many bits."""
+
+Limit = tuple[str, Callable[[sp.Expr], sp.Expr | None]]
+"""An argument, and the expression where it is zero if its tape cannot be run there."""
+
+
+@dataclass(frozen=True)
+class _Program:
+    """A formula's tape, the one at the limit if it differs, and whether it is summed."""
+
+    tape: Tape
+    at_limit: Tape | None
+    summed: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Balls:
+    """A paper's references by ball arithmetic.
+
+    Parameters
+    ----------
+    vocabulary
+        The paper's symbols.
+    formulas
+        Every formula by name, as far as they are derived in short time.
+    further
+        The other ones; all of them if there is no such difference.
+    functions
+        Further functions of one argument by name: the argument and the expression.
+    numbers
+        Numbers by index. Of a table the number is the entry that `count` of them end with.
+    terms
+        What the terms of summed formulas supply.
+    limit
+        An argument that expressions have a limit in at zero.
+    """
+
+    vocabulary: Vocabulary
+    formulas: Callable[[], Mapping[str, Record]]
+    further: Callable[[], Mapping[str, Record]] = dict
+    functions: Mapping[str, tuple[sp.Symbol, sp.Expr]] = field(default_factory=dict)
+    numbers: Numbers = field(default_factory=dict)
+    terms: Terms | None = None
+    limit: Limit | None = None
+
+    @cached_property
+    def _known(self) -> Mapping[str, Record]:
+        return self.formulas()
+
+    @cached_property
+    def _programs(self) -> dict[str, _Program]:
+        return {}
+
+    def names(self) -> tuple[str, ...]:
+        """Every name `reference` knows: closed formulas of the chain, functions, numbers."""
+        closed = (n for n, f in self._known.items() if not f.expression.atoms(sp.Derivative))
+        return (*closed, *self.functions, *self.numbers)
+
+    def arguments(self, name: str) -> tuple[str, ...]:
+        """Arguments of a formula, without those that the terms of a sum supply themselves."""
+        if name in self.numbers:
+            return (self.numbers[name][0],)
+        program = self._program(name)
+        own = self.terms.symbols if program.summed and self.terms else ()
+        return tuple(str(symbol) for symbol in program.tape.inputs if symbol not in own)
+
+    def is_summed(self, name: str) -> bool:
+        """Whether a formula is a sum."""
+        return name not in self.numbers and self._program(name).summed
+
+    def truth(
+        self, name: str, values: Mapping[str, float], digits: int = 50, modes: int | None = None
+    ) -> flint.arb:
+        """Ball around a formula's value, its relative radius below 10^-digits.
+
+        Parameters
+        ----------
+        name
+            Formula of the chain, a function or a number by index; of a table the
+            value is the entry of index `count`.
+        values
+            Its arguments by name, doubles taken as the binary fractions they are.
+            Arguments of the notation that the formula does not depend on are allowed.
+        digits
+            Decimal digits the radius must warrant.
+        modes
+            For a summed formula, and only then: how many terms.
+
+        Raises
+        ------
+        PrecisionError
+            At a singular point, and at the end of a root, which a ball cannot take there.
+        ValueError
+            If `modes` is missing or out of place.
+        KeyError
+            For an unknown formula, and for missing or unknown arguments.
+        """
+        return self._refined(name, values, digits, modes, slopes=False).value
+
+    def reference(
+        self, name: str, values: Mapping[str, float], digits: int = 50, modes: int | None = None
+    ) -> Reference:
+        """Value and sensitivities together, see `truth`; every slope must be finite too."""
+        return self._refined(name, values, digits, modes, slopes=True)
+
+    def stated(self, name: str) -> tuple[Record, sp.Expr]:
+        """A formula and its expression, of a sum that of one term.
+
+        Raises
+        ------
+        KeyError
+            If the name is unknown, or stands for an equation, an integral or an infinite sum.
+        """
+        formula = self._known[name] if name in self._known else self.further().get(name)
+        if formula is None or not enclosable(formula.expression):
+            raise KeyError(f"no formula {name!r}; there are {', '.join(self.names())}")
+        if formula.summed and self.terms is not None:
+            return formula, self.terms.expression(formula)
+        return formula, formula.expression
+
+    def _refined(
+        self,
+        name: str,
+        values: Mapping[str, float],
+        digits: int,
+        modes: int | None,
+        slopes: bool,
+    ) -> Reference:
+        self._check(name, values, modes)
+        if name in self.numbers:
+            return self._by_index(name, values, digits)
+        program, terms = self._program(name), self.terms
+        zero = self.limit is not None and values.get(self.limit[0]) == 0
+        tape = program.at_limit if program.at_limit and zero else program.tape
+
+        def compute(bits: int) -> Reference:
+            known = {key: flint.arb(value) for key, value in values.items()}
+            if modes is None or terms is None:
+                return _at(tape, known, slopes, {})
+            through = terms.through
+            return _added(
+                _at(tape, known | terms.at(j, known, bits), slopes, through)
+                for j in range(1, modes + 1)
+            )
+
+        return _refine(compute, digits, f"{name} at {dict(values)}")
+
+    def _by_index(self, name: str, values: Mapping[str, float], digits: int) -> Reference:
+        """The number of an index, which is exact: certified to more bits than are asked."""
+        argument, number = self.numbers[name]
+        if values[argument] != int(values[argument]):
+            raise ValueError(f"{name} is counted in whole numbers, got {values[argument]}")
+        ball = number(int(values[argument]), int(digits * LOG2_10) + SPARE_BITS)
+        return Reference(ball, {}, abs(ball))
+
+    def _check(self, name: str, values: Mapping[str, float], modes: int | None) -> None:
+        summed = self.is_summed(name)
+        if summed and (modes is None or modes < 1):
+            raise ValueError(f"{name} is a modal sum: say over how many modes, got {modes}")
+        if not summed and modes is not None:
+            raise ValueError(f"{name} is no modal sum, got modes={modes}")
+        missing = set(self.arguments(name)) - set(values)
+        unknown = set(values) - set(self.arguments(name)) - set(self.vocabulary.by_name)
+        if missing or unknown:
+            raise KeyError(
+                f"{name} takes {', '.join(self.arguments(name))}; "
+                f"missing: {sorted(missing)}, unknown: {sorted(unknown)}"
+            )
+
+    def _program(self, name: str) -> _Program:
+        """The formula's expression on tape."""
+        if name not in self._programs:
+            self._programs[name] = self._recorded(name)
+        return self._programs[name]
+
+    def _recorded(self, name: str) -> _Program:
+        if name in self.functions:
+            argument, expression = self.functions[name]
+            return _Program(record(expression, (argument,)), None, summed=False)
+        formula, expression = self.stated(name)
+        inputs = tuple(x.symbol for x in self.vocabulary.arguments_of(expression))
+        limit = None if self.limit is None else self.limit[1](expression)
+        at_limit = None if limit is None else record(limit, inputs)
+        return _Program(record(expression, inputs), at_limit, formula.summed)
+
+
+def _refine(compute: Callable[[int], Reference], digits: int, what: str) -> Reference:
+    """Repeat at doubled precision until value and sensitivities are narrow; NaN never is."""
+    target = int(digits * LOG2_10) + 1
+    bits = target + SPARE_BITS
+    while bits <= MAX_BITS:
+        with flint.ctx.workprec(bits):
+            found = compute(bits)
+            unit = abs(found.value) * flint.arb(2) ** -SLOPE_BITS
+            shares = found.sensitivity.values()
+            if _is_narrow(found.value, target) and all(
+                _is_narrow(share, SLOPE_BITS) or bool(share < unit) for share in shares
+            ):
+                value = flint.arb(0) if abs(found.value) < FLOOR else found.value
+                return Reference(value, found.sensitivity, found.magnitude)
+        bits *= 2
+    raise PrecisionError(f"no {digits} digits of {what:.300} within {MAX_BITS} bits")
+
+
+def _is_narrow(ball: flint.arb, bits: int) -> bool:
+    """Whether a ball is finite, and relatively narrow or below the floor."""
+    return ball.is_finite() and (ball.rel_accuracy_bits() >= bits or bool(abs(ball) < FLOOR))
+
+
+def _at(
+    tape: Tape,
+    known: Mapping[str, flint.arb],
+    slopes: bool,
+    through: Mapping[str, tuple[str, int]],
+) -> Reference:
+    """Value and sensitivities of one term at the precision now set."""
+    keys = [str(symbol) for symbol in tape.inputs]
+    inputs = [known[key] for key in keys]
+    slots = tape.run(inputs)
+    gradient = tape.gradient(slots) if slopes else []
+    shares = {k: x * g for k, x, g in zip(keys, inputs, gradient, strict=False)}
+    for symbol, (argument, power) in through.items():
+        if symbol in shares:
+            shares[argument] = shares.get(argument, flint.arb(0)) + power * shares[symbol]
+    sizes = {key: abs(share) for key, share in shares.items()}
+    return Reference(slots[-1], sizes, abs(slots[-1]))
+
+
+def _added(terms: Iterable[Reference]) -> Reference:
+    """The sum: values add with their signs, sensitivities without."""
+    value, magnitude, shares = flint.arb(0), flint.arb(0), dict[str, flint.arb]()
+    for term in terms:
+        value += term.value
+        magnitude += term.magnitude
+        for key, share in term.sensitivity.items():
+            shares[key] = shares.get(key, flint.arb(0)) + share
+    return Reference(value, shares, magnitude)

@@ -1,0 +1,81 @@
+"""The generated package of a paper: its stable forms and its files, kept until sources change."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from derivation.engine.emit.freshness import Freshness, compare
+from derivation.engine.files import real, write_folder
+from derivation.engine.formula.chain import Chain
+from derivation.engine.formula.record import Record
+from derivation.engine.rewrite.form import Branch, Form, Seam, Step
+from derivation.engine.rewrite.scales import Scales
+from derivation.engine.staging import recover
+
+Formulas = Mapping[str, Record]
+
+
+@dataclass(frozen=True, eq=False)
+class Package:
+    """What is generated.
+
+    Parameters
+    ----------
+    target
+        Its import name.
+    folder
+        Where it stands.
+    forms
+        The stable forms of the formulas, proved equal to them.
+    files
+        Its files by name, from formulas and forms.
+    sources
+        What the files follow from besides the formulas: parts of this package by name, others by
+        their path.
+    rewritten
+        Formulas whose forms are found by rule.
+    scales
+        Their dimensionless variables.
+    """
+
+    target: str
+    folder: Path
+    forms: Callable[[Formulas], tuple[Form, ...]]
+    files: Callable[[Formulas, tuple[Form, ...]], dict[str, str]]
+    sources: tuple[str | Path, ...] = ()
+    rewritten: tuple[str, ...] = ()
+    scales: Scales = field(default_factory=Scales)
+
+
+def forms_of(chain: Chain, package: Package) -> tuple[Form, ...]:
+    """The stable forms, proved equal to the formulas."""
+    kinds = (Form, Step, Branch, Seam)
+    rooms = ("engine/rewrite",)
+    return chain.kept("forms", lambda: package.forms(chain.formulas()), *kinds, also=rooms)
+
+
+def files_of(chain: Chain, package: Package) -> dict[str, str]:
+    """The files of the package by name."""
+    rooms = ("engine/rewrite", "engine/errata", "engine/emit", *package.sources)
+
+    def compute() -> dict[str, str]:
+        return package.files(chain.formulas(), forms_of(chain, package))
+
+    return chain.kept("package", compute, also=rooms)
+
+
+def write(chain: Chain, package: Package, folder: Path | None = None) -> tuple[Path, ...]:
+    """Write the package; returns the files written.
+
+    Raises
+    ------
+    OSError
+        If the folder cannot be written to.
+    """
+    return write_folder(package.folder if folder is None else folder, files_of(chain, package))
+
+
+def freshness_of(chain: Chain, package: Package, folder: Path, mend: str) -> Freshness:
+    """Compare the files of a folder with what would be written; `mend` is the command for it."""
+    recover(real(folder))
+    return compare(folder, files_of(chain, package), mend)

@@ -1,0 +1,72 @@
+"""Generated functions as they are, without their docstrings, cut out of the package's source."""
+
+import ast
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from derivation.engine.formula.record import Record
+from derivation.engine.report.equations import body
+
+SHOWN = {
+    "G": "influence",
+    "K_j": "influence",
+    "A_j": "pressure",
+    "P": "pressure",
+    "sonine": "pressure",
+    "Omega_3": "omega",
+}
+"""Short functions of one formula each, and the module of `generated` that holds them."""
+LAW = {"force": "contact_law", "_contact": "contact_law"}
+"""What no formula states: the inverse law, which solves for the contact radius."""
+
+
+def listings_context(sources: Mapping[str, str], formulas: Mapping[str, Record]) -> dict[str, Any]:
+    """Each function with the formula above it.
+
+    Parameters
+    ----------
+    sources
+        Text of the generated modules by name.
+    formulas
+        Every formula by name.
+    """
+    return {
+        "listings": [
+            {
+                "name": name,
+                "module": module,
+                "meaning": formulas[name].meaning,
+                "body": body(formulas[name]),
+                "code": source_of(sources[module], name),
+            }
+            for name, module in SHOWN.items()
+        ],
+        "law": [source_of(sources[module], name) for name, module in LAW.items()],
+        "lines": sum(text.count("\n") for text in sources.values()),
+        "modules": len(sources),
+    }
+
+
+def source_of(text: str, name: str) -> str:
+    """A function's source without its docstring.
+
+    Raises
+    ------
+    ValueError
+        If the module has no such function.
+    """
+    found = [n for n in ast.parse(text).body if isinstance(n, ast.FunctionDef) and n.name == name]
+    if not found:
+        raise ValueError(f"expected a function {name} in the generated module, got none")
+    return "\n".join(_lines(text, found[0]))
+
+
+def _lines(text: str, function: ast.FunctionDef) -> Iterator[str]:
+    """The function's lines, but for those of its docstring."""
+    first = function.body[0]
+    documented = ast.get_docstring(function) is not None
+    skipped = range(first.lineno, (first.end_lineno or 0) + 1) if documented else range(0)
+    start = min([function.lineno, *(d.lineno for d in function.decorator_list)])
+    for number, line in enumerate(text.splitlines(), start=1):
+        if start <= number <= (function.end_lineno or 0) and number not in skipped:
+            yield line

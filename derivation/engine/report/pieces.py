@@ -1,0 +1,174 @@
+"""Formulas, findings and measurements of any paper -> what the report's templates show."""
+
+import re
+from collections import Counter
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from derivation.engine.errata.findings import Finding
+from derivation.engine.formula.record import Record
+from derivation.engine.report.equations import body, folded, right_side
+from derivation.engine.report.latex import escape, unit
+from derivation.engine.report.numbers import number
+from derivation.engine.report.references import References
+from derivation.engine.report.spoken import spoken
+
+NO_REFERENCES = References()
+
+
+@dataclass(frozen=True)
+class Prose:
+    """What a report says of its links beyond their formulas.
+
+    Parameters
+    ----------
+    about
+        A few sentences by the link's name.
+    references
+        The sources.
+    factor
+        Name of a formula by which it is called in others, if there is one.
+    """
+
+    about: Mapping[str, str] = field(default_factory=dict)
+    references: References = NO_REFERENCES
+    factor: str = ""
+
+
+def chain_context(links: Sequence[tuple[str, Sequence[Record]]]) -> dict[str, Any]:
+    """The chain at a glance: what each link is built on, how much it holds."""
+    home = {f.name: place for place, (_, found) in enumerate(links, 1) for f in found}
+    rows = []
+    for place, (name, found) in enumerate(links, start=1):
+        built = {home[name] for f in found for name in f.sources if name in home} - {place}
+        on = ", ".join(str(n) for n in sorted(built)) or "--"
+        equations = sorted({f.equation for f in found if f.equation}, key=_equation_order)
+        printed = ", ".join(f"({e})" for e in equations)
+        rows.append(f"{place} & {escape(name)} & {on} & {len(found)} & {printed}")
+    decided = Counter(f.proof.method for _, found in links for f in found)
+    return {
+        "formulas": sum(decided.values()),
+        "decided": ", ".join(f"{count} were decided {how}" for how, count in decided.items()),
+        "rows": rows,
+    }
+
+
+def _equation_order(text: str) -> tuple[int, str]:
+    digits = re.match(r"\d+", text)
+    return (int(digits[0]) if digits else 0, text)
+
+
+def link_context(
+    name: str, formulas: Sequence[Record], shown: Mapping[str, Record], prose: Prose
+) -> dict[str, Any]:
+    """A link of the chain: its formulas, which refer to those shown, and each proof once."""
+    proofs = {formula.proof.step: formula.proof for formula in formulas}
+    return {
+        "title": name[0].upper() + name[1:],
+        "about": prose.about.get(name, ""),
+        "cited": prose.references.cited(name),
+        "formulas": [formula_context(formula, shown, prose.factor) for formula in formulas],
+        "proofs": [
+            {
+                "step": proof.step,
+                "argument": proof.argument,
+                "method": proof.method,
+                "residuals": ", ".join(proof.residuals),
+            }
+            for proof in proofs.values()
+        ],
+    }
+
+
+def formula_context(
+    formula: Record, known: Mapping[str, Record] | None = None, named: str = ""
+) -> dict[str, Any]:
+    """A formula as the template shows it, with the numbers of those known that it comes from.
+
+    The formula named, if any, is called by its name in the others.
+    """
+    known = known or {}
+    whole, factor = right_side(formula), known.get(named)
+    sources = [reference(source, known) for source in formula.sources]
+    if factor and whole.free_symbols == factor.expression.free_symbols:
+        factor = None  # a formula of the factor's own link
+    if factor and folded(whole, factor) != whole and named not in formula.sources:
+        sources.append(f"with {reference(named, known)}")
+    return {
+        "name": formula.name,
+        "meaning": formula.meaning,
+        "unit": unit(formula.unit),
+        "equation": formula.equation,
+        "sources": ", ".join(sources),
+        "body": body(formula, factor),
+    }
+
+
+def reference(name: str, known: Collection[str]) -> str:
+    """A formula's name, with the number of its equation if it is known."""
+    place = rf"~(\ref{{eq:{name}}})" if name in known else ""
+    return rf"\texttt{{{escape(name)}}}{place}"
+
+
+def finding_context(finding: Finding) -> dict[str, Any]:
+    """A comparison as the template shows it."""
+    printed, diagnosis = finding.printed, finding.diagnosis
+    formula = finding.formula
+    return {
+        "equation": printed.equation,
+        "name": printed.name,
+        "says": printed.says,
+        "printed": as_printed(printed.symbol, printed.full or printed.latex),
+        "derived": body(formula),
+        "equal": not finding.is_misprint,
+        "kind": diagnosis.kind[0].upper() + diagnosis.kind[1:],
+        "repair": spoken(
+            finding.repair[0].upper() + finding.repair[1:].rstrip("."), formula.vocabulary
+        ),
+        "dimension": spoken(diagnosis.dimension or "", formula.vocabulary),
+        "method": diagnosis.method,
+    }
+
+
+def as_printed(left: str, right: str) -> str:
+    """A printed equation, in the lines the paper gives it."""
+    right = right.rstrip(". ")
+    if "&" in right:
+        return rf"\begin{{aligned}} {left} ={{}}& {right} \end{{aligned}}"
+    return f"{left} = {right}"
+
+
+def accuracy_tables(check: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
+    """The generated kernels, and for contrast the formulas as printed."""
+    promised = [row for row in check["rows"] if row["passed"] is not None]
+    printed = [row for row in check["rows"] if row["passed"] is None]
+    yield {"caption": "Generated functions", "rows": [accuracy_row(row) for row in promised]}
+    yield {
+        "caption": "The formulas as printed, at the same points, for contrast",
+        "rows": [accuracy_row(row) for row in printed],
+    }
+
+
+def accuracy_row(row: Mapping[str, Any]) -> str:
+    """Cells of one row; a result that is not a number counts as infinitely wrong."""
+    errors = row["double"]
+    cells = [
+        escape(row["kernel"]),
+        str(errors["points"]),
+        number(errors["max_ulp"]) if not errors["not_finite"] else r"$\infty$",
+        number(errors["p99_ulp"]),
+        number(errors["rms_ulp"]),
+        "" if row["budget"] is None else f"{row['budget']:g}",
+        "" if errors["ratio"] is None else number(errors["ratio"]),
+    ]
+    return " & ".join(cells)
+
+
+def rewrite_rows(row: Mapping[str, Any]) -> Iterator[str]:
+    """Cells of a formula's rules: what the form is without and with each."""
+    for index, applied in enumerate(row["applied"]):
+        name = rf"\texttt{{{escape(row['name'])}}}" if index == 0 else ""
+        (fewer, more), (without, within) = applied["operations"], applied["worst"]
+        cells = [name, escape(applied["rule"]), escape(applied["cause"]), str(fewer), str(more)]
+        yield " & ".join([*cells, number(without), number(within)])

@@ -1,0 +1,66 @@
+"""Sentences with formulas typed as code among the words -> LaTeX with the formulas typeset."""
+
+import re
+from collections.abc import Iterator
+
+from derivation.engine.formula.notation import to_latex
+from derivation.engine.formula.parse import FormulaError, parse
+from derivation.engine.formula.vocabulary import Vocabulary
+from derivation.engine.report.latex import prose, unit
+
+_SIGNS = ("+", "-")
+
+
+def spoken(text: str, vocabulary: Vocabulary) -> str:
+    """A sentence as LaTeX; code that reads as a formula is set as one, and units as units."""
+    return " ".join(_piece(piece, vocabulary) for piece in pieces(text))
+
+
+def pieces(text: str) -> Iterator[str]:
+    """Words, and code in pieces of its own: it holds a star, and goes on while a bracket is open.
+
+    A sum of such pieces is one.
+    """
+    words, place, said = text.split(" "), 0, list[str]()
+    while place < len(words):
+        end = place + 1
+        if "*" not in words[place]:
+            said.append(words[place])
+        else:
+            end = _end(words, place)
+            while end + 1 < len(words) and words[end] in _SIGNS and _begins(words[end + 1]):
+                end = _end(words, end + 1)
+            yield from filter(None, (" ".join(said), " ".join(words[place:end])))
+            said = []
+        place = end
+    yield from filter(None, (" ".join(said),))
+
+
+def _begins(word: str) -> bool:
+    """Whether a word may be a term of a sum in code."""
+    return "*" in word or "(" in word
+
+
+def _end(words: list[str], place: int) -> int:
+    """Where the term of code that begins at a word ends."""
+    end = place + 1
+    while end < len(words) and _open(words[place:end]):
+        end += 1
+    return end
+
+
+def _open(words: list[str]) -> bool:
+    joined = " ".join(words)
+    return joined.count("(") > joined.count(")")
+
+
+def _piece(text: str, vocabulary: Vocabulary) -> str:
+    """Code as a formula if it can be read, and with the comma or point behind it."""
+    match = re.fullmatch(r"(?P<code>.*\*.*?)(?P<end>[.,:;]?)", text, re.DOTALL)
+    if match is not None:
+        try:
+            return f"${to_latex(parse(match['code'], vocabulary), vocabulary)}${match['end']}"
+        except FormulaError:
+            return prose(text)
+    parts = re.split(r"(\[[^\]]*\])", text)
+    return "".join(unit(part) if part.startswith("[") else prose(part) for part in parts)

@@ -1,0 +1,143 @@
+"""Building blocks: sums that cancel at 0, over the power of the variable they vanish with.
+
+Each is a function of one variable with an exact definition, finite and not zero
+at the origin. How it is computed is found by the rewriting rules.
+"""
+
+import hashlib
+from dataclasses import replace
+from typing import NamedTuple
+
+import sympy as sp
+
+from derivation.engine.cache import cached
+from derivation.engine.formula.proof import prove
+from derivation.engine.rewrite.form import Block, Branch, Seam, Step, branches, undo
+from derivation.engine.rewrite.shape import decay
+from derivation.engine.rewrite.stabilise import Stable, stabilise
+
+T = sp.Symbol("T", positive=True)
+ENDS = (1e-150, 1e75)
+"""Where blocks are held to the truth; beyond, the powers they are divided by overflow."""
+
+
+class Definition(NamedTuple):
+    """A building block to be.
+
+    Parameters
+    ----------
+    name, variable
+        What it is called and what it depends on.
+    total
+        The sum it stands for.
+    lead, held
+        The power it vanishes with if it cancels at 0, and how much of that power stays above the
+        seam what it is there.
+    reads
+        How it reads when divided by the rest.
+    """
+
+    name: str
+    variable: sp.Symbol
+    total: sp.Expr
+    lead: int
+    held: int
+    reads: str
+
+
+HYPERBOLIC = (
+    Definition("sinh_minus", T, 2 * sp.exp(-T) * (sp.sinh(T) - T), 3, 3, "2 e^(-T) (sinh T - T)"),
+    Definition("sinh_plus", T, 2 * sp.exp(-T) * (sp.sinh(T) + T), 0, 0, "2 e^(-T) (sinh T + T)"),
+    Definition(
+        "sinh_pair",
+        T,
+        2 * sp.exp(-2 * T) * (sp.cosh(2 * T) - 1 - 2 * T**2),
+        4,
+        4,
+        "4 e^(-2T) (sinh^2 T - T^2)",
+    ),
+)
+"""What solids with two parallel faces share."""
+
+
+def built(definitions: tuple[Definition, ...]) -> dict[str, Block]:
+    """Building blocks by name, the direct form of each proved equal to its definition.
+
+    Raises
+    ------
+    ProofError
+        Naming the block whose direct form is not its definition.
+    UnreachableError
+        If the rules do not reach a block.
+    """
+    key = hashlib.sha256(repr(definitions).encode()).hexdigest()[:8]
+    kinds = (Block, Step, Branch, Seam)
+    rooms = ("engine/cache.py", "engine/formula", "engine/rewrite")
+    return cached(f"blocks-{key}", rooms, lambda: _built(definitions), *kinds)
+
+
+def _built(definitions: tuple[Definition, ...]) -> dict[str, Block]:
+    found = {row.name: _block(*row) for row in definitions}
+    for block in found.values():
+        _, side = branches(block.value)[-1]
+        over = block.value.at**block.held if isinstance(block.value, Seam) else 1
+        direct = undo(side.value, (*block.steps, *side.steps), found)
+        prove(
+            f"Direct form of {block.name}",
+            "The direct form, which serves above the seam, equals the definition.",
+            {"direct form": direct - block.divided / over},
+        )
+    return found
+
+
+def _block(
+    name: str, variable: sp.Symbol, total: sp.Expr, lead: int, held: int, reads: str
+) -> Block:
+    stable = stabilise(total / variable**lead, variable, ENDS, held)
+    if isinstance(stable.value, Seam):
+        above = _decay_once(stable.value.above)
+        stable = replace(stable, value=replace(stable.value, above=above))
+    summary = f"{reads}."
+    if isinstance(stable.value, Seam):
+        start = (total / variable**lead).series(variable, 0, 1).removeO()
+        summary = (
+            f"{reads} over min({variable}, {stable.value.at})^{held}, {start} at {variable} = 0."
+        )
+    truncation = _truncation(stable)
+    bound = ">=" if truncation else ">"
+    return Block(
+        name,
+        (variable,),
+        total,
+        lead,
+        held,
+        (f"{variable} {bound} 0",),
+        summary,
+        stable.steps,
+        stable.value,
+        truncation,
+    )
+
+
+def _decay_once(branch: Branch) -> Branch:
+    """The branch with its exponentials as powers of the slowest one, which is computed once."""
+    found = sp.Tuple(branch.value, *(step.expression for step in branch.steps)).atoms(sp.exp)
+    decays = sorted(found, key=lambda slow: abs(slow.args[0].as_coeff_Mul()[0]))
+    powers = {slow: slow.args[0] / decays[0].args[0] for slow in decays}
+    if len(decays) < 2 or not all(power.is_Integer for power in powers.values()):
+        return branch
+    once = {slow: decay**power for slow, power in powers.items()}
+    steps = (replace(step, expression=step.expression.xreplace(once)) for step in branch.steps)
+    first = Step(decay, decays[0])
+    return replace(branch, steps=(first, *steps), value=branch.value.xreplace(once))
+
+
+def _truncation(stable: Stable) -> str:
+    """What the section leaves out, in words; nothing without one."""
+    if not isinstance(stable.value, Seam):
+        return ""
+    seam = stable.value
+    return (
+        f"series cut off at a relative error of {float(stable.truncation):.1e} "
+        f"for {seam.variable} < {seam.at}"
+    )

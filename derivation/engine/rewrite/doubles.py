@@ -1,0 +1,129 @@
+"""What double precision makes of an expression, the same on every machine.
+
+Sums and products are Python's; elementary functions are rounded correctly from
+ball arithmetic, so that no processor's or library's own last bits decide which
+form of a formula is kept.
+"""
+
+import math
+import sys
+from collections.abc import Callable, Mapping
+
+import flint
+import sympy as sp
+from sympy.codegen.cfunctions import expm1, log1p
+
+from derivation.engine.rewrite.form import Branch, Seam, Step
+from derivation.engine.rewrite.series import POLYNOMIAL
+
+_BITS = 160
+_LIMIT = sys.float_info.max
+FUNCTIONS: dict[type[sp.Basic], Callable[[flint.arb], flint.arb]] = {
+    sp.exp: lambda x: x.exp(),
+    expm1: lambda x: x.expm1(),
+    sp.log: lambda x: x.log(),
+    log1p: lambda x: x.log1p(),
+    sp.sin: lambda x: x.sin(),
+    sp.cos: lambda x: x.cos(),
+    sp.tan: lambda x: x.tan(),
+    sp.sinh: lambda x: x.sinh(),
+    sp.cosh: lambda x: x.cosh(),
+    sp.tanh: lambda x: x.tanh(),
+    sp.coth: lambda x: x.coth(),
+}
+
+Values = Mapping[sp.Basic, float]
+
+
+def rounded(expression: sp.Expr, values: Values) -> float:
+    """The expression node by node in doubles; NaN where a step has no value.
+
+    Raises
+    ------
+    NotImplementedError
+        For a function that has no counterpart in double precision here.
+    """
+    memo: dict[sp.Basic, float] = dict(values)
+
+    def visit(node: sp.Basic) -> float:
+        if node not in memo:
+            memo[node] = _node(node, visit)
+        return memo[node]
+
+    return visit(expression)
+
+
+def _node(node: sp.Basic, visit: Callable[[sp.Basic], float]) -> float:
+    if isinstance(node, sp.Number):
+        return float(node)
+    if node is sp.pi:
+        return math.pi
+    if isinstance(node, sp.Add):
+        number, rest = node.as_coeff_Add()  # a number comes last, as it is printed
+        total = visit(rest.args[0]) if rest.is_Add else visit(rest)
+        for term in rest.args[1:] if rest.is_Add else ():
+            total += visit(term)
+        return total + float(number)
+    if isinstance(node, sp.Mul):
+        return _product(node, visit)
+    if isinstance(node, sp.Pow):
+        return _power(visit(node.base), node.exp)
+    if node.func == POLYNOMIAL:
+        variable, *coefficients = (visit(argument) for argument in node.args)
+        value = coefficients[-1]
+        for coefficient in reversed(coefficients[:-1]):
+            value = value * variable + coefficient
+        return value
+    if node.func in FUNCTIONS:
+        return _function(FUNCTIONS[node.func], visit(node.args[0]))
+    raise NotImplementedError(f"no double precision for {node.func.__name__}")
+
+
+def _product(node: sp.Mul, visit: Callable[[sp.Basic], float]) -> float:
+    """Numerator over denominator, as the generated code has it."""
+    above, below = 1.0, 1.0
+    for factor in node.args:
+        if isinstance(factor, sp.Pow) and factor.exp.is_Rational and factor.exp < 0:
+            below *= _power(visit(factor.base), -factor.exp)
+        else:
+            above *= visit(factor)
+    if below == 0.0:
+        return math.nan if above == 0.0 else math.copysign(math.inf, above)
+    return above / below
+
+
+def _power(base: float, exponent: sp.Expr) -> float:
+    if not math.isfinite(base):
+        return float(base ** float(exponent))
+    if exponent == sp.Rational(1, 2):
+        return math.sqrt(base) if base >= 0 else math.nan
+    if exponent < 0:
+        above = _power(base, -exponent)
+        return 1.0 / above if above else math.inf
+    return _function(lambda x: x ** int(exponent), base)
+
+
+def _function(function: Callable[[flint.arb], flint.arb], argument: float) -> float:
+    """Correctly rounded for all practical purposes: from 160 bits."""
+    if not math.isfinite(argument):
+        if function is FUNCTIONS[sp.exp] and not math.isnan(argument):
+            return 0.0 if argument < 0 else math.inf
+        return math.nan
+    with flint.ctx.workprec(_BITS):
+        value = function(flint.arb(argument))
+        if not value.is_finite():
+            return math.inf if function is FUNCTIONS[sp.exp] and argument > 0 else math.nan
+        nearest = float(value.mid())
+    return nearest if abs(nearest) <= _LIMIT else math.copysign(math.inf, nearest)
+
+
+def run(steps: tuple[Step, ...], value: sp.Expr | Seam, values: Values) -> float:
+    """A form at a point: its steps in order, then the branch that the point lies in."""
+    known = dict(values)
+    for step in steps:
+        known[step.symbol] = rounded(step.expression, known)
+    if not isinstance(value, Seam):
+        return rounded(value, known)
+    below = known[value.variable] < float(value.at)
+    branch: Branch = value.below if below else value.above
+    return run(branch.steps, branch.value, known)

@@ -1,0 +1,226 @@
+"""The stable form: named steps, branches and the proof that it equals a derived formula."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import sympy as sp
+from sympy.codegen.cfunctions import expm1
+
+from derivation.engine.formula.proof import Proof, prove
+
+TIMES = sp.Function("times")
+"""A value, then bases and their powers in turn: the product, which may leave the doubles' range
+in between."""
+
+CLOSELY = sp.Function("times_closely")
+"""The same, rounded as if once: where the factors are most of what a budget allows."""
+
+LOST = sp.Function("lost")
+"""A product of two less what it is rounded to: exactly nothing."""
+
+SUM = sp.Function("sum_closely")
+"""A sum, rounded as if once; its last term is small."""
+
+ONCE = sp.Integer(512)
+"""e^(-v) is applied in one piece up to this v; e^(-745) is the smallest double."""
+
+TAIL = sp.Function("tail")
+"""What e^(-min(v, ONCE)) lacks of e^(-v), lest it underflow alone."""
+
+SCALINGS = (LOST, SUM, TAIL, TIMES, CLOSELY)
+"""Functions of the generated module `ranges`."""
+
+TINY, FAR, LARGEST = sp.Float("5e-324"), sp.Integer(10**9), sp.Float("1e308")
+"""A product held between two of them neither vanishes nor overflows. Beyond FAR, what depends on
+e^-x is what it is at infinity; TINY is the smallest double."""
+
+
+def held(product: sp.Expr, most: sp.Expr) -> sp.Expr:
+    """The product, which is positive, between TINY and `most`."""
+    return sp.Max(TINY, sp.Min(product, most))
+
+
+@dataclass(frozen=True)
+class Step:
+    """A named intermediate: ``symbol = expression  # comment``."""
+
+    symbol: sp.Symbol
+    expression: sp.Expr
+    comment: str = ""
+
+
+@dataclass(frozen=True)
+class Branch:
+    """One way to evaluate a form.
+
+    Parameters
+    ----------
+    steps
+        Intermediates, in order.
+    value
+        The result.
+    """
+
+    steps: tuple[Step, ...]
+    value: sp.Expr
+
+
+@dataclass(frozen=True)
+class Seam:
+    """Below `at`, `variable` selects the first branch; from there on the second."""
+
+    variable: sp.Symbol
+    at: sp.Rational
+    below: Branch
+    above: Branch
+
+
+@dataclass(frozen=True)
+class Form:
+    """A stable form of the formula (or building block) `name`.
+
+    Parameters
+    ----------
+    name, module
+        What it is called and in which generated module it stands.
+    steps
+        Intermediates common to all branches.
+    value
+        The result, or the seam between two ways to compute it.
+    proof
+        That it equals the formula, step by step undone.
+    """
+
+    name: str
+    module: str
+    steps: tuple[Step, ...]
+    value: sp.Expr | Seam
+    proof: Proof
+
+
+@dataclass(frozen=True)
+class Block:
+    """A building block of stable forms: a function of its own with an exact definition.
+
+    Parameters
+    ----------
+    name
+        Its name in generated code.
+    arguments
+        Its variables.
+    total
+        The sum it stands for.
+    lead, held
+        The power of the variable that the sum is divided by below the seam; and how much of it
+        stays above the seam what it is there.
+    domain
+        Conditions on the variables, in Python's notation.
+    summary
+        First line of its docstring.
+    steps, value
+        How it is computed; series are truncated, see `truncation`.
+    truncation
+        The bound on the relative error of a truncated series, or nothing.
+    """
+
+    name: str
+    arguments: tuple[sp.Symbol, ...]
+    total: sp.Expr
+    lead: int
+    held: int
+    domain: tuple[str, ...]
+    summary: str
+    steps: tuple[Step, ...]
+    value: sp.Expr | Seam
+    truncation: str = ""
+
+    def __call__(self, argument: sp.Expr) -> sp.Expr:
+        """The block applied to an argument, as it appears in forms."""
+        return sp.Function(self.name)(argument)
+
+    def near(self, argument: sp.Expr) -> sp.Expr:
+        """What is held: the argument, at most the seam."""
+        return sp.Min(argument, self.value.at) if isinstance(self.value, Seam) else sp.Integer(1)
+
+    def definition(self, argument: sp.Expr) -> sp.Expr:
+        """What the block is exactly."""
+        (own,) = self.arguments
+        return self.divided.subs(own, argument) / self.near(argument) ** self.held
+
+    @property
+    def divided(self) -> sp.Expr:
+        """The sum over the powers that are not held."""
+        (own,) = self.arguments
+        return self.total / own ** (self.lead - self.held)
+
+
+def undo(expression: sp.Expr, steps: tuple[Step, ...], blocks: Mapping[str, Block]) -> sp.Expr:
+    """The expression with every step put back and every block replaced by its definition."""
+    for step in reversed(steps):
+        expression = expression.subs(step.symbol, step.expression)
+    expression = expression.replace(TIMES, _product).replace(CLOSELY, _product)
+    expression = expression.replace(LOST, lambda *_: sp.Integer(0)).replace(SUM, sp.Add)
+    expression = expression.replace(TAIL, lambda v: sp.exp(sp.Min(v, ONCE) - v))
+    for block in blocks.values():
+        expression = expression.replace(sp.Function(block.name), block.definition)
+    expression = expression.replace(sp.Abs, lambda x: x)  # roots of squares, in what is even
+    expression = expression.replace(sp.Heaviside, lambda *_: _CHOICE)  # whatever it is
+    expression = expression.replace(expm1, lambda x: sp.exp(x) - 1)
+    expression = expression.replace(lambda e: isinstance(e, sp.Max) and TINY in e.args, _released)
+    return expression.replace(sp.Min, _least)
+
+
+_CHOICE = sp.Symbol("choice", real=True)
+
+
+def _released(product: sp.Max) -> sp.Expr:
+    """What is held, without its bounds."""
+    (bounded,) = (bound for bound in product.args if bound != TINY)
+    return sp.Mul(*(bound for bound in bounded.args if bound not in (FAR, LARGEST)))
+
+
+def _product(value: sp.Expr, *powers: sp.Expr) -> sp.Expr:
+    return value * sp.Mul(*(b**p for b, p in zip(powers[::2], powers[1::2], strict=True)))
+
+
+def _least(*bounds: sp.Expr) -> sp.Expr:
+    """Min(a, 1/phi) -> Min(a phi, 1)/phi, and Min(a phi, 1) a symbol: forms hold for any value."""
+    unit = sp.Mul(*(sp.denom(bound) for bound in bounds))
+    name = sorted(str(sp.expand(bound * unit)) for bound in bounds)
+    return sp.Symbol(f"Min({', '.join(name)})", positive=True) / unit
+
+
+def form(
+    name: str,
+    module: str,
+    formula: sp.Expr,
+    steps: tuple[Step, ...],
+    value: sp.Expr | Seam,
+    blocks: Mapping[str, Block],
+) -> Form:
+    """Build a stable form, proving each of its branches equal to `formula`.
+
+    Raises
+    ------
+    ProofError
+        Naming the branch that is not the formula, with the residual.
+    """
+    proof = prove(
+        f"Stable form of {name}",
+        "Every branch, its steps and blocks put back, equals the derived formula.",
+        {
+            label: undo(branch.value, (*steps, *branch.steps), blocks) - formula
+            for label, branch in branches(value)
+        },
+    )
+    return Form(name, module, steps, value, proof)
+
+
+def branches(value: sp.Expr | Seam) -> list[tuple[str, Branch]]:
+    """The branches of a result, labelled by their side of the seam."""
+    if isinstance(value, Seam):
+        return [
+            (f"{value.variable} < {value.at}", value.below),
+            (f"{value.variable} >= {value.at}", value.above),
+        ]
+    return [("everywhere", Branch((), value))]

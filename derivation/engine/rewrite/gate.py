@@ -1,0 +1,191 @@
+"""Measure a form's largest error in double precision against exact values of the original."""
+
+import math
+import random
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import flint
+import sympy as sp
+
+from derivation.engine.formula.ball import Exact, PrecisionError, evaluate, to_ball
+from derivation.engine.formula.ulp import neighbours, overflows, ulp_error
+from derivation.engine.rewrite.doubles import FUNCTIONS, run
+from derivation.engine.rewrite.form import Seam, Step
+from derivation.engine.rewrite.shape import Shape, assembled
+from derivation.engine.rewrite.terms import UnreachableError
+
+DIGITS = 25
+LARGE = (36.5, 88.9, 95.0, 177.7, 190.0, 300.0, 355.2, 372.0, 500.0, 690.0, 709.5, 744.0, 800.0)
+"""Where e^x, e^(2x), e^(4x) or their inverses leave a format."""
+
+LEAST = 40
+"""Points without which there is no judging."""
+
+SAMPLES = (1.3, 0.7, 2.1, 0.45, 1.7, 0.9)
+"""What further variables, all positive, are set to."""
+
+
+KNOWN = {function.__name__ for function in FUNCTIONS}
+"""Functions that double precision and balls both have."""
+
+
+@dataclass(frozen=True)
+class Truth:
+    """A point, the exact value and half the condition number there.
+
+    Parameters
+    ----------
+    x
+        The point, an exact double.
+    value
+        Ball around the value.
+    slack
+        What half a unit of rounding in x may cost, in units of the value: |x f'/(2 f)|.
+    """
+
+    x: float
+    value: flint.arb
+    slack: float
+
+
+@dataclass(frozen=True)
+class Gate:
+    """The points of an expression at which forms of it are compared with exact values.
+
+    Parameters
+    ----------
+    x, others
+        The variable, and what others are set to.
+    truths
+        The points with the exact values.
+    lead, beyond
+        A power of x, and the same points for the expression times that, which is what counts
+        above a seam.
+    """
+
+    x: sp.Symbol
+    others: tuple[tuple[sp.Symbol, float], ...]
+    truths: tuple[Truth, ...]
+    lead: int = 0
+    beyond: tuple[Truth, ...] = ()
+
+    def worst(self, form: sp.Expr | Shape) -> float:
+        """Largest error in ULP beyond conditioning; infinite where a result is not finite."""
+        steps, value = assembled(form) if isinstance(form, Shape) else ((), form)
+        if not (isinstance(value, Seam) and self.lead):
+            return max(self._error(truth, steps, value) for truth in self.truths)
+        at, held = float(value.at), float(value.at**self.lead)
+        below = (self._error(t, steps, value) for t in self.truths if t.x < at)
+        above = (self._error(t, steps, value, held) for t in self.beyond if t.x >= at)
+        return max(*below, *above)
+
+    def _error(
+        self, truth: Truth, steps: tuple[Step, ...], value: sp.Expr | Seam, scale: float = 1.0
+    ) -> float:
+        try:
+            got = run(steps, value, {self.x: truth.x, **dict(self.others)}) * scale
+        except OverflowError:
+            return math.inf
+        return max(ulp_error(got, truth.value) - truth.slack, 0.0)
+
+
+def held(inner: Gate, whole: Gate, lead: int) -> Gate:
+    """The gate of an expression over x^lead that above a seam is held to the whole expression.
+
+    There neither excuses more than the other: what is divided by may go its own way.
+    """
+    excused = {truth.x: truth.slack for truth in inner.truths}
+    beyond = (
+        replace(truth, slack=min(truth.slack, excused.get(truth.x, math.inf)))
+        for truth in whole.truths
+    )
+    return replace(inner, lead=lead, beyond=tuple(beyond))
+
+
+def points(low: float, high: float, seed: str) -> tuple[float, ...]:
+    """Decades with random digits between the ends, densely from 1e-4 to 50 and beyond seams."""
+    generator = random.Random(seed)
+    first, last = math.log10(low), math.log10(high)
+    found = {low, high}
+    exponent = first
+    while exponent < last:
+        found.add(10.0 ** min(exponent + generator.random(), last))
+        exponent += max(1.0, (last - first) / 60)
+    near, far = max(first, -4.0), min(last, 1.7)
+    found |= {10 ** generator.uniform(near, far) for _ in range(90)}
+    found |= {x for x in LARGE if low <= x <= high}
+    for seam in (0.25, 0.5, 1.0, 2.0, 4.0):
+        found |= {*neighbours(seam, 1), *(seam * generator.uniform(1.0, 1.25) for _ in range(12))}
+    return tuple(sorted(x for x in found if low <= x <= high))
+
+
+def gate(
+    expression: sp.Expr,
+    x: sp.Symbol,
+    ends: tuple[float, float],
+    equal: sp.Expr,
+    seed: str = "",
+) -> Gate:
+    """Select the points at which forms of an expression are measured.
+
+    Parameters
+    ----------
+    expression
+        The original, whose balls are the truth.
+    x
+        Its variable; all others are set to fixed positive numbers.
+    ends
+        The interval in which forms of it are to hold.
+    equal
+        A form proved equal, for points at which the original has no ball.
+    seed
+        What the points depend on; the expression itself if not given.
+
+    Raises
+    ------
+    UnreachableError
+        If it holds functions no rule knows, too many variables, or has too few values.
+    """
+    unknown = {f.func.__name__ for f in expression.atoms(sp.Function)} - KNOWN
+    if unknown:
+        raise UnreachableError(f"no rule knows the function {', '.join(sorted(unknown))}")
+    others = sorted(expression.free_symbols - {x}, key=str)
+    fixed = tuple(zip(others, SAMPLES, strict=False))
+    if len(fixed) < len(others):
+        raise UnreachableError(
+            f"at most {len(SAMPLES)} further variables are expected, got {others}"
+        )
+    found = []
+    for point in points(*ends, seed or str(expression)):
+        value, slack = _truth(expression, x, point, fixed, equal)
+        if value is not None and value != 0 and not overflows(value) and abs(value) > 1e-300:
+            found.append(Truth(point, value, slack))
+    if len(found) < LEAST:
+        raise UnreachableError(
+            f"{expression!s:.80} has values at {len(found)} test points, expected {LEAST}"
+        )
+    return Gate(x, fixed, tuple(found))
+
+
+def _truth(
+    expression: sp.Expr,
+    x: sp.Symbol,
+    point: float,
+    fixed: Sequence[tuple[sp.Symbol, float]],
+    equal: sp.Expr,
+) -> tuple[flint.arb | None, float]:
+    """The value at a point and its slack; nothing where neither expression has a ball."""
+    at: dict[sp.Symbol, Exact] = {x: point, **dict(fixed)}
+    for candidate in (expression, equal):
+        try:
+            value = evaluate(candidate, at, DIGITS)
+        except (PrecisionError, NotImplementedError):
+            continue
+        try:
+            slope = evaluate(candidate.diff(x), at, 3)
+        except (PrecisionError, NotImplementedError):
+            return value, 0.0  # then nothing is excused
+        with flint.ctx.workprec(64):
+            return value, float(abs(slope * to_ball(point) / value).abs_upper()) / 2
+    return None, 0.0

@@ -1,0 +1,273 @@
+"""The rewriting rules in the order they are tried, each with its name, cause and condition.
+
+The first three turn an expression into another one, the rest work on it taken
+apart. A rule gives back nothing where its condition fails; every rule is exact,
+but for `section`, whose truncation is bounded.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import islice
+from typing import TypeAlias
+
+import sympy as sp
+from sympy.codegen.cfunctions import expm1, log1p
+
+from derivation.engine.rewrite.series import leading_power, taylor_section
+from derivation.engine.rewrite.shape import Factor, Shape, assembled, square
+from derivation.engine.rewrite.terms import (
+    Key,
+    Terms,
+    UnreachableError,
+    expression_of,
+    monomial,
+    taylor,
+    terms_of,
+)
+
+Rewritten: TypeAlias = sp.Expr | Shape
+
+SEAMS = tuple(sp.Rational(n, 4) for n in (1, 2, 4, 8, 16))
+"""Where a section may end; the first one is taken that is as exact as any. Powers of two, so
+that a power of x can stay there what it is without rounding."""
+
+
+@dataclass(frozen=True)
+class Rule:
+    """A named rule.
+
+    Parameters
+    ----------
+    name
+        What it is called in reports.
+    cause
+        The inaccuracy it removes: cancellation, overflow or absorption.
+    apply
+        The variable and what to rewrite in, every form the rule can give it out.
+    """
+
+    name: str
+    cause: str
+    apply: Callable[[sp.Symbol, Rewritten], Iterator[Rewritten]]
+
+
+def conjugate(_: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
+    """p - q with a square root among them, as in (18) -> (p^2 - q^2)/(p + q)."""
+    if isinstance(given, Shape):
+        return
+
+    def is_difference(node: sp.Basic) -> bool:
+        if not (isinstance(node, sp.Add) and len(node.args) == 2):
+            return False
+        signs = [part.could_extract_minus_sign() for part in node.args]
+        return sum(signs) == 1 and any(_is_root(part) for part in node.args)
+
+    def mended(node: sp.Expr) -> sp.Expr:
+        p, q = sorted(node.args, key=lambda part: part.could_extract_minus_sign())
+        return sp.expand(p**2 - q**2) / (p - q)
+
+    found = given.replace(is_difference, mended)
+    if found != given:
+        yield found
+
+
+def _is_root(term: sp.Expr) -> bool:
+    return any(f.is_Pow and f.exp == sp.Rational(1, 2) for f in sp.Mul.make_args(term))
+
+
+def logarithm(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
+    """log(1 + u) -> log1p(u), which does not absorb a small u into the 1."""
+    if isinstance(given, Shape):
+        return
+    found = given.replace(
+        lambda node: isinstance(node, sp.log) and sp.expand(node.args[0] - 1).subs(x, 0) == 0,
+        lambda node: log1p(sp.expand(node.args[0] - 1)),
+    )
+    if found != given:
+        yield found
+
+
+def fraction(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
+    """A sum of quotients -> one quotient of products of sums, equal parts of which are gone."""
+    if isinstance(given, Shape):
+        return
+    whole = sp.together(
+        given.replace(sp.tanh, lambda u: sp.sinh(u) / sp.cosh(u)).replace(
+            sp.coth, lambda u: sp.cosh(u) / sp.sinh(u)
+        )
+    )
+    above, below = (_split(part, x) for part in sp.fraction(whole))
+    if above / below != given:
+        yield above / below
+
+
+def _split(expression: sp.Expr, x: sp.Symbol) -> sp.Expr:
+    """Factors, where x is the only variable: others would lose the signs of their brackets."""
+    parts = sp.Mul.make_args(expression)
+    return sp.Mul(
+        *(sp.factor(sp.expand(p)) if p.free_symbols == {x} and p.is_Add else p for p in parts)
+    )
+
+
+def decay(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
+    """Hyperbolic functions -> decaying exponentials, the largest of each sum taken out."""
+    if isinstance(given, Shape):
+        return
+    front, power, rate = sp.Integer(1), 0, sp.Integer(0)
+    factors: list[Factor] = []
+    for base, exponent in _powers(given):
+        if not base.has(x):
+            front *= base**exponent
+            continue
+        if not exponent.is_Integer:
+            factors.append(Factor(base**exponent, 1))
+            continue
+        try:
+            shift, size, rest = _scaled(terms_of(base, x))
+        except UnreachableError:
+            factors.append(Factor(base, int(exponent)))
+            continue
+        rate += shift * exponent
+        front *= size**exponent
+        if len(rest) == 1 and not next(iter(rest)).wave:
+            power += next(iter(rest)).power * int(exponent)
+        else:
+            factors.append(Factor(expression_of(rest, x), int(exponent)))
+    yield Shape(x, front, power, rate, tuple(factors))
+
+
+def _powers(expression: sp.Expr) -> Iterator[tuple[sp.Expr, sp.Expr]]:
+    for part in sp.Mul.make_args(expression):
+        yield part.as_base_exp() if not isinstance(part, sp.exp) else (part, sp.Integer(1))
+
+
+def _scaled(terms: Terms) -> tuple[sp.Rational, sp.Expr, dict[Key, sp.Expr]]:
+    """Largest rate, the coefficient that goes with it, and the terms without these."""
+    rate = max(key.rate for key in terms)
+    leading = min((key for key in terms if key.rate == rate), key=lambda key: key[2:] + key[:2])
+    size = terms[leading]
+    if size.free_symbols:
+        size = sp.Integer(1)  # brackets of other variables stay as they are
+    elif _rises(terms) == size.is_negative:
+        size = -size  # the sum is positive near 0, and reads better
+    return rate, size, {k._replace(rate=k.rate - rate): v / size for k, v in terms.items()}
+
+
+def _rises(terms: Terms) -> bool:
+    """Whether the sum is positive next to 0."""
+    return bool(next(islice(taylor(terms), leading_power(terms), None)) > 0)
+
+
+def _base(coefficient: sp.Expr) -> sp.Expr:
+    """The coefficient without its rational factor and sign."""
+    _, rest = coefficient.as_content_primitive()
+    return -rest if rest.could_extract_minus_sign() else rest
+
+
+def difference(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
+    """c - c e^(-m x) + ... -> -c expm1(-m x) + ..., the constants cancelled exactly."""
+    if not isinstance(given, Shape):
+        return
+    factors = [
+        replace(f, value=sp.Add(*(part for part, _ in parts_of(terms, x)))) if terms else f
+        for f in given.factors
+        for terms in [_terms(f.value, x)]
+    ]
+    if factors != list(given.factors):
+        yield given.with_factors(factors)
+
+
+def _terms(value: sp.Expr, x: sp.Symbol) -> dict[Key, sp.Expr]:
+    """Normal form of a sum; none if it has no such form."""
+    try:
+        return terms_of(value, x)
+    except UnreachableError:
+        return {}
+
+
+def parts_of(terms: Terms, x: sp.Symbol) -> list[tuple[sp.Expr, int]]:
+    """The sum in parts whose constants are cancelled, each with its lowest power of x."""
+    grouped: dict[tuple[sp.Expr, int, str, sp.Rational], dict[Key, sp.Expr]] = {}
+    for key, value in terms.items():
+        base = _base(value)
+        grouped.setdefault((base, key.power, key.wave, key.scale), {})[key] = sp.cancel(
+            value / base
+        )
+    found: list[tuple[sp.Expr, int]] = []
+    for (base, power, _, _), group in grouped.items():
+        head = base * monomial(next(iter(group))._replace(rate=sp.Integer(0)), x)
+        if len(group) > 1 and sp.Add(*group.values()) == 0:
+            inner = sp.Add(*(value * expm1(key.rate * x) for key, value in group.items()))
+            found.append((head * inner, power + 1))
+        else:
+            inner = sp.Add(*(value * sp.exp(key.rate * x) for key, value in group.items()))
+            found.append((head * inner, leading_power(group)))
+    return found
+
+
+def balance(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
+    """The largest power of x taken out of a sum that stands over a power of x."""
+    if not isinstance(given, Shape):
+        return
+    factors = []
+    for factor in given.factors:
+        keys, parts = _terms(factor.value, x), sp.Add.make_args(factor.value)
+        top = max((k.power for k in keys if k.rate == 0 and k.wave != "log1p"), default=0)
+        top = top if given.power * factor.exponent < 0 else 0
+        far = sp.Add(*(part / x**top for part in parts))
+        factors.append(factor if far == factor.value else replace(factor, far=far, top=top))
+    if factors != list(given.factors):
+        yield given.with_factors(factors)
+
+
+def section(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
+    """Sums that cancel at 0 -> their Taylor sections below a seam, the power of x taken out."""
+    if not isinstance(given, Shape) or given.seam is not None:
+        return
+    for seam in SEAMS:
+        try:
+            yield replace(
+                given, seam=seam, factors=tuple(_sectioned(f, x, seam) for f in given.factors)
+            )
+        except UnreachableError:
+            continue
+
+
+def _sectioned(factor: Factor, x: sp.Symbol, seam: sp.Rational) -> Factor:
+    """The factor's lead, and its section if its parts cancel in it."""
+    terms = terms_of(factor.value, x)
+    lead = leading_power(terms)
+    if lead == min(power for _, power in parts_of(terms, x)):
+        return replace(factor, lead=lead)
+    # About the middle of its rates a sum of hyperbolic functions is even or odd again.
+    rates = [key.rate for key in terms]
+    shift = (max(rates) + min(rates)) / 2
+    found = taylor_section({k._replace(rate=k.rate - shift): v for k, v in terms.items()}, seam)
+    near = found.polynomial(square if found.stride == 2 else x)
+    return replace(factor, near=near, lead=lead, rate=shift, truncation=found.bound)
+
+
+def share(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
+    """e^(-x) on both sides of a seam -> computed once, e^(-2x) as its square."""
+    if isinstance(given, Shape) and given.seam is not None:
+        _, seam = assembled(given)
+        sides = [
+            sp.Add(*(s.expression for s in b.steps), b.value) for b in (seam.below, seam.above)
+        ]
+        if all(side.has(sp.exp(-x)) for side in sides):
+            yield replace(given, shared=True)
+
+
+RULES: Sequence[Rule] = (
+    Rule("conjugate", "cancellation", conjugate),
+    Rule("logarithm", "absorption", logarithm),
+    Rule("fraction", "cancellation", fraction),
+    Rule("decay", "overflow", decay),
+    Rule("difference", "cancellation", difference),
+    Rule("balance", "overflow", balance),
+    Rule("section", "cancellation", section),
+)
+"""In the order they are tried."""
+
+SHARE = Rule("share", "time", share)
+"""The last: it costs accuracy nothing that counts, and takes an exponential away."""

@@ -1,0 +1,76 @@
+"""Taylor sections near removable singularities: exact coefficients, degree from a proven bound."""
+
+from dataclasses import dataclass
+from itertools import islice
+
+import sympy as sp
+
+from derivation.engine.rewrite.terms import Terms, UnreachableError, left_out, taylor
+
+UNIT_ROUNDOFF = sp.Rational(1, 2**53)
+MOST_TERMS = 64
+
+POLYNOMIAL = sp.Function("polynomial")
+"""The generated Horner scheme: variable, constant term, and so on upwards."""
+
+
+@dataclass(frozen=True)
+class Section:
+    """A truncated power series y^lead (c_0 + c_1 y^stride + c_2 y^(2 stride) + ...).
+
+    Parameters
+    ----------
+    lead
+        Power of y taken out.
+    stride
+        2 for even and odd functions, 1 for others.
+    coefficients
+        Exact rationals c_0, c_1, ...
+    bound
+        Bound on the relative truncation error for 0 <= y <= seam.
+    """
+
+    lead: int
+    stride: int
+    coefficients: tuple[sp.Rational, ...]
+    bound: sp.Rational
+
+    def polynomial(self, power: sp.Expr) -> sp.Expr:
+        """The polynomial in y^stride, as a call of the generated Horner scheme."""
+        return POLYNOMIAL(power, *self.coefficients)
+
+
+def leading_power(terms: Terms) -> int:
+    """The lowest power of the Taylor series."""
+    for power, value in enumerate(islice(taylor(terms), MOST_TERMS)):
+        if sp.expand(value) != 0:
+            return power
+    raise UnreachableError("the sum vanishes at 0 with all its derivatives")
+
+
+def taylor_section(terms: Terms, seam: sp.Rational) -> Section:
+    """Taylor section of a sum about 0, its relative error below a quarter of a unit of rounding.
+
+    What is left out is bounded by Taylor's theorem term by term; the sum itself
+    is at least its first coefficient, less all others unless they have its sign.
+
+    Raises
+    ------
+    UnreachableError
+        If the sum has no such section up to the seam.
+    """
+    if any(value.free_symbols for value in terms.values()):
+        raise UnreachableError("the series of a sum with further variables is not rational")
+    found = list(islice(taylor(terms), MOST_TERMS))
+    lead = leading_power(terms)
+    found = found[lead:]
+    stride = 1 if any(found[1::2]) else 2
+    found = found[::stride]
+    sizes = [abs(c) * seam ** (stride * k) for k, c in enumerate(found)]
+    for degree in range(2, len(found)):
+        rest = left_out(terms, lead + stride * degree, seam) / seam**lead
+        same = all(c * found[0] >= 0 for c in found[:degree])
+        lowest = sizes[0] - (0 if same else sp.Add(*sizes[1:degree])) - rest
+        if lowest > 0 and rest / lowest < UNIT_ROUNDOFF / 4:
+            return Section(lead, stride, tuple(found[:degree]), rest / lowest)
+    raise UnreachableError(f"no section of at most {len(found)} terms reaches {seam}")

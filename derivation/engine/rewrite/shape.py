@@ -1,0 +1,138 @@
+"""A product of sums in x, taken apart: front x^power e^(rate x) times factors, and its assembly."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+import sympy as sp
+
+from derivation.engine.rewrite.form import Branch, Seam, Step
+
+square, decay = sp.symbols("square decay", positive=True)
+ZERO = sp.Integer(0)
+
+
+@dataclass(frozen=True)
+class Factor:
+    """A sum in x to a power, and how it is written near 0 and far from it.
+
+    Parameters
+    ----------
+    value, exponent
+        The sum and the power it stands in.
+    near, lead, rate
+        Below the seam the sum is x^lead e^(rate x) near; nothing if it needs no section.
+    truncation
+        Bound of what the section leaves out, relatively.
+    far, top
+        Above the seam, or everywhere, it is x^top far; nothing for the sum as it stands.
+    """
+
+    value: sp.Expr
+    exponent: int
+    near: sp.Expr | None = None
+    lead: int = 0
+    rate: sp.Rational = ZERO
+    truncation: sp.Rational = ZERO
+    far: sp.Expr | None = None
+    top: int = 0
+
+
+@dataclass(frozen=True)
+class Shape:
+    """front x^power e^(rate x) times factors.
+
+    Parameters
+    ----------
+    x
+        The variable.
+    front
+        What is free of it.
+    power, rate
+        Of x and of the exponential.
+    factors
+        Sums in x and their powers.
+    seam
+        Below it the factors' sections serve.
+    shared
+        Whether exponentials are computed once for both sides of the seam, and their squares.
+    lead
+        This power of x, which the front divides by, stays above the seam what it is there.
+    """
+
+    x: sp.Symbol
+    front: sp.Expr
+    power: int
+    rate: sp.Rational
+    factors: tuple[Factor, ...]
+    seam: sp.Rational | None = None
+    shared: bool = False
+    lead: int = 0
+
+    def with_factors(self, factors: Iterable[Factor]) -> "Shape":
+        """The shape with other factors."""
+        return replace(self, factors=tuple(factors))
+
+
+def assembled(shape: Shape) -> tuple[tuple[Step, ...], sp.Expr | Seam]:
+    """Steps and value of a shape; a seam if it has sections."""
+    x = shape.x
+    beyond = [(f.far, f.top, 0) for f in shape.factors]
+    if shape.seam is None:
+        high = _side(shape, shape.power, shape.rate, beyond)
+        return high.steps, high.value
+    held = replace(shape, front=shape.front / shape.seam**shape.lead)
+    high = _side(held, shape.power + shape.lead, shape.rate, beyond)
+    sides = [
+        (f.value / x**f.lead if f.near is None else f.near, f.lead, f.rate) for f in shape.factors
+    ]
+    low = _side(shape, shape.power, shape.rate, sides)
+    if not shape.shared:
+        return (), Seam(x, shape.seam, low, high)
+    low, high = (_with_decay(side, x) for side in (low, high))
+    return (Step(decay, sp.exp(-x)),), Seam(x, shape.seam, low, high)
+
+
+def _with_decay(side: Branch, x: sp.Symbol) -> Branch:
+    """e^(-x) and e^(-2x) in a branch as a step before the seam and its square."""
+    steps = tuple(replace(s, expression=_decayed(s.expression, x)) for s in side.steps)
+    return replace(side, steps=steps, value=_decayed(side.value, x))
+
+
+def _decayed(expression: sp.Expr, x: sp.Symbol) -> sp.Expr:
+    return expression.xreplace({sp.exp(-x): decay, sp.exp(-2 * x): decay**2})
+
+
+def _side(
+    shape: Shape,
+    power: int,
+    rate: sp.Rational,
+    sides: Iterable[tuple[sp.Expr | None, int, sp.Rational]],
+) -> Branch:
+    """One branch: every factor as a step of its own, lest powers of x be merged with it."""
+    steps: list[Step] = []
+    product, x = sp.Integer(1), shape.x
+    names = _names(shape.factors)
+    for name, factor, (written, taken, further) in zip(names, shape.factors, sides, strict=True):
+        value = factor.value if written is None else written
+        power += taken * factor.exponent
+        rate += further * factor.exponent
+        steps.append(Step(name, value))
+        product *= name**factor.exponent
+    if any(step.expression.has(square) for step in steps):
+        steps.insert(0, Step(square, x**2))
+    value = shape.front * x**power * product * sp.exp(rate * x)
+    if steps and value == steps[-1].symbol:
+        value = steps.pop().expression
+    return Branch(tuple(steps), value)
+
+
+def _names(factors: Iterable[Factor]) -> list[sp.Symbol]:
+    """numerator, denominator, numerator_2, ..."""
+    found: list[sp.Symbol] = []
+    counts = {"numerator": 0, "denominator": 0}
+    for factor in factors:
+        kind = "numerator" if factor.exponent > 0 else "denominator"
+        counts[kind] += 1
+        tail = f"_{counts[kind]}" if counts[kind] > 1 else ""
+        found.append(sp.Symbol(kind + tail, real=True))
+    return found

@@ -1,0 +1,207 @@
+"""Find the stable form of an expression: apply the rules in turn, keep those that help."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import sympy as sp
+
+from derivation.engine.rewrite.form import Branch, Seam, Step
+from derivation.engine.rewrite.gate import Gate, gate, held
+from derivation.engine.rewrite.rules import RULES, SHARE, Rewritten, Rule
+from derivation.engine.rewrite.shape import Shape, assembled
+from derivation.engine.rewrite.terms import UnreachableError, terms_of
+
+EXACT = 0.75
+"""A section that leaves no more ULP than this is not lengthened."""
+
+NOTHING = 1.5
+"""Differences of forms that are this exact, in ULP, decide nothing."""
+
+ENOUGH = 8.0
+"""A form that is off by more than this many ULP is refused."""
+
+
+@dataclass(frozen=True)
+class Applied:
+    """A rule that was kept.
+
+    Parameters
+    ----------
+    rule, cause
+        Its name, and the inaccuracy it removes.
+    operations, worst
+        How many operations the form has, and its worst error in ULP, without and with it.
+    """
+
+    rule: str
+    cause: str
+    operations: tuple[int, int]
+    worst: tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Stable:
+    """A stable form with how it came about.
+
+    Parameters
+    ----------
+    expression, variable
+        The original and its variable.
+    steps, value
+        The form.
+    applied
+        The rules kept, in order.
+    worst
+        Its worst error in ULP beyond conditioning.
+    truncation
+        Bound of what its sections leave out, relatively.
+    """
+
+    expression: sp.Expr
+    variable: sp.Symbol
+    steps: tuple[Step, ...]
+    value: sp.Expr | Seam
+    applied: tuple[Applied, ...]
+    worst: float
+    truncation: sp.Rational
+
+
+def stabilise(
+    expression: sp.Expr, x: sp.Symbol, ends: tuple[float, float] = (1e-150, 1e150), lead: int = 0
+) -> Stable:
+    """The stable form of an expression for positive x.
+
+    All rules are applied in turn; then each has to earn its place: it is left out
+    if the form without it is more exact, or as exact and no longer.
+
+    Parameters
+    ----------
+    expression, x
+        What is to be computed, and its variable.
+    ends
+        The interval in which the form is to hold.
+    lead
+        A power of x that the expression is divided by only to be finite at 0: above a seam s
+        the form is divided by s^lead instead, without rounding.
+
+    Raises
+    ------
+    UnreachableError
+        If the rules do not bring its error down to 8 ULP; with the reason.
+    """
+    points = gate(expression, x, ends, decayed(expression, x))
+    if lead:
+        whole = expression * x**lead
+        points = held(points, gate(whole, x, ends, decayed(whole, x), str(expression)), lead)
+    at = _Judge(points)
+    kept = list(RULES)
+    form, worst = _through(kept, x, expression, at)
+    candidates = list(reversed(RULES))
+    while candidates:
+        rule = candidates.pop(0)
+        fewer = [other for other in kept if other != rule]
+        shorter, error = _through(fewer, x, expression, at)
+        no_longer = sum(_operations(shorter)) <= sum(_operations(form))
+        if error < worst or (error <= max(worst, NOTHING) and no_longer):
+            # What one rule did others may have rested on: they are asked again.
+            kept, form, worst, candidates = fewer, shorter, error, list(reversed(fewer))
+    if worst > ENOUGH:
+        raise UnreachableError(_reason(expression, x, worst))
+    shared, error = _through([*kept, SHARE], x, expression, at)
+    if error <= worst + NOTHING / 2 and shared != form:
+        kept, form, worst = [*kept, SHARE], shared, error
+    steps, value = assembled(form) if isinstance(form, Shape) else ((), form)
+    applied = tuple(_account(rule, kept, x, expression, at) for rule in kept)
+    truncation = sp.Add(*(f.truncation for f in form.factors)) if isinstance(form, Shape) else 0
+    return Stable(expression, x, steps, value, applied, worst, sp.sympify(truncation))
+
+
+class _Judge:
+    """A gate that measures each form once."""
+
+    def __init__(self, gate: Gate) -> None:
+        self.gate, self.lead = gate, gate.lead
+        self.known: dict[Rewritten, float] = {}
+
+    def worst(self, form: Rewritten) -> float:
+        """Largest error of a form in ULP beyond conditioning."""
+        if form not in self.known:
+            self.known[form] = self.gate.worst(form)
+        return self.known[form]
+
+
+def _through(
+    rules: Sequence[Rule], x: sp.Symbol, expression: sp.Expr, at: _Judge
+) -> tuple[Rewritten, float]:
+    """The form that the rules lead to, and its worst error."""
+    form: Rewritten = expression
+    for rule in rules:
+        try:
+            results = [_held(result, at.lead) for result in rule.apply(x, form)]
+        except UnreachableError:
+            continue
+        if len(results) > 1:
+            results.sort(key=lambda result: max(at.worst(result), EXACT))
+        form = results[0] if results else form
+    return form, at.worst(form)
+
+
+def _held(form: Rewritten, lead: int) -> Rewritten:
+    return replace(form, lead=lead) if isinstance(form, Shape) and form.seam else form
+
+
+def _account(
+    rule: Rule, kept: Sequence[Rule], x: sp.Symbol, expression: sp.Expr, at: _Judge
+) -> Applied:
+    """What the form is without the rule and with it."""
+    with_it, without = list(kept), [other for other in kept if other != rule]
+    pairs = [_through(rules, x, expression, at) for rules in (without, with_it)]
+    before, after = (operations(form) for form, _ in pairs)
+    return Applied(rule.name, rule.cause, (before, after), (pairs[0][1], pairs[1][1]))
+
+
+def decayed(expression: sp.Expr, x: sp.Symbol) -> sp.Expr:
+    """The expression in decaying exponentials, which can be enclosed for large x too."""
+    form: Rewritten = expression
+    names = [rule.name for rule in RULES]
+    for rule in RULES[: names.index("decay") + 1]:
+        form = next(rule.apply(x, form), form)
+    assert isinstance(form, Shape)  # as `decay` gives of every expression
+    _, value = assembled(form)
+    assert isinstance(value, sp.Expr)  # seams come later
+    return value
+
+
+def operations(form: Rewritten) -> int:
+    """Operations of a form, the longer branch of a seam."""
+    return max(_operations(form))
+
+
+def _operations(form: Rewritten) -> list[int]:
+    """Operations of every branch."""
+    steps, value = assembled(form) if isinstance(form, Shape) else ((), form)
+    sides = (value.below, value.above) if isinstance(value, Seam) else (Branch((), value),)
+    return [
+        int(sum(sp.count_ops(step.expression) for step in (*steps, *side.steps)))
+        + int(sp.count_ops(side.value))
+        for side in sides
+    ]
+
+
+def _reason(expression: sp.Expr, x: sp.Symbol, worst: float) -> str:
+    """What is left wrong, and the first rule that was stopped, with what stopped it."""
+    size = "overflows or has no value" if math.isinf(worst) else f"is off by {worst:.3g} ULP"
+    form: Rewritten = expression
+    for rule in RULES:
+        try:
+            form = next(rule.apply(x, form), form)
+            if isinstance(form, Shape) and rule.name == "decay":
+                for factor in form.factors:
+                    terms_of(factor.value, x)
+        except UnreachableError as error:
+            stopped = f"; the rule `{rule.name}` stops as {error}"
+            break
+    else:
+        stopped = "; no rule applies to what is left"
+    return f"the rules leave a form of {expression!s:.80} that {size} for some {x} > 0{stopped}"

@@ -1,0 +1,267 @@
+"""The range and the error that a stable form may state: those at which its code was tested."""
+
+import math
+import random
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import flint
+import numpy as np
+import sympy as sp
+
+from derivation.engine.formula.ball import PrecisionError, enclose, refine, to_ball
+from derivation.engine.formula.ulp import from_ordinal, neighbours, ordinal, overflows, ulp_error
+from derivation.engine.rewrite.stabilise import ENOUGH, Stable, decayed
+from derivation.engine.rewrite.terms import UnreachableError
+from derivation.engine.rewrite.watch import derivative, hard_places
+
+ENDS = (1e-150, 1e150)
+"""The range that is tried first."""
+QUIET = ENOUGH / 2
+"""Towards a place beyond the limit, the range ends where errors [ULP] stay below this."""
+LEAST_RATIO = 10.0
+"""Upper over lower end; a form that is accurate in less is refused."""
+ILL = 1e3
+"""Half a condition number from which on a point counts as next to a zero."""
+SHARE = 0.6
+"""Of what the condition number excuses, at most this may be used: functions of NumPy differ in
+their last bits from point to point, and what one point does not use the next one may."""
+_NEAR_ZERO, _MOST_ZEROS = 150, 12
+_DIGITS = 25
+_ROUNDS = 8
+_RANDOM = 500
+_STILL = 4
+_SIGNIFICANT = 4
+_LOW_PRECISION, _HIGH_PRECISION = 4096, 1 << 16
+Function: TypeAlias = Callable[[np.ndarray], np.ndarray]
+
+
+@dataclass(frozen=True)
+class Tested:
+    """What a test of the code of a form found.
+
+    Parameters
+    ----------
+    low, high
+        Ends of the range, both included.
+    limit
+        The error that is stated [ULP beyond half the condition number]: the largest one
+        found, with a margin.
+    worst, at
+        The largest error found [ULP beyond half the condition number], and where.
+    points
+        Number of points in the range at which it was compared.
+    """
+
+    low: float
+    high: float
+    limit: float
+    worst: float
+    at: float
+    points: int
+
+
+class _Reference:
+    """Exact values of an expression at doubles, each computed once."""
+
+    def __init__(self, expression: sp.Expr, x: sp.Symbol) -> None:
+        equal = decayed(expression, x)
+        self.x = x
+        self.candidates = [(form, derivative(form, x)) for form in (expression, equal)]
+        self.known: dict[float, tuple[flint.arb, float] | None] = {}
+
+    def at(self, point: float) -> tuple[flint.arb, float] | None:
+        """The value, and half the condition number; None if there is no certified value."""
+        if point not in self.known:
+            self.known[point] = self._found(point)
+        return self.known[point]
+
+    def _found(self, point: float) -> tuple[flint.arb, float] | None:
+        for most in (_LOW_PRECISION, _HIGH_PRECISION):
+            for form, slope in self.candidates:
+                if most == _HIGH_PRECISION and not self._finite(form, point):
+                    continue  # beyond the exponents of balls too: no precision helps
+                value = self._refined(form, point, _DIGITS, most)
+                if value is None:
+                    continue
+                if value == 0:
+                    return value, 0.0
+                steep = self._refined(slope, point, 3, most)
+                if steep is None:
+                    return value, 0.0  # nothing is excused
+                with flint.ctx.workprec(64):
+                    condition = abs(steep * to_ball(point) / value).abs_upper()
+                return value, float(condition) / 2
+        return None
+
+    def _finite(self, form: sp.Expr, point: float) -> bool:
+        with flint.ctx.workprec(_LOW_PRECISION):
+            return bool(enclose(form, {self.x: to_ball(point)}).is_finite())
+
+    def _refined(self, form: sp.Expr, point: float, digits: int, most: int) -> flint.arb | None:
+        try:
+            return refine(lambda: enclose(form, {self.x: to_ball(point)}), digits, "a point", most)
+        except PrecisionError:
+            return None
+
+
+def tested(stable: Stable, function: Function) -> Tested:
+    """Test the code of a form, and find the range and the error that it may state.
+
+    Errors are compared with exact values at random points, next to zeros, overflow and
+    underflow edges of the formula and its parts, next to switch points and at both ends.
+
+    Parameters
+    ----------
+    stable
+        The formula and its form.
+    function
+        The code, for arrays of doubles in `ENDS`.
+
+    Raises
+    ------
+    UnreachableError
+        If its error stays within `ENOUGH` in no range worth the name.
+    """
+    reference = _Reference(stable.expression, stable.variable)
+    draw = random.Random(str(stable.expression))
+    low, high = ENDS
+    errors: dict[float, float] = {}
+    new = {*ENDS, *around(hard_places(stable, low, high)), *_random(draw, low, high)}
+    for _ in range(_ROUNDS):
+        errors |= _errors(function, reference, sorted(new - errors.keys()))
+        further = _next_to_zeros(draw, reference, low, high) - errors.keys()
+        errors |= _errors(function, reference, sorted(further))
+        inside = {p: e for p, e in errors.items() if low <= p <= high}
+        if max(inside.values()) <= ENOUGH:
+            worst, at = max((e, p) for p, e in inside.items())
+            return Tested(low, high, stated(worst), worst, at, len(inside))
+        low, high = _range(sorted(inside.items()))
+        if not low * LEAST_RATIO <= high:
+            break
+        new = {low, high, *_towards(low, high), *_random(draw, low, high)}
+    raise UnreachableError(
+        f"the form found for {stable.expression} is not accurate to {ENOUGH:g} ULP in any range "
+        f"of {stable.variable} that was tested"
+    )
+
+
+def stated(worst: float) -> float:
+    """The limit that is stated for a largest error found: a fifth more, rounded up to halves."""
+    return math.ceil(2 * (1.2 * worst + 0.3)) / 2
+
+
+def around(places: Iterable[float]) -> set[float]:
+    """Doubles next to the places, at distances that double."""
+    last = ordinal(ENDS[1])
+    found: set[float] = set()
+    for place in places:
+        found.update(neighbours(place, 2))
+        start = ordinal(place)
+        for power in range(2, 57, 3):
+            for position in (start - (1 << power), start + (1 << power)):
+                if 0 < position <= last:
+                    found.add(from_ordinal(position))
+    return {x for x in found if ENDS[0] <= x <= ENDS[1]}
+
+
+def _random(draw: random.Random, low: float, high: float) -> set[float]:
+    """Doubles of the range by their order, and more where functions bend."""
+    first, last = ordinal(low), ordinal(high)
+    found = {from_ordinal(draw.randint(first, last)) for _ in range(_RANDOM)}
+    near, far = max(low, 1e-6), min(high, 1e4)
+    if near < far:
+        found |= {10 ** draw.uniform(math.log10(near), math.log10(far)) for _ in range(_RANDOM)}
+    return {min(max(x, low), high) for x in found}
+
+
+def _next_to_zeros(
+    draw: random.Random, reference: _Reference, low: float, high: float
+) -> set[float]:
+    """Random doubles of the range at all distances from where the condition number is largest."""
+    steep = [
+        (known[1], point)
+        for point, known in sorted(reference.known.items())
+        if low <= point <= high and known is not None and known[1] > ILL
+    ]
+    peaks: list[tuple[float, float]] = []
+    for slack, point in sorted(steep, reverse=True):
+        if all(abs(point / other - 1) > 1e-3 for _, other in peaks):
+            peaks.append((slack, point))
+        if len(peaks) == _MOST_ZEROS:
+            break
+    found = {
+        point * (1 + draw.choice((-1, 1)) * 10 ** draw.uniform(-15, -1))
+        for _, point in peaks
+        for _ in range(_NEAR_ZERO)
+    }
+    return {x for x in found if low <= x <= high}
+
+
+def _towards(low: float, high: float) -> set[float]:
+    """Doubles of the range next to its ends."""
+    return {x for x in around([low, high]) if low <= x <= high}
+
+
+def _errors(
+    function: Function, reference: _Reference, points: Sequence[float]
+) -> dict[float, float]:
+    """Errors [ULP beyond half the condition number]; infinite where nothing can be stated."""
+    if not points:
+        return {}
+    with np.errstate(all="ignore"):
+        got = function(np.array(points)).tolist()
+    found = {}
+    for point, value in zip(points, got, strict=True):
+        known = reference.at(point)
+        if known is None or overflows(known[0]):
+            found[point] = math.inf
+        else:
+            found[point] = max(ulp_error(value, known[0]) - SHARE * known[1], 0.0)
+    return found
+
+
+def _range(errors: Sequence[tuple[float, float]]) -> tuple[float, float]:
+    """The largest range between points beyond the limit, its ends moved to where errors are small.
+
+    Ranges are compared by their ratio of ends within 1e-9 to 1e9, then altogether.
+    """
+    runs: list[list[tuple[float, float]]] = [[]]
+    for point, error in errors:
+        if error > ENOUGH:
+            runs.append([])
+        else:
+            runs[-1].append((point, error))
+    ranges = []
+    for run in runs:
+        first = 0 if run and run[0][0] == errors[0][0] else _quiet([e for _, e in run])
+        last = 0 if run and run[-1][0] == errors[-1][0] else _quiet([e for _, e in reversed(run)])
+        kept = run[first : len(run) - last]
+        if kept:
+            ranges.append((_rounded(kept[0][0], math.ceil), _rounded(kept[-1][0], math.floor)))
+    return max(ranges, key=_worth, default=(1.0, 0.0))
+
+
+def _quiet(errors: Sequence[float]) -> int:
+    """How many points to leave out before several in turn are small."""
+    for start in range(len(errors)):
+        if max(errors[start : start + _STILL]) <= QUIET:
+            return start
+    return len(errors)
+
+
+def _worth(ends: tuple[float, float]) -> tuple[float, float]:
+    low, high = ends
+    if not low < high:
+        return -math.inf, 0.0
+    usual = min(max(low, 1e-9), 1e9), min(max(high, 1e-9), 1e9)
+    return math.log(usual[1] / usual[0]), math.log10(high) - math.log10(low)
+
+
+def _rounded(end: float, how: Callable[[float], int]) -> float:
+    """An end with few digits, moved inwards."""
+    if end in ENDS:
+        return end
+    unit = 10.0 ** (math.floor(math.log10(end)) - _SIGNIFICANT + 1)
+    return float(f"{how(end / unit) * unit:.{_SIGNIFICANT}g}")

@@ -1,0 +1,151 @@
+"""Places where a formula is hard to compute: zeros of its parts, overflow and underflow edges."""
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import TypeVar
+
+import flint
+import sympy as sp
+
+from derivation.engine.formula.ball import enclose
+from derivation.engine.formula.ulp import from_ordinal, ordinal
+from derivation.engine.rewrite.form import Branch, Seam
+from derivation.engine.rewrite.series import POLYNOMIAL
+from derivation.engine.rewrite.stabilise import Stable
+
+Number = TypeVar("Number", int, float)
+
+BITS = 1100
+"""Enough for differences of two terms down to 1e-150, and for sines of 1e150."""
+_LARGEST, _SMALLEST, _LEAST = 1024, -1022, -1074
+_SHORT, _MOST_OPERATIONS = 60, 200
+_FIRST, _SPREAD = 30, 30
+"""Of many places, the first ones by size are kept, and so many of the others."""
+
+
+def grid(low: float, high: float) -> list[float]:
+    """Points between which the parts' signs are compared: by decades, and evenly up to 60."""
+    ends = math.log10(low), math.log10(high)
+    steps = 320
+    found = {10.0 ** (ends[0] + (ends[1] - ends[0]) * k / steps) for k in range(1, steps)}
+    found |= {10.0 ** (-6 + k / 25) for k in range(12 * 25)}
+    found |= {0.15 * k for k in range(1, 400)}
+    return sorted({low, high, *(x for x in found if low < x < high)})
+
+
+def parts(stable: Stable) -> list[sp.Expr]:
+    """Parts of formula and form whose signs and sizes matter, derivatives of sums included."""
+    x = stable.variable
+    whole = [stable.expression, *_written_out(stable)]
+    found: dict[sp.Expr, None] = {}
+    for expression in whole:
+        for node in sp.postorder_traversal(expression):
+            if node.has(x) and node != x and not isinstance(node, sp.Tuple):
+                found[node.replace(POLYNOMIAL, _horner)] = None
+    for node in list(found):
+        if node == stable.expression or (node.is_Add and node.count_ops() <= _SHORT):
+            slope = derivative(node, x)
+            if slope.has(x) and slope.count_ops() <= _MOST_OPERATIONS:
+                found[slope] = None
+    return list(found)
+
+
+def derivative(expression: sp.Expr, x: sp.Symbol) -> sp.Expr:
+    """The derivative, found without assumptions on x.
+
+    SymPy asks a function of a positive symbol for its sign by differentiating it again, part by
+    part, which can take hours.
+    """
+    plain = sp.Dummy()
+    found: sp.Expr = sp.diff(expression.xreplace({x: plain}), plain).xreplace({plain: x})
+    return found
+
+
+def _written_out(stable: Stable) -> Iterator[sp.Expr]:
+    """The values of the form's branches in the variable alone; polynomials stay as they are."""
+    value = stable.value
+    sides = (value.below, value.above) if isinstance(value, Seam) else (Branch((), value),)
+    for side in sides:
+        steps = (*stable.steps, *side.steps)
+        for place, expression in enumerate((*(s.expression for s in steps), side.value)):
+            for step in reversed(steps[:place]):
+                expression = expression.xreplace({step.symbol: step.expression})
+            yield expression
+
+
+def _horner(variable: sp.Expr, *coefficients: sp.Expr) -> sp.Expr:
+    value = coefficients[-1]
+    for coefficient in reversed(coefficients[:-1]):
+        value = value * variable + coefficient
+    return value
+
+
+def hard_places(stable: Stable, low: float, high: float) -> list[float]:
+    """Doubles next to which a part changes its sign, overflows or underflows; switch points too.
+
+    Parameters
+    ----------
+    stable
+        The formula with its form.
+    low, high
+        The range of the variable.
+    """
+    x, watched, points = stable.variable, parts(stable), grid(low, high)
+    found: set[float] = set()
+    if isinstance(stable.value, Seam):
+        found.add(float(stable.value.at))
+    with flint.ctx.workprec(BITS):
+        rows = [_marks(watched, x, point) for point in points]
+        for index, part in enumerate(watched):
+            changes = [k for k in range(1, len(points)) if rows[k - 1][index] != rows[k][index]]
+            for k in _some(changes):
+                found.add(_change(part, x, points[k - 1], points[k]))
+    return [place for place in _some(sorted(found)) if low <= place <= high]
+
+
+def _some(found: list[Number]) -> list[Number]:
+    """The first ones, and the others evenly thinned out."""
+    others = found[_FIRST:]
+    if len(others) <= _SPREAD:
+        return found
+    step = len(others) / _SPREAD
+    return found[:_FIRST] + [others[int(k * step)] for k in range(_SPREAD)]
+
+
+def _marks(watched: Sequence[sp.Expr], x: sp.Symbol, point: float) -> list[tuple[int, int]]:
+    known: dict[sp.Basic, flint.arb] = {x: flint.arb(point)}
+    for part in watched:
+        known[part] = _enclosed(part, known)
+    return [_mark(known[part]) for part in watched]
+
+
+def _enclosed(part: sp.Expr, known: dict[sp.Basic, flint.arb]) -> flint.arb:
+    try:
+        return enclose(part, known)
+    except NotImplementedError:
+        return flint.arb("nan")
+
+
+def _mark(value: flint.arb) -> tuple[int, int]:
+    """Sign, 0 if it is not known, and format class of a value."""
+    if not value.is_finite():
+        return 0, 3
+    sign = (value > 0) - (value < 0)
+    if sign == 0:
+        return 0, 0
+    mantissa, exponent = abs(value).mid().man_exp()
+    size = int(exponent) + int(mantissa).bit_length()
+    return sign, (size > _LARGEST) - (size < _SMALLEST) - (size < _LEAST)
+
+
+def _change(part: sp.Expr, x: sp.Symbol, below: float, above: float) -> float:
+    """The double at which the mark of a part changes, between two at which it differs."""
+    first, last = ordinal(below), ordinal(above)
+    start = _mark(_enclosed(part, {x: flint.arb(below)}))
+    while last - first > 1:
+        middle = (first + last) // 2
+        if _mark(_enclosed(part, {x: flint.arb(from_ordinal(middle))})) == start:
+            first = middle
+        else:
+            last = middle
+    return from_ordinal(last)

@@ -1,0 +1,57 @@
+"""The paper: the one object through which the program knows it."""
+
+from pathlib import Path
+
+from derivation.engine.errata.errata import Errata
+from derivation.engine.formula.chain import Chain, Link
+from derivation.engine.measure.domain_grid import domain_judge
+from derivation.engine.measure.point import Point
+from derivation.engine.package import Package
+from derivation.engine.paper import Paper, Report
+from derivation.engine.report.pieces import Prose
+
+from . import prose
+from .kernels import PRINTING, REWRITTEN, SCALES
+from .printed import PRINTED, RELATIONS
+from .route import ROUTES
+from .theory import film
+from .vocabulary import FILM, Formula
+
+HERE = Path(__file__).resolve().parent
+TARGET = f"{__package__}.generated"
+CHAIN = Chain(
+    "film",
+    FILM,
+    (Link("film", film),),
+    ("engine/cache.py", "engine/formula", *sorted(HERE.glob("*.py")), HERE / "budgets.toml"),
+    (Formula,),
+)
+
+
+def easy(point: Point) -> bool:
+    """Whether the second reference takes little time: a film neither very thin nor thick."""
+    v = point.values
+    return 1e-3 < (v["T"] if "T" in v else 2 * v["k"] * v["H"]) < 20
+
+
+PAPER = Paper(
+    title=prose.TITLE,
+    chain=CHAIN,
+    errata=Errata(PRINTED, RELATIONS),
+    package=lambda: Package(
+        TARGET,
+        HERE / "generated",
+        PRINTING.forms,
+        PRINTING.files,
+        rewritten=REWRITTEN,
+        scales=SCALES,
+    ),
+    judge=lambda: domain_judge(CHAIN, ROUTES, TARGET, PRINTING.blocks, easy),
+    report=lambda: Report(
+        HERE / "reports",
+        HERE / "reports" / "check.json",
+        Prose(prose.ABOUT),
+        prose.SUBTITLE,
+        prose.ABSTRACT,
+    ),
+)

@@ -1,0 +1,36 @@
+"""The second reference: the film as a system of four differential equations, by mpmath.
+
+Nothing here is taken from the derivation. With k = G = 1 the state (U, W, shear, normal stress)
+obeys y' = A y, so that y at the top is e^(A H) times y at the base.
+"""
+
+from mpmath import matrix, mp, mpf
+
+from derivation.engine.oracle.agreement import Values
+
+KNOWN = {"bonded": (0, 1), "slipping": (2, 1)}
+"""Places of the state that are zero at the base: U and W, or shear and W."""
+
+
+def over_half_space(s: mpf, T: mpf, held: str) -> mpf:
+    """Deflection of the top over that of a half-space."""
+    a, b = (1 - s) / (1 + s), s / (1 + s)
+    system = matrix([[0, 1, 1, 0], [-a, 0, 0, b], [4 / (1 + s), 0, 0, a], [0, 0, -1, 0]])
+    through = mp.expm(system * (T / 2))
+    free = [place for place in range(4) if place not in KNOWN[held]]
+    tractions = matrix([[through[row, place] for place in free] for row in (2, 3)])
+    base = mp.lu_solve(tractions, matrix([0, -1]))
+    top = sum(through[1, place] * base[i] for i, place in enumerate(free))
+    return -2 * top / (1 + s)
+
+
+def _slipping(v: Values) -> mpf:
+    half_space = (1 + v["s"]) / (2 * v["G"] * v["k"])
+    return half_space * over_half_space(v["s"], 2 * v["k"] * v["H"], "slipping")
+
+
+ROUTES = {
+    "F_bonded": lambda v: over_half_space(v["s"], v["T"], "bonded"),
+    "F_slipping": lambda v: over_half_space(mpf(1), v["T"], "slipping"),
+    "C_slipping": _slipping,
+}

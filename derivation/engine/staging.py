@@ -1,0 +1,228 @@
+"""Files and folders written beside their place and put there in one step.
+
+A temporary is locked as long as the process lives that writes it. A later run can therefore tell
+what a killed one left, which it removes, from what another process is writing.
+"""
+
+import contextlib
+import errno
+import os
+import secrets
+import shutil
+from pathlib import Path
+from types import ModuleType
+
+fcntl: ModuleType | None
+try:
+    import fcntl
+except ImportError:  # no such locks on this system: nothing is taken for a leftover
+    fcntl = None
+
+MARK = ".platecontact-"
+"""Start of the name of every temporary."""
+TEMPORARY, SET_ASIDE = ".tmp", ".old"
+_EXCHANGE, _HERE = 2, -100
+"""RENAME_EXCHANGE and AT_FDCWD of Linux."""
+
+
+class Temporary:
+    """A new file or folder under a hidden name, locked until it is closed.
+
+    Attributes
+    ----------
+    path
+        Where it is.
+    """
+
+    def __init__(self, parent: Path, folder: bool = False) -> None:
+        while True:
+            self.path = parent / f"{MARK}{secrets.token_hex(8)}{TEMPORARY}"
+            self._handle = _new_folder(self.path) if folder else _new_file(self.path)
+            if self._locked():
+                return
+            self.close()
+
+    def _locked(self) -> bool:
+        """Lock it; False if another process took it for a leftover before."""
+        if fcntl is None:
+            return True
+        with contextlib.suppress(OSError):  # on some disks there are no locks
+            fcntl.flock(self._handle, fcntl.LOCK_EX)
+        try:
+            return os.path.samestat(self.path.stat(), os.fstat(self._handle))
+        except FileNotFoundError:
+            return False
+
+    def write(self, content: bytes) -> None:
+        """Write the whole content of a file to the disk."""
+        _write(self._handle, content)
+
+    def close(self) -> None:
+        """Give up the lock."""
+        os.close(self._handle)
+
+    def discard(self) -> None:
+        """Remove it, if it still has its own name."""
+        _remove(self.path)
+
+
+def _new_file(path: Path) -> int:
+    return os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), 0o666)
+
+
+def _new_folder(path: Path) -> int:
+    path.mkdir()
+    return os.open(path, os.O_RDONLY)
+
+
+def _write(handle: int, content: bytes) -> None:
+    rest = memoryview(content)
+    while rest:
+        rest = rest[os.write(handle, rest) :]
+    os.fsync(handle)
+
+
+def _remove(path: Path) -> None:
+    """Remove a file or a folder; what cannot be removed stays."""
+    if path.is_dir() and not path.is_symlink():
+        shutil.rmtree(path, ignore_errors=True)
+    else:
+        with contextlib.suppress(OSError):
+            path.unlink()
+
+
+def settle(folder: Path) -> None:
+    """Have the names in a folder on the disk too, where the system can do that."""
+    with contextlib.suppress(OSError):
+        handle = os.open(folder, os.O_RDONLY)
+        try:
+            os.fsync(handle)
+        finally:
+            os.close(handle)
+
+
+def remove_leftovers(folder: Path) -> None:
+    """Remove the temporaries in a folder whose process has ended."""
+    if fcntl is None:
+        return
+    names = [name for name in os.listdir(folder) if name.startswith(MARK)]  # noqa: PTH208
+    for path in (folder / name for name in names if name.endswith(TEMPORARY)):
+        with contextlib.suppress(OSError):
+            handle = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
+            try:
+                fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                _remove(path)
+            finally:
+                os.close(handle)
+
+
+def put_folder(target: Path, contents: dict[str, bytes]) -> None:
+    """Put a folder with these files in the place of another, or where there is none, in one step.
+
+    Other files of the old folder are taken over; Python's caches are not.
+
+    Parameters
+    ----------
+    target
+        The folder, no link, in a folder that exists.
+    contents
+        By name.
+
+    Raises
+    ------
+    OSError
+        If the folder has to stay where it is: nothing has changed then.
+    """
+    if fcntl is None:  # a folder that is left there could not be told from one at work
+        raise OSError(errno.ENOTSUP, os.strerror(errno.ENOTSUP))
+    staged = Temporary(target.parent, folder=True)
+    try:
+        for name, content in contents.items():
+            handle = _new_file(staged.path / name)
+            try:
+                _write(handle, content)
+            finally:
+                os.close(handle)
+        if target.exists():
+            _take_over(target, staged.path, contents)
+        settle(staged.path)
+        _swap(staged.path, target)
+        settle(target.parent)
+    finally:
+        staged.discard()  # what is there now is the old folder, or what could not be put in place
+        staged.close()
+
+
+def _take_over(old: Path, new: Path, contents: dict[str, bytes]) -> None:
+    """Give a new folder owner, rights and other files of the old one.
+
+    Raises
+    ------
+    OSError
+        If the old one has folders of its own, or is one in which the process works.
+    """
+    if Path.cwd().is_relative_to(old):
+        raise OSError(errno.EBUSY, os.strerror(errno.EBUSY))
+    known, mine = old.stat(), new.stat()
+    if (known.st_uid, known.st_gid) != (mine.st_uid, mine.st_gid):
+        os.chown(new, known.st_uid, known.st_gid)
+    new.chmod(known.st_mode & 0o7777)
+    for entry in os.scandir(old):
+        if entry.name in contents or entry.name == "__pycache__" or entry.name.startswith(MARK):
+            continue
+        if entry.is_dir(follow_symlinks=False):
+            raise OSError(errno.ENOTEMPTY, os.strerror(errno.ENOTEMPTY))
+        os.link(entry.path, new / entry.name, follow_symlinks=False)
+
+
+def _swap(new: Path, target: Path) -> None:
+    """Exchange two folders, in one step where the system can do that."""
+    if not target.exists():
+        new.rename(target)
+    elif not _exchange(new, target):
+        aside = _aside(target)
+        target.rename(aside)
+        try:
+            new.rename(target)
+        except OSError:
+            aside.rename(target)
+            raise
+        _remove(aside)
+
+
+def _exchange(one: Path, other: Path) -> bool:
+    """Exchange two names in one step; False if the system cannot."""
+    import ctypes
+
+    try:
+        call = ctypes.CDLL(None, use_errno=True).renameat2
+    except (AttributeError, OSError, TypeError):
+        return False
+    if call(_HERE, os.fsencode(one), _HERE, os.fsencode(other), _EXCHANGE) == 0:
+        return True
+    code = ctypes.get_errno()
+    if code in (errno.EINVAL, errno.ENOSYS, errno.ENOTSUP):
+        return False
+    raise OSError(code, os.strerror(code))
+
+
+def _aside(target: Path) -> Path:
+    """Where a folder is for the moment between two renames."""
+    return target.with_name(f"{MARK}{target.name}{SET_ASIDE}")
+
+
+def recover(target: Path) -> None:
+    """Undo what a run has left that was killed between the two renames of a folder.
+
+    Raises
+    ------
+    OSError
+        If the folder cannot be moved back.
+    """
+    aside = _aside(target)
+    if not aside.is_dir():
+        return
+    if target.exists():
+        _remove(aside)
+    else:
+        aside.rename(target)

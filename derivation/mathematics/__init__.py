@@ -1,0 +1,1 @@
+"""What papers share and no paper owns."""

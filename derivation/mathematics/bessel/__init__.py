@@ -1,0 +1,1 @@
+"""Bessel functions and their zeros: theory, tables for code, reference values."""

@@ -1,0 +1,345 @@
+"""Turns the theory of J0, J1 and their zeros into the tables their generated code needs.
+
+Below `asymptotic_start` a Taylor polynomial about one of many centres: every zero of
+J0 and of J1 is a centre, held as a sum of two doubles, so that x - centre keeps all
+its digits near the zero. Above it modulus and phase. Every length in here (degree,
+switch points) follows from a bound of what is left out.
+"""
+
+from bisect import bisect_left
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cache
+from itertools import pairwise
+from math import ceil, factorial
+
+import flint
+import sympy as sp
+
+from derivation.engine.formula.ball import enclose, to_ball
+from derivation.mathematics.bessel.theory.functions import (
+    SHIFTED,
+    c,
+    derivative_bound,
+    hankel_constants,
+    k,
+    modulus_bound,
+    modulus_squared,
+    phase_bound,
+    phase_shift,
+    taylor_recurrence,
+)
+from derivation.mathematics.bessel.theory.zeros import (
+    phase_at_zeros,
+    slope_squared,
+    zero_bound,
+    zero_correction,
+)
+
+TOLERANCE = Fraction(1, 2**57)
+"""What truncation may change, relative to the value (absolute for the phase)."""
+TERMS = 8
+"""Terms of each asymptotic expansion; the switch points follow from it."""
+CELLS = 16
+"""Seams are multiples of 1/16, so that a cell number floor(16 x) finds the centre exactly."""
+SPACING = Fraction(17, 20)
+"""Largest distance of neighbouring centres: more centres mean a lower degree."""
+LARGEST_PHASE = 2.0**50
+"""Beyond it the multiple of pi/4 nearest to x is no longer an exact double."""
+_BITS = 320
+_NEWTON_STEPS = 12
+
+
+@dataclass(frozen=True)
+class TaylorTable:
+    """Taylor polynomials of J0 and J1 on neighbouring intervals.
+
+    Parameters
+    ----------
+    high, low
+        Centres, each the sum of two doubles.
+    seams
+        Ends of the intervals, 0 first; interval i is [seams[i], seams[i + 1]).
+    rows
+        For J0 and J1: the coefficients about each centre, constant term first.
+    """
+
+    high: tuple[float, ...]
+    low: tuple[float, ...]
+    seams: tuple[float, ...]
+    rows: tuple[tuple[tuple[float, ...], ...], tuple[tuple[float, ...], ...]]
+
+
+def nearest_double(ball: flint.arb) -> float:
+    """The double nearest to every number in the ball.
+
+    Raises
+    ------
+    ArithmeticError
+        If the ball is too wide to tell.
+    """
+    ends = {float(_fraction(end)) for end in (ball.lower(), ball.upper())}
+    if len(ends) != 1:
+        raise ArithmeticError(f"{ball} lies between two doubles")
+    return ends.pop()
+
+
+def _fraction(point: flint.arb) -> Fraction:
+    mantissa, exponent = point.man_exp()
+    return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
+
+
+def bessel_zero(order: int, index: int) -> flint.arb:
+    """Ball around the index-th positive zero of J0 or J1, at the precision now set.
+
+    Newton's iteration from the leading term of McMahon's expansion; the sign
+    change over the ball certifies a zero. It is the index-th: by Sturm's
+    comparison each interval (n -+ 1/4) pi +- pi/8, minus for J0, holds one zero,
+    and no zero lies elsewhere.
+
+    Raises
+    ------
+    ArithmeticError
+        If no sign change within that interval was found.
+    """
+    start = (4 * flint.arb(index) + phase_at_zeros(order)[0]) / 4 * flint.arb.pi()
+    point = start
+    for _ in range(_NEWTON_STEPS):
+        value, slope = _value_and_slope(order, point)
+        point = (point - value / slope).mid()
+    radius = flint.arb(2) ** (24 - flint.ctx.prec) * point
+    left, right = ((point + side * radius).bessel_j(flint.arb(order)) for side in (-1, 1))
+    if not (left * right < 0 and abs(point - start) < flint.arb.pi() / 8):
+        raise ArithmeticError(f"no zero number {index} of J{order} near {point}")
+    return flint.arb(point, radius)
+
+
+def _value_and_slope(order: int, x: flint.arb) -> tuple[flint.arb, flint.arb]:
+    j0, j1 = x.bessel_j(flint.arb(0)), x.bessel_j(flint.arb(1))
+    return (j0, -j1) if order == 0 else (j1, j0 - j1 / x)
+
+
+def first_true(holds: Callable[[int], bool], limit: int = 1 << 12) -> int:
+    """Smallest positive integer from which on a condition holds.
+
+    Raises
+    ------
+    ArithmeticError
+        If it does not hold up to `limit`.
+    """
+    found = bisect_left(range(limit), True, lo=1, key=holds)
+    if found == limit:
+        raise ArithmeticError(f"the condition is not met up to {limit}")
+    return found
+
+
+@cache
+def asymptotic_start() -> Fraction:
+    """Smallest multiple of 1/16 where modulus and phase of both orders are within tolerance.
+
+    The square root in J halves the relative error of the squared modulus.
+    """
+    hankel_constants()
+
+    def within(cell: int) -> bool:
+        start = sp.Rational(cell, CELLS)
+        return all(
+            modulus_bound(order, TERMS, start) <= 2 * sp.Rational(TOLERANCE)
+            and phase_bound(order, TERMS, start) <= sp.Rational(TOLERANCE)
+            for order in (0, 1)
+        )
+
+    return Fraction(first_true(within), CELLS)
+
+
+@cache
+def mcmahon_start(order: int) -> int:
+    """Smallest index from which the expansions of J_order's zeros are within tolerance.
+
+    The zero's remainder is bounded (`zero_bound`). For order 0 the expansion of J1
+    squared there counts too; its remainder is taken to be the first omitted term.
+    """
+    quarters, slope = phase_at_zeros(order)[0], slope_squared(TERMS + 1)
+
+    def within(index: int) -> bool:
+        # 3 < pi makes beta, and so the bounds, safe.
+        beta = sp.Rational(4 * index + quarters, 4) * 3
+        near = order == 1 or abs(slope.term(TERMS, beta)) <= 2 * sp.Rational(TOLERANCE)
+        return bool(near and zero_bound(order, TERMS, beta) <= beta * sp.Rational(TOLERANCE))
+
+    return first_true(within)
+
+
+def centres() -> tuple[flint.arb, ...]:
+    """0, the zeros of J0 and J1 up to the first beyond the asymptotic start, and points between."""
+    start = to_ball(asymptotic_start())
+    special, index = [flint.arb(0)], 1
+    while special[-1] < start:
+        special += [bessel_zero(0, index), bessel_zero(1, index)]
+        index += 1
+    filled = special[:1]
+    for left, right in pairwise(special):
+        parts = ceil(float(right - left) / float(SPACING))
+        for part in range(1, parts):
+            between = left + (right - left) * part / parts
+            filled.append(to_ball(_on_grid(between)))
+        filled.append(right)
+    return tuple(filled)
+
+
+def _on_grid(ball: flint.arb) -> Fraction:
+    """A multiple of 1/16 next to the ball: exact as a double."""
+    return Fraction(round(float(ball) * CELLS), CELLS)
+
+
+@cache
+def taylor_table() -> TaylorTable:
+    """Centres, seams and the correctly rounded coefficients of J0 and J1."""
+    with flint.ctx.workprec(_BITS):
+        stop = asymptotic_start()
+        points = centres()
+        middles = [_on_grid((a + b) / 2) for a, b in pairwise(points)]
+        seams = (Fraction(0), *(seam for seam in middles if seam < stop), stop)
+        points = points[: len(seams) - 1]
+        length = _terms_needed(points, seams)
+        series = [_taylor_of_j0(point, length + 1) for point in points]
+        slopes = [[-(n + 1) * a for n, a in enumerate(row[1:])] for row in series]
+        high = tuple(float(point.mid()) for point in points)
+        return TaylorTable(
+            high,
+            tuple(nearest_double(point - near) for point, near in zip(points, high, strict=True)),
+            tuple(float(seam) for seam in seams),
+            (_rounded(row[:length] for row in series), _rounded(slopes)),
+        )
+
+
+def _rounded(rows: Iterable[Iterable[flint.arb]]) -> tuple[tuple[float, ...], ...]:
+    return tuple(tuple(nearest_double(a) for a in row) for row in rows)
+
+
+def _terms_needed(points: tuple[flint.arb, ...], seams: tuple[Fraction, ...]) -> int:
+    """Number of Taylor terms that is enough on every interval, for J0 and J1.
+
+    The remainder t^n/n! max |J0^(n)| (J0^(n+1) for J1) is compared with the value
+    at both ends. That suffices: from an end inwards the remainder shrinks like
+    t^n, the value at most like t (towards a zero at the centre).
+    """
+    ends = [
+        (to_ball(end) - point, to_ball(end))
+        for point, left, right in zip(points, seams, seams[1:], strict=False)
+        for end in (left, right)
+        if end > 0
+    ]
+    values = [(abs(t), [abs(x.bessel_j(flint.arb(order))) for order in (0, 1)]) for t, x in ends]
+
+    def enough(terms: int) -> bool:
+        bounds = [enclose(derivative_bound(terms + order), {}) for order in (0, 1)]
+        scale = to_ball(TOLERANCE) * factorial(terms)
+        return all(
+            bool(t**terms * bounds[order] <= scale * size[order])
+            for t, size in values
+            for order in (0, 1)
+        )
+
+    return first_true(enough, 64)
+
+
+def _taylor_of_j0(point: flint.arb, length: int) -> list[flint.arb]:
+    """Taylor coefficients of J0 about a centre; a zero's vanishing coefficient is exactly 0."""
+    recurrence = taylor_recurrence()
+    if point == 0:
+        row = [flint.arb(1), flint.arb(0)]
+        for index in range(2, length):
+            values = {SHIFTED[0]: row[index - 2], k: flint.arb(index)}
+            row.append(enclose(recurrence.at_origin, values))
+        return row
+    first = (point.bessel_j(flint.arb(0)), -point.bessel_j(flint.arb(1)))
+    row = [flint.arb(0)] * 2 + [flint.arb(0) if a.contains(0) else a for a in first]
+    for index in range(length - 2):
+        values = dict(zip(SHIFTED[:4], row[index:], strict=False))
+        row.append(enclose(recurrence.following, values | {c: point, k: flint.arb(index)}))
+    return row[2:]
+
+
+def seams() -> tuple[float, ...]:
+    """Arguments where the generated J0 and J1 change their method or centre, ascending."""
+    return (*taylor_table().seams, LARGEST_PHASE)
+
+
+@cache
+def low_zeros(order: int) -> tuple[float, ...]:
+    """Zeros of J_order below McMahon's start, correctly rounded."""
+    with flint.ctx.workprec(_BITS):
+        zeros = (bessel_zero(order, index) for index in range(1, mcmahon_start(order)))
+        return tuple(nearest_double(zero) for zero in zeros)
+
+
+@cache
+def low_slopes() -> tuple[float, ...]:
+    """J1 at the zeros of J0 below McMahon's start, correctly rounded."""
+    with flint.ctx.workprec(_BITS):
+        zeros = (bessel_zero(0, index) for index in range(1, mcmahon_start(0)))
+        return tuple(nearest_double(zero.bessel_j(flint.arb(1))) for zero in zeros)
+
+
+def constants() -> dict[str, str]:
+    """The multiples and powers of pi the code needs, two of them with a second double."""
+    with flint.ctx.workprec(_BITS):
+        pi = flint.arb.pi()
+        head, square = nearest_double(pi / 4), nearest_double(8 / pi**2)
+        numbers = {
+            "quarter_pi": head,
+            "quarter_pi_tail": nearest_double(pi / 4 - head),
+            "eight_over_pi2": square,
+            "eight_over_pi2_tail": nearest_double(8 / pi**2 - square),
+            "half_pi": nearest_double(pi / 2),
+            "inverse_pi": nearest_double(1 / pi),
+            "inverse_root_pi": nearest_double(1 / pi.sqrt()),
+        }
+    return {name: repr(value) for name, value in numbers.items()}
+
+
+def wrapped(texts: Iterable[str], width: int = 90) -> tuple[str, ...]:
+    """Items joined by commas into lines no longer than `width`, the last one's comma included."""
+    lines = [""]
+    for text in texts:
+        if lines[-1] and len(lines[-1]) + len(text) + 2 > width:
+            lines.append("")
+        lines[-1] += f"{' ' if lines[-1] else ''}{text},"
+    return tuple(lines)
+
+
+def _numbers(values: Iterable[float]) -> tuple[str, ...]:
+    return wrapped(map(repr, values))
+
+
+def _rationals(coefficients: Iterable[sp.Rational]) -> tuple[str, ...]:
+    """Exact quotients of integers, which Python rounds correctly."""
+    return tuple(f"{a.p} / {a.q}" if a.q != 1 else f"{a.p}.0" for a in coefficients)
+
+
+def bessel_context() -> dict[str, object]:
+    """Everything the template of the generated module needs, numbers already as text."""
+    table = taylor_table()
+    return {
+        "centres_high": _numbers(table.high),
+        "centres_low": _numbers(table.low),
+        "seams": _numbers(table.seams[:-1]),
+        "taylor": tuple(tuple(_numbers(row) for row in rows) for rows in table.rows),
+        "degree": str(len(table.rows[0][0]) - 1),
+        "cells": str(CELLS),
+        "asymptotic_start": repr(table.seams[-1]),
+        "largest_phase": repr(LARGEST_PHASE),
+        "modulus": tuple(_rationals(modulus_squared(n, TERMS).coefficients) for n in (0, 1)),
+        "shift": tuple(_rationals(phase_shift(n, TERMS).coefficients) for n in (0, 1)),
+        "zero_correction": tuple(
+            _rationals(zero_correction(n, TERMS).coefficients) for n in (0, 1)
+        ),
+        "slope_excess": _rationals(slope_squared(TERMS).coefficients[1:]),
+        "low_zeros": tuple(_numbers(low_zeros(n)) for n in (0, 1)),
+        "low_slopes": _numbers(low_slopes()),
+        "first_mcmahon": tuple(str(mcmahon_start(n)) for n in (0, 1)),
+        "quarters": tuple(f"{phase_at_zeros(n)[0]}.0" for n in (0, 1)),
+        **constants(),
+    }

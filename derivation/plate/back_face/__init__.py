@@ -1,0 +1,1 @@
+"""The stress on the back face, opposite the contact."""

@@ -1,0 +1,96 @@
+"""Measures the panels: every method of a task in a regime, first its errors, then its time."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from derivation.plate.benchmark import clock
+from derivation.plate.benchmark.clock import CPU, FULL, QUICK, Effort, Session, Timing
+from derivation.plate.benchmark.errors import Judged, judge
+from derivation.plate.benchmark.interface import Call, Doubles, Method, Regime, Task
+from derivation.plate.benchmark.problems import Problem, problem
+from derivation.plate.benchmark.rows import Row
+
+SLOW = 0.05
+"""Time of a single result from which it is timed but once, where it is judged [s]."""
+
+SLOW_ARRAY = 500
+"""Points of the array for such methods."""
+
+NO_DIGITS = 0.5
+"""Digits below which a method has failed."""
+
+
+@dataclass(frozen=True)
+class Panel:
+    """Rows of a task in a regime, and how calm the machine was (None: nothing was timed)."""
+
+    rows: tuple[Row, ...]
+    vector: Session | None
+    single: Session | None
+
+
+def panel(task: Task, regime: Regime, methods: Sequence[Method], quick: bool) -> Panel:
+    """Judge and time the methods of a task in a regime."""
+    wanted = [method for method in methods if method.task == task]
+    if not wanted:
+        return Panel((), None, None)
+    set_task = problem(task, regime, quick)
+    rows, calls = [], []
+    for method in wanted:
+        row, judged = judged_row(method, set_task)
+        rows.append(row)
+        calls.append(judged)
+    return _timed(rows, calls, wanted, set_task, QUICK if quick else FULL)
+
+
+def judged_row(method: Method, problem: Problem) -> tuple[Row, Judged | None]:
+    """A method's row without times, and what to time unless it fails."""
+    reason = method.fails(problem.regime)
+    row = Row(
+        method.task, problem.regime.name, method.family, method.setting, method.arithmetic, reason
+    )
+    if reason is not None:
+        return row, None
+    judged = judge(method, problem, CPU)
+    total = judged.errors.total
+    reason = None
+    if total == -math.inf:
+        reason = "gives no number in part of the regime"
+    elif total < NO_DIGITS:
+        reason = f"no digit right: relative error up to {10**-total:.2g}"
+    row = replace(row, fails=reason, errors=judged.errors, setup=judged.setup)
+    if judged.first > SLOW:
+        alone = Timing(judged.first, 1, 1.0, 1)
+        many = alone if method.one_by_one else _once(judged.call, problem.sample[:SLOW_ARRAY])
+        return replace(row, vector=many, single=alone), None
+    return row, judged if total > -math.inf else None
+
+
+def _once(call: Call, array: Doubles) -> Timing:
+    """Time of a single call with an array."""
+    begin = CPU()
+    call(array)
+    return Timing((CPU() - begin) / array.size, array.size, 1.0, 1)
+
+
+def _timed(
+    rows: list[Row], calls: Sequence[Judged | None], methods: Sequence[Method], problem: Problem,
+    effort: Effort,
+) -> Panel:  # fmt: skip
+    """The rows with times, arrays and single calls each in turns of their own."""
+    known = [(place, judged) for place, judged in enumerate(calls) if judged is not None]
+    if not known:
+        return Panel(tuple(rows), None, None)
+    one = problem.points[-1:]
+    alone = clock.session([clock.plan(judged.call, one) for _, judged in known], effort)
+    for (place, _), timing in zip(known, alone.timings, strict=True):
+        rows[place] = replace(rows[place], vector=timing, single=timing)
+    known = [(place, judged) for place, judged in known if not methods[place].one_by_one]
+    if not known:
+        return Panel(tuple(rows), None, alone)
+    arrays = [clock.plan(judged.call, problem.sample) for _, judged in known]
+    vector = clock.session(arrays, effort)
+    for (place, _), timing in zip(known, vector.timings, strict=True):
+        rows[place] = replace(rows[place], vector=timing)
+    return Panel(tuple(rows), vector, alone)

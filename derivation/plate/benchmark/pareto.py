@@ -1,0 +1,83 @@
+"""The cheapest method for so many digits, the ties, and its cost over that of three digits."""
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from derivation.plate.benchmark.catalogue import simplicity
+from derivation.plate.benchmark.interface import TIE
+from derivation.plate.benchmark.rows import Kind, Row
+
+DIGITS = (3, 6, 9, 12, 15, 30, 100, 1000)
+DOUBTFUL = (1.15, 1.25)
+"""Ratios of times at which another run may decide otherwise whether there is a tie."""
+
+
+@dataclass(frozen=True)
+class Winner:
+    """The cheapest method of a panel that reaches some digits.
+
+    Attributes
+    ----------
+    task, regime, digits, kind
+        The panel, what is to be reached, and whether in arrays or by single calls.
+    family, setting, seconds
+        The simplest among the ties, and its time per point [s].
+    relative
+        That time over the cheapest method's of the panel, with three digits at least.
+    ties
+        Other families within a factor of 1.2 of the fastest.
+    doubtful
+        Families, the winner too, so near to that factor that another run may decide otherwise.
+    """
+
+    task: str
+    regime: str
+    digits: int
+    kind: Kind
+    family: str
+    setting: str
+    seconds: float
+    relative: float
+    ties: tuple[str, ...]
+    doubtful: tuple[str, ...]
+
+
+def winners(rows: Sequence[Row]) -> list[Winner]:
+    """Winners of every panel, for arrays and for single calls; none where nothing reaches."""
+    panels = dict.fromkeys((row.task, row.regime) for row in rows)
+    return [
+        found
+        for task, regime in panels
+        for kind in ("vector", "single")
+        for found in _panel([r for r in rows if (r.task, r.regime) == (task, regime)], kind)
+    ]
+
+
+def _panel(rows: Sequence[Row], kind: Kind) -> Iterator[Winner]:
+    timed = [(row, row.seconds(kind)) for row in rows]
+    known = [(row, seconds) for row, seconds in timed if seconds is not None]
+    if not known:
+        return
+    cheapest = min((t for row, t in known if _reaches(row, DIGITS[0])), default=math.nan)
+    for digits in DIGITS:
+        fastest: dict[str, tuple[Row, float]] = {}
+        for row, seconds in known:
+            best = fastest[row.family][1] if row.family in fastest else math.inf
+            if _reaches(row, digits) and seconds < best:
+                fastest[row.family] = row, seconds
+        if not fastest:
+            continue
+        least = min(seconds for _, seconds in fastest.values())
+        ratios = {family: seconds / least for family, (_, seconds) in fastest.items()}
+        tied = sorted((f for f, ratio in ratios.items() if ratio <= TIE), key=simplicity)
+        row, seconds = fastest[tied[0]]
+        yield Winner(
+            row.task, row.regime, digits, kind, row.family, row.setting, seconds,
+            seconds / cheapest, tuple(tied[1:]),
+            tuple(f for f, ratio in ratios.items() if DOUBTFUL[0] <= ratio <= DOUBTFUL[1]),
+        )  # fmt: skip
+
+
+def _reaches(row: Row, digits: float) -> bool:
+    return row.errors is not None and row.errors.total >= digits

@@ -1,0 +1,121 @@
+"""Where methods are judged: arguments with certified results, and arrays to time them on."""
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import flint
+import numpy as np
+from flint import arb
+
+from derivation.engine.formula.ball import LOG2_10
+from derivation.plate.benchmark.interface import PAPER, Doubles, Regime, Task, deepest
+from derivation.plate.benchmark.inversion import SPAN
+from derivation.plate.contact.oracle import balls as contact_balls
+from derivation.plate.contact.oracle.balls import ratio_of
+from derivation.plate.impact.oracle import impact as contact_impact
+from derivation.plate.impact.oracle import many_digits
+from generated.contact_law import indentation
+
+SEED = 7
+ARRAY = 10_000
+"""Points of an array that methods are timed on: its intermediates stay in the cache."""
+
+LAW_DIGITS, QUICK_DIGITS = 120, 45
+MANY_DIGITS = 1030
+"""Of the law in the paper's regime, by a certified power series instead of integrals."""
+
+INVERSION_DIGITS, IMPACT_DIGITS = 40, 40
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A task in a regime.
+
+    Attributes
+    ----------
+    points, truths, digits
+        Arguments, the results there as balls, and how many digits of these are sure.
+    sample
+        Arguments of the same kind, to time.
+    """
+
+    task: Task
+    regime: Regime
+    points: Doubles
+    truths: tuple[arb, ...]
+    digits: int
+    sample: Doubles
+
+
+def problem(task: Task, regime: Regime, quick: bool) -> Problem:
+    """The problem of a task in a regime."""
+    makers: Mapping[Task, Callable[[Regime, bool], Problem]] = {
+        "law": _law,
+        "inversion": _inversion,
+        "impact": _impact,
+    }
+    return makers[task](regime, quick)
+
+
+def _spread(low: float, high: float, count: int, seed: int) -> Doubles:
+    """Random numbers, their logarithms uniform, with both ends."""
+    random = np.random.default_rng(seed)
+    inner = np.exp(random.uniform(math.log(low), math.log(high), count))
+    return np.concatenate([[low, high], inner])
+
+
+def _law(regime: Regime, quick: bool) -> Problem:
+    low, high = regime.low * regime.h, regime.high * regime.h
+    digits = QUICK_DIGITS if quick else MANY_DIGITS if regime is PAPER else LAW_DIGITS
+    radii = _spread(low, high, 10 if quick else 18, SEED)
+    if digits == MANY_DIGITS:
+        truths = _many_digits(radii, regime)
+    else:
+        truths = tuple(
+            contact_balls.indentation(float(a), regime.R, regime.h, regime.b, digits) for a in radii
+        )
+    return Problem(
+        "law", regime, radii, truths, digits, _spread(low, high, ARRAY - 2, SEED + 1)
+    )  # fmt: skip
+
+
+def _many_digits(radii: Doubles, regime: Regime) -> tuple[arb, ...]:
+    """Indentations to MANY_DIGITS."""
+    r, reach = regime, float(radii.max()) / regime.b
+    law = many_digits.law_of(
+        ratio_of(r.h, r.b), reach * (1 + 1e-9), MANY_DIGITS, lambda *_: None
+    )  # fmt: skip
+    return tuple(
+        many_digits.pressed(float(a), r.R, r.b, r.lam, r.mu, law, MANY_DIGITS)[0] for a in radii
+    )
+
+
+def _inversion(regime: Regime, quick: bool) -> Problem:
+    """Indentations of known radii, rounded, and the certified force there."""
+    top = deepest(regime)
+    radii = _spread(top / SPAN, 0.999 * top, 6 if quick else 14, SEED)
+    R, h, b = regime.R, regime.h, regime.b
+    depths = np.array([float(contact_balls.indentation(float(a), R, h, b, 20)) for a in radii])
+    with flint.ctx.workprec(math.ceil(2 * INVERSION_DIGITS * LOG2_10)):
+        truths = tuple(_force(float(d), regime) for d in depths)
+    sample = indentation(_spread(top / SPAN, 0.999 * top, ARRAY - 2, SEED + 1), R, h, b)
+    return Problem("inversion", regime, depths, truths, INVERSION_DIGITS, sample)
+
+
+def _force(delta: float, regime: Regime) -> arb:
+    R, h, b = regime.R, regime.h, regime.b
+    radius = contact_balls.contact_radius(delta, R, h, b, INVERSION_DIGITS + 2)
+    return 4 * contact_balls.modulus(regime.lam, regime.mu) * radius**3 / (3 * arb(R))
+
+
+def _impact(regime: Regime, quick: bool) -> Problem:
+    shares = (1.0,) if quick else (0.7, 0.85, 1.0)
+    speeds = np.array([share * regime.speed for share in shares])
+    r = regime
+    truths = tuple(
+        contact_impact.impact(r.R, r.m, float(v), r.h, r.b, r.lam, r.mu, IMPACT_DIGITS).contact_time
+        for v in speeds
+    )
+    sample = _spread(0.7 * r.speed, r.speed, ARRAY - 2, SEED + 1)
+    return Problem("impact", regime, speeds, truths, IMPACT_DIGITS, sample)

@@ -1,0 +1,124 @@
+"""The whole measurement: panels, winners, scaling, headline and other tools, as plain data."""
+
+import os
+from collections.abc import Callable, Sequence
+from dataclasses import asdict
+from typing import Any
+
+from derivation.engine.measure.record import plain, provenance
+from derivation.plate.benchmark import scaling
+from derivation.plate.benchmark.catalogue import methods
+from derivation.plate.benchmark.clock import CONTENDED, FULL, QUICK, SEED, Session
+from derivation.plate.benchmark.headline import headline
+from derivation.plate.benchmark.interface import PAPER, REGIMES, TASKS, TIE, Regime, deepest
+from derivation.plate.benchmark.panels import panel
+from derivation.plate.benchmark.pareto import winners
+from derivation.plate.benchmark.problems import LAW_DIGITS, QUICK_DIGITS
+from derivation.plate.benchmark.rows import Row
+from derivation.plate.benchmark.speed import machine
+from derivation.plate.benchmark.tools import tools
+from derivation.plate.judge import PACKAGE
+
+Tell = Callable[[str, int, int], None]
+
+
+def scene_regime(
+    R: float, m: float, v0: float, h: float, b: float, lam: float, mu: float
+) -> Regime:  # fmt: skip
+    """A scene as a regime, in the place of the paper's.
+
+    The law is looked at from a thirteenth of the impact's largest contact to twice it, if that
+    is within the plate and the sphere.
+
+    Raises
+    ------
+    ValueError
+        If the impact goes beyond the contact law.
+    """
+    regime = Regime("scene", R, h, b, 0.0, 0.0, v0, m, lam, mu)
+    top = deepest(regime) / h
+    if not top > 0:
+        raise ValueError(
+            "expected an impact within the contact law (a below R, b and 6 h), got one beyond it: "
+            "lower the speed or thicken the plate"
+        )
+    high = min(2 * top, 0.95 * min(b, R) / h)
+    return Regime("scene", R, h, b, top / 13, max(high, top), v0, m, lam, mu)
+
+
+def regimes(scene: Regime | None) -> tuple[Regime, ...]:
+    """Every regime, with a scene in the place of the paper's."""
+    return tuple(scene if scene and regime is PAPER else regime for regime in REGIMES)
+
+
+def measure(
+    names: Sequence[str] = (), quick: bool = False, scene: Regime | None = None,
+    tell: Tell | None = None,
+) -> dict[str, Any]:  # fmt: skip
+    """Measure everything, or the methods named; seconds when quick, else minutes.
+
+    Raises
+    ------
+    ValueError
+        If a method is unknown.
+    """
+    chosen, places = methods(names, quick), regimes(scene)
+    studies = scaling.studies(quick)
+    told = _Told(tell, len(TASKS) * len(places) + len(studies) + 2)
+    effort = QUICK if quick else FULL
+    before = os.getloadavg()[0]
+    rows: list[Row] = []
+    sessions: list[dict[str, Any]] = []
+    for regime in places:
+        for task in TASKS:
+            told(f"{task}, {regime.name}")
+            found = panel(task, regime, chosen, quick)
+            rows += found.rows
+            sessions += [
+                {"task": task, "regime": regime.name, "kind": kind, **_session(session)}
+                for kind, session in (("vector", found.vector), ("single", found.single))
+                if session is not None
+            ]
+    growths = []
+    for what, study in studies:
+        told(f"scaling with {what}")
+        growths += study()
+    told("headline")
+    against = headline(scene or PAPER, quick)
+    told("other tools")
+    data = {
+        "provenance": provenance(QUICK_DIGITS if quick else LAW_DIGITS, PACKAGE),
+        "machine": dict(machine()),
+        "run": {
+            "quick": quick, "rounds": effort.rounds, "seed": SEED, "tie": TIE,
+            "contended": CONTENDED, "methods": list(names),
+            "load_before": before, "load_after": os.getloadavg()[0],
+        },
+        "regimes": [asdict(regime) for regime in places],
+        "rows": [asdict(row) for row in rows],
+        "sessions": sessions,
+        "pareto": [asdict(winner) for winner in winners(rows)],
+        "scaling": [asdict(growth) for growth in growths],
+        "headline": asdict(against),
+        "tools": [asdict(tool) for tool in tools()],
+    }  # fmt: skip
+    cleaned: dict[str, Any] = plain(data)
+    return cleaned
+
+
+def _session(session: Session) -> dict[str, Any]:
+    return {
+        "spread": session.spread, "attempts": session.attempts, "contended": session.contended,
+    }  # fmt: skip
+
+
+class _Told:
+    """Counts the parts of the work and tells whoever wants to know."""
+
+    def __init__(self, tell: Tell | None, total: int) -> None:
+        self.tell, self.total, self.number = tell, total, 0
+
+    def __call__(self, part: str) -> None:
+        self.number += 1
+        if self.tell is not None:
+            self.tell(part, self.number, self.total)

@@ -1,0 +1,208 @@
+"""How cost grows with points, thinness, digits and scenes: slopes, memory, and where lines end."""
+
+import math
+import tracemalloc
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+
+from derivation.plate.benchmark import law_generated, law_series, speed
+from derivation.plate.benchmark.arithmetic import Balls, Mpmath
+from derivation.plate.benchmark.clock import CPU
+from derivation.plate.benchmark.interface import PAPER, Method
+from derivation.plate.benchmark.law_sums import split
+from derivation.plate.benchmark.problems import ARRAY
+from generated.contact_law import indentation
+from generated.impact import impact
+from generated.simple_impact import hertz, leading
+
+REPEATS = 7
+LONG = 0.5
+"""A call that takes longer is timed once [s]."""
+
+OFF = 1.5
+"""Factor beyond which a time has left the straight line."""
+
+DIGITS_PER_TERM = 2.2
+"""Of the small-a series at a/h = 0.3: 2 log10(4/0.3)."""
+
+SPLIT_POINTS = 64
+
+
+@dataclass(frozen=True)
+class Growth:
+    """Times over a size.
+
+    Attributes
+    ----------
+    what, method
+        What grows, and whose time it is.
+    x, seconds
+        Sizes, and time of the whole [s].
+    slope
+        Of log(time) over log(size) along the straight part, at the upper end.
+    leaves
+        Largest size at which the time lies off that line by a factor of OFF, if any.
+    why
+        What the time consists of there.
+    peak_bytes
+        Memory that the last call took at most, its result included; None if not measured.
+    """
+
+    what: str
+    method: str
+    x: tuple[float, ...]
+    seconds: tuple[float, ...]
+    slope: float
+    leaves: float | None
+    why: str
+    peak_bytes: int | None
+
+
+def growth(
+    what: str, method: str, x: Sequence[float], calls: Sequence[Callable[[], object]], why: str
+) -> Growth:
+    """Time each call, and trace the memory of the last."""
+    seconds = tuple(_lowest(call) for call in calls)
+    slope, leaves = line(x, seconds)
+    return Growth(what, method, tuple(x), seconds, slope, leaves, why, peak(calls[-1]))
+
+
+def line(x: Sequence[float], seconds: Sequence[float]) -> tuple[float, float | None]:
+    """Slope through the last three points, and the largest size whose time is off that line."""
+    logs, times = np.log(x), np.log(seconds)
+    slope, start = np.polyfit(logs[-3:], times[-3:], 1)
+    off = np.flatnonzero(np.abs(times - (start + slope * logs)) > math.log(OFF))
+    return float(slope), float(x[off[-1]]) if off.size else None
+
+
+def peak(call: Callable[[], object]) -> int:
+    """Most memory that a call had taken at any time [bytes]."""
+    tracemalloc.start()
+    call()
+    _, most = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    return most
+
+
+def _lowest(call: Callable[[], object]) -> float:
+    """Lower quartile of a few calls' times [s]."""
+    call()
+    times = []
+    for _ in range(REPEATS):
+        begin = CPU()
+        call()
+        times.append(CPU() - begin)
+        if times[-1] > LONG:
+            break
+    return float(np.quantile(times, 0.25))
+
+
+def points() -> list[Growth]:
+    """The law over the number of points, the plate's preparation included and not."""
+    sizes = [10**k for k in range(8)]
+    radii = np.random.default_rng(1).uniform(1e-3, 0.03, sizes[-1])
+    ready = law_generated.prepared().prepare(PAPER)
+    whole = "set-up of a call (domain, plate) outweighs the points below"
+    return [
+        growth(
+            "points", "production, as called", sizes,
+            [partial(indentation, radii[:n], PAPER.R, PAPER.h, PAPER.b) for n in sizes], whole,
+        ),
+        growth(
+            "points", "production, prepared", sizes, [partial(ready, radii[:n]) for n in sizes],
+            "the interpreter's share of a call outweighs the points below",
+        ),
+    ]  # fmt: skip
+
+
+def thinness() -> list[Growth]:
+    """The law over b/h: called with 10 000 points, and split with a few."""
+    ratios = [10.0**k for k in range(5)]
+    shares = np.random.default_rng(1).uniform(0.01, 0.9, ARRAY)
+    plates = [replace(PAPER, R=100.0, h=1 / ratio) for ratio in ratios]
+
+    def calls(method: Method, count: int) -> list[Callable[[], object]]:
+        made = [(method.prepare(plate), shares[:count] * plate.h) for plate in plates]
+        return [partial(call, a) for call, a in made]
+
+    flat = "flat: coefficients come from tables in h/b, the points see polynomials only"
+    modes = "grows with the modes, 4 b/h of them; for thick plates the wall's 48 nodes count"
+    return [
+        growth(
+            "b/h", f"production, as called, {ARRAY} points", ratios,
+            calls(law_generated.called(), ARRAY), flat,
+        ),
+        growth(
+            "b/h", f"split, 48 nodes, {SPLIT_POINTS} points", ratios,
+            calls(split(48, 4), SPLIT_POINTS), modes,
+        ),
+    ]  # fmt: skip
+
+
+def digits(quick: bool) -> list[Growth]:
+    """The small-a series over the digits asked for: set-up, and one point in balls and mpmath."""
+    asked = [30, 50, 100] if quick else [30, 50, 100, 200, 300, 500, 1000]
+    setups, balls, numbers = [], [], []
+    for count in asked:
+        terms = math.ceil(count / DIGITS_PER_TERM) + 3
+        begin = CPU()
+        balls.append(law_series.small_contacts(terms, Balls(count)).prepare(PAPER))
+        setups.append(CPU() - begin)
+        # The same coefficients: they are not found anew.
+        numbers.append(law_series.small_contacts(terms, Mpmath(count)).prepare(PAPER))
+    a, setup_slope = np.array([0.3 * PAPER.h]), line(asked, setups)
+    return [
+        Growth(
+            "digits", "small-a series in balls, set-up", tuple(asked), tuple(setups), *setup_slope,
+            "zeros of J0 to that precision: more of them, and each dearer", None,
+        ),
+        growth(
+            "digits", "small-a series in balls, one point", asked,
+            [partial(call, a) for call in balls],
+            "as many more terms as digits; the interpreter's share of a term outweighs its bits",
+        ),
+        growth(
+            "digits", "small-a series in mpmath, one point", asked,
+            [partial(call, a) for call in numbers],
+            "the same terms; products of so many bits count earlier",
+        ),
+    ]  # fmt: skip
+
+
+def scenes(quick: bool) -> list[Growth]:
+    """Impacts of different scenes by each of `simulate`'s methods, the whole law's in one batch."""
+    sizes = [10**k for k in range(5 if quick else 6)]
+    batches = [speed.scenes(0.01, 2.9, n) for n in sizes]
+    rows = [list(zip(*(x.tolist() for x in s.values()), strict=True)) for s in batches]
+    batch = "set-up of a call and NumPy's share of each operation outweigh the scenes below"
+    found = [
+        growth(
+            "scenes", name, sizes, [partial(_each, method, some) for some in rows],
+            "one scene after another in plain Python",
+        )
+        for name, method in (("hertz", hertz), ("leading", leading))
+    ]  # fmt: skip
+    return found + [
+        growth(
+            "scenes", name, sizes, [partial(impact, **s, coarse=coarse) for s in batches], batch
+        )
+        for name, coarse in (("coarse", True), ("full", False))
+    ]  # fmt: skip
+
+
+def _each(method: Callable[..., object], scenes: Sequence[Sequence[float]]) -> list[object]:
+    """A method of single scenes on each."""
+    return [method(*scene) for scene in scenes]
+
+
+def studies(quick: bool) -> tuple[tuple[str, Callable[[], list[Growth]]], ...]:
+    """Every study by what grows; a quick one asks for fewer digits."""
+    return (
+        ("points", points),
+        ("b/h", thinness),
+        ("digits", partial(digits, quick)),
+        ("scenes", partial(scenes, quick)),
+    )

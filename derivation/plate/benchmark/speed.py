@@ -1,0 +1,275 @@
+"""How fast the contact law, the impact and a cold start are: times side by side, as ratios.
+
+Candidates take turns in one process, so that whatever else the machine does
+meets all of them; of each the lower quartile counts, and the spread up to the
+upper quartile is kept as a sign of contention.
+"""
+
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from derivation.plate.modes.naive import FIELDS, naive_field
+from generated import (
+    G,
+    G_minus_1,
+    K_j,
+    Omega_1,
+    Omega_2,
+    Omega_3,
+    Omega_4,
+    as_printed,
+    mode_shapes,
+    sonine,
+)
+from generated.arrays import as_doubles, as_result, inside
+from generated.contact_law import force_of_radius, indentation
+from generated.impact import impact
+
+POINTS = 1_000_000
+SCENES = 100_000
+ROUNDS = 25
+COMMAND = "from derivation.cli import main; main()"
+START, SOLVED_START, EXPLAINED = 2.0, 4.0, 1.3
+"""Cold starts of simulate, of one that solves for the pressure, and of explain: at most."""
+SWITCHES = "curvature", "bending", "finite_thickness", "side_wall", "pressure"
+"""Effects of `block.toml` that can be off."""
+COLD_ROUNDS = 9
+LIBRARIES = "import numpy, scipy.special, pydantic, typer, rich"
+ETA = 0.1
+"""h/b of the paper's plate."""
+
+
+@dataclass(frozen=True)
+class Timing:
+    """One comparison.
+
+    Parameters
+    ----------
+    name
+        What was timed.
+    value, unit
+        The result: a ratio of times, or a rate.
+    limit
+        What is promised of it: at most for a ratio, at least for a rate.
+    spread
+        Largest upper over lower quartile among the times it rests on.
+    kept
+        Whether the promise is kept.
+    """
+
+    name: str
+    value: float
+    unit: str
+    limit: float
+    spread: float
+    kept: bool
+
+
+def interleaved(
+    candidates: Sequence[Callable[[], object]], rounds: int
+) -> tuple[list[float], float]:
+    """Lower quartile of each candidate's times [s], and the largest spread."""
+    times = np.empty((rounds, len(candidates)))
+    for row in times:
+        for index, candidate in enumerate(candidates):
+            begin = time.perf_counter()
+            candidate()
+            row[index] = time.perf_counter() - begin
+    low, high = np.quantile(times, (0.25, 0.75), axis=0)
+    return low.tolist(), float((high / low).max())
+
+
+def ratio(name: str, one: Callable[[], object], base: Callable[[], object], limit: float,
+          rounds: int = ROUNDS) -> Timing:  # fmt: skip
+    """How many times as long as the base one takes."""
+    (mine, other), spread = interleaved((one, base), rounds)
+    return Timing(name, mine / other, "times", limit, spread, mine / other <= limit)
+
+
+def law_over_exp(top: float, limit: float) -> Timing:
+    """The contact law of one plate over numpy.exp of the same array, a/h uniform up to `top`."""
+    a = np.random.default_rng(1).uniform(1e-3, top, POINTS)
+    name = f"contact law over numpy.exp, {POINTS:.0e} points, h/b = {ETA}, a/h up to {top}"
+    return ratio(name, lambda: indentation(a, 100.0, 1.0, 1 / ETA), lambda: np.exp(a), limit)
+
+
+def _naive_G(x: Any) -> Any:
+    return (np.sinh(x) * np.cosh(x) + x) / (np.sinh(x) ** 2 - x**2)
+
+
+def _as_kernel(naive: Callable[[Any], Any]) -> Callable[[Any], Any]:
+    """A naive form with what every kernel does to arguments and result."""
+
+    def call(x: Any) -> Any:
+        kind, [x] = as_doubles(x)
+        [x] = inside([x], x > 0)
+        return as_result(naive(x), kind)
+
+    return call
+
+
+NAIVE_POINTS = 10_000
+
+
+def _field(name: str) -> tuple[Callable[[Any], Any], Callable[[Any], Any]]:
+    """A field of a mode and its naive form, both of x = phi h, from face to face."""
+    stable, depths = getattr(mode_shapes, name), np.linspace(-1.0, 1.0, NAIVE_POINTS)
+    return (
+        lambda x: stable(depths, x, 1.0, 1.2, 0.8, -1.0),
+        lambda x: naive_field(name, depths, x, 1.0, 1.2, 0.8, -1.0),
+    )
+
+
+NAIVE: Mapping[str, tuple[Callable[..., Any], Callable[..., Any]]] = {
+    "G": (G, _as_kernel(_naive_G)),
+    "G_minus_1": (G_minus_1, _as_kernel(lambda T: _naive_G(T) - 1)),
+    "sonine": (
+        lambda y: sonine(y, 1.0),
+        _as_kernel(lambda y: (np.sin(y) - y * np.cos(y)) / y**3),
+    ),
+    "Omega_1": (lambda x: Omega_1(x, 1.0, 1.2, 0.8), lambda x: as_printed.Omega_1(x, 1, 1.2, 0.8)),
+    "Omega_2": (lambda x: Omega_2(x, 1.0, 1.2, 0.8), lambda x: as_printed.Omega_2(x, 1, 1.2, 0.8)),
+    "Omega_3": (lambda x: Omega_3(x, 1.0, 0.8), lambda x: as_printed.Omega_3(x, 1.0, 0.8)),
+    "Omega_4": (lambda x: Omega_4(x, 1.0, 0.8), lambda x: as_printed.Omega_4(x, 1.0, 0.8)),
+    "K_j": (
+        lambda x: K_j(x, 1.0, 1.0, 2.0, 0.5),
+        lambda x: as_printed.K_j(x, 1.0, 1.0, 2.0, 0.5),
+    ),
+} | {name: _field(name) for name in FIELDS}
+"""Stable kernels and their naive forms, printed ones where the print is right but for factors."""
+
+NAIVE_RIGHT = (2.0, 80.0)
+"""Where naive forms neither cancel by more than a factor of two nor overflow."""
+
+
+def stable_over_naive(name: str) -> Timing:
+    """A stable kernel over its naive form, where the latter is right.
+
+    Arrays stay in the cache. A large one is made and given back first, as any larger
+    program has done: before that the C library returns memory after every call, and
+    what is timed is the operating system.
+    """
+    np.ones(4_000_000)
+    stable, naive = NAIVE[name]
+    x = np.random.default_rng(3).uniform(*NAIVE_RIGHT, NAIVE_POINTS)
+    said = f"{name} over its naive form, {NAIVE_POINTS:.0e} points from 2 to 80"
+    return ratio(said, lambda: stable(x), lambda: naive(x), 3.0, 20 * ROUNDS)
+
+
+def scenes(low: float, high: float, count: int = SCENES) -> dict[str, Any]:
+    """Arguments of `impact` for different spheres, plates and speeds, a_m/h about low to high."""
+    random = np.random.default_rng(2)
+    eta, h = 10 ** random.uniform(-3.0, -0.8, count), 10 ** random.uniform(-3.0, 0.0, count)
+    b = h / eta
+    R, a = b * random.uniform(2.0, 50.0, count), h * random.uniform(low, high, count)
+    a = np.minimum(a, 0.9 * b)
+    lam, mu = 10 ** random.uniform(8.0, 11.0, count), 10 ** random.uniform(8.0, 11.0, count)
+    work = 0.7 * force_of_radius(a, R, lam, mu) * indentation(a, R, h, b)
+    m = 10 ** random.uniform(-3.0, 3.0, count)
+    return {"R": R, "m": m, "v0": np.sqrt(work / m), "h": h, "b": b, "lam": lam, "mu": mu}
+
+
+def impact_rate(low: float, high: float, limit: float) -> Timing:
+    """Impacts per second in one batch of different scenes."""
+    arguments = scenes(low, high)
+    (duration,), spread = interleaved((lambda: impact(**arguments),), 5)
+    rate = SCENES / duration
+    name = f"impacts in a batch of {SCENES:.0e} scenes, a_m/h from {low} to {high}"
+    return Timing(name, rate, "1/s", limit, spread, rate >= limit)
+
+
+def cold_start(command: str, scene: Path, limit: float) -> Timing:
+    """A command over the imports of the libraries it builds on, as processes."""
+    name = f"platecontact {command} {scene.name}, cold, over its libraries' imports"
+    return ratio(name, process(COMMAND, command, str(scene), "--json", "-"), process(LIBRARIES),
+                 limit, COLD_ROUNDS)  # fmt: skip
+
+
+def process(code: str, *arguments: str) -> Callable[[], object]:
+    """Python code with arguments in a process of its own, which keeps its bytecode as usual."""
+    call = [sys.executable, "-c", code, *arguments]
+    usual = {k: value for k, value in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
+    return lambda: subprocess.run(call, check=True, capture_output=True, env=usual)
+
+
+def hertz_alone(scene: Path, limit: float) -> Timing:
+    """A scene where Hertz's law is enough, over the same with every other effect switched off."""
+    with tempfile.TemporaryDirectory() as folder:
+        plain = Path(folder) / scene.name
+        keys = "".join(f"{name} = false\n" for name in SWITCHES)
+        plain.write_text(f"{scene.read_text()}\n[effects]\n{keys}")
+        name = f"platecontact simulate {scene.name}, where Hertz is enough, over all else off"
+        auto, off = (
+            process(COMMAND, "simulate", str(path), "--json", "-") for path in (scene, plain)
+        )
+        return ratio(name, auto, off, limit, COLD_ROUNDS)
+
+
+def measure(
+    examples: Sequence[Path],
+    solved: Collection[Path] = (),
+    tell: Callable[[str, int, int], None] | None = None,
+) -> list[Timing]:
+    """Every comparison, one after the other.
+
+    Parameters
+    ----------
+    examples
+        The scene files of the cold starts, one of them `block.toml`, where Hertz is enough.
+    solved
+        Those among them for which the pressure is solved for.
+    tell
+        Called before each with its name, number and how many there are.
+    """
+    planned: tuple[tuple[str, Callable[[], Timing]], ...] = (
+        ("small contacts", lambda: law_over_exp(0.3, 6.0)),
+        ("contacts up to 3 h", lambda: law_over_exp(3.0, 15.0)),
+        ("impacts", lambda: impact_rate(0.01, 2.9, 5e4)),
+        ("deep impacts", lambda: impact_rate(0.01, 5.9, 5e4)),
+    )
+    for scene in examples:
+        limit = SOLVED_START if scene in solved else START
+        planned += (
+            ("cold start", partial(cold_start, "simulate", scene, limit)),
+            ("cold start", partial(cold_start, "explain", scene, EXPLAINED)),
+        )
+        if scene.name == "block.toml":
+            planned += (("Hertz alone", partial(hertz_alone, scene, 1.2)),)
+    planned += tuple((name, partial(stable_over_naive, name)) for name in NAIVE)
+    found = []
+    for number, (name, timing) in enumerate(planned, start=1):
+        if tell is not None:
+            tell(name, number, len(planned))
+        found.append(timing())
+    return found
+
+
+def as_data(timings: Sequence[Timing]) -> dict[str, Any]:
+    """The timings as plain data, with the machine and its load."""
+    return {"machine": dict(machine()), "rows": [asdict(timing) for timing in timings]}
+
+
+def machine() -> Mapping[str, str]:
+    """What the times were taken on: the processor, and what NumPy uses of it for exp."""
+    info = Path("/proc/cpuinfo")
+    lines = info.read_text().splitlines() if info.is_file() else []
+    model = next((line.partition(":")[2].strip() for line in lines if "model name" in line), "")
+    targets = np.lib.introspect.opt_func_info(func_name="^exp$", signature="float64")
+    used = ", ".join(kind["current"] for of in targets.values() for kind in of.values())
+    return {
+        "processor": model or "unknown",
+        "cores": str(os.cpu_count()),
+        "load": f"{os.getloadavg()[0]:.1f}",
+        "numpy.exp": used,
+        "numpy": np.__version__,
+    }

@@ -1,0 +1,1 @@
+"""Hard cases of all subjects: families, laws they are judged by, special calls."""

@@ -1,0 +1,192 @@
+"""Kernels that hard cases call in a form of their own, and those that state their own errors."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import partial
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from derivation.engine.measure.kernels import Kernel
+from derivation.plate.budgets import read_budgets, read_promises
+from generated import held_waves, sensitivity, simple_impact, true_pressure
+from generated.bessel import bessel_j0
+from generated.held_modes import supported_modes
+from generated.perturbation import PrintedMotion
+from generated.plate_waves import branches
+
+_ULP = 2.0**52
+"""A relative error of 1 in units in the last place, at least so many."""
+
+_INTEGRALS = 1e-14
+"""Of the largest indentation: what `PrintedMotion.corrected` says of its integrals."""
+
+_FREQUENCY, _RESIDUE = 8.0, 1e-12 * _ULP
+"""In ULP, and in those of the largest residue: what `plate_waves` says of its branches."""
+
+_SCENE = ("R", "m", "v0", "h", "b", "lam", "mu")
+
+
+@dataclass(frozen=True)
+class Stating(Kernel):
+    """A kernel whose promise depends on its arguments: it states its errors itself.
+
+    Parameters
+    ----------
+    stated
+        Arguments -> the largest error of every result in its own unit, in the results' shapes.
+    """
+
+    stated: Callable[..., Any] = field(kw_only=True)
+
+
+def others() -> tuple[Kernel, ...]:
+    """Contacts with the true pressure, simple impacts, the paper's motion, sensitivities."""
+    error = read_promises("pressure")["error"] * _ULP
+    contact = ("a", "R", "h", "b", "modulus")
+    motion = ("t", "m", "v0", "xi_2", "xi_3")
+    found = [
+        Kernel("contact", "true_pressure", contact, _each(_contact), error),
+        Kernel("pressure", "true_pressure", ("r", *contact), _each(_pressure), error),
+        Kernel("corrected", "perturbation", motion, _each(_corrected), _INTEGRALS * _ULP),
+        Kernel(
+            "impact_sensitivities", "sensitivity", _SCENE, _sensitivities,
+            read_budgets()["impact_sensitivities"].ulp,
+        ),
+        Stating("plate_of", "simple_impact", ("eta",), _each(_bend), 0.0, stated=_each(_doubt)),
+    ]  # fmt: skip
+    found += (*_of_waves(), *_of_held_waves())
+    for name in ("hertz", "leading"):
+        results, errors = _estimates(getattr(simple_impact, name))
+        found.append(
+            Stating(name, "simple_impact", _SCENE, _each(results), 0.0, stated=_each(errors))
+        )
+    return tuple(found)
+
+
+def _each(function: Callable[..., Any]) -> Callable[..., Any]:
+    """A function of plain numbers, of one result or several, as one of arrays."""
+
+    def call(*arguments: Any) -> Any:
+        shape = np.broadcast_shapes(*(np.shape(x) for x in arguments))
+        columns = [np.broadcast_to(x, shape).ravel().tolist() for x in arguments]
+        rows = np.array([function(*point) for point in zip(*columns, strict=True)])
+        results = rows.T.reshape((*rows.shape[1:], *shape))
+        return tuple(results) if rows.ndim > 1 else results
+
+    return call
+
+
+def _contact(a: float, R: float, h: float, b: float, modulus: float) -> tuple[float, ...]:
+    found = true_pressure.contact(true_pressure.plate(h, b), a, R, modulus)
+    numbers = (
+        found.force, found.indentation, found.stiffness, found.slope, found.centre_pressure,
+        found.mean_pressure,
+    )  # fmt: skip
+    return tuple(float(x) for x in numbers)
+
+
+def _pressure(r: float, a: float, R: float, h: float, b: float, modulus: float) -> float:
+    return float(true_pressure.pressure(r, true_pressure.plate(h, b), a, R, modulus))
+
+
+def _corrected(t: float, m: float, v0: float, xi_2: float, xi_3: float) -> float:
+    return float(PrintedMotion(m, v0, xi_2, xi_3).corrected(t))
+
+
+def _sensitivities(*scene: Any) -> Any:
+    found = sensitivity.impact_sensitivities(*scene)
+    return found.reshape(-1, *found.shape[2:])
+
+
+def _bend(eta: float) -> float:
+    return simple_impact.plate_of(eta).bend
+
+
+def _doubt(eta: float) -> float:
+    return simple_impact.plate_of(eta).doubt
+
+
+def _of_waves() -> list[Kernel]:
+    """One branch by its index, counted from 0, and one mode of a simply supported plate."""
+    budget = read_budgets()["supported_modes"].ulp
+    found = [Kernel("supported_modes", "held_modes", ("count", "nu"), _supported, budget)]
+    for parity in ("antisymmetric", "symmetric"):
+        for part, (name, allowed) in enumerate((("frequency", _FREQUENCY), ("residue", _RESIDUE))):
+            call = partial(_branch, parity, part)
+            arguments = ("x", "nu", "index")
+            found.append(Kernel(f"{parity}_{name}", "plate_waves", arguments, call, allowed))
+    return found
+
+
+def _of_held_waves() -> list[Kernel]:
+    """One mode of a held plate with a thickness, and the loaded face of a mode by its numbers."""
+    promised = read_promises("held_waves")
+    face = promised.pop("face")
+    found = [
+        Kernel(name, "held_waves", ("count", "eta", "nu"), _each(partial(_mode, name)),
+               max(promised.values()))
+        for name in ("clamped_waves", "supported_waves")
+    ]  # fmt: skip
+    for name, at in (("wave_shape", "r"), ("wave_share", "a")):
+        call = _each(partial(_face, name))
+        found.append(Kernel(name, "held_waves", ("k", "k2", "t", at), call, face))
+    return found
+
+
+def _mode(name: str, count: float, eta: float, nu: float) -> tuple[float, ...]:
+    found = getattr(held_waves, name)(int(count), eta, nu)
+    return tuple(float(x[int(count) - 1]) for x in found)
+
+
+def _face(name: str, k: float, k2: float, t: float, at: float) -> float:
+    numbers, none = np.array([[k], [k2], [t]]), np.zeros(1)
+    part = np.exp(-numbers[1]) * bessel_j0(numbers[0]) / held_waves._modified(numbers[1])[2]
+    waves = held_waves.Waves(
+        k=numbers[0], k2=numbers[1], t=numbers[2], c=part, root=none, weight=none, residue=none
+    )
+    if name == "wave_shape":
+        return float(held_waves.shape(waves, at)[0, 0])
+    return float(held_waves.shares_less_one(waves, at)[0, 0])
+
+
+def _branch(parity: str, part: int, x: Any, nu: Any, index: Any) -> Any:
+    return _picked(branches(x, nu, int(np.max(index)) + 1, parity)[part], index)
+
+
+def _supported(count: Any, nu: Any) -> Any:
+    found = supported_modes(int(np.max(count)), nu)
+    return tuple(_picked(table, np.asarray(count) - 1) for table in found)
+
+
+def _picked(table: Any, place: Any) -> Any:
+    """Entries of a table's last axis, broadcast with all others."""
+    index = np.asarray(place, dtype=int)[..., None]
+    shape = np.broadcast_shapes(table.shape[:-1], index.shape[:-1])
+    wide = np.broadcast_to(table, (*shape, table.shape[-1]))
+    return np.take_along_axis(wide, np.broadcast_to(index, (*shape, 1)), axis=-1)[..., 0]
+
+
+class _Estimates(NamedTuple):
+    """A simple law's four results, and the errors it states for them."""
+
+    results: Callable[..., tuple[float, ...]]
+    errors: Callable[..., tuple[float, ...]]
+
+
+def _estimates(law: Callable[..., simple_impact.Estimate | None]) -> _Estimates:
+    """A simple law taken apart; NaN where it shows nothing."""
+
+    def results(*scene: float) -> tuple[float, ...]:
+        found = law(*scene)
+        return (np.nan,) * 4 if found is None else found[:4]
+
+    def errors(*scene: float) -> tuple[float, ...]:
+        found = law(*scene)
+        if found is None:
+            return (np.nan,) * 4
+        # Relative ones, of what is true: at least that share of the results.
+        relative = sum(found[4:])
+        return tuple(x * relative / (1 + relative) for x in found[:4])
+
+    return _Estimates(results, errors)

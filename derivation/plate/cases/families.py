@@ -1,0 +1,224 @@
+"""Hard cases that come in families: every seam, and the constants that are counted.
+
+Where the seams are is asked of the rewrite's own data, so that one that moves takes
+its cases along.
+"""
+
+import math
+from collections.abc import Callable, Iterator
+from itertools import chain
+
+from derivation.engine.cache import cached
+from derivation.engine.formula.ulp import neighbours
+from derivation.mathematics.bessel import kernels as bessel_tables
+from derivation.mathematics.bessel.oracle import j0_zero, j1_zero
+from derivation.plate.cases.scene_families import scene_families
+from derivation.plate.contact.kernels import tables as contact_tables
+from derivation.plate.contact.kernels.moments import FIRST_K, finite_part_start, kappa_start
+from derivation.plate.contact.oracle import balls as contact_balls
+from derivation.plate.grids import seams
+from derivation.plate.hard.case import Case, checked
+from derivation.plate.hard.places import LAM, MU, OFFSETS, Inputs, around, beside, exactly
+from derivation.plate.impact.cases import motion_families
+from derivation.plate.impact.oracle import impact as contact_impact
+from derivation.plate.modes.cases import mode_families
+from derivation.plate.waves.cases.families import wave_families
+
+INDICES = (1, 2, 10, 100, 1000, 10**4, 10**5, 10**6)
+LAST_KAPPA, LAST_FINITE_PART = 196, 99
+"""The last that doubles hold."""
+
+
+def families() -> tuple[Case, ...]:
+    """Every systematic case; kept until what they follow from changes."""
+    rooms = (
+        "engine/cache.py",
+        "engine/formula",
+        "plate/*.py",
+        "plate/*/theory*",
+        "mathematics",
+        "engine/rewrite",
+        "plate/*/kernels*",
+        "engine/oracle",
+        "plate/*/oracle*",
+        "plate/*/route*",
+        "engine/emit",
+    )
+    own = ("plate/hard", "plate/grids.py", "plate/cases", "plate/*/cases*")
+    return cached("hard_families", (*rooms, *own), _families, Case)
+
+
+def _families() -> tuple[Case, ...]:
+    made = chain(
+        _block_seams(), _bessel_seams(), _zeros_by_index(), _beside_zeros(), _moments(),
+        _contact_seams(), _thickness_seams(), _thinnest(), _impact_seams(), mode_families(),
+        scene_families(), motion_families(), wave_families(),
+    )  # fmt: skip
+    return tuple(checked(case) for case in made)
+
+
+_MODE = {"lam": LAM, "mu": MU, "A_j": -1e6}
+
+_OF_SEAM: dict[str, tuple[tuple[str, Callable[[float], Inputs]], ...]] = {
+    "T": (
+        ("G", lambda T: exactly(T=T)),
+        ("G_minus_1", lambda T: exactly(T=T)),
+        ("Omega_1_scaled", lambda T: exactly(phi=T / 2, h=1.0, lam=LAM, mu=MU)),
+        ("K_j", lambda T: exactly(phi=T / 2, h=1.0, b=10.0, R=3.0, J1=0.25)),
+        ("mode_zz", lambda T: exactly(z=0.25, phi=T / 2, h=1.0, **_MODE)),
+        ("mode_rz", lambda T: exactly(z=-0.5, phi=T / 2, h=1.0, **_MODE)),
+        ("mode_g", lambda T: exactly(z=0.0625, phi=T / 2, h=1.0, **_MODE)),
+        ("mode_rr", lambda T: exactly(z=-0.0625, phi=T / 2, h=1.0, **_MODE)),
+        ("mode_tt", lambda T: exactly(z=0.0625, phi=T / 2, h=1.0, **_MODE)),
+        ("mode_g", lambda T: exactly(z=-0.875, phi=T / 2, h=1.0, **_MODE)),
+        ("mode_rr", lambda T: exactly(z=0.875, phi=T / 2, h=1.0, **_MODE)),
+        ("mode_tt", lambda T: exactly(z=0.25, phi=T / 2, h=1.0, **_MODE)),
+    ),
+    "y": (
+        ("sonine", lambda y: exactly(phi=y, a=1.0)),
+        ("A_j", lambda y: exactly(phi=y, b=10.0, R=3.0, a=1.0, lam=LAM, mu=MU, J1=0.25)),
+    ),
+}
+"""Kernels that pass through a seam in T = 2 phi h or y = a phi, and arguments
+by which they come to it: lengths are 1."""
+
+
+def _block_seams() -> Iterator[Case]:
+    for variable, places in seams().items():
+        for place in places:
+            for offset in OFFSETS:
+                cause = (
+                    f"{abs(offset)} ULP {'below' if offset < 0 else 'above'} {variable} = {place:g}"
+                    if offset
+                    else f"On {variable} = {place:g}"
+                )
+                cause += ", where a series hands over to exponentials or circular functions."
+                for kernel, inputs in _OF_SEAM[variable]:
+                    given = inputs(beside(place, offset))
+                    yield Case("seams of the building blocks", kernel, cause, given)
+
+
+def _bessel_seams() -> Iterator[Case]:
+    start = float(bessel_tables.asymptotic_start())
+    for place in bessel_tables.seams()[1:]:
+        what = "one Taylor polynomial hands over to the next"
+        if place == start:
+            what = "the last Taylor polynomial hands over to modulus and phase"
+        if place == bessel_tables.LARGEST_PHASE:
+            what = "multiples of pi/4 cease to be exact doubles"
+        cause = f"0, 1 and 32 ULP to either side of x = {place:g}, where {what}."
+        for kernel in ("bessel_j0", "bessel_j1"):
+            yield Case("seams of the Bessel functions", kernel, cause, exactly(x=around(place)),
+                       "array")  # fmt: skip
+
+
+def _zeros_by_index() -> Iterator[Case]:
+    kernels = (("bessel_j0_zeros", 0), ("bessel_j1_zeros", 1), ("bessel_j1_at_j0_zeros", 0))
+    for kernel, order in kernels:
+        start = bessel_tables.mcmahon_start(order)
+        for count in sorted({*INDICES, start - 1, start}):
+            cause = f"Zero number {count}: all bits of it are asked, and no iteration."
+            if count in (start - 1, start):
+                cause = f"Zero number {count}: the expansion begins with number {start}."
+            yield Case("Bessel zeros by index", kernel, cause, exactly(count=float(count)))
+
+
+def _beside_zeros() -> Iterator[Case]:
+    for kernel, zero in (("bessel_j0", j0_zero), ("bessel_j1", j1_zero)):
+        for index in (1, 3, 11, 100, 1000, 10**6):
+            near = neighbours(float(zero(index, 80)), 1)
+            cause = f"The doubles next to zero number {index}: the leading digits cancel."
+            yield Case(
+                "doubles next to zeros of J0 and J1", kernel, cause, exactly(x=near), "array"
+            )
+
+
+def _moments() -> Iterator[Case]:
+    group = "moments by index"
+    first, last = float(FIRST_K), float(LAST_FINITE_PART)
+    for argument, kernel, low, high in (
+        ("n", "kappa", 0.0, float(LAST_KAPPA)), ("k", "finite_part", first, last),
+    ):  # fmt: skip
+        for index in (low, low + 1, low + 2, low + 9, low + 40, high - 1, high):
+            cause = "An integral that grows like a factorial, to half a unit in the last place."
+            yield Case(group, kernel, cause, exactly(**{argument: index}))
+        cause = "The first index whose value no double holds."
+        yield Case(group, kernel, cause, exactly(**{argument: high + 1}), expect="nan")
+        for index in (low, low + 1, 1e3, 1e6):
+            cause = "The value over its leading term, far beyond where the value itself overflows."
+            yield Case(group, f"{kernel}_ratio", cause, exactly(**{argument: index}))
+    for argument, kernel, start in (
+        ("n", "kappa_ratio", kappa_start()), ("k", "finite_part_ratio", finite_part_start()),
+    ):  # fmt: skip
+        for offset in OFFSETS:
+            cause = (
+                f"{offset:+d} from index {start}, where the expansion takes over from the table."
+            )
+            yield Case(group, kernel, cause, exactly(**{argument: float(start + offset)}))
+
+
+def _contact_seams() -> Iterator[Case]:
+    """Ends of the polynomials in a/h: lengths are such that h is 1, and a therefore a/h."""
+    group = "seams of the contact law"
+    for b in (1e3, 10.0, 5.0, 2.0, 0.25):
+        reach = min(float(contact_tables.REACH), b)
+        ends = [(reach / contact_tables.SHORT, "the short polynomial ends")]
+        if b > contact_tables.REACH:
+            ends.append((reach, "the polynomial about 0 ends"))
+        if b > contact_tables.FAR_REACH:
+            ends.append((float(contact_tables.FAR_REACH), "the second polynomial ends"))
+        for place, what in ends:
+            cause = f"0, 1 and 32 ULP to either side of a = {place:g} h, where {what}."
+            same: dict[str, float] = {"R": 50.0, "h": 1.0, "b": b}
+            near = around(place)
+            yield Case(group, "indentation", cause, exactly(a=near, **same), "array")
+            yield Case(group, "stiffness", cause, exactly(a=near, **same, lam=LAM, mu=MU), "array")
+            if place in (contact_tables.REACH, contact_tables.FAR_REACH):
+                yield Case(group, "indentation_slope", cause, exactly(a=near, **same), "array")
+            if place == contact_tables.FAR_REACH:
+                continue  # the inversion ends here
+            depth = float(contact_balls.indentation(place, 50.0, 1.0, b, 30))
+            given = exactly(delta=around(depth), **same)
+            yield Case(group, "contact_radius", cause, given, "array")
+            if b == 10.0 and place == reach:
+                yield Case(group, "force", cause, given | exactly(lam=LAM, mu=MU), "array")
+
+
+def _thickness_seams() -> Iterator[Case]:
+    """Ends of the cells in b/h, of both polynomials: h is 1, and b therefore b/h."""
+    ends = {float(end) for cell in contact_tables.CELLS for end in cell[:2]}
+    far_ends = {float(end) for cell in contact_tables.FAR_CELLS for end in cell[:2]}
+    far_ends -= {float(contact_tables.REACH)}  # such a plate has no second polynomial
+    for near, places in ((True, ends), (False, far_ends)):
+        for b in sorted(places):
+            a = 2.5 if near else min(4.5, (contact_tables.REACH + b) / 2)
+            cause = f"0, 1 and 32 ULP to either side of b = {b:g} h, where "
+            cause += "the closed form of thin plates" if b == max(places) else "another table"
+            cause += f" takes over; a = {a:g} h."
+            same: dict[str, float] = {"a": a, "R": 50.0, "h": 1.0}
+            group = "seams of the contact law"
+            given = exactly(**same, b=around(b))
+            yield Case(group, "indentation", cause, given, "array")
+            yield Case(group, "indentation_slope", cause, given, "array")
+            given = exactly(**same, b=around(b), lam=LAM, mu=MU)
+            yield Case(group, "stiffness", cause, given, "array")
+
+
+def _thinnest() -> Iterator[Case]:
+    """The thinnest plate whose modes are summed directly, 1e-5: b is 1."""
+    for offset in OFFSETS:
+        given = exactly(a=6.5e-5, R=1e-2, h=beside(1e-5, offset), b=1.0)
+        cause = f"{offset:+d} ULP from h/b = 1e-5, below which no sum is taken for a > 6 h."
+        expect = "nan" if offset < 0 else "value"
+        yield Case("seams of the contact law", "indentation", cause, given, expect=expect)
+
+
+def _impact_seams() -> Iterator[Case]:
+    """Speeds at which the contact just grows to 3 h, in a thin plate and in the paper's."""
+    for b in (100.0, 10.0):
+        place = float(contact_tables.REACH)
+        energy = float(contact_impact.stored_energy(place, 50.0, 1.0, b, LAM, MU, 30))
+        speeds = around(math.sqrt(2.0 * energy / 1e3))
+        cause = f"0, 1 and 32 ULP to either side of the speed that reaches a = {place:g} h."
+        given = exactly(R=50.0, m=1e3, v0=speeds, h=1.0, b=b, lam=LAM, mu=MU)
+        yield Case("seams of the contact law", "impact", cause, given, "array")

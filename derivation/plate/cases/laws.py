@@ -1,0 +1,299 @@
+"""What kernels without a closed formula of the chain are held to in the hard cases: balls."""
+
+from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
+from functools import cache, partial
+from typing import Any
+
+import flint
+from flint import arb
+
+from derivation.engine.formula.ball import Exact, enclose, evaluate, to_ball
+from derivation.plate import vocabulary as symbols
+from derivation.plate.back_face import oracle as far_face_balls
+from derivation.plate.contact.oracle import balls as contact_balls
+from derivation.plate.contact.theory import curvature
+from derivation.plate.edge.oracle import clamped as clamp_balls
+from derivation.plate.edge.oracle import supported as edge_balls
+from derivation.plate.edge.theory import clamped as clamp
+from derivation.plate.edge.theory import sums as edge_sums
+from derivation.plate.hard.law import Given, Law
+from derivation.plate.impact.oracle import impact as contact_impact
+from derivation.plate.impact.oracle import many_digits, many_sensitivities, state_rounding
+from derivation.plate.impact.oracle import printed_motion as printed_motion_balls
+from derivation.plate.impact.oracle import quantities as contact_quantities
+from derivation.plate.pressure import oracle as pressure_balls
+from derivation.plate.waves.cases.laws import WAVES
+
+_SPARE, _FEW = 8, 20
+"""Digits beyond those asked for, and of magnitudes, which only set allowances."""
+
+
+def _bits(digits: int) -> int:
+    return 4 * digits + 64
+
+
+def _one(function: Callable[..., arb]) -> Law:
+    return Law(
+        lambda given, digits: (function(*given, digits=digits),), oracle=(function.__module__,)
+    )
+
+
+def _several(function: Callable[..., tuple[arb, ...]], count: int = 4) -> Law:
+    return Law(
+        lambda given, digits: tuple(function(*given, digits=digits))[:count],
+        oracle=(function.__module__,),
+    )
+
+
+# --- the edge
+
+
+@cache
+def _moved(kind: str, given: tuple[Any, ...], digits: int) -> arb:
+    """What the edge's mean motion takes: kept, since a support's part is a multiple of it."""
+    a, h, b, lam, mu = given
+    return edge_balls.edge_part(kind, a, h, b, lam, mu, digits)
+
+
+def _supported_edge(kind: str) -> Law:
+    def values(given: Given, digits: int) -> tuple[arb]:
+        taken = _moved(kind, tuple(given), digits)
+        with flint.ctx.workprec(_bits(digits)):
+            return (to_ball(edge_balls.support_ratio(*given[3:])) * taken,)
+
+    return Law(values, oracle=(edge_balls.__name__,))
+
+
+def _clamped_edge(kind: str) -> Law:
+    def values(given: Given, digits: int) -> tuple[arb]:
+        a, h, b, lam, mu = given
+        taken = clamp_balls.clamp_part(kind, a, h, b, lam, mu, digits)
+        with flint.ctx.workprec(_bits(digits)):
+            return (-taken,)
+
+    return Law(values, oracle=(clamp_balls.__name__,))
+
+
+def _edge_bound(support: str) -> Law:
+    names = (symbols.alpha, symbols.eta, symbols.lam, symbols.mu)
+
+    def values(given: Given, digits: int) -> tuple[arb]:
+        bound = edge_sums.edge_bound if support == "supported" else clamp.clamp_bound
+        a, h, b, lam, mu = (Fraction(x) for x in given)
+        known = dict(zip(names, (a / b, h / b, lam, mu), strict=True))
+        found = evaluate(bound().expression, known, digits)
+        with flint.ctx.workprec(_bits(digits)):
+            share = edge_balls.support_ratio(lam, mu) if support == "supported" else Fraction(1)
+            return (to_ball(share) * found,)
+
+    supported = (edge_sums.__name__, edge_balls.__name__)
+    return Law(values, oracle=supported if support == "supported" else (clamp.__name__,))
+
+
+# --- the far face
+
+
+def _stiff(P: Exact, h: Exact, lam: Exact, mu: Exact) -> arb:
+    """(1 + nu) P/(2 pi H^2), at the precision now set."""
+    first, second = Fraction(lam), Fraction(mu)
+    share = (3 * first + 2 * second) * Fraction(P) / (16 * (first + second) * Fraction(h) ** 2)
+    return to_ball(share) / arb.pi()
+
+
+def _far(support: str) -> Law:
+    def of_edge(given: Given, digits: int) -> tuple[arb, arb]:
+        """What the states of bending and of stretching add to S."""
+        _, a, h, b, lam, mu = given
+        if support == "clamped":
+            bent, stretched = clamp_balls.far_clamp(a, h, b, lam, mu)
+            return -to_ball(bent), -to_ball(stretched)
+        eta, alpha = Fraction(h) / Fraction(b), Fraction(a) / Fraction(b)
+        n = Fraction(lam) / (Fraction(lam) + 2 * Fraction(mu))
+        bent, stretched = edge_balls.sums("indentation", alpha, eta, n, _bits(digits))
+        share = to_ball(edge_balls.support_ratio(lam, mu))
+        return 12 * share * bent, 8 * share * to_ball(n * eta) * stretched
+
+    def values(given: Given, digits: int) -> tuple[arb]:
+        P, a, h, b, lam, mu = given
+        total = far_face_balls.far_sum(a, h, b, digits + _SPARE)
+        if support == "supported":
+            moved = far_face_balls.far_edge(a, h, b, lam, mu, digits + _SPARE)
+        with flint.ctx.workprec(_bits(digits)):
+            if support == "supported":
+                total += to_ball(edge_balls.support_ratio(lam, mu)) * moved
+            elif support:
+                total += sum(of_edge(given, digits))
+            return (_stiff(P, h, lam, mu) * total,)
+
+    def sizes(given: Given, _: Sequence[arb]) -> tuple[arb]:
+        """Of the paper's edge and of the states of stretching and bending."""
+        P, a, h, b, lam, mu = given
+        plain = far_face_balls.far_sum(a, h, b, _FEW)
+        with flint.ctx.workprec(_bits(_FEW)):
+            states = sum((abs(x) for x in of_edge(given, _FEW)), arb(0))
+            return (abs(_stiff(P, h, lam, mu)) * (abs(plain) + states),)
+
+    oracle = (far_face_balls.__name__, *([clamp_balls.__name__] if support == "clamped" else []))
+    return Law(values, sizes if support else None, oracle=oracle)
+
+
+# --- the sphere and the pressure
+
+
+def _sphere(given: Given, digits: int) -> tuple[arb, ...]:
+    """P, delta and its slope over those of Hertz, by the theory's formulas with R = 1, E* = 1."""
+    x = Fraction(given[0])
+    depth, force = (formula.expression for formula in curvature.spherical_contact())
+    # E* is 1 for lam = 0 and mu = 1/2.
+    at: dict[Any, Exact] = {symbols.a: x, symbols.R: 1, symbols.lam: 0, symbols.mu: Fraction(1, 2)}
+    rise = depth.diff(symbols.a)
+
+    def compute(_: int) -> tuple[arb, ...]:
+        known = {symbol: to_ball(value) for symbol, value in at.items()}
+        P, delta, slope = (enclose(value, known) for value in (force, depth, rise))
+        a = known[symbols.a]
+        return P * 3 / (4 * a**3), delta / a**2, slope / (2 * a)
+
+    return contact_balls.settle(compute, digits, f"a sphere at a/R = {float(x)}")
+
+
+def _contact(given: Given, digits: int) -> tuple[arb, ...]:
+    """Force, indentation, stiffness, slope, centre and mean pressure of a paraboloid."""
+    a, R, h, b, modulus = given
+    state = pressure_balls.solve(pressure_balls.case(a, h, b), digits)
+    with flint.ctx.workprec(_bits(digits)):
+        a, R, E = to_ball(a), to_ball(R), to_ball(modulus)
+        return (
+            E * a**3 / R * state.force,
+            a**2 / R * state.depth,
+            E * a * state.stiffness,
+            a / R * state.slope,
+            E * a / R * state.centre,
+            E * a / R * state.force / arb.pi(),
+        )
+
+
+def _of_means(_: Given, values: Sequence[arb]) -> tuple[arb, ...]:
+    """The centre's error is counted in the mean pressure, all others in themselves."""
+    sizes = [abs(value) for value in values]
+    return (*sizes[:4], sizes[5], sizes[5])
+
+
+def _pressure(given: Given, digits: int) -> tuple[arb, ...]:
+    r, a, R, h, b, modulus = given
+    place = Fraction(r) / Fraction(a)
+    state = pressure_balls.solve(pressure_balls.case(a, h, b, places=(place,)), digits)
+    with flint.ctx.workprec(_bits(digits)):
+        return (to_ball(modulus) * to_ball(a) / to_ball(R) * state.pressures[0],)
+
+
+def _mean(given: Given, _: Sequence[arb]) -> tuple[arb, ...]:
+    return (_contact(given[1:], _FEW)[5],)
+
+
+# --- impacts
+
+
+@cache
+def _impact(given: tuple[Any, ...], digits: int) -> tuple[arb, ...]:
+    """Kept, since several kernels are held to the same impact."""
+    R, m, v0, h, b, lam, mu = given
+    law = many_digits.law_for(given, digits)
+    return tuple(contact_impact.impact(R, m, v0, h, b, lam, mu, digits, law))
+
+
+def _state(given: Given, digits: int) -> tuple[arb, ...]:
+    """By the law's power series, which many times are found quickly with."""
+    t, *motion = given
+    R, m, v0, h, b, lam, mu = motion
+    law = many_digits.law_for(motion, digits)
+    return contact_quantities.state(t, R, m, v0, h, b, lam, mu, digits, law)
+
+
+_ESTIMATE = Law(
+    lambda given, digits: _impact(tuple(given), digits),
+    conditioned=False,
+    oracle=(many_digits.__name__,),
+)
+"""A simple law states its own error: of the impact by the law that holds."""
+
+
+def _first_coefficient(given: Given, digits: int) -> tuple[arb]:
+    (eta,) = given
+    return (contact_balls.coefficient(1, eta, 1, digits),)
+
+
+def _corrected(given: Given, digits: int) -> tuple[arb]:
+    t, m, v0, xi_2, xi_3 = given
+    return (printed_motion_balls.corrected(t, m, v0, xi_2, xi_3, digits),)
+
+
+def _largest(given: Given, _: Sequence[arb]) -> tuple[arb, ...]:
+    with flint.ctx.workprec(_bits(_FEW)):
+        return (printed_motion_balls.largest(*given[1:4]),)
+
+
+def _at_least_one(_: Given, values: Sequence[arb]) -> tuple[arb, ...]:
+    return tuple(abs(value).max(arb(1)) for value in values)
+
+
+LAWS: Mapping[str, Law] = {
+    "indentation": _one(contact_balls.indentation),
+    "indentation_slope": _one(contact_balls.slope),
+    "contact_radius": _one(contact_balls.contact_radius),
+    "stiffness": _one(contact_balls.stiffness),
+    "force": _one(contact_quantities.force),
+    "force_of_radius": _one(contact_quantities.force_of_radius),
+    "radius_of_force": _one(contact_quantities.radius_of_force),
+    "max_pressure": _one(contact_quantities.max_pressure),
+    "force_by_series": _several(contact_quantities.truncated_series, 1),
+    "impact": Law(
+        lambda given, digits: _impact(tuple(given), digits), oracle=(many_digits.__name__,)
+    ),
+    "history": Law(
+        _state,
+        slopes=partial(state_rounding.rounding, _state),
+        oracle=(many_digits.__name__, contact_quantities.__name__),
+    ),
+    "impact_sensitivities": Law(
+        many_sensitivities.impact_sensitivities,
+        _at_least_one,
+        slopes=many_sensitivities.rounding,
+        oracle=(many_sensitivities.__name__,),
+    ),
+    "supported_edge": _supported_edge("indentation"),
+    "clamped_edge": _clamped_edge("indentation"),
+    "supported_edge_slope": _supported_edge("slope"),
+    "clamped_edge_slope": _clamped_edge("slope"),
+    "supported_edge_bound": _edge_bound("supported"),
+    "clamped_edge_bound": _edge_bound("clamped"),
+    "far_stress": _far(""),
+    "supported_far_stress": _far("supported"),
+    "clamped_far_stress": _far("clamped"),
+    "sphere_contact": Law(_sphere, oracle=(curvature.__name__,)),
+    "contact": Law(_contact, _of_means, conditioned=False, oracle=(pressure_balls.__name__,)),
+    "pressure": Law(_pressure, _mean, conditioned=False, oracle=(pressure_balls.__name__,)),
+    "plate_of": Law(_first_coefficient, conditioned=False, oracle=(contact_balls.__name__,)),
+    "hertz": _ESTIMATE,
+    "leading": _ESTIMATE,
+    "corrected": Law(_corrected, _largest, oracle=(printed_motion_balls.__name__,)),
+    **WAVES,
+}
+"""By kernel."""
+
+OUTPUTS: Mapping[str, int] = {
+    "impact": 4,
+    "history": 4,
+    "hertz": 4,
+    "leading": 4,
+    "sphere_contact": 3,
+    "contact": 6,
+    "impact_sensitivities": 28,
+    "dynamic_influence": 2,
+    "clamped_modes": 3,
+    "supported_modes": 3,
+    "clamped_waves": 7,
+    "supported_waves": 7,
+}
+"""How many results a kernel has, if not one."""

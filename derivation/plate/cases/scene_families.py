@@ -1,0 +1,192 @@
+"""Hard cases at the seams of what scenes are made of: edge, far face, sphere, pressure."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from fractions import Fraction
+from itertools import chain, product
+
+from derivation.mathematics.bessel.oracle import j0_zero
+from derivation.plate.back_face import kernels as far_face_tables
+from derivation.plate.blocks import blocks
+from derivation.plate.edge import kernels as edge_tables
+from derivation.plate.edge.theory.clamped import LEVEL
+from derivation.plate.effects import kernels as effect_tables
+from derivation.plate.grids import seams
+from derivation.plate.hard.case import Case
+from derivation.plate.hard.places import (
+    LAM,
+    MU,
+    OFFSETS,
+    Inputs,
+    about,
+    around,
+    beside,
+    exactly,
+)
+from derivation.plate.pressure import kernels as pressure_tables
+from generated.true_pressure import _LOW
+
+EDGE, FAR = "seams of the edge", "seams of the far face"
+SPHERE, PRESSURE = "seams of the sphere", "seams of the true pressure"
+
+SUMS = ("supported_edge", "supported_edge_slope")
+CLAMPED = ("clamped_edge", "clamped_edge_slope")
+BOUNDS = ("supported_edge_bound", "clamped_edge_bound")
+FAR_EDGES = ("supported_far_stress", "clamped_far_stress")
+
+_STEEL: dict[str, float] = {"lam": LAM, "mu": MU}
+_FORCE = 1e3
+_MODES = (1, 2, 3)
+"""Modes at whose seams cases lie: all go through the same code."""
+
+
+def scene_families() -> Iterator[Case]:
+    """Every one of them; lengths are such that the plate's radius or half-thickness is 1."""
+    return chain(_edge(), _far_face(), _sphere(), _pressure())
+
+
+def _zero(mode: int) -> float:
+    return float(j0_zero(mode, 80))
+
+
+def _beside(group: str, kernels: tuple[str, ...], why: str, given: Inputs) -> Iterator[Case]:
+    """A case for each kernel, with the doubles about a place."""
+    return (about(group, kernel, why, given) for kernel in kernels)
+
+
+def _one_by_one(
+    group: str, kernels: tuple[str, ...], place: float, why: str, moved: str, same: dict[str, float]
+) -> Iterator[Case]:
+    """Cases with one double each: several in a call would share what the least of them takes."""
+    for kernel, offset in product(kernels, OFFSETS):
+        given = exactly(**{**same, moved: beside(place, offset)})
+        yield Case(group, kernel, f"{offset:+d} ULP from {why}.", given)
+
+
+def _last_mode(faded: int, mode: int) -> float:
+    """h/b beyond which a mode more is left out."""
+    return faded / (2 * math.pi * mode)
+
+
+# --- the edge
+
+
+def _edge() -> Iterator[Case]:
+    for width in (0.1, 0.5, 0.8):
+        place = float((1 - Fraction(width)) / edge_tables.THIN)
+        given = exactly(a=width, h=around(place), b=1.0, **_STEEL)
+        why = f"b - a = {float(edge_tables.THIN):g} h, from which on a closed form stands alone"
+        yield from _beside(EDGE, SUMS, f"{why}; a = {width:g} b", given)
+        more = exactly(P=_FORCE) | given
+        yield from _beside(EDGE, FAR_EDGES[:1], f"{why}; a = {width:g} b", more)
+    for mode in _MODES:
+        place = edge_tables.SEAM / (2 * _zero(mode))
+        given = exactly(a=0.3, h=around(place), b=1.0, **_STEEL)
+        why = f"T = {edge_tables.SEAM} of mode {mode}, where Q - 3 ceases to be a power series"
+        yield from _beside(EDGE, SUMS, why, given)
+    for mode in (1, 10):
+        place = _last_mode(edge_tables.FADED, mode)
+        same = {"a": 0.3, "b": 1.0, **_STEEL}
+        why = f"h/b = {place:.4g}, beyond which the sum takes a mode less"
+        yield from _one_by_one(EDGE, SUMS[1:], place, why, "h", same)
+    yield from _shape(EDGE, SUMS[:1], {})
+    yield from _materials()
+    widest, same = float(edge_tables.WIDEST), {"h": 0.3, "b": 1.0, **_STEEL}
+    why = f"a = {widest:g} b, the tables' end"
+    yield from _last(EDGE, (SUMS[1], CLAMPED[0]), widest, why, same)
+    yield from _last(EDGE, FAR_EDGES[:1], widest, why, {"P": _FORCE, **same})
+
+
+def _last(
+    group: str, kernels: tuple[str, ...], end: float, why: str, same: dict[str, float]
+) -> Iterator[Case]:
+    """About the end of a domain in a, beyond which NaN is expected."""
+    for case in _one_by_one(group, kernels, end, why, "a", same):
+        yield replace(case, expect="nan") if case.numbers["a"][0] > end else case
+
+
+def _shape(group: str, kernels: tuple[str, ...], more: dict[str, float]) -> Iterator[Case]:
+    """Where g(y) of the modes' sums changes branches."""
+    for mode, place in product(_MODES[:2], seams()["y"]):
+        a = around(place / _zero(mode))
+        given = exactly(**more, a=a, h=0.4, b=1.0, **_STEEL)
+        why = f"y = {place:g} of mode {mode}, where g(y) ceases to be a power series"
+        yield from _beside(group, kernels, why, given)
+
+
+def _materials() -> Iterator[Case]:
+    why = "lam = mu, where the other of the two becomes the unit"
+    for kernels, more in (((*SUMS, *CLAMPED, *BOUNDS), {}), (FAR_EDGES, {"P": _FORCE})):
+        given = exactly(**more, a=0.3, h=0.2, b=1.0, lam=around(MU), mu=MU)
+        yield from _beside(EDGE, kernels, why, given)
+    place = math.sqrt((LAM + 2 * MU) / (2 * LAM))
+    given = exactly(a=0.3, h=around(place), b=1.0, **_STEEL)
+    why = f"h/b = {place:.4g}, where 1 - 2 n eta^2, which goes with bending, passes zero"
+    yield from _beside(EDGE, (*SUMS, *BOUNDS[:1]), why, given)
+    n = LAM / (LAM + 2 * MU)
+    level = 1000 / sum(c * n**i for i, c in enumerate(LEVEL))
+    place = math.sqrt(1 / (2 * n * (1 - 2 * level)))
+    given = exactly(a=0.3, h=around(place), b=1.0, **_STEEL)
+    why = f"h/b = {place:.4g}, where 1 - s, which goes with a clamp's bending, passes zero"
+    yield from _beside(EDGE, (*CLAMPED, *BOUNDS[1:]), why, given)
+
+
+# --- the far face
+
+
+def _far_face() -> Iterator[Case]:
+    every = ("far_stress", *FAR_EDGES)
+    thin, wide = float(far_face_tables.THIN), float(far_face_tables.WIDE)
+    for width in (1e-3, 0.3, 0.89):
+        given = exactly(P=_FORCE, a=width, h=around(thin), b=1.0, **_STEEL)
+        why = f"h/b = {thin:g}, below which another plate's sum serves; a = {width:g} b"
+        yield from _beside(FAR, every if width == 0.3 else every[:1], why, given)
+    for h in (2.0**-5, 2.0**-8):
+        given = exactly(P=_FORCE, a=around(wide * h), h=h, b=1.0, **_STEEL)
+        why = f"a = {wide:g} h, from which on a series in (h/a)^2 serves; h = {h:g} b"
+        yield from _beside(FAR, every if h == 2.0**-5 else every[:1], why, given)
+    pair = float(blocks()["sinh_pair"].value.at)
+    for mode in _MODES:
+        place = pair / (2 * _zero(mode))
+        given = exactly(P=_FORCE, a=0.3, h=around(place), b=1.0, **_STEEL)
+        why = f"T = {pair:g} of mode {mode}, where B(T) ceases to be a power series"
+        yield from _beside(FAR, every if mode == 1 else every[:1], why, given)
+    for mode in (1, 10):
+        place = _last_mode(far_face_tables.FADED, mode)
+        same = {"P": _FORCE, "a": 0.3, "b": 1.0, **_STEEL}
+        why = f"h/b = {place:.4g}, beyond which the sum takes a mode less"
+        yield from _one_by_one(FAR, every[:1], place, why, "h", same)
+    yield from _shape(FAR, every, {"P": _FORCE})
+
+
+# --- the sphere, the true pressure
+
+
+def _sphere() -> Iterator[Case]:
+    place = math.sqrt(effect_tables.NEAR)
+    why = f"(a/R)^2 = {float(effect_tables.NEAR):g}, where a series hands over to the logarithm"
+    yield from _beside(SPHERE, ("sphere_contact",), why, exactly(a_over_R=around(place)))
+
+
+def _pressure() -> Iterator[Case]:
+    same: dict[str, float] = {"R": 1e3, "modulus": 7e10}
+    thin = float(pressure_tables.THIN)
+    for a in (0.01, 1.0, 3.0, 5.9):
+        given = exactly(a=a, h=1.0, b=around(thin), **same)
+        why = f"b = {thin:g} h, beyond which a thin plate's integral serves; a = {a:g} h"
+        yield from _beside(PRESSURE, ("contact",), why, given)
+        yield from _beside(PRESSURE, ("pressure",), why, exactly(r=0.75 * a) | given)
+    for mode in (1, 20):
+        place = _last_mode(pressure_tables.FADED, mode)
+        given = exactly(a=0.3, h=around(place), b=1.0, **same)
+        why = f"h/b = {place:.4g}, beyond which the kernel takes a mode less"
+        yield from _beside(PRESSURE, ("contact",), why, given)
+    places = [y for y in pressure_tables.wall_places() if _LOW / y < 0.9]
+    for y in (places[0], places[len(places) // 2], places[-1]):
+        given = exactly(a=around(_LOW / y), h=1.0, b=1.0, **same)
+        why = f"y a/b = {_LOW:g} at y = {y:.4g}, where sinh(x)/x ceases to be a power series"
+        yield from _beside(PRESSURE, ("contact",), why, given)
+    widest = float(pressure_tables.WIDEST_SHARE)
+    why = f"a = {widest:g} b, the widest contact that is solved"
+    yield from _last(PRESSURE, ("contact",), widest, why, {"h": 1.0, "b": 1.0, **same})

@@ -1,0 +1,133 @@
+"""The chain: its links in order, and every formula by name.
+
+ 1 equilibrium      Hooke's law, force balance -> ODEs for f_j, g_j
+ 2 mode shapes      ODEs -> general solution (2)
+ 3 stresses         Hooke's law of the mode
+ 4 face conditions  tractions (3) -> Omega_1 ... Omega_4 (5)
+ 5 loaded mode      f_j, g_j and stresses with the constants of (5)
+ 6 influence        w on both faces, half-space limit
+ 7 plate factor     the same as G(T), G_m(T), T = 2 phi h
+ 8 Hertz            pressure and its radius (7), Sonine's integral, A_j (4), (8)
+ 9 contact law      K_j, delta (6)
+10 interior         u, w and stresses at any (r, z)
+
+and from the contact law to the motion:
+
+11 divergence       phi^3 K_j -> 4/(R b): the paper's gamma_k diverge
+12 contact split    delta = a^2/R + side wall + thickness
+13 plate series     small contacts: c_1, c_3, ..., gamma_k without their divergent part
+14 thin plate       the same for h/b -> 0, and a sum over roots that makes it exact
+15 reversion        the force by the indentation: xi_k (10), p_n
+16 impact           energy integral (13), contact time, linearisation (15) to (18)
+17 sensitivity      slopes of the law; what every parameter does to an impact
+18 substitution     how far an impact moves if its law is replaced by a simpler one
+19 edge             simply supported or clamped in the place of the paper's edge
+20 true pressure    the pressure solved for: integral equation, and what assuming Hertz's changes
+21 curvature        a sphere instead of a paraboloid
+22 effects          how much each effect can change the law
+23 plate motion     when the plate's own motion matters: Zener's number, periods
+24 viscosity        a viscoelastic contact: restitution, and what it changes at most
+25 far face         the tension under the axis on the far face, where a plate breaks first
+26 dynamic modes    the first six links with the plate's inertia: influence at any frequency
+27 bending branch   the lowest branch of free waves: frequency, answer to a load, limits
+28 closure          a contact beside a plate of oscillators that neither loses nor makes energy
+29 held modes       bending modes of a plate that is clamped or simply supported
+30 held waves       the same of a plate with a thickness: Mindlin's edge, the branch A0
+"""
+
+from collections.abc import Callable, Iterator
+
+from derivation.plate.back_face.theory import far_face
+from derivation.plate.contact.theory.curvature import curvature
+from derivation.plate.contact.theory.divergence import divergence
+from derivation.plate.contact.theory.hertz import (
+    contact_radius,
+    pressure,
+    pressure_coefficient,
+    sonine,
+)
+from derivation.plate.contact.theory.law import contact_law
+from derivation.plate.contact.theory.plate_series import series_formulas
+from derivation.plate.contact.theory.reversion import reversion
+from derivation.plate.contact.theory.split import contact_split, reduced_split
+from derivation.plate.contact.theory.thin_plate import thin_plate
+from derivation.plate.contact.theory.thin_remainder import thin_remainder
+from derivation.plate.edge.theory.clamped import clamp
+from derivation.plate.edge.theory.sums import edge_sums
+from derivation.plate.edge.theory.supported import edge
+from derivation.plate.edge_modes.theory.modes import held_modes
+from derivation.plate.edge_modes.theory.waves import held_waves
+from derivation.plate.effects.theory import effects
+from derivation.plate.impact.theory.impact import impact
+from derivation.plate.impact.theory.sensitivity import sensitivity
+from derivation.plate.impact.theory.substitution import substitution
+from derivation.plate.modes.theory.equilibrium import equilibrium
+from derivation.plate.modes.theory.face_conditions import omegas, scaled_omegas
+from derivation.plate.modes.theory.influence import influence_coefficients
+from derivation.plate.modes.theory.interior import interior_fields
+from derivation.plate.modes.theory.loaded_mode import loaded_mode
+from derivation.plate.modes.theory.mode_shapes import mode_shapes
+from derivation.plate.modes.theory.plate_factor import plate_factor_slope, plate_factors
+from derivation.plate.modes.theory.stresses import modal_stresses
+from derivation.plate.pressure.theory.true_pressure import true_pressure
+from derivation.plate.viscosity.theory import viscosity
+from derivation.plate.vocabulary import Formula
+from derivation.plate.waves.theory.bending_branch import bending_branch
+from derivation.plate.waves.theory.closure import closure
+from derivation.plate.waves.theory.dynamic_modes import dynamic_modes
+from derivation.plate.waves.theory.plate_motion import plate_motion
+
+Link = tuple[str, Callable[[], tuple[Formula, ...]]]
+
+LINKS: tuple[Link, ...] = (
+    ("equilibrium", equilibrium),
+    ("mode shapes", mode_shapes),
+    ("stresses", modal_stresses),
+    ("face conditions", lambda: (*omegas(), *scaled_omegas())),
+    ("loaded mode", loaded_mode),
+    ("influence", influence_coefficients),
+    ("plate factor", lambda: (*plate_factors(), plate_factor_slope())),
+    ("Hertz", lambda: (pressure(), sonine(), contact_radius(), pressure_coefficient())),
+    ("contact law", contact_law),
+    ("interior", interior_fields),
+)
+MOTION_LINKS: tuple[Link, ...] = (
+    ("divergence", divergence),
+    ("contact split", lambda: (*contact_split(), *reduced_split())),
+    ("plate series", series_formulas),
+    ("thin plate", lambda: (*thin_plate(), *thin_remainder())),
+    ("reversion", reversion),
+    ("impact", impact),
+    ("sensitivity", sensitivity),
+    ("substitution", substitution),
+    ("edge", lambda: (*edge(), *edge_sums(), *clamp())),
+    ("true pressure", true_pressure),
+    ("curvature", curvature),
+    ("effects", effects),
+    ("plate motion", plate_motion),
+    ("viscosity", viscosity),
+    ("far face", far_face),
+    ("dynamic modes", dynamic_modes),
+    ("bending branch", bending_branch),
+    ("closure", closure),
+    ("held modes", held_modes),
+    ("held waves", held_waves),
+)
+"""What follows from the contact law. Apart: these formulas hold integrals and constants too."""
+
+
+def links() -> Iterator[tuple[str, tuple[Formula, ...]]]:
+    """Each link's name and formulas up to the interior, proved as they are asked for."""
+    for name, derive_link in LINKS:
+        yield name, derive_link()
+
+
+def derive() -> dict[str, Formula]:
+    """Every formula up to the interior by name, each proved.
+
+    Raises
+    ------
+    ProofError
+        Naming the step that does not hold.
+    """
+    return {formula.name: formula for _, formulas in links() for formula in formulas}

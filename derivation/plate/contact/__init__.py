@@ -1,0 +1,1 @@
+"""The static contact: force, indentation and contact radius."""

@@ -1,0 +1,1 @@
+"""Hard cases, grids and switch points: the static contact."""

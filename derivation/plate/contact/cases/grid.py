@@ -1,0 +1,99 @@
+"""Where the contact law's kernels are measured: plates thin and thick, contacts small and wide."""
+
+import math
+import random
+from typing import NamedTuple
+
+from derivation.plate.contact.oracle import balls as contact_balls
+from derivation.plate.contact.oracle import forces as contact_forces
+from derivation.plate.impact.oracle import impact as contact_impact
+
+ROOT = 0.5301974990742511
+"""The double nearest to the h/b at which c_1 passes zero."""
+
+THICKNESSES = (
+    1e-4, 1e-3, 1e-2, 0.05, 0.0908, 0.0911, 0.1, 0.3, 0.3332, 0.3335, ROOT, 0.6, 1.0, 3.0, 10.0,
+    100.0,
+)  # fmt: skip
+"""h/b, on both sides of 1/11 and 1/3 too, where the kernels change their form."""
+
+RATIOS = (1e-8, 1e-5, 1e-2, 0.1, 0.48, 0.52, 1.0, 2.0, 2.95, 3.1, 4.1, 6.0)
+"""a/h, on both sides of 1/2 and 3, where the kernels change their form, and of 4, where
+the series in a/h ends."""
+
+JITTER = 0.97
+"""Ratios are drawn from this share of their value up to all of it."""
+
+WIDE = (0.9, 0.999)
+"""Contacts wider than this share of the plate are drawn back to between these."""
+
+LENGTHS = (1.0, 1e-3, 25.4, 640.0)
+
+IMPACTS = (
+    (6.9e-6, 5.9999), (7e-6, 3.01), (8e-6, 0.01), (2e-5, 2.99), (5e-5, 0.3), (1e-4, 5.99),
+    (1e-4, 1e-6), (3e-4, 2.9), (1e-3, 4.1), (1e-3, 0.45), (1e-2, 5.9), (1e-2, 0.55), (0.03, 2.99),
+    (0.04, 3.01), (0.09, 2.9), (0.092, 5.99), (0.1, 1e-8), (0.15, 5.9), (0.3, 3.1), (0.3, 2.9),
+    (0.33, 3.01), (0.34, 2.9), (0.5, 0.6), (ROOT, 0.05), (ROOT, 1.0), (ROOT, 1.85), (0.6, 1.6),
+    (1.0, 0.5), (1.0, 0.99), (3.0, 0.1), (3.0, 0.324), (3.0, 0.332), (10.0, 0.0985),
+    (100.0, 1e-6), (100.0, 0.005), (100.0, 0.0097), (100.0, 0.00999),
+)  # fmt: skip
+"""h/b and largest a/h of the impacts: c_1 A from -0.369 to 1.0e10."""
+
+PAPERS_IMPACT = (0.13, 72.2, 1.0, 0.1, 1.0, 0.36e9, 0.43e9)
+"""R, m, v0, h, b, lam, mu of the paper's example."""
+
+Point = tuple[float, ...]
+
+
+class Shape(NamedTuple):
+    """A contact, and what may lead to it."""
+
+    a: float
+    R: float
+    h: float
+    b: float
+    lam: float
+    mu: float
+    m: float
+
+
+def grid(name: str) -> tuple[Shape, ...]:
+    """Contacts at which a kernel is measured, the same in every run."""
+    generator = random.Random(name)
+    if name == "impact":
+        return tuple(_drawn(generator, i, *case) for i, case in enumerate(IMPACTS))
+    found = []
+    for i, eta in enumerate(THICKNESSES):
+        for k, ratio in enumerate(RATIOS):
+            narrowed = ratio * generator.uniform(JITTER, 1.0)
+            widest = generator.uniform(*WIDE) / eta
+            found.append(_drawn(generator, i + k, eta, min(narrowed, widest)))
+    return tuple(found)
+
+
+def _drawn(generator: random.Random, i: int, eta: float, ratio: float) -> Shape:
+    """A contact of a given h/b and a/h in a plate of some size and matter."""
+    b = LENGTHS[i % len(LENGTHS)] * generator.uniform(0.5, 2.0)
+    R = b * generator.uniform(1.5, 60.0)
+    mu = 10 ** generator.uniform(0.0, 11.0)
+    lam = mu * generator.uniform(-0.6, 50.0)
+    m = 10 ** generator.uniform(-3.0, 3.0)
+    return Shape(b * eta * ratio, R, b * eta, b, lam, mu, m)
+
+
+def arguments(name: str, shape: Shape, digits: int) -> Point:
+    """Arguments with which a kernel should come to a contact, but for their rounding."""
+    a, R, h, b, lam, mu, m = shape
+    if name == "indentation":
+        return (a, R, h, b)
+    if name == "stiffness":
+        return (a, R, h, b, lam, mu)
+    if name in ("force_of_radius", "max_pressure"):
+        return (a, R, lam, mu)
+    if name == "radius_of_force":
+        return (float(contact_forces.force_of_radius(a, R, lam, mu, digits)), R, lam, mu)
+    if name in ("contact_radius", "force"):
+        delta = float(contact_balls.indentation(a, R, h, b, digits))
+        return (delta, R, h, b) if name == "contact_radius" else (delta, R, h, b, lam, mu)
+    energy = float(contact_impact.stored_energy(a, R, h, b, lam, mu, digits))
+    return (R, m, math.sqrt(2.0 * energy / m), h, b, lam, mu)

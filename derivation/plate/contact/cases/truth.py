@@ -1,0 +1,136 @@
+"""What is true of the contact law: both oracles asked at every point, several points at a time."""
+
+import math
+import multiprocessing
+from collections.abc import Callable, Sequence
+from concurrent.futures import Future, ProcessPoolExecutor, as_completed
+from dataclasses import dataclass
+
+import flint
+
+from derivation.plate.contact.cases.grid import Point, Shape, arguments
+from derivation.plate.contact.oracle import balls as contact_balls
+from derivation.plate.impact.oracle.agreement import agree
+
+DIGITS = 24
+"""Both oracles share at least so many digits, or there is no truth."""
+
+_WRITTEN = 50
+"""Digits with which a ball is passed on between processes."""
+
+Tell = Callable[[str, int, int], None]
+Job = tuple[str, Shape | Point]
+
+
+@dataclass(frozen=True)
+class Truth:
+    """What both oracles say at a point.
+
+    Parameters
+    ----------
+    point
+        The kernel's arguments.
+    values
+        Its results as balls, in decimal.
+    digits
+        To how many the oracles agree.
+    scale
+        What an error is divided by, see `tolerance`.
+    bend
+        For an impact c_1 A, the first term that the plate adds to Hertz's; else 0.
+    radius
+        Contact radius, for an impact the largest.
+    """
+
+    point: Point
+    values: tuple[str, ...]
+    digits: float
+    scale: float
+    bend: float
+    radius: float
+
+
+def truth(job: Job) -> Truth:
+    """Both oracles' answer for a kernel at its arguments, or at a contact of the grid.
+
+    Raises
+    ------
+    OracleError
+        If they contradict each other.
+    """
+    name, where = job
+    point = arguments(name, where, DIGITS) if isinstance(where, Shape) else where
+    found = agree(name, point, DIGITS)
+    values = tuple(ball.str(_WRITTEN) for ball in found.values)
+    first, last = float(found.values[0]), float(found.values[-1])
+    radius = last if name in ("impact", "contact_radius") else point[0]
+    bend = bending(point, radius) if name == "impact" else 0.0
+    return Truth(point, values, found.digits, tolerance(name, point, first), bend, radius)
+
+
+def tolerance(name: str, point: Point, true: float) -> float:
+    """What an error is divided by: (1 + |F|)/|1 + F|, F being what the plate adds to Hertz.
+
+    A sum is known to a unit in the last place of its largest part. Where 1 + F is
+    small against that, so is what can be asked; where F itself passes zero, 1
+    stays and nothing is excused. All other results are held to their own size.
+    """
+    if name not in ("indentation", "contact_radius", "stiffness"):
+        return 1.0
+    if name == "stiffness":
+        a, _, _, _, lam, mu = point
+        sum_ = 8.0 * mu * ((lam + mu) / (lam + 2.0 * mu)) * a / true
+    else:
+        a, delta = (true, point[0]) if name == "contact_radius" else (point[0], true)
+        sum_ = delta / a * (point[1] / a)
+    return (1.0 + abs(sum_ - 1.0)) / abs(sum_)
+
+
+def bending(point: Point, radius: float) -> float:
+    """c_1 A of an impact."""
+    h, b = point[3], point[4]
+    return float(contact_balls.coefficient(1, h, b, 12)) * (radius / h)
+
+
+def truths(jobs: Sequence[Job], processes: int = 1, tell: Tell | None = None) -> list[Truth]:
+    """Answers in the order of the questions.
+
+    Parameters
+    ----------
+    jobs
+        Kernels' names, each with arguments or a contact of the grid.
+    processes
+        How many points are worked on at a time; 1 starts no process.
+    tell
+        Told about every point that is done: kernel, how many, of how many.
+    """
+    if processes == 1:
+        found = []
+        for done, job in enumerate(jobs, start=1):
+            found.append(truth(job))
+            _report(tell, job[0], done, len(jobs))
+        return found
+    # Fresh processes, since a copy of one with threads may hang.
+    pool = ProcessPoolExecutor(processes, multiprocessing.get_context("spawn"))
+    try:
+        futures: dict[Future[Truth], str] = {pool.submit(truth, job): job[0] for job in jobs}
+        for done, future in enumerate(as_completed(futures), start=1):
+            future.result()
+            _report(tell, futures[future], done, len(jobs))
+        return [future.result() for future in futures]
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+def _report(tell: Tell | None, name: str, done: int, total: int) -> None:
+    if tell is not None:
+        tell(name, done, total)
+
+
+def relative(value: float, true: str, scale: float) -> float:
+    """|value - true| over |true| times a scale; infinite for a value that is not finite."""
+    if not math.isfinite(value):
+        return math.inf
+    with flint.ctx.workprec(256):
+        ball = flint.arb(true)
+        return float((abs((flint.arb(value) - ball) / ball) / scale).abs_upper())

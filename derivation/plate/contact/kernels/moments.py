@@ -1,0 +1,226 @@
+"""Turns the theory of kappa_n and M_k into the tables of doubles their generated code needs.
+
+    kappa_n = int_0^oo y^n K0(y)/I0(y) dy
+    M_k     = FP int_0^oo T^(2k-4) (G - 1) dT     (Hadamard's finite part)
+
+For low index a table: one set of trapezoids integrates all of them. For large index the
+expansions of `theory.moments`, from where their bounds are below the tolerance.
+"""
+
+from collections.abc import Sequence
+from fractions import Fraction
+from functools import cache
+from sys import float_info
+
+import flint
+import sympy as sp
+from flint import arb as Ball
+
+from derivation.engine.cache import cached
+from derivation.mathematics.bessel.kernels import first_true, nearest_double, wrapped
+from derivation.plate.contact.theory.moments import (
+    finite_part_bound,
+    finite_part_limit,
+    kappa_bound,
+    kappa_steps,
+)
+from derivation.plate.contact.theory.thin_plate import plate_excess
+from derivation.plate.vocabulary import k
+
+TOLERANCE = Fraction(1, 2**60)
+"""What the expansions may leave out, of values near 1."""
+TERMS = 13
+"""Terms of the expansion of kappa_n; where it begins follows from it."""
+BITS = 512
+FIRST_K = 2
+"""M_k is counted from here."""
+_KAPPAS, _FINITE_PARTS = 200, 100
+"""How many are computed: beyond these no double holds them."""
+_STEP = 32
+_TAIL = -120
+_END = 320
+_SURE = 100
+_WARRANTED = 90
+"""Bits that quadrature leaves correct at least; what a rounding decides must not hang on more."""
+
+
+def _nodes() -> list[tuple[Ball, Ball]]:
+    """Abscissae y and weights of int_0^oo f dy: trapezoids in v, y = exp(v - e^(-v)).
+
+    For f analytic in a sector |arg y| < d about the axis and falling exponentially the
+    error is e^(-2 pi d/step): below 1e-40 for every integrand in here (d > 0.58), and
+    below 1e-34 for high powers of y, which grow by (cos d)^-n off the axis.
+    The tests compare the integrals with another rule, another map of the axis.
+    """
+    step = Ball(1) / _STEP
+    found = []
+    for index in range(-5 * _STEP, 6 * _STEP + 1):
+        v = step * index
+        fade = (-v).exp()
+        y = (v - fade).exp()
+        if y > Ball(2) ** _TAIL and y < _END:
+            found.append((y, step * y * (1 + fade)))
+    return found
+
+
+def sharp(value: Ball) -> Ball:
+    """The middle of a ball whose radius, rounding alone, is far below what is asked.
+
+    Raises
+    ------
+    ArithmeticError
+        If it is not.
+    """
+    if not value.rad() < Ball(2) ** -_SURE * (1 + abs(value)):
+        raise ArithmeticError(f"{value} is not sharp enough for a table")
+    return value.mid()
+
+
+@cache
+def kappas() -> tuple[Ball, ...]:
+    """kappa_0, kappa_1, kappa_2, ... = int_0^oo y^n K0(y)/I0(y) dy."""
+    with flint.ctx.workprec(3 * BITS):
+        points = [(y, w * y.bessel_k(Ball(0)) / y.bessel_i(Ball(0))) for y, w in _nodes()]
+        return _by_power(points, 1, _KAPPAS)
+
+
+def _by_power(points: Sequence[tuple[Ball, Ball]], step: int, count: int) -> tuple[Ball, ...]:
+    """Sums of share y^(step i) over the nodes, i = 0 ... count - 1."""
+    found = []
+    for _ in range(count):
+        found.append(sharp(sum((share for _, share in points), Ball(0))))
+        points = [(y, share * y**step) for y, share in points]
+    return tuple(found)
+
+
+@cache
+def excess_nodes() -> tuple[tuple[Ball, Ball, Ball], ...]:
+    """T, weight and G - 1 for the integrals over T."""
+    with flint.ctx.workprec(3 * BITS):  # 840 bits cancel in what is left of G - 1 at 2^_TAIL
+        return tuple((T, weight, plate_excess(T)) for T, weight in _nodes())
+
+
+@cache
+def finite_parts() -> tuple[Ball, ...]:
+    """M_2, M_3, M_4, ...: from M_4 on the integral itself converges."""
+    with flint.ctx.workprec(3 * BITS):
+        points = [(T, weight * excess * T**4) for T, weight, excess in excess_nodes()]
+        return (*_singular_parts(), *_by_power(points, 2, _FINITE_PARTS - 2))
+
+
+def _singular_parts() -> tuple[Ball, Ball]:
+    """M_2 and M_3, the finite parts of int (G - 1) dT and int T^2 (G - 1) dT.
+
+    The poles, G = 6/T^3 + 6/(5T) + ..., are taken off with a factor e^(-T^2), whose own
+    finite parts are FP int T^-3 e^(-T^2) = (gE - 1)/2 and FP int T^-1 e^(-T^2) = -gE/2.
+    """
+    second, third = Ball(0), Ball(0)
+    for T, weight, excess in excess_nodes():
+        fade = (-T * T).exp()
+        second += weight * (excess - fade * (6 / T**3 + Ball(36) / 5 / T))
+        third += weight * (T * T * excess - 6 * fade / T)
+    euler = Ball.const_euler()
+    poles_second = 3 * (euler - 1) - Ball(18) / 5 * euler
+    return sharp(second + poles_second), sharp(third - 3 * euler)
+
+
+def kappa_ratios() -> tuple[Ball, ...]:
+    """kappa_n 2^(n+1)/(pi n!), n = 0, 1, 2, ..."""
+    with flint.ctx.workprec(BITS):
+        return tuple(
+            value * Ball(2) ** (n + 1) / (Ball.pi() * Ball(n + 1).gamma())
+            for n, value in enumerate(kappas())
+        )
+
+
+def finite_part_ratios() -> tuple[Ball, ...]:
+    """M_k 2^(2k-3)/(2k-2)!, k = 2, 3, 4, ..."""
+    with flint.ctx.workprec(BITS):
+        return tuple(
+            value * Ball(2) ** (2 * index - 3) / Ball(2 * index - 1).gamma()
+            for index, value in enumerate(finite_parts(), start=FIRST_K)
+        )
+
+
+@cache
+def kappa_start() -> int:
+    """Smallest n from which the expansion of kappa_n is within tolerance."""
+    return first_true(lambda n: bool(kappa_bound(n, TERMS) <= TOLERANCE))
+
+
+@cache
+def finite_part_start() -> int:
+    """Smallest k from which the limit of M_k's ratio is within tolerance; kept between runs."""
+    rooms = (
+        "engine/cache.py",
+        "engine/formula",
+        "plate/*.py",
+        "plate/*/theory*",
+        "mathematics",
+        "engine/rewrite",
+        "plate/*/kernels*",
+    )
+    return cached("finite_part_start", rooms, _finite_part_start)
+
+
+def _finite_part_start() -> int:
+    finite_part_limit()
+    return first_true(lambda index: bool(finite_part_bound(index) <= TOLERANCE))
+
+
+def _doubles(values: Sequence[Ball]) -> tuple[float, ...]:
+    """Correctly rounded values, up to the last that a double holds.
+
+    Raises
+    ------
+    ArithmeticError
+        If a rounding cannot be decided, or if there is no value too large for a double.
+    """
+    held = [value for value in values if abs(value) < Ball(float_info.max)]
+    if len(held) == len(values):
+        raise ArithmeticError(f"a table of {len(values)} values does not reach the largest double")
+    return _round(held)
+
+
+def _round(values: Sequence[Ball]) -> tuple[float, ...]:
+    with flint.ctx.workprec(BITS):
+        blur = Ball(0, Ball(2) ** -_WARRANTED)
+        return tuple(nearest_double(value * (1 + blur)) for value in values)
+
+
+@cache
+def tables() -> dict[str, tuple[float, ...]]:
+    """Every table by name; the ratios' end where their expansion begins."""
+    return {
+        "kappa": _doubles(kappas()),
+        "kappa_ratio": _round(kappa_ratios()[: kappa_start()]),
+        "finite_part": _doubles(finite_parts()),
+        "finite_part_ratio": _round(finite_part_ratios()[: finite_part_start() - FIRST_K]),
+    }
+
+
+def _limit_parts() -> dict[str, str]:
+    """Pole and residue of the ratio's limit 1 + residue/(k - pole)."""
+    above = sp.cancel(finite_part_limit() - 1)
+    (pole,) = sp.roots(sp.denom(above), k)
+    return {
+        "limit_pole": repr(float(pole)),
+        "limit_residue": repr(float(sp.cancel(above * (k - pole)))),
+    }
+
+
+def moment_context() -> dict[str, object]:
+    """Everything the template of the generated module needs, numbers already as text."""
+    found = tables()
+    return {
+        **{name: wrapped(map(repr, table)) for name, table in found.items()},
+        "last_kappa": str(len(found["kappa"]) - 1),
+        "last_finite_part": str(len(found["finite_part"]) + FIRST_K - 1),
+        "kappa_start": str(kappa_start()),
+        "finite_part_start": str(finite_part_start()),
+        "first_k": str(FIRST_K),
+        **_limit_parts(),
+        "kappa_steps": tuple(
+            f"{a.p} / {a.q}" if a.q != 1 else f"{a.p}.0" for a in kappa_steps(TERMS)
+        ),
+    }

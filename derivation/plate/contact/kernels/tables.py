@@ -1,0 +1,364 @@
+"""Turns the corrected contact law into the tables of doubles its generated code needs.
+
+The law is delta = (a^2/R) (1 + F), F a function of A = a/h and eta = h/b (alpha = a/b = A eta):
+
+    F   = W(alpha) + (8 alpha/(3 pi)) sum_n w_n g(alpha j_n)
+    w_n = (G(2 eta j_n) - 1)/(j_n J1(j_n)^2)
+    g   = 3 (sin y - y cos y)/y^3
+    W   = -(8/pi^2) sum_(k>=2) kappa_(2k-4) (2k-2)/(2k-1)! alpha^(2k-3)
+    kappa_n = int_0^oo y^n K0(y)/I0(y) dy
+
+and, up to O(e^(-4.2124/eta + 2.11 A)), with M_k = FP int_0^oo T^(2k-4) (G - 1) dT (Hadamard),
+
+    F   ~ c1 A + c3 A^3 + Phi(A)
+    Phi = (2A/(3 pi)) int_0^oo (G - 1) (g(AT/2) - 1 + (AT/2)^2/10) dT
+    c1  = 1/(4 pi eta^2) + (2/(3 pi)) [M_2 + (6/5) (gE - ln 4 eta)]
+    c3  = -(1/(60 pi)) [M_3 + 6 (gE - ln 4 eta)]
+
+Every table is the interpolation polynomial of an exact function at Chebyshev nodes,
+rewritten in powers and rounded once, at the end.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import cache
+from math import ceil
+
+import flint
+import sympy as sp
+from flint import arb as Ball
+
+from derivation.mathematics.bessel.kernels import bessel_zero, nearest_double, wrapped
+from derivation.plate.blocks import blocks
+from derivation.plate.contact.kernels.moments import BITS, excess_nodes, finite_parts, kappas, sharp
+from derivation.plate.contact.theory.thin_plate import plate_excess
+from derivation.plate.impact.theory.sensitivity import RESULTS, exponents
+
+REACH = 3
+"""The first polynomial ends at A = REACH or alpha = 1, whichever comes first."""
+FAR_REACH = 6
+"""The second polynomial, in A^2, ends here."""
+TERMS, SHORT_TERMS, FAR_TERMS = 19, 7, 24
+"""Coefficients of the first polynomial, of its beginning, and of the second."""
+SHORT = 6
+"""The short polynomial serves x = A/reach up to 1/SHORT."""
+MODES = 11
+"""Modes that count for eta >= 1/REACH: w_n falls like e^(-4 eta j_n)."""
+CELLS = ((3, 4, 20), (4, 6, 22), (6, 11, 23))
+"""Ranges of 1/eta with the number of powers that hold the thin plate's remainder there.
+
+They hold its derivative too. Beyond the last range the closed form is all there is, up to
+A = FAR_REACH.
+"""
+FAR_CELLS = ((3, 4, 20), (4, 6, 21), (6, 8, 19), (8, 11, 18))
+"""The same for F/A itself from A = REACH on."""
+WIDE_START = 2
+"""In the first of them the second polynomial spans A from here, lest its range shrink to a point.
+
+Its end, alpha = 1, comes as near to REACH as one likes.
+"""
+IMPACT_NODES, INNER_NODES = 24, 12
+"""Gauss nodes of the integrals over the impact, enough for c1 A from -0.37 to 1e17.
+
+The latter are those from A = REACH on, where the nearest singularity is farther.
+"""
+_NEGLIGIBLE = 2.0**-60
+
+Rows = tuple[tuple[float, ...], ...]
+
+
+def edge_part(alpha: Ball) -> Ball:
+    """W(alpha)/alpha for 0 <= alpha <= 1, by the series in kappa_n; terms fall like 4^-k."""
+    square, total = alpha * alpha, Ball(0)
+    factorial = Ball(6)
+    power = Ball(1)
+    for index, kappa in enumerate(kappas()[::2]):
+        k = index + 2
+        total += kappa * (2 * k - 2) / factorial * power
+        power *= square
+        factorial *= (2 * k) * (2 * k + 1)
+    return -8 * total / Ball.pi() ** 2
+
+
+def shape(y: Ball) -> Ball:
+    """g(y) = 3 (sin y - y cos y)/y^3, 1 at y = 0."""
+    if y == 0:
+        return Ball(1)
+    return 3 * (y.sin() - y * y.cos()) / y**3
+
+
+def thin_part(A: Ball) -> Ball:
+    """Phi(A)/A, the thin plate's universal function."""
+    if A == 0:
+        return Ball(0)
+    total = Ball(0)
+    for T, weight, excess in excess_nodes():
+        if T < _NEGLIGIBLE:  # the integrand is O(T): what is left out is its square
+            continue
+        y = A * T / 2
+        total += weight * excess * (shape(y) - 1 + y * y / 10)
+    return sharp(2 * total / (3 * Ball.pi()))
+
+
+def thin_constants() -> tuple[Ball, Ball]:
+    """K1 and K3: c1 = v^2/(4 pi) + K1 + 4 ln(v)/(5 pi), c3 = K3 - ln(v)/(10 pi), v = 1/eta."""
+    with flint.ctx.workprec(BITS):
+        second, third = finite_parts()[:2]
+        shift, pi = Ball.const_euler() - Ball(4).log(), Ball.pi()
+        return (
+            2 * (second + Ball(6) / 5 * shift) / (3 * pi),
+            -(third + 6 * shift) / (60 * pi),
+        )
+
+
+@cache
+def modes(count: int) -> tuple[tuple[Ball, Ball], ...]:
+    """j_n and 1/(j_n J1(j_n)^2) for the first modes."""
+    with flint.ctx.workprec(BITS):
+        zeros = [bessel_zero(0, index) for index in range(1, count + 1)]
+        return tuple(
+            (sharp(zero), sharp(1 / (zero * zero.bessel_j(Ball(1)) ** 2))) for zero in zeros
+        )
+
+
+def whole_over_radius(v: Ball, radii: Sequence[Ball]) -> list[Ball]:
+    """F/A by the sum over the modes.
+
+    Parameters
+    ----------
+    v
+        1/eta [1].
+    radii
+        A = a/h [1].
+    """
+    count = 5 * ceil(float(v)) + 8  # e^(-4 eta j) < 1e-26 beyond
+    weights = [(zero / v, w * plate_excess(2 * zero / v)) for zero, w in modes(count)]
+    found = []
+    for A in radii:
+        total = sum((weight * shape(A * phi) for phi, weight in weights), Ball(0))
+        found.append((edge_part(A / v) + 8 * total / (3 * Ball.pi())) / v)
+    return found
+
+
+def thin_remainder(v: Ball, radii: Sequence[Ball], thin: Sequence[Ball]) -> list[Ball]:
+    """F/A - c1 - c3 A^2 - Phi/A: what the thin plate's closed form leaves out.
+
+    Parameters
+    ----------
+    v
+        1/eta [1].
+    radii, thin
+        A = a/h [1], and Phi/A there.
+    """
+    pi, log = Ball.pi(), v.log()
+    constant, cubic = thin_constants()
+    linear, cubic = v * v / (4 * pi) + constant + 4 * log / (5 * pi), cubic - log / (10 * pi)
+    return [
+        whole - linear - cubic * A * A - known
+        for A, known, whole in zip(radii, thin, whole_over_radius(v, radii), strict=True)
+    ]
+
+
+def chebyshev_nodes(count: int) -> list[Ball]:
+    """Zeros of the Chebyshev polynomial of that degree, from 1 down to -1."""
+    return [((2 * i + 1) * Ball.pi() / (2 * count)).cos() for i in range(count)]
+
+
+def in_powers(values: Sequence[Ball], variable: tuple[int, int] = (0, 1)) -> list[Ball]:
+    """Powers of z, constant first, of the polynomial with these values at Chebyshev nodes.
+
+    Parameters
+    ----------
+    values
+        At `chebyshev_nodes`, in their order.
+    variable
+        The nodes' t in terms of z: t = variable[0] + variable[1] z.
+    """
+    count = len(values)
+    nodes = chebyshev_nodes(count)
+    shift, factor = variable
+    former, latter = [Ball(0)] * count, [Ball(1)] + [Ball(0)] * (count - 1)
+    at_former, at_latter = list(nodes), [Ball(1)] * count  # T_(-1) = T_1, T_0
+    total = [Ball(0)] * count
+    for degree in range(count):
+        weight = sum((f * at for f, at in zip(values, at_latter, strict=True)), Ball(0)) / count
+        total = [a + weight * b * min(degree + 1, 2) for a, b in zip(total, latter, strict=True)]
+        grown = [shift * b + factor * a for a, b in zip([Ball(0), *latter], latter, strict=False)]
+        double = 1 if degree == 0 else 2
+        former, latter = latter, [double * a - b for a, b in zip(grown, former, strict=True)]
+        at_former, at_latter = (
+            at_latter,
+            [2 * t * a - b for t, a, b in zip(nodes, at_latter, at_former, strict=True)],
+        )
+    return total
+
+
+UNIT = (-1, 2)
+"""For polynomials in z = (1 + t)/2, which runs over [0, 1]."""
+
+
+def _over_squares(function: Callable[[Ball], Ball], count: int) -> list[Ball]:
+    """The even function of x as a polynomial in x^2, 0 <= x <= 1."""
+    return in_powers([function(x) for x in _roots(count)], UNIT)
+
+
+def _roots(count: int) -> list[Ball]:
+    """x where x^2 is a Chebyshev node of [0, 1]."""
+    return [((1 + t) / 2).sqrt() for t in chebyshev_nodes(count)]
+
+
+def _round(balls: Sequence[Ball]) -> tuple[float, ...]:
+    return tuple(nearest_double(ball) for ball in balls)
+
+
+@cache
+def tables() -> dict[str, Rows]:
+    """Every table by name, rows of correctly rounded coefficients, constant terms first.
+
+    thin, far_thin
+        Phi/A in powers of (A/3)^2, and of t = (A^2 - 22.5)/13.5.
+    edge, modes
+        W/alpha in powers of alpha^2, and (8/(3 pi)) g(alpha j_n) for each n.
+    cell_0, ...
+        The thin plate's remainder over A: for each power of tau (1/eta, scaled to [-1, 1])
+        a row in powers of (A/3)^2.
+    far_0, ...
+        F/A itself beyond A = 3: likewise, in powers of t in [-1, 1], A^2 scaled.
+    short
+        Row j: what x^(2k), k = SHORT_TERMS, ..., adds to the coefficient of x^(2j) of
+        the short polynomial, 0 <= x <= 1/SHORT.
+    """
+    with flint.ctx.workprec(BITS):
+        found = {
+            "thin": (_round(_over_squares(lambda x: thin_part(REACH * x), TERMS)),),
+            "far_thin": (_round(_far_thin()),),
+            "edge": (_round(_over_squares(edge_part, TERMS)),),
+            "modes": tuple(_round(_mode(zero)) for zero, _ in modes(MODES)),
+            "short": tuple(
+                zip(*map(_round, map(_shortened, range(SHORT_TERMS, TERMS))), strict=True)
+            ),
+        }
+        cells = {f"cell_{index}": _cell(*cell) for index, cell in enumerate(CELLS)}
+        return found | cells | {f"far_{i}": _far_cell(*cell) for i, cell in enumerate(FAR_CELLS)}
+
+
+def _far_radii(top: Ball, start: int = REACH) -> list[Ball]:
+    """A whose squares are Chebyshev nodes between start^2 and top^2."""
+    low, high = start**2, top * top
+    return [((low + high + (high - low) * t) / 2).sqrt() for t in chebyshev_nodes(FAR_TERMS)]
+
+
+def _far_thin() -> list[Ball]:
+    return in_powers([thin_part(A) for A in _far_radii(Ball(FAR_REACH))])
+
+
+def _mode(zero: Ball) -> list[Ball]:
+    return _over_squares(lambda x: 8 * shape(x * zero) / (3 * Ball.pi()), TERMS)
+
+
+def _shortened(power: int) -> list[Ball]:
+    """z^power, 0 <= z <= 1/SHORT^2, by fewer powers of z."""
+    scale = SHORT**2
+    row = _over_squares(lambda x: (x * x / scale) ** power, SHORT_TERMS)
+    return [a * scale**j for j, a in enumerate(row)]
+
+
+def _cell(first: int, last: int, count: int) -> Rows:
+    """The thin plate's remainder for first <= 1/eta <= last."""
+    radii = [REACH * x for x in _roots(TERMS)]
+    thin = [thin_part(A) for A in radii]
+    return _in_thickness(
+        [in_powers(thin_remainder(v, radii, thin), UNIT) for v in _cell_nodes(first, last, count)]
+    )
+
+
+def _far_cell(first: int, last: int, count: int) -> Rows:
+    """F/A beyond REACH, up to A = FAR_REACH or alpha = 1, for first <= 1/eta <= last."""
+    start = WIDE_START if first == REACH else REACH
+    return _in_thickness(
+        [
+            in_powers(whole_over_radius(v, _far_radii(v.min(Ball(FAR_REACH)), start)))
+            for v in _cell_nodes(first, last, count)
+        ]
+    )
+
+
+def _cell_nodes(first: int, last: int, count: int) -> list[Ball]:
+    middle, half = Ball(first + last) / 2, Ball(last - first) / 2
+    return [middle + half * t for t in chebyshev_nodes(count)]
+
+
+def _in_thickness(rows: Sequence[Sequence[Ball]]) -> Rows:
+    """Rows at the nodes of a cell as powers of tau, rounded."""
+    powers = [in_powers(column) for column in zip(*rows, strict=True)]
+    return tuple(_round(row) for row in zip(*powers, strict=True))
+
+
+def _text(rows: Rows) -> tuple[tuple[str, ...], ...]:
+    return tuple(wrapped(map(repr, row)) for row in rows)
+
+
+def _cell_text(
+    found: Mapping[str, Rows], name: str, cells: Sequence[tuple[int, int, int]]
+) -> list[dict[str, object]]:
+    return [
+        {"first": str(first), "last": str(last), "rows": _text(found[f"{name}_{index}"])}
+        for index, (first, last, _) in enumerate(cells)
+    ]
+
+
+def contact_context() -> dict[str, object]:
+    """Everything the templates of the generated contact law need, numbers already as text."""
+    found = tables()
+    with flint.ctx.workprec(BITS):
+        constant, cubic = (nearest_double(x) for x in thin_constants())
+    return {
+        "thin": _text(found["thin"])[0],
+        "far_thin": _text(found["far_thin"])[0],
+        "edge": _text(found["edge"])[0],
+        "mode_rows": _text(found["modes"]),
+        "short_rows": _text(found["short"]),
+        "cells": _cell_text(found, "cell", CELLS),
+        "far_cells": _cell_text(found, "far", FAR_CELLS),
+        "thin_constant": repr(constant),
+        "thin_cubic": repr(cubic),
+        "reach": str(REACH),
+        "wide_start": str(WIDE_START),
+        "wide_end": str(FAR_CELLS[0][1]),
+        "far_reach": str(FAR_REACH),
+        "terms": str(TERMS),
+        "short": str(SHORT),
+        "short_terms": str(SHORT_TERMS),
+        "far_terms": str(FAR_TERMS),
+        "modes": str(MODES),
+        "held": str(blocks()["hertz_shape"].near(sp.oo)),
+    }
+
+
+def gauss_legendre(count: int) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """Gauss-Legendre nodes and weights on [0, 1], correctly rounded."""
+    with flint.ctx.workprec(BITS):
+        pairs = [Ball.legendre_p_root(count, i, weight=True) for i in reversed(range(count))]
+        return _round([(1 + x) / 2 for x, _ in pairs]), _round([w / 2 for _, w in pairs])
+
+
+def impact_context() -> dict[str, object]:
+    """What the template of the generated impact needs: the nodes of its quadratures."""
+    outer, inner = (gauss_legendre(count) for count in (IMPACT_NODES, INNER_NODES))
+    names = ("nodes", "weights", "inner_nodes", "inner_weights")
+    rules = (*outer, *inner)
+    return {name: wrapped(map(repr, rule)) for name, rule in zip(names, rules, strict=True)}
+
+
+def sensitivity_context() -> dict[str, object]:
+    """What the template of the generated sensitivities needs: every result's powers, as text."""
+    table = exponents()
+
+    def row(name: str) -> str:
+        return "(" + ", ".join(repr(float(x)) for x in table[name]) + ")"
+
+    return {
+        "results": tuple(RESULTS),
+        "laws": tuple(row(name) for name in RESULTS),
+        "energy": row("energy"),
+        "eta": row("eta"),
+    }

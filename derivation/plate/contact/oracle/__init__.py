@@ -1,0 +1,1 @@
+"""Reference values in ball arithmetic, from the original expressions: the static contact."""

@@ -1,0 +1,203 @@
+"""Oracle 1 to any number of digits: the modal sum at finitely many points, as a power series.
+
+For an even entire k with |k(w)| <= e^|Im w| and 0 < alpha < 1 the sum identity
+(`contact.theory.split`) gives the functional L of `sums` as side wall and thickness,
+
+    L = -1/pi int_0^oo k(i alpha y) K0(y)/I0(y) dy + sum k(alpha j) (G(2 eta j) - 1)/(j J1(j)^2).
+
+By parts, (K0/I0)' = -1/(y I0^2), the first is int k^(alpha y)/I0^2 dy with k^(w) =
+int_0^1 k(i w s) ds, which `wall` makes a finite sum; the second is cut after N modes.
+With k(w) = sum (-1)^m C_m w^(2m) what is left is a power series in alpha,
+
+    L = sum (-1)^m C_m L_m alpha^(2m),
+    L_m = (-1)^(m+1)/(pi (2m+1)) sum p y^(2m) + sum q j^(2m),
+
+the same L_m for all kernels. All that is left out is bounded, and enters the balls' radii.
+"""
+
+import math
+from collections.abc import Callable, Mapping
+from fractions import Fraction
+from functools import lru_cache
+from typing import NamedTuple
+
+import flint
+from flint import acb, arb, arb_poly
+
+from derivation.engine.formula.ball import PrecisionError, to_ball
+from derivation.mathematics.bessel.oracle import j0_zero
+from derivation.plate.contact.oracle.sums import COEFFICIENTS, SHARES, plate_excess
+from derivation.plate.contact.oracle.wall import Points, wall_points
+
+PLATES = 64
+"""Plates whose numbers are kept: many more would fill the memory."""
+DEEPEST = 1.5
+"""Largest a/(4h) served: beyond 1 the modes' powers cancel, by as many times the precision."""
+
+_SPARE = 64
+
+
+class Series(NamedTuple):
+    """L as a power series up to a largest contact.
+
+    Attributes
+    ----------
+    powers
+        By kernel of `sums`, (-1)^m C_m L_m of the file's head as coefficients of x^m [1],
+        x = alpha^2.
+    reach
+        Largest alpha = a/b [1] that `rest` holds for.
+    rest
+        Upper bound of what L leaves out [1], for each of the kernels.
+    working
+        Bits that sums of the powers take: beyond a = 4h they cancel.
+    """
+
+    powers: Mapping[str, arb_poly]
+    reach: arb
+    rest: arb
+    working: int
+
+    def excess(self, name: str, alpha: arb) -> arb:
+        """What the plate adds to the 1 of Hertz, see `sums.excess`.
+
+        Raises
+        ------
+        PrecisionError
+            If a/b = alpha is beyond the reach.
+        """
+        if not (alpha > 0 and alpha <= self.reach):
+            raise PrecisionError(f"the series is made for a/b up to {self.reach}, got {alpha}")
+        with flint.ctx.workprec(max(flint.ctx.prec, self.working)):
+            value = self.powers[name](alpha * alpha) + arb(0, self.rest)
+        return SHARES[name] * alpha / arb.pi() * value
+
+    def slope(self, alpha: arb) -> tuple[arb_poly, arb]:
+        """p of `impact.Law`: exact coefficients, and a bound of p's error on [0, 1]."""
+        share, square = SHARES["sinc"] * alpha / arb.pi(), alpha * alpha
+        error, exact, power = share * self.rest, [], share
+        for term in self.powers["sinc"].coeffs():
+            value = term * power
+            exact.append(value.mid())
+            error += value.rad()
+            power *= square
+        return arb_poly(exact), error.abs_upper()
+
+
+def mode_count(eta: float, bits: int) -> int:
+    """About how many modes the thickness takes at a precision, T >= 3 at the last one."""
+    least = math.ceil(1 / eta)
+    return max(
+        least, math.ceil((bits + 2 * math.log2(bits / eta) + 8) * math.log(2) / (4 * math.pi * eta))
+    )
+
+
+def prepare(eta: Fraction, reach: float, bits: int, tell: Callable[[int, int], None]) -> None:
+    """Find the zeros that `series` is going to ask for; `tell` gets each one's index and all."""
+    precision = working_bits(eta, reach, bits) + _SPARE
+    count = mode_count(float(eta), bits)
+    for index in range(1, count + 1):
+        tell(index, count)
+        j0_zero(index, precision)
+
+
+def working_bits(eta: Fraction, reach: float, bits: int) -> int:
+    """Precision of the sums of `series`: from a = 4h on their terms cancel.
+
+    The last mode weighs e^(-4 eta j) = 2^-bits, and its powers add up to e^(alpha j) times that.
+    """
+    return math.ceil(bits * max(1.0, reach / (4 * float(eta)))) + _SPARE
+
+
+@lru_cache(maxsize=PLATES)
+def mode_points(eta: Fraction, bits: int, working: int) -> Points:
+    """Zeros j and q = (G(2 eta j) - 1)/(j J1(j)^2) of the first modes.
+
+    The rest: x (J0^2 + Y0^2) rises to 2/pi (Watson, 13.74), and is 4/(pi^2 j J1^2) at j, so
+    that 1/(j J1^2) < pi/2 < 2. G - 1 < 7 T^2 e^(-2T) for T = 2 eta j >= 3
+    (`sums`), where T^2 e^(-T) falls; j_(N+1) > (N + 3/4) pi, and zeros are more than 3
+    apart (`zeros`): with T' = 2 eta (N + 3/4) pi all that follow add up to less than
+    14 T'^2 e^(-2T')/(1 - e^(-6 eta)), if |k| <= 1 on the real axis.
+
+    Parameters
+    ----------
+    eta
+        h/b [1].
+    bits
+        What is left out is below about 2^-bits.
+    working
+        Precision of places and weights.
+
+    Raises
+    ------
+    PrecisionError
+        If the modes end before their bound holds.
+    """
+    with flint.ctx.workprec(working + _SPARE):
+        scale, places, weights = 2 * to_ball(eta), [], []
+        count = mode_count(float(eta), bits)
+        for index in range(1, count + 1):
+            j = j0_zero(index, working + _SPARE)
+            places.append(j)
+            weights.append(plate_excess(acb(scale * j)).real / (j * j.bessel_j(1) ** 2))
+        last = scale * arb.pi() * (count + arb(3) / 4)
+        if not last >= 3:
+            raise PrecisionError(f"the modes end at T = {last}, too early for their bound")
+        rest = 14 * last**2 * (-2 * last).exp() / (1 - (-3 * scale).exp())
+        return Points(tuple(places), tuple(weights), rest.abs_upper())
+
+
+@lru_cache(maxsize=PLATES)
+def series(eta: Fraction, reach: float, bits: int) -> Series:
+    """L for a/b up to `reach`, all that is left out below about 2^-bits.
+
+    After M terms what remains of the kernels' series at the points is, C_m being at most
+    1/(2m+1)!, below 2 alpha^(2M)/(2M+1)! (sum p y^(2M) + sum q j^(2M)) once the
+    largest w = alpha y or alpha j has w^2 <= (2M + 2) (2M + 3)/2, so that terms halve.
+
+    Parameters
+    ----------
+    eta
+        h/b [1].
+    reach
+        Largest a/b [1], below 1.
+    bits
+        Precision; beyond a = 4h more is worked with, since terms cancel.
+
+    Raises
+    ------
+    ValueError
+        Unless 0 < reach < 1.
+    PrecisionError
+        If the contact is deeper than 4 h DEEPEST.
+    """
+    if not 0 < reach < 1:
+        raise ValueError(f"the law has meaning for 0 < a/b < 1, got {reach}")
+    depth = reach / (4 * float(eta))
+    if depth > DEEPEST:
+        raise PrecisionError(f"the series serves up to a/(4h) = {DEEPEST}, got {depth:.4g}")
+    working = working_bits(eta, reach, bits)
+    wall, modes = wall_points(working), mode_points(eta, bits, working)
+    with flint.ctx.workprec(working):
+        alpha, small = arb(reach), arb(2) ** -bits
+        farthest = (alpha * wall.places[-1].max(modes.places[-1])) ** 2
+        first, second = list(wall.weights), list(modes.weights)
+        squares = [y * y for y in wall.places], [j * j for j in modes.places]
+        moments: list[arb] = []
+        bound = arb(2)
+        while True:
+            m = len(moments)
+            sides = sum(first, arb(0)), sum(second, arb(0))
+            rest = bound * (sides[0] + sides[1])
+            if rest < small and farthest <= (m + 1) * (2 * m + 3):
+                break
+            moments.append((-1) ** (m + 1) * sides[0] / (arb.pi() * (2 * m + 1)) + sides[1])
+            first = [p * y for p, y in zip(first, squares[0], strict=True)]
+            second = [q * j for q, j in zip(second, squares[1], strict=True)]
+            bound *= alpha * alpha / ((2 * m + 2) * (2 * m + 3))
+        rest += wall.rest / arb.pi() + modes.rest
+        powers = {
+            name: arb_poly([(-1) ** m * arb(size(m)) * term for m, term in enumerate(moments)])
+            for name, size in COEFFICIENTS.items()
+        }
+        return Series(powers, alpha, rest.abs_upper(), working)

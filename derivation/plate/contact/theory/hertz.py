@@ -1,0 +1,179 @@
+"""Link 8: Hertz pressure (7) -> its Fourier-Bessel coefficients A_j, (4) and (8).
+
+Sonine's integral is proved by comparing power series; the relation between
+contact radius and force follows from the half-space's influence coefficient.
+"""
+
+from functools import cache
+
+import sympy as sp
+
+from derivation.engine.formula.proof import Proof, lower_bessel, prove
+from derivation.plate.modes.theory.influence import influence_coefficients
+from derivation.plate.vocabulary import J1, Formula, P, R, a, b, phi, r
+
+_m = sp.Symbol("m", integer=True, nonnegative=True)
+_y, _t, _s = sp.symbols("y t s", positive=True)
+
+SINE_MINUS = sp.sin(a * phi) - a * phi * sp.cos(a * phi)
+"""s(a phi), with s(y) = sin y - y cos y."""
+
+
+@cache
+def pressure() -> Formula:
+    """Hertz's pressure of resultant P on the contact disc, compression negative."""
+    peak = sp.Symbol("p_0", real=True)
+    resultant = -2 * sp.pi * sp.integrate(peak * _t * a**2 * sp.sqrt(1 - _t**2), (_t, 0, 1))
+    (solution,) = sp.solve(resultant - P, peak)
+    proof = prove(
+        "Hertz pressure",
+        "The resultant of the pressure over the contact disc is P.",
+        {"resultant": resultant.subs(peak, solution) - P},
+    )
+    return Formula(
+        "p",
+        "p(r)",
+        "Hertz pressure at r <= a",
+        solution * sp.sqrt(1 - r**2 / a**2),
+        "Pa",
+        "7",
+        (),
+        proof,
+        where=("r <= a",),
+    )
+
+
+@cache
+def sonine() -> Formula:
+    """int_0^a r sqrt(1 - r^2/a^2) J0(phi r) dr, by its power series in phi.
+
+    J0's series is integrated term by term (a Beta integral each; absolute
+    convergence allows it), and every coefficient equals that of
+    (sin y - y cos y)/y^3, y = a phi, times a^2.
+    """
+    bessel = (-1) ** _m / (4**_m * sp.factorial(_m) ** 2)
+    integral = (
+        sp.gamma(_m + 1) * sp.gamma(sp.Rational(3, 2)) / (2 * sp.gamma(_m + sp.Rational(5, 2)))
+    )
+    order = 2 * _m + 3
+    closed = (-1) ** (_m + 1) * (1 / sp.factorial(order) - 1 / sp.factorial(order - 1))
+    ratio = sp.gammasimp((bessel * integral / closed).rewrite(sp.gamma))
+    series = sp.series(sp.sin(_y) - _y * sp.cos(_y), _y, 0, 10).removeO()
+    proof = prove(
+        "Sonine's integral",
+        "J0's power series integrated term by term: the ratio of every coefficient to that "
+        "of a^2 (sin y - y cos y)/y^3, y = a phi, is 1.",
+        {"ratio of coefficients - 1": sp.simplify(ratio) - 1}
+        | {
+            f"closed coefficient of y^{2 * k}": closed.subs(_m, k) - series.coeff(_y, 2 * k + 3)
+            for k in range(4)
+        },
+    )
+    return Formula(
+        "sonine",
+        r"\int_0^a r\sqrt{1-r^2/a^2}\,J_0(\phi_j r)\,dr",
+        "Sonine's integral",
+        SINE_MINUS / (a * phi**3),
+        "m^2",
+        "8",
+        (),
+        proof,
+    )
+
+
+def dirichlet_under_bessel() -> tuple[sp.Expr, sp.Expr]:
+    """int_0^oo sin(phi t) J0(phi r)/phi dphi for t < r and for t >= r.
+
+    J0(phi r) = (2/pi) int_0^(pi/2) cos(phi r sin theta) dtheta turns the
+    integral into Dirichlet's, which is pi/2 where r sin theta < t and 0 beyond:
+    what remains is the length of that interval of theta.
+    """
+    dirichlet = sp.integrate(sp.sin(_y) / _y, (_y, 0, sp.oo))
+    return 2 / sp.pi * dirichlet * sp.asin(_t / r), 2 / sp.pi * dirichlet * sp.pi / 2
+
+
+@cache
+def contact_radius() -> Formula:
+    """Hertz's relation between a and P in (7), for a sphere on the half-space.
+
+    The pressure's Hankel transform is Sonine's integral; as
+    s(a phi)/phi^2 = int_0^a t sin(phi t) dt, the surface displacement under it
+    is a parabola in r, which must be that of the sphere, r^2/(2R).
+    """
+    radius = sp.Symbol("r", positive=True)
+    near, far = (value.subs(r, radius) for value in dirichlet_under_bessel())
+    kernel = sp.integrate(_t * near, (_t, 0, radius)) + sp.integrate(_t * far, (_t, radius, a))
+    half = influence_coefficients()[2].expression
+    transform = pressure().expression.subs(r, 0) * sonine().expression
+    amplitude = sp.simplify(half * transform * phi / (SINE_MINUS / phi**3))
+    deflection = sp.expand(amplitude * kernel)
+    curvature = sp.diff(deflection, radius, 2) - 1 / R
+    (force,) = sp.solve(curvature, P)
+    moment = sp.integrate(_t * sp.sin(phi * _t), (_t, 0, a))
+    proof = prove(
+        "Hertz contact radius",
+        "The half-space's surface under the pressure is, for r <= a, a parabola of the "
+        "sphere's curvature 1/R, and sinks by a^2/R at the centre.",
+        {
+            "moment of the sine": moment - SINE_MINUS / phi**2,
+            "curvature": curvature.subs(P, force),
+            "higher powers of r": sp.diff(deflection, radius, 3),
+            "indentation": -deflection.subs(P, force).subs(radius, 0) - a**2 / R,
+        },
+    )
+    return Formula(
+        "P",
+        "P",
+        "contact force of Hertz pressure with contact radius a",
+        sp.factor(force),
+        "N",
+        "7",
+        ("p", "sonine", "C_half"),
+        proof,
+    )
+
+
+def norm_of_bessel() -> Proof:
+    """Orthogonality: int_0^b r J0(phi_i r) J0(phi_j r) dr is b^2 J1(b phi_j)^2/2 or 0.
+
+    Two antiderivatives, each checked by differentiation; both ends follow
+    from J0(b phi) = 0.
+    """
+    k = sp.Symbol("k", positive=True)
+    j0, j1 = sp.besselj(0, phi * r), sp.besselj(1, phi * r)
+    i0, i1 = sp.besselj(0, k * r), sp.besselj(1, k * r)
+    square = r**2 / 2 * (j0**2 + j1**2)
+    product = r * (phi * j1 * i0 - k * j0 * i1) / (phi**2 - k**2)
+    return prove(
+        "Orthogonality",
+        "Both antiderivatives (Lommel) differentiate to r J0(phi r)^2 and r J0(phi r) J0(k r).",
+        {
+            "norm": lower_bessel(sp.diff(square, r)) - r * j0**2,
+            "orthogonality": lower_bessel(sp.diff(product, r)) - r * j0 * i0,
+        },
+    )
+
+
+@cache
+def pressure_coefficient() -> Formula:
+    """A_j of (4) and (8): the pressure's moment, Sonine's integral, over the mode's norm."""
+    norm = b**2 * J1**2 / 2
+    orthogonality = norm_of_bessel()
+    peak = pressure().expression.subs(r, 0).subs(P, contact_radius().expression)
+    moment = peak * sonine().expression
+    expression = sp.factor(moment / norm / SINE_MINUS) * SINE_MINUS
+    proof = prove(
+        "Pressure coefficients",
+        f"{orthogonality.argument} The moment of the pressure is Sonine's integral times p(0).",
+        {"moment": expression * norm - moment},
+    )
+    return Formula(
+        "A_j",
+        "A_j",
+        "Fourier-Bessel coefficient of Hertz pressure",
+        expression,
+        "Pa",
+        "8",
+        ("p", "sonine", "P"),
+        proof,
+    )

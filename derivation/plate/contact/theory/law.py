@@ -1,0 +1,68 @@
+"""Link 9: deflection under the sphere -> K_j and the contact law (6).
+
+The indentation is delta = -w(0, +h) = sum K_j s(a phi_j), s(y) = sin y - y cos y:
+K_j already holds the prefactor of A_j.
+"""
+
+from functools import cache
+
+from derivation.engine.formula.proof import prove
+from derivation.plate.contact.theory.hertz import SINE_MINUS, pressure_coefficient
+from derivation.plate.modes.theory.face_conditions import loaded
+from derivation.plate.modes.theory.influence import influence_coefficients
+from derivation.plate.modes.theory.mode_shapes import mode_shapes
+from derivation.plate.vocabulary import A_j, Formula, h, z
+
+
+@cache
+def contact_law() -> tuple[Formula, ...]:
+    """K_j on the loaded and on the far face, and one mode's share of delta."""
+    top, bottom, _ = influence_coefficients()
+    coefficient = pressure_coefficient().expression
+    prefactor = -coefficient / SINE_MINUS
+    faces = {
+        name: face.expression * prefactor for name, face in (("K_j", top), ("K_j_bottom", bottom))
+    }
+    share = -loaded(mode_shapes()[0].expression).subs(A_j, coefficient)
+    proof = prove(
+        "Contact law",
+        "K_j s(a phi_j) equals -f_j(+-h) with the constants of the face conditions and "
+        "the coefficients of Hertz pressure.",
+        {
+            "loaded face": faces["K_j"] * SINE_MINUS - share.subs(z, h),
+            "far face": faces["K_j_bottom"] * SINE_MINUS - share.subs(z, -h),
+        },
+    )
+    return (
+        Formula(
+            "K_j",
+            "K_j",
+            "indentation per s(a phi_j), loaded face z = +h",
+            faces["K_j"],
+            "m",
+            "6",
+            ("C_top", "A_j"),
+            proof,
+        ),
+        Formula(
+            "K_j_bottom",
+            r"K_j^{-}",
+            "indentation per s(a phi_j), far face z = -h",
+            faces["K_j_bottom"],
+            "m",
+            "6",
+            ("C_bottom", "A_j"),
+            proof,
+        ),
+        Formula(
+            "delta",
+            r"\delta",
+            "indentation, the sphere's travel into the loaded face",
+            faces["K_j"] * SINE_MINUS,
+            "m",
+            "6",
+            ("K_j",),
+            proof,
+            summed=True,
+        ),
+    )

@@ -1,0 +1,280 @@
+"""kappa_n and M_k for large index: rational expansions, with bounds of what they leave out.
+
+Both numbers grow like a factorial; over their leading terms they tend to 1:
+
+    kappa_n = int_0^oo y^n K0(y)/I0(y) dy             r_n   = kappa_n 2^(n+1)/(pi n!)
+    M_k     = FP int_0^oo T^(2k-4) (G - 1) dT         rho_k = M_k 2^(2k-3)/(2k-2)!
+
+K0/I0 = pi e^(-2y) D(y), and the quotient of Hankel's expansions gives D = sum q_j y^-j, hence
+r_n = sum q_j 2^j/(n (n-1) ... (n-j+1)). G - 1 begins with 4 e^(-2T) (T^2 + T + 1/2), which
+integrates to rho_k = (2k-1)/(2k-3); the rest, like e^(-4T), is smaller by the factor 2^(-2k)
+and powers of k.
+"""
+
+from collections.abc import Mapping
+from functools import cache
+
+import flint
+import sympy as sp
+
+from derivation.engine.formula.proof import BY_BALLS, Proof, ProofError, prove
+from derivation.mathematics.bessel.theory.functions import Coefficients, multiply
+from derivation.plate.modes.theory.plate_factor import plate_factors
+from derivation.plate.vocabulary import T, k
+
+Laurent = Mapping[int, sp.Rational]
+"""Coefficients of a sum of powers, positive and negative, by power."""
+
+_y, _c = sp.symbols("y c", positive=True)
+_m = sp.Symbol("m", integer=True, nonnegative=True)
+
+
+@cache
+def gamma_moment() -> Proof:
+    """int_0^oo y^m e^(-cy) dy = m!/c^(m+1): m/c times the one before, and 1/c for m = 0."""
+    step = -(_y ** (_m + 1)) * sp.exp(-_c * _y) / _c
+    integrand = (_y ** (_m + 1) - (_m + 1) / _c * _y**_m) * sp.exp(-_c * _y)
+    first = -sp.exp(-_c * _y) / _c
+    return prove(
+        "Moments of an exponential",
+        "Terms that vanish at infinity, and for m > 0 at 0, are differentiated.",
+        {
+            "step": sp.expand(sp.powsimp(sp.diff(step, _y) - integrand)),
+            "start": sp.diff(first, _y) - sp.exp(-_c * _y),
+            "value at 0": first.subs(_y, 0) + 1 / _c,
+        },
+    )
+
+
+def moment(power: int, rate: int) -> sp.Rational:
+    """int_0^oo y^power e^(-rate y) dy, the exponents being integers."""
+    return sp.Rational(sp.factorial(power), rate ** (power + 1))
+
+
+# --- kappa_n
+
+
+@cache
+def hankel(terms: int) -> Coefficients:
+    """a_j > 0 of I0 ~ e^y/sqrt(2 pi y) sum a_j y^-j, K0 ~ sqrt(pi/(2y)) e^-y sum (-1)^j a_j y^-j.
+
+    e^(sy)/sqrt(y) y^-j, s = +-1, is put into the modified Bessel equation; the
+    balance of each power gives the ratio of neighbouring coefficients.
+    """
+    image = _carried(_y**-_m, 1)
+    low, high = (sp.expand(image * _y**_m).coeff(_y, power) for power in (1, 0))
+    ratio = sp.factor(-high / low.subs(_m, _m + 1))
+    a = [sp.Integer(1)]
+    for index in range(terms - 1):
+        a.append(a[-1] * ratio.subs(_m, index))
+    series = {
+        name: _carried(sp.Add(*(value * (sign / _y) ** i for i, value in enumerate(a))), sign)
+        for name, sign in (("I0", 1), ("K0", -1))
+    }
+    prove(
+        "Hankel's expansions of I0 and K0",
+        "The truncated series are substituted into the modified equation: every power they "
+        "determine vanishes.",
+        {
+            f"{name}, y^{-power}": left.coeff(_y, -power)
+            for name, left in series.items()
+            for power in range(-1, terms - 1)
+        },
+    )
+    return tuple(a)
+
+
+def _carried(v: sp.Expr, sign: int) -> sp.Expr:
+    """y^2 w'' + y w' - y^2 w for w = v e^(sign y)/sqrt(y), over e^(sign y)/sqrt(y)."""
+    carrier = sp.exp(sign * _y) / sp.sqrt(_y)
+    w = v * carrier
+    left = _y**2 * sp.diff(w, _y, 2) + _y * sp.diff(w, _y) - _y**2 * w
+    return sp.expand(sp.powsimp(sp.expand(left / carrier)))
+
+
+@cache
+def wall_quotient(terms: int) -> Coefficients:
+    """q_j of D = e^(2y) K0/(pi I0) ~ sum q_j y^-j: the quotient of Hankel's expansions."""
+    a = hankel(terms)
+    q: list[sp.Rational] = []
+    for index in range(terms):
+        known = sp.Add(*(q[i] * a[index - i] for i in range(index)))
+        q.append((-1) ** index * a[index] - known)
+    prove(
+        "Expansion of K0/I0",
+        "The quotient times the expansion of I0 is that of K0.",
+        {f"y^{-i}": b - (-1) ** i * a[i] for i, b in enumerate(multiply(q, a, terms))},
+    )
+    return tuple(q)
+
+
+@cache
+def quotient_bound(terms: int) -> tuple[Laurent, Laurent]:
+    """Bound of |D - sum_(j<N) q_j y^-j| for every y > 0: powers of y, and powers times e^-y.
+
+    Write the scaled functions as i = sqrt(2 pi y) e^-y I0 and k = sqrt(2y/pi) e^y K0, so that
+    D = k/i, and their truncated expansions as i_N, k_N, q_N. Then
+
+        |D - q_N| <= (|q_N i_N - k_N| + |k - k_N| + |q_N| |i - i_N|)/i.
+
+    - k = sqrt(y/pi) int_0^oo e^(-yu) u^(-1/2) (1 + u/2)^(-1/2) du, and the binomial series
+      alternates: |k - k_N| <= a_N y^-N.
+    - i is the same integral over (0, 2) with 1 - u/2. Its series sum c_j (u/2)^j has falling
+      positive c_j: the remainder is below 2 c_N (u/2)^N for u <= 1, below (1 - u/2)^(-1/2)
+      beyond, where the integral of u^(-1/2) (1 - u/2)^(-1/2) is below 2 sqrt(2). What is
+      missing of the terms' integrals, u > 2, has e^(-yu) <= e^-y e^(-yu/2). Together
+      |i - i_N| <= 2 a_N y^-N + e^-y [(4/5)(1 + y) + (3/2) sum_(j<N) a_j 2^j y^-j], with
+      sqrt(y) <= (1 + y)/2, 2 sqrt(2/pi) < 8/5 and sqrt(2) < 3/2.
+    - i >= erf(sqrt(2y)) >= sqrt(1 - e^(-2y)), hence 1/i <= 1 + 1/(2y).
+    """
+    a, q = hankel(terms + 1), wall_quotient(terms)
+    size = {-j: abs(value) for j, value in enumerate(q)}
+    product = multiply(q, a[:terms], 2 * terms - 1)
+    over = {-j: abs(value) for j, value in enumerate(product) if j >= terms}
+    plain = _sum(over, {-terms: a[terms]}, _product(size, {-terms: 2 * a[terms]}))
+    edge = {0: sp.Rational(4, 5), 1: sp.Rational(4, 5)}
+    cut = {-j: sp.Rational(3, 2) * a[j] * 2**j for j in range(terms)}
+    inverse = {0: sp.Integer(1), -1: sp.Rational(1, 2)}
+    return _product(inverse, plain), _product(inverse, size, _sum(edge, cut))
+
+
+def _sum(*series: Laurent) -> Laurent:
+    powers = sorted({power for one in series for power in one})
+    return {p: sp.Add(*(one.get(p, sp.Integer(0)) for one in series)) for p in powers}
+
+
+def _product(first: Laurent, *others: Laurent) -> Laurent:
+    for other in others:
+        first = _sum(*({p + r: a * b for r, b in other.items()} for p, a in first.items()))
+    return first
+
+
+@cache
+def wall_constant(terms: int = 12) -> Proof:
+    """D -> 1: the factor pi of K0/I0 = pi e^(-2y) D, which the equation leaves open.
+
+    The truncated expansion, widened by the bound, must contain D.
+    """
+    plain, fading = quotient_bound(terms)
+    for point in (20, 37, 1000):
+        for bits in (256, 1024):
+            with flint.ctx.workprec(bits):
+                y = flint.arb(point)
+                ratio = y.bessel_k(flint.arb(0)) / y.bessel_i(flint.arb(0))
+                left = (2 * y).exp() * ratio / flint.arb.pi()
+                middle = _at({-j: value for j, value in enumerate(wall_quotient(terms))}, y)
+                width = _at(plain, y) + (-y).exp() * _at(fading, y)
+                if not (middle + flint.arb(0, width.upper())).contains(left):
+                    raise ProofError(f"Expansion of K0/I0: {left} at {point} is not {middle}")
+    return Proof("Factor of K0/I0", "The series within its bound contains D.", ("D",), BY_BALLS)
+
+
+def _at(series: Laurent, y: flint.arb) -> flint.arb:
+    return sum((flint.arb(flint.fmpq(int(a.p), int(a.q))) * y**p for p, a in series.items()), y * 0)
+
+
+@cache
+def kappa_steps(terms: int) -> Coefficients:
+    """2^j q_j: r_n = sum of 2^j q_j/(n (n-1) ... (n-j+1)), the first terms."""
+    gamma_moment()
+    wall_constant()
+    n = terms + 3
+    steps = tuple(2**j * value for j, value in enumerate(wall_quotient(terms)))
+    scale = sp.Rational(2 ** (n + 1), sp.factorial(n))
+    prove(
+        "Expansion of kappa_n",
+        f"The terms of y^n e^(-2y) D are integrated, n = {n}.",
+        {
+            f"q_{j}": scale * q * moment(n - j, 2) - steps[j] / sp.ff(n, j)
+            for j, q in enumerate(wall_quotient(terms))
+        },
+    )
+    return steps
+
+
+def kappa_bound(n: int, terms: int) -> sp.Expr:
+    """Bound of |r_n - its first terms| for this n and every larger one; infinite for n < 2 terms.
+
+    2^(n+1)/n! times the integral of y^n e^(-2y) `quotient_bound`, exactly; every term in it
+    falls with n.
+    """
+    if n < 2 * terms:
+        return sp.oo
+    scale = sp.Rational(2 ** (n + 1), sp.factorial(n))
+    plain, fading = quotient_bound(terms)
+    by_rate = ((2, plain), (3, fading))
+    return scale * sum(a * moment(n + p, rate) for rate, one in by_rate for p, a in one.items())
+
+
+# --- M_k
+
+
+@cache
+def excess_beyond_first() -> Proof:
+    """G - 1 = 4 E (T^2 + T + 1/2) + rest, E = e^(-2T): the rest, and what bounds it.
+
+    rest = 4 E^2 (N - 1/2 - E (T^2 + T + 1/2))/d with N = (T^2 + T + 1/2) (4 T^2 + 2) and
+    d = (1 - E)^2 - 4 T^2 E = 4 E (sinh^2 T - T^2). For T >= 1 d rises from d(1) > 1/5; below,
+    sinh^2 T - T^2 >= T^4/3 and E > 2/15. So 1/d <= 5 + 6/T^4 and 0 <= rest <= 4 E^2 N/d.
+    """
+    E = sp.exp(-2 * T)
+    first = T**2 + T + sp.Rational(1, 2)
+    d = (1 - E) ** 2 - 4 * T**2 * E
+    rest = 4 * E**2 * (_next_power(T) - sp.Rational(1, 2) - E * first) / d
+    series = sp.series(sp.sinh(T) ** 2 - T**2, T, 0, 5).removeO()
+    for bits in (64, 256):
+        with flint.ctx.workprec(bits):
+            small = flint.arb(-2).exp()
+            if not (small > flint.arb(2) / 15 and (1 - small) ** 2 - 4 * small > flint.arb(1) / 5):
+                raise ProofError("Rest of the plate factor: d(1) or E(1) is below its bound")
+    return prove(
+        "Rest of the plate factor",
+        "Over a common denominator; d is differentiated, each factor of d' positive for T >= 1; "
+        "sinh^2 T has no negative power in its series.",
+        {
+            "rest": plate_factors()[2].expression - 4 * E * first - rest,
+            "d": d - 4 * E * (sp.sinh(T) ** 2 - T**2),
+            "slope": sp.diff(d, T) - 4 * E * ((1 - E) + 2 * T * (T - 1)),
+            "start": series - T**4 / 3,
+        },
+    )
+
+
+def _next_power(t: sp.Expr) -> sp.Expr:
+    """N(T) of the rest's leading term 4 e^(-4T) N."""
+    return (t**2 + t + sp.Rational(1, 2)) * (4 * t**2 + 2)
+
+
+@cache
+def finite_part_limit() -> sp.Expr:
+    """(2k-1)/(2k-3): rho_k without what G - 1 holds beyond 4 e^(-2T) (T^2 + T + 1/2)."""
+    gamma_moment()
+    excess_beyond_first()
+    limit = (2 * k - 1) / (2 * k - 3)
+    m = 2 * k - 4
+    # int T^(m+p) e^(-2T) dT over m!/2^(m+1), and the scale 2^(2k-3)/(2k-2)! over 2^(m+1)/m!.
+    shares = {p: sp.expand_func(sp.rf(m + 1, p)) / 2**p for p in range(3)}
+    total = 4 * (shares[2] + shares[1] + shares[0] / 2) / ((m + 1) * (m + 2))
+    prove(
+        "Finite part for large k",
+        "The three moments of the first exponential are added.",
+        {"sum": total - limit},
+    )
+    return limit
+
+
+def finite_part_bound(index: int) -> sp.Expr:
+    """Bound of rho_k less its limit, k = index or larger; infinite for k < 4.
+
+    2^(2k-3)/(2k-2)! times the integral of T^m e^(-4T) 4 N (5 + 6/T^4), m = 2k - 4, exactly.
+    From k to k + 1 it falls at least by the factor (m+5) (m+6)/(4 (m+3) (m+4)) < 1.
+    """
+    excess_beyond_first()
+    if index < 4:
+        return sp.oo
+    power = 2 * index - 4
+    scale = sp.Rational(2 ** (power + 1), sp.factorial(power + 2))
+    n = sp.Poly(_next_power(T), T).as_dict()
+    inverse = {0: sp.Integer(5), -4: sp.Integer(6)}
+    rest = _product({p: 4 * a for (p,), a in n.items()}, inverse)
+    return scale * sum(a * moment(power + p, 4) for p, a in rest.items())

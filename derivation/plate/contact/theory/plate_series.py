@@ -1,0 +1,223 @@
+"""Link 13: delta R/a^2 = 1 + c_1 A + c_3 A^3 + ..., A = a/h, with exact coefficients of h/b.
+
+The split of the indentation converges, so its terms may be expanded in a:
+sin y - y cos y = sum (-1)^k (2k-2)/(2k-1)! y^(2k-1), k >= 2. With absolute values
+this is again a convergent double sum, for a < 4 h in the modes, where G - 1 dies
+like e^(-4 eta j_n), and for a < 2 b in the side wall, where K0/I0 dies like e^(-2y).
+These are the paper's gamma_k with the divergent part of their sums taken out.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+
+import flint
+import sympy as sp
+
+from derivation.engine.formula.ball import LOG2_10, refine
+from derivation.engine.formula.dimension import thirds
+from derivation.engine.formula.proof import Proof, prove
+from derivation.plate.contact.theory.split import reduced_split, wall_bracket, wall_tail
+from derivation.plate.modes.theory.plate_factor import plate_factors
+from derivation.plate.vocabulary import (
+    J1,
+    Formula,
+    P,
+    R,
+    T,
+    a,
+    a_ratio,
+    alpha,
+    c_A,
+    eta,
+    h,
+    j_n,
+    kappa,
+)
+
+_y = sp.Symbol("y", positive=True)
+FIRST, LAST = 2, 5
+"""Range of k for which the chain records coefficients c_(2k-3)."""
+
+
+@dataclass(frozen=True)
+class Coefficient:
+    """c_(2k-3): a sum over the modes plus a multiple of kappa_(2k-4).
+
+    Parameters
+    ----------
+    k
+        Index of the paper's gamma_k.
+    mode
+        One mode's share, in eta, j_n and J1(j_n).
+    side
+        The side wall's part, in eta and kappa.
+    proof
+        Expansion of the split.
+    """
+
+    k: int
+    mode: sp.Expr
+    side: sp.Expr
+    proof: Proof
+
+    @property
+    def order(self) -> int:
+        """Power of a/h that the coefficient belongs to."""
+        return 2 * self.k - 3
+
+    @property
+    def by_plate_radius(self) -> tuple[sp.Expr, sp.Expr]:
+        """The same two parts as coefficients of (a/b)^order, for thick plates."""
+        return self.mode / eta**self.order, self.side / eta**self.order
+
+
+def sine_coefficient(k: int) -> sp.Rational:
+    """Coefficient of y^(2k-1) in sin y - y cos y."""
+    return sp.Rational((-1) ** k * (2 * k - 2), sp.factorial(2 * k - 1))
+
+
+@cache
+def coefficient(k: int) -> Coefficient:
+    """c_(2k-3), k >= 2, from the coefficient of alpha^(2k-3) in the split, alpha = eta A."""
+    order = 2 * k - 3
+    excess = plate_factors()[2].expression.subs(T, 2 * eta * j_n)
+    size = abs(sine_coefficient(k))
+    mode = eta**order * size * (-1) ** k * 8 / sp.pi * j_n ** (2 * k - 5) * excess / J1**2
+    side = -(eta**order) * size * 8 / sp.pi**2 * kappa[2 * k - 4]
+    shares = reduced_split()[1].expression
+    factor = 8 * alpha / (3 * sp.pi) / (j_n * J1**2)
+    spread = 3 * (sp.sin(_y) - _y * sp.cos(_y)) / _y**3
+    taylor = sp.series(spread, _y, 0, order + 1).removeO().coeff(_y, order - 1)
+    wall = sp.series(wall_bracket(alpha), alpha, 0, 2 * k).removeO().coeff(alpha, 2 * k - 1)
+    proof = prove(
+        f"Coefficient c_{order}",
+        "Taylor's coefficients of both parts of the split; alpha = eta A.",
+        {
+            "share": shares - factor * spread.subs(_y, alpha * j_n) * excess,
+            "modes": factor / alpha * taylor * j_n ** (order - 1) * eta**order * excess - mode,
+            "side wall": -8 / sp.pi**2 * wall * kappa[2 * k - 4] / _y ** (2 * k - 4) * eta**order
+            - side,
+        },
+    )
+    return Coefficient(k, mode, side, proof)
+
+
+@cache
+def kappa_by_parts(n: int) -> Proof:
+    """kappa_n = int y^n K0/I0 dy = 1/(n+1) int_0^oo y^n/I0^2 dy.
+
+    (K0/I0)' = -1/(y I0^2) by the Wronskian of I0 and K0, and y^(n+1) K0/I0
+    vanishes at both ends; the new integrand has no logarithm at 0.
+    """
+    i0, i1, k0, k1 = sp.symbols("i0 i1 k0 k1", positive=True)
+    rates = {i0: i1, i1: i0 - i1 / _y, k0: -k1, k1: -k0 - k1 / _y}
+
+    def slope(expression: sp.Expr) -> sp.Expr:
+        inner = (sp.diff(expression, s) * rate for s, rate in rates.items())
+        return sp.diff(expression, _y) + sp.Add(*inner)
+
+    wronskian = _y * (i0 * k1 + i1 * k0)
+    small = {i0: 1, i1: _y / 2, k0: -sp.log(_y), k1: 1 / _y}
+    (derivative,) = sp.solve(wronskian - 1, k1)
+    product = _y ** (n + 1) / (n + 1) * k0 / i0
+    return prove(
+        f"kappa_{n} by parts",
+        "y (I0 K1 + I1 K0) is constant, 1 as y -> 0; y^(n+1) K0/I0/(n+1) is differentiated.",
+        {
+            "Wronskian": slope(wronskian),
+            "constant": sp.limit(wronskian.subs(small), _y, 0) - 1,
+            "derivative": slope(product).subs(k1, derivative)
+            - _y**n * k0 / i0
+            + _y**n / ((n + 1) * i0**2),
+        },
+    )
+
+
+@cache
+def kappa_ball(n: int, digits: int = 30) -> flint.arb:
+    """Ball around kappa_n, n >= 0, its relative radius below 10^-digits."""
+    kappa_by_parts(n)
+
+    def compute() -> flint.arb:
+        end = flint.arb(int(digits * LOG2_10 / 2) + 8 * (n + 5))
+        body = flint.acb.integral(_wall_integrand(n), flint.acb(0), flint.acb(end)).real
+        return (body + flint.arb(0, wall_tail(n, end).upper())) / (n + 1)
+
+    return refine(compute, digits, f"kappa_{n}")
+
+
+def _wall_integrand(n: int) -> Callable[[flint.acb, bool], flint.acb]:
+    return lambda y, _: y**n / y.bessel_i(0) ** 2
+
+
+@cache
+def series_formulas() -> tuple[Formula, ...]:
+    """Both parts of c_1, c_3, ..., and the paper's gamma_k as they should read."""
+    formulas: list[Formula] = []
+    for k in range(FIRST, LAST + 1):
+        c = coefficient(k)
+        for part, value, summed in (("modes", c.mode, True), ("side", c.side, False)):
+            formulas.append(
+                Formula(
+                    f"c_{c.order}_{part}",
+                    rf"c_{{{c.order}}}^{{\mathrm{{{part}}}}}",
+                    f"coefficient of (a/h)^{c.order} in delta R/a^2: {part}",
+                    value,
+                    "1",
+                    "10",
+                    ("F_modes",) if summed else ("F_wall",),
+                    c.proof,
+                    summed=summed,
+                )
+            )
+    return (*formulas, *(regular_gamma(k) for k in range(FIRST, LAST + 1)), small_contact())
+
+
+@cache
+def regular_gamma(k: int) -> Formula:
+    """gamma_k without its divergent part: delta = (a^2/R) + sum gamma_k P^((2k-1)/3)."""
+    order = 2 * k - 3
+    value = (a / P ** sp.Rational(1, 3)) ** (2 * k - 1) * c_A[order] / (R * h**order)
+    term = a**2 / R * c_A[order] * (a / h) ** order
+    proof = prove(
+        f"gamma_{k}",
+        "gamma_k P^((2k-1)/3) is the term of the small-contact series; a/P^(1/3) is constant.",
+        {"term": sp.powsimp(value * P ** sp.Rational(2 * k - 1, 3), force=True) - term},
+    )
+    return Formula(
+        f"gamma_{k}",
+        rf"\gamma_{k}",
+        f"coefficient of {thirds('P', 2 * k - 1)} in the indentation, beside Hertz's term",
+        value,
+        f"m/{thirds('N', 2 * k - 1)}",
+        "10",
+        (f"c_{order}_modes", f"c_{order}_side"),
+        proof,
+    )
+
+
+@cache
+def small_contact() -> Formula:
+    """delta R/a^2 as a polynomial in A = a/h, to the order the chain records."""
+    orders = [2 * k - 3 for k in range(FIRST, LAST + 1)]
+    value = 1 + sp.Add(*(c_A[n] * a_ratio**n for n in orders))
+    terms = [coefficient(k) for k in range(FIRST, LAST + 1)]
+    x = sp.Symbol("x", positive=True)
+    total = sp.Add(*(c_A[c.order] * x * eta ** (-c.order) * alpha**c.order for c in terms))
+    proof = prove(
+        "Small contact",
+        "Powers of alpha become powers of A = alpha/eta.",
+        {"powers": total.subs(alpha, eta * a_ratio) / x + 1 - value},
+    )
+    return Formula(
+        "delta_reduced",
+        r"\delta R/a^2",
+        "indentation over that of the half-space, for a < 4 h and a < b",
+        value,
+        "1",
+        "10",
+        tuple(f"c_{n}_modes" for n in orders),
+        proof,
+        where=("a_ratio < 4",),
+    )

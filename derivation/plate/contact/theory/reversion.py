@@ -1,0 +1,291 @@
+"""Link 15: the contact law solved for the force, by Lagrange's inversion, to any order.
+
+Two laws are inverted: the paper's formal one, delta = sum gamma_k P^((2k-1)/3), and
+the right one, delta = (a^2/R)(1 + c_1 A + c_3 A^3 + ...), P = (4/3) E* a^3/R. Both
+have the shape y^d = x^d (1 + r_1 x^g + r_2 x^(2g) + ...), and Lagrange's formula
+gives x^p = sum over n of p/(p + g n) [x^(g n)] (1 + r_1 x^g + ...)^(-(p + g n)/d) y^(p + g n).
+"""
+
+from collections.abc import Sequence
+from functools import cache
+
+import flint
+import sympy as sp
+
+from derivation.engine.formula.dimension import thirds
+from derivation.engine.formula.proof import Proof, prove
+from derivation.plate.contact.theory.hertz import contact_radius
+from derivation.plate.vocabulary import Formula, R, a, a_ratio, c_A, delta, gamma_k, h, k
+from derivation.plate.vocabulary import N as _N
+
+LAST_XI = 6
+LAST_P = 8
+_RAYS = 200
+
+
+def power_series(
+    series: Sequence[sp.Expr], exponent: sp.Rational, terms: int
+) -> tuple[sp.Expr, ...]:
+    """Power of a series that begins with 1, truncated: from b' s = exponent s' b, b = s^exponent.
+
+    Examples
+    --------
+    >>> power_series((sp.Integer(1), sp.Symbol("r")), sp.Integer(2), 3)
+    (1, 2*r, r**2)
+    """
+    b: list[sp.Expr] = [sp.Integer(1)]
+    for n in range(1, terms):
+        top = min(n, len(series) - 1)
+        total = sp.Add(
+            *(((exponent + 1) * i - n) * series[i] * b[n - i] for i in range(1, top + 1))
+        )
+        b.append(sp.expand(total / n))
+    return tuple(b)
+
+
+def inverted(series: Sequence[sp.Expr], d: int, g: int, p: int, terms: int) -> tuple[sp.Expr, ...]:
+    """Coefficients of y^(p + g n) in x^p, where y^d = x^d (series in x^g), by Lagrange."""
+    found = []
+    for n in range(terms):
+        exponent = sp.Rational(-(p + g * n), d)
+        found.append(sp.Rational(p, p + g * n) * power_series(series, exponent, n + 1)[n])
+    return tuple(found)
+
+
+def composition(
+    series: Sequence[sp.Expr], inverse: Sequence[sp.Expr], d: int, g: int, p: int
+) -> dict[str, sp.Expr]:
+    """What the inverse leaves when x, taken from x^p, is put back into the series: zeros.
+
+    x^(d + g n) is the power (d + g n)/p of the inverse series: the coefficient of
+    y^(d + g l) in y^d must be 1 for l = 0 and vanish for all l up to the order kept.
+    """
+    terms = len(inverse)
+    total = [sp.Integer(0)] * terms
+    for n, r in enumerate(series[:terms]):
+        raised = power_series(inverse, sp.Rational(d + g * n, p), terms - n)
+        for index, value in enumerate(raised):
+            total[n + index] += r * value
+    total[0] -= 1
+    return {f"order {index}": sp.expand(value) for index, value in enumerate(total)}
+
+
+@cache
+def formal_coefficients(last: int = LAST_XI) -> tuple[Formula, ...]:
+    """xi_2, ..., xi_last: the paper's formal law delta = sum gamma_k P^((2k-1)/3) inverted.
+
+    x = P^(1/3), y = (delta/gamma_2)^(1/3): d = 3, g = 2, p = 3.
+    """
+    first = gamma_k[2]
+    series = (sp.Integer(1), *(gamma_k[i] / first for i in range(3, last + 1)))
+    inverse = inverted(series, 3, 2, 3, last - 1)
+    proof = prove(
+        "Inversion of the formal law",
+        "The inverted series is put back into the law: every order vanishes.",
+        composition(series, inverse, 3, 2, 3),
+    )
+    formulas = []
+    for index, value in enumerate(inverse, start=2):
+        formulas.append(
+            Formula(
+                f"xi_{index}",
+                rf"\xi_{{{index}}}",
+                f"coefficient of {thirds('delta', 2 * index - 1)} in the formal force",
+                sp.factor(value) * first ** sp.Rational(-(2 * index - 1), 3),
+                f"N/{thirds('m', 2 * index - 1)}",
+                "10",
+                tuple(f"gamma_{i}" for i in range(2, index + 1)),
+                proof,
+            )
+        )
+    return tuple(formulas)
+
+
+def plate_law(orders: int) -> tuple[sp.Expr, ...]:
+    """1 + c_1 A + c_3 A^3 + ..., as coefficients of A^0, A^1, ..., A^orders."""
+    return tuple(sp.Integer(1) if n == 0 else c_A.get(n, sp.Integer(0)) for n in range(orders + 1))
+
+
+@cache
+def force_coefficients(last: int = LAST_P) -> tuple[sp.Expr, ...]:
+    """p_0 = 1, p_1, ..., p_last: a^3 = h^3 eps^3 sum p_n eps^n, eps = sqrt(R delta)/h.
+
+    x = A, y = eps, as eps^2 = A^2 (1 + c_1 A + ...): d = 2, g = 1, p = 3.
+    """
+    return inverted(plate_law(last), 2, 1, 3, last + 1)
+
+
+@cache
+def force_composition(last: int = LAST_P) -> Proof:
+    """Proof of p_1, ..., p_last."""
+    residuals = composition(plate_law(last), force_coefficients(last), 2, 1, 3)
+    return prove(
+        "Inversion of the contact law",
+        "A = (A^3)^(1/3) from the inverted series is put back into eps^2 = A^2 (1 + c_1 A + ...).",
+        residuals,
+    )
+
+
+@cache
+def force_formulas(shown: int = 4) -> tuple[Formula, ...]:
+    """p_1, ..., p_shown, the force's leading part, and its powers of delta."""
+    proof = force_composition()
+    formulas = [
+        Formula(
+            f"p_{n}",
+            f"p_{n}",
+            f"coefficient of eps^{n} in P over Hertz's force",
+            sp.factor(value),
+            "1",
+            "10",
+            ("delta_reduced", "P"),
+            proof,
+        )
+        for n, value in enumerate(force_coefficients()[1 : shown + 1], start=1)
+    ]
+    modulus = sp.cancel(contact_radius().expression * R / a**3)
+    return (*formulas, _hertz_force(modulus), exponent())
+
+
+def _hertz_force(scale: sp.Expr) -> Formula:
+    """(4/3) E* sqrt(R) delta^(3/2): the force at p_n = 0."""
+    value = scale * sp.sqrt(R) * delta ** sp.Rational(3, 2)
+    proof = prove(
+        "Hertz's force",
+        "delta = a^2/R in the relation between force and contact radius.",
+        {"force": sp.powdenest(value.subs(delta, a**2 / R), force=True) - scale * a**3 / R},
+    )
+    return Formula(
+        "P_half",
+        r"P_\infty",
+        "Hertz's force for the half-space",
+        value,
+        "N",
+        "10",
+        ("P",),
+        proof,
+    )
+
+
+@cache
+def exponent() -> Formula:
+    """Power of delta in the k-th term of the force, k = 2, 3, ...: that of Hertz first.
+
+    eps^(3 + n) is delta^((3 + n)/2); with n = k - 2 the first is delta^(3/2).
+    """
+    term = (sp.sqrt(R * delta) / h) ** (3 + _N)
+    power = sp.simplify(delta * sp.diff(term, delta) / term).subs(_N, k - 2)
+    proof = prove(
+        "Powers of the indentation",
+        "P is proportional to eps^(3 + n), n = k - 2, and eps to the root of delta.",
+        {
+            "first": power.subs(k, 2) - sp.Rational(3, 2),
+            "step": sp.expand(power.subs(k, k + 1) - power) - sp.Rational(1, 2),
+        },
+    )
+    return Formula(
+        "force_power",
+        r"\mathrm{power\ of\ }\delta",
+        "power of the indentation in the k-th term of the force",
+        sp.factor(power),
+        "1",
+        "10",
+        ("P_half",),
+        proof,
+    )
+
+
+@cache
+def radius_estimate() -> tuple[Formula, Formula]:
+    """Radius of convergence with c_1 alone, where d(eps^2)/dA = 0, in eps and in delta."""
+    law = a_ratio**2 * (1 + c_A[1] * a_ratio)
+    turning = -2 / (3 * c_A[1])
+    squared = sp.factor(law.subs(a_ratio, turning))
+    value = 2 / (3 * sp.sqrt(3) * sp.Abs(c_A[1]))
+    proof = prove(
+        "Radius of the inverted series",
+        "The inverse is singular where the derivative of A^2 (1 + c_1 A) vanishes.",
+        {
+            "turning point": sp.diff(law, a_ratio).subs(a_ratio, turning),
+            "radius": value**2 - squared,
+        },
+    )
+    eps_radius = Formula(
+        "eps_radius",
+        r"\varepsilon_{\max}",
+        "radius of convergence of the inverted series, leading estimate",
+        value,
+        "1",
+        "10",
+        ("delta_reduced",),
+        proof,
+    )
+    return eps_radius, Formula(
+        "delta_radius",
+        r"\delta_{\max}",
+        "indentation up to which the inverted series converges, leading estimate",
+        squared * h**2 / R,
+        "m",
+        "10",
+        ("eps_radius",),
+        proof,
+    )
+
+
+def radius(coefficients: Sequence[float], bits: int = 128) -> float:
+    """Radius of convergence in eps of the inverted series, for given c_1, c_3, c_5, ...
+
+    The inverse A(eps) is singular at critical values eps(A), d(eps^2)/dA = 0. Of these,
+    only those count that A reaches when it is followed along the ray from eps = 0.
+
+    Raises
+    ------
+    ValueError
+        If all coefficients are zero: then the series ends with its first term.
+    """
+    with flint.ctx.workprec(bits):
+        slope = [flint.arb(2)]
+        for index, value in enumerate(coefficients):
+            slope += [flint.arb((2 * index + 3) * value), flint.arb(0)]
+        while slope and slope[-1] == 0:
+            slope.pop()
+        if len(slope) < 2:
+            raise ValueError("expected a coefficient that is not zero, got none")
+        roots = flint.acb_poly(slope).roots()
+        critical = sorted(
+            ((_eps(coefficients, A), A) for A in roots), key=lambda pair: float(abs(pair[0]))
+        )
+        for value, A in critical:
+            if any(_reaches(coefficients, sign * value, A) for sign in (1, -1)):
+                return float(abs(value))
+    return float("inf")
+
+
+def _eps(coefficients: Sequence[float], A: flint.acb) -> flint.acb:
+    return A * _law(coefficients, A).sqrt()
+
+
+def _law(coefficients: Sequence[float], A: flint.acb) -> flint.acb:
+    return 1 + sum((v * A ** (2 * i + 1) for i, v in enumerate(coefficients)), flint.acb(0))
+
+
+def _reaches(coefficients: Sequence[float], target: flint.acb, A: flint.acb) -> bool:
+    """Whether A(eps), followed by Newton's iteration from 0 towards `target`, ends near A."""
+    here = flint.acb(0)
+    for step in range(1, _RAYS):
+        # Steps shorten towards the end, where the derivative vanishes like a square root.
+        eps_here = (target * (1 - flint.arb(1 - flint.arb(step) / _RAYS) ** 2)).mid()
+        here = here if step > 1 else eps_here
+        for _ in range(8):
+            law = _law(coefficients, here)
+            slope = 2 * here + sum(
+                ((2 * i + 3) * v * here ** (2 * i + 2) for i, v in enumerate(coefficients)),
+                flint.acb(0),
+            )
+            here = (here - (here**2 * law - eps_here**2) / slope).mid()
+    return bool(abs(here - A).mid() < flint.arb(0.05) * abs(A).mid())
+
+
+def reversion() -> tuple[Formula, ...]:
+    """The inversion's formulas: xi_k, p_n, Hertz's force, its powers, the radius."""
+    return (*formal_coefficients(), *force_formulas(), *radius_estimate())

@@ -1,0 +1,351 @@
+"""Link 14, made exact: what the thin plate's law leaves out, residues at T_n, sinh T = +-T.
+
+In the contour integral behind the sum over the zeros of J0 (`split`) the modes'
+share f(z) = q(z) (G(2 eta z) - 1), q even and entire, has poles at z_n = T_n/(2 eta). They add
+
+    pi Im sum_n q(z_n) g_n/(2 eta) H(z_n)/J0(z_n),   g_n = (1 + sqrt(1 + T_n^2))^2/(2 T_n^2),
+
+g_n being G's residue at T_n and H = J0 + i Y0. What the axes leave is the thin plate's closed
+form and nothing else: G is odd, so on the imaginary axis f(iy) + f(-iy) = -2 q(iy), which is
+the side wall with its sign turned. Only the pole of G at 0 needs care: z^w is put in front
+and w -> 0; the poles in 1/w of both axes cancel (`axes`).
+
+This holds for every h/b, thick plates included, and for a < 2b, where |q| <= e^(alpha |Im z|)
+(the law itself has meaning for a < b). Closing the contour: on the lines Im T = pi n - pi/4
+|sinh T -+ T| > cosh(Re T)/4, and 2 G = (cosh T - 1)/(sinh T + T) + (cosh T + 1)/(sinh T - T), so
+|G| < 8; with |H/J0| <= 3 e^(-2 Im z) the lines' share vanishes as n grows, and so does
+that of a vertical line far to the right, where G - 1 dies like T^2 e^(-2T). A term of a
+coefficient is of the order exp(-Im T_n/eta), one of the law exp(-Im T_n (2 - alpha)/(2 eta)).
+"""
+
+from collections.abc import Callable, Mapping
+from functools import cache
+
+import flint
+import sympy as sp
+
+from derivation.engine.formula.ball import LOG2_10, Exact, refine, to_ball
+from derivation.engine.formula.proof import Proof, prove
+from derivation.plate.contact.theory.plate_series import FIRST, LAST, coefficient, sine_coefficient
+from derivation.plate.contact.theory.split import WALL, contour, imaginary_axis, reduced_split
+from derivation.plate.contact.theory.thin_law import sine_kernel, thin_law_ball, universal_part
+from derivation.plate.contact.theory.thin_plate import (
+    plate_factor_at_zero,
+    thin_modal_sum,
+    wall_at_zero,
+)
+from derivation.plate.contact.theory.thin_roots import SIZE_OVER_INDEX, numbering, root
+from derivation.plate.modes.theory.plate_factor import plate_factors
+from derivation.plate.vocabulary import (
+    J1,
+    Formula,
+    M,
+    PlateRoot,
+    T,
+    a_ratio,
+    alpha,
+    eta,
+    j_n,
+    kappa,
+)
+
+_n = sp.Symbol("n", integer=True, positive=True)
+_w = sp.Symbol("w", positive=True)
+_LOG = sp.Symbol("L", real=True)
+
+
+@cache
+def residue_at_roots() -> Proof:
+    """G's residue (1 + sqrt(1 + T^2))^2/(2 T^2) at a simple pole T_n.
+
+    With u = asinh T, sinh T = s sinh u and cosh T = s cosh u, s = (-1)^n.
+    """
+    numbering()
+    u, sign = sp.symbols("u s", positive=True)
+    above, below = sp.sinh(T) * sp.cosh(T) + T, sp.sinh(T) ** 2 - T**2
+    split = (sp.cosh(T) - 1) / (sp.sinh(T) + T) + (sp.cosh(T) + 1) / (sp.sinh(T) - T)
+
+    def at_root(expression: sp.Expr) -> sp.Expr:
+        turned = {sp.sinh(T): sign * sp.sinh(u), sp.cosh(T): sign * sp.cosh(u)}
+        return sp.expand(expression.subs(turned)).subs(sign**2, 1).subs(T, sp.sinh(u))
+
+    slope = at_root(sp.diff(below, T))
+    return prove(
+        "Residue of G at a root",
+        "G's numerator over its denominator's slope, both at T = sinh u; the slope vanishes for "
+        "cosh u = 1 alone, so the pole is simple.",
+        {
+            "quotient": plate_factors()[0].expression * below - above,
+            "two families": split - 2 * plate_factors()[0].expression,
+            "slope": slope - 2 * sp.sinh(u) * (sp.cosh(u) - 1),
+            "residue": at_root(above) / slope - residue(sp.sinh(u), sp.cosh(u)),
+        },
+    )
+
+
+def residue(at: sp.Expr, root_of_square: sp.Expr) -> sp.Expr:
+    """G's residue at T, given sqrt(1 + T^2)."""
+    return (1 + root_of_square) ** 2 / (2 * at**2)
+
+
+@cache
+def contour_with_poles() -> Proof:
+    """Both quadrants of `contour` with f's poles inside: pi Im X is added to the sum.
+
+    X sums f's residues times H/J0 in the first quadrant, Y is its conjugate in the fourth,
+    which is run through clockwise.
+    """
+    contour()
+    integral, principal, total, up, down, re, im = sp.symbols("F V S U D X_r X_i")
+    halves = -2 * total  # of each quadrant's half residues, see `contour`
+    on_axes = 2 / sp.pi * (up + down)
+    poles = 2 * sp.pi * sp.I * (re + sp.I * im), -2 * sp.pi * sp.I * (re - sp.I * im)
+    upper = integral + sp.I * principal + halves
+    lower = integral - sp.I * principal + halves
+    (solution,) = sp.solve(sp.expand(upper + lower - on_axes - sum(poles)), total)
+    expected = integral / 2 - (up + down) / (2 * sp.pi) + sp.pi * im
+    return prove(
+        "Sum over the zeros of J0, with poles",
+        "Each quadrant's contour equals 2 pi i times the residues inside; added and solved.",
+        {"sum": sp.expand(solution - expected)},
+    )
+
+
+@cache
+def imaginary_part() -> Proof:
+    """f(iy) + f(-iy) for f = z^w q (G - 1): -2 cos(pi w/2) - 2 sin(pi w/2) G(iy)/i, times y^w q."""
+    turn, g = sp.symbols("E g", positive=True)
+    G = plate_factors()[0].expression
+    # turn = e^(i pi w/2), G(iy) = i g.
+    both = turn * (sp.I * g - 1) + (-sp.I * g - 1) / turn
+    cosine, sine = (turn + 1 / turn) / 2, (turn - 1 / turn) / (2 * sp.I)
+    return prove(
+        "Plate factor on the imaginary axis",
+        "G is odd, so its two values cancel for w = 0.",
+        {"odd": G.subs(T, -T) + G, "sum": sp.expand(both + 2 * cosine + 2 * g * sine)},
+    )
+
+
+@cache
+def axes(k: int) -> Mapping[int, sp.Expr]:
+    """What both axes give for z^(w + 2k - 4) (G - 1), w -> 0: coefficients of 1/w and w^0.
+
+    Near 0 a power y^(w+m) has the integral 1/(w + m + 1) from 0 to 1, with -log y in front
+    its square; all else is regular, and vanishes with sin(pi w/2) on the imaginary axis.
+    """
+    contour_with_poles()
+    imaginary_part()
+    imaginary_axis()
+    g, wall = plate_factor_at_zero().coefficients, wall_at_zero()
+    own = 2 * k - 3
+    scale = (2 * eta) ** -own * (1 - _w * _LOG)
+    real = scale / 2 * (g.get(-own, sp.Integer(0)) / _w + M[k])
+    near = {-1: 1 / _w**2 + wall.at(0) / _w, -3: wall.at(2) / _w}
+    turned = sp.Add(
+        *(
+            (-1) ** ((p - 1) // 2) * value * (2 * eta) ** p * near.get(2 * k - 4 + p, sp.Integer(0))
+            for p, value in g.items()
+        )
+    )
+    side = (-1) ** k * (sp.pi / 2 * _w * turned + kappa[2 * k - 4]) / sp.pi
+    total = sp.expand(real + side)
+    return {power: total.coeff(_w, power) for power in (-1, 0)}
+
+
+def _sum_of_roots(weight: Callable[[sp.Expr], sp.Expr]) -> sp.Expr:
+    """Im sum weight(T_n) (1 + sqrt(1 + T_n^2))^2 H/J0 at T_n/(2 eta)."""
+    at = PlateRoot(_n)
+    wave = sp.hankel1(0, at / (2 * eta)) / sp.besselj(0, at / (2 * eta))
+    return sp.im(sp.Sum(weight(at) * (1 + sp.sqrt(1 + at**2)) ** 2 * wave, (_n, 1, sp.oo)))
+
+
+def _share(weight: sp.Expr) -> sp.Expr:
+    """pi times a root's residue f/(2 eta), without H/J0, for q = weight(z), z = T/(2 eta)."""
+    return sp.pi * weight * residue(T, sp.sqrt(1 + T**2)) / (2 * eta)
+
+
+@cache
+def coefficient_remainder(k: int) -> Formula:
+    """c_(2k-3) less its closed form: a sum over the roots, exact for every h/b."""
+    residue_at_roots()
+    order, size, found = 2 * k - 3, sine_coefficient(k), axes(k)
+    factor = size * sp.Integer(2) ** (5 - 2 * k)
+    mode = eta**order * size * 8 / sp.pi
+    one = mode * _share((T / (2 * eta)) ** (2 * k - 4))
+    modes = coefficient(k).mode - mode * _mode_factor(2 * k - 4)
+    proof = prove(
+        f"Roots' share of c_{order}",
+        "z^(2k-4) (G - 1) in the contour integral: the axes leave the closed form, the poles "
+        "inside pi times the imaginary part of their residues.",
+        {
+            "modes": modes,
+            "pole": found[-1],
+            "axes": sp.expand(found[0] - thin_modal_sum(k)),
+            "share": one - factor * T ** (2 * k - 6) * (1 + sp.sqrt(1 + T**2)) ** 2,
+        },
+    )
+    return Formula(
+        f"c_{order}_roots",
+        rf"c_{{{order}}} - c_{{{order}}}^{{\mathrm{{thin}}}}",
+        f"what c_{order} of a thin plate leaves out, for every h/b",
+        factor * _sum_of_roots(lambda at: at ** (2 * k - 6)),
+        "1",
+        "10",
+        (f"c_{order}_modes", f"c_{order}_side", f"c_{order}_thin"),
+        proof,
+    )
+
+
+def _mode_factor(power: int) -> sp.Expr:
+    """f(j_n)/(j_n J1^2) of the sum identity for f = z^power (G(2 eta z) - 1)."""
+    return j_n ** (power - 1) * plate_factors()[2].expression.subs(T, 2 * eta * j_n) / J1**2
+
+
+def _law_weight(at: sp.Expr) -> sp.Expr:
+    """s(A T/2)/T^5."""
+    y = a_ratio * at / 2
+    return (sp.sin(y) - y * sp.cos(y)) / at**5
+
+
+@cache
+def law_remainder() -> Formula:
+    """F(A, eta) less c_1 A + c_3 A^3 + Phi(A): a sum over the roots, exact for a < b."""
+    residue_at_roots()
+    universal_part()
+    for k in range(FIRST, LAST + 1):
+        axes(k)
+    wall, modes = (formula.expression for formula in reduced_split())
+    (height,) = wall.variables
+    mode = 8 * alpha / sp.pi  # before q(z) = s(alpha z)/(alpha z)^3
+    on_axis = mode / sp.pi * sine_kernel(sp.I * alpha * height)
+    x = T / (2 * eta)
+    real = mode / 2 * sine_kernel(alpha * x) / (2 * eta)
+    y = a_ratio * T / 2
+    proof = prove(
+        "Roots' share of the law",
+        "q(z) = s(alpha z)/(alpha z)^3 in the contour integral. Its powers 1 and z^2 alone meet "
+        "the pole of G at 0 and give c_1 and c_3; the real axis leaves Phi, the imaginary one "
+        "cancels the side wall, the poles inside are the sum.",
+        {
+            "modes": modes - mode * sine_kernel(alpha * j_n) * _mode_factor(0),
+            "side wall": sp.expand((on_axis + wall.function / WALL).rewrite(sp.exp)),
+            "Phi": real.subs(alpha, eta * a_ratio) - 2 * a_ratio / sp.pi * sine_kernel(y),
+            "share": mode.subs(alpha, eta * a_ratio) * _share(sine_kernel(y))
+            - 16 / a_ratio**2 * _law_weight(T) * (1 + sp.sqrt(1 + T**2)) ** 2,
+        },
+    )
+    return Formula(
+        "F_roots",
+        r"\frac{\delta R}{a^2} - 1 - c_1^{\mathrm{thin}} A - c_3^{\mathrm{thin}} A^3 - \Phi(A)",
+        "what the law of a thin plate leaves out, for every h/b",
+        16 / a_ratio**2 * _sum_of_roots(_law_weight),
+        "1",
+        "10",
+        ("F_wall", "F_modes", "Phi", "c_1_thin", "c_3_thin"),
+        proof,
+        where=("a_ratio * eta < 1",),
+    )
+
+
+def thin_remainder() -> tuple[Formula, ...]:
+    """Phi and the exact remainders of coefficients and law that the chain records."""
+    coefficients = (coefficient_remainder(k) for k in range(FIRST, LAST + 1))
+    return (universal_part(), *coefficients, law_remainder())
+
+
+def root_share(at: flint.acb, ratio: flint.arb) -> flint.acb:
+    """(1 + sqrt(1 + T^2))^2 H(z)/J0(z) at z = T/(2 eta), H/J0 = (2/(pi i)) K0/I0 at -iz."""
+    z = at / (2 * ratio)
+    turned = flint.acb(z.imag, -z.real)
+    wave = turned.bessel_k(0) / turned.bessel_i(0) * flint.acb(0, -2) / flint.arb.pi()
+    return (1 + (1 + at * at).sqrt()) ** 2 * wave
+
+
+def _sum_over_roots(
+    weight: Callable[[flint.acb], flint.acb],
+    first: Callable[[int], flint.arb],
+    quotient: Callable[[int], flint.arb],
+    ratio: flint.arb,
+) -> flint.arb:
+    """sum Im[weight(T_n) root_share(T_n)] and a ball for what follows its last term.
+
+    `first(n)` bounds term n, and `quotient(n)` the ratio of any two in a row from there, by
+    |1 + sqrt(1 + T^2)|^2/|T|^2 = |coth(u/2)|^2 <= (pi + 1)/(pi - 1) < 2 (cosh Re u >=
+    |sinh u| = |T| > pi) and |H/J0| <= 3 e^(-2 Im z) for |z| >= 4, Im z >= 1: there
+    |H| <= sqrt(2/(pi |z|)) e^(-Im z), and the other Hankel function is at least 0.89
+    sqrt(2/(pi |z|)) e^(Im z) (DLMF 10.17.14 with l = 1, variation pi/2).
+    """
+    bits, total, n = flint.ctx.prec, flint.arb(0), 0
+    largest = flint.arb(0)
+    while True:
+        n += 1
+        at = root(n, bits)
+        term = weight(at) * root_share(at, ratio)
+        total += term.imag
+        largest = largest.max(abs(term))
+        if not (n + 1) * flint.arb.pi() > 8 * ratio or not quotient(n + 1) < 1:
+            continue
+        rest = first(n + 1) / (1 - quotient(n + 1))
+        if not rest > largest * flint.arb(2) ** -bits:
+            return total + flint.arb(0, rest.upper())
+
+
+def coefficient_remainder_ball(k: int, ratio: Exact, digits: int = 30) -> flint.arb:
+    """Ball around c_(2k-3) less its closed form at h/b = ratio > 0.
+
+    Its relative radius is below 10^-digits. Terms are below 6 (8 n)^(2k-4) e^(-pi n/eta).
+    """
+    size = sine_coefficient(k) * sp.Integer(2) ** (5 - 2 * k)
+
+    def compute() -> flint.arb:
+        eta_ball = to_ball(ratio)
+        decay = (-flint.arb.pi() / eta_ball).exp()
+        power = 2 * k - 4
+        total = _sum_over_roots(
+            lambda at: at ** (power - 2),
+            lambda n: 6 * flint.arb(SIZE_OVER_INDEX * n) ** power * decay**n,
+            lambda n: (1 + flint.arb(1) / n) ** power * decay,
+            eta_ball,
+        )
+        return total * flint.arb(flint.fmpq(int(size.p), int(size.q)))
+
+    return refine(compute, digits, f"the roots' share of c_{2 * k - 3} at {ratio}")
+
+
+def law_remainder_ball(A: Exact, ratio: Exact, digits: int = 30) -> flint.arb:
+    """Ball around F less c_1 A + c_3 A^3 + Phi(A), its relative radius below 10^-digits.
+
+    Terms are below A^3/4 e^(-pi n (2 - alpha)/(2 eta)), by |s(y)/y^3| <= e^|Im y|/3.
+
+    Raises
+    ------
+    ValueError
+        Unless 0 < a/b < 1, a/b = A ratio.
+    """
+    if not 0 < to_ball(A) * to_ball(ratio) < 1:
+        raise ValueError(f"the law has meaning for 0 < a/b < 1, got a/h = {A}, h/b = {ratio}")
+
+    def compute() -> flint.arb:
+        radius, eta_ball = to_ball(A), to_ball(ratio)
+        decay = (-flint.arb.pi() * (1 / eta_ball - radius / 2)).exp()
+
+        def weight(at: flint.acb) -> flint.acb:
+            y = radius * at / 2
+            return (y.sin() - y * y.cos()) / at**5
+
+        total = _sum_over_roots(
+            weight, lambda n: radius**3 / 4 * decay**n, lambda _: decay, eta_ball
+        )
+        return 16 / radius**2 * total
+
+    return refine(compute, digits, f"the roots' share of F at {A, ratio}")
+
+
+def law_ball(A: Exact, ratio: Exact, digits: int = 30) -> flint.arb:
+    """Ball around F = delta R/a^2 - 1: the thin plate's closed form and its remainder."""
+
+    def compute() -> flint.arb:
+        more = int(flint.ctx.prec / LOG2_10) + 1
+        return thin_law_ball(A, ratio, more) + law_remainder_ball(A, ratio, more)
+
+    return refine(compute, digits, f"F at {A, ratio}")

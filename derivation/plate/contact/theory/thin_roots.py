@@ -1,0 +1,87 @@
+"""The poles of the plate factor: every root of sinh T = +-T, numbered without gaps, in balls.
+
+In the first quadrant they are T_1, T_2, ..., in order of height; T_n is the solution of
+
+    T - asinh T = i pi n,    sinh T_n = (-1)^n T_n,    pi n < Im T_n < pi n + pi/2,
+
+and there is exactly one for each n >= 1.
+
+Every root is one of these: put u = asinh T, Re u > 0. Then sinh u = +-sinh T, so that
+u = T or u = -T but for multiples of i pi, and -T has the wrong real part. sinh maps the
+half strip Re u > 0, 0 < Im u < pi/2 onto the first quadrant, one to one, hence n >= 0.
+n = 0 would be sinh T = T with T = x + iy, 0 < y < pi/2: cos y = x/sinh x and
+sin y/y = 1/cosh x < x/sinh x, since tanh x < x, so tan y < y, which is not true.
+
+Each n has one: asinh T + i pi n maps the closed strip Re T >= 0, pi n <= Im T <= pi n + pi/2
+into itself (values on the cut taken from the right), and |1 + T^2| >= (pi n)^2 - 1 there, so
+that it shrinks distances by `contraction(n)` < 0.34: it has one fixed point. That is not on
+the imaginary axis, where sin y = +-y holds at 0 alone. On the real axis sinh T > T.
+"""
+
+from functools import cache
+
+import flint
+import sympy as sp
+
+from derivation.engine.formula.proof import Proof, prove
+from derivation.plate.vocabulary import T
+
+SIZE_OVER_INDEX = 8
+"""|T_n| <= 8 n: |T| - log(2 |T| + 1) <= pi (n + 1/2), and 8 n is beyond that from n = 1 on."""
+
+
+@cache
+def numbering() -> Proof:
+    """What the argument above uses: periods of sinh and cosh, and the slope of asinh."""
+    u = sp.Symbol("u", positive=True)
+    turned = {n: u + sp.I * sp.pi * n for n in (1, 2)}
+    return prove(
+        "Roots of sinh T = +-T",
+        "With u = asinh T a root is T = u + i pi n, sinh T = (-1)^n T; one for each n, for "
+        "asinh T + i pi n shrinks its strip.",
+        {f"sinh {n}": sp.sinh(x) - (-1) ** n * sp.sinh(u) for n, x in turned.items()}
+        | {f"cosh {n}": sp.cosh(x) - (-1) ** n * sp.cosh(u) for n, x in turned.items()}
+        | {"slope": sp.diff(sp.asinh(T), T) - 1 / sp.sqrt(1 + T**2)},
+    )
+
+
+def contraction(n: int) -> flint.arb:
+    """Bound of |d asinh T/dT| where Im T >= pi n."""
+    return 1 / ((n * flint.arb.pi()) ** 2 - 1).sqrt()
+
+
+@cache
+def root(n: int, bits: int = 128) -> flint.acb:
+    """Ball around T_n with a radius below 2^-bits.
+
+    Newton's iteration gives a point; the contraction bounds its distance from the root
+    by that from its own image over 1 - `contraction`.
+
+    Raises
+    ------
+    ValueError
+        Unless n >= 1.
+    ArithmeticError
+        If the iteration ended elsewhere.
+    """
+    if n < 1:
+        raise ValueError(f"the roots are counted from 1, got {n}")
+    numbering()
+    with flint.ctx.workprec(bits + 32 + n.bit_length()):
+        pi = flint.arb.pi()
+        shift = flint.acb(0, n * pi)
+        x = flint.acb((2 * n * pi).log(), n * pi + 1).mid()
+        for _ in range(bits.bit_length() + 4):
+            slope = 1 - 1 / (1 + x * x).sqrt()
+            x = (x - (x - shift - x.asinh()) / slope).mid()
+        inside = x.real > 0 and x.imag > n * pi and x.imag < n * pi + pi / 2
+        error = abs(x - shift - x.asinh()) / (1 - contraction(n))
+        if not (inside and error < flint.arb(2) ** -bits):
+            raise ArithmeticError(f"root {n} of sinh T = +-T is not shown to be near {x}")
+        radius = flint.arb(0, error.upper())
+        return x + flint.acb(radius, radius)
+
+
+def height(n: int, digits: int = 30) -> flint.arb:
+    """Im T_n; the share of T_n in a thin plate's law is of the order exp(-Im T_n b/h)."""
+    return root(n, int(3.33 * digits) + 8).imag

@@ -1,0 +1,53 @@
+"""The first stages, kept until their sources change: proven formulas, misprints, diagnosis."""
+
+from derivation.engine.errata.findings import Finding
+from derivation.engine.errata.text import TextDiagnosis, diagnosed
+from derivation.engine.formula.chain import Chain, Link
+from derivation.plate.chain import LINKS, MOTION_LINKS
+from derivation.plate.elastic import RELATIONS
+from derivation.plate.misprints import ERRATA
+from derivation.plate.vocabulary import PLATE, Formula, PlateRoot
+
+GROUND = (
+    "engine/cache.py",
+    "engine/formula",
+    "plate/*.py",
+    "plate/*/theory*",
+    "plate/*/kernels*",
+    "plate/printed",
+    "mathematics",
+)
+"""Sources that the formulas depend on."""
+CHAIN = Chain(
+    "plate",
+    PLATE,
+    tuple(Link(name, derive) for name, derive in (*LINKS, *MOTION_LINKS)),
+    GROUND,
+    (Formula, PlateRoot),
+)
+chain, formulas = CHAIN.found, CHAIN.formulas
+
+
+def misprints() -> tuple[Finding, ...]:
+    """What each printed formula turns out to be."""
+    return ERRATA.found(CHAIN)
+
+
+def diagnose(
+    name: str, text: str, latex: bool = False, at: str = "", digits: int = 50
+) -> TextDiagnosis:
+    """Compare a formula given as text with the derived one.
+
+    Parameters
+    ----------
+    name, text, latex, digits
+        As for `derivation.engine.errata.text.diagnose_text`.
+    at
+        Values of symbols in SI units, a list like ``phi=2.5,h=0.1``.
+
+    Raises
+    ------
+    derivation.engine.formula.parse.FormulaError
+        For a name, formula, point or number of digits that cannot be used.
+    """
+    return diagnosed(CHAIN, RELATIONS, name, text, latex=latex, at=at, digits=digits)

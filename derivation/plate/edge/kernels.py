@@ -1,0 +1,200 @@
+"""Turns the theory of the edge into the numbers its generated code needs.
+
+Link 19's sums over the modes, with k(z) = g or (3/2) sinc, alpha = a/b and T = 2 eta j, are
+
+    sum k (1 + 3 n - n Q)/(j^3 J1) = P + n D,   D = 3 P - 2 eta E + sum k (T - Q)/(j^3 J1)
+    sum k H/(j^2 J1) = E + sum k (H - 1)/(j^2 J1)
+    P = sum k/(j^3 J1), a polynomial;   E = sum k/(j^2 J1), a function of alpha
+
+Both remaining sums die like e^(-T). In a thin plate D is small and its parts are not: of P
+and E what follows the first mode is tabulated, and the first mode is put in as a whole.
+"""
+
+from collections.abc import Callable
+
+import flint
+import sympy as sp
+from flint import arb as Ball
+
+from derivation.engine.formula.ball import enclose
+from derivation.mathematics.bessel.kernels import nearest_double, wrapped
+from derivation.plate.contact.kernels.moments import BITS
+from derivation.plate.contact.kernels.tables import chebyshev_nodes, in_powers
+from derivation.plate.contact.theory.split import zero_of_j0
+from derivation.plate.edge.theory.clamped import HERTZ_MEAN, LEVEL, SHEAR, TURN
+from derivation.plate.edge.theory.sums import (
+    Kernel,
+    closed,
+    indentation_kernel,
+    inverse_squares,
+    slope_kernel,
+)
+from derivation.plate.vocabulary import alpha, eta
+
+WIDEST = sp.Rational(9, 10)
+"""Largest a/b: nearer to the rim the states say nothing, and the tables grow without end."""
+TERMS = 34
+"""Coefficients of the tables in alpha^2."""
+CUT_OFF = 2**-58
+"""What the tables may leave out, of sums near 1/8."""
+SEAM = 2
+"""T below which Q - 3 is a power series."""
+FADED = 46
+"""T beyond which modes are left out: T^2 e^(-T) is below 1e-16 of what the first modes are."""
+THIN = sp.Rational(29, 2)
+"""(1 - alpha)/eta from which on the closed form stands alone.
+
+The bending roots' share of it is then below e^(-3.7 THIN) = 3e-24, the stretching roots'
+below e^(-2.1 THIN) = 6e-14, times (8/3) n^2 eta^3 z^(-3/2), below 1e-4 of the bending sum.
+"""
+_STEP = 48
+_LAST = -120
+_END = 1000
+
+
+def edge_context() -> dict[str, object]:
+    """What the template of the generated edge needs, numbers as text."""
+    kinds = {"indentation": indentation_kernel, "slope": slope_kernel}
+    with flint.ctx.workprec(BITS):
+        first = zero_of_j0(1, BITS // 2)
+        weights = [1 / (first**power * first.bessel_j(1)) for power in (3, 2)]
+        found = {
+            name: {**_closed(kernel), **_tables(kernel, first, weights)}
+            for name, kernel in kinds.items()
+        }
+        third, square = (repr(nearest_double(weight)) for weight in weights)
+    return {
+        "kinds": found,
+        "first_third": third,
+        "first_square": square,
+        "series": [f"{c.p} / {c.q}" for c in _bending_series()],
+        "widest": repr(float(WIDEST)),
+        "middle": repr(float(WIDEST**2 / 2)),
+        "thin": repr(float(THIN)),
+        "faded": f"{FADED}.0",
+        "seam": f"{SEAM}.0",
+        "inverse_squares": repr(float(inverse_squares())),
+        **_clamp(),
+    }
+
+
+def _clamp() -> dict[str, str]:
+    """The clamped end's constants, in powers of n, as numbers and as printed."""
+    found = {"shear": repr(float(SHEAR)), "hertz": repr(float(HERTZ_MEAN))}
+    found["punch"] = "2.0 / 3.0"
+    for name, powers in (("turn", TURN), ("level", LEVEL)):
+        found[name] = ", ".join(repr(c / 1000) for c in powers)
+        terms = [
+            f"{c / 1000:+g}" + " n" * (i > 0) + f"^{i}" * (i > 1) for i, c in enumerate(powers)
+        ]
+        found[f"{name}_text"] = " ".join(f"{t[0]} {t[1:]}" for t in terms).removeprefix("+ ")
+    return found
+
+
+def _closed(kernel: Kernel) -> dict[str, str]:
+    """P by powers of alpha^2, and what stands with eta^2 and with eta in the closed form."""
+    half = closed(kernel)
+    parts = {
+        "plain": half.plain.subs(alpha, 0),
+        "narrowed": half.plain.coeff(alpha, 2),
+        "bent": half.bent / eta**2,
+        "stretched": half.stretched / eta,
+    }
+    return {name: repr(float(value)) for name, value in parts.items()}
+
+
+def _tables(kernel: Kernel, first: Ball, weights: list[Ball]) -> dict[str, tuple[str, ...]]:
+    """P and E without their first mode, in powers of alpha^2/middle - 1.
+
+    Raises
+    ------
+    ArithmeticError
+        If the last coefficients of a table still count.
+    """
+    middle = enclose(WIDEST**2 / 2, {})
+    points = [(middle * (1 + t)).sqrt() for t in chebyshev_nodes(TERMS)]
+    plain = closed(kernel).plain
+    shares = [value_of(kernel, at * first) for at in points]
+    cubes = [
+        enclose(plain, {alpha: at}) - weights[0] * share
+        for at, share in zip(points, shares, strict=True)
+    ]
+    squares = [
+        alternating_sum(kernel, at) - weights[1] * share
+        for at, share in zip(points, shares, strict=True)
+    ]
+    found = {}
+    for name, values in (("rest_third", cubes), ("rest_square", squares)):
+        # Chebyshev's coefficients fall by 0.39 each: the last is what is left out.
+        waves = [((TERMS - 1) * angle).cos() for angle in _angles()]
+        last = 2 * sum((f * t for f, t in zip(values, waves, strict=True)), Ball(0)) / TERMS
+        if not abs(last) < CUT_OFF:
+            raise ArithmeticError(f"{TERMS} coefficients of {name} leave out {last}")
+        found[name] = wrapped(repr(nearest_double(c)) for c in _that_count(in_powers(values)))
+    return found
+
+
+def _that_count(coefficients: list[Ball]) -> list[Ball]:
+    """The coefficients, as points, up to the last that a sum near 1/8 can show."""
+    points = [c.mid() for c in coefficients]
+    last = max(i for i, c in enumerate(points) if abs(c) > 1e-22)
+    return points[: last + 1]
+
+
+def _angles() -> list[Ball]:
+    """Chebyshev's nodes by their angles."""
+    return [(2 * i + 1) * Ball.pi() / (2 * TERMS) for i in range(TERMS)]
+
+
+def value_of(kernel: Kernel, at: Ball) -> Ball:
+    """A kernel at a number."""
+    y = sp.Symbol("y", positive=True)
+    return enclose(kernel(y), {y: at})
+
+
+def _turned(kernel: Kernel) -> Callable[[Ball], Ball]:
+    """k(iy)/k(0)."""
+    if kernel is indentation_kernel:
+        return lambda y: 3 * (y * y.cosh() - y.sinh()) / y**3
+    return lambda y: y.sinh() / y
+
+
+def alternating_sum(kernel: Kernel, at: Ball) -> Ball:
+    """E = sum k/(j^2 J1) = (1/pi) int_0^oo (k(0) - k(iy)/I0(y))/y^2 dy.
+
+    With e^(-y^2) in the place of 1, whose integral of (1 - e^(-y^2))/y^2 is sqrt(pi): trapezoids
+    in v, y = exp(v - e^(-v)), err by e^(-2 pi d _STEP), d = pi/4 being the sector's half angle.
+    """
+    turned, size = _turned(kernel), sp.limit(kernel(alpha), alpha, 0)
+    total = Ball(0)
+    with flint.ctx.workprec(3 * BITS):  # powers of y cancel near 0
+        for y, weight, bessel, bell in _nodes():
+            total += weight * (bell - turned(at * y) / bessel)
+        value = total / Ball.pi() + 1 / Ball.pi().sqrt()
+        return enclose(size, {}) * value
+
+
+_cached: list[tuple[Ball, Ball, Ball, Ball]] = []
+
+
+def _nodes() -> list[tuple[Ball, Ball, Ball, Ball]]:
+    """y, weight over y^2, I0(y) and e^(-y^2)."""
+    if not _cached:
+        step = Ball(1) / _STEP
+        for index in range(-5 * _STEP, 8 * _STEP):
+            v = step * index
+            fade = (-v).exp()
+            y = (v - fade).exp()
+            if y > Ball(2) ** _LAST and y < _END:
+                bell = (-y * y).exp()
+                _cached.append((y, step * (1 + fade) / y, y.bessel_i(0), bell))
+    return _cached
+
+
+def _bending_series() -> list[sp.Rational]:
+    """(T cosh T + 2 T - 3 sinh T)/T^5 by powers of T^2, cut off below 2^-60 at the seam."""
+    found: list[sp.Rational] = []
+    while not found or found[-1] * SEAM ** (2 * len(found) - 2) > found[0] / 2**60:
+        k = len(found) + 2
+        found.append(sp.Rational(2 * k - 2, sp.factorial(2 * k + 1)))
+    return found

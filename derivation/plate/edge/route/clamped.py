@@ -1,0 +1,86 @@
+"""Oracle 2 of a clamp's part of the law: pressure integrated and states evaluated in mpmath.
+
+By Betti's theorem the work of Hertz's pressure on the states of bending and stretching is the
+turn and the strain that a clamp has to take from the plate. Their fields give the depth at the
+centre of the loaded face, and the stress at that of the far one. b, R and E* are 1.
+"""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+from mpmath import mp, mpf
+
+from derivation.plate.edge.theory.clamped import LEVEL, SHEAR, TURN
+
+
+class Clamped(NamedTuple):
+    """What the clamp takes of a load P: turn, and its own by psi = chi eta psi'; strain."""
+
+    force: mpf
+    turn: mpf
+    own: mpf
+    strain: mpf
+
+
+def clamp_part(kind: str, a: float, h: float, b: float, nu: float, digits: int = 30) -> mpf:
+    """What a clamp takes from delta R/a^2, or of (R/2a) d delta/da for kind `slope`.
+
+    Parameters
+    ----------
+    kind
+        `indentation` or `slope`.
+    a, h, b, nu
+        Numbers, exact as they are; 0 < a < b.
+    digits
+        Decimal digits asked for.
+    """
+    with mp.workdps(2 * digits + 20):
+        alpha, eta, n = mpf(a) / mpf(b), mpf(h) / mpf(b), mpf(nu) / (1 - mpf(nu))
+
+        def depth(width: mpf) -> mpf:
+            found = _clamped(width, eta, n)
+            # eta^3/5 in units of P b^2/(16 pi D), D = 2 h^3/3.
+            shear = 3 * found.force / (32 * mp.pi) * SHEAR.p / SHEAR.q
+            bent = found.turn * _bent(mpf(0), eta, n) + found.own / 2
+            return bent + found.strain * 2 * n * eta + shear
+
+        if kind == "indentation":
+            return +(depth(alpha) / alpha**2)
+        step = alpha * mpf(10) ** (-(digits // 2) - 5)
+        return +((depth(alpha + step) - depth(alpha - step)) / (4 * alpha * step))
+
+
+def far_clamp(a: float, h: float, b: float, nu: float, digits: int = 30) -> mpf:
+    """What a clamp takes from S, of which the stress is (1 + nu) P/(2 pi H^2) times."""
+    with mp.workdps(digits + 20):
+        eta, n = mpf(h) / mpf(b), mpf(nu) / (1 - mpf(nu))
+        found = _clamped(mpf(a) / mpf(b), eta, n)
+        # sigma_rr = (1 + nu) E* times a strain that is the same in all directions.
+        strain = found.strain + (found.turn + found.own) * eta
+        return +(strain * 8 * mp.pi * eta**2 / found.force)
+
+
+def _clamped(a: mpf, h: mpf, n: mpf) -> Clamped:
+    """Of Hertz's pressure (2/pi) sqrt(a^2 - r^2)."""
+
+    def load(weight: Callable[[mpf], mpf]) -> mpf:
+        """Integral over the contact, r = a sin t."""
+        return mp.quad(
+            lambda t: 4 * a**3 * mp.sin(t) * mp.cos(t) ** 2 * weight(a * mp.sin(t)), [0, mp.pi / 2]
+        )
+
+    force, work = load(lambda _: mpf(1)), load(lambda r: _bent(r, h, n))
+    # The edge's moment 2 E* (2 h^3/3) k and force 2 E* 2 h e work on 2 pi b.
+    stiff = 2 * mp.pi * 2 * (2 * h**3 / 3)
+    own = 2 * n**2 * _fitted(TURN, n) * h * load(lambda r: (1 - r * r) / 2)
+    strain = force * 2 * n * h / (2 * mp.pi * 2 * 2 * h)
+    return Clamped(force, work / stiff, own / stiff, strain)
+
+
+def _bent(r: mpf, h: mpf, n: mpf) -> mpf:
+    """Depth of the bending state k = 1 on the loaded face."""
+    return (1 - r * r) / 2 - n * h * h * (1 - 2 * _fitted(LEVEL, n))
+
+
+def _fitted(powers: tuple[int, ...], n: mpf) -> mpf:
+    return 1000 / mp.polyval(list(reversed(powers)), n)

@@ -1,0 +1,147 @@
+"""Elastic constants of a clamped end: measured on a strip in plane strain.
+
+Near its edge a thin plate is a semi-infinite strip x <= 0, |z| <= 1. Clamped at x = 0, u = w = 0,
+it does not bend as a plate theory says: the clamp also forbids the strip's thinning. With unit
+curvature far away and n = nu/(1 - nu) the strip's exact state is
+
+    u = x z,  w = -x^2/2 - n z^2/2,
+
+and a field v, without load on the faces and without force and moment, has v = (0, n z^2/2) at
+x = 0. Far from the end v is a rigid motion u = theta z, w = n level - theta x:
+
+    turn     theta/n^2, so that psi = chi eta psi' for the plate's rotation, chi = n^2 turn
+    level    deflection of the middle plane at the edge; 1/6 if w were 0 in the mean
+
+A shear force bulges the end of a simply supported strip by u ~ (2 + n)/3 (z^3 - 3 z/5); the clamp
+takes this away and leaves the level that is recorded as `shear`, times 4: what it adds to the
+plate's indentation, in units of P b^2/(16 pi D) eta^3.
+
+Elements, mesh and its grading are those of `remainder`.
+`python -m derivation.plate.edge.strip` measures anew, in minutes.
+"""
+
+import dataclasses
+import json
+from collections.abc import Sequence
+
+import numpy as np
+
+from derivation.engine.files import measurements, write_file
+from derivation.plate.edge.remainder import Double, Mesh, heights, lobatto
+
+LENGTH = 6.0
+"""Of the strip, over its half-thickness: what decays goes with e^(-3.75 x) at least."""
+THINNINGS = (-0.49, -0.4, -1 / 3, -1 / 6, -0.05, 0.05, 1 / 9, 0.25, 3 / 7, 2 / 3, 9 / 11, 0.96)
+"""n; nu = n/(1 + n) from -0.96 to 0.49."""
+MESHES = (Mesh(9, 9), Mesh(7, 9), Mesh(9, 7))
+"""The one that is used, and two that say how far."""
+
+
+class Strip:
+    """The strip's finite elements for one n, shear modulus 1."""
+
+    def __init__(self, n: float, mesh: Mesh) -> None:
+        from scipy import sparse
+        from scipy.sparse.linalg import splu
+
+        self.n, self.degree = n, mesh.degree
+        self.z_ends = heights(1.0, mesh.layers)
+        steps = list(0.5 ** np.arange(mesh.layers, -1.0, -1.0))
+        self.x_ends = np.concatenate((-np.arange(LENGTH, 1.0, -1.0), -np.array(steps[::-1]), [0.0]))
+        self.rows = (len(self.z_ends) - 1) * mesh.degree + 1
+        self.columns = (len(self.x_ends) - 1) * mesh.degree + 1
+        self.z = self._nodes()
+        self.size = 2 * self.rows * self.columns
+        entries = [
+            self._element(i, k)
+            for i in range(len(self.x_ends) - 1)
+            for k in range(len(self.z_ends) - 1)
+        ]
+        values = np.concatenate([block.ravel() for block, _ in entries])
+        down = np.concatenate([np.repeat(number, number.size) for _, number in entries])
+        across = np.concatenate([np.tile(number, number.size) for _, number in entries])
+        matrix = sparse.csc_matrix((values, (down, across)), shape=(self.size, self.size))
+        ring = np.arange(self.rows)
+        self.clamped = 2 * ((self.columns - 1) * self.rows + ring)
+        self.free = np.setdiff1d(np.arange(self.size), [self.clamped, self.clamped + 1])
+        self.matrix = matrix[self.free]
+        self.solver = splu(
+            self.matrix[:, self.free].tocsc(),
+            permc_spec="MMD_AT_PLUS_A",
+            diag_pivot_thresh=0.0,
+            options={"SymmetricMode": True},
+        )
+
+    def _nodes(self) -> Double:
+        """Heights of the nodes."""
+        nodes, _, _ = lobatto(self.degree)
+        z = np.empty(self.rows)
+        for k, (low, high) in enumerate(zip(self.z_ends, self.z_ends[1:], strict=False)):
+            place = slice(k * self.degree, (k + 1) * self.degree + 1)
+            z[place] = (low + high) / 2 + (high - low) / 2 * nodes
+        return z
+
+    def _element(self, i: int, k: int) -> tuple[Double, np.ndarray]:
+        """An element's matrix and the numbers of its unknowns."""
+        nodes, weights, slope = lobatto(self.degree)
+        (left, right), (low, high) = self.x_ends[i : i + 2], self.z_ends[k : k + 2]
+        one, lam = np.eye(nodes.size), 2.0 * self.n / (1.0 - self.n)
+        by_x = np.kron(slope * 2 / (right - left), one)
+        by_z = np.kron(one, slope * 2 / (high - low))
+        area = np.kron(weights * (right - left) / 2, weights * (high - low) / 2)[:, None]
+        zero = np.zeros_like(by_x)
+        xx, zz = np.hstack((by_x, zero)), np.hstack((zero, by_z))
+        xz, whole = np.hstack((by_z, by_x)), xx + zz
+        block = lam * whole.T @ (area * whole) + xz.T @ (area * xz)
+        block += 2.0 * (xx.T @ (area * xx) + zz.T @ (area * zz))
+        column = np.repeat(i * self.degree + np.arange(nodes.size), nodes.size)
+        row = np.tile(k * self.degree + np.arange(nodes.size), nodes.size)
+        first = 2 * (column * self.rows + row)
+        return block, np.concatenate((first, first + 1))
+
+    def rigid(self, u: Double, w: Double) -> tuple[float, float]:
+        """Turn and level, far away, of the field with this displacement at x = 0."""
+        values = np.zeros(self.size)
+        values[self.clamped], values[self.clamped + 1] = u, w
+        values[self.free] = self.solver.solve(-(self.matrix @ values))
+        top, middle = 2 * (self.rows - 1), 2 * int(np.searchsorted(self.z, 0.0, side="left"))
+        turn = (values[top] - values[0]) / 2.0
+        return float(turn), float(values[middle + 1] + turn * self.x_ends[0])
+
+    def constants(self) -> tuple[float, float, float]:
+        """Turn, level and shear."""
+        turn, level = self.rigid(0.0 * self.z, self.z**2 / 2)
+        bulge = (2 + self.n) / 3 * (self.z**3 - 3 * self.z / 5)
+        return turn / self.n, level, 4.0 * self.rigid(bulge, 0.0 * self.z)[1]
+
+
+def rows(
+    thinnings: Sequence[float] = THINNINGS, meshes: Sequence[Mesh] = MESHES
+) -> list[dict[str, float]]:
+    """Every n: its constants, and by how much another mesh changes them at most."""
+    found = []
+    for n in thinnings:
+        first, *others = (np.array(Strip(n, mesh).constants()) for mesh in meshes)
+        change = max(float(np.abs(other - first).max()) for other in others)
+        names = dict(
+            zip(("turn", "level", "shear"), (float(f"{x:.7g}") for x in first), strict=True)
+        )
+        found.append({"n": n, **names, "change": float(f"{change:.1e}")})
+    return found
+
+
+def text() -> str:
+    """All rows as JSON, with what they were made."""
+    import scipy
+
+    record = {
+        "length": LENGTH,
+        "meshes": [dataclasses.asdict(mesh) for mesh in MESHES],
+        "provenance": {"numpy": np.__version__, "scipy": scipy.__version__},
+        "rows": rows(),
+    }
+    return json.dumps(record, indent=1, sort_keys=True, allow_nan=False) + "\n"
+
+
+if __name__ == "__main__":
+    write_file(measurements() / "edge_strip.json", text())

@@ -1,0 +1,1 @@
+"""Modes and waves of plates with a clamped or simply supported edge."""

@@ -1,0 +1,1 @@
+"""Reference values by another method, in mpmath: plates with a held edge."""

@@ -1,0 +1,1 @@
+"""Formulas, derived and proved: plates with a held edge."""

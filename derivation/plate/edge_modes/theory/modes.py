@@ -1,0 +1,292 @@
+"""Link 29: bending modes of a plate whose edge is clamped or simply supported.
+
+A thin plate, D nabla^4 w + rho H w'' = p, with b = 1. What is regular on the axis, bends with
+omega = k^2 sqrt(D/(rho H)) and vanishes at the edge is w = J0(k r) - c I0(k r), c = J0(k)/I0(k).
+Without slope at the edge, or without moment, w'' + nu w' = 0, there remains
+
+    clamped    J1/J0 + I1/I0 = 0,       simply supported    J1/J0 + I1/I0 = 2 k/(1 - nu)  at k;
+
+the paper's edge has J0 = 0 and c = 0, which is nu = 1. For any k and any two functions
+
+    r [v (nabla^2 w)' - v' nabla^2 w + w' nabla^2 v - w (nabla^2 v)']  has the slope
+    r [v nabla^4 w - w nabla^4 v]
+
+where the left bracket vanishes at the edge for two functions held alike. Hence modes are
+orthogonal. With v = dw/dk it gives for every k, held or not, N = int_0^1 w^2 r dr,
+
+    d/dk [(J1/J0 + I1/I0)/k] = 2 N/(k J0^2) > 0,
+
+so that between two zeros of J0, the poles, it grows from -oo to oo, and from 1 to oo up to the
+first: the n-th clamped mode lies between j_n and j_(n+1), the n-th supported one between j_(n-1)
+and j_n (j_0 = 0), and there is no other.
+
+A force P on the axis gives q'' + omega^2 q = W P/(rho H b^2) for the deflection q of the axis,
+W = w(0)^2/(2 pi N), w(0) = 1 - c. For v the deflection by the same force at rest, the bracket
+tends to w(0)/(2 pi) on the axis, so that v has the component w(0)/(2 pi k^4 N) on w. Green's
+function being continuous and positive, its expansion converges to it (Mercer), and
+
+    sum W_n/k_n^4 = D/(P b^2) times the deflection at rest:  1/(16 pi) clamped,
+    (3 + nu)/((1 + nu) 16 pi) simply supported, 1/(8 pi) on the paper's edge.
+
+Under a flat punch of radius a the mean of w is sh(k a) - c shc(k a), sh y = sin(y)/y and
+shc y = sinh(y)/y, of which s_n, the mode's share in `closure`, is the quotient by w(0).
+"""
+
+from functools import cache
+
+import sympy as sp
+
+from derivation.engine.formula.proof import lower_bessel, prove
+from derivation.plate.contact.theory.curvature import flat_punch
+from derivation.plate.vocabulary import Formula, alpha, k_n, nu
+
+_r = sp.Symbol("r", positive=True)
+_c, _W, _A = sp.symbols("c W A", real=True)
+_v, _w = (sp.Function(name)(_r) for name in ("v", "w"))
+J0, J1 = sp.besselj(0, k_n), sp.besselj(1, k_n)
+I0, I1 = sp.besseli(0, k_n), sp.besseli(1, k_n)
+
+PART = J0 / I0
+"""c, the part of I0 in a mode."""
+SHAPE = sp.besselj(0, k_n * _r) - _c * sp.besseli(0, k_n * _r)
+"""w(r) for any c."""
+NORM = (J0**2 + J1**2) / 2 - PART * (J0 * I1 + J1 * I0) / k_n + PART**2 * (I0**2 - I1**2) / 2
+"""N = int_0^1 w^2 r dr for any k."""
+WEIGHT = (1 - PART) ** 2 / (2 * sp.pi * NORM)
+"""W."""
+CLAMPED_COMPLIANCE, SOFT_COMPLIANCE = 1 / (16 * sp.pi), 1 / (8 * sp.pi)
+SUPPORTED_COMPLIANCE = (3 + nu) / (16 * sp.pi * (1 + nu))
+
+
+def laplacian(f: sp.Expr) -> sp.Expr:
+    """f'' + f'/r."""
+    return sp.diff(f, _r, 2) + sp.diff(f, _r) / _r
+
+
+def _bracket(v: sp.Expr, w: sp.Expr) -> sp.Expr:
+    bend_v, bend_w = laplacian(v), laplacian(w)
+    return _r * (
+        v * sp.diff(bend_w, _r)
+        - sp.diff(v, _r) * bend_w
+        + sp.diff(w, _r) * bend_v
+        - w * sp.diff(bend_v, _r)
+    )
+
+
+def _orthogonality() -> dict[str, sp.Expr]:
+    """The bracket's slope, and that it vanishes at an edge where both are held alike."""
+    v_1, w_1, bend = sp.symbols("v' w' m", real=True)
+    slope = sp.diff(_bracket(_v, _w), _r)
+    # At the edge v = w = 0; nabla^2 = m times the slope: m = 1 - nu without moment.
+    edge = -v_1 * (bend * w_1) + w_1 * (bend * v_1)
+    w_2 = -nu * w_1
+    return {
+        "bracket": sp.expand(
+            slope - _r * (_v * laplacian(laplacian(_w)) - _w * laplacian(laplacian(_v)))
+        ),
+        "bracket at the edge": sp.expand(edge),
+        "supported edge": w_2 + w_1 - (1 - nu) * w_1,
+    }
+
+
+@cache
+def frequency_equations() -> tuple[Formula, Formula, Formula]:
+    """c, and what vanishes at the wave numbers of clamped and of supported plates."""
+    clamped = J1 * I0 + J0 * I1
+    supported = J1 / J0 + I1 / I0 - 2 * k_n / (1 - nu)
+    held = SHAPE.subs(_c, PART)
+    slope = lower_bessel(sp.diff(held, _r)).subs(_r, 1)
+    moment = lower_bessel(sp.diff(held, _r, 2) + nu * sp.diff(held, _r)).subs(_r, 1)
+    proof = prove(
+        "Modes of a held plate",
+        "w in nabla^4 w = k^4 w, and its deflection, slope and moment at the edge. Orthogonality: "
+        "the bracket is differentiated for any two functions; w'' = -nu w' makes nabla^2 w = "
+        "(1 - nu) w' at a supported edge, and a clamped one has no slopes.",
+        {
+            "plate": lower_bessel(laplacian(laplacian(SHAPE)) - k_n**4 * SHAPE),
+            "deflection": held.subs(_r, 1),
+            "slope": slope + k_n / I0 * clamped,
+            "moment": moment - k_n * (1 - nu) * J0 * supported,
+        }
+        | _orthogonality(),
+    )
+    return (
+        Formula(
+            "held_part",
+            "c",
+            "part of I0 in a held plate's mode J0(k r/b) - c I0(k r/b)",
+            PART,
+            "1",
+            "",
+            (),
+            proof,
+        ),
+        Formula(
+            "clamped_frequency",
+            "F_c(k_n)",
+            "vanishes at the wave numbers of a clamped plate",
+            clamped,
+            "1",
+            "",
+            ("held_part",),
+            proof,
+        ),
+        Formula(
+            "supported_frequency",
+            "F_s(k_n)",
+            "vanishes at the wave numbers of a simply supported plate",
+            supported,
+            "1",
+            "",
+            ("held_part",),
+            proof,
+        ),
+    )
+
+
+@cache
+def norm() -> Formula:
+    """N in closed form, and the growth of the frequency equations that orders the modes."""
+    frequency_equations()
+    j0, j1 = sp.besselj(0, k_n * _r), sp.besselj(1, k_n * _r)
+    i0, i1 = sp.besseli(0, k_n * _r), sp.besseli(1, k_n * _r)
+    primitive = _r**2 / 2 * (j0**2 + j1**2 + _c**2 * (i0**2 - i1**2))
+    primitive -= _c * _r / k_n * (j0 * i1 + j1 * i0)
+    growth = sp.diff((J1 / J0 + I1 / I0) / k_n, k_n) * k_n * J0**2 / 2
+    start = (sp.diff(J1, k_n) + sp.diff(I1, k_n)).subs(k_n, 0)
+    slope = 2 * k_n / (1 - nu) - I1 / I0
+    proof = prove(
+        "Norm of a held plate's mode",
+        "A primitive of w^2 r; the slope of (J1/J0 + I1/I0)/k by k is 2 N/(k J0^2), and it begins "
+        "with 1 at k = 0. The frequency equations take J1 out of N.",
+        {
+            "primitive": lower_bessel(sp.diff(primitive, _r)) - _r * SHAPE**2,
+            "closed": primitive.subs({_r: 1, _c: PART}) - NORM,
+            "growth": lower_bessel(growth) - NORM,
+            "start": start - 1,
+            "clamped": NORM.subs(J1, -J0 * I1 / I0) - J0**2,
+            "supported": NORM.subs(J1, J0 * slope)
+            - J0**2 / 2 * (slope**2 - (I1 / I0) ** 2 + 2 - 4 / (1 - nu)),
+            "soft hinge": NORM.subs(J0, 0) - J1**2 / 2,
+        },
+    )
+    return Formula(
+        "held_norm",
+        "N",
+        "integral of the mode's square over the plate, over 2 pi b^2",
+        NORM,
+        "1",
+        "",
+        ("held_part",),
+        proof,
+    )
+
+
+def static_deflection(span: sp.Expr) -> sp.Expr:
+    """D/(P b^2) times the deflection by a force on the axis; `span`/(8 pi) on the axis."""
+    return (_r**2 * sp.log(_r) + span * (1 - _r**2)) / (8 * sp.pi)
+
+
+@cache
+def weight() -> tuple[Formula, ...]:
+    """W, and what the sums of W/k^4 are."""
+    N = norm()
+    clamped, supported = sp.Rational(1, 2), (3 + nu) / (2 * (1 + nu))
+    found = {
+        name: static_deflection(span)
+        for name, span in (("clamped", clamped), ("supported", supported), ("soft hinge", 1))
+    }
+    slopes = {name: sp.diff(w, _r).subs(_r, 1) for name, w in found.items()}
+    bends = {name: sp.diff(w, _r, 2).subs(_r, 1) for name, w in found.items()}
+    axis = {name: sp.limit(w, _r, 0) for name, w in found.items()}
+    # Near the axis w is even in r.
+    w_0, w_2, w_4 = sp.symbols("w_0 w_2 w_4", real=True)
+    near = _bracket(w_0 + w_2 * _r**2 + w_4 * _r**4, static_deflection(_A))
+    proof = prove(
+        "Weight of a held plate's mode",
+        "The deflection at rest: without load beside the axis, carrying P, held at the edge; the "
+        "bracket of it and a mode on the axis. On the paper's edge nu = 1.",
+        {
+            "load": laplacian(laplacian(static_deflection(_A))),
+            "force": 2 * sp.pi * _r * sp.diff(laplacian(static_deflection(_A)), _r) - 1,
+            "edge": static_deflection(_A).subs(_r, 1),
+            "clamped edge": slopes["clamped"],
+            "supported edge": bends["supported"] + nu * slopes["supported"],
+            "soft hinge": bends["soft hinge"] + slopes["soft hinge"],
+            "axis": sp.limit(sp.expand(near), _r, 0) - w_0 / (2 * sp.pi),
+            "clamped sum": axis["clamped"] - CLAMPED_COMPLIANCE,
+            "supported sum": axis["supported"] - SUPPORTED_COMPLIANCE,
+            "soft sum": axis["soft hinge"] - SOFT_COMPLIANCE,
+            "soft hinge as nu": SUPPORTED_COMPLIANCE.subs(nu, 1) - SOFT_COMPLIANCE,
+            "soft weight": WEIGHT.subs(J0, 0) - 1 / (sp.pi * J1**2),
+        },
+    )
+    return (
+        N,
+        Formula(
+            "held_weight",
+            "W_n",
+            "acceleration of the axis by a force there, in units of 1/(rho H b^2)",
+            WEIGHT,
+            "1",
+            "",
+            ("held_norm",),
+            proof,
+        ),
+        Formula(
+            "clamped_compliance",
+            r"\sum_n W_n/k_n^4",
+            "deflection of a clamped plate's axis by a force there, in units of P b^2/D",
+            CLAMPED_COMPLIANCE,
+            "1",
+            "",
+            ("held_weight",),
+            proof,
+        ),
+        Formula(
+            "supported_compliance",
+            r"\sum_n W_n/k_n^4",
+            "deflection of a supported plate's axis by a force there, in units of P b^2/D",
+            SUPPORTED_COMPLIANCE,
+            "1",
+            "",
+            ("held_weight",),
+            proof,
+        ),
+    )
+
+
+@cache
+def share() -> Formula:
+    """s_n: the mean of a mode under a flat punch over w(0)."""
+    flat_punch()
+    m = sp.Symbol("m", integer=True, nonnegative=True)
+    bessel = 1 / (4**m * sp.factorial(m) ** 2)
+    # int_0^1 t^(2m+1)/sqrt(1 - t^2) dt, t = r/a, of a punch of unit force.
+    moment = sp.sqrt(sp.pi) / 2 * sp.gamma(m + 1) / sp.gamma(m + sp.Rational(3, 2))
+    y = k_n * alpha
+    value = (sp.sin(y) / y - PART * sp.sinh(y) / y) / (1 - PART)
+    proof = prove(
+        "Mean of a held plate's mode under a flat punch",
+        "I0's power series is J0's without signs, and so are the transforms sinh(y)/y and "
+        "sin(y)/y, power by power.",
+        {
+            "power": sp.combsimp(sp.gammasimp(bessel * moment * sp.factorial(2 * m + 1))) - 1,
+            "small contact": sp.limit(value.subs(alpha, _r / k_n), _r, 0) - 1,
+        },
+    )
+    return Formula(
+        "held_share",
+        "s_n",
+        "mean of a held plate's mode under a flat punch over its deflection on the axis",
+        value,
+        "1",
+        "",
+        ("held_part", "mode_share"),
+        proof,
+    )
+
+
+def held_modes() -> tuple[Formula, ...]:
+    """The formulas of the link."""
+    return (*frequency_equations(), *weight(), share())

@@ -1,0 +1,364 @@
+"""Link 30: waves of a plate with a thickness whose edge is clamped or simply supported.
+
+With w, psi, k2, g1 and g2 of `mindlin`, b = 1, kap = (omega h/c_T)^2 of A0 at x = k eta and
+w = 0 at the edge, c = J0(k)/I0(k2), rotation and moment there are
+
+    psi = J0 S,                 S = g1 k J1/J0 + g2 k2 I1/I0,
+    psi' = J0 (Gam - S),        Gam = g1 k^2 + g2 k2^2 = k^2 + k2^2,
+
+and every edge is S = beta Gam. Without moment, psi' + nu psi = 0, beta = 1/(1 - nu). A clamp has
+psi = chi eta psi', beta = chi eta/(1 + chi eta): chi = 0 holds the rotation, and CHI is by how much
+a clamp on the whole edge differs, which forbids Poisson's bulging too. The paper's edge has J0 = 0,
+psi' + psi = 0 and beta = oo.
+
+As psi/M grows with the frequency of Mindlin's plate and M ~ Gam - (1 - nu) S, so does S/Gam, whose
+poles are the zeros of J0 (Gam > 0): it grows from -oo to oo between two of them, from 1/2 to oo
+up to the first. The n-th clamped mode lies between j_n and j_(n+1), the n-th supported one between
+j_(n-1) and j_n, j_0 = 0, for 1/2 < 1/(1 - nu) and chi eta < 1. With A0's kap in the place of
+Mindlin's this is tested, not proved. Beyond the cut-off, k2 = 0 or (1/k_s + n) kap = x^2, the
+partner is a travelling wave, and there are no modes of this kind.
+
+A0 of link 27 says how one wave answers a load; its kinetic energy is that of w and psi with
+c = 0. A mode's is N = int_0^1 (w^2 + eta^2/3 psi^2) r dr, and
+
+    W = (1 - c t)^2 (1 + (eta^2/3) g1^2 k^2)/(2 pi N),
+
+so that W = 1/(pi J1^2) at J0 = 0: the axis moves by q'' + omega^2 q = r_0 W P/b^2, r_0 of A0.
+Here 1 - c t is the deflection of the loaded face on the axis. Without normal stress in z the strain
+there is n_nu z nabla^2 w, n_nu = nu/(1 - nu), by which the loaded face deflects
+1 + (n_nu/3) eta^2 nabla^2 times as much as the mean; nabla^2 is -k^2 of the part J0, k2^2 of I0.
+Likewise the mean under a flat punch, sh y = sin(y)/y and shc y = sinh(y)/y, is
+
+    s_n = [sh(k a) - c t shc(k2 a)]/(1 - c t).
+
+At rest a plate held differs from the paper's by w = A (1 - r^2), psi = 2 A r. On the axis, in units
+of P b^2/D, that is (1 - nu)/(1 + nu)/(16 pi) and -(1 + chi eta)/(1 - chi eta)/(16 pi) for a force
+in the middle plane. One on the face finds, and works on, 1 - 4 n_nu eta^2/3 times as much.
+
+eta -> 0 is link 29.
+"""
+
+from functools import cache
+
+import sympy as sp
+
+from derivation.engine.formula.proof import lower_bessel, prove
+from derivation.plate.edge_modes.theory import modes as thin
+from derivation.plate.edge_modes.theory.mindlin import (
+    DEFLECTION,
+    c,
+    k_2,
+    lagrange,
+    left,
+    rotation,
+    shear,
+    shear_coefficient,
+    slack,
+    u_1,
+    u_2,
+    waves,
+    xi,
+)
+from derivation.plate.vocabulary import (
+    C1,
+    C3,
+    Formula,
+    alpha,
+    eta,
+    gam,
+    h,
+    k_n,
+    kap,
+    nu,
+    phi,
+    x_h,
+    z,
+)
+from derivation.plate.waves.theory.dynamic_modes import in_p_and_q, p, q, wave
+
+CHI = sp.Rational(9, 100)
+"""chi over n_nu^2: measured, not derived, on static finite elements of clamped plates (0.076 to
+0.105 for nu = 0.2 to 0.45 and H/b = 0.06 to 0.5). It stands for the boundary layer of an edge on
+which Poisson's bulging is held back too."""
+
+g_1, g_2, t, beta = sp.symbols("g_1 g_2 t beta", real=True)
+"""Rotations over slopes; face over mean, of the part I0 over the part J0; S/Gam."""
+_r = sp.Symbol("r", positive=True)
+J0, J1 = sp.besselj(0, k_n), sp.besselj(1, k_n)
+I0, I1 = sp.besseli(0, k_2), sp.besseli(1, k_2)
+BULGE = nu / (1 - nu)
+"""n_nu."""
+CLAMP = CHI * BULGE**2
+"""chi."""
+PART = J0 / I0
+"""c of a mode."""
+TURN = g_1 * k_n * J1 / J0 + g_2 * k_2 * I1 / I0
+"""S."""
+BEND = g_1 * k_n**2 + g_2 * k_2**2
+"""Gam."""
+SUPPORTED, CLAMPED = 1 / (1 - nu), CLAMP * eta / (1 + CLAMP * eta)
+"""beta."""
+FACE = 1 + BULGE / 3 * eta**2 * (k_n**2 + k_2**2)
+"""t."""
+_SQUARES = (J0**2 + J1**2, I0**2 - I1**2)
+_MIXED = (k_n * J1 * I0 + k_2 * J0 * I1) / (k_n**2 + k_2**2)
+_TURNED = (
+    J0**2 + J1**2 - 2 * J0 * J1 / k_n,
+    I1**2 - I0**2 + 2 * I0 * I1 / k_2,
+    (k_2 * J1 * I0 - k_n * J0 * I1) / (k_n**2 + k_2**2),
+)
+NORM = (
+    _SQUARES[0] / 2 - 2 * c * _MIXED + c**2 * _SQUARES[1] / 2
+    + eta**2 / 3 * (
+        (g_1 * k_n) ** 2 * _TURNED[0] / 2
+        + (c * g_2 * k_2) ** 2 * _TURNED[1] / 2
+        + 2 * c * g_1 * k_n * g_2 * k_2 * _TURNED[2]
+    )
+)  # fmt: skip
+"""N for any k, k2, g1, g2 and c."""
+N = sp.Symbol("N", positive=True)
+WEIGHT = (1 - c * t) ** 2 * (1 + eta**2 / 3 * (g_1 * k_n) ** 2) / (2 * sp.pi * N)
+"""W."""
+ON_FACE = sp.besselj(0, k_n * alpha) - c * t * sp.besseli(0, k_2 * alpha)
+"""The loaded face at r = alpha."""
+UNDER_PUNCH = sp.sin(k_n * alpha) / (k_n * alpha) - c * t * sp.sinh(k_2 * alpha) / (k_2 * alpha)
+"""Its mean under a flat punch of radius alpha."""
+SUPPORTED_REST = (1 - nu) / (1 + nu) / (16 * sp.pi)
+CLAMPED_REST = -1 / (16 * sp.pi)
+
+
+def in_k(expression: sp.Expr) -> sp.Expr:
+    """An expression of a mode in k, kap, eta and nu alone."""
+    known = {shear: slack(), xi: kap / (k_n * eta) ** 2}
+    partner = k_n * sp.sqrt(left().subs(known))
+    turned = {g_1: u_1().subs(known), g_2: (u_2() / left()).subs(known)}
+    return expression.subs({t: FACE, c: PART}).subs(turned).subs(k_2, partner)
+
+
+@cache
+def edges() -> tuple[Formula, ...]:
+    """c, and what vanishes at the wave numbers of held plates."""
+    lagrange()
+    thin.frequency_equations()
+    psi = rotation(g_1, g_2).subs(c, PART)
+    slope = lower_bessel(sp.diff(psi, _r)).subs(_r, 1)
+    turn, bend = sp.symbols("S Gam", real=True)
+    known = {g_1: u_1(), g_2: u_2() / left(), k_2: k_n * sp.sqrt(left())}
+    moment, ratio = bend - (1 - nu) * turn, turn / (bend - (1 - nu) * turn)
+    free = turn - CLAMP * eta * (bend - turn)
+    proof = prove(
+        "Edges of a plate that shears",
+        "Rotation and its slope at the edge; S/Gam by psi/M, whose slope it has the sign of; and "
+        "the limit of a thin plate, link 29's equations, where k2 = k and g1 = g2 = 1.",
+        {
+            "deflection": DEFLECTION.subs({_r: 1, c: PART}),
+            "rotation": psi.subs(_r, 1) - J0 * TURN,
+            "slope": slope - J0 * (BEND - TURN),
+            "bend": sp.expand((BEND - k_n**2 - k_2**2).subs(known)),
+            "supported": moment / (1 - nu) + turn - SUPPORTED * bend,
+            "clamped": free - (1 + CLAMP * eta) * (turn - CLAMPED * bend),
+            "growth": sp.diff(ratio / (1 + (1 - nu) * ratio), turn) - sp.diff(turn / bend, turn),
+            "thin support": _thin(TURN - SUPPORTED * BEND)
+            - k_n * thin.frequency_equations()[2].expression,
+            "thin clamp": _thin(TURN - CLAMPED * BEND)
+            - k_n * thin.frequency_equations()[1].expression / (thin.J0 * thin.I0),
+        },
+    )
+    total = k_n**2 + k_2**2
+    rows = (
+        ("wave_part", "c", "part of I0 in a held plate's mode J0(k r/b) - c I0(k_2 r/b)", PART,
+         PART, ()),
+        ("supported_wave", "F_s", "vanishes at the wave numbers of a simply supported plate",
+         TURN - SUPPORTED * BEND, TURN - SUPPORTED * total, ("wave_part",)),
+        ("clamped_wave", "F_c", "vanishes at the wave numbers of a clamped plate",
+         TURN - CLAMPED * BEND, TURN - CLAMPED * total, ("wave_part",)),
+    )  # fmt: skip
+    return tuple(
+        Formula(
+            name, latex, meaning, in_k(value), "1", "", ("partner_wave", *sources), proof,
+            stated=stated,
+        )
+        for name, latex, meaning, value, stated, sources in rows
+    )  # fmt: skip
+
+
+def _thin(expression: sp.Expr) -> sp.Expr:
+    """eta -> 0: kap/x^2 vanishes like x^2."""
+    return expression.subs({g_1: 1, g_2: 1, t: 1, eta: 0, k_2: k_n})
+
+
+@cache
+def norm() -> Formula:
+    """N in closed form."""
+    at_r = {k_n: k_n * _r, k_2: k_2 * _r}
+    one, other, mixed = (
+        f.subs(at_r, simultaneous=True) for f in (*_SQUARES, (k_n**2 + k_2**2) * _MIXED)
+    )
+    first, second, both = (
+        f.subs(at_r, simultaneous=True) for f in (*_TURNED[:2], (k_n**2 + k_2**2) * _TURNED[2])
+    )
+    total = k_n**2 + k_2**2
+    # k r J1 I0 + ... over r and k^2 + k2^2: one power of r less.
+    deflected = _r**2 / 2 * (one + c**2 * other) - 2 * c * _r * (mixed / _r) / total
+    turned = _r**2 / 2 * ((g_1 * k_n) ** 2 * first + (c * g_2 * k_2) ** 2 * second)
+    turned += 2 * c * g_1 * k_n * g_2 * k_2 * both / total
+    psi = rotation(g_1, g_2)
+    proof = prove(
+        "Norm of a held plate's wave",
+        "Primitives of w^2 r and psi^2 r, for any k, k2, g1, g2 and c; link 29's for eta -> 0.",
+        {
+            "deflection": lower_bessel(sp.diff(deflected, _r)) - _r * DEFLECTION**2,
+            "rotation": lower_bessel(sp.diff(turned, _r)) - _r * psi**2,
+            "axis": sp.expand(deflected + turned).subs(_r, 0),
+            "closed": (deflected + eta**2 / 3 * turned).subs(_r, 1) - NORM,
+            "thin": _thin(NORM.subs(c, PART)) - thin.NORM,
+        },
+    )
+    stated = sp.Integral((DEFLECTION**2 + eta**2 / 3 * sp.Symbol("psi") ** 2) * _r, (_r, 0, 1))
+    return Formula(
+        "wave_norm", "N", "kinetic energy of a held plate's mode, rotation included",
+        in_k(NORM), "1", "", ("wave_part", "wave_rotation", "partner_rotation"), proof,
+        stated=stated,
+    )  # fmt: skip
+
+
+@cache
+def face_ratio() -> Formula:
+    """The face's deflection over the mean through the thickness, of long waves."""
+    general = wave(C1 * sp.cosh(p * z / h), C3 * sp.cosh(q * z / h) / phi)
+    f, shear_stress = in_p_and_q(general.f), in_p_and_q(general.rz).subs(z, 1)
+    part = sp.solve(shear_stress, C3)[0]
+    mean = (C1 * sp.sinh(p) / p + (part / x_h) * sp.sinh(q) / q).subs(C1, 1)
+    face = f.subs(z, 1).subs(C3, part).subs(C1, 1)
+    s, slope = sp.symbols("s Y", positive=True)
+    # kap = Y x^4, s = x^2: p^2 = s - gam Y s^2, q^2 = s - Y s^2.
+    squares = {p: s - gam * slope * s**2, q: s - slope * s**2}
+    order = 3
+
+    def cosh(y: sp.Symbol) -> sp.Expr:
+        return sp.Add(*(squares[y] ** n / sp.factorial(2 * n) for n in range(order + 1)))
+
+    def shc(y: sp.Symbol) -> sp.Expr:
+        return sp.Add(*(squares[y] ** n / sp.factorial(2 * n + 1) for n in range(order + 1)))
+
+    def long(value: sp.Expr) -> sp.Expr:
+        plain = value.subs({sp.cosh(p): cosh(p), sp.cosh(q): cosh(q)})
+        plain = plain.subs({sp.sinh(p): p * shc(p), sp.sinh(q): q * shc(q)})
+        even = sp.cancel(sp.together(plain))
+        return even.subs({p: sp.sqrt(squares[p]), q: sp.sqrt(squares[q]), x_h: sp.sqrt(s)})
+
+    ratio = sp.cancel(long(face / mean))
+    found = sp.series(ratio, s, 0, 2).removeO()
+    one = BULGE.subs(nu, (1 - 2 * gam) / (2 * (1 - gam))) / 3
+    mean_square, edge_square = sp.Rational(1, 3) / 2, sp.Rational(1, 2)
+    proof = prove(
+        "Loaded face over mean",
+        "A wave without shear on its faces, of kap = Y x^4, to the first power of x^2; the partner "
+        "has -k2^2 for k^2. The same from sigma_zz = 0: n_nu z^2/2 nabla^2 w, face less mean.",
+        {
+            "series": sp.cancel(found - 1 + one * s),
+            "plane stress": sp.cancel(one - one * 3 * (edge_square - mean_square)),
+            "quotient": sp.series(
+                (1 + one * s * k_2**2) / (1 - one * s * k_n**2), s, 0, 2
+            ).removeO() - 1 - one * s * (k_n**2 + k_2**2),
+        },
+    )  # fmt: skip
+    return Formula(
+        "face_ratio", "t", "loaded face over mean deflection, of a mode's part I0 over its part J0",
+        in_k(FACE), "1", "", ("wave_f", "partner_wave"), proof, stated=FACE,
+    )  # fmt: skip
+
+
+@cache
+def weight() -> Formula:
+    """W."""
+    energy = norm()
+    face_ratio()
+    soft = WEIGHT.subs(N, NORM).subs(c, 0).subs(J0, 0)
+    proof = prove(
+        "Weight of a held plate's wave",
+        "At J0 = 0 that of the paper's edge, whose residue is A0's; link 29's for eta -> 0. "
+        + energy.proof.argument,
+        {
+            "paper's edge": sp.cancel(soft - 1 / (sp.pi * J1**2)),
+            "thin": _thin(WEIGHT.subs(N, NORM).subs(c, PART)) - thin.WEIGHT,
+        },
+    )
+    return Formula(
+        "wave_weight", "W_n", "acceleration of the axis by a force there, over r_0/b^2 of A0",
+        in_k(WEIGHT.subs(N, NORM)), "1", "", ("wave_norm", "face_ratio", "bending_residue"), proof,
+        stated=WEIGHT,
+    )  # fmt: skip
+
+
+@cache
+def share() -> Formula:
+    """s_n."""
+    means = thin.share()
+    value = UNDER_PUNCH / (1 - c * t)
+    proof = prove(
+        "Mean of a held plate's wave under a flat punch",
+        "The transforms of link 29, of J0(k r) and of I0(k2 r) on the loaded face. "
+        + means.proof.argument,
+        {
+            "thin": _thin(value.subs(c, PART)) - means.expression,
+            "small contact": sp.limit(value, alpha, 0) - 1,
+        },
+    )
+    return Formula(
+        "wave_share", "s_n", "mean of the loaded face under a flat punch over its deflection there",
+        in_k(value), "1", "", ("face_ratio", means.name), proof, stated=value,
+    )  # fmt: skip
+
+
+@cache
+def at_rest() -> tuple[Formula, Formula]:
+    """By how much a plate held differs at rest from the paper's, on the axis."""
+    A = sp.Symbol("A", real=True)
+    # In units of P b^2/D: (psi' + psi/r)' = -1/(2 pi r), and psi' + psi = 0 at the edge.
+    paper = (_r / 4 - _r * sp.log(_r) / 2) / (2 * sp.pi)
+    bent = sp.diff(paper, _r) + paper / _r
+    psi = paper + 2 * A * _r
+    at_edge, slope = psi.subs(_r, 1), sp.diff(psi, _r).subs(_r, 1)
+    chi = sp.Symbol("chi", positive=True)
+    supported = sp.solve(slope + nu * at_edge, A)[0]
+    clamped = sp.solve(at_edge - chi * eta * slope, A)[0]
+    first = sp.series(clamped, chi, 0, 2).removeO()
+    nabla = thin.laplacian(1 - _r**2)
+    lift = 1 + BULGE / 3 * eta**2 * nabla
+    proof = prove(
+        "Held plates at rest",
+        "psi under a force on the paper's edge, and 2 A r, which bends evenly without shear and "
+        "lifts w by A (1 - r^2). On the face w is 1 + (n_nu/3) eta^2 nabla^2 times the mean; and "
+        "so, by reciprocity, is what a force there does.",
+        {
+            "load": sp.expand(sp.diff(bent, _r) + 1 / (2 * sp.pi * _r)),
+            "paper's edge": bent.subs(_r, 1),
+            "supported": sp.cancel(supported - SUPPORTED_REST),
+            "clamped": sp.cancel(clamped - CLAMPED_REST * (1 + chi * eta) / (1 - chi * eta)),
+            "first order of chi": sp.expand(first - CLAMPED_REST * (1 + 2 * chi * eta)),
+            "lift": lift - 1 + 4 * BULGE * eta**2 / 3,
+        },
+    )
+    rows = (
+        ("supported_rest", "a simply supported", SUPPORTED_REST * lift**2),
+        ("clamped_rest", "a clamped", CLAMPED_REST * (lift**2 + 2 * CLAMP * eta)),
+    )
+    found = tuple(
+        Formula(
+            name, r"\Delta", f"deflection at rest of {which} plate less that on the paper's edge, "
+            "by a force on the axis, in P b^2/D; first order of chi",
+            value, "1", "", ("wave_weight",), proof,
+        )
+        for name, which, value in rows
+    )  # fmt: skip
+    return found[0], found[1]
+
+
+@cache
+def held_waves() -> tuple[Formula, ...]:
+    """The formulas of the link."""
+    return (
+        shear_coefficient(), *waves(), *edges(), norm(), face_ratio(), weight(), share(),
+        *at_rest(),
+    )  # fmt: skip

@@ -1,0 +1,1 @@
+"""How much each effect changes the contact law, and the number that says when."""

@@ -1,0 +1,154 @@
+"""Link 22: how much an effect can change the contact law, before it is computed.
+
+All in S = (R/2a) d delta/da at equal force, a being Hertz's radius: the half-space has S = 1,
+and every effect adds its share. With A = a/h, alpha = a/b and, from link 18, c_1 and K_3:
+
+    bending             3/2 A/(4 pi eta^2), exactly
+    side wall           between -(4/pi^2) (kappa_0 alpha + k_3 alpha^3) and 0
+    finite thickness    what is left of 3/2 c_1 A - K_3 A^3 <= S - 1 <= 3/2 c_1 A
+    curvature           a_H/a - 1 of link 21, between 0 and its value at a/R = a_H/R
+    elastic sphere      s^2 - 1 and at most (s^2 - 1) K A^3 either way, s^3 = 1 + E*/E_1*
+
+Weight. v^2 at equal shares of the largest indentation is (2/m) [U_m - U - m g (delta_m - delta)],
+and U being convex, U_m - U >= U_m (1 - delta/delta_m): with e = m g delta_1/E, delta_1 the
+largest indentation without weight, the energy taken grows by a factor between 1 and
+1/(1 - e), and the time beside by one between 1 and 1/sqrt(1 - e).
+"""
+
+from functools import cache
+
+import flint
+import sympy as sp
+
+from derivation.engine.formula.proof import Proof, prove
+from derivation.plate.contact.theory.plate_series import coefficient
+from derivation.plate.contact.theory.thin_plate import thin_plate
+from derivation.plate.impact.theory.substitution import one_sided, wall_integral
+from derivation.plate.vocabulary import Formula, a_ratio, alpha, c_A, eta, kappa
+
+_y, _u, _q = sp.symbols("y u q", positive=True)
+_g, _e = sp.symbols("g e", positive=True)
+_s = sp.Symbol("s", positive=True)
+
+
+@cache
+def bending() -> Formula:
+    """The thin plate's leading term as an effect of its own: delta = P b^2/(8 pi D)."""
+    first = {formula.name: formula for formula in thin_plate()}["c_1_thin"].expression
+    share = sp.limit(first * eta**2, eta, 0) * a_ratio / eta**2
+    radius, half, wide, sphere, modulus = sp.symbols("a h b R E", positive=True)
+    force = sp.Rational(4, 3) * modulus * radius**3 / sphere
+    rigidity = modulus * (2 * half) ** 3 / 12
+    deflection = force * wide**2 / (8 * sp.pi * rigidity)
+    proof = prove(
+        "Bending",
+        "The leading term of c_1 A for h/b -> 0 is the deflection P b^2/(8 pi D) of a thin "
+        "plate, D = E* (2h)^3/12, over a^2/R.",
+        {
+            "deflection": share.subs({a_ratio: radius / half, eta: half / wide})
+            - deflection * sphere / radius**2
+        },
+    )
+    return Formula(
+        "F_bending",
+        "F_B",
+        "bending's part of delta R/a^2",
+        share,
+        "1",
+        "6",
+        ("c_1_thin",),
+        proof,
+        where=("a_ratio * eta < 1",),
+    )
+
+
+@cache
+def shares() -> Formula:
+    """What finite thickness adds to S at most: the rest of 3/2 c_1 A."""
+    one_sided()
+    first = coefficient(2)
+    wall = -4 / sp.pi**2 * kappa[0] * alpha
+    most = sp.Rational(3, 2) * (c_A[1] * a_ratio - bending().expression) - wall
+    proof = prove(
+        "Shares of the law's slope",
+        "S - 1 less bending, which is linear, and less the side wall, between "
+        "-(4/pi^2) (kappa_0 alpha + k_3 alpha^3) and 0 by sinh y <= y + (sinh 1 - 1) y^3 ...",
+        {"side wall": sp.Rational(3, 2) * first.side * a_ratio - wall.subs(alpha, a_ratio * eta)},
+    )
+    return Formula(
+        "S_thickness_most",
+        r"S_H",
+        "what finite thickness adds to (R/2a) d delta/da at most",
+        most,
+        "1",
+        "6",
+        ("S_most", "F_bending"),
+        proof,
+        where=("a_ratio * eta < 1",),
+    )
+
+
+@cache
+def elastic_sphere() -> Proof:
+    """The half-space grows to s^2 times its size; what it does to the plate's cubic terms.
+
+    Each mode has s sinc(s y)/s instead of sinc y, and |sinc'| <= y/3; the side wall has
+    sinh(s y)/s, whose powers grow by s^(2k) - 1 <= k (s^2 - 1) s^(2k-2), where s alpha < 1.
+    """
+    order = sp.Symbol("k", integer=True, positive=True)
+    slope = sp.diff(sp.sin(_y) / _y, _y) * _y**2
+    # |sinc'| = (sin y - y cos y)/y^2 <= y/3: the difference vanishes at 0 and rises.
+    rises = sp.diff(_y**3 / 3 + slope, _y) - (_y**2 - _y * sp.sin(_y))
+    odd = _u ** (2 * order + 1) / sp.factorial(2 * order + 1)
+    return prove(
+        "Elastic sphere",
+        "Integrated from y to s y, |sinc'| <= y/3 gives (s^2 - 1) y^2/6; sum k u^(2k+1)/(2k+1)! "
+        "is (u cosh u - sinh u)/2.",
+        {
+            "sinc": rises,
+            "integral": sp.integrate(_u / 3, (_u, _y, _s * _y)) - (_s**2 - 1) * _y**2 / 6,
+            "power": sp.simplify(order - (_u * sp.diff(odd, _u) / odd - 1) / 2),
+            "sum": (_u * sp.diff(sp.sinh(_u), _u) - sp.sinh(_u)) / 2
+            - (_u * sp.cosh(_u) - sp.sinh(_u)) / 2,
+        },
+    )
+
+
+@cache
+def weight() -> Proof:
+    """Energy and time with weight, by the convexity of U; see the head of this file."""
+    whole, share = sp.symbols("U_m x", positive=True)
+    # v^2 m/2 at the share x of delta_m, least for U on its chord.
+    speed = whole * (1 - share) - _g * (1 - share)
+    return prove(
+        "Weight during contact",
+        "U <= U_m x by convexity; U_g = E + m g delta_g <= E + m g delta_1 U_g/E, since "
+        "delta grows no faster than U.",
+        {
+            "chord": speed - whole * (1 - share) * (1 - _g / whole),
+            "energy": sp.solve(_u - 1 - _e * _u, _u)[0] - 1 / (1 - _e),
+        },
+    )
+
+
+def effects() -> tuple[Formula, ...]:
+    """The formulas of the link, its lemmas proved with them."""
+    elastic_sphere()
+    weight()
+    return bending(), shares()
+
+
+# --- numbers, as balls
+
+
+def wall_growth_ball(digits: int = 12) -> flint.arb:
+    """(4/pi^2) int_0^oo (y cosh y - sinh y)/(2 y) K0/I0 dy.
+
+    By parts, with (sinh y - Shi y)/2 over y I0^2. For y <= 1 that is below y^3/12 + y^5/100 and
+    beyond below e^y/4.
+    """
+
+    def integrand(y: flint.acb, _: bool) -> flint.acb:
+        return (y.sinh() - y.shi()) / (2 * y * y.bessel_i(0) ** 2)
+
+    return wall_integral(integrand, digits, "the side wall's growth")

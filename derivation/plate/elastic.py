@@ -1,0 +1,100 @@
+"""What ties the plate's symbols together in a comparison.
+
+P follows by (7), A_j by (8), T = 2 phi h; Young's modulus and Poisson's ratio in a user's formula
+are related to the Lame constants, which the derived formulas use instead.
+"""
+
+from collections.abc import Mapping, Set
+from fractions import Fraction
+from functools import partial
+
+import sympy as sp
+
+from derivation.engine.errata import compare, text
+from derivation.engine.errata.relations import Formulas, Meanings, Point, Relations, Symbols
+from derivation.engine.formula.parse import FormulaError
+from derivation.plate.vocabulary import A_j, E, P, T, h, lam, mu, nu, phi
+
+_CONSTANTS = {lam, mu, nu}
+
+
+def occurs(symbols: Set[sp.Symbol]) -> bool:
+    """Whether an elastic constant of the plate is among the symbols."""
+    return bool(_CONSTANTS & symbols)
+
+
+def relations(used: Set[sp.Symbol]) -> dict[sp.Symbol, sp.Expr]:
+    """What E and nu are in the other elastic constants of a comparison.
+
+    Parameters
+    ----------
+    used
+        Symbols of both formulas. With lam among them, E and nu follow from lam and mu;
+        without it, E follows from mu and nu.
+    """
+    if lam in used:
+        meaning = {
+            E: mu * (3 * lam + 2 * mu) / (lam + mu),
+            nu: lam / (2 * (lam + mu)),
+        }
+    else:
+        meaning = {E: 2 * mu * (1 + nu)}
+    return {symbol: value for symbol, value in meaning.items() if symbol in used}
+
+
+def lame(values: Mapping[str, Fraction]) -> dict[str, Fraction]:
+    """Lame constants [Pa] from Young's modulus E [Pa] and Poisson's ratio nu.
+
+    Raises
+    ------
+    ValueError
+        If no material has these constants.
+    """
+    young, poisson = values["E"], values["nu"]
+    if young <= 0 or not -1 < poisson < Fraction(1, 2):
+        raise ValueError(f"expected E > 0 and -1 < nu < 0.5, got E = {young}, nu = {poisson}")
+    return {
+        "lam": young * poisson / ((1 + poisson) * (1 - 2 * poisson)),
+        "mu": young / (2 * (1 + poisson)),
+    }
+
+
+def _between(name: str, given: Symbols, derived: Symbols, formulas: Formulas) -> Meanings:
+    """Symbols that follow from others.
+
+    Raises
+    ------
+    FormulaError
+        If Young's modulus occurs, and nothing that it could follow from.
+    """
+    meaning = {P: formulas["P"].expression, A_j: formulas["A_j"].expression, T: 2 * phi * h}
+    used = given | derived
+    found = {s: meaning[s] for s in meaning if s in used and s.name != name}
+    used = used.union(*(value.free_symbols for value in found.values()))
+    if E not in used:
+        return found | (relations(used) if mu in used or lam in used else {})
+    if not occurs(derived.union(*(v.free_symbols for v in found.values()))):
+        raise FormulaError(
+            f"E is read as Young's modulus, and {name} depends on no elastic constant: "
+            "for the number 2.718... write exp(1)"
+        )
+    return found | relations(used)
+
+
+def _with_lame(point: Point) -> Point:
+    """The point with the Lame constants instead of Young's modulus and Poisson's ratio."""
+    if "E" not in point:
+        return point
+    if "nu" not in point or {"lam", "mu"} & set(point):
+        raise FormulaError("--at: expected E together with nu and without lam and mu; give both")
+    try:
+        constants = lame({name: point[name][1] for name in ("E", "nu")})
+    except ValueError as error:
+        raise FormulaError(f"--at: {error}; correct the values") from None
+    rest = {name: value for name, value in point.items() if name not in ("E", "nu")}
+    return rest | {name: (str(value), value) for name, value in constants.items()}
+
+
+RELATIONS = Relations(_between, _with_lame)
+diagnose = partial(compare.diagnose, relations=RELATIONS)
+diagnose_text = partial(text.diagnose_text, relations=RELATIONS)

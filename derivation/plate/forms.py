@@ -1,0 +1,92 @@
+"""Stable forms of the formulas, each proved equal to the derived one.
+
+Those of one dimensionless variable are found by the rules; the fields of a mode,
+which depend on the depth too, are written out in `modes.kernels.forms` and proved like the rest.
+"""
+
+from collections.abc import Mapping
+
+import sympy as sp
+
+from derivation.engine.formula.record import Record
+from derivation.engine.rewrite.automatic import automatic
+from derivation.engine.rewrite.form import TIMES, Block, Form, Seam, Step, form
+from derivation.engine.rewrite.scales import Ratio, Scale, Scales
+from derivation.engine.rewrite.sections import sections
+from derivation.plate.blocks import blocks
+from derivation.plate.contact.theory.hertz import SINE_MINUS
+from derivation.plate.modes.kernels.forms import mode_forms
+from derivation.plate.modes.kernels.steps import RATIO, ratio
+from derivation.plate.vocabulary import P, R, a, h, lam, mu, phi, r
+
+share = sp.Symbol("share", real=True)
+x, y, T = sp.symbols("x y T", positive=True)
+SCALES = Scales(
+    (
+        Scale(phi * h, x, h, phi),
+        Scale(2 * phi * h, T, h, phi),
+        Scale(a * phi, y, a, phi, joined=True),
+        Scale(T, T, T),
+    ),
+    Ratio(RATIO, lam + 2 * mu, lam + mu),
+)
+"""Products that the plate's functions depend on."""
+
+
+def stable_forms(formulas: Mapping[str, Record]) -> tuple[Form, ...]:
+    """The stable form of every formula that is generated, in module order.
+
+    Raises
+    ------
+    ProofError
+        Naming the form that is not its formula.
+    UnreachableError
+        Naming a formula that the rules do not reach.
+    """
+    known = blocks()
+
+    def found(name: str) -> _Shape:
+        return automatic(formulas[name].expression, known, SCALES, name in CLOSE)
+
+    groups: dict[str, dict[str, _Shape]] = {
+        "omega": {name: found(name) for name in OMEGAS},
+        "influence": {name: found(name) for name in INFLUENCE},
+        "pressure": _pressure() | {name: found(name) for name in ("sonine", "A_j")},
+        "mode_shapes": mode_forms(),
+        "modal_sum": {"delta": _indentation(formulas, known)},
+    }
+    return tuple(
+        form(name, module, formulas[name].expression, steps, value, known | sections())
+        for module, group in groups.items()
+        for name, (steps, value) in group.items()
+    )
+
+
+OMEGAS = tuple(f"Omega_{k}{tail}" for tail in ("", "_scaled") for k in range(1, 5))
+INFLUENCE = ("G", "G_m", "G_minus_1", "C_top", "C_bottom", "K_j", "K_j_bottom", "G_slope")
+AUTOMATIC = (*OMEGAS, *INFLUENCE, "sonine", "A_j")
+"""Formulas whose forms the rules find."""
+
+CLOSE = ("G_m",)
+"""Those among them whose budget leaves no room for the roundings of their powers."""
+
+_Shape = tuple[tuple[Step, ...], sp.Expr | Seam]
+
+
+def _pressure() -> dict[str, _Shape]:
+    """Hertz pressure and the contact force: the edge's root by its two factors."""
+    fraction = Step(share, r / a)
+    root = sp.sqrt((1 - share) * (1 + share))
+    return {
+        "p": ((fraction,), TIMES(-3 * root / (2 * sp.pi), P, 1, a, -2)),
+        "P": ((RATIO,), TIMES(16 / (3 * ratio), mu, 1, a, 3, R, -1)),
+    }
+
+
+def _indentation(formulas: Mapping[str, Record], known: Mapping[str, Block]) -> _Shape:
+    """One mode's share: K_j phi^3 and s(a phi)/phi^3, lest powers of phi be rounded twice."""
+    face, face_value = automatic(formulas["K_j"].expression * phi**3, known, SCALES)
+    contact, contact_value = automatic(SINE_MINUS / phi**3, known, SCALES)
+    core, *powers = face_value.args
+    shape, *more = contact_value.args
+    return (*face, *contact), TIMES(core * shape, *powers, *more)

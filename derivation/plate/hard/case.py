@@ -1,0 +1,180 @@
+"""The hard cases as data: what is computed where, in which form, and why that is hard."""
+
+import itertools
+import math
+import tomllib
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from derivation.engine.formula.ulp import DOUBLE, SINGLE, Format
+
+WRITTEN = Path(__file__).parents[1] / "cases" / "hard_cases.toml"
+FORMS = (
+    "scalar", "array", "empty", "broadcast", "strided", "read-only", "integer", "float32",
+)  # fmt: skip
+"""How arguments are handed over.
+
+Plain numbers; arrays of doubles; arrays of shape (0,); every list along an axis of
+its own; every second number of a longer array, backwards; arrays that must not be
+written to; whole numbers of integer type; single precision.
+"""
+
+EXPECTATIONS = ("value", "nan", "zero")
+"""What a kernel is to return: the true value, NaN because the point is outside its
+domain, or exactly zero where no ball around the truth can be relatively small."""
+
+Numbers = tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Case:
+    """One hard case.
+
+    Parameters
+    ----------
+    group
+        The difficulty it belongs to.
+    kernel
+        What is computed.
+    cause
+        Why that is hard, in a sentence.
+    inputs
+        Hexadecimal doubles by argument, one or several.
+    form
+        How they are handed over, one of `FORMS`.
+    modes
+        Number of modes of a modal sum.
+    expect
+        One of `EXPECTATIONS`.
+    """
+
+    group: str
+    kernel: str
+    cause: str
+    inputs: Mapping[str, tuple[str, ...]]
+    form: str = "scalar"
+    modes: int | None = None
+    expect: str = "value"
+
+    @property
+    def key(self) -> str:
+        """What tells one case from another, whatever is said about it."""
+        given = " ".join(f"{name}={','.join(texts)}" for name, texts in self.inputs.items())
+        modes = "" if self.modes is None else f" modes={self.modes}"
+        return f"{self.kernel} {self.form}{modes} {given}"
+
+    @property
+    def numbers(self) -> dict[str, Numbers]:
+        """The inputs as the doubles they are."""
+        return {
+            name: tuple(float.fromhex(text) for text in texts)
+            for name, texts in self.inputs.items()
+        }
+
+    @property
+    def format(self) -> Format:
+        """Format of arguments and results."""
+        return SINGLE if self.form == "float32" else DOUBLE
+
+    @property
+    def listed(self) -> tuple[str, ...]:
+        """Arguments that are arrays: for `scalar` none, else all with not just one number."""
+        numbers = self.numbers.items()
+        return () if self.form == "scalar" else tuple(k for k, v in numbers if len(v) != 1)
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """The shape that results must have."""
+        lengths = [len(self.inputs[name]) for name in self.listed]
+        return tuple(lengths) if self.form == "broadcast" else tuple(lengths[:1])
+
+    @property
+    def points(self) -> list[dict[str, float]]:
+        """Arguments point by point, in the order of the results."""
+        numbers, found = self.numbers, []
+        for place in itertools.product(*(range(length) for length in self.shape)):
+            axes = place if self.form == "broadcast" else place * len(self.listed)
+            at = dict(zip(self.listed, axes, strict=True))
+            found.append({name: values[at.get(name, 0)] for name, values in numbers.items()})
+        return found
+
+
+def written() -> Iterator[Case]:
+    """The cases written by hand.
+
+    Raises
+    ------
+    ValueError
+        Naming a case that does not say what it must.
+    """
+    with WRITTEN.open("rb") as stream:
+        rows = tomllib.load(stream)["case"]
+    yield from (_read(row) for row in rows)
+
+
+def _read(row: Mapping[str, Any]) -> Case:
+    given = {
+        name: (texts,) if isinstance(texts, str) else tuple(texts)
+        for name, texts in row["inputs"].items()
+    }
+    return checked(Case(**{**row, "inputs": given}))
+
+
+def checked(case: Case) -> Case:
+    """The case, if it is well formed.
+
+    Raises
+    ------
+    ValueError
+        Naming what is wrong with it.
+    """
+    if case.form not in FORMS:
+        raise ValueError(f"{case.key}: a form is one of {', '.join(FORMS)}, got {case.form}")
+    if case.expect not in EXPECTATIONS:
+        raise ValueError(f"{case.key}: expected one of {', '.join(EXPECTATIONS)}")
+    if not case.cause.endswith(".") or not case.group:
+        raise ValueError(f"{case.key}: a cause is a sentence, and every case has a group")
+    lengths = {len(case.inputs[name]) for name in case.listed}
+    if case.form == "scalar" and any(len(texts) != 1 for texts in case.inputs.values()):
+        raise ValueError(f"{case.key}: plain numbers come one at a time")
+    if case.form != "broadcast" and len(lengths) > 1:
+        raise ValueError(f"{case.key}: lists of one length are expected, got {sorted(lengths)}")
+    if case.form == "float32" and not all(map(_is_single, case.points)):
+        raise ValueError(f"{case.key}: numbers of single precision are expected")
+    return case
+
+
+def _is_single(point: Mapping[str, float]) -> bool:
+    return all(math.isnan(x) or float(np.float32(x)) == x for x in point.values())
+
+
+def handed_over(case: Case, names: tuple[str, ...]) -> list[Any]:
+    """A kernel's arguments in the case's form, in the kernel's order."""
+    numbers = case.numbers
+    axes = {name: axis for axis, name in enumerate(case.listed)}
+    return [_argument(case, numbers[name], axes.get(name)) for name in names]
+
+
+def _argument(case: Case, values: Numbers, axis: int | None) -> Any:
+    if case.form == "integer":
+        whole = [int(x) for x in values]
+        return whole[0] if axis is None else np.array(whole)
+    if case.form == "float32":
+        singles = np.array(values, dtype=np.float32)
+        return singles[0] if axis is None else singles
+    if axis is None:
+        return values[0]
+    array = np.array(values, dtype=np.float64)
+    if case.form == "broadcast":
+        return array.reshape((-1,) + (1,) * (len(case.listed) - 1 - axis))
+    if case.form == "strided":
+        # What lies between would be noticed: it is outside every domain.
+        longer = np.full(2 * array.size, -np.inf)
+        longer[1::2] = array[::-1]
+        return longer[::-2]
+    array.setflags(write=case.form != "read-only")
+    return array

@@ -1,0 +1,1 @@
+"""The impact: the sphere's motion, its results and their sensitivities."""

@@ -1,0 +1,118 @@
+"""Hard cases at the seams of impacts: their sensitivities, simple laws, the paper's motion."""
+
+import math
+from collections.abc import Iterator
+from itertools import chain
+
+import flint
+
+from derivation.mathematics.bessel.oracle import j0_zero
+from derivation.plate.contact.kernels import tables as contact_tables
+from derivation.plate.contact.oracle import balls as contact_balls
+from derivation.plate.hard.case import Case
+from derivation.plate.hard.places import LAM, MU, about, around, exactly
+from derivation.plate.impact.kernels import simple as simple_impact_tables
+from derivation.plate.impact.oracle import impact as contact_impact
+from derivation.plate.impact.oracle import printed_motion as printed_motion_balls
+
+IMPACTS, SIMPLE = "seams of the impact", "seams of simple impacts"
+PAPER = "seams of the paper's motion"
+
+_SPHERE: dict[str, float] = {"R": 50.0, "m": 1e3}
+_STEEL: dict[str, float] = {"lam": LAM, "mu": MU}
+_FEW = 30
+
+
+def motion_families() -> Iterator[Case]:
+    """Every one of them; the plate's half-thickness is 1 where nothing else is said."""
+    return chain(_sensitivities(), _history(), _simple_impacts(), _paper())
+
+
+def _speed(a: float, h: float, b: float) -> float:
+    """That of the sphere which just reaches a contact radius."""
+    energy = contact_impact.stored_energy(a, _SPHERE["R"], h, b, LAM, MU, _FEW)
+    return math.sqrt(2.0 * float(energy) / _SPHERE["m"])
+
+
+def _sensitivities() -> Iterator[Case]:
+    reach, b = float(contact_tables.REACH), 10.0
+    given = exactly(**_SPHERE, v0=around(_speed(reach, 1.0, b)), h=1.0, b=b, **_STEEL)
+    why = f"the speed that reaches a = {reach:g} h, where the second polynomial comes in"
+    yield about(IMPACTS, "impact_sensitivities", why, given)
+    ends = {end for cell in (*contact_tables.CELLS, *contact_tables.FAR_CELLS) for end in cell[:2]}
+    for end in sorted(float(end) for end in ends):
+        a = 2.5 if end == reach else min(4.5, (reach + end) / 2)
+        given = exactly(**_SPHERE, v0=_speed(a, 1.0, end), h=1.0, b=around(end), **_STEEL)
+        why = f"b = {end:g} h, where other tables take over; the largest a is {a:g} h"
+        yield about(IMPACTS, "impact_sensitivities", why, given)
+        if end == contact_tables.FAR_REACH:  # its tables are those of the indentation
+            yield about(IMPACTS, "impact", why, given)
+
+
+def _history() -> Iterator[Case]:
+    R, m = _SPHERE.values()
+    h, b, reach = 1.0, 10.0, float(contact_tables.REACH)
+    v0 = _speed(1.1 * reach, h, b)
+    (crossing,) = contact_impact.history([reach], R, m, v0, h, b, LAM, MU, _FEW)
+    end = contact_impact.impact(R, m, v0, h, b, LAM, MU, _FEW).contact_time
+    same: dict[str, float] = {**_SPHERE, "v0": v0, "h": h, "b": b, **_STEEL}
+    for place, what in (
+        (float(crossing), f"the time when a = {reach:g} h, where the second polynomial comes in"),
+        (float(end) / 2, "the turning point, where the rate changes its sign"),
+    ):
+        yield about(IMPACTS, "history", what, exactly(t=around(place), **same))
+
+
+# --- simple impacts
+
+
+def _simple_impacts() -> Iterator[Case]:
+    inverse = float(simple_impact_tables.THIN)
+    thin = f"b = {inverse:g} h, beyond which c_1 is the thin plate's closed form"
+    yield from _estimates(thin, 1.0, around(inverse))
+    yield about(SIMPLE, "plate_of", thin, exactly(eta=around(1 / inverse)))
+    for mode in (1, 2, 17):
+        place = simple_impact_tables.FADED / (2 * float(j0_zero(mode, 80)))
+        why = f"h/b = {place:.4g}, beyond which mode {mode} is left out"
+        yield about(SIMPLE, "plate_of", why, exactly(eta=around(place)))
+        if mode == 1:
+            yield from _estimates(why, around(place), 1.0)
+    root = _root()
+    why = f"h/b = {root:.4f}, where c_1 passes zero"
+    yield about(SIMPLE, "plate_of", why, exactly(eta=around(root)))
+    yield from _estimates(why, around(root), 1.0)
+
+
+def _estimates(
+    why: str, h: float | tuple[float, ...], b: float | tuple[float, ...]
+) -> Iterator[Case]:
+    """Both laws, of a contact that is narrow beside thickness and radius."""
+    thickness, radius = (x if isinstance(x, float) else x[0] for x in (h, b))
+    speed = _speed(0.1 * min(thickness, radius), thickness, radius)
+    for kernel in ("hertz", "leading"):
+        given = exactly(**_SPHERE, v0=speed, h=h, b=b, **_STEEL)
+        yield about(SIMPLE, kernel, why, given)
+
+
+def _root() -> float:
+    """The double nearest to the h/b at which c_1, which falls there, passes zero: by halving."""
+    low, high = 0.5, 0.6
+    while low < (middle := (low + high) / 2) < high:
+        above = contact_balls.coefficient(1, middle, 1, 12) > 0
+        low, high = (middle, high) if above else (low, middle)
+    return min((low, high), key=lambda eta: abs(float(contact_balls.coefficient(1, eta, 1, 12))))
+
+
+# --- the paper's own motion
+
+
+def _paper() -> Iterator[Case]:
+    m, v0, xi_2, xi_3 = 72.0, 1.0, 7e6, 1e8
+    with flint.ctx.workprec(128):
+        last = float(printed_motion_balls.last_share(m, v0, xi_2, xi_3))
+    for power in (1, 2, 5):
+        u = 0.5**power
+        place = math.asin(last * (1 - u * u) ** 3) / math.sqrt(xi_2 / m)
+        given = exactly(t=around(place), m=m, v0=v0, xi_2=xi_2, xi_3=xi_3)
+        why = f"the time when u = {u:g}, where one panel of the integrals ends"
+        yield about(PAPER, "corrected", why, given)

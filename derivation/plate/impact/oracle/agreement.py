@@ -1,0 +1,79 @@
+"""Both oracles of the contact law side by side: neither is believed before they agree."""
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple
+
+import flint
+from flint import arb
+
+from derivation.engine.oracle.agreement import OracleError, to_ball
+from derivation.plate.contact.oracle import balls as contact_balls
+from derivation.plate.contact.oracle import forces as contact_forces
+from derivation.plate.contact.route import sums as contact_routes
+from derivation.plate.impact.oracle import impact as contact_impact
+
+SPARE = 2
+"""Digits asked of the first oracle beyond those the two must share."""
+
+
+class Agreement(NamedTuple):
+    """What both oracles say: the first one's balls, and to how many digits the second repeats it.
+
+    The digits count the balls' own width too: they are a lower bound.
+    """
+
+    values: tuple[arb, ...]
+    digits: float
+
+
+FIRST: Mapping[str, Callable[..., Any]] = {
+    "indentation": contact_balls.indentation,
+    "slope": contact_balls.slope,
+    "stiffness": contact_balls.stiffness,
+    "contact_radius": contact_balls.contact_radius,
+    "force": contact_forces.force,
+    "force_of_radius": contact_forces.force_of_radius,
+    "radius_of_force": contact_forces.radius_of_force,
+    "max_pressure": contact_forces.max_pressure,
+    "impact": contact_impact.impact,
+}
+"""Oracle 1, in ball arithmetic."""
+
+SECOND: Mapping[str, Callable[..., Any]] = {
+    "indentation": contact_routes.indentation,
+    "slope": contact_routes.slope,
+    "stiffness": contact_routes.stiffness,
+    "contact_radius": contact_routes.contact_radius,
+    "force": contact_forces.second_force,
+    "force_of_radius": contact_forces.second_force_of_radius,
+    "radius_of_force": contact_forces.second_radius_of_force,
+    "max_pressure": contact_forces.second_max_pressure,
+    "impact": contact_routes.impact,
+}
+"""Oracle 2, by sums over modes."""
+
+
+def agree(name: str, arguments: Sequence[float], digits: int = 40) -> Agreement:
+    """What both oracles give for a quantity.
+
+    Raises
+    ------
+    OracleError
+        If they differ by more than 10^-digits.
+    """
+    balls = _several(FIRST[name](*arguments, digits=digits + SPARE))
+    others = _several(SECOND[name](*arguments, digits=digits))
+    shared = math.inf
+    with flint.ctx.workprec(400):
+        for ball, other in zip(balls, others, strict=True):
+            apart = (abs(ball - to_ball(other)) / abs(ball)).abs_upper()
+            if not apart <= arb(10) ** -digits:
+                raise OracleError(f"{name} at {tuple(arguments)}: {ball} against {other}")
+            # Both may give the same exact number.
+            shared = min(shared, -math.log10(max(float(apart), 1e-99)))
+    return Agreement(balls, shared)
+
+
+def _several(found: Any) -> tuple[Any, ...]:
+    return tuple(found) if isinstance(found, tuple) else (found,)

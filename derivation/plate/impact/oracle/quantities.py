@@ -1,0 +1,188 @@
+"""Oracle 1 of what follows from the contact law: forces, the reversed series, the motion."""
+
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+
+import flint
+from flint import arb
+
+from derivation.engine.formula.ball import Exact, PrecisionError, to_ball
+from derivation.plate.contact.oracle import balls as contact_balls
+from derivation.plate.contact.oracle.balls import modulus, settle
+from derivation.plate.impact.oracle import impact as contact_impact
+
+_GRID, _STEPS = 8, 12
+_LEAST = 14
+_NEXT = 13
+"""Next to the turning point: 10^-_NEXT of the contact time and less."""
+
+Motion = tuple[Exact, Exact, Exact, Exact, Exact, Exact, Exact]
+"""R, m, v0, h, b, lam, mu of an impact."""
+
+
+def force_of_radius(a: Exact, R: Exact, lam: Exact, mu: Exact, digits: int = 50) -> arb:
+    """P = (4/3) E* a^3/R."""
+    return settle(
+        lambda _: (4 * modulus(lam, mu) * to_ball(a) ** 3 / (3 * to_ball(R)),), digits, "P"
+    )[0]
+
+
+def radius_of_force(P: Exact, R: Exact, lam: Exact, mu: Exact, digits: int = 50) -> arb:
+    """a = (3 P R/(4 E*))^(1/3)."""
+    return settle(
+        lambda _: ((3 * to_ball(P) * to_ball(R) / (4 * modulus(lam, mu))).root(3),), digits, "a"
+    )[0]
+
+
+def max_pressure(a: Exact, R: Exact, lam: Exact, mu: Exact, digits: int = 50) -> arb:
+    """3 P/(2 pi a^2) = 2 E* a/(pi R)."""
+    return settle(
+        lambda _: (2 * modulus(lam, mu) * to_ball(a) / (arb.pi() * to_ball(R)),), digits, "p_0"
+    )[0]
+
+
+def force(
+    delta: Exact, R: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact, digits: int = 50
+) -> arb:
+    """Force at an indentation, by way of the contact radius."""
+    a = contact_balls.contact_radius(delta, R, h, b, digits + 2)
+    with flint.ctx.workprec(4 * digits + 64):
+        return 4 * modulus(lam, mu) * a**3 / (3 * to_ball(R))
+
+
+def truncated_series(
+    delta: Exact, R: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact,
+    digits: int = 50, terms: int = 12,
+) -> tuple[arb, arb]:  # fmt: skip
+    """The first terms of the reversed series P(delta), and their magnitudes' sum over theirs.
+
+    p_n = 3/(n + 3) [A^n] (1 + c_1 A + c_3 A^3 + ...)^(-(n + 3)/2), eps = sqrt(R delta)/h.
+    """
+    with flint.ctx.workprec(8 * digits + 128):
+        law = [arb(1)] + [arb(0)] * (terms - 1)
+        for order in range(1, terms, 2):
+            law[order] = contact_balls.coefficient(order, h, b, digits + 10)
+        eps = (to_ball(R) * to_ball(delta)).sqrt() / to_ball(h)
+        shares = []
+        for n in range(terms):
+            coefficient = power(law, arb(flint.fmpq(-(n + 3), 2)))[n]
+            shares.append(arb(flint.fmpq(3, n + 3)) * coefficient * eps**n)
+        total = sum(shares, arb(0))
+        hertz = 4 * modulus(lam, mu) / 3 * (to_ball(R) * to_ball(delta)).sqrt() * to_ball(delta)
+        return hertz * total, sum(map(abs, shares), arb(0)) / abs(total)
+
+
+def power(series: Sequence[arb], exponent: arb) -> list[arb]:
+    """A power of a power series that begins with 1, to as many terms (Euler's recurrence)."""
+    found = [arb(1)]
+    for n in range(1, len(series)):
+        shares = ((exponent * k - (n - k)) * series[k] * found[n - k] for k in range(1, n + 1))
+        found.append(sum(shares, arb(0)) / n)
+    return found
+
+
+def state(
+    t: Exact, R: Exact, m: Exact, v0: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact,
+    digits: int = 40, law: Callable[[int], contact_impact.Law] | None = None,
+) -> tuple[arb, arb, arb, arb]:  # fmt: skip
+    """Indentation, its rate, contact radius and force at a time since the first touch.
+
+    `law` is as for `impact.impact`. The contact radius is found by Newton's iteration on
+    the times that it is reached at, certified by a time on either side; the rate follows from
+    the energy. Next to the turning point a power series serves, see `_turned`.
+
+    Raises
+    ------
+    PrecisionError
+        If the ends do not enclose the time.
+    """
+    motion: Motion = (R, m, v0, h, b, lam, mu)
+    course = contact_impact.impact(*motion, digits + 8, law)
+    with flint.ctx.workprec(8 * digits + 64):
+        if abs(to_ball(t) / course.contact_time - 0.5) < arb(10) ** -_NEXT:
+            return _turned(t, contact_impact.impact(*motion, digits + 2 * _NEXT, law), motion)
+        left = course.contact_time - to_ball(t)
+        if t <= 0 or left <= 0:
+            return arb(0), to_ball(v0) * (1 if t <= 0 else -1), arb(0), arb(0)
+        falling = bool(left < to_ball(t))
+        goal = left if falling else to_ball(t)
+    a = _start(goal, course, motion, law)
+    for step in range(_STEPS):
+        shown = min(digits + 8, _LEAST * 2**step)
+        (reached,) = contact_impact.history([a], *motion, shown, law)
+        with flint.ctx.workprec(8 * digits + 64):
+            rate = _speed(a, motion, shown) / contact_balls.slope(a, R, h, b, shown)
+            change = (goal - reached) * rate
+            a = fraction(to_ball(a) + change)
+            if shown == digits + 8 and abs(change) < to_ball(a) * arb(10) ** -(digits + 2):
+                break
+    with flint.ctx.workprec(8 * digits + 64):
+        width = to_ball(a) * arb(10) ** -(digits + 1)
+        low, high = fraction(to_ball(a) - width), fraction(to_ball(a) + width)
+        before, after = contact_impact.history([low, high], *motion, digits + 6, law)
+        if not (before < goal < after):
+            raise PrecisionError(f"the state at {t} is not enclosed by {low} and {high}")
+        speeds = (_speed(end, motion, digits + 6) for end in (low, high))
+        speed = next(speeds).union(next(speeds))
+        depths = (contact_balls.indentation(end, R, h, b, digits + 6) for end in (low, high))
+        depth = next(depths).union(next(depths))
+        radius = to_ball(low).union(to_ball(high))
+        load = 4 * modulus(lam, mu) * radius**3 / (3 * to_ball(R))
+        return depth, -speed if falling else speed, radius, load
+
+
+def _turned(t: Exact, course: contact_impact.Impact, motion: Motion) -> tuple[arb, arb, arb, arb]:
+    """The state next to the turning point, at the precision now set.
+
+    m z'' = -P(z) from rest at z_m, with K = dP/dz there: in powers of x = (K/m) tau^2,
+
+        z = z_m - (P_m/K) (x/2 - x^2/24 ...),  z' = -(P_m/m) tau (1 - x/6 ...)
+
+    What is left out is of the order of x^2 beside what is kept, below 10^-50; ten times as much
+    is put on as the radius, which is an estimate and no proof.
+    """
+    R, m, _, h, b, lam, mu = motion
+    tau = to_ball(t) - course.contact_time / 2
+    a = fraction(course.max_contact_radius)
+    force = course.max_force
+    stiff = contact_balls.stiffness(a, R, h, b, lam, mu, 4 * _NEXT)
+    x = stiff / to_ball(m) * tau**2
+    doubt = arb(1, (10 * x).abs_upper())
+    sunk = force / stiff * x / 2 * (1 - x / 12 * doubt)
+    speed = -force / to_ball(m) * tau * (1 - x / 6 * doubt)
+    load = force * (1 - x / 2 * doubt)
+    radius = (3 * load * to_ball(R) / (4 * modulus(lam, mu))).root(3)
+    return course.max_indentation - sunk, speed, radius, load
+
+
+def _start(
+    goal: arb, course: contact_impact.Impact, motion: Motion,
+    law: Callable[[int], contact_impact.Law] | None,
+) -> Fraction:  # fmt: skip
+    """Contact radius a_m (1 - u^2) near a time, u interpolated between times of a grid.
+
+    In the first panel it is a root of the time, as in free flight.
+    """
+    largest, grid = fraction(course.max_contact_radius), range(1, _GRID)
+    radii = [largest * (1 - (1 - Fraction(k, _GRID)) ** 2) for k in grid]
+    times = [float(time) for time in contact_impact.history(radii, *motion, _LEAST, law)]
+    if float(goal) <= times[0]:
+        return radii[0] * fraction((goal / times[0]).sqrt())
+    ends = [*times, float(course.contact_time) / 2]
+    panel = next((k for k, late in enumerate(ends) if float(goal) <= late), len(times))
+    early, late = ends[panel - 1 : panel + 1]
+    u = 1 - (panel + Fraction((float(goal) - early) / (late - early))) / _GRID
+    return largest * (1 - u**2)
+
+
+def _speed(a: Exact, motion: Motion, digits: int) -> arb:
+    """Speed at a contact radius, from the energy that is left."""
+    R, m, v0, h, b, lam, mu = motion
+    stored = contact_impact.stored_energy(a, R, h, b, lam, mu, digits)
+    return (to_ball(v0) ** 2 - 2 * stored / to_ball(m)).sqrt()
+
+
+def fraction(ball: arb) -> Fraction:
+    """Midpoint of a ball, exactly."""
+    mantissa, exponent = ball.mid().man_exp()
+    return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)

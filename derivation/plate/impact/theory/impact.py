@@ -1,0 +1,375 @@
+"""Link 16: the sphere's motion: energy integral (13), contact time, linearisation (15) to (18).
+
+m delta'' + P(delta) = 0 has the integral m delta'^2/2 + int P d delta = m v0^2/2.
+With the right law both P and delta are polynomials in the contact radius a, so
+the contact time is an integral over q = a/a_m; its root at q = 1 divides out.
+"""
+
+from functools import cache
+
+import sympy as sp
+
+from derivation.engine.formula.proof import Proof, prove
+from derivation.plate.contact.theory.divergence import truncated_gamma
+from derivation.plate.contact.theory.hertz import contact_radius
+from derivation.plate.contact.theory.reversion import force_formulas
+from derivation.plate.vocabulary import D, Formula, R, a, delta, delta_0, h, m, t, u_t, v0, xi_k
+
+_q = sp.Symbol("q", positive=True)
+_a_m = sp.Symbol("a_m", positive=True)
+SHOWN = 3
+"""How many D_3, D_5, ... the recorded contact-time integrand carries."""
+
+
+def formal_force(at: sp.Expr, last: int = 3) -> sp.Expr:
+    """sum over k = 2 ... last of xi_k delta^((2k-1)/3), the paper's form of the force."""
+    return sp.Add(*(xi_k[i] * at ** sp.Rational(2 * i - 1, 3) for i in range(2, last + 1)))
+
+
+@cache
+def formal_speed_squared() -> sp.Expr:
+    """delta'^2 as a function of delta: v0^2 - 2/m int P d delta."""
+    work = sp.integrate(sp.expand(formal_force(delta)), (delta, 0, delta))
+    return v0**2 - sp.expand(2 / m * work)
+
+
+@cache
+def motion() -> tuple[Formula, Formula]:
+    """(11) and (13) with the force's first two terms."""
+    force = formal_force(delta)
+    squared = formal_speed_squared()
+    # d/dt (delta'^2) = 2 delta' delta'', and delta'' = -P/m.
+    acceleration = -force / m
+    proof = prove(
+        "Energy integral",
+        "delta'^2 is differentiated along the motion, and is v0^2 at delta = 0.",
+        {
+            "along the motion": sp.diff(squared, delta) - 2 * acceleration,
+            "start": squared.subs(delta, 0) - v0**2,
+        }
+        | {
+            f"term {i}": squared.coeff(xi_k[i])
+            + 3 / (m * (i + 1)) * delta ** sp.Rational(2 * (i + 1), 3)
+            for i in (2, 3)
+        },
+    )
+    return (
+        Formula(
+            "acceleration",
+            r"\ddot{\delta}",
+            "acceleration of the sphere, the force cut after its second term",
+            acceleration,
+            "m/s^2",
+            "11",
+            ("xi_2", "xi_3"),
+            proof,
+        ),
+        Formula(
+            "speed",
+            r"\dot{\delta}",
+            "velocity of the sphere, the force cut after its second term",
+            sp.sqrt(squared),
+            "m/s",
+            "13",
+            ("acceleration",),
+            proof,
+        ),
+    )
+
+
+def weight(n: int) -> sp.Expr:
+    """D_n: D_2 = 1, D_(2k-1) = c_(2k-3) (a_m/h)^(2k-3)."""
+    return sp.Integer(1) if n == 2 else D[n]
+
+
+def orders(shown: int = SHOWN) -> tuple[int, ...]:
+    """The n of D_n: 2, 3, 5, 7, ..."""
+    return (2, *(2 * i + 1 for i in range(1, shown + 1)))
+
+
+def geometric(n: int, q: sp.Expr) -> sp.Expr:
+    """1 + q + ... + q^(n-1)."""
+    return sp.Add(*(q**i for i in range(n)))
+
+
+@cache
+def work_of_contact(shown: int = SHOWN) -> sp.Expr:
+    """sum n D_n/(n + 3), the work up to a_m over C a_m^5, C = 4 E*/(3 R^2)."""
+    return sp.Add(*(sp.Rational(n, n + 3) * weight(n) for n in orders(shown)))
+
+
+@cache
+def contact_time(shown: int = SHOWN) -> tuple[Formula, ...]:
+    """The contact-time integrand, the largest work, and where both come from.
+
+    delta = (a_m^2/R) sum D_n q^n and P = C R a_m^3 q^3: the work between q and 1 is
+    C a_m^5 sum n D_n/(n+3) (1 - q^(n+3)), each term of which holds the factor 1 - q.
+    With q = 1 - u^2 this is u^2, its root cancels dq = -2 u du, and the integrand
+    2 (sum n D_n q^(n-1))/sqrt(sum n D_n/(n+3) geo_(n+3)(q)) is analytic in u.
+    """
+    q = 1 - u_t**2
+    rate = sp.Add(*(n * weight(n) * q ** (n - 1) for n in orders(shown)))
+    stored = sp.Add(
+        *(sp.Rational(n, n + 3) * weight(n) * geometric(n + 3, q) for n in orders(shown))
+    )
+    integrand = 2 * rate / sp.sqrt(stored)
+    proof = prove_contact_time(shown, integrand)
+    return (
+        Formula(
+            "contact_integrand",
+            r"\mathrm{d}I/\mathrm{d}u",
+            "q = 1 - u^2; half the contact time is sqrt(m/2) (a_m^2/R)/sqrt(C a_m^5) times its "
+            "integral",
+            integrand,
+            "1",
+            "13",
+            ("delta_reduced", "P"),
+            proof,
+            stated=_in_quotients(shown),
+        ),
+        Formula(
+            "contact_work",
+            r"\frac{m v_0^2}{2 C a_m^5}",
+            "energy of impact over C a_m^5, which determines a_m",
+            work_of_contact(shown),
+            "1",
+            "13",
+            ("delta_reduced", "P"),
+            proof,
+        ),
+    )
+
+
+def _in_quotients(shown: int) -> sp.Expr:
+    """The integrand as it is read, in q = a/a_m: geometric sums as (1 - q^n)/(1 - q)."""
+    rate = sp.Add(*(n * weight(n) * _q ** (n - 1) for n in orders(shown)))
+    stored = sp.Add(
+        *(sp.Rational(n, n + 3) * weight(n) * (1 - _q ** (n + 3)) for n in orders(shown))
+    )
+    return 2 * sp.sqrt(1 - _q) * rate / sp.sqrt(stored)
+
+
+def prove_contact_time(shown: int, integrand: sp.Expr) -> Proof:
+    """Energy, its factor 1 - q, and the substitution, each with all D_n at once."""
+    scale = contact_radius().expression / a**3
+    C = scale / R
+    travel = _a_m**2 / R * sp.Add(*(weight(n) * _q**n for n in orders(shown)))
+    force = scale * (_a_m * _q) ** 3
+    done = sp.integrate(sp.expand(force * sp.diff(travel, _q)), (_q, 0, _q))
+    total = C * _a_m**5 * work_of_contact(shown)
+    left = sp.Add(
+        *(sp.Rational(n, n + 3) * weight(n) * geometric(n + 3, _q) for n in orders(shown))
+    )
+    # (dt/dq)^2 = (d travel/dq)^2/speed^2 against the square of prefactor, integrand, du/dq.
+    speed_squared = 2 / m * (total - done)
+    prefactor_squared = m / 2 * _a_m**4 / R**2 / (C * _a_m**5)
+    by_u = (integrand**2).subs(u_t, sp.sqrt(1 - _q)) / (4 * (1 - _q))
+    return prove(
+        "Contact time",
+        "int P d delta by a; 1 - q^(n+3) = (1 - q)(1 + q + ... + q^(n+2)); q = 1 - u^2.",
+        {
+            "work": total - done.subs(_q, 1),
+            "factor": sp.expand(total - done - C * _a_m**5 * (1 - _q) * left),
+            "time": sp.diff(travel, _q) ** 2 - speed_squared * prefactor_squared * by_u,
+        },
+    )
+
+
+@cache
+def hertz_time() -> Formula:
+    """Contact time of the half-space over delta_max/v0: 2 int_0^1 dx/sqrt(1 - x^(5/2)).
+
+    x = s^(2/5) turns it into Euler's Beta integral B(2/5, 1/2).
+    """
+    s = sp.Symbol("s", positive=True)
+    x = s ** sp.Rational(2, 5)
+    integrand = sp.diff(x, s) / sp.sqrt(1 - sp.powdenest(x ** sp.Rational(5, 2), force=True))
+    euler = s ** (sp.Rational(2, 5) - 1) * (1 - s) ** (sp.Rational(1, 2) - 1)
+    share = sp.simplify(integrand / euler)
+    value = 2 * share * sp.gamma(sp.Rational(2, 5)) * sp.sqrt(sp.pi) / sp.gamma(sp.Rational(9, 10))
+    largest = sp.Symbol("d", positive=True)
+    C = sp.Symbol("C", positive=True)
+    # a_m from the work, and the prefactor of I, with D_2 alone.
+    speed = sp.sqrt(2 * C * _a_m**5 * work_of_contact(0) / m)
+    prefactor = sp.sqrt(m / 2) * largest / sp.sqrt(C * _a_m**5)
+    ratio = sp.simplify(prefactor * speed / largest)
+    q = 1 - u_t**2
+    direct = sp.sqrt(sp.Rational(2, 5)) * 4 * q / sp.sqrt(sp.Rational(2, 5) * geometric(5, q))
+    proof = prove(
+        "Hertz's contact time",
+        "The substitution x = s^(2/5) in Euler's Beta integral; x = q^2, q = 1 - u^2 in the "
+        "integral of the contact time with D_2 alone.",
+        {
+            "Beta": integrand - share * euler,
+            "prefactor": ratio - sp.sqrt(work_of_contact(0)),
+            "same integral": direct**2 - 16 * q**2 * u_t**2 / sp.expand(1 - q**5),
+        },
+    )
+    return Formula(
+        "hertz_time",
+        r"2 t_c v_0/\delta_{\max}",
+        "contact time on the half-space over largest indentation by velocity",
+        value,
+        "1",
+        "13",
+        ("contact_integrand",),
+        proof,
+    )
+
+
+@cache
+def linear_motion() -> Formula:
+    """(15): the motion under the force's first term, xi_2 delta."""
+    value = v0 * sp.sqrt(m / xi_k[2]) * sp.sin(sp.sqrt(xi_k[2] / m) * t)
+    proof = prove(
+        "Linear motion",
+        "It solves m delta'' + xi_2 delta = 0 with delta(0) = 0 and delta'(0) = v0.",
+        {
+            "equation": m * sp.diff(value, t, 2) + xi_k[2] * value,
+            "place": value.subs(t, 0),
+            "velocity": sp.diff(value, t).subs(t, 0) - v0,
+        },
+    )
+    return Formula(
+        "delta_0",
+        r"\delta_0(t)",
+        "indentation under the force's first term alone",
+        value,
+        "m",
+        "15",
+        ("acceleration",),
+        proof,
+    )
+
+
+def linearised(force: sp.Expr, first: sp.Expr, at: sp.Symbol) -> tuple[sp.Expr, sp.Expr]:
+    """F and G of eta' + F eta + G = 0 for any force and any first part of it, both in `at`.
+
+    delta' = V(delta), delta_0' = V_0(delta_0), V^2 = v0^2 - 2/m int P: with
+    delta = delta_0 + eta, eta' = V(delta_0) - V_0(delta_0) + V'(delta_0) eta, so
+    that F = -V' = P/(m V) and G = V_0 - V.
+    """
+    V, V_0 = (
+        sp.sqrt(v0**2 - sp.expand(2 / m * sp.integrate(sp.expand(part), (at, 0, at))))
+        for part in (force, first)
+    )
+    return force / (m * V), V_0 - V
+
+
+@cache
+def linearisation() -> tuple[Formula, ...]:
+    """(17), (18) and the radicand at the linear motion's largest indentation."""
+    force = formal_force(delta_0)
+    first = formal_force(delta_0, 2)
+    F, G = linearised(force, first, delta_0)
+    squared = formal_speed_squared().subs(delta, delta_0)
+    V = sp.sqrt(squared)
+    turned = v0 * sp.sqrt(m / xi_k[2])
+    at_turning = sp.powdenest(sp.expand(squared.subs(delta_0, turned)), force=True)
+    # (16): eta = (C - I) e^-S with I' = G e^S, S' = F.
+    C, integral, S, source, rate = sp.symbols("C I S G F", real=True)
+    solution = (C - integral) * sp.exp(-S)
+    slope = sp.diff(solution, integral) * source * sp.exp(S) + sp.diff(solution, S) * rate
+    proof = prove(
+        "Linearisation",
+        "V(delta_0 + eta) - V_0(delta_0) is expanded to first order in eta; (16) is put into "
+        "eta' + F eta + G = 0; the radicand is taken where V_0 vanishes.",
+        {
+            "F": F + sp.diff(V, delta_0),
+            "G": G - (sp.sqrt(v0**2 - xi_k[2] / m * delta_0**2) - V),
+            "solution": slope + rate * solution + source,
+            "turning point": (v0**2 - xi_k[2] / m * delta_0**2).subs(delta_0, turned),
+        },
+    )
+
+    def record(name: str, symbol: str, what: str, value: sp.Expr, unit: str, eq: str) -> Formula:
+        return Formula(name, symbol, what, value, unit, eq, ("speed", "delta_0"), proof)
+
+    return (
+        record("F_1", "F(t)", "coefficient of the correction's equation", F, "1/s", "17"),
+        record("G_1", "G(t)", "source of the correction's equation", G, "m/s", "18"),
+        record(
+            "radicand_at_turn",
+            r"\dot{\delta}^2(\delta_{0,\max})",
+            "radicand of (17), (18) at the linear motion's turning point",
+            at_turning,
+            "m^2/s^2",
+            "18",
+        ),
+    )
+
+
+@cache
+def linearisation_about_hertz() -> tuple[Formula, Formula]:
+    """F and G about Hertz's motion, which the right law begins with instead of a linear one.
+
+    The force is Hertz's, k delta^(3/2), times 1 + p_1 eps with eps = sqrt(R delta)/h.
+    """
+    hertz, p_1 = force_formulas(1)[1].expression, force_formulas(1)[0].expression
+    first = hertz.subs(delta, delta_0)
+    force = first * (1 + p_1 * sp.sqrt(R * delta_0) / h)
+    F, G = linearised(force, first, delta_0)
+    x = sp.Symbol("x", positive=True)
+    stiffness = first / delta_0 ** sp.Rational(3, 2)
+    squares = [
+        v0**2 - 2 / m * stiffness * (sp.Rational(2, 5) * x**5 + extra)
+        for extra in (p_1 * sp.sqrt(R) / h * x**6 / 3, 0)
+    ]
+    V, V_0 = (sp.sqrt(square.subs(x, sp.sqrt(delta_0))) for square in squares)
+    proof = prove(
+        "Linearisation about Hertz's motion",
+        "The velocities' squares by hand; F is minus the derivative of the perturbed one.",
+        {"F": F + sp.diff(V, delta_0), "G": G - V_0 + V},
+    )
+    sources = ("P_half", "p_1", "speed")
+    return (
+        Formula(
+            "F_hertz",
+            r"F_H(t)",
+            "coefficient of the correction to Hertz's motion",
+            F,
+            "1/s",
+            "17",
+            sources,
+            proof,
+        ),
+        Formula(
+            "G_hertz",
+            r"G_H(t)",
+            "source of the correction to Hertz's motion",
+            G,
+            "m/s",
+            "18",
+            sources,
+            proof,
+        ),
+    )
+
+
+def validity() -> str:
+    """Up to where (16) to (18) have real values, from the radicand at the turning point.
+
+    The sign of xi_3 = -gamma_3/gamma_2^(8/3) is that of -gamma_3, however many
+    modes are kept for it.
+    """
+    negative = truncated_gamma(3).expression.is_negative
+    x = sp.Symbol("x", positive=negative, negative=not negative)
+    if linearisation()[2].expression.subs(xi_k[3], x).is_negative:
+        return (
+            "xi_3 is positive, so the radicand of (17) and (18) is negative at the linear "
+            "motion's turning point: it vanishes before, at the smallest delta_0 with "
+            f"{sp.sstr(formal_speed_squared())} = 0, and beyond there is no real correction"
+        )
+    return "the radicand of (17) and (18) stays positive up to the linear motion's turning point"
+
+
+def impact() -> tuple[Formula, ...]:
+    """The motion's formulas."""
+    return (
+        *motion(),
+        *contact_time(),
+        hertz_time(),
+        linear_motion(),
+        *linearisation(),
+        *linearisation_about_hertz(),
+    )

@@ -1,0 +1,382 @@
+"""Link 17: slopes of the contact law, and what every parameter does to an impact's results.
+
+Put a = h A into the energy integral: A_m depends on the energy number
+Y = m v0^2/2 over (4/3) E* h^5/R^2, and on eta = h/b. Every result is a product of powers
+of the parameters times a function of these two. Where results change smoothly they are
+locally Y^p eta^q: seven logarithmic derivatives follow from p and q, and
+
+    p of A_m = E/(2 U),   q = -E_eta/(2 U),   A^5 E = int_0^A x^3 d(x^2 (1 + F)),
+
+with 2 U = sum n D_n, E = sum n D_n/(n + 3) of link 16. The contact time is
+sqrt(m/(E* h)) A_m^(-1/2) I up to a number: its integrand has no singularity to move.
+"""
+
+from collections.abc import Callable, Mapping
+from functools import cache
+
+import sympy as sp
+
+from derivation.engine.formula.dimension import Dimension
+from derivation.engine.formula.dimension import unit as dimension_of
+from derivation.engine.formula.proof import Proof, prove
+from derivation.plate.contact.theory.hertz import contact_radius
+from derivation.plate.contact.theory.plate_series import small_contact
+from derivation.plate.contact.theory.split import reduced_split, wall_bracket
+from derivation.plate.impact.theory.impact import contact_time, orders, work_of_contact
+from derivation.plate.modes.theory.plate_factor import plate_factor_slope, plate_factors
+from derivation.plate.vocabulary import (
+    BY_NAME,
+    J1,
+    D,
+    D_eta,
+    Formula,
+    R,
+    T,
+    a,
+    a_ratio,
+    alpha,
+    b,
+    c_A,
+    eta,
+    h,
+    j_n,
+    lam,
+    m,
+    mu,
+    u_t,
+    v0,
+)
+
+PARAMETERS = (R, m, v0, h, b, lam, mu)
+"""A scene's parameters, in the order of the generated functions."""
+RESULTS = {
+    "contact_time": "s",
+    "max_indentation": "m",
+    "max_force": "N",
+    "max_contact_radius": "m",
+}
+"""Results of an impact with their units, in the order of the generated functions."""
+
+_p, _q, _y = sp.symbols("p q y", positive=True)
+_A = sp.Symbol("A_m", positive=True)
+_MODULUS = sp.Symbol("E", positive=True)
+Change = Callable[[int], sp.Expr]
+
+
+def reduced_modulus() -> sp.Expr:
+    """E* from the force of link 8, P = (4/3) E* a^3/R."""
+    return sp.Rational(3, 4) * contact_radius().expression * R / a**3
+
+
+def energy_scale() -> sp.Expr:
+    """(4/3) E* h^5/R^2, with a symbol for E*."""
+    return sp.Rational(4, 3) * _MODULUS * h**5 / R**2
+
+
+@cache
+def energy_number() -> Formula:
+    """The energy of impact over (4/3) E* h^5/R^2; what A_m depends on beside h/b."""
+    value = m * v0**2 / 2 / energy_scale().subs(_MODULUS, reduced_modulus())
+    C = contact_radius().expression / a**3 / R
+    proof = prove(
+        "Energy number",
+        "C a_m^5 sum n D_n/(n + 3) = m v0^2/2 with a_m = h A_m.",
+        {"energy": C * (h * _A) ** 5 - _A**5 * m * v0**2 / 2 / value},
+    )
+    sources = ("contact_work", "P")
+    return Formula(
+        "energy_number",
+        r"\mathcal{Y}",
+        "energy of impact over (4/3) E* h^5/R^2",
+        sp.factor(value),
+        "1",
+        "13",
+        sources,
+        proof,
+    )
+
+
+# --- slopes of the law
+
+
+@cache
+def law_slopes() -> tuple[Formula, ...]:
+    """d delta/da by its series, and the modes' part of d delta/da and of h dF/dh."""
+    series = small_contact().expression
+    delta = a**2 / R * series.subs(a_ratio, a / h)
+    slope = a / R * (2 + sp.Add(*((n + 2) * c * (a / h) ** n for n, c in _shown(series).items())))
+    wall, mode = reduced_split()
+    weight = plate_factors()[2].expression.subs(T, 2 * eta * j_n) / (j_n * J1**2)
+    excess_slope = plate_factor_slope().expression.subs(T, 2 * eta * j_n)
+    sinc = 4 * alpha / sp.pi * sp.sin(alpha * j_n) / (alpha * j_n) * weight
+    y = alpha * j_n
+    shape = 3 * (sp.sin(y) - y * sp.cos(y)) / y**3
+    deeper = 8 * alpha / (3 * sp.pi) * shape * excess_slope / (j_n * J1**2)
+    bracket = -8 / sp.pi**2 * wall_bracket(alpha)
+    side = -4 / sp.pi**2 * sp.sinh(alpha * _y) / _y
+    proof = prove(
+        "Slopes of the contact law",
+        "The series is differentiated by a; the split times alpha^2 by alpha, and at fixed alpha "
+        "by log(h/b).",
+        {
+            "series": sp.diff(delta, a) - slope,
+            "mode": sp.diff(alpha**2 * mode.expression, alpha) / (2 * alpha) - sinc,
+            "side wall": sp.diff(bracket, alpha) / (2 * alpha) - side,
+            "side wall's weight": wall.expression.function * alpha**2
+            - bracket
+            * sp.besselk(0, wall.expression.variables[0])
+            / sp.besseli(0, wall.expression.variables[0]),
+            "thickness": eta * sp.diff(mode.expression, eta) - deeper,
+        },
+    )
+    return (
+        Formula(
+            "delta_slope",
+            r"\mathrm{d}\delta/\mathrm{d}a",
+            "indentation added per contact radius added, for a < 4 h and a < b",
+            slope,
+            "1",
+            "6",
+            ("delta_reduced",),
+            proof,
+        ),
+        Formula(
+            "slope_modes",
+            r"\frac{R}{2a}\frac{\mathrm{d}\delta_h}{\mathrm{d}a}",
+            "thickness' part of d delta/da over that of the half-space",
+            sinc,
+            "1",
+            "6",
+            ("F_modes",),
+            proof,
+            summed=True,
+        ),
+        Formula(
+            "F_thickness",
+            r"h\,\partial F/\partial h",
+            "what delta R/a^2 gains as log h grows, at fixed a and b",
+            deeper,
+            "1",
+            "6",
+            ("F_modes", "G_slope"),
+            proof,
+            summed=True,
+        ),
+    )
+
+
+def _shown(series: sp.Expr) -> dict[int, sp.Symbol]:
+    """The coefficients of a series in A by their order."""
+    return {n: c for n, c in c_A.items() if series.has(c)}
+
+
+# --- scaling
+
+
+def power_laws() -> dict[str, sp.Expr]:
+    """Each result's powers of the parameters, beside its function of energy number and eta."""
+    travel = h**2 / R
+    # Half the contact time is sqrt(m/2) (a_m^2/R) I/sqrt(C a_m^5), a_m = h A_m.
+    C = energy_scale() / h**5
+    time = sp.sqrt(m / 2) * travel / sp.sqrt(C * h**5)
+    force = sp.Rational(4, 3) * _MODULUS * h**3 / R
+    laws = {"contact_time": 2 * time, "max_indentation": travel, "max_force": force}
+    return {**laws, "max_contact_radius": h}
+
+
+def logarithmic(expression: sp.Expr) -> tuple[sp.Rational, ...]:
+    """Exponents of R, m, v0, h, b and E* in a product of powers."""
+    logarithm = sp.expand_log(sp.log(expression), force=True)
+    return tuple(sp.simplify(x * sp.diff(logarithm, x)) for x in (*PARAMETERS[:5], _MODULUS))
+
+
+@cache
+def exponents() -> dict[str, tuple[sp.Rational, ...]]:
+    """Exponents of R, m, v0, h, b and E*: in every result, in `energy` and in `eta`."""
+    found = {name: logarithmic(law) for name, law in power_laws().items()}
+    energy = logarithmic(m * v0**2 / 2 / energy_scale())
+    return {**found, "energy": energy, "eta": logarithmic(h / b)}
+
+
+@cache
+def scaling() -> Proof:
+    """Units do not matter: derivatives weighted by dimensions give the result's dimension."""
+    stress = dimension_of("Pa")
+    units = [*(dimension_of(BY_NAME[str(x)].unit) for x in PARAMETERS[:5]), stress]
+    table = exponents()
+    residuals = {}
+    for name, unit in RESULTS.items():
+        rows = zip(table[name], table["energy"], table["eta"], strict=True)
+        totals = [own + _p * energy + _q * ratio for own, energy, ratio in rows]
+        for basis in ("length", "mass", "time"):
+            terms = (_part(u, basis) * x for u, x in zip(units, totals, strict=True))
+            residuals[f"{name}, {basis}"] = sp.expand(
+                sp.Add(*terms) - _part(dimension_of(unit), basis)
+            )
+    return prove(
+        "Scaling of an impact",
+        "A result is a product of powers times Y^p eta^q, for any p and q.",
+        residuals,
+    )
+
+
+def _part(unit: Dimension, basis: str) -> sp.Rational:
+    value = getattr(unit, basis)
+    return sp.Rational(value.numerator, value.denominator)
+
+
+@cache
+def modulus_slope() -> Formula:
+    """d log E*/d log lam; d log E*/d log mu is what is missing to 1."""
+    logarithm = sp.log(reduced_modulus())
+    value = lam * mu / ((lam + mu) * (lam + 2 * mu))
+    proof = prove(
+        "Slopes of the modulus",
+        "The logarithm of E* is differentiated; E* is homogeneous of degree 1.",
+        {
+            "lam": lam * sp.diff(logarithm, lam) - value,
+            "mu": mu * sp.diff(logarithm, mu) - (1 - value),
+        },
+    )
+    return Formula(
+        "modulus_by_lam",
+        r"\partial\log E^*/\partial\log\lambda",
+        "share of lam in the modulus; that of mu is the rest to 1",
+        value,
+        "1",
+        "7",
+        ("P",),
+        proof,
+    )
+
+
+# --- an impact by its energy and by h/b
+
+
+def weighted(weights: Mapping[int, sp.Expr], share: Callable[[int], sp.Expr]) -> sp.Expr:
+    """The sum of D_n times a share of each n."""
+    return sp.Add(*(share(n) * weight for n, weight in weights.items()))
+
+
+def _weights() -> dict[int, sp.Expr]:
+    return {n: sp.Integer(1) if n == 2 else D[n] for n in orders()}
+
+
+def _eta_weights() -> dict[int, sp.Expr]:
+    return {n: sp.Integer(0) if n == 2 else D_eta[n] for n in orders()}
+
+
+@cache
+def peaks() -> tuple[Formula, ...]:
+    """Logarithmic derivatives of largest radius and indentation by energy number and eta."""
+    D_n, slopes = _weights(), _eta_weights()
+    work = weighted(D_n, lambda n: sp.Rational(n, n + 3))
+    rise, lift = weighted(D_n, sp.Integer), weighted(D_n, lambda _: sp.Integer(1))
+    work_slope = weighted(slopes, lambda n: sp.Rational(n, n + 3))
+    lift_slope = weighted(slopes, lambda _: sp.Integer(1))
+    by_energy, by_eta = work / rise, -work_slope / rise
+    depth_by_energy, depth_by_eta = work / lift, (lift_slope - work_slope) / lift
+
+    def grown(value: sp.Expr) -> sp.Expr:
+        """The derivative by log A_m: D_n goes with A^(n - 2)."""
+        return sp.Add(*((n - 2) * D[n] * sp.diff(value, D[n]) for n in orders()[1:]))
+
+    def deeper(value: sp.Expr) -> sp.Expr:
+        return sp.Add(*(D_eta[n] * sp.diff(value, D[n]) for n in orders()[1:]))
+
+    energy_by_radius = (grown(work) + 5 * work) / work
+    energy_by_eta = deeper(work) / work
+    depth = (grown(lift) + 2 * lift) / lift
+    proof = prove(
+        "Peaks by energy and thickness",
+        "A^5 E is the energy number, A^2 (1 + F) the indentation: A moves so that the former "
+        "grows, or stays while eta grows.",
+        {
+            "work": work - work_of_contact(),
+            "by energy": energy_by_radius * by_energy - 1,
+            "by eta": energy_by_radius * by_eta + energy_by_eta,
+            "indentation by energy": depth * by_energy - depth_by_energy,
+            "indentation by eta": depth * by_eta + deeper(lift) / lift - depth_by_eta,
+        },
+    )
+    rows = (
+        ("radius_by_energy", r"\partial\log a_m/\partial\log\mathcal{Y}", by_energy),
+        ("radius_by_thickness", r"\partial\log(a_m/h)/\partial\log\eta", by_eta),
+        ("depth_by_energy", r"\partial\log\delta_m/\partial\log\mathcal{Y}", depth_by_energy),
+        ("depth_by_thickness", r"\partial\log(\delta_m/h^2)/\partial\log\eta", depth_by_eta),
+    )
+    meanings = (
+        "growth of the largest contact radius with the energy; the force's is three times this",
+        "growth of a_m/h with h/b at fixed energy number",
+        "growth of the largest indentation with the energy",
+        "growth of delta R/h^2 with h/b at fixed energy number",
+    )
+    return tuple(
+        Formula(name, latex, meaning, value, "1", "13", ("contact_work",), proof)
+        for (name, latex, value), meaning in zip(rows, meanings, strict=True)
+    )
+
+
+@cache
+def times() -> tuple[Formula, ...]:
+    """How the contact time's integrand changes with log A_m and, at fixed A_m, with log eta.
+
+    With N = sum n D_n q^(n-1), S = sum n D_n/(n+3) (1 + ... + q^(n+2)) the integrand is
+    2 N/sqrt(S) and changes by 2 (N' - N S'/(2 S))/sqrt(S); q stays, and nothing is singular.
+    """
+    integrand = contact_time()[0].expression
+    q = 1 - u_t**2
+    D_n = _weights()
+
+    def parts(weights: Mapping[int, sp.Expr]) -> tuple[sp.Expr, sp.Expr]:
+        stored = weighted(
+            weights, lambda n: sp.Rational(n, n + 3) * sp.Add(*(q**i for i in range(n + 3)))
+        )
+        return weighted(weights, lambda n: n * q ** (n - 1)), stored
+
+    N, S = parts(D_n)
+    n_0, s_0, n_1, s_1 = sp.symbols("N S N_1 S_1", positive=True)
+    rule = 2 * (n_1 - n_0 * s_1 / (2 * s_0)) / sp.sqrt(s_0)
+    whole = 2 * n_0 / sp.sqrt(s_0)
+    proofs = {
+        "integrand": integrand - whole.subs({n_0: N, s_0: S}),
+        "rule": sp.diff(whole, n_0) * n_1 + sp.diff(whole, s_0) * s_1 - rule,
+    }
+    values = {}
+    for name, slope in (
+        ("radius", {n: (n - 2) * weight for n, weight in D_n.items()}),
+        ("thickness", _eta_weights()),
+    ):
+        N_slope, S_slope = parts(slope)
+        values[name] = rule.subs({n_0: N, s_0: S, n_1: N_slope, s_1: S_slope})
+        for label, part, change in (("N", N, N_slope), ("S", S, S_slope)):
+            moved = sp.Add(*(slope[n] * sp.diff(part, D[n]) for n in orders()[1:]))
+            proofs[f"{label} by {name}"] = sp.expand(moved - change)
+    proof = prove(
+        "Contact time by contact radius and thickness",
+        "Numerator and radicand at fixed u are differentiated by each D_n; the quotient's rule.",
+        proofs,
+    )
+    rows = (
+        ("time_by_radius", r"\partial_{\log A_m}", "log(a_m/h)"),
+        ("time_by_thickness", r"\partial_{\log\eta}", "log(h/b) at fixed a_m/h"),
+    )
+    return tuple(
+        Formula(
+            name,
+            rf"{latex}\,\mathrm{{d}}I/\mathrm{{d}}u",
+            f"growth of the contact time's integrand with {by}",
+            value,
+            "1",
+            "13",
+            ("contact_integrand",),
+            proof,
+        )
+        for (name, latex, by), value in zip(rows, values.values(), strict=True)
+    )
+
+
+def sensitivity() -> tuple[Formula, ...]:
+    """The formulas of this link; the energy number stands only where scaling holds."""
+    scaling()
+    return (*law_slopes(), energy_number(), modulus_slope(), *peaks(), *times())

@@ -1,0 +1,29 @@
+"""The printed pair (1), (2) in the equilibrium equations, as it stands and with a sign changed."""
+
+from collections.abc import Iterable, Mapping
+
+from derivation.engine.errata.findings import Printed
+from derivation.engine.formula.proof import decide_zero
+from derivation.plate.modes.theory.equilibrium import force_balance, hooke
+from derivation.plate.printed.contact import PRINTED, f_j, g_j
+
+
+def _printed(name: str) -> Printed:
+    return next(record for record in PRINTED if record.name == name)
+
+
+def balances(signs: Mapping[str, int]) -> bool:
+    """Whether the printed u, w with the printed f_j, g_j balance; `signs` are put before each."""
+    shapes = {
+        f_j: signs.get("f_j", 1) * _printed("f_j").expression,
+        g_j: signs.get("g_j", 1) * _printed("g_j").expression,
+    }
+    u, w = ((signs.get(name, 1) * _printed(name).expression).subs(shapes) for name in ("u", "w"))
+    return all(decide_zero(rest) is not None for rest in force_balance(hooke(u, w)))
+
+
+def signs_that_balance(names: Iterable[str]) -> tuple[str, ...]:
+    """Which of u, w, f_j, g_j may change its sign, alone, so that the printed pair balances."""
+    if balances({}):
+        return ()
+    return tuple(name for name in names if balances({name: -1}))

@@ -1,0 +1,146 @@
+"""Hard cases at the seams that single kernels have: closed formulas, sums over modes, one plate."""
+
+from collections.abc import Iterator, Mapping
+from itertools import chain
+
+from derivation.engine.rewrite.automatic import FADES
+from derivation.engine.rewrite.form import FAR, ONCE
+from derivation.mathematics.bessel.oracle import j0_zero
+from derivation.plate.blocks import blocks
+from derivation.plate.grids import seams
+from derivation.plate.hard.case import Case
+from derivation.plate.hard.places import LAM, MU, OFFSETS, about, around, beside, exactly
+from derivation.plate.modes.kernels.forms import mode_forms
+from derivation.plate.oracle import arguments
+from generated.contact_series import _ORDINARY, _USUAL
+
+CLOSED, SUMS, PLATES = (
+    "seams of the closed formulas",
+    "seams of the sums over modes",
+    "seams of the contact law",
+)
+
+Numbers = float | tuple[float, ...]
+_LENGTHS: Mapping[str, Numbers] = {
+    "h": 1.0,
+    "b": 10.0,
+    "R": 3.0,
+    "J1": 0.25,
+    "lam": LAM,
+    "mu": MU,
+    "A_j": -1e6,
+}
+_PLATE: Mapping[str, Numbers] = {**_LENGTHS, "b": 1.0, "a": 0.25, "r": 0.4, "z": 0.01, "h": 0.5}
+_AXIS = 2.0**-30
+"""phi r below which J1(y)/y is taken for 1/2: it stands in the template of the sums alone."""
+_DIRECT = 3.9
+"""Modes of the direct sum times h/b, likewise."""
+
+_BY_T = ("G", "G_m", "G_minus_1", "G_slope", "C_top", "C_bottom", "K_j", "K_j_bottom",
+         "Omega_1", "Omega_4", "Omega_1_scaled", "Omega_4_scaled")  # fmt: skip
+"""Kernels that pass the seam of sinh^2 T - T^2."""
+
+_BY_X = ("Omega_1", "Omega_2", "Omega_3", "Omega_4")
+_SCALED = tuple(f"{name}_scaled" for name in _BY_X)
+_FADING = {"G_m": 1.0, "C_bottom": 1.0, "K_j_bottom": 1.0, "G_minus_1": 2.0, "G_slope": 2.0,
+           **dict.fromkeys(_BY_X, 0.5)}  # fmt: skip
+"""Kernels that die like e^(-rate T), T = 2 phi h, and the rate."""
+
+_DECAY = {0.5: "e^(-T/2)", 1.0: "e^(-T)", 2.0: "e^(-2 T)"}
+
+_OF_SUMS = ("delta", "u", "w", "sigma_rr", "sigma_tt", "sigma_zz", "sigma_rz")
+_MODES = 3
+
+
+def mode_families() -> Iterator[Case]:
+    """Every one of them."""
+    return chain(_closed(), _mode_shapes(), _sums(), _one_plate())
+
+
+def _case(
+    group: str, kernel: str, why: str, given: Mapping[str, Numbers], modes: int | None = None
+) -> Case:
+    """A case of the arguments that its kernel has."""
+    own = exactly(**{name: given[name] for name in arguments(kernel)})
+    return about(group, kernel, why, own, modes)
+
+
+def _by_depth(kernel: str, T: float, why: str) -> Case:
+    """Where T = 2 phi h is a place: h is 1."""
+    depth = tuple(x / 2 for x in around(T))
+    return _case(CLOSED, kernel, why, {**_LENGTHS, "T": around(T), "phi": depth})
+
+
+def _closed() -> Iterator[Case]:
+    pair = float(blocks()["sinh_pair"].value.at)
+    for kernel in _BY_T:
+        why = f"T = {pair:g}, where sinh^2 T - T^2 ceases to be a power series"
+        yield _by_depth(kernel, pair, why)
+    for kernel, rate in _FADING.items():
+        place = FADES / rate
+        why = f"T = {place:g}, from which on what dies like {_DECAY[rate]} is applied in two pieces"
+        yield _by_depth(kernel, place, why)
+    for kernel in (*_BY_T[:8], *_BY_X, *_SCALED):
+        place = float(FAR) * (1 if "T" in arguments(kernel) else 2)
+        yield _by_depth(kernel, place, f"T = {place:g}, beyond which nothing changes")
+
+
+def _mode_shapes() -> Iterator[Case]:
+    for kernel, (_, form) in mode_forms().items():
+        place = float(form.at)
+        phi = tuple(x / 2 for x in around(place))
+        why = f"T = {place:g}, where power series hand over to exponentials"
+        yield _case(CLOSED, kernel, why, {**_LENGTHS, "z": 0.375, "phi": phi})
+        phi = tuple(2 * x for x in around(float(ONCE)))
+        why = f"phi (h - z) = {ONCE}, beyond which e^(-phi (h - z)) is applied in two pieces"
+        yield _case(CLOSED, kernel, why, {**_LENGTHS, "z": 0.5, "phi": phi})
+    why = "lam = mu, where 1 - 2 nu comes nearer to 1 than to 0"
+    yield _case(CLOSED, "mode_g", why, {**_LENGTHS, "z": -0.25, "phi": 4.0, "lam": around(MU)})
+    place = float(blocks()["sinh_minus"].value.at)
+    why = f"phi (h + z) = {place:g}, where sinh u - u ceases to be a power series"
+    phi = tuple(2 * x for x in around(place))
+    yield _case(CLOSED, "mode_zz", why, {**_LENGTHS, "z": -0.5, "phi": phi})
+
+
+def _sums() -> Iterator[Case]:
+    zero = float(j0_zero(1, 80))
+    for kernel in _OF_SUMS:
+        for place in seams()["T"]:
+            why = f"T = {place:g} of the first mode, where it changes branches"
+            h = around(place / (2 * zero))
+            yield _case(SUMS, kernel, why, {**_PLATE, "h": h}, _MODES)
+        for place in seams()["y"]:
+            why = f"y = a phi = {place:g} of the first mode, where the load changes branches"
+            yield _case(SUMS, kernel, why, {**_PLATE, "a": around(place / zero)}, _MODES)
+    for kernel in ("sigma_rr", "sigma_tt"):
+        why = "phi r = 2^-30 of the first mode, nearer to which the axis is taken for it"
+        yield _case(SUMS, kernel, why, {**_PLATE, "r": around(_AXIS / zero)}, _MODES)
+
+
+def _one_plate() -> Iterator[Case]:
+    """Where one sphere and one plate cease to be computed in plain numbers; the direct sum."""
+    for places, moved, what in (
+        (_ORDINARY, "R", "sphere radius"), (_ORDINARY, "h", "half-thickness"),
+    ):  # fmt: skip
+        for place in places:
+            for offset in OFFSETS:
+                x = beside(place, offset)
+                size = {"R": x, "h": 1.0, "b": 2.0} if moved == "R" else {"R": 1.0, "h": x, "b": x}
+                a = 1e-3 * min(size.values())
+                given = exactly(a=a, **size)
+                cause = f"{offset:+d} ULP from a {what} of {place:g}, beyond which factors are kept"
+                yield Case(PLATES, "indentation", f"{cause} in range.", given)
+    for place in _USUAL:
+        for offset in OFFSETS:
+            h = beside(place, offset)
+            given = exactly(a=1e-3 * min(h, 1.0), R=50.0, h=h, b=1.0)
+            cause = f"{offset:+d} ULP from h/b = {place:g}, beyond which factors are kept in range"
+            yield Case(PLATES, "indentation", f"{cause}.", given)
+    count = 30
+    for offset in OFFSETS:
+        b = beside(count / _DIRECT, offset)
+        cause = (
+            f"{offset:+d} ULP from b = {count / _DIRECT:.4g} h, where the direct sum takes a mode"
+        )
+        given = exactly(a=6.5, R=50.0, h=1.0, b=b)
+        yield Case(PLATES, "indentation", f"{cause} more.", given)

@@ -1,0 +1,1 @@
+"""Which expressions become code, and the numbers that this code needs: the plate's modes."""

@@ -1,0 +1,104 @@
+"""Link 1: Hooke's law and equilibrium of one axisymmetric mode -> two ODEs in z.
+
+The mode is u = g(z) phi J1(phi r), w = f(z) J0(phi r). Strains, stresses by
+Hooke's law and the two equilibrium equations follow by differentiation; the
+radial one is J1(phi r) times an ODE in z, the axial one J0(phi r) times
+another. (With the paper's g the sign of u in (1) must be this one.)
+"""
+
+from dataclasses import dataclass
+from functools import cache
+
+import sympy as sp
+
+from derivation.engine.formula.proof import lower_bessel, prove
+from derivation.plate.vocabulary import Formula, f, g, lam, mu, phi, r, z
+
+BESSEL_J0 = sp.besselj(0, phi * r)
+BESSEL_J1 = sp.besselj(1, phi * r)
+
+
+@dataclass(frozen=True)
+class Stresses:
+    """The four stresses of an axisymmetric field."""
+
+    rr: sp.Expr
+    tt: sp.Expr
+    zz: sp.Expr
+    rz: sp.Expr
+
+
+def hooke(u: sp.Expr, w: sp.Expr) -> Stresses:
+    """Stresses of the displacement field u (radial), w (axial) by Hooke's law."""
+    strain_rr, strain_tt, strain_zz = sp.diff(u, r), u / r, sp.diff(w, z)
+    dilatation = strain_rr + strain_tt + strain_zz
+    return Stresses(
+        rr=lam * dilatation + 2 * mu * strain_rr,
+        tt=lam * dilatation + 2 * mu * strain_tt,
+        zz=lam * dilatation + 2 * mu * strain_zz,
+        rz=mu * (sp.diff(u, z) + sp.diff(w, r)),
+    )
+
+
+def force_balance(stress: Stresses) -> tuple[sp.Expr, sp.Expr]:
+    """Radial and axial force per volume that the stresses leave unbalanced."""
+    radial = sp.diff(stress.rr, r) + sp.diff(stress.rz, z) + (stress.rr - stress.tt) / r
+    axial = sp.diff(stress.rz, r) + sp.diff(stress.zz, z) + stress.rz / r
+    return radial, axial
+
+
+def factor_of(expression: sp.Expr, bessel: sp.Expr) -> sp.Expr:
+    """Coefficient of J0(phi r) or J1(phi r) in an expression linear in both."""
+    return sp.factor(sp.expand(lower_bessel(expression.doit())).coeff(bessel))
+
+
+@cache
+def equilibrium() -> tuple[Formula, Formula]:
+    """The ODEs for f and g: expressions that must vanish.
+
+    Raises
+    ------
+    ProofError
+        If the balance is not J1 (radial) or J0 (axial) times a function of z.
+    """
+    stress = hooke(g * phi * BESSEL_J1, f * BESSEL_J0)
+    balance_r, balance_z = force_balance(stress)
+    radial, axial = factor_of(balance_r, BESSEL_J1), factor_of(balance_z, BESSEL_J0)
+    proof = prove(
+        "Equilibrium of one mode",
+        "Hooke's law put into both equilibrium equations leaves nothing but "
+        "phi J1(phi r) times the first and J0(phi r) times the second ODE.",
+        {
+            "radial balance": without_functions(balance_r - radial * BESSEL_J1),
+            "axial balance": without_functions(balance_z - axial * BESSEL_J0),
+        },
+    )
+    return (
+        Formula(
+            "radial_ode",
+            "0",
+            "radial equilibrium of mode j",
+            sp.expand(radial / phi),
+            "Pa",
+            "2",
+            (),
+            proof,
+        ),
+        Formula(
+            "axial_ode",
+            "0",
+            "axial equilibrium of mode j",
+            sp.expand(axial),
+            "Pa/m",
+            "2",
+            (),
+            proof,
+        ),
+    )
+
+
+def without_functions(expression: sp.Expr, *functions: sp.Expr) -> sp.Expr:
+    """The expression with f, g (or others) and their derivatives made independent symbols."""
+    found = expression.atoms(sp.Derivative) | set(functions or (f, g))
+    atoms = sorted(found, key=sp.default_sort_key, reverse=True)
+    return expression.subs({atom: sp.Dummy(f"d{i}") for i, atom in enumerate(atoms)})

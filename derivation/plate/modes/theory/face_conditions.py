@@ -1,0 +1,84 @@
+"""Link 4: tractions on both faces (3) -> Omega_1 ... Omega_4, the paper's equation (5)."""
+
+from collections.abc import Mapping
+from functools import cache
+
+import sympy as sp
+
+from derivation.engine.formula.hyperbolic import to_hyperbolic
+from derivation.engine.formula.proof import prove
+from derivation.plate.modes.theory.mode_shapes import CONSTANTS
+from derivation.plate.modes.theory.stresses import modal_stresses
+from derivation.plate.vocabulary import A_j, Formula, h, phi, z
+
+
+def tractions() -> dict[str, sp.Expr]:
+    """What must vanish on the faces: shear on both, axial stress below, S_zz - A_j above."""
+    stress = {formula.name: formula.expression for formula in modal_stresses()}
+    return {
+        "sigma_rz at z = +h": stress["S_rz"].subs(z, h),
+        "sigma_rz at z = -h": stress["S_rz"].subs(z, -h),
+        "sigma_zz at z = -h": stress["S_zz"].subs(z, -h),
+        "sigma_zz at z = +h": stress["S_zz"].subs(z, h) - A_j,
+    }
+
+
+@cache
+def omegas() -> tuple[Formula, ...]:
+    """Omega_k = C_k / A_j, from the four traction conditions."""
+    conditions = tractions()
+    (solution,) = sp.linsolve(list(conditions.values()), *CONSTANTS)
+    expressions = [to_hyperbolic(sp.cancel(value / A_j), phi * h) for value in solution]
+    loads = {c: A_j * omega for c, omega in zip(CONSTANTS, expressions, strict=True)}
+    proof = prove(
+        "Face conditions",
+        "C_k = A_j Omega_k put back into both stresses on both faces.",
+        {where: traction.subs(loads) for where, traction in conditions.items()},
+    )
+    return tuple(
+        Formula(
+            f"Omega_{k}",
+            rf"\Omega_{k}",
+            f"C_{k} per unit pressure coefficient",
+            expression,
+            "m/Pa" if k < 3 else "1/Pa",
+            "5",
+            ("S_zz", "S_rz"),
+            proof,
+        )
+        for k, expression in enumerate(expressions, start=1)
+    )
+
+
+@cache
+def scaled_omegas() -> tuple[Formula, ...]:
+    """e^(phi h) Omega_k: of the order of 1 where Omega_k itself underflows (phi h > 708)."""
+    results = []
+    for omega in omegas():
+        scaled = sp.exp(phi * h) * omega.expression
+        proof = prove(
+            "Scaled constants",
+            "The product with e^(phi h), by definition.",
+            {omega.name: scaled * sp.exp(-phi * h) - omega.expression},
+        )
+        results.append(
+            Formula(
+                f"{omega.name}_scaled",
+                rf"e^{{\phi_j h}}{omega.latex}",
+                f"{omega.name} times e^(phi h)",
+                scaled,
+                omega.unit,
+                "5",
+                (omega.name,),
+                proof,
+            )
+        )
+    return tuple(results)
+
+
+def loaded(expression: sp.Expr) -> sp.Expr:
+    """An expression in C1 ... C4 with the constants that the face conditions give them."""
+    values: Mapping[sp.Symbol, sp.Expr] = {
+        c: A_j * omega.expression for c, omega in zip(CONSTANTS, omegas(), strict=True)
+    }
+    return expression.subs(values)

@@ -1,0 +1,67 @@
+"""Link 6: w on the faces per unit pressure coefficient, and its limit for a half-space.
+
+C_top and C_bottom are the influence coefficients w_j(+h)/A_j and w_j(-h)/A_j;
+with T = 2 phi h they are 2 G(T)/(E* phi) and 2 G_m(T)/(E* phi).
+"""
+
+from functools import cache
+
+import sympy as sp
+
+from derivation.engine.formula.hyperbolic import to_hyperbolic
+from derivation.engine.formula.proof import prove
+from derivation.plate.modes.theory.face_conditions import loaded
+from derivation.plate.modes.theory.mode_shapes import mode_shapes
+from derivation.plate.vocabulary import A_j, Formula, h, lam, mu, phi, z
+
+PLANE_STRAIN_MODULUS = 4 * mu * (lam + mu) / (lam + 2 * mu)
+"""E*, the modulus E/(1 - nu^2) of the half-space, in Lame's constants."""
+
+
+@cache
+def influence_coefficients() -> tuple[Formula, Formula, Formula]:
+    """C_top, C_bottom and their common limit C_half for phi h -> oo on the loaded face."""
+    deflection = loaded(mode_shapes()[0].expression) / A_j
+    faces = {"top": deflection.subs(z, h), "bottom": deflection.subs(z, -h)}
+    closed = {face: to_hyperbolic(value, phi * h) for face, value in faces.items()}
+    half = sp.factor(sp.limit(closed["top"].rewrite(sp.exp), h, sp.oo))
+    proof = prove(
+        "Influence coefficients",
+        "The closed forms equal f_j(+-h)/A_j with the constants of the face conditions; "
+        "the half-space's is 2/(E* phi).",
+        {face: closed[face] - faces[face] for face in faces}
+        | {"half-space": half - 2 / (PLANE_STRAIN_MODULUS * phi)},
+    )
+    sources = ("f_j", "Omega_1", "Omega_2", "Omega_3", "Omega_4")
+    return (
+        Formula(
+            "C_top",
+            r"C(\phi_j, +h)",
+            "deflection of the loaded face per pressure coefficient",
+            closed["top"],
+            "m/Pa",
+            "6",
+            sources,
+            proof,
+        ),
+        Formula(
+            "C_bottom",
+            r"C(\phi_j, -h)",
+            "deflection of the far face per pressure coefficient",
+            closed["bottom"],
+            "m/Pa",
+            "6",
+            sources,
+            proof,
+        ),
+        Formula(
+            "C_half",
+            r"C_\infty(\phi_j)",
+            "deflection of a half-space per pressure coefficient",
+            half,
+            "m/Pa",
+            "",
+            ("C_top",),
+            proof,
+        ),
+    )

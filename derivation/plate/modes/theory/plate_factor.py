@@ -1,0 +1,62 @@
+"""Link 7: the plate factors G(T) and G_m(T), T = 2 phi h: influence over the half-space's."""
+
+from functools import cache
+
+import sympy as sp
+
+from derivation.engine.formula.proof import prove
+from derivation.plate.modes.theory.influence import influence_coefficients
+from derivation.plate.vocabulary import Formula, T, h, phi
+
+
+@cache
+def plate_factors() -> tuple[Formula, ...]:
+    """G = C_top/C_half, G_m = C_bottom/C_half, and G - 1, which dies like e^(-2T)."""
+    top, bottom, half = (formula.expression for formula in influence_coefficients())
+    G, G_m = ((face / half).subs(phi, T / (2 * h)) for face in (top, bottom))
+    proof = prove(
+        "Plate factors",
+        "The ratio of each influence coefficient to the half-space's depends on phi h alone.",
+        {
+            "loaded face": G.subs(T, 2 * phi * h) * half - top,
+            "far face": G_m.subs(T, 2 * phi * h) * half - bottom,
+        },
+    )
+    return (
+        Formula("G", "G(T)", "plate factor of the loaded face", G, "1", "6", ("C_top",), proof),
+        Formula(
+            "G_m", "G_m(T)", "plate factor of the far face", G_m, "1", "6", ("C_bottom",), proof
+        ),
+        Formula(
+            "G_minus_1",
+            "G(T) - 1",
+            "what the finite thickness adds to the half-space",
+            G - 1,
+            "1",
+            "6",
+            ("G",),
+            proof,
+        ),
+    )
+
+
+@cache
+def plate_factor_slope() -> Formula:
+    """T dG/dT = -2 T^3 sinh^2 T/(sinh^2 T - T^2)^2: one product, of one sign."""
+    G = plate_factors()[0].expression
+    value = -2 * T**3 * sp.sinh(T) ** 2 / ((sp.sinh(T) - T) * (sp.sinh(T) + T)) ** 2
+    proof = prove(
+        "Slope of the plate factor",
+        "G is differentiated; what is left of the numerator is 4 T^2 sinh^2 T.",
+        {"derivative": T * sp.diff(G, T) - value},
+    )
+    return Formula(
+        "G_slope",
+        r"T\,G'(T)",
+        "what the plate factor of the loaded face gains as log T grows",
+        value,
+        "1",
+        "6",
+        ("G",),
+        proof,
+    )

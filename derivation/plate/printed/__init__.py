@@ -1,0 +1,1 @@
+"""The equations as the paper prints them."""

@@ -1,0 +1,1 @@
+"""What only this paper's report has: sections, tables and figures."""

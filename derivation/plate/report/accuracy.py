@@ -1,0 +1,210 @@
+"""What accuracy costs as the report shows it: tables from the committed measurement."""
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, Literal
+
+from derivation.engine.report.hard import error as power
+from derivation.engine.report.latex import escape, prose
+from derivation.plate.benchmark.interface import TIE
+from derivation.plate.benchmark.panels import SLOW
+from derivation.plate.report.accuracy_figures import KINDS, TASKS
+
+Data = Mapping[str, Any]
+
+UNITS = ((1.0, "s"), (1e-3, "ms"), (1e-6, r"$\mu$s"), (1e-9, "ns"))
+WANTED = 12
+"""Digits that the direct sum is to reach."""
+
+
+def accuracy_context(data: Data) -> dict[str, Any]:
+    """Everything the section shows."""
+    return {
+        "tasks": [
+            {
+                "title": title,
+                "figures": [f"work_precision_{task}_{kind}" for kind in KINDS],
+                "winners": list(winners(data, task)),
+            }
+            for task, title in TASKS.items()
+        ],
+        "regimes": len(data["regimes"]),
+        "tie": f"{100 * (TIE - 1):.0f}",
+        "case": data["regimes"][1]["name"],
+        "errors": list(error_rows(data)),
+        "unsplit": list(reasons(data, "unsplit")),
+        "remarks": list(reasons(data, "remark")),
+        "failures": list(failures(data["rows"])),
+        "scaling": [scaling_row(growth) for growth in data["scaling"]],
+        "tools": list(tool_rows(data["tools"])),
+        "headline": headline(data["headline"]),
+        "run": run(data),
+    }
+
+
+def duration(seconds: float | None) -> str:
+    """A time to two figures, in the unit that fits."""
+    if seconds is None:
+        return ""
+    size, unit = next(((s, u) for s, u in UNITS if seconds >= 0.9995 * s), UNITS[-1])
+    number = seconds / size
+    return rf"{number:.2g}\,{unit}" if number < 99.5 else rf"{number:.0f}\,{unit}"
+
+
+def factor(ratio: float | str) -> str:
+    """A ratio to two or three figures."""
+    value = float(ratio)
+    if value != value:
+        return ""
+    return power(value) if value >= 1e3 else f"{value:.3g}"
+
+
+def winners(data: Data, task: str) -> Iterator[dict[str, Any]]:
+    """Rows of the cheapest methods for each regime: digits, then arrays, then single calls."""
+    for regime in data["regimes"]:
+        mine = [w for w in data["pareto"] if (w["task"], w["regime"]) == (task, regime["name"])]
+        rows = []
+        for digits in sorted({found["digits"] for found in mine}):
+            by_kind = {w["kind"]: w for w in mine if w["digits"] == digits}
+            cells = [cell for kind in KINDS for cell in winner_cells(by_kind.get(kind))]
+            rows.append(" & ".join([str(digits), *cells]))
+        yield {"name": escape(regime["name"]), "rows": rows}
+
+
+def winner_cells(found: Data | None) -> tuple[str, str, str]:
+    """Method with its ties, time, and time over the cheapest."""
+    if found is None:
+        return "", "", ""
+    name = escape(", ".join(part for part in (found["family"], found["setting"]) if part))
+    doubtful = set(found["doubtful"])
+    name += "?" if found["family"] in doubtful else ""
+    ties = [escape(t) + ("?" if t in doubtful else "") for t in found["ties"]]
+    ties += [escape(t) + "?" for t in found["doubtful"] if t not in found["ties"]]
+    ties = [tie for tie in ties if tie.rstrip("?") != escape(found["family"])]
+    tied = rf" (tie: {', '.join(ties)})" if ties else ""
+    return name + tied, duration(found["seconds"]), factor(found["relative"])
+
+
+def error_rows(data: Data) -> Iterator[str]:
+    """Every method of the second regime: digits by their cause, set-up and times."""
+    regime = data["regimes"][1]["name"]
+    for row in data["rows"]:
+        if row["regime"] != regime or row["fails"] or not row["errors"]:
+            continue
+        errors = [digits(row["errors"][key]) for key in ("total", "truncation", "rounding")]
+        times = [duration(row[key]["seconds"] if row[key] else None) for key in KINDS]
+        cells = [TASKS[row["task"]], method_name(row), *errors, *times, duration(row["setup"])]
+        yield " & ".join(cells)
+
+
+def reasons(data: Data, key: Literal["unsplit", "remark"]) -> Iterator[str]:
+    """Why truncation and rounding are not told apart, or what is to be said of how they are.
+
+    Of which families, and in which regimes.
+    """
+    groups: dict[str, dict[str, dict[str, None]]] = {}
+    for row in data["rows"]:
+        reason = (row["errors"] or {}).get(key)
+        if reason and not row["fails"]:
+            places = groups.setdefault(reason, {}).setdefault(row["family"], {})
+            places[row["regime"]] = None
+    for reason, families in groups.items():
+        listed = [f"{family} ({', '.join(places)})" for family, places in families.items()]
+        yield f"{prose(reason)}: {escape('; '.join(listed))}."
+
+
+def method_name(row: Data) -> str:
+    """Family, setting and arithmetic unless double."""
+    arithmetic = "" if row["arithmetic"] == "float64" else row["arithmetic"]
+    parts = [row["family"], row["setting"], arithmetic]
+    if row["setting"] and row["setting"] in arithmetic:
+        parts.remove(row["setting"])
+    return escape(", ".join(part for part in parts if part))
+
+
+def digits(value: float | str | None) -> str:
+    """Digits to one decimal."""
+    return "" if value is None else f"{float(value):.1f}"
+
+
+def failures(rows: Sequence[Data]) -> Iterator[str]:
+    """Failing methods: task, family, regime, settings, and the reason of the last."""
+    groups: dict[tuple[str, str, str], list[Data]] = {}
+    for row in rows:
+        if row["fails"]:
+            groups.setdefault((row["task"], row["family"], row["regime"]), []).append(row)
+    for (task, family, regime), failed in groups.items():
+        settings = "; ".join(dict.fromkeys(row["setting"] for row in failed if row["setting"]))
+        cells = [TASKS[task], escape(family), escape(regime), escape(settings)]
+        yield " & ".join([*cells, prose(failed[-1]["fails"])])
+
+
+def scaling_row(growth: Data) -> str:
+    """What grows, of which method, its slope, where the line ends and why, memory."""
+    leaves = "" if growth["leaves"] is None else factor(growth["leaves"])
+    memory = growth["peak_bytes"]
+    cells = [
+        escape(growth["what"]), escape(growth["method"]), f"{growth['slope']:z.2f}", leaves,
+        prose(growth["why"]), "" if memory is None else rf"{memory / 1e6:.3g}",
+    ]  # fmt: skip
+    return " & ".join(cells)
+
+
+def tool_rows(tools: Sequence[Data]) -> Iterator[str]:
+    """Problem, setting, error, time and, once for each tool, what it cannot do; or its absence."""
+    said = ""
+    for tool in tools:
+        name = escape(f"{tool['name']} {tool['version']}".strip())
+        if tool["missing"]:
+            yield rf"{name} & \multicolumn{{5}}{{l}}{{{escape(tool['missing'])}}}"
+            continue
+        setting = re.sub(r"(?<=\d) \$x\$ (?=\d)", r" $\\times$ ", prose(tool["setting"]))
+        cells = [prose(tool["problem"]), setting, power(tool["error"])]
+        cells += [
+            duration(tool["seconds"]),
+            "" if tool["cannot"] == said else prose(tool["cannot"]),
+        ]
+        yield " & ".join(["" if tool["cannot"] == said else name, *cells])
+        said = tool["cannot"]
+
+
+def headline(found: Data) -> dict[str, Any]:
+    """The generated law against direct summation, in numbers."""
+    best = found["reached"][-1]
+    return {
+        "radius": f"{1e3 * found['contact_radius']:.2f}",
+        "rows": [
+            f"{r['digits']} & {power(r['modes'])} & {duration(r['seconds'])}"
+            f" & {digits(r['truncation'])} & {digits(r['rounding'])}"
+            for r in found["reached"]
+        ],
+        "best": best["digits"],
+        "modes": power(best["modes"]),
+        "seconds": duration(best["seconds"]),
+        "reached": best["digits"] >= WANTED,
+        "wanted": WANTED,
+        "setup": duration(found["setup"]),
+        "per_mode": duration(found["per_mode"]),
+        "digits": digits(found["digits"]),
+        "called": duration(found["called"]),
+        "prepared": duration(found["prepared"]),
+        "ratio": power(best["seconds"] / found["called"]),
+    }
+
+
+def run(data: Data) -> dict[str, Any]:
+    """How the measurement was made, and how calm the machine was."""
+    busy = [s for s in data["sessions"] if s["contended"]]
+    found = data["run"]
+    return {
+        "quick": found["quick"],
+        "rounds": found["rounds"],
+        "slow": duration(SLOW),
+        "sessions": len(data["sessions"]),
+        "busy": len(busy),
+        "limit": f"{found['contended']:g}",
+        "load": f"{found['load_before']:.1f} to {found['load_after']:.1f}",
+        "processor": escape(data["machine"]["processor"]),
+        "cores": data["machine"]["cores"],
+        "digits": data["provenance"]["digits"],
+    }

@@ -1,0 +1,166 @@
+"""Figures of what accuracy costs, from the committed measurement: digits over time, and scaling."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.ticker import FixedLocator, NullLocator
+
+from derivation.plate.report.figures import STYLE
+
+TASKS = {
+    "law": "contact law",
+    "inversion": "inversion",
+    "impact": "impact",
+}
+KINDS = {"vector": "in arrays", "single": "by single calls"}
+TICKS = (0, 3, 6, 9, 12, 15, 30, 100, 1000)
+"""Digits marked on the axis: they are logarithms themselves, so up to DOUBLE it is even."""
+
+DOUBLE = 16.0
+"""Digits of a double; beyond, the axis is logarithmic."""
+
+ARITHMETICS = {"float32": "s", "float64": "o", "long double": "D", "mpmath": "^", "Arb": "v"}
+"""Markers; only doubles are joined by lines and filled."""
+
+COLOURS = (*mpl.color_sequences["tab10"], *mpl.color_sequences["Dark2"])
+
+Row = Mapping[str, Any]
+
+
+def accuracy_figures(data: Mapping[str, Any]) -> dict[str, Figure]:
+    """Every figure by name; the same for the same data."""
+    found = {
+        f"work_precision_{task}_{kind}": work_precision(data, task, kind)
+        for task in TASKS
+        for kind in KINDS
+    }
+    return found | {"scaling": scaling(data)}
+
+
+def work_precision(data: Mapping[str, Any], task: str, kind: str) -> Figure:
+    """A panel for each regime, time per point against digits, and the legend."""
+    rows = [row for row in data["rows"] if row["task"] == task]
+    families = list(dict.fromkeys(row["family"] for row in rows))
+    colours = dict(zip(families, COLOURS, strict=False))
+    with mpl.rc_context(STYLE | {"font.size": 8, "lines.linewidth": 1.0}):
+        figure = Figure(figsize=(6.5, 4.0), layout="constrained")
+        *axes, legend = figure.subplots(2, 3, sharex=True).flat
+        for ax, regime in zip(axes, data["regimes"], strict=True):
+            mine = [row for row in rows if row["regime"] == regime["name"] and drawn(row, kind)]
+            draw_panel(ax, mine, kind, colours)
+            ax.set_title(f"{regime['name']}, h/b = {regime['h'] / regime['b']:g}", fontsize=8)
+        for ax in axes[2:]:
+            ax.tick_params(labelbottom=True)
+        figure.supxlabel(f"time per point {KINDS[kind]} [s]", fontsize=8)
+        figure.supylabel("digits", fontsize=8)
+        legend.axis("off")
+        legend.legend(
+            handles=[*keys(rows, colours)],
+            fontsize=5.5,
+            loc="center",
+            handlelength=1.2,
+            labelspacing=0.25,
+        )
+    return figure
+
+
+def drawn(row: Row, kind: str) -> bool:
+    """Whether a row has digits and a time to show."""
+    return row["fails"] is None and row["errors"] is not None and row[kind] is not None
+
+
+def draw_panel(
+    ax: Axes, rows: Sequence[Row], kind: str, colours: Mapping[str, Any]
+) -> None:  # fmt: skip
+    """Points of each family, those in doubles joined in the order of their settings; the front."""
+    front = np.array(pareto_front(rows, kind))
+    if front.size:
+        ax.step(front[:, 0], front[:, 1], where="post", color="0.8", lw=3, zorder=0)
+    for (family, arithmetic), points in series(rows, kind).items():
+        x, y = np.array(points).T
+        double = arithmetic == "float64"
+        ax.plot(
+            x, y, "-" if double else " ", marker=ARITHMETICS[arithmetic], ms=3,
+            color=colours[family], mfc=colours[family] if double else "none",
+        )  # fmt: skip
+    most = max((row["errors"]["total"] for row in rows), default=0.0)
+    top = 120 if most < 120 else 1200
+    ax.set(xscale="log", ylim=(-0.5, top))
+    ax.set_yscale("function", functions=(height, digits_at))
+    ticks = [digits for digits in TICKS if digits < top]
+    ax.yaxis.set_major_locator(FixedLocator(ticks))
+    ax.yaxis.set_minor_locator(NullLocator())
+    ax.set_yticks(ticks, [str(digits) for digits in ticks])
+
+
+def height(digits: Any) -> Any:
+    """Place of digits on the axis."""
+    beyond = DOUBLE * (1 + np.log(np.maximum(digits, DOUBLE) / DOUBLE) / 2)
+    return np.where(digits > DOUBLE, beyond, digits)
+
+
+def digits_at(place: Any) -> Any:
+    """Digits at a place of the axis."""
+    beyond = DOUBLE * np.exp(2 * (np.maximum(place, DOUBLE) / DOUBLE - 1))
+    return np.where(place > DOUBLE, beyond, place)
+
+
+def series(rows: Sequence[Row], kind: str) -> dict[tuple[str, str], list[tuple[float, float]]]:
+    """Time and digits by family and kind of arithmetic, in the order measured."""
+    found: dict[tuple[str, str], list[tuple[float, float]]] = {}
+    for row in rows:
+        arithmetic = row["arithmetic"].split(",")[0]
+        point = row[kind]["seconds"], row["errors"]["total"]
+        found.setdefault((row["family"], arithmetic), []).append(point)
+    return found
+
+
+def pareto_front(rows: Sequence[Row], kind: str) -> list[tuple[float, float]]:
+    """Times and digits that nothing faster reaches."""
+    front: list[tuple[float, float]] = []
+    for time, digits in sorted((row[kind]["seconds"], row["errors"]["total"]) for row in rows):
+        if not front or digits > front[-1][1]:
+            front.append((time, digits))
+    return front
+
+
+def keys(rows: Sequence[Row], colours: Mapping[str, Any]) -> Iterator[Line2D]:
+    """Entries of the legend: families by colour, arithmetics by marker, the front."""
+    for family, colour in colours.items():
+        yield Line2D([], [], color=colour, marker="o", ms=3, label=family)
+    used = {row["arithmetic"].split(",")[0] for row in rows}
+    for name, marker in ARITHMETICS.items():
+        if name in used and name != "float64":
+            yield Line2D([], [], color="0.3", marker=marker, ms=3, mfc="none", lw=0, label=name)
+    yield Line2D([], [], color="0.8", lw=3, label="nothing is cheaper")
+
+
+def scaling(data: Mapping[str, Any]) -> Figure:
+    """Time over points, thinness, digits and scenes, with the straight part's slope."""
+    whats = list(dict.fromkeys(growth["what"] for growth in data["scaling"]))
+    with mpl.rc_context(STYLE | {"font.size": 8}):
+        figure = Figure(figsize=(6.5, 4.6), layout="constrained")
+        for ax, what in zip(figure.subplots(2, 2).flat, whats, strict=True):
+            for growth in data["scaling"]:
+                if growth["what"] == what:
+                    draw_growth(ax, growth)
+            ax.set(xscale="log", yscale="log", xlabel=what, ylabel="time [s]")
+            if what == "digits":  # not a decade: the sizes themselves, or labels overlap
+                sizes = sorted({x for g in data["scaling"] if g["what"] == what for x in g["x"]})
+                ax.set_xticks(sizes, [f"{x:g}" for x in sizes])
+                ax.xaxis.set_minor_locator(NullLocator())
+            ax.legend(fontsize=6)
+    return figure
+
+
+def draw_growth(ax: Axes, growth: Mapping[str, Any]) -> None:
+    """Times, and the line through the last three."""
+    x, seconds = np.array(growth["x"]), np.array(growth["seconds"])
+    middle = np.exp(np.log(seconds[-3:]).mean() - growth["slope"] * np.log(x[-3:]).mean())
+    (line,) = ax.plot(x, seconds, "o-", ms=3, label=growth["method"])
+    ax.plot(x, middle * x ** growth["slope"], ":", lw=0.8, color=line.get_color())

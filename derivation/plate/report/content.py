@@ -1,0 +1,70 @@
+"""Formulas, findings and committed measurements -> what the report's templates show."""
+
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from typing import Any
+
+import sympy as sp
+
+from derivation.engine.formula.ball import enclose, to_ball
+from derivation.engine.formula.record import Record
+from derivation.engine.report.equations import equation
+from derivation.engine.report.latex import escape
+from derivation.engine.report.numbers import number, rounded
+from derivation.plate.contact.oracle.balls import finite_part
+from derivation.plate.contact.theory.thin_remainder import coefficient_remainder_ball
+from derivation.plate.contact.theory.thin_roots import root
+from derivation.plate.modes.theory.equilibrium import force_balance, hooke
+from derivation.plate.vocabulary import PLATE, M, eta, r, z
+
+ROOT_DIGITS = 12
+"""Digits certified of what the roots add, more than are shown."""
+
+
+def navier() -> list[str]:
+    """Navier's equations of a field u(r, z), w(r, z): what Hooke's law leaves of the balance."""
+    u, w = (sp.Function(name)(r, z) for name in "uw")
+    rows = []
+    for force in force_balance(hooke(u, w)):
+        terms = sp.expand(force.doit())
+        whole = sp.collect(terms, [*sorted(terms.atoms(sp.Derivative), key=str), u, w])
+        rows.append(equation("0", whole, PLATE).replace(r"{\left(r,z \right)}", ""))
+    return rows
+
+
+def roots_context(formulas: Mapping[str, Record]) -> dict[str, Any]:
+    """The first roots, and what they add to the closed form of c_1, computed in balls."""
+    closed, M_2 = formulas["c_1_thin"].expression, finite_part(2, ROOT_DIGITS)
+    rows = []
+    for ratio in ("1/20", "1/10", "1/5", "1/3", "1/2", "1"):
+        value = enclose(closed, {eta: to_ball(Fraction(ratio)), M[2]: M_2})
+        share = coefficient_remainder_ball(2, Fraction(ratio), ROOT_DIGITS)
+        texts = (value.str(6, radius=False), (value + share).str(6, radius=False))
+        rows.append(f"${ratio}$ & ${texts[0]}$ & {number(float(share))} & ${texts[1]}$")
+    return {
+        "first": [root_text(n) for n in (1, 2)],
+        "height": root(1).imag.str(5, radius=False),
+        "rows": rows,
+    }
+
+
+def root_text(n: int) -> str:
+    """T_n to a few digits."""
+    T = root(n)
+    return rf"{T.real.str(6, radius=False)} + {T.imag.str(6, radius=False)}\,\mathrm{{i}}"
+
+
+def contact_row(row: Mapping[str, Any]) -> str:
+    """Cells of a row of the contact law's errors."""
+    cells = [escape(row["kernel"]), str(row["points"]), str(row["digits"])]
+    return " & ".join([*cells, number(row["max_error"]), number(row["p99_error"])])
+
+
+def contact_impacts(rows: Sequence[Mapping[str, Any]]) -> dict[str, str]:
+    """Over what the measured impacts reach: c_1 A, h/b and a/h."""
+    cases = [case for row in rows for case in row["cases"]]
+    ends = {}
+    for key in ("c1_A", "h_over_b", "a_over_h"):
+        values = [case[key] for case in cases]
+        ends[f"{key}_low"], ends[f"{key}_high"] = rounded(min(values)), rounded(max(values))
+    return ends

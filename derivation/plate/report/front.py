@@ -1,0 +1,128 @@
+"""The report's title page: what was run, what came out, and with which versions."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from derivation.engine.errata.findings import Finding
+from derivation.engine.formula.record import Record
+from derivation.engine.measure.record import generated_hash
+from derivation.engine.report.latex import escape
+from derivation.plate.judge import PACKAGE
+from generated.manifest import KERNELS
+
+TITLE = "Contact of a rigid sphere with an elastic plate"
+SUBTITLE = "Derivation, misprints, accuracy"
+Data = Mapping[str, Any]
+
+
+def front_context(
+    links: Sequence[tuple[str, Sequence[Record]]],
+    findings: Sequence[Finding],
+    measured: Mapping[str, Data],
+    sources: Mapping[str, str],
+) -> dict[str, Any]:
+    """Stages with what came out of each, and the versions they were measured with."""
+    provenance = measured["check"]["provenance"]
+    versions = sorted((k, v) for k, v in provenance.items() if k not in ("digits", "generated"))
+    return {
+        "subtitle": SUBTITLE,
+        "stages": [" & ".join(row) for row in stages(links, findings, measured, sources)],
+        "versions": ", ".join(f"{escape(name)} {escape(value)}" for name, value in versions),
+        "generated": generated_hash(PACKAGE)[:16],
+    }
+
+
+def stages(
+    links: Sequence[tuple[str, Sequence[Record]]],
+    findings: Sequence[Finding],
+    measured: Mapping[str, Data],
+    sources: Mapping[str, str],
+) -> Iterator[tuple[str, str]]:
+    """Command, and its outcome in numbers."""
+    formulas = [formula for _, found in links for formula in found]
+    residuals = {(f.proof.step, name) for f in formulas for name in f.proof.residuals}
+    yield (
+        code("derive"),
+        (
+            f"{len(formulas)} formulas in {len(links)} links, each proved; {len(residuals)} "
+            "residuals reduced to zero"
+        ),
+    )
+    applied = [rule for row in measured["rewrite"]["rows"] for rule in row["applied"]]
+    yield (
+        code("rewrite"),
+        (
+            f"{len(measured['rewrite']['rows'])} formulas made stable by {len(applied)} rules, "
+            "each kept for the error it saves"
+        ),
+    )
+    yield (
+        code("generate"),
+        f"{len(sources)} NumPy modules, {len(KERNELS)} of their functions of one formula each",
+    )
+    wrong = sum(finding.is_misprint for finding in findings)
+    yield code("misprints"), f"{len(findings)} printed formulas compared, {wrong} differ"
+    yield from checks(measured)
+
+
+def checks(measured: Mapping[str, Data]) -> Iterator[tuple[str, str]]:
+    """Measurements: what was held against the truth, and how near the limit it came."""
+    rows = [row for row in measured["check"]["rows"] if row["passed"] is not None]
+    yield (
+        code("check"),
+        (
+            f"{len(rows)} functions at {sum(row['double']['points'] for row in rows)} points, "
+            + used(max(row["double"]["ratio"] for row in rows))
+        ),
+    )
+    rows = measured["contact"]["rows"]
+    yield (
+        code("check --contact"),
+        (
+            f"contact law and impact at {sum(row['points'] for row in rows)} points, "
+            + used(max(row["double"]["ratio"] for row in rows))
+        ),
+    )
+    cases = measured["hard"]["cases"]
+    failed = sum(not case["kept"] for case in cases)
+    yield code("check --hard"), f"{len(cases)} hard cases, {failed or 'none'} failed"
+    if "bounds" in measured:
+        runs = sum(row["runs"] for row in measured["bounds"]["rows"])
+        worst = max(float(row["ratio"]) for row in measured["bounds"]["rows"])
+        yield code("check --bounds"), f"{runs} impacts of random scenes, {used(worst, 'bound')}"
+    if "effects" in measured:
+        worst = max(float(row["ratio"]) for row in measured["effects"]["rows"])
+        yield (
+            code("check --effects"),
+            (f"{measured['effects']['drawn']} random scenes, {used(worst, 'bound')}"),
+        )
+    moving = measured["inertia"]
+    worst = max(float(side["tightest"]) for side in moving["sides"])
+    yield (
+        code("check --inertia"),
+        f"{len(moving['rows'])} impacts on plates that move, {used(worst, 'bound')}",
+    )
+    rows = measured["speed"]["rows"]
+    kept = sum(row["kept"] for row in rows)
+    yield code("check --speed"), f"{len(rows)} times measured, {kept} within their limits"
+    rows = measured["accuracy"]["rows"]
+    methods = {(row["task"], row["family"]) for row in rows}
+    yield (
+        code("accuracy"),
+        (
+            f"{len(methods)} methods in {len(measured['accuracy']['regimes'])} regimes, "
+            f"{len(rows)} settings"
+        ),
+    )
+    if "moving" in measured:
+        yield code("benchmark --moving"), f"{len(measured['moving']['rows'])} settings"
+
+
+def used(ratio: float, what: str = "allowed error") -> str:
+    """How much of a limit was used."""
+    return f"at most {100 * ratio:.0f}" + rf"\,\% of the {what} used"
+
+
+def code(command: str) -> str:
+    """A command in typewriter."""
+    return rf"\texttt{{{escape(command).replace('--', '-{}-')}}}"

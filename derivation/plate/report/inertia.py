@@ -1,0 +1,27 @@
+"""Random impacts on plates that move -> the report's table of how their bounds held."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from derivation.engine.report.latex import escape
+
+
+def inertia_context(data: Mapping[str, Any]) -> dict[str, Any]:
+    """What the template shows of the measurement."""
+    refused = data["refused"]
+    return {
+        "drawn": data["drawn"],
+        "compared": len(data["rows"]),
+        "refused": sum(refused.values()),
+        "reasons": ", ".join(rf"{n} by \texttt{{{escape(key)}}}" for key, n in refused.items()),
+        "passed": sum(data["passed_over"].values()),
+        "most_contacts": max(row["contacts"] for row in data["rows"]),
+        "rows": [_row(side) for side in data["sides"]],
+    }
+
+
+def _row(side: Mapping[str, Any]) -> str:
+    """Cells of a side of the gate's threshold."""
+    cells = ["in" if side["included"] else "left out", str(side["scenes"])]
+    cells += [f"{side[key]:.2f}" for key in ("ratio", "tightest", "price")]
+    return " & ".join([*cells, escape(side["quantity"].replace("_", " "))])

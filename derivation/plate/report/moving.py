@@ -1,0 +1,120 @@
+"""What accuracy costs on a plate that moves, from the committed measurement: figure and rows."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import matplotlib as mpl
+from matplotlib.figure import Figure
+
+from derivation.engine.report.latex import escape
+from derivation.engine.report.numbers import rounded
+from derivation.plate.report.figures import STYLE
+
+LINES = {
+    "elements, tolerance": "elements",
+    "elements, nodes": "elements, fewer nodes",
+    "DOP853": "Runge-Kutta 8(5,3)",
+    "velocity Verlet": "velocity Verlet",
+}
+"""Integrators by their name in the data."""
+NAMES = {
+    "integrator": "integrator, first contact",
+    "modes": "modes",
+    "branches": "branches",
+    "rtol": "tolerance",
+}
+KNOBS = {
+    "elements, nodes": "nodes", "elements, tolerance": "tolerance", "DOP853": "tolerance",
+    "velocity Verlet": "steps",
+}  # fmt: skip
+"""What the setting of an integrator is."""
+
+
+def worst(row: Mapping[str, Any]) -> float:
+    """The largest error of a row's results."""
+    return max(map(float, row["errors"].values()))
+
+
+def moving_costs(data: Mapping[str, Any]) -> Figure:
+    """Error over time of integrators; and of modes and branches."""
+    rows = data["rows"]
+    with mpl.rc_context(STYLE | {"font.size": 8, "lines.linewidth": 1.0}):
+        figure = Figure(figsize=(6.5, 2.9), layout="constrained")
+        left, right = figure.subplots(1, 2, sharey=True)
+        for (name, label), mark in zip(LINES.items(), "os^v", strict=True):
+            _line(left, [row for row in rows if row["method"] == name], f"{mark}-", label)
+        _line(right, [row for row in rows if row["study"] == "modes"], "o-", "modes of A0")
+        every = [row for row in rows if row["study"] == "branches" and row["method"] == "all"]
+        _line(right, every, "s-", "all branches")
+        alone = [row for row in rows if row["study"] == "branches" and row["method"] == "A0"]
+        _line(right, alone, "D", "A0 against all branches")
+        for ax, title in ((left, "integrators, first contact"), (right, "modes and branches")):
+            ax.set(xscale="log", yscale="log", xlabel="time of an impact [s]", title=title)
+            ax.legend(fontsize=6)
+        left.set_ylabel("largest relative error")
+    return figure
+
+
+def _line(ax: Any, rows: Sequence[Mapping[str, Any]], style: str, label: str) -> None:
+    ax.plot(
+        [row["seconds"] for row in rows], [worst(row) for row in rows], style, ms=3, label=label
+    )
+
+
+def moving_context(data: Mapping[str, Any]) -> dict[str, Any]:
+    """What the section says: scene, rows, and how much faster elements are."""
+    shared = next(row for row in data["rows"] if row["study"] == "integrator")
+    plate, ball = data["scene"]["plate"], data["scene"]["sphere"]
+    return {
+        "scene": (
+            f"A {ball['material']} ball of {2e3 * ball['radius']:g}\\,mm meets a plate of "
+            f"{plate['material']}, {1e3 * plate['thickness']:g}\\,mm thick and "
+            f"{2 * plate['radius']:g}\\,m wide, at {data['scene']['impact']['speed']:g}\\,m/s"
+        ),
+        "oscillators": shared["oscillators"],
+        "finest": rounded(data["truth"]["tolerance"]),
+        "most": data["truth"]["modes"],
+        "all": data["truth"]["modes of all branches"],
+        "gain": gain(data),
+        "rows": [" & ".join(_typeset(cell) for cell in row.values()) for row in moving_rows(data)],
+    }
+
+
+def gain(data: Mapping[str, Any]) -> str:
+    """How many times as long the other integrators take to as many digits as they reach."""
+    own = next(row for row in data["rows"] if row["method"] == "elements, tolerance")
+    told = []
+    for method in ("DOP853", "velocity Verlet"):
+        best = min((row for row in data["rows"] if row["method"] == method), key=worst)
+        times = best["seconds"] / own["seconds"]
+        told.append(f"{LINES[method]} takes {times:.0f} times as long for {rounded(worst(best))}")
+    return f"{'; '.join(told)}; elements reach {rounded(worst(own))}."
+
+
+def _typeset(cell: str) -> str:
+    """A cell of the table; errors as powers of ten."""
+    return rounded(float(cell)) if "e-" in cell and " " not in cell else escape(cell)
+
+
+def moving_rows(data: Mapping[str, Any]) -> Iterator[dict[str, str]]:
+    """The table's rows as text: study, method, oscillators, milliseconds, error and bound."""
+    for row in data["rows"]:
+        method, setting = row["method"], f"{row['setting']:g}"
+        if row["study"] == "integrator":
+            what = f"{LINES[method].split(',')[0]}, {KNOBS[method]} {setting}"
+        elif row["study"] == "rtol":
+            what = f"{_branches(method)}, rtol {setting}"
+        else:
+            what = f"{_branches(method)}, {setting} modes"
+        yield {
+            "study": NAMES[row["study"]],
+            "method": what,
+            "oscillators": str(row["oscillators"]),
+            "milliseconds": f"{1e3 * row['seconds']:.0f}",
+            "error": f"{worst(row):.1e}",
+            "bound": "" if row["bound"] is None else f"{row['bound']:.1e}",
+        }
+
+
+def _branches(name: str) -> str:
+    return "all branches" if name == "all" else name

@@ -1,0 +1,77 @@
+"""The README's picture: a blow on a pane, at rest and in motion; what digits of the law cost."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.figure import Figure
+
+from derivation.plate.report.accuracy_figures import pareto_front
+from derivation.plate.report.figures import STYLE
+from derivation.scene.impact import simulate
+from derivation.scene.scene import Scene, read
+
+POINTS, PLACES = 161, 4
+"""Times of a history; places of numbers drawn, so that the last bits of a machine do not show."""
+SHOWN = {
+    "printed sum": "as printed",
+    "direct sum": "sum over modes",
+    "production": "generated law",
+}
+"""Families of methods of the law."""
+
+
+def overview(pane: Scene, data: Mapping[str, Any]) -> Figure:
+    """Contact force over time, and digits over the time of a point."""
+    with mpl.rc_context(STYLE | {"font.size": 8}):
+        figure = Figure(figsize=(7.2, 2.7), layout="constrained")
+        left, right = figure.subplots(1, 2)
+        _draw_force(left, pane)
+        _draw_digits(right, data)
+    return figure
+
+
+def _draw_force(ax: Any, pane: Scene) -> None:
+    """Of a half-space, of a pane at rest, and of the pane as it is."""
+    stiff = dict.fromkeys(("bending", "finite_thickness", "side_wall", "edge"), False)
+    for label, effects in (
+        ("half-space (Hertz)", stiff | {"inertia": False}),
+        ("pane at rest", {"inertia": False}),
+        ("pane that moves", {}),
+    ):
+        scene = read({**pane.to_json(), "effects": effects})
+        found = simulate(scene).history(POINTS)
+        time, force = (rounded(scale * x) for scale, x in ((1e6, found.time), (1e-3, found.force)))
+        ax.plot(time, force, label=label)
+    ax.set(xlabel="time [µs]", ylabel="contact force [kN]", title="a steel ball meets a glass pane")
+    ax.set_xlim(0.0, 600.0)
+    ax.legend(fontsize=7)
+
+
+def _draw_digits(ax: Any, data: Mapping[str, Any]) -> None:
+    """Of the contact law in the paper's case, in arrays."""
+    paper = data["regimes"][0]["name"]
+    rows = [
+        row
+        for row in data["rows"]
+        if row["task"] == "law" and row["regime"] == paper and row["arithmetic"] == "float64"
+        and row["errors"] is not None and row["vector"] is not None
+    ]  # fmt: skip
+    for family, label in SHOWN.items():
+        mine = sorted(
+            (row["vector"]["seconds"], row["errors"]["total"])
+            for row in rows
+            if row["family"] == family
+        )
+        ax.plot(*np.array(mine).T, "o-", ms=4, label=label)
+    ax.step(*np.array(pareto_front(rows, "vector")).T, "k:", where="post", label="cheapest of all")
+    ax.set(xscale="log", xlabel="time per point [s]", ylabel="right digits")
+    ax.set_title("the contact law, paper's case")
+    ax.legend(fontsize=7)
+
+
+def rounded(values: Any) -> Any:
+    """Numbers to a few places of the largest."""
+    unit = 10.0 ** (np.floor(np.log10(np.max(np.abs(values)))) - PLACES)
+    return np.round(values / unit) * unit

@@ -1,0 +1,54 @@
+"""Where the report's numbers come from: the measurements' files, and what they were made with."""
+
+import hashlib
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from derivation.engine.report.latex import escape
+
+RENEWED = {
+    "accuracy": "platecontact benchmark",
+    "bounds": "platecontact check --bounds 2000 --record",
+    "check": "platecontact check --record",
+    "contact": "platecontact check --contact --record",
+    "edge_remainder": "python -m derivation.plate.edge.remainder",
+    "edge_strip": "python -m derivation.plate.edge.strip",
+    "effects": "platecontact check --effects 3000 --record",
+    "elastodynamics": "python -m derivation.checks.finite_elements",
+    "hard": "platecontact check --hard --record",
+    "inertia": "platecontact check --inertia 500 --seed 3 --record",
+    "moving": "platecontact benchmark --moving",
+    "rewrite": "platecontact rewrite --record",
+    "speed": "platecontact check --speed --record",
+}
+"""The command that renews a measurement."""
+DIGITS = 16
+
+
+def reproducibility_context(
+    data: Mapping[str, bytes], measured: Mapping[str, Mapping[str, Any]]
+) -> dict[str, Any]:
+    """A row for each file, and what each says of its origin."""
+    return {
+        "files": [file_row(name, content) for name, content in sorted(data.items())],
+        "provenance": [
+            {"name": f"{name}.json", "says": ", ".join(_said(values))}
+            for name, values in sorted(measured.items())
+            if values.keys() & {"provenance", "machine"}
+        ],
+    }
+
+
+def file_row(name: str, content: bytes) -> str:
+    """Name, command, size and hash."""
+    command = escape(RENEWED.get(name, "")).replace("--", "-{}-")
+    digest = hashlib.sha256(content).hexdigest()[:DIGITS]
+    shown = rf"\texttt{{{command}}}" if command else "see CONTRIBUTING.md"
+    return f"{escape(name)}.json & {shown} & {len(content)} & {digest}"
+
+
+def _said(values: Mapping[str, Any]) -> Iterator[str]:
+    for key in ("provenance", "machine"):
+        for name, value in sorted(values.get(key, {}).items()):
+            short = str(value)[:DIGITS] if name == "generated" else str(value)
+            yield f"{escape(name)} {escape(short)}"

@@ -1,0 +1,1 @@
+"""The search for larger errors than the grids find."""

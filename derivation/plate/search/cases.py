@@ -1,0 +1,268 @@
+"""What a search found as a file of hard cases, as a table and as data; and such files read back."""
+
+import json
+import re
+import tomllib
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from derivation.engine.files import write_file
+from derivation.engine.measure.point import Point
+from derivation.plate.search.search import Found, Search, weigh
+from derivation.plate.search.targets import Target
+
+COLUMNS = ("kernel", "#evaluations", "#ratio", "#ULP", "#allowed", "new")
+"""Headings of the table, all of the worst point: its ratio is error over allowance."""
+
+Case = dict[str, Any]
+"""A `[[case]]` table: group, kernel, cause, inputs, and form and modes where they matter."""
+
+_SECONDS = {"s": 1, "m": 60, "h": 3600}
+_HEADER = """\
+# Worst cases of `platecontact check --search`, as cases for the hard-case suite.
+"""
+
+
+def seconds_of(duration: str) -> int:
+    """Seconds of a duration: a whole number, and s, m or h.
+
+    Raises
+    ------
+    ValueError
+        For anything else, and for no time at all.
+    """
+    found = re.fullmatch(r"([1-9][0-9]{0,6})([smh])", duration)
+    if found is None:
+        raise ValueError(f"expected a duration like 30s, 5m or 1h, got {duration!r}")
+    return int(found[1]) * _SECONDS[found[2]]
+
+
+# --- cases
+
+
+def case_of(kernel: str, found: Found, seed: int) -> Case:
+    """A found point as a case; two points in one array if it takes two."""
+    points = [found.point] if found.company is None else [found.point, found.company]
+    inputs: dict[str, Any] = {
+        name: [point.values[name].hex() for point in points] for name in found.point.values
+    }
+    if found.company is None:
+        inputs = {name: texts[0] for name, texts in inputs.items()}
+    case: Case = {"group": "search", "kernel": kernel, "cause": f"Found by search, seed {seed}."}
+    if found.company is not None:
+        case["form"] = "array"
+    modes = {} if found.point.modes is None else {"modes": found.point.modes}
+    return {**case, **modes, "inputs": inputs}
+
+
+def points_of(case: Mapping[str, Any]) -> list[Point]:
+    """A case's points: the one in question, and the other if there is one.
+
+    Raises
+    ------
+    ValueError
+        If the inputs are not hexadecimal floats.
+    """
+    given = {
+        name: [texts] if isinstance(texts, str) else list(texts)
+        for name, texts in case["inputs"].items()
+    }
+    count = max(map(len, given.values()))
+    rows = ({name: float.fromhex(texts[i]) for name, texts in given.items()} for i in range(count))
+    return [Point(row, case.get("modes")) for row in rows]
+
+
+def measured(case: Mapping[str, Any], targets: Mapping[str, Target]) -> Found | None:
+    """A case's error as the kernel is now; None if it is not searched or not to be judged.
+
+    Raises
+    ------
+    ValueError
+        If the inputs are not the kernel's arguments.
+    """
+    target = targets.get(case["kernel"])
+    if target is None:
+        return None
+    if set(case["inputs"]) != set(target.domain.arguments):
+        expected = ", ".join(target.domain.arguments)
+        raise ValueError(f"{target.name} takes {expected}; got {', '.join(case['inputs'])}")
+    point, *company = points_of(case)
+    return weigh(target, point, company[0] if company else None)
+
+
+def read(path: Path) -> list[Case]:
+    """Cases of an earlier search's file; none if there is no file.
+
+    Raises
+    ------
+    ValueError
+        If it is another kind of file, which is not to be overwritten.
+    """
+    if not path.exists():
+        return []
+    try:
+        cases: list[Case] = tomllib.loads(path.read_text())["case"]
+        for case in cases:
+            if case["group"] != "search" or not case["kernel"] or not case["cause"]:
+                raise ValueError("a case of another group")
+            points_of(case)
+    except (ValueError, KeyError, TypeError, AttributeError, IndexError) as error:
+        raise ValueError(
+            f"{path} is not a file of searched cases ({error}): name another one with --out FILE"
+        ) from error
+    return cases
+
+
+def to_toml(cases: Sequence[tuple[Case, Found | None]]) -> str:
+    """The file: a table per case; what was measured stands above it as a comment."""
+    return _HEADER + "".join(_table(case, found) for case, found in cases)
+
+
+def _table(case: Case, found: Found | None) -> str:
+    lines = [""]
+    if found is not None:
+        error = found.error
+        lines.append(f"# {found.ratio:.4g} of the allowance: {error.ulp:.6g} ULP, "
+                     f"{error.allowed:.6g} allowed.")  # fmt: skip
+    lines.append("[[case]]")
+    # JSON's strings, numbers and lists of strings are TOML's too.
+    lines += [f"{key} = {json.dumps(value)}" for key, value in case.items() if key != "inputs"]
+    lines.append("[case.inputs]")
+    lines += [f"{name} = {json.dumps(texts)}" for name, texts in case["inputs"].items()]
+    return "\n".join(lines) + "\n"
+
+
+# --- what is new
+
+
+def recorded(check: Path, contact: Path) -> tuple[dict[str, float], dict[str, list[str]]]:
+    """By kernel, worst ratios of the committed check, and worst arguments of the contact law."""
+    rows = json.loads(check.read_text())["rows"] if check.is_file() else []
+    ratios = {row["kernel"]: row["double"]["ratio"] for row in rows}
+    worst = json.loads(contact.read_text())["rows"] if contact.is_file() else []
+    return (
+        # An infinity is text there.
+        {kernel: float(ratio) for kernel, ratio in ratios.items() if ratio is not None},
+        {row["kernel"]: row["worst"] for row in worst},
+    )
+
+
+class Book:
+    """The file of worst cases while a search runs.
+
+    Parameters
+    ----------
+    path
+        Where it is; what an earlier search left there is kept.
+    targets
+        The kernels, by which earlier cases are measured anew.
+    check, contact
+        The committed measurements.
+
+    Raises
+    ------
+    ValueError
+        If the file is of another kind.
+    """
+
+    def __init__(self, path: Path, targets: Sequence[Target], check: Path, contact: Path) -> None:
+        self.path = path
+        self._targets = {target.name: target for target in targets}
+        self._earlier = [(case, measured(case, self._targets)) for case in read(path)]
+        self._known, self._contacts = recorded(check, contact)
+        for case, found in self._earlier:
+            self._learn(case["kernel"], found)
+        self._written = ""
+
+    def _learn(self, kernel: str, found: Found | None) -> None:
+        if found is not None:
+            self._known[kernel] = max(found.ratio, self._known.get(kernel, 0.0))
+
+    def _best_known(self, kernel: str) -> float:
+        """The worst ratio on record; the contact law's is measured when first asked for."""
+        texts = self._contacts.pop(kernel, None)
+        if texts is not None and kernel in self._targets:
+            names = self._targets[kernel].domain.arguments
+            inputs = dict(zip(names, texts, strict=True))
+            self._learn(kernel, measured({"kernel": kernel, "inputs": inputs}, self._targets))
+        return self._known.get(kernel, 0.0)
+
+    def is_new(self, kernel: str, found: Found | None) -> bool:
+        """Whether a case is worse than what is known of its kernel, or beyond its allowance."""
+        if found is None or any(
+            case["kernel"] == kernel and points_of(case)[0] == found.point
+            for case, _ in self._earlier
+        ):
+            return False
+        return found.ratio > min(self._best_known(kernel), 1.0)
+
+    def keep(self, search: Search) -> None:
+        """Write earlier and new cases, if there are any that are not written yet."""
+        new = [
+            (case_of(kernel, standing.worst, search.seed), standing.worst)
+            for kernel, standing in search.standings.items()
+            if standing.worst is not None and self.is_new(kernel, standing.worst)
+        ]
+        text = to_toml([*self._earlier, *new])
+        if new and text != self._written:
+            write_file(self.path, text)
+            self._written = text
+
+    @property
+    def written(self) -> bool:
+        """Whether there was anything to write."""
+        return bool(self._written)
+
+
+# --- results
+
+
+def cells(kernel: str, search: Search, book: Book) -> tuple[str, ...]:
+    """A kernel's entries under `COLUMNS`."""
+    standing = search.standings[kernel]
+    worst = standing.worst
+    if worst is None:
+        return (kernel, str(standing.evaluations), "", "", "", "")
+    numbers = (f"{x:.3g}" for x in (worst.ratio, worst.error.ulp, worst.error.allowed))
+    new = "yes" if book.is_new(kernel, worst) else ""
+    return (kernel, str(standing.evaluations), *numbers, new)
+
+
+def arguments(kernel: str, search: Search) -> str:
+    """A kernel's worst arguments in exact doubles, on a line."""
+    worst = search.standings[kernel].worst
+    if worst is None:
+        return f"{kernel}:"
+    given = case_of(kernel, worst, search.seed)["inputs"].items()
+    texts = [f"{k}={v}" if isinstance(v, str) else f"{k}={','.join(v)}" for k, v in given]
+    modes = [] if worst.point.modes is None else [f"modes={worst.point.modes}"]
+    return f"{kernel}: {' '.join(texts + modes)}"
+
+
+def as_data(search: Search) -> dict[str, Any]:
+    """A search as plain data: the same for the same seed and evaluations."""
+    return {
+        "seed": search.seed,
+        "interrupted": search.interrupted,
+        "evaluations": search.evaluations,
+        "rows": [_row(kernel, search) for kernel in search.standings],
+    }
+
+
+def _row(kernel: str, search: Search) -> dict[str, Any]:
+    standing = search.standings[kernel]
+    counts = {"evaluations": standing.evaluations, "unjudged": standing.unjudged}
+    if standing.worst is None:
+        return {"kernel": kernel, **counts, "ratio": None, "ulp": None, "allowed": None}
+    error, found = standing.worst.error, case_of(kernel, standing.worst, search.seed)
+    numbers: dict[str, float] = {"ratio": error.ratio, "ulp": error.ulp, "allowed": error.allowed}
+    # JSON has no infinities: they become text.
+    plain: dict[str, Any] = {key: repr(x) if x == float("inf") else x for key, x in numbers.items()}
+    where: Case = {key: found[key] for key in ("inputs", "form", "modes") if key in found}
+    return {"kernel": kernel, **counts, **plain, **where}
+
+
+def kept(search: Search) -> bool:
+    """Whether every error found is within its allowance."""
+    return all(standing.ratio <= 1.0 for standing in search.standings.values())

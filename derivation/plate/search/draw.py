@@ -1,0 +1,227 @@
+"""Where the search looks: points at random in every kernel's domain, and steps from a point.
+
+What matters is dimensionless: x = phi h, y = a phi, h/b, a/h, z/h, r/b, nu. Each is
+drawn uniformly over the floats themselves, not over the numbers, so that every
+decade gets its share, and is turned into arguments in units drawn at random.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cache
+from random import Random
+from types import CodeType
+from typing import Any
+
+from derivation.engine.formula.ulp import from_ordinal, ordinal
+from derivation.engine.measure.point import Point
+from derivation.plate.impact.oracle.agreement import FIRST
+from derivation.plate.impact.oracle.impact import stored_energy
+
+WHOLE = ("count", "n", "k")
+"""Arguments that are whole numbers."""
+
+LAW = ("indentation", "contact_radius", "stiffness", "force_of_radius", "impact")
+"""Kernels of the contact law; the others stand in the manifest."""
+
+WAVES = 1e-150, 1e6
+"""phi h and a phi."""
+
+THICKNESSES = 1e-4, 1e2
+"""h/b."""
+
+CONTACTS = 1e-8, 6.0
+"""a/h."""
+
+NEAR = 1e3, 10.0
+"""Half of what is drawn lies within these factors of 1: where the branches meet."""
+
+LENGTH, STRESS, MASS, FORCE = 9.0, 12.0, 9.0, 12.0
+"""Decades to either side of 1 from which units and magnitudes are drawn."""
+
+MOST_MODES = 60
+LAST = {"kappa": 200.0, "finite_part": 105.0, "bessel": 1e5}
+"""Largest indices: beyond the first two no double holds the value, tables become long."""
+
+_SEARCHED = (
+    "1e-150 <= phi * h <= 1e6",
+    "1e-150 <= a * phi <= 1e6",
+    "1e-150 <= T <= 2e6",
+    "abs(x) <= 1e8",
+    "1e-4 <= h / b <= 1e2",
+    "1e-8 <= a / h <= 6.0",
+    "1 <= count <= 1e5",
+    "n <= 2e6",
+    "k <= 2e6",
+)
+_OF_LAW = (
+    "a > 0", "a < b", "a < R", "R > 0", "h > 0", "b > 0", "3 * lam > -2 * mu", "mu > 0",
+    "delta > 0", "m > 0", "v0 > 0",
+)  # fmt: skip
+_TRIES = 1000
+_DIGITS = 20
+
+
+@dataclass(frozen=True)
+class Domain:
+    """Where a kernel is searched.
+
+    Parameters
+    ----------
+    name
+        The kernel.
+    arguments
+        Their names in order.
+    modes
+        Whether it is a modal sum.
+    conditions
+        What the arguments satisfy, as comparisons in Python's notation; the
+        doubles are compared as a kernel compares them, rounding included.
+    """
+
+    name: str
+    arguments: tuple[str, ...]
+    modes: bool
+    conditions: tuple[str, ...]
+
+    def holds(self, point: Point) -> bool:
+        """Whether a point lies in the domain."""
+        codes = _compiled((*self.conditions, *_SEARCHED), self.arguments)
+        finite = all(math.isfinite(value) for value in point.values.values())
+        # The conditions are the manifest's and this file's own, never a stranger's.
+        return finite and all(eval(code, {"abs": abs}, dict(point.values)) for code in codes)
+
+
+def domain_of_row(row: Any) -> Domain:
+    """The domain a row of the manifest states."""
+    conditions = tuple(part.strip() for part in row["domain"].split(",") if part.strip())
+    return Domain(row["name"], tuple(row["arguments"]), bool(row["modes"]), conditions)
+
+
+def domain_of_law(name: str, arguments: Sequence[str]) -> Domain:
+    """The domain of a kernel of the contact law."""
+    return Domain(name, tuple(arguments), False, _OF_LAW)
+
+
+@cache
+def _compiled(conditions: tuple[str, ...], arguments: tuple[str, ...]) -> tuple[CodeType, ...]:
+    """The conditions that name nothing but arguments."""
+    codes = (compile(condition, "<domain>", "eval") for condition in conditions)
+    return tuple(code for code in codes if set(code.co_names) - {"abs"} <= set(arguments))
+
+
+# --- drawing
+
+
+def draw(domain: Domain, generator: Random) -> Point:
+    """A point of the domain.
+
+    Raises
+    ------
+    ValueError
+        If none is found: then the conditions contradict each other.
+    """
+    for _ in range(_TRIES):
+        values = _values(domain, generator)
+        modes = int(_between(generator, 1.0, MOST_MODES)) if domain.modes else None
+        point = Point({name: values[name] for name in domain.arguments}, modes)
+        if domain.holds(point):
+            return point
+    raise ValueError(f"no point found in the domain of {domain.name}")
+
+
+def _values(domain: Domain, generator: Random) -> dict[str, float]:
+    if domain.arguments[0] in WHOLE:
+        return {domain.arguments[0]: _index(domain.name, generator)}
+    if domain.arguments == ("x",):
+        return {"x": generator.choice((-1, 1)) * _between(generator, 1e-150, 1e8)}
+    values = _sizes(generator, "phi" in domain.arguments)
+    if domain.name == "contact_radius":
+        shape: list[Any] = [values[key] for key in ("a", "R", "h", "b")]
+        values["delta"] = float(FIRST["indentation"](*shape, digits=_DIGITS))
+    if domain.name == "impact":
+        a, R, h, b, lam, mu = (values[key] for key in ("a", "R", "h", "b", "lam", "mu"))
+        energy = float(stored_energy(a, R, h, b, lam, mu, _DIGITS))
+        values["m"] = _unit(generator, MASS)
+        values["v0"] = math.sqrt(2.0 * energy / values["m"])
+    return values
+
+
+def _index(name: str, generator: Random) -> float:
+    """A whole number, small ones as likely as large ones."""
+    first = 2 if name.startswith("finite_part") else 0 if name.startswith("kappa") else 1
+    last = next((end for start, end in LAST.items() if name.startswith(start)), 1e6)
+    if name.endswith("_ratio"):
+        last = 1e6
+    return float(int(_between(generator, 1.0, last)) - 1 + first)
+
+
+def _sizes(generator: Random, of_mode: bool) -> dict[str, float]:
+    """Every quantity that may be an argument; of a single mode a and h do not know each other."""
+    wave, b = _between(generator, *WAVES), _unit(generator, LENGTH)
+    h = b * _between(generator, *THICKNESSES)
+    widest = min(CONTACTS[1] * h, b)
+    a = h * _between(generator, *CONTACTS)
+    if a >= widest or generator.random() < 0.25:
+        a = min(widest * _share(generator), math.nextafter(widest, 0.0))
+    mu = _unit(generator, STRESS)
+    nu = _poisson(generator)
+    sign = generator.choice((-1, 1))
+    values = {
+        "T": 2 * wave,
+        "phi": wave / h,
+        "h": h,
+        "b": b,
+        "a": a,
+        "R": a / _share(generator),
+        "r": generator.choice((0.0, b, b * _share(generator), b * _share(generator))),
+        "z": sign * h * generator.choice((0.0, 1.0, *(_share(generator) for _ in range(6)))),
+        "mu": mu,
+        "lam": 2 * mu * nu / (1 - 2 * nu),
+        "P": _unit(generator, FORCE),
+        "A_j": sign * mu * _unit(generator, FORCE),
+        "J1": generator.choice((-1, 1)) * _between(generator, 1e-6, 0.6),
+    }
+    if of_mode and generator.random() < 0.5:
+        values["phi"] = wave / a
+    return values
+
+
+def _between(generator: Random, low: float, high: float) -> float:
+    """A float of a range, each as likely as the other; often one nearer to 1, if 1 is inside."""
+    parts = [(low, high)]
+    parts += [(max(low, 1 / w), min(high, w)) for w in NEAR if low < 1 < high]
+    first, last = generator.choice(parts)
+    return from_ordinal(generator.randint(ordinal(first), ordinal(last)))
+
+
+def _share(generator: Random) -> float:
+    """A number in (0, 1): any, or a float near 0, or one as near to 1."""
+    near = from_ordinal(generator.randint(ordinal(2.0**-53), ordinal(0.5)))
+    return generator.choice((generator.uniform(2.0**-20, 1.0), near, 1.0 - near))
+
+
+def _poisson(generator: Random) -> float:
+    """Poisson's ratio in (-1, 1/2), its ends and zero as likely as the middle."""
+    near = from_ordinal(generator.randint(ordinal(2.0**-52), ordinal(0.25)))
+    signed = generator.choice((-1, 1)) * near
+    return generator.choice((generator.uniform(-1.0, 0.5), -1.0 + near, 0.5 - near, signed))
+
+
+def _unit(generator: Random, decades: float) -> float:
+    return float(10.0 ** generator.uniform(-decades, decades))
+
+
+# --- stepping
+
+
+def moved(point: Point, name: str, floats: int) -> Point:
+    """The point with one argument so many floats, or whole numbers, further on."""
+    value = point.values[name]
+    there = value + floats if name in WHOLE else _beside(value, floats)
+    return Point({**point.values, name: there}, point.modes)
+
+
+def _beside(value: float, floats: int) -> float:
+    end = ordinal(math.nextafter(math.inf, 0.0))
+    return from_ordinal(min(max(ordinal(value) + floats, -end), end))

@@ -1,0 +1,198 @@
+"""What the search holds to the truth: each kernel with its domain, its oracle and its allowance."""
+
+import importlib
+import inspect
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+from flint import arb
+
+from derivation.engine.formula.ball import PrecisionError
+from derivation.engine.formula.ulp import overflows, ulp_error
+from derivation.engine.measure import evaluate
+from derivation.engine.measure.kernels import Kernel
+from derivation.engine.measure.point import Point
+from derivation.plate.contact.cases.truth import tolerance
+from derivation.plate.impact.oracle.agreement import FIRST
+from derivation.plate.judge import generated_kernels
+from derivation.plate.oracle import reference, truth
+from derivation.plate.search.draw import (
+    CONTACTS,
+    LAW,
+    Domain,
+    domain_of_law,
+    domain_of_row,
+)
+
+Numbers = tuple[float, ...]
+"""A kernel's results at a point: one, of an impact four."""
+
+ULP_OF_LAW = 8.0
+"""Allowed to the contact law's kernels in ULP, times `contact.cases.truth.tolerance`."""
+
+_DIGITS, _FEW, _OF_LAW = 50, 20, 24
+"""Digits of the reference, of the screen's, and of the contact law's."""
+
+_SILENT = PrecisionError, ValueError, ZeroDivisionError, OverflowError
+"""What an oracle raises where it has no answer: at singular points, beyond the plate's edge."""
+
+_SLOW, _SLOWEST = (1, 16), (1, 32)
+_SHARES = {
+    "impact": _SLOW, "kappa": _SLOWEST, "finite_part": _SLOWEST, "kappa_ratio": _SLOW,
+    "finite_part_ratio": _SLOW, "contact_radius": (1, 1), "indentation": (3, 1),
+    "stiffness": (3, 1),
+}  # fmt: skip
+"""Points per turn, and how many rounds lie between turns, where the truth takes long."""
+
+_SHARE, _SHARE_OF_SUMS = (48, 1), (4, 1)
+
+
+@dataclass(frozen=True)
+class Error:
+    """What a computed number is away from the truth, and may be, in ULP."""
+
+    ulp: float
+    allowed: float
+
+    @property
+    def ratio(self) -> float:
+        """Error over allowance."""
+        return self.ulp / self.allowed
+
+
+@dataclass(frozen=True)
+class Target:
+    """A kernel to be searched.
+
+    Parameters
+    ----------
+    domain
+        Where.
+    call
+        Points -> results.
+    measure
+        Point and results -> the largest error; None where no double holds the
+        truth, the oracle has no answer, or the point lies outside the domain after all.
+    bound
+        Point and results -> a number that `measure`'s ratio never exceeds, found
+        with less effort; None where there is no such short cut.
+    share, every
+        Points per turn, and how many rounds go by for one turn.
+    """
+
+    domain: Domain
+    call: Callable[[Sequence[Point]], list[Numbers]]
+    measure: Callable[[Point, Numbers], Error | None]
+    bound: Callable[[Point, Numbers], float] | None
+    share: int
+    every: int
+
+    @property
+    def name(self) -> str:
+        """The kernel's name."""
+        return self.domain.name
+
+
+def targets(names: Sequence[str] = ()) -> tuple[Target, ...]:
+    """The kernels that can be searched, in a fixed order: all of them, or those named.
+
+    Raises
+    ------
+    ValueError
+        For a name that is none of theirs.
+    """
+    manifest = importlib.import_module("generated.manifest").KERNELS
+    closed = zip(manifest, generated_kernels(), strict=True)
+    found = [closed_target(domain_of_row(row), kernel) for row, kernel in closed]
+    found += [_law_target(name) for name in LAW]
+    known = [target.name for target in found]
+    unknown = [name for name in names if name not in known]
+    if unknown:
+        raise ValueError(f"no kernel {', '.join(unknown)}: expected some of {', '.join(known)}")
+    return tuple(target for target in found if not names or target.name in names)
+
+
+# --- closed formulas, modal sums and tables
+
+
+def closed_target(domain: Domain, kernel: Kernel) -> Target:
+    """A kernel of the manifest, held to its budget and what conditioning allows."""
+    budget = float(kernel.budget or 0.0)
+
+    def call(points: Sequence[Point]) -> list[Numbers]:
+        return [(float(value),) for value in evaluate.call(kernel, points)]
+
+    def bound(point: Point, got: Numbers) -> float:
+        # The allowance is the budget and more, so error over budget is an upper bound:
+        # who stays below the worst ratio by this is spared the condition numbers.
+        try:
+            ball = truth(kernel.name, point.values, _FEW, point.modes)
+        except _SILENT:
+            return math.inf
+        return ulp_error(got[0], ball) / budget
+
+    def measure(point: Point, got: Numbers) -> Error | None:
+        try:
+            found = reference(kernel.name, point.values, _DIGITS, point.modes)
+        except _SILENT:
+            return None
+        if overflows(found.value):
+            return None
+        allowed = evaluate.allowed_ulp(found, budget)
+        return Error(ulp_error(got[0], found.value), allowed)
+
+    share, every = _SHARES.get(kernel.name, _SHARE_OF_SUMS if kernel.modes else _SHARE)
+    return Target(domain, call, measure, bound, share, every)
+
+
+# --- the contact law
+
+
+def _law_target(name: str) -> Target:
+    """A kernel of the contact law, held to so many ULP of its largest part."""
+    module = importlib.import_module(f"generated.{'impact' if name == 'impact' else 'contact_law'}")
+    function = getattr(module, name)
+    parameters = inspect.signature(function).parameters.values()
+    domain = domain_of_law(name, tuple(p.name for p in parameters if p.default is p.empty))
+
+    def call(points: Sequence[Point]) -> list[Numbers]:
+        columns = [np.array([p.values[key] for p in points]) for key in domain.arguments]
+        if len(points) == 1:  # plain numbers: one plate is computed in another way than many
+            columns = [column[0] for column in columns]
+        results = function(*columns)
+        rows = [np.ravel(row) for row in (results if name == "impact" else (results,))]
+        return [tuple(float(row[i]) for row in rows) for i in range(len(points))]
+
+    def measure(point: Point, got: Numbers) -> Error | None:
+        given = tuple(point.values[key] for key in domain.arguments)
+        try:
+            balls = _true(name, given, domain.arguments)
+        except _SILENT:
+            return None
+        if balls is None or any(overflows(ball) for ball in balls):
+            return None
+        ulp = max(ulp_error(value, ball) for value, ball in zip(got, balls, strict=True))
+        scaled = name in ("indentation", "contact_radius", "stiffness")
+        scale = tolerance(name, given, float(balls[0])) if scaled else 1.0
+        return Error(ulp, ULP_OF_LAW * scale)
+
+    share, every = _SHARES.get(name, _SHARE)
+    return Target(domain, call, measure, None, share, every)
+
+
+@lru_cache(maxsize=8)
+def _true(name: str, given: Sequence[Any], keys: tuple[str, ...]) -> tuple[arb, ...] | None:
+    """The first oracle's balls; None where the contact grows beyond what the kernels promise."""
+    values = dict(zip(keys, given, strict=True))
+    if name == "force_of_radius":
+        return (truth("P", values, _OF_LAW),)
+    found = FIRST[name](*given, digits=_OF_LAW)
+    balls = tuple(found) if name == "impact" else (found,)
+    if name in ("indentation", "stiffness"):
+        return balls
+    inside = balls[-1] < min(values["b"], values["R"], CONTACTS[1] * values["h"])
+    return balls if inside else None

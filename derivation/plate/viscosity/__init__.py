@@ -1,0 +1,1 @@
+"""Viscoelastic contact."""

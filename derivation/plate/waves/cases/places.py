@@ -1,0 +1,145 @@
+"""Where the residues of the plate's branches change their form: by oracle 1's roots."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cache
+from typing import NamedTuple
+
+import flint
+from flint import arb
+
+from derivation.engine.formula.ball import Exact, to_ball
+from derivation.plate.edge_modes.oracle import modes as held_balls
+from derivation.plate.edge_modes.oracle import waves as held_wave_balls
+from derivation.plate.waves import oracle as inertia_balls
+from generated.held_waves import _START
+from generated.plate_waves import _CLOSE
+
+_DIGITS, _BITS = 25, 128
+
+
+class Both(NamedTuple):
+    """Sizes of cosh p, sinh p, cosh q and sinh q, over e^p and e^q where real; p^2 and q^2."""
+
+    cosh_p: arb
+    sinh_p: arb
+    cosh_q: arb
+    sinh_q: arb
+    level_p: arb
+    level_q: arb
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """A switch of a residue.
+
+    Parameters
+    ----------
+    kind
+        Parity of the branch.
+    value
+        What changes its sign there.
+    nu, index
+        The plate, and the branch that is followed.
+    low, high
+        Wave numbers on either side.
+    """
+
+    kind: str
+    value: Callable[[Both], arb]
+    nu: float
+    index: int
+    low: float
+    high: float
+
+
+def _lean(of: Both) -> arb:
+    """The smaller of both sinh over the smaller of both cosh, less 1."""
+    return of.sinh_p.min(of.sinh_q) - of.cosh_p.min(of.cosh_q)
+
+
+def _apart(of: Both) -> arb:
+    return of.cosh_p - of.cosh_q
+
+
+def _lift(of: Both) -> arb:
+    """|p sinh p| less |sinh(q)/q|."""
+    return of.sinh_p * abs(of.level_p).sqrt() - of.sinh_q / abs(of.level_q).sqrt()
+
+
+_BENT, _STRETCHED = inertia_balls.KINDS
+CROSSINGS = {
+    "the smaller sinh is as small as the smaller cosh, in bending":
+        Crossing(_BENT, _lean, 0.3, 1, 1.15, 1.2),
+    "the smaller sinh is as small as the smaller cosh, in stretching":
+        Crossing(_STRETCHED, _lean, 0.3, 1, 1.1, 1.15),
+    "cosh p is as small as cosh q": Crossing(_BENT, _apart, -0.2, 1, 0.83, 0.89),
+    "p sinh p is as small as sinh(q)/q": Crossing(_STRETCHED, _lift, -0.2, 1, 5.1, 5.2),
+    "p^2 is small, real p":
+        Crossing(_BENT, lambda of: of.level_p - arb(_CLOSE), 0.3, 1, 1.8, 1.85),
+    "p^2 is small, imaginary p":
+        Crossing(_BENT, lambda of: of.level_p + arb(_CLOSE), 0.3, 1, 1.4, 1.45),
+    "p is neither real nor imaginary": Crossing(_BENT, lambda of: of.level_p, 0.3, 1, 1.5, 1.7),
+    "q is neither real nor imaginary":
+        Crossing(_STRETCHED, lambda of: of.level_q, 0.3, 0, 3.25, 3.45),
+    "q^2 is small, real q":
+        Crossing(_STRETCHED, lambda of: of.level_q - arb(_CLOSE), 0.3, 0, 3.4, 3.6),
+    "q^2 is small, imaginary q":
+        Crossing(_STRETCHED, lambda of: of.level_q + arb(_CLOSE), 0.3, 0, 0.36, 0.38),
+}  # fmt: skip
+"""By what happens there."""
+
+
+@cache
+def crossing(name: str) -> float:
+    """The double nearest to where a switch of `CROSSINGS` is."""
+    of = CROSSINGS[name]
+    return _nearest(lambda x: _sign(of, x), of.low, of.high)
+
+
+@cache
+def partner_crossing(edge: held_balls.Edge, n: int, nu: float) -> float:
+    """The double nearest to h/b at which a mode's k2 passes where I0 becomes a series."""
+
+    def below(eta: Exact) -> bool:
+        return bool(held_wave_balls.wave(edge, n, eta, nu, _DIGITS).k2 < arb(_START))
+
+    return _nearest(below, 0.012, 0.018)
+
+
+@cache
+def half_part() -> float:
+    """The double nearest to nu at which c of the first simply supported mode passes 1/2."""
+
+    def beyond(nu: Exact) -> bool:
+        return bool(held_balls.mode("supported", 1, nu, _DIGITS).c > 0.5)
+
+    return _nearest(beyond, -0.99, 0.3)
+
+
+def _nearest(holds: Callable[[Exact], bool], low: float, high: float) -> float:
+    """The double nearest to where something begins or ceases to hold, by halving."""
+    before = holds(low)
+    if before == holds(high):
+        raise ValueError(f"nothing changes between {low} and {high}")
+    while low < (middle := (low + high) / 2) < high:
+        low, high = (middle, high) if holds(middle) == before else (low, middle)
+    return high if holds((Fraction(low) + Fraction(high)) / 2) == before else low
+
+
+def _sign(of: Crossing, x: Exact) -> bool:
+    kap = inertia_balls.zero(x, of.nu, of.kind, of.index, _DIGITS)
+    with flint.ctx.workprec(_BITS):
+        square, ratio = to_ball(x) ** 2, Fraction(of.nu)
+        level = square - to_ball((1 - 2 * ratio) / (2 * (1 - ratio))) * kap
+        other = square - kap
+        return bool(of.value(Both(*_sizes(level), *_sizes(other), level, other)) > 0)
+
+
+def _sizes(level: arb) -> tuple[arb, arb]:
+    root = abs(level).sqrt()
+    if level > 0:
+        fading = (-2 * root).exp()
+        return (1 + fading) / 2, (1 - fading) / 2
+    return abs(root.cos()), abs(root.sin())

@@ -1,0 +1,363 @@
+"""Link 27: the lowest branch of free waves, A0, which bends the plate and carries most of a load.
+
+For kap < x^2 B_a of link 26 is finite, above 0 at kap = 0, below at kap = x^2 (q = 0), and falls:
+A0 is its one zero kap_0 there. Of the two positive terms of B_a the first over the second is
+
+    quotient = 8 x^2 q^2 (1 - gam) F p/(kap sinh p cosh q) = 1,
+    steep = -w kap d log(quotient)/dkap = 1 - w [kap F'/F + gam (p coth(p) - 1) xi/(2 P^2)
+                                                + kap tanh(q)/(2 q)],
+
+xi = kap/x^2, w = 1 - xi, P = p/x, Q = q/x. B_a = 2 kap tanh(p)/p (quotient - 1), so that
+rho h r = -1/B_a' = p w/(2 tanh(p) steep): r is the strength with which A0's share of w(+h)
+answers a load, q'' + omega_0^2 q = r A_j. At rest that share is rho h r/kap_0 of mu C/h,
+
+    s_0 = F_0 cosh p cosh q/(F cosh^2 x steep (1 + B_a/B_s)),    F_0 and B_a/B_s at kap = 0.
+
+At the zero, where (1 + w)^2 tanh(p)/P = 4 Q tanh q, p leaves what does not fade like e^(-2q),
+
+    steep = 1/2 + w [1 - 2/(1 + w)^2] + fading/xi,    rho h r = (1 + w)^2 q/(8 tanh(q) steep),
+    F/(cosh p cosh q) = E/(2 p q (p + q)),    E = (sinh S - S shc d)/(cosh S + cosh d) -> 1.
+
+Thin plates: kap_0 = x^4 (y_0 + y_1 x^2 + ...), polynomials in gam, to any order from
+tanh(y)/y = sum t_k y^(2k); y_0 = 4 (1 - gam)/3 is Kirchhoff's plate, and rho h r -> 1/2 its mass.
+Short waves: xi -> Rayleigh's, xi^3 - 8 xi^2 + 8 (3 - 2 gam) xi - 16 (1 - gam) = 0.
+"""
+
+from functools import cache
+
+import sympy as sp
+from sympy.polys.rings import PolyElement, ring
+
+from derivation.engine.formula.proof import Proof, prove
+from derivation.plate.modes.theory.influence import PLANE_STRAIN_MODULUS
+from derivation.plate.modes.theory.plate_factor import plate_factors
+from derivation.plate.vocabulary import Formula, T, gam, h, kap, lam, mu, phi, rho, x_h, xi_R
+from derivation.plate.waves.theory.dynamic_modes import (
+    in_p_and_q,
+    in_sines,
+    kinetic_slope,
+    p,
+    q,
+    shc,
+    slow_stiffness,
+    static_limit,
+    stiffness,
+    with_roots,
+)
+
+ORDER = 3
+"""Terms of the series for thin plates that are written out."""
+
+
+# --- the zero and how B_a passes it
+
+
+def differences() -> sp.Expr:
+    """F."""
+    return (shc(p + q) - shc(p - q)) / (4 * p * q)
+
+
+def quotient() -> sp.Expr:
+    """First over second term of B_a, in x, kap, gam, p and q."""
+    above = 8 * x_h**2 * q**2 * (1 - gam) * differences() * p
+    return above / (kap * sp.sinh(p) * sp.cosh(q))
+
+
+def steepness(tanh_p: sp.Expr, tanh_q: sp.Expr) -> sp.Expr:
+    """The quotient's fall at a zero of B_a, times w, in x, kap, gam, p and q."""
+    xi, w, P = kap / x_h**2, q**2 / x_h**2, p / x_h
+    faded_p, faded_q = (y * (1 - t**2) / t for y, t in ((p, tanh_p), (q, tanh_q)))
+    plus, less = (1 + w) ** 2, 1 - tanh_q**2 / tanh_p**2
+    fading = plus / 2 * (faded_q - faded_p * gam * w / P**2) - 8 * w**2 * less / (plus * xi)
+    return sp.Rational(1, 2) + w * (1 - 2 / plus) + fading / xi
+
+
+def bending_residue(tanh_p: sp.Expr, tanh_q: sp.Expr) -> sp.Expr:
+    """Rho h r of a zero of B_a, in x, kap, gam, p and q."""
+    plus = (1 + q**2 / x_h**2) ** 2
+    return plus * q / (8 * tanh_q * steepness(tanh_p, tanh_q))
+
+
+@cache
+def rise_anywhere() -> Proof:
+    """The quotient's fall by logarithms, of F as a function of S^2 and d^2."""
+
+    def change(value: sp.Expr) -> sp.Expr:
+        return in_p_and_q(kap * sp.diff(with_roots(value), kap))
+
+    total, apart, w = p + q, p - q, q**2 / x_h**2
+    over_q, over_p = sp.tanh(q) / q, p * sp.coth(p) - 1
+    other = change(differences()) / differences() + kap / 2 * (gam * over_p / p**2 + over_q)
+    steep = in_p_and_q(1 - w * other)
+    return prove(
+        "Slope of the quotient",
+        "Differentiated by log kap: the quotient, and the squares of S and d.",
+        {
+            "S^2": in_sines(change(total**2) + in_p_and_q(kap * total * (gam / p + 1 / q))),
+            "d^2": in_sines(change(apart**2) - in_p_and_q(kap * apart * (1 / q - gam / p))),
+            "steep": in_sines(steep + w * change(quotient()) / in_p_and_q(quotient())),
+        },
+    )
+
+
+@cache
+def bending_zero() -> tuple[Formula, ...]:
+    """The quotient that is 1 on A0, its fall and the residue there."""
+    kinetic_slope()
+    rise_anywhere()
+    B_a = stiffness(sp.tanh(p), sp.tanh(q))
+    slope = in_p_and_q(sp.diff(with_roots(B_a), kap))
+    tanh_p, tanh_q = sp.symbols("t_p t_q", positive=True)
+    at_zero = 4 * x_h**2 * p * q * tanh_q / (x_h**2 + q**2) ** 2
+    bare = slope.subs({sp.tanh(p): tanh_p, sp.tanh(q): tanh_q}).subs(tanh_p, at_zero)
+    found = in_p_and_q(bending_residue(tanh_p, tanh_q)).subs(tanh_p, at_zero)
+    anywhere = p * q**2 / (2 * x_h**2 * at_zero * in_p_and_q(steepness(at_zero, tanh_q)))
+    x_i, w, s = sp.symbols("xi w s", positive=True)
+    plus, tanh = (1 + w) ** 2, (sp.tanh(p), sp.tanh(q))
+    faded_p, faded_q = (2 * y / sp.sinh(2 * y) for y in (p, q))
+    fading = plus / 2 * (faded_q - faded_p * gam * w * x_h**2 / p**2)
+    fading -= 8 * w**2 / (plus * x_i) * (1 - tanh[1] ** 2 / tanh[0] ** 2)
+    steep = sp.Rational(1, 2) + w * (1 - 2 / plus) + fading / x_i
+    reduced = {w: q**2 / x_h**2, x_i: kap / x_h**2}
+    proof = prove(
+        "The lowest bending branch",
+        "B_a by its quotient; B_a differentiated, at its zero tanh p in terms of tanh q.",
+        {
+            "quotient": in_sines(in_p_and_q(B_a - 2 * kap * sp.tanh(p) / p * (quotient() - 1))),
+            "zero": sp.cancel(in_p_and_q(stiffness(at_zero, tanh_q))),
+            "residue": sp.cancel(1 / bare + found),
+            "by the quotient": sp.cancel(1 / bare + anywhere),
+            "steepness": in_sines(in_p_and_q(steep.subs(reduced) - steepness(*tanh))),
+        },
+    )
+    rows = (
+        (
+            "bending_quotient", r"q_0(\kappa)", "first over second term of B_a, 1 on A0",
+            quotient(), quotient(), "B_a_slow",
+        ),
+        (
+            "steepness", "s", "how fast that quotient falls on A0 as log kappa grows, times w",
+            steepness(*tanh), steep, "bending_quotient",
+        ),
+        (
+            "bending_residue", r"\rho h\,r_0", "how A0 answers a load",
+            bending_residue(*tanh), plus * q / (8 * tanh[1] * s), "steepness",
+        ),
+    )  # fmt: skip
+    return tuple(
+        Formula(
+            name, latex, meaning, with_roots(value), "1", "", (source,), proof, stated=stated
+        )
+        for name, latex, meaning, value, stated, source in rows
+    )  # fmt: skip
+
+
+@cache
+def bending_share() -> Formula:
+    """A0's part of the deflection under a load at rest."""
+    static_limit()
+    residue = bending_zero()[2]
+    T_x, steep = 2 * x_h, sp.Symbol("steep", positive=True)
+    at_rest = (shc(T_x) - 1) / T_x**2
+    bent = 16 * x_h**4 * (1 - gam) * at_rest / sp.cosh(x_h) ** 2
+    unlike = sp.tanh(x_h) ** 2 * (sp.sinh(T_x) - T_x) / (sp.sinh(T_x) + T_x)
+    both = [
+        form.subs(kap, 0).subs(shc(p - q), 1).subs({p: x_h, q: x_h}) for form in slow_stiffness()
+    ]
+    load = 8 * x_h**2 * q**2 * (1 - gam) * differences() * p / (sp.sinh(p) * sp.cosh(q))
+    answer = p * q**2 / (2 * x_h**2 * sp.tanh(p) * steep)
+    plain = at_rest * sp.cosh(p) * sp.cosh(q) / (differences() * sp.cosh(x_h) ** 2 * steep)
+    E = (sp.sinh(p + q) - (p + q) * shc(p - q)) / (sp.cosh(p + q) + sp.cosh(p - q))
+    B = (sp.sinh(T_x) - T_x) / (sp.cosh(T_x) + 1)
+    value = p * q * (p + q) * B / (2 * x_h**3 * E * steep)
+    proof = prove(
+        "Share of the lowest branch at rest",
+        "The residue over kap, kap by the quotient, times B_a at rest; F by E.",
+        {
+            "B_a at rest": in_sines(both[0] - bent),
+            "B_a over B_s": in_sines(both[0] / both[1] - unlike),
+            "share": in_sines(answer / load * bent - plain),
+            "E": in_sines(plain - value),
+        },
+    )
+    steep_value = steepness(sp.tanh(p), sp.tanh(q))
+    beta = sp.Symbol("beta", positive=True)
+    stated = (value / (1 + beta)).subs(steep, sp.Symbol("s", positive=True))
+    return Formula(
+        "bending_share", "s_0", "A0's share of the deflection at rest, beta being B_a/B_s there",
+        with_roots(value.subs(steep, steep_value) / (1 + unlike)), "1", "",
+        (residue.name, "C_top"), proof, stated=stated,
+    )  # fmt: skip
+
+
+# --- short waves
+
+
+@cache
+def rayleigh() -> tuple[Formula, Formula]:
+    """x -> oo: tanh p = tanh q = 1."""
+    proof_of_residue = bending_zero()[2].proof
+    w, P = 1 - xi_R, sp.sqrt(1 - gam * xi_R)
+    cubic = xi_R**3 - 8 * xi_R**2 + 8 * (3 - 2 * gam) * xi_R - 16 * (1 - gam)
+    share = bending_residue(sp.Integer(1), sp.Integer(1)) / x_h
+    share = share.subs({q: x_h * sp.sqrt(w), p: x_h * P, kap: x_h**2 * xi_R})
+    plus = (2 - xi_R) ** 2
+    limit = plus * sp.sqrt(w) / (8 * (sp.Rational(1, 2) + w * (1 - 2 / plus)))
+    proof = prove(
+        "Rayleigh's wave",
+        "(2 - xi)^2 = 4 P Q squared, without its root xi = 0; the residue without what fades. "
+        + proof_of_residue.argument,
+        {
+            "cubic": sp.expand((2 - xi_R) ** 4 - 16 * w * P**2 - xi_R * cubic),
+            "residue": sp.cancel(share - limit),
+        },
+    )
+    return (
+        Formula(
+            "rayleigh_cubic", "0", "squared speed xi of short waves, over c_T^2", cubic, "1", "",
+            ("B_a",), proof,
+        ),
+        Formula(
+            "rayleigh_residue", r"\lim_{x\to\infty}\rho h\,r_0/x", "how short waves answer a load",
+            limit, "1", "", ("bending_residue",), proof,
+        ),
+    )  # fmt: skip
+
+
+# --- thin plates
+
+_RING, _s, _e, _g = ring("s e g", sp.QQ)
+"""x^2, a step of kap/x^4, and gam."""
+
+
+def _cut(value: PolyElement, order: int) -> PolyElement:
+    """Without s^order and above, and e^2 and above."""
+    terms = {k: c for k, c in value.items() if k[0] < order and k[1] < 2}
+    return _RING.from_dict(terms)
+
+
+def _tanh_powers(count: int) -> list[sp.Rational]:
+    """t_0, t_1, ...: sinh(y)/y = cosh(y) tanh(y)/y."""
+    found: list[sp.Rational] = []
+    for n in range(count):
+        rest = sum(found[k] / sp.factorial(2 * (n - k)) for k in range(n))
+        found.append(sp.Rational(1, sp.factorial(2 * n + 1)) - rest)
+    return found
+
+
+def _stiffness_of(slope: PolyElement, order: int) -> PolyElement:
+    """B_a/(2 x^4) at kap = slope x^4, to order s^order.
+
+    4 (1 - s slope) (1 - gam) sum (-t_k) h_(k-1)(p^2, q^2) - slope tanh(p)/p, h_n the sum of all
+    products of n factors: of F (cosh p cosh q)^-1, the divided difference of tanh(y)/y.
+    """
+    powers = _tanh_powers(order + 2)
+    u, v = (_cut(_s - part * _s**2 * slope, order) for part in (_g, _RING(1)))
+    shared, power, over_p, apart = _RING(1), _RING(1), _RING(0), _RING(0)
+    for k, t in enumerate(powers):
+        over_p += power * sp.QQ(t.p, t.q)
+        if k + 1 < len(powers):
+            t_next = powers[k + 1]
+            apart -= shared * sp.QQ(t_next.p, t_next.q)
+        power = _cut(power * u, order)
+        shared = _cut(shared * v + power, order)
+    return _cut(4 * (1 - _s * slope) * (1 - _g) * apart - slope * over_p, order)
+
+
+@cache
+def thin_powers(order: int) -> tuple[tuple[sp.Expr, ...], tuple[sp.Expr, ...]]:
+    """kap_0/x^4 and rho h r of A0 as power series in x^2: coefficients, polynomials in gam."""
+    slope = _RING(0)
+    for n in range(1, order + 1):
+        # B_a/(2 x^4) falls by 1 with slope, to lowest order.
+        slope = _cut(slope + _stiffness_of(slope, n), n)
+    step = _stiffness_of(slope + _e, order)
+    fall = -_RING.from_dict({(k[0], 0, k[2]): c for k, c in step.items() if k[1] == 1})
+    inverse = _RING(1)
+    for _ in range(order):
+        inverse = _cut(inverse * (2 - fall * inverse), order)
+    return _coefficients(slope, order), _coefficients(inverse / 2, order)
+
+
+def _coefficients(value: PolyElement, order: int) -> tuple[sp.Expr, ...]:
+    """Coefficients of s^0, s^1, ... as polynomials in gam."""
+    rows = [sp.Integer(0)] * order
+    for (n, _, k), c in value.items():
+        rows[n] += sp.Rational(int(c.numerator), int(c.denominator)) * gam**k
+    return tuple(sp.factor(row) for row in rows)
+
+
+@cache
+def thin_plates() -> tuple[Formula, ...]:
+    """kap_0, rho h r and A0's share of the deflection under a load at rest, for x -> 0."""
+    bending_zero()
+    s, slope = sp.symbols("s Y", positive=True)
+    rows = thin_powers(ORDER)
+    found, residue = (sp.Add(*(c * s**n for n, c in enumerate(row))) for row in rows)
+    # B_a as printed, with tanh's power series: what is left is of higher order.
+    t = _tanh_powers(ORDER + 3)
+    u, v = s - gam * s**2 * slope, s - s**2 * slope
+    bracket = (2 * s - s**2 * slope) ** 2 * sp.Add(*(c * u**k for k, c in enumerate(t)))
+    bracket -= 4 * s * v * sp.Add(*(c * v**k for k, c in enumerate(t)))
+    stiff = sp.expand(-2 * sp.cancel(bracket / (s**4 * slope)))
+    change = sp.diff(stiff, slope)
+    omega_square = phi**4 * PLANE_STRAIN_MODULUS * (2 * h) ** 2 / (12 * rho)
+    kirchhoff = (rho * h**2 / mu * omega_square).subs(lam, mu * (1 / gam - 2)).subs(phi, x_h / h)
+    share = _share_at_rest(rows[1], rows[0])
+    proof = prove(
+        "Bending of thin plates",
+        "The power series put into B_a as printed and its slope; y_0 is Kirchhoff's plate.",
+        {
+            "frequency": _below(stiff.subs(slope, found), s),
+            "residue": _below(1 + residue * change.subs(slope, found), s),
+            "Kirchhoff": sp.cancel(kirchhoff - x_h**4 * rows[0][0]),
+            "mass": residue.subs(s, 0) - sp.Rational(1, 2),
+            "all of the deflection": share[0] - 1,
+        },
+    )
+    lines = (
+        ("bending_kap_thin", r"\kappa_0", "(omega h/c_T)^2 of A0, thin plates", 4, rows[0]),
+        ("residue_thin", r"\rho h\,r_0", "how A0 answers a load, thin plates", 0, rows[1]),
+        ("share_thin", "s_0", "A0's share of the deflection at rest, thin plates", 0, share),
+    )
+    return tuple(
+        Formula(
+            name, latex, meaning, sp.Add(*(c * x_h ** (power + 2 * n) for n, c in enumerate(row))),
+            "1", "", ("B_a", "C_top"), proof,
+        )
+        for name, latex, meaning, power, row in lines
+    )  # fmt: skip
+
+
+def _below(value: sp.Expr, s: sp.Symbol) -> sp.Expr:
+    """What a series has below s^ORDER."""
+    terms = sp.Poly(sp.expand(value), s).terms()
+    return sp.expand(sp.Add(*(c * s**n for (n,), c in terms if n < ORDER)))
+
+
+def _share_at_rest(residue: tuple[sp.Expr, ...], slope: tuple[sp.Expr, ...]) -> list[sp.Expr]:
+    """(rho h r/kap)/(mu C/h) by powers of x^2; C = 2 G/(E* phi) at rest.
+
+    With T = 2 x and G = above/below, x^3 G = (above/T)/(below/T^4)/8.
+    """
+    s = sp.Symbol("s", positive=True)
+    above, below = sp.fraction(plate_factors()[0].expression)
+    T_square = 4 * s
+    top, bottom = (
+        (part.series(T, 0, power + 2 * ORDER).removeO() / T**power).expand()
+        for part, power in ((above, 1), (below, 4))
+    )
+    compliance, rest = (part.subs(T, sp.sqrt(T_square)) for part in (top, bottom))
+    first = sp.Add(*(c * s**n for n, c in enumerate(residue))) * rest * 16
+    second = sp.Add(*(sp.cancel(c / (1 - gam)) * s**n for n, c in enumerate(slope))) * compliance
+    rows = [[sp.expand(part).coeff(s, n) for n in range(ORDER)] for part in (first, second)]
+    found: list[sp.Expr] = []
+    for n in range(ORDER):
+        known = sum(found[k] * rows[1][n - k] for k in range(n))
+        found.append(sp.factor((rows[0][n] - known) / rows[1][0]))
+    return found
+
+
+def bending_branch() -> tuple[Formula, ...]:
+    """The formulas of the link."""
+    return (*bending_zero(), bending_share(), *thin_plates(), *rayleigh())

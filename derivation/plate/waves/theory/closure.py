@@ -1,0 +1,266 @@
+"""Link 28: a contact beside a plate of oscillators, closed so that no energy is lost or made.
+
+A growing contact is taken as a sequence of flat punches, each step of its static law P(a),
+delta(a) one. A punch of radius c spreads dP so that J0(phi r) has the mean sh(c phi) under it,
+sh y = sin(y)/y. Of the force a mode therefore feels, and in the gap it therefore counts by,
+
+    P_j(a) = int_0^a P'(c) sh(c phi_j) dc,   s_j = dP_j/dP = sh(a phi_j);
+
+of Hertz's pressure P_j = P g(a phi_j), g(y) = 3 (sin y - y cos y)/y^3. With the static compliance
+c_j of each mode at the axis, the sphere's way z and its weight m g
+
+    m z'' = m g - P,   q_j'' + omega_j^2 q_j = omega_j^2 c_j P_j,   z = D + sum s_j q_j,
+    D = delta - sum c_j P_j s_j,
+
+so that oscillators at rest leave z = delta(a), and
+
+    m z'^2/2 - m g z + E_c + sum (q_j'^2 + omega_j^2 q_j^2)/(2 omega_j^2 c_j),
+    E_c = int P dD + sum q_j (P s_j - P_j)
+
+is conserved whatever delta(a) is. If the contact lags, its pressure keeps its shape: it is that
+of P times (1 + A_v P'/P), and so is what a mode feels, which ends with the force. The energy then
+falls at the rate A_v P' (z' - sum (P_j/P) q_j'); an endless plate's deflection w beside them,
+w' = Y P, takes Y P^2. With s_j = 1, the indentation taken at the axis, and E_c = int P dD, it
+falls at the rate sum (P - P_j) q_j'.
+
+The same weight makes a static law of its own. If the gap is closed in the mean under the punch
+that comes next, where a sphere's r^2/(2R) is a^2/(3R), then delta = a^2/(3R) + sum K_j sh(y) s(y),
+and the work P d delta is stored in plate and gap. As sh(y) s(y) is half the mean of s between 0
+and 2y, this turns the plate's part Q of the law at the axis into
+
+    Q_V(a) = (1/4a) int_0^(2a) Q(x) dx:   c_n -> 2^(n+1)/(n+3) c_n,   c_1 -> c_1, c_3 -> (8/3) c_3.
+"""
+
+from functools import cache
+
+import sympy as sp
+
+from derivation.engine.formula.proof import Proof, prove
+from derivation.plate.contact.theory.curvature import flat_punch
+from derivation.plate.contact.theory.hertz import SINE_MINUS, pressure, sonine
+from derivation.plate.contact.theory.law import contact_law
+from derivation.plate.vocabulary import Formula, P, R, a, k, phi, q_j, q_rate, r
+
+_t, _u, _y = sp.symbols("t u y", positive=True)
+_m, _g, _A, _Y, _v, _z, _growth = sp.symbols("m g A_v Y v z a'", real=True)
+MODES = 3
+"""Oscillators written out in the proofs; the energy holds no product of two."""
+_P, _D, _work = (sp.Function(name)(a) for name in ("P", "D", "W"))
+_felt, _share = ([sp.Function(f"{name}_{j}")(a) for j in range(MODES)] for name in ("P", "s"))
+_q, _rate, _omega, _c = (
+    sp.symbols(f"{name}_:{MODES}", positive=True) for name in ("q", "v", "omega", "c")
+)
+
+SHARE = sp.sin(a * phi) / (a * phi)
+"""sh(a phi)."""
+FELT = P * 3 * SINE_MINUS / (a * phi) ** 3
+"""P_j of Hertz's pressure."""
+
+
+@cache
+def growing_contact() -> Proof:
+    """What a mode feels of a growing contact, and that Hertz's pressure is one."""
+    flat_punch()
+    c, depth = sp.symbols("c u_1", positive=True)
+    step = sp.diff(P * (c / a) ** 3, c)
+    # The punch's pressure is step/(2 pi c sqrt(c^2 - r^2)); with c^2 = r^2 + u^2, c dc = u du.
+    density = (step / (2 * sp.pi * c**2)).subs(c, sp.sqrt(r**2 + _u**2))
+    spread = sp.integrate(density, (_u, 0, depth)).subs(depth, sp.sqrt(a**2 - r**2))
+    felt = sp.integrate(step * SHARE.subs(a, c), (c, 0, a))
+    hertz = pressure().expression
+    return prove(
+        "Growing contact",
+        "Flat punches of every radius up to a, P growing like a^3: their pressures add up to "
+        "Hertz's, what their transforms add up to is Sonine's integral.",
+        {
+            "pressure": spread + hertz,
+            "felt": felt - FELT,
+            "transform": -2 * sp.pi * hertz.subs(r, 0) * sonine().expression - FELT,
+            "share": sp.diff(FELT / P * a**3, a) / sp.diff(a**3, a) - SHARE,
+        },
+    )
+
+
+def _along(energy: sp.Expr, rates: dict[sp.Expr, sp.Expr]) -> sp.Expr:
+    """How fast an energy grows if its variables do; generic functions end as plain symbols.
+
+    int P dD has the slope P D', and P_j has s_j P'.
+    """
+    growth = sp.Add(*(sp.diff(energy, variable) * rate for variable, rate in rates.items()))
+    slopes = {sp.diff(_work, a): _P * sp.diff(_D, a)}
+    slopes |= {sp.diff(f, a): s * sp.diff(_P, a) for f, s in zip(_felt, _share, strict=True)}
+    return growth.xreplace(slopes)
+
+
+def _plain(expression: sp.Expr) -> sp.Expr:
+    """Generic functions and their slopes as symbols of their own, products expanded."""
+    functions = (_P, _D, *_felt, *_share)
+    names = {sp.diff(f, a): sp.Symbol(f"{f.func}'") for f in functions}
+    return sp.expand(expression.xreplace(names | {f: sp.Symbol(str(f.func)) for f in functions}))
+
+
+def _loss(weights: list[sp.Expr], stored: sp.Expr, lag: sp.Expr, admittance: sp.Expr) -> sp.Expr:
+    """The energy's rate, for the weights that the modes have in the gap.
+
+    The contact stores int P dD and `stored`; it lags, and an endless plate yields beside.
+    """
+    load = [f * (1 + lag * _growth * sp.diff(_P, a) / _P) for f in (_P, *_felt)]
+    energy = _m * _v**2 / 2 - _m * _g * _z + _work + stored
+    for q, v, omega, c in zip(_q, _rate, _omega, _c, strict=True):
+        energy += (v**2 + omega**2 * q**2) / (2 * omega**2 * c)
+    gap = _D + sp.Add(*(s * q for s, q in zip(weights, _q, strict=True)))
+    way = sp.diff(gap, a) * _growth + admittance * load[0]
+    way += sp.Add(*(s * v for s, v in zip(weights, _rate, strict=True)))
+    rates = {a: _growth, _z: way, _v: _g - load[0] / _m, **dict(zip(_q, _rate, strict=True))}
+    for q, v, omega, c, driven in zip(_q, _rate, _omega, _c, load[1:], strict=True):
+        rates[v] = omega**2 * (c * driven - q)
+    return _along(energy, rates).subs(_v, way)
+
+
+@cache
+def conservation() -> Proof:
+    """The energy along the motion: kept, lost to a lag and to an endless plate, or leaked."""
+    triples = list(zip(_q, _share, _felt, strict=True))
+    stored = sp.Add(*(q * (_P * s - f) for q, s, f in triples))
+    slope = sp.diff(_D + sp.Add(*(q * s for q, s, _ in triples)), a)
+    way = slope * _growth + sp.Add(*(s * v for s, v in zip(_share, _rate, strict=True)))
+    moved = sp.Add(*(f / _P * v for f, v in zip(_felt, _rate, strict=True)))
+    lost = _A * sp.diff(_P, a) * _growth * (way - moved)
+    taken = _Y * (_P + _A * _growth * sp.diff(_P, a)) ** 2
+    nothing, axis = sp.Integer(0), [sp.Integer(1)] * MODES
+    leaked = sp.Add(*((_P - f) * v for f, v in zip(_felt, _rate, strict=True)))
+    return prove(
+        "Energy beside oscillators",
+        f"Generic P, D and s_j, {MODES} modes: the energy is differentiated along the motion, z' "
+        "taken from the closure. At rest q_j = c_j P_j.",
+        {
+            "kept": _plain(_loss(_share, stored, nothing, nothing)),
+            "lag and endless plate": _plain(_loss(_share, stored, _A, _Y) + lost + taken),
+            "at the axis": _plain(_loss(axis, nothing, nothing, nothing) + leaked),
+        }
+        | _at_rest(),
+    )
+
+
+def _at_rest() -> dict[str, sp.Expr]:
+    """With q_j = c_j P_j: what the depth leaves of delta, and the energy of the work P d delta."""
+    rest = [c * f for c, f in zip(_c, _felt, strict=True)]
+    depth = _D + sp.Add(*(s * q for s, q in zip(_share, rest, strict=True)))
+    law = sp.Function("delta")(a)
+    own = law - sp.Add(*(s * q for s, q in zip(_share, rest, strict=True)))
+    stored = _work + sp.Add(
+        *(
+            q * (_P * s - f) + q**2 / (2 * c)
+            for q, s, f, c in zip(rest, _share, _felt, _c, strict=True)
+        )
+    )
+    work = _along(stored, {a: sp.Integer(1)}) - _along(depth, {a: sp.Integer(1)}) * _P
+    return {
+        "depth at rest": sp.expand(depth.subs(_D, own) - law),
+        "energy at rest": _plain(work),
+    }
+
+
+@cache
+def variational_law() -> Proof:
+    """Half the mean over [0, 2a], power by power, and the sphere under the next punch."""
+    contact = {formula.name: formula.expression for formula in contact_law()}
+    n = sp.Symbol("n", positive=True)
+    s = SINE_MINUS.subs(a * phi, _y)
+    mean = sp.integrate(s.subs(_y, 2 * _y * _t), (_t, 0, 1)) / 2
+    doubled = sp.expand(sp.expand_trig(mean - sp.sin(_y) / _y * s))
+    half = sp.integrate(_u ** (n + 2), (_u, 0, 2 * a)) / (4 * a)
+    ratio = 2 ** (n + 1) / (n + 3)
+    gap = sp.integrate((a * sp.sin(_t)) ** 2 / (2 * R) * sp.sin(_t), (_t, 0, sp.pi / 2))
+    whole = sp.integrate(_u**2 / R, (_u, 0, 2 * a)) / (4 * a)
+    # Work P d delta against that of modes of compliance c, sum c P_j^2/2, and of the gap.
+    felt = (FELT / P).subs(P, 1) * a**3
+    compliance = sp.Symbol("c", positive=True)
+    depth = gap + compliance * felt * SHARE
+    gap_energy = sp.integrate(gap * 3 * a**2, a)
+    stored = a**3 * depth - compliance * felt**2 / 2 - gap_energy
+    return prove(
+        "Variational law",
+        "The mean of r^2/(2R) under a flat punch; the mean of s, and of every power of a; the "
+        "work, for P = a^3.",
+        {
+            "sphere": gap - a**2 / (3 * R),
+            "half-space": gap + whole - a**2 / R,
+            "mean": doubled.subs(sp.cos(_y) ** 2, 1 - sp.sin(_y) ** 2),
+            "power": sp.powsimp(sp.expand_power_base(half)) / a ** (n + 2) - ratio,
+            "index": sp.powsimp(ratio.subs(n, 2 * k - 3) - 4 ** (k - 1) / (2 * k)),
+            "work": sp.diff(stored, a) - a**3 * sp.diff(depth, a),
+            "pointwise": contact["delta"] - contact["K_j"] * SINE_MINUS,
+        },
+    )
+
+
+def closure() -> tuple[Formula, ...]:
+    """What a mode feels, its weight, its part of the energy, the leak, and the variational law."""
+    growing, energy, variational = growing_contact(), conservation(), variational_law()
+    contact = {formula.name: formula.expression for formula in contact_law()}
+    return (
+        Formula(
+            "mode_force",
+            "P_j",
+            "part of the force of Hertz's pressure that a mode feels",
+            FELT,
+            "N",
+            "",
+            ("p", "sonine"),
+            growing,
+        ),
+        Formula(
+            "mode_share",
+            "s_j",
+            "mean of J0 under a flat punch: a mode's weight in the gap",
+            SHARE,
+            "1",
+            "",
+            ("mode_force",),
+            growing,
+        ),
+        Formula(
+            "gap_energy",
+            r"E_c - \int P\,\mathrm{d}D",
+            "energy of the contact beside its static part",
+            q_j * (P * SHARE - FELT),
+            "J",
+            "",
+            ("mode_force", "mode_share"),
+            energy,
+            summed=True,
+        ),
+        Formula(
+            "axis_leak",
+            r"-\dot E",
+            "what a closure at the axis loses",
+            q_rate * (P - FELT),
+            "W",
+            "",
+            ("mode_force",),
+            energy,
+            summed=True,
+        ),
+        Formula(
+            "delta_variational",
+            r"\delta_V - a^2/(3R)",
+            "indentation by the variational law, less the sphere's own",
+            contact["K_j"] * SINE_MINUS * SHARE,
+            "m",
+            "6",
+            ("K_j", "mode_share"),
+            variational,
+            summed=True,
+        ),
+        Formula(
+            "variational_ratio",
+            "c_{2k-3}^V/c_{2k-3}",
+            "coefficient of the variational law over the one at the axis",
+            4 ** (k - 1) / (2 * k),
+            "1",
+            "",
+            ("delta_variational",),
+            variational,
+        ),
+    )

@@ -1,0 +1,124 @@
+"""Link 23: when the plate's own motion matters: Zener's number, bending period, echoes.
+
+Bending waves: D nabla^4 w + rho H w'' = 0, D = E* H^3/12, H = 2h, has w = J0(phi r) cos(omega t)
+with omega = phi^2 sqrt(D/(rho H)); with the paper's edge phi_1 = j_1/b is the lowest mode.
+
+Under a point force P an infinite plate moves with w' = P/(8 sqrt(D rho H)) (Boussinesq 1885):
+every wave number takes P phi/(2 pi rho H) sin(omega t)/omega, and int_0^oo sin(s)/s ds = pi/2.
+Hertz's impact on such a plate has one number only (Zener 1941),
+
+    d'' + d^(3/2) + lambda (d^(3/2))' = 0,   lambda = m/(8 T sqrt(D rho H)),
+    T = (m^2/(K^2 v0))^(1/5),   K = (4/3) E* sqrt(R),
+
+time in units of T and the local indentation d in those of v0 T.
+"""
+
+from functools import cache
+
+import sympy as sp
+
+from derivation.engine.formula.proof import Proof, lower_bessel, prove
+from derivation.plate.modes.theory.influence import PLANE_STRAIN_MODULUS
+from derivation.plate.vocabulary import Formula, R, b, h, j_n, lam, m, mu, phi, r, rho, v0
+
+_D, _s, _t, _H = sp.symbols("D s t H", positive=True)
+_RIGIDITY_OVER_MASS = PLANE_STRAIN_MODULUS * (2 * h) ** 2 / (12 * rho)
+"""D/(rho H), flexural rigidity of the plate over its mass per area."""
+
+
+@cache
+def bending_waves() -> Proof:
+    """The equation of motion with w = J0(phi r), the Laplacian applied twice."""
+    shape = sp.besselj(0, phi * r)
+
+    def laplacian(w: sp.Expr) -> sp.Expr:
+        return lower_bessel(sp.diff(w, r, 2) + sp.diff(w, r) / r)
+
+    omega = phi**2 * sp.sqrt(_D / (rho * _H))
+    # The step force's share of wave number phi, integrated with s = omega t.
+    share = phi / (2 * sp.pi * rho * _H) / omega
+    measure = sp.diff(sp.sqrt(_s / _t) * (rho * _H / _D) ** sp.Rational(1, 4), _s)
+    at = sp.sqrt(_s / _t) * (rho * _H / _D) ** sp.Rational(1, 4)
+    density = share.subs(phi, at) * measure
+    speed = sp.integrate(sp.sin(_s) / _s, (_s, 0, sp.oo)) * sp.simplify(density * _s)
+    return prove(
+        "Bending waves",
+        "J0(phi r) in the equation of motion; the response to a point force at rest before, "
+        "integrated over all wave numbers.",
+        {
+            "wave": sp.expand(_D * laplacian(laplacian(shape)) - rho * _H * omega**2 * shape),
+            "point force": sp.simplify(speed - 1 / (8 * sp.sqrt(_D * rho * _H))),
+        },
+    )
+
+
+@cache
+def zener_number() -> Formula:
+    """lambda, by which Hertz's impact on an infinite plate differs from that on a half-space."""
+    bending_waves()
+    K, T, impedance = sp.symbols("K T I", positive=True)
+    scale = (m**2 / (K**2 * v0)) ** sp.Rational(1, 5)
+    force = K * (v0 * T) ** sp.Rational(3, 2)
+
+    def scaled(x: sp.Expr) -> sp.Expr:
+        return sp.simplify(sp.powsimp(sp.expand_power_base(x.subs(T, scale), force=True)))
+
+    E = PLANE_STRAIN_MODULUS
+    flat = sp.Pow(sp.Rational(4, 3) * sp.sqrt(R), sp.Rational(2, 5)) * E ** sp.Rational(2, 5)
+    rate = sp.Pow(v0, sp.Rational(1, 5)) / sp.Pow(m, sp.Rational(2, 5)) * flat  # 1/T
+    number = m * rate / (8 * (2 * h) ** 2 * sp.sqrt(E / 12) * sp.sqrt(rho))
+    squares = E * _H**3 / 12 * rho * _H
+    proof = prove(
+        "Zener's number",
+        "m (d + w)'' = -K d^(3/2) with w' = K d^(3/2)/I, I = 8 sqrt(D rho H), in units of T and "
+        "v0 T: the force's coefficient is 1, its rate's m/(T I).",
+        {
+            "force": scaled(force * T / (m * v0)) - 1,
+            "rate": scaled(force / (impedance * v0) * T / m) - 1 / impedance,
+            "impedance": squares - (_H**2) ** 2 * E / 12 * rho,
+        },
+    )
+    return Formula(
+        "zener_number",
+        r"\lambda_Z",
+        "Zener's number: how much of the impact the plate's waves carry away",
+        number,
+        "1",
+        "",
+        ("C_half",),
+        proof,
+    )
+
+
+@cache
+def plate_times() -> tuple[Formula, Formula]:
+    """First bending period on the paper's edge, and the time of four echoes through H."""
+    proof = bending_waves()
+    omega = (j_n / b) ** 2 * sp.sqrt(_RIGIDITY_OVER_MASS)
+    return (
+        Formula(
+            "bending_period",
+            "T_1",
+            "period of bending with n nodal circles, of the first for j_1",
+            2 * sp.pi / omega,
+            "s",
+            "",
+            (),
+            proof,
+        ),
+        Formula(
+            "echo_time",
+            "T_e",
+            "time of two echoes of a pressure wave through the thickness",
+            4 * 2 * h / sp.sqrt((lam + 2 * mu) / rho),
+            "s",
+            "",
+            (),
+            proof,
+        ),
+    )
+
+
+def plate_motion() -> tuple[Formula, ...]:
+    """The formulas of the link."""
+    return zener_number(), *plate_times()

@@ -1,0 +1,323 @@
+"""A sphere on a plate with inertia: contact after contact, and free flight between them."""
+
+import math
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from derivation.engine.activity import tell
+from derivation.scene.collocation import ONSET, radau
+from derivation.scene.effects.inertia import WIDER
+from derivation.scene.flight import meeting
+from derivation.scene.scene import IncompleteError
+from derivation.scene.time_element import (
+    LOST,
+    A,
+    DynamicProblem,
+    ImpactState,
+    P,
+    Piece,
+    V,
+    element,
+    onset,
+)
+
+FIRST, LONGEST, SHORTEST, MOST = 0.05, 0.25, 1e-13, 20000
+"""First, largest and least length of an element in x, and how many are tried."""
+TOLERANCE = 1e-11
+"""An element's last coefficients over the largest there are."""
+PHASE = 0.45
+"""Largest phase of an oscillator over an element, for each of its nodes."""
+CLOSED = 1e-5
+"""What is left of a contact when its end is taken in one step, over the time it took."""
+TOWARDS = 0.75
+"""How much of what is left of a contact an element may take."""
+OWN = 1e3
+"""How much less exact the radius may be beside the largest of its element."""
+ROUGH = 1e2
+"""How much less exact the force of a viscoelastic contact may be."""
+CONTACTS, ELEMENTS, WORK = 100, 20_000, 2.5e7
+"""How many contacts of an impact are followed, with how many elements in all, and with how much
+work: elements weighted by the time that each takes."""
+TOLD = 50
+"""Elements after which a course says how far it is."""
+SHARP = 0.05
+"""How much of the slope of the gap is left where the plate is nearly as curved as the sphere."""
+STAYS = 20.0
+"""Contact time over half a swing on the resting plate from which a sphere is held to stay."""
+LEFT = "the sphere has left the plate's reach"
+"""Why a course ends."""
+
+
+class Touching(NamedTuple):
+    """A contact: when it began and ended, in units of the problem, its elements and states.
+
+    `radius` is that at its beginning, not 0 where the face has not recovered from the last one.
+    """
+
+    start: float
+    end: float
+    radius: float
+    pieces: tuple[Piece, ...]
+    before: ImpactState
+    after: ImpactState
+
+
+@dataclass(frozen=True)
+class Course:
+    """The contacts of an impact.
+
+    Attributes
+    ----------
+    reason
+        Why the course ends.
+    remedy
+        What makes it end with the sphere's departure; empty if it does.
+    """
+
+    problem: DynamicProblem
+    contacts: tuple[Touching, ...]
+    reason: str
+    remedy: str = ""
+
+    @property
+    def complete(self) -> bool:
+        """Whether the sphere has left the plate for good."""
+        return not self.remedy
+
+
+def course(problem: DynamicProblem, n: int, tolerance: float = TOLERANCE) -> Course:
+    """An impact from the first contact on, by elements of n nodes.
+
+    Parameters
+    ----------
+    tolerance
+        Of an element's last coefficients over the largest there are [1].
+
+    Returns
+    -------
+    Course
+        All contacts; those before, if one is not followed to its end.
+
+    Raises
+    ------
+    IncompleteError
+        If the first contact is not followed to its end.
+    """
+    t, radius, state, found = 0.0, 0.0, problem.begin(), list[Touching]()
+    # A sphere that would come back only by its weight has left: what follows is another impact.
+    weightless = replace(problem, weight=0.0)
+    while True:
+        left = steps_of(problem) - sum(len(touching.pieces) for touching in found)
+        try:
+            touching = contact(problem, n, state, t, radius, tolerance, left)
+            found.append(touching)
+            wait, radius = meeting(weightless, touching.after, touching.pieces[-1].radius)
+            if problem.weight and wait < math.inf:
+                wait, radius = meeting(problem, touching.after, touching.pieces[-1].radius)
+            if wait == math.inf or touching.end + wait > problem.heard:
+                return Course(problem, tuple(found), LEFT)
+            _check_count(problem, found, touching.end + wait)
+        except IncompleteError as end:
+            if not found:
+                raise
+            return Course(problem, tuple(found), end.why, end.remedy)
+        t, state = touching.end + wait, problem.flown(touching.after, wait)
+        if not radius:
+            state = state._replace(into=0.0)
+
+
+def steps_of(problem: DynamicProblem) -> int:
+    """Elements that an impact may take: fewer, the more oscillators each has."""
+    return int(min(ELEMENTS, WORK / weight_of(problem)))
+
+
+def weight_of(problem: DynamicProblem) -> float:
+    """Time that an element takes, in units of which about two million pass in a second."""
+    modes = problem.contact.modes
+    return 2000.0 + modes.omega.size + 16.0 * modes.phi.size
+
+
+def _check_count(problem: DynamicProblem, found: list[Touching], t: float) -> None:
+    """End a course that has had as many contacts as are followed."""
+    if len(found) >= CONTACTS:
+        raise IncompleteError(
+            f"the sphere had not left the plate for good after {len(found)} contacts and "
+            f"{problem.T * t:.6g} s, the limit",
+            "use a thicker plate or a lighter sphere, or set effects.inertia = false for a "
+            "quasi-static plate",
+        )
+
+
+def contact(
+    problem: DynamicProblem,
+    n: int,
+    begin: ImpactState,
+    start: float,
+    radius: float,
+    tolerance: float = TOLERANCE,
+    most: int = ELEMENTS,
+) -> Touching:
+    """A contact, element by element, until the force is gone.
+
+    Parameters
+    ----------
+    radius
+        At its beginning: above 0 where the face has not recovered from the contact before.
+    tolerance
+        As `course` takes it.
+    most
+        Elements at most.
+
+    Raises
+    ------
+    IncompleteError
+        If it takes more elements, or cannot be followed.
+    """
+    found: list[Piece] = []
+    x, length, state, first = _begun(begin, radius), FIRST, begin, radius
+    origin = start - x**ONSET
+    # Before a quantity has grown, what counts is how large it will be.
+    scale = np.full((LOST, 1), 0.1)
+    for step in range(MOST):
+        if len(found) >= most:
+            raise _endless(problem, origin + x**ONSET)
+        if step % TOLD == TOLD - 1:
+            now, count = problem.T * (origin + x**ONSET), problem.omega.size
+            tell(f"{now:.3g} s after first contact, {count} oscillators")
+        length = min(length, _longest(problem, n, x, state if found else None))
+        if length < SHORTEST * max(x, 1.0):
+            break
+        if found:
+            guess = found[-1].element.slope_at(x + length * radau(n).x)
+        else:
+            guess = np.zeros(n) if first else onset(problem, n, length, -begin.opening)
+        made = element(problem, n, x, length, state, radius, guess)
+        if made is None:
+            length *= 0.5
+            continue
+        rows = made.element.rows[:LOST]
+        largest = np.maximum(scale, np.max(np.abs(rows), axis=1, keepdims=True))
+        # Where the contact closes its radius matters beside itself: it says when.
+        unit = np.vstack((OWN * np.max(np.abs(rows[A])), largest[V:]))
+        if problem.lag:  # a force by the radius' rate is as rough as that, and only integrated
+            unit[P] *= ROUGH
+        error = float(np.max(np.abs(rows[:, -2:]) / unit))
+        change = 0.9 * (tolerance / max(error, 1e-300)) ** (1.0 / n)
+        if error > tolerance:
+            length *= min(0.8, max(0.1, change))
+            continue
+        if float(np.sum(rows[P])) <= 0.0:  # a viscoelastic contact separates before it is flat
+            last = _let_go(problem, n, made, state, radius)
+            ended = origin + (last.element.x + last.element.length) ** ONSET
+            return Touching(start, ended, first, (*found, last), begin, last.end)
+        found.append(made)
+        _check_weight(problem, x + length)
+        x, state, radius, scale = x + length, made.end, made.radius, largest
+        length = min(LONGEST, length * min(2.0, change))
+        left = _left(state)
+        if left < CLOSED * x**ONSET and not problem.lag:
+            more, after = _released(problem, made, left)
+            return Touching(start, start + x**ONSET + more, first, tuple(found), begin, after)
+    raise _lost(problem, state, radius, problem.T * (origin + x**ONSET))
+
+
+def _begun(begin: ImpactState, radius: float) -> float:
+    """Where a contact begins in x: later than 0 if the face has not recovered.
+
+    Such a contact has no onset. Its times are regular if they are counted from when the sphere,
+    as fast as now, would have begun to press in the face by as much as it still is: later, they
+    are too coarse for the forces of a small radius.
+    """
+    if not radius or begin.opening >= 0.0:
+        return 1.0 if radius else 0.0
+    return min(1.0, float((begin.into / -begin.opening) ** (1.0 / ONSET)))
+
+
+def _endless(problem: DynamicProblem, t: float) -> IncompleteError:
+    """A course that takes too many steps."""
+    return IncompleteError(
+        f"the sphere was still in contact {problem.T * t:.6g} s after the first contact, when the "
+        f"limit of {steps_of(problem)} time steps was reached",
+        "give fewer inertia.modes or a larger accuracy.rtol, or set effects.inertia = false",
+    )
+
+
+def _lost(
+    problem: DynamicProblem, state: ImpactState, radius: float, time: float
+) -> IncompleteError:
+    """Why a contact cannot be followed any further."""
+    why, remedy = "has no solution that can be found", "give less extreme numbers"
+    beyond = np.nextafter(problem.contact.top, 0.0) / problem.a
+    if radius > 0.99 * beyond:
+        why = (
+            f"grows wider than {problem.a * beyond:.4g} m, {WIDER:g} times what the impact on a "
+            "rigid plate reaches"
+        )
+        remedy = "give a lower speed, a lighter sphere or less weight"
+    for a in (radius, 1.2 * radius):  # where it is, and where it would go
+        at = problem.contact.at(problem.a * np.array([min(a, beyond)]))
+        bent = at.less_a[0] @ problem.contact.modes.by_shape(state.q)
+        own = at.depth_a[0] / problem.depth
+        if a > 0.0 and not own + bent > SHARP * own:
+            why = "has a plate that is curved more sharply than the sphere, and is not one circle"
+            remedy = "give a smaller sphere or a thicker plate"
+    return IncompleteError(f"the contact at {time:.6g} s {why}", remedy)
+
+
+def _left(state: ImpactState) -> float:
+    """How long a contact lasts if sphere and plate part as fast as now."""
+    return state.into / state.opening if state.opening > 0.0 else math.inf
+
+
+def _longest(problem: DynamicProblem, n: int, x: float, state: ImpactState | None) -> float:
+    """Length an element may have: by the fastest oscillator, and not beyond the release."""
+    most = float(np.max(problem.omega, initial=0.0))
+    ahead = PHASE * n / most if most else math.inf
+    if state is not None:
+        ahead = min(ahead, TOWARDS * _left(state))
+    return float((x**ONSET + ahead) ** (1.0 / ONSET) - x)
+
+
+def _check_weight(problem: DynamicProblem, x: float) -> None:
+    """End with a sphere that its weight keeps on the plate: it stays far longer than it swings."""
+    swing = math.pi * math.sqrt(float(np.sum(problem.drive / problem.omega**2)))
+    if problem.weight and x**ONSET > STAYS * max(1.0, swing):
+        raise IncompleteError(
+            "the weight of the sphere keeps it on the plate",
+            "give a higher impact.speed, or leave out impact.gravity",
+        )
+
+
+def _let_go(
+    problem: DynamicProblem, n: int, made: Piece, state: ImpactState, radius: float
+) -> Piece:
+    """The element that ends where its force does."""
+    for _ in range(3):
+        x, end = made.element.x, made.element.end(P)
+        guess = made.element.slope_at(x + (end - x) * radau(n).x)
+        shorter = element(problem, n, x, end - x, state, radius, guess)
+        if shorter is None:
+            break
+        made = shorter
+    return made
+
+
+def _released(problem: DynamicProblem, last: Piece, left: float) -> tuple[float, ImpactState]:
+    """The last of a contact, as a half-space's: the force falls by the power 3/2 of the time."""
+    state, force = last.end, float(np.sum(last.element.rows[P]))
+    after = state
+    for _ in range(3):
+        flown = problem.flown(state, left)
+        push, shift = 0.4 * left, 2.0 / 7.0 * left * left
+        pulled = problem.drive * last.felt[problem.contact.modes.shape]
+        after = ImpactState(
+            flown.way - force * shift,
+            flown.velocity - force * push,
+            flown.q + pulled * shift,
+            flown.rate + pulled * push,
+            flown.into - force * shift - float(np.sum(pulled)) * shift,
+        )
+        left += after.into / after.opening
+    return left, after._replace(into=0.0)

@@ -1,0 +1,333 @@
+"""Time integration of one contact with plate inertia: a single collocation element.
+
+With z the sphere's displacement, q_j the sum of the oscillators of shape j (see `modal`) and A_v
+the retardation time of the contact,
+
+    m z'' = m g - P,   P = P_e + A_v dP_e/dt >= 0,   z = quasi-static(a) + sum s_j q_j
+
+On an element of x = (t/T)^(1/6), t since the contact began, da/dx is a polynomial through Radau's
+nodes. The response of a shape to its force is an integral over the sines of its oscillators. At
+the nodes this is a matrix, made once per element: no oscillator is stepped, and the only unknowns
+are the contact radii.
+"""
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+from numpy.polynomial.legendre import legvander
+from numpy.typing import NDArray
+
+from derivation.scene.collocation import NEWTON, ONSET, Element, newton_step, radau, settled
+from derivation.scene.effects.effect import Array
+from derivation.scene.modal import ContactTables, sinc_less_one
+
+A, V, Z, P, W, E, LOST, LEAK = range(8)
+"""Rows of an element: radius, velocity, way, force, the plate's deflection and energy, and per x
+the energy lost and that which a closure at the axis leaks."""
+
+
+class ImpactState(NamedTuple):
+    """Displacement and velocity of the sphere, deflection and rate of the oscillators.
+
+    `into` is the distance of the sphere beyond the plate's face: the difference of displacement
+    and deflections, which are not subtracted, as it may be far smaller.
+    """
+
+    way: float
+    velocity: float
+    q: Array
+    rate: Array
+    into: float
+
+    @property
+    def opening(self) -> float:
+        """How fast they part."""
+        return float(np.sum(self.rate)) - self.velocity
+
+
+@dataclass(frozen=True)
+class DynamicProblem:
+    """A scene in units of a contact: m, v0 and T; forces are m v0/T and depths v0 T.
+
+    Attributes
+    ----------
+    contact
+        Tables of the contact.
+    a, T, m, v0
+        Units of radius [m] and time [s], mass [kg] and speed [m/s].
+    weight
+        What presses the sphere on, in units of v0/T.
+    lag
+        A_v over T.
+    heard
+        Time from which waves may return from the edge of a plate that is to have none.
+    """
+
+    contact: ContactTables
+    a: float
+    T: float
+    m: float
+    v0: float
+    weight: float = 0.0
+    lag: float = 0.0
+    heard: float = math.inf
+
+    @property
+    def force(self) -> float:
+        """Unit of forces [N]."""
+        return self.m * (self.v0 / self.T)
+
+    @property
+    def depth(self) -> float:
+        """Unit of depths [m]."""
+        return self.v0 * self.T
+
+    @cached_property
+    def omega(self) -> Array:
+        """Angular frequencies."""
+        return self.contact.modes.omega * self.T
+
+    @cached_property
+    def drive(self) -> Array:
+        """Acceleration of an oscillator by a unit force."""
+        return self.contact.modes.drive * self.m
+
+    @cached_property
+    def by_speed(self) -> NDArray[np.intp]:
+        """Order of the oscillators, the slowest first."""
+        return np.argsort(self.omega, kind="stable")
+
+    def begin(self) -> ImpactState:
+        """Everything at the moment of first contact."""
+        none = np.zeros_like(self.omega)
+        return ImpactState(0.0, 1.0, none, none, 0.0)
+
+    def energies(self, state: ImpactState) -> Array:
+        """Of each oscillator, over m v0^2."""
+        return (state.rate**2 + (self.omega * state.q) ** 2) / (2.0 * self.drive)
+
+    def flown(self, state: ImpactState, t: float) -> ImpactState:
+        """A state after free flight."""
+        turn = self.omega * t
+        bent = state.rate * t * sinc_less_one(turn) - 2.0 * state.q * np.sin(turn / 2.0) ** 2
+        fallen = 0.5 * self.weight * t * t
+        return ImpactState(
+            state.way + state.velocity * t + fallen,
+            state.velocity + self.weight * t,
+            state.q + state.rate * t + bent,
+            state.rate * np.cos(turn) - state.q * self.omega * np.sin(turn),
+            state.into - state.opening * t + (fallen - float(np.sum(bent))),
+        )
+
+
+class Nodes(NamedTuple):
+    """An element's nodes, with what does not depend on its radii.
+
+    x, times since the contact and since the element began, dt/dx; integrals from the element's
+    start to each node over x and t; sines of the oscillators and their free motion; and of each
+    shape the response to a force at the nodes, the sum of its oscillators' free motion, and what
+    of it is even in time: position and velocity at the start.
+    """
+
+    x: Array
+    t: Array
+    since: Array
+    rate: Array
+    by_x: Array
+    by_t: Array
+    cos: Array
+    sin: Array
+    free: Array
+    response: Array
+    moved: Array
+    even: Array
+
+
+class Values(NamedTuple):
+    """What is at the nodes for a radius and its slope y; q and the forces of each shape."""
+
+    a: Array
+    y: Array
+    v: Array
+    z: Array
+    q: Array
+    into: Array
+    force: Array
+    felt: Array
+    load_a: Array
+    load_y: Array
+    depth: Array
+    depth_a: Array
+    share: Array
+
+
+class Piece(NamedTuple):
+    """An element with its end: state, radius, and the force that drives each shape there."""
+
+    element: Element
+    end: ImpactState
+    radius: float
+    felt: Array
+
+
+def nodes_of(problem: DynamicProblem, n: int, x: float, length: float, start: ImpactState) -> Nodes:
+    """The nodes of an element."""
+    rule, modes = radau(n), problem.contact.modes
+    xs = x + length * rule.x
+    t, rate = xs**ONSET, ONSET * xs ** (ONSET - 1)
+    since = t - x**ONSET
+    turn = np.outer(since, problem.omega)
+    cos, sin = np.cos(turn), np.sin(turn)
+    free = start.rate * since[:, None] * sinc_less_one(turn)
+    free -= 2.0 * start.q * np.sin(turn / 2.0) ** 2
+    by_x = length * rule.integral
+    by_t = by_x * rate
+    even = modes.by_shape(start.q) + since[:, None] * modes.by_shape(start.rate)
+    response = _response(problem, cos, sin) * by_t
+    moved = modes.by_shape(free)
+    return Nodes(xs, t, since, rate, by_x, by_t, cos, sin, free, response, moved, even)
+
+
+def _response(problem: DynamicProblem, cos: Array, sin: Array) -> Array:
+    """sum (drive/omega) sin(omega (t_i - t_k)) of each shape, shape (shapes, nodes, nodes)."""
+    modes = problem.contact.modes
+    strong = sin * (problem.drive / problem.omega)
+    if modes.first.size == modes.omega.size:
+        one = strong.T[:, :, None] * cos.T[:, None, :]
+        return np.asarray(one - one.transpose(0, 2, 1), dtype=np.float64)
+    ends = (*modes.first[1:].tolist(), modes.omega.size)
+    found = np.empty((modes.first.size, sin.shape[0], sin.shape[0]))
+    for shape, (begin, end) in enumerate(zip(modes.first.tolist(), ends, strict=True)):
+        one = strong[:, begin:end] @ cos[:, begin:end].T
+        found[shape] = one - one.T
+    return found
+
+
+def values_at(
+    problem: DynamicProblem, nodes: Nodes, start: ImpactState, radius: float, y: Array
+) -> Values:
+    """Forces, depths and deflections at the nodes, for a slope da/dx there."""
+    a = radius + nodes.by_x @ y
+    at = problem.contact.at(problem.a * a)
+    felt = np.column_stack((at.force, at.felt)) / problem.force
+    felt_a = np.column_stack((at.force_a, at.felt_a)) * (problem.a / problem.force)
+    # The pressure keeps its shape: the retarded part drives each shape in the same proportion.
+    load_y = (problem.lag / nodes.rate * felt_a[:, 0] / felt[:, 0])[:, None] * felt
+    load = felt + load_y * y[:, None]
+    force, driven = load[:, 0], load[:, 1:]
+    slowed = nodes.by_t @ force
+    fallen = 0.5 * problem.weight * nodes.since**2 - nodes.by_t @ slowed
+    # Uniform motion is taken apart: sphere and plate may part far slower than they move.
+    bent = nodes.moved + np.einsum("jik,kj->ij", nodes.response, driven)
+    q = nodes.even + bent
+    return Values(
+        a,
+        y,
+        start.velocity + problem.weight * nodes.since - slowed,
+        start.way + start.velocity * nodes.since + fallen,
+        q,
+        start.into - start.opening * nodes.since + (fallen - np.sum(bent, axis=1)),
+        force,
+        driven,
+        felt_a + 2.0 * load_y * (y / a)[:, None],  # d2P/da2 is nearly (2/a) dP/da
+        load_y,
+        at.depth / problem.depth + np.sum(at.less * q, axis=1),
+        (at.depth_a / problem.depth + np.sum(at.less_a * q, axis=1)) * problem.a,
+        1.0 + at.less,
+    )
+
+
+def element(
+    problem: DynamicProblem,
+    n: int,
+    x: float,
+    length: float,
+    start: ImpactState,
+    radius: float,
+    y: Array,
+) -> Piece | None:
+    """An element, by Newton's iteration from a guess of da/dx; None if it does not converge."""
+    nodes, size = nodes_of(problem, n, x, length, start), math.inf
+    for _ in range(NEWTON):
+        at = values_at(problem, nodes, start, radius, y)
+        if not np.all(at.a > 0.0):
+            return None
+        system = _system(problem, nodes, at) / nodes.t[:, None]
+        step = newton_step(system, (at.into - at.depth) / nodes.t, nodes.by_x, at.a)
+        if step is None:
+            return None
+        y, before, size = y + step[0], size, step[1]
+        if settled(size, before):
+            return _piece(problem, nodes, at, start, x, length)
+    return None
+
+
+def _system(problem: DynamicProblem, nodes: Nodes, at: Values) -> Array:
+    """Slope of depth less displacement by da/dx at the nodes."""
+    by_force = nodes.by_t @ nodes.by_t
+
+    def by_load(load: Array) -> Array:
+        moved = np.einsum("ij,jik,kj->ik", at.share, nodes.response, load[:, 1:])
+        return np.asarray(by_force * load[:, 0] + moved, dtype=np.float64)
+
+    found = (np.diag(at.depth_a) + by_load(at.load_a)) @ nodes.by_x
+    return found + by_load(at.load_y) if problem.lag else found
+
+
+def _swing(nodes: Nodes, driven: Array) -> tuple[Array, Array]:
+    """Deflections over drive/omega and rates over drive of the oscillators under a force."""
+    cosine = nodes.by_t @ (nodes.cos * driven)
+    sine = nodes.by_t @ (nodes.sin * driven)
+    return nodes.sin * cosine - nodes.cos * sine, nodes.cos * cosine + nodes.sin * sine
+
+
+def _piece(
+    problem: DynamicProblem, nodes: Nodes, at: Values, start: ImpactState, x: float, length: float
+) -> Piece:
+    """The element as polynomials, and its end."""
+    modes, force, rate = problem.contact.modes, at.force, nodes.rate
+    swing, turned = _swing(nodes, at.felt[:, modes.shape])
+    q = start.q + nodes.since[:, None] * start.rate + nodes.free
+    q += problem.drive / problem.omega * swing
+    moving = start.rate * nodes.cos - start.q * problem.omega * nodes.sin + problem.drive * turned
+    plate = np.sum((moving**2 + (problem.omega * q) ** 2) / (2.0 * problem.drive), axis=1)
+    by_shape = modes.by_shape(moving)
+    lost, leak = np.zeros_like(force), np.zeros_like(force)
+    if problem.lag:
+        felt = at.load_y[:, 1:] / at.load_y[:, :1]
+        lost = at.load_y[:, 0] * at.y * (at.v - np.sum(felt * by_shape, axis=1)) * rate
+    if problem.contact.pointwise:
+        leak = np.sum((force[:, None] - at.felt) * by_shape, axis=1) * rate
+    rule = radau(nodes.x.size)
+    values = np.array([at.a, at.v, at.z, force, np.sum(at.q, axis=1), plate, lost, leak])
+    made = Element(x, length, values @ rule.analysis.T, rule.analysis @ at.y)
+    end = ImpactState(float(at.z[-1]), float(at.v[-1]), q[-1], moving[-1], float(at.into[-1]))
+    return Piece(made, end, float(at.a[-1]), at.felt[-1])
+
+
+def oscillating(
+    problem: DynamicProblem, found: Element, start: ImpactState, radius: float, x: float
+) -> Array:
+    """Deflection of each shape at a place of an element."""
+    n = found.slope.size
+    nodes = nodes_of(problem, n, found.x, found.length, start)
+    q = values_at(problem, nodes, start, radius, found.slope_at(nodes.x)).q
+    s = 2.0 * (x - found.x) / found.length - 1.0
+    return np.asarray(legvander([s], n - 1)[0] @ (radau(n).analysis @ q), dtype=np.float64)
+
+
+def onset(problem: DynamicProblem, n: int, length: float, meeting: float) -> Array:
+    """da/dx where a contact begins: the depth grows at the speed at which they meet."""
+    rule = radau(n)
+    goal = meeting * (length * rule.x) ** ONSET
+    a = np.sqrt(goal * problem.depth * problem.contact.R) / problem.a
+    for _ in range(NEWTON):  # depth grows faster than a^2: the iteration comes down
+        at = problem.contact.at(problem.a * a)
+        move = (at.depth / problem.depth - goal) / (at.depth_a * (problem.a / problem.depth))
+        a = np.maximum(a - move, 0.5 * a)
+        if np.max(np.abs(move) / a) < 1e-3:
+            break
+    return np.asarray(np.linalg.solve(length * rule.integral, a), dtype=np.float64)

@@ -1,0 +1,196 @@
+"""Finite-element impacts: statics, natural frequencies, conservation, convergence, causality."""
+
+import itertools
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from derivation.checks.finite_elements.cases import HERTZ, Case
+from derivation.checks.finite_elements.impact import (
+    Sphere,
+    Stepper,
+    Wide,
+    pressed,
+    results,
+    struck,
+    touching,
+)
+from derivation.checks.finite_elements.mesh import Grading, graded, resting
+from derivation.checks.finite_elements.plate import EDGES, Plate, System
+from generated.bessel import bessel_j0_zeros
+from generated.contact_law import force
+from generated.inertia import bending_frequency
+
+PLATE = Plate(0.1, 0.02, 70e9, 0.3, 2700.0)
+COARSE = Grading(contact=5, thickness=1.0, far=2.0, edge=0)
+FINE = Grading(contact=10)
+SMALL = Case("small", "small", PLATE, Sphere(0.01, 0.002, 5.0))
+"""A light ball: its contact ends before the edge can be felt."""
+
+
+def system(case: Case, grading: Grading = COARSE, reach: float = 1.1) -> System:
+    mesh = graded(case.plate.radius, case.plate.thickness, reach * case.radius, grading)
+    return System(case.plate, mesh)
+
+
+@pytest.mark.parametrize("edge", EDGES)
+def test_hertz_on_a_thick_block(edge: str) -> None:
+    """On a block 2000 times as thick as the contact is wide the force is Hertz's."""
+    block, a, R = Plate(1.0, 1.0, 70e9, 0.3, 2700.0, edge), 5e-4, 0.01
+    mesh = graded(1.0, 1.0, 1.25 * a, Grading(contact=12))
+    _, forces = pressed(System(block, mesh), Sphere(R, 1.0, 1.0), a * a / R)
+    assert forces.sum() == pytest.approx(4.0 / 3.0 * block.modulus * a**3 / R, rel=1.5e-3)
+
+
+@pytest.mark.parametrize(("ratio", "nu"), [(0.02, 0.3), (0.2, 0.0), (0.3, 0.45)])
+def test_static_force_on_the_papers_edge(ratio: float, nu: float) -> None:
+    plate = Plate(0.02 / ratio, 0.02, 70e9, nu, 2700.0)
+    a, R = 1e-3, 0.02
+    mesh = graded(plate.radius, 0.02, 1.25 * a, Grading(contact=12, far=2.0))
+    law = force(1.05 * a * a / R, R, 0.01, plate.radius, plate.lam, plate.mu)
+    _, forces = pressed(System(plate, mesh), Sphere(R, 1.0, 1.0), 1.05 * a * a / R)
+    assert forces.sum() == pytest.approx(float(law), rel=5e-4)
+
+
+def test_contact_converges() -> None:
+    """Four times as many nodes, and the error of the static force falls by more than five."""
+    a, R = 1e-3, 0.02
+    depths = a * a / R * np.linspace(0.5, 1.0, 5)
+    law = force(depths, R, 0.01, PLATE.radius, PLATE.lam, PLATE.mu)
+    errors = []
+    for count in (4, 16):
+        plate = System(PLATE, graded(PLATE.radius, 0.02, 1.25 * a, Grading(contact=count)))
+        sums = [pressed(plate, Sphere(R, 1.0, 1.0), depth)[1].sum() for depth in depths]
+        errors.append(np.abs(sums / law - 1.0).mean())
+    assert errors[1] < errors[0] / 5.0
+
+
+@pytest.mark.parametrize(("ratio", "nu"), [(0.02, 0.3), (0.3, 0.0), (0.3, 0.45)])
+def test_frequencies_of_the_papers_edge(ratio: float, nu: float) -> None:
+    """Modes J0(phi_j r) across the whole thickness are exact there."""
+    plate = Plate(1.0, ratio, 1.0, nu, 1.0)
+    found = System(plate, resting(1.0, ratio, 1, 6)).bending_frequencies(4)
+    exact = bending_frequency(bessel_j0_zeros(4) * ratio / 2, nu) * plate.shear_wave_speed
+    np.testing.assert_allclose(found * ratio / 2, exact, rtol=2e-6)
+
+
+def test_thin_clamped_plate() -> None:
+    """Frequencies approach those of a thin plate from below: lambda^2 sqrt(D/(rho H))/b^2."""
+    ratio, nu = 0.01, 0.3
+    found = System(
+        Plate(1.0, ratio, 1.0, nu, 1.0, "clamped"), resting(1.0, ratio, 2, 4)
+    ).bending_frequencies(2)
+    thin = np.array([10.21583, 39.77115]) * ratio / math.sqrt(12.0 * (1.0 - nu**2))
+    assert (found < thin).all()
+    np.testing.assert_allclose(found, thin, rtol=5e-3)
+
+
+def test_hertzian_contact_time() -> None:
+    """2.943 times the indentation over the speed."""
+    x = np.sin(np.linspace(0.0, math.pi / 2, 200001)) ** 0.8
+    speed = np.sqrt(1.0 - np.minimum(x, 1.0 - 1e-16) ** 2.5)
+    assert 2.0 * np.trapezoid(1.0 / speed[:-1], x[:-1]) == pytest.approx(HERTZ, rel=1e-3)
+
+
+def test_touching_is_the_one_solution() -> None:
+    """Against every set of touching nodes there is."""
+    generator = np.random.default_rng(1)
+    for _ in range(20):
+        roots = generator.normal(size=(5, 5))
+        compliance, gap = roots @ roots.T + 0.5 * np.eye(5), generator.normal(size=5)
+        forces, active = touching(compliance, gap, np.zeros(5, dtype=bool))
+        solutions = []
+        for chosen in itertools.product([False, True], repeat=5):
+            place = np.flatnonzero(chosen)
+            trial = np.zeros(5)
+            trial[place] = np.linalg.solve(compliance[np.ix_(place, place)], -gap[place])
+            if (trial >= 0.0).all() and (compliance @ trial + gap > -1e-10).all():
+                solutions.append(trial)
+        assert len(solutions) == 1
+        np.testing.assert_allclose(forces, solutions[0], atol=1e-10)
+        assert (active == (forces > 0.0)).all()
+
+
+def test_energy_and_impulse() -> None:
+    """Energy is kept, better with shorter steps; the force's impulse is what turns the ball."""
+    plate, losses = system(SMALL), []
+    for steps in (100, 200):
+        history = struck(plate, SMALL.sphere, SMALL.time / steps, 100.0 * SMALL.time)
+        losses.append(abs(history.energy - 1.0))
+        impulse = np.trapezoid(history.force, history.time)
+        brought = SMALL.sphere.mass * (SMALL.sphere.speed - history.speed[-1])
+        assert impulse == pytest.approx(brought, rel=1e-3)
+    assert losses[1] < losses[0] / 2.0
+    assert losses[1] < 3e-4
+
+
+def test_momentum_before_the_edge_is_reached() -> None:
+    """What the ball loses the plate has, until waves reach the support."""
+    case = SMALL
+    plate = system(case)
+    step = case.time / 100
+    stepper = Stepper(plate, case.sphere, step)
+    even = np.zeros(plate.free.size)
+    even[plate.free % 2 == 1] = 1.0
+    brought = case.sphere.mass * case.sphere.speed
+    for _ in range(int(0.6 * case.edge_echo / 2.0 / step)):
+        stepper.advance()
+    plates = -even @ (plate.mass @ stepper.state.v[:-1])
+    balls = case.sphere.mass * stepper.state.v[-1]
+    assert plates > 0.1 * brought
+    assert plates + balls == pytest.approx(brought, rel=1e-4)
+
+
+def test_an_edge_that_cannot_be_felt_changes_nothing() -> None:
+    found = []
+    for edge in EDGES:
+        case = replace(SMALL, plate=replace(PLATE, radius=0.2, edge=edge))
+        plate = system(case)
+        history = struck(plate, case.sphere, case.time / 100, 9.0 * case.time, until_end=False)
+        impact = results(history, plate.contact_radii)
+        assert impact.contact_time < case.edge_echo
+        found.append((impact.contact_time, impact.max_force, impact.restitution))
+    np.testing.assert_allclose(found[1:], found[:1] * 2, rtol=1e-7)
+
+
+def test_results_converge_with_mesh_and_steps() -> None:
+    found = []
+    for grading, steps in ((FINE, 300), (COARSE, 300), (FINE, 100)):
+        plate = system(SMALL, grading)
+        history = struck(plate, SMALL.sphere, SMALL.time / steps, 9.0 * SMALL.time, until_end=False)
+        impact = results(history, plate.contact_radii)
+        found.append((impact.max_indentation, impact.max_force, impact.contact_time))
+    best, coarse, long = np.array(found)
+    assert np.abs(coarse / best - 1.0).max() < 3e-3
+    assert np.abs(long / best - 1.0).max() < 2e-3
+
+
+def test_several_contacts_keep_the_energy() -> None:
+    """A light ball on a thin plate is struck again; flights are computed in longer steps."""
+    plate = Plate(0.03, 0.001, 70e9, 0.3, 2700.0, "clamped")
+    case = Case("thin", "thin", plate, Sphere(0.01, 0.001, 1.0))
+    made = system(case, Grading(contact=4, thickness=1.0, far=3.0, edge=0))
+    history = struck(made, case.sphere, case.time / 100, 300.0 * case.time)
+    impact = results(history, made.contact_radii)
+    assert impact.contacts > 1
+    assert impact.contact_time < impact.total_time
+    assert np.ptp(np.diff(history.time)) > 0.0
+    assert impact.energy == pytest.approx(1.0, abs=1.5e-2)
+
+
+def test_a_contact_wider_than_its_mesh() -> None:
+    with pytest.raises(Wide, match="contact: expected it within the fine mesh, got a wider one"):
+        struck(system(SMALL, reach=0.5), SMALL.sphere, SMALL.time / 100, SMALL.time)
+
+
+def test_profiles() -> None:
+    r = np.array([0.0, 0.006])
+    np.testing.assert_allclose(Sphere(0.01, 1.0, 1.0).profile(r), [0.0, 0.0018])
+    np.testing.assert_allclose(Sphere(0.01, 1.0, 1.0, exact=True).profile(r), [0.0, 0.002])
+
+
+def test_an_unknown_edge() -> None:
+    with pytest.raises(ValueError, match="edge: expected one of soft-hinge"):
+        Plate(1.0, 0.1, 1.0, 0.3, 1.0, "free")

@@ -1,0 +1,197 @@
+"""The record of finite-element impacts: resumed, compared with the program, shown in the report."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from derivation.checks import elastodynamics as elastodynamics_check
+from derivation.checks.elastodynamics import COLUMNS, cells, compare, compared, simulated
+from derivation.checks.finite_elements import cases, record
+from derivation.checks.finite_elements.cases import Case
+from derivation.checks.finite_elements.impact import Sphere
+from derivation.checks.finite_elements.mesh import Grading
+from derivation.checks.finite_elements.plate import Plate
+from derivation.checks.finite_elements.record import RESULTS, Setting, read, solved
+from derivation.cli import main
+from derivation.plate import reporting
+from derivation.plate.report.elastodynamics import (
+    elastodynamics_context,
+    elastodynamics_figure,
+    from_exact,
+)
+from derivation.scene.scene import SceneError
+from derivation.scene.scene import read as read_scene
+
+COARSE = Setting(Grading(contact=5, thickness=1.0, far=2.0, edge=0), 100)
+CASE = Case("one", "group", Plate(0.1, 0.02, 70e9, 0.3, 2700.0), Sphere(0.01, 0.002, 5.0))
+PLATE = Plate(1.0, 0.1, 1.0, 0.3, 1.0)
+
+
+@pytest.fixture
+def few(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """Two cases and a plate, whose rows are counted instead of computed."""
+    made: list[str] = []
+
+    def row(case: Case) -> dict[str, Any]:
+        made.append(case.name)
+        return record.inputs(case) | {"contacts": 1}
+
+    def plate(plate: Plate) -> dict[str, Any]:
+        made.append("plate")
+        return record.plate_inputs(plate)
+
+    other = replace(CASE, name="two", sphere=replace(CASE.sphere, speed=2.0))
+    monkeypatch.setattr(cases, "impacts", lambda: (CASE, other))
+    monkeypatch.setattr(cases, "plates", lambda: (PLATE,))
+    monkeypatch.setattr(record, "impact_row", row)
+    monkeypatch.setattr(record, "plate_row", plate)
+    return made
+
+
+def test_only_what_is_missing_is_computed(
+    few: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "elastodynamics.json"
+    whole = record.computed(path)
+    assert few == ["one", "two", "plate"]
+    assert read(path) == json.loads(path.read_text()) == json.loads(json.dumps(whole))
+    data = read(path)
+    data["impacts"][0]["program"] = {"kept": True}
+    del data["impacts"][1]
+    path.write_text(record.to_json(data))
+    few.clear()
+    record.computed(path)
+    assert few == ["two"]
+    assert read(path)["impacts"][0]["program"] == {"kept": True}
+    monkeypatch.setattr(record, "source_hash", lambda: "of other code")
+    few.clear()
+    record.computed(path)
+    assert few == ["one", "two", "plate"]
+
+
+def test_a_record_is_there_from_the_first_case_on(few: list[str], tmp_path: Path) -> None:
+    path, seen = tmp_path / "elastodynamics.json", []
+    record.computed(path, lambda *_: seen.append(len(read(path)["impacts"])))
+    assert seen == [0, 1, 2]
+    assert few
+
+
+def test_every_case_is_another_one() -> None:
+    impacts = cases.impacts()
+    assert len({case.name for case in impacts}) == len(impacts) >= 40
+    for case in impacts:
+        read_scene(record.inputs(case)["scene"])  # a scene as the program takes it
+
+
+def test_a_row(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A row has every result with its error; the fine mesh grows until it holds the contact."""
+    for name in ("BEST", "COARSER", "LONGER"):
+        monkeypatch.setattr(record, name, COARSE)
+    monkeypatch.setattr(record, "SPREAD", (0.6, 2.0))
+    row = record.impact_row(CASE)
+    assert row["elements"].keys() == row["errors"].keys() == set(RESULTS)
+    assert all(0.0 < row["errors"][name] < 0.1 for name in RESULTS)
+    assert row["errors"]["max_indentation"] == record.LEAST_ERROR  # the same thing three times
+    assert abs(row["energy_error"]) < 1e-3
+    assert (row["contacts"], row["scene"]["plate"]["edge"]) == (1, "soft-hinge")
+
+
+def test_the_program_against_elements() -> None:
+    """On the paper's edge program and elements agree to 0.2 % on a coarse mesh."""
+    pane = cases.impacts()[0]
+    assert pane.plate.edge == "soft-hinge"
+    setting = Setting(Grading(contact=6, thickness=1.0, far=3.0, edge=0), 150)
+    impact, _ = solved(pane, setting, until_end=False)
+    found = simulated(record.inputs(pane))
+    for name in ("contact_time", "max_indentation", "max_force", "restitution"):
+        assert found["values"][name] == pytest.approx(getattr(impact, name), rel=2e-3), name
+    assert (found["branches"], found["contacts"], impact.contacts) == ("all", 1, 1)
+
+
+def row(name: str, contact_time: float, bound: float = 1e-3) -> dict[str, Any]:
+    """A row whose contact time alone the program has different."""
+    elements = dict.fromkeys(RESULTS, 1.0)
+    program = {"values": elements | {"contact_time": contact_time}, "bound": bound,
+               "model_error": 1e-3, "contacts": 1, "rtol": 1e-3}  # fmt: skip
+    return record.inputs(CASE) | {
+        "name": name, "elements": elements, "errors": dict.fromkeys(RESULTS, 5e-4),
+        "contacts": 1, "edge_echo": 2.0, "program": program,
+    }  # fmt: skip
+
+
+def test_a_difference_is_allowed_up_to_what_is_stated() -> None:
+    within, beyond = compared(row("a", 1.0024)), compared(row("b", 1.0026))
+    assert within.kept
+    assert not beyond.kept
+    assert beyond.worst == "contact_time"
+    assert len(cells(beyond)) == len(COLUMNS)
+    assert (cells(within)[-1], cells(beyond)[-1]) == ("yes", "NO")
+
+
+def test_a_rejected_scene_is_said_to_be(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    path = tmp_path / "elastodynamics.json"
+    path.write_text(record.to_json({"impacts": [row("one", 1.0)], "plates": []}))
+
+    def rejects(*_: object) -> None:
+        raise SceneError("rtol: expected at least 8.8e-03, got 1e-09")
+
+    monkeypatch.setattr(elastodynamics_check, "simulate", rejects)
+    [case] = compare(path, save=True)
+    assert case.refused
+    assert case.kept
+    assert len(cells(case)) == len(COLUMNS)
+    assert read(path)["impacts"][0]["program"] == {"refused": case.refused}
+    context = elastodynamics_context(read(path))
+    assert (context["cases"], context["rejected"], context["rows"]) == (0, 1, [])
+
+
+def test_nothing_recorded(tmp_path: Path) -> None:
+    path = tmp_path / "none.json"
+    with pytest.raises(ValueError, match="expected recorded cases, got none; run `python -m"):
+        compare(path)
+
+
+def test_the_command(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "elastodynamics.json"
+    path.write_text(record.to_json({"impacts": [row("good", 1.0), row("bad", 2.0)], "plates": []}))
+    shown = {item["name"]: item["program"] for item in read(path)["impacts"]}
+    monkeypatch.setattr(elastodynamics_check, "simulated", lambda item: shown[item["name"]])
+    monkeypatch.setattr(compare, "__defaults__", (path,))
+    assert main(["check", "--elastodynamics"]) == 1
+    out = capsys.readouterr().out
+    assert "good" in out
+    assert "NO" in out
+    path.write_text(record.to_json({"impacts": [row("good", 1.0)], "plates": []}))
+    assert main(["check", "--elastodynamics", "--json", "-"]) == 0
+    [case] = json.loads(capsys.readouterr().out)
+    assert case["differences"]["contact_time"] == 0.0
+    assert main(["check", "--elastodynamics", "--hard"]) != 0
+
+
+def test_the_report_shows_the_record() -> None:
+    data = json.loads(reporting.measured()["elastodynamics"])
+    rows = [*data["impacts"][:3], row("a & b", 1.001), row("c", 1.0)]
+    shown = elastodynamics_context(data | {"impacts": rows})
+    assert shown["within"] <= shown["cases"]
+    assert shown["rows"][-2].startswith(r"a \& b & 1/1 & $+1.00$ (0.50)")
+    assert len(elastodynamics_figure(data | {"impacts": rows}).axes) == 2
+
+
+def test_the_record() -> None:
+    """Its own errors are small, and the elements have the exact frequencies of the paper's edge."""
+    data = read()
+    assert len(data["impacts"]) >= 40
+    for item in data["impacts"]:
+        own = item["errors"]
+        assert own["max_indentation"] < 2e-3, item["name"]
+        assert own["restitution"] < 2e-2, item["name"]
+    assert from_exact(data["plates"]) < 5e-6
+    hinged = [item for item in data["impacts"] if item["scene"]["plate"]["edge"] == "soft-hinge"]
+    assert len(hinged) >= 10
+    for plate in data["plates"]:
+        assert max(plate["errors"]) < 1e-4

@@ -1,0 +1,200 @@
+"""Inertia: bounds against twice the modes and all branches, on both sides of the threshold."""
+
+import json
+import math
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from derivation.checks import inertia as inertia_check
+from derivation.checks import inertia_judged as measure
+from derivation.checks.inertia_judged import Found
+from derivation.checks.random_scenes import Scene
+from derivation.cli import main
+from derivation.engine.files import measurements
+from derivation.scene import limits, waves
+from derivation.scene.effect_selection import Gate, decide
+from derivation.scene.effects.inertia import further_branches, weight_share
+from derivation.scene.law import ContactLaw
+from derivation.scene.limits import zener_number
+from derivation.scene.model import Model, model_of
+from derivation.scene.motion import impact
+from derivation.scene.scene import OUTPUTS, read
+
+SLOW = Model(
+    R=0.05, m=0.4, v0=2e-3, h=0.05, b=0.15, lam=40e9, mu=27e9, density=2700.0, edge="clamped"
+)
+"""A ball laid on a thick disc, nearly."""
+
+
+def gate_of(model: Model, rtol: float) -> Gate:
+    """With every other effect in."""
+    others = inertia_check.present(model) - {"inertia", "hertz"}
+    return decide(model, dict.fromkeys(others, True) | {"inertia": "auto"}, rtol)
+
+
+@pytest.mark.parametrize("changes", [{}, {"gravity": 9.81, "v0": 4e-3}, {"R": 0.02, "v0": 0.01}])
+def test_both_sides_of_the_threshold(changes: dict[str, Any]) -> None:
+    """At its bound inertia may stay out, just below it comes in; what it changes is below that."""
+    model = replace(SLOW, **changes)
+    every = inertia_check.present(model)
+    price = gate_of(model, 1.0).error
+    assert 0.0 < price < 3e-2
+    above, below = gate_of(model, price), gate_of(model, price * (1.0 - 1e-9))
+    assert above.law.effects == every - {"inertia"}
+    assert below.law.effects == every
+    still, moving = impact(above.law), waves.impact(below.law, price / 100.0)
+    changed = [abs(x / y - 1.0) for x, y in zip(still.numbers, moving.numbers, strict=True)]
+    assert 1e-3 * price < max(changed) <= price
+
+
+def test_a_weight_makes_inertia_matter_more() -> None:
+    """A ball that its weight drives into the plate loses more of what it brought."""
+    heavy = replace(SLOW, v0=1e-3, gravity=9.81)
+    light = replace(heavy, gravity=0.0)
+    prices = [gate_of(model, 1.0).error for model in (light, heavy)]
+    every = [inertia_check.present(model) for model in (light, heavy)]
+    still = inertia_check.at_rest(heavy)
+    assert still is not None
+    share = weight_share(heavy, still.max_indentation)
+    assert share > 1.0
+    assert prices[1] > share * prices[0]
+    lost = []
+    for model, effects in zip((light, heavy), every, strict=True):
+        moving = waves.impact(ContactLaw(model, effects), 1e-4)
+        lost.append(1.0 - moving.restitution)
+    assert lost[1] > 2.0 * lost[0]
+    assert lost[1] <= prices[1]
+    # And of what branches may change the speed after has more too.
+    found = waves.impact(ContactLaw(heavy, every[1]), 1e-3)
+    a, time = found.max_contact_radius, found.contact_time
+    assert found.inertia.branches[-1] > share * further_branches(heavy, a, time)[-1]
+
+
+NUMBERS, OUT = (1, 5, 9, 16, 17, 44, 76), (5, 17, 76)
+
+
+@pytest.mark.parametrize("number", NUMBERS)
+def test_bounds_hold_in_random_scenes(number: int) -> None:
+    data, place = measure.scene(number)
+    assert inertia_check.pass_over(data) == ""
+    found = inertia_check.solve(data, place)
+    assert isinstance(found, Found)
+    row = measure._row(number, found)
+    assert row.included is (number not in OUT)
+    assert row.error <= min(row.bound, row.rtol)
+    assert row.alone <= row.price
+
+
+def test_a_bound_that_does_not_hold_is_noticed() -> None:
+    def solve(data: Scene, place: float) -> Found | str:  # noqa: ARG001
+        return Found(1e-2, True, [1.0, 1.0, 1.02, 1.0, 1.0], [1.0] * 5, 1e-3, 1.0, 1.0, [1.0] * 5,
+                     1e-3, 1, 4, 8)  # fmt: skip
+
+    found = measure.judge(3, solve, lambda _: "")
+    (side,) = measure.sides(found.rows)
+    assert not side.kept
+    assert side.quantity == "max_force"
+    assert side.tightest == pytest.approx(20.0)
+    assert found.drawn == 3
+
+
+def test_what_is_refused_or_passed_over_is_counted() -> None:
+    turns = iter(["", "too dear", "", ""])
+    row = Found(1e-2, True, [1.0] * 5, [1.0] * 5, 1e-3, 1.0, 1.0, [1.0] * 5, 1e-3, 1, 4, 8)
+    solved = iter(["rtol", "rtol", row])
+    found = measure.judge(1, lambda *_: next(solved), lambda _: next(turns))
+    assert found.refused == {"rtol": 2}
+    assert found.passed_over == {"too dear": 1}
+    assert [row.number for row in found.rows] == [3]
+    assert json.loads(measure.to_json(found, 1))["drawn"] == 4
+
+
+def test_the_oscillators_of_all_branches_are_as_many_as_weyl_says() -> None:
+    from derivation.scene.modal import free_modes
+    from derivation.scene.model import InertiaSettings
+
+    for eta, modes in ((0.3, 24), (0.06, 80)):
+        model = replace(SLOW, h=eta * SLOW.b, edge="soft-hinge",
+                        inertia=InertiaSettings(modes=modes, branches="all"))  # fmt: skip
+        true = free_modes(model, modes).omega.size
+        assert inertia_check.oscillators(model) == pytest.approx(true, rel=0.15)
+
+
+def test_the_committed_scenes_keep_their_bounds() -> None:
+    data = json.loads((measurements() / "inertia.json").read_text())
+    assert len(data["rows"]) >= 500
+    assert min(side["scenes"] for side in data["sides"]) >= 100
+    assert {side["included"] for side in data["sides"]} == {True, False}
+    for row in data["rows"]:
+        assert row["error"] <= min(row["bound"], row["rtol"])
+        assert row["price"] is None or row["alone"] <= row["price"]
+
+
+def test_the_command_shows_both_sides(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def solve(data: Scene, place: float) -> Found | str:
+        known = data["inertia"]["branches"] == "A0"
+        return Found(
+            place, known, [1.0] * 5, [1.0] * 5, place, 1.0, 1.0, [1.0] * 5, math.inf, 1, 4, 8
+        )
+
+    monkeypatch.setattr(inertia_check, "solve", solve)
+    monkeypatch.setattr(inertia_check, "pass_over", lambda _: "")
+    monkeypatch.setattr(inertia_check, "MEASURED", tmp_path / "inertia.json")
+    assert main(["check", "--inertia", "12", "--seed", "7", "--record"]) == 0
+    shown = capsys.readouterr().out
+    assert "12 of 12 scenes drawn" in shown
+    stored = json.loads((tmp_path / "inertia.json").read_text())
+    assert stored["seed"] == 7
+    assert [side["included"] for side in stored["sides"]] == [True, False]
+    assert stored["rows"][0]["price"] is None
+    assert set(OUTPUTS) >= {row["quantity"] for row in stored["rows"]}
+    assert main(["check", "--inertia", "3", "--effects", "3"]) == 2
+
+
+def changed(**tables: dict[str, Any]) -> dict[str, Any]:
+    """A scene that is looked at, with some keys of its tables changed."""
+    data = measure.scene(1)[0]
+    return {**data, **{name: {**data[name], **keys} for name, keys in tables.items()}}
+
+
+def test_scenes_are_passed_over_for_what_they_are() -> None:
+    """By hand: the work 2 g delta over v^2, delta by the impact itself, no less than at rest."""
+    assert inertia_check.pass_over(changed()) == ""
+    slow = changed(impact={"speed": 1e-3, "gravity": 9.81})
+    assert "weight over the energy brought above 100" in inertia_check.pass_over(slow)
+    still = inertia_check.at_rest(model_of(read(slow)))
+    assert still is not None
+    assert 2.0 * 9.81 * still.max_indentation / 1e-6 > inertia_check.FALLEN
+    # Zener's number goes with the mass to the power 3/5 and is 5 in between.
+    heavy, light = (changed(sphere={"density": rho}) for rho in (1e7, 1e3))
+    assert inertia_check.pass_over(heavy) == "Zener's number above 5"
+    assert inertia_check.pass_over(light) == ""
+    numbers = [zener_number(model_of(read(data))) for data in (heavy, light)]
+    assert numbers[0] / numbers[1] == pytest.approx(1e4**0.6, rel=1e-9)
+    assert numbers[1] < 5.0 < numbers[0]
+    fast = changed(impact={"speed": 1e6})
+    assert inertia_check.pass_over(fast) == "no impact on the plate at rest"
+    assert inertia_check.at_rest(model_of(read(fast))) is None
+    assert inertia_check.pass_over(measure.scene(2)[0]) == "too many modes"
+
+
+def test_scenes_out_of_reach_are_refused_by_name(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A truth of too many oscillators; an impact beyond the law's range."""
+    data, place = measure.scene(9)
+    found = inertia_check.solve(data, place)
+    assert isinstance(found, Found)
+    monkeypatch.setattr(inertia_check, "OSCILLATORS", found.oscillators // 2)
+    assert inertia_check.solve(data, place) == (
+        f"truth: more than {found.oscillators // 2} oscillators"
+    )
+
+    def beyond(law: ContactLaw, *_: object) -> None:
+        limits.refuse(replace(law, model=replace(law.model, v0=1e9)))
+
+    monkeypatch.setattr(inertia_check.waves, "impact", beyond)
+    assert inertia_check.solve(data, place) == "impact.speed"

@@ -1,0 +1,74 @@
+"""What accuracy costs on a plate that moves: three integrators on one problem, and what is told."""
+
+import json
+import math
+from pathlib import Path
+
+import pytest
+
+from derivation.checks import moving_costs
+from derivation.cli import main
+from derivation.plate.report.moving import moving_costs as drawn
+from derivation.plate.report.moving import moving_rows
+from derivation.scene.scene import OUTPUTS
+
+
+@pytest.fixture(autouse=True)
+def _few_oscillators(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(moving_costs, "OSCILLATORS", 10)
+
+
+def test_three_integrators_agree() -> None:
+    """Collocation, an explicit Runge-Kutta method of order 8, and equal steps of order 2."""
+    elements = moving_costs.by_elements(16, 1e-11).numbers
+    assert moving_costs.by_elements(8, 1e-11).numbers == pytest.approx(elements, rel=1e-12)
+    assert moving_costs.by_runge_kutta(1e-11).numbers == pytest.approx(elements, rel=2e-12)
+    rough, fine = (
+        [abs(x / y - 1) for x, y in zip(moving_costs.by_verlet(n).numbers, elements, strict=True)]
+        for n in (256, 1024)
+    )
+    assert max(rough) < 1e-4
+    assert max(fine) < max(rough) / 10
+
+
+def test_truth_and_rows_are_of_the_same_results() -> None:
+    trials = [*moving_costs.modes(), *moving_costs.branches(), *moving_costs.tolerances()]
+    assert all(trial.names == OUTPUTS for trial in trials)
+    few = next(trial for trial in trials if (trial.study, trial.setting) == ("modes", 10))
+    more = next(trial for trial in trials if (trial.study, trial.setting) == ("modes", 40))
+    errors = []
+    for trial in (few, more):
+        pairs = zip(trial.call().numbers, trial.truth(), strict=True)
+        errors.append(max(abs(x / y - 1) for x, y in pairs))
+    assert 0.0 < errors[1] < errors[0] < 1e-3
+
+
+def test_a_tolerance_is_kept_and_its_bound_stated() -> None:
+    [trial] = [t for t in moving_costs.tolerances() if (t.method, t.setting) == ("A0", 5e-3)]
+    found = trial.call()
+    assert found.bound is not None
+    pairs = zip(found.numbers, trial.truth(), strict=True)
+    assert max(abs(x / y - 1) for x, y in pairs) < found.bound <= trial.setting
+
+
+def test_the_committed_measurement_is_told() -> None:
+    data = json.loads(moving_costs.MEASURED.read_text())
+    rows = list(moving_rows(data))
+    assert len(rows) == len(data["rows"]) == len(moving_costs.cells(data))
+    assert {row["study"] for row in data["rows"]} == {"integrator", "modes", "branches", "rtol"}
+    for row in data["rows"]:
+        assert row["seconds"] > 0.0
+        assert all(math.isfinite(error) for error in row["errors"].values())
+        if row["bound"] is not None:
+            assert max(row["errors"].values()) <= row["bound"] <= row["setting"]
+    left, right = drawn(data).axes
+    assert (len(left.lines), len(right.lines)) == (4, 3)
+
+
+def test_other_options_are_refused_beside_it(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["accuracy", "--moving", "--quick"]) == 2
+    assert "--out or --record only" in capsys.readouterr().err
+    assert main(["accuracy", "--moving", "--out", str(tmp_path)]) == 2
+    assert "expected a file, got a folder" in capsys.readouterr().err

@@ -1,0 +1,129 @@
+"""`check --scenes`: realistic scenes, each run counted for what became of it."""
+
+import json
+from typing import Any
+
+import pytest
+
+from derivation.checks import scenes as scenes_check
+from derivation.checks.realistic_scenes import (
+    KINDS,
+    Kind,
+    Outcome,
+    cells,
+    failures,
+    one_line,
+    passed,
+    scenes,
+)
+from derivation.checks.scenes import check_scenes, run
+from derivation.cli import main
+from derivation.scene import SceneError, read
+from derivation.scene.scene import IncompleteError
+
+Captured = pytest.CaptureFixture[str]
+DROP: dict[str, dict[str, Any]] = {
+    "sphere": {"radius": 0.01, "material": "steel"},
+    "plate": {"radius": 0.5, "thickness": 0.2, "material": "steel"},
+    "impact": {"speed": 0.1},
+    "effects": {"inertia": False},
+}
+
+
+def outcome(kind: Kind, message: str = "key: wrong; mend it") -> Outcome:
+    return Outcome(kind, "" if kind == "finished" else message, None, DROP)
+
+
+def test_scenes_are_valid_repeat_and_vary() -> None:
+    found = list(scenes(200, 3))
+    assert found == list(scenes(200, 3))
+    assert found[:20] != list(scenes(20, 4))
+    for scene in found:
+        read(scene)
+        assert 1e-3 <= scene["sphere"]["radius"] <= 0.1
+        assert 5e-4 <= scene["plate"]["thickness"] <= 0.2
+        assert scene["plate"]["radius"] <= 100.0 * scene["plate"]["thickness"]
+        assert 0.01 <= scene["impact"]["speed"] <= 50.0
+    inertia = sum(scene["effects"]["inertia"] for scene in found)
+    assert 70 < inertia < 130
+    for some in ("gravity", "viscous_time", "mass", "pressure"):
+        assert any(some in str(scene) for scene in found), some
+    assert {scene["plate"]["edge"] for scene in found} == {
+        "soft-hinge", "simply-supported", "clamped",
+    }  # fmt: skip
+
+
+def test_a_run_is_named_for_what_became_of_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert run(DROP, 1e-2) == ("finished", "")
+    assert run({**DROP, "impact": {"speed": -1.0}}, None)[0] == "refused"
+
+    def raises(error: BaseException) -> Any:
+        def simulate(*_: Any, **__: Any) -> Any:
+            raise error
+
+        return simulate
+
+    known = {
+        "incomplete": IncompleteError("b", "c"),
+        "refused": SceneError("a: b; c"),
+        "traceback": ZeroDivisionError("x"),
+    }
+    for kind, error in known.items():
+        monkeypatch.setattr(scenes_check, "simulate", raises(error))
+        assert run(DROP, None)[0] == kind
+    monkeypatch.undo()
+    monkeypatch.setattr(scenes_check, "_finite", lambda _: False)
+    assert run(DROP, None)[0] == "NaN"
+
+
+def test_a_run_is_stopped_at_its_limit(monkeypatch: pytest.MonkeyPatch) -> None:
+    def forever(*_: Any, **__: Any) -> Any:
+        while True:
+            pass
+
+    monkeypatch.setattr(scenes_check, "simulate", forever)
+    assert run(DROP, None, limit=0.05)[0] == "overrun"
+
+
+def test_what_fails_and_what_does_not() -> None:
+    many = [outcome("finished")] * 17
+    assert passed([*many, outcome("refused")])
+    assert passed([*many, outcome("incomplete"), outcome("refused")])
+    assert not passed([*many, *[outcome("refused")] * 4])
+    for kind in KINDS[3:]:
+        assert not passed([*many, outcome(kind)]), kind
+    assert not passed([*many, outcome("refused", "key: wrong, with no remedy")])
+    assert not passed([*many, outcome("refused", "key: wrong; ")])
+
+
+def test_every_group_is_shown_with_a_scene() -> None:
+    found = [outcome("finished"), outcome("refused", "a: b; c"), outcome("refused", "a: b; d"),
+             outcome("incomplete", "e: f")]  # fmt: skip
+    assert [row[:2] for row in cells(found)] == [
+        ("finished", "1"), ("refused", "2"), ("incomplete", "1"),
+    ]  # fmt: skip
+    lines = failures(found)
+    assert len(lines) == 4
+    assert "(no remedy)" in lines[2]
+    assert one_line(DROP) in lines[1]
+
+
+def test_worker_processes_run_the_scenes() -> None:
+    refused = {**DROP, "impact": {"speed": 1e6}}
+    found = check_scenes(2, drawn=[DROP, refused])
+    assert [o.kind for o in found] == ["finished", "finished", "refused", "refused"]
+    assert [o.rtol for o in found] == [None, 1e-3, None, 1e-3]
+    assert all(o.remedied for o in found)
+
+
+def test_the_command(monkeypatch: pytest.MonkeyPatch, capsys: Captured) -> None:
+    monkeypatch.setattr(scenes_check, "check_scenes", lambda *_: (outcome("finished"),))
+    assert main(["check", "--scenes", "1", "--seed", "5"]) == 0
+    assert "finished" in capsys.readouterr().out
+    monkeypatch.setattr(scenes_check, "check_scenes", lambda *_: (outcome("NaN"),))
+    assert main(["check", "--scenes", "1", "--json", "-"]) == 1
+    data = json.loads(capsys.readouterr().out)
+    assert data["runs"][0]["kind"] == "NaN"
+    assert data["passed"] is False
+    assert main(["check", "--scenes", "1", "--record"]) == 2
+    assert main(["check", "--scenes", "1", "--speed"]) == 2

@@ -1,0 +1,125 @@
+"""The command line: results, exit status, and one clear message for whatever goes wrong."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from derivation import diagnose, formula
+from derivation.cli import main
+from derivation.engine.files import ROOT
+from derivation.plate.vocabulary import Formula
+
+RIGHT = "(2*T + sinh(2*T))/(2*(sinh(T) - T)*(sinh(T) + T))"
+
+
+def test_public_python_interface() -> None:
+    found = formula("G")
+    assert isinstance(found, Formula)
+    assert found._repr_latex_().startswith("$")
+    assert diagnose("G", RIGHT, at="T=3").verdict == "equal"
+    with pytest.raises(KeyError, match="K_j"):
+        formula("nonsense")
+
+
+def test_diagnose_equal_and_different(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["diagnose", "G", "--formula", RIGHT, "--at", "T=3", "--json", "-"]) == 0
+    equal = json.loads(capsys.readouterr().out)
+    assert equal["verdict"] == "equal"
+    assert equal["given"] == equal["derived"]
+    assert len(equal["given"].replace(".", "").lstrip("0")) == 50
+    wrong = RIGHT.replace("2*T +", "2*T -")
+    assert main(["diagnose", "G", "--formula", wrong, "--json", "-"]) == 1
+    different = json.loads(capsys.readouterr().out)
+    assert {"verdict", "repair", "ratio", "given", "derived"} <= different.keys()
+    assert different["verdict"] == "different"
+
+
+def test_diagnose_reads_latex(capsys: pytest.CaptureFixture[str]) -> None:
+    text = r"-\frac{\sinh(\phi_j h)}{2\mu(\sinh(2\phi_j h) + 2\phi_j h)}"
+    assert main(["diagnose", "Omega_3", "--latex", "--formula", text]) == 0
+    assert "equal" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (["diagnose", "Omega_9", "--formula", "phi"], "Omega_1"),
+        (["diagnose", "G", "--formula", "sinh(T"], "platecontact:"),
+        (["diagnose", "G", "--formula", "__import__('os').getcwd()"], "platecontact:"),
+        (["diagnose", "G", "--formula", "9**9**9"], "platecontact:"),
+        (["diagnose", "G", "--formula", "T", "--at", "T"], "phi=2.5"),
+        (["diagnose", "G", "--formula", "T", "--at", "T=nan"], "platecontact:"),
+        (["diagnose", "G", "--formula", "T", "--digits", "0"], "digits"),
+        (["generate", "--out", "/proc/nowhere"], "/proc/nowhere"),
+        (["misprints", "--json", "/proc/nowhere/x.json"], "/proc/nowhere"),
+        (["nonsense"], "nonsense"),
+        (["check", "--digits", "3"], "digits"),
+        (["report", "--no-pdf", "--out", "/proc/nowhere"], "/proc/nowhere"),
+        (["report", "--section", "misprint"], "did you mean misprints?"),
+        (["report", "--fragment", "Kj"], "did you mean K_j"),
+    ],
+)
+def test_bad_input_is_one_message_and_status_2(
+    arguments: list[str], says: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(arguments) == 2
+    captured = capsys.readouterr()
+    message = captured.err
+    assert says in message
+    assert "Traceback" not in message + captured.out
+
+
+def test_generate_check_and_out(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["generate", "--check"]) == 0
+    out = tmp_path / "plate"
+    assert main(["generate", "--check", "--out", str(out)]) == 1
+    assert f"platecontact generate --out {out}" in capsys.readouterr().out
+    assert main(["generate", "--out", str(out)]) == 0
+    assert main(["generate", "--check", "--out", str(out)]) == 0
+    (out / "stray.py").write_text("")
+    assert main(["generate", "--check", "--out", str(out)]) == 1
+
+
+def test_derive_and_misprints_as_json(tmp_path: Path) -> None:
+    assert main(["derive", "--json", str(tmp_path / "f.json")]) == 0
+    formulas = json.loads((tmp_path / "f.json").read_text())
+    assert {"K_j", "A_j", "delta"} <= {f["name"] for f in formulas}
+    assert all(f["proof"]["residuals"] for f in formulas)
+    assert main(["misprints", "--json", str(tmp_path / "m.json")]) == 0
+    findings = json.loads((tmp_path / "m.json").read_text())
+    assert {f["verdict"] for f in findings} == {"equal", "different"}
+
+
+def test_interrupted_run_leaves_nothing_half_written(tmp_path: Path) -> None:
+    """Ctrl-C while deriving: a message, status 2, and no file in the target."""
+    program = """
+import sys, time
+from derivation import cli
+from derivation.plate import derived
+from derivation.engine.formula.chain import Link
+def endless():
+    print("deriving", flush=True)
+    time.sleep(300)
+object.__setattr__(derived.CHAIN, "links", (Link("endless", endless),))
+sys.exit(cli.main(["generate", "--out", sys.argv[1]]))
+"""
+    environment = {**os.environ, "XDG_CACHE_HOME": str(tmp_path / "cache")}
+    out = tmp_path / "plate"
+    run = subprocess.Popen(
+        [sys.executable, "-c", program, str(out)],
+        env=environment, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+    )  # fmt: skip
+    assert run.stdout is not None
+    assert run.stdout.readline() == "deriving\n"
+    run.send_signal(signal.SIGINT)
+    _, message = run.communicate(timeout=60)
+    assert run.returncode == 2
+    assert "interrupted" in message
+    assert "Traceback" not in message
+    assert not out.exists()

@@ -1,0 +1,232 @@
+"""What the commands show and write, seldom asked: build, rewrite, report with README, accuracy."""
+
+import json
+import math
+import re
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from derivation import pipeline
+from derivation.checks import moving_costs
+from derivation.cli import main
+from derivation.engine.measure.check import Row
+from derivation.engine.measure.evaluate import Errors
+from derivation.engine.report.pdf import TexError
+from derivation.engine.rewrite.account import Account
+from derivation.engine.rewrite.stabilise import Applied
+from derivation.plate import derived, package_pipeline, reporting
+from derivation.plate.report.overview import SHOWN, overview
+from derivation.scene import load
+from derivation.scene.model import model_of
+
+Captured = pytest.CaptureFixture[str]
+Patch = pytest.MonkeyPatch
+
+
+# --- tables and JSON
+
+
+@pytest.mark.parametrize("command", ["derive", "misprints"])
+def test_a_table_or_json_but_not_both_on_the_screen(command: str, capsys: Captured) -> None:
+    assert main([command, "--json", "-"]) == 0
+    rows = json.loads(capsys.readouterr().out)
+    assert main([command]) == 0
+    shown = capsys.readouterr().out
+    names = [row.get("name") or row["quantity"] for row in rows]
+    assert len(names) >= 20
+    assert all(name in shown for name in names)
+    assert not shown.lstrip().startswith("[")
+
+
+def test_a_formula_of_ones_own_is_shown_as_code_that_runs(capsys: Captured) -> None:
+    assert main(["rewrite", "(1 - cos(x))/x**2"]) == 0
+    shown = capsys.readouterr().out
+    assert "Effect of each rule" in shown
+    names: dict[str, Any] = {}
+    exec(compile(shown[shown.index('"""') :], "rewritten", "exec"), names)
+    true = [0.5, 0.5, (1 - math.cos(1.0)), (1 - math.cos(5.0)) / 25]
+    assert names["f"]([1e-150, 1e-9, 1.0, 5.0]).tolist() == pytest.approx(true, rel=1e-15)
+
+
+def test_accounts_of_the_papers_formulas_are_recorded_as_they_are(
+    monkeypatch: Patch, tmp_path: Path, capsys: Captured
+) -> None:
+    """The committed ones, read back: an infinite error is text in JSON, and a number before."""
+    kept = json.loads(pipeline.REWRITTEN.read_text())["rows"]
+    assert any("inf" in applied["worst"] for row in kept for applied in row["applied"])
+    found = tuple(account_of(row) for row in kept)
+    path = tmp_path / "rewrite.json"
+    monkeypatch.setattr(pipeline, "REWRITTEN", path)
+    monkeypatch.setattr(pipeline, "accounts", lambda *_: found)
+    assert main(["rewrite", "--json", "-"]) == 0
+    assert json.loads(capsys.readouterr().out)["rows"] == kept
+    assert not path.exists()
+    assert main(["rewrite", "--record"]) == 0
+    assert json.loads(path.read_text())["rows"] == kept
+    shown = capsys.readouterr().out
+    assert all(f" {row['name']} " in shown for row in kept if row["applied"])
+
+
+def account_of(row: dict[str, Any]) -> Account:
+    """A row of the record as it was before it was written."""
+    applied = (
+        Applied(a["rule"], a["cause"], tuple(a["operations"]), tuple(float(x) for x in a["worst"]))  # type: ignore[arg-type]
+        for a in row["applied"]
+    )
+    return Account(row["name"], row["variable"], tuple(applied), row["worst"])
+
+
+# --- the main job
+
+
+def rows_of(passed: bool) -> tuple[Row, ...]:
+    errors = Errors(9, 0, 0, 0, 0.6, 0.5, 0.4, 0.2, 0.1, None, "float64", ())
+    return (Row("P", "pressure", 1.0, errors, errors, 2, passed=passed),)
+
+
+@pytest.mark.parametrize(("kept", "pdf"), [(True, True), (False, True), (True, False)])
+def test_build_goes_through_every_stage(
+    kept: bool, pdf: bool, monkeypatch: Patch, tmp_path: Path, capsys: Captured
+) -> None:
+    """The package is written before it is checked; without LaTeX all else is there."""
+    made = list[str]()
+
+    def checked(*, tell: Any) -> tuple[Row, ...]:
+        tell("P", 1, 1)
+        made.append("check")
+        assert (tmp_path / "generated" / "pressure.py").is_file()
+        return rows_of(kept)
+
+    def reported(out: Path | None) -> Sequence[Path]:
+        made.append("report")
+        assert out == tmp_path / "reports"
+        if not pdf:
+            raise TexError("no latexmk: install texlive")
+        return ()
+
+    monkeypatch.setattr(pipeline, "check", checked)
+    monkeypatch.setattr(reporting, "report", reported)
+    assert main(["build", "--out", str(tmp_path)]) == (0 if kept else 1)
+    assert made == ["check", "report"]
+    written = {path.name: path.read_text() for path in (tmp_path / "generated").iterdir()}
+    assert written == package_pipeline.package()
+    said = capsys.readouterr().err
+    stages = re.findall(r"✓ (\w+)", said)
+    assert stages == ["derive", "rewrite", "generate", "misprints", "check", "report"]
+    assert ("no PDF, all else is there: no latexmk" in said) is not pdf
+    assert ("beyond their budget: P" in said) is not kept
+    assert "not as committed in check.json: P" in said  # these errors are made up
+
+
+def test_an_installed_copy_builds_into_a_folder_named(monkeypatch: Patch, capsys: Captured) -> None:
+    monkeypatch.setattr(package_pipeline, "in_checkout", lambda: False)
+    monkeypatch.setattr(derived, "chain", lambda: pytest.fail("derived all the same"))
+    assert main(["build"]) == 2
+    assert "add --out DIR" in capsys.readouterr().err
+
+
+# --- the report
+
+
+def test_a_missing_measurement_is_named_with_its_command(
+    monkeypatch: Patch, tmp_path: Path, capsys: Captured
+) -> None:
+    for path in pipeline.measurements().glob("*.json"):
+        if path.stem != "hard":
+            (tmp_path / path.name).write_bytes(path.read_bytes())
+    monkeypatch.setattr(reporting, "measurements", lambda: tmp_path)
+    assert main(["report", "--check"]) == 2
+    assert "hard.json: run `platecontact check --hard --record`" in capsys.readouterr().err
+
+
+def test_the_whole_report_takes_readme_and_picture_along(
+    monkeypatch: Patch, tmp_path: Path
+) -> None:
+    """The README's block, emptied, becomes again what is committed; sections leave it alone."""
+    committed = reporting.README.read_text()
+    begin, end = reporting.readme.BEGIN, reporting.readme.END
+    emptied = committed.partition(begin)[0] + begin + end + committed.partition(end)[2]
+    one = reporting.report_text(["code"])
+    monkeypatch.setattr(reporting, "REPORTS", tmp_path / "reports")
+    monkeypatch.setattr(reporting, "README", tmp_path / "README.md")
+    monkeypatch.setattr(reporting, "PICTURE", tmp_path / "reports" / "overview.svg")
+    monkeypatch.setattr(reporting, "report_text", lambda _: one)
+    monkeypatch.setattr(reporting, "report_figures", dict)
+    reporting.README.write_text(emptied)
+    reporting.report(pdf=False, sections=["code"])
+    assert reporting.README.read_text() == emptied
+    assert not reporting.PICTURE.exists()
+    written = reporting.report(pdf=False)
+    assert reporting.README.read_text() == committed
+    assert reporting.PICTURE.read_text().startswith("<?xml")
+    assert [path.name for path in written] == ["report.tex", "report.html", "report.bib"]
+
+
+def test_the_picture_shows_what_the_plate_and_its_motion_change() -> None:
+    """Hertz's impact on the half-space by hand; the pane yields, the longer and the less."""
+    costs = reporting.measured_accuracy()
+    left, right = overview(load(reporting.PANE), costs).axes
+    case = model_of(load(reporting.PANE))
+    half_space, rest, moves = (np.array(line.get_data()) for line in left.lines)
+    peaks = [1e3 * line[1].max() for line in (half_space, rest, moves)]
+    assert peaks[0] > peaks[1] > 0.0
+    ends = [line[0].max() for line in (half_space, rest)]
+    assert ends[0] < ends[1]
+    # A half-space's impact is over after 2.943 times the largest indentation over the speed, and
+    # by energy that is 5/4 m v0^2 over the largest force.
+    depth = 1.25 * case.m * case.v0**2 / peaks[0]
+    assert 1e-6 * ends[0] == pytest.approx(2.943275 * depth / case.v0, rel=1e-3)
+    assert [line.get_label() for line in right.lines] == [*SHOWN.values(), "cheapest of all"]
+    cheapest = np.array(right.lines[-1].get_data())
+    assert (np.diff(cheapest[0]) > 0).all()
+    assert (np.diff(cheapest[1]) > 0).all()
+    for line in right.lines[:-1]:  # nothing lies beyond the front
+        for seconds, digits in zip(*line.get_data(), strict=True):
+            assert digits <= cheapest[1][cheapest[0] <= seconds].max(initial=-math.inf)
+
+
+# --- what accuracy costs where the plate moves
+
+
+def test_moving_costs_are_measured_and_written(
+    monkeypatch: Patch, tmp_path: Path, capsys: Captured
+) -> None:
+    """Errors are those between two results, and what is timed is computed anew each time."""
+    calls = list[str]()
+
+    def outcome(name: str, *numbers: float) -> Any:
+        def call() -> moving_costs.Outcome:
+            calls.append(name)
+            return moving_costs.Outcome(numbers, 7, bound=None if name == "slow" else 0.1)
+
+        return call
+
+    def trial(study: str, name: str, *numbers: float) -> list[moving_costs.Trial]:
+        truth = (1.0, 2.0, 4.0)
+        return [moving_costs.Trial(study, name, 3, outcome(name, *numbers), lambda: truth,
+                                   moving_costs.FIRST)]  # fmt: skip
+
+    monkeypatch.setattr(moving_costs, "integrators", lambda: trial("integrator", "slow", 1, 2, 5))
+    monkeypatch.setattr(moving_costs, "modes", lambda: trial("modes", "A0", 1.5, 2, 4))
+    monkeypatch.setattr(moving_costs, "branches", list)
+    monkeypatch.setattr(moving_costs, "tolerances", list)
+    path = tmp_path / "moving.json"
+    assert main(["accuracy", "--moving", "--out", str(path)]) == 0
+    data = json.loads(path.read_text())
+    first, second = data["rows"]
+    assert first["errors"] == {"contact_time": 0.0, "max_force": 0.0, "restitution": 0.25}
+    assert second["errors"]["contact_time"] == 0.5
+    assert (first["bound"], second["bound"], first["oscillators"]) == (None, 0.1, 7)
+    assert calls.count("slow") > moving_costs.ROUNDS
+    assert str(path) in capsys.readouterr().err.replace("\n", "")
+    told = list[Any]()
+    again, kept = moving_costs.record(path, lambda *given: told.append(given))
+    assert kept == path
+    assert told == [("integrator: slow", 1, 3), ("modes: A0", 2, 3), ("times", 3, 3)]
+    assert [row["errors"] for row in again["rows"]] == [row["errors"] for row in data["rows"]]
+    assert moving_costs.measure()["scene"] == moving_costs.SCENE  # and with nobody to tell
+    assert data["truth"]["modes"] == moving_costs.MOST

@@ -1,0 +1,317 @@
+"""A new user's wrong turns: no leave to write, a full disk, Ctrl-C, mistyped commands; and help."""
+
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import tomllib
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from typer.main import get_command
+
+from derivation import pipeline
+from derivation.checks import effects as effects_check
+from derivation.checks import inertia as inertia_check
+from derivation.checks import moving_costs
+from derivation.cli import app, main
+from derivation.engine.files import ROOT
+from derivation.plate import package_pipeline, reporting
+
+COMMANDS = sorted(
+    name
+    for name, command in get_command(app).commands.items()  # type: ignore[attr-defined]
+    if not command.hidden  # former names
+)
+PAPER = str(ROOT / "derivation" / "scene" / "examples" / "paper.toml")
+NOBODY = 65534
+LOADED = moving_costs, reporting
+"""What the commands below import, while nobody may not have leave to read Python's library."""
+Captured = pytest.CaptureFixture[str]
+
+
+# --- help and completion
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_help_is_complete_with_an_example(command: str, capsys: Captured) -> None:
+    assert main([command, "--help"]) == 0
+    shown = capsys.readouterr().out
+    assert f"Example: platecontact {command}" in shown
+    example = re.search(rf"Example: platecontact {command}(.*)", shown)
+    assert example is not None
+    for option in re.findall(r"--[a-z-]+", example[1]):
+        assert option in shown.replace(example[0], ""), "the example's options are explained"
+    for parameter in get_command(app).commands[command].params:  # type: ignore[attr-defined]
+        if parameter.name not in {"more", "help"}:
+            assert parameter.help, f"{parameter.name} is not explained"
+
+
+def test_completion_is_offered_and_completes() -> None:
+    module = [sys.executable, "-m", "derivation.cli"]
+    known = {
+        **os.environ,
+        "PYTHONPATH": str(ROOT),
+        "_TYPER_COMPLETE_TEST_DISABLE_SHELL_DETECTION": "1",
+    }
+
+    def said(*arguments: str, **places: str) -> str:
+        return subprocess.run(
+            [*module, *arguments], env=known | places, capture_output=True, text=True, check=True
+        ).stdout
+
+    script = said("--show-completion", "bash")
+    assert "complete -o default -F _platecontact_completion platecontact" in script
+    if shell := shutil.which("bash"):
+        subprocess.run([shell, "-n"], input=script, text=True, check=True)
+    asked = {"_PLATECONTACT_COMPLETE": "complete_bash"}
+    assert said(**asked, COMP_WORDS="platecontact sim", COMP_CWORD="1").split() == ["simulate"]
+    options = said(**asked, COMP_WORDS="platecontact simulate --p", COMP_CWORD="2")
+    assert options.split() == ["--plot"]
+
+
+# --- mistyped
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (["simulat", PAPER], "Did you mean 'simulate'?"),
+        (["simulate", PAPER, "--plt", "x.svg"], "--plot"),
+        (["check", "--speeed"], "--speed"),
+        (["check", "--hard", "--propose"], "leave the others out"),
+        (["check", "--seed", "3"], "add --search 60s"),
+        (["report", "--check", "--fragment", "K_j"], "expected one of --check"),
+        (["report", "--section", "law", "--fragment", "K_j"], "run one by one"),
+        (["rewrite", "x", "--record"], "cannot be combined with FORMULA"),
+        (["rewrite", "x", "--variable", "1"], "expected a name like x, got '1'"),
+        (["generate", "--out", PAPER], "expected a folder, got a file"),
+        (["report", "--out", PAPER], "expected a folder, got a file"),
+        (["simulate", PAPER, "--csv", "/dev/null"], "expected a file, got a device"),
+        (["derive", "--json", str(ROOT)], "expected a file, got a folder"),
+    ],
+)
+def test_a_wrong_turn_is_one_line_and_status_2(
+    arguments: list[str], says: str, capsys: Captured
+) -> None:
+    assert main(arguments) == 2
+    shown = capsys.readouterr()
+    [line] = shown.err.strip().splitlines()
+    assert line.startswith("platecontact: ")
+    assert says in line
+    assert shown.out == ""
+
+
+# --- no leave to write
+
+
+@pytest.fixture
+def locked() -> Iterator[Path]:
+    """A folder that this process may not write into; the superuser is nobody meanwhile."""
+    folder = Path(tempfile.mkdtemp())
+    folder.chmod(0o555)
+    root = os.geteuid() == 0
+    if root:
+        os.setresuid(NOBODY, NOBODY, 0)
+    yield folder
+    if root:
+        os.setresuid(0, 0, 0)
+    left = sorted(path.name for path in folder.iterdir())
+    folder.chmod(0o755)
+    shutil.rmtree(folder)
+    assert left == []
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["generate", "--out", "."],
+        ["generate", "--out", "new/folder"],
+        ["generate", "--scene", PAPER, "--out", "x.py"],
+        ["report", "--out", "."],
+        ["report", "--section", "law", "--out", "."],
+        ["report", "--fragment", "K_j", "--out", "."],
+        ["build", "--out", "."],
+        ["check", "--json", "x.json"],
+        ["check", "--contact", "--json", "x.json"],
+        ["check", "--search", "60s", "--out", "x.toml"],
+        ["accuracy", "--out", "x.json"],
+        ["accuracy", "--moving", "--out", "x.json"],
+        ["rewrite", "--json", "x.json"],
+        ["reference", PAPER, "--digits", "1000", "--json", "x.json"],
+        ["simulate", PAPER, "--plot", "x.svg"],
+        ["simulate", PAPER, "--csv", "x.csv"],
+        ["simulate", PAPER, "--animate", "x.gif"],
+        ["simulate", PAPER, "--sweep", "plate.thickness=1e-2:2e-1:99999", "--json", "x.json"],
+        ["map", PAPER],
+        ["schema", "--out", "x.json"],
+        ["indent", PAPER, "--force", "10", "--json", "x.json"],
+        ["explain", PAPER, "--json", "x.json"],
+        ["derive", "--json", "x.json"],
+        ["misprints", "--json", "x.json"],
+        ["diagnose", "G", "--formula", "T", "--json", "x.json"],
+    ],
+    ids=lambda arguments: " ".join(a for a in arguments if a != PAPER),
+)
+def test_without_leave_to_write_nothing_is_computed(
+    arguments: list[str], locked: Path, monkeypatch: pytest.MonkeyPatch, capsys: Captured
+) -> None:
+    """At once, whatever would take minutes to compute."""
+    monkeypatch.chdir(locked)
+    assert main(arguments) == 2
+    _refused(capsys)
+
+
+@pytest.mark.parametrize(
+    ("options", "module", "name"),
+    [
+        ([], pipeline, "MEASURED"),
+        (["--contact"], pipeline, "MEASURED_CONTACT"),
+        (["--speed"], pipeline, "MEASURED_SPEED"),
+        (["--hard"], pipeline, "MEASURED_HARD"),
+        (["--bounds", "3000"], pipeline, "MEASURED_BOUNDS"),
+        (["--effects", "3000"], effects_check, "MEASURED"),
+        (["--inertia", "500"], inertia_check, "MEASURED"),
+    ],
+)
+def test_what_cannot_be_recorded_is_not_measured(
+    options: list[str], module: object, name: str, locked: Path,
+    monkeypatch: pytest.MonkeyPatch, capsys: Captured,
+) -> None:  # fmt: skip
+    monkeypatch.setattr(module, name, locked / "x.json")
+    assert main(["check", *options, "--record"]) == 2
+    _refused(capsys)
+
+
+def _refused(capsys: Captured) -> None:
+    lines = [line for line in capsys.readouterr().err.splitlines() if line.strip()]
+    assert len(lines) == 1, lines
+    assert lines[0].startswith("platecontact: cannot write ")
+    assert "Permission denied; ask for leave to write there, or name another folder" in lines[0]
+
+
+def test_an_installed_copy_records_nothing(
+    monkeypatch: pytest.MonkeyPatch, capsys: Captured
+) -> None:
+    monkeypatch.setattr(package_pipeline, "in_checkout", lambda: False)
+    assert main(["check", "--contact", "--record"]) == 2
+    assert "keep the result by --json FILE" in capsys.readouterr().err
+
+
+def test_a_read_only_file_stays_as_it_is(locked: Path, capsys: Captured) -> None:
+    """Though its folder may be written into."""
+    with tempfile.TemporaryDirectory() as folder:  # nobody's, if there is a superuser
+        path = Path(folder) / "x.json"
+        path.write_text("mine")
+        path.chmod(0o444)
+        Path(folder).chmod(0o777)
+        assert main(["schema", "--out", str(path)]) == 2
+        assert path.read_text() == "mine"
+        assert list(locked.parent.joinpath(folder).iterdir()) == [path]
+    _refused(capsys)
+
+
+def test_a_link_is_followed(tmp_path: Path) -> None:
+    (tmp_path / "link.json").symlink_to(tmp_path / "real.json")
+    assert main(["schema", "--out", str(tmp_path / "link.json")]) == 0
+    assert (tmp_path / "link.json").is_symlink()
+    assert (tmp_path / "real.json").read_text().startswith("{")
+
+
+# --- a full disk
+
+
+@pytest.fixture
+def small(tmp_path: Path) -> Iterator[Path]:
+    """A disk of 64 kB with 44 kB left."""
+    disk = tmp_path / "disk"
+    disk.mkdir()
+    mounted = ["mount", "-t", "tmpfs", "-o", "size=64k", "none", str(disk)]
+    try:
+        subprocess.run(mounted, check=True, capture_output=True)
+    except (OSError, subprocess.CalledProcessError):
+        pytest.skip("a disk can be mounted by the superuser only")
+    (disk / "filled").write_bytes(bytes(20 * 1024))
+    yield disk
+    subprocess.run(["umount", str(disk)], check=True)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "last"),
+    [
+        (["simulate", PAPER, "--csv", "a/b/x.csv", "--plot", "x.svg"], "x.svg"),
+        (["report", "--section", "law", "--no-pdf", "--out", "new"], "report-law.html"),
+        (["schema", "--out", "x.json"], "x.json"),
+    ],
+    ids=["simulate", "report", "schema"],
+)
+def test_a_full_disk_is_left_as_it_was(
+    arguments: list[str], last: str, small: Path, monkeypatch: pytest.MonkeyPatch, capsys: Captured
+) -> None:
+    """Not even those files are written for which there was room."""
+    monkeypatch.chdir(small)
+    if last == "x.json":  # no room at all
+        Path("more").write_bytes(bytes(shutil.disk_usage(small).free))
+    before = sorted(Path().iterdir())
+    assert main(arguments) == 2
+    lines = capsys.readouterr().err.strip().splitlines()
+    assert lines[-1].startswith("platecontact: cannot write ")
+    assert f"{last}: No space left on device; free some space, or name" in lines[-1]
+    assert sorted(Path().iterdir()) == before
+
+
+def test_a_full_standard_output_is_an_error() -> None:
+    with Path("/dev/full").open("w") as full:
+        run = subprocess.run(
+            [sys.executable, "-m", "derivation.cli", "schema"],
+            stdout=full, stderr=subprocess.PIPE, text=True, check=False, cwd=ROOT,
+        )  # fmt: skip
+    assert run.returncode == 2
+    assert "No space left on device" in run.stderr
+    assert "Traceback" not in run.stderr
+
+
+# --- Ctrl-C
+
+READY = """
+import sys
+from derivation.cli import main
+print("ready", flush=True)
+sys.exit(main(sys.argv[1:]))
+"""
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["simulate", PAPER, "--sweep", "plate.thickness=1e-2:2e-1:99999", "--csv", "x.csv"],
+        ["check", "--search", "1h", "--kernel", "G", "--json", "x.json", "--out", "x.toml"],
+    ],
+    ids=["sweep", "search"],
+)
+def test_ctrl_c_ends_every_process_and_leaves_no_file(arguments: list[str], tmp_path: Path) -> None:
+    """As a terminal sends it: to all processes of the command."""
+    run = subprocess.Popen(
+        [sys.executable, "-c", READY, *arguments], cwd=tmp_path, text=True,
+        env={**os.environ, "PYTHONPATH": str(ROOT)}, start_new_session=True,
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+    )  # fmt: skip
+    assert run.stdout is not None
+    assert run.stdout.readline() == "ready\n"
+    time.sleep(6.0)  # whatever it is at then: importing, beginning other processes, at work
+    assert run.poll() is None
+    os.killpg(run.pid, signal.SIGINT)
+    said, message = run.communicate(timeout=60)  # so every process has let go of the pipes
+    assert run.returncode == 2
+    assert "interrupted; no file is half-written" in message
+    assert "Traceback" not in said + message
+    for path in tmp_path.iterdir():  # what a search has found so far, whole
+        assert (json.loads if path.suffix == ".json" else tomllib.loads)(path.read_text())
+    assert "--sweep" not in arguments or not list(tmp_path.iterdir())

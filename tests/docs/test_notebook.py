@@ -1,0 +1,89 @@
+"""The example notebook: it runs from top to bottom, and what it shows is rich, not text."""
+
+import os
+from pathlib import Path
+from typing import Any
+
+import nbformat
+import pytest
+from nbclient import NotebookClient
+
+from derivation.engine.files import ROOT
+
+NOTEBOOK = ROOT / "reports" / "platecontact.ipynb"
+RICH = {"text/html", "text/markdown", "text/latex", "image/svg+xml"}
+
+
+@pytest.fixture(scope="module")
+def executed(tmp_path_factory: pytest.TempPathFactory) -> list[Any]:
+    """Code cells with the outputs of a fresh kernel, which leaves nothing behind."""
+    home = tmp_path_factory.mktemp("jupyter")
+    notebook = nbformat.read(NOTEBOOK, as_version=4)
+    places = ("IPYTHONDIR", "JUPYTER_RUNTIME_DIR", "JUPYTER_CONFIG_DIR", "JUPYTER_DATA_DIR")
+    environment = {**os.environ, **dict.fromkeys(places, str(home)), "PYTHONPATH": str(ROOT)}
+    NotebookClient(notebook, timeout=300, kernel_name="python3").execute(
+        cwd=str(home), env=environment
+    )
+    return [cell for cell in notebook.cells if cell.cell_type == "code"]
+
+
+def _shown(cells: list[Any], source: str) -> dict[str, str]:
+    """By type, what the cell shows that ends in a line of the source."""
+    [cell] = [cell for cell in cells if cell.source.splitlines()[-1] == source]
+    [output] = cell.outputs
+    return dict(output.data)
+
+
+def test_it_is_committed_without_outputs() -> None:
+    notebook = nbformat.read(NOTEBOOK, as_version=4)
+    nbformat.validate(notebook)
+    for cell in notebook.cells:
+        assert cell.cell_type == "markdown" or (not cell.outputs and cell.execution_count is None)
+
+
+def test_every_cell_shows_one_thing_richly(executed: list[Any]) -> None:
+    assert len(executed) > 10
+    for cell in executed:
+        assert [output.output_type for output in cell.outputs] == ["execute_result"], cell.source
+        if "np.round" not in cell.source:  # an array is text
+            assert RICH & set(cell.outputs[0].data), cell.source
+
+
+@pytest.mark.parametrize(
+    ("source", "kind", "says"),
+    [
+        ('formula("G")', "text/markdown", ("G(T)", "plate factor of the loaded face", "to zero")),
+        ('formula("G")', "text/latex", (r"$\displaystyle G(T) = ",)),
+        ('formula("K_j").proof', "text/markdown", ("symbolically",)),
+        ("scene", "text/html", ("<td>plate</td><td>edge</td><td>simply-supported</td>",)),
+        ("explain(scene, rtol=1e-4)", "text/html", ("<td>bending</td>", "rtol = 0.0001")),
+        ("result", "text/html", ("contact time", "predicted to fail", "<b>Warning:</b>")),
+        ("result.moving", "text/html", ("<th>", "energ")),
+        ("result.history()", "text/html", ("plate energy [J]", "12 of 201 times")),
+    ],
+)
+def test_what_is_shown(source: str, kind: str, says: tuple[str, ...], executed: list[Any]) -> None:
+    shown = _shown(executed, source)[kind]
+    assert [text for text in says if text not in shown] == [], shown
+
+
+def test_comparisons_say_what_mends_the_print(executed: list[Any]) -> None:
+    [own] = [cell for cell in executed if cell.source.startswith("diagnose(")]
+    shown = own.outputs[0].data["text/markdown"]
+    assert r"Omega\_3: different" in shown
+    assert "phi" in shown
+    assert r"\neq" in shown
+    assert "given -" in shown
+    assert "derived -" in shown
+
+
+def test_contacts_and_code_are_shown(executed: list[Any]) -> None:
+    contacts = _shown(executed, "indent(scene, force=[10, 100, 1000])")["text/html"]
+    assert contacts.count("<tr>") == 4
+    assert "<td>100</td>" in contacts
+    code = _shown(executed, 'Code(scene_code(at_rest), language="python")')
+    assert "def impact(" in code["text/plain"] or "impact" in code["text/html"]
+
+
+def test_the_notebook_is_where_the_reports_are() -> None:
+    assert sorted(path.name for path in Path(NOTEBOOK.parent).glob("*.ipynb")) == [NOTEBOOK.name]

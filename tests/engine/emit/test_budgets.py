@@ -1,0 +1,164 @@
+"""Budgets only ever tighten: against what is required, and against every version committed."""
+
+import dataclasses
+import subprocess
+import tomllib
+from typing import Any
+
+import pytest
+
+from derivation import pipeline
+from derivation.cli import main
+from derivation.engine.emit.budgets import parse_budgets
+from derivation.engine.files import ROOT
+from derivation.engine.measure.check import Row
+from derivation.engine.measure.evaluate import Errors
+from derivation.plate.budgets import BUDGETS, read_budgets
+from derivation.plate.modes.kernels.modal_sums import TESTED
+from derivation.plate.propose import LEAST, MARGIN, proposals, tighter
+from generated.manifest import CONTACT, KERNELS
+
+REQUIRED = {
+    **{f"Omega_{k}_scaled": 4.0 for k in (1, 2, 3, 4)},
+    "sonine": 4.0,
+    "G": 6.0,
+    "G_minus_1": 6.0,
+    "A_j": 8.0,
+    "K_j": 8.0,
+    "K_j_bottom": 8.0,
+    **{row["name"]: 8.0 for row in CONTACT},
+}
+"""Largest budgets allowed."""
+
+RELATIVE = 9.0
+"""ULP of the relative error 2e-15, the contact law's promise in versions without numbers for it."""
+
+
+def git(*arguments: str) -> str | None:
+    """What git says, or None if it, or the history, is not there."""
+    try:
+        done = subprocess.run(
+            ["git", *arguments], cwd=ROOT, capture_output=True, text=True, check=False
+        )
+    except OSError:
+        return None
+    return done.stdout if done.returncode == 0 else None
+
+
+def looser(now: dict[str, Any], before: dict[str, Any]) -> list[str]:
+    """Kernels that promise less than before: more ULP, or a smaller domain.
+
+    That a domain ends where the tests do was true before it was said.
+    """
+    found = []
+    former = {row["name"]: RELATIVE for row in CONTACT} | before["ulp"]
+    for name, ulp in now["ulp"].items():
+        old_domain = before.get("domain", {}).get(name)
+        added = (
+            set()
+            if old_domain is None
+            else set(now["domain"][name].split(", ")) - set(old_domain.split(", "))
+        )
+        if ulp > former.get(name, ulp) or added - {"", *TESTED}:
+            found.append(name)
+    measured = now["impact"]
+    wider = [name for name, old in before.get("impact", {}).items() if measured[name] > old]
+    return found + wider
+
+
+def test_budgets_are_within_what_is_required() -> None:
+    budgets = read_budgets()
+    assert {name for name, limit in REQUIRED.items() if budgets[name].ulp > limit} == set()
+
+
+def test_no_budget_was_ever_tighter() -> None:
+    versions = git("log", "--format=%H", "--", BUDGETS.relative_to(ROOT).as_posix())
+    if not versions:
+        pytest.skip("no history to compare with")
+    now = tomllib.loads(BUDGETS.read_text())
+    for version in versions.split():
+        text = git("show", f"{version}:{BUDGETS.relative_to(ROOT).as_posix()}")
+        if text:  # a version that deletes the file shows nothing
+            assert looser(now, tomllib.loads(text)) == [], version
+
+
+def test_what_is_looser_is_noticed() -> None:
+    now = tomllib.loads(BUDGETS.read_text())
+    first = {"ulp": {name: u for name, u in now["ulp"].items() if name not in REQUIRED}}
+    assert looser(now, first) == []
+    for name in ("Omega_1", "impact"):
+        wider = {**now, "ulp": {**now["ulp"], name: now["ulp"][name] + 1.25}}
+        assert looser(wider, now) == [name]
+    assert looser({**now, "ulp": {**now["ulp"], "force": 9.25}}, first) == ["force"]
+    measured = {**now, "impact": {**now["impact"], "rounding": 2 * now["impact"]["rounding"]}}
+    assert looser(measured, now) == ["rounding"]
+    narrower = {**now, "domain": {**now["domain"], "G": "T > 0, T < 9"}}
+    assert looser(narrower, now) == ["G"]
+    assert looser(now, narrower) == []
+
+
+def test_every_kernel_has_a_number_a_domain_and_one_rule() -> None:
+    data = tomllib.loads(BUDGETS.read_text())
+    assert set(parse_budgets(data)) == {row["name"] for row in (*KERNELS, *CONTACT)}
+    for table in ("ulp", "domain"):
+        with pytest.raises(ValueError, match="mend G"):
+            parse_budgets({**data, table: {k: v for k, v in data[table].items() if k != "G"}})
+    twice = {**data["rule"], "new": {"text": "nothing", "kernels": ["delta"]}}
+    with pytest.raises(ValueError, match="mend delta"):
+        parse_budgets({**data, "rule": twice})
+
+
+# --- proposals
+
+
+@dataclasses.dataclass(frozen=True)
+class Measured:
+    needed: float
+
+
+@dataclasses.dataclass(frozen=True)
+class Line:
+    """What a proposal looks at in a row."""
+
+    kernel: str
+    budget: float | None
+    double: Measured
+    single: Measured | None
+    passed: bool | None
+
+
+@pytest.mark.parametrize(
+    ("budget", "needed", "proposed"),
+    [(8.0, 3.0, 3.75), (8.0, 3.01, 4.0), (3.75, 3.0, None), (2.0, 9.0, None), (0.51, 0.1, 0.5),
+     (4.0, 0.0, 0.5), (4.0, float("inf"), None)],
+)  # fmt: skip
+def test_a_proposal_is_the_worst_and_a_margin_in_quarters(
+    budget: float, needed: float, proposed: float | None
+) -> None:
+    assert tighter(budget, needed) == proposed
+    assert proposed is None or needed * MARGIN <= proposed
+    assert LEAST == 0.5
+
+
+def test_proposals_can_be_pasted_and_leave_out_what_failed() -> None:
+    rows = [
+        Line("G", 4.0, Measured(1.0), Measured(2.0), True),
+        Line("P", 1.0, Measured(0.9), None, True),
+        Line("C_top", 3.0, Measured(0.1), None, False),
+        Line("K_j", None, Measured(0.1), None, None),
+    ]
+    assert tomllib.loads("\n".join(proposals(rows))) == {"ulp": {"G": 2.5}}  # type: ignore[arg-type]
+    assert proposals(rows[1:]) == []
+
+
+def test_the_command_prints_proposals_and_writes_nothing(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    errors = Errors(9, 0, 0, 0, 0.6, 0.5, 0.4, 0.2, 0.1, None, "float64", ())
+    rows = (Row("P", "pressure", 1.0, errors, errors, 2, passed=True),)
+    monkeypatch.setattr(pipeline, "check", lambda *_: rows)
+    before = BUDGETS.read_bytes()
+    assert main(["check", "--propose"]) == 0
+    printed = capsys.readouterr().out
+    assert tomllib.loads(printed[printed.index("[ulp]") :]) == {"ulp": {"P": 0.5}}
+    assert BUDGETS.read_bytes() == before

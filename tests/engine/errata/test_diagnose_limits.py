@@ -1,0 +1,192 @@
+"""How far the search for slips goes: what it mends inside powers, and where it stops."""
+
+import itertools
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from fractions import Fraction
+
+import flint
+import pytest
+import sympy as sp
+
+from derivation.engine.errata import compare, place, repairs, sample
+from derivation.engine.errata.dimensions import unit_name
+from derivation.engine.errata.edit import factor_pool, single_edits, term_pool
+from derivation.engine.errata.place import FACTOR, TERM, TERMS, Place, inner
+from derivation.engine.errata.variant import TWICE, Search
+from derivation.engine.formula.dimension import Dimension
+from derivation.engine.formula.parse import FormulaError
+from derivation.engine.formula.proof import SYMBOLIC
+from derivation.plate import misprints
+from derivation.plate.elastic import diagnose, diagnose_text
+from derivation.plate.modes import balance
+from derivation.plate.printed.contact import PRINTED
+from derivation.plate.vocabulary import A_j, Formula, P, R, T, a, b, h, lam, mu, phi
+
+Formulas = Mapping[str, Formula]
+
+
+def search_for(given: sp.Expr, truth: sp.Expr) -> Search:
+    """What the search is given for a comparison of two expressions."""
+    points = sample.sample([given, truth], {}, {})
+    for expression in (given, truth, *factor_pool((given, truth))):
+        points.learn(expression)
+    return Search(points, factor_pool((given, truth)), term_pool(truth))
+
+
+def mended(given: sp.Expr, truth: sp.Expr) -> Iterable[repairs.Repair]:
+    with flint.ctx.workprec(300):
+        search = search_for(given, truth)
+        yield from repairs.repairs(given, search.points.values(truth), search)
+
+
+# --- equal, or not to be told
+
+
+def test_what_is_too_long_to_expand_is_compared_in_balls(formulas: Formulas) -> None:
+    one = (sp.cosh(T) ** 2 - sp.sinh(T) ** 2) ** 12
+    found = diagnose("G", formulas["G"].expression * one, formulas)
+    assert (found.verdict, found.method) == (compare.EQUAL, compare.BY_BALLS)
+    short = diagnose("G", formulas["G"].expression, formulas)
+    assert (short.verdict, short.method) == (compare.EQUAL, SYMBOLIC)
+
+
+def test_symbols_and_functions_that_nobody_knows(formulas: Formulas) -> None:
+    with pytest.raises(FormulaError, match="unknown symbols height, width: expected some of r, z"):
+        diagnose("G", sp.Symbol("height") * sp.Symbol("width"), formulas)
+    with pytest.raises(FormulaError, match=r"airyai.*: write it with other functions"):
+        diagnose("G", sp.airyai(T), formulas)
+
+
+def test_few_candidates_are_examined(formulas: Formulas, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each is held against the derived formula; what mends nothing is not reported."""
+    asked = itertools.count()
+
+    def endless(*_: object) -> Iterable[repairs.Repair]:
+        for index in asked:
+            yield repairs.Repair("sign", "read T", T + index, 1)
+
+    monkeypatch.setattr(compare, "repairs", endless)
+    found = diagnose("G", T, formulas)
+    assert (found.verdict, found.kind, found.repaired) == ("different", "unexplained", None)
+    assert next(asked) <= 7
+
+
+def test_a_factor_that_another_does_not_hold_is_not_counted_twice(formulas: Formulas) -> None:
+    """A_j is derived from P, but what it lacks is no part of P; G is not derived from it."""
+    for name, given in (("K_j", P * formulas["A_j"].expression), ("sonine", A_j * sp.Symbol("G"))):
+        found = diagnose(name, given, formulas)
+        assert found.verdict == "different"
+        assert found.kind != TWICE
+
+
+# --- slips
+
+
+def test_a_term_too_many_is_left_out(formulas: Formulas) -> None:
+    right = formulas["Omega_1"].expression
+    found = diagnose("Omega_1", right + h * phi, formulas)
+    assert found.repair == "leave out the term h*phi"
+    assert found.repaired == right
+
+
+def test_a_slip_in_one_of_two_equal_factors_is_mended() -> None:
+    """SymPy writes (a + b) (a + b) as a power."""
+    truth = (a + b) * (a - b) * h
+    first = next(iter(mended((a + b) ** 2 * h, truth)))
+    assert first.edits == 1
+    assert sp.expand(first.expression - truth) == 0
+
+
+def test_a_slip_in_an_equal_factor_and_another_one_are_mended() -> None:
+    truth = (a + b) * (a - b) * (lam + mu)
+    found = list(mended((a + b) ** 2 * (lam - mu), truth))
+    assert found
+    assert any(repair.edits == 2 for repair in found)
+    assert all(sp.expand(repair.expression - truth) == 0 for repair in found)
+
+
+def test_a_slip_that_fits_one_point_alone_is_none() -> None:
+    given, truth, other = sp.sinh(phi * h), sp.cosh(phi * h), a * b
+    with flint.ctx.workprec(300):
+        search = search_for(given * a * b, truth)
+        right = search.points.values(truth)
+        assert single_edits(Place(given), right, search)
+        mixed = [right[0], *search.points.values(other)[1:]]
+        assert not single_edits(Place(given), mixed, search)
+
+
+def test_long_formulas_are_searched_for_single_slips_or_not_at_all(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    truth = a**3 * sp.sinh(phi * h) * sp.cosh(phi * b) / R
+    one = a**3 * sp.cosh(phi * h) * sp.cosh(phi * b) / R
+    two = a**3 * sp.cosh(phi * h) * sp.sinh(phi * b) / R
+    assert next(iter(mended(one, truth))).edits == 1
+    assert next(iter(mended(two, truth))).edits == 2
+    monkeypatch.setattr(repairs, "MAX_OPERATIONS_FOR_PAIRS", 3)
+    assert next(iter(mended(one, truth))).edits == 1
+    assert not list(mended(two, truth))
+    monkeypatch.setattr(repairs, "MAX_OPERATIONS", 3)
+    assert not list(mended(one, truth))
+
+
+def test_three_terms_that_nothing_mends() -> None:
+    assert not list(mended(a**2 + b * h + sp.sin(phi * h), sp.cosh(phi * b) * lam))
+
+
+def test_groups_are_taken_out_of_short_sums_alone() -> None:
+    short, long = (sp.Add(*(phi**k for k in range(1, n + 1))) for n in (3, place.MAX_TERMS + 1))
+    roles = [[part.role for part in inner(Place(total))] for total in (short, long)]
+    assert (roles[0].count(TERM), roles[0].count(TERMS)) == (3, 3)
+    assert roles[1] == [TERM] * (place.MAX_TERMS + 1)
+
+
+def test_one_of_equal_factors_is_replaced_alone() -> None:
+    (factor,) = (part for part in inner(Place(1 / (a + b) ** 3)) if part.role == FACTOR)
+    assert factor.put(a - b) == 1 / ((a + b) ** 2 * (a - b))
+
+
+# --- numbers
+
+
+def test_constants_are_fractions_times_powers_of_pi() -> None:
+    with flint.ctx.workprec(200):
+        pi, two = flint.acb.pi(), flint.acb(2)
+        assert sample.constant([3 * pi**2 / 7] * 2) == sp.Rational(3, 7) * sp.pi**2
+        assert sample.constant([two.sqrt()] * 2) is None
+        assert sample.constant([flint.acb(0.5) + flint.acb(2) ** -45] * 2) is None
+    assert sample.rational(0.75, 4) == Fraction(3, 4)
+    assert sample.rational(2e6, 4) is None
+    assert sample.rational(float("nan"), 4) is None
+
+
+def test_units_with_a_time_are_spelt_out() -> None:
+    assert unit_name(Dimension(mass=Fraction(1), length=Fraction(-1), time=Fraction(-2))) == "Pa"
+    assert unit_name(Dimension(mass=Fraction(1), time=Fraction(-1))) == "kg s^-1"
+
+
+@pytest.mark.parametrize(
+    ("text", "digits", "values"),
+    [("{} - 1", 5, ("0",)), ("5/2*{}", 1, ("2", "3")), ("5/2*{}", 2, ("2.5",))],
+)
+def test_a_value_of_zero_and_one_on_a_tie(
+    text: str, digits: int, values: Sequence[str], formulas: Formulas
+) -> None:
+    """No number of digits tells cosh^2 - sinh^2 from 1."""
+    given = text.format("(cosh(T)**2 - sinh(T)**2)")
+    found = diagnose_text("G", given, formulas, at={"T": "1.5"}, digits=digits)
+    assert found.given_value in values
+
+
+# --- the printed pair
+
+
+def test_a_pair_that_balances_needs_no_sign(monkeypatch: pytest.MonkeyPatch) -> None:
+    (printed,) = (record for record in PRINTED if record.name == "u")
+    assert balance.signs_that_balance(["u"]) == ("u",)
+    assert "they balance with one sign reversed" in misprints._balance_remark(printed)
+    right = [replace(r, expression=-r.expression) if r.name == "u" else r for r in PRINTED]
+    monkeypatch.setattr(balance, "PRINTED", right)
+    assert balance.signs_that_balance(["u", "w", "f_j", "g_j"]) == ()
+    assert misprints._balance_remark(printed) == ""

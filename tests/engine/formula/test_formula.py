@@ -1,0 +1,124 @@
+"""The ground floor: dimensions, hyperbolic rewriting, balls, proofs."""
+
+import flint
+import pytest
+import sympy as sp
+
+from derivation.engine.formula.ball import PrecisionError, evaluate
+from derivation.engine.formula.dimension import LENGTH, STRESS, DimensionError, dimension, unit
+from derivation.engine.formula.hyperbolic import to_hyperbolic
+from derivation.engine.formula.parse_latex import parse_latex
+from derivation.engine.formula.proof import BY_BALLS, SYMBOLIC, Proof, decide_zero
+from derivation.engine.formula.vocabulary import Argument, Vocabulary
+from derivation.plate.vocabulary import ARGUMENTS, Formula, a, h, lam, mu, phi
+
+KNOWN = {x.symbol: unit(x.unit) for x in ARGUMENTS}
+x = sp.Symbol("x", positive=True)
+
+
+def test_dimension_of_sound_expressions() -> None:
+    assert dimension(lam + 2 * mu, KNOWN) == STRESS
+    assert dimension(sp.sqrt(a * h), KNOWN) == LENGTH
+    assert dimension(a * sp.sin(a * phi), KNOWN) == LENGTH
+
+
+@pytest.mark.parametrize(
+    ("expression", "names"),
+    [(lam + a, r"lam.*a|a.*lam"), (sp.sin(a), "a in sin"), (sp.exp(phi), "phi in exp")],
+)
+def test_dimension_refuses_and_names_the_part(expression: sp.Expr, names: str) -> None:
+    with pytest.raises(DimensionError, match=names):
+        dimension(expression, KNOWN)
+
+
+def test_record_refuses_a_wrong_unit_and_an_unknown_symbol() -> None:
+    proof = Proof("", "", (), "")
+    with pytest.raises(DimensionError, match=r"\[m\], expected \[Pa\]"):
+        Formula("f", "f", "", a, "Pa", "", (), proof)
+    with pytest.raises(KeyError, match="x"):
+        Formula("f", "f", "", x, "m", "", (), proof)
+
+
+@pytest.mark.parametrize(
+    "expression",
+    [
+        (sp.exp(2 * x) - 1) / (sp.exp(2 * x) + 1),
+        sp.exp(x)
+        * (x * (sp.exp(2 * x) - 1) + sp.exp(2 * x) + 1)
+        / (sp.exp(4 * x) - 4 * x * sp.exp(2 * x) - 1),
+        sp.sinh(3 * x) / sp.cosh(x),
+    ],
+)
+def test_hyperbolic_form_is_equal_and_free_of_exponentials(expression: sp.Expr) -> None:
+    rewritten = to_hyperbolic(expression, x)
+    assert not rewritten.has(sp.exp)
+    for at in ("0.37", "2.6"):
+        difference = (rewritten - expression).subs(x, sp.Rational(at)).evalf(30)
+        assert abs(difference) < 1e-25
+
+
+def test_hyperbolic_refuses_what_is_not_balanced() -> None:
+    with pytest.raises(ValueError, match="remains"):
+        to_hyperbolic(sp.exp(x) * (sp.exp(2 * x) + 1), x)
+
+
+def test_evaluate_sees_through_cancellation() -> None:
+    """Sin x - x cos x at 1e-20 is x^3/3 to forty digits; a fixed precision would say 0."""
+    ball = evaluate(sp.sin(x) - x * sp.cos(x), {x: 1e-20}, 50)
+    with flint.ctx.workprec(400):
+        exact = flint.arb(1e-20) ** 3 / 3
+        assert abs(ball / exact - 1) < flint.arb("1e-39")
+    assert ball.rel_accuracy_bits() >= 166
+
+
+def test_evaluate_refuses_an_exact_zero() -> None:
+    with pytest.raises(PrecisionError):
+        evaluate(sp.sin(x) ** 2 + sp.cos(x) ** 2 - 1, {x: 0.5}, 20)
+
+
+def test_zero_is_decided_and_nonzero_is_not() -> None:
+    assert decide_zero(sp.sinh(2 * x) - 2 * sp.sinh(x) * sp.cosh(x)) == SYMBOLIC
+    assert decide_zero(sp.sin(x) ** 2 + sp.cos(x) ** 2 - 1) == BY_BALLS
+    assert decide_zero(sp.sinh(2 * x) - 2 * sp.sinh(x)) is None
+    assert decide_zero(sp.sin(x) - x + sp.Rational(1, 10**60)) is None
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("1", "1"),
+        ("Pa/m", "m^-2 kg s^-2"),
+        ("kg m/s^2", "m kg s^-2"),
+        ("J/(kg m)", "m s^-2"),
+        ("1/m^2", "m^-2"),
+        ("m/N^(5/3)", "m^-2/3 kg^-5/3 s^10/3"),
+        ("N/m^(11/3)", "m^-8/3 kg s^-2"),
+    ],
+)
+def test_units_are_read(text: str, expected: str) -> None:
+    assert str(unit(text)) == expected
+
+
+@pytest.mark.parametrize(
+    "text", ["", "q", "m^", "m^-1", "m/s/s", "J/kg m", "m//s", "1/", "/m", "(m)", "m  s", "m^(1/2"]
+)
+def test_what_is_no_unit_is_refused(text: str) -> None:
+    with pytest.raises(ValueError, match="make it of 1, m, kg, s, N, J, W, Pa"):
+        unit(text)
+
+
+def test_a_vocabulary_names_its_symbols_in_latex_too() -> None:
+    words = Vocabulary(
+        (
+            Argument(a, "m", "a_0", "", ()),
+            Argument(mu, "1", r"\varkappa", "", ()),
+            Argument(h, "m", r"H_{1}^{(j)}", "", ()),
+        ),
+        indices="j",
+    )
+    assert words.name_of_latex == {"a_0": "a", "varkappa": "mu", "H_1": "h"}
+    read = parse_latex(r"a_0 \varkappa + H_1^{(j)}", words)
+    assert read == a * mu + h
+    assert words.numbers == {mu}
+    with pytest.raises(KeyError, match="without unit and domain: lam"):
+        words.arguments_of(a * lam)

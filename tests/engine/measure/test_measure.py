@@ -1,0 +1,385 @@
+"""The harness itself: right kernels pass, damaged ones of every kind do not."""
+
+import dataclasses
+import json
+import math
+import warnings
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import flint
+import numpy as np
+import pytest
+from mpmath import mp, mpf
+
+from derivation.engine.files import write_file
+from derivation.engine.formula.ulp import SINGLE
+from derivation.engine.measure import check as checking
+from derivation.engine.measure.check import Row
+from derivation.engine.measure.evaluate import Truth, allowed_ulp, judge, to_single
+from derivation.engine.measure.kernels import Kernel
+from derivation.engine.measure.point import Point
+from derivation.engine.measure.record import COLUMNS, as_data, cells, passed, to_json
+from derivation.engine.oracle.agreement import OracleError
+from derivation.mathematics.bessel.oracle import j0_zero
+from derivation.plate.grids import grid, seams
+from derivation.plate.judge import check, kernel_of_row, truths
+from derivation.plate.modes.route import routes
+from derivation.plate.oracle import reference
+
+G_PRINTED = "(sinh(T)*cosh(T) + T) / (sinh(T)**2 - T**2)"
+MODE_F = (
+    "A_j/(2*mu)*("
+    "((lam+2*mu)*cosh(x) + (lam+mu)*x*sinh(x))*cosh(t)/((lam+mu)*phi*(sinh(2*x) - 2*x))"
+    " + ((lam+2*mu)*sinh(x) + (lam+mu)*x*cosh(x))*sinh(t)/((lam+mu)*phi*(sinh(2*x) + 2*x))"
+    " - z*sinh(x)*cosh(t)/(sinh(2*x) + 2*x) - z*cosh(x)*sinh(t)/(sinh(2*x) - 2*x))"
+)
+
+
+def rounded(formula: str, names: tuple[str, ...]) -> Callable[..., Any]:
+    """A kernel that computes with ample digits and rounds once: right, but slow."""
+    code = compile(formula, "formula", "eval")
+
+    def one(*numbers: float) -> float:
+        values = {name: mpf(float(number)) for name, number in zip(names, numbers, strict=True)}
+        x = values.get("phi", mpf(0)) * values.get("h", mpf(0))
+        small = values.get("T", x)
+        digits = 60 + int(5 * max(0, -mp.log10(small))) + int(min(4 * small, 2000))
+        with mp.workdps(digits):
+            values["x"] = values.get("phi", mpf(0)) * values.get("h", mpf(0))
+            values["t"] = values.get("phi", mpf(0)) * values.get("z", mpf(0))
+            scope = {"sinh": mp.sinh, "cosh": mp.cosh, "exp": mp.exp}
+            return float(eval(code, scope, values))
+
+    def kernel(*arrays: Any) -> Any:
+        kind = np.result_type(*arrays)
+        return np.array([one(*row) for row in zip(*arrays, strict=True)]).astype(kind)
+
+    return kernel
+
+
+def kernel_G(formula: str = G_PRINTED, budget: float = 1.0) -> Kernel:
+    return Kernel("G", "influence", ("T",), rounded(formula, ("T",)), budget)
+
+
+@pytest.fixture(scope="module")
+def truths_of_G() -> list[Truth]:
+    return truths("G", grid("G", ("T",)), 50)
+
+
+def test_right_kernel_passes() -> None:
+    (row,) = check(50, [kernel_G()])
+    assert row.passed is True
+    assert row.double.points >= 60
+    assert row.double.max_ulp <= 0.5
+    assert row.single is not None
+    assert row.single.max_ulp <= 0.5
+    assert row.single.dtype == "float32"
+    assert row.oracles == checking.AGREEMENTS
+
+
+def signs(formula: str) -> list[str]:
+    """The formula with each of its binary signs flipped in turn."""
+    places = [i for i, c in enumerate(formula) if formula[i - 1 : i + 2] in (" + ", " - ")]
+    places += [i for i, c in enumerate(formula) if c in "+-" and formula[i - 1] not in " ("]
+    flip = {"+": "-", "-": "+"}
+    return [formula[:i] + flip[formula[i]] + formula[i + 1 :] for i in sorted(set(places))]
+
+
+@pytest.mark.parametrize("damaged", signs(G_PRINTED))
+def test_every_flipped_sign_in_G_is_noticed(damaged: str, truths_of_G: list[Truth]) -> None:
+    errors = judge(kernel_G(damaged, 8.0), truths_of_G)
+    assert errors.ratio is not None
+    assert errors.ratio > 1e6
+
+
+NAMES_F = ("z", "phi", "h", "lam", "mu", "A_j")
+
+
+@pytest.fixture(scope="module")
+def truths_of_mode_f() -> list[Truth]:
+    return truths("mode_f", grid("mode_f", NAMES_F), 30)[::3]
+
+
+def test_mode_f_passes(truths_of_mode_f: list[Truth]) -> None:
+    kernel = Kernel("mode_f", "mode_shapes", NAMES_F, rounded(MODE_F, NAMES_F), 1.0)
+    assert judge(kernel, truths_of_mode_f).max_ulp <= 0.5
+
+
+@pytest.mark.parametrize("damaged", signs(MODE_F))
+def test_every_flipped_sign_in_mode_f_is_noticed(
+    damaged: str, truths_of_mode_f: list[Truth]
+) -> None:
+    kernel = Kernel("mode_f", "mode_shapes", NAMES_F, rounded(damaged, NAMES_F), 8.0)
+    assert judge(kernel, truths_of_mode_f).ratio > 1e6
+
+
+def test_printed_form_in_doubles_fails(truths_of_G: list[Truth]) -> None:
+    def naive(T: Any) -> Any:
+        with np.errstate(all="ignore"):
+            return (np.sinh(T) * np.cosh(T) + T) / (np.sinh(T) ** 2 - T**2)
+
+    errors = judge(Kernel("G", "influence", ("T",), naive, 8.0), truths_of_G)
+    assert errors.ratio == math.inf
+    assert errors.not_finite > 0
+    assert errors.max_ulp > 1e12
+
+
+def test_one_nan_is_enough_to_fail(truths_of_G: list[Truth]) -> None:
+    right = kernel_G().call
+
+    def with_nan(T: Any) -> Any:
+        result = right(T)
+        result[37] = np.nan
+        return result
+
+    errors = judge(dataclasses.replace(kernel_G(), call=with_nan), truths_of_G)
+    assert errors.not_finite == 1
+    assert errors.ratio == math.inf
+    assert errors.worst is not None
+    assert errors.worst.got[1] == "nan"
+    assert errors.worst.arguments[0][1] == truths_of_G[37].point.values["T"].hex()
+
+
+def test_wrong_dtype_and_warnings_fail() -> None:
+    right = kernel_G().call
+
+    def always_double(T: Any) -> Any:
+        return right(T).astype(np.float64)
+
+    def noisy(T: Any) -> Any:
+        warnings.warn("overflow encountered", RuntimeWarning, stacklevel=1)
+        return right(T)
+
+    for call in (always_double, noisy):
+        (row,) = check(30, [dataclasses.replace(kernel_G(), call=call)])
+        assert row.passed is False
+
+
+def test_wrong_shape_is_refused(truths_of_G: list[Truth]) -> None:
+    kernel = dataclasses.replace(kernel_G(), call=lambda T: np.float64(1.0))  # noqa: ARG005
+    with pytest.raises(ValueError, match="gave shape"):
+        judge(kernel, truths_of_G)
+
+
+def test_formulas_as_printed_are_measured_but_not_judged() -> None:
+    kernel = dataclasses.replace(kernel_G(), module="as_printed", budget=None)
+    wrong = dataclasses.replace(kernel, call=rounded("-" + G_PRINTED, ("T",)))
+    for chosen, largest in ((kernel, 0.0), (wrong, 1e15)):
+        (row,) = check(30, [chosen])
+        assert row.passed is None
+        assert row.double.ratio is None
+        assert row.double.max_ulp >= largest
+    assert passed([row])
+
+
+def test_contradicting_oracles_stop_the_check(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(routes.ROUTES, "G", lambda v: 2 * v["T"])
+    with pytest.raises(OracleError):
+        check(30, [kernel_G()])
+
+
+def test_too_few_digits_are_refused() -> None:
+    with pytest.raises(ValueError, match="at least 20 digits"):
+        check(10, [])
+
+
+def test_table_of_zeros_is_judged_entry_by_entry() -> None:
+    def zeros(count: int) -> Any:
+        return np.array([float(j0_zero(n, 80)) for n in range(1, count + 1)])
+
+    points = [Point({"count": float(n)}) for n in (1, 2, 50, 1000)]
+    found = truths("bessel_j0_zeros", points, 30)
+    kernel = Kernel("bessel_j0_zeros", "bessel", ("count",), zeros, 1.0)
+    assert judge(kernel, found).max_ulp <= 0.5
+    shifted = dataclasses.replace(kernel, call=lambda count: zeros(count + 1)[1:])
+    assert judge(shifted, found).ratio > 1e6
+
+
+def test_modal_sum_is_called_once_per_number_of_modes() -> None:
+    arguments = ("h", "b", "R", "a")
+    points = grid("delta", arguments, modes=True)[:12]
+    found = truths("delta", points, 30)
+    calls = []
+
+    def right(*columns: Any, modes: int) -> Any:
+        calls.append(modes)
+        rows = zip(*columns, strict=True)
+        values = (dict(zip(arguments, map(float, row), strict=True)) for row in rows)
+        return np.array([float(reference("delta", v, 30, modes).value) for v in values])
+
+    kernel = Kernel("delta", "modal_sum", arguments, right, 1.0, modes=True)
+    assert judge(kernel, found).max_ulp <= 0.5
+    assert len(calls) == len(set(calls)) > 3
+
+    def one_mode_short(*columns: Any, modes: int) -> Any:
+        return right(*columns, modes=max(1, modes - 1))
+
+    assert judge(dataclasses.replace(kernel, call=one_mode_short), found).ratio > 1e3
+
+
+# --- allowances
+
+
+def test_allowance_is_budget_plus_half_the_condition_number() -> None:
+    """P at a power of two: half a unit is 2^-53 exactly, condition numbers 1, 3, 0, 1."""
+    found = reference("P", {"R": 1.0, "a": 1.0, "lam": 0.0, "mu": 0.1875})
+    assert float(found.value) == 0.5
+    assert allowed_ulp(found, 4.0) == pytest.approx(4.0 + 2.5, rel=1e-9)
+    assert allowed_ulp(found, 4.0, SINGLE) == pytest.approx(4.0 + 2.5, rel=1e-9)
+
+
+def test_zero_allows_what_rounding_the_arguments_does() -> None:
+    values = {"z": 0.1, "phi": 11.0, "h": 0.1, "lam": 2.0, "mu": 1.0, "A_j": -1.0}
+    found = reference("mode_rz", values)
+    slope = float(found.total)
+    assert found.value == 0
+    assert slope > 0.1
+    assert allowed_ulp(found, 4.0) * 5e-324 == pytest.approx(slope * 2.0**-53, rel=1e-6)
+
+
+def test_subnormal_values_allow_units_not_thousands() -> None:
+    found = reference("Omega_3", {"phi": 744.0, "h": 1.0, "mu": 1.0})
+    assert found.condition["phi"] > 700
+    assert allowed_ulp(found, 4.0) < 5.0
+
+
+def test_budget_of_a_sum_counts_in_units_of_its_modes() -> None:
+    values = {"r": 1.0, "z": 0.05, "h": 0.1, "b": 1.0, "R": 0.5, "a": 0.02, "lam": 1.0, "mu": 1.0}
+    found = reference("w", values, 30, 3)
+    assert found.value == 0
+    assert found.magnitude < flint.arb(2) ** -1000
+
+
+# --- grids
+
+
+@pytest.mark.parametrize(
+    ("name", "arguments", "modes"),
+    [
+        ("G", ("T",), False),
+        ("C_top", ("phi", "h", "lam", "mu"), False),
+        ("mode_f", NAMES_F, False),
+        ("A_j", ("phi", "b", "R", "a", "lam", "mu", "J1"), False),
+        ("p", ("r", "a", "P"), False),
+        ("w", ("r", "z", "h", "b", "R", "a", "lam", "mu"), True),
+    ],
+)
+def test_points_lie_in_the_domain_and_repeat(
+    name: str, arguments: tuple[str, ...], modes: bool
+) -> None:
+    points = grid(name, arguments, modes)
+    assert 60 <= len(points) <= 150
+    assert points == grid(name, arguments, modes)
+    for point in points:
+        v = point.values
+        assert tuple(v) == arguments
+        assert (point.modes is not None) == modes
+        assert all(math.isfinite(x) for x in v.values())
+        assert v.get("mu", 1) > 0
+        assert 3 * v.get("lam", 0) > -2 * v.get("mu", 1)
+        assert abs(v.get("z", 0)) <= v.get("h", math.inf)
+        assert v.get("a", 0) < min(v.get("b", math.inf), v.get("R", math.inf))
+        assert 0 <= v.get("r", 0) <= v.get("b", math.inf)
+        if name == "p":
+            assert v["r"] < v["a"]
+
+
+def test_grid_of_a_mode_holds_its_hard_places() -> None:
+    values = [point.values for point in grid("mode_f", NAMES_F)]
+    heights = {v["z"] / v["h"] for v in values}
+    assert {1.0, -1.0, 0.0} <= heights
+    assert any(v["z"] == math.nextafter(v["h"], 0) for v in values)
+    depths = [v["phi"] * v["h"] for v in values]
+    assert min(depths) < 1e-149
+    assert max(depths) > 9e5
+    assert any(v["lam"] == 0 for v in values)
+    assert any(v["lam"] < 0 for v in values)
+
+
+def test_both_sides_of_every_seam_are_in_the_grid() -> None:
+    assert set(seams()) == {"T", "y"}
+    in_T = {point.values["T"] for point in grid("G", ("T",))}
+    for place in seams()["T"]:
+        assert {place, math.nextafter(place, 0), math.nextafter(place, 9)} <= in_T
+    in_y = {p.values["phi"] * p.values["a"] for p in grid("sonine", ("phi", "a"))}
+    for place in seams()["y"]:
+        assert {place, math.nextafter(place, 0), math.nextafter(place, 9)} <= in_y
+
+
+def test_zeros_of_s_are_in_the_grid() -> None:
+    """tan y = y has its first root at 4.493409457909064."""
+    in_y = [p.values["phi"] * p.values["a"] for p in grid("sonine", ("phi", "a"))]
+    assert min(abs(y - 4.493409457909064) for y in in_y) < 1e-15
+    assert min(abs(y - 7.725251836937707) for y in in_y) < 2e-15
+
+
+def test_single_precision_keeps_a_point_what_it_is() -> None:
+    assert to_single(Point({"T": 0.1})) == Point({"T": float(np.float32(0.1))})
+    assert to_single(Point({"T": 1e-60})) is None
+    assert to_single(Point({"T": 1e60})) is None
+    assert to_single(Point({"r": math.nextafter(0.1, 0), "a": 0.1})) is None
+    assert to_single(Point({"z": 0.0, "h": 1.0}, 3)) == Point({"z": 0.0, "h": 1.0}, 3)
+
+
+# --- rows and records
+
+
+@pytest.fixture(scope="module")
+def row() -> Row:
+    (found,) = check(30, [kernel_G()])
+    return found
+
+
+def test_kernel_of_a_row_is_the_generated_function() -> None:
+    module = pytest.importorskip("generated.arrays")
+    made = kernel_of_row(
+        {"name": "inside", "module": "arrays", "arguments": ("T",), "budget": 8, "modes": False}
+    )
+    assert made.call is module.inside
+    assert made.budget == 8.0
+
+
+def test_progress_is_told_about_every_kernel() -> None:
+    told: list[tuple[str, int, int]] = []
+    check(30, [kernel_G()], lambda *news: told.append(news))
+    assert told == [("G", 1, 1)]
+
+
+def test_cells_match_the_columns(row: Row) -> None:
+    assert len(cells(row)) == len(COLUMNS)
+    assert cells(row)[0] == "G"
+    assert cells(row)[-1] == "yes"
+
+
+def test_json_repeats_and_names_its_provenance(row: Row) -> None:
+    text = to_json([row], 30, "generated")
+    assert text == to_json(check(30, [kernel_G()]), 30, "generated")
+    data = json.loads(text)
+    assert data["provenance"]["digits"] == 30
+    assert {"python", "numpy", "sympy", "python-flint", "mpmath", "generated"} <= set(
+        data["provenance"]
+    )
+    assert data["rows"][0]["double"]["points"] == row.double.points
+
+
+def test_infinities_are_text_in_json(row: Row) -> None:
+    broken = dataclasses.replace(row, double=dataclasses.replace(row.double, ratio=math.inf))
+    assert as_data([broken], 30, "generated")["rows"][0]["double"]["ratio"] == "inf"
+
+
+def test_files_are_written_wholly_or_not_at_all(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    target = tmp_path / "accuracy.json"
+    write_file(target, "before")
+
+    def fail(self: Path, other: Path) -> None:  # noqa: ARG001
+        raise OSError("disk full")
+
+    monkeypatch.setattr(Path, "replace", fail)
+    with pytest.raises(OSError, match="disk full"):
+        write_file(target, "after")
+    assert target.read_text() == "before"
+    assert [path.name for path in tmp_path.iterdir()] == ["accuracy.json"]

@@ -1,0 +1,78 @@
+"""What kernels are measured at leads to the contacts drawn; where there is nothing to measure."""
+
+import importlib
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from derivation.engine.measure import evaluate, record
+from derivation.plate.contact.cases import check as contact
+from derivation.plate.contact.cases import grid as contact_grid
+from derivation.plate.judge import generated_kernels
+from generated import contact_law
+from generated.impact import impact
+
+
+@pytest.mark.parametrize("name", contact.KERNELS)
+def test_arguments_lead_to_the_contact_they_were_made_for(name: str) -> None:
+    """By the generated law, back to contact radius, force or mean pressure by hand."""
+    for shape in contact_grid.grid(name)[:30:6]:
+        given = contact_grid.arguments(name, shape, 20)
+        a, R, lam, mu = shape.a, shape.R, shape.lam, shape.mu
+        assert 0.0 < a < min(R, shape.b)
+        load = 16 * mu * (lam + mu) / (3 * (lam + 2 * mu)) * a**3 / R
+        expected = {
+            "indentation": contact_law.indentation(a, R, shape.h, shape.b),
+            "contact_radius": a,
+            "radius_of_force": a,
+            "force": load,
+            "force_of_radius": load,
+            "max_pressure": 1.5 * load / (np.pi * a * a),
+            "impact": a,
+        }
+        if name == "impact":
+            found = impact(*given).max_contact_radius
+        else:
+            found = getattr(contact_law, name)(*given)
+        if name == "stiffness":  # of the indentation's argument, by a central difference
+            ends = [
+                (contact_law.force_of_radius(x, R, lam, mu),
+                 contact_law.indentation(x, R, shape.h, shape.b))
+                for x in (a * (1 - 1e-5), a * (1 + 1e-5))
+            ]  # fmt: skip
+            slope = (ends[1][0] - ends[0][0]) / (ends[1][1] - ends[0][1])
+            assert found == pytest.approx(slope, rel=1e-4)
+        else:
+            assert found == pytest.approx(expected[name], rel=1e-9)
+
+
+def test_grids_repeat_and_impacts_have_their_own() -> None:
+    assert contact_grid.grid("impact") == contact_grid.grid("impact")
+    assert len(contact_grid.grid("impact")) == len(contact_grid.IMPACTS)
+    ratios = [(s.h / s.b, s.a / s.h) for s in contact_grid.grid("impact")]
+    np.testing.assert_allclose(ratios, contact_grid.IMPACTS, rtol=1e-12)
+
+
+def test_without_a_point_there_is_nothing_to_measure() -> None:
+    with pytest.raises(ValueError, match="no point to measure force at"):
+        contact.check({"force": contact_law.force}, {"force": []})
+    [kernel] = [kernel for kernel in generated_kernels() if kernel.name == "G"]
+    with pytest.raises(ValueError, match="no point at which float64 can hold G"):
+        evaluate.judge(kernel, [], 3)
+
+
+def test_errors_that_are_all_zero_have_no_size() -> None:
+    assert evaluate._rms([0.0, 0.0]) == evaluate._rms([]) == 0.0
+    assert evaluate._rms([3e200, 4e200]) == pytest.approx(5e200 / 2**0.5, rel=1e-15)
+
+
+def test_a_package_without_files_is_to_be_generated(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A folder of that name is a package to Python, though nothing is in it."""
+    true = importlib.import_module
+    monkeypatch.setattr(
+        record.importlib, "import_module",
+        lambda name: SimpleNamespace(__file__=None) if name == "generated" else true(name),
+    )  # fmt: skip
+    with pytest.raises(FileNotFoundError, match="run `platecontact generate`"):
+        record.generated_hash("generated")

@@ -1,0 +1,150 @@
+"""Timing: what counts, what is recorded; never how fast this machine is."""
+
+import json
+import subprocess
+import time
+from itertools import count
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from derivation.plate.benchmark import speed
+from derivation.plate.modes.naive import FIELDS, naive_field
+
+
+def test_candidates_take_turns_and_the_lower_quartile_counts(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    clock, order = [0.0], []
+    durations = {"one": iter([1.0, 2.0, 3.0, 4.0, 100.0]), "two": iter([10.0] * 5)}
+    monkeypatch.setattr(time, "perf_counter", lambda: clock[0])
+
+    def work(name: str) -> None:
+        order.append(name)
+        clock[0] += next(durations[name])
+
+    times, spread = speed.interleaved((lambda: work("one"), lambda: work("two")), 5)
+    assert order == ["one", "two"] * 5
+    assert times == [2.0, 10.0]
+    assert spread == 2.0
+
+
+def test_a_ratio_beyond_its_limit_is_not_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+    ticks = count()
+    monkeypatch.setattr(time, "perf_counter", lambda: float(next(ticks)))
+    assert speed.ratio("x", lambda: None, lambda: None, 1.0).kept
+    assert not speed.ratio("x", lambda: None, lambda: None, 0.99).kept
+
+
+def test_scenes_are_different_and_within_the_law() -> None:
+    found = speed.impact(**speed.scenes(0.01, 5.9, 200))
+    reached = found.max_contact_radius / speed.scenes(0.01, 5.9, 200)["h"]
+    assert np.isfinite(np.stack(found)).all()
+    assert np.unique(reached).size == 200
+    assert reached.max() > 3.0
+
+
+def test_data_names_the_machine() -> None:
+    data = speed.as_data([speed.Timing("x", 2.0, "times", 3.0, 1.1, True)])
+    assert json.loads(json.dumps(data)) == data
+    assert data["machine"]["numpy"] == np.__version__
+    assert data["rows"][0]["kept"] is True
+
+
+# --- what is compared
+
+
+@pytest.mark.parametrize("name", speed.NAIVE)
+def test_naive_and_stable_forms_compute_the_same(name: str) -> None:
+    """To rounding; but for phi, of which the paper prints one too many below in two of them."""
+    stable, naive = speed.NAIVE[name]
+    x = np.linspace(*speed.NAIVE_RIGHT, speed.NAIVE_POINTS)
+    if name in FIELDS:  # which is one number of x at every depth
+        x[:] = 3.0
+    ours, theirs = stable(x), naive(x)
+    theirs = theirs * x if name in ("Omega_3", "Omega_4") else theirs
+    assert ours.dtype == theirs.dtype == np.float64
+    assert np.abs(ours - theirs).max() < 2e-15 * np.abs(ours).max()
+    assert np.ptp(ours) > 0.0
+
+
+def test_naive_fields_refuse_what_the_stable_ones_do() -> None:
+    for name in FIELDS:
+        for z, phi, mu in ((1.1, 1.0, 1.0), (0.0, -1.0, 1.0), (0.0, 1.0, -1.0)):
+            given = (z, phi, 1.0, 1.2, mu, -1.0)
+            assert np.isnan(naive_field(name, *given))
+            assert np.isnan(getattr(speed.mode_shapes, name)(*given))
+
+
+# --- what is planned
+
+
+def test_every_example_starts_cold_and_hertz_alone_is_asked_of_the_block(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Each with its promise; the rest of the comparisons once, and whoever asks is told of all."""
+
+    def made(kind: str) -> Any:
+        def timing(*given: Any) -> tuple[Any, ...]:
+            return (kind, *given)
+
+        return timing
+
+    for kind in ("law_over_exp", "impact_rate", "cold_start", "hertz_alone", "stable_over_naive"):
+        monkeypatch.setattr(speed, kind, made(kind))
+    block, pad, told = Path("block.toml"), Path("pad.toml"), list[Any]()
+    found: list[Any] = speed.measure([block, pad], [pad], lambda *given: told.append(given))
+    assert found == speed.measure([block, pad], [pad])
+    assert [number for _, number, _ in told] == list(range(1, len(found) + 1))
+    assert {total for *_, total in told} == {len(found)}
+    assert [row[1:] for row in found if row[0] == "cold_start"] == [
+        ("simulate", block, speed.START), ("explain", block, speed.EXPLAINED),
+        ("simulate", pad, speed.SOLVED_START), ("explain", pad, speed.EXPLAINED),
+    ]  # fmt: skip
+    assert [row[1:] for row in found if row[0] == "hertz_alone"] == [(block, 1.2)]
+    assert [row[1] for row in found if row[0] == "stable_over_naive"] == list(speed.NAIVE)
+    assert not [row for row in speed.measure([pad]) if row[0] == "hertz_alone"]  # type: ignore[index]
+
+
+def test_rates_and_starts_are_of_what_they_say(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """A clock that ticks once a call; processes are not started but noted."""
+    ticks, started, impacts = count(), list[Any](), list[int]()
+    monkeypatch.setattr(time, "perf_counter", lambda: float(next(ticks)))
+    monkeypatch.setattr(speed, "impact", lambda **given: impacts.append(given["R"].size))
+    rate = speed.impact_rate(0.01, 2.9, float(speed.SCENES))
+    assert (rate.value, rate.unit, rate.kept) == (float(speed.SCENES), "1/s", True)
+    assert set(impacts) == {speed.SCENES}
+    assert not speed.impact_rate(0.01, 2.9, speed.SCENES + 1.0).kept
+
+    monkeypatch.setattr(
+        subprocess, "run", lambda call, **_: started.append([Path(x).name for x in call[2:]])
+    )
+    scene = tmp_path / "block.toml"
+    scene.write_text("# a block\n")
+    assert speed.cold_start("explain", scene, 1.0).kept
+    command = [speed.COMMAND, "explain", "block.toml", "--json", "-"]
+    assert started == [command, [speed.LIBRARIES]] * speed.COLD_ROUNDS
+    switched = list[str]()
+    monkeypatch.setattr(
+        subprocess, "run", lambda call, **_: switched.append(Path(call[4]).read_text())
+    )
+    speed.hertz_alone(scene, 1.2)
+    auto, off = switched[:2]
+    assert auto == scene.read_text()
+    assert off.startswith(auto)
+    assert off.count(" = false") == len(speed.SWITCHES)
+    assert switched == [auto, off] * speed.COLD_ROUNDS
+
+
+def test_a_process_keeps_its_bytecode_and_its_failure_is_seen(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setenv("PYTHONDONTWRITEBYTECODE", "1")
+    speed.process("import os, sys; assert sys.argv[1:] == ['x'] and not sys.dont_write_bytecode",
+                  "x")()  # fmt: skip
+    with pytest.raises(subprocess.CalledProcessError):
+        speed.process("raise SystemExit(1)")()

@@ -1,0 +1,363 @@
+"""Certificates of both oracles: each is made to fail, and then no number comes out."""
+
+import math
+from dataclasses import replace
+from fractions import Fraction
+from types import SimpleNamespace
+from typing import Any, cast
+
+import flint
+import pytest
+from flint import acb, arb
+from mpmath import mp, mpc, mpf
+
+from derivation.engine.formula.ball import PrecisionError
+from derivation.engine.oracle.agreement import RouteError
+from derivation.mathematics.bessel import oracle as zeros
+from derivation.plate import oracle as balls
+from derivation.plate.back_face import oracle as far_face_balls
+from derivation.plate.back_face import route as far_face_routes
+from derivation.plate.contact.oracle import balls as contact_balls
+from derivation.plate.contact.oracle import modes as contact_modes
+from derivation.plate.contact.oracle import points as contact_points
+from derivation.plate.contact.oracle import sums as contact_sums
+from derivation.plate.contact.oracle import wall as contact_wall
+from derivation.plate.contact.route import residue_law
+from derivation.plate.contact.route import sums as contact_routes
+from derivation.plate.edge.oracle import supported as edge_balls
+from derivation.plate.edge.route import supported as edge_routes
+from derivation.plate.edge_modes.oracle import modes as held_balls
+from derivation.plate.edge_modes.route import modes as held_routes
+from derivation.plate.impact.oracle import impact as contact_impact
+from derivation.plate.impact.oracle import many_costs, state_rounding
+from derivation.plate.impact.oracle import quantities as contact_quantities
+from derivation.plate.modes.route import routes
+from derivation.plate.pressure import oracle as pressure_balls
+from derivation.plate.pressure import route as pressure_routes
+from derivation.plate.waves import oracle as inertia_balls
+from derivation.plate.waves import route as inertia_routes
+
+SPHERE = (0.01, 0.03, 1.0, 0.1, 1.0, 1.2e11, 8e10)
+"""R, m, v0, h, b, lam, mu of a grazing impact."""
+
+
+# --- zeros of Bessel functions
+
+
+class Impatient(int):
+    """A precision for which Newton's iteration does no step."""
+
+    def bit_length(self) -> int:
+        return -4
+
+
+@pytest.mark.parametrize(
+    ("find", "shown", "says"),
+    [
+        (zeros.j0_zero, "first_zero_is_first", "no zero below 3 pi/4"),
+        (zeros.j1_zero, "first_zero_of_j1_is_first", "no zero up to 5 pi/4 - 1/8"),
+    ],
+)
+def test_zeros_are_not_counted_from_an_unknown_first(
+    find: Any, shown: str, says: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(zeros, shown, lambda: False)
+    with pytest.raises(zeros.ZeroError, match=says):
+        find.__wrapped__(1, 60)
+
+
+@pytest.mark.parametrize(
+    ("place", "says"), [(5.5201, "is not where zero 1 lies"), (2.4, "does not change its sign")]
+)
+def test_a_guess_that_is_no_zero_of_j0_is_not_certified(
+    place: float, says: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """5.5201 is close to the second zero, 2.4 next to the first."""
+    monkeypatch.setattr(zeros, "_newton", lambda *_: arb(place))
+    with pytest.raises(zeros.ZeroError, match=says):
+        zeros.j0_zero.__wrapped__(1, 60)
+
+
+def test_a_guess_that_is_no_zero_of_j1_is_not_certified(monkeypatch: pytest.MonkeyPatch) -> None:
+    with pytest.raises(zeros.ZeroError, match="J1 does not change its sign"):
+        zeros.j1_zero.__wrapped__(1, Impatient(60))
+    monkeypatch.setattr(zeros, "WIDTH_J1", arb(0.01))  # narrower than 5 pi/4 - 3.8317
+    with pytest.raises(zeros.ZeroError, match="is not where zero 1 of J1 lies"):
+        zeros.j1_zero.__wrapped__(1, 60)
+
+
+def test_j1_at_a_zero_known_too_coarsely(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(zeros, "j0_zero", lambda *_: arb(2.405, 0.001))
+    with pytest.raises(zeros.ZeroError, match=r"J1 at zero 1 is known as \[0\.52 \+/- .*only"):
+        zeros.j1_at_zero.__wrapped__(1, 60)
+
+
+def test_numbers_by_index_have_whole_indices() -> None:
+    with pytest.raises(ValueError, match=r"kappa is counted in whole numbers, got 1\.5"):
+        balls.truth("kappa", {"n": 1.5})
+
+
+# --- the contact law in balls
+
+
+def test_a_ball_that_stays_wide_is_no_result() -> None:
+    with pytest.raises(PrecisionError, match="no 10 digits of the value within"):
+        contact_balls.settle(lambda _: (arb(0, 1e-300),), 10, "the value")
+
+
+def test_lengths_are_positive() -> None:
+    with pytest.raises(ValueError, match=r"lengths are positive, got 0\.1 and 0\.0"):
+        contact_balls.indentation(0.1, 1.0, 0.1, 0.0)
+    with pytest.raises(ValueError, match=r"a radius is positive, got -1\.0"):
+        contact_balls.stiffness(0.01, -1.0, 0.1, 1.0, 1e9, 1e9)
+
+
+def test_poles_taken_off_the_plate_factor_are_its_own(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A numerator of another plate factor keeps powers that G - 6/T^3 - 6/(5T) has not."""
+    with flint.ctx.workprec(60):
+        known = contact_sums.plate_excess(acb(1)) + 1 - acb(7.2)
+        assert abs(contact_balls._regular(acb(1), 60) - known) < 1e-15
+    wrong = vars(math) | {"factorial": lambda n: math.factorial(n) * (n + 1)}
+    monkeypatch.setattr(contact_balls, "math", SimpleNamespace(**wrong))
+    with pytest.raises(ArithmeticError, match="polar part of G is not"):
+        contact_balls._regular(acb(1), 60)
+
+
+def falling(x: Any) -> Any:
+    return 1 / x
+
+
+def test_roots_are_enclosed_or_not_given() -> None:
+    """x = 1/4, then steepnesses that overshoot for ever, and a function that falls."""
+    with flint.ctx.workprec(64):
+        found = contact_balls.ratio_where(lambda x: x, lambda *_: arb(1), arb(0.25), 0.1, "1/4")
+        assert found.contains(arb(0.25))
+        assert found.rad() < 1e-9
+        with pytest.raises(PrecisionError, match="no convergence towards 1/4"):
+            contact_balls.ratio_where(lambda x: x, lambda *_: arb(0.4), arb(0.25), 0.1, "1/4")
+        with pytest.raises(PrecisionError, match=r"4 is not enclosed by .0\.24999.* and .0\.25000"):
+            contact_balls.ratio_where(falling, lambda *_: arb(-1), arb(4), 0.1, "4")
+
+
+def test_roots_of_the_other_oracle_too() -> None:
+    with mp.workdps(30):
+        found = contact_routes._root(lambda x: (x, mpf(1)), mpf("0.25"), mpf("0.1"))
+        assert abs(found - mpf("0.25")) < mpf(10) ** -28
+        with pytest.raises(RouteError, match="no root found near"):
+            contact_routes._root(lambda x: (x, mpf("0.4")), mpf("0.25"), mpf("0.1"))
+        with pytest.raises(RouteError, match=r"no root found near 0\.25"):
+            contact_routes._root(lambda x: (1 / x, mpf(-1)), mpf(4), mpf("0.1"))
+    with pytest.raises(ValueError, match="would reach the edge of the plate"):
+        contact_routes.contact_radius(1.0, 1.0, 0.1, 0.2, 20)
+
+
+def test_a_slope_that_may_vanish_bounds_nothing() -> None:
+    """S/q = 1/q + p is 1 + p at least: above 0 for p = -1/2, not for p = -2."""
+    with flint.ctx.workprec(64):
+        error = arb(2) ** -40
+        allowed = contact_impact._doubt(flint.arb_poly([-0.5]), error)
+        assert error / arb(0.5) <= allowed < error / arb(0.49)
+        with pytest.raises(PrecisionError, match="slope could not be shown to be positive"):
+            contact_impact._doubt(flint.arb_poly([-2]), error)
+
+
+def test_bounds_hold_where_they_are_proved() -> None:
+    with pytest.raises(ValueError, match="a ball across the cut"):
+        contact_sums.hankel_over_j0(acb(-1, 1))
+    with pytest.raises(ValueError, match="between -45 and 45 degrees"):
+        contact_sums.hankel_bound(acb(1, 2))
+    with pytest.raises(PrecisionError, match="no bound on the ellipse near"):
+        contact_sums._panel(acb(1), acb(2), arb(3), lambda z: z, lambda _: arb("inf"))
+    with pytest.raises(ValueError, match=r"the modes summed end at T = 4\.0"):
+        edge_balls._rest(arb(4), arb(1))
+    assert edge_balls._rest(arb(20), arb(1)).rad() < 1e-4
+    near = edge_balls._near(edge_balls.KERNELS["slope"], arb(0.5), acb(4))
+    assert not near.is_finite()
+
+
+def test_the_side_walls_far_bound_begins_where_it_holds(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(contact_wall, "NEAR", 1.4)  # sinh of it is below 2
+    with pytest.raises(PrecisionError, match=r"does not hold from t = 1\.4 on"):
+        contact_wall.shifted_bound.__wrapped__()
+
+
+def test_sums_end_where_their_rest_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(contact_wall, "trapezoidal", lambda *_: ([arb(0), arb(1)], [arb(1)] * 2))
+    with pytest.raises(PrecisionError, match=r"sum ends at 1\.0.*, too early"):
+        contact_wall.wall_points.__wrapped__(64)
+    monkeypatch.setattr(contact_points, "mode_count", lambda *_: 1)
+    few = SimpleNamespace(**vars(math) | {"ceil": lambda _: 0})
+    monkeypatch.setattr(far_face_balls, "math", few)
+    with pytest.raises(ValueError, match=r"the modes summed end at T = \[1\.0995"):
+        far_face_balls.far_sum(0.01, 0.1, 1.0, 10)
+    with pytest.raises(PrecisionError, match=r"modes end at T = \[0\.1099\d* .*, too early"):
+        contact_points.mode_points.__wrapped__(Fraction(1, 100), 64, 104)
+
+
+# --- quantities of the law
+
+
+@pytest.mark.parametrize("terms", [4, 8])
+def test_the_reversed_series_approaches_the_force(terms: int) -> None:
+    """So many terms of P(delta) miss eps^terms, and eps^2 goes with delta."""
+    R, h, b, lam, mu = 0.13, 0.1, 1.0, 0.36e9, 0.43e9
+    errors = []
+    for delta in (1e-6, 1e-5):
+        exact = contact_quantities.force(delta, R, h, b, lam, mu, 16)
+        found, ratio = contact_quantities.truncated_series(delta, R, h, b, lam, mu, 16, terms)
+        with flint.ctx.workprec(200):
+            errors.append(float(abs(found / exact - 1)))
+        assert ratio >= 1
+    assert errors[1] / errors[0] == pytest.approx(10 ** (terms / 2), rel=0.06)
+
+
+def test_a_radius_and_its_force_invert_each_other() -> None:
+    a, R, lam, mu = 0.01, 0.13, 0.36e9, 0.43e9
+    force = contact_quantities.force_of_radius(a, R, lam, mu, 40)
+    back = contact_quantities.radius_of_force(contact_quantities.fraction(force), R, lam, mu, 40)
+    pressure = contact_quantities.max_pressure(a, R, lam, mu, 40)
+    with flint.ctx.workprec(160):
+        assert abs(back / arb(a) - 1) < 1e-38
+        # Hertz: 3/2 of the mean pressure.
+        assert abs(pressure * arb.pi() * arb(a) ** 2 / force - arb(1.5)) < 1e-38
+
+
+@pytest.mark.parametrize(("share", "speed"), [(0.0, 1.0), (2.5, -1.0)])
+def test_before_and_after_the_contact_the_sphere_flies(share: float, speed: float) -> None:
+    """Without loss it leaves at the speed it came with, and of its arguments feels that alone."""
+    whole = contact_impact.impact(*SPHERE, digits=20).contact_time
+    given, reached = (share * float(whole), *SPHERE), cast("Any", contact_quantities.state)
+
+    def state(arguments: Any, digits: int) -> Any:
+        return reached(*arguments, digits=digits)
+
+    found = state(given, 12)
+    assert [float(part) for part in found] == [0.0, speed, 0.0, 0.0]
+    moved = [float(part) for part in state_rounding.rounding(state, given, found)]
+    assert moved == pytest.approx([0.0, 1.0, 0.0, 0.0], abs=1e-12)
+
+
+def test_states_are_enclosed_by_times_or_not_given(monkeypatch: pytest.MonkeyPatch) -> None:
+    whole = float(contact_impact.impact(*SPHERE, digits=20).contact_time)
+    monkeypatch.setattr(contact_quantities, "_STEPS", 1)
+    with pytest.raises(PrecisionError, match=r"the state at .* is not enclosed by"):
+        contact_quantities.state(0.3 * whole, *SPHERE, digits=12)
+
+
+def test_histories_stay_below_the_largest_radius() -> None:
+    most = contact_impact.impact(*SPHERE, digits=20).max_contact_radius
+    wider = 1.0001 * float(most)
+    with pytest.raises(ValueError, match=r"a contact radius below .* is expected, got 0\.0"):
+        contact_impact.history([wider], *SPHERE, digits=20)
+
+
+# --- oracle 2
+
+
+def test_the_phases_series_serves_far_out_only(monkeypatch: pytest.MonkeyPatch) -> None:
+    with mp.workdps(30):
+        with pytest.raises(RouteError, match=r"does not reach 30 digits at 1\.0"):
+            contact_modes._phase(mpf(1))
+        found = contact_modes._continued_zero(mpf(40))[0]
+        assert abs(found - mp.besseljzero(0, 40)) < mpf(10) ** -26
+        monkeypatch.setattr(contact_modes, "precisions", lambda dps: [dps])
+        with pytest.raises(RouteError, match=r"no zero of J0 continued to n = 40\.0"):
+            contact_modes._continued_zero(mpf(40))
+
+
+def test_samples_on_a_circle_next_to_a_pole() -> None:
+    """1/(1 - z/p) has the coefficient 1/p^2, if its pole is not next to the circle."""
+    with mp.workdps(20):
+        found = edge_routes._coefficient(lambda z: 1 / (1 - z / 2), 2, mpf(1), 15)
+        assert abs(found - 0.25) < 1e-14
+        with pytest.raises(edge_routes.RouteError, match="no coefficient"):
+            edge_routes._coefficient(lambda z: 1 / (1 - z / mpf("1.0001")), 2, mpf(1), 15)
+
+
+def test_residues_that_do_not_fall(monkeypatch: pytest.MonkeyPatch) -> None:
+    with pytest.raises(edge_routes.RouteError, match=r"no root of sinh T = \+-T for n = 0\.5"):
+        edge_routes.root(0.5)  # type: ignore[arg-type]
+    monkeypatch.setattr(edge_routes, "MOST", 4)
+    with pytest.raises(edge_routes.RouteError, match=r"4 roots are too few at h/b = 0\.1"):
+        edge_routes._roots(1, lambda _: mpc(1), mpf("0.1"))
+    with pytest.raises(edge_routes.RouteError, match=r"too few roots at h/b = 0\.9"):
+        far_face_routes._roots(mpf("0.9"), mpf(1))
+
+
+def test_modes_of_a_held_plate_are_certified() -> None:
+    with flint.ctx.workprec(24), pytest.raises(held_balls.RootError, match="no change of sign"):
+        held_balls._root("clamped", 1, 0.3, 64)
+
+
+def test_modes_of_a_held_plate_that_the_determinant_has_not(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(held_routes, "_determinant", lambda *_: mpf("nan"))
+    with mp.workdps(20):
+        with pytest.raises(edge_routes.RouteError, match="fewer than 2 modes up to k = 12"):
+            held_routes._interval("clamped", 2, mpf(0))
+        with pytest.raises(edge_routes.RouteError, match="no root of the determinant"):
+            held_routes._bisected("clamped", mpf(1), mpf(2), mpf(0), 10)
+
+
+def test_plate_waves_that_are_not_enclosed(monkeypatch: pytest.MonkeyPatch) -> None:
+    with mp.workdps(20):
+        found = inertia_routes._secant(lambda x: x * x - 2, mpf(1), mpf(2), 10)
+        assert abs(found - mp.sqrt(2)) < mpf(10) ** -14
+        with pytest.raises(inertia_routes.RouteError, match="secant's method does not converge"):
+            inertia_routes._secant(lambda x: x * x + 1, mpf("0.3"), mpf("0.4"), 10)
+    monkeypatch.setattr(inertia_routes, "_answers", lambda *_: (mpf(1), mpf(1)))
+    with pytest.raises(inertia_routes.RouteError, match="no zero between"):
+        inertia_routes._zero(mpf(1), mpf("0.3"), 20)
+    monkeypatch.setattr(inertia_balls, "_slope", lambda *_: arb(2) ** -200)
+    with flint.ctx.workprec(100):
+        assert inertia_balls._zero(inertia_balls.KINDS[0], 1.0, 0.3, 1, 15).is_nan()
+
+
+def test_resolutions_of_a_contact_that_differ(monkeypatch: pytest.MonkeyPatch) -> None:
+    narrow = pressure_balls._wider(arb(1), arb(1) + arb(2) ** -50, 10)
+    assert narrow.contains(arb(1))
+    with pytest.raises(PrecisionError, match=r"two resolutions of the contact differ by 0\.5"):
+        pressure_balls._wider(arb(1), arb(1.5), 10)
+    monkeypatch.setattr(pressure_routes, "_size", lambda *_: 2)
+    with pytest.raises(RouteError, match="two bases differ by"):
+        pressure_routes.solve(Fraction(1), Fraction(1, 4), digits=20)
+
+
+def test_the_law_by_residues_ends_at_the_edge() -> None:
+    with pytest.raises(ValueError, match=r"0 < a/b < 1, got 1\.0"):
+        residue_law.law(0.1, 1.0, 1.0, 30)
+    unlike: Any = SimpleNamespace(
+        work=lambda q: q**5, slope=lambda _: mpf(2), known=SimpleNamespace(reach=mpf(1))
+    )
+    with pytest.raises(RouteError, match="no largest contact radius found"):
+        residue_law._largest(unlike, mpf("0.5"))  # its slope is 5: the steps overshoot
+
+
+def test_quadrature_that_does_not_converge() -> None:
+    with mp.workdps(40):
+        value = routes._integral(mp.exp, [mpf(0), mpf(1)], "tanh-sinh")
+        assert abs(value - mp.e + 1) < mpf(10) ** -35
+        with pytest.raises(RouteError, match=r"quadrature reached 0\.2\d+ \+- .* only"):
+            routes._integral(lambda x: abs(x - mpf(1) / 3), [mpf(0), mpf(1)], "tanh-sinh")
+
+
+@pytest.mark.parametrize("answer", ["inf", "nan"])
+def test_a_route_without_a_number_has_no_value(
+    answer: str,
+) -> None:
+    lost = replace(routes.ORACLE, routes={"G": lambda _: mpf(answer)})
+    with pytest.raises(RouteError, match=r"G at \{'T': 1\.0\}: no two results agree to 50 digits"):
+        lost.value("G", {"T": 1.0})
+
+
+def test_many_digits_of_a_deep_contact_cost_what_the_cheaper_way_does() -> None:
+    """Oracle 2 goes by residues or sums: a/h = 200 takes as many powers as sums are cheaper."""
+    R, m, v0, h, b, lam, mu = 0.1, 3.0, 1.0, 0.001, 0.5, 2e9, 3e9
+    motion, radius, digits = (R, m, v0, h, b, lam, mu), 0.2, 150
+    eta, reach = h / b, radius / b
+    said = many_costs.expected_seconds(motion, radius, digits)
+    first = many_costs.first_seconds(eta, reach, digits)
+    assert many_costs.second_digits(eta, reach, digits) == 100
+    assert said == 1 + first + many_costs.sums_seconds(100)
+    assert said < 1 + first + many_costs.residues_seconds(eta, reach, digits)

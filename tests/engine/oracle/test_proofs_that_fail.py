@@ -1,0 +1,212 @@
+"""Proofs, bounds and printers that are given something false, and refuse it."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
+
+import flint
+import pytest
+import sympy as sp
+from flint import acb, arb
+
+from derivation.engine.emit import kernels, printer, source
+from derivation.engine.formula import hyperbolic
+from derivation.engine.formula.ball import enclose
+from derivation.engine.formula.dimension import LENGTH, DimensionError, dimension
+from derivation.engine.formula.parse import FormulaError, parse
+from derivation.engine.formula.proof import ProofError, lower_bessel
+from derivation.plate.budgets import read_budgets
+from derivation.plate.contact.theory import (
+    curvature,
+    divergence,
+    moments,
+    reversion,
+    thin_plate,
+    thin_roots,
+)
+from derivation.plate.contact.theory import split as contact_split
+from derivation.plate.impact.oracle import quantities as contact_quantities
+from derivation.plate.impact.theory import impact, substitution
+from derivation.plate.modes.kernels.modal_sums import STYLE
+from derivation.plate.pressure.theory import bound as pressure_bound
+from derivation.plate.vocabulary import PLATE, Formula, phi
+
+x = sp.Symbol("x", positive=True)
+
+
+class Impatient(int):
+    """A precision for which Newton's iteration does no step."""
+
+    def bit_length(self) -> int:
+        return -4
+
+
+# --- theory
+
+
+def test_the_sum_identity_fails_for_a_wrong_integral(monkeypatch: pytest.MonkeyPatch) -> None:
+    wrong = replace(contact_split._EXAMPLES[0], integral=2)  # int_0^oo e^(-x) dx is 1
+    monkeypatch.setattr(contact_split, "_EXAMPLES", (wrong,))
+    with pytest.raises(ProofError, match=r"Sum identity: exp\(-x\) gives"):
+        contact_split.identity_in_balls.__wrapped__()
+
+
+def test_roots_that_newton_has_not_found_are_not_certified() -> None:
+    with pytest.raises(ProofError, match="zero 1 of J0 is not in"):
+        contact_split.zero_of_j0.__wrapped__(1, Impatient(60))
+    with pytest.raises(ArithmeticError, match=r"root 1 of sinh T = \+-T is not shown"):
+        thin_roots.root.__wrapped__(1, Impatient(60))
+
+
+def other(module: Any, **names: Any) -> Any:
+    """A module with other values for some of its names."""
+    return SimpleNamespace(**vars(module) | names)
+
+
+def test_a_sphere_of_another_depth_is_not_the_one_used(monkeypatch: pytest.MonkeyPatch) -> None:
+    curvature._powers()
+    monkeypatch.setattr(curvature, "sp", other(sp, log=lambda u: sp.log(u) * (1 + curvature._x**2)))
+    with pytest.raises(ProofError, match="delta' of the sphere: power 3 differs"):
+        curvature._powers()
+
+
+def test_bounds_of_the_plate_factors_rest_are_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
+    """At T = 1/2 in the place of 1 neither holds."""
+    half = other(flint, arb=lambda n: arb(-1 if n == -2 else n))
+    monkeypatch.setattr(moments, "flint", half)
+    with pytest.raises(ProofError, match=r"d\(1\) or E\(1\) is below its bound"):
+        moments.excess_beyond_first.__wrapped__()
+
+
+def test_contacts_wider_than_the_bound_allows_are_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(pressure_bound, "WIDEST", pressure_bound.WIDTH / 2)
+    with pytest.raises(ProofError, match="the true contact may be too wide"):
+        pressure_bound.wall_share.__wrapped__()
+
+
+def test_quadrature_across_a_singularity_has_no_bound() -> None:
+    """One ball in the place of the whole ellipse holds the radicand's zeros."""
+    with flint.ctx.workprec(53), pytest.raises(ArithmeticError, match="radicand may vanish"):
+        substitution.time_quadrature_bound(24, arcs=1, boxes=1)
+
+
+def test_power_series_are_summed_where_their_tail_is_bounded(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    poles = {-3: sp.Integer(6), -1: sp.Rational(6, 5)}
+    monkeypatch.setattr(
+        thin_plate, "plate_factor_at_zero", lambda: SimpleNamespace(at=poles.__getitem__)
+    )
+    with flint.ctx.workprec(64):
+        assert not thin_plate.regular_part(acb(100)).is_finite()
+        exact = thin_plate.plate_excess(arb(2)) + 1 - arb(6) / 8 - arb(6) / 10
+        assert abs(thin_plate.regular_part(acb(2)) - acb(exact)) < 1e-15
+
+
+@pytest.mark.parametrize(
+    ("power", "says"), [(1, "grow like j"), (2, "grow like j^2"), (-2, "fall like j^(-2)")]
+)
+def test_tails_are_named_by_their_power(power: int, says: str) -> None:
+    found = divergence.tail(phi**power)
+    assert found.exponent == power
+    assert found.kind == (divergence.CONVERGENT if power < -1 else divergence.DIVERGENT)
+    assert found.says.split(", ")[0].endswith(says)
+
+
+def test_validity_follows_from_a_sign(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(impact, "truncated_gamma", lambda _: SimpleNamespace(expression=-sp.pi))
+    assert impact.validity().startswith("xi_3 is positive, so the radicand of (17) and (18)")
+    monkeypatch.setattr(impact, "truncated_gamma", lambda _: SimpleNamespace(expression=sp.pi))
+    assert "stays positive up to the linear motion's turning point" in impact.validity()
+
+
+@pytest.mark.parametrize("law", [(-3.1, 4.9), (2.4, -0.8, -2.5)])
+def test_the_inverted_series_converges_up_to_where_its_terms_say(law: tuple[float, ...]) -> None:
+    """Critical values that lie nearer, but on another branch of the inverse, do not count.
+
+    Lagrange: A = sum_n eps^n/n [A^(n-1)] law^(-n/2), whose terms grow as radius^-n n^(-3/2).
+    """
+    with flint.ctx.workprec(500):
+        series = [arb(1)] + [arb(0)] * 200
+        series[1 : 2 * len(law) : 2] = map(arb, law)
+        sizes = []
+        for n in range(195, 201):
+            term = contact_quantities.power(series[:n], arb(-n) / 2)[n - 1] / n
+            sizes.append(float((abs(term) * arb(n) ** 1.5).log() / n))
+    assert math.exp(-max(sizes)) == pytest.approx(reversion.radius(law), rel=0.02)
+
+
+def test_a_law_without_coefficients_has_no_radius(monkeypatch: pytest.MonkeyPatch) -> None:
+    with pytest.raises(ValueError, match="expected a coefficient that is not zero, got none"):
+        reversion.radius([0.0, 0.0])
+    monkeypatch.setattr(reversion, "_reaches", lambda *_: False)
+    assert reversion.radius([1.0]) == math.inf
+
+
+# --- formula
+
+
+def test_eulers_number_is_a_ball() -> None:
+    with flint.ctx.workprec(100):
+        assert enclose(sp.E, {}).overlaps(arb(1).exp())
+        assert enclose(sp.E * sp.EulerGamma, {}).rad() < 1e-28
+
+
+def test_bessel_functions_of_negative_order_by_their_reflection() -> None:
+    """J_(-n) = (-1)^n J_n, I_(-n) = I_n, as they are not written by SymPy's own evaluation."""
+    for kind, sign in ((sp.besselj, -1), (sp.besseli, 1)):
+        assert lower_bessel(kind(-1, x, evaluate=False)) == sign * kind(1, x)
+
+
+def test_a_symbol_without_a_dimension_is_refused() -> None:
+    with pytest.raises(DimensionError, match="the dimension of x is not known"):
+        dimension(phi * x, {phi: LENGTH**-1})
+
+
+def test_hyperbolic_factors_are_odd_or_even() -> None:
+    E, Q = sp.symbols("E Q", positive=True)
+    assert hyperbolic._in_squares(E**3 - E, E, Q) == (1, Q - 1)
+    with pytest.raises(ValueError, match="odd and even powers of E are mixed in E"):
+        hyperbolic._in_squares(E**3 + E**2, E, Q)
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("+".join(["a"] * 300), "nested deeper than 200 levels: split it"),
+        (f"sinh({','.join(['a'] * 4000)})", "more than 6000 parts: split it"),
+    ],
+)
+def test_endless_formulas_are_refused(text: str, says: str) -> None:
+    with pytest.raises(FormulaError, match=says):
+        parse(text, PLATE)
+
+
+# --- emit
+
+
+def test_a_budget_names_its_formulas_domain(formulas: Mapping[str, Formula]) -> None:
+    G, budget = formulas["G"], read_budgets()["G"]
+    assert (
+        kernels.kernel(G, G.arguments, "plate_factors", budget, STYLE, value="1").budget == budget
+    )
+    budget = replace(budget, domain="T > 1")
+    says = r"budget of G names the domain 'T > 1'; .* is 'T > 0, T >= 1e-151'"
+    with pytest.raises(ValueError, match=says):
+        kernels.kernel(G, G.arguments, "plate_factors", budget, STYLE, value="1")
+
+
+@pytest.mark.parametrize(
+    "expression", [sp.Float("0.1") * x * sp.exp(x), sp.Rational(1, 2**60) * x, 2 * x / 3, -x / 7]
+)
+def test_printed_numbers_are_what_they_stand_for(expression: sp.Expr) -> None:
+    printed = eval(printer.to_numpy(expression), {"np": math, "x": 0.7})
+    assert printed == pytest.approx(float(expression.subs(x, sp.Float(0.7, 30))), rel=1e-15)
+
+
+def test_what_is_not_python_is_not_formatted() -> None:
+    assert source.format_files({"a.py": "x=1\n"}) == {"a.py": "x = 1\n"}
+    with pytest.raises(RuntimeError, match="ruff check failed"):
+        source.format_files({"a.py": "def (:\n"})

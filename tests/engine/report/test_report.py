@@ -1,0 +1,340 @@
+"""The report: a pure function of theory and committed measurements, escaped and compiled."""
+
+import re
+import shutil
+import tomllib
+from pathlib import Path
+
+import pytest
+import sympy as sp
+
+from derivation.engine.formula.notation import to_latex
+from derivation.engine.report.equations import (
+    DEEPEST,
+    LINE_WIDTH,
+    displayed,
+    equation,
+    folded,
+    in_parts,
+)
+from derivation.engine.report.html_text import argument
+from derivation.engine.report.latex import escape, prose
+from derivation.engine.report.listings import source_of
+from derivation.engine.report.numbers import number
+from derivation.engine.report.pdf import TexError, compile_pdf, typeset
+from derivation.engine.report.spoken import spoken
+from derivation.engine.report.width import typeset_width
+from derivation.plate import derived, reporting
+from derivation.plate import vocabulary as symbols
+from derivation.plate.chain import LINKS
+from derivation.plate.report.consequence import Consequences
+from derivation.plate.report.prose import REFERENCES
+from derivation.plate.vocabulary import PLATE, R, a, lam, mu, phi
+from derivation.scene.effects import EFFECTS
+from derivation.scene.impact import simulate
+from derivation.scene.scene import load
+from generated import influence
+
+NEEDS_TEX = pytest.mark.skipif(shutil.which("pdflatex") is None, reason="needs pdflatex")
+HAIR = 2.0
+"""Points by which a box may stand out unseen."""
+
+
+def blemishes(log: str) -> list[str]:
+    """What a log complains of: boxes that stand out by more than a hair, and warnings."""
+    boxes = re.finditer(r"^Overfull .*?\(([\d.]+)pt too .*$", log, re.MULTILINE)
+    warnings = re.findall(r"^(?:LaTeX|Package \S+|pdfTeX) [Ww]arning.*$", log, re.MULTILINE)
+    return [box[0] for box in boxes if float(box[1]) > HAIR] + warnings
+
+
+def test_committed_tex_is_fresh() -> None:
+    freshness = reporting.check_report()
+    assert freshness.fresh, str(freshness)
+
+
+@pytest.mark.parametrize(
+    ("plain", "latex"),
+    [
+        ("a_b", r"a\_b"),
+        ("50 %", r"50 \%"),
+        ("{x}", r"\{x\}"),
+        ("^", r"\textasciicircum{}"),
+        ("\\", r"\textbackslash{}"),
+    ],
+)
+def test_escape(plain: str, latex: str) -> None:
+    assert escape(plain) == latex
+
+
+@pytest.mark.parametrize(
+    ("plain", "latex"),
+    [
+        ("to 6e300.", r"to $6\cdot10^{300}$."),
+        ("h = b = 1e+20 a", "$h$ = $b$ = $10^{20}$ a"),
+        ("1.5e-07 off", r"$1.5\cdot10^{-7}$ off"),
+        ("the root of c1, J0 and v0", "the root of $c_{1}$, $J_{0}$ and $v_{0}$"),
+        (
+            "of (a/h)^3, P^(2/3) and (K/m)^(2/5)",
+            "of (a/$h$)$^{3}$, $P^{2/3}$ and ($K$/$m$)$^{2/5}$",
+        ),
+        ("eps^2 of (a/h)^k, e^x", r"$\varepsilon^{2}$ of (a/$h$)$^{k}$, $e^{x}$"),
+        (
+            "E*/E_1*, (E* phi), sinh^2 T, a*b >= 0",
+            r"$E^*$/$E_{1}^*$, ($E^*$ $\phi$), $\sinh^{2}$ $T$, \texttt{a*\allowbreak{}b} $\ge$ 0",
+        ),
+        (
+            "a/R -> 0, h -> oo, int P d delta",
+            r"a/$R$ $\to$ 0, $h$ $\to$ $\infty$, $\int$ $P$ $d$ $\delta$",
+        ),
+        ("m/(8 That sqrt(D rho H))", r"$m$/(8 $\hat{T}$ $\sqrt{D \rho H}$)"),
+        ("P^((2k-1)/3) at a point", "$P^{(2k-1)/3}$ at a point"),
+        ("f_j(+-h)", r"$f_{j}$($\pm$$h$)"),
+        ("by more than 0.0e+00 of it", "by more than 0 of it"),
+        ("x1e5, 0x1p+3 and e^(-x)", r"x1e5, 0x1p+3 and $e^{-x}$"),
+    ],
+)
+def test_numbers_and_symbols_in_words(plain: str, latex: str) -> None:
+    assert prose(plain) == latex
+
+
+@pytest.mark.parametrize(
+    ("plain", "latex"),
+    [
+        ("per s(a phi), z = -h", r"per $s$(a $\phi$), $z$ = $-h$"),
+        ("the factor mu*(lam + mu)/(pi*R) of it", r"the factor ${}$ of it"),
+        ("read 2*a + sin(a*phi), not b", r"read ${}$, not $b$"),
+        ("found [kg^2 m^-2]", "found [kg$^{2}$ m$^{-2}$]"),
+        ("where x*y is none", r"where \texttt{x*\allowbreak{}y} is none"),
+    ],
+)
+def test_formulas_typed_as_code_are_typeset(plain: str, latex: str) -> None:
+    inner = {"the": mu * (lam + mu) / (sp.pi * R),
+             "read": 2 * a + sp.sin(a * phi)}  # fmt: skip
+    expected = inner.get(plain.split(" ")[0])
+    assert spoken(plain, PLATE) == (
+        latex if expected is None else latex.replace("{}", to_latex(expected, PLATE))
+    )
+
+
+def test_what_would_be_illegible_on_a_line_stands_in_parts(formulas) -> None:
+    """Every line fits the page, and no fraction stands within two others."""
+    for name in ("time_by_radius", "F_edge", "c_1_roots", "far_sum_thin"):
+        text = equation("", formulas[name].expression, PLATE)
+        assert text.startswith(r"\begin{aligned}")
+        lines = text.removeprefix(r"\begin{aligned}").removesuffix(r"\end{aligned}").split(r"\\")
+        named = [line.split("=")[0].strip() for line in lines[1:] if "=" in line]
+        assert named == [f"Z_{k}" for k in range(1, len(named) + 1)]
+        assert all(typeset_width(line) <= 1.1 * LINE_WIDTH for line in lines)
+        assert all(fractions_within(line) <= DEEPEST for line in lines)
+
+
+def fractions_within(latex: str) -> int:
+    """How many fractions stand within each other."""
+    depth = 0
+    for match in re.finditer(r"\\frac(?=\{)", latex):
+        above, place = argument(latex, match.end())
+        below, _ = argument(latex, place)
+        depth = max(depth, 1 + fractions_within(above), 1 + fractions_within(below))
+    return depth
+
+
+def test_parts_put_back_are_the_formula(formulas) -> None:
+    """Whatever is named on the way to lines that can be read."""
+    for formula in formulas.values():
+        value, parts = in_parts(formula.expression, LINE_WIDTH, PLATE)
+        for symbol, part in reversed(parts):
+            value = value.xreplace({symbol: part})
+        assert value == formula.expression
+
+
+def test_plate_factor_is_called_by_its_name(formulas) -> None:
+    whole = formulas["c_1_modes"].expression
+    short = folded(whole, formulas["G"])
+    assert "G{" in to_latex(short, PLATE)
+    assert "sinh" not in to_latex(short, PLATE)
+    G = sp.Function("G")
+    again = short.replace(G, lambda T: formulas["G"].expression.xreplace({symbols.T: T}))
+    assert again == whole
+    assert folded(formulas["K_j"].expression, formulas["G"]) == formulas["K_j"].expression
+
+
+@pytest.mark.parametrize(
+    ("latex", "width"),
+    [
+        ("abc", 3), ("a + b", 4.6), (r"\frac{abc}{d}", 3.5), (r"\lambda_{jk} \mu^{2}", 4.1),
+        (r"\sin{\left(x \right)}", 6.2), (r"\frac{\frac{abcd}{e}}{f}", 3.8),
+    ],
+)  # fmt: skip
+def test_width_of_what_is_typeset(latex: str, width: float) -> None:
+    """By hand: letters, signs with their space, scripts and fractions inside others smaller."""
+    assert typeset_width(latex) == pytest.approx(width)
+
+
+@NEEDS_TEX
+def test_widths_are_those_of_tex(formulas, tmp_path: Path) -> None:
+    """Within a quarter for nearly all formulas of the report, by a box of TeX's own."""
+    shown = [displayed(formula.expression, PLATE) for formula in formulas.values()]
+    boxes = "".join(rf"\sbox0{{$\displaystyle {text}$}}\typeout{{W\the\wd0}}" for text in shown)
+    source = tmp_path / "boxes.tex"
+    source.write_text(
+        rf"\documentclass[11pt]{{article}}\usepackage{{amsmath,lmodern}}"
+        rf"\begin{{document}}{boxes}x\end{{document}}"
+    )
+    _, log = typeset(source)
+    widths = [float(found) for found in re.findall(r"^W([\d.]+)pt", log, re.MULTILINE)]
+    assert len(widths) == len(shown)
+    ratios = sorted(w / typeset_width(text) for w, text in zip(widths, shown, strict=True))
+    middle = ratios[len(ratios) // 2]
+    off = [ratio for ratio in ratios if not 0.8 < ratio / middle < 1.25]
+    assert len(off) <= len(ratios) // 20
+
+
+def test_long_sums_are_broken_and_short_ones_are_not(formulas) -> None:
+    assert "aligned" in equation("g", formulas["g_j"].expression, PLATE)
+    assert "aligned" not in equation("G", formulas["G"].expression, PLATE)
+
+
+def test_every_link_and_formula_is_in_the_report(formulas) -> None:
+    text = reporting.report_files()["report.tex"]
+    for name, _ in LINKS:
+        assert rf"\subsection{{{name[0].upper() + name[1:]}}}" in text
+    for name in formulas:
+        assert rf"\begin{{formula}}{{{escape(name)}}}" in text
+        assert rf"\label{{eq:{name}}}" in text
+
+
+@NEEDS_TEX
+def test_pdf_is_the_same_bytes_anywhere_and_nothing_stands_out(tmp_path: Path) -> None:
+    files = reporting.report(tmp_path / "one")
+    assert sorted(path.name for path in files) == [
+        "report.bib", "report.html", "report.pdf", "report.tex",
+    ]  # fmt: skip
+    left = {path.name for path in (tmp_path / "one").iterdir()}
+    assert left == {path.name for path in files} | {"figures"}
+    shutil.copytree(tmp_path / "one", tmp_path / "two")
+    again, log = typeset(tmp_path / "two" / "report.tex")
+    assert again == (tmp_path / "one" / "report.pdf").read_bytes()
+    assert blemishes(log) == []
+
+
+@NEEDS_TEX
+def test_blemishes_are_seen(tmp_path: Path) -> None:
+    path = tmp_path / "bad.tex"
+    path.write_text(
+        r"\documentclass{article}\begin{document}\hbox to 10pt{\vrule width 13pt}"
+        r"\hbox to 10pt{\vrule width 11pt}\ref{none}\end{document}"
+    )
+    found = blemishes(typeset(path)[1])
+    assert sum(line.startswith("Overfull") for line in found) == 1
+    assert any("none" in line for line in found)
+
+
+@NEEDS_TEX
+def test_chosen_sections_compile_by_themselves(tmp_path: Path) -> None:
+    written = reporting.report(tmp_path, sections=["speed", "misprints"])
+    assert written[-1].name == "report-misprints-speed.pdf"
+    tex = written[0].read_text()
+    assert re.findall(r"\\section\{(.*?)\}", tex) == ["Misprints", "Speed"]
+    assert blemishes(typeset(written[0])[1]) == []
+
+
+def test_a_section_that_is_not_there_is_refused_with_the_names_of_all() -> None:
+    with pytest.raises(ValueError, match=r"did you mean misprints\?.*derivation, misprints, law"):
+        reporting.report_text(["misprint"])
+
+
+def test_what_misprints_cost_is_as_found_by_hand(formulas) -> None:
+    """By hand: phi_1 = j_1/b, of which the printed Omega_3 has one too many below."""
+    cost = Consequences(reporting.paper_case(), formulas)
+    known = {finding.printed.name: cost.of(finding) for finding in derived.misprints()
+             if finding.is_misprint}  # fmt: skip
+    assert f"{1 / 2.404825557695773:.4g}$ times" in known["Omega_3"]
+    assert "0.500 of its largest value, in place of 0.354" in known["force_power"]
+    depth = float(simulate(load(reporting.PAPER)).max_indentation)
+    assert f"in place of {number(depth)} m" in known["delta"]
+    assert "$-1$ times" in known["u"]
+    assert set(known) == {finding.printed.name for finding in derived.misprints()
+                          if finding.is_misprint}  # fmt: skip
+
+
+def test_every_author_cited_in_the_effects_is_in_the_references() -> None:
+    for effect in EFFECTS:
+        for author, year in re.findall(r"(\w+)(?: and \w+| et al\.)? (1[89]\d\d)", effect.source):
+            assert f"{author.lower()}{year}" in REFERENCES.entries, effect.source
+    assert REFERENCES.bib().count("@") == len(REFERENCES.entries)
+
+
+def test_links_that_references_name_are_the_chains() -> None:
+    known = {name for name, _ in derived.chain()}
+    named = {
+        link
+        for entry in tomllib.loads(REFERENCES.table.read_text()).values()
+        for link in entry["links"]
+    }
+    assert named <= known
+    assert set(REFERENCES.cited("curvature")) == {"sneddon1965"}
+
+
+@NEEDS_TEX
+def test_fragments_of_the_whole_chain_compile_once_pasted(tmp_path: Path) -> None:
+    pasted = reporting.fragments([name for name, _ in derived.chain()])
+    head = re.findall(r"^\\(?:newsavebox|newcommand)\{.*\n(?:  .*\n)?", pasted, re.MULTILINE)
+    path = tmp_path / "paste.tex"
+    path.write_text(
+        r"\documentclass{article}\usepackage[margin=22mm]{geometry}"
+        r"\usepackage{amsmath,amssymb,graphicx}\allowdisplaybreaks\sloppy\begin{document}"
+        + pasted
+        + r"\end{document}"
+    )
+    assert len(head) == 2
+    log = typeset(path)[1]
+    assert [
+        line for line in blemishes(log) if "Citation" not in line and "undefined refer" not in line
+    ] == []
+
+
+def test_a_fragment_is_one_formula_with_its_source(formulas) -> None:
+    text = reporting.fragments(["K_j"])
+    assert text.count(r"\begin{equation}") == 1
+    assert r"\label{eq:K_j}" in text
+    assert r"equation~(6) of~\cite{paper}" in text
+    assert equation(formulas["K_j"].latex, formulas["K_j"].expression, PLATE) in text
+    with pytest.raises(ValueError, match="did you mean K_j"):
+        reporting.fragments(["Kj"])
+
+
+def test_fragments_are_written_with_the_bibliography(tmp_path: Path) -> None:
+    names = [path.name for path in reporting.write_fragments(["G", "G_m"], tmp_path)]
+    assert names == ["fragment.tex", "report.bib"]
+    assert (tmp_path / "fragment.tex").read_text().count(r"\begin{equation}") == 2
+
+
+def test_listings_are_the_generated_functions_without_docstrings() -> None:
+    source = Path(influence.__file__).read_text()
+    cut = source_of(source, "G")
+    assert cut.startswith("@quiet\ndef G(")
+    assert '"""' not in cut
+    names: dict[str, object] = {}
+    exec(
+        compile(source.replace("from .", "from generated.").split("@quiet")[0] + cut, "G", "exec"),
+        names,
+    )
+    assert names["G"](2.0) == influence.G(2.0)
+    with pytest.raises(ValueError, match="no_such"):
+        source_of(source, "no_such")
+
+
+@NEEDS_TEX
+def test_refused_tex_names_the_error(tmp_path: Path) -> None:
+    path = tmp_path / "bad.tex"
+    path.write_text(r"\documentclass{article}\begin{document}\nonsense\end{document}")
+    with pytest.raises(TexError, match="Undefined control sequence"):
+        compile_pdf(path)
+
+
+def test_without_tex_the_message_names_the_packages(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(TexError, match="texlive-latex-base"):
+        compile_pdf(tmp_path / "report.tex")

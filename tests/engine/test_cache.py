@@ -1,0 +1,170 @@
+"""The cache: plain data that is right or is not used, and that runs nothing."""
+
+import json
+import os
+import pickle
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+import pytest
+import sympy as sp
+
+from derivation.engine import cache
+from derivation.engine.cache import cache_folder, cached, from_plain, to_plain
+from derivation.engine.formula.proof import Proof
+from derivation.engine.rewrite.form import Block, Branch, Form, Seam, Step
+from derivation.plate import derived, package_pipeline
+from derivation.plate.blocks import blocks
+from derivation.plate.vocabulary import Formula
+
+x = sp.Symbol("x", positive=True)
+VALUE = {"first": (1, None, True, "text"), "second": (x**2 + sp.Rational(1, 3), sp.Float("5e-324"))}
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A cache of its own."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    return tmp_path / "platecontact"
+
+
+def counting(value: object) -> tuple[Callable[[], Any], list[int]]:
+    calls = list[int]()
+
+    def compute() -> object:
+        calls.append(1)
+        return value
+
+    return compute, calls
+
+
+def again(value: object, *kinds: type) -> Any:
+    """The value as a file would give it back."""
+    known = {kind.__name__: kind for kind in kinds}
+    return from_plain(json.loads(json.dumps(to_plain(value, known))), known)
+
+
+def test_what_is_kept_is_computed_once(folder: Path) -> None:
+    compute, calls = counting(VALUE)
+    assert cached("x", (), compute) == cached("x", (), compute) == VALUE
+    assert len(calls) == 1
+    [path] = folder.iterdir()
+    json.loads(path.read_bytes().partition(b"\n")[2])
+
+
+def test_the_projects_own_results_come_back_as_they_are(formulas: Mapping[str, Formula]) -> None:
+    kinds = (*derived.CHAIN.kinds, Proof, Form, Step, Branch, Seam, Block)
+    for value in (formulas, package_pipeline.forms(), blocks()):
+        found = again(value, *kinds)
+        assert found == value
+        assert repr(found) == repr(value)
+
+
+@pytest.mark.parametrize(
+    "value",
+    [
+        sp.Symbol("x", real=True, nonzero=True), sp.Function("f", real=True)(x),
+        sp.Integral(sp.besselj(0, x) / x, (x, 0, sp.oo)), sp.Sum(x**-2, (x, 1, sp.oo)), -sp.oo,
+        sp.Derivative(sp.Function("f")(x), (x, 2)), sp.Max(x, sp.Float("1e308")), sp.I * sp.pi,
+        sp.E, sp.EulerGamma, sp.Rational(-7, 10**40), sp.exp(-x), sp.Function("f")(x),
+    ],
+)  # fmt: skip
+def test_expressions_come_back(value: sp.Basic) -> None:
+    assert again(value) == value
+    assert sp.srepr(again(value)) == sp.srepr(value)
+
+
+@pytest.mark.parametrize("value", [{1}, 0.5, b"x", [1], {1: 2}, object(), Step(x, x), x > 1])
+def test_what_cannot_be_kept_is_refused(value: object, folder: Path) -> None:
+    with pytest.raises(TypeError, match="expected"):
+        cached("x", (), lambda: value)
+    assert not list(folder.glob("*"))
+
+
+def test_no_changed_digit_comes_back(folder: Path) -> None:
+    compute, calls = counting(VALUE)
+    cached("x", (), compute)
+    [path] = folder.iterdir()
+    whole = path.read_bytes()
+    changed = [whole[:k] + bytes([whole[k] ^ 1]) + whole[k + 1 :] for k in range(0, len(whole), 7)]
+    for number, damaged in enumerate([*changed, b"", whole[:-1], whole[65:]], start=1):
+        path.write_bytes(damaged)
+        assert cached("x", (), compute) == VALUE
+        assert len(calls) == number + 1, "read all the same"
+        assert path.read_bytes() == whole
+
+
+def test_a_file_of_another_key_is_not_taken(folder: Path) -> None:
+    cached("x", (), lambda: 1)
+    [one] = folder.iterdir()
+    cached("y", (), lambda: 2)
+    [other] = set(folder.iterdir()) - {one}
+    other.write_bytes(one.read_bytes())
+    assert cached("y", (), lambda: 2) == 2
+
+
+class Planted:
+    """What a pickle can do."""
+
+    def __init__(self, trace: Path) -> None:
+        self.trace = trace
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Path.touch, (self.trace,)
+
+
+def test_a_planted_pickle_runs_nothing(folder: Path, tmp_path: Path) -> None:
+    trace = tmp_path / "ran"
+    cached("x", (), lambda: 1)
+    [path] = folder.iterdir()
+    for name in (path, path.with_suffix(".pickle")):
+        name.write_bytes(pickle.dumps(Planted(trace)))
+    assert cached("x", (), lambda: 1) == 1
+    assert not trace.exists()
+
+
+@pytest.mark.parametrize(
+    "plain",
+    [
+        {"eval": ["1"]}, {"Lambda": [{"Symbol": ["x", {}]}]}, {"sympify": ["1"]}, {"lambdify": []},
+        {"Add": ["__import__('os')", 1]}, {"Path": ["/"]}, {"Formula": []}, {"a": [], "b": []},
+        {"Symbol": [1, {}]}, {"Function": [["f"], {}, []]}, {"__loader__": []}, 1.5, {},
+    ],
+)  # fmt: skip
+def test_nothing_but_expressions_is_built(plain: Any) -> None:
+    with pytest.raises((TypeError, ValueError)):
+        from_plain(plain, {})
+
+
+def test_a_relative_folder_counts_for_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    home = tmp_path / "home"
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("HOME", str(home))
+    monkeypatch.setenv("XDG_CACHE_HOME", "relative")
+    assert cached("x", (), lambda: 1) == 1
+    assert not Path("relative").exists()
+    assert cache_folder() == home / ".cache" / "platecontact"
+    monkeypatch.setenv("HOME", "relative")
+    assert cache_folder() is None
+    assert cached("x", (), lambda: 2) == 2
+    assert not Path("relative").exists()
+
+
+def test_a_folder_of_everybodys_is_not_used(folder: Path) -> None:
+    folder.mkdir()
+    folder.chmod(0o777)
+    assert cached("x", (), lambda: 1) == 1
+    assert list(folder.iterdir()) == []
+
+
+def test_a_device_or_a_huge_file_is_not_read(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    cached("x", (), lambda: 1)
+    [path] = folder.iterdir()
+    path.unlink()
+    os.mkfifo(path)
+    assert cached("x", (), lambda: 1) == 1
+    monkeypatch.setattr(cache, "LARGEST", 10)
+    assert cached("x", (), lambda: 1) == 1

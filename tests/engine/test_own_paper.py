@@ -1,0 +1,170 @@
+"""A paper outside the checkout, begun by `new`: every stage, in processes of their own."""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from derivation.engine import build
+from derivation.engine.files import ROOT
+from derivation.engine.load import PaperError, begin, load
+from derivation.engine.measure.domain_grid import inside
+from derivation.engine.measure.kernels import generated_kernels
+from derivation.plate.paper import PAPER
+
+MISPRINT = r"\frac{\cosh T - 1}{\sinh T - T}"
+WORDS = re.compile(r"\b(plates?|spheres?)\b", re.IGNORECASE)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A built paper, and beside it the cache that its processes share."""
+    place = tmp_path_factory.mktemp("own") / "my film"
+    run("new", str(place), home=place.parent)
+    run("build", "--paper", str(place), home=place.parent)
+    return place
+
+
+def run(*arguments: str, home: Path, status: int = 0) -> str:
+    """What a command prints in a process of its own, outside the checkout."""
+    done = subprocess.run(
+        [sys.executable, "-m", "derivation.cli", *arguments],
+        cwd=home, capture_output=True, text=True, check=False,
+        env={**os.environ, "XDG_CACHE_HOME": str(home / "cache"), "PYTHONPATH": str(ROOT)},
+    )  # fmt: skip
+    assert done.returncode == status, done.stderr
+    return done.stdout + done.stderr
+
+
+def test_it_derives(folder: Path) -> None:
+    found = json.loads(
+        run("derive", "--paper", str(folder), "--json", "-", home=folder.parent).split("✓")[0]
+    )
+    assert {row["name"] for row in found} == {
+        f"{letter}_{held}" for letter in "CF" for held in ("bonded", "slipping")
+    }
+    assert all(row["proof"]["residuals"] for row in found)
+
+
+def test_its_package_is_fresh_and_stands_alone(folder: Path, tmp_path: Path) -> None:
+    assert "is fresh" in run("generate", "--check", "--paper", str(folder), home=folder.parent)
+    shutil.copytree(folder / "generated", tmp_path / "elastic_film")
+    program = (
+        "import sys, elastic_film; print(float(elastic_film.F_bonded(0.4, 2.0)));"
+        "assert not {'derivation', 'sympy', 'scipy'} & set(sys.modules)"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program], cwd=tmp_path, capture_output=True, text=True, check=True
+    )
+    diagnosed = run(
+        "diagnose", "F_bonded", "--formula", "F_bonded", "--at", "s=0.4,T=2", "--digits", "15",
+        "--paper", str(folder), home=folder.parent,
+    )  # fmt: skip
+    assert f"{float(done.stdout):.12f}" in diagnosed
+
+
+def test_both_references_check_it(folder: Path) -> None:
+    data = json.loads((folder / "reports" / "check.json").read_text())
+    assert [row["kernel"] for row in data["rows"]] == ["F_bonded", "F_slipping", "C_slipping"]
+    assert all(row["passed"] and row["oracles"] == 2 for row in data["rows"])
+
+
+def test_a_misprint_is_found_and_the_cache_notices_edits(folder: Path) -> None:
+    def findings() -> dict[str, str]:
+        shown = run("misprints", "--paper", str(folder), "--json", "-", home=folder.parent)
+        return {row["name"]: row["kind"] for row in json.loads(shown.split("✓")[0])}
+
+    assert findings() == {"F_bonded": "equal", "F_slipping": "sign"}
+    printed = folder / "printed.py"
+    wrong = printed.read_text()
+    try:
+        printed.write_text(wrong.replace("(sp.sinh(T) - T)", "(sp.sinh(T) + T)"))
+        assert findings() == {"F_bonded": "equal", "F_slipping": "equal"}
+    finally:
+        printed.write_text(wrong)
+    theory = folder / "theory.py"
+    right = theory.read_text()
+    try:
+        theory.write_text(right.replace("(sp.sinh(T) + T)", "(sp.sinh(T) + 2 * T)"))
+        shown = run("derive", "--paper", str(folder), home=folder.parent, status=1)
+        assert "Film, slipping: closed form leaves the residual" in shown
+    finally:
+        theory.write_text(right)
+
+
+def test_its_report_holds_what_was_found(folder: Path) -> None:
+    text = (folder / "reports" / "report.tex").read_text()
+    assert MISPRINT in text
+    assert "Reverse the sign of the term" in text
+    assert r"\label{eq:C_bonded}" in text
+    page = (folder / "reports" / "report.html").read_text()
+    assert "A film on a rigid base" in page
+    made = (folder / "reports" / "report.pdf").is_file()
+    assert made == (shutil.which("pdflatex") is not None)
+
+
+def test_rules_are_accounted_for(folder: Path) -> None:
+    shown = run("rewrite", "--paper", str(folder), home=folder.parent)
+    assert "F_slipping" in shown
+
+
+def test_what_is_no_paper_is_refused(folder: Path, tmp_path: Path) -> None:
+    assert "expected a folder with a file paper.py" in run(
+        "derive", "--paper", str(tmp_path), home=tmp_path, status=2
+    )
+    assert "expected an empty folder" in run("new", str(folder), home=tmp_path, status=2)
+    assert "remove the other options" in run(
+        "check", "--hard", "--paper", str(folder), home=tmp_path, status=2
+    )
+    for text, says in (
+        ("import nothing_of_that_name", "paper.py, line 1: ModuleNotFoundError: No module"),
+        ("PAPER = 1 +", "cannot be imported: SyntaxError"),
+        ("", "AttributeError: .* has no attribute 'PAPER'"),
+        ("PAPER = 1", "expected PAPER to be a Paper, got int"),
+    ):
+        (tmp_path / "paper.py").write_text(text)
+        with pytest.raises(PaperError, match=says):
+            load(tmp_path)
+
+
+def test_what_is_missing_is_named(tmp_path: Path) -> None:
+    begin(tmp_path / "film")
+    paper = load(tmp_path / "film")
+    with pytest.raises(FileNotFoundError, match="run `platecontact generate`"):
+        build.check(paper)
+    with pytest.raises(FileNotFoundError, match="run `platecontact check --record`"):
+        build.report(paper)
+    with pytest.raises(ValueError, match="sections of its own"):
+        build.report(paper, sections=["misprints"])
+
+
+def test_grids_stay_inside_the_domain(folder: Path) -> None:
+    paper = load(folder)
+    judge = paper.judge()
+    for kernel in generated_kernels(paper.package().target):
+        points = judge.grid(kernel.name, kernel.arguments, False)
+        assert points == judge.grid(kernel.name, kernel.arguments, False)
+        assert all(inside(paper.vocabulary, point.values) for point in points)
+        for name in kernel.arguments:
+            assert min(point.values[name] for point in points) <= 1e-50
+
+
+def test_the_plate_is_a_paper_too() -> None:
+    assert build.formulas(PAPER)["G"].unit == "1"
+    assert build.diagnose(PAPER, "G", "G").verdict == "equal"
+    assert PAPER.judge().package == PAPER.package().target == "generated"
+    assert PAPER.report().write is not None
+
+
+def test_the_engine_speaks_of_no_paper() -> None:
+    """Its templates included."""
+    found = [path for path in (ROOT / "derivation" / "engine").rglob("*") if path.is_file()]
+    assert len(found) > 100
+    for path in found:
+        if path.suffix in (".py", ".j2", ".css", ".toml"):
+            assert not WORDS.findall(path.read_text()), path

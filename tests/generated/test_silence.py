@@ -1,0 +1,313 @@
+"""Inside its domain every kernel is silent under all="raise"; outside it gives NaN, nothing else.
+
+A true value beyond the doubles is an infinity or zero there, and silent too.
+"""
+
+import importlib
+import itertools
+import math
+import re
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any
+
+import numpy as np
+import pytest
+
+from derivation.engine.formula.ulp import DOUBLE, SINGLE
+from derivation.engine.measure.evaluate import call, to_single
+from derivation.plate.contact.cases import grid as contact_grid
+from derivation.plate.grids import grid
+from derivation.plate.judge import generated_kernels
+from generated.manifest import CONTACT, KERNELS
+
+ROWS = {row["name"]: row for row in (*KERNELS, *CONTACT)}
+TABLES = [name for name, row in ROWS.items() if "count" in row["arguments"]]
+POINTWISE = [name for name in ROWS if name not in TABLES]
+UNBOUNDED = [
+    name
+    for name in POINTWISE
+    if ROWS[name] in CONTACT or ROWS[name]["module"] in ("bessel", "moments")
+]
+"""Kernels whose forms hold for every double, not only for moderate phi h and a phi."""
+
+EXAMPLE = {
+    "r": 0.002, "z": 0.004, "phi": 24.0, "h": 0.01, "T": 0.48, "b": 0.1, "R": 0.13, "a": 0.004,
+    "lam": 0.36e9, "mu": 0.43e9, "P": 1000.0, "A_j": -1e6, "J1": 0.52, "x": 1.3, "n": 7.0,
+    "k": 4.0, "delta": 1e-6, "m": 0.2, "v0": 1.5, "t": 1e-4, "eta": 0.1,
+    "a_over_R": 0.03, "a_ratio": 0.4, "alpha": 0.04, "rho": 2500.0,
+    "viscous_time": 1e-5, "x_v": 0.2, "kap": 0.7, "nu": -0.6,
+}  # fmt: skip
+Values = Mapping[str, Any]
+
+
+def function(name: str) -> Callable[..., np.ndarray]:
+    """A kernel that takes its arguments alone, gives one array, and may not warn."""
+    row = ROWS[name]
+    kernel = getattr(importlib.import_module(f"generated.{row['module']}"), name)
+    extra = {"modes": 5} if row.get("modes") else {}
+
+    def one(*arguments: Any) -> np.ndarray:
+        with np.errstate(all="raise"):
+            found = kernel(*arguments, **extra)
+        return np.stack(found) if isinstance(found, tuple) else found
+
+    return one
+
+
+# --- inside
+
+
+@pytest.mark.parametrize("kernel", generated_kernels(), ids=lambda kernel: kernel.name)
+@pytest.mark.parametrize("fmt", [DOUBLE, SINGLE], ids=lambda fmt: fmt.name)
+def test_hard_points_are_silent(kernel: Any, fmt: Any) -> None:
+    points = list(grid(kernel.name, kernel.arguments, kernel.modes))
+    if fmt is SINGLE:
+        points = [single for point in points if (single := to_single(point)) is not None]
+    if kernel.name.startswith(("kappa", "finite_part")) or kernel.by_count:
+        # Numbers too large for the type are outside the domain.
+        points = [p for p in points if max(p.values.values()) <= (15 if fmt is SINGLE else 100)]
+    with np.errstate(all="raise"):
+        found = call(kernel, points, fmt)
+    assert not np.isnan(found).any()
+
+
+@pytest.mark.parametrize("name", POINTWISE)
+def test_every_layout_is_silent(name: str) -> None:
+    kernel, values = function(name), [EXAMPLE[key] for key in ROWS[name]["arguments"]]
+    expected = np.asarray(kernel(*values))
+    assert np.isfinite(expected).all()
+    columns = [np.full((2, 6), value) for value in values]
+    for column in columns:
+        column.flags.writeable = False
+    layouts = {
+        "zero-dimensional": [np.asarray(value) for value in values],
+        "array": columns,
+        "non-contiguous": [column[:, ::3] for column in columns],
+        "fortran": [np.asfortranarray(column) for column in columns],
+        "broadcast": [column[: 1 + i % 2, :1] for i, column in enumerate(columns)],
+        "list": [[value] for value in values],
+    }
+    for layout, arguments in layouts.items():
+        found = kernel(*arguments)
+        shape = np.broadcast_shapes(*(np.shape(x) for x in arguments))
+        if name == "plate_coefficients":
+            shaped = np.broadcast_to(expected, (*shape, expected.size))
+        else:  # a kernel of several results gives them along a first axis
+            several = np.expand_dims(expected, tuple(range(-len(shape), 0)))
+            shaped = np.broadcast_to(several, (*expected.shape, *shape))
+        np.testing.assert_allclose(found, shaped, rtol=2e-15, err_msg=layout)
+    assert kernel(*(np.empty(0) for _ in values)).size == 0
+    single = kernel(*(np.float32(value) for value in values))
+    assert single.dtype == np.float32
+    np.testing.assert_allclose(single, expected, rtol=2e-5)
+
+
+def test_whole_numbers_are_numbers() -> None:
+    whole = {
+        "r": 1, "z": 1, "phi": 1, "h": 1, "T": 2, "b": 9, "R": 8, "a": 2, "lam": 3, "mu": 2,
+        "P": 5, "A_j": -4, "J1": 1, "x": 3, "n": 7, "k": 4, "delta": 1, "m": 2, "v0": 1, "t": 1,
+        "eta": 1, "a_over_R": 0, "a_ratio": 2, "alpha": 0, "rho": 2500,
+        "viscous_time": 1, "x_v": 2, "kap": 2, "nu": 0,
+    }  # fmt: skip
+    for name in POINTWISE:
+        if name == "force_by_series":  # its radius is smaller
+            whole = whole | {"R": 8000, "h": 700, "b": 900}
+        arguments = [whole[key] for key in ROWS[name]["arguments"]]
+        found = function(name)(*arguments)
+        assert np.isfinite(found).all(), name
+        assert found.dtype == np.float64
+        np.testing.assert_array_equal(found, function(name)(*(float(x) for x in arguments)))
+
+
+def shapes() -> list[dict[str, float]]:
+    """Contacts of every thickness and width, with what belongs to them."""
+    found = [shape._asdict() for shape in contact_grid.grid("indentation")]
+    law = function("indentation")
+    for i, values in enumerate(found):
+        values["delta"] = float(law(*(values[key] for key in ("a", "R", "h", "b"))))
+        values["eta"] = values["h"] / values["b"]
+        values["a_over_R"] = values["a"] / values["R"]
+        values["a_ratio"] = values["a"] / values["h"]
+        values["alpha"], values["rho"] = values["a"] / values["b"], 2500.0
+        stiff = 16 / 3 * values["mu"] * (values["lam"] + values["mu"])
+        stiff /= values["lam"] + 2 * values["mu"]
+        values["P"] = stiff * values["a"] ** 3 / values["R"]
+        values["v0"] = math.sqrt(0.5 * values["P"] * values["delta"] / values["m"])
+        values["viscous_time"] = values["delta"] / values["v0"] / 10 ** (i % 7)
+        values["x_v"] = 10.0 ** (1 - i % 9)
+        values["x"], values["kap"] = 10.0 ** (i % 11 - 8), 10.0 ** (i % 13 - 9)
+        values["nu"] = values["lam"] / (2 * (values["lam"] + values["mu"]))
+        values["t"] = (i % 9) / 3 * values["delta"] / values["v0"]
+    return found
+
+
+@pytest.mark.parametrize(
+    "row", [row for row in CONTACT if row["name"] in POINTWISE], ids=lambda row: row["name"]
+)
+@pytest.mark.parametrize("kind", [np.float64, np.float32])
+def test_contacts_are_silent(row: dict[str, Any], kind: type) -> None:
+    some = shapes()[:: 16 if row["name"] == "force_by_series" else 1]
+    columns = [np.array([v[key] for v in some], dtype=kind) for key in row["arguments"]]
+    found = function(row["name"])(*columns)
+    assert found.dtype == kind
+    if "a <= 0.9 * b" in row["domain"]:
+        a, b = (columns[row["arguments"].index(key)].astype(float) for key in ("a", "b"))
+        np.testing.assert_array_equal(np.isnan(found), a > 0.9 * b)
+    elif row["name"] != "force_by_series":  # NaN beyond its radius
+        known = np.isfinite(found)
+        assert known.mean() > 0.9 if kind == np.float32 else known.all()
+
+
+# --- extreme scales: the same contact in units of length, stress and time that are powers of two
+
+UNITS = {
+    "a": (1, 0, 0), "R": (1, 0, 0), "h": (1, 0, 0), "b": (1, 0, 0), "delta": (1, 0, 0),
+    "lam": (0, 1, 0), "mu": (0, 1, 0), "P": (2, 1, 0), "m": (1, 1, 2), "v0": (1, 0, -1),
+    "t": (0, 0, 1), "viscous_time": (0, 0, 1), "x_v": (0, 0, 0), "eta": (0, 0, 0),
+}  # fmt: skip
+"""Powers of length, stress and time by argument."""
+RESULTS = {
+    "indentation": [(1, 0, 0)], "contact_radius": [(1, 0, 0)], "force": [(2, 1, 0)],
+    "force_of_radius": [(2, 1, 0)], "radius_of_force": [(1, 0, 0)], "stiffness": [(1, 1, 0)],
+    "max_pressure": [(0, 1, 0)], "force_by_series": [(2, 1, 0)], "plate_coefficients": [(0, 0, 0)],
+    "impact": [(0, 0, 1), (1, 0, 0), (2, 1, 0), (1, 0, 0)],
+    "history": [(1, 0, 0), (1, 0, -1), (1, 0, 0), (2, 1, 0)],
+}  # fmt: skip
+SCALES = [
+    (length, stress, time)
+    for length, stress, time in itertools.product(
+        (-960, -333, 0, 333, 960), (-960, 0, 960), (-400, 0, 400)
+    )
+]
+"""Exponents of two."""
+
+
+@pytest.mark.filterwarnings("ignore:overflow encountered in ldexp")
+@pytest.mark.parametrize("name", RESULTS)
+def test_units_do_not_matter_however_extreme(name: str) -> None:
+    """To a few roundings, wherever arguments and results are normal doubles; silent everywhere."""
+    names = ROWS[name]["arguments"]
+    some = shapes()[:: 40 if name == "force_by_series" else 7]
+    base = {key: np.array([v[key] for v in some]) for key in names}
+    kernel = function(name)
+    expected = np.atleast_2d(kernel(*base.values()))
+    judged = 0
+    for scale in SCALES[:: 2 if name == "force_by_series" else 1]:
+        powers = {key: int(np.dot(UNITS[key], scale)) for key in names}
+        columns = {key: np.ldexp(base[key], powers[key]) for key in names}
+        if any(not normal(column[base[key] != 0]) for key, column in columns.items()):
+            continue
+        found = np.atleast_2d(kernel(*columns.values()))
+        for got, want, dimension in zip(found, expected, RESULTS[name], strict=False):
+            right = np.ldexp(want, int(np.dot(dimension, scale)))
+            fit = np.isfinite(right) & (np.abs(right) > 1e-305) | (want == 0)
+            np.testing.assert_allclose(got[fit], right[fit], rtol=2e-15, err_msg=str(scale))
+            judged += int(fit.sum())
+            assert not np.isnan(got[~np.isnan(want)]).any()
+    assert judged > 4 * len(some)
+
+
+def normal(values: np.ndarray) -> bool:
+    size = np.abs(values)
+    return bool(((size > 1e-305) & (size < 1e305)).all())
+
+
+ENDS = (5e-324, 1e-300, 1e-150, 1e150, 1e300, 1.7e308)
+
+
+@pytest.mark.parametrize("name", UNBOUNDED)
+def test_extreme_arguments_alone_and_in_pairs_are_silent(name: str) -> None:
+    names = ROWS[name]["arguments"]
+    ends = (1e-300, 1e300) if name == "force_by_series" else ENDS
+    cases = [
+        EXAMPLE | {one: first, two: second}
+        for one, two in itertools.combinations_with_replacement(names, 2)
+        for first, second in itertools.product(ends, ends)
+    ]
+    columns = [np.array([case[key] for case in cases]) for key in names]
+    assert function(name)(*columns).dtype == np.float64
+
+
+# --- outside
+
+BAD = (math.nan, math.inf, -math.inf)
+OUTSIDE = {
+    "contact_radius": {"delta": (5.0,)},
+    "force": {"delta": (5.0,)},
+    "radius_of_force": {"P": (1e9,)},
+    "indentation": {"h": (1e-7,)},  # beyond 6 h in too thin a plate
+    "stiffness": {"h": (1e-7,)},
+    "force_by_series": {"delta": (1e-4,)},
+    "impact": {"v0": (1e4,), "m": (1e9,)},
+    "history": {"v0": (1e4,), "m": (1e9,)},
+    "kappa": {"n": (0.5, 1e4)},
+    "kappa_ratio": {"n": (0.5, 1e6 + 0.5)},
+    "finite_part": {"k": (2.5, 1e4)},
+    "finite_part_ratio": {"k": (2.5,)},
+}
+"""What lies outside by a condition on the result, or for not being whole."""
+
+
+def conditions(name: str) -> list[str]:
+    """The conditions of a domain that name nothing but arguments."""
+    row = ROWS[name]
+    known = {*row["arguments"], "abs", "or", "e"}
+    parts = row["domain"].split(", ")
+    return [part for part in parts if part and set(re.findall(r"[A-Za-z]\w*", part)) <= known]
+
+
+def holds(condition: str, values: Values) -> bool:
+    return bool(eval(condition, {"abs": abs}, dict(values)))
+
+
+def breaking(name: str) -> Iterator[tuple[str, Values]]:
+    """Arguments that break each condition, and if possible no other one."""
+    names = ROWS[name]["arguments"]
+    base = {key: EXAMPLE[key] for key in names}
+    for condition in conditions(name):
+        assert holds(condition, base)
+        found = []
+        for key in set(re.findall(r"[A-Za-z]\w*", condition)) & set(names):
+            for value in (
+                0.0,
+                -base[key],
+                *(base[key] * 10.0**k for k in (1, 2, 3, -7, 92, -92, -155)),
+            ):
+                moved = base | {key: value}
+                divisible = moved.get("b", 1) != 0
+                broken = [c for c in conditions(name) if divisible and not holds(c, moved)]
+                if condition in broken or (condition in ("b > 0", "b != 0") and not divisible):
+                    found.append((len(broken), condition, moved))
+        fewest = min(count for count, _, _ in found)
+        yield from ((condition, moved) for count, _, moved in found if count == fewest)
+
+
+@pytest.mark.parametrize("name", POINTWISE)
+def test_outside_the_domain_everything_is_nan(name: str) -> None:
+    names, kernel = ROWS[name]["arguments"], function(name)
+    base = {key: EXAMPLE[key] for key in names}
+    cases = [(condition, dict(moved)) for condition, moved in breaking(name)]
+    cases += [(f"{key} = {bad}", base | {key: bad}) for key in names for bad in BAD]
+    own = OUTSIDE.get(name, {})
+    cases += [(f"{key} = {bad}", base | {key: bad}) for key in own for bad in own[key]]
+    for what, values in cases:
+        for kind in (np.float64, np.float32):
+            with np.errstate(all="ignore"):
+                arguments = [kind(values[key]) for key in names]
+            exact = dict(zip(names, map(float, arguments), strict=True))
+            if kind == np.float32 and all(
+                holds(c, exact) for c in conditions(name) if exact.get("b", 1)
+            ):
+                continue  # rounded into the domain
+            assert np.isnan(kernel(*arguments)).all(), (what, values)
+    everything = [np.array([values[key] for _, values in cases]) for key in names]
+    assert np.isnan(kernel(*everything)).all()
+
+
+@pytest.mark.parametrize("name", TABLES)
+def test_tables_of_no_length_are_empty_and_others_refused(name: str) -> None:
+    table, others = function(name), [EXAMPLE[key] for key in ROWS[name]["arguments"][1:]]
+    assert table(0, *others).size == 0
+    for count in (-1, 1.5, math.nan, math.inf):
+        with pytest.raises(ValueError, match=r"number of (zeros|modes)"):
+            table(count, *others)

@@ -1,0 +1,328 @@
+"""The far face under the axis: theory, oracles, kernels, known limits, and does the pane break?"""
+
+import itertools
+import math
+from collections.abc import Callable, Iterator
+from fractions import Fraction
+from typing import Any
+
+import flint
+import numpy as np
+import pytest
+import sympy as sp
+from flint import arb
+from given import lame, scene
+from mpmath import mp, mpf
+
+from derivation.engine.formula.ball import evaluate, to_ball
+from derivation.engine.formula.proof import SYMBOLIC, ProofError, prove
+from derivation.plate import derived
+from derivation.plate.back_face import oracle as far_face_balls
+from derivation.plate.back_face import route as far_face_routes
+from derivation.plate.back_face import theory as far_face
+from derivation.plate.budgets import read_budgets
+from derivation.plate.edge.oracle import clamped as clamp_balls
+from derivation.plate.edge.oracle import supported as edge_balls
+from derivation.plate.modes.route.exponentials import Material, unit_mode
+from derivation.plate.vocabulary import T
+from derivation.scene import load, read, simulate
+from derivation.scene.effects.effect import Array
+from generated import contact_law, modal_sum
+from generated import far_face as kernels
+
+BITS = 160
+KERNELS: dict[str, Callable[..., np.ndarray]] = {
+    "soft": kernels.far_stress,
+    "supported": kernels.supported_far_stress,
+    "clamped": kernels.clamped_far_stress,
+}
+Point = tuple[float, float, float, float, float, float]
+
+
+pytestmark = pytest.mark.usefixtures("silent")
+
+
+def scaled(stress: np.ndarray, P: float, h: float, ratio: float) -> float:
+    """The sum that the stress is, over (1 + nu) P/(2 pi H^2)."""
+    return float(stress) * 8 * math.pi * h * h / (P * (1 + ratio))
+
+
+# --- theory
+
+
+def test_every_formula_of_the_link_is_proved_symbolically() -> None:
+    found = [f for name, f in derived.formulas().items() if name.startswith("far_")]
+    assert len(found) == 8
+    assert {formula.proof.method for formula in found} == {SYMBOLIC}
+    assert far_face.pole_at_zero().method == SYMBOLIC
+
+
+def test_another_factor_is_refused() -> None:
+    wrong = far_face.far_function() * sp.cosh(T)
+    with pytest.raises(ProofError, match="radial"):
+        prove(
+            "Far face", "", {"radial stress": wrong - derived.formulas()["far_factor"].expression}
+        )
+
+
+@pytest.mark.parametrize(("wave", "ratio"), [(0.03, 0.3), (1.7, -0.8), (9.0, 0.49)])
+def test_factor_against_tractions_solved_in_numbers(wave: float, ratio: float) -> None:
+    """sigma_rr = S_rr - mu phi u on the axis, -(1 + nu)/2 B of a unit pressure coefficient."""
+    first, second = lame(ratio)
+    factor = evaluate(
+        derived.formulas()["far_factor"].expression, {T: Fraction(2 * Fraction(wave))}, 30
+    )
+    with mp.workdps(40):
+        mode = unit_mode(mpf(wave), mpf(1), Material(mpf(first), mpf(second)), mpf(-1))
+        nu = mpf(first) / (2 * (mpf(first) + second))
+        stress = -2 / (1 + nu) * (mode.rr - second * wave * mode.u)
+        with flint.ctx.workprec(BITS):
+            assert abs(factor / arb(mp.nstr(stress, 35)) - 1) < 1e-25
+
+
+# --- oracles
+
+
+@pytest.mark.parametrize(("thickness", "width"), [(0.02, 0.3), (0.1, 0.01), (0.1, 0.9), (0.3, 0.5)])
+def test_oracles_agree(thickness: float, width: float) -> None:
+    ball = far_face_balls.far_sum(width, thickness, 1, 24)
+    with mp.workdps(40):
+        route = far_face_routes.far_sum(width, thickness, 1, 24)
+        with flint.ctx.workprec(BITS):
+            assert abs(ball / arb(mp.nstr(route, 35)) - 1) < 1e-22
+
+
+@pytest.mark.parametrize(("thickness", "width", "ratio"), [(0.05, 0.3, 0.25), (0.7, 0.4, -0.5)])
+def test_oracles_agree_on_the_edge(thickness: float, width: float, ratio: float) -> None:
+    n = Fraction(ratio)
+    ball = far_face_balls.far_edge(width, thickness, 1, 2 * n, 1 - 2 * n, 24)
+    with mp.workdps(40):
+        route = far_face_routes.far_edge(width, thickness, 1, ratio, 24)
+        with flint.ctx.workprec(BITS):
+            assert abs(ball / arb(mp.nstr(route, 35)) - 1) < 1e-22
+
+
+def test_oracle_refuses_what_has_no_meaning() -> None:
+    with pytest.raises(ValueError, match="a < b"):
+        far_face_balls.far_sum(1.0, 0.1, 1.0)
+
+
+# --- generated kernels
+
+
+def points() -> Iterator[Point]:
+    """Plates, contacts and materials; both sides of the seams at h/b = 1/20 and a/h = 20."""
+    plates = (0.02, 0.05 * (1 - 1e-9), 0.05 * (1 + 1e-9), 0.13, 0.6, 2.0, 9.0, 60.0)
+    for thickness, width, ratio in itertools.product(
+        plates, (1e-6, 0.2, 0.899), (-0.9, 0.3, 0.499)
+    ):
+        yield 3.7, width * 1.37, thickness * 1.37, 1.37, *lame(ratio)
+    for factor in (1 - 1e-9, 1 + 1e-9):
+        for thickness in (0.03, 0.04):
+            yield 0.1, 20 * thickness * factor, thickness, 1.0, *lame(0.2)
+
+
+def truths(point: Point) -> dict[str, tuple[arb, arb]]:
+    """The stress of every edge, and what its error is measured by."""
+    force, a, h, b, lam, mu = point
+    plain = far_face_balls.far_sum(a, h, b, 22)
+    first, second = Fraction(lam), Fraction(mu)
+    ratio = edge_balls.support_ratio(first, second)
+    eta = Fraction(h) / Fraction(b)
+    n = first / (first + 2 * second)
+    found = {"soft": (plain, abs(plain))}
+    with flint.ctx.workprec(BITS):
+        bent, stretched = edge_balls.sums("indentation", Fraction(a) / Fraction(b), eta, n, BITS)
+        bent, stretched = 12 * bent, 8 * to_ball(n * eta) * stretched
+        taken = [to_ball(-part) for part in clamp_balls.far_clamp(a, h, b, first, second)]
+        added = [to_ball(ratio) * part for part in (bent, stretched)]
+        for name, (bent, stretched) in (("supported", added), ("clamped", taken)):
+            found[name] = plain + bent + stretched, abs(plain) + abs(bent) + abs(stretched)
+        stiff = (
+            to_ball(
+                (3 * first + 2 * second)
+                * Fraction(force)
+                / (16 * (first + second) * Fraction(h) ** 2)
+            )
+            / arb.pi()
+        )
+        return {name: (stiff * x, stiff * size) for name, (x, size) in found.items()}
+
+
+def conditions(function: Callable[..., np.ndarray], point: Point) -> float:
+    """Sum of what relative changes of the arguments do, by differences."""
+    steps = 1.0 + 1e-6 * np.vstack((np.eye(6), -np.eye(6)))
+    values = function(*(np.array(point) * steps).T)
+    return float(np.abs(values[:6] - values[6:]).sum() / 2e-6)
+
+
+def test_kernels_against_the_oracle() -> None:
+    budgets = read_budgets()
+    for point in points():
+        for edge, (true, size) in truths(point).items():
+            name = "far_stress" if edge == "soft" else f"{edge}_far_stress"
+            got, unit = float(KERNELS[edge](*point)), float(np.spacing(float(size)))
+            with flint.ctx.workprec(BITS):
+                error = float(abs(to_ball(got) - true)) / unit
+            rounding = conditions(KERNELS[edge], point) * 2.0**-53 / unit
+            assert error < budgets[name].ulp + rounding, (edge, point)
+
+
+def test_thin_plates_differ_by_a_logarithm() -> None:
+    """Down to h/b = 1e-50: the ball of h/b = 1/64 with the same a/h, and 3 log(1/(64 h/b))."""
+    for A in (1e-30, 0.25, 6.0, 19.0, 21.0, 60.0):
+        with flint.ctx.workprec(BITS):
+            start = far_face_balls.far_sum(A / 64, 1 / 64, 1, 25)
+            for power in (-10, -170):
+                true = start + 3 * (arb(2) ** (-power) / 64).log()
+                h = 2.0**power
+                got = scaled(kernels.far_stress(1.0, A * h, h, 1.0, 0.0, 1.0), 1.0, h, 0.0)
+                assert abs(got / float(true) - 1) < 3e-15, (A, power)
+
+
+def test_float32_and_shapes() -> None:
+    h = np.array([0.01, 0.3, 5.0], dtype=np.float32)
+    found = kernels.clamped_far_stress(np.ones((2, 1), np.float32), 0.1, h, 1.0, 1.0, 1.0)
+    assert found.shape == (2, 3)
+    assert found.dtype == np.float32
+    assert kernels.far_stress(1.0, 0.1, np.zeros(0), 1.0, 1.0, 1.0).shape == (0,)
+
+
+def test_domain() -> None:
+    plate = (0.1, 1.0, *lame(0.3))
+    for function, last in ((kernels.far_stress, 1.0), (kernels.clamped_far_stress, 0.9001)):
+        assert np.isnan(function(1.0, [0.0, -1.0, last, np.nan], *plate)).all()
+        assert np.isnan(function(-1.0, 0.1, *plate))
+        assert np.isnan(function(1.0, 0.1, [0.0, 1e-91, 1e91], *plate[1:])).all()
+        assert np.isnan(function(1.0, 0.1, 0.1, 1.0, -2.0, 3.0))
+        assert function(0.0, 0.1, *plate) == 0
+    assert kernels.far_stress(1.0, 0.5, 1e4, 1.0, 1.0, 1.0) == 0  # underflows
+
+
+# --- known answers
+
+
+def test_kirchhoffs_plate_under_a_wide_load() -> None:
+    """3 P/(2 pi H^2) [(1 + nu) <log b/r> + (1 - nu)/2 (1 - <r^2>/b^2)] of a supported plate.
+
+    Of Hertz's pressure <log a/r> = 4/3 - log 2 and <r^2> = 2 a^2/5; clamped, the last term is
+    -(1 + nu)/2 (1 - <r^2>/b^2).
+    """
+    nu, h, a = 0.3, 1e-8, 0.2
+    mean = math.log(1 / a) + 4 / 3 - math.log(2)
+    span = (1 - 0.4 * a * a) / 2
+    for edge, last in (("supported", 1 - nu), ("clamped", -1 - nu)):
+        known = 3 / (2 * math.pi * (2 * h) ** 2) * ((1 + nu) * mean + last * span)
+        found = float(KERNELS[edge](1.0, a, h, 1.0, *lame(nu)))
+        assert math.isclose(found, known, rel_tol=1e-8)
+
+
+def test_small_loads_against_westergaard_and_timoshenko() -> None:
+    """Westergaard's equivalent radius 0.325 H; Nadai in Timoshenko's Plates and Shells, (97)."""
+    nu = 0.3
+    for h in (0.05, 0.01):
+        H = 2 * h
+        found = float(kernels.supported_far_stress(1.0, 1e-9, h, 1.0, *lame(nu))) * H * H
+        westergaard = 3 / (2 * math.pi) * ((1 + nu) * math.log(1 / (0.325 * H)) + 1)
+        nadai = (1 + nu) * (0.485 * math.log(1 / H) + 0.52) + 0.48
+        assert found == pytest.approx(westergaard, rel=3e-3)
+        assert found == pytest.approx(nadai, rel=1e-2)
+
+
+def test_thick_plates_hardly_feel_it() -> None:
+    h = np.array([0.5, 1.0, 2.0, 4.0])
+    found = kernels.far_stress(1.0, 1e-3, h, 1.0, 0.0, 1.0) * 8 * np.pi * h * h
+    j, slope = 2.404825557695773, 0.5191474972894669
+    first = 16 * h * h * (2 * h * j) * np.exp(-2 * h * j) / slope**2
+    assert (np.diff(np.log(found)) < 0).all()
+    assert found[-1] == pytest.approx(first[-1], rel=1e-6)
+
+
+def test_interior_stress_of_many_modes_is_the_same() -> None:
+    h, b, R, a, lam, mu = 0.1, 1.0, 0.13, 0.02, 0.36e9, 0.43e9
+    P = float(contact_law.force_of_radius(a, R, lam, mu))
+    for field in (modal_sum.sigma_rr, modal_sum.sigma_tt):
+        got = float(field(0.0, -h, h, b, R, a, lam, mu, modes=400))
+        assert got == pytest.approx(float(kernels.far_stress(P, a, h, b, lam, mu)), rel=1e-13)
+
+
+# --- scenes
+
+PANE = "derivation/scene/examples/glass_pane.toml"
+
+
+def pane(**plate: Any) -> Any:
+    keys = {"radius": 0.3, "thickness": 0.008, "half_thickness": None, "lame_lambda": None}
+    keys |= {"lame_mu": None, "material": "glass", "edge": "clamped"}
+    return scene(plate=keys | plate)
+
+
+def test_the_panes_tension_is_that_of_its_force() -> None:
+    result = simulate(read(load(PANE).to_json() | {"effects": {"inertia": False}}))
+    force, a = result.max_force, result.max_contact_radius
+    m = result.model
+    expected = kernels.supported_far_stress(force, a, m.h, m.b, m.lam, m.mu)
+    assert result.max_tension == float(expected)
+    assert result.to_json()["max_tension"] == result.max_tension
+    (shown,) = (value for name, value, _ in result.rows() if name == "max tension")
+    assert float(shown) == pytest.approx(result.max_tension, rel=10.0 ** (1 - result.digits))
+    assert f"= {45e6 / result.max_tension:.3g}" in result.verdict
+    assert result.inertia_neglected
+    assert "plate inertia is neglected" in result.verdict
+    assert result.verdict in result._repr_html_().replace("&#x27;", "'")
+
+
+def test_the_tension_of_a_pane_that_moves_is_that_of_its_largest_force_at_rest() -> None:
+    data = load(PANE).to_json() | {"effects": {"inertia": "auto"}}
+    result = simulate(read(data | {"plate": data["plate"] | {"strength": 1e9}}))
+    assert "inertia" in result.gate.law.effects
+    force, a, m = result.max_force, result.max_contact_radius, result.model
+    expected = kernels.supported_far_stress(force, a, m.h, m.b, m.lam, m.mu)
+    assert result.max_tension == float(expected)
+    assert "quasi-static, under the peak force" in result.verdict
+    assert "inertia is neglected" not in result.verdict
+
+
+def test_it_breaks_on_one_side_of_its_strength_only() -> None:
+    tension = simulate(pane()).max_tension
+    for factor, breaks in ((0.999, True), (1.001, False)):
+        result = simulate(pane(strength=factor * tension))
+        said = [text for text in result.warnings if "predicted to fail" in text]
+        assert bool(said) is breaks
+        assert bool(result.verdict) is not breaks
+    assert simulate(pane()).verdict == ""
+
+
+def test_effects_left_out_change_the_force_alone() -> None:
+    """The stress of a given force is the whole plate's; the edge alone can be switched off."""
+    whole = simulate(pane(), rtol=1e-9)
+    law, a, force = whole.gate.law, whole.max_contact_radius, whole.max_force
+    loose = simulate(pane(), rtol=0.5).gate.law
+    assert loose.effects < law.effects
+    assert loose.max_tension(a, force) == law.max_tension(a, force) == whole.max_tension
+    soft = law.max_tension(a, force, held=False)
+    m = law.model
+    assert soft == float(kernels.far_stress(force, a, m.h, m.b, m.lam, m.mu))
+    assert soft > whole.max_tension
+
+
+def resultant(distance: Array, pressure: Array) -> float:
+    return float(np.trapezoid(2 * math.pi * distance * pressure, distance))
+
+
+@pytest.mark.parametrize(
+    "chosen",
+    [
+        {"curvature": False, "pressure": False},
+        {"curvature": True, "pressure": False},
+        {"curvature": True, "pressure": True},
+    ],
+)
+def test_profiles_carry_the_force(chosen: dict[str, bool]) -> None:
+    result = simulate(scene(effects=chosen))
+    found = result.pressures(4001)
+    for pressure in (found.pressure, found.hertz):
+        assert resultant(found.distance, pressure) == pytest.approx(result.max_force, rel=1e-5)
+    assert found.pressure[0] == pytest.approx(result.max_pressure, rel=1e-9)
+    same = np.allclose(found.pressure, found.hertz, rtol=1e-6, atol=1e-6 * found.hertz[0])
+    assert same is not any(chosen.values())

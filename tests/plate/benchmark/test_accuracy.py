@@ -1,0 +1,263 @@
+"""What accuracy costs: methods, committed data, what report and README say, commands."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from derivation import pipeline
+from derivation.cli import main
+from derivation.engine.files import ROOT
+from derivation.plate import reporting
+from derivation.plate.benchmark import run, scaling
+from derivation.plate.benchmark.catalogue import methods
+from derivation.plate.benchmark.interface import PAPER, REGIMES
+from derivation.plate.benchmark.rows import Row
+from derivation.plate.report import readme
+from derivation.plate.report.accuracy import accuracy_context, duration, reasons
+from derivation.plate.report.accuracy_figures import scaling as scaling_figure
+from derivation.plate.report.accuracy_figures import work_precision
+from derivation.plate.report.figures import saved
+
+# --- interface
+
+
+@pytest.mark.parametrize("regime", REGIMES, ids=lambda r: r.name)
+def test_every_quick_method_gives_numbers_or_says_why(regime) -> None:
+    for method in methods(quick=True):
+        if method.certified or method.one_by_one or method.arithmetic != "float64":
+            continue
+        if method.task == "law" and not method.family.startswith(("split", "Chebyshev")):
+            reason = method.fails(regime)
+            if reason is None:
+                found = method.prepare(regime)(regime.h * np.array([regime.low, regime.high]))
+                assert np.isfinite(np.asarray(found, dtype=float)).all(), method.name
+            else:
+                assert reason
+
+
+def test_names_are_unique_and_unknown_ones_are_refused() -> None:
+    every = [(m.task, m.name) for m in methods()]
+    assert len(set(every)) == len(every)
+    with pytest.raises(ValueError, match="Levin u"):
+        methods(["Levin"])
+    assert {m.family for m in methods(["Levin u"])} == {"Levin u"}
+
+
+# --- data and report
+
+
+@pytest.fixture(scope="module")
+def committed() -> dict[str, Any]:
+    return reporting.measured_accuracy()
+
+
+def test_data_have_rows_of_every_kind(committed: dict[str, Any]) -> None:
+    assert {"generated", "numpy", "python"} <= committed["provenance"].keys()
+    assert [r["name"] for r in committed["regimes"]] == [r.name for r in REGIMES]
+    for entry in committed["rows"]:
+        assert entry.keys() == set(Row.__dataclass_fields__)
+        assert entry["fails"] or (entry["errors"] and entry["vector"] and entry["single"])
+        # Of no method that works is truncation not told from rounding.
+        assert entry["fails"] or entry["errors"]["rounding"] is not None
+    assert {entry["task"] for entry in committed["rows"]} == {"law", "inversion", "impact"}
+    assert {g["what"] for g in committed["scaling"]} == {"points", "b/h", "digits", "scenes"}
+    assert committed["headline"]["reached"]
+    assert committed["tools"]
+
+
+def test_production_beats_direct_summation_a_thousandfold(committed: dict[str, Any]) -> None:
+    found = committed["headline"]
+    assert found["digits"] >= 15
+    best = found["reached"][-1]
+    assert best["digits"] >= 9
+    assert best["seconds"] / found["called"] > 1000
+
+
+def test_figures_repeat_byte_for_byte(committed: dict[str, Any]) -> None:
+    first, second = (
+        saved(work_precision(committed, "inversion", "single"), ".pdf") for _ in range(2)
+    )
+    assert first == second
+    assert saved(scaling_figure(committed), ".pdf").startswith(b"%PDF")
+
+
+def test_the_section_names_every_failure(committed: dict[str, Any]) -> None:
+    found = accuracy_context(committed)
+    failing = {(r["task"], r["family"], r["regime"]) for r in committed["rows"] if r["fails"]}
+    assert len(found["failures"]) == len(failing)
+    assert duration(1.5e-9) == r"1.5\,ns"
+    assert duration(0.0012) == r"1.2\,ms"
+
+
+def test_the_readme_shows_what_was_measured(committed: dict[str, Any]) -> None:
+    text = reporting.README.read_text()
+    assert readme.renewed(text, committed) == text, "to mend: platecontact report"
+
+
+def test_the_readmes_block_follows_the_data_and_nothing_else(committed: dict[str, Any]) -> None:
+    head = {"digits": 15.52, "called": 4e-9, "reached": [
+        {"digits": 6, "modes": 10, "seconds": 1.0}, {"digits": 12, "modes": 2000, "seconds": 0.2},
+    ]}  # fmt: skip
+    won = {
+        "task": "law", "regime": "paper", "kind": "vector", "digits": 9, "family": "split",
+        "setting": "8 nodes", "ties": ["Levin u"], "seconds": 2.5e-6,
+    }  # fmt: skip
+    others = [won | {"kind": "single"}, won | {"digits": 30}, won | {"regime": "thin"}]
+    grown = {"what": "scenes", "method": "hertz", "x": [1, 10_000], "seconds": [5e-6, 0.03]}
+    data = committed | {"headline": head, "pareto": [won, *others], "scaling": [grown]}
+    text = f"above\n{readme.BEGIN}\nold numbers\n{readme.END}\nbelow"
+    found = readme.renewed(text, data)
+    prose = " ".join(found.split())
+    assert "15.5 digits in 4 ns a point" in prose
+    assert "2,000 modes and 200 ms for 12 digits, 5e+07 times as long" in prose
+    assert found.count("| 9 | split, 8 nodes (or Levin u) | 2.5 us |") == 1
+    assert "| 30 |" not in found
+    assert "| hertz | 5 us | 3 us | 10,000 |" in found
+    assert found.startswith("above\n")
+    assert found.endswith("\nbelow")
+    assert "old" not in found
+    assert readme.renewed(found, data) == found
+    for bad in ("no markers", text + text, text.replace(readme.END, "")):
+        with pytest.raises(ValueError, match="once each"):
+            readme.renewed(bad, data)
+
+
+# --- commands
+
+
+@pytest.fixture
+def brief(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Leave out what takes seconds and is tested above."""
+    monkeypatch.setattr(run, "tools", list)
+    monkeypatch.setattr(scaling, "studies", lambda quick: ())  # noqa: ARG005
+    monkeypatch.setattr(run, "REGIMES", (PAPER,))
+    monkeypatch.setattr(run, "TASKS", ("law",))
+    monkeypatch.setattr("derivation.plate.benchmark.problems.QUICK_DIGITS", 20)
+    monkeypatch.setattr("derivation.plate.benchmark.headline.QUICK_MODES", 1 << 19)
+    monkeypatch.setattr("derivation.plate.benchmark.headline.POINTS", 1000)
+
+
+@pytest.mark.usefixtures("brief")
+def test_command_writes_data_of_the_methods_named(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "accuracy.json"
+    scene = ROOT / "derivation" / "scene" / "examples" / "paper.toml"
+    arguments = ["--quick", "--method", "table of cubics", "--scene", str(scene)]
+    assert main(["accuracy", *arguments, "--out", str(out)]) == 0
+    data = json.loads(out.read_text())
+    assert {r["family"] for r in data["rows"]} == {"table of cubics"}
+    assert [r["name"] for r in data["regimes"]] == ["scene"]
+    assert data["regimes"][0]["low"] < 0.1342 < data["regimes"][0]["high"]
+    assert "direct sum" in capsys.readouterr().out
+
+
+@pytest.mark.usefixtures("brief")
+def test_the_committed_measurement_is_replaced_only_on_demand(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    committed = tmp_path / "accuracy.json"
+    committed.write_text("committed")
+    monkeypatch.setattr(pipeline, "MEASURED_ACCURACY", committed)
+    measured = {"rows": []}
+    monkeypatch.setattr(pipeline.accuracy_run, "measure", lambda *_: measured)
+    for options in (("--quick",), ("--method", "table of cubics"), ()):
+        assert pipeline.accuracy(options[1:], quick=bool(options)) == (measured, None)
+    assert committed.read_text() == "committed"
+    for other in (["--method", "table of cubics"], ["--out", str(tmp_path / "x.json")]):
+        assert main(["accuracy", "--record", *other]) == 2
+        assert "--record" in capsys.readouterr().err
+    assert committed.read_text() == "committed"
+    assert pipeline.accuracy(record=True) == (measured, committed)
+    assert json.loads(committed.read_text()) == measured
+
+
+@pytest.mark.usefixtures("brief")
+def test_a_contact_too_small_for_a_direct_sum_is_measured_all_the_same(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    paper = ROOT / "derivation" / "scene" / "examples" / "paper.toml"
+    slow, out = tmp_path / "slow.toml", tmp_path / "accuracy.json"
+    slow.write_text(paper.read_text().replace("speed = 1.0", "speed = 1e-9"))
+    arguments = ["--quick", "--method", "table of cubics", "--scene", str(slow)]
+    assert main(["accuracy", *arguments, "--out", str(out)]) == 0
+    assert json.loads(out.read_text())["headline"]["reached"] == []
+    assert "direct sum of 524288 modes to fewer than 6 digits" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (["--method", "nonsense"], "nonsense"),
+        (["--scene", "/nowhere/scene.toml"], "/nowhere/scene.toml"),
+        (["--out", "/proc/nowhere/x.json"], "/proc/nowhere/x.json"),
+    ],
+)
+def test_bad_input_is_one_message(
+    arguments: list[str], says: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = [] if "--out" in arguments else ["--out", str(tmp_path / "x.json")]
+    assert main(["accuracy", *arguments, *out]) == 2
+    message = capsys.readouterr().err
+    assert says in message
+    assert "Traceback" not in message
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_scene_beyond_the_law_is_refused() -> None:
+    with pytest.raises(ValueError, match="lower the speed"):
+        run.scene_regime(0.13, 72.2, 1e6, 0.1, 1.0, 0.36e9, 0.43e9)
+
+
+def test_an_interrupted_run_keeps_what_was_there(tmp_path: Path) -> None:
+    program = """
+import sys, time
+from derivation import cli
+from derivation.plate.benchmark import run
+def endless(*arguments):
+    print("measuring", flush=True)
+    time.sleep(300)
+run.panel = endless
+sys.exit(cli.main(["accuracy", "--quick", "--out", sys.argv[1]]))
+"""
+    out = tmp_path / "accuracy.json"
+    out.write_text("old")
+    process = subprocess.Popen(
+        [sys.executable, "-c", program, str(out)], cwd=ROOT, env={**os.environ},
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+    )  # fmt: skip
+    assert process.stdout is not None
+    assert process.stdout.readline() == "measuring\n"
+    process.send_signal(signal.SIGINT)
+    _, message = process.communicate(timeout=60)
+    assert process.returncode == 2
+    assert "interrupted" in message
+    assert [path.name for path in tmp_path.iterdir()] == ["accuracy.json"]
+    assert out.read_text() == "old"
+
+
+def test_report_names_what_is_not_split_with_the_reason_and_what_is_with_its_remark() -> None:
+    """A reason once, with families and regimes; rows that fail, or have none, are not named."""
+    why = "no long J0 here"
+    row = {"family": "a_b", "regime": "thin", "fails": None, "errors": {"unsplit": why}}
+    rows = [
+        row,
+        row | {"regime": "thick"},
+        row | {"family": "c", "fails": "overflow"},
+        row | {"family": "d", "errors": {"unsplit": None}},
+        row | {"family": "e", "errors": None},
+    ]
+    assert list(reasons({"rows": rows}, "unsplit")) == [
+        r"no long $J_{0}$ here: a\_b (thin, thick)."
+    ]
+    assert list(reasons({"rows": rows}, "remark")) == []
+    rows[3]["errors"]["remark"] = "an estimate"
+    assert list(reasons({"rows": rows}, "remark")) == ["an estimate: d (thin)."]

@@ -1,0 +1,315 @@
+"""kappa_n and M_k: the generated kernels and their expansions against certified integrals."""
+
+from collections.abc import Callable
+from fractions import Fraction
+from itertools import pairwise
+
+import flint
+import numpy as np
+import pytest
+import sympy as sp
+from flint import arb
+
+import generated
+import generated.moments
+from derivation.engine.formula.proof import ProofError
+from derivation.engine.formula.ulp import ulp_error
+from derivation.mathematics.bessel.theory.functions import phase_shift, power
+from derivation.plate.contact.kernels import moments as tables
+from derivation.plate.contact.oracle import balls as contact_balls
+from derivation.plate.contact.oracle import moments as truth
+from derivation.plate.contact.theory import moments as theory
+from generated import finite_part, finite_part_ratio, kappa, kappa_ratio
+
+BITS = 80
+BUDGET = 0.51
+LAST_N, LAST_K = 196, 99
+"""The largest indices whose value a double holds."""
+LARGE = (300, 999, 1000, 4097, 10**4, 10**5, 123457, 10**6)
+KERNELS = (kappa, kappa_ratio, finite_part, finite_part_ratio)
+FIRST = {kappa: 0, kappa_ratio: 0, finite_part: 2, finite_part_ratio: 2}
+SWITCHES = {kappa_ratio: tables.kappa_start(), finite_part_ratio: tables.finite_part_start()}
+
+
+pytestmark = pytest.mark.usefixtures("silent")
+
+
+def errors(kernel: Callable, number: Callable[[int, int], arb], indices: list[int]) -> list[float]:
+    """Errors in ULP at the indices, which are asked for in one array."""
+    got = kernel(np.array(indices, dtype=float)).tolist()
+    return [ulp_error(g, number(i, BITS)) for g, i in zip(got, indices, strict=True)]
+
+
+def fraction(value: sp.Rational) -> arb:
+    return arb(flint.fmpq(int(value.p), int(value.q)))
+
+
+# --- values
+
+
+def test_wall_moments() -> None:
+    start = tables.kappa_start()
+    indices = [*range(7), 9, 12, 19, 33, 50, 76, start - 1, start, 150, LAST_N - 1, LAST_N]
+    assert max(errors(kappa, truth.kappa, indices)) <= BUDGET
+    assert max(errors(kappa_ratio, truth.kappa_ratio, [*indices, *LARGE])) <= BUDGET
+
+
+def test_wall_moments_around_the_switch() -> None:
+    start = tables.kappa_start()
+    near = [*range(start - 3, start + 4)]
+    assert max(errors(kappa_ratio, truth.kappa_ratio, near)) <= BUDGET
+
+
+def test_finite_parts_of_every_index() -> None:
+    indices = list(range(2, LAST_K + 1))
+    assert max(errors(finite_part, truth.finite_part, indices)) <= BUDGET
+    assert max(errors(finite_part_ratio, truth.finite_part_ratio, [*indices, *LARGE])) <= BUDGET
+
+
+def test_signs_and_known_values() -> None:
+    """M_2, M_3, M_4 to the digits found by hand-checked sums; all others are positive."""
+    assert finite_part([2, 3, 4]).tolist() == [
+        -1.12648392978257645242944,
+        7.72386466370692885870034,
+        41.9670644769000627482199,
+    ]
+    assert (finite_part(np.arange(3, LAST_K + 1)) > 0).all()
+    assert (kappa(np.arange(LAST_N + 1)) > 0).all()
+
+
+def test_last_values_are_the_last_that_a_double_holds() -> None:
+    largest = arb(np.finfo(float).max)
+    assert truth.kappa(LAST_N, BITS) < largest < truth.kappa(LAST_N + 1, BITS)
+    assert truth.finite_part(LAST_K, BITS) < largest < truth.finite_part(LAST_K + 1, BITS)
+    assert np.isnan(kappa([LAST_N + 1, 10**6])).all()
+    assert np.isnan(finite_part([LAST_K + 1, 10**6])).all()
+
+
+@pytest.mark.parametrize("kernel", [kappa_ratio, finite_part_ratio])
+def test_ratios_tend_to_one(kernel: Callable) -> None:
+    index = np.array([1e7, 1e15, 1e16, 2.0**53, 1e18, 1e100])
+    assert (np.abs(kernel(index) - 1) <= 1.01 / index + 2.0**-53).all()
+    assert kernel(1e300) == kernel(1.7e308) == 1
+
+
+def test_ratios_and_values_agree() -> None:
+    """n!/2^(n+1) in floating point costs a few units."""
+    n = np.arange(160)
+    factorials = np.array([float(sp.factorial(i)) for i in range(160)])
+    np.testing.assert_allclose(
+        kappa(n), kappa_ratio(n) * np.pi * factorials / 2.0 ** (n + 1), 1e-15
+    )
+    k = np.arange(2, 80)
+    grown = factorials[2 * k - 2] / 2.0 ** (2 * k - 3)
+    np.testing.assert_allclose(finite_part(k), finite_part_ratio(k) * grown, 1e-15)
+
+
+# --- arrays
+
+
+@pytest.mark.parametrize("kernel", KERNELS)
+def test_what_is_no_index_gives_nan(kernel: Callable) -> None:
+    first = FIRST[kernel]
+    bad = [first - 1, first - 1e-300 - 0.5, first + 0.5, 7.0000001, -3, -1e300, np.nan, np.inf]
+    assert np.isnan(kernel(np.array([*bad, -np.inf, 1e5 + 0.25]))).all()
+    assert np.isnan(kernel(first - 1))
+    assert np.isfinite(kernel(first))
+
+
+@pytest.mark.parametrize("kernel", KERNELS)
+def test_shapes_and_types(kernel: Callable) -> None:
+    index = np.tile(np.arange(2, 14), 2).reshape(2, 3, 4)
+    whole = kernel(index)
+    assert whole.shape == (2, 3, 4)
+    assert whole.dtype == np.float64
+    np.testing.assert_array_equal(kernel(index.T), whole.T)
+    np.testing.assert_array_equal(kernel(index[:, ::-2, ::3]), whole[:, ::-2, ::3])
+    assert kernel(np.empty(0)).shape == (0,)
+    assert np.shape(kernel(3)) == ()
+    assert kernel([3]) == kernel(3) == kernel(np.int8(3)) == kernel(3.0)
+    single = kernel(index.astype(np.float32))
+    assert single.dtype == np.float32
+    np.testing.assert_array_equal(single, whole.astype(np.float32))
+    with pytest.raises(TypeError, match="real numbers"):
+        kernel(2j)
+
+
+@pytest.mark.parametrize(("kernel", "last"), [(kappa, 43), (finite_part, 22)])
+def test_single_precision_overflows_to_nan(kernel: Callable, last: int) -> None:
+    largest = float(np.finfo(np.float32).max)
+    double = kernel(np.arange(2.0, last + 20))
+    single = kernel(np.arange(2.0, last + 20).astype(np.float32))
+    np.testing.assert_array_equal(np.isnan(single), np.abs(double) > largest)
+    assert 0 < np.isnan(single).sum() < single.size
+
+
+# --- theory
+
+
+def test_quotient_is_that_of_the_phase() -> None:
+    """log(K0/I0) follows from the phase of J0 and Y0 on the imaginary axis: another route."""
+    terms = 9
+    t = sp.Symbol("t")
+    shift = phase_shift(0, 5).coefficients
+    exponent = 2 * sum((-1) ** i * d * t ** (1 + 2 * i) for i, d in enumerate(shift))
+    series = sp.series(sp.exp(exponent), t, 0, terms).removeO()
+    found = [series.coeff(t, i) for i in range(terms)]
+    assert tuple(found) == theory.wall_quotient(terms)
+
+
+def test_hankel_coefficients() -> None:
+    """Printed in the Digital Library of Mathematical Functions, 10.17.1, with nu = 0."""
+    assert theory.hankel(4) == (1, sp.Rational(1, 8), sp.Rational(9, 128), sp.Rational(75, 1024))
+    ratio = power(theory.hankel(4), sp.Integer(-1), 4)
+    assert ratio[1] == -sp.Rational(1, 8)
+
+
+@pytest.mark.parametrize("y", [0.01, 0.3, 1.0, 2.5, 7.0, 20.0, 100.0])
+def test_bound_of_the_quotient_holds_everywhere(y: float) -> None:
+    terms = 6
+    plain, fading = theory.quotient_bound(terms)
+    with flint.ctx.workprec(400):
+        point = arb(y)
+        series = sum(fraction(q) * point**-j for j, q in enumerate(theory.wall_quotient(terms)))
+        exact = (2 * point).exp() * point.bessel_k(arb(0)) / point.bessel_i(arb(0)) / arb.pi()
+        bound = theory._at(plain, point) + (-point).exp() * theory._at(fading, point)
+        assert abs(exact - series) < bound
+        assert y < 50 or bound < 30 * abs(exact - series)
+
+
+def test_bound_of_the_quotient_with_one_term() -> None:
+    """By hand: (1 + 1/(2y)) (3 a_1/y + e^-y (4/5 (1 + y) + 3/2)), a_1 = 1/8."""
+    plain, fading = theory.quotient_bound(1)
+    assert plain == {-1: Fraction(3, 8), -2: Fraction(3, 16)}
+    assert fading == {1: Fraction(4, 5), 0: Fraction(27, 10), -1: Fraction(23, 20)}
+
+
+@pytest.mark.parametrize("y", [1e-6, 0.01, 0.4, 1.0, 3.0, 30.0])
+def test_inequalities_behind_the_bound(y: float) -> None:
+    """The scaled I0 from below, and the parts of its remainder that fade with e^-y."""
+    with flint.ctx.workprec(200):
+        point, half = arb(y), arb(1) / 2
+        scaled = (2 * arb.pi() * point).sqrt() * (-point).exp() * point.bessel_i(arb(0))
+        assert 1 / scaled <= 1 + 1 / (2 * point)
+        # u = 2 - v^2 takes the root's end away: below e^-y times the integral from u = 1.
+        edge = flint.acb.integral(
+            lambda v, _: (
+                2 * flint.acb(2).sqrt() * (-point * (2 - v * v)).exp() / (2 - v * v).sqrt()
+            ),
+            0,
+            1,
+        ).real
+        fading = (point / arb.pi()).sqrt() * edge
+        assert fading <= (-point).exp() * (1 + point) * 4 / 5
+        cut, limit = arb(0), arb(0)
+        for j, a in enumerate(theory.hankel(5)):
+            share = fraction(a)
+            cut += share * (2 * point).gamma_upper(j + half) / (j + half).gamma() * point**-j
+            limit += share * 2**j * point**-j * 3 / 2
+        assert cut <= (-point).exp() * limit
+
+
+@pytest.mark.parametrize("n", [24, 30, 60, 120])
+def test_bound_of_the_expansion_holds(n: int) -> None:
+    terms = 12
+    value = sum(a / sp.ff(n, j) for j, a in enumerate(theory.kappa_steps(terms)))
+    with flint.ctx.workprec(200):
+        error = abs(truth.kappa_ratio(n, 150) - fraction(value))
+        bound = fraction(theory.kappa_bound(n, terms))
+        assert error < bound
+        assert n < 100 or bound < 1000 * error
+    assert theory.kappa_bound(2 * terms - 1, terms) == sp.oo
+
+
+def test_bounds_fall_with_the_index() -> None:
+    kappas = [theory.kappa_bound(n, 12) for n in (24, 25, 40, 100, 101, 1000)]
+    parts = [theory.finite_part_bound(k) for k in (4, 5, 6, 30, 31, 300)]
+    for bounds in (kappas, parts):
+        assert all(b < a for a, b in pairwise(bounds))
+
+
+@pytest.mark.parametrize("k", [4, 5, 9, 20, 37])
+def test_bound_of_the_finite_part_holds(k: int) -> None:
+    limit = theory.finite_part_limit().subs(sp.Symbol("k", positive=True), k)
+    with flint.ctx.workprec(300):
+        error = truth.finite_part_ratio(k, 200) - fraction(limit)
+    bound = fraction(theory.finite_part_bound(k))
+    assert 0 < error < bound
+    assert k < 9 or bound < 20 * error
+    assert theory.finite_part_bound(3) == sp.oo
+
+
+def test_a_wrong_coefficient_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    right = theory.wall_quotient(12)
+    wrong = (right[0], -right[1], *right[2:])
+    monkeypatch.setattr(theory, "wall_quotient", lambda _: wrong)
+    with pytest.raises(ProofError, match="K0/I0"):
+        theory.wall_constant.__wrapped__(12)
+
+
+# --- tables and oracles
+
+
+def test_switches_are_where_the_bound_says() -> None:
+    assert list(SWITCHES.values()) == [120, 37]
+    tolerance = sp.Rational(tables.TOLERANCE)
+    assert (
+        theory.kappa_bound(119, tables.TERMS) > tolerance >= theory.kappa_bound(120, tables.TERMS)
+    )
+    assert theory.finite_part_bound(36) > tolerance >= theory.finite_part_bound(37)
+
+
+def test_trapezoids_are_right_far_beyond_a_double() -> None:
+    """To 2^-_WARRANTED, which the roundings of the tables rely on."""
+    assert tables._WARRANTED >= 90
+    limit = arb(2) ** -tables._WARRANTED
+    with flint.ctx.workprec(200):
+        for n in (0, 1, 2, 11, 64, 130, LAST_N):
+            assert abs(tables.kappas()[n] / truth.kappa(n, 120) - 1) < limit, n
+        for k in (2, 3, 4, 11, 40, LAST_K):
+            assert abs(tables.finite_parts()[k - 2] / truth.finite_part(k, 120) - 1) < limit, k
+
+
+def test_generated_steps_are_those_of_the_theory() -> None:
+    """The last ones are too small to be seen in any value."""
+    expected = [float(a) for a in theory.kappa_steps(tables.TERMS)]
+    assert list(generated.moments._KAPPA_STEPS) == expected
+
+
+def test_a_table_that_does_not_reach_the_end_is_refused() -> None:
+    with pytest.raises(ArithmeticError, match="largest double"):
+        tables._doubles(tables.kappas()[:50])
+
+
+def test_context_is_plain_text_and_repeatable() -> None:
+    first = tables.moment_context()
+    tables.tables.cache_clear()
+    assert tables.moment_context() == first
+
+
+@pytest.mark.parametrize("n", [17, 20, 31])
+def test_peak_integral_is_the_plain_integral(n: int) -> None:
+    assert truth.kappa(n, 120).overlaps(contact_balls.kappa(n, 35))
+
+
+def test_peak_integral_of_finite_parts_is_the_plain_integral() -> None:
+    for k in (67, 75):
+        assert truth.finite_part(k, 120).overlaps(contact_balls.finite_part(k, 35))
+
+
+def test_precision_is_what_is_asked() -> None:
+    for bits in (60, 150):
+        for n in (3, 30, 10**5):
+            assert truth.kappa_ratio(n, bits).rel_accuracy_bits() >= bits
+            assert truth.finite_part_ratio(n, bits).rel_accuracy_bits() >= bits
+        assert truth.kappa(30, bits).rel_accuracy_bits() >= bits
+    for number in (truth.kappa_ratio, truth.kappa):
+        with pytest.raises(ValueError, match="from 0"):
+            number(-1, 60)
+    with pytest.raises(ValueError, match="from 2"):
+        truth.finite_part(1, 60)
+
+
+def test_exported() -> None:
+    assert {kernel.__name__ for kernel in KERNELS} <= set(generated.__all__)
+    assert Fraction(tables.TOLERANCE) < Fraction(1, 2**59)

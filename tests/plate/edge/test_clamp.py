@@ -1,0 +1,230 @@
+"""The clamped edge: theory, measured constants, oracles, kernels, bound and known limits."""
+
+import itertools
+import json
+import math
+from fractions import Fraction
+
+import flint
+import numpy as np
+import pytest
+from flint import arb
+from given import lame
+from mpmath import mp
+
+from derivation.engine.files import measurements
+from derivation.engine.formula.ball import evaluate, to_ball
+from derivation.engine.formula.proof import SYMBOLIC, ProofError, prove
+from derivation.plate.back_face import theory as far_face
+from derivation.plate.budgets import read_budgets
+from derivation.plate.edge.oracle import clamped as clamp_balls
+from derivation.plate.edge.remainder import RADIUS, Case, Mesh, added
+from derivation.plate.edge.route import clamped as clamp_routes
+from derivation.plate.edge.theory import clamped as clamp
+from derivation.plate.edge.theory.supported import states
+from derivation.plate.vocabulary import alpha, eta, lam, mu, z
+from generated import edge as kernels
+
+BITS = 140
+PLATES = (0.002, 0.05, 0.3, 0.7, 0.9, 1.2, 3.0, 1e3, 1e8)
+WIDTHS = (1e-9, 0.013, 0.3, 0.63, 0.89999)
+RATIOS = (-0.99, -0.5, 0.001, 0.33, 0.4999)
+
+pytestmark = pytest.mark.usefixtures("silent")
+
+
+# --- theory
+
+
+def test_every_formula_is_proved_symbolically() -> None:
+    for formula in (*clamp.clamp(), far_face.far_clamp()):
+        assert formula.proof.method == SYMBOLIC
+    for step in (clamp.strip(), clamp.reciprocity(), clamp.amplitudes()):
+        assert step.method == SYMBOLIC
+
+
+def test_strip_that_thins_as_a_plate_does_bears_pressure() -> None:
+    """The plate thins by both curvatures, the strip by one: that is what a clamp forbids."""
+    wrong = (lam + 2 * mu) * states()[1].w.diff(z) + lam * z
+    with pytest.raises(ProofError, match="faces"):
+        prove("Strip", "", {"faces": wrong})
+
+
+# --- measured constants
+
+
+def strip_record() -> list[dict[str, float]]:
+    rows: list[dict[str, float]] = json.loads((measurements() / "edge_strip.json").read_text())[
+        "rows"
+    ]
+    return rows
+
+
+def test_fits_are_what_is_measured_on_the_strip() -> None:
+    rows = strip_record()
+    assert min(row["n"] for row in rows) < -0.48
+    assert max(row["n"] for row in rows) > 0.95
+    for row in rows:
+        assert row["change"] < 2e-5
+        n = Fraction(row["n"])
+        chi, level = clamp_balls.constants(n)
+        assert float(chi / n**2) == pytest.approx(row["turn"], rel=2e-3)
+        assert float(level) == pytest.approx(row["level"], rel=2e-3)
+        # The end's shear, for small n.
+        assert abs(row["shear"] - float(clamp.SHEAR)) < 1e-3 + 0.16 * abs(row["n"])
+
+
+def test_strip_is_measured_as_recorded() -> None:
+    """Coarser elements, and no end that is felt: shear at n = 0 between its neighbours."""
+    pytest.importorskip("scipy")
+    from derivation.plate.edge.strip import Strip
+
+    strip = Strip(0.25, Mesh(degree=5, layers=4))
+    (row,) = (row for row in strip_record() if row["n"] == 0.25)
+    for got, name in zip(strip.constants(), ("turn", "level", "shear"), strict=True):
+        assert got == pytest.approx(row[name], rel=2e-3)
+    # A rigid motion of the end is one of the whole strip.
+    turn, level = strip.rigid(0.3 * strip.z, 0.0 * strip.z + 0.2)
+    assert turn == pytest.approx(0.3, abs=1e-9)
+    assert level == pytest.approx(0.2, abs=1e-9)
+
+
+def test_law_against_three_dimensional_elements() -> None:
+    """c_1 of a clamped plate: its measured error in units of Kirchhoff's P b^2/(16 pi D)."""
+    rows = json.loads((measurements() / "edge_remainder.json").read_text())["rows"]
+    limits = {0.02: 1e-4, 0.05: 1e-4, 0.1: 3e-4, 0.2: 1.5e-3, 0.3: 3.5e-3}
+    tested = 0
+    for row in rows:
+        size = row["h_over_b"]
+        if row["support"] == "clamped" and size in limits:
+            case = Case("clamped", size, row["nu"])
+            a = row["a_over_b"]
+            error = row["share_of_indentation"] * added(case, a)[1]
+            kirchhoff = a**3 / RADIUS / (8 * math.pi * size**3)
+            assert abs(error) < limits[size] * kirchhoff, row
+            tested += 1
+    assert tested == 5 * 5 * 3
+
+
+# --- limits
+
+
+@pytest.mark.parametrize("ratio", [-0.5, 0.0, 0.3, 0.45])
+@pytest.mark.parametrize("h", [0.01, 0.1, 0.25])
+def test_small_contacts(h: float, ratio: float) -> None:
+    """Of P b^2/D: -[(1 - s)^2 + 2 chi eta + eta^3/5 + (16/3) n^2 eta^4]/(16 pi)."""
+    n = ratio / (1 - ratio)
+    chi = n * n / (7.436 + 3.168 * n - 0.976 * n**2 + 0.204 * n**3)
+    s = 2 * n * (1 - 2 / (7.638 + 0.801 * n - 0.316 * n**2 + 0.255 * n**3)) * h**2
+    known = -((1 - s) ** 2 + 2 * chi * h + h**3 / 5 + 16 / 3 * n**2 * h**4) / (16 * math.pi)
+    a = 1e-7
+    # P = (4/3) E* a^3/R and D = (2/3) E* h^3.
+    found = float(kernels.clamped_edge(a, h, 1.0, *lame(ratio))) * a**2
+    assert found / (2 * a**3 / h**3) == pytest.approx(known, rel=1e-11)
+
+
+def test_turn_is_the_kernels_own() -> None:
+    """The constant that other modules of the package may use."""
+    n = np.array([-0.4, 0.0, 0.3, 0.9])
+    true = [float(clamp_balls.constants(Fraction(x))[0]) for x in n]
+    np.testing.assert_allclose(kernels.turn_of_clamp(n), true, rtol=1e-15)
+
+
+def test_a_clamp_is_stiffer_than_a_thin_plates_theory() -> None:
+    """The end forbids thinning: chi > 0 on both sides of nu = 0, where it vanishes."""
+    chi = kernels.turn_of_clamp(np.array([-0.45, -0.1, 0.0, 0.1, 0.99]))
+    assert (chi[[0, 1, 3, 4]] > 0).all()
+    assert chi[2] == 0
+
+
+# --- oracles
+
+
+@pytest.mark.parametrize("kind", ["indentation", "slope"])
+@pytest.mark.parametrize(
+    ("h", "width", "ratio"),
+    [(0.002, 0.5, 0.25), (0.1, 0.9, -0.9), (0.7, 0.3, 0.49), (3.0, 0.01, 0.4)],
+)
+def test_oracles_and_theory_agree(kind: str, h: float, width: float, ratio: float) -> None:
+    n = Fraction(ratio)
+    plate = width, h, 1, 2 * n, 1 - 2 * n
+    ball = clamp_balls.clamp_part(kind, *plate, digits=27)
+    expression = clamp.clamp_law()[kind == "slope"].expression
+    numbers = dict(zip((alpha, eta, lam, mu), map(Fraction, (width, h, *plate[3:])), strict=True))
+    with flint.ctx.workprec(BITS):
+        assert abs(ball / evaluate(expression, numbers, 27) - 1) < 1e-25
+    with mp.workdps(40):
+        route = clamp_routes.clamp_part(kind, width, h, 1, ratio, 27)
+        far = clamp_routes.far_clamp(width, h, 1, ratio, 27)
+        with flint.ctx.workprec(BITS):
+            assert abs(ball / arb(mp.nstr(route, 35)) - 1) < 1e-25
+            exact = to_ball(sum(clamp_balls.far_clamp(*plate)))
+            assert abs(exact / arb(mp.nstr(far, 35)) - 1) < 1e-25
+            derived = evaluate(far_face.far_clamp().expression, numbers, 27)
+            assert abs(exact / derived - 1) < 1e-25
+
+
+def test_oracle_refuses_what_has_no_meaning() -> None:
+    with pytest.raises(ValueError, match="a < b"):
+        clamp_balls.clamp_part("slope", 1.0, 0.1, 1.0, 1.0, 1.0)
+
+
+# --- generated kernels
+
+
+@pytest.mark.parametrize("kind", ["indentation", "slope"])
+def test_kernels_against_the_oracle(kind: str) -> None:
+    name = "clamped_edge" if kind == "indentation" else "clamped_edge_slope"
+    budget, function = read_budgets()[name].ulp, getattr(kernels, name)
+    for h, width, ratio in itertools.product(PLATES, WIDTHS, RATIOS):
+        point = np.array([width * 1.37, h * 1.37, 1.37, *lame(ratio)])
+        steps = 1.0 + 1e-6 * np.vstack((np.eye(5), -np.eye(5)))
+        values, got = function(*(point * steps).T), float(function(*point))
+        condition = float(np.abs(values[:5] - values[5:]).sum() / 2e-6 / abs(got))
+        with flint.ctx.workprec(BITS):
+            true = -clamp_balls.clamp_part(kind, *map(float, point), digits=22)
+            error = float(abs(to_ball(got) - true)) / np.spacing(abs(got))
+        assert error < budget + 0.5 * condition, point
+
+
+@pytest.mark.parametrize("size", [1e-90, 1e90])
+def test_nothing_overflows(size: float) -> None:
+    for function in (kernels.clamped_edge, kernels.clamped_edge_slope, kernels.clamped_edge_bound):
+        assert np.isfinite(function([0.0, 1e-5, 0.9], size, 1.0, *lame(0.3))).all()
+
+
+# --- the bound
+
+
+def test_bound_holds_and_is_near_for_thin_plates() -> None:
+    """0 <= slope <= bound for every smaller contact, and the bound grows with the contact."""
+    random = np.random.default_rng(5)
+    for _ in range(3000):
+        h, ratio = 10 ** random.uniform(-2, 1), random.uniform(-0.99, 0.499)
+        if random.random() < 0.3:  # 1 - s near 0, where the slope falls below that of a = 0
+            h = (0.75 * 2 * abs(ratio) / (1 - ratio) + 1e-9) ** -0.5 * random.uniform(0.8, 1.2)
+        width = np.sort(random.uniform(0, 0.9, 4))
+        taken = -kernels.clamped_edge_slope(width, h, 1.0, *lame(ratio))
+        limits = kernels.clamped_edge_bound(width, h, 1.0, *lame(ratio))
+        assert (taken > 0).all()
+        assert (taken <= limits * (1 + 1e-14)).all()
+        assert (np.diff(limits) > 0).all()
+    thin = kernels.clamped_edge_bound(1e-3, 1e-3, 1.0, *lame(0.3))
+    assert thin < 1.01 * abs(kernels.clamped_edge_slope(1e-3, 1e-3, 1.0, *lame(0.3)))
+
+
+@pytest.mark.parametrize("width", [0.3, 0.97])
+def test_bound_is_true_in_balls(width: float) -> None:
+    for h, ratio in itertools.product((0.02, 0.1, 0.5, 1.0, 3.0), (-0.9, 0.3, 0.49)):
+        taken = clamp_balls.clamp_part("slope", width, h, 1, *lame(ratio), digits=12)
+        assert 0 < taken < float(kernels.clamped_edge_bound(width, h, 1.0, *lame(ratio)))
+
+
+def test_bound_against_the_formula() -> None:
+    expression = clamp.clamp_bound().expression
+    for h, ratio in itertools.product((0.003, 0.4, 1.7), (-0.7, 0.2, 0.45)):
+        first, second = lame(ratio)
+        numbers = {alpha: 0.3, eta: h, lam: first, mu: second}
+        true = float(evaluate(expression, {s: Fraction(x) for s, x in numbers.items()}, 20))
+        got = float(kernels.clamped_edge_bound(0.3, h, 1.0, first, second))
+        assert got == pytest.approx(true, rel=1e-14)

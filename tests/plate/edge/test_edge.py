@@ -1,0 +1,272 @@
+"""The edge that users mean: resultants, oracles, generated kernels, bound and limits."""
+
+import itertools
+import math
+from collections.abc import Callable
+from fractions import Fraction
+
+import flint
+import numpy as np
+import pytest
+import sympy as sp
+from flint import arb
+from given import lame
+from mpmath import mp, mpf
+
+from derivation.engine.formula.ball import enclose, to_ball
+from derivation.engine.formula.proof import SYMBOLIC, ProofError, prove
+from derivation.plate.budgets import read_budgets
+from derivation.plate.contact.oracle import balls as contact_balls
+from derivation.plate.contact.theory.hertz import contact_radius, pressure_coefficient
+from derivation.plate.edge import kernels as edge_tables
+from derivation.plate.edge.oracle import supported as edge_balls
+from derivation.plate.edge.route import supported as edge_routes
+from derivation.plate.edge.theory import sums as edge_sums
+from derivation.plate.edge.theory import supported as edge
+from derivation.plate.modes.route.exponentials import Material, unit_mode
+from derivation.plate.modes.theory.influence import PLANE_STRAIN_MODULUS
+from derivation.plate.vocabulary import J1, A_j, R, a, alpha, b, eta, h, lam, mu, phi
+from generated import contact_law
+from generated import edge as kernels
+
+nu = sp.Symbol("nu")
+LAM_OF_NU = 2 * mu * nu / (1 - 2 * nu)
+BITS = 140
+BELOW, ABOVE = 1 - 1e-9, 1 + 1e-9
+
+
+pytestmark = pytest.mark.usefixtures("silent")
+
+
+# --- theory
+
+
+def test_every_formula_of_the_link_is_proved_symbolically() -> None:
+    for formula in (*edge.edge(), *edge_sums.edge_sums()):
+        assert formula.proof.method == SYMBOLIC
+    assert edge_sums.residues().method == SYMBOLIC
+    assert edge_sums.half_plane().method == SYMBOLIC
+
+
+def test_another_plate_state_is_refused() -> None:
+    """Without the thinning lam z^2/(lam + 2 mu) the faces bear pressure."""
+    stress = edge.hooke(edge.r * edge.z, (b**2 - edge.r**2) / 2)
+    with pytest.raises(ProofError, match="pressure"):
+        prove("Bending", "", {"pressure": stress.zz})
+
+
+def test_thin_plates_deflect_as_the_theory_of_plates_says() -> None:
+    """P b^2/(8 pi D) of the paper's edge times (3 + nu)/(2 (1 + nu)); X is half of it."""
+    soft = alpha / eta**3 / (4 * sp.pi)
+    (thin,) = (f.expression for f in edge_sums.thin_edge() if f.name == "F_edge_thin")
+    share = sp.limit(sp.limit((thin / soft), eta, 0), alpha, 0)
+    assert sp.simplify(share - sp.Rational(1, 2)) == 0
+    ratio = edge.support_ratio().expression.subs(lam, LAM_OF_NU)
+    assert sp.simplify(1 + ratio * share - (3 + nu) / (2 * (1 + nu))) == 0
+
+
+def test_moment_at_the_edge_of_a_thin_plate() -> None:
+    """(1 - nu) P/(8 pi) per length, for a small contact; sum 1/(j^3 J1) = 1/8."""
+    moment = {f.name: f.expression for f in edge.edge_resultants()}["edge_moment"]
+    thin = sp.limit(moment, h, 0).subs(A_j, pressure_coefficient().expression)
+    point = sp.limit(thin / a**3, a, 0)
+    plain = edge_sums.closed(edge_sums.indentation_kernel).plain.subs(alpha, 0)
+    # One mode goes with 1/(phi^3 J1) = b^3/(j^3 J1).
+    total = sp.simplify(point * phi**3 * J1 * b**3 * plain)
+    force = contact_radius().expression / a**3
+    assert sp.simplify((total / force - (1 - nu) / (8 * sp.pi)).subs(lam, LAM_OF_NU)) == 0
+    assert force == sp.Rational(4, 3) * sp.factor(PLANE_STRAIN_MODULUS) / R
+
+
+@pytest.mark.parametrize(("wave", "ratio"), [(0.03, 0.3), (1.7, -0.8), (9.0, 0.49)])
+def test_resultants_against_integrals_over_the_thickness(wave: float, ratio: float) -> None:
+    """Fields from tractions solved in mpmath, integrated by Gauss' rule."""
+    values = {f.name: f.expression for f in edge.edge_resultants()}
+    first, second = lame(ratio)
+    radius, slope = 2.4 / wave, 0.52
+    with mp.workdps(40):
+        material = Material(mpf(first), mpf(second))
+
+        def moment(power: int) -> mpf:
+            return slope * mp.quad(
+                lambda z: z**power * unit_mode(mpf(wave), mpf(1), material, z).u, [-1, 0, 1]
+            )
+
+        expected = {
+            "edge_stretch": moment(0) / (2 * mpf(radius)),
+            "edge_turn": 3 * moment(1) / (2 * mpf(radius)),
+            "edge_force": -2 * second / mpf(radius) * moment(0),
+            "edge_moment": -2 * second / mpf(radius) * moment(1),
+        }
+    numbers = {phi: wave, h: 1.0, lam: first, mu: second, b: radius, J1: slope, A_j: 1.0}
+    with flint.ctx.workprec(256):
+        balls = {symbol: to_ball(value) for symbol, value in numbers.items()}
+        for name, value in expected.items():
+            assert abs(enclose(values[name], balls) / arb(mp.nstr(value, 35)) - 1) < 1e-28
+
+
+# --- oracles
+
+
+@pytest.mark.parametrize("kind", ["indentation", "slope"])
+@pytest.mark.parametrize(
+    ("thickness", "width", "ratio"),
+    [
+        (0.002, 0.5, 0.25), (0.002, 0.9, -0.9), (0.02, 0.01, 0.49), (0.02, 0.9, 0.3),
+        (0.1, 0.9, 0.49), (0.3, 0.3, -0.5), (1.0, 0.001, 0.1), (1.0, 0.9, 0.49),
+        (3.0, 0.5, -0.9), (3.0, 0.9, 0.4),
+    ],
+)  # fmt: skip
+def test_oracles_agree(kind: str, thickness: float, width: float, ratio: float) -> None:
+    n = Fraction(ratio)
+    first, second = 2 * n, 1 - 2 * n
+    ball = edge_balls.edge_part(kind, width, thickness, 1, first, second, 27)
+    with mp.workdps(40):
+        route = edge_routes.edge_part(kind, width, thickness, 1, ratio, 27)
+        with flint.ctx.workprec(BITS):
+            assert abs(ball / arb(mp.nstr(route, 35)) - 1) < 1e-25
+
+
+def test_tables_and_oracle_integrate_alike() -> None:
+    for kind, kernel in (
+        ("indentation", edge_sums.indentation_kernel),
+        ("slope", edge_sums.slope_kernel),
+    ):
+        for width in (Fraction(1, 5), Fraction(9, 10)):
+            oracle = edge_balls.alternating_sum(kind, width, 120)
+            with flint.ctx.workprec(512):
+                assert abs(edge_tables.alternating_sum(kernel, to_ball(width)) - oracle) < 1e-34
+
+
+# --- generated kernels
+
+Point = tuple[float, float, float, float, float]
+
+
+def points() -> list[Point]:
+    found = []
+    radius = 1.37
+    seam = 0.1 / float(edge_tables.THIN)
+    plates = (0.005, seam * BELOW, seam * ABOVE, 0.05, 0.3, 0.9, 1.2, 3.0, 1e3, 1e8)
+    for thickness, width in itertools.product(plates, (1e-9, 0.013, 0.3, 0.63, 0.89999)):
+        for ratio in (-0.9, 0.001, 0.33, 0.4999):
+            found.append((width * radius, thickness * radius, radius, *lame(ratio)))
+    # Both sides of the closed form's seam, and of the seams in T and y.
+    for width in (0.1, 0.5, 0.8):
+        for factor in (BELOW, ABOVE):
+            thickness = (1 - width) / float(edge_tables.THIN) * factor
+            found.append((width, thickness, 1.0, *lame(0.3)))
+            found.append((2 / 2.404825557695773 * factor, 1 / 2.404825557695773, 1.0, *lame(0.4)))
+    return found
+
+
+def conditions(function: Callable[..., np.ndarray], point: Point) -> float:
+    """Sum of the condition numbers, by differences."""
+    steps = 1.0 + 1e-6 * np.vstack((np.eye(5), -np.eye(5)))
+    values = function(*(np.array(point) * steps).T)
+    return float(np.abs(values[:5] - values[5:]).sum() / 2e-6 / abs(function(*point)))
+
+
+@pytest.mark.parametrize("kind", ["indentation", "slope"])
+def test_kernels_against_the_oracle(kind: str) -> None:
+    part = "" if kind == "indentation" else "_slope"
+    budget = read_budgets()[f"supported_edge{part}"].ulp
+    function = getattr(kernels, f"supported_edge{part}")
+    for point in points():
+        got = float(function(*point))
+        with flint.ctx.workprec(BITS):
+            true = edge_balls.edge_part(kind, *point, 22)
+            true *= to_ball(edge_balls.support_ratio(*point[3:]))
+            error = float(abs(to_ball(got) - true)) / np.spacing(abs(got))
+        assert error < budget + 0.5 * conditions(function, point), point
+
+
+@pytest.mark.parametrize("support", ["supported", "clamped"])
+def test_slope_is_the_indentations(support: str) -> None:
+    """(R/2a) d(a^2 X/R)/da by differences."""
+    plate = (0.2, 1.0, *lame(0.3))
+    function, its_slope = (getattr(kernels, f"{support}_edge{part}") for part in ("", "_slope"))
+    for width in (0.05, 0.4, 0.85):
+        step = 1e-5
+        ends = [(width + s) ** 2 * float(function(width + s, *plate)) for s in (step, -step)]
+        slope = (ends[0] - ends[1]) / (4 * step * width)
+        assert math.isclose(slope, float(its_slope(width, *plate)), rel_tol=1e-7)
+
+
+def test_edge_is_linear_in_the_force() -> None:
+    """a^2/R X at fixed a goes with 1/R as P does; doubling both constants changes nothing."""
+    plate = (0.01, 0.05, 1.0, *lame(0.3))
+    for function in (kernels.supported_edge, kernels.clamped_edge):
+        assert function(*plate) == function(*plate[:3], *(2 * x for x in plate[3:]))
+
+
+def test_thin_plates_against_the_law() -> None:
+    """Centre deflections: halved by a clamp, times (3 + nu)/(2 (1 + nu)) by a support."""
+    plate, ratio = (1e-5, 1e-5, 1.0), 0.3
+    soft = float(contact_law.indentation(1e-5, 1e3, *plate[1:])) * 1e3 / 1e-10 - 1
+    clamped = float(kernels.clamped_edge(*plate, *lame(ratio)))
+    supported = float(kernels.supported_edge(*plate, *lame(ratio)))
+    assert math.isclose(1 + clamped / soft, 0.5, rel_tol=1e-6)
+    assert math.isclose(1 + supported / soft, (3 + ratio) / (2 * (1 + ratio)), rel_tol=1e-6)
+
+
+# --- the bound
+
+
+def test_bound_holds_and_is_near_for_thin_plates() -> None:
+    for thickness, ratio in itertools.product((0.02, 0.1, 0.5, 1.0, 3.0), (-0.9, 0.3, 0.49)):
+        limits = []
+        for width in (0.01, 0.3, 0.7, 0.9, 0.97):
+            taken = abs(edge_balls.edge_part("slope", width, thickness, 1, *lame(ratio), 12))
+            added = taken * float(edge_balls.support_ratio(*lame(ratio)))
+            limits.append(float(kernels.supported_edge_bound(width, thickness, 1.0, *lame(ratio))))
+            assert added < limits[-1]
+        assert limits == sorted(limits)
+    thin = kernels.supported_edge_bound(1e-3, 1e-3, 1.0, *lame(0.3))
+    assert thin < 1.01 * abs(kernels.supported_edge_slope(1e-3, 1e-3, 1.0, *lame(0.3)))
+
+
+def test_bound_against_the_formula() -> None:
+    formula = edge_sums.edge_bound()
+    for thickness, ratio in itertools.product((0.003, 0.4, 1.7), (-0.7, 0.2, 0.45)):
+        first, second = lame(ratio)
+        numbers = {alpha: 0.3, eta: thickness, lam: first, mu: second}
+        with flint.ctx.workprec(BITS):
+            true = enclose(formula.expression, {s: to_ball(x) for s, x in numbers.items()})
+            true *= to_ball(edge_balls.support_ratio(first, second))
+        got = float(kernels.supported_edge_bound(0.3, thickness, 1.0, first, second))
+        assert abs(true - got) < 1e-15 * got * (8 + 4 * abs(thickness))
+
+
+def test_bounds_number_is_above_the_sum() -> None:
+    sum_of_squares = edge_sums.inverse_squares()
+    with flint.ctx.workprec(128):
+        ball = edge_sums.inverse_squares_ball(3)
+    number = float(sum_of_squares)
+    assert float(ball.upper()) < number < 1.003 * float(ball.lower())
+
+
+# --- domain
+
+
+def test_domain() -> None:
+    plate = (0.1, 1.0, *lame(0.3))
+    assert kernels.clamped_edge(0.0, *plate) == 0
+    for function in (kernels.supported_edge, kernels.clamped_edge_slope):
+        assert np.isnan(function([-0.1, 0.91, np.nan, np.inf], *plate)).all()
+        assert np.isnan(function(0.1, [0.0, -1.0, 1e-91, 1e91], *plate[1:])).all()
+        assert np.isnan(function(0.1, 0.1, 1.0, -2.0, 3.0))
+    assert np.isnan(kernels.clamped_edge_bound([1.01, -1.0], *plate)).all()
+
+
+def test_oracle_refuses_what_has_no_meaning() -> None:
+    with pytest.raises(ValueError, match="a < b"):
+        edge_balls.edge_part("slope", 1.0, 0.1, 1.0, 1.0, 1.0)
+
+
+def test_contact_radius_of_the_law_is_untouched() -> None:
+    """What the edge adds is zero at a = 0 and grows with a: the Hertz term stays the first."""
+    small = kernels.supported_edge(np.array([1e-9, 1e-6]), 0.1, 1.0, *lame(0.3))
+    assert math.isclose(float(small[1] / small[0]), 1e3, rel_tol=1e-9)
+    true = contact_balls.slope(1e-9, 1.0, 0.1, 1.0, 12)
+    assert abs(true / 2e-9 - 1) < 1e-6

@@ -1,0 +1,124 @@
+"""The measured remainder of the edge: convergence, linearity, and what the record says."""
+
+import json
+from functools import partial
+
+import numpy as np
+import pytest
+
+from derivation.engine.files import measurements
+from derivation.plate.edge import remainder as edge_remainder
+from derivation.plate.edge.remainder import (
+    MESHES,
+    POISSON,
+    SIZES,
+    SUPPORTS,
+    WIDTHS,
+    Case,
+    Field,
+    Mesh,
+    added,
+    heights,
+    lobatto,
+    radii,
+    remainders,
+    rim_displacement,
+)
+
+COARSE = Mesh(degree=6, layers=4)
+
+
+def test_lobatto_is_exact_for_polynomials() -> None:
+    nodes, weights, slope = lobatto(7)
+    for power in range(14):
+        assert abs(weights @ nodes**power - (1 + (-1) ** power) / (power + 1)) < 1e-14
+    np.testing.assert_allclose(slope @ nodes**5, 5 * nodes**4, atol=1e-13)
+
+
+@pytest.mark.parametrize("h", [0.02, 0.3, 1.0, 2.0])
+def test_meshes_fill_the_plate(h: float) -> None:
+    r, z = radii(h, 5), heights(h, 5)
+    assert (r[0], r[-1], z[0], z[-1]) == (0.0, 1.0, -h, h)
+    assert (np.diff(r) > 0).all()
+    assert (np.diff(z) > 0).all()
+    np.testing.assert_allclose(z, -z[::-1], atol=1e-15)
+
+
+def test_modes_at_the_rim_are_many_enough() -> None:
+    """Their sum at both faces and within, against a quarter of the modes."""
+    case, z = Case("supported", 0.2, 0.3), np.array([-0.2, 0.0, 0.1, 0.2])
+    values = rim_displacement(case, 0.1, z)
+    fewer = rim_displacement(case, 0.1, z, modes=1500)
+    assert np.abs(values - fewer).max() < 1e-6 * np.abs(values).max()
+
+
+@pytest.mark.parametrize("support", SUPPORTS)
+def test_states_and_elements_are_the_whole_difference(support: str) -> None:
+    """Elasticity alone, without the states, gives what states and elements give together."""
+    case = Case(support, 0.2, 0.3)
+    whole = Field(case, COARSE).depths(WIDTHS, states=False)
+    rest = Field(case, COARSE).depths(WIDTHS)
+    shares = remainders(case, COARSE)
+    for a, one, other, share in zip(WIDTHS, whole, rest, shares, strict=True):
+        assert abs(one / other - 1) < 1e-8
+        more, indentation = added(case, a)
+        assert abs(other - more - share * indentation) < 1e-12 * indentation
+
+
+def test_remainder_converges() -> None:
+    case = Case("supported", 0.3, 0.3)
+    coarse, fine = remainders(case, COARSE), remainders(case, Mesh(degree=8, layers=4))
+    assert np.abs(np.array(coarse) / fine - 1).max() < 1e-4
+
+
+def test_record() -> None:
+    """Every case is there, converged, and small where a plate is a plate."""
+    record = json.loads((measurements() / "edge_remainder.json").read_text())
+    rows = record["rows"]
+    assert len(rows) == len(SUPPORTS) * len(SIZES) * len(POISSON) * len(WIDTHS)
+    assert [mesh["degree"] for mesh in record["meshes"]] == [mesh.degree for mesh in MESHES]
+    for row in rows:
+        share = abs(row["share_of_indentation"])
+        # A clamp's corners are singular; a support's are not.
+        floor = 1e-7 if row["support"] == "supported" else 3e-5
+        assert abs(row["lower_degree"]) + abs(row["fewer_layers"]) < 0.01 * share + floor
+        assert share < 0.03
+        if row["support"] == "supported" and row["nu"] >= 0 and row["a_over_b"] <= 0.1:
+            assert share < (1e-3 if row["h_over_b"] <= 0.5 else 3e-3)
+        if row["support"] == "clamped" and row["h_over_b"] <= 0.3:
+            assert share < 1e-3
+
+
+def test_rows_are_shares_and_their_changes(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Coarser elements come close to the record; both changes are to another mesh."""
+    meshes = (COARSE, Mesh(degree=5, layers=4), Mesh(degree=6, layers=3))
+    monkeypatch.setattr(edge_remainder, "MESHES", meshes)
+    monkeypatch.setattr(edge_remainder, "SIZES", (1.0,))
+    monkeypatch.setattr(edge_remainder, "POISSON", (0.3,))
+    monkeypatch.setattr(edge_remainder, "rows", partial(edge_remainder.rows, (1.0,), (0.3,)))
+    found = json.loads(edge_remainder.text())
+    assert [mesh["layers"] for mesh in found["meshes"]] == [4, 4, 3]
+    record = json.loads((measurements() / "edge_remainder.json").read_text())["rows"]
+    head = ("support", "h_over_b", "nu", "a_over_b")
+    known = {tuple(row[key] for key in head): row for row in record}
+    assert len(found["rows"]) == len(SUPPORTS) * len(WIDTHS)
+    for row in found["rows"]:
+        best = known[tuple(row[key] for key in head)]["share_of_indentation"]
+        assert abs(row["share_of_indentation"] / best - 1) < 1e-2
+    for support in SUPPORTS:
+        shares, lower, fewer = (remainders(Case(support, 1.0, 0.3), mesh) for mesh in meshes)
+        mine = [row for row in found["rows"] if row["support"] == support]
+        for row, share, one, other in zip(mine, shares, lower, fewer, strict=True):
+            assert row["lower_degree"] == pytest.approx(one - share, rel=0.06)
+            assert row["fewer_layers"] == pytest.approx(other - share, rel=0.06)
+
+
+@pytest.mark.parametrize("h", [0.22213133, *np.geomspace(0.01, 9.0, 60)])
+def test_no_element_is_a_sliver(h: float) -> None:
+    """At the axis, where halving ends, it is no thinner than a fifth of its neighbour."""
+    for layers in range(2, 8):
+        r = radii(h, layers)
+        assert (r[0], r[-1]) == (0.0, 1.0)
+        steps = np.diff(r)
+        assert steps[0] > 0.19 * steps[1]
+        assert steps[-1] == pytest.approx(min(h, 1.0) * 0.5**layers)

@@ -1,0 +1,389 @@
+"""Waves of held plates with a thickness: theory, oracles, kernels in ULP, limits, sums, shapes."""
+
+import math
+from collections.abc import Callable
+from fractions import Fraction
+from itertools import pairwise
+from typing import Any
+
+import flint
+import numpy as np
+import pytest
+import sympy as sp
+from flint import arb
+from mpmath import mp, mpf
+from numpy.polynomial.legendre import leggauss
+from scipy.optimize import brentq
+from scipy.special import i0e, i1e, iv, j0, j1
+
+from derivation.engine.formula.proof import SYMBOLIC, ProofError
+from derivation.mathematics.bessel.theory import modified as modified_bessel
+from derivation.plate import derived
+from derivation.plate.budgets import read_promises
+from derivation.plate.edge.route.supported import RouteError
+from derivation.plate.edge_modes.kernels import wave_forms as forms
+from derivation.plate.edge_modes.oracle import modes as held_balls
+from derivation.plate.edge_modes.oracle import waves as held_wave_balls
+from derivation.plate.edge_modes.route import waves as held_wave_routes
+from derivation.plate.edge_modes.theory import mindlin
+from derivation.plate.edge_modes.theory import waves as theory
+from derivation.plate.vocabulary import eta as thickness
+from derivation.plate.vocabulary import nu as poisson
+from derivation.plate.waves.cases.laws import WAVES
+from generated import held_waves
+from generated.bessel import bessel_j0_zeros, bessel_j1_at_j0_zeros
+from generated.held_waves import (
+    Waves,
+    clamped_waves,
+    cutoff,
+    shape,
+    shares_less_one,
+    supported_waves,
+)
+from generated.inertia import bending_frequency, bending_residue
+
+BITS = 200
+WAVES_OF: dict[str, Callable[..., Waves]] = {
+    "clamped": clamped_waves,
+    "supported": supported_waves,
+}
+RATIOS = (-0.9, -0.3, 0.0, 0.3, 0.499)
+
+pytestmark = pytest.mark.usefixtures("silent")
+
+
+# --- theory
+
+
+def test_every_formula_of_the_link_is_verified_symbolically() -> None:
+    (link,) = (found for name, found in derived.chain() if name == "held waves")
+    assert len(link) == 13
+    assert {formula.proof.method for formula in link} == {SYMBOLIC}
+    assert forms.forms().method == SYMBOLIC
+
+
+def test_shear_coefficient() -> None:
+    assert sp.cancel(mindlin.shear_coefficient().expression - 5 / (6 - poisson)) == 0
+
+
+@pytest.mark.parametrize(
+    ("module", "name", "wrong", "step"),
+    [
+        (theory, "SUPPORTED", 1 / (1 + poisson), theory.edges),
+        (theory, "CLAMPED", 2 * theory.CLAMPED, theory.edges),
+        (theory, "NORM", theory.NORM + theory.J1**2 / 7, theory.norm),
+        (theory, "SUPPORTED_REST", -theory.SUPPORTED_REST, theory.at_rest),
+        (mindlin, "u_2", lambda: 1 + mindlin.ROTARY * mindlin.xi, mindlin.waves),
+        (forms, "_RATE", 2 * forms._RATE, forms.forms),
+        (forms, "_curls", lambda: {forms.curl: forms.j0, forms.curl_2: forms.i0}, forms.forms),
+    ],
+)
+def test_a_wrong_step_is_refused(
+    monkeypatch: pytest.MonkeyPatch, module: Any, name: str, wrong: Any, step: Any
+) -> None:
+    monkeypatch.setattr(module, name, wrong)
+    with pytest.raises(ProofError):
+        step.__wrapped__()
+
+
+@pytest.mark.parametrize(("steps", "largest"), [(16, 3), (40, 16)])
+def test_bound_of_bessels_integral_of_order_two(steps: int, largest: int) -> None:
+    with flint.ctx.workprec(BITS):
+        k = arb(largest)
+        turns = [2 * arb.pi() * i / steps for i in range(steps)]
+        fourth = sum((t.sin() ** 4 * (k * t.cos()).exp() for t in turns), arb(0)) / steps
+        error = abs(k**2 / 3 * fourth / k.bessel_i(2) - 1)
+        bound = modified_bessel.fourth_bound(steps, Fraction(largest))
+        assert 0 < error <= arb(flint.fmpq(bound.numerator, bound.denominator))
+    with pytest.raises(ProofError, match="too few"):
+        modified_bessel.fourth_bound(12, Fraction(9))
+
+
+# --- oracles
+
+
+@pytest.mark.parametrize(
+    ("edge", "n", "eta", "nu"),
+    [("clamped", 1, 0.3, 0.4), ("supported", 2, 0.1, 0.3), ("supported", 1, 0.2, -0.9)],
+)
+def test_oracles_agree(edge: held_balls.Edge, n: int, eta: float, nu: float) -> None:
+    balls = held_wave_balls.wave(edge, n, eta, nu, 25)
+    routes = held_wave_routes.wave(edge, eta, nu, round(float(balls.k), 4), 14)
+    with flint.ctx.workprec(BITS), mp.workdps(50):
+        for ball, route in zip(balls, routes, strict=True):
+            assert abs(ball / arb(mp.nstr(route, 40)) - 1) < 1e-14
+
+
+def test_oracles_refuse_what_has_no_meaning() -> None:
+    for given in ((0, 0.1, 0.3), (1, 0.0, 0.3), (1, 0.1, 0.5), (1, 0.1, -1.0)):
+        with pytest.raises(ValueError, match="counted from 1"):
+            held_wave_balls.wave("clamped", *given)
+    with pytest.raises(held_balls.RootError, match="beyond the cut-off"):
+        held_wave_balls.wave("clamped", 3, 0.3, 0.3, 10)
+
+
+def test_roots_that_are_not_found_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name, wrong, match in (
+        ("_STEPS", 3, "no root found"),
+        ("_illinois", lambda *_: Fraction(5, 2), "no change of sign"),
+    ):
+        with monkeypatch.context() as patched:
+            patched.setattr(held_wave_balls, name, wrong)
+            with pytest.raises(held_balls.RootError, match=match):
+                held_wave_balls.wave("clamped", 1, 0.1, 0.3, 10)
+    monkeypatch.setattr(held_wave_routes, "_STEPS", 0)
+    with pytest.raises(RouteError, match=r"no root of the determinant near k = 3\.1"):
+        held_wave_routes.wave("clamped", 0.1, 0.3, 3.1, 5)
+
+
+# --- generated kernels
+
+
+POINTS = [
+    *((edge, n, eta, 0.3) for edge in WAVES_OF for n, eta in ((1, 0.1), (2, 1e-9), (5, 0.12))),
+    ("clamped", 1, 0.45, 0.0),
+    ("clamped", 12, 1e-3, -0.9),
+    ("clamped", 1, 0.2, math.nextafter(0.5, 0)),
+    ("supported", 1, 0.5, math.nextafter(0.5, 0)),
+    ("supported", 1, 0.25, -0.9),
+    ("supported", 1, 0.3, -1 + 2.0**-53),
+    ("supported", 11, 0.01, 0.45),
+]
+
+
+@pytest.mark.parametrize(("edge", "n", "eta", "nu"), POINTS)
+def test_modes_against_the_oracle(edge: str, n: int, eta: float, nu: float) -> None:
+    law, promised = WAVES[f"{edge}_waves"], read_promises("held_waves")
+    given = float(n), eta, nu
+    true = law.values(given, 25)
+    assert law.sizes is not None
+    assert law.slopes is not None
+    sizes, slopes = law.sizes(given, true), law.slopes(given, true)
+    found = WAVES_OF[edge](n, eta, nu)
+    for name, got, value, size, slope in zip(
+        Waves._fields, found, true, sizes, slopes, strict=True
+    ):
+        with flint.ctx.workprec(BITS):
+            unit = math.ulp(float(size))
+            error = float(abs(arb(float(got[n - 1])) - value) / unit)
+            assert error <= promised[name] + 0.5 * float(slope / size), name
+
+
+@pytest.mark.parametrize("nu", RATIOS)
+def test_the_cut_off(nu: float) -> None:
+    low, high = held_wave_balls.cutoff(nu, 20)
+    assert cutoff(nu) == pytest.approx(float((low + high) / 2), rel=1e-14)
+    for edge, of in WAVES_OF.items():
+        for eta in (0.07, 0.21):
+            waves = of(1000, eta, nu)
+            count = waves.k.size
+            assert (waves.k * eta < cutoff(nu)).all()
+            assert (waves.k2 > 0).all()
+            assert count in (n := int(cutoff(nu) / eta / math.pi), n - 1, n + 1), edge
+            with pytest.raises(held_balls.RootError, match="beyond the cut-off"):
+                held_wave_balls.wave(edge, count + 1, eta, nu, 10)  # type: ignore[arg-type]
+
+
+def test_counts_are_prefixes_of_each_other() -> None:
+    for of in WAVES_OF.values():
+        whole = of(40, 1e-2, 0.3)
+        for count in (0, 1, 2, 9, 40, 11.0):
+            for x, y in zip(of(count, 1e-2, 0.3), whole, strict=True):
+                assert x.shape == (int(count),)
+                np.testing.assert_allclose(x, y[: int(count)], rtol=2e-14)
+
+
+@pytest.mark.parametrize("of", WAVES_OF.values())
+def test_impossible_arguments_are_refused(of: Callable[..., Waves]) -> None:
+    for count in (-1, 2.5, math.nan, math.inf):
+        with pytest.raises(ValueError, match="number of modes, an integer >= 0"):
+            of(count, 0.1, 0.3)
+    for eta in (0.0, -0.1, 0.51, math.nan, math.inf, 1e-90):
+        with pytest.raises(ValueError, match=r"expected eta = h/b from 1e-80 to 0\.5"):
+            of(3, eta, 0.3)
+    for nu in (-1.0, 0.5, math.nan, math.inf):
+        with pytest.raises(ValueError, match=r"expected Poisson's ratio nu with -1 < nu < 0\.5"):
+            of(3, 0.1, nu)
+        with pytest.raises(ValueError, match="Poisson's ratio"):
+            cutoff(nu)
+
+
+@pytest.mark.parametrize("edge", WAVES_OF)
+def test_results_change_smoothly(edge: str) -> None:
+    """Across the switch of I0 at k2 = 31.7, and along nu."""
+    lines = [
+        [WAVES_OF[edge](12, eta, 0.3) for eta in np.linspace(0.01, 0.02, 201)],
+        [WAVES_OF[edge](2, 0.1, nu) for nu in np.linspace(-0.99, 0.4999, 401)],
+    ]
+    assert lines[0][0].k2[-1] > held_waves._START > lines[0][-1].k2[-1]
+    for line, allowed in zip(lines, (3e-3, 3e-2), strict=True):
+        for name in Waves._fields:
+            values = np.array([getattr(waves, name) for waves in line])
+            bend = np.abs(np.diff(values, 2, axis=0)) / np.abs(values[1:-1])
+            assert bend.max() < allowed, name
+
+
+# --- one mode between neighbouring zeros of J0
+
+
+@pytest.mark.parametrize("nu", RATIOS)
+@pytest.mark.parametrize("eta", [1e-6, 0.03, 0.1, 0.2, 0.35, 0.5])
+def test_turn_over_bend_grows_between_zeros(eta: float, nu: float) -> None:
+    """From -oo, or 1/2, to oo, S/Gam grows: it passes any beta once, that of chi = 1 too."""
+    ends = np.concatenate(([0.0], bessel_j0_zeros(8)))
+    top = min(cutoff(nu) / eta, ends[-1])
+    for low, high in pairwise(ends):
+        if low >= top:
+            break
+        inside = np.linspace(low, min(high, top), 402)[1:-1]
+        ratio = turn_over_bend(inside, eta, nu)[0]
+        # Near k = 0 the growth is like k^4: below what doubles tell.
+        assert (np.diff(ratio) > (0.0 if low else -1e-12)).all()
+        assert ratio[0] < (-1.0 if low else 0.5 + 1e-5)
+        if high <= top:
+            assert ratio[-1] > 1.5
+
+
+def turn_over_bend(k: Any, eta: float, nu: float, kap: Any = None) -> tuple[Any, ...]:
+    """S/Gam, k2, g1 and g2 of A0's kap or another, by SciPy."""
+    x, slack = k * eta, (6 - nu) / 5
+    kap = bending_frequency(x, nu) ** 2 if kap is None else kap
+    k2 = np.sqrt(k**2 - kap / eta**2 * (slack + (1 - nu) / 2))
+    g1, g2 = 1 - kap * slack / x**2, 1 + kap * slack / (eta * k2) ** 2
+    S = g1 * k * j1(k) / j0(k) + g2 * k2 * i1e(k2) / i0e(k2)
+    return S / (g1 * k**2 + g2 * k2**2), k2, g1, g2
+
+
+# --- energy and orthogonality
+
+
+def mindlin_kap(x: float, nu: float) -> float:
+    """Of Mindlin's lower branch: the smaller root of the quadratic."""
+    slack, n = (6 - nu) / 5, (1 - nu) / 2
+    half = (3 * n + (slack + n) * x**2) / 2
+    return 2 * half / (2 * slack * n) * (1 - math.sqrt(1 - slack * n * x**4 / half**2))
+
+
+def fields(k: Any, eta: float, nu: float, r: Any, kap: Any = None) -> tuple[Any, Any]:
+    """w and psi at distances."""
+    _, k2, g1, g2 = (np.asarray(x)[..., None] for x in turn_over_bend(k, eta, nu, kap))
+    k = np.asarray(k)[..., None]
+    c = j0(k) / iv(0, k2)
+    w = j0(k * r) - c * iv(0, k2 * r)
+    return w, g1 * k * j1(k * r) + c * g2 * k2 * iv(1, k2 * r)
+
+
+@pytest.mark.parametrize("nu", [0.0, 0.45])
+@pytest.mark.parametrize("edge", WAVES_OF)
+def test_modes_are_orthogonal_and_have_their_norm(edge: str, nu: float) -> None:
+    """Mindlin's own modes exactly; with A0's frequencies nearly."""
+    eta = 0.12
+    found = WAVES_OF[edge](4, eta, nu)
+    chi = float(theory.CLAMP.subs(poisson, nu)) * eta
+    beta = 1 / (1 - nu) if edge == "supported" else chi / (1 + chi)
+    ends = np.concatenate(([1e-3], bessel_j0_zeros(6)))[edge == "clamped" :]
+
+    def excess(k: float) -> float:
+        return float(turn_over_bend(k, eta, nu, mindlin_kap(k * eta, nu))[0] - beta)
+
+    own = np.array([brentq(excess, a + 1e-9, b - 1e-9) for a, b in pairwise(ends[:5])])
+    kap = np.array([mindlin_kap(k * eta, nu) for k in own])
+    x, weights = leggauss(60)
+    r, weights = (1 + x) / 2, weights / 2
+    for k, load, most in ((own, kap, 1e-12), (found.k, None, 2e-3)):
+        w, psi = fields(k, eta, nu, r, load)
+        products = np.einsum("ir,jr,r->ij", w, w, weights * r)
+        products += eta**2 / 3 * np.einsum("ir,jr,r->ij", psi, psi, weights * r)
+        norms = np.diag(products)
+        off = products / np.sqrt(np.outer(norms, norms)) - np.eye(4)
+        assert np.abs(off).max() < most
+    g1 = turn_over_bend(found.k, eta, nu)[2]
+    face = (1 - found.c * found.t) ** 2 * (1 + (eta * found.k * g1) ** 2 / 3)
+    np.testing.assert_allclose(found.weight, face / (2 * np.pi * norms), rtol=1e-12)
+
+
+# --- limits
+
+
+@pytest.mark.parametrize("eta", [1e-80, 1e-20, 1e-9])
+def test_thin_plates(eta: float) -> None:
+    """Link 29's modes; and Leissa, Vibration of Plates (1969), tables 2.1 and 2.5."""
+    for edge, nu, k_squared in (
+        ("clamped", 0.3, [10.2158, 39.771, 89.104]),
+        ("supported", 0.3, [4.9351, 29.7200, 74.1561]),
+        ("supported", -0.6, None),
+    ):
+        found = WAVES_OF[edge](3, eta, nu)
+        for n in (1, 2, 3):
+            true = held_balls.mode(edge, n, nu, 25)  # type: ignore[arg-type]
+            for name in true._fields:
+                value = float(getattr(true, name))
+                assert getattr(found, name)[n - 1] == pytest.approx(
+                    value,
+                    rel=1e-14 + 0.1 * eta,  # of the clamp's compliance
+                )
+        np.testing.assert_allclose(found.k2, found.k, rtol=1e-15)
+        np.testing.assert_allclose(found.residue, 0.5, rtol=1e-15)
+        np.testing.assert_allclose(found.t, 1.0, rtol=1e-15)
+        thin = (found.k * eta) ** 2 * math.sqrt(2 / (3 * (1 - nu)))
+        np.testing.assert_allclose(found.root, thin, rtol=1e-15)
+        if k_squared:
+            np.testing.assert_allclose(found.k**2, k_squared, rtol=6e-5)
+
+
+@pytest.mark.parametrize("edge", WAVES_OF)
+@pytest.mark.parametrize("nu", [-0.3, 0.0, 0.3, 0.45])
+@pytest.mark.parametrize(("eta", "most"), [(0.02, 5e-4), (0.05, 3e-4), (0.1, 5e-4), (0.16, 5e-3)])
+def test_sums_are_the_differences_at_rest(edge: str, nu: float, eta: float, most: float) -> None:
+    """Held less paper's edge, mode by mode up to the cut-off, beyond which they are alike."""
+    known = derived.formulas()[f"{edge}_rest"].expression
+    value = float(known.subs({poisson: nu, thickness: eta}))
+    held = WAVES_OF[edge](1000, eta, nu)
+    count = held.k.size
+    x = bessel_j0_zeros(count) * eta
+    weight = 1 / (np.pi * bessel_j1_at_j0_zeros(count) ** 2)
+    paper = bending_residue(x, nu) * weight / bending_frequency(x, nu) ** 2
+    each = held.residue * held.weight / held.root**2 - paper
+    rigidity = 4 / (3 * (1 - nu)) * eta**4  # D over mu h^3, (h/b)^2 and h^2 more of rho h b^2
+    assert math.fsum(each) * rigidity == pytest.approx(value, rel=most)
+
+
+# --- the loaded face
+
+
+def test_shape_and_its_mean_under_a_flat_punch() -> None:
+    x, weights = leggauss(200)
+    t = (1 + x) * np.pi / 4
+    for edge, of in WAVES_OF.items():
+        for eta, nu in ((0.1, 0.3), (1e-3, 0.45), (0.3, -0.9)):
+            waves = of(30, eta, nu)
+            r = np.linspace(0, 1, 11)
+            found = shape(waves, r)
+            assert found.shape == (waves.k.size, 11)
+            np.testing.assert_allclose(found[:, 0], 1.0, rtol=1e-15)
+            k, k2, c = (v[:, None] for v in (waves.k, waves.k2, waves.c * waves.t))
+            plain = (j0(k * r) - c * iv(0, k2 * r)) / (1 - c)
+            np.testing.assert_allclose(found, plain, atol=2e-13)
+            for a in (0.05, 0.5, 0.9):
+                # r = a sin t has the weight sin t dt under the punch.
+                mean = shape(waves, a * np.sin(t)) @ (np.sin(t) * weights * np.pi / 4)
+                share = shares_less_one(waves, a)
+                assert share.shape == (1, waves.k.size), edge
+                np.testing.assert_allclose(share[0], mean - 1, atol=1e-12)
+
+
+def test_small_punches_and_high_modes() -> None:
+    waves = clamped_waves(400, 1e-4, 0.3)
+    assert waves.k2[-1] > 745
+    assert waves.c[-1] == 0.0
+    edge = shape(waves, [0.0, 0.9, 1.0, 1.1, -0.1, math.nan])
+    np.testing.assert_allclose(edge[:, 2], 0.0, atol=1e-4)  # t is not 1 for waves this short
+    assert np.isnan(edge[:, 3:]).all()
+    np.testing.assert_allclose(edge[-1, 1], j0(0.9 * waves.k[-1]), atol=1e-12)
+    a = 1e-6
+    share = shares_less_one(waves, [a])[0]
+    with mp.workdps(40):
+        k, k2, c = (mpf(float(v)) for v in (waves.k[0], waves.k2[0], waves.c[0] * waves.t[0]))
+        near = (mp.sin(k * a) / (k * a) - c * mp.sinh(k2 * a) / (k2 * a)) / (1 - c) - 1
+    assert share[0] == pytest.approx(float(near), rel=1e-14, abs=0.0)
+    assert shares_less_one(waves, np.zeros(0)).shape == (0, 400)

@@ -1,0 +1,149 @@
+"""The links of the effects and their kernels, by integrals and definitions."""
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from given import model
+from mpmath import mp, mpf
+
+from derivation.engine.formula.proof import ProofError
+from derivation.plate.contact.theory import curvature as curvature_theory
+from derivation.plate.effects import theory as effects_theory
+from derivation.plate.waves.theory import plate_motion
+from derivation.scene import (
+    kernels,
+)
+from derivation.scene.effects import BY_NAME
+from generated.effects import (
+    WALL_CUBIC,
+    WALL_LINEAR,
+    bending,
+    bending_period,
+    echo_time,
+    side_wall,
+    sphere_contact,
+    zener_number,
+)
+
+
+def test_links_are_proved_and_proofs_can_fail() -> None:
+    for link in (curvature_theory.curvature, effects_theory.effects, plate_motion.plate_motion):
+        for formula in link():
+            assert formula.proof.residuals
+    slope = curvature_theory.spherical_contact()[0].expression
+    with pytest.raises(ProofError, match="halved"):
+        curvature_theory.prove("Sphere", "", {"halved": slope - slope / 2})
+
+
+def test_growth_of_the_side_wall_by_another_quadrature() -> None:
+    with mp.workdps(20):
+        found = 4 / mp.pi**2 * mp.quad(
+            lambda y: (y * mp.cosh(y) - mp.sinh(y)) / (2 * y) * mp.besselk(0, y) / mp.besseli(0, y),
+            [0, 0.1, 1, 5, 20, 60],
+        )  # fmt: skip
+    assert abs(float(effects_theory.wall_growth_ball()) - float(found)) < 1e-12
+    assert found < kernels.WALL_GROWTH < 1.01 * found
+
+
+def test_sphere_on_a_half_space_by_sneddons_integrals() -> None:
+    """delta = a int f'/sqrt(a^2 - r^2) dr and P = 2 E* int r^2 f'/sqrt(...) dr, r = a sin t."""
+    with mp.workdps(30):
+        for rho in (mpf("1e-6"), mpf("0.1"), mpf("0.7"), mpf("0.98")):
+
+            def slope(t: mpf, rho: mpf = rho) -> mpf:
+                r = rho * mp.sin(t)
+                return r / mp.sqrt(1 - r * r)
+
+            depth = rho * mp.quad(slope, [0, mp.pi / 2])
+            force = 2 * mp.quad(
+                lambda t, rho=rho: (rho * mp.sin(t)) ** 2 * slope(t, rho), [0, mp.pi / 2]
+            )
+            rho_double = float(rho)
+            found = sphere_contact(rho_double)
+            exact = mpf(rho_double)
+            assert abs(found.depth * exact**2 / depth - 1) < 1e-13
+            assert abs(found.force * mpf(4) / 3 * exact**3 / force - 1) < 1e-13
+
+
+def test_sphere_kernel_within_its_budget() -> None:
+    with mp.workdps(40):
+        for rho in (1e-150, 1e-9, 0.1, 0.4999999, 0.5, 0.5000001, 0.9, 0.99, 1 - 2.0**-40):
+            x = mpf(rho)
+            arc = mp.atanh(x)
+            force = mpf(3) / 4 * ((1 + x * x) * arc - x) / x**3 if rho > 1e-5 else 1 + 2 * x * x / 5
+            depth, edge = arc / x, 1 / (1 - x * x)
+            truth = (force, depth, (depth + edge) / 2)
+            # Condition numbers: of the edge at most 2 x^2/(1 - x^2).
+            allowed = 8 + float(x * x / (1 - x * x))
+            for value, true in zip(sphere_contact(rho), truth, strict=True):
+                assert abs(mpf(float(value)) - true) < allowed * float(np.spacing(float(true)))
+
+
+def test_side_wall_within_its_budget() -> None:
+    """Against the integral itself, y = u^3, at 40 digits since its numerator cancels."""
+    with mp.workdps(40):
+        for alpha in (0.01, 0.3, 0.999):
+            a = mpf(alpha)
+            integral = mp.quad(
+                lambda u, a=a: 3 * u**2
+                * (mp.cosh(a * u**3) * a * u**3 - mp.sinh(a * u**3)) / u**9
+                * mp.besselk(0, u**3) / mp.besseli(0, u**3),
+                [mpf("1e-6"), 0.1, 0.5, 1, 2, 3, 4.4],
+            )  # fmt: skip
+            true = -8 / (mp.pi**2 * a**2) * integral
+            assert abs(mpf(float(side_wall(alpha).depth)) / true - 1) < 1e-14
+    alpha = np.linspace(0.01, 0.99, 50)
+    step = 1e-5
+    low, high = (side_wall(alpha * f).depth * (alpha * f) ** 2 for f in (1 - step, 1 + step))
+    slope = (high - low) / (2 * step * alpha) / (2 * alpha)
+    np.testing.assert_allclose(side_wall(alpha).slope, slope, rtol=1e-8)
+    assert (side_wall(alpha).slope <= 0).all()
+    assert (-side_wall(alpha).slope <= WALL_LINEAR * alpha + WALL_CUBIC * alpha**3).all()
+
+
+def test_bending_is_that_of_a_thin_plate() -> None:
+    """delta = P b^2/(8 pi D), D = E* H^3/12."""
+    a, R, h, b, E = 0.01, 0.3, 0.02, 0.7, 3e9
+    P, D = 4 / 3 * E * a**3 / R, E * (2 * h) ** 3 / 12
+    share = P * b**2 / (8 * math.pi * D) * R / a**2
+    assert bending(a / h, h / b).depth == pytest.approx(share, rel=1e-15)
+    assert BY_NAME["bending"].value(model(R=R, h=h, b=b), a) == pytest.approx(
+        2 / math.pi * a * b**2 / (2 * h) ** 3, rel=1e-15
+    )
+
+
+def test_plate_motion_numbers_by_their_definitions() -> None:
+    R, m, v0, h, b, lam, mu, rho = 0.01, 0.03, 2.0, 0.004, 0.5, 2e10, 3e10, 2500.0
+    E, H = 4 * mu * (lam + mu) / (lam + 2 * mu), 2 * h
+    D, K = E * H**3 / 12, 4 / 3 * E * math.sqrt(R)
+    T = (m**2 / (K**2 * v0)) ** 0.2
+    true = m / (8 * T * math.sqrt(D * rho * H))
+    assert zener_number(R, m, v0, h, lam, mu, rho) == pytest.approx(true, rel=1e-14)
+    omega = 2.404825557695773**2 / b**2 * math.sqrt(D / (rho * H))
+    period = bending_period(h, b, lam, mu, rho)
+    assert period == pytest.approx(2 * math.pi / omega, rel=1e-14)
+    assert echo_time(h, lam, mu, rho) == pytest.approx(
+        4 * H / math.sqrt((lam + 2 * mu) / rho), rel=1e-14
+    )
+
+
+@pytest.mark.parametrize(
+    ("call", "good", "bad"),
+    [
+        (sphere_contact, (0.5,), [(-0.1,), (1.0,), (math.nan,), (math.inf,)]),
+        (side_wall, (0.5,), [(-0.1,), (1.0,), (math.nan,)]),
+        (bending, (0.5, 0.1), [(-1.0, 0.1), (1.0, 0.0), (1.0, -1.0)]),
+        (echo_time, (1.0, 1.0, 1.0, 1.0), [(0.0, 1.0, 1.0, 1.0), (1.0, -1.0, 1.0, 1.0)]),
+    ],
+)
+def test_domain_and_types(call: Any, good: tuple[float, ...], bad: list[tuple[float, ...]]) -> None:
+    with np.errstate(all="raise"):
+        for point in bad:
+            assert np.isnan(np.asarray(call(*point))).all()
+        single = np.asarray(call(*(np.float32(x) for x in good)))
+        assert single.dtype == np.float32
+        several = np.asarray(call(*([x, x] for x in good)))
+        assert several.shape[-1] == 2
+        assert np.isfinite(several).all()

@@ -1,0 +1,290 @@
+"""The hard cases: complete as a suite, true in their references, well-formed."""
+
+import dataclasses
+import json
+import random
+from collections import Counter
+from pathlib import Path
+from typing import Any
+
+import flint
+import pytest
+
+from derivation import pipeline
+from derivation.engine.formula.ulp import from_ordinal, ordinal
+from derivation.plate.cases.laws import LAWS
+from derivation.plate.grids import seams
+from derivation.plate.hard import check as hard_check
+from derivation.plate.hard import origin as hard_origin
+from derivation.plate.hard import record as hard_record
+from derivation.plate.hard.case import FORMS, Case, checked, handed_over, written
+from derivation.plate.hard.places import OFFSETS
+from derivation.plate.hard.record import find_references
+from derivation.plate.hard.truth import Known, references, restored
+from derivation.plate.impact.oracle.agreement import agree
+from derivation.plate.modes.route import routes
+
+GROUPS = {
+    "found by search": 39,
+    "phi h near 0": 20,
+    "phi h large": 15,
+    "scaled and plain constants": 16,
+    "c1 = 0": 10,
+    "thin plates": 10,
+    "thick plates": 10,
+    "contacts beyond 3 h": 10,
+    "edge of the plate": 10,
+    "zeros of s": 10,
+    "reversed series": 8,
+    "past the turning point": 4,
+    "soft impacts": 6,
+    "Poisson's ratio at its ends": 20,
+    "systems of units": 12,
+    "single precision": 15,
+    "subnormal numbers": 12,
+    "infinities and NaN": 15,
+    "shapes and types": 36,
+    "sums over the modes": 8,
+    "seams of the building blocks": 30,
+    "seams of the Bessel functions": 80,
+    "seams of the contact law": 90,
+    "Bessel zeros by index": 24,
+    "doubles next to zeros of J0 and J1": 12,
+    "moments by index": 30,
+    "seams of the closed formulas": 50,
+    "seams of the sums over modes": 30,
+    "seams of the edge": 56,
+    "seams of the far face": 30,
+    "seams of the sphere": 1,
+    "seams of the true pressure": 15,
+    "seams of the impact": 9,
+    "seams of simple impacts": 10,
+    "seams of the paper's motion": 3,
+    "seams of the plate's waves": 36,
+    "seams of held plates": 11,
+    "seams of held plates with a thickness": 6,
+    "waves of held plates": 12,
+    "waves of the plate": 100,
+    "modes of held plates": 30,
+}
+"""What the suite must hold, and at least how many cases of it."""
+
+
+@pytest.fixture(scope="module")
+def data() -> dict[str, Any]:
+    found: dict[str, Any] = json.loads(pipeline.MEASURED_HARD.read_text())
+    return found
+
+
+# --- what is in it
+
+
+def test_every_group_is_there(cases: tuple[Case, ...]) -> None:
+    assert len(cases) >= 150
+    found = Counter(case.group for case in cases)
+    short = {name: found[name] for name, least in GROUPS.items() if found[name] < least}
+    assert not short
+    assert set(found) == set(GROUPS)
+
+
+def test_every_form_is_there_for_several_kernels(cases: tuple[Case, ...]) -> None:
+    for form in FORMS:
+        assert len({case.kernel for case in cases if case.form == form}) >= 4, form
+    shapes = {case.shape for case in cases}
+    assert {(), (0,)} <= shapes
+    assert any(len(shape) == 2 for shape in shapes)
+
+
+def test_every_seam_of_the_blocks_is_there(cases: tuple[Case, ...]) -> None:
+    points = [case.points[0] for case in cases if case.group == "seams of the building blocks"]
+    reached = {
+        "T": {p["T"] for p in points if "T" in p},
+        "y": {p["phi"] for p in points if p.get("a") == 1.0},
+    }
+    assert seams()
+    for variable, places in seams().items():
+        for place in places:
+            wanted = {from_ordinal(ordinal(place) + offset) for offset in (-32, -1, 0, 1, 32)}
+            assert wanted <= reached[variable]
+
+
+def test_seams_come_in_all_offsets(cases: tuple[Case, ...]) -> None:
+    assert OFFSETS == (-32, -1, 0, 1, 32)
+    arrays = [c for c in cases if c.group == "seams of the Bessel functions"]
+    for case in arrays:
+        at = [ordinal(x) for x in case.numbers["x"]]
+        assert tuple(place - at[2] for place in at) == OFFSETS
+
+
+def test_zeros_reach_index_1_to_a_million(cases: tuple[Case, ...]) -> None:
+    counts = {c.numbers["count"][0] for c in cases if c.kernel == "bessel_j0_zeros"}
+    assert {1.0, 10.0, 1e3, 1e6} <= counts
+
+
+def test_causes_are_sentences_and_inputs_are_exact(cases: tuple[Case, ...]) -> None:
+    for case in cases:
+        assert len(case.cause.split()) >= 3
+        for texts in case.inputs.values():
+            assert all(text.lstrip("-").startswith(("0x", "nan", "inf")) for text in texts)
+
+
+# --- what is true
+
+
+def test_references_have_40_digits(truth: dict[str, Known]) -> None:
+    with flint.ctx.workprec(400):
+        for key, known in truth.items():
+            for row in known.references:
+                if row["value"] in ("nan", "inf", "-inf", "0"):
+                    continue
+                ball = restored(row).value
+                assert ball.rad() <= abs(ball) * flint.arb(10) ** -40, key
+
+
+def test_file_repeats_the_definitions(cases: tuple[Case, ...], data: dict[str, Any]) -> None:
+    kept = {row["key"]: row for row in data["cases"]}
+    assert [case.key for case in cases] == [row["key"] for row in data["cases"]]
+    for case in cases:
+        row = kept[case.key]
+        assert (row["group"], row["cause"], row["expect"]) == (case.group, case.cause, case.expect)
+        assert {name: tuple(texts) for name, texts in row["inputs"].items()} == case.inputs
+
+
+def test_references_repeat(cases: tuple[Case, ...], truth: dict[str, Known]) -> None:
+    generator = random.Random(7)
+    values = [case for case in cases if case.expect == "value" and 0 < len(case.points) < 6]
+    closed = [case for case in values if case.kernel not in LAWS]
+    laws = [c for c in values if c.kernel in ("indentation", "stiffness") and not c.shape]
+    quick = ("sphere_contact", "plate_of", "far_stress", "contact", "clamped_edge_bound",
+             "dynamic_influence", "bending_share", "symmetric_residue",
+             "supported_modes")  # fmt: skip
+    seams = [next(c for c in values if c.kernel == kernel) for kernel in quick]
+    for case in (*generator.sample(closed, 24), *generator.sample(laws, 3), *seams):
+        fresh = references(case, hard_check.kernels()[case.kernel])
+        for old, new in zip(truth[case.key].references, fresh, strict=True):
+            if new["value"] in ("nan", "inf", "-inf"):
+                assert old == new
+                continue
+            with flint.ctx.workprec(400):
+                assert restored(old).value.overlaps(restored(new).value), case.key
+
+
+def test_the_second_oracle_agrees(cases: tuple[Case, ...], truth: dict[str, Known]) -> None:
+    generator = random.Random(3)
+    moderate = {"systems of units", "shapes and types", "contacts beyond 3 h"}
+    values = [c for c in cases if c.expect == "value" and not c.shape and c.group in moderate]
+    sizes = [c for c in values if all(1e-9 < abs(x[0]) < 1e12 for x in c.numbers.values())]
+    laws = [case for case in sizes if case.kernel in ("indentation", "stiffness")]
+    closed = [case for case in sizes if case.kernel in ("K_j", "C_top", "G", "mode_f")]
+    for case in (*generator.sample(laws, 3), *generator.sample(closed, 3)):
+        (row,), (point,) = truth[case.key].references, case.points
+        arguments = [point[name] for name in hard_check.kernels()[case.kernel].arguments]
+        if case in laws:
+            (value,) = agree(case.kernel, arguments, 24).values
+        else:
+            value = routes.agree(case.kernel, point, 24)
+        with flint.ctx.workprec(200):
+            assert abs(restored(row).value - value) < abs(value) * flint.arb(10) ** -23
+
+
+def test_references_follow_from_the_expressions_as_they_are(
+    cases: tuple[Case, ...], truth: dict[str, Known]
+) -> None:
+    """Those of closed formulas; what balls come to does not change with their oracle's text."""
+    closed = {case.kernel: case for case in cases if case.kernel not in LAWS}
+    assert {name: truth[case.key].origin for name, case in closed.items()} == {
+        name: hard_origin.origin(name) for name in closed
+    }
+
+
+# --- how they are found
+
+
+def test_an_origin_changes_with_code_alone(tmp_path: Path) -> None:
+    plain, said, other = (tmp_path / f"{name}.py" for name in ("plain", "said", "other"))
+    plain.write_text("def f(x):\n    return x\n")
+    said.write_text('"""What it does."""\ndef f(x):\n    """Same."""\n    return x  # as it is\n')
+    other.write_text("def f(x):\n    return -x\n")
+    assert hard_origin._code(plain) == hard_origin._code(said) != hard_origin._code(other)
+
+
+def test_a_stopped_record_goes_on_where_it_was(
+    cases: tuple[Case, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What was saved is not sought again, unless it follows from something else by now."""
+    recorded, part = tmp_path / "hard.json", tmp_path / "hard.part.json"
+    given = [case for case in cases if case.kernel == "G" and case.expect == "value"][:4]
+    sought: list[str] = []
+
+    def seek(case: Case, kernel: Any) -> Any:
+        if len(sought) == 2:
+            raise KeyboardInterrupt
+        sought.append(case.key)
+        return references(case, kernel)
+
+    def found() -> dict[str, Known]:
+        return find_references(given, hard_check.kernels(), recorded, part)
+
+    monkeypatch.setattr(hard_record, "references", seek)
+    with pytest.raises(KeyboardInterrupt):
+        found()
+    assert sought == [case.key for case in given[:2]]
+    sought.clear()
+    assert list(found()) == [case.key for case in given]
+    assert sought == [case.key for case in given[2:]]
+    part.rename(recorded)
+    sought.clear()
+    whole = found()
+    assert not sought
+    assert [list(whole[case.key].references) for case in given] == [
+        references(case, hard_check.kernels()["G"]) for case in given
+    ]
+    monkeypatch.setattr(hard_record, "origin", lambda _: "something else")
+    with pytest.raises(KeyboardInterrupt):
+        found()
+    assert sought == [case.key for case in given[:2]]
+
+
+# --- how cases are written
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        ({"form": "curled"}, "form"),
+        ({"expect": "luck"}, "expected"),
+        ({"cause": "no sentence"}, "sentence"),
+        ({"inputs": {"T": ("0x1p+0", "0x1p+1")}}, "one at a time"),
+        ({"form": "array", "inputs": {"T": ("0x1p+0",) * 2, "z": ("0x1p+0",) * 3}}, "one length"),
+        ({"form": "float32", "inputs": {"T": ("0x1.0000000000001p+0",)}}, "single"),
+    ],
+)
+def test_ill_formed_cases_are_refused(change: dict[str, Any], says: str) -> None:
+    sound = Case("group", "G", "A sentence.", {"T": ("0x1p+0",)})
+    assert checked(sound) == sound
+    with pytest.raises(ValueError, match=says):
+        checked(dataclasses.replace(sound, **change))
+
+
+def test_forms_are_what_they_say() -> None:
+    given = {"T": ("0x1p+0", "0x1p+1"), "h": ("0x1p+2",)}
+    case = Case("group", "G", "A sentence.", given, "strided")
+    strided, single = handed_over(case, ("T", "h"))
+    assert single == 4.0
+    assert strided.tolist() == [1.0, 2.0]
+    assert not strided.flags.c_contiguous
+    (fixed, _) = handed_over(dataclasses.replace(case, form="read-only"), ("T", "h"))
+    assert not fixed.flags.writeable
+    (whole, number) = handed_over(dataclasses.replace(case, form="integer"), ("T", "h"))
+    assert whole.dtype.kind == "i"
+    assert type(number) is int
+    grid = dataclasses.replace(case, form="broadcast", inputs={**given, "z": ("0x1p+3",) * 3})
+    (column, row) = handed_over(grid, ("T", "z"))
+    assert column.shape == (2, 1)
+    assert row.shape == (3,)
+    assert grid.shape == (2, 3)
+    assert len(grid.points) == 6
+
+
+def test_hand_written_cases_are_most_of_the_groups() -> None:
+    assert len({case.group for case in written()}) >= 18

@@ -1,0 +1,142 @@
+"""What hard cases of laws are held to: by a second oracle, and what kernels state themselves."""
+
+import dataclasses
+import math
+from fractions import Fraction
+
+import flint
+import numpy as np
+import pytest
+from mpmath import mp, mpf
+
+from derivation.engine.oracle.agreement import to_ball as as_ball
+from derivation.plate.back_face import route as far_face_routes
+from derivation.plate.cases.calls import Stating
+from derivation.plate.cases.laws import LAWS
+from derivation.plate.contact.oracle import balls as contact_balls
+from derivation.plate.edge.route import clamped as clamp_routes
+from derivation.plate.edge.route import supported as edge_routes
+from derivation.plate.hard import check as hard_check
+from derivation.plate.hard import truth as hard_truth
+from derivation.plate.hard.case import Case
+from derivation.plate.hard.truth import Known, restored
+from derivation.plate.pressure import route as pressure_routes
+from derivation.plate.waves.cases import places as hard_wave_places
+from generated.impact import history
+
+
+def test_the_second_oracle_agrees(cases: tuple[Case, ...], truth: dict[str, Known]) -> None:
+    """At the first point of a case; nothing of it is in units."""
+
+    def first(kernel: str) -> tuple[dict[str, float], flint.arb]:
+        case = next(c for c in cases if c.kernel == kernel)
+        return case.points[0], restored(truth[case.key].references[0]).value
+
+    with mp.workdps(40), flint.ctx.workprec(200):
+        p, value = first("clamped_edge")
+        nu = mpf(p["lam"]) / (2 * (mpf(p["lam"]) + mpf(p["mu"])))
+        edge = clamp_routes.clamp_part("indentation", p["a"], p["h"], p["b"], nu, 24)
+        assert abs(value / as_ball(-edge) - 1) < 1e-23
+
+        p, value = first("supported_edge")
+        nu = mpf(p["lam"]) / (2 * (mpf(p["lam"]) + mpf(p["mu"])))
+        edge = edge_routes.edge_part("indentation", p["a"], p["h"], p["b"], nu, 24)
+        assert abs(value / as_ball((1 - nu) / (1 + nu) * edge) - 1) < 1e-23
+
+        p, value = first("far_stress")
+        total = far_face_routes.far_sum(p["a"], p["h"], p["b"], 24)
+        nu = mpf(p["lam"]) / (2 * (mpf(p["lam"]) + mpf(p["mu"])))
+        stress = (1 + nu) * p["P"] / (8 * mp.pi * mpf(p["h"]) ** 2) * total
+        assert abs(value / as_ball(stress) - 1) < 1e-22
+
+        p, value = first("contact")
+        shape = Fraction(p["a"]) / Fraction(p["h"]), Fraction(p["h"]) / Fraction(p["b"])
+        force = pressure_routes.solve(*shape, digits=20)[0]
+        force *= mpf(p["modulus"]) * mpf(p["a"]) ** 3 / mpf(p["R"])
+        assert abs(value / as_ball(force) - 1) < 1e-19
+
+
+def test_who_states_an_error_is_held_to_it(
+    cases: tuple[Case, ...], truth: dict[str, Known]
+) -> None:
+    known = hard_check.kernels()["leading"]
+    assert isinstance(known, Stating)
+    case = next(c for c in cases if c.kernel == "leading")
+
+    def with_stated(share: float) -> hard_check.Row:
+        less = dataclasses.replace(
+            known, stated=lambda *x: tuple(share * error for error in known.stated(*x))
+        )
+        (row,) = hard_check.check([case], truth, {"leading": less})
+        return row
+
+    assert with_stated(1.0).kept
+    assert not with_stated(0.1).kept
+
+
+def test_rounding_of_a_state_is_what_the_arguments_change() -> None:
+    """Differences of the generated code say what moving every argument does, added up."""
+    given, step = (7e-3, 0.13, 72.2, 1.0, 0.1, 1.0, 0.36e9, 0.43e9), 1e-4
+    total = np.zeros(4)
+    for place in range(len(given)):
+        ends = [
+            [*given[:place], given[place] * f, *given[place + 1 :]] for f in (1 + step, 1 - step)
+        ]
+        upper, lower = (np.array(history(*moved)) for moved in ends)
+        total += np.abs(upper - lower) / (2 * step)
+    law = LAWS["history"]
+    assert law.slopes is not None
+    found = law.slopes(given, law.values(given, 20))
+    np.testing.assert_allclose([float(x) for x in found], total, rtol=1e-4)
+
+
+def test_stress_below_a_clamped_edge_is_what_is_recorded_with_fewer_digits(
+    cases: tuple[Case, ...], truth: dict[str, Known]
+) -> None:
+    """And another than on the paper's edge."""
+    for kernel in ("clamped_far_stress", "far_stress"):
+        case = next(case for case in cases if case.kernel == "clamped_far_stress")
+        [given] = [tuple(case.points[0].values())]
+        [found] = LAWS[kernel].values(given, 10)
+        known = restored(truth[case.key].references[0]).value
+        assert (abs(float(found / known) - 1) < 1e-9) is (kernel == case.kernel)
+
+
+def test_a_force_is_excused_as_its_contact_radius_is() -> None:
+    """Of a thick plate, where the plate's part has a size of its own."""
+    a, R, h, b = 0.4, 1.0, 1.0, 1.0
+    delta = float(contact_balls.indentation(a, R, h, b, 20))
+    known = hard_truth._scale("contact_radius", (delta, R, h, b), flint.arb(a))
+    assert hard_truth._scale("force", (delta, R, h, b, 1.0, 1.0), flint.arb(1)) == known
+    assert known > 1.0
+    assert hard_truth._scale("impact", (), flint.arb(1)) == 1.0
+
+
+def test_a_supported_mode_of_no_bending_share_is_judged_without_conditioning() -> None:
+    """Next to nu = -1 results do not change with it; at an ordinary one they do."""
+    law = LAWS["supported_modes"]
+    assert law.slopes is not None
+    for nu, free in ((math.nextafter(-1.0, 0.0), True), (0.3, False)):
+        values = law.values((1.0, nu), 20)
+        slopes = law.slopes((1.0, nu), values)
+        assert len(slopes) == len(values)
+        assert all(slope == 0 for slope in slopes) is free
+
+
+@pytest.mark.parametrize("name", ["hertz", "leading"])
+def test_a_simple_law_shows_nothing_beyond_its_range(name: str) -> None:
+    """A sphere a thousand times too fast; what it states is NaN where its results are."""
+    known = hard_check.kernels()[name]
+    assert isinstance(known, Stating)
+    paper = (0.13, 72.2, 1.0, 0.1, 1.0, 0.36e9, 0.43e9)
+    for speed, shown in ((1.0, True), (1e9, False)):
+        scene = (*paper[:2], speed, *paper[3:])
+        for found in (known.call(*scene), known.stated(*scene)):
+            assert (np.isfinite(np.ravel(found)) == shown).all()
+
+
+def test_a_place_where_nothing_changes_is_none() -> None:
+    root = hard_wave_places._nearest(lambda x: x * x < 2, 1.0, 2.0)
+    assert root == math.sqrt(2.0)
+    with pytest.raises(ValueError, match=r"nothing changes between 2.0 and 3.0"):
+        hard_wave_places._nearest(lambda x: x * x < 2, 2.0, 3.0)

@@ -1,0 +1,357 @@
+"""The paper's own motion: its coefficients, (15), (16) to (18), where they break, and scenes."""
+
+import json
+import math
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import flint
+import numpy as np
+import pytest
+import sympy as sp
+from given import AT_REST, EXAMPLES, changed, model, scene
+from mpmath import besseljzero, j1, mp, mpf, quad, sinh
+from mpmath import pi as mp_pi
+
+import derivation.checks.effects
+from derivation.cli import main
+from derivation.plate.impact.oracle import printed_motion as printed_motion_balls
+from derivation.plate.impact.theory.impact import linear_motion, linearisation
+from derivation.plate.vocabulary import BY_NAME as SYMBOLS
+from derivation.plate.vocabulary import delta_0, m, v0, xi_k
+from derivation.scene import SceneError, explain, indent, indentation, kernels, load, read, simulate
+from derivation.scene.comparison import compare
+from derivation.scene.effect_selection import decide
+from derivation.scene.effects.perturbation import MODES
+from derivation.scene.model import Model, model_of
+from generated.impact import impact
+from generated.perturbation import PrintedMotion, printed_motion
+
+PAPER = (0.13, 72.2, 1.0, 0.1, 1.0, 0.36e9, 0.43e9)
+CASES = {
+    "paper": PAPER,
+    "thin": (1.3, 72.2, 0.0039, 1e-3, 1.0, 0.36e9, 0.43e9),
+    "thick": (1.3, 72.2, 480.0, 1.0, 1.0, 0.36e9, 0.43e9),
+}
+Real = Callable[..., mpf]
+
+
+def truncated_gamma(k: int, modes: int, case: tuple[float, ...]) -> mpf:
+    """gamma_k of (10) from its definition, K_j by the plate factor G(T) and zeros of J0."""
+    R, _, _, h, b, lam, mu = map(mpf, case)
+    modulus = 4 * mu * (lam + mu) / (lam + 2 * mu)
+
+    def share(n: int) -> mpf:
+        j = besseljzero(0, n)
+        T = 2 * h * j / b
+        G = (sinh(2 * T) / 2 + T) / (sinh(T) ** 2 - T**2)
+        K = 8 * G / (mp_pi * R * b**2 * (j / b) ** 4 * j1(j) ** 2)
+        return (j / b) ** (2 * k - 1) * K
+
+    total = mp.fsum(share(n) for n in range(1, modes + 1))
+    scale = mpf((-1) ** k * (2 * k - 2)) / mp.factorial(2 * k - 1)
+    return scale * (3 * R / (4 * modulus)) ** (mpf(2 * k - 1) / 3) * total
+
+
+@pytest.mark.parametrize("modes", [1, 25])
+@pytest.mark.parametrize("name", CASES)
+def test_coefficients_are_the_truncated_sums(name: str, modes: int) -> None:
+    with mp.workdps(30):
+        gamma_2, gamma_3 = (truncated_gamma(k, modes, CASES[name]) for k in (2, 3))
+        printed = printed_motion(*CASES[name], modes)
+        derived = printed_motion(*CASES[name], modes, corrected=True)
+        assert printed.xi_2 == derived.xi_2 == pytest.approx(float(1 / gamma_2), rel=1e-13)
+        assert printed.xi_3 == pytest.approx(float(-gamma_3 / gamma_2**3), rel=1e-13)
+        assert derived.xi_3 == pytest.approx(float(-gamma_3 / gamma_2 ** mpf("8/3")), rel=1e-13)
+
+
+def test_the_sums_do_not_settle() -> None:
+    times = [printed_motion(*PAPER, modes).contact_time for modes in (100, 400, 1600, 6400)]
+    assert (np.diff(times) > 0.2 * times[0]).all()
+
+
+def theory(motion: PrintedMotion) -> tuple[Real, Real, mpf, mpf]:
+    """F and G of the records as functions of delta_0, and peak and rate of (15)."""
+    values = {m: motion.m, v0: motion.v0, xi_k[2]: motion.xi_2, xi_k[3]: motion.xi_3}
+    exact = {key: sp.Float(value, 40) for key, value in values.items()}
+    F, G = (
+        sp.lambdify(delta_0, formula.expression.subs(exact), "mpmath")
+        for formula in linearisation()[:2]
+    )
+    peak = mpf(motion.v0) * mp.sqrt(mpf(motion.m) / motion.xi_2)
+    return F, G, peak, mp.sqrt(mpf(motion.xi_2) / motion.m)
+
+
+def correction(motion: PrintedMotion, t: mpf) -> mpf:
+    """(16) as it stands, an integral over time of one over time."""
+    F, G, peak, rate = theory(motion)
+
+    def before(end: mpf) -> mpf:
+        return quad(lambda x: F(peak * mp.sin(rate * x)), [0, end / 2, end])
+
+    whole = before(t)
+    return -quad(
+        lambda x: G(peak * mp.sin(rate * x)) * mp.exp(before(x) - whole), [0, t / 2, t], maxdegree=4
+    )
+
+
+@pytest.mark.parametrize("corrected", [False, True])
+def test_correction_is_16_with_the_F_and_G_of_the_theory(corrected: bool) -> None:
+    motion = printed_motion(*PAPER, 100, corrected=corrected)
+    t = 0.9 * motion.breaks_at
+    with mp.workdps(16):
+        eta = float(correction(motion, mpf(t)))
+    assert float(motion.corrected(t) - motion.linear(t)) == pytest.approx(eta, rel=1e-10)
+    assert eta < 0
+
+
+@pytest.mark.parametrize("share", [0.2, 0.9])
+def test_the_oracle_in_balls_says_the_same(share: float) -> None:
+    """Collocation in space against the integrals over time, and the generated code against it."""
+    motion = printed_motion(*PAPER, 100, corrected=True)
+    t = share * motion.breaks_at
+    numbers = (motion.m, motion.v0, motion.xi_2, motion.xi_3)
+    ball = printed_motion_balls.corrected(t, *numbers, digits=45)
+    with mp.workdps(16):
+        _, _, peak, rate = theory(motion)
+        other = peak * mp.sin(rate * mpf(t)) + correction(motion, mpf(t))
+    assert ball.rel_accuracy_bits() > 149
+    assert abs(float(ball) - float(other)) < 1e-12 * motion.max_indentation
+    assert abs(ball - float(motion.corrected(t))) < 1e-14 * motion.max_indentation
+
+
+def test_the_oracle_in_balls_ends_where_the_radicand_does() -> None:
+    motion = printed_motion(*PAPER, 100)
+    numbers = (motion.m, motion.v0, motion.xi_2, motion.xi_3)
+    with flint.ctx.workprec(100):
+        last = printed_motion_balls.last_share(*numbers)
+    assert float(last) == pytest.approx(motion.last, rel=1e-14)
+    with pytest.raises(ValueError, match="has vanished"):
+        printed_motion_balls.corrected(1.001 * motion.breaks_at, *numbers)
+
+
+@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("corrected", [False, True])
+def test_eta_solves_its_equation_up_to_where_it_breaks(name: str, corrected: bool) -> None:
+    """eta' + F eta + G = 0 by differences that grow as fine as the end comes near."""
+    motion = printed_motion(*CASES[name], 100, corrected=corrected)
+    F, G, _, _ = theory(motion)
+    for left in (0.5, 0.1, 1e-2):
+        t = (1 - left) * motion.breaks_at
+        step = 1e-2 * left * motion.breaks_at
+        times = t + step * np.array([-2.0, -1.0, 1.0, 2.0])
+        eta = motion.corrected(times) - motion.linear(times)
+        slope = (eta[0] - 8 * eta[1] + 8 * eta[2] - eta[3]) / (12 * step)
+        at, here = float(motion.linear(t)), float(motion.corrected(t) - motion.linear(t))
+        parts = float(F(at)) * here, float(G(at))
+        assert slope + sum(parts) == pytest.approx(0, abs=1e-6 * max(map(abs, parts)))
+
+
+def test_linear_motion_is_15() -> None:
+    motion = printed_motion(*PAPER, 50)
+    values = {m: motion.m, v0: motion.v0, xi_k[2]: motion.xi_2}
+    exact = sp.lambdify(SYMBOLS["t"].symbol, linear_motion().expression.subs(values))
+    times = np.linspace(0, motion.contact_time, 7)
+    np.testing.assert_allclose(
+        motion.linear(times), exact(times), rtol=1e-14, atol=1e-14 * motion.max_indentation
+    )
+    assert motion.contact_time == pytest.approx(math.pi * math.sqrt(motion.m / motion.xi_2))
+    assert motion.linear(motion.contact_time / 2) == pytest.approx(motion.max_indentation)
+    # A spring knows no speed: only its depth does.
+    faster = printed_motion(*PAPER[:2], 3.0, *PAPER[3:], 50)
+    assert faster.contact_time == motion.contact_time
+    assert faster.max_indentation == pytest.approx(3 * motion.max_indentation, rel=1e-15)
+
+
+@pytest.mark.parametrize("corrected", [False, True])
+@pytest.mark.parametrize("modes", [1, 10, 100, 1000])
+@pytest.mark.parametrize("name", CASES)
+def test_breaks_before_the_turning_point(name: str, modes: int, corrected: bool) -> None:
+    motion = printed_motion(*CASES[name], modes, corrected=corrected)
+    assert motion.xi_3 > 0
+    assert 0 < motion.breaks_at < motion.contact_time / 2
+    at = motion.linear(motion.breaks_at)
+    used = motion.xi_2 * at**2 + 0.75 * motion.xi_3 * at ** (8 / 3)
+    assert used / (motion.m * motion.v0**2) == pytest.approx(1, rel=1e-13)
+    times = np.linspace(0, motion.breaks_at, 401)
+    found = motion.corrected(times)
+    assert (np.diff(found) > 0).all()  # no turning point of its own
+    assert (found <= motion.linear(times) + 1e-16 * motion.max_indentation).all()
+    assert np.isnan(motion.corrected(np.nextafter(motion.breaks_at, np.inf)))
+    assert np.isnan(motion.corrected(-1e-9))
+
+
+def test_printed_exponent_depends_on_the_units() -> None:
+    """Millimetre, tonne, second: the derived motion is the same, the printed one another."""
+    R, mass, speed, h, b, lam, mu = PAPER
+    other = 1e3 * R, 1e-3 * mass, 1e3 * speed, 1e3 * h, 1e3 * b, 1e-6 * lam, 1e-6 * mu
+    ours, theirs = (printed_motion(*x, 100, corrected=True) for x in (PAPER, other))
+    assert theirs.breaks_at == pytest.approx(ours.breaks_at, rel=1e-13)
+    ours, theirs = (printed_motion(*x, 100) for x in (PAPER, other))
+    assert theirs.contact_time == pytest.approx(ours.contact_time, rel=1e-13)
+    assert abs(theirs.breaks_at / ours.breaks_at - 1) > 0.1
+
+
+@pytest.mark.filterwarnings("error")
+def test_nan_outside_the_domain_and_for_extreme_numbers() -> None:
+    for place in range(7):
+        for bad in (0.0, -1e9, math.nan, math.inf, 1e-300):
+            case = [*PAPER]
+            case[place] = bad
+            motion = printed_motion(*case, 10)
+            found = motion.corrected(1e-4), motion.breaks_at, motion.last, motion.contact_time
+            if bad != 1e-300 and (place, bad) != (5, 0.0):
+                assert all(map(math.isnan, found)), (place, bad)
+
+
+def compared(**effects: object) -> dict[str, dict[str, object]]:
+    return changed(effects=effects)
+
+
+def test_comparison_is_the_generated_motion_beside_the_result() -> None:
+    found = simulate(read(compared(perturbation=True)))
+    assert found.comparison is not None
+    numbers = found.model.numbers
+    linear, *broken = found.comparison.motions
+    assert found.comparison.modes == MODES
+    motion = printed_motion(*numbers, MODES)
+    assert (linear.contact_time, linear.breaks_at) == (motion.contact_time, None)
+    assert linear.contact_time_difference == motion.contact_time / found.contact_time - 1
+    for row, corrected in zip(broken, (False, True), strict=True):
+        motion = printed_motion(*numbers, MODES, corrected=corrected)
+        last = float(motion.corrected(motion.breaks_at))
+        assert (row.contact_time, row.contact_time_difference) == (None, None)
+        assert (row.breaks_at, row.share, row.max_indentation) == (
+            motion.breaks_at, motion.share, last,
+        )  # fmt: skip
+        assert row.max_indentation_difference == last / found.max_indentation - 1
+        assert row.share == pytest.approx(2 * motion.breaks_at / motion.contact_time, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    "name", ["paper", "glass_pane", "concrete_floor", "pad", "block", "soft_layer"]
+)
+@pytest.mark.parametrize("rtol", [None, 1e-1, 1e-6])
+def test_it_changes_no_result(name: str, rtol: float | None) -> None:
+    data = load(EXAMPLES / f"{name}.toml").to_json()
+    if rtol == 1e-6 or name == "paper":  # tighter than what a plate that moves can meet
+        data["effects"] = {**data.get("effects", {}), "inertia": False}
+    without = simulate(read(data), rtol=rtol)
+    data["effects"] = {**data.get("effects", {}), "perturbation": True}
+    found = simulate(read(data), rtol=rtol)
+    assert found.gate.law == without.gate.law
+    assert found.gate.error == without.gate.error
+    assert found.accuracy == without.accuracy
+    assert found.warnings == without.warnings
+    made, plain = found.to_json(), without.to_json()
+    assert made.pop("perturbation")["modes"] == MODES
+    for part in (made, plain):
+        del part["scene"]
+        assert part["effects"].pop()["name"] == "perturbation"
+    assert made == plain
+    for one, other in zip(found.history(5), without.history(5), strict=True):
+        np.testing.assert_array_equal(one, other)
+
+
+def test_it_is_in_only_where_the_scene_says_true() -> None:
+    for wanted in ({}, {"perturbation": False}, {"perturbation": "auto"}):
+        for rtol in (1e-12, 1.0):
+            found = decide(model(), AT_REST | wanted, rtol)
+            row = found.rows[-1]
+            assert (row.name, row.included, row.bound) == ("perturbation", False, 0.0)
+            assert row.why == "never by itself: for comparison only"
+    row = decide(model(), AT_REST | {"perturbation": True}, 1e-3).rows[-1]
+    assert (row.included, row.bound, row.why) == (True, 0.0, "true in the scene")
+    assert row.value == printed_motion(*model().numbers, MODES).share
+    assert (
+        explain(scene(effects={"perturbation": True})).gate.rows[-1]
+        == decide(model_of(scene()), AT_REST | {"perturbation": True}, 1e-3).rows[-1]
+    )
+
+
+def test_it_is_no_part_of_any_law() -> None:
+    law = indentation.law_at_rest(read(compared(perturbation=True)))
+    assert "perturbation" not in law.effects
+    assert indent(read(compared(perturbation=True)), force=[10.0]) == indent(
+        read(compared()), force=[10.0]
+    )
+    found = derivation.checks.effects.everything(compared(perturbation=True))
+    assert found is not None
+    assert "perturbation" not in found[1]
+    assert found == derivation.checks.effects.everything(compared())
+
+
+def test_the_fast_ways_are_taken_with_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    calls = []
+    monkeypatch.setattr(kernels, "impact", lambda *x, **y: calls.append(x) or impact(*x, **y))
+    simulate(read(compared(perturbation=True)))
+    assert len(calls) == 1
+    thick = {"radius": 1e3, "thickness": 2e3}
+    found = simulate(read(changed(plate=thick, effects={"perturbation": True})), rtol=1e-2)
+    assert found.accuracy.method == "hertz"
+    assert len(calls) == 1
+
+
+@pytest.mark.parametrize("wanted", ["auto", 1, "true"])
+def test_what_the_key_takes(wanted: object) -> None:
+    with pytest.raises(SceneError, match=r'perturbation: expected true or false \(it is never "a'):
+        read(compared(perturbation=wanted))
+
+
+def test_what_is_shown(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "scene.toml"
+    text = (EXAMPLES / "paper.toml").read_text()
+    assert text.count("[effects]") == 1
+    path.write_text(text.replace("[effects]", "[effects]\nperturbation = true"))
+    out = tmp_path / "out.json"
+    assert main(["simulate", str(path), "--json", str(out)]) == 0
+    shown = " ".join(capsys.readouterr().out.split())
+    assert f"after {MODES} modes" in shown
+    assert "for comparison only" in shown
+    rows = json.loads(out.read_text())["perturbation"]["motions"]
+    assert [row["contact_time"] is None for row in rows] == [False, True, True]
+    assert [row["breaks_at"] is None for row in rows] == [True, False, False]
+    html = simulate(load(path))._repr_html_()
+    assert "linear term (15)" in html
+    assert f"{rows[0]['contact_time']:.4g}" in html
+    plain = simulate(load(EXAMPLES / "paper.toml"))
+    assert plain.comparison is None
+    assert "perturbation" not in plain.to_json()
+    assert "linear term (15)" not in plain._repr_html_()
+
+
+@pytest.mark.parametrize("wanted", ["false", "true"])
+def test_nothing_of_it_is_imported_unless_asked_for(wanted: str) -> None:
+    program = f"""
+import sys
+from derivation.scene import explain, load, read, simulate
+data = load({str(EXAMPLES / "paper.toml")!r}).to_json()
+scene = read(data | {{"effects": {{"perturbation": {wanted.title()}, "inertia": False}}}})
+explain(scene)
+found = simulate(scene)
+found.to_json(), found._repr_html_(), found.history()
+for name in ("derivation.scene.comparison", "generated.perturbation"):
+    assert (name in sys.modules) is {wanted.title()}, name
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize("size", [1e-200, 1e-60, 1e60])
+@pytest.mark.filterwarnings("error")
+def test_what_is_no_number_is_null(size: float) -> None:
+    """Where the sums leave the doubles, whatever the result."""
+    made = compare(Model(size, 1.0, 1.0, size, size, 1.0, 1.0), 1.0, 1.0).to_json()
+    assert json.loads(json.dumps(made, allow_nan=False)) == made
+
+
+def test_a_module_of_the_scene_does_not_speak_of_it(tmp_path: Path) -> None:
+    path, out = tmp_path / "scene.toml", tmp_path / "made.py"
+    text = (EXAMPLES / "paper.toml").read_text()
+    path.write_text(text.replace("[effects]", "[effects]\nperturbation = true"))
+    assert main(["generate", "--scene", str(path), "--out", str(out)]) == 0
+    assert "(14) to (18)" not in out.read_text()

@@ -1,0 +1,328 @@
+"""Slope of the contact law and an impact's sensitivities: truth, limits, scaling, differences."""
+
+import json
+import math
+from fractions import Fraction
+from pathlib import Path
+
+import flint
+import numpy as np
+import pytest
+import sympy as sp
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from mpmath import mp, mpf
+
+from derivation.engine.formula.dimension import unit as dimension_of
+from derivation.engine.formula.proof import ProofError, prove
+from derivation.plate.contact.oracle import balls as contact_balls
+from derivation.plate.contact.route import sums as contact_routes
+from derivation.plate.impact.oracle import many_sensitivities
+from derivation.plate.impact.oracle import sensitivity as contact_sensitivity
+from derivation.plate.impact.oracle.impact import stored_energy
+from derivation.plate.impact.theory import sensitivity as theory
+from derivation.plate.modes.theory.plate_factor import plate_factor_slope, plate_factors
+from derivation.plate.vocabulary import BY_NAME, T
+from generated import contact_law, impact
+from generated.sensitivity import PARAMETERS, RESULTS, impact_sensitivities, indentation_slope
+
+LAM, MU = 6e10, 8e10
+SCENE = (0.05, 0.03, 10.0, 0.001, 0.05, LAM, MU)
+ROOT = 0.5301974990742511
+"""The double nearest to the h/b at which c_1 passes zero."""
+BELOW, ABOVE = 1 - 1e-9, 1 + 1e-9
+TRUTH = json.loads((Path(__file__).parent / "sensitivity_truth.json").read_text())
+"""What the oracle says, to 1e-20, of scenes on both sides of every switch; see its first line."""
+ULP_SLOPE = 8
+LIMIT = 2e-15
+
+
+pytestmark = pytest.mark.usefixtures("no_warning")
+
+
+def numbers(texts: list[str]) -> list[Fraction]:
+    return [Fraction(text) for text in texts]
+
+
+# --- theory
+
+
+def test_the_slope_of_the_plate_factor_is_its_derivative_and_no_other() -> None:
+    G, slope = plate_factors()[0].expression, plate_factor_slope().expression
+    with pytest.raises(ProofError, match="halved leaves the residual"):
+        prove("Slope", "", {"halved": T * sp.diff(G, T) - slope / 2})
+
+
+def test_exponents_of_hertz() -> None:
+    """Peaks go with Y^(1/5), the contact time with Y^(-1/10) beside sqrt(m/(E* h))."""
+    table = theory.exponents()
+    own, energy = (table[name] for name in ("contact_time", "energy"))
+    total = [a - sp.Rational(1, 10) * e for a, e in zip(own, energy, strict=True)]
+    fifth = sp.Rational(1, 5)
+    assert total == [-fifth, 2 * fifth, -fifth, 0, 0, -2 * fifth]
+
+
+def test_every_formula_of_the_link_is_proved_symbolically() -> None:
+    for formula in theory.sensitivity():
+        assert formula.proof.method == "symbolically"
+    assert theory.scaling().method == "symbolically"
+
+
+# --- slope of the law
+
+
+def slope_points() -> list[tuple[float, float]]:
+    found = []
+    for k in (3.0, 4.0, 6.0, 8.0, 11.0):
+        for v in (k * BELOW, k * ABOVE):
+            reach = min(3.0, v)
+            found += [(v, A * reach) for A in (0.4999999 / 3, 0.5000001 / 3, BELOW)]
+            found += [(v, A) for A in (3.0 * ABOVE, 5.999999) if v * 0.9999 > A]
+    found += [(1 / ROOT, A) for A in (1e-9, 0.1, 1.8)]
+    return [*found, (1e4, 2.9), (1e3, 5.9), (0.01, 0.0099), (1.0, 0.999), (50.0, 7.0)]
+
+
+def test_slope_against_the_oracle() -> None:
+    R, h = 1e3, 1.0
+    for v, A in slope_points():
+        got = float(indentation_slope(A, R, h, v))
+        true = contact_balls.slope(A, R, h, v, 22)
+        factors = np.array([[0.999, 1, 1, 1], [1, 0.999, 1, 1], [1, 1, 0.999, 1], [1, 1, 1, 1.001]])
+        beside = indentation_slope(*(np.array([A, R, h, v]) * factors).T)
+        condition = np.abs(beside / got - 1).sum() * 1e3
+        allowed = ULP_SLOPE + 0.5 * condition
+        assert abs(got - true) < allowed * np.spacing(got), (v, A)
+
+
+def test_slope_and_stiffness_are_one() -> None:
+    a = np.geomspace(1e-8, 5e-3, 60)
+    slope = indentation_slope(a, 0.05, 1e-3, 0.05)
+    rise = 3.0 * contact_law.force_of_radius(a, 0.05, LAM, MU) / a
+    stiff = contact_law.stiffness(a, 0.05, 1e-3, 0.05, LAM, MU)
+    assert np.abs(slope * stiff / rise - 1).max() < 3e-15
+
+
+def test_stiffness_where_the_second_polynomial_is_short() -> None:
+    """Its range ends at alpha = 1, just beyond A = 3 if 1/eta is just beyond 3."""
+    for v, A in ((3.0012, 3.0006), (3.0001, 3.00005), (3.0001, 2.9999), (2.999, 2.9987)):
+        got = contact_law.stiffness(A, 1e3, 1.0, v, LAM, MU)
+        true = contact_balls.stiffness(A, 1e3, 1.0, v, LAM, MU, 22)
+        assert abs(float(got) - true) < LIMIT * true
+
+
+def test_slope_domain_and_types() -> None:
+    assert indentation_slope(0.0, 1.0, 0.1, 1.0) == 0
+    assert np.isnan(indentation_slope([-1.0, 2.0, np.nan], 100.0, 0.1, 2.0)).all()
+    assert np.isnan(indentation_slope(0.1, [0.0, -1.0, 0.05], 0.1, 2.0)).all()
+    single = indentation_slope(*(np.float32(x) for x in (0.01, 1.0, 0.1, 1.0)))
+    assert single.dtype == np.float32
+    assert single.shape == ()
+    assert indentation_slope([[0.01], [0.02]], 1.0, [0.1, 0.2, 0.3], 1.0).shape == (2, 3)
+    assert indentation_slope(np.zeros(0), 1.0, 0.1, 1.0).shape == (0,)
+
+
+# --- sensitivities against the oracle
+
+
+@pytest.mark.parametrize("row", TRUTH["rows"], ids=lambda r: f"{r['h_over_b']:.6g}-{r['a_over_h']}")
+def test_sensitivities_against_the_truth(row: dict) -> None:
+    scene = [float.fromhex(x) for x in row["scene"]]
+    got = impact_sensitivities(*scene)
+    speed, radius = numbers(row["v0"]), numbers(row["b"])
+    share = Fraction(LAM) * Fraction(MU) / (Fraction(LAM + MU) * Fraction(LAM + 2 * MU))
+    table = theory.exponents()
+    for index, name in enumerate(RESULTS):
+        # v0 stands in the energy number alone, b in h/b alone: the others follow exactly.
+        own, energy, eta = (
+            [Fraction(int(x.p), int(x.q)) for x in table[key]] for key in (name, "energy", "eta")
+        )
+        by_energy, by_eta = speed[index] / 2, -radius[index]
+        true = [o + by_energy * e + by_eta * q for o, e, q in zip(own, energy, eta, strict=True)]
+        true = [*true[:5], true[5] * share, true[5] * (1 - share)]
+        for parameter, value, expected in zip(PARAMETERS, got[index], true, strict=True):
+            error = abs(Fraction(float(value)) - expected)
+            assert error < LIMIT * max(1, abs(expected)), (name, parameter, float(error))
+
+
+def test_the_table_is_what_the_oracle_says() -> None:
+    row = next(row for row in TRUTH["rows"] if row["h_over_b"] == 100.0)
+    scene = [float.fromhex(x) for x in row["scene"]]
+    found = contact_sensitivity.sensitivities(scene, "v0")
+    with flint.ctx.workprec(128):
+        for ball, text in zip(found, row["v0"], strict=True):
+            assert abs(ball - flint.arb(text)) < 1e-19
+
+
+def test_more_digits_begin_with_those_of_the_table() -> None:
+    row = next(row for row in TRUTH["rows"] if row["h_over_b"] == 100.0)
+    scene = [float.fromhex(x) for x in row["scene"]]
+    found = many_sensitivities.impact_sensitivities(scene, 40)
+    by_speed = found[PARAMETERS.index("v0") :: len(PARAMETERS)]
+    by_radius = found[PARAMETERS.index("b") :: len(PARAMETERS)]
+    with flint.ctx.workprec(160):
+        for balls, texts in ((by_speed, row["v0"]), (by_radius, row["b"])):
+            for ball, text in zip(balls, texts, strict=True):
+                assert ball.rad() < 1e-39
+                assert abs(ball - flint.arb(text)) < 1e-19
+        assert all(abs(sum(found[k + 5 : k + 7], flint.arb(0))) < 1 for k in range(0, 28, 7))
+
+
+def test_rounding_is_what_the_parameters_change() -> None:
+    """Differences of the generated code say what moving every parameter does, added up."""
+    row = next(row for row in TRUTH["rows"] if row["h_over_b"] == 100.0)
+    scene, step = [float.fromhex(x) for x in row["scene"]], 1e-4
+    total = np.zeros((len(RESULTS), len(PARAMETERS)))
+    for index in range(len(PARAMETERS)):
+        ends = [
+            [*scene[:index], scene[index] * f, *scene[index + 1 :]] for f in (1 + step, 1 - step)
+        ]
+        upper, lower = (impact_sensitivities(*moved) for moved in ends)
+        total += np.abs(upper - lower) / (2 * step)
+    values = many_sensitivities.impact_sensitivities(scene, 20)
+    found = [float(x) for x in many_sensitivities.rounding(scene, values)]
+    np.testing.assert_allclose(np.reshape(found, total.shape), total, rtol=1e-4, atol=1e-8)
+
+
+def test_a_second_route_says_the_same() -> None:
+    """Differences of the oracle that sums over modes in mpmath; the step is exact in v0 = 5."""
+    scene, step = (1e3, 2.0, 5.0, 1.0, 3.5, LAM, MU), 2.0**-20
+    upper, lower = (
+        contact_routes.impact(*scene[:2], 5.0 * (1 + x), *scene[3:], digits=20)
+        for x in (step, -step)
+    )
+    got = impact_sensitivities(*scene)[:, 2]
+    with mp.workdps(30):
+        for high, low, value in zip(upper, lower, got, strict=True):
+            assert abs(mp.log(high / low) / (2 * mpf(step)) - mpf(float(value))) < 1e-12
+
+
+@pytest.mark.parametrize(("v", "A"), [(3.01, 3 * BELOW), (4 * BELOW, 3.5), (1 / ROOT, 1.0)])
+def test_peaks_against_exact_balls(v: float, A: float) -> None:
+    """From work and slope of the law themselves, without an impact."""
+    energy = stored_energy(A, 1e3, 1.0, v, LAM, MU, 22)
+    got = impact_sensitivities(1e3, 2.0, math.sqrt(float(energy)), 1.0, v, LAM, MU)
+    by_energy = contact_sensitivity.peaks_by_energy(A, 1.0, v)
+    by_eta = contact_sensitivity.peaks_by_thickness(A, 1.0, v)
+    # Energy is rounded to a double here, hence the margin of one digit.
+    for row, energy_ball, eta_ball in zip((1, 3), by_energy, by_eta, strict=True):
+        assert abs(energy_ball - float(got[row, 2]) / 2) < LIMIT
+        assert abs(eta_ball + float(got[row, 4])) < 2 * LIMIT
+
+
+# --- limits
+
+
+def test_hertz_limit() -> None:
+    got = impact_sensitivities(0.01, 0.03, 1e-30, 5.0, 9.0, LAM, MU)
+    expected = [
+        [-0.2, 0.4, -0.2, 0.0, 0.0, -0.4],
+        [-0.2, 0.4, 0.8, 0.0, 0.0, -0.4],
+        [0.2, 0.6, 1.2, 0.0, 0.0, 0.4],
+        [0.4, 0.2, 0.4, 0.0, 0.0, -0.2],
+    ]
+    modulus = got[:, 5] + got[:, 6]
+    assert np.abs(np.column_stack((got[:, :5], modulus)) - expected).max() < 1e-15
+
+
+def test_linear_spring_limit() -> None:
+    """P b^2/(8 pi D) with D = (2/3) E* h^3: the sphere's radius and speed leave the time alone."""
+    got = impact_sensitivities(1e3, 1e-9, 1e-3, 1e-8, 10.0, LAM, MU)
+    third = 1 / 3
+    expected = [
+        [0.0, 0.5, 0.0, -1.5, 1.0, -0.5],
+        [0.0, 0.5, 1.0, -1.5, 1.0, -0.5],
+        [0.0, 0.5, 1.0, 1.5, -1.0, 0.5],
+        [third, third / 2, third, 0.5, -third, -third / 2],
+    ]
+    modulus = got[:, 5] + got[:, 6]
+    assert np.abs(np.column_stack((got[:, :5], modulus)) - expected).max() < 2e-15
+
+
+# --- scaling
+
+SCENES = st.tuples(
+    st.floats(-3.0, 2.0),  # log10 h/b
+    st.floats(-4.0, 0.98),  # log10 of a/h over its largest value, 6 or b/h
+    st.floats(-0.6, 50.0),  # lam/mu
+    st.floats(-3.0, 3.0),  # log10 b
+)
+
+
+def scene_of(shape: tuple[float, float, float, float]) -> tuple[float, ...]:
+    thickness, width, ratio, size = shape
+    b = 10**size
+    h = b * 10**thickness
+    a = min(6.0 * h, b) * min(10**width, 0.98)
+    R, m, mu = 50.0 * b, 2.0, 3e9
+    lam = ratio * mu
+    # Work of the half-space or of the bent plate, whichever leads less far: a/h stays below.
+    modulus = 4 * mu * (lam + mu) / (lam + 2 * mu)
+    energy = 8 / 15 * modulus * a**5 / R**2 * 0.4
+    return R, m, math.sqrt(2 * energy / m), h, b, lam, mu
+
+
+@given(SCENES)
+@settings(max_examples=60, deadline=None)
+def test_units_do_not_matter(shape: tuple[float, float, float, float]) -> None:
+    got = impact_sensitivities(*scene_of(shape))
+    assert np.isfinite(got).all()
+    for row, unit in zip(got, theory.RESULTS.values(), strict=True):
+        for basis in ("length", "mass", "time"):
+            weights = [float(getattr(dimension_of(BY_NAME[x].unit), basis)) for x in PARAMETERS]
+            expected = float(getattr(dimension_of(unit), basis))
+            assert abs(np.dot(weights, row) - expected) < 2e-14
+
+
+@given(SCENES, st.sampled_from(range(7)))
+@settings(max_examples=40, deadline=None)
+def test_differences_of_the_impact(shape: tuple[float, float, float, float], index: int) -> None:
+    scene, step = scene_of(shape), 1e-3
+
+    def results(factor: float) -> np.ndarray:
+        return np.log(impact.impact(*scene[:index], scene[index] * factor, *scene[index + 1 :]))
+
+    near, far = ((results(math.exp(x)) - results(math.exp(-x))) / (2 * x) for x in (step, 2 * step))
+    assert np.abs((4 * near - far) / 3 - impact_sensitivities(*scene)[:, index]).max() < 1e-9
+
+
+def test_mass_and_speed_count_as_energy() -> None:
+    """v0 counts twice as m in the peaks; the contact time has sqrt(m) besides."""
+    got = impact_sensitivities(*SCENE)
+    assert np.abs(got[1:, 2] - 2 * got[1:, 1]).max() < 1e-15
+    assert abs(got[0, 1] - 0.5 - got[0, 2] / 2) < 1e-15
+
+
+# --- arrays
+
+
+def test_sensitivities_domain_and_types() -> None:
+    for index in (0, 1, 2, 3, 4, 6):
+        bad = [*SCENE]
+        bad[index] = np.array([0.0, -1.0, np.nan])
+        got = impact_sensitivities(*bad)
+        assert got.shape == (4, 7, 3)
+        assert np.isnan(got).all()
+    assert np.isnan(impact_sensitivities(*SCENE[:2], 1e6, *SCENE[3:])).all()
+    assert np.isnan(impact_sensitivities(*SCENE[:5], -0.7 * MU, MU)).all()
+    wide = (1e-4, 0.03, 50.0, *SCENE[3:])  # the contact would be wider than the sphere
+    assert np.isnan(impact.impact(*wide).contact_time)
+    assert np.isnan(impact_sensitivities(*wide)).all()
+    single = impact_sensitivities(*(np.float32(x) for x in SCENE))
+    assert single.dtype == np.float32
+    assert single.shape == (4, 7)
+    assert np.isfinite(single).all()
+    speeds, heights = [[1.0], [2.0]], [1e-3, 2e-3, 3e-3]
+    grid = impact_sensitivities(0.05, 0.03, speeds, heights, 0.05, LAM, MU)
+    assert grid.shape == (4, 7, 2, 3)
+    one = impact_sensitivities(0.05, 0.03, 2.0, 2e-3, 0.05, LAM, MU)
+    assert np.abs(grid[:, :, 1, 1] - one).max() < 1e-15
+    assert impact_sensitivities(np.zeros(0), *SCENE[1:]).shape == (4, 7, 0)
+
+
+def test_many_scenes_are_as_one() -> None:
+    speed = np.geomspace(1e-3, 3e3, 1200)  # more than are worked on at a time, beyond A = 3 too
+    h = np.resize([1e-3, 2e-3, 5e-3, 0.02, 0.7], 1200)
+    together = impact_sensitivities(*SCENE[:2], speed, h, *SCENE[4:])
+    for index in (0, 511, 512, 1100, 1199):
+        alone = impact_sensitivities(*SCENE[:2], speed[index], h[index], *SCENE[4:])
+        np.testing.assert_allclose(together[:, :, index], alone, rtol=0, atol=2e-15)

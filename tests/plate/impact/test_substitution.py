@@ -1,0 +1,102 @@
+"""Link 18: the law between two simple ones, and the numbers that the bounds are made of."""
+
+import flint
+import numpy as np
+import pytest
+from scipy import integrate, special
+
+from derivation.engine.formula.proof import SYMBOLIC
+from derivation.plate.contact.kernels.moments import plate_excess
+from derivation.plate.contact.theory.plate_series import kappa_ball
+from derivation.plate.contact.theory.thin_remainder import coefficient_remainder_ball
+from derivation.plate.impact.kernels import simple as tables
+from derivation.plate.impact.theory import substitution
+from generated import simple_impact
+
+
+def test_every_step_is_proved_without_numerics() -> None:
+    proofs = [f.proof for f in substitution.substitution()]
+    assert {p.method for p in (*proofs, substitution.lemma())} == {SYMBOLIC}
+
+
+def test_wall_rest_is_the_series_beyond_its_first_term() -> None:
+    total, factorial = flint.arb(0), flint.arb(1)
+    for n in range(2, 40, 2):
+        factorial *= n * (n + 1)
+        total += kappa_ball(n, 15) / factorial
+    series = 4 * total / flint.arb.pi() ** 2
+    assert abs(substitution.wall_rest_ball() - series) < 1e-11
+
+
+def test_generated_wall_bounds_are_the_integrals_rounded_up() -> None:
+    """Against plain quadrature: all powers of sinh y beyond the first, and beyond the third."""
+
+    def share(y: float, taken: float) -> float:
+        rising = special.k0e(y) / special.i0e(y) * np.exp(-2 * y) / y
+        return float(4 / np.pi**2 * (np.sinh(y) - taken) * rising)
+
+    rest = integrate.quad(lambda y: share(y, y), 1e-3, 60.0, epsabs=1e-13, limit=200)[0]
+    cubic = integrate.quad(lambda y: share(y, y + y**3 / 6), 1e-2, 60.0, epsabs=1e-13, limit=200)[0]
+    assert rest < simple_impact._WALL_REST < 1.003 * rest
+    assert cubic < simple_impact._WALL_CUBIC < 1.003 * cubic
+
+
+def test_generated_bounds_of_what_is_left_out_are_the_proven_ones_rounded_up() -> None:
+    for proven, constant in (
+        (tables._roots(2), simple_impact._ROOTS_LINEAR),
+        (flint.arb(5) / 2 * tables._roots(3), simple_impact._ROOTS_CUBIC),
+        (tables._faded(0), simple_impact._FADED_LINEAR),
+        (tables._faded(2), simple_impact._FADED_CUBIC),
+    ):
+        assert proven <= constant < 1.003 * proven
+
+
+@pytest.mark.parametrize("k", [2, 3])
+@pytest.mark.parametrize("inverse", [6.0, 9.0])
+def test_roots_share_is_below_its_bound(k: int, inverse: float) -> None:
+    share = abs(coefficient_remainder_ball(k, 1 / inverse, 10))
+    assert share < tables._roots(k) * (-flint.arb.pi() * inverse).exp()
+
+
+def test_faded_modes_are_below_their_bound() -> None:
+    eta = 1 / tables.THIN
+    for power in (0, 2):
+        total = flint.arb(0)
+        for zero, weight in tables.modes(60):
+            T = 2 * eta * zero
+            if tables.FADED < T:
+                total += weight * plate_excess(T) * T**power
+        assert 0 < total < tables._faded(power)
+
+
+@pytest.mark.parametrize("nodes", [4, 6, 8, 10])
+def test_quadrature_errs_less_than_its_bound(nodes: int) -> None:
+    bound = float(substitution.time_quadrature_bound(nodes))
+
+    def integral(count: int, x: float) -> float:
+        u, weights = np.polynomial.legendre.leggauss(count)
+        q = 1 - ((1 + u) / 2) ** 2
+        fifth = 1 + q * (1 + q * (1 + q * (1 + q)))
+        radicand = 6 * fifth + 5 * x * (1 + q * fifth)
+        return float(np.sum(weights * q * (1 + x * q) / np.sqrt(radicand)))
+
+    for x in (-0.5, -0.2, 0.0, 1.0, 30.0, 1e8):
+        assert abs(integral(nodes, x) / integral(48, x) - 1) < bound
+    assert bound < 30 * 2.4 ** (1 - 2 * nodes)
+
+
+def test_an_ellipse_with_a_root_inside_is_refused() -> None:
+    with pytest.raises(ArithmeticError, match="inside the ellipse"):
+        substitution._no_root_inside(flint.arb(3))
+
+
+def test_thin_and_thick_plates_meet() -> None:
+    below, above = (simple_impact.plate_of(1 / (tables.THIN + x)) for x in (1e-9, -1e-9))
+    assert below.bend == pytest.approx(above.bend, abs=below.doubt + above.doubt + 1e-8)
+    assert below.rest == pytest.approx(above.rest, rel=1e-6)
+
+
+@pytest.mark.parametrize("bound", ["1.0", "9.9999999", "2.5617e-17", "0.052313"])
+def test_a_short_bound_is_above(bound: str) -> None:
+    ball = flint.arb(bound)
+    assert ball <= tables.above(ball) < 1.003 * ball

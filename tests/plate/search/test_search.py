@@ -1,0 +1,269 @@
+"""The search for worse: it repeats, finds what is planted, and writes what the suite can read."""
+
+import dataclasses
+import json
+import math
+import os
+import random
+import signal
+import subprocess
+import sys
+import tomllib
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from derivation.cli import main
+from derivation.engine.files import ROOT
+from derivation.engine.measure.point import Point
+from derivation.plate.judge import generated_kernels
+from derivation.plate.search.cases import (
+    Book,
+    as_data,
+    case_of,
+    kept,
+    measured,
+    read,
+    seconds_of,
+    to_toml,
+)
+from derivation.plate.search.draw import Domain, draw, moved
+from derivation.plate.search.search import Search, search
+from derivation.plate.search.targets import Target, closed_target, targets
+
+NOWHERE = Path("/nonexistent")
+FAST = ("p", "sonine", "delta", "bessel_j0", "bessel_j1", "bessel_j0_zeros")
+
+
+@pytest.fixture(scope="module")
+def fast() -> tuple[Target, ...]:
+    return targets(FAST)
+
+
+@pytest.fixture(scope="module")
+def planted() -> Target:
+    """J0, wrong by 20 ULP where 1 < x < 1.001."""
+    kernel = next(k for k in generated_kernels() if k.name == "bessel_j0")
+
+    def wrong(x: Any) -> Any:
+        value = kernel.call(x)
+        inside = (np.asarray(x) > 1) & (np.asarray(x) < 1.001)
+        return np.where(inside, value + 20 * np.spacing(value), value)
+
+    domain = Domain("bessel_j0", ("x",), False, ())
+    return closed_target(domain, dataclasses.replace(kernel, call=wrong))
+
+
+@pytest.fixture(scope="module")
+def caught(planted: Target) -> Search:
+    return search([planted], seed=10, evaluations=3000)
+
+
+def test_same_seed_and_evaluations_give_the_same(fast: tuple[Target, ...]) -> None:
+    one, two = (search(fast, seed=7, evaluations=800) for _ in range(2))
+    assert one.evaluations == 800
+    assert as_data(one) == as_data(two)
+    assert all(standing.worst is not None for standing in one.standings.values())
+    assert as_data(search(fast, seed=8, evaluations=800))["rows"] != as_data(one)["rows"]
+
+
+def test_a_kernel_searched_alone_takes_the_same_steps(fast: tuple[Target, ...]) -> None:
+    together = search(fast, seed=3, evaluations=500).standings["sonine"]
+    alone = search(targets(["sonine"]), seed=3, evaluations=together.evaluations)
+    assert alone.standings["sonine"] == together
+
+
+def test_no_kernel_starves(fast: tuple[Target, ...]) -> None:
+    found = search(fast, seed=1, evaluations=sum(t.share for t in fast))
+    assert [s.evaluations for s in found.standings.values()] == [t.share for t in fast]
+
+
+def test_time_alone_ends_a_search_too(fast: tuple[Target, ...]) -> None:
+    assert search(fast, seed=1, seconds=0.0).evaluations == 0
+    with pytest.raises(ValueError, match="no end"):
+        search(fast, seed=1)
+
+
+def test_every_target_draws_inside_its_domain() -> None:
+    generator = random.Random(1)
+    for target in targets():
+        if target.name in ("contact_radius", "impact"):  # their arguments come from the oracle
+            continue
+        for _ in range(20):
+            point = draw(target.domain, generator)
+            assert target.domain.holds(point)
+            assert tuple(point.values) == target.domain.arguments
+            assert (point.modes is not None) == target.domain.modes
+
+
+def test_a_planted_defect_is_found_and_refined(caught: Search) -> None:
+    standing = caught.standings["bessel_j0"]
+    assert standing.evaluations == 3000
+    assert standing.worst is not None
+    assert 1.0 < standing.worst.point.values["x"] < 1.001
+    # Refined: beyond the 20 planted, the kernel's own error is in it too.
+    assert standing.worst.error.ulp > 20.5
+    assert not kept(caught)
+
+
+def test_the_file_reads_back_and_reproduces_the_error(
+    caught: Search, planted: Target, tmp_path: Path
+) -> None:
+    path = tmp_path / "cases.toml"
+    book = Book(path, [planted], NOWHERE, NOWHERE)
+    book.keep(caught)
+    (case,) = tomllib.loads(path.read_text())["case"]
+    assert case["kernel"] == "bessel_j0"
+    assert case["group"] == "search"
+    assert case["cause"] == "Found by search, seed 10."
+    assert all(texts == float.fromhex(texts).hex() for texts in case["inputs"].values())
+    assert read(path) == [case]
+    assert measured(case, {"bessel_j0": planted}) == caught.standings["bessel_j0"].worst
+    again = Book(path, [planted], NOWHERE, NOWHERE)
+    assert not again.is_new("bessel_j0", caught.standings["bessel_j0"].worst)
+    before = path.read_text()
+    again.keep(caught)
+    assert path.read_text() == before
+
+
+def test_what_is_worse_than_recorded_or_allowed_is_new(caught: Search, planted: Target) -> None:
+    known = ROOT / "reports" / "data" / "check.json"
+    worst = caught.standings["bessel_j0"].worst
+    assert worst is not None
+    book = Book(NOWHERE, [planted], known, NOWHERE)
+    assert book.is_new("bessel_j0", worst)
+    recorded = next(r for r in json.loads(known.read_text())["rows"] if r["kernel"] == "bessel_j0")
+    smaller = dataclasses.replace(worst.error, ulp=0.99 * recorded["double"]["ratio"], allowed=1.0)
+    assert not book.is_new("bessel_j0", dataclasses.replace(worst, error=smaller))
+
+
+def test_a_case_of_two_points_in_company(fast: tuple[Target, ...]) -> None:
+    """A kernel that is wrong for arrays only: the case holds both points, as an array."""
+    kernel = next(k for k in generated_kernels() if k.name == "bessel_j1")
+
+    def wrong(*arguments: Any) -> Any:
+        value = kernel.call(*arguments)
+        return value * 2.0 if np.size(value) == 2 else value
+
+    domain = next(t.domain for t in fast if t.name == "bessel_j1")
+    target = closed_target(domain, dataclasses.replace(kernel, call=wrong))
+    target = dataclasses.replace(target, bound=None)
+    worst = search([target], 1, evaluations=20).standings["bessel_j1"].worst
+    assert worst is not None
+    assert worst.company is not None
+    case = case_of("bessel_j1", worst, 1)
+    assert case["form"] == "array"
+    (read_back,) = tomllib.loads(to_toml([(case, worst)]))["case"]
+    assert read_back == case
+    assert measured(read_back, {"bessel_j1": target}) == worst
+
+
+def test_a_result_that_is_not_finite_is_the_worst(planted: Target, tmp_path: Path) -> None:
+    broken = dataclasses.replace(planted, call=lambda points: [(math.nan,)] * len(points))
+    found = search([broken], 1, evaluations=10)
+    assert found.standings["bessel_j0"].ratio == math.inf
+    assert as_data(found)["rows"][0]["ratio"] == "inf"
+    json.dumps(as_data(found), allow_nan=False)
+    Book(tmp_path / "x.toml", [broken], NOWHERE, NOWHERE).keep(found)
+    assert read(tmp_path / "x.toml")
+
+
+def test_steps_keep_to_floats_and_whole_numbers() -> None:
+    point = Point({"phi": 1.0, "n": 5.0})
+    assert moved(point, "phi", 1).values["phi"] == math.nextafter(1.0, 2.0)
+    assert moved(point, "phi", -(2**52)).values["phi"] == 0.5
+    assert moved(point, "n", -3).values["n"] == 2.0
+
+
+def test_durations() -> None:
+    assert [seconds_of(text) for text in ("30s", "5m", "1h")] == [30, 300, 3600]
+    for text in ("", "5", "0s", "-5s", "1.5h", "5 m", "5d", "m", "1h30m", "99999999s", "\uff15s"):
+        with pytest.raises(ValueError, match="30s, 5m or 1h"):
+            seconds_of(text)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (["--search", "soon"], "30s, 5m or 1h"),
+        (["--search", "1s", "--kernel", "nonsense"], "bessel_j1"),
+        (["--search", "1s", "--speed"], "stands alone"),
+        (["--kernel", "G"], "--search"),
+        (["--search", "1s", "--kernel", "G", "--out", str(ROOT / "pyproject.toml")], "--out"),
+    ],
+)
+def test_bad_input_is_refused(
+    arguments: list[str], says: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    before = (ROOT / "pyproject.toml").read_bytes()
+    assert main(["check", *arguments]) == 2
+    assert says in capsys.readouterr().err
+    assert (ROOT / "pyproject.toml").read_bytes() == before
+
+
+def test_a_case_with_other_arguments_is_refused(fast: Sequence[Target], tmp_path: Path) -> None:
+    path = tmp_path / "cases.toml"
+    case = {"group": "search", "kernel": "p", "cause": "By hand.", "inputs": {"x": "0x1p+0"}}
+    path.write_text(to_toml([(case, None)]))
+    with pytest.raises(ValueError, match="p takes r, a, P"):
+        Book(path, fast, NOWHERE, NOWHERE)
+    path.write_text(to_toml([({**case, "group": "seams"}, None)]))
+    with pytest.raises(ValueError, match="--out FILE"):  # somebody's own cases
+        Book(path, fast, NOWHERE, NOWHERE)
+
+
+def test_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path, data = tmp_path / "cases.toml", tmp_path / "found.json"
+    chosen = [
+        "--kernel",
+        "kappa_ratio",
+        "--kernel",
+        "bessel_j1",
+        "--out",
+        str(path),
+        "--json",
+        str(data),
+    ]
+    status = main(["check", "--search", "1s", "--seed", "5", *chosen])
+    found = json.loads(data.read_text())
+    shown = capsys.readouterr().out
+    assert [row["kernel"] for row in found["rows"]] == ["bessel_j1", "kappa_ratio"]
+    assert status == int(any(float(row["ratio"] or 0) > 1 for row in found["rows"]))
+    assert found["seed"] == 5
+    assert f"bessel_j1: x={found['rows'][0]['inputs']['x']}\n" in shown
+
+
+def test_interrupted_search_keeps_what_it_found(tmp_path: Path) -> None:
+    program = """
+import pathlib, sys
+from derivation import cli, pipeline
+from derivation.engine import console as screen
+from derivation.plate.search import search
+pipeline.MEASURED = pathlib.Path(sys.argv[1] + ".none")  # nothing on record: any case is new
+look = search._look
+def loudly(*arguments):
+    yield from look(*arguments)
+    print("looked", flush=True)
+search._look = loudly
+sys.exit(cli.main(["check", "--search", "1h", "--kernel", "bessel_j0", "--out", sys.argv[1]]))
+"""
+    path = tmp_path / "cases.toml"
+    run = subprocess.Popen(
+        [sys.executable, "-c", program, str(path)],
+        cwd=ROOT, env={**os.environ}, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+    )  # fmt: skip
+    assert run.stdout is not None
+    assert run.stdout.readline() == "looked\n"
+    run.send_signal(signal.SIGINT)
+    shown, message = run.communicate(timeout=60)
+    assert run.returncode == 2, message
+    assert "interrupted" in message
+    assert "Traceback" not in message
+    assert "bessel_j0: x=" in shown
+    (case,) = read(path)
+    assert case["kernel"] == "bessel_j0"
+    assert [p.name for p in tmp_path.iterdir()] == ["cases.toml"]

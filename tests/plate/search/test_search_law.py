@@ -1,0 +1,206 @@
+"""The search in the contact law: points, truth and allowance; where there is nothing to judge."""
+
+import dataclasses
+import json
+import math
+import random
+import tomllib
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from derivation import pipeline
+from derivation.cli import main
+from derivation.engine.measure.point import Point
+from derivation.plate.contact.cases import judge as contact_judge
+from derivation.plate.contact.cases.truth import truth
+from derivation.plate.contact.oracle import balls as contact_balls
+from derivation.plate.search import search
+from derivation.plate.search.cases import Book, as_data, case_of, to_toml
+from derivation.plate.search.draw import Domain, draw
+from derivation.plate.search.search import Found, Standing
+from derivation.plate.search.targets import Error, Numbers, Target, targets
+from generated.contact_law import indentation
+from generated.impact import impact
+
+NOWHERE = Path("/nonexistent")
+NAMES = "contact_radius", "force_of_radius", "impact", "indentation"
+
+
+@pytest.fixture(scope="module")
+def law() -> dict[str, Target]:
+    return {target.name: target for target in targets(NAMES)}
+
+
+@pytest.fixture(autouse=True)
+def _quiet() -> Iterator[None]:
+    """As the search itself has it."""
+    with np.errstate(all="ignore"):
+        yield
+
+
+# --- points, truth, allowance
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_law_is_judged_alone_and_in_company(name: str, law: dict[str, Target]) -> None:
+    """What is right keeps its allowance, in an array too; a digit off does not."""
+    target, generator = law[name], random.Random(4)
+    points = [draw(target.domain, generator) for _ in range(2)]
+    assert all(target.domain.holds(point) for point in points)
+    together = target.call(points)
+    for point, among in zip(points, together, strict=True):
+        [alone] = target.call([point])
+        assert len(alone) == (4 if name == "impact" else 1)
+        assert among == pytest.approx(alone, rel=1e-12)
+        right, wrong = (
+            target.measure(point, tuple(factor * x for x in alone)) for factor in (1.0, 1 + 1e-10)
+        )
+        assert right is not None
+        assert wrong is not None
+        assert right.ratio < 1.0 < wrong.ratio
+        nothing = target.measure(point, (math.nan,) * len(alone))
+        assert nothing is not None
+        assert nothing.ratio == math.inf
+
+
+def test_drawn_depths_and_speeds_lead_to_contacts_within_the_law(law: dict[str, Target]) -> None:
+    """Back from the argument to the contact radius by the generated law."""
+    generator = random.Random(9)
+    for _ in range(3):
+        values = draw(law["contact_radius"].domain, generator).values
+        R, h, b = (values[key] for key in ("R", "h", "b"))
+        [(a,)] = law["contact_radius"].call([Point(values)])
+        assert 0.0 < a < min(b, R)
+        assert indentation(a, R, h, b) == pytest.approx(values["delta"], rel=1e-11)
+        motion = draw(law["impact"].domain, generator).values
+        found = impact(**motion)
+        assert 0.0 < found.max_contact_radius < min(motion["b"], motion["R"])
+
+
+def test_what_the_law_does_not_promise_is_not_judged(law: dict[str, Target]) -> None:
+    """A contact beyond the plate's edge; forces that no double holds."""
+    beyond = Point({"delta": 2.0, "R": 1.0, "h": 0.5, "b": 1.0})
+    assert law["contact_radius"].measure(beyond, (1.0,)) is None
+    huge = Point({"a": 1e100, "R": 1e-200, "lam": 1e100, "mu": 1e100})
+    assert law["force_of_radius"].measure(huge, (math.inf,)) is None
+
+
+@pytest.mark.parametrize(
+    ("a", "R", "judged"), [(0.55, 100.0, True), (0.8, 100.0, False), (0.55, 0.5, False)]
+)
+def test_a_contact_wider_than_promised_has_no_truth(
+    a: float, R: float, judged: bool, law: dict[str, Target]
+) -> None:
+    """Up to six half-thicknesses, here 0.6, and a sphere's own radius."""
+    delta = float(contact_balls.indentation(a, R, 0.1, 1.0, 20))
+    point = Point({"delta": delta, "R": R, "h": 0.1, "b": 1.0})
+    found = law["contact_radius"].measure(point, (a,))
+    assert (found is not None) is judged
+    assert found is None or found.ratio < 1.0
+
+
+def test_a_kernel_with_too_many_results_is_no_kernel() -> None:
+    true = truth(("max_pressure", (0.1, 1.0, 1e9, 1e9)))
+    with pytest.raises(ValueError, match="2 results at "):
+        contact_judge.judge(lambda *_: (1.0, 2.0), [true], 1.0)
+
+
+# --- where there is nothing to judge, or nowhere to go
+
+
+def plain(name: str, arguments: tuple[str, ...], conditions: tuple[str, ...]) -> Target:
+    """A target whose error is its first argument's size; every result is 0."""
+
+    def call(points: Sequence[Point]) -> list[Numbers]:
+        return [(0.0,)] * len(points)
+
+    def measure(point: Point, _: Numbers) -> Error | None:
+        return Error(abs(point.values[arguments[0]]), 1.0)
+
+    return Target(Domain(name, arguments, False, conditions), call, measure, None, 48, 1)
+
+
+def test_points_without_truth_are_counted_and_no_worst_is_made_up() -> None:
+    target = dataclasses.replace(plain("blind", ("x",), ()), measure=lambda *_: None)
+    standing = search.search([target], 1, evaluations=600).standings["blind"]
+    assert (standing.evaluations, standing.unjudged) == (600, 600)
+    assert standing.worst is None
+    assert standing.ratio == -1.0
+
+
+def test_a_climb_leaves_a_zero_alone_and_stays_in_the_domain() -> None:
+    """Next to zero are numbers of no size; of the other argument no neighbour is left."""
+    seen = list[Point]()
+    target = plain("zero", ("x", "y"), ("y == 1.0 or y > 4.0",))
+    target = dataclasses.replace(
+        target, call=lambda points: seen.extend(points) or [(0.0,)] * len(points)
+    )
+    start = Point({"x": 0.0, "y": 1.0})
+    here = Standing(worst=Found(start, None, Error(0.5, 1.0)))
+    steps = search._climb(target, random.Random(1), here, Standing())
+    assert list(steps) == []
+    assert seen == []
+    wide = dataclasses.replace(target, domain=Domain("zero", ("x", "y"), False, ()))
+    assert len(list(search._climb(wide, random.Random(1), here, Standing()))) > 10
+    assert {point.values["x"] for point in seen} == {0.0}
+
+
+def test_conditions_that_contradict_each_other_are_said_to() -> None:
+    with pytest.raises(ValueError, match="no point found in the domain of never"):
+        draw(Domain("never", ("x",), False, ("x > 1.0", "x < 1.0")), random.Random(1))
+
+
+# --- the book of cases
+
+
+def test_cases_of_kernels_not_searched_now_stay_in_the_file(tmp_path: Path) -> None:
+    path, target = tmp_path / "cases.toml", plain("size", ("x",), ())
+    other = {"group": "search", "kernel": "other", "cause": "Found by search, seed 3.",
+             "inputs": {"x": "0x1.0p+0"}}  # fmt: skip
+    path.write_text(to_toml([(other, None)]))
+    book = Book(path, [target], NOWHERE, NOWHERE)
+    found = search.search([target], 1, evaluations=50)
+    book.keep(found)
+    first, second = tomllib.loads(path.read_text())["case"]
+    assert first == other
+    worst = found.standings["size"].worst
+    assert worst is not None
+    assert second == case_of("size", worst, 1)
+
+
+def test_what_the_contact_laws_check_found_is_not_new(law: dict[str, Target]) -> None:
+    """The committed worst arguments are measured anew, and only what is worse is a case."""
+    target = law["force_of_radius"]
+    rows = json.loads(pipeline.MEASURED_CONTACT.read_text())["rows"]
+    [texts] = [row["worst"] for row in rows if row["kernel"] == target.name]
+    point = Point(dict(zip(target.domain.arguments, map(float.fromhex, texts), strict=True)))
+    error = target.measure(point, target.call([point])[0])
+    assert error is not None
+    book = Book(NOWHERE, [target], NOWHERE, pipeline.MEASURED_CONTACT)
+    elsewhere = Point({**point.values, "R": 2.0 * point.values["R"]})
+    same = Found(elsewhere, None, error)
+    assert not book.is_new(target.name, same)
+    worse = Found(elsewhere, None, Error(1.001 * error.ulp, error.allowed))
+    assert book.is_new(target.name, worse)
+    assert Book(NOWHERE, [target], NOWHERE, NOWHERE).is_new(target.name, same)
+
+
+@pytest.mark.parametrize(("off", "status"), [(0.5, 0), (2.0, 1)])
+def test_the_search_as_json_is_nothing_else(
+    off: float, status: int, tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    """Beyond the allowance the status is 1; a new case is said beside, on standard error."""
+    target = dataclasses.replace(plain("size", ("x",), ()), measure=lambda *_: Error(off, 1.0))
+    found = search.search([target], 1, evaluations=20)
+    book = Book(tmp_path / "cases.toml", [target], NOWHERE, NOWHERE)
+    book.keep(found)
+    monkeypatch.setattr(pipeline, "search_worse", lambda *_: (found, book))
+    assert main(["check", "--search", "1s", "--json", "-"]) == status
+    shown = capsys.readouterr()
+    assert json.loads(shown.out) == as_data(found)
+    assert "new worst cases in" in shown.err
+    assert len(tomllib.loads(book.path.read_text())["case"]) == 1

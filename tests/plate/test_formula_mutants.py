@@ -1,0 +1,82 @@
+"""Core formulas with one thing wrong: what proves them, or an oracle, notices every one."""
+
+from collections.abc import Callable, Mapping
+from functools import cache
+
+import formula_checks as checks
+import mpmath as mp
+import pytest
+import sympy as sp
+from formula_checks import chain
+from mutants import Mutant, of_expression
+
+from derivation.engine.formula.proof import reduces_to_zero
+
+
+@pytest.fixture(autouse=True)
+def _digits():
+    with mp.workdps(checks.DIGITS):
+        yield
+
+
+ROUTED = (
+    "C_top", "C_bottom", "C_half", "G", "G_m", "G_minus_1", "G_slope", "p", "sonine", "P", "A_j",
+    "K_j", "K_j_bottom",
+)  # fmt: skip
+TARGETS: Mapping[str, Callable[[str], checks.Check]] = {
+    "f_j": checks.in_the_equations,
+    "g_j": checks.in_the_equations,
+    **{f"Omega_{k}": checks.in_the_tractions for k in range(1, 5)},
+    **dict.fromkeys(ROUTED, checks.by_route),
+    **{f"c_{n}_{part}": checks.by_coefficient for n in (1, 3, 5, 7) for part in ("modes", "side")},
+    "F_modes": checks.by_departure,
+    "F_wall": checks.by_wall,
+    "delta_reduced": checks.by_the_law,
+    **{f"xi_{k}": checks.by_inversion for k in range(2, 7)},
+    **{f"p_{n}": checks.by_inversion for n in range(1, 5)},
+    "contact_integrand": checks.by_energy,
+    "contact_work": checks.by_energy,
+    "hertz_time": checks.by_hertz_motion,
+    "acceleration": checks.by_motion,
+    "speed": checks.by_motion,
+    "delta_0": checks.by_linear_motion,
+    "delta_sphere": checks.by_profile,
+    "P_sphere": checks.by_profile,
+    "edge_stretch": checks.by_rim,
+    "edge_turn": checks.by_rim,
+    "F_edge": checks.by_residues,
+    "S_edge": checks.by_residues,
+    "support_ratio": checks.by_poissons_ratio,
+    **dict.fromkeys(
+        ("B_a", "B_s", "B_a_slow", "B_s_slow", "dynamic_influence"), checks.by_first_order_system
+    ),
+}
+
+
+@cache
+def mutants(name: str) -> list[Mutant]:
+    return of_expression(chain()[name].expression)
+
+
+def noticed(passes: checks.Check, expression: sp.Expr) -> bool:
+    """Whether a mutant fails; one that has no value, or no real one, does."""
+    try:
+        return not passes(expression)
+    except (ArithmeticError, ValueError, TypeError):
+        return True
+
+
+@pytest.mark.parametrize("name", TARGETS)
+def test_every_mutant_of_a_core_formula_is_noticed(name: str) -> None:
+    """Those that are not are the same function, written otherwise."""
+    expression = chain()[name].expression
+    passes = TARGETS[name](name)
+    assert passes(expression)
+    survivors = [m for m in mutants(name) if not noticed(passes, m.expression)]
+    assert [m.name for m in survivors if not reduces_to_zero(m.expression - expression)] == []
+
+
+def test_mutants_are_many_and_differ() -> None:
+    counts = {name: len(mutants(name)) for name in TARGETS}
+    assert min(counts.values()) >= 2
+    assert sum(counts.values()) >= 60

@@ -1,0 +1,303 @@
+"""A viscous contact: against its spiral, its series, another integrator, and its energy."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from given import ALL, AT_REST
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from mpmath import beta, mp, mpf
+from scipy.integrate import solve_ivp
+
+from derivation.scene import motion, viscous
+from derivation.scene.effect_selection import decide
+from derivation.scene.effects import BY_NAME, WHOLE_PLATE
+from derivation.scene.law import ContactLaw
+from derivation.scene.method_selection import moved
+from derivation.scene.model import Model
+from derivation.scene.motion import Motion
+from derivation.scene.scene import OUTPUTS, SceneError
+from generated.viscosity import Course, restitution_weak, viscous_logarithms, viscous_number
+
+HERTZ = frozenset({"hertz", "viscosity"})
+PLATE = WHOLE_PLATE | HERTZ
+BALL = Model(R=0.01, m=0.03, v0=0.5, h=0.01, b=0.1, lam=2e9, mu=1e9, viscous_time=2e-6)
+
+
+def moves(law: ContactLaw) -> Motion:
+    return moved(law)
+
+
+def with_number(x: float, model: Model = BALL) -> Model:
+    """The scene with a viscous time that gives a viscous number."""
+    one = replace(model, viscous_time=1.0)
+    return replace(model, viscous_time=x / BY_NAME["viscosity"].value(one, 0.0))
+
+
+def spiral(x: float) -> tuple[float, float]:
+    """Restitution and time, over that without viscosity, of Hertz's contact: link 24 in phi."""
+    top = 0.8**0.4 * x
+
+    def rates(u: float, state: np.ndarray) -> list[float]:
+        # phi = u^5 takes the singularity out of the time's onset.
+        phi, radius = u**5, state[0]
+        epsilon = top * max(radius * math.sin(phi), 0.0) ** 0.2
+        turning = 1.0 + epsilon * math.sin(phi) * math.cos(phi)
+        omega = max(radius * math.sin(phi) / u**5, 1e-30) ** 0.2
+        return [
+            -radius * epsilon * math.cos(phi) ** 2 / turning * 5 * u**4,
+            5 * u**3 / (omega * turning),
+        ]
+
+    def pull(u: float, state: np.ndarray) -> float:
+        phi = u**5
+        return math.sin(phi) + top * max(state[0] * math.sin(phi), 0.0) ** 0.2 * math.cos(phi)
+
+    pull.terminal, pull.direction = True, -1.0  # type: ignore[attr-defined]
+    found = solve_ivp(
+        rates, (0.1**6, math.pi**0.2), [1.0, 0.0], "DOP853", events=pull, rtol=1e-13, atol=1e-15
+    )
+    [end], [state] = found.t_events[0], found.y_events[0]
+    calm = float(beta(mpf("0.4"), mpf("0.5")))  # int_0^pi sin^(-1/5)
+    return -state[0] * math.cos(end**5), state[1] / calm
+
+
+@pytest.mark.parametrize("x", [1e-3, 0.03, 0.3, 1.0, 3.0])
+def test_hertz_contact_runs_along_the_spiral(x: float) -> None:
+    model = with_number(x)
+    found, calm = moves(ContactLaw(model, HERTZ)), moves(ContactLaw(model, frozenset({"hertz"})))
+    restitution, time = spiral(x)
+    assert found.restitution == pytest.approx(restitution, rel=1e-10)
+    assert found.contact_time / calm.contact_time == pytest.approx(time, rel=1e-9)
+
+
+def test_restitution_of_weak_viscosity_is_the_published_series() -> None:
+    """Schwager and Poeschel (2008): 1 - 1.153449 x + 0.798267 x^2 + (4/15) x^(5/2) + ..."""
+    with mp.workdps(30):
+        c = mpf("0.8") ** mpf("0.4") * beta(mpf("0.6"), mpf("1.5"))
+        assert float(restitution_weak(0.25)) == pytest.approx(
+            float(1 - c / 4 + c * c * mpf("0.6") / 16), rel=1e-15
+        )
+    assert float(1 - restitution_weak(1e-9)) / 1e-9 == pytest.approx(1.153449, abs=1e-6)
+    rest = []
+    for x in (1e-3, 4e-3):
+        weak = float(restitution_weak(x))
+        rest.append((moves(ContactLaw(with_number(x), HERTZ)).restitution - weak) / x**2.5)
+    # What follows is of order sqrt(x) more.
+    assert 2 * rest[0] - rest[1] == pytest.approx(4 / 15, rel=0.01)
+
+
+def test_viscous_number_is_that_of_the_scene() -> None:
+    K = 4 / 3 * BALL.modulus * math.sqrt(BALL.R)
+    expected = 1.5 * BALL.viscous_time * (K / BALL.m) ** 0.4 * BALL.v0**0.2
+    found = viscous_number(BALL.R, BALL.m, BALL.v0, BALL.lam, BALL.mu, BALL.viscous_time)
+    assert float(found) == pytest.approx(expected, rel=1e-14)
+    soft = replace(BALL, sphere_modulus=BALL.modulus)
+    assert BY_NAME["viscosity"].value(soft, 0.0) == pytest.approx(expected / 2**0.4, rel=1e-14)
+    assert math.isnan(float(viscous_number(1.0, 1.0, 1.0, 1.0, 1.0, 0.0)))
+
+
+def by_scipy(law: ContactLaw) -> tuple[float, float, float, float]:
+    """Time, indentation, force and restitution with a bent plate, as an ODE in z, v and a."""
+    model = law.model
+    bent = replace(law, effects=law.effects & {"bending", "edge"})
+    R, A = model.R, model.viscous_time
+
+    def state(y: np.ndarray) -> tuple[float, float, float]:
+        """Force, its elastic part and that part's slope by a."""
+        z, _, a = y
+        shape = law.at(np.array([a]))
+        elastic, depth = law.force(a, shape)[0], law.indentation(a, shape)[0]
+        slope = law.stiffness(a, shape)[0] * 2 * a / R * shape.slope[0]
+        # w(P) - w(P_e) = z - delta_e, bending being linear in the force.
+        radius = np.array([1e-3 * model.h])
+        compliance = (radius / R * bent.deflection(radius).depth * radius)[0]
+        compliance /= 4 / 3 * law.modulus * radius[0] ** 3 / R
+        return elastic + (z - depth) / compliance, elastic, slope
+
+    def rates(_: float, y: np.ndarray) -> list[float]:
+        force, elastic, slope = state(y)
+        return [y[1], -force / model.m, (force - elastic) / (A * slope)]
+
+    def gone(_: float, y: np.ndarray) -> float:
+        return state(y)[0]
+
+    gone.terminal, gone.direction = True, -1.0  # type: ignore[attr-defined]
+    calm = moves(replace(law, effects=law.effects - {"viscosity"}))
+    first = 1e-7 * calm.contact_time
+    start = viscous.impact(law)
+    depth, speed, radius, _ = (x[0] for x in start.history(law, np.array([first])))
+    found = solve_ivp(
+        rates, (first, 3 * calm.contact_time), [depth, speed, radius], "Radau", events=gone,
+        rtol=1e-10, atol=[1e-14 * calm.max_indentation, 1e-12 * model.v0, 1e-9 * radius],
+    )  # fmt: skip
+    forces = [state(y)[0] for y in found.y.T]
+    return (
+        float(found.t_events[0][0]),
+        float(found.y[0].max()),
+        max(forces),
+        -float(found.y_events[0][0][1]) / model.v0,
+    )
+
+
+def test_bent_plate_against_another_integrator() -> None:
+    model = replace(BALL, h=0.002, b=0.06, viscous_time=4e-5)
+    law = ContactLaw(model, PLATE)
+    found = moves(law)
+    time, depth, force, restitution = by_scipy(law)
+    assert found.contact_time == pytest.approx(time, rel=1e-7)
+    assert found.restitution == pytest.approx(restitution, rel=1e-8)
+    # The other's are those of its steps, near the turning point.
+    assert depth <= found.max_indentation == pytest.approx(depth, rel=1e-3)
+    assert force <= found.max_force * (1 + 1e-9)
+    assert found.max_force == pytest.approx(force, rel=1e-3)
+
+
+@settings(max_examples=40, deadline=None)
+@given(
+    st.floats(-6, 0.5),
+    st.floats(-2, 1),
+    st.floats(-3, 0),
+    st.sampled_from([HERTZ, PLATE, HERTZ | {"curvature"}, PLATE | {"edge"}, HERTZ | {"bending"}]),
+    st.sampled_from(["simply-supported", "clamped"]),
+)
+def test_energy_closes(
+    number: float, eta: float, speed: float, effects: frozenset[str], edge: str
+) -> None:
+    model = replace(BALL, h=BALL.b * 10**eta, v0=10**speed, edge=edge)
+    model = with_number(10**number, model)
+    try:
+        motion.impact(ContactLaw(model, effects - {"viscosity"}))
+    except SceneError:  # beyond the law's range
+        return
+    found = moved(ContactLaw(model, effects))
+    assert found.ledger is not None
+    assert abs(found.ledger.closure) < 1e-12
+    assert found.ledger.dissipated > 0.0 < found.ledger.left
+    assert 0.0 < found.restitution < 1.0
+    assert found.restitution**2 == pytest.approx(found.ledger.returned / found.ledger.brought)
+    assert found.quadrature < 1e-9
+
+
+def test_energy_closes_with_weight_and_true_pressure() -> None:
+    model = replace(BALL, h=0.004, gravity=9.81, v0=0.3, sphere_modulus=5e9, viscous_time=2e-5)
+    law = ContactLaw(model, PLATE | {"gravity", "pressure", "curvature", "sphere_elasticity"})
+    found = moves(law)
+    assert found.ledger is not None
+    assert found.ledger.weight > 0.0
+    assert abs(found.ledger.closure) < 1e-12
+    hertz = moves(replace(law, effects=law.effects - {"pressure"}))
+    assert found.numbers == pytest.approx(hertz.numbers, rel=0.02)
+    assert found.numbers != pytest.approx(hertz.numbers, rel=1e-5)
+
+
+def test_little_viscosity_is_none() -> None:
+    model = with_number(1e-9)
+    for effects in (HERTZ, PLATE, PLATE | {"pressure", "curvature"}):
+        law = ContactLaw(model, effects)
+        calm = moves(replace(law, effects=effects - {"viscosity"}))
+        assert moves(law).numbers == pytest.approx(calm.numbers, rel=3e-9)
+
+
+def test_bending_takes_nothing() -> None:
+    """The softer the plate, the less of the motion is the contact's, which alone lags."""
+    thin = [replace(BALL, h=h, viscous_time=1e-5) for h in (0.01, 0.004, 0.002, 0.001)]
+    lost = [1.0 - moves(ContactLaw(model, PLATE)).restitution for model in thin]
+    assert lost == sorted(lost, reverse=True)
+    assert lost[-1] < 0.02 * lost[0]
+    # Where bending has no part the plate lags with the contact: nothing is left out.
+    thick = replace(BALL, h=1.0, viscous_time=1e-5)
+    whole, local = moves(ContactLaw(thick, PLATE)), moves(ContactLaw(thick, PLATE - {"bending"}))
+    assert whole.numbers == pytest.approx(local.numbers, rel=1e-2)
+
+
+def test_a_sphere_that_stays_is_refused() -> None:
+    slow = replace(with_number(1.0), v0=1e-4, gravity=9.81)
+    with pytest.raises(SceneError, match="weight keeps it on the plate"):
+        moved(ContactLaw(slow, HERTZ | {"gravity"}))
+    assert moves(ContactLaw(slow, HERTZ)).restitution > 0.0
+
+
+def test_course_meets_the_results() -> None:
+    law = ContactLaw(replace(BALL, viscous_time=1e-5), PLATE)
+    found = moves(law)
+    times = np.linspace(0.0, found.contact_time, 4001)
+    depth, speed, radius, force = found.history(law, times)
+    assert (depth[0], speed[0], radius[0], force[0]) == pytest.approx((0, BALL.v0, 0, 0), abs=1e-12)
+    assert speed[-1] == pytest.approx(-found.restitution * BALL.v0, rel=1e-11)
+    assert force[-1] == pytest.approx(0.0, abs=1e-9 * found.max_force)
+    assert depth[-1] > 0.0
+    peaks = found.max_indentation, found.max_force, found.max_contact_radius
+    assert (depth.max(), force.max(), radius.max()) == pytest.approx(peaks, rel=1e-6)
+    # Momentum and velocity by Simpson's rule, which knows nothing of the elements.
+    step = found.contact_time / 4000
+    travelled = step / 3 * (speed[0] + speed[-1] + 4 * speed[1::2].sum() + 2 * speed[2:-1:2].sum())
+    assert travelled == pytest.approx(depth[-1], rel=1e-7)
+
+
+COURSE = Course(0.1, 1.0, 0.0, 0.2, 0.8, 0.4, 1.0)
+
+
+def test_logarithms_hold_for_hertz() -> None:
+    """epsilon = (4/5)^(2/5) x, log Omega/log s = 1/5, delta ~ s^(4/5) and a ~ s^(2/5)."""
+    assert viscous_logarithms(COURSE._replace(epsilon=1.0)) == (math.inf,) * 5
+    calm = moves(ContactLaw(BALL, frozenset({"hertz"}))).numbers
+    for x in (1e-4, 0.01, 0.3, 0.9):
+        found = moves(ContactLaw(with_number(x), HERTZ)).numbers
+        most = viscous_logarithms(COURSE._replace(epsilon=0.8**0.4 * x, rise=0.2))
+        changes = [abs(math.log(new / old)) for new, old in zip(found, calm, strict=True)]
+        assert all(change <= bound for change, bound in zip(changes, most, strict=True))
+        # Not ten times too wide either, but for the force, where only e^2 is lost.
+        wide = [bound / change for change, bound in zip(changes, most, strict=True)]
+        assert max(wide[:2] + wide[3:]) < 10.0
+
+
+@pytest.mark.parametrize("output", OUTPUTS)
+@pytest.mark.parametrize("viscous_time", [1e-9, 1e-8, 1e-7, 1e-6])
+def test_each_output_of_a_heavy_sphere_is_within_its_bound(
+    output: str, viscous_time: float
+) -> None:
+    """A sphere that falls in by its weight takes longer to leave if it leaves more slowly."""
+    model = Model(
+        R=0.1, m=32.9, v0=1e-3, h=10.0, b=10.0, lam=2.3e7, mu=1.54e7,
+        gravity=9.81, viscous_time=viscous_time,
+    )  # fmt: skip
+    wanted = dict.fromkeys((*WHOLE_PLATE, "gravity", "curvature"), True) | {"viscosity": False}
+    gate = decide(model, AT_REST | wanted | {"pressure": False}, 1.0, (output,))
+    bound = {row.name: row.bound for row in gate.rows}["viscosity"]
+    place = OUTPUTS.index(output)
+    try:
+        true = moves(replace(gate.law, effects=gate.law.effects | {"viscosity"})).numbers[place]
+    except SceneError:  # it stays
+        assert bound == math.inf
+    else:
+        assert abs(moves(gate.law).numbers[place] / true - 1.0) <= bound
+
+
+def test_bending_stays_with_an_edge_that_does_not_lag() -> None:
+    """Without it the edge would lag, which changes more than bending itself does."""
+    model = replace(BALL, h=0.5, edge="simply-supported", viscous_time=2e-6)
+    for row in decide(model, AT_REST | {"edge": True, "viscosity": True}, 0.1).rows:
+        assert row.name != "bending" or row.included
+    alone = decide(model, AT_REST | {"edge": False, "viscosity": True}, 0.1)
+    assert "bending" not in alone.law.effects
+
+
+@pytest.mark.parametrize("edge", ["soft-hinge", "clamped"])
+@pytest.mark.parametrize("gravity", [0.0, 9.81])
+def test_gate_keeps_its_word_either_side_of_its_threshold(edge: str, gravity: float) -> None:
+    model = replace(BALL, edge=edge, gravity=gravity, h=0.008, viscous_time=3e-8)
+    others = dict.fromkeys(ALL - {"hertz", "viscosity"}, True)
+    price = {row.name: row.bound for row in decide(model, AT_REST | others, 1e-12).rows}[
+        "viscosity"
+    ]
+    for rtol, included in ((price / 2, True), (price * 1.05, False)):
+        gate = decide(model, AT_REST | others, rtol)
+        assert ("viscosity" in gate.law.effects) is included
+        whole = moves(ContactLaw(model, frozenset(n for n in ALL if not BY_NAME[n].absent(model))))
+        found = moves(gate.law)
+        errors = [abs(x / y - 1) for x, y in zip(found.numbers, whole.numbers, strict=True)]
+        assert max(errors) <= gate.error + 1e-11 <= rtol + 1e-11
+    assert OUTPUTS[-1] == "restitution"

@@ -1,0 +1,195 @@
+"""The closure beside oscillators: its proofs, its energy along computed motions, its static law."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+import sympy as sp
+from mpmath import mp, mpf
+from numpy.polynomial.legendre import leggauss
+from scipy.integrate import solve_ivp
+
+import generated
+from derivation.engine.formula.proof import SYMBOLIC, ProofError, prove
+from derivation.plate import derived
+from derivation.plate.vocabulary import P as force
+from derivation.plate.vocabulary import a as radius
+from derivation.plate.vocabulary import k, phi
+from derivation.plate.waves.theory import closure
+from generated import contact_law, true_pressure
+from generated.contact_series import plate_coefficients
+
+PHI = np.array([0.7, 2.3, 9.1])
+OMEGA = np.array([1.3, 6.0, 21.0])
+COMPLIANCE = np.array([0.4, 0.1, 0.03])
+MASS = 1.7
+
+
+def test_every_formula_of_the_link_is_proved_symbolically() -> None:
+    link = closure.closure()
+    assert {f.name for f in link} <= set(derived.formulas())
+    assert len(link) == 6
+    assert {formula.proof.method for formula in link} == {SYMBOLIC}
+
+
+def test_another_energy_or_weight_is_refused() -> None:
+    """Without the energy of the gap, or with it where the depth is taken at the axis."""
+    none = sp.Integer(0)
+    stored = sp.Add(
+        *(
+            q * (closure._P * s - f)
+            for q, s, f in zip(closure._q, closure._share, closure._felt, strict=True)
+        )
+    )
+    for weights, energy in ((closure._share, none), ([sp.Integer(1)] * closure.MODES, stored)):
+        rate = closure._plain(closure._loss(weights, energy, none, none))
+        with pytest.raises(ProofError, match="kept"):
+            prove("Energy", "", {"kept": rate})
+
+
+@pytest.mark.parametrize("y", ["0.3", "2", "11"])
+def test_means_under_punch_and_sphere_by_quadrature(y: str) -> None:
+    """r = sin t: a flat punch's pressure has the weight sin t dt, Hertz's 3 sin t cos^2 t dt."""
+    with mp.workdps(25):
+        for weight, name in ((mp.sin, "mode_share"), (_hertz, "mode_force")):
+
+            def mean(t: mpf, weight: Callable[[mpf], mpf] = weight) -> mpf:
+                return weight(t) * mp.besselj(0, mpf(y) * mp.sin(t))
+
+            closed = derived.formulas()[name].expression.subs(
+                {radius: 1, force: 1, phi: sp.Rational(y)}
+            )
+            assert abs(mp.quad(mean, [0, mp.pi / 2]) - mpf(sp.N(closed, 25))) < 1e-20
+
+
+def _hertz(t: mpf) -> mpf:
+    return 3 * mp.sin(t) * mp.cos(t) ** 2
+
+
+# --- the energy along a motion
+
+
+def sinc(y: np.ndarray) -> np.ndarray:
+    return np.sinc(y / np.pi)
+
+
+def of_sphere(y: np.ndarray) -> np.ndarray:
+    return 3.0 * (np.sin(y) - y * np.cos(y)) / y**3
+
+
+class Ledger:
+    """P = a^3 on an odd law delta = a^2 + a^4 sin(a)/2, beside three oscillators."""
+
+    def __init__(self, axis: bool, lag: float) -> None:
+        self.axis, self.lag = axis, lag
+
+    def at(self, a: float) -> tuple[np.ndarray, np.ndarray, np.ndarray, float, float]:
+        """Forces felt, weights, their slopes, D and its slope, of the radius."""
+        y = a * PHI
+        felt, own = a**3 * of_sphere(y), sinc(y)
+        tilt = PHI * (np.cos(y) - own) / y
+        share = np.ones(3) if self.axis else own
+        bend = np.zeros(3) if self.axis else tilt
+        depth = a**2 + a**4 * np.sin(a) / 2 - COMPLIANCE @ (felt * share)
+        rise = 2 * a + 2 * a**3 * np.sin(a) + a**4 * np.cos(a) / 2
+        rise -= COMPLIANCE @ (3 * a**2 * own * share + felt * bend)
+        return felt, share, bend, float(depth), float(rise)
+
+    def growth(self, y: np.ndarray) -> float:
+        """da/dt."""
+        a, v, q, rate = y[0], y[1], y[2:5], y[5:8]
+        _, share, bend, _, rise = self.at(a)
+        return float((v - share @ rate) / (rise + bend @ q))
+
+    def rates(self, _: float, y: np.ndarray) -> np.ndarray:
+        """Of a, v, q, q', the work int P dD, and what the closure is to lose."""
+        a, q, rate = y[0], y[2:5], y[5:8]
+        felt, _, bend, _, rise = self.at(a)
+        own, grown = sinc(a * PHI), self.growth(y)
+        load = a**3 + self.lag * 3 * a**2 * grown
+        driven = felt + self.lag * 3 * a**2 * own * grown
+        lost = self.lag * 3 * a**2 * (rise + bend @ q) * grown**2
+        if self.axis:
+            lost += (a**3 - felt) @ rate
+        acceleration = OMEGA**2 * (COMPLIANCE * driven - q)
+        return np.array([grown, -load / MASS, *rate, *acceleration, a**3 * rise * grown, lost])
+
+    def energy(self, y: np.ndarray) -> float:
+        """Sphere, contact and modes."""
+        a, v, q, rate, work = y[0], y[1], y[2:5], y[5:8], y[8]
+        felt, share, *_ = self.at(a)
+        gap = 0.0 if self.axis else q @ (a**3 * share - felt)
+        modes = (rate**2 + OMEGA**2 * q**2) / (2 * OMEGA**2 * COMPLIANCE)
+        return float(MASS * v**2 / 2 + work + gap + modes.sum())
+
+
+@pytest.mark.parametrize(("axis", "lag"), [(False, 0.0), (True, 0.0), (False, 0.03)])
+def test_energy_along_a_computed_motion(axis: bool, lag: float) -> None:
+    ledger = Ledger(axis, lag)
+    start = np.array([0.05, 0.9, *(0.01, -0.02, 0.0), *(0.1, 0.05, -0.2), 0.0, 0.0])
+
+    def opened(_: float, y: np.ndarray) -> float:
+        return float(y[0] - 0.04)
+
+    opened.terminal = True  # type: ignore[attr-defined]
+    found = solve_ivp(ledger.rates, (0, 20), start, "DOP853", events=opened, rtol=1e-12, atol=1e-14)
+    assert found.t_events[0].size == 1
+    assert found.y[0].max() > 0.7
+    before = ledger.energy(start)
+    changes = [ledger.energy(y) - before + y[9] for y in found.y.T]
+    assert np.abs(changes).max() < 1e-10
+    if not axis and not lag:
+        assert np.abs(found.y[9]).max() == 0.0
+    else:
+        assert np.abs(found.y[9]).max() > 1e-3
+
+
+# --- the variational law
+
+
+def variational(a: float, h: float, b: float) -> float:
+    """By the mean of the plate's part over [0, 2a], for R = 1."""
+    x, weights = leggauss(40)
+    x = a * (1.0 + x)
+    plate = contact_law.indentation(x, 1e3, h, b) - x**2 / 1e3
+    return a**2 / 1e3 + float(weights @ plate) / 4.0
+
+
+@pytest.mark.parametrize(("a", "h"), [(0.05, 0.1), (0.2, 0.07), (0.3, 0.8)])
+def test_mean_over_twice_the_radius_is_the_sum_over_modes(a: float, h: float) -> None:
+    count = 40000
+    j, J1 = generated.bessel_j0_zeros(count), generated.bessel_j1_at_j0_zeros(count)
+    y = a * j
+    shares = generated.K_j(j, h, 1.0, 1e3, J1) * (np.sin(y) - y * np.cos(y)) * sinc(y)
+    # K_j tends to 4/(R phi^3) and the product of waves to -(y/2) sin(2y)/y: the rest is small.
+    total = float(shares.sum()) + a**2 / 3e3
+    assert variational(a, h, 1.0) == pytest.approx(total, rel=2e-9)
+
+
+def test_variational_law_has_the_true_pressures_third_coefficient() -> None:
+    """At equal force: it misses the true pressure's law by far less than the one at the axis."""
+    h, b, R = 0.2, 1.0, 1e3
+    misses = []
+    for A in (0.05, 0.1):
+        true = true_pressure.contact(true_pressure.plate(h, b), A * h, R, 2.0)
+        # E* = 2 with lam = 0, mu = 1: Hertz's radius of the same force.
+        a = float((0.75 * true.force * R / 2.0) ** (1 / 3))
+        laws = np.array([variational(a, h, b), contact_law.indentation(a, R, h, b)])
+        misses.append(laws / float(true.indentation) - 1.0)
+    small, large = np.abs(misses)
+    third = abs(float(derived_third(h, b)))
+    assert small[1] == pytest.approx(5 / 3 * third * 0.05**3, rel=0.2)
+    assert small[0] < 1e-4 * small[1]
+    assert large[0] / small[0] > 40  # of order A^6, the other's A^3
+    assert 6 < large[1] / small[1] < 9
+
+
+def derived_third(h: float, b: float) -> float:
+    """c_3 from the generated coefficients of 1 + F in powers of A over their reach."""
+    reach = min(3.0, b / h)
+    return float(plate_coefficients(h / b)[1]) / reach**2
+
+
+def test_coefficients_by_index() -> None:
+    ratio = derived.formulas()["variational_ratio"].expression
+    assert [ratio.subs(k, index) for index in (2, 3, 4)] == [1, sp.Rational(8, 3), 8]

@@ -1,0 +1,248 @@
+"""The generated kernels of the plate's own motion: budgets by balls, limits and known answers."""
+
+import math
+import random
+from collections.abc import Iterator
+
+import flint
+import numpy as np
+import pytest
+from flint import arb
+from given import material
+
+from derivation.engine.formula.ball import to_ball
+from derivation.engine.formula.ulp import DOUBLE, SINGLE, Format, spacing_exponent, ulp_error
+from derivation.plate.budgets import read_budgets
+from derivation.plate.contact.cases.judge import judge
+from derivation.plate.contact.cases.truth import Truth
+from derivation.plate.vocabulary import xi_R
+from derivation.plate.waves import oracle as inertia_balls
+from derivation.plate.waves.oracle import KINDS
+from derivation.plate.waves.theory import bending_branch
+from generated.inertia import (
+    bending_frequency,
+    bending_residue,
+    bending_share,
+    dynamic_influence,
+)
+from generated.plate_waves import branches
+
+DIGITS = 20
+BITS = 128
+
+pytestmark = pytest.mark.usefixtures("silent")
+
+
+def waves() -> list[tuple[float, float]]:
+    """x and nu: decades, both sides of the seams, materials to the ends of their range."""
+    generator = random.Random("waves")
+    ratios = (0.3, 0.25, 0.0, -0.5, 0.49999999, -0.9999999, 0.499, -0.9)
+    seams = (1.9, 2.25)
+    chosen = [
+        *(10.0**k for k in range(-8, 3)),
+        *(seam * (1 + shift) for seam in seams for shift in (-1e-15, 0.0, 1e-3)),
+        *(10 ** generator.uniform(-1.5, 1.0) for _ in range(36)),
+        *(10 ** generator.uniform(-8.0, 2.47) for _ in range(12)),
+        1e-90, 1e-30, 300.0,
+    ]  # fmt: skip
+    return [
+        (x, ratios[i % len(ratios)] if i % 3 else generator.uniform(-0.99, 0.499))
+        for i, x in enumerate(chosen)
+    ]
+
+
+def frequency_ball(x: float, nu: float, digits: int) -> arb:
+    kap_0 = inertia_balls.zero(x, nu, digits=digits)
+    with flint.ctx.workprec(BITS):
+        return kap_0.sqrt()
+
+
+LOWEST = {
+    "bending_frequency": (bending_frequency, frequency_ball),
+    "bending_residue": (
+        bending_residue, lambda x, nu, digits: inertia_balls.residue(x, nu, digits=digits)
+    ),
+    "bending_share": (bending_share, inertia_balls.share),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", LOWEST)
+@pytest.mark.parametrize("fmt", [DOUBLE, SINGLE], ids=lambda fmt: fmt.name)
+def test_lowest_branch_keeps_its_budget(name: str, fmt: Format) -> None:
+    kernel, truth = LOWEST[name]
+    kind, found = np.dtype(fmt.name).type, []
+    points = waves() if fmt is DOUBLE else [p for p in waves() if p[0] > 1e-9][::4]
+    for x, nu in points:
+        point = float(kind(x)), float(kind(nu))
+        if not (-1 < point[1] < 0.5):
+            continue
+        ball = truth(*point, DIGITS)
+        found.append(Truth(point, (ball.str(30),), DIGITS, 1.0, 0.0, 0.0))
+    assert judge(kernel, found, read_budgets()[name].ulp, fmt).ratio <= 1.0
+
+
+def loads() -> Iterator[tuple[float, float, float]]:
+    """x, kap and nu: at rest nearly, below, near and far above the waves' speeds."""
+    generator = random.Random("loads")
+    for i in range(120):
+        x, nu = 10 ** generator.uniform(-4, 2.2), generator.uniform(-0.99, 0.499)
+        load = (
+            x * x * generator.uniform(0, 1),
+            x * x * 10 ** generator.uniform(-9, 0),
+            10 ** generator.uniform(-3, 4),
+            x * x * 10 ** generator.uniform(0, 2),
+        )[i % 4]
+        yield x, load, nu
+
+
+def test_influence_keeps_its_budget() -> None:
+    budget = read_budgets()["dynamic_influence"]
+    assert "p and q" in budget.rule
+    for x, load, nu in loads():
+        found = dynamic_influence(x, load, nu)
+        balls = inertia_balls.influence(x, load, nu, DIGITS)
+        for kind, got, ball in zip(KINDS, found, balls, strict=True):
+            of_arguments, of_roots = inertia_balls.condition(x, load, nu, kind)
+            unit = math.ldexp(abs(float(ball)), -53 - spacing_exponent(ball))
+            allowed = budget.ulp + unit * (of_arguments + 2 * of_roots)
+            assert ulp_error(float(got), ball) <= allowed, (kind, x, load, nu)
+
+
+def test_load_at_rest_is_the_limit() -> None:
+    x, nu = np.geomspace(1e-6, 200.0, 40), 0.3
+    still, slow = (np.stack(dynamic_influence(x, load, nu)) for load in (0.0, 1e-40))
+    np.testing.assert_allclose(slow, still, rtol=1e-13)
+    # Neither side of kap = x^2 differs, nor of gam kap = x^2, where Bs has a pole.
+    for place in (1.0, 1 / float(material(nu))):
+        load = 0.49 * place * np.array([1 - 1e-12, 1 + 1e-12])
+        below, above = np.stack(dynamic_influence(0.7, load, nu)).T
+        np.testing.assert_allclose(below, above, rtol=1e-10, atol=1e-11)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_branches_against_the_oracle(kind: str) -> None:
+    generator = random.Random(kind)
+    for _ in range(25):
+        x, nu = 10 ** generator.uniform(-4, 2.3), generator.uniform(-0.98, 0.499)
+        frequencies, residues = branches(x, nu, 8, kind)
+        for index in {0, 1, 2, generator.randrange(3, 8)}:
+            kap_k = inertia_balls.zero(x, nu, kind, index, DIGITS)
+            answer = inertia_balls.residue(x, nu, kind, index, DIGITS)
+            with flint.ctx.workprec(BITS):
+                assert ulp_error(float(frequencies[index]), kap_k.sqrt()) <= 8.0
+                error = float(abs(to_ball(float(residues[index])) - answer))
+                assert error <= 1e-12 * residues.max()
+
+
+@pytest.mark.parametrize(("x", "nu"), [(0.2, 0.31), (2.4, 0.1), (1.7, -0.63), (6.0, 0.44)])
+def test_no_branch_is_missed(x: float, nu: float) -> None:
+    """B changes its sign at zeros and poles alone, one by one: counted on a fine grid."""
+    count = 40
+    lines = [branches(x, nu, count, kind)[0] for kind in KINDS]
+    most = min(line[-1] for line in lines) * 0.999
+    omega = np.linspace(most * 1e-6, most, 100_001)
+    compliances = dynamic_influence(x, omega * omega, nu)
+    for line, compliance, least in zip(lines, compliances, (0.5, 1.0), strict=True):
+        angles = (np.arange(400) + least) * math.pi
+        level = float(material(nu))
+        poles = [*(x * x + angles**2), *((x * x + angles**2) / level)]
+        if least == 1.0:
+            poles.append(x * x / level)
+        places, _ = np.histogram([*line, *np.sqrt(poles)], omega)
+        changed = np.diff(np.sign(compliance)) != 0
+        assert (places > 0).sum() > 0.8 * count
+        np.testing.assert_array_equal(changed, places % 2 == 1)
+
+
+def test_branches_that_no_pressure_moves() -> None:
+    """S0 of nu = 0 is a rod's wave: no deflection. Lame's waves have kap = 2 x^2."""
+    x = np.array([0.01, 0.3, 1.5])
+    frequency, residue = branches(x, 0.0, 1, "symmetric")
+    np.testing.assert_allclose(frequency[:, 0], math.sqrt(2) * x, rtol=1e-15)
+    assert (residue < 1e-25).all()
+    for kind, x in ((KINDS[0], math.pi), (KINDS[1], math.pi / 2)):
+        found, _ = branches(x, 0.3, 6, kind)
+        assert np.abs(found / (math.sqrt(2) * x) - 1).min() < 1e-15
+
+
+def test_shapes_and_refusals() -> None:
+    frequency, residue = branches(np.full((2, 1), 0.3, np.float32), np.float32(0.3), 4)
+    assert frequency.shape == residue.shape == (2, 1, 4)
+    assert frequency.dtype == residue.dtype == np.float32
+    assert branches(np.empty(0), 0.3, 3)[0].shape == (0, 3)
+    assert np.isnan(branches([0.0, -1.0, np.nan, 1e41], 0.3, 2)).all()
+    assert np.isnan(branches(1.0, [0.5, -1.0, np.nan], 2, "symmetric")).all()
+    np.testing.assert_array_equal(branches([np.nan, 1.0], 0.3, 2)[0][1], branches(1.0, 0.3, 2)[0])
+    assert branches(1.0, 0.3, 1)[0][0] == bending_frequency(1.0, 0.3)
+    with pytest.raises(ValueError, match="parity is"):
+        branches(1.0, 0.3, 2, "even")
+    with pytest.raises(ValueError, match="at least one"):
+        branches(1.0, 0.3, 0)
+
+
+# --- known answers
+
+
+def test_thin_plates_bend_as_kirchhoffs() -> None:
+    """omega = phi^2 sqrt(D/(rho H)), r = 1/(rho H), and all of the deflection."""
+    x, nu = 1e-5, np.array([-0.9, 0.0, 0.3, 0.499])
+    rigidity = 2.0 * 2.0**3 / (12.0 * (1.0 - nu))  # D/(mu h^3), E = 2 mu (1 + nu)
+    assert bending_frequency(x, nu) == pytest.approx(x * x * np.sqrt(rigidity / 2), rel=1e-9)
+    assert bending_residue(x, nu) == pytest.approx(0.5, rel=1e-9)
+    assert bending_share(x, nu) == pytest.approx(1.0, rel=1e-9)
+
+
+def test_short_waves_are_rayleighs() -> None:
+    """Poisson's solid: c_R/c_T = 0.9194 (Rayleigh, 1885), exactly sqrt(2 - 2/sqrt 3)."""
+    speed = bending_frequency(300.0, 0.25) / 300.0
+    assert speed == pytest.approx(0.9194, abs=5e-5)
+    assert speed == pytest.approx(math.sqrt(2 - 2 / math.sqrt(3)), rel=1e-15)
+    stretching, _ = branches(300.0, 0.25, 1, "symmetric")
+    assert stretching[0] / 300.0 == pytest.approx(float(speed), rel=1e-15)
+    limit = bending_branch.rayleigh()[1].expression.subs(xi_R, speed**2)
+    assert bending_residue(300.0, 0.25) / 300.0 == pytest.approx(float(limit), rel=1e-13)
+
+
+def test_cut_offs_are_resonances_through_the_thickness() -> None:
+    """At x = 0 shear waves resonate at n pi/2 and pressure waves at n pi/2 over sqrt gam.
+
+    Bending takes n odd of shear, even of pressure: A1 begins at pi/2. Stretching the others.
+    """
+    nu, x = 0.25, 1e-9
+    pressure = math.sqrt(2 * (1 - nu) / (1 - 2 * nu))
+    odd, even = (np.arange(1, 30) - 0.5) * math.pi, np.arange(1, 30) * math.pi
+    for kind, shear, other in ((KINDS[0], odd, even), (KINDS[1], even, odd)):
+        known = np.sort(np.concatenate((shear, other * pressure)))[:20]
+        found, _ = branches(x, nu, 21, kind)
+        np.testing.assert_allclose(found[1:], known, rtol=1e-15)
+    assert branches(x, nu, 2)[0][1] == pytest.approx(math.pi / 2, rel=1e-15)
+
+
+def test_thin_plates_stretch() -> None:
+    """S0: omega = phi sqrt(E*/rho)."""
+    x, nu = 1e-6, np.array([-0.9, 0.0, 0.4])
+    assert branches(x, nu, 1, "symmetric")[0][:, 0] == pytest.approx(x * np.sqrt(2 / (1 - nu)))
+
+
+@pytest.mark.parametrize("x", [0.3, 1.0, 4.0])
+@pytest.mark.parametrize("nu", [-0.5, 0.0, 0.25, 0.49])
+@pytest.mark.parametrize("parity", KINDS)
+def test_branches_carry_the_load_at_rest(x: float, nu: float, parity: str) -> None:
+    """sum r/kap is 1/B at kap = 0; what N branches lack goes with 1/N."""
+    whole = float(dynamic_influence(x, 0.0, nu)[KINDS.index(parity)])
+    frequency, residue = branches(x, nu, 400, parity)
+    shares = residue / frequency**2 / whole
+    assert (shares >= 0).all()
+    lack = 1.0 - np.cumsum(shares)[[99, 199, 399]]
+    assert (lack > 0).all()
+    assert lack[0] < 0.02
+    assert lack[:2] / lack[1:] == pytest.approx([2.0, 2.0], rel=0.15)
+    if parity == KINDS[0]:
+        other = float(dynamic_influence(x, 0.0, nu)[1])
+        share = float(bending_share(x, nu)) * (1 + other / whole)
+        assert shares[0] == pytest.approx(share, rel=1e-14)
+
+
+def test_share_of_the_lowest_branch() -> None:
+    """98 % of the deflection at rest at x = 0.5, 79 % at x = 1, for nu = 1/4."""
+    assert bending_share([0.5, 1.0], 0.25) == pytest.approx([0.9765, 0.7945], abs=5e-5)

@@ -1,0 +1,165 @@
+"""What an effect that is out costs: no call, no zeros of J0, no import; shown by counting."""
+
+import math
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+from types import FunctionType
+from typing import Any
+
+import pytest
+from given import ALL, EXAMPLES, model, scene
+
+import derivation
+from derivation.scene import kernels, motion, simulate
+from derivation.scene.effects import WHOLE_PLATE
+from derivation.scene.law import ContactLaw
+from derivation.scene.method_selection import moved
+from generated import contact_series, edge, true_pressure
+
+BOUNDS = {
+    "bending", "sphere_contact", "supported_edge_bound", "clamped_edge_bound", "plate_of",
+    "law_errors",
+}  # fmt: skip
+"""What the gate's bounds take, for the table of what is out too."""
+WHOLE = {"indentation", "indentation_slope"}
+ZEROS = {"bessel_j0_zeros", "bessel_j1_at_j0_zeros"}
+ALONE: dict[str, set[str]] = {
+    "hertz": set(),
+    "sphere_elasticity": set(),
+    "gravity": set(),
+    "viscosity": set(),
+    "curvature": {"sphere_contact"},
+    "bending": {"bending"},
+    "side_wall": {"side_wall"},
+    "finite_thickness": WHOLE | {"bending", "side_wall"},
+    "edge": ZEROS | {"supported_edge", "supported_edge_slope"},
+    "pressure": ZEROS | {"contact", "plate"},
+}
+"""What the impact of each effect alone, beside Hertz's, calls."""
+
+
+@pytest.fixture
+def calls(monkeypatch: pytest.MonkeyPatch) -> set[str]:
+    """Names of the kernels called, and of what gives zeros of J0."""
+    found: set[str] = set()
+
+    def count(home: Any, name: str) -> None:
+        run = getattr(home, name)
+
+        def counted(*given: Any, **named: Any) -> Any:
+            found.add(name)
+            return run(*given, **named)
+
+        monkeypatch.setattr(home, name, counted)
+
+    for name in kernels.__all__:
+        if isinstance(getattr(kernels, name), FunctionType):
+            count(kernels, name)
+    for home in (edge, contact_series):
+        for name in ZEROS:
+            count(home, name)
+    count(true_pressure, "contact")
+    count(true_pressure, "plate")
+    return found
+
+
+@pytest.mark.parametrize("name", sorted(ALL))
+def test_an_effect_alone_calls_its_own_kernels_and_no_other(name: str, calls: set[str]) -> None:
+    law = ContactLaw(model(b=0.51, h=0.123, viscous_time=1e-6), frozenset({"hertz", name}))
+    moved(law)
+    assert calls == ALONE[name]
+
+
+@pytest.mark.parametrize("name", ["curvature", "edge", "pressure"])
+def test_all_others_do_without_it(name: str, calls: set[str]) -> None:
+    motion.impact(ContactLaw(model(b=0.52, h=0.124), ALL - {name, "pressure"}))
+    assert calls.isdisjoint(ALONE[name] - ZEROS)
+    assert name != "edge" or calls.isdisjoint(ZEROS)
+    assert calls >= WHOLE
+
+
+def test_the_plates_parts_are_one_kernel_and_none_if_all_are_out(calls: set[str]) -> None:
+    m = model(b=0.53, h=0.125)
+    motion.impact(ContactLaw(m, WHOLE_PLATE | {"hertz"}))
+    assert calls == WHOLE
+    calls.clear()
+    motion.impact(ContactLaw(m, ALL - WHOLE_PLATE - {"pressure"}))
+    assert calls == ALONE["edge"] | ALONE["curvature"]
+
+
+@pytest.mark.parametrize(
+    ("name", "without"),
+    [
+        ("gravity", {"gravity": 0.0}),
+        ("sphere_elasticity", {"sphere_modulus": float("inf")}),
+        ("edge", {"edge": "soft-hinge"}),
+    ],
+)
+def test_out_is_to_the_last_bit_as_if_the_scene_had_none(name: str, without: Any) -> None:
+    m = model()
+    left, rest = ALL - {name}, replace(m, **without)
+    one, other = (motion.impact(ContactLaw(of, left - {"pressure"})) for of in (m, rest))
+    assert other == one
+
+
+def test_a_half_space_calls_bounds_and_its_closed_form_alone(calls: set[str]) -> None:
+    """Everything on "auto", and nothing needed: the gate's bounds, and Hertz's impact."""
+    block = {"half_thickness": 1e4, "radius": 1e4}
+    auto = {"inertia": "auto"}
+    result = simulate(scene(plate=block, sphere={"material": None}, effects=auto), rtol=0.02)
+    assert result.gate.law.effects == {"hertz"}
+    assert {row.name for row in result.gate.rows if row.bound > 0} >= {"edge", "pressure", *auto}
+    assert calls <= BOUNDS | {"hertz"}
+
+
+def test_what_is_out_is_not_called(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A half-space's impact calls no kernel of the plate's law, of the profile or of zeros."""
+    calls: list[str] = []
+    for name in ("indentation", "indentation_slope", "impact", "leading", "side_wall"):
+        monkeypatch.setattr(
+            kernels, name, lambda *_, name=name, **__: calls.append(name) or math.nan
+        )
+    thick = {"half_thickness": 1e3, "radius": 1e4}
+    for name in ("supported_edge", "supported_edge_slope"):
+        monkeypatch.setattr(kernels, name, lambda *_, name=name: calls.append(name) or math.nan)
+    result = simulate(scene(plate=thick, effects={"curvature": False, "gravity": False}))
+    assert result.gate.law.effects == {"hertz", "sphere_elasticity"}
+    assert calls == []
+    motion.impact(ContactLaw(model(), frozenset({"hertz", "bending"})))
+    assert calls == []
+
+
+COUNT = """
+import sys
+from derivation.scene import load, simulate
+result = simulate(load(sys.argv[1]))
+for effect, module in (
+    ("pressure", "generated.true_pressure"), ("viscosity", "derivation.scene.viscous"),
+    ("inertia", "derivation.scene.waves"), ("inertia", "generated.inertia"),
+):
+    print(effect in result.gate.law.effects, module in sys.modules)
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "more", "effects"),
+    [
+        ("block", "", set()),
+        ("soft_layer", "inertia = false", {"pressure"}),
+        ("pad", "inertia = false", {"pressure", "viscosity"}),
+        ("soft_layer", "", {"pressure", "inertia"}),
+    ],
+)
+def test_what_is_computed_alone_is_imported(
+    name: str, more: str, effects: set[str], tmp_path: Path
+) -> None:
+    place = tmp_path / "scene.toml"
+    place.write_text(f"{(EXAMPLES / name).with_suffix('.toml').read_text()}\n[effects]\n{more}\n")
+    run = subprocess.run(
+        [sys.executable, "-c", COUNT, str(place)],
+        cwd=Path(derivation.__file__).parent.parent, capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    asked = ("pressure", "viscosity", "inertia", "inertia")
+    assert run.stdout.split() == [str(x in effects) for x in asked for _ in range(2)]

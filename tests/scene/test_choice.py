@@ -1,0 +1,297 @@
+"""The choice of a method by tolerance: bounds that hold, switches, monotony, what is said."""
+
+import json
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from given import PAPER
+
+from derivation import pipeline
+from derivation.checks import bounds
+from derivation.cli import main
+from derivation.plate import budgets
+from derivation.plate.benchmark.speed import scenes
+from derivation.scene import SceneError, kernels, load, method_selection, read, simulate
+from derivation.scene.model import Model, model_of
+from generated import simple_impact
+from generated.impact import impact
+from generated.sensitivity import impact_sensitivities
+
+TOLERANCES = [10.0**-n for n in range(13)] + [1e-13, 9e-9, 3e-4]
+COST = {name: rank for rank, name in enumerate(method_selection.METHODS)}
+Captured = pytest.CaptureFixture[str]
+
+
+def paper(**changes: float) -> Model:
+    values = {**vars(model_of(load(PAPER))), **changes}
+    return Model(**values)
+
+
+# --- the bounds hold
+
+
+def test_bounds_hold_in_a_hundred_scenes() -> None:
+    known = pipeline.committed_truths()
+    assert len(known) >= 100
+    chosen = known[:: len(known) // 100][:100]
+    rows = bounds.judge(chosen, pipeline._chosen)
+    assert {row.method for row in rows} == set(method_selection.METHODS)
+    assert [row for row in rows if not row.kept] == []
+    assert {row.method: row.ratio > 0.1 for row in rows}["leading"]  # and are no mere caution
+
+
+def test_committed_rows_are_those_of_all_truths() -> None:
+    data = json.loads(pipeline.MEASURED_BOUNDS.read_text())
+    assert sum(row["runs"] for row in data["rows"]) == len(data["truths"]) * len(bounds.TOLERANCES)
+    assert all(row["ratio"] <= 1 for row in data["rows"])
+
+
+def test_committed_truths_are_the_seeds_scenes() -> None:
+    known = pipeline.committed_truths()
+    for number in (0, 1, 17, len(known) - 1):
+        np.testing.assert_allclose(bounds.scene(number), known[number].point, rtol=1e-12)
+
+
+def test_a_bound_that_does_not_hold_is_noticed() -> None:
+    [true] = pipeline.committed_truths()[:1]
+    exact = [float(text) for text in true.values]
+    off = [exact[0], exact[1], 1.01 * exact[2], exact[3]]
+    [row] = bounds.judge([true], lambda _, rtol: (off, "hertz", rtol / 2), [1e-3])
+    assert (row.kept, row.quantity) == (False, "max_force")
+    assert row.ratio == pytest.approx(20, rel=1e-3)
+    [row] = bounds.judge([true], lambda _, rtol: ([math.nan] * 4, "hertz", rtol), [1e-3])
+    assert not row.kept
+    with pytest.raises(ValueError, match="states"):
+        bounds.judge([true], lambda *_: (exact, "hertz", 2e-3), [1e-3])
+
+
+def test_no_error_is_below_the_truths_own_radius() -> None:
+    """Of a truth known to so many digits nothing is told apart that lies nearer."""
+    true = bounds.Truth((), ("1", "1"))
+    exact, off = bounds.errors((1.0, 1.0 + 2.0**-52), true)
+    assert exact >= 10.0**-bounds.DIGITS
+    assert off >= 2.0**-52 + 10.0**-bounds.DIGITS
+    assert exact < 1.001 * 10.0**-bounds.DIGITS
+
+
+def test_truths_are_sought_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[bounds.Point] = []
+
+    def oracle(point: bounds.Point) -> bounds.Truth:
+        asked.append(point)
+        return bounds.Truth(point, ("1", "1", "1", "1"))
+
+    monkeypatch.setattr(bounds, "truth", oracle)
+    first = list(bounds.truths(3))
+    again = bounds.from_json(bounds.to_json(first, ()))
+    assert list(bounds.truths(4, again))[:3] == first == again
+    assert asked == [bounds.scene(number) for number in range(4)]
+
+
+@pytest.mark.parametrize("eta", [1e-3, 0.1, 0.1666, 0.1667, 0.3, 0.53, 0.6, 1.0, 4.0, 50.0])
+def test_the_laws_slope_lies_between_the_bounds(eta: float) -> None:
+    from derivation.plate.contact.oracle import balls as contact_balls
+
+    plate = simple_impact.plate_of(eta)
+    c_1 = float(contact_balls.coefficient(1, eta, 1.0, 20))
+    assert abs(c_1 - plate.bend) <= plate.doubt + 1e-15 * abs(c_1)
+    for a in (1e-4, 0.1, 0.5, 0.97):
+        A = min(a, 5.9 * eta) / eta
+        S = float(contact_balls.slope(A * eta, 1.0, eta, 1.0, 20)) / (2 * A * eta)
+        most = 1 + 1.5 * plate.bend * A
+        assert most - plate.rest * A**3 - 1.5 * plate.doubt * A <= S * (1 + 1e-12)
+        assert most + 1.5 * plate.doubt * A >= S * (1 - 1e-12)
+
+
+@pytest.mark.parametrize("factor", [0.93, 0.99, 1.01, 1.5])
+def test_the_lemma_holds_for_a_law_times_a_number(factor: float) -> None:
+    """S = c S_1, Hertz's S_1 = 1: radius, force, depth and time change by known powers of c."""
+    low, up = max(0.0, 1 - factor), max(0.0, factor - 1)
+    said = simple_impact.law_error(low, up, 0.0, 0.0)
+    for power in (-1 / 5, -3 / 5, 3 / 5, 3 / 5):
+        assert abs(factor**-power - 1) <= said
+
+
+def test_the_lemmas_exponents_are_the_theorys() -> None:
+    import sympy as sp
+
+    from derivation.plate.impact.theory.substitution import exponents
+
+    loss, fall, rise = 1e-9, 0.25, 0.5
+    found = {name: float(x) for name, x in exponents(sp.Float(fall), sp.Float(rise)).items()}
+    wider = loss / found["energy"]
+    changes = 3 * wider, found["depth"] * wider, loss, loss + found["shorter"] * wider
+    assert simple_impact.law_error(loss, 0.0, fall, rise) == pytest.approx(max(changes), rel=1e-6)
+
+
+def test_nothing_is_claimed_where_nothing_is_shown() -> None:
+    assert simple_impact.law_error(1.0, 0.0, 0.0, 0.0) == math.inf
+    assert simple_impact.law_error(0.1, 0.0, 0.0, 0.0) == math.inf  # radius beyond 1.02 times
+    assert simple_impact.law_error(math.nan, 0.0, 0.0, 0.0) == math.inf
+    run: Callable[..., Any]
+    for run in (simple_impact.hertz, simple_impact.leading):
+        for changes in ({"v0": 1e4}, {"v0": 1e-120}, {"m": 1e200}, {"h": 1e-60}, {"R": 1e-3}):
+            assert run(*paper(**changes).numbers) is None
+
+
+@pytest.mark.parametrize("x", [-0.499, -0.1, 1e-9, 1.0, 1e3, 1e10])
+def test_quadrature_of_the_first_correction(x: float) -> None:
+    """Against twice the nodes, for S_1 = 1 + x q."""
+    u, weights = np.polynomial.legendre.leggauss(60)
+    q = 1 - ((1 + u) / 2) ** 2
+    fifth = 1 + q * (1 + q * (1 + q * (1 + q)))
+    root = np.sqrt((6 + 5 * x) / (6 * fifth + 5 * x * (1 + q * fifth)))
+    fine = float(4 * np.sum(weights * q * (1 + x * q) * root))
+    ours = sum(
+        weight * (1 + x * q) * math.sqrt((6 + 5 * x) / (fifth + x * sixth))
+        for q, fifth, sixth, weight in simple_impact._RULE
+    )
+    assert ours == pytest.approx(fine, rel=1e-13)
+
+
+def test_measured_rounding_covers_the_budget_with_its_conditioning() -> None:
+    """8 ULP of `impact` plus half the sum of the arguments' condition numbers."""
+    points = np.array([true.point for true in pipeline.committed_truths()])
+    slopes = impact_sensitivities(*points.T)
+    ulp = budgets.read_budgets()["impact"].ulp + 0.5 * np.abs(slopes).sum(axis=1)
+    assert np.isfinite(ulp).all()
+    for method in ("coarse", "full"):
+        assert ulp.max() * 2.0**-52 < method_selection.whole_law(method, None).rounding.bound
+
+
+def test_half_the_nodes_keep_their_promise_with_room() -> None:
+    """In thin plates with deep contacts, where the integrand is the hardest."""
+    arguments = scenes(0.01, 5.9, 5000)
+    coarse, full = (impact(**arguments, coarse=flag).contact_time for flag in (True, False))
+    assert np.nanmax(np.abs(coarse / full - 1)) < kernels.COARSE_QUADRATURE / 5
+
+
+# --- the choice
+
+
+def methods(model: Model) -> list[str]:
+    return [method_selection.solve(model, rtol)[1].method for rtol in sorted(TOLERANCES)]
+
+
+def test_a_smaller_tolerance_never_takes_a_cheaper_method() -> None:
+    models = [Model(*true.point) for true in pipeline.committed_truths()[:40]]
+    for model in [paper(), *models]:
+        ranks = [COST[name] for name in methods(model)]
+        assert ranks == sorted(ranks, reverse=True)
+
+
+def test_every_bound_meets_its_tolerance_down_to_the_last() -> None:
+    for rtol in TOLERANCES:
+        found = method_selection.solve(paper(), rtol)[1]
+        assert 0 < found.bound <= rtol
+        assert found.rtol == rtol
+    assert method_selection.solve(paper(), 1e-13)[1].method == "full"
+
+
+@pytest.mark.parametrize("v0", [1e-9, 1e-5, 1e-3, 0.1, 1.0])
+def test_both_sides_of_each_switch(v0: float) -> None:
+    model = paper(v0=v0)
+    stated = {"coarse": method_selection.whole_law("coarse", None).bound}
+    for method in ("hertz", "leading"):
+        found = getattr(kernels, method)(*model.numbers)
+        stated[method] = method_selection.estimated(method, found, None).bound
+    for method, bound in stated.items():
+        above, below = (
+            method_selection.solve(model, bound * side) for side in (1 + 1e-9, 1 - 1e-9)
+        )
+        assert COST[above[1].method] <= COST[method]
+        assert COST[below[1].method] >= COST[above[1].method]
+        assert below[1].method != method
+        for one, other in zip(above[0], below[0], strict=True):
+            assert one == pytest.approx(other, rel=above[1].bound + below[1].bound)
+
+
+def test_the_paper_case_takes_each_method_in_turn() -> None:
+    slow = paper(v0=1e-4)
+    assert list(dict.fromkeys(reversed(methods(slow)))) == ["hertz", "leading", "coarse", "full"]
+    assert "hertz" not in methods(paper())
+
+
+# --- what is said
+
+
+def test_without_a_tolerance_the_full_method_and_its_bound() -> None:
+    result = simulate(load(PAPER))
+    assert (result.accuracy.method, result.accuracy.rtol) == ("full", None)
+    assert result.accuracy.bound < 1e-13
+    found = kernels.impact(*result.model.numbers)
+    assert result.contact_time == found.contact_time
+    assert result.max_force == found.max_force
+
+
+def test_the_scene_names_the_tolerance_and_an_argument_overrides_it() -> None:
+    data = load(PAPER).to_json() | {"accuracy": {"rtol": 1e-3}}
+    scene = read(data)
+    assert scene.to_json()["accuracy"] == {"rtol": 1e-3}
+    assert simulate(scene).accuracy.method == "leading"
+    assert simulate(scene, rtol=1e-12).accuracy.method == "full"
+
+
+@pytest.mark.parametrize("rtol", [9e-14, 0.0, -1e-3, 1.1, math.nan, math.inf, True, "1e-3"])
+def test_a_tolerance_out_of_reach_is_refused_in_one_message(rtol: Any) -> None:
+    with pytest.raises(SceneError) as caught:
+        simulate(load(PAPER), rtol=rtol)
+    assert "platecontact reference SCENE.toml --digits N" in str(caught.value)
+    with pytest.raises(SceneError) as caught:
+        read(load(PAPER).to_json() | {"accuracy": {"rtol": rtol}})
+    message = str(caught.value)
+    assert "accuracy.rtol: expected a number from 1e-13 to 1" in message
+    assert "platecontact reference SCENE.toml --digits N" in message
+    assert "\n" not in message
+
+
+def test_a_scene_too_fast_is_refused_at_every_tolerance() -> None:
+    fast = read(load(PAPER).to_json() | {"impact": {"speed": 1e9}})
+    for rtol in (None, 1e-2, 1e-13):
+        with pytest.raises(SceneError, match=r"impact\.speed: expected less than"):
+            simulate(fast, rtol=rtol)
+
+
+def test_method_bound_and_parts_in_every_output(tmp_path: Path, capsys: Captured) -> None:
+    assert main(["simulate", str(PAPER), "--rtol", "1e-3", "--json", f"{tmp_path}/r.json"]) == 0
+    said = capsys.readouterr().out
+    data = json.loads((tmp_path / "r.json").read_text())["accuracy"]
+    assert data["method"] == "leading"
+    assert data["rtol"] == 1e-3
+    assert data["bound"] <= 1e-3
+    assert {name: part["basis"] for name, part in data["parts"].items()} == {
+        "effects": "proved", "law": "proved", "quadrature": "proved", "rounding": "counted",
+    }  # fmt: skip
+    result = simulate(load(PAPER), rtol=1e-3)
+    assert str(result.accuracy) in said
+    assert str(result.accuracy).replace("'", "&#x27;") in result._repr_html_()
+    for words in ("method leading", "relative error at most", "law", "(proved)", "(counted)"):
+        assert words in said
+    full = simulate(load(PAPER)).accuracy.to_json()["parts"]
+    assert full["quadrature"]["basis"] == full["rounding"]["basis"] == "tested"
+
+
+@pytest.mark.parametrize("bound", [2.53e-4, 9.99e-9, 1e-13, 5.0001e-14, 0.95])
+def test_a_bound_is_shown_rounded_up(bound: float) -> None:
+    assert bound <= float(method_selection._above(bound)) <= 1.11 * bound
+
+
+def test_history_is_by_the_full_method_to_its_end() -> None:
+    result = simulate(load(PAPER), rtol=1e-3)
+    assert result.accuracy.method != "full"
+    history = result.history(51)
+    assert history.velocity[-1] == pytest.approx(-1, rel=1e-9)
+    np.testing.assert_array_equal(history, simulate(load(PAPER)).history(51))
+
+
+def test_check_bounds_command(capsys: Captured, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert main(["check", "--bounds", "3", "--json", "-"]) == 0
+    rows = json.loads(capsys.readouterr().out)
+    assert sum(row["runs"] for row in rows) == 3 * len(bounds.TOLERANCES)
+    assert main(["check", "--bounds", "3", "--speed"]) == 2
+    monkeypatch.setattr(pipeline, "_chosen", lambda _, rtol: ([1.0] * 4, "hertz", rtol))
+    assert main(["check", "--bounds", "1"]) == 1

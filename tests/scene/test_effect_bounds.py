@@ -1,0 +1,216 @@
+"""Bounds of effects: honest one by one, on both sides of every threshold, and no mere caution."""
+
+import math
+import random
+from typing import Any
+
+import numpy as np
+import pytest
+from given import ALL, AT_REST, model
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from derivation.scene import motion
+from derivation.scene.effect_selection import OUTPUTS, decide
+from derivation.scene.effects import BY_NAME, EFFECTS
+from derivation.scene.effects.effect import Place, PlateEffect
+from derivation.scene.law import ContactLaw
+from derivation.scene.model import Model
+from derivation.scene.motion import Motion
+
+TINY = 1e-12
+"""Rounding of bounds and shares."""
+
+
+def applicable(m: Model) -> frozenset[str]:
+    """Effects of a plate at rest."""
+    return frozenset(name for name in ALL if not BY_NAME[name].absent(m))
+
+
+def impact(m: Model, effects: frozenset[str]) -> Motion:
+    with np.errstate(all="ignore"):
+        return motion.impact(ContactLaw(m, effects))
+
+
+def apart(one: Motion, other: Motion) -> float:
+    """Largest relative difference of the four results, from the second."""
+    return max(abs(x / y - 1) for x, y in zip(one.numbers, other.numbers, strict=True))
+
+
+# --- one by one
+
+
+@pytest.mark.parametrize("name", sorted(n for n in ALL if isinstance(BY_NAME[n], PlateEffect)))
+def test_a_share_of_the_slope_lies_within_its_bound_at_every_radius(name: str) -> None:
+    """In plates of any thickness, Poisson's ratio and edge; of all smaller radii too."""
+    generator, effect = random.Random(name), BY_NAME[name]
+    assert isinstance(effect, PlateEffect)
+    nearest = math.inf
+    for number in range(40):
+        h, nu = 10 ** generator.uniform(-2.5, 1), generator.uniform(-0.6, 0.48)
+        edge = ("simply-supported", "clamped")[number % 2]
+        m = model(b=1.0, h=h, lam=2 * 3e9 * nu / (1 - 2 * nu), edge=edge)
+        a = np.geomspace(1e-4, 0.89, 60) * min(1.0, 6 * h)
+        bound, slope = effect.bound(m, Place(a)), effect.share(m, a).slope
+        # Parts are what is left of larger ones: their rounding is of these.
+        room = TINY * (1 + np.abs(slope) + BY_NAME["bending"].bound(m, Place(a)).up)
+        assert (slope <= bound.up + room).all()
+        assert (-slope <= bound.low + room).all()
+        assert (np.diff(bound.up) >= 0).all()
+        assert (np.diff(bound.low) >= 0).all()
+        within = np.abs(slope) > 1e-3
+        larger = np.maximum(bound.up, bound.low)[within] / np.abs(slope)[within]
+        nearest = min(nearest, float(np.min(larger, initial=math.inf)))
+    assert nearest < 1.3
+
+
+CLOSE: list[tuple[str, float, dict[str, Any]]] = [
+    ("curvature", 0.95, {}),
+    ("curvature", 0.9, {"h": 5.0, "b": 0.3, "v0": 3.0, "m": 10.0}),
+    ("gravity", 0.99, {"h": 5.0, "b": 0.3, "v0": 3.0, "m": 10.0}),
+    ("gravity", 0.8, {}),
+    ("sphere_elasticity", 0.75, {"m": 300.0, "v0": 0.02, "h": 0.1}),
+    ("sphere_elasticity", 0.85, {"sphere_modulus": 1e13, "v0": 0.1, "h": 0.1}),
+    ("side_wall", 0.9, {"h": 0.005, "v0": 0.05}),
+    ("side_wall", 0.8, {"h": 5.0, "b": 0.3, "v0": 3.0, "m": 10.0}),
+    ("finite_thickness", 0.9, {"h": 0.005, "v0": 0.05}),
+    ("bending", 0.8, {"h": 5.0, "b": 5.0, "v0": 0.3}),
+    ("edge", 0.65, {"h": 0.005, "v0": 0.05}),
+    ("pressure", 0.5, {"h": 0.01, "b": 1.0}),
+    ("pressure", 0.5, {}),
+]
+"""An effect, how much of its bound of some output is used at least, and a scene."""
+
+
+@pytest.mark.parametrize(("name", "used", "changes"), CLOSE)
+def test_what_an_effect_changes_is_within_its_bound_and_near_it(
+    name: str, used: float, changes: dict[str, Any]
+) -> None:
+    """Everything on against everything but one, which the effects table has a bound for."""
+    m = model(**changes)
+    every = applicable(m) - (set() if name == "pressure" else {"pressure"})
+    wanted = {effect.name: effect.name in every - {name} for effect in EFFECTS}
+    one, other = impact(m, every - {name}).numbers, impact(m, every).numbers
+    shares = []
+    for output, x, y in zip(OUTPUTS, one, other, strict=True):
+        gate = decide(m, AT_REST | wanted, 1.0, (output,))
+        assert gate.law.effects == every - {name}
+        bound = {row.name: row.bound for row in gate.rows}[name]
+        if output == "restitution":  # which is 1 without viscosity
+            assert (x, y, bound) == (1.0, 1.0, 0.0)
+        else:
+            shares.append(abs(x / y - 1) / bound)
+    assert used < max(shares)
+    assert all(share <= 1 for share in shares)
+
+
+@pytest.mark.parametrize("name", ["sphere_elasticity", "gravity", "edge"])
+def test_prices_hold_under_the_true_pressure(name: str) -> None:
+    """There the contact radius grows faster than Hertz's radius of the force."""
+    b = 1.76595204337641
+    m = model(
+        R=1.8971866830973843, m=41077.25867811576, v0=0.42665213036895394, b=b,
+        h=0.16332349537168003, lam=-167666559.7545434, mu=390994467.72373784,
+        sphere_modulus=1e10, gravity=0.05,
+    )  # fmt: skip
+    wanted = {effect.name: effect.name != name for effect in EFFECTS} | AT_REST
+    gate = decide(m, AT_REST | wanted, 1.0)
+    bound = {row.name: row.bound for row in gate.rows}[name]
+    assert 0.2 < apart(impact(m, ALL - {name}), impact(m, ALL)) / bound <= 1
+    # What the profile adds is known under Hertz's pressure alone.
+    flat = decide(m, AT_REST | wanted | {"curvature": False}, 1.0)
+    assert {row.name: row.bound for row in flat.rows}["curvature"] == math.inf
+
+
+@pytest.mark.parametrize("edge", ["simply-supported", "clamped"])
+def test_what_is_in_is_priced_too(edge: str) -> None:
+    """What leaving one out of all would change, by the table of the law with all."""
+    m = model(h=5.0, b=5.0, v0=0.3, edge=edge, sphere_modulus=1e13)
+    every = applicable(m) - {"pressure"}
+    gate = decide(m, AT_REST | {"pressure": False}, 0.0)
+    assert gate.law.effects == every
+    for row in gate.rows:
+        if row.included and row.name != "hertz":
+            change = apart(impact(m, every - {row.name}), impact(m, every))
+            assert 0.03 * row.bound < change <= 1.02 * row.bound
+
+
+# --- together
+
+
+SCENES: dict[str, dict[str, Any]] = {
+    "soft plate": {},
+    "thin": {"h": 0.005, "v0": 0.05},
+    "clamped": {"h": 0.2, "edge": "clamped", "v0": 0.3},
+    "block": {"h": 5.0, "b": 5.0, "v0": 0.3},
+    "small": {"h": 5.0, "b": 0.3, "v0": 3.0, "m": 10.0},
+    "soft sphere": {"sphere_modulus": 1e9, "h": 0.3},
+    "deep": {"h": 0.3, "v0": 30.0, "lam": 2e8, "mu": 3e8},
+}
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_both_sides_of_every_threshold(name: str) -> None:
+    """From all effects out to all in: what is left out stays within the bound on both sides."""
+    m = model(**SCENES[name])
+    whole, rtol, before = impact(m, applicable(m)), 10.0, frozenset[str]()
+    while True:
+        found = decide(m, AT_REST, rtol)
+        assert found.law.effects > before
+        assert found.error <= rtol
+        assert apart(impact(m, found.law.effects), whole) <= found.error + 5e-14
+        if not found.error:
+            break
+        assert decide(m, AT_REST, found.error).law.effects == found.law.effects
+        before, rtol = found.law.effects, found.error * (1 - 1e-9)
+    assert found.law.effects == applicable(m)
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "edge"),
+    [
+        ("bending", "edge", "simply-supported"),
+        ("bending", "curvature", "simply-supported"),
+        ("side_wall", "edge", "clamped"),
+        ("gravity", "bending", "clamped"),
+    ],
+)
+def test_bounds_of_what_is_left_out_together_add_up(one: str, other: str, edge: str) -> None:
+    """To leading order, what may go wrong of either may go wrong of both, in the same direction."""
+    m = model(h=5.0, b=5.0, v0=0.3, gravity=0.01, edge=edge)
+
+    def error(*out: str) -> float:
+        wanted = {e.name: "auto" if e.name in out else False for e in EFFECTS}
+        found = decide(m, AT_REST | wanted, 1.0, ("max_indentation",))
+        assert found.law.effects == {"hertz"}
+        return found.error
+
+    both, apiece = error(one, other), error(one) + error(other)
+    assert both == pytest.approx(apiece, rel=0.01)
+
+
+def test_every_effect_has_a_threshold_there() -> None:
+    m = model(**SCENES["block"], viscous_time=1e-8)
+    assert applicable(m) == ALL
+    assert decide(m, AT_REST, 10.0).law.effects == {"hertz"}
+    assert decide(m, AT_REST, 0.0).law.effects == ALL
+
+
+decades = st.floats(-1.0, 1.0)
+
+
+@settings(max_examples=12, deadline=None, derandomize=True)
+@given(
+    thick=decades, fast=decades, soft=decades, heavy=decades,
+    edge=st.sampled_from(["soft-hinge", "simply-supported", "clamped"]),
+    tolerances=st.lists(st.floats(-10.0, 0.0), min_size=3, max_size=3),
+)  # fmt: skip
+def test_the_count_of_effects_falls_as_the_tolerance_loosens(
+    thick: float, fast: float, soft: float, heavy: float, edge: str, tolerances: list[float]
+) -> None:
+    m = model(
+        h=0.05 * 10**thick, v0=0.1 * 10 ** (2 * fast), m=3 * 10**heavy, edge=edge,
+        sphere_modulus=3e10 * 10**soft,
+    )  # fmt: skip
+    taken = [decide(m, AT_REST, 10**power).law.effects for power in sorted(tolerances)]
+    assert taken[0] >= taken[1] >= taken[2]

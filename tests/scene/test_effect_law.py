@@ -1,0 +1,239 @@
+"""The law that effects make and impacts by it, against other routes and known answers."""
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from given import ALL, AT_REST, model, scene
+from scipy.integrate import solve_ivp
+
+import derivation.checks.effects
+import derivation.scene
+from derivation.scene import indent, kernels, motion, simulate
+from derivation.scene.effects import BY_NAME, WHOLE_PLATE
+from derivation.scene.law import ContactLaw
+from derivation.scene.model import model_of
+from generated import contact_law
+
+
+def test_the_whole_plate_is_the_contact_law() -> None:
+    m = model()
+    law, a = ContactLaw(m, WHOLE_PLATE | {"hertz"}), np.geomspace(1e-8, 0.099, 40)
+    shape = law.at(a)
+    true = contact_law.indentation(a, m.R, m.h, m.b)
+    np.testing.assert_allclose(law.indentation(a, shape), true, rtol=4e-15)
+    stiff = contact_law.stiffness(a, m.R, m.h, m.b, m.lam, m.mu)
+    np.testing.assert_allclose(law.stiffness(a, shape), stiff, rtol=4e-15)
+
+
+def test_parts_of_the_plate_add_up() -> None:
+    m, a = model(), np.geomspace(1e-4, 0.099, 40)
+    whole = ContactLaw(m, WHOLE_PLATE).at(a)
+    parts = [ContactLaw(m, frozenset({name})).at(a) for name in sorted(WHOLE_PLATE)]
+    np.testing.assert_allclose(sum(p.depth - 1 for p in parts), whole.depth - 1, rtol=1e-12)
+    np.testing.assert_allclose(sum(p.slope - 1 for p in parts), whole.slope - 1, rtol=1e-12)
+
+
+@pytest.mark.parametrize("left_out", [set(), {"pressure"}], ids=["solved", "hertz"])
+def test_force_is_the_derivative_of_the_energy(left_out: set[str]) -> None:
+    """Virtual work: dU = P d delta, and the stiffness is dP/d delta, with all effects in."""
+    law, a, step = ContactLaw(model(), ALL - left_out), np.linspace(0.005, 0.09, 9), 1e-5
+
+    def at(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        shape = law.at(x)
+        return law.force(x, shape), law.indentation(x, shape)
+
+    (low, under), (high, over) = at(a * (1 - step)), at(a * (1 + step))
+    np.testing.assert_allclose(
+        law.stiffness(a, law.at(a)), (high - low) / (over - under), rtol=1e-8
+    )
+    slope = 2 * a / law.model.R * law.at(a).slope
+    np.testing.assert_allclose(slope, (over - under) / (2 * step * a), rtol=1e-8)
+    P = 4 / 3 * law.modulus * a**3 / law.model.R * law.at(a).force
+    additive = law.modulus * 2 * (0.75 * P * law.model.R / law.modulus) ** (1 / 3)
+    np.testing.assert_allclose(law.stiffness(a, law.at(a)), additive / law.at(a).additive)
+
+
+def test_a_sphere_as_soft_as_its_plate_halves_the_modulus() -> None:
+    """On a half-space; the bending of a plate stays what it was at the same force."""
+    m = model(sphere_modulus=model().modulus, gravity=0.0)
+    soft, rigid = (
+        ContactLaw(m, frozenset({"hertz", "sphere_elasticity"})),
+        ContactLaw(m, frozenset({"hertz"})),
+    )
+    assert soft.modulus == rigid.modulus / 2
+    one, two = motion.impact(soft), motion.impact(rigid)
+    assert one.contact_time / two.contact_time == pytest.approx(2**0.4, rel=1e-13)
+    assert one.max_force / two.max_force == pytest.approx(2**-0.4, rel=1e-13)
+    a = np.array([0.01])
+    bent = ContactLaw(m, frozenset({"hertz", "sphere_elasticity", "bending"}))
+    P = bent.force(a, bent.at(a))
+    by_plate = bent.indentation(a, bent.at(a)) - a * a / m.R
+    D = m.modulus * (2 * m.h) ** 3 / 12
+    assert by_plate[0] == pytest.approx(P[0] * m.b**2 / (8 * math.pi * D), rel=1e-13)
+
+
+def test_flat_spheres_tend_to_hertz() -> None:
+    """delta at a force grows by (a/R)^2/15, and the pressure in the middle is Hertz's."""
+    m = model(h=1e3, b=1e4)
+    curved, flat = (
+        ContactLaw(m, frozenset({"hertz", "curvature"})),
+        ContactLaw(m, frozenset({"hertz"})),
+    )
+    for rho in (1e-3, 1e-2):
+        a = np.array([rho * m.R])
+        shape = curved.at(a)
+        equal = a * np.cbrt(shape.force)
+        ratio = curved.indentation(a, shape) / flat.indentation(equal, flat.at(equal))
+        assert ratio[0] - 1 == pytest.approx(rho**2 / 15, rel=20 * rho**2 + 1e-8)
+        assert curved.max_pressure(a[0]) == pytest.approx(flat.max_pressure(a[0]), rel=rho**2)
+    P = flat.force(np.array([0.01]), flat.at(np.array([0.01])))[0]
+    assert flat.max_pressure(0.01) == pytest.approx(1.5 * P / (math.pi * 1e-4), rel=1e-13)
+
+
+def test_pressure_in_the_middle_by_the_solved_equation() -> None:
+    """Of a steep sphere on a block: the punches' sum against the Fredholm equation's pressure."""
+    m = model(h=1e3, b=1e4, sphere_modulus=math.inf)
+    summed = ContactLaw(m, frozenset({"hertz", "curvature"}))
+    solved = ContactLaw(m, WHOLE_PLATE | {"hertz", "curvature", "pressure"})
+    for rho in (0.1, 0.5, 0.8):
+        a = rho * m.R
+        assert summed.max_pressure(a) == pytest.approx(solved.max_pressure(a), rel=1e-4)
+
+
+def by_steps(law: ContactLaw) -> tuple[float, float, float, float]:
+    """The same impact by an adaptive integration in time, contact radius by bisection."""
+    m = law.model
+    radii = np.geomspace(1e-9, 0.9 * law.limit, 4000)
+    depths = law.indentation(radii, law.at(radii))
+
+    def force(z: float) -> float:
+        if z <= 0:
+            return 0.0
+        a = float(np.interp(z, depths, radii))
+        for _ in range(4):
+            shape = law.at(np.array([a]))
+            error = float(law.indentation(np.array([a]), shape)[0]) - z
+            a -= error / (2 * a / m.R * float(shape.slope[0]))
+        return float(law.force(np.array([a]), law.at(np.array([a])))[0])
+
+    def motion_of(_: float, y: np.ndarray) -> list[float]:
+        return [y[1], law.gravity - force(y[0]) / m.m]
+
+    def released(_: float, y: np.ndarray) -> float:
+        return float(y[0])
+
+    def turned(_: float, y: np.ndarray) -> float:
+        return float(y[1])
+
+    released.terminal, released.direction = True, -1  # type: ignore[attr-defined]
+    found = solve_ivp(
+        motion_of, (0, 1.0), [1e-300, m.v0], method="DOP853", rtol=1e-11, atol=1e-16,
+        events=(released, turned),
+    )  # fmt: skip
+    deepest = float(found.y_events[1][0][0])
+    a = float(np.interp(deepest, depths, radii))
+    return float(found.t_events[0][0]), deepest, force(deepest), a
+
+
+def test_impact_by_time_steps() -> None:
+    """Curved, elastic sphere under weight on a bending plate, against DOP853."""
+    law = ContactLaw(
+        model(v0=0.2), frozenset({"hertz", "sphere_elasticity", "curvature", "bending", "gravity"})
+    )
+    found = motion.impact(law)
+    steps = by_steps(law)
+    np.testing.assert_allclose(found.numbers[:3], steps[:3], rtol=2e-8)
+    assert found.max_contact_radius == pytest.approx(steps[3], rel=1e-5)
+
+
+def test_impact_of_the_whole_plate_is_the_generated_one() -> None:
+    for changes in ({}, {"h": 0.5}, {"h": 0.002, "v0": 0.1}, {"v0": 1e-6}):
+        m = model(**changes)
+        found = motion.impact(ContactLaw(m, WHOLE_PLATE))
+        np.testing.assert_allclose(found.numbers[:4], kernels.impact(*m.numbers), rtol=4e-14)
+
+
+@pytest.mark.parametrize(
+    ("edge", "ratio"),
+    [("simply-supported", lambda nu: (3 + nu) / (2 * (1 + nu))), ("clamped", lambda _: 0.5)],
+)
+def test_deflection_of_thin_plates_by_their_edge(edge: str, ratio: Any) -> None:
+    """Over that of the paper's edge, at equal force; the contact itself is next to nothing."""
+    for nu in (-0.3, 0.0, 0.3, 0.45):
+        m = model(h=1e-5, b=1.0, lam=2 * 3e9 * nu / (1 - 2 * nu), edge=edge)
+        a, base = np.array([1e-5]), frozenset({"hertz", *WHOLE_PLATE})
+        one, other = (ContactLaw(m, effects) for effects in (base, base | {"edge"}))
+        found = other.indentation(a, other.at(a)) / one.indentation(a, one.at(a))
+        assert found[0] == pytest.approx(ratio(nu), rel=1e-4)
+
+
+@pytest.mark.parametrize(("bent", "factor"), [(False, 2.5), (True, 2.0)])
+def test_peak_of_a_slow_sphere_under_its_weight(bent: bool, factor: float) -> None:
+    """v0 -> 0: int P d delta = m g delta gives 5/2 m g for Hertz and 2 m g for a linear spring."""
+    effects = {"hertz", "gravity"} | ({"bending"} if bent else set())
+    m = model(v0=1e-9, h=1e-5 if bent else 0.02, b=5.0, mu=3e12, lam=2e12)
+    found = motion.impact(ContactLaw(m, frozenset(effects)))
+    assert found.max_force / (m.m * m.gravity) == pytest.approx(factor, rel=2e-4)
+
+
+def test_history_keeps_the_energy_with_every_effect() -> None:
+    wanted = dict.fromkeys(BY_NAME.keys() - {"hertz"} - AT_REST.keys(), True)
+    result = simulate(scene(effects=wanted))
+    history, law = result.history(301), result.gate.law
+    m = result.model
+    stored = np.array([
+        0.0 if a == 0 else derivation.scene.limits.energy_of(law, float(a))
+        for a in history.contact_radius
+    ])  # fmt: skip
+    moving = 0.5 * m.m * history.velocity**2 - m.m * m.gravity * history.indentation
+    np.testing.assert_allclose(moving + stored, 0.5 * m.m * m.v0**2, rtol=1e-12)
+    assert history.indentation[150] == pytest.approx(result.max_indentation, rel=1e-12)
+    assert history.force.max() == pytest.approx(result.max_force, rel=1e-12)
+    assert history.velocity[-1] == pytest.approx(-m.v0, rel=1e-12)
+
+
+def test_history_of_a_slow_and_heavy_sphere_keeps_the_energy() -> None:
+    """It starts all at once beside the time it takes: 32 nodes in time leave 5e-5 of v0^2."""
+    law = ContactLaw(model(v0=1e-3), frozenset({"hertz", "bending", "gravity", "curvature"}))
+    m, found = law.model, motion.impact(law)
+    times = np.linspace(0.0, found.contact_time, 101)
+    depth, velocity, radius, _ = found.history(law, times)
+    stored = [derivation.scene.limits.energy_of(law, float(a)) if a else 0.0 for a in radius]
+    whole = 0.5 * m.m * velocity**2 - m.m * m.gravity * depth + np.array(stored)
+    np.testing.assert_allclose(whole / (0.5 * m.m * m.v0**2), 1.0, rtol=1e-8)
+
+
+def test_an_impact_is_followed_until_twice_the_nodes_change_nothing(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Of a slow and heavy sphere, where fewer nodes in time leave more, and say so."""
+    law = ContactLaw(model(v0=1e-5), frozenset({"hertz", "bending", "gravity", "curvature"}))
+    found = motion.impact(law)
+    monkeypatch.setattr(motion, "MORE_TIMES", ())
+    few = motion.impact(law)
+    assert found.quadrature < 1e-13
+    assert 1e-9 < abs(few.contact_time / found.contact_time - 1) <= few.quadrature
+
+
+def test_a_history_moves_as_fast_as_it_says() -> None:
+    """Differences of the indentation over a hundred-thousandth of the contact are the velocity."""
+    law = ContactLaw(model(), frozenset({"hertz", "bending", "gravity", "curvature"}))
+    found = motion.impact(law)
+    T = found.contact_time
+    middle, step = np.linspace(0.05, 0.95, 47) * T, 1e-5 * T
+    after, before = (found.history(law, middle + x)[0] for x in (step, -step))
+    _, velocity, _, _ = found.history(law, middle)
+    np.testing.assert_allclose((after - before) / (2 * step), velocity, atol=1e-6)
+
+
+def test_at_rest_under_a_force() -> None:
+    """A force of m g gives the static state; both bodies' modulus, the exact profile."""
+    [row] = indent(scene(plate={"half_thickness": 1e3, "radius": 1e4}), force=30.0)
+    E1, E2 = model_of(scene()).modulus, model_of(scene()).sphere_modulus
+    E = 1 / (1 / E1 + 1 / E2)
+    a = (0.75 * 30.0 * 0.1 / E) ** (1 / 3)
+    assert row.contact_radius == pytest.approx(a, rel=1e-4)
+    assert row.indentation == pytest.approx(a * a / 0.1, rel=1e-4)
+    assert row.stiffness == pytest.approx(2 * E * a, rel=1e-4)

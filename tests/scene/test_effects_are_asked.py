@@ -1,0 +1,60 @@
+"""Outside of their own files effects are asked, and never told apart by their names."""
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+import derivation.scene
+from derivation.scene.effects import BY_NAME, EFFECTS
+
+SCENE = Path(derivation.scene.__file__).parent
+FILES = sorted(path for path in SCENE.rglob("*.py") if path.parent.name != "effects")
+
+
+def told_apart(source: str) -> Iterator[str]:
+    """Effects' names that are compared, looked up, listed in a set or read from `[effects]`."""
+    for node in ast.walk(ast.parse(source)):
+        inside: list[ast.AST] = []
+        match node:
+            case ast.Compare() | ast.Set() | ast.MatchValue():
+                inside = [node]
+            case ast.Subscript(ctx=ast.Load()):
+                inside = [node.slice]
+            case ast.Call(func=ast.Name(id="set" | "frozenset") | ast.Attribute(attr="get")):
+                inside = list(node.args)
+            case ast.Attribute(value=ast.Attribute(attr="effects")) if node.attr in BY_NAME:
+                yield node.attr
+        for each in inside:
+            for leaf in ast.walk(each):
+                if isinstance(leaf, ast.Constant) and leaf.value in BY_NAME:
+                    yield str(leaf.value)
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
+def test_no_effect_is_told_apart_by_its_name(path: Path) -> None:
+    assert list(told_apart(path.read_text())) == []
+
+
+@pytest.mark.parametrize(
+    "source",
+    [
+        '"pressure" in law.effects',
+        'effect.name == "pressure"',
+        'law.effects & {"pressure", "other"}',
+        'PARTS = frozenset(["pressure"])',
+        'BY_NAME["pressure"]',
+        'wanted.get("pressure")',
+        "scene.effects.pressure is not False",
+        'match name:\n    case "pressure":\n        pass',
+    ],
+)
+def test_a_test_of_a_name_is_found(source: str) -> None:
+    assert "pressure" in told_apart(source)
+
+
+def test_what_effects_need_are_effects() -> None:
+    for effect in EFFECTS:
+        assert effect.contains <= BY_NAME.keys() - {effect.name}
+        assert effect.requires <= effect.contains

@@ -1,0 +1,231 @@
+"""The gate: honest bounds, decisions, what is out is not computed, and what is said of it."""
+
+import json
+import math
+import re
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+from given import ALL, AT_REST, EXAMPLES, model, random_models, scene
+
+import derivation.checks.effects
+import derivation.scene
+from derivation import pipeline
+from derivation.checks import effects_judged as measure
+from derivation.cli import main
+from derivation.scene import SceneError, effect_selection, explain, load, motion, read, simulate
+from derivation.scene.effect_selection import OUTPUTS, decide
+from derivation.scene.effects import EFFECTS, WHOLE_PLATE
+from derivation.scene.law import ContactLaw
+from derivation.scene.model import model_of
+
+Captured = pytest.CaptureFixture[str]
+
+
+def test_bounds_hold_in_random_scenes() -> None:
+    rows = measure.judge(25, derivation.checks.effects.gated, derivation.checks.effects.everything)
+    assert [row for row in rows if not row.kept] == []
+    assert max(row.tightest for row in rows) > 0.5  # and are no mere caution
+    included = [row.included for row in rows]
+    assert included == sorted(included)
+
+
+def test_a_bound_that_does_not_hold_is_noticed() -> None:
+    rows = measure.judge(
+        3, lambda *_: ([1.0, 1.0, 1.02, 1.0], ["hertz"], 1e-3), lambda _: ([1.0] * 4, ["hertz"])
+    )
+    assert not any(row.kept for row in rows)
+    assert rows[0].quantity == "max_force"
+
+
+def test_a_looser_tolerance_takes_in_no_more() -> None:
+    for m in random_models(10):
+        taken = [decide(m, AT_REST, rtol).law.effects for rtol in (1e-9, 1e-6, 1e-4, 1e-2, 1e-1)]
+        for tight, loose in pairwise(taken):
+            assert loose <= tight
+
+
+def test_both_sides_of_a_threshold() -> None:
+    """At the bound itself the effects may stay out; just below it one more is taken in."""
+    for m in random_models(4):
+        for rtol in (1e-2, 1e-4):
+            found = decide(m, AT_REST, rtol)
+            if not 0 < found.error < math.inf:
+                continue
+            assert decide(m, AT_REST, found.error).law.effects == found.law.effects
+            tighter = decide(m, AT_REST, found.error * (1 - 1e-9))
+            assert len(tighter.law.effects) > len(found.law.effects)
+            whole = motion.impact(ContactLaw(m, decide(m, AT_REST, 0.0).law.effects))
+            parts = motion.impact(found.law)
+            for one, other in zip(whole.numbers, parts.numbers, strict=True):
+                assert abs(other / one - 1) <= found.error * (1 + 1e-9)
+
+
+def test_weight_under_the_true_pressure_moves_the_radius_within_the_bound() -> None:
+    """There the contact radius grows up to 3.5 times as fast as Hertz's radius of the force."""
+    data = measure.scene(226)
+    whole = derivation.checks.effects.everything(data)
+    values, effects, bound = derivation.checks.effects.gated(data, 1e-2)
+    assert whole is not None
+    assert "gravity" not in effects
+    assert "pressure" in effects
+    assert 0.5 * bound < abs(values[3] / whole[0][3] - 1) <= bound
+
+
+def test_forced_choices_are_honoured_and_priced() -> None:
+    m = model()
+    out = decide(m, AT_REST | {"bending": False, "gravity": True}, 1e-1)
+    assert "bending" not in out.law.effects
+    assert "gravity" in out.law.effects
+    rows = {row.name: row for row in out.rows}
+    assert rows["bending"].disabled
+    assert rows["gravity"].why == "true in the scene"
+    small = {row.name: row for row in decide(m, AT_REST | {"side_wall": False}, 1e-9).rows}[
+        "side_wall"
+    ]
+    assert f"at most {100 * small.bound:.2g} %" in small.why
+    hertz = ALL - {"pressure"}
+    whole, without = (motion.impact(ContactLaw(m, e)) for e in (hertz, hertz - {"side_wall"}))
+    changes = [abs(b / a - 1) for a, b in zip(whole.numbers, without.numbers, strict=True)]
+    assert 0.3 * small.bound < max(changes) <= small.bound
+
+
+def test_pressure_and_inertia_need_the_whole_plate() -> None:
+    off = decide(model(), {"bending": False, "inertia": False}, 1e-6)
+    assert "pressure" not in off.law.effects
+    # What cannot be included counts in the bound like all that is omitted.
+    assert off.error >= {row.name: row.bound for row in off.rows}["pressure"] > 1e-6
+    for name in ("pressure", "inertia"):
+        with pytest.raises(SceneError, match=r"effects\.bending = false; leave out"):
+            decide(model(), {"bending": False, name: True}, 1e-6)
+
+
+def test_the_pressure_is_solved_with_all_that_its_equation_holds() -> None:
+    law = decide(model(), AT_REST | {"pressure": True}, 10.0).law
+    assert law.effects >= {"pressure", "curvature", "sphere_elasticity"} | WHOLE_PLATE
+    law = decide(model(), AT_REST | {"pressure": True, "curvature": False}, 10.0).law
+    assert "curvature" not in law.effects
+
+
+def test_numbers_are_those_of_the_largest_contact() -> None:
+    m = model()
+    found = motion.impact(ContactLaw(m, ALL))
+    a, rows = found.max_contact_radius, {row.name: row for row in decide(m, AT_REST, 0.0).rows}
+    depth = a * a / m.R
+    true = {
+        "hertz": a / m.R, "curvature": a / m.R, "pressure": a / (2 * m.h),
+        "sphere_elasticity": m.modulus / m.sphere_modulus,
+        "gravity": m.m * m.gravity * depth / (m.m * m.v0**2 / 2),
+        "bending": 2 / math.pi * a * m.b**2 / (2 * m.h) ** 3,
+    }  # fmt: skip
+    for name, value in true.items():
+        assert rows[name].value == pytest.approx(value, rel=0.02)
+    assert rows["side_wall"].value == pytest.approx(0.37 * a / m.b, rel=0.01)
+    # The static plate's: supported over hinged is (3 + nu)/(2 (1 + nu)).
+    nu = m.lam / (2 * (m.lam + m.mu))
+    share = rows["bending"].value * ((3 + nu) / (2 * (1 + nu)) - 1)
+    assert rows["edge"].value == pytest.approx(share, rel=0.15)
+
+
+def test_outputs_that_do_not_matter_take_in_nothing() -> None:
+    """The sphere's profile moves the contact radius half as much again as the force."""
+    m = model(sphere_modulus=math.inf, gravity=0.0, h=1e3, b=1e4, v0=0.1, edge="soft-hinge")
+    worst = decide(m, AT_REST, 0.0, OUTPUTS)
+    assert "curvature" in worst.law.effects
+    errors = {
+        name: decide(m, AT_REST | {"curvature": "auto"}, 1.0, (name,)).error for name in OUTPUTS
+    }
+    assert errors["max_contact_radius"] > 1.4 * errors["max_force"]
+    rtol = math.sqrt(errors["max_contact_radius"] * errors["max_force"])
+    assert "curvature" in decide(m, AT_REST, rtol, ("max_contact_radius",)).law.effects
+    assert "curvature" not in decide(m, AT_REST, rtol, ("max_force",)).law.effects
+
+
+def test_the_scenes_outputs_are_those_the_tolerance_applies_to() -> None:
+    block = {"half_thickness": 1e3, "radius": 1e4, "edge": "soft-hinge"}
+    given = scene(plate=block, sphere={"material": None}, impact={"gravity": None}).to_json()
+    m = model_of(read(given))
+    errors = [
+        decide(m, AT_REST, 1.0, (name,)).error for name in ("max_contact_radius", "max_force")
+    ]
+    rtol = math.sqrt(errors[0] * errors[1])
+    for name, wanted in (("max_contact_radius", True), ("max_force", False)):
+        result = simulate(read(given | {"accuracy": {"rtol": rtol, "outputs": [name]}}))
+        assert ("curvature" in result.gate.law.effects) is wanted
+    assert result.accuracy.bound >= result.accuracy.parts["effects"].bound == result.gate.error > 0
+
+
+def test_the_paper_scene_without_any_choice() -> None:
+    """Deciding what is unnecessary does not cost the whole law's time in calls of its kernels."""
+    thick = scene(plate={"half_thickness": 1e3, "radius": 1e4}, sphere={"material": None})
+    result = simulate(thick, rtol=1e-2)
+    assert result.accuracy.method == "hertz"
+    assert result.gate.law.effects == {"hertz"}
+    assert result.accuracy.bound <= 1e-2
+
+
+def test_explain_simulates_nothing_and_says_why(capsys: Captured, tmp_path: Path) -> None:
+    path = tmp_path / "scene.toml"
+    path.write_text(
+        "[sphere]\nradius = 0.01\nmaterial = 'steel'\n[plate]\nradius = 0.5\nthickness = 0.01\n"
+        "material = 'glass'\n[impact]\nspeed = 1\n[effects]\nside_wall = false\n"
+    )
+    assert main(["explain", str(path), "--rtol", "1e-2", "--json", f"{tmp_path}/e.json"]) == 0
+    shown = capsys.readouterr().out
+    data = json.loads((tmp_path / "e.json").read_text())
+    assert [row["name"] for row in data["effects"]] == [effect.name for effect in EFFECTS]
+    assert set(data["costs"]) == set(data["included"])
+    assert re.search(
+        r"disabled in the scene: changes [a-z_]+ by at most \S+ %\"", json.dumps(data["effects"])
+    )
+    assert "no impact.gravity" in json.dumps(data["effects"])
+    assert data["bound"] <= data["rtol"]
+    for row in data["effects"]:
+        assert row["name"] in shown
+    assert "lambda = " in data["notes"][0]
+    assert "The scene disables side_wall" in " ".join(shown.split())
+    found = explain(scene())
+    assert "inertia is not judged" in found.notes[0]
+    block = scene(plate={"half_thickness": 1e3, "radius": 1e4}, effects={"inertia": "auto"})
+    assert "inertia is omitted by its bound" in explain(block, 0.02).notes[0]
+    assert "<table>" in found._repr_html_()
+
+
+def test_the_reference_knows_the_papers_law_alone(tmp_path: Path) -> None:
+    """What it refuses, it says how to write, and then takes."""
+    example = EXAMPLES / "glass_pane.toml"
+    called = sorted(explain(load(example)).gate.law.effects - WHOLE_PLATE - {"hertz"})
+    assert {"edge", "gravity", "inertia", "sphere_elasticity"} <= set(called)
+    with pytest.raises(SceneError, match=f"needs {', '.join(called)};") as caught:
+        pipeline.in_doubles(load(example))
+    assert main(["reference", str(example), "--digits", "15"]) == 2
+    lines = str(caught.value).rpartition("[effects] ")[2].split(", ")
+    place = tmp_path / "scene.toml"
+    place.write_text(example.read_text() + "\n[effects]\n" + "\n".join(lines) + "\n")
+    found = pipeline.in_doubles(load(place))
+    assert found.gate.law.effects == WHOLE_PLATE | {"hertz"}
+    paper = (EXAMPLES / "paper.toml").read_text()
+    for key in ("bending = false", "perturbation = true", "side_wall = false"):
+        place.write_text(f"{paper}{key}\n")
+        with pytest.raises(SceneError, match=key.partition(" ")[0]):
+            pipeline.in_doubles(load(place))
+
+
+def test_the_reference_of_a_quasi_static_plate_asks_for_no_density(tmp_path: Path) -> None:
+    text, place = (EXAMPLES / "paper.toml").read_text(), tmp_path / "scene.toml"
+    place.write_text(text.replace("inertia = false", "inertia = true"))
+    with pytest.raises(SceneError, match=r"plate\.density"):
+        pipeline.in_doubles(load(place))
+    known = pipeline.in_doubles(load(EXAMPLES / "paper.toml"))
+    place.write_text(text.replace("inertia = false", 'inertia = "auto"'))
+    assert pipeline.in_doubles(load(place)).contact_time == known.contact_time
+
+
+def test_rows_are_shown_in_every_output() -> None:
+    result = simulate(scene())
+    made = result.to_json()["effects"]
+    assert json.loads(json.dumps(made)) == made
+    assert [row["name"] for row in made] == [effect.name for effect in EFFECTS]
+    assert effect_selection.HEADS[0] in result._repr_html_()
+    assert result.model == model_of(scene())

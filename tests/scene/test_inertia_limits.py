@@ -1,0 +1,204 @@
+"""A plate that moves: its limits, its conservation laws, and what its oscillators converge to."""
+
+import math
+from dataclasses import replace
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
+from scipy.special import j1, jn_zeros
+
+from derivation.scene import SceneError, contact_sequence, modal, mode_count, motion, waves
+from derivation.scene.effects import WHOLE_PLATE
+from derivation.scene.law import ContactLaw
+from derivation.scene.limits import zener_number
+from derivation.scene.modal import ModalPlate, Modes, contact_of, free_modes
+from derivation.scene.model import InertiaSettings, Model
+from derivation.scene.time_element import DynamicProblem
+from derivation.scene.wave_plot import zener_restitution
+
+REST = WHOLE_PLATE | {"hertz"}
+
+BALL = Model(R=0.02, m=0.25, v0=1.0, h=0.02, b=0.15, lam=40e9, mu=27e9, density=2700.0)
+
+
+# --- an endless plate
+
+
+def zener(number: float) -> tuple[float, float]:
+    """Restitution and contact time over That of m z'' = -P, z = P^(2/3) + w, w' = lambda P."""
+
+    def rate(s: float, state: np.ndarray) -> Any:
+        P = max(state[0] - state[2], 0.0) ** 1.5
+        return 2.0 * s * np.array([state[1], -P, number * P])
+
+    def released(s: float, state: np.ndarray) -> float:  # noqa: ARG001
+        return float(state[0] - state[2])
+
+    released.direction = -1  # type: ignore[attr-defined]
+    released.terminal = True  # type: ignore[attr-defined]
+    found = solve_ivp(rate, (1e-8, 40.0), [1e-16, 1.0, 0.0], "DOP853", events=released,
+                      rtol=1e-13, atol=1e-15)  # fmt: skip
+    return -float(found.y_events[0][-1][1]), float(found.t_events[0][-1]) ** 2
+
+
+def thin_plate(number: float, count: int, phase: float) -> tuple[float, float]:
+    """The same of Kirchhoff's modes J_0(j_n r/b), and how far the contact reaches over 1/phi_M.
+
+    `phase` is omega_M That. With it the first mode's period goes like count^2/phase, and the
+    plate is endless where that is long; the contact's radius follows from Zener's number.
+    """
+    j, h = jn_zeros(0, count), 1e-5
+    plate = Model(R=1.0, m=1.0, v0=1.0, h=h, b=1.0, lam=1.0, mu=1.0, density=1.0)
+    bending, mass = plate.modulus * (2.0 * h) ** 3 / 12.0, 2.0 * h
+    That = phase / j[-1] ** 2 * math.sqrt(mass / bending)
+    # lambda = m/(8 That sqrt(D rho H)) and m = K sqrt(v0) That^(5/2) say how wide it is.
+    a = number * 8.0 * math.sqrt(bending * mass) / That / (4.0 / 3.0 * plate.modulus)
+    speed = a * a / That
+    model = replace(plate, v0=speed, m=4.0 / 3.0 * plate.modulus * math.sqrt(speed) * That**2.5)
+    assert zener_number(model) == pytest.approx(number, rel=1e-9)
+    drive = 1.0 / (math.pi * j1(j) ** 2 * mass)
+    modes = Modes(j, j**2 * math.sqrt(bending / mass), drive, np.arange(count))
+    law = ContactLaw(model, frozenset({"hertz", "bending"}))
+    contact = contact_of(law, ModalPlate(modes, modes, None), 1.5 * a, pointwise=False)
+    problem = DynamicProblem(contact, a, That, model.m, speed)
+    found = contact_sequence.contact(problem, 16, problem.begin(), 0.0, 0.0)
+    return -found.after.velocity, a * j[-1]
+
+
+@pytest.mark.parametrize("number", [0.02, 0.3, 2.0])
+def test_zeners_equation_of_an_endless_plate(number: float) -> None:
+    assert zener_restitution(number) == pytest.approx(zener(number)[0], abs=1e-9)
+
+
+@pytest.mark.parametrize("number", [0.02, 0.3, 1.0, 2.0])
+def test_a_wide_plate_is_zeners(number: float) -> None:
+    """200 modes up to 200 times the contact's own frequency: no echo is back before the end."""
+    true, _ = zener(number)
+    found, reach = thin_plate(number, 200, 200.0)
+    assert reach < 1e-6  # the contact is a point to every mode
+    assert found == pytest.approx(true, abs=2e-7)
+
+
+def test_what_modes_left_at_rest_change_falls_like_the_cube_of_their_frequency() -> None:
+    true, _ = zener(1.0)
+    errors = [abs(thin_plate(1.0, 100, phase)[0] - true) for phase in (25.0, 50.0, 100.0)]
+    for early, late in pairwise(errors):
+        assert 6.0 < early / late < 10.0
+
+
+def test_a_narrow_plate_gives_some_of_it_back() -> None:
+    """With the first mode's period no longer than the contact echoes are back before its end."""
+    true, lasts = zener(1.0)
+    first, last = jn_zeros(0, 20)[[0, -1]]
+    found, _ = thin_plate(1.0, 20, 2.0 * math.pi / lasts * (last / first) ** 2)
+    assert found > true + 0.05
+
+
+# --- its oscillators
+
+
+def course(
+    model: Model, modes: Modes, n: int = 16, tolerance: float = contact_sequence.TOLERANCE
+) -> contact_sequence.Course:
+    law = ContactLaw(model, REST | {"inertia"})
+    quick = motion.impact(ContactLaw(model, frozenset({"hertz"})))
+    problem = waves._problem(law, ModalPlate(modes, modes, None), quick)
+    return contact_sequence.course(problem, n, tolerance)
+
+
+def restitution(found: contact_sequence.Course) -> float:
+    return -found.contacts[-1].after.velocity
+
+
+def test_every_branch_converges_with_the_modes() -> None:
+    """Above Rayleigh's waves what modes left at rest change falls as their number grows."""
+    every = replace(BALL, inertia=InertiaSettings(branches="all"))
+    found = [restitution(course(every, free_modes(every, count))) for count in (4, 8, 16, 32)]
+    steps = np.abs(np.diff(found))
+    assert steps[2] < 0.6 * steps[1] < 0.6 * steps[0]
+    assert steps[2] < 1e-5
+    # And not to where the first branch alone goes.
+    first = restitution(course(BALL, free_modes(BALL, 32)))
+    assert abs(first - found[-1]) > 2.0 * steps[2]
+
+
+def test_branches_converge() -> None:
+    """The same wave numbers with branches up to an ever higher frequency."""
+    lowest, found = modal._free(BALL, 12, lagging=False), []
+    for highest in (1.0, 2.0, 4.0, 8.0):
+        shapes = modal._branches(BALL, lowest, highest * float(lowest.root[-1]))
+        modes = modal._modes(BALL, shapes)
+        found.append((modes.omega.size, restitution(course(BALL, modes))))
+    counts, values = zip(*found, strict=True)
+    assert all(more > 1.5 * few for few, more in pairwise(counts))
+    steps = np.abs(np.diff(values))
+    assert all(late < 0.5 * early for early, late in pairwise(steps))
+
+
+@pytest.mark.parametrize(
+    ("changes", "contacts"),
+    [({"h": 0.003, "b": 0.25, "m": 0.95, "v0": 0.5}, 8), ({"h": 0.004, "b": 0.4, "m": 2.0}, 6)],
+)
+def test_many_contacts_are_the_same_at_another_resolution(
+    changes: dict[str, Any], contacts: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Zener's number 8 to 10: by other nodes, and again by shorter elements and a tolerance."""
+    model = replace(BALL, R=0.04, **changes)
+    assert 8.0 < zener_number(model) < 10.0
+    modes = free_modes(model, 8)
+    runs = [course(model, modes), course(model, modes, 13)]
+    monkeypatch.setattr(contact_sequence, "PHASE", 0.3)
+    fine = course(model, modes, 18, 1e-12)
+    assert len(fine.contacts) == contacts
+    for other in runs:
+        assert len(other.contacts) == len(fine.contacts)
+        for one, two in zip(other.contacts, fine.contacts, strict=True):
+            assert one.start == pytest.approx(two.start, rel=1e-9, abs=1e-9)
+            assert one.end == pytest.approx(two.end, rel=1e-9)
+            assert one.after.velocity == pytest.approx(two.after.velocity, abs=1e-9)
+
+
+# --- what is conserved
+
+
+@settings(max_examples=25, deadline=None, derandomize=True)
+@given(
+    eta=st.floats(-2.2, -0.3), size=st.floats(-1.8, -0.3), heavy=st.floats(-1.0, 1.5),
+    speed=st.floats(-1.5, 0.7), nu=st.floats(-0.4, 0.48), gravity=st.sampled_from([0.0, 9.81]),
+    pointwise=st.booleans(), edge=st.sampled_from(["soft-hinge", "clamped", "simply-supported"]),
+)  # fmt: skip
+def test_energy_and_momentum_are_kept(
+    eta: float, size: float, heavy: float, speed: float, nu: float, gravity: float,
+    pointwise: bool, edge: str,
+) -> None:  # fmt: skip
+    """In random scenes: the ledger, the impulse, restitution, and the order of the contacts."""
+    b, mu, density = 0.2, 5e9, 2000.0
+    R = b * 10**size
+    model = Model(
+        R=R, m=4.0 / 3.0 * math.pi * R**3 * density * 10**heavy, v0=10**speed, h=b * 10**eta, b=b,
+        lam=2.0 * mu * nu / (1.0 - 2.0 * nu), mu=mu, density=density, gravity=gravity, edge=edge,
+        inertia=InertiaSettings(pointwise=pointwise),
+    )  # fmt: skip
+    assume(zener_number(model) < 2.0)
+    law = ContactLaw(model, REST | {"inertia"} | ({"gravity"} if gravity else set()) | {"edge"})
+    assume(mode_count.count_of(law) <= 12)
+    try:
+        found = waves.impact(law, math.inf)
+    except SceneError:  # kept down by its weight, or bent too sharply
+        assume(False)
+    contacts = found.inertia.contacts
+    assert abs(found.ledger.closure) <= 1e-11
+    if not gravity and not pointwise:
+        assert 0.0 <= found.restitution <= 1.0
+    times = [time for touch in contacts for time in (touch.start, touch.end)]
+    assert times[0] == 0.0
+    assert all(early < late for early, late in pairwise(times))
+    fallen = model.gravity * found.inertia.total_time
+    impulse = sum(touch.impulse for touch in contacts)
+    given_up = model.v0 * (1.0 + found.restitution) + fallen
+    assert impulse == pytest.approx(model.m * given_up, rel=1e-10)

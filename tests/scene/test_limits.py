@@ -1,0 +1,259 @@
+"""What is warned of, from both sides of each limit and with its number."""
+
+import math
+import re
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import pytest
+from given import changed, scene, thick
+
+from derivation.scene import indent, kernels, limits, read, simulate
+from derivation.scene.effects import PAPER
+from derivation.scene.law import ContactLaw
+from derivation.scene.model import InertiaSettings, model_of
+from derivation.scene.result import Result
+
+Tables = dict[str, dict[str, Any]]
+
+
+def either_side(
+    make: Callable[[float], Tables], words: str, silent: float, loud: float
+) -> tuple[Result, Result, str]:
+    """Results 1e-6 apart in a number of the scene, without and with a warning, and its text."""
+
+    def run(x: float) -> tuple[Result, str]:
+        result = simulate(read(make(x)))
+        assert all(words in text for text in result.warnings)  # and none but this one
+        return result, "".join(result.warnings)
+
+    (below, nothing), (above, text) = run(silent), run(loud)
+    assert not nothing
+    assert text
+    while abs(loud / silent - 1) > 1e-6:
+        middle = math.sqrt(silent * loud)
+        found, said = run(middle)
+        if said:
+            loud, above, text = middle, found, said
+        else:
+            silent, below = middle, found
+    return below, above, text
+
+
+def test_hertz_pressure_is_warned_of_above_0_15_thicknesses() -> None:
+    thin = {"radius": 0.2, "thickness": 0.02}
+    below, above, text = either_side(
+        lambda v: changed(plate=thin, impact={"speed": v}), "a/H", 0.05, 0.3
+    )
+    for result in (below, above):
+        assert result.max_contact_radius / 0.02 == pytest.approx(0.15, rel=3e-6)
+    assert "a/H = 0.15 exceeds 0.15" in text
+    solved = changed(plate=thin, impact={"speed": 0.3}, effects={"pressure": True})
+    assert simulate(read(solved)).warnings == ()
+
+
+@pytest.mark.parametrize(
+    ("edge", "rtol"),
+    [
+        ("soft-hinge", 1e-9),
+        ("soft-hinge", 1e-3),
+        ("simply-supported", 1e-9),
+        ("clamped", 1e-9),
+    ],
+)
+def test_the_error_said_of_hertz_pressure_is_that_beside_the_true_one(
+    edge: str, rtol: float
+) -> None:
+    """Of the indentation at the same force, whatever else is computed or left out."""
+    tables = changed(plate={"radius": 0.2, "thickness": 0.02, "edge": edge}, impact={"speed": 0.12})
+    result = simulate(read(tables), rtol=rtol)
+    said = float(re.findall(r"by about (\S+) %", result.warnings[0])[0]) / 100
+    solved = tables | {"effects": {"curvature": False, "pressure": True}}
+    one, true = (
+        indent(read(data), force=result.max_force)[0].indentation for data in (tables, solved)
+    )
+    assert said == pytest.approx(true / one - 1, rel=0.2)
+
+
+def test_a_half_space_has_no_deflection_to_warn_of() -> None:
+    """What the exact profile adds to a^2/R is no deflection of the plate."""
+    block = {"radius": 50.0, "thickness": 100.0, "density": 2000.0}
+    tables = changed(plate=block, impact={"speed": 20.0}, effects={"curvature": True})
+    assert "inertia" not in "".join(simulate(read(tables)).warnings)
+
+
+def test_a_paraboloid_is_warned_of_above_0_3_sphere_radii() -> None:
+    """With the size of the error: the exact profile's indentation at the same force."""
+    block = {"radius": 1e6, "thickness": 2e6}
+
+    def at(v: float, curved: bool = False) -> Tables:
+        return changed(plate=block, impact={"speed": v}, effects={"curvature": curved})
+
+    below, above, text = either_side(at, "a/R", 1.0, 50.0)
+    for result in (below, above):
+        assert result.max_contact_radius / 0.13 == pytest.approx(0.3, rel=3e-6)
+    assert "a/R = 0.3 exceeds 0.3" in text
+    said = float(re.findall(r"by about (\S+) %", text)[0]) / 100
+    [true] = indent(read(at(1.0, True)), force=above.max_force)
+    assert said == pytest.approx(true.indentation / above.max_indentation - 1, rel=0.1)
+    assert simulate(read(at(50.0, True))).warnings == ()
+
+
+def test_stretching_is_warned_of_above_half_a_thickness() -> None:
+    below, above, text = either_side(
+        lambda v: changed(plate={"thickness": 0.002}, impact={"speed": v}, sphere={"mass": 0.1}),
+        "w/H", 0.001, 0.1,
+    )  # fmt: skip
+    for result in (below, above):
+        local = result.max_contact_radius**2 / 0.13
+        assert (result.max_indentation - local) / 0.002 == pytest.approx(0.5, rel=3e-6)
+    assert "w/H = 0.5 exceeds 0.5" in text
+
+
+def test_yield_is_warned_of_above_1_6_yield_stresses() -> None:
+    below, above, text = either_side(
+        lambda s: changed(plate={"radius": 1e6, "thickness": 2e6, "yield_stress": s}),
+        "yields", 1e8, 1e7,
+    )  # fmt: skip
+    for result in (below, above):
+        area = math.pi * result.max_contact_radius**2
+        ratio = 1.5 * result.max_force / area / result.scene.plate.yield_stress
+        assert ratio == pytest.approx(1.6, rel=3e-6)
+    assert "over yield stress = 1.6 exceeds 1.6" in text
+
+
+def steel_on_glass(thickness: float, density: float) -> Tables:
+    """A steel ball, rigid, on a plate as stiff as glass."""
+    plate = {
+        "radius": 0.5, "thickness": thickness, "lame_lambda": None, "lame_mu": None,
+        "youngs_modulus": 70e9, "poissons_ratio": 0.2, "density": density,
+    }  # fmt: skip
+    return changed(sphere={"radius": 0.02, "mass": 0.263}, plate=plate)
+
+
+def motion_numbers(result: Result) -> tuple[float, float, float]:
+    """Zener's number, contact time over first bending period, share of the deflection."""
+    R, m, v0, h, b, _, _ = result.model.numbers
+    E, H, rho = 70e9 / (1 - 0.2**2), 2 * h, result.model.density
+    D = E * H**3 / 12
+    That = (m**2 / ((4 / 3 * E * math.sqrt(R)) ** 2 * v0)) ** 0.2
+    omega = 5.783185962946785 / b**2 * math.sqrt(D / (rho * H))  # of the paper's edge
+    share = 1 - result.max_contact_radius**2 / R / result.max_indentation
+    zener = m / (8 * That * math.sqrt(D * rho * H))
+    return zener, result.contact_time * omega / (2 * math.pi), share
+
+
+@pytest.mark.parametrize(
+    ("make", "silent", "loud", "limits"),
+    [
+        (lambda rho: steel_on_glass(0.6, rho), 20.0, 11.0, (0.006, None, None)),
+        (lambda rho: steel_on_glass(0.2, rho), 0.5, 2.0, (None, 10.0, None)),
+        (lambda H: steel_on_glass(H, 1000.0), 0.3, 0.21, (None, None, 0.01)),
+    ],
+    ids=["zener", "slow", "share"],
+)
+def test_inertia_is_warned_of_on_one_side_of_each_number(
+    make: Any, silent: float, loud: float, limits: tuple[float | None, ...]
+) -> None:
+    """Above lambda = 0.006, or 1 % of deflection, if the contact takes less than ten periods."""
+    below, above, text = either_side(make, "inertia", silent, loud)
+    said = re.findall(r"lambda = (\S+) .* paper\'s edge = (\S+) .* deflection (\S+) %", text)
+    for result in (below, above):
+        for found, limit in zip(motion_numbers(result), limits, strict=True):
+            assert limit is None or found == pytest.approx(limit, rel=3e-6)
+    zener, slow, share = motion_numbers(above)
+    shown = [float(x) for x in said[0]]
+    assert shown == [pytest.approx(x, rel=0.06) for x in (zener, slow, 100 * share)]
+
+
+def test_echoes_are_warned_of_below_four_thicknesses_of_sound() -> None:
+    below, above, text = either_side(
+        lambda rho: steel_on_glass(0.6, rho), "echoes through the thickness", 200.0, 500.0
+    )
+    for result in (below, above):
+        sound = math.sqrt(70e9 * 0.8 / (1.2 * 0.6) / result.model.density)
+        assert result.contact_time == pytest.approx(4 * 0.6 / sound, rel=3e-6)
+    assert f"4 H/c_P = {above.contact_time:.3g} s" in text
+
+
+def test_echoes_are_not_warned_of_where_branches_hold_them() -> None:
+    slab = model_of(read(steel_on_glass(0.6, 2500.0)))
+    for inertia, told in (
+        (InertiaSettings(), True),
+        (InertiaSettings(branches="all"), False),
+        (InertiaSettings(branches="all", infinite_plate=True), True),
+    ):
+        texts = limits.motion_warnings(replace(slab, inertia=inertia), 1e-5, 0.0, moving=True)
+        assert any("echoes" in text for text in texts) is told
+    held = replace(slab, inertia=InertiaSettings(branches="all"))
+    assert any("echoes" in text for text in limits.motion_warnings(held, 1e-5, 0.0))
+
+
+def test_inertia_is_warned_of_by_its_numbers() -> None:
+    pane = {"material": "glass", "lame_lambda": None, "lame_mu": None, "half_thickness": 0.002}
+    texts = simulate(scene(plate=pane, impact={"speed": 0.01, "gravity": None})).warnings
+    assert "Zener's number lambda" in texts[-1]
+    assert "first bending period" in texts[-1]
+    slab = pane | {"half_thickness": 0.5, "edge": "soft-hinge"}
+    small = {"radius": 0.005, "mass": None}
+    texts = simulate(scene(plate=slab, sphere=small, impact={"speed": 1.0})).warnings
+    assert len(texts) == 1
+    assert "echoes through the thickness" in texts[0]
+
+
+def test_yield_is_warned_of_on_one_side_only() -> None:
+    pressure = simulate(scene()).max_pressure
+    for factor, warned in ((0.999, True), (1.001, False)):
+        plate = {"yield_stress": factor * pressure / 1.6}
+        assert any("yields" in text for text in simulate(scene(plate=plate)).warnings) is warned
+
+
+def test_warning_where_the_pressure_is_not_hertz(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The cost is (5/3) c3 (a/h)^3 of a^2/R, here in a made-up law with c1 and c3."""
+    m = model_of(read(changed()))
+    c3 = -0.09
+
+    def law(a: float, R: float, h: float, _b: float) -> float:
+        return a**2 / R * (1 + 8 * (a / h) + c3 * (a / h) ** 3)
+
+    monkeypatch.setattr(kernels, "indentation", law)
+    assert limits.warnings_at(ContactLaw(m, PAPER), 0.0299, law(0.0299, m.R, m.h, m.b)) == ()
+    delta = law(0.0301, m.R, m.h, m.b)
+    cost = 5 / 3 * c3 * 0.301**3 * 0.0301**2 / 0.13 / delta
+    assert limits.hertz_cost(m, 0.0301, delta) == pytest.approx(cost, rel=1e-10)
+    [text] = limits.warnings_at(ContactLaw(m, PAPER), 0.0301, delta)
+    assert "a/H = 0.15" in text
+    assert f"{100 * cost:+.2g} %" in text
+    # 5/3 c3 A^3 = x (1 + 8 A + c3 A^3) at a leading term of x.
+    for leading, words in ((-0.299, "by about -30 %"), (-0.301, "too large to estimate")):
+        c3 = leading * (1 + 8 * 0.35) / 0.35**3 / (5 / 3 - leading)
+        [loud] = limits.warnings_at(ContactLaw(m, PAPER), 0.035, law(0.035, m.R, m.h, m.b))
+        assert words in loud
+
+
+def test_warning_reaches_the_result() -> None:
+    result = simulate(read(changed(plate={"thickness": 0.02}, impact={"speed": 0.4})))
+    assert result.max_contact_radius / 0.02 > 0.15
+    assert any("a/H" in warning for warning in result.warnings)
+    assert result.to_json()["warnings"] == list(result.warnings)
+    assert "a/H" in result._repr_html_()
+
+
+def test_curvature_cost_is_that_of_the_exact_profile() -> None:
+    """Sneddon's sphere and the paraboloid pressed by the same force into a half-space."""
+    m = model_of(thick())
+    t = 0.2
+    log = math.log((1 + t) / (1 - t))
+    a = m.R * (0.75 * ((1 + t * t) / 2 * log - t)) ** (1 / 3)
+    change = (t / 2 * log) / (a / m.R) ** 2 - 1
+    assert limits.curvature_cost(m, a, a * a / m.R) == pytest.approx(change, rel=0.1)
+    texts = limits.warnings_at(ContactLaw(m, PAPER), 0.31 * m.R, 0.31**2 * m.R)
+    assert [("a/R" in text) for text in texts] == [True]
+
+
+def test_deflection_beyond_half_the_thickness_is_said() -> None:
+    m = model_of(read(changed()))
+    assert limits.warnings_at(ContactLaw(m, PAPER), 0.01, 0.1) == ()
+    [text] = limits.warnings_at(ContactLaw(m, PAPER), 0.01, 0.102)
+    assert "w/H" in text

@@ -1,0 +1,192 @@
+"""A plate that moves, as a scene asks for it: refusals, results, pictures, held edges."""
+
+import csv
+import io
+import json
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from derivation.cli import main
+from derivation.scene import SceneError, explain, read, simulate
+from derivation.scene.effects import WHOLE_PLATE
+from derivation.scene.history import MovingHistory
+from derivation.scene.law import ContactLaw
+from derivation.scene.modal import plate_of
+from derivation.scene.model import model_of
+from derivation.scene.wave_plot import figure, zener_restitution
+
+SCENE: dict[str, dict[str, Any]] = {
+    "sphere": {"radius": 0.02, "material": "steel"},
+    "plate": {"radius": 0.2, "thickness": 0.01, "material": "aluminium"},
+    "impact": {"speed": 1.0},
+    "effects": {"inertia": "auto"},
+}
+
+
+def scene(**tables: dict[str, Any]) -> Any:
+    return read({name: SCENE.get(name, {}) | tables.get(name, {}) for name in SCENE | tables})
+
+
+@pytest.fixture(scope="module")
+def result() -> Any:
+    return simulate(scene())
+
+
+def test_a_scene_that_calls_for_inertia_gets_it(result: Any) -> None:
+    assert {"inertia", "bending", "finite_thickness", "side_wall"} <= result.gate.law.effects
+    still = simulate(scene(effects={"inertia": False}))
+    assert "inertia" not in still.gate.law.effects
+    assert still.inertia_neglected
+    assert any("inertia is neglected" in text for text in still.warnings)
+    assert not result.inertia_neglected
+    assert not any("inertia" in text for text in result.warnings)
+    assert result.restitution < 0.9 < still.restitution == 1.0
+    row = next(row for row in still.gate.rows if row.name == "inertia")
+    assert row.disabled
+
+
+def test_the_density_is_asked_for_where_inertia_is() -> None:
+    own = {"youngs_modulus": 70e9, "poissons_ratio": 0.3, "radius": 0.2, "thickness": 0.01}
+    bare = {**SCENE, "plate": own}
+    for wanted, why in (("auto", "its inertia may change"), (True, r"effects\.inertia = true")):
+        with pytest.raises(SceneError, match=r"plate\.density: expected a density, since " + why):
+            simulate(read(bare | {"effects": {"inertia": wanted}}))
+    assert simulate(read(bare | {"effects": {"inertia": False}})).restitution == 1.0
+    # A thick block does not move, whatever its density.
+    block = own | {"radius": 1.0, "thickness": 1.0}
+    known = read({**bare, "plate": block, "impact": {"speed": 1e-3}})
+    assert known.effects.inertia == "auto"
+    assert "inertia" not in simulate(known, rtol=1e-1).gate.law.effects
+
+
+def test_the_whole_plate_has_to_move() -> None:
+    with pytest.raises(SceneError, match=r"effects\.inertia: expected effects\.bending"):
+        simulate(scene(effects={"inertia": True, "bending": False}))
+    with pytest.raises(SceneError, match=r"effects\.bending: expected true, since the plate's"):
+        simulate(scene(effects={"bending": False}))
+
+
+@pytest.mark.parametrize("part", ["side_wall", "finite_thickness"])
+def test_a_small_static_part_that_is_disabled_does_not_stop_the_plate(part: str) -> None:
+    """Its own bound covers what it changes: the plate still takes most of the energy."""
+    whole, without = (simulate(scene(effects=e)) for e in ({}, {part: False}))
+    assert "inertia" in without.gate.law.effects
+    size = next(row.bound for row in without.gate.rows if row.name == part)
+    for one, other in zip(whole.moving.numbers, without.moving.numbers, strict=True):  # type: ignore[union-attr]
+        assert abs(other / one - 1.0) <= size + whole.accuracy.bound + without.accuracy.bound
+
+
+def test_results_as_data(result: Any) -> None:
+    data = json.loads(json.dumps(result.to_json()))["inertia"]
+    ledger = data["ledger"]
+    assert abs(ledger["closure"]) <= 1e-11
+    assert sum(data["mode_energies"]) == pytest.approx(ledger["plate"], rel=1e-12)
+    assert data["contacts"][0]["end"] == result.contact_time
+    assert data["contacts"][-1]["end"] == data["total_time"] >= result.contact_time
+    impulse = sum(touch["impulse"] for touch in data["contacts"])
+    m, v0 = result.model.m, result.model.v0
+    assert impulse == pytest.approx(m * v0 * (1.0 + result.restitution), rel=1e-10)
+    history = result.history(301)
+    assert isinstance(history, MovingHistory)
+    rows = list(csv.reader(io.StringIO(history.to_csv())))
+    assert rows[0][-2:] == ["deflection", "plate_energy"]
+    assert len(rows) == 302
+    assert np.max(history.force) == pytest.approx(result.max_force, rel=1e-3)
+    assert np.all(history.force >= 0.0)
+    assert 0.5 * m * history.velocity[-1] ** 2 == pytest.approx(ledger["returned"], rel=1e-9)
+    assert history.plate_energy[-1] == pytest.approx(ledger["plate"], rel=1e-9)
+    page = result._repr_html_()
+    assert "final energy" in page
+    assert "closing speed" in page
+
+
+def test_times_reach_to_the_last_release(result: Any) -> None:
+    whole = result.at([0.0, result.total_time])
+    assert whole.history().velocity[-1] == pytest.approx(-result.restitution, rel=1e-9)
+    with pytest.raises(SceneError, match="times: expected times from 0"):
+        result.at([1.01 * result.total_time])
+
+
+def test_the_drawing_shades_every_contact(result: Any) -> None:
+    drawn = figure(result)
+    contacts = len(result.moving.inertia.contacts)
+    shaded = [len(axes.patches) for axes in drawn.axes]
+    assert sorted(shaded) == [0, *[contacts] * 4]
+    stacked = next(axes for axes in drawn.axes if "brought" in axes.get_ylabel())
+    assert len(stacked.collections) == 3
+
+
+def test_the_animation_shows_the_plate_move(tmp_path: Path, monkeypatch: Any) -> None:
+    from PIL import Image
+
+    from derivation.scene import animation
+
+    monkeypatch.setattr(animation, "FRAMES", 6)
+    toml = tmp_path / "scene.toml"
+    lines = (
+        f"[{table}]\n" + "".join(f"{key} = {json.dumps(value)}\n" for key, value in keys.items())
+        for table, keys in SCENE.items()
+    )
+    toml.write_text("\n".join(lines))
+    place = tmp_path / "plate.gif"
+    assert main(["simulate", str(toml), "--animate", str(place), "--json", "-"]) == 0
+    with Image.open(place) as movie:
+        assert movie.n_frames == 6
+    assert main(["simulate", str(toml), "--animate", str(tmp_path / "plate.mp4")]) == 2
+    toml.write_text(toml.read_text().replace('inertia = "auto"', "inertia = false"))
+    assert main(["simulate", str(toml), "--animate", str(tmp_path / "still.gif")]) == 2
+    assert not (tmp_path / "still.gif").exists()
+
+
+def test_profiles_are_zero_at_the_edge_and_the_deflection_at_the_axis(result: Any) -> None:
+    times = np.linspace(0.1, 0.9, 5) * result.total_time
+    found = result.moving.profiles(times, np.array([0.0, result.model.b]))
+    history = result.at(times).history()
+    np.testing.assert_allclose(found[:, 0], history.deflection, rtol=1e-9)
+    assert np.max(np.abs(found[:, 1])) <= 1e-9 * np.max(np.abs(found[:, 0]))
+
+
+def test_zeners_curve_begins_as_its_series() -> None:
+    for number in (1e-3, 2e-3):
+        series = 1.0 - 1.7302 * number + 1.796 * number**2
+        assert zener_restitution(number) == pytest.approx(series, abs=2.0 * number**3 + 1e-7)
+    assert zener_restitution(5.0) < 1e-3
+
+
+@pytest.mark.parametrize(("edge", "factor"), [("soft-hinge", 1.0), ("clamped", 0.5),
+                                              ("simply-supported", 3.3 / 2.6)])  # fmt: skip
+def test_modes_of_a_thin_plate_add_up_to_its_deflection_at_rest(edge: str, factor: float) -> None:
+    """P b^2/(8 pi D) of the paper's edge, half of it clamped, (3 + nu)/(2 (1 + nu)) supported."""
+    thin = scene(plate={"thickness": 2e-4, "edge": edge})
+    model = replace(model_of(thin), h=1e-4)
+    law = ContactLaw(
+        model, WHOLE_PLATE | {"hertz", "edge"} if edge != "soft-hinge" else WHOLE_PLATE
+    )
+    found = float(np.sum(plate_of(law, 400).modes.compliance))
+    bending = model.modulus * (2.0 * model.h) ** 3 / 12.0
+    assert found == pytest.approx(factor * model.b**2 / (8.0 * np.pi * bending), rel=2e-5)
+
+
+@pytest.mark.parametrize("edge", ["simply-supported", "clamped"])
+def test_a_held_plate_moves_on_its_own_edge(edge: str) -> None:
+    held = simulate(scene(plate={"edge": edge}))
+    assert {"edge", "inertia"} <= held.gate.law.effects
+    assert abs(held.moving.ledger.closure) <= 1e-11  # type: ignore[union-attr]
+    assert 0.0 < held.restitution < 1.0
+
+
+def test_no_code_is_written_of_a_plate_that_moves() -> None:
+    from derivation.scene.code import recipe
+
+    with pytest.raises(SceneError, match=r"write effects\.inertia = false"):
+        recipe(scene())
+
+
+def test_explain_says_that_the_plate_moves() -> None:
+    told = explain(scene())
+    assert any("inertia is included" in note for note in told.notes)
+    assert told.costs["inertia"] > 0.0

@@ -1,0 +1,103 @@
+"""A contact that lags on a plate that moves: its limits, its convergence, and what is refused."""
+
+from itertools import pairwise
+from typing import Any
+
+import pytest
+from given import EXAMPLES
+
+from derivation.scene import SceneError, load, read, simulate
+from derivation.scene.effects import BY_NAME
+from derivation.scene.result import Result
+from derivation.scene.scene import OUTPUTS
+
+PAD = load(EXAMPLES / "pad.toml").to_json()
+EFFECTS = dict.fromkeys(BY_NAME, True) | {"pressure": False, "perturbation": False}
+del EFFECTS["hertz"], EFFECTS["edge"]
+
+
+def pad(
+    density: float = 1150.0,
+    speed: float = 1.0,
+    effects: dict[str, Any] | None = None,
+    **inertia: Any,
+) -> Result:
+    return simulate(
+        read(
+            PAD
+            | {"plate": PAD["plate"] | {"density": density}}
+            | {"impact": PAD["impact"] | {"speed": speed}}
+            | {"effects": EFFECTS | (effects or {})}
+            | ({"inertia": inertia} if inertia else {})
+        ),
+        rtol=1.0,
+    )
+
+
+def values(found: Result) -> list[float]:
+    return [getattr(found, name) for name in OUTPUTS]
+
+
+def test_without_mass_the_plate_is_at_rest_under_a_contact_that_lags() -> None:
+    """Bending follows without lag in both engines; at rest it takes no heed of the contact's size.
+
+    What that is worth falls like the square of the contact's radius, here at two speeds.
+    """
+    off = []
+    for speed in (0.3, 0.01):
+        still = pad(speed=speed, effects={"inertia": False, "gravity": False})
+        light = pad(speed=speed, density=1.0, effects={"gravity": False}, modes=16)
+        pairs = zip(values(light), values(still), strict=True)
+        off.append((max(abs(x / y - 1) for x, y in pairs), still.max_contact_radius))
+    (first, wide), (second, narrow) = off
+    assert first < 1e-3
+    assert second < 2.0 * (narrow / wide) ** 2 * first
+
+
+def test_modes_beyond_bending_stay_with_the_contact_and_its_lag() -> None:
+    """Each doubling of the modes changes less, by far more than if they took all they deflect."""
+    found = [values(pad(modes=n)) for n in (10, 20, 40)]
+    first, second = (
+        max(abs(x / y - 1) for x, y in zip(one, two, strict=True)) for one, two in pairwise(found)
+    )
+    assert second < 0.1 * first < 1e-4
+
+
+def test_energy_is_accounted_for() -> None:
+    found = pad(modes=20)
+    assert found.moving is not None
+    ledger = found.moving.ledger
+    assert abs(ledger.closure) < 1e-11
+    assert min(ledger.returned, ledger.plate, ledger.dissipated) > 0.05 * ledger.brought
+
+
+def test_other_branches_do_not_move_under_a_contact_that_lags() -> None:
+    with pytest.raises(SceneError, match=r'branches: expected "A0" in a viscoelastic contact'):
+        pad(branches="all")
+
+
+@pytest.mark.parametrize(
+    ("mass", "material", "thickness", "radius", "time"),
+    [(1.0, "steel", 0.01, 0.15, 1e-5), (0.3, "PMMA", 0.004, 0.1, 1e-4)],
+    ids=["recovered to a billionth", "recovered to a hundredth"],
+)
+def test_contacts_that_begin_again_on_a_face_still_pressed_in_are_followed(
+    mass: float, material: str, thickness: float, radius: float, time: float
+) -> None:
+    """To their end, and no energy is lost on the way."""
+    plate = {"radius": radius, "thickness": thickness, "material": material, "viscous_time": time}
+    found = simulate(
+        read(
+            {
+                "sphere": {"radius": 0.02, "mass": mass},
+                "plate": plate,
+                "impact": {"speed": 1.0},
+                "effects": {"inertia": True},
+                "inertia": {"modes": 8},
+            }
+        )
+    )
+    assert found.moving is not None
+    assert found.moving.course.complete
+    assert len(found.moving.course.contacts) == 3
+    assert abs(found.moving.ledger.closure) < 1e-12

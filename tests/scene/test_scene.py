@@ -1,0 +1,256 @@
+"""Scene files: what is read, what is refused and in which words."""
+
+import json
+import math
+import random
+from pathlib import Path
+from typing import Any
+
+import pytest
+from given import changed
+
+from derivation.scene import (
+    SceneError,
+    load,
+    read,
+    schema,
+)
+from derivation.scene.effects import EFFECTS
+from derivation.scene.model import model_of
+
+GOOD = """[sphere]
+radius = 0.13
+mass = 72
+[plate]
+radius = 1.0
+thickness = 0.2
+lame_lambda = 0.36e9
+lame_mu = 0.43e9
+[impact]
+speed = 1
+"""
+LAME = "lame_lambda = 0.36e9\nlame_mu = 0.43e9"
+ALL = "sphere: expected a table|plate: expected a table|impact: expected a table"
+
+# What stands in the good scene, what stands there instead, and words of the message.
+BAD = [
+    ("thickness = 0.2", "thicknes = 0.2", "plate.thicknes: unknown key|did you mean thickness?"),
+    ("thickness = 0.2", "half-thickness = 0.1", "did you mean half_thickness?"),
+    ("thickness = 0.2", "thickness = 0.2\ncolour = 1", "plate.colour|lame_lambda|remove it"),
+    ("radius = 1.0", "radius = 1.0\nspeed = 1", "plate.speed: unknown key|move it to [impact]"),
+    ("[sphere]", "speed = 1\n[sphere]", "speed: unknown table|move it to [impact]"),
+    ("[impact]", "[imapct]", "imapct: unknown table|did you mean impact?|table [impact], got none"),
+    ("speed = 1", "", "impact.speed: expected a positive number|[m/s]|got nothing|`speed = 1`"),
+    ("[impact]\nspeed = 1", "", "impact: expected a table [impact], got none|add [impact]"),
+    ("[impact]\nspeed = 1", "[[impact]]\nspeed = 1", "impact: expected a table|got an array"),
+    ("[sphere]\nradius = 0.13\nmass = 72", "sphere = 3", "sphere: expected a table|got 3"),
+    (GOOD, "", ALL),
+    ("radius = 1.0", "radius = -1.0", "plate.radius|a positive number, the plate radius|got -1"),
+    ("radius = 1.0", "radius = 0", "plate.radius|got 0"),
+    ("radius = 1.0", "radius = -0.0", "plate.radius|got -0"),
+    ("radius = 1.0", "radius = nan", "plate.radius|got nan"),
+    ("radius = 1.0", "radius = inf", "plate.radius|got inf"),
+    ("radius = 1.0", 'radius = "1.0"', 'plate.radius|got the string "1.0"|without quotes'),
+    ("radius = 1.0", "radius = true", "plate.radius|got true"),
+    ("radius = 1.0", "radius = [1.0]", "plate.radius|got an array"),
+    ("radius = 1.0", "radius = { m = 1.0 }", "plate.radius|got a table"),
+    ("radius = 1.0", "radius = 2026-01-01", "plate.radius|got 2026-01-01"),
+    ("radius = 1.0", "radius = 1" + "0" * 400, "plate.radius|got 1000"),
+    ("radius = 1.0", "radius = 1" + "0" * 5000, "numbers too long"),
+    ("radius = 1.0", "radius = " + "[" * 5000, "brackets too deep"),
+    ("speed = 1", "speed = 0", "impact.speed|got 0"),
+    ("mass = 72", "", "[sphere]: expected either sphere.mass or sphere.density|neither|add"),
+    ("mass = 72", "mass = 72\ndensity = 7850", "sphere.mass or sphere.density, got both|remove"),
+    ("mass = 72", "mass = -72", "sphere.mass: expected a positive number|[kg]|got -72"),
+    ("thickness = 0.2", "", "plate.half_thickness or plate.thickness, got neither"),
+    ("thickness = 0.2", "thickness = 0.2\nhalf_thickness = 0.1", "thickness|got both"),
+    (LAME, "", "lame_lambda, plate.lame_mu or the pair|got neither"),
+    (LAME, "lame_mu = 1e9", "got only plate.lame_mu|add plate.lame_lambda"),
+    (LAME, "youngs_modulus = 1e9", "got only plate.youngs_modulus|add plate.poissons_ratio"),
+    (LAME, "lame_mu = 1e9\npoissons_ratio = 0.3", "only plate.lame_mu and plate.poissons_ratio"),
+    (LAME, LAME + "\npoissons_ratio = 0.3", "remove plate.poissons_ratio"),
+    (LAME, LAME + "\nyoungs_modulus = 1e9\npoissons_ratio = 0.3", "got both"),
+    (LAME, "youngs_modulus = 1e9\npoissons_ratio = 0.5", "poissons_ratio|below 0.5|got 0.5"),
+    (LAME, "youngs_modulus = 1e9\npoissons_ratio = -1", "poissons_ratio|above -1|got -1"),
+    (LAME, "youngs_modulus = 0\npoissons_ratio = 0.3", "plate.youngs_modulus|got 0"),
+    ("[impact]", "[accuracy]\n[impact]", "accuracy.rtol|got nothing|`rtol = 1e-06`"),
+    ("[impact]", "[accuracy]\ntol = 1\n[impact]", "accuracy.tol: unknown key|did you mean rtol?"),
+    ("[impact]", "[accuracy]\nrtol = 1e-14\n[impact]", "from 1e-13 to 1|got 1e-14|reference"),
+    ("[impact]", "[inertia]\nmodes = 2.5\n[impact]", "inertia.modes|whole number from 2|got 2.5"),
+    ("[impact]", "[inertia]\nmodes = 'all'\n[impact]", '"auto" or|without quotes|`modes = 40`'),
+    ("[impact]", "[inertia]\nbranches = 'A1'\n[impact]", '"A0" or "all"|like `branches = "all"`'),
+    ("[impact]", "[inertia]\nclosure = 1\n[impact]", '"variational" or "pointwise"|got 1'),
+    ("[impact]", "[inertia]\nplate = 'x'\n[impact]", 'inertia.plate|"modes" or "infinite"'),
+    ("[impact]", "[inertia]\nmode = 3\n[impact]", "inertia.mode: unknown|did you mean modes?"),
+    ("[impact]", "[effects]\ninertia = 1\n[impact]", 'inertia: expected "auto", true or|got 1'),
+    ("lame_mu = 0.43e9", "lame_mu = 0.0", "plate.lame_mu: expected a positive number|got 0"),
+    ("lame_lambda = 0.36e9", "lame_lambda = -0.3e9", "3 lame_lambda + 2 lame_mu|got|raise"),
+    ("lame_lambda = 0.36e9", "lame_lambda = -inf", "plate.lame_lambda: expected a finite number"),
+    ("lame_lambda = 0.36e9", "lame_lambda = 0,36e9", "not valid TOML|line 7"),
+    ("radius = 1.0", "radius = 1.0\nradius = 2.0", "not valid TOML|line 6"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("old", "new", "says"), BAD)
+def test_bad_scene_is_one_clear_message(old: str, new: str, says: str, tmp_path: Path) -> None:
+    assert GOOD.count(old) == 1
+    path = tmp_path / "scene.toml"
+    path.write_text(GOOD.replace(old, new))
+    with pytest.raises(SceneError) as caught:
+        load(path)
+    message = str(caught.value)
+    assert message.startswith(f"{path}: ")
+    for words in says.split("|"):
+        assert words in message
+    assert len(message) < 1200
+    assert "pydantic" not in message
+
+
+def test_several_problems_are_listed_together(tmp_path: Path) -> None:
+    path = tmp_path / "scene.toml"
+    bad = GOOD.replace("radius = 1.0", "radius = -1.0").replace("thickness = 0.2", "thik = 1")
+    path.write_text(bad.replace("mass = 72", "").replace("speed = 1", "speed = '1'"))
+    with pytest.raises(SceneError, match="5 problems") as caught:
+        load(path)
+    lines = str(caught.value).splitlines()[1:]
+    for key in ("plate.radius", "plate.thik", "[plate]", "[sphere]", "impact.speed"):
+        assert sum(line.startswith(f"  - {key}: ") for line in lines) == 1
+
+
+def test_file_that_cannot_be_read(tmp_path: Path) -> None:
+    with pytest.raises(SceneError, match="No such file"):
+        load(tmp_path / "absent.toml")
+    with pytest.raises(SceneError, match="not a file"):
+        load(tmp_path)
+    (tmp_path / "bytes.toml").write_bytes(b"[sphere]\n# \xff\n")
+    with pytest.raises(SceneError, match="UTF-8"):
+        load(tmp_path / "bytes.toml")
+
+
+def test_unreadable_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "scene.toml"
+    path.write_text(GOOD)
+
+    def refuse(path: Path, *_: object) -> bytes:
+        raise PermissionError(13, "Permission denied", str(path))
+
+    monkeypatch.setattr("derivation.scene.scene.read_file", refuse)
+    with pytest.raises(SceneError, match=r"Permission denied.*check its name and permissions"):
+        load(path)
+
+
+def test_good_scenes_are_read_alike(tmp_path: Path) -> None:
+    path = tmp_path / "scene.toml"
+    path.write_text("\ufeff" + GOOD, encoding="utf-8")
+    scene = load(path)
+    assert scene.to_json() | {"effects": changed()["effects"]} == changed()
+    assert model_of(scene).h == 0.1
+    same = read(changed(plate={"thickness": None, "half_thickness": 0.1}))
+    assert model_of(same) == model_of(scene)
+    density = 72 / (4 / 3 * math.pi * 0.13**3)
+    by_density = read(changed(sphere={"mass": None, "density": density}))
+    assert model_of(by_density).m == pytest.approx(72, rel=1e-15)
+    lam, mu = 0.36e9, 0.43e9
+    by_young = read(changed(plate={
+        "lame_lambda": None, "lame_mu": None,
+        "youngs_modulus": mu * (3 * lam + 2 * mu) / (lam + mu),
+        "poissons_ratio": lam / (2 * (lam + mu)),
+    }))  # fmt: skip
+    assert model_of(by_young).lam == pytest.approx(lam, rel=1e-14)
+    assert model_of(by_young).mu == pytest.approx(mu, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("name", "E", "nu", "density"),
+    [
+        ("steel", 210e9, 0.3, 7850.0),
+        ("glass", 70e9, 0.2, 2500.0),
+        ("aluminium", 70e9, 0.3, 2700.0),
+        ("concrete", 33e9, 0.2, 2400.0),
+        ("PMMA", 3.3e9, 0.37, 1190.0),
+    ],
+)
+def test_named_materials_hold_what_their_standards_say(
+    name: str, E: float, nu: float, density: float
+) -> None:
+    """In a plate, and in a sphere that gets its mass from it."""
+    keys = {"lame_lambda": None, "lame_mu": None, "material": name}
+    model = model_of(read(changed(plate=keys, sphere={"mass": None, "material": name})))
+    shear, bulk = E / (2 * (1 + nu)), E / (3 * (1 - 2 * nu))
+    assert model.mu == pytest.approx(shear, rel=1e-14)
+    assert model.lam + 2 / 3 * model.mu == pytest.approx(bulk, rel=1e-14)
+    assert model.modulus == pytest.approx(E / (1 - nu**2), rel=1e-14)
+    assert model.sphere_modulus == pytest.approx(E / (1 - nu**2), rel=1e-14)
+    assert model.density == density
+    assert model.m == pytest.approx(density * math.pi * 0.26**3 / 6, rel=1e-14)
+
+
+def test_poissons_ratio_next_to_its_lower_end_is_refused_by_name() -> None:
+    keys = {"lame_lambda": None, "lame_mu": None, "youngs_modulus": 1e9}
+    scene = read(changed(plate=keys | {"poissons_ratio": math.nextafter(-1.0, 0.0)}))
+    with pytest.raises(SceneError, match=r"poissons_ratio: .* by more than rounding"):
+        model_of(scene)
+
+
+def test_negative_lame_lambda_of_a_stable_material_is_allowed() -> None:
+    model = model_of(read(changed(plate={"lame_lambda": -0.28e9})))
+    assert model.lam == -0.28e9
+
+
+def test_scene_is_frozen() -> None:
+    scene = read(changed())
+    with pytest.raises(ValueError, match="frozen"):
+        scene.plate.radius = 2.0  # type: ignore[misc]
+
+
+def test_direct_construction_is_validated_too() -> None:
+    from derivation.scene.scene import Plate
+
+    with pytest.raises(ValueError, match=r"\[plate\]: expected either .* got neither"):
+        Plate(radius=1.0)
+
+
+@pytest.mark.parametrize("data", [[1], {"sphere": {1: 2}}, {3: 4}])
+def test_data_that_are_no_tables(data: Any) -> None:
+    with pytest.raises(SceneError, match="expected"):
+        read(data)
+
+
+def test_any_damage_is_a_scene_error(tmp_path: Path) -> None:
+    """Random edits of a good scene either load or are refused in words; nothing else happens."""
+    chance = random.Random(7)
+    text, refused = GOOD, 0
+    path = tmp_path / "scene.toml"
+    for _ in range(400):
+        place = chance.randrange(len(text))
+        path.write_text(text[:place] + chance.choice('[]=."-0\nx{}') + text[place + 1 :])
+        try:
+            load(path)
+        except SceneError:
+            refused += 1
+    assert 200 < refused < 400
+
+
+def test_schema_describes_every_key_and_choice() -> None:
+    made = schema()
+    json.dumps(made)
+    assert made["required"] == ["sphere", "plate", "impact"]
+    plate = made["$defs"]["Plate"]
+    assert plate["additionalProperties"] is False
+    assert plate["required"] == ["radius"]
+    assert plate["properties"]["lame_mu"]["exclusiveMinimum"] == 0
+    assert plate["properties"]["poissons_ratio"]["exclusiveMaximum"] == 0.5
+    assert [len(choice["oneOf"]) for choice in plate["allOf"]] == [2, 3]
+    for table in made["$defs"].values():
+        for key in table["properties"].values():
+            assert key["description"]
+            if key.get("type") == "number":
+                assert "[" in key["description"]
+    assert made["$defs"]["Effects"]["properties"]["bending"]["anyOf"] == [
+        {"const": "auto", "type": "string"}, {"type": "boolean"},
+    ]  # fmt: skip
+    assert list(made["$defs"]["Effects"]["properties"]) == [
+        effect.name for effect in EFFECTS if not effect.forced
+    ]
+    modes = made["$defs"]["Inertia"]["properties"]["modes"]["anyOf"]
+    assert modes[1] == {"maximum": 6000, "minimum": 2, "type": "integer"}

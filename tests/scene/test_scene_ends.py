@@ -1,0 +1,381 @@
+"""What simulate refuses, warns of and shows at the ends of its range, as a user meets it."""
+
+import json
+import math
+import re
+from collections.abc import Mapping
+from dataclasses import replace
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import given
+import numpy as np
+import pytest
+
+from derivation.cli import main
+from derivation.scene import (
+    SceneError,
+    animation,
+    code,
+    contact_sequence,
+    edge_remainder,
+    explain,
+    limits,
+    mode_count,
+    motion,
+    read,
+    simulate,
+    viscous,
+    waves,
+)
+from derivation.scene.effects import WHOLE_PLATE
+from derivation.scene.law import THICK, ContactLaw
+from derivation.scene.limits import GRAZING
+from derivation.scene.method_selection import AchievedAccuracy, Part
+from derivation.scene.model import InertiaSettings, Model, model_of
+from derivation.scene.scene import IncompleteError
+from derivation.scene.time_element import P
+from derivation.scene.wave_plot import zener_restitution
+from generated.far_face import far_stress
+
+BALL = Model(
+    R=0.02, m=0.25, v0=1.0, h=0.005, b=0.15, lam=40e9, mu=27e9, density=2700.0,
+    inertia=InertiaSettings(modes=8),
+)  # fmt: skip
+HERTZ = frozenset({"hertz"})
+MOVING = WHOLE_PLATE | {"hertz", "inertia"}
+SCENE: dict[str, dict[str, Any]] = {
+    "sphere": {"radius": 0.02, "material": "steel"},
+    "plate": {"radius": 0.2, "thickness": 0.01, "material": "aluminium", "strength": 200e6},
+    "impact": {"speed": 1.0},
+    "effects": {"inertia": True},
+    "inertia": {"modes": 8},
+}
+Captured = pytest.CaptureFixture[str]
+
+
+def moving(**tables: Mapping[str, Any]) -> Any:
+    return read({name: {**SCENE[name], **tables.get(name, {})} for name in SCENE})
+
+
+@pytest.fixture
+def file(tmp_path: Path) -> Path:
+    """The scene as a file."""
+    path = tmp_path / "scene.toml"
+    tables = (
+        f"[{table}]\n" + "".join(f"{key} = {json.dumps(value)}\n" for key, value in keys.items())
+        for table, keys in SCENE.items()
+    )
+    path.write_text("\n".join(tables))
+    return path
+
+
+# --- on the screen
+
+
+def test_simulate_tells_of_contacts_and_of_the_far_face(file: Path, capsys: Captured) -> None:
+    assert main(["simulate", str(file)]) == 0
+    shown = capsys.readouterr().out
+    result = simulate(moving())
+    assert result.moving is not None
+    assert "Contacts" in shown
+    assert all(note in shown for note in result.moving.notes())
+    assert f"strength / largest tensile stress = {200e6 / result.max_tension:.3g}" in result.verdict
+    assert "quasi-static" in result.verdict
+    assert " ".join(result.verdict.split()) in " ".join(shown.split())
+
+
+def test_a_sweep_is_a_table_or_json(file: Path, capsys: Captured) -> None:
+    file.write_text(file.read_text().replace("inertia = true", "inertia = false"))
+    wanted = ["simulate", str(file), "--sweep", "impact.speed=0.5:1:2"]
+    assert main(wanted) == 0
+    rows = [
+        line for line in capsys.readouterr().out.splitlines() if re.match(r"\W*(0\.5|1)\W", line)
+    ]
+    assert main([*wanted, "--json", "-"]) == 0
+    data = json.loads(capsys.readouterr().out)
+    assert [row["value"] for row in data] == [0.5, 1.0]
+    assert len(rows) == 2
+    for row, line in zip(data, rows, strict=True):
+        assert f"{row['results']['max_force']:.6g}" in line
+
+
+def test_explain_as_a_table_and_as_json(file: Path, capsys: Captured) -> None:
+    assert main(["explain", str(file)]) == 0
+    table = capsys.readouterr()
+    assert "Effects in" in table.out
+    assert "The plate's inertia is included: Zener's number" in table.err
+    assert main(["explain", str(file), "--json", "-"]) == 0
+    data = json.loads(capsys.readouterr().out)
+    assert "inertia" in data["included"]
+    assert "inertia is included" in data["notes"][0]
+    assert "Effects in" not in str(data)
+
+
+def test_an_animation_for_a_browser_holds_its_frames(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(animation, "FRAMES", 3)
+    page = animation.render(simulate(moving()), ".html").decode()
+    assert page.count("data:image/png;base64") == 3
+
+
+def test_an_endless_plate_is_named() -> None:
+    told = explain(moving(inertia={"plate": "infinite", "modes": "auto"}))
+    assert any("too large for a wave to return" in note for note in told.notes)
+
+
+def test_a_bound_names_the_outputs_it_is_of() -> None:
+    part = Part(1e-6, "proved")
+    whole = AchievedAccuracy("full", None, law=part, quadrature=part, rounding=part)
+    some = replace(whole, outputs=("contact_time", "max_force"))
+    assert "relative error at most" in str(whole)
+    assert "relative error of contact time, max force at most" in str(some)
+
+
+def test_the_far_face_of_a_block_is_that_of_the_papers_edge() -> None:
+    """Thicker than what the supports' model is measured for, it would turn to compression."""
+    assert max(key[1] for key in edge_remainder._table()) == THICK
+    block, soft = (
+        simulate(given.scene(plate={"half_thickness": 0.9, "edge": edge}, impact={"speed": 0.01}))
+        for edge in ("clamped", "soft-hinge")
+    )
+    m, a, force = block.model, block.max_contact_radius, block.max_force
+    assert block.max_tension == float(far_stress(force, a, m.h, m.b, m.lam, m.mu)) > 0.0
+    assert block.max_tension == pytest.approx(soft.max_tension, rel=1e-3)
+
+
+def test_a_face_without_tension_holds() -> None:
+    plate = {"half_thickness": 400.0, "strength": 1e6}
+    found = simulate(given.scene(plate=plate, impact={"speed": 0.01}))
+    assert found.max_tension == 0.0
+    assert found.verdict.endswith("no tensile stress under the axis")
+
+
+# --- warnings
+
+
+@pytest.mark.parametrize(
+    ("closing", "least", "says"),
+    [
+        (
+            [1.0, GRAZING / 2],
+            1.0,
+            f"meet again at {GRAZING / 2:.2g} of the impact's speed",
+        ),
+        (
+            [1.0],
+            GRAZING / 4,
+            f"part while they touch, at {GRAZING / 4:.2g} of the largest force",
+        ),
+        ([1.0], 1.0, ""),
+    ],
+)
+def test_contacts_that_hang_by_a_thread(closing: list[float], least: float, says: str) -> None:
+    assert says in "".join(limits.contact_warnings(closing, least))
+    assert bool(limits.contact_warnings(closing, least)) == bool(says)
+
+
+def test_yield_under_a_viscous_contact_is_not_judged() -> None:
+    (text,) = limits.pressure_warnings(1e6, 2e8, viscous=True)
+    assert text.startswith("whether the plate yields is not judged")
+    assert limits.pressure_warnings(1e6, None, viscous=True) == ()
+    assert limits.pressure_warnings(1e6, 2e8) == ()
+
+
+# --- refusals
+
+
+def test_a_material_without_density_gives_no_mass() -> None:
+    with pytest.raises(SceneError, match=r'known density, got the string "paper"; .*mass = 72'):
+        moving(sphere={"material": "paper"})
+    assert moving(sphere={"material": "paper", "mass": 0.2}).sphere.mass == 0.2
+
+
+@pytest.mark.parametrize(
+    ("scene", "rtol", "says"),
+    [
+        (
+            moving(inertia={"modes": 60}),
+            1e-9,
+            "with the modes and branches that move, got 1e-09; .* more inertia.modes",
+        ),
+        (given.scene(), 1e-13, r"for a contact as wide as a/R = 0\.\d+, got 1e-13; give a larger"),
+    ],
+)
+def test_tolerances_out_of_reach_say_what_is_in_reach(scene: Any, rtol: float, says: str) -> None:
+    with pytest.raises(SceneError, match=r"rtol: expected at least \S+ " + says) as told:
+        simulate(scene, rtol=rtol)
+    (least,) = re.findall(r"at least (\S+)", str(told.value))
+    assert simulate(scene, rtol=1.01 * float(least)).accuracy.bound <= 1.01 * float(least)
+
+
+def test_beyond_the_laws_range_there_is_no_moving_impact() -> None:
+    fast = ContactLaw(replace(BALL, v0=1e6), MOVING)
+    scene = moving(impact={"speed": 1e6})
+    for run in (lambda: waves.impact(fast), lambda: waves.problem_of(fast, 8)):
+        with pytest.raises(SceneError, match=r"impact\.speed"):
+            run()
+    with pytest.raises(SceneError, match=r"impact\.speed"):
+        simulate(scene)
+
+
+def test_oscillators_beyond_the_limit_are_not_added(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The last run that can be afforded counts, with the change that it made as its error."""
+    every = law(inertia=InertiaSettings(branches="all"))
+    fine = waves.impact(every, 1e-7)
+    monkeypatch.setattr(mode_count, "MANY", fine.inertia.modes // 2)
+    waves.impact.cache_clear()
+    rough = waves.impact(every, 1e-7)
+    assert rough.inertia.modes < fine.inertia.modes
+    error = abs(rough.restitution / fine.restitution - 1.0)
+    assert error <= sum(rough.inertia.left(("restitution",)))
+
+
+def test_code_that_errs_is_not_given_out() -> None:
+    recipe = code.recipe(given.scene())
+    law, limit = recipe.law, recipe.context["limit"]
+    a = np.linspace(0.0, limit, 4001)[1:]
+    table = law.indentation(a, law.at(a))
+
+    def inverse(delta: Any) -> Any:
+        return np.interp(delta, table, a)
+
+    made = {
+        "MAX_INDENTATION": math.inf,
+        "contact_radius": inverse,
+        "force": lambda delta: law.force(inverse(delta), law.at(inverse(delta))),
+        "stiffness": lambda delta: law.stiffness(inverse(delta), law.at(inverse(delta))),
+    }
+    with pytest.raises(
+        SceneError, match=r"code that repeats its \w[\w ]+ to .*; give less extreme"
+    ):
+        code.errors(recipe, made)
+
+
+# --- contacts that are not followed
+
+
+def law(effects: frozenset[str] = MOVING, **changes: Any) -> ContactLaw:
+    return ContactLaw(replace(BALL, **changes), effects)
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "says"),
+    [
+        ("MOST", 3, "no solution that can be found; give less extreme"),
+        ("SHORTEST", 10.0, "the contact at 0 s has no solution"),
+        ("ELEMENTS", 4, "still in contact .* limit of 4 time steps"),
+    ],
+)
+def test_a_first_contact_that_does_not_end_is_refused(
+    name: str, value: float, says: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    problem = waves.problem_of(law(), 8)
+    monkeypatch.setattr(contact_sequence, name, value)
+    with pytest.raises(SceneError, match=rf"effects\.inertia: .*{says}"):
+        contact_sequence.course(problem, 10)
+
+
+def test_why_a_contact_is_lost() -> None:
+    problem = waves.problem_of(law(), 8)
+    widest = problem.contact.top / problem.a
+    told = contact_sequence._lost(problem, problem.begin(), widest, 0.0)
+    assert f"grows wider than {problem.contact.top:.4g} m" in told.why
+    assert "give a lower speed, a lighter sphere or less weight" in told.remedy
+
+
+def test_a_sphere_too_heavy_to_come_off_is_refused() -> None:
+    """After a contact far longer than the plate swings, which without weight means nothing."""
+    heavy = waves.problem_of(law(MOVING | {"gravity"}, gravity=9.81), 8)
+    light = waves.problem_of(law(), 8)
+    contact_sequence._check_weight(heavy, 1.0)
+    contact_sequence._check_weight(light, 1e6)
+    with pytest.raises(IncompleteError, match="weight of the sphere keeps it on the plate"):
+        contact_sequence._check_weight(heavy, 1e6)
+
+
+@pytest.mark.parametrize(("name", "value"), [("MOST", 1), ("SHORTEST", 1e9)])
+def test_a_viscous_contact_that_is_not_followed(
+    name: str, value: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    rest = ContactLaw(replace(BALL, viscous_time=1e-5), frozenset({"hertz", "viscosity"}))
+    found = viscous.impact(rest)
+    assert 0.0 < found.restitution < 1.0
+    monkeypatch.setattr(viscous, name, value)
+    with pytest.raises(SceneError, match=r"plate\.viscous_time: .* cannot at .* s; give a shorter"):
+        viscous.impact(rest)
+
+
+def test_an_element_that_cannot_be_shortened_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A contact that lags ends within its last element, wherever that itself ends."""
+    found = waves.impact(law(MOVING | {"viscosity"}, viscous_time=1e-4))
+    problem, touching = found.course.problem, found.course.contacts[0]
+    last, before = touching.pieces[-1], touching.pieces[-2]
+    again = contact_sequence._let_go(problem, 10, last, before.end, before.radius)
+    assert again.element.end(P) == pytest.approx(last.element.end(P), rel=1e-6)
+    monkeypatch.setattr(contact_sequence, "element", lambda *_: None)
+    assert contact_sequence._let_go(problem, 10, last, before.end, before.radius) is last
+
+
+def test_a_guess_without_numbers_leads_nowhere() -> None:
+    found = viscous.impact(ContactLaw(replace(BALL, viscous_time=1e-5), HERTZ | {"viscosity"}))
+    assert found.problem is not None
+    start, n = viscous.Point(0.0, 1.0, 0.0), 8
+    guess = viscous._onset(found.problem, viscous.radau(n), 1e-3)
+    assert viscous.element(found.problem, n, 0.0, 1e-3, start, guess) is not None
+    with np.errstate(all="ignore"):
+        assert viscous.element(found.problem, n, 0.0, 1e-3, start, guess * 1e200) is None
+
+
+# --- physics
+
+
+def test_a_course_is_the_same_by_the_finest_rule(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The rule is the first that gives the contact time: the rounding of finer ones adds up."""
+    result = simulate(given.scene())
+    first = result.history(41)
+    monkeypatch.setattr(motion, "AGREED", -1.0)
+    for ours, finest in zip(first, result.history(41), strict=True):
+        off = np.abs(finest - ours) / np.max(np.abs(ours))
+        assert np.max(off[1:-1]) < 1e-12
+        assert np.max(off) < 1e-7
+
+
+@pytest.mark.parametrize("number", [0.02, 0.3, 1.5])
+def test_a_thin_infinite_plate_gives_back_what_zener_says(number: float) -> None:
+    """Zener's equation is the limit of a thin plate and a contact small beside its thickness."""
+    plate = {"radius": 0.1, "thickness": 0.01, "youngs_modulus": 7e10, "poissons_ratio": 0.2,
+             "density": 2500.0}  # fmt: skip
+    data = {"sphere": {"radius": 1e-3, "mass": 1e-3}, "plate": plate, "impact": {"speed": 1e-6},
+            "inertia": {"plate": "infinite"}}  # fmt: skip
+    unit = limits.zener_number(model_of(read(data)))
+    # The number goes with m^(3/5): the slower, the smaller is the contact.
+    data["sphere"]["mass"] = 1e-3 * (number / unit) ** (5.0 / 3.0)  # type: ignore[index]
+    found = simulate(read(data))
+    assert limits.zener_number(found.model) == pytest.approx(number, rel=1e-6)
+    assert found.restitution == pytest.approx(zener_restitution(number), abs=2e-2)
+
+
+def test_a_face_that_lags_recovers_between_contacts() -> None:
+    """Without force the elastic part, as a^3, falls like exp(-t/viscous time)."""
+    lagging = law(MOVING | {"viscosity"}, viscous_time=1e-4)
+    found = waves.impact(lagging)
+    contacts, problem = found.course.contacts, found.course.problem
+    again = [(one, two) for one, two in pairwise(contacts) if two.radius]
+    assert len(again) >= 2
+    for one, two in again:
+        gap = problem.T * (two.start - one.end)
+        fallen = (two.radius / one.pieces[-1].radius) ** 3
+        assert fallen == pytest.approx(math.exp(-gap / 1e-4), rel=1e-3)
+    assert abs(found.ledger.closure) < 1e-7
+
+
+def test_modes_slower_than_the_contact_have_no_bound() -> None:
+    """They agree with each other whatever the truth is: as few as these differ by a third."""
+    few, many = (simulate(moving(inertia={"modes": count})) for count in (4, 60))
+    assert math.isinf(few.accuracy.bound)
+    assert few.moving is not None
+    assert "slower than the contact" in few.moving.notes()[-1]
+    assert abs(few.restitution / many.restitution - 1.0) > 10.0 * many.accuracy.bound
+    with pytest.raises(SceneError, match=r"expected modes as fast as the contact.* got 4"):
+        simulate(moving(inertia={"modes": 4}), rtol=0.5)

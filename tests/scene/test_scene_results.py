@@ -1,0 +1,227 @@
+"""Results of scenes are whole: every warning is given, no NaN is written, no drawing loses one."""
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import given
+import numpy as np
+import pytest
+
+from derivation.cli import main
+from derivation.engine.console import json_text
+from derivation.scene import SceneError, animation, read, simulate
+from derivation.scene import plot as plots
+from derivation.scene.effects import WHOLE_PLATE
+from derivation.scene.law import ContactLaw
+from derivation.scene.limits import (
+    STRETCH_LIMIT,
+    YIELD_LIMIT,
+    check_energy,
+    local_indentation,
+    tension_warnings,
+)
+from derivation.scene.modal import Modes, plate_of
+from derivation.scene.model import model_of
+from derivation.scene.result import History, Result
+from generated import held_waves
+
+Captured = pytest.CaptureFixture[str]
+DROP: dict[str, dict[str, Any]] = {
+    "sphere": {"radius": 0.01, "material": "steel"},
+    "plate": {
+        "radius": 0.05, "thickness": 0.002, "material": "aluminium", "yield_stress": 1e8,
+        "strength": 1e7,
+    },
+    "impact": {"speed": 2.0},
+    "effects": {"inertia": True, "pressure": "auto"},
+    "inertia": {"modes": 24},
+}  # fmt: skip
+
+
+def scene(**tables: Any) -> Any:
+    return read({name: {**DROP[name], **tables.get(name, {})} for name in DROP})
+
+
+def write(folder: Path, data: Any) -> str:
+    """A scene as a file."""
+    lines = (
+        f"[{table}]\n" + "".join(f"{key} = {json.dumps(value)}\n" for key, value in keys.items())
+        for table, keys in data.to_json().items()
+    )
+    place = folder / "scene.toml"
+    place.write_text("\n".join(lines))
+    return str(place)
+
+
+# --- warnings of plates with inertia
+
+
+def test_the_deflection_of_a_plate_with_inertia_is_that_of_its_course() -> None:
+    """It is largest at another time than the contact radius, and after the last contact too."""
+    result = simulate(scene())
+    assert result.moving is not None
+    history = result.history(4001)
+    local = local_indentation(result.gate.law, history.contact_radius)
+    touching = history.force > 0.0
+    seen = np.max(np.abs(history.indentation - local)[touching])
+    found = result.moving.largest_deflection(result.gate.law)
+    assert found >= (1 - 1e-6) * seen
+    assert found >= 0.98 * np.max(np.abs(history.deflection))
+    problem = result.moving.course.problem
+    later = np.linspace(1.0, 1.2, 200) * result.total_time
+    assert found >= 0.98 * np.max(np.abs(result.moving.profiles(later, np.zeros(1))))
+    assert problem.contact.modes.phi.size == 24  # with "auto" some have two branches
+
+
+def test_plates_with_inertia_keep_every_warning() -> None:
+    fast = {"impact": {"speed": 6.0}}
+    for effects in ({"inertia": False}, {"inertia": True}):
+        result = simulate(scene(**fast, effects=effects))
+        said = " ".join(result.warnings)
+        assert f"exceeds {STRETCH_LIMIT}" in said
+        assert f"exceeds {YIELD_LIMIT}" in said
+        assert "times the strength" in said
+        assert "times the yield stress" in said
+
+
+def test_the_largest_deflection_is_warned_of_at_whatever_time_it_is() -> None:
+    """Here well before the largest indentation."""
+    plate = {"radius": 0.08, "yield_stress": 3e8, "strength": None}
+    result = simulate(scene(plate=plate, impact={"speed": 3.0}))
+    assert result.moving is not None
+    times = np.linspace(0.0, result.total_time, 400)
+    seen = np.abs(result.moving.profiles(times, np.zeros(1))).max()
+    assert seen > STRETCH_LIMIT * 2.0 * result.model.h
+    assert f"exceeds {STRETCH_LIMIT}" in " ".join(result.warnings)
+
+
+def test_tension_is_compared_with_what_is_given() -> None:
+    assert tension_warnings(3e8, None, None) == tension_warnings(1e8, 2e8, 2e8) == ()
+    [failure] = tension_warnings(3e8, 2e8, 4e8)
+    assert failure.startswith("the largest tensile stress on the back face is 1.5 times the str")
+    [yielding] = tension_warnings(3e8, None, 2e8)
+    assert "1.5 times the yield stress: the plate is predicted to yield in bending" in yielding
+
+
+# --- drawings
+
+
+def test_shapes_of_modes_with_many_nodes_are_finite() -> None:
+    """I_0 alone is beyond the doubles, but no deflection is, and the edge is held."""
+    with np.errstate(all="raise", under="ignore"):
+        waves = held_waves.clamped_waves(400, 1e-4, 0.3)
+        found = held_waves.shape(waves, np.linspace(0.0, 1.0, 11))
+    assert waves.k2[-1] > 1200.0
+    assert np.isfinite(found).all()
+    assert found[:, 0] == pytest.approx(1.0, rel=1e-12)
+    assert np.abs(found).max() <= 1.0 + 1e-12
+    assert np.abs(found[:, -1]).max() < 1e-4
+
+
+def test_many_modes_of_a_clamped_plate_are_drawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(animation, "FRAMES", 2)
+    data = scene(plate={"edge": "clamped"}, inertia={"modes": 300})
+    modes = plate_of(
+        ContactLaw(model_of(data), WHOLE_PLATE | {"hertz", "edge", "inertia"}), 300
+    ).modes
+    assert modes.held is not None
+    assert np.isfinite(modes.shapes(np.linspace(0.0, 0.05, 5))).all()
+    assert animation.render(simulate(data), ".gif").startswith(b"GIF")
+
+
+def test_no_drawing_loses_the_result(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Captured
+) -> None:
+    """Frames that are not finite, and whatever else a drawing may raise."""
+    file = write(tmp_path, scene())
+
+    def fails(*_: Any) -> Any:
+        raise RuntimeError("no canvas")
+
+    shapes = Modes.shapes
+    monkeypatch.setattr(Modes, "shapes", lambda self, r: shapes(self, r) * math.nan)
+    monkeypatch.setattr(plots, "render", fails)
+    outputs = ["--csv", f"{tmp_path}/a.csv", "--json", f"{tmp_path}/a.json"]
+    drawings = ["--plot", f"{tmp_path}/a.svg", "--animate", f"{tmp_path}/a.gif"]
+    assert main(["simulate", file, *outputs, *drawings]) == 2
+    shown = capsys.readouterr()
+    assert "max force" in shown.out
+    assert "no canvas" in shown.err
+    assert "expected finite" in shown.err
+    assert json.loads((tmp_path / "a.json").read_text())["max_force"] > 0
+    assert (tmp_path / "a.csv").read_text().startswith("time,")
+    assert not (tmp_path / "a.svg").exists()
+    assert not (tmp_path / "a.gif").exists()
+
+
+# --- numbers that are none
+
+
+@pytest.mark.parametrize(
+    ("radius", "edge", "speed"), [(0.008, "clamped", 0.5), (0.004, "simply-supported", 0.25)]
+)
+def test_a_rate_of_zero_leaves_no_hole_in_the_history(
+    radius: float, edge: str, speed: float
+) -> None:
+    """Where Newton's slope is exactly 0, which a step of it would divide by."""
+    data = read(
+        {
+            "sphere": {"radius": radius, "material": "glass"},
+            "plate": {"radius": 0.1, "thickness": 0.012, "material": "aluminium", "edge": edge},
+            "impact": {"speed": speed},
+            "effects": {"inertia": False},
+        }
+    )
+    found = simulate(data).history()
+    assert all(np.isfinite(column).all() for column in found)
+    assert found.velocity[0] == pytest.approx(speed)
+    assert found.indentation[0] == pytest.approx(0.0, abs=1e-12)
+
+
+def test_a_history_with_nan_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Captured
+) -> None:
+    hole = History(*np.full((5, 3), math.nan))
+    monkeypatch.setattr(Result, "_history", lambda *_: hole)
+    file, place = write(tmp_path, scene(effects={"inertia": False})), tmp_path / "a.csv"
+    assert main(["simulate", file, "--csv", str(place)]) == 2
+    assert "expected finite numbers" in capsys.readouterr().err
+    assert not place.exists()
+
+
+def test_json_of_nan_is_refused() -> None:
+    with pytest.raises(ValueError, match="expected finite numbers"):
+        json_text({"x": math.nan})
+
+
+# --- spheres that no speed can save
+
+
+def test_a_sphere_that_is_too_heavy_is_told_so() -> None:
+    heavy = {
+        "sphere": {"radius": 0.01, "mass": 1000.0, "material": None},
+        "plate": {"radius": 0.1, "thickness": 0.01, "youngs_modulus": 5e6, "poissons_ratio": 0.4,
+                  "material": None, "yield_stress": None, "strength": None},
+        "impact": {"speed": 0.1, "gravity": 9.81},
+        "effects": {"inertia": False, "pressure": False},
+    }  # fmt: skip
+    data = scene(**heavy).model_dump(exclude_none=True)
+    data.pop("inertia")
+    with pytest.raises(SceneError, match=r"^impact\.gravity: .* weight .*; .*lighter"):
+        simulate(read(data))
+    data["impact"]["speed"] = 1e-9  # no speed mends it
+    with pytest.raises(SceneError, match=r"^impact\.gravity: "):
+        simulate(read(data))
+    data["effects"]["gravity"] = False
+    assert simulate(read(data)).contact_time > 0
+
+
+def test_a_law_without_energy_is_told_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    from derivation.scene import limits
+    from derivation.scene.law import ContactLaw
+
+    monkeypatch.setattr(limits, "energy_of", lambda *_: 0.0)
+    with pytest.raises(SceneError, match=r"^scene: .*; give a thicker plate"):
+        check_energy(ContactLaw(given.model(gravity=0.0), frozenset({"hertz"})))

@@ -1,0 +1,239 @@
+"""Impacts and contacts at rest: results, history, units, extremes, refusals, examples."""
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import hertz_double as hertz
+import numpy as np
+import pytest
+from given import EXAMPLES, changed, thick
+
+import derivation.checks.effects
+import derivation.scene
+from derivation.scene import (
+    SceneError,
+    indent,
+    kernels,
+    load,
+    read,
+    simulate,
+)
+from derivation.scene.model import model_of
+from derivation.scene.quadrature import MORE_TIMES, NODES, gauss
+
+
+def test_thick_plate_gives_hertz() -> None:
+    scene = thick()
+    m = model_of(scene)
+    found = simulate(scene)
+    truth = hertz.impact(m.R, m.m, m.v0, m.h, m.b, m.lam, m.mu)
+    ours = (
+        found.contact_time, found.max_indentation, found.max_force, found.max_contact_radius,
+    )  # fmt: skip
+    np.testing.assert_allclose(ours, truth, rtol=1e-6)
+    assert found.warnings == ()
+
+
+def test_history_starts_and_ends_free_and_keeps_the_energy() -> None:
+    result = simulate(load(EXAMPLES / "paper.toml"))
+    history = result.history(101)
+    assert len(history.time) == 101
+    assert history.time[-1] == result.contact_time
+    assert history.indentation[0] == history.force[0] == 0
+    assert history.velocity[0] == 1
+    assert history.velocity[-1] == pytest.approx(-1, rel=1e-9)
+    assert history.indentation[-1] == pytest.approx(0, abs=1e-9 * result.max_indentation)
+    assert history.indentation[50] == pytest.approx(result.max_indentation, rel=1e-9)
+    assert history.force[50] == pytest.approx(result.max_force, rel=1e-9)
+    assert (history.force[1:-1] > 0).all()
+    taken = np.trapezoid(history.force, history.time)
+    assert taken == pytest.approx(2 * result.model.m * result.model.v0, rel=1e-3)
+
+
+def test_history_at_times_asked_for() -> None:
+    scene = read(changed())
+    whole = simulate(scene)
+    times = [0.0, whole.contact_time / 3, whole.contact_time]
+    found = simulate(scene, times=times)
+    assert found.history().time.tolist() == times
+    assert found.history(5).time.shape == (5,)
+    assert whole.history().time.shape == (201,)
+    for bad in ([-1e-9], [2 * whole.contact_time], [math.nan], [math.inf]):
+        with pytest.raises(SceneError, match="times: expected times from 0 to the contact time"):
+            simulate(scene, times=bad)
+    with pytest.raises(SceneError, match="at least 2"):
+        whole.history(1)
+
+
+def test_json_keys_and_notebook_table() -> None:
+    scene = read(changed())
+    result = simulate(scene)
+    made = result.to_json()
+    assert list(made) == [
+        "contact_time", "max_indentation", "max_force", "max_contact_radius", "restitution",
+        "max_pressure", "max_tension", "accuracy", "model_error", "effects", "warnings", "scene",
+    ]  # fmt: skip
+    again = json.loads(json.dumps(made))
+    assert again["contact_time"] == result.contact_time
+    assert read(again["scene"]) == scene
+    shown = result._repr_html_()
+    assert shown.startswith("<table>")
+    assert all(f">{value}<" in shown for _, value, _ in result.rows())
+
+
+@pytest.mark.parametrize(("moves", "rel"), [(False, 1e-13), (True, 1e-11)])
+def test_units_do_not_matter(moves: bool, rel: float) -> None:
+    """Millimetre, tonne, second: stress in MPa, force in N; dimensionless results agree."""
+    metre = simulate(read(changed(plate={"density": 2400.0}, effects={"inertia": moves})))
+    millimetre = simulate(read({
+        "sphere": {"radius": 130.0, "mass": 0.072},
+        "plate": {
+            "radius": 1000.0, "thickness": 200.0, "lame_lambda": 360.0, "lame_mu": 430.0,
+            "density": 2.4e-9,
+        },
+        "impact": {"speed": 1000.0},
+        "effects": {"curvature": False, "pressure": False, "inertia": moves},
+    }))  # fmt: skip
+    assert millimetre.contact_time == pytest.approx(metre.contact_time, rel=rel)
+    assert millimetre.max_indentation == pytest.approx(1e3 * metre.max_indentation, rel=rel)
+    assert millimetre.max_contact_radius == pytest.approx(1e3 * metre.max_contact_radius, rel=rel)
+    assert millimetre.max_force == pytest.approx(metre.max_force, rel=rel)
+    assert millimetre.restitution == pytest.approx(metre.restitution, rel=rel)
+    assert (metre.restitution < 1.0) is moves
+    numbers = metre.model.dimensionless()
+    for name, number in millimetre.model.dimensionless().items():
+        assert number == pytest.approx(numbers[name], rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    "tables",
+    [
+        {"impact": {"speed": 1e-300}},
+        {"impact": {"speed": 1e300}},
+        {"sphere": {"radius": 1e150, "mass": None, "density": 7850.0}},
+        {"sphere": {"mass": 1e-320}},
+        {"plate": {"lame_lambda": 1e308, "lame_mu": 1e308}},
+        {"plate": {"radius": 1e-300}},
+        {
+            "plate": {
+                "lame_lambda": None, "lame_mu": None,
+                "youngs_modulus": 1e9, "poissons_ratio": -0.9999999999999999,
+            }
+        },
+    ],
+)  # fmt: skip
+@pytest.mark.filterwarnings("error")
+def test_extreme_scene_gives_numbers_or_words(tables: dict[str, dict[str, float]]) -> None:
+    try:
+        found = simulate(read(changed(**tables)))
+    except SceneError as error:
+        found, words = None, str(error)
+    if found is None:
+        assert "expected" in words or "less extreme" in words
+    else:
+        numbers = (found.contact_time, found.max_indentation, found.max_force)
+        assert all(0 < number < math.inf for number in numbers)
+
+
+def test_kernel_without_a_number_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    nothing = hertz.Impact(*(np.array(math.nan) for _ in range(4)))
+    monkeypatch.setattr(kernels, "impact", lambda *_, **__: nothing)
+    with pytest.raises(SceneError, match=r"no number for h/b = 0\.1"):
+        simulate(read(changed()))
+
+
+def test_kernel_beyond_the_radius_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(kernels, "impact", lambda *_, **__: hertz.Impact(1.0, 1.0, 1.0, 0.14))
+    with pytest.raises(SceneError, match=r"below min\(b, R\) = 0\.13 m, got 0\.14 m"):
+        simulate(read(changed()))
+
+
+def test_indent_by_each_of_the_three_agrees() -> None:
+    scene = read(changed())
+    rows = indent(scene, contact_radius=[1e-3, 5e-3, 2e-2])
+    assert [row.contact_radius for row in rows] == [1e-3, 5e-3, 2e-2]
+    by_force = indent(scene, force=np.array([row.force for row in rows]))
+    by_depth = indent(scene, indentation=tuple(row.indentation for row in rows))
+    for row, other, third in zip(rows, by_force, by_depth, strict=True):
+        for found in (other, third):
+            assert found.contact_radius == pytest.approx(row.contact_radius, rel=1e-12)
+            assert found.stiffness == pytest.approx(row.stiffness, rel=1e-12)
+            assert found.max_pressure == pytest.approx(row.max_pressure, rel=1e-12)
+        assert other.force == row.force
+        assert third.indentation == row.indentation
+    step = 1e-4
+    lower, upper = indent(scene, indentation=[rows[1].indentation * (1 + s) for s in (-step, step)])
+    slope = (upper.force - lower.force) / (upper.indentation - lower.indentation)
+    assert rows[1].stiffness == pytest.approx(slope, rel=1e-6)
+    assert rows[1].max_pressure == pytest.approx(
+        1.5 * rows[1].force / (math.pi * rows[1].contact_radius ** 2), rel=1e-12
+    )
+
+
+def test_indent_takes_a_single_number() -> None:
+    [row] = indent(read(changed()), force=10.0)
+    assert row.force == 10.0
+    assert row.to_json().keys() == {
+        "contact_radius", "indentation", "force", "stiffness", "max_pressure", "warnings",
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("given", "says"),
+    [
+        ({}, "exactly one of contact_radius, force and indentation, got none"),
+        ({"force": 1.0, "indentation": 1e-3}, "got force and indentation"),
+        ({"force": []}, "force: expected one or more positive numbers"),
+        ({"force": "10"}, "got a string"),
+        ({"force": [1.0, -1.0]}, "got -1"),
+        ({"force": [0.0]}, "got 0"),
+        ({"force": [math.nan]}, "got nan"),
+        ({"force": [math.inf]}, "got inf"),
+        ({"force": [True]}, "got true"),
+        ({"force": ["1"]}, "got the string"),
+        ({"force": 1e30}, "force: expected less than .* got 1e\\+30 N; give a smaller force"),
+        ({"contact_radius": 0.13}, "contact_radius = 0.13 m: .* min\\(b, R\\) = 0.13 m"),
+        ({"indentation": 1e3}, "indentation: expected less than .* got 1000 m"),
+        ({"contact_radius": 1e-300}, "no number"),
+    ],
+)
+@pytest.mark.filterwarnings("error")
+def test_indent_refuses(given: dict[str, Any], says: str) -> None:
+    with pytest.raises(SceneError, match=says):
+        indent(read(changed()), **given)
+
+
+@pytest.mark.parametrize("path", sorted(EXAMPLES.glob("*.toml")), ids=lambda path: path.stem)
+def test_examples_run(path: Path) -> None:
+    result = simulate(load(path))
+    calm = {"paper", "concrete_floor", "membrane", "pad"}  # each other is near some limit
+    # In its first contact the membrane all but leaves the ball, and comes back.
+    told = [text for text in result.warnings if path.stem != "membrane" or "grazing" not in text]
+    assert (told == []) == (path.stem in calm)
+    assert result.contact_time > 0
+
+
+def test_paper_example_holds_what_the_paper_gives() -> None:
+    model = model_of(load(EXAMPLES / "paper.toml"))
+    assert (model.R, model.v0, model.lam, model.mu) == (0.13, 1.0, 0.36e9, 0.43e9)
+    assert model.eta == 0.1
+    assert simulate(load(EXAMPLES / "paper.toml")).max_contact_radius / (2 * model.h) < 0.1
+
+
+def test_public_names() -> None:
+    for name in derivation.scene.__all__:
+        assert callable(getattr(derivation.scene, name))
+    with pytest.raises(AttributeError, match="nonsense"):
+        _ = derivation.scene.nonsense
+
+
+@pytest.mark.parametrize("n", [*NODES, *MORE_TIMES])
+def test_gauss_integrates_polynomials(n: int) -> None:
+    """By NumPy's nodes and by SciPy's, up to the last degree for which the rule is exact."""
+    x, weights = gauss(n)
+    assert x.shape == weights.shape == (n,)
+    assert np.all(np.diff(x) > 0)
+    for power in (0, 1, 2, n, 2 * n - 1):
+        assert weights @ x**power == pytest.approx(1 / (power + 1), rel=1e-12)

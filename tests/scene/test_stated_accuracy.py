@@ -1,0 +1,155 @@
+"""What is stated of a result's accuracy holds: tolerances, digits, rounding, steps."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from derivation.engine import activity
+from derivation.scene import SceneError, contact_sequence, flight, read, simulate, waves
+from derivation.scene.effects import PAPER
+from derivation.scene.effects.effect import NO_BOUND
+from derivation.scene.law import ContactLaw
+from derivation.scene.model import model_of
+from derivation.scene.result import MOST_DIGITS, Result
+from derivation.scene.scene import OUTPUTS
+
+BALL = {"radius": 0.01, "material": "steel"}
+PANE = {"radius": 0.1, "thickness": 0.01, "material": "glass"}
+
+
+def scene(**tables: Mapping[str, Any]) -> Any:
+    return read({"sphere": BALL, "plate": PANE, "impact": {"speed": 1.0}} | tables)
+
+
+@pytest.mark.parametrize("rtol", [1e-1, 1e-2, 1e-3])
+def test_a_tolerance_is_met(rtol: float) -> None:
+    fine, found = simulate(scene()), simulate(scene(), rtol=rtol)
+    assert found.accuracy.bound <= rtol
+    for name in OUTPUTS:
+        off = abs(getattr(found, name) / getattr(fine, name) - 1.0)
+        assert off <= found.accuracy.bound + fine.accuracy.bound
+
+
+def test_a_tolerance_out_of_reach_is_refused() -> None:
+    few = {"modes": 8, "branches": "A0"}
+    with pytest.raises(SceneError, match=r"rtol: expected at least .*; give a larger"):
+        simulate(scene(inertia=few), rtol=1e-6)
+    assert simulate(scene(inertia=few)).accuracy.bound > 1e-6
+
+
+def test_digits_are_those_that_bound_and_model_error_support() -> None:
+    result = simulate(scene())
+    error = result.accuracy.bound + result.model_error
+    rows = {name: float(value) for name, value, _ in result.rows()}
+    # The last digit shown is not finer than the error, nor ten times as coarse.
+    shown = rows["max force"]
+    assert abs(shown / result.max_force - 1.0) <= 10.0 * error
+    exact = replace(result, accuracy=replace(result.accuracy, law=result.accuracy.rounding))
+    assert replace(exact, model_error=0.0).digits > result.digits
+    assert replace(exact, model_error=0.0).digits <= MOST_DIGITS
+    assert replace(result, model_error=0.05).digits == 2
+
+
+def test_what_a_scene_disables_is_named_with_its_bound() -> None:
+    result = simulate(scene(effects={"sphere_elasticity": False}))
+    row = next(row for row in result.gate.rows if row.disabled)
+    assert row.name == "sphere_elasticity"
+    known = row.bound < NO_BOUND
+    assert ("at most" if known else "no bound") in result.disabled_note
+    assert not simulate(scene()).disabled_note
+
+
+def test_rounding_of_a_small_part_beside_much_bending_is_within_the_bound() -> None:
+    """In other units only rounding differs: of the plate's share less bending, which is huge."""
+
+    def run(f: float) -> Result:
+        return simulate(
+            read(
+                {
+                    "sphere": {"radius": 0.01 * f, "mass": 0.01},
+                    "plate": {"radius": 1.0 * f, "half_thickness": 0.002 * f,
+                              "lame_lambda": 0.36e9 / f, "lame_mu": 0.43e9 / f},
+                    "impact": {"speed": f},
+                    "effects": {"bending": False, "side_wall": True, "finite_thickness": True,
+                                "inertia": False, "pressure": False},
+                }
+            ), rtol=1e-9,
+        )  # fmt: skip
+
+    one = run(1.0)
+    for f in (2.0**5, 2.0**-7, 2.0**20):
+        other = run(f)
+        stated = one.accuracy.bound + other.accuracy.bound
+        pairs = ((one.contact_time, other.contact_time), (one.max_force * f, other.max_force))
+        assert all(abs(b / a - 1.0) <= stated for a, b in pairs)
+
+
+def test_a_viscoelastic_contact_begins_again_on_a_nearly_recovered_face(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """When the face counts as recovered does not matter, once it is all but flat."""
+    given = read(
+        {
+            "sphere": {"radius": 0.02, "mass": 1.0},
+            "plate": {"radius": 0.15, "thickness": 0.01, "material": "steel",
+                      "viscous_time": 1e-5},
+            "impact": {"speed": 1.0},
+        }
+    )  # fmt: skip
+    law = ContactLaw(model_of(given), PAPER | {"viscosity", "inertia"})
+    problem = waves.problem_of(law, 8)
+    found = []
+    for recovered in (15.0, 20.0):
+        monkeypatch.setattr(flight, "RECOVERED", recovered)
+        found.append(contact_sequence.course(problem, 16))
+    one, other = found
+    assert one.complete
+    assert len(one.contacts) == len(other.contacts) > 1
+    assert one.contacts[-1].after.velocity == pytest.approx(
+        other.contacts[-1].after.velocity, rel=1e-9
+    )
+
+
+def test_a_long_run_says_how_far_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(contact_sequence, "TOLD", 1)
+    law = ContactLaw(model_of(scene()), PAPER | {"inertia"})
+    problem, told = waves.problem_of(law, 4), list[str]()
+    with activity.heard(told.append):
+        contact_sequence.course(problem, 10)
+    assert told
+    count = len(told)
+    assert all("after first contact" in text for text in told)
+    contact_sequence.course(problem, 10)
+    assert len(told) == count
+
+
+def test_slow_oscillators_alone_say_when_contact_is_impossible() -> None:
+    """By looks at every oscillator sphere and plate meet at the same time, or never."""
+    law = ContactLaw(replace(model_of(scene()), h=0.001, m=0.05), frozenset(
+        {"hertz", "bending", "finite_thickness", "side_wall", "inertia"}))  # fmt: skip
+    problem = waves.problem_of(law, 40)
+    course = contact_sequence.course(problem, 14)
+    for one, two in zip(course.contacts, course.contacts[1:], strict=False):
+        wait = two.start - one.end
+        clear = flight._clear(problem, one.after)
+        assert clear <= wait
+        for share in (0.25, 0.5, 1.0):
+            assert problem.flown(one.after, share * clear).into <= 1e-12
+    assert len(course.contacts) > 1
+
+
+def test_a_tolerance_is_refused_where_omitted_effects_have_no_bound() -> None:
+    scene = read(
+        {
+            "sphere": {"radius": 0.05, "material": "steel"},
+            "plate": {"radius": 0.2, "thickness": 0.004, "material": "aluminium"},
+            "impact": {"speed": 20.0},
+            "effects": {"side_wall": False, "inertia": False},
+        }
+    )
+    assert math.isinf(simulate(scene).accuracy.effects.bound)
+    with pytest.raises(SceneError, match=r"rtol: expected a bound .*leave out what \[effects\]"):
+        simulate(scene, rtol=0.5)

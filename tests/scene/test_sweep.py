@@ -1,0 +1,136 @@
+"""Sweeps: every row is the simulation of its value; what is refused says why and stops nothing."""
+
+import csv
+import json
+import os
+import signal
+import subprocess
+import sys
+from functools import partial
+from pathlib import Path
+
+import pytest
+from given import PAPER
+
+from derivation.cli import main
+from derivation.scene import SceneError, load, read, simulate, sweep
+
+Captured = pytest.CaptureFixture[str]
+
+
+def test_rows_are_the_simulations_of_their_values(tmp_path: Path) -> None:
+    place = tmp_path / "rows.csv"
+    assert (
+        main(["simulate", str(PAPER), "--sweep", "impact.speed=0.5:1.5:3", "--csv", str(place)])
+        == 0
+    )
+    rows = list(csv.DictReader(place.open()))
+    assert [float(row["impact.speed"]) for row in rows] == [0.5, 1.0, 1.5]
+    for row in rows:
+        data = load(PAPER).to_json() | {"impact": {"speed": float(row["impact.speed"])}}
+        result = simulate(read(data))
+        for name in ("contact_time", "max_force", "max_pressure"):
+            assert float(row[name]) == getattr(result, name)
+        assert row["effects"].split() == [r.name for r in result.gate.rows if r.included]
+
+
+def test_a_key_stands_in_for_its_alternative() -> None:
+    found = sweep.run(load(PAPER), sweep.parse("plate.thickness=0.2:0.2:1"))
+    assert found[0].results["max_force"] == simulate(load(PAPER)).max_force
+    heavy = sweep.run(load(PAPER), sweep.parse("sphere.mass=1:2:2"))
+    assert heavy[1].results["contact_time"] > heavy[0].results["contact_time"]
+
+
+def test_a_sweeps_tolerance_is_that_of_its_simulations() -> None:
+    [row] = sweep.run(load(PAPER), sweep.parse("impact.speed=1:1:1"), rtol=0.9)
+    result = simulate(load(PAPER), rtol=0.9)
+    assert row.results["contact_time"] == result.contact_time
+    assert set(row.effects) == result.gate.law.effects
+    assert result.gate.law.effects < simulate(load(PAPER)).gate.law.effects
+
+
+def test_whole_numbers_are_swept_as_such() -> None:
+    plate = {"radius": 0.2, "thickness": 0.01, "material": "aluminium"}
+    scene = read({"sphere": {"radius": 0.02, "material": "steel"}, "plate": plate,
+                  "impact": {"speed": 1.0}})  # fmt: skip
+    few, half, _ = sweep.run(scene, sweep.parse("inertia.modes=6:7:3"))
+    assert 'expected "auto" or a whole number' in half.remark
+    assert "inertia" in few.effects
+    assert few.results
+
+
+def test_a_refused_value_is_a_row_and_the_others_go_on(capsys: Captured) -> None:
+    assert main(["simulate", str(PAPER), "--sweep", "impact.speed=-1:1:3", "--json", "-"]) == 0
+    shown = capsys.readouterr()
+    rows = json.loads(shown.out)
+    assert [bool(row["results"]) for row in rows] == [False, False, True]
+    assert "expected a positive number" in rows[0]["remark"]
+    assert "at impact.speed = -1: refused" in shown.err
+    assert "at impact.speed = 0: refused" in shown.err
+
+
+def test_a_sweep_of_refused_values_alone_fails_and_writes_nothing(
+    tmp_path: Path, capsys: Captured
+) -> None:
+    csv_file, json_file = tmp_path / "rows.csv", tmp_path / "rows.json"
+    arguments = ["simulate", str(PAPER), "--sweep", "impact.speed=-3:-1:3"]
+    assert main([*arguments, "--csv", str(csv_file), "--json", str(json_file)]) == 2
+    said = capsys.readouterr().err
+    assert "all 3 are refused; -3 is refused" in said
+    assert "expected a positive number" in said
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("text", ["impact.sped=1:2:3", "Impact.speeds=1:2:3", "impact=1:2:3"])
+def test_a_mistyped_key_is_told_the_nearest(text: str) -> None:
+    with pytest.raises(SceneError, match=r"did you mean impact\.speed\?"):
+        sweep.parse(text)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "", "speed", "speed=1:2:3", "impact.sped=1:2:3", "plate.edge=1:2:3", "plate.material=1:2:3",
+        "impact.speed=1:2", "impact.speed=1:2:3:4", "impact.speed=1:2:x", "impact.speed=a:2:3",
+        "impact.speed=1:2:0", "impact.speed=1:inf:3", "impact.speed=1:2:100001",
+        "effects.bending=0:1:2",
+    ],
+)  # fmt: skip
+def test_bad_sweeps_are_one_message(text: str) -> None:
+    with pytest.raises(SceneError, match=r"sweep: expected .* write for instance") as caught:
+        sweep.parse(text)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_sweep_has_no_plot(capsys: Captured) -> None:
+    arguments = ["simulate", str(PAPER), "--sweep", "impact.speed=1:2:2", "--plot", "x.pdf"]
+    assert main(arguments) == 2
+    assert "leave it out" in capsys.readouterr().err
+
+
+def test_processes_share_a_long_sweep_and_change_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    scene, span = load(PAPER), sweep.parse("impact.speed=0.5:1:4")
+    alone = sweep.run(scene, span)
+    monkeypatch.setattr(sweep, "LONG", 0.0)
+    assert sweep.run(scene, span, workers=2) == alone
+
+
+@pytest.mark.skipif(not hasattr(signal, "pthread_sigmask"), reason="signals cannot be held")
+def test_processes_do_not_hear_of_ctrl_c_even_while_they_begin() -> None:
+    """They would show a traceback of their own if it met them while they import."""
+    ask = "import signal; print(signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, ()))"
+
+    def deaf() -> str:
+        call = [sys.executable, "-c", ask]
+        return subprocess.run(call, capture_output=True, text=True, check=True).stdout.strip()
+
+    with sweep._unheard_interrupts():
+        assert deaf() == "True"
+    assert deaf() == "False"
+
+
+def test_a_process_that_is_ended_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sweep, "LONG", 0.0)
+    monkeypatch.setattr(sweep, "_leave_interrupts", partial(os._exit, 1))
+    with pytest.raises(SceneError, match=r"one was ended from outside.*fewer values"):
+        sweep.run(load(PAPER), sweep.parse("impact.speed=0.5:1:4"), workers=2)

@@ -1,0 +1,164 @@
+"""Impacts on a plate that moves against an independent integrator, and a limit."""
+
+import math
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from derivation.scene import contact_sequence, motion, waves
+from derivation.scene.effects import WHOLE_PLATE
+from derivation.scene.law import ContactLaw
+from derivation.scene.modal import free_modes, plate_of
+from derivation.scene.model import InertiaSettings, Model
+from generated.contact_law import force_of_radius
+from generated.sensitivity import indentation_slope
+
+EFFECTS = WHOLE_PLATE | {"hertz", "inertia"}
+BALL = Model(R=0.02, m=0.25, v0=1.0, h=0.005, b=0.15, lam=40e9, mu=27e9, density=2700.0)
+MODES = 8
+
+
+def course(model: Model, n: int = 16, modes: int = MODES) -> contact_sequence.Course:
+    law = ContactLaw(model, EFFECTS | ({"gravity"} if model.gravity else frozenset()))
+    quick = motion.impact(ContactLaw(model, frozenset({"hertz"})))
+    problem = waves._problem(law, plate_of(law, modes), quick)
+    return contact_sequence.course(problem, n)
+
+
+def felt(y: np.ndarray) -> np.ndarray:
+    """g(y) = 3 (sin y - y cos y)/y^3."""
+    large = np.maximum(y, 0.05)
+    closed = 3.0 * (np.sin(large) - large * np.cos(large)) / large**3
+    return np.where(y < 0.05, 1.0 - y * y / 10.0 * (1.0 - y * y / 28.0), closed)
+
+
+def integrated(model: Model, end: float) -> tuple[float, float, float]:
+    """First contact's end [s], its largest force [N], and the velocity after, by DOP853.
+
+    In s = sqrt(t), in which the onset is smooth, with the square of the contact radius among the
+    unknowns: the depth's slope by the radius says how that grows.
+    """
+    modes = free_modes(model, MODES)
+    count, compliance, phi = modes.omega.size, modes.drive / modes.omega**2, modes.phi[modes.shape]
+
+    def force(square: float) -> float:
+        return float(force_of_radius(math.sqrt(max(square, 0.0)), model.R, model.lam, model.mu))
+
+    def slope(a: float, q: np.ndarray) -> float:
+        """(R/2a) times the slope of rest less the shares of what the oscillators miss there."""
+        y, P = a * phi, force(a * a)
+        share = np.sinc(y / np.pi)
+        turned = np.cos(y) - share
+        missed = compliance * P * (3.0 * share**2 + turned * felt(y)) - turned * q
+        whole = float(indentation_slope(a, model.R, model.h, model.b)) - float(np.sum(missed)) / a
+        return whole * model.R / (2.0 * a)
+
+    def rate(s: float, state: np.ndarray) -> np.ndarray:
+        v, square, q, u = state[1], state[2], state[3 : count + 3], state[count + 3 :]
+        a, P = math.sqrt(max(square, 0.0)), force(square)
+        y = a * phi
+        opened = v - float(np.sum(np.sinc(y / np.pi) * u))
+        grown = model.R * opened / (slope(a, q) if a else 1.0)
+        pushed = modes.drive * P * felt(y) - modes.omega**2 * q
+        return 2.0 * s * np.concatenate(([v, model.gravity - P / model.m, grown], u, pushed))
+
+    def released(s: float, state: np.ndarray) -> float:  # noqa: ARG001
+        return float(state[2])
+
+    released.direction = -1  # type: ignore[attr-defined]
+    start = np.zeros(2 * count + 3)
+    start[1], scale = model.v0, model.v0 * end
+    small = np.full(start.size, 1e-14 * model.v0)
+    small[2], small[0], small[3 : count + 3] = 1e-14 * model.R * scale, 1e-14 * scale, 1e-14 * scale
+    found = solve_ivp(
+        rate, (0.0, math.sqrt(1.05 * end)), start, "DOP853", events=released,
+        rtol=1e-12, atol=small, dense_output=True,
+    )  # fmt: skip
+    s = float(found.t_events[0][-1])
+    places = np.linspace(0.2 * s, 0.9 * s, 401)
+    near = places[int(np.argmax(found.sol(places)[2]))]
+    fine = np.linspace(near - 0.01 * s, near + 0.01 * s, 41)
+    shape = np.polynomial.Chebyshev.fit(fine, [force(found.sol(x)[2]) for x in fine], 8)
+    peak = max(float(shape(x.real)) for x in shape.deriv().roots() if abs(x.imag) < 1e-9 * s)
+    return s * s, peak, float(found.y_events[0][-1][1])
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"h": 0.02},
+        {"h": 0.01},
+        {"h": 0.01, "v0": 0.02, "gravity": 9.81},
+        {"h": 0.02, "inertia": InertiaSettings(branches="all")},
+    ],
+    ids=["thick", "thin", "heavy", "every branch"],
+)
+def test_an_independent_integrator_agrees(changes: dict[str, Any]) -> None:
+    model = replace(BALL, **changes)
+    found = course(model)
+    problem, first = found.problem, found.contacts[0]
+    if model.gravity:
+        fallen = 2.0 * model.gravity * problem.depth * first.pieces[-1].element.largest(2)
+        assert fallen > 0.01 * model.v0**2
+    time, peak, velocity = integrated(model, problem.T * first.end)
+    assert problem.T * first.end == pytest.approx(time, rel=1e-9)
+    largest = max(piece.element.largest(3) for piece in first.pieces) * problem.force
+    assert largest == pytest.approx(peak, rel=1e-9)
+    assert first.after.velocity == pytest.approx(velocity / model.v0, abs=1e-9)
+
+
+@pytest.mark.parametrize("h", [0.02, 0.005, 0.002])
+def test_nodes_do_not_matter_and_the_ledger_closes(h: float) -> None:
+    """Several contacts where the plate is thin; the sphere never lies below the free face."""
+    model = replace(BALL, h=h)
+    fine, coarse = (course(model, n) for n in (16, 14))
+    assert len(fine.contacts) == len(coarse.contacts)
+    for one, other in zip(fine.contacts, coarse.contacts, strict=True):
+        assert one.start == pytest.approx(other.start, rel=1e-9, abs=1e-9)
+        assert one.end == pytest.approx(other.end, rel=1e-9)
+        assert one.after.velocity == pytest.approx(other.after.velocity, abs=1e-9)
+    found = waves._motion(ContactLaw(model, EFFECTS), fine)
+    assert abs(found.ledger.closure) <= 1e-11
+    assert 0.0 < found.restitution < 1.0
+    for one, two in zip(fine.contacts[:-1], fine.contacts[1:], strict=True):
+        for share in np.linspace(0.01, 0.99, 197):
+            state = fine.problem.flown(one.after, share * (two.start - one.end))
+            assert state.into <= 1e-12
+
+
+def test_the_axis_leaks_what_it_is_said_to() -> None:
+    """With the indentation at the axis energy is lost to nothing, and the ledger names it."""
+    model = replace(BALL, inertia=InertiaSettings(pointwise=True))
+    found = waves._motion(ContactLaw(model, EFFECTS), course(model))
+    assert abs(found.ledger.leak) > 1e-8 * found.ledger.brought
+    assert abs(found.ledger.closure) <= 1e-11
+    kept = waves._motion(ContactLaw(BALL, EFFECTS), course(BALL))
+    assert kept.ledger.leak == 0.0
+
+
+def test_a_plate_without_mass_is_at_rest() -> None:
+    """As the density falls the impact tends to that on the static law, restitution to 1."""
+    calm = motion.impact(ContactLaw(BALL, WHOLE_PLATE | {"hertz"}))
+    errors = []
+    for density in (2.7, 0.27):
+        light = replace(BALL, density=density, inertia=InertiaSettings(modes=4))
+        found = waves.impact(ContactLaw(light, EFFECTS))
+        pairs = zip(found.numbers, calm.numbers, strict=True)
+        errors.append([abs(x / y - 1.0) for x, y in pairs])
+    assert all(late < 0.4 * early for early, late in zip(*errors, strict=True))
+    # The force rings with the square root of the density, what it moves hardly.
+    time, way, force, radius, speed = errors[-1]
+    assert force < 0.03
+    assert radius < 0.01
+    assert time < 2e-3
+    assert way < 1e-4
+    assert speed < 2e-5
+
+
+def test_more_modes_change_less() -> None:
+    results = [-course(BALL, 16, modes).contacts[-1].after.velocity for modes in (4, 8, 16, 32)]
+    steps = np.abs(np.diff(results))
+    assert steps[2] < 0.5 * steps[1] < 0.5 * steps[0]

@@ -18,7 +18,7 @@ SEED = 1
 RTOLS = (None, 1e-3)
 """Tolerances that every scene is run at."""
 MOST_REFUSED = 0.15
-"""Largest share of runs that may be refused or left incomplete."""
+"""Largest fraction of the runs at one tolerance that may be refused or left incomplete."""
 WIDEST = 0.4
 """Hertz's contact radius over sphere radius up to which a scene is realistic."""
 PLATES: Mapping[str, tuple[float, float, float]] = {
@@ -42,7 +42,7 @@ SOFT = ("foam", "rubber", "polyethylene")
 """Materials that may be viscous."""
 Kind = Literal["finished", "refused", "incomplete", "NaN", "traceback", "overrun"]
 KINDS: tuple[Kind, ...] = ("finished", "refused", "incomplete", "NaN", "traceback", "overrun")
-COLUMNS = ("outcome", "#runs", "#share", "reason")
+COLUMNS = ("rtol", "outcome", "#runs", "#fraction", "reason")
 """Heads of the table."""
 
 
@@ -138,22 +138,30 @@ def _widest(scene: Scene) -> float:
 
 
 def passed(found: Sequence[Outcome]) -> bool:
-    """Whether no run failed, every refusal has a remedy, and not too many were refused."""
-    many = Counter(outcome.kind for outcome in found)
-    refused = many["refused"] + many["incomplete"]
-    failed = many["NaN"] + many["traceback"] + many["overrun"]
+    """Whether no run failed, every refusal has a remedy, and few are refused at each tolerance."""
+    failed = any(outcome.kind in ("NaN", "traceback", "overrun") for outcome in found)
     remedied = all(outcome.remedied for outcome in found)
-    return not failed and remedied and refused <= MOST_REFUSED * len(found)
+    return not failed and remedied and all(x <= MOST_REFUSED for x in refused(found).values())
+
+
+def refused(found: Sequence[Outcome]) -> dict[float | None, float]:
+    """By tolerance, the fraction of runs that were refused or left incomplete."""
+    runs = Counter(outcome.rtol for outcome in found)
+    stopped = Counter(o.rtol for o in found if o.kind in ("refused", "incomplete"))
+    return {rtol: stopped[rtol] / many for rtol, many in runs.items()}
 
 
 def cells(found: Sequence[Outcome]) -> list[tuple[str, ...]]:
-    """Outcome, number and share of runs, and reason, to be read by people."""
-    groups = Counter((outcome.kind, outcome.group) for outcome in found)
-    order = sorted(groups.items(), key=lambda item: (KINDS.index(item[0][0]), -item[1]))
-    return [
-        (kind, str(many), f"{100 * many / len(found):.1f} %", group or "-")
-        for (kind, group), many in order
-    ]
+    """Tolerance, outcome, number and fraction of the runs at it, and reason, for a table."""
+    runs = Counter(outcome.rtol for outcome in found)
+    groups = Counter((outcome.rtol, outcome.kind, outcome.group) for outcome in found)
+    rows = []
+    for rtol, total in runs.items():
+        here = [(k, g, many) for (r, k, g), many in groups.items() if r == rtol]
+        for kind, group, many in sorted(here, key=lambda x: (KINDS.index(x[0]), -x[2])):
+            asked = "not given" if rtol is None else f"{rtol:g}"
+            rows.append((asked, kind, str(many), f"{100 * many / total:.1f} %", group or "-"))
+    return rows
 
 
 def failures(found: Sequence[Outcome]) -> list[str]:
@@ -192,4 +200,5 @@ def as_data(found: Sequence[Outcome], seed: int) -> dict[str, Any]:
         }
         for outcome in found
     ]
-    return {"seed": seed, "passed": passed(found), "runs": rows}
+    stopped = [{"rtol": rtol, "fraction": part} for rtol, part in refused(found).items()]
+    return {"seed": seed, "passed": passed(found), "refused": stopped, "runs": rows}

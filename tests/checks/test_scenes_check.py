@@ -1,6 +1,7 @@
 """`check --scenes`: realistic scenes, each run counted for what became of it."""
 
 import json
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -14,6 +15,7 @@ from derivation.checks.realistic_scenes import (
     failures,
     one_line,
     passed,
+    refused,
     scenes,
 )
 from derivation.checks.scenes import check_scenes, run
@@ -92,6 +94,10 @@ def test_what_fails_and_what_does_not() -> None:
     assert not passed([*many, *[outcome("refused")] * 4])
     for kind in KINDS[3:]:
         assert not passed([*many, outcome(kind)]), kind
+    # Runs without a tolerance, which are refused more seldom, do not make up for those with one.
+    with_rtol = [replace(outcome(kind), rtol=1e-3) for kind in ("finished", *["refused"] * 3)]
+    assert not passed([*many, *with_rtol])
+    assert refused([*many, *with_rtol]) == {None: 0.0, 1e-3: 0.75}
     assert not passed([*many, outcome("refused", "key: wrong, with no remedy")])
     assert not passed([*many, outcome("refused", "key: wrong; ")])
 
@@ -99,7 +105,7 @@ def test_what_fails_and_what_does_not() -> None:
 def test_every_group_is_shown_with_a_scene() -> None:
     found = [outcome("finished"), outcome("refused", "a: b; c"), outcome("refused", "a: b; d"),
              outcome("incomplete", "e: f")]  # fmt: skip
-    assert [row[:2] for row in cells(found)] == [
+    assert [row[1:3] for row in cells(found)] == [
         ("finished", "1"), ("refused", "2"), ("incomplete", "1"),
     ]  # fmt: skip
     lines = failures(found)
@@ -109,8 +115,8 @@ def test_every_group_is_shown_with_a_scene() -> None:
 
 
 def test_worker_processes_run_the_scenes() -> None:
-    refused = {**DROP, "impact": {"speed": 1e6}}
-    found = check_scenes(2, drawn=[DROP, refused])
+    fast = {**DROP, "impact": {"speed": 1e6}}
+    found = check_scenes(2, drawn=[DROP, fast])
     assert [o.kind for o in found] == ["finished", "finished", "refused", "refused"]
     assert [o.rtol for o in found] == [None, 1e-3, None, 1e-3]
     assert all(o.remedied for o in found)

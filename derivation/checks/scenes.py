@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from derivation.checks.random_scenes import Scene, Tell
-from derivation.checks.realistic_scenes import RTOLS, SEED, Kind, Outcome, scenes
+from derivation.checks.realistic_scenes import RTOL, SEED, Kind, Outcome, scenes
 from derivation.scene.impact import simulate
 from derivation.scene.scene import IncompleteError, SceneError, read
 
@@ -36,7 +36,9 @@ def check_scenes(
     limit: float = LIMIT,
     drawn: Sequence[Scene] | None = None,
 ) -> tuple[Outcome, ...]:
-    """Simulate realistic random scenes at every tolerance, in the order in which they are drawn.
+    """Simulate realistic random scenes in the order in which they are drawn.
+
+    Each is run at `RTOL`, and once more without a tolerance if it does not finish.
 
     Parameters
     ----------
@@ -46,27 +48,29 @@ def check_scenes(
         Scenes to run instead of random ones.
     """
     chosen = scenes(count, seed) if drawn is None else drawn
-    jobs = [(scene, rtol) for scene in chosen for rtol in RTOLS]
+    jobs = list(chosen)
     many = min(os.cpu_count() or 1, len(jobs))
     free: SimpleQueue[Worker] = SimpleQueue()
     workers = [Worker() for _ in range(many)]
     for worker in workers:
         free.put(worker)
 
-    def run(job: tuple[Scene, float | None]) -> Outcome:
+    def run(scene: Scene) -> list[Outcome]:
         worker = free.get()
         try:
-            return worker.run(*job, limit)
+            first = worker.run(scene, RTOL, limit)
+            again = [] if first.kind == "finished" else [worker.run(scene, None, limit)]
+            return [first, *again]
         finally:
             free.put(worker)
 
     found: list[Outcome] = []
     pool = ThreadPoolExecutor(many)
     try:
-        for outcome in pool.map(run, jobs):
-            found.append(outcome)
+        for number, outcomes in enumerate(pool.map(run, jobs), 1):
+            found.extend(outcomes)
             if tell is not None:
-                tell(outcome.kind, len(found), len(jobs))
+                tell(outcomes[0].kind, number, len(jobs))
     finally:
         pool.shutdown(wait=False, cancel_futures=True)
         for worker in workers:

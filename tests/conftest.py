@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
+from hypothesis import settings
 
 from derivation.plate import derived
 from derivation.plate.vocabulary import Formula
@@ -14,6 +15,10 @@ from derivation.plate.vocabulary import Formula
 if TYPE_CHECKING:  # they load the generated package, without which its own tests have to run
     from derivation.plate.hard.case import Case
     from derivation.plate.hard.truth import Known
+
+# The same draws in every run, however slow; `pytest --hypothesis-profile default` draws others.
+settings.register_profile("same", derandomize=True, deadline=None, database=None)
+settings.load_profile("same")
 
 
 @pytest.fixture(scope="session")

@@ -199,7 +199,7 @@ def test_every_effect_has_a_threshold_there() -> None:
 decades = st.floats(-1.0, 1.0)
 
 
-@settings(max_examples=12, deadline=None, derandomize=True)
+@settings(max_examples=12)
 @given(
     thick=decades, fast=decades, soft=decades, heavy=decades,
     edge=st.sampled_from(["soft-hinge", "simply-supported", "clamped"]),

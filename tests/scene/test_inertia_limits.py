@@ -166,7 +166,7 @@ def test_many_contacts_are_the_same_at_another_resolution(
 # --- what is conserved
 
 
-@settings(max_examples=25, deadline=None, derandomize=True)
+@settings(max_examples=25)
 @given(
     eta=st.floats(-2.2, -0.3), size=st.floats(-1.8, -0.3), heavy=st.floats(-1.0, 1.5),
     speed=st.floats(-1.5, 0.7), nu=st.floats(-0.4, 0.48), gravity=st.sampled_from([0.0, 9.81]),

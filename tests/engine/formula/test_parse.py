@@ -191,7 +191,7 @@ def test_allowed_names_can_be_chosen() -> None:
     )
 
 
-@settings(max_examples=300, deadline=1000)
+@settings(max_examples=300)
 @given(st.text(alphabet="ah phi019.+-*/(),eE^_[]{}'\\=:", max_size=40))
 def test_any_text_is_read_or_refused(text: str) -> None:
     for read in (parse, parse_latex):
@@ -199,7 +199,7 @@ def test_any_text_is_read_or_refused(text: str) -> None:
             assert isinstance(read(text), sp.Expr)
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(st.decimals(min_value=0, max_value=10**9, places=12))
 def test_decimals_are_exact(value: object) -> None:
     assert parse(f"{value:f}") == sp.Rational(str(value))

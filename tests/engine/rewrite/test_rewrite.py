@@ -102,7 +102,7 @@ def test_rule_leaves_alone(rule: Callable[..., Any], expression: sp.Expr, why: s
 
 
 @pytest.mark.parametrize(("name", "expression"), ACTED_ON)
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(point=st.floats(1e-3, 30.0))
 def test_rule_is_exact(name: str, expression: sp.Expr, point: float) -> None:
     """Before and after are the same ball, wherever the rule is not a section."""
@@ -131,7 +131,7 @@ def _delta(source: sp.Expr) -> sp.Symbol:
     return next(symbol for symbol in source.free_symbols if str(symbol) == "delta_0")
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(share=st.floats(0.0, 1.0), seam=st.sampled_from((0.25, 0.5, 1.0, 1.5)))
 @pytest.mark.parametrize(
     "core",

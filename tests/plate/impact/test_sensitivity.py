@@ -262,7 +262,7 @@ def scene_of(shape: tuple[float, float, float, float]) -> tuple[float, ...]:
 
 
 @given(SCENES)
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 def test_units_do_not_matter(shape: tuple[float, float, float, float]) -> None:
     got = impact_sensitivities(*scene_of(shape))
     assert np.isfinite(got).all()
@@ -274,7 +274,7 @@ def test_units_do_not_matter(shape: tuple[float, float, float, float]) -> None:
 
 
 @given(SCENES, st.sampled_from(range(7)))
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 def test_differences_of_the_impact(shape: tuple[float, float, float, float], index: int) -> None:
     scene, step = scene_of(shape), 1e-3
 

@@ -155,7 +155,7 @@ def test_bent_plate_against_another_integrator() -> None:
     assert found.max_force == pytest.approx(force, rel=1e-3)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(
     st.floats(-6, 0.5),
     st.floats(-2, 1),

@@ -29,6 +29,7 @@ from derivation.engine.console import (
     UnreadError,
     counted,
     listing,
+    noted,
     put,
     put_json,
     silence,
@@ -39,6 +40,7 @@ from derivation.engine.console import (
 from derivation.engine.failed import FailedError
 from derivation.engine.files import ROOT, in_checkout
 from derivation.engine.staging import recover
+from derivation.scene.old_names import OldNameWarning
 
 app = typer.Typer(
     cls=Grouped,
@@ -368,7 +370,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         if in_checkout():
             recover(ROOT / "generated")
-        status = platecontact(args=argv, prog_name="platecontact", standalone_mode=False)
+        with noted(OldNameWarning):
+            status = platecontact(args=argv, prog_name="platecontact", standalone_mode=False)
         put("")
     except TyperException as error:
         advice = "see `platecontact --help`"

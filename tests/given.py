@@ -70,7 +70,7 @@ def changed(**tables: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
         "sphere": {"radius": 0.13, "mass": 72.0},
         "plate": {"radius": 1.0, "thickness": 0.2, "lame_lambda": 0.36e9, "lame_mu": 0.43e9},
         "impact": {"speed": 1.0},
-        "effects": {"curvature": False, "pressure": False} | AT_REST,
+        "effects": {"spherical_profile": False, "non_hertzian_pressure": False} | AT_REST,
     }
     for name, keys in tables.items():
         made[name] = {k: v for k, v in (made[name] | dict(keys)).items() if v is not None}

@@ -31,7 +31,9 @@ def reference(scene: Scene, digits: int = 50) -> many_digits.Reference:
     ...     "sphere": {"radius": 0.13, "mass": 0.1},
     ...     "plate": {"radius": 0.1, "thickness": 0.02, "lame_lambda": 0.36e9, "lame_mu": 0.43e9},
     ...     "impact": {"speed": 0.1},
-    ...     "effects": {"inertia": False, "curvature": False, "pressure": False},
+    ...     "effects": {
+    ...         "inertia": False, "spherical_profile": False, "non_hertzian_pressure": False,
+    ...     },
     ... })
     >>> pc.reference(scene, digits=30).agrees
     True

@@ -74,7 +74,7 @@ def scene(number: int, seed: int = SEED) -> dict[str, dict[str, Any]]:
         "half_thickness": b * spread(1e-3, 10.0),
         "youngs_modulus": spread(1e7, 1e12),
         "poissons_ratio": generator.uniform(-0.5, 0.49),
-        "edge": generator.choice(["soft-hinge", "simply-supported", "clamped"]),
+        "edge": generator.choice(["paper", "simply-supported", "clamped"]),
     }
     sphere: dict[str, Any] = {"radius": b * spread(1e-2, 10.0), "density": spread(500.0, 2e4)}
     if generator.random() < 0.6:
@@ -84,7 +84,7 @@ def scene(number: int, seed: int = SEED) -> dict[str, dict[str, Any]]:
         impact["gravity"] = 9.81
     if generator.random() < 0.3:
         # From nothing to much beside a fall through the sphere's own radius.
-        plate["viscous_time"] = sphere["radius"] / impact["speed"] * spread(1e-12, 1e-1)
+        plate["retardation_time"] = sphere["radius"] / impact["speed"] * spread(1e-12, 1e-1)
     still = {"inertia": False}  # what that is worth is another check
     return {"sphere": sphere, "plate": plate, "impact": impact, "effects": still}
 

@@ -94,7 +94,7 @@ def simulated(row: Mapping[str, Any]) -> dict[str, Any]:
 
     Without a tolerance, with as many modes and branches as the program chooses.
     """
-    effects = {"curvature": row["spherical_profile"], "inertia": True}
+    effects = {"spherical_profile": row["spherical_profile"], "inertia": True}
     try:
         found = simulate(read({**row["scene"], "effects": effects}))
     except SceneError as error:

@@ -167,7 +167,7 @@ def scene(number: int, seed: int = SEED) -> tuple[dict[str, dict[str, Any]], flo
         "youngs_modulus": spread(1e6, 1e12),
         "poissons_ratio": generator.uniform(-0.5, 0.49),
         "density": spread(100.0, 2e4),
-        "edge": generator.choice(["soft-hinge", "simply-supported", "clamped"]),
+        "edge": generator.choice(["paper", "simply-supported", "clamped"]),
     }
     sphere: dict[str, Any] = {"radius": b * spread(5e-3, 2.0), "density": spread(100.0, 2e4)}
     if generator.random() < 0.5:

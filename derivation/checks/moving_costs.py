@@ -35,7 +35,7 @@ SCENE: dict[str, dict[str, Any]] = {
     "sphere": {"radius": 0.01, "material": "steel"},
     "plate": {"radius": 0.15, "thickness": 0.012, "material": "aluminium"},
     "impact": {"speed": 2.0},
-    "effects": {"pressure": False},
+    "effects": {"non_hertzian_pressure": False},
 }
 """A bearing ball on an aluminium plate, on the paper's edge."""
 OSCILLATORS, FINEST = 40, 1e-13

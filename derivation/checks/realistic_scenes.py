@@ -37,7 +37,7 @@ STIFFNESS = {"steel": 210e9, "glass": 70e9, "aluminium": 70e9, "concrete": 33e9,
 DENSITY = {"steel": 7850.0, "glass": 2500.0, "aluminium": 2700.0, "concrete": 2400.0,
            "PMMA": 1190.0}  # fmt: skip
 """Their densities [kg/m^3], for the same."""
-EDGES = ("soft-hinge", "simply-supported", "clamped")
+EDGES = ("paper", "simply-supported", "clamped")
 SOFT = ("foam", "rubber", "polyethylene")
 """Materials that may be viscous."""
 Kind = Literal["finished", "refused", "incomplete", "NaN", "traceback", "overrun"]
@@ -113,9 +113,11 @@ def _draw(generator: Random) -> Scene:
     if name in SOFT and generator.random() < 0.3:
         # A part of the contact time by Hertz's law.
         scene = {"sphere": sphere, "plate": plate, "impact": impact}
-        plate["viscous_time"] = spread(1e-3, 0.3) * 3.0 * _widest(scene) ** 2 * R / impact["speed"]
+        plate["retardation_time"] = (
+            spread(1e-3, 0.3) * 3.0 * _widest(scene) ** 2 * R / impact["speed"]
+        )
     if generator.random() < 0.2:
-        effects["pressure"] = True
+        effects["non_hertzian_pressure"] = True
     return {"sphere": sphere, "plate": plate, "impact": impact, "effects": effects}
 
 

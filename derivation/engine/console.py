@@ -4,6 +4,7 @@ import json
 import os
 import sys
 import time
+import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -185,6 +186,32 @@ def warn(warnings: Sequence[str]) -> None:
         NOTES.say(f"warning: {text}")
     if len(found) > MOST:
         NOTES.say(f"warning: ... and {len(found) - MOST:,} more")
+
+
+@contextmanager
+def noted(category: type[Warning]) -> Iterator[None]:
+    """Show each warning of a category once, as a remark; all others as Python does."""
+    seen, usual = set[str](), warnings.showwarning
+
+    def show(
+        message: Warning | str,
+        kind: type[Warning],
+        filename: str,
+        lineno: int,
+        file: TextIO | None = None,
+        line: str | None = None,
+    ) -> None:
+        text = str(message)
+        if not issubclass(kind, category):
+            usual(message, kind, filename, lineno, file, line)
+        elif text not in seen:
+            seen.add(text)
+            NOTES.say(f"note: {text}")
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("always", category)
+        warnings.showwarning = show
+        yield
 
 
 def json_text(result: Any) -> str:

@@ -98,7 +98,7 @@ def recipe(scene: Scene) -> Recipe:
         "mass": model.m,
         "speed": model.v0,
         "gravity": law.gravity,
-        "viscous_time": model.viscous_time if law.viscous else 0.0,
+        "retardation_time": model.retardation_time if law.viscous else 0.0,
         "compliance": compliance,
         "with_impact": not compliance or _slowness(law, motion, compliance) > STIFFEST,
         "largest_radius": motion.max_contact_radius,
@@ -153,8 +153,8 @@ def _compliance(law: ContactLaw, a: float) -> float:
     if bent.law.other_edge:
         raise SceneError(
             "plate.edge: expected the paper's edge for the code of a viscous scene with bending, "
-            f"as the deflection on a {law.model.edge} edge, which is elastic, is not "
-            "proportional to the force; write effects.edge = false, or leave out plate.viscous_time"
+            f"as the deflection on a {law.model.edge} edge, which is elastic, is not proportional "
+            "to the force; write effects.edge = false, or leave out plate.retardation_time"
         )
     return float(bent.at(law.force(np.array([a]), law.at(np.array([a]))))[1][0])
 
@@ -162,7 +162,7 @@ def _compliance(law: ContactLaw, a: float) -> float:
 def _slowness(law: ContactLaw, motion: Motion, compliance: float) -> float:
     """Time scale of a viscous contact's inner state over the contact time [1]."""
     a = np.array([motion.max_contact_radius])
-    slack = law.model.viscous_time * compliance * float(law.stiffness(a, law.at(a))[0])
+    slack = law.model.retardation_time * compliance * float(law.stiffness(a, law.at(a))[0])
     return slack / motion.contact_time
 
 

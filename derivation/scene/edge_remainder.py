@@ -50,7 +50,7 @@ def edge_remainder(model: Model, a: float) -> float:
             raise SceneError(
                 f"plate.edge: expected {name.replace('_over_', '/')} up to {axis[-1]} for a "
                 f"{model.edge} edge, where its model is measured, got {place[name]:.4g}; "
-                'write edge = "soft-hinge", or effects.edge = false'
+                'write edge = "paper", or effects.edge = false'
             )
     around = [_neighbours(axis, place[name]) for name, axis in zip(_KEYS, axes, strict=True)]
     found = max(_table()[(kind, *point)] for point in product(*around))

@@ -74,7 +74,7 @@ def simulate(
         *pressure_warnings(pressure, scene.plate.yield_stress, law.viscous),
     )
     neglected = neglects_inertia(model, contact_time, share, motion is not None)
-    strength, yield_stress = scene.plate.strength, scene.plate.yield_stress
+    strength, yield_stress = scene.plate.tensile_strength, scene.plate.yield_stress
     if strength is not None or yield_stress is not None:
         tension = law.max_tension(a, force, not gate.edge_disabled)
         warnings += tension_warnings(tension, strength, yield_stress)

@@ -19,17 +19,17 @@ ELSEWHERE_LIKE = 0.8
 WANTED = '"auto", true or false'
 EXPECTED = {
     "material": "the name of a material (steel, glass, aluminium, concrete, PMMA or paper)",
-    "edge": '"soft-hinge", "simply-supported" or "clamped"',
+    "edge": '"paper", "simply-supported" or "clamped"',
     "outputs": "a list of contact_time, max_indentation, max_force, max_contact_radius and "
     "restitution",
     "lame_lambda": "a finite number",
     "poissons_ratio": "a number above -1 and below 0.5",
     "rtol": "a number from 1e-13 to 1",
-    "perturbation": 'true or false (it is never "auto")',
+    "compare_paper_motion": 'true or false (it is never "auto")',
     "modes": '"auto" or a whole number from 2 to 3000',
     "branches": '"A0" or "all"',
-    "closure": '"variational" or "pointwise"',
-    "plate": '"modes" or "infinite"',
+    "coupling": '"variational" or "pointwise"',
+    "extent": '"finite" or "infinite"',
 }
 """What a key is to hold, if not a positive number."""
 

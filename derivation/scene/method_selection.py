@@ -216,7 +216,7 @@ def _basis(gate: Gate) -> str:
     law = gate.law
     out = [row.name for row in gate.rows if row.bound and not (row.included or row.disabled)]
     proved = all(BY_NAME[name].proved(law) for name in out)
-    return PROVED if proved and not (law.model.viscous_time or law.dynamic) else TESTED
+    return PROVED if proved and not (law.model.retardation_time or law.dynamic) else TESTED
 
 
 def _composed(law: ContactLaw) -> tuple[Results, AchievedAccuracy]:

@@ -291,7 +291,7 @@ def _too_thick(model: Model) -> SceneError:
     """A held plate so thick that no bending mode of it is known."""
     return SceneError(
         f"plate.edge: expected a {model.edge} plate with bending modes, h/b up to about 0.4, got "
-        f'h/b = {model.eta:.3g}; write edge = "soft-hinge", or effects.inertia = false'
+        f'h/b = {model.eta:.3g}; write edge = "paper", or effects.inertia = false'
     )
 
 

@@ -52,7 +52,7 @@ class Model:
         What presses the sphere on [m/s^2].
     density
         Of the plate [kg/m^3]; 0 if it is not known.
-    viscous_time
+    retardation_time
         Retardation time A_v of the viscoelastic contact [s].
     edge
         How the plate's edge is held.
@@ -70,8 +70,8 @@ class Model:
     sphere_modulus: float = math.inf
     gravity: float = 0.0
     density: float = 0.0
-    viscous_time: float = 0.0
-    edge: str = "soft-hinge"
+    retardation_time: float = 0.0
+    edge: str = "paper"
     inertia: InertiaSettings = InertiaSettings()
 
     @property
@@ -149,12 +149,12 @@ def model_of(scene: Scene) -> Model:
         sphere_modulus=_sphere_modulus(scene.sphere),
         gravity=scene.impact.gravity or 0.0,
         density=_density(scene.plate),
-        viscous_time=scene.plate.viscous_time or 0.0,
+        retardation_time=scene.plate.retardation_time or 0.0,
         edge=scene.plate.edge,
         inertia=_inertia(scene),
     )
     if model.inertia.infinite_plate and model.density:
-        model = replace(model, b=_unbounded(model), edge="soft-hinge")
+        model = replace(model, b=_unbounded(model), edge="paper")
     for name, value in zip(NUMBERS, model.numbers, strict=True):
         if not math.isfinite(value) or (value <= 0 and name != "lam"):
             raise SceneError(
@@ -184,8 +184,8 @@ def _inertia(scene: Scene) -> InertiaSettings:
     if wanted is None:
         return InertiaSettings()
     modes = 0 if wanted.modes == "auto" else wanted.modes
-    pointwise, endless = wanted.closure == "pointwise", wanted.plate == "infinite"
-    return InertiaSettings(modes, wanted.branches, pointwise, endless)
+    pointwise, infinite = wanted.coupling == "pointwise", wanted.extent == "infinite"
+    return InertiaSettings(modes, wanted.branches, pointwise, infinite)
 
 
 def _mass(sphere: Sphere) -> float:

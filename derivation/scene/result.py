@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from derivation.scene import kernels
 from derivation.scene.effect_selection import Gate
-from derivation.scene.effects import BY_NAME
 from derivation.scene.effects.effect import NO_BOUND
 from derivation.scene.history import POINTS, History, MovingHistory, Pressures
 from derivation.scene.method_selection import AchievedAccuracy, moved, moving
@@ -104,7 +103,7 @@ class Result:
 
         Cracks that start on the contact face, around the contact, are another matter.
         """
-        strength = self.scene.plate.strength
+        strength = self.scene.plate.tensile_strength
         if strength is None or self.max_tension > strength:
             return ""
         if self.max_tension <= 0:
@@ -135,7 +134,7 @@ class Result:
     @cached_property
     def comparison(self) -> "Comparison | None":
         """The paper's motion, to compare with the result; None unless the scene asks for it."""
-        if not any(BY_NAME[row.name].compared for row in self.gate.rows if row.included):
+        if not self.scene.effects.compare_paper_motion:
             return None
         from derivation.scene.comparison import compare
 
@@ -228,7 +227,7 @@ class Result:
         found = {name: getattr(self, name) for name in UNITS}
         # JSON has no NaN: what is not known of an incomplete impact is null.
         numbers = {name: x if math.isfinite(x) else None for name, x in found.items()}
-        beside = {"perturbation": self.comparison.to_json()} if self.comparison else {}
+        beside = {"paper_motion": self.comparison.to_json()} if self.comparison else {}
         if self.moving is not None:
             beside["inertia"] = self.moving.to_json()
         return (

@@ -5,21 +5,21 @@ import tomllib
 from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
-from typing import Annotated, Any, ClassVar, Literal, Self, TypeGuard
+from typing import Annotated, Any, Literal, TypeGuard
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
-from pydantic.config import JsonDict
-from pydantic_core import PydanticCustomError
+from pydantic import Field, ValidationError
 
 from derivation.engine.files import read_file
 from derivation.engine.printable import one_line
+from derivation.scene import old_names
 from derivation.scene.html import html_table
 from derivation.scene.materials import MATERIALS
-from derivation.scene.messages import choice_problem, explain, listed, shown
+from derivation.scene.messages import explain, listed, shown
+from derivation.scene.table import CONFLICT, Table
 
 Positive = Annotated[float, Field(gt=0)]
 MaterialName = Literal["steel", "glass", "aluminium", "concrete", "PMMA", "paper"]
-Edge = Literal["soft-hinge", "simply-supported", "clamped"]
+Edge = Literal["paper", "simply-supported", "clamped"]
 Output = Literal[
     "contact_time", "max_indentation", "max_force", "max_contact_radius", "restitution"
 ]
@@ -27,13 +27,10 @@ Wanted = Literal["auto"] | bool
 OUTPUTS: tuple[Output, ...] = (
     "contact_time", "max_indentation", "max_force", "max_contact_radius", "restitution",
 )  # fmt: skip
-Groups = tuple[tuple[str, ...], ...]
 LARGEST = 2**20
 """Bytes of a scene file at most."""
 TIGHTEST = 1e-13
 """Smallest relative tolerance: doubles promise no more."""
-CONFLICT = "conflict"
-"""Error type of keys that are right one by one but not together."""
 
 
 class SceneError(ValueError):
@@ -52,58 +49,6 @@ class IncompleteError(SceneError):
 
     def __str__(self) -> str:
         return f"effects.inertia: {self.why}; {self.remedy}"
-
-
-class Table(BaseModel):
-    """A table of the scene file: frozen, no unknown keys, numbers must be numbers."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", strict=True, allow_inf_nan=False)
-    choices: ClassVar[tuple[Groups, ...]] = ()
-    """Groups of keys of which exactly one group is to be given."""
-    stand_in: ClassVar[str | None] = None
-    """Key that makes up for groups left out."""
-
-    @classmethod
-    def conflicts(cls, given: Mapping[str, Any]) -> list[str]:
-        """What is wrong with the keys given, taken together."""
-        table = cls.__name__.lower()
-        keys = {key for key, value in given.items() if value is not None}
-        if cls.stand_in in keys and not any(keys & set(sum(g, ())) for g in cls.choices):
-            return []
-        examples = {key: _example(field) for key, field in cls.model_fields.items()}
-        found = (choice_problem(table, groups, keys, examples) for groups in cls.choices)
-        return [problem for problem in found if problem]
-
-    @model_validator(mode="after")
-    def _consistent(self) -> Self:
-        problems = self.conflicts(self.model_dump())
-        if problems:
-            raise PydanticCustomError(CONFLICT, "{problems}", {"problems": "; ".join(problems)})
-        return self
-
-    @classmethod
-    def __get_pydantic_json_schema__(cls, core_schema: Any, handler: Any) -> JsonDict:
-        """JSON schema in which the choices are spelled out and nothing may be null."""
-        made: JsonDict = handler.resolve_ref_schema(handler(core_schema))
-        properties: Any = made["properties"]
-        for field in properties.values():
-            kinds = [kind for kind in field.pop("anyOf", []) if kind != {"type": "null"}]
-            if len(kinds) == 1:
-                field.update(kinds[0])
-                field.pop("default")
-            elif kinds:
-                field["anyOf"] = kinds
-        if cls.choices:
-            made["allOf"] = [
-                {"oneOf": [{"required": list(group)} for group in groups]} for groups in cls.choices
-            ]
-        if cls.stand_in:
-            keys = [list(group) for groups in cls.choices for group in groups]
-            absent = {"not": {"anyOf": [{"required": group} for group in keys]}}
-            alone = {"required": [cls.stand_in]} | absent
-            either: Any = [{"allOf": made["allOf"]}, alone]
-            made["allOf"] = [{"anyOf": either}]
-        return made
 
 
 class Sphere(Table):
@@ -161,18 +106,18 @@ class Plate(Table):
     )
     material: MaterialName | None = Field(None, description="plate material", examples=["glass"])
     edge: Edge = Field(
-        "soft-hinge",
-        description="how the plate's edge is held; soft-hinge: the paper's, elastically restrained",
+        "paper",
+        description="how the plate's edge is held; paper: the paper's edge, elastically restrained",
         examples=["clamped"],
     )
     density: Positive | None = Field(None, description="plate density [kg/m^3]", examples=[2500.0])
-    viscous_time: Positive | None = Field(
+    retardation_time: Positive | None = Field(
         None, description="retardation time A_v of a viscoelastic contact [s]", examples=[1e-4]
     )
     yield_stress: Positive | None = Field(
         None, description="yield stress of the plate [Pa]", examples=[235e6]
     )
-    strength: Positive | None = Field(
+    tensile_strength: Positive | None = Field(
         None, description="tensile strength of the plate [Pa]", examples=[45e6]
     )
 
@@ -200,19 +145,27 @@ class Impact(Table):
 
 
 class Effects(Table):
-    """Which effects are computed: as they are called for, always, or never."""
+    """Which effects are included: "auto" selects by the tolerance; and what to compare."""
 
     sphere_elasticity: Wanted = Field("auto", description="elastic sphere", examples=[False])
-    curvature: Wanted = Field("auto", description="sphere, not paraboloid", examples=[False])
+    spherical_profile: Wanted = Field(
+        "auto", description="profile of a sphere, not a paraboloid", examples=[False]
+    )
     bending: Wanted = Field("auto", description="the plate's deflection", examples=[True])
     finite_thickness: Wanted = Field("auto", description="shear, compression", examples=[True])
-    side_wall: Wanted = Field("auto", description="the plate's finite radius", examples=[True])
+    finite_radius: Wanted = Field("auto", description="the plate's finite radius", examples=[True])
     edge: Wanted = Field("auto", description="the plate's support", examples=[True])
-    pressure: Wanted = Field("auto", description="pressure solved for", examples=[False])
+    non_hertzian_pressure: Wanted = Field(
+        "auto", description="contact pressure from the integral equation", examples=[False]
+    )
     viscosity: Wanted = Field("auto", description="viscous contact", examples=[True])
     gravity: Wanted = Field("auto", description="weight during contact", examples=[False])
     inertia: Wanted = Field("auto", description="the plate's own motion", examples=[False])
-    perturbation: bool = Field(False, description="paper's own motion to compare", examples=[True])
+    compare_paper_motion: bool = Field(
+        False,
+        description="the paper's perturbation motion beside the result, which it does not change",
+        examples=[True],
+    )
 
 
 class Accuracy(Table):
@@ -244,13 +197,14 @@ class Inertia(Table):
         "needs them",
         examples=["all"],
     )
-    closure: Literal["variational", "pointwise"] = Field(
+    coupling: Literal["variational", "pointwise"] = Field(
         "variational",
-        description="how indentation is meant: the gap's mean that keeps energy, or at the axis",
+        description="definition of the indentation: the weighted mean of the gap, which conserves "
+        "energy, or its value at the axis",
         examples=["pointwise"],
     )
-    plate: Literal["modes", "infinite"] = Field(
-        "modes",
+    extent: Literal["finite", "infinite"] = Field(
+        "finite",
         description="a plate with its edge, or one so large that no wave returns from the edge",
         examples=["infinite"],
     )
@@ -332,7 +286,7 @@ def load(path: str | Path) -> Scene:
             f"{name}: expected a scene of a few lines, got numbers too long or brackets too deep "
             "to read; a line reads like `radius = 0.13`"
         ) from None
-    return read(data, name)
+    return _scene(data, name)
 
 
 def read(data: Mapping[str, Any], source: str = "scene") -> Scene:
@@ -353,10 +307,22 @@ def read(data: Mapping[str, Any], source: str = "scene") -> Scene:
     """
     if not isinstance(data, Mapping):
         raise SceneError(f"{source}: expected tables of keys, got {shown(data)}; see `load`")
+    return _scene(data, source)
+
+
+def _scene(data: Mapping[str, Any], source: str) -> Scene:
+    """Make a scene, with a notice for each old name."""
+    tables, notices, twice = old_names.renewed(data)
+    for notice in notices:
+        old_names.tell(notice)
+    problems: list[Callable[[], str]] = [partial(str, text) for text in twice]
     try:
-        return Scene.model_validate(dict(data))
+        scene = Scene.model_validate(tables)
     except ValidationError as error:
-        problems = _problems(error, data)
+        problems += _problems(error, tables)
+    else:
+        if not problems:
+            return scene
     said = problems[0]() if len(problems) == 1 else listed(problems)
     raise SceneError(f"{source}: {said}")
 
@@ -382,10 +348,6 @@ def _problems(error: ValidationError, data: Mapping[str, Any]) -> list[Callable[
         if isinstance(data.get(name), Mapping):
             found |= {text: partial(str, text) for text in table.conflicts(data[name])}
     return list(found.values())
-
-
-def _example(field: Any) -> str:
-    return shown(field.examples[0]) if field.examples else ""
 
 
 def is_number(value: Any) -> TypeGuard[float]:

@@ -16,6 +16,7 @@ import numpy as np
 
 from derivation.scene.impact import simulate
 from derivation.scene.messages import nearest
+from derivation.scene.old_names import new_key
 from derivation.scene.result import UNITS
 from derivation.scene.scene import TABLES, Scene, SceneError, is_number, read
 
@@ -74,7 +75,8 @@ def parse(text: str) -> Sweep:
         If the text is not of this form, or names no number of a scene file.
     """
     place, _, span = text.partition("=")
-    table, _, key = place.strip().partition(".")
+    place = new_key(place.strip())
+    table, _, key = place.partition(".")
     parts = span.split(":")
     example = "write for instance plate.thickness=1e-3:1e-2:50"
     field = TABLES[table].model_fields.get(key) if table in TABLES else None

@@ -102,7 +102,7 @@ class ViscousProblem:
     def states(self, x: Array, a: Array, y: Array) -> States:
         """Forces and depths at radii a that grow with x by y."""
         found = self.curve.at(self.a * a)
-        delay = self.law.model.viscous_time / self.T / (ONSET * x ** (ONSET - 1))
+        delay = self.law.model.retardation_time / self.T / (ONSET * x ** (ONSET - 1))
         force_a = found.force_a * (self.a / self.force)
         elastic, P_y = found.force / self.force, delay * force_a
         P = elastic + P_y * y
@@ -193,13 +193,13 @@ def elements(problem: ViscousProblem, n: int) -> tuple[Element, ...]:
             return tuple(found)
         if start.velocity < 0.0 < end.velocity:
             raise SceneError(
-                "plate.viscous_time: expected a sphere that comes off again, but its weight keeps "
-                "it on the plate; give a shorter time or a higher impact.speed"
+                "plate.retardation_time: the sphere does not rebound because its weight holds it "
+                "on the plate; reduce plate.retardation_time or increase impact.speed"
             )
         x, start, scale = x + length, end, largest
         length = min(LONGEST, length * min(2.0, change))
     raise SceneError(
-        "plate.viscous_time: expected a contact that can be followed to its end, got one that "
+        "plate.retardation_time: expected a contact that can be followed to its end, got one that "
         f"cannot at {problem.T * x**ONSET:.6g} s; give a shorter time"
     )
 

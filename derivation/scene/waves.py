@@ -82,7 +82,7 @@ def impact(law: ContactLaw, goal: float = LOOSE, outputs: tuple[str, ...] = OUTP
     while law.model.inertia.infinite_plate and _edge_heard(found):
         if law.model.b > WIDEST * first:
             raise SceneError(
-                f"inertia.plate: the contact on an infinite plate had not ended after "
+                f"inertia.extent: the contact on an infinite plate had not ended after "
                 f"{found.inertia.total_time:.6g} s; give a thicker plate or a lighter sphere"
             )
         law = replace(law, model=replace(law.model, b=2.0 * law.model.b))
@@ -171,7 +171,7 @@ def _problem(law: ContactLaw, plate: ModalPlate, quick: Motion) -> DynamicProble
     model, (a, T) = law.model, (quick.max_contact_radius, quick.contact_time)
     rest = law.only(lambda e: e.static and not e.other_edge)
     contact = contact_of(rest, plate, min(WIDER * a, law.limit), model.inertia.pointwise)
-    lag = model.viscous_time / T if law.viscous else 0.0
+    lag = model.retardation_time / T if law.viscous else 0.0
     heard = echo_time(model) / T if model.inertia.infinite_plate else math.inf
     weight = law.gravity * (T / model.v0)
     return DynamicProblem(contact, a, T, model.m, model.v0, weight, lag, heard)

@@ -192,5 +192,5 @@ def test_profiles() -> None:
 
 
 def test_an_unknown_edge() -> None:
-    with pytest.raises(ValueError, match="edge: expected one of soft-hinge"):
+    with pytest.raises(ValueError, match="edge: expected one of paper"):
         Plate(1.0, 0.1, 1.0, 0.3, 1.0, "free")

@@ -96,13 +96,13 @@ def test_a_row(monkeypatch: pytest.MonkeyPatch) -> None:
     assert all(0.0 < row["errors"][name] < 0.1 for name in RESULTS)
     assert row["errors"]["max_indentation"] == record.LEAST_ERROR  # the same thing three times
     assert abs(row["energy_error"]) < 1e-3
-    assert (row["contacts"], row["scene"]["plate"]["edge"]) == (1, "soft-hinge")
+    assert (row["contacts"], row["scene"]["plate"]["edge"]) == (1, "paper")
 
 
 def test_the_program_against_elements() -> None:
     """On the paper's edge program and elements agree to 0.2 % on a coarse mesh."""
     pane = cases.impacts()[0]
-    assert pane.plate.edge == "soft-hinge"
+    assert pane.plate.edge == "paper"
     setting = Setting(Grading(contact=6, thickness=1.0, far=3.0, edge=0), 150)
     impact, _ = solved(pane, setting, until_end=False)
     found = simulated(record.inputs(pane))
@@ -191,7 +191,7 @@ def test_the_record() -> None:
         assert own["max_indentation"] < 2e-3, item["name"]
         assert own["restitution"] < 2e-2, item["name"]
     assert from_exact(data["plates"]) < 5e-6
-    hinged = [item for item in data["impacts"] if item["scene"]["plate"]["edge"] == "soft-hinge"]
+    hinged = [item for item in data["impacts"] if item["scene"]["plate"]["edge"] == "paper"]
     assert len(hinged) >= 10
     for plate in data["plates"]:
         assert max(plate["errors"]) < 1e-4

@@ -117,7 +117,7 @@ def test_the_oscillators_of_all_branches_are_as_many_as_weyl_says() -> None:
     from derivation.scene.model import InertiaSettings
 
     for eta, modes in ((0.3, 24), (0.06, 80)):
-        model = replace(SLOW, h=eta * SLOW.b, edge="soft-hinge",
+        model = replace(SLOW, h=eta * SLOW.b, edge="paper",
                         inertia=InertiaSettings(modes=modes, branches="all"))  # fmt: skip
         true = free_modes(model, modes).omega.size
         assert inertia_check.oscillators(model) == pytest.approx(true, rel=0.15)

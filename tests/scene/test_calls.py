@@ -30,12 +30,12 @@ ALONE: dict[str, set[str]] = {
     "sphere_elasticity": set(),
     "gravity": set(),
     "viscosity": set(),
-    "curvature": {"sphere_contact"},
+    "spherical_profile": {"sphere_contact"},
     "bending": {"bending"},
-    "side_wall": {"side_wall"},
+    "finite_radius": {"side_wall"},
     "finite_thickness": WHOLE | {"bending", "side_wall"},
     "edge": ZEROS | {"supported_edge", "supported_edge_slope"},
-    "pressure": ZEROS | {"contact", "plate"},
+    "non_hertzian_pressure": ZEROS | {"contact", "plate"},
 }
 """What the impact of each effect alone, beside Hertz's, calls."""
 
@@ -67,14 +67,14 @@ def calls(monkeypatch: pytest.MonkeyPatch) -> set[str]:
 
 @pytest.mark.parametrize("name", sorted(ALL))
 def test_an_effect_alone_calls_its_own_kernels_and_no_other(name: str, calls: set[str]) -> None:
-    law = ContactLaw(model(b=0.51, h=0.123, viscous_time=1e-6), frozenset({"hertz", name}))
+    law = ContactLaw(model(b=0.51, h=0.123, retardation_time=1e-6), frozenset({"hertz", name}))
     moved(law)
     assert calls == ALONE[name]
 
 
-@pytest.mark.parametrize("name", ["curvature", "edge", "pressure"])
+@pytest.mark.parametrize("name", ["spherical_profile", "edge", "non_hertzian_pressure"])
 def test_all_others_do_without_it(name: str, calls: set[str]) -> None:
-    motion.impact(ContactLaw(model(b=0.52, h=0.124), ALL - {name, "pressure"}))
+    motion.impact(ContactLaw(model(b=0.52, h=0.124), ALL - {name, "non_hertzian_pressure"}))
     assert calls.isdisjoint(ALONE[name] - ZEROS)
     assert name != "edge" or calls.isdisjoint(ZEROS)
     assert calls >= WHOLE
@@ -85,8 +85,8 @@ def test_the_plates_parts_are_one_kernel_and_none_if_all_are_out(calls: set[str]
     motion.impact(ContactLaw(m, WHOLE_PLATE | {"hertz"}))
     assert calls == WHOLE
     calls.clear()
-    motion.impact(ContactLaw(m, ALL - WHOLE_PLATE - {"pressure"}))
-    assert calls == ALONE["edge"] | ALONE["curvature"]
+    motion.impact(ContactLaw(m, ALL - WHOLE_PLATE - {"non_hertzian_pressure"}))
+    assert calls == ALONE["edge"] | ALONE["spherical_profile"]
 
 
 @pytest.mark.parametrize(
@@ -94,13 +94,15 @@ def test_the_plates_parts_are_one_kernel_and_none_if_all_are_out(calls: set[str]
     [
         ("gravity", {"gravity": 0.0}),
         ("sphere_elasticity", {"sphere_modulus": float("inf")}),
-        ("edge", {"edge": "soft-hinge"}),
+        ("edge", {"edge": "paper"}),
     ],
 )
 def test_out_is_to_the_last_bit_as_if_the_scene_had_none(name: str, without: Any) -> None:
     m = model()
     left, rest = ALL - {name}, replace(m, **without)
-    one, other = (motion.impact(ContactLaw(of, left - {"pressure"})) for of in (m, rest))
+    one, other = (
+        motion.impact(ContactLaw(of, left - {"non_hertzian_pressure"})) for of in (m, rest)
+    )
     assert other == one
 
 
@@ -110,7 +112,11 @@ def test_a_half_space_calls_bounds_and_its_closed_form_alone(calls: set[str]) ->
     auto = {"inertia": "auto"}
     result = simulate(scene(plate=block, sphere={"material": None}, effects=auto), rtol=0.02)
     assert result.gate.law.effects == {"hertz"}
-    assert {row.name for row in result.gate.rows if row.bound > 0} >= {"edge", "pressure", *auto}
+    assert {row.name for row in result.gate.rows if row.bound > 0} >= {
+        "edge",
+        "non_hertzian_pressure",
+        *auto,
+    }
     assert calls <= BOUNDS | {"hertz"}
 
 
@@ -124,7 +130,7 @@ def test_what_is_out_is_not_called(monkeypatch: pytest.MonkeyPatch) -> None:
     thick = {"half_thickness": 1e3, "radius": 1e4}
     for name in ("supported_edge", "supported_edge_slope"):
         monkeypatch.setattr(kernels, name, lambda *_, name=name: calls.append(name) or math.nan)
-    result = simulate(scene(plate=thick, effects={"curvature": False, "gravity": False}))
+    result = simulate(scene(plate=thick, effects={"spherical_profile": False, "gravity": False}))
     assert result.gate.law.effects == {"hertz", "sphere_elasticity"}
     assert calls == []
     motion.impact(ContactLaw(model(), frozenset({"hertz", "bending"})))
@@ -136,7 +142,7 @@ import sys
 from derivation.scene import load, simulate
 result = simulate(load(sys.argv[1]))
 for effect, module in (
-    ("pressure", "generated.true_pressure"), ("viscosity", "derivation.scene.viscous"),
+    ("non_hertzian_pressure", "generated.true_pressure"), ("viscosity", "derivation.scene.viscous"),
     ("inertia", "derivation.scene.waves"), ("inertia", "generated.inertia"),
 ):
     print(effect in result.gate.law.effects, module in sys.modules)
@@ -147,9 +153,9 @@ for effect, module in (
     ("name", "more", "effects"),
     [
         ("block", "", set()),
-        ("soft_layer", "inertia = false", {"pressure"}),
-        ("pad", "inertia = false", {"pressure", "viscosity"}),
-        ("soft_layer", "", {"pressure", "inertia"}),
+        ("soft_layer", "inertia = false", {"non_hertzian_pressure"}),
+        ("pad", "inertia = false", {"non_hertzian_pressure", "viscosity"}),
+        ("soft_layer", "", {"non_hertzian_pressure", "inertia"}),
     ],
 )
 def test_what_is_computed_alone_is_imported(
@@ -161,5 +167,5 @@ def test_what_is_computed_alone_is_imported(
         [sys.executable, "-c", COUNT, str(place)],
         cwd=Path(derivation.__file__).parent.parent, capture_output=True, text=True, check=True,
     )  # fmt: skip
-    asked = ("pressure", "viscosity", "inertia", "inertia")
+    asked = ("non_hertzian_pressure", "viscosity", "inertia", "inertia")
     assert run.stdout.split() == [str(x in effects) for x in asked for _ in range(2)]

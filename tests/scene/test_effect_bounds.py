@@ -65,19 +65,19 @@ def test_a_share_of_the_slope_lies_within_its_bound_at_every_radius(name: str) -
 
 
 CLOSE: list[tuple[str, float, dict[str, Any]]] = [
-    ("curvature", 0.95, {}),
-    ("curvature", 0.9, {"h": 5.0, "b": 0.3, "v0": 3.0, "m": 10.0}),
+    ("spherical_profile", 0.95, {}),
+    ("spherical_profile", 0.9, {"h": 5.0, "b": 0.3, "v0": 3.0, "m": 10.0}),
     ("gravity", 0.99, {"h": 5.0, "b": 0.3, "v0": 3.0, "m": 10.0}),
     ("gravity", 0.8, {}),
     ("sphere_elasticity", 0.75, {"m": 300.0, "v0": 0.02, "h": 0.1}),
     ("sphere_elasticity", 0.85, {"sphere_modulus": 1e13, "v0": 0.1, "h": 0.1}),
-    ("side_wall", 0.9, {"h": 0.005, "v0": 0.05}),
-    ("side_wall", 0.8, {"h": 5.0, "b": 0.3, "v0": 3.0, "m": 10.0}),
+    ("finite_radius", 0.9, {"h": 0.005, "v0": 0.05}),
+    ("finite_radius", 0.8, {"h": 5.0, "b": 0.3, "v0": 3.0, "m": 10.0}),
     ("finite_thickness", 0.9, {"h": 0.005, "v0": 0.05}),
     ("bending", 0.8, {"h": 5.0, "b": 5.0, "v0": 0.3}),
     ("edge", 0.65, {"h": 0.005, "v0": 0.05}),
-    ("pressure", 0.5, {"h": 0.01, "b": 1.0}),
-    ("pressure", 0.5, {}),
+    ("non_hertzian_pressure", 0.5, {"h": 0.01, "b": 1.0}),
+    ("non_hertzian_pressure", 0.5, {}),
 ]
 """An effect, how much of its bound of some output is used at least, and a scene."""
 
@@ -88,7 +88,9 @@ def test_what_an_effect_changes_is_within_its_bound_and_near_it(
 ) -> None:
     """Everything on against everything but one, which the effects table has a bound for."""
     m = model(**changes)
-    every = applicable(m) - (set() if name == "pressure" else {"pressure"})
+    every = applicable(m) - (
+        set() if name == "non_hertzian_pressure" else {"non_hertzian_pressure"}
+    )
     wanted = {effect.name: effect.name in every - {name} for effect in EFFECTS}
     one, other = impact(m, every - {name}).numbers, impact(m, every).numbers
     shares = []
@@ -118,16 +120,16 @@ def test_prices_hold_under_the_true_pressure(name: str) -> None:
     bound = {row.name: row.bound for row in gate.rows}[name]
     assert 0.2 < apart(impact(m, ALL - {name}), impact(m, ALL)) / bound <= 1
     # What the profile adds is known under Hertz's pressure alone.
-    flat = decide(m, AT_REST | wanted | {"curvature": False}, 1.0)
-    assert {row.name: row.bound for row in flat.rows}["curvature"] == math.inf
+    flat = decide(m, AT_REST | wanted | {"spherical_profile": False}, 1.0)
+    assert {row.name: row.bound for row in flat.rows}["spherical_profile"] == math.inf
 
 
 @pytest.mark.parametrize("edge", ["simply-supported", "clamped"])
 def test_what_is_in_is_priced_too(edge: str) -> None:
     """What leaving one out of all would change, by the table of the law with all."""
     m = model(h=5.0, b=5.0, v0=0.3, edge=edge, sphere_modulus=1e13)
-    every = applicable(m) - {"pressure"}
-    gate = decide(m, AT_REST | {"pressure": False}, 0.0)
+    every = applicable(m) - {"non_hertzian_pressure"}
+    gate = decide(m, AT_REST | {"non_hertzian_pressure": False}, 0.0)
     assert gate.law.effects == every
     for row in gate.rows:
         if row.included and row.name != "hertz":
@@ -170,8 +172,8 @@ def test_both_sides_of_every_threshold(name: str) -> None:
     ("one", "other", "edge"),
     [
         ("bending", "edge", "simply-supported"),
-        ("bending", "curvature", "simply-supported"),
-        ("side_wall", "edge", "clamped"),
+        ("bending", "spherical_profile", "simply-supported"),
+        ("finite_radius", "edge", "clamped"),
         ("gravity", "bending", "clamped"),
     ],
 )
@@ -190,7 +192,7 @@ def test_bounds_of_what_is_left_out_together_add_up(one: str, other: str, edge: 
 
 
 def test_every_effect_has_a_threshold_there() -> None:
-    m = model(**SCENES["block"], viscous_time=1e-8)
+    m = model(**SCENES["block"], retardation_time=1e-8)
     assert applicable(m) == ALL
     assert decide(m, AT_REST, 10.0).law.effects == {"hertz"}
     assert decide(m, AT_REST, 0.0).law.effects == ALL
@@ -202,7 +204,7 @@ decades = st.floats(-1.0, 1.0)
 @settings(max_examples=12)
 @given(
     thick=decades, fast=decades, soft=decades, heavy=decades,
-    edge=st.sampled_from(["soft-hinge", "simply-supported", "clamped"]),
+    edge=st.sampled_from(["paper", "simply-supported", "clamped"]),
     tolerances=st.lists(st.floats(-10.0, 0.0), min_size=3, max_size=3),
 )  # fmt: skip
 def test_the_count_of_effects_falls_as_the_tolerance_loosens(

@@ -35,7 +35,7 @@ def test_parts_of_the_plate_add_up() -> None:
     np.testing.assert_allclose(sum(p.slope - 1 for p in parts), whole.slope - 1, rtol=1e-12)
 
 
-@pytest.mark.parametrize("left_out", [set(), {"pressure"}], ids=["solved", "hertz"])
+@pytest.mark.parametrize("left_out", [set(), {"non_hertzian_pressure"}], ids=["solved", "hertz"])
 def test_force_is_the_derivative_of_the_energy(left_out: set[str]) -> None:
     """Virtual work: dU = P d delta, and the stiffness is dP/d delta, with all effects in."""
     law, a, step = ContactLaw(model(), ALL - left_out), np.linspace(0.005, 0.09, 9), 1e-5
@@ -78,7 +78,7 @@ def test_flat_spheres_tend_to_hertz() -> None:
     """delta at a force grows by (a/R)^2/15, and the pressure in the middle is Hertz's."""
     m = model(h=1e3, b=1e4)
     curved, flat = (
-        ContactLaw(m, frozenset({"hertz", "curvature"})),
+        ContactLaw(m, frozenset({"hertz", "spherical_profile"})),
         ContactLaw(m, frozenset({"hertz"})),
     )
     for rho in (1e-3, 1e-2):
@@ -95,8 +95,8 @@ def test_flat_spheres_tend_to_hertz() -> None:
 def test_pressure_in_the_middle_by_the_solved_equation() -> None:
     """Of a steep sphere on a block: the punches' sum against the Fredholm equation's pressure."""
     m = model(h=1e3, b=1e4, sphere_modulus=math.inf)
-    summed = ContactLaw(m, frozenset({"hertz", "curvature"}))
-    solved = ContactLaw(m, WHOLE_PLATE | {"hertz", "curvature", "pressure"})
+    summed = ContactLaw(m, frozenset({"hertz", "spherical_profile"}))
+    solved = ContactLaw(m, WHOLE_PLATE | {"hertz", "spherical_profile", "non_hertzian_pressure"})
     for rho in (0.1, 0.5, 0.8):
         a = rho * m.R
         assert summed.max_pressure(a) == pytest.approx(solved.max_pressure(a), rel=1e-4)
@@ -140,7 +140,8 @@ def by_steps(law: ContactLaw) -> tuple[float, float, float, float]:
 def test_impact_by_time_steps() -> None:
     """Curved, elastic sphere under weight on a bending plate, against DOP853."""
     law = ContactLaw(
-        model(v0=0.2), frozenset({"hertz", "sphere_elasticity", "curvature", "bending", "gravity"})
+        model(v0=0.2),
+        frozenset({"hertz", "sphere_elasticity", "spherical_profile", "bending", "gravity"}),
     )
     found = motion.impact(law)
     steps = by_steps(law)
@@ -196,7 +197,9 @@ def test_history_keeps_the_energy_with_every_effect() -> None:
 
 def test_history_of_a_slow_and_heavy_sphere_keeps_the_energy() -> None:
     """It starts all at once beside the time it takes: 32 nodes in time leave 5e-5 of v0^2."""
-    law = ContactLaw(model(v0=1e-3), frozenset({"hertz", "bending", "gravity", "curvature"}))
+    law = ContactLaw(
+        model(v0=1e-3), frozenset({"hertz", "bending", "gravity", "spherical_profile"})
+    )
     m, found = law.model, motion.impact(law)
     times = np.linspace(0.0, found.contact_time, 101)
     depth, velocity, radius, _ = found.history(law, times)
@@ -209,7 +212,9 @@ def test_an_impact_is_followed_until_twice_the_nodes_change_nothing(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """Of a slow and heavy sphere, where fewer nodes in time leave more, and say so."""
-    law = ContactLaw(model(v0=1e-5), frozenset({"hertz", "bending", "gravity", "curvature"}))
+    law = ContactLaw(
+        model(v0=1e-5), frozenset({"hertz", "bending", "gravity", "spherical_profile"})
+    )
     found = motion.impact(law)
     monkeypatch.setattr(motion, "MORE_TIMES", ())
     few = motion.impact(law)
@@ -219,7 +224,7 @@ def test_an_impact_is_followed_until_twice_the_nodes_change_nothing(
 
 def test_a_history_moves_as_fast_as_it_says() -> None:
     """Differences of the indentation over a hundred-thousandth of the contact are the velocity."""
-    law = ContactLaw(model(), frozenset({"hertz", "bending", "gravity", "curvature"}))
+    law = ContactLaw(model(), frozenset({"hertz", "bending", "gravity", "spherical_profile"}))
     found = motion.impact(law)
     T = found.contact_time
     middle, step = np.linspace(0.05, 0.95, 47) * T, 1e-5 * T

@@ -69,7 +69,7 @@ def test_weight_under_the_true_pressure_moves_the_radius_within_the_bound() -> N
     values, effects, bound = derivation.checks.effects.gated(data, 1e-2)
     assert whole is not None
     assert "gravity" not in effects
-    assert "pressure" in effects
+    assert "non_hertzian_pressure" in effects
     assert 0.5 * bound < abs(values[3] / whole[0][3] - 1) <= bound
 
 
@@ -81,31 +81,36 @@ def test_forced_choices_are_honoured_and_priced() -> None:
     rows = {row.name: row for row in out.rows}
     assert rows["bending"].disabled
     assert rows["gravity"].why == "true in the scene"
-    small = {row.name: row for row in decide(m, AT_REST | {"side_wall": False}, 1e-9).rows}[
-        "side_wall"
+    small = {row.name: row for row in decide(m, AT_REST | {"finite_radius": False}, 1e-9).rows}[
+        "finite_radius"
     ]
     assert f"at most {100 * small.bound:.2g} %" in small.why
-    hertz = ALL - {"pressure"}
-    whole, without = (motion.impact(ContactLaw(m, e)) for e in (hertz, hertz - {"side_wall"}))
+    hertz = ALL - {"non_hertzian_pressure"}
+    whole, without = (motion.impact(ContactLaw(m, e)) for e in (hertz, hertz - {"finite_radius"}))
     changes = [abs(b / a - 1) for a, b in zip(whole.numbers, without.numbers, strict=True)]
     assert 0.3 * small.bound < max(changes) <= small.bound
 
 
 def test_pressure_and_inertia_need_the_whole_plate() -> None:
     off = decide(model(), {"bending": False, "inertia": False}, 1e-6)
-    assert "pressure" not in off.law.effects
+    assert "non_hertzian_pressure" not in off.law.effects
     # What cannot be included counts in the bound like all that is omitted.
-    assert off.error >= {row.name: row.bound for row in off.rows}["pressure"] > 1e-6
-    for name in ("pressure", "inertia"):
+    assert off.error >= {row.name: row.bound for row in off.rows}["non_hertzian_pressure"] > 1e-6
+    for name in ("non_hertzian_pressure", "inertia"):
         with pytest.raises(SceneError, match=r"effects\.bending = false; leave out"):
             decide(model(), {"bending": False, name: True}, 1e-6)
 
 
 def test_the_pressure_is_solved_with_all_that_its_equation_holds() -> None:
-    law = decide(model(), AT_REST | {"pressure": True}, 10.0).law
-    assert law.effects >= {"pressure", "curvature", "sphere_elasticity"} | WHOLE_PLATE
-    law = decide(model(), AT_REST | {"pressure": True, "curvature": False}, 10.0).law
-    assert "curvature" not in law.effects
+    law = decide(model(), AT_REST | {"non_hertzian_pressure": True}, 10.0).law
+    assert (
+        law.effects
+        >= {"non_hertzian_pressure", "spherical_profile", "sphere_elasticity"} | WHOLE_PLATE
+    )
+    law = decide(
+        model(), AT_REST | {"non_hertzian_pressure": True, "spherical_profile": False}, 10.0
+    ).law
+    assert "spherical_profile" not in law.effects
 
 
 def test_numbers_are_those_of_the_largest_contact() -> None:
@@ -114,14 +119,14 @@ def test_numbers_are_those_of_the_largest_contact() -> None:
     a, rows = found.max_contact_radius, {row.name: row for row in decide(m, AT_REST, 0.0).rows}
     depth = a * a / m.R
     true = {
-        "hertz": a / m.R, "curvature": a / m.R, "pressure": a / (2 * m.h),
+        "hertz": a / m.R, "spherical_profile": a / m.R, "non_hertzian_pressure": a / (2 * m.h),
         "sphere_elasticity": m.modulus / m.sphere_modulus,
         "gravity": m.m * m.gravity * depth / (m.m * m.v0**2 / 2),
         "bending": 2 / math.pi * a * m.b**2 / (2 * m.h) ** 3,
     }  # fmt: skip
     for name, value in true.items():
         assert rows[name].value == pytest.approx(value, rel=0.02)
-    assert rows["side_wall"].value == pytest.approx(0.37 * a / m.b, rel=0.01)
+    assert rows["finite_radius"].value == pytest.approx(0.37 * a / m.b, rel=0.01)
     # The static plate's: supported over hinged is (3 + nu)/(2 (1 + nu)).
     nu = m.lam / (2 * (m.lam + m.mu))
     share = rows["bending"].value * ((3 + nu) / (2 * (1 + nu)) - 1)
@@ -130,20 +135,21 @@ def test_numbers_are_those_of_the_largest_contact() -> None:
 
 def test_outputs_that_do_not_matter_take_in_nothing() -> None:
     """The sphere's profile moves the contact radius half as much again as the force."""
-    m = model(sphere_modulus=math.inf, gravity=0.0, h=1e3, b=1e4, v0=0.1, edge="soft-hinge")
+    m = model(sphere_modulus=math.inf, gravity=0.0, h=1e3, b=1e4, v0=0.1, edge="paper")
     worst = decide(m, AT_REST, 0.0, OUTPUTS)
-    assert "curvature" in worst.law.effects
+    assert "spherical_profile" in worst.law.effects
     errors = {
-        name: decide(m, AT_REST | {"curvature": "auto"}, 1.0, (name,)).error for name in OUTPUTS
+        name: decide(m, AT_REST | {"spherical_profile": "auto"}, 1.0, (name,)).error
+        for name in OUTPUTS
     }
     assert errors["max_contact_radius"] > 1.4 * errors["max_force"]
     rtol = math.sqrt(errors["max_contact_radius"] * errors["max_force"])
-    assert "curvature" in decide(m, AT_REST, rtol, ("max_contact_radius",)).law.effects
-    assert "curvature" not in decide(m, AT_REST, rtol, ("max_force",)).law.effects
+    assert "spherical_profile" in decide(m, AT_REST, rtol, ("max_contact_radius",)).law.effects
+    assert "spherical_profile" not in decide(m, AT_REST, rtol, ("max_force",)).law.effects
 
 
 def test_the_scenes_outputs_are_those_the_tolerance_applies_to() -> None:
-    block = {"half_thickness": 1e3, "radius": 1e4, "edge": "soft-hinge"}
+    block = {"half_thickness": 1e3, "radius": 1e4, "edge": "paper"}
     given = scene(plate=block, sphere={"material": None}, impact={"gravity": None}).to_json()
     m = model_of(read(given))
     errors = [
@@ -152,7 +158,7 @@ def test_the_scenes_outputs_are_those_the_tolerance_applies_to() -> None:
     rtol = math.sqrt(errors[0] * errors[1])
     for name, wanted in (("max_contact_radius", True), ("max_force", False)):
         result = simulate(read(given | {"accuracy": {"rtol": rtol, "outputs": [name]}}))
-        assert ("curvature" in result.gate.law.effects) is wanted
+        assert ("spherical_profile" in result.gate.law.effects) is wanted
     assert result.accuracy.bound >= result.accuracy.parts["effects"].bound == result.gate.error > 0
 
 
@@ -169,7 +175,7 @@ def test_explain_simulates_nothing_and_says_why(capsys: Captured, tmp_path: Path
     path = tmp_path / "scene.toml"
     path.write_text(
         "[sphere]\nradius = 0.01\nmaterial = 'steel'\n[plate]\nradius = 0.5\nthickness = 0.01\n"
-        "material = 'glass'\n[impact]\nspeed = 1\n[effects]\nside_wall = false\n"
+        "material = 'glass'\n[impact]\nspeed = 1\n[effects]\nfinite_radius = false\n"
     )
     assert main(["explain", str(path), "--rtol", "1e-2", "--json", f"{tmp_path}/e.json"]) == 0
     shown = capsys.readouterr().out
@@ -184,7 +190,7 @@ def test_explain_simulates_nothing_and_says_why(capsys: Captured, tmp_path: Path
     for row in data["effects"]:
         assert row["name"] in shown
     assert "lambda = " in data["notes"][0]
-    assert "The scene disables side_wall" in " ".join(shown.split())
+    assert "The scene disables finite_radius" in " ".join(shown.split())
     found = explain(scene())
     assert "inertia is not judged" in found.notes[0]
     block = scene(plate={"half_thickness": 1e3, "radius": 1e4}, effects={"inertia": "auto"})
@@ -206,7 +212,7 @@ def test_the_reference_knows_the_papers_law_alone(tmp_path: Path) -> None:
     found = pipeline.in_doubles(load(place))
     assert found.gate.law.effects == WHOLE_PLATE | {"hertz"}
     paper = (EXAMPLES / "paper.toml").read_text()
-    for key in ("bending = false", "perturbation = true", "side_wall = false"):
+    for key in ("bending = false", "finite_radius = false"):
         place.write_text(f"{paper}{key}\n")
         with pytest.raises(SceneError, match=key.partition(" ")[0]):
             pipeline.in_doubles(load(place))

@@ -37,7 +37,7 @@ def result() -> Any:
 
 
 def test_a_scene_that_calls_for_inertia_gets_it(result: Any) -> None:
-    assert {"inertia", "bending", "finite_thickness", "side_wall"} <= result.gate.law.effects
+    assert {"inertia", "bending", "finite_thickness", "finite_radius"} <= result.gate.law.effects
     still = simulate(scene(effects={"inertia": False}))
     assert "inertia" not in still.gate.law.effects
     assert still.inertia_neglected
@@ -70,7 +70,7 @@ def test_the_whole_plate_has_to_move() -> None:
         simulate(scene(effects={"bending": False}))
 
 
-@pytest.mark.parametrize("part", ["side_wall", "finite_thickness"])
+@pytest.mark.parametrize("part", ["finite_radius", "finite_thickness"])
 def test_a_small_static_part_that_is_disabled_does_not_stop_the_plate(part: str) -> None:
     """Its own bound covers what it changes: the plate still takes most of the energy."""
     whole, without = (simulate(scene(effects=e)) for e in ({}, {part: False}))
@@ -157,15 +157,13 @@ def test_zeners_curve_begins_as_its_series() -> None:
     assert zener_restitution(5.0) < 1e-3
 
 
-@pytest.mark.parametrize(("edge", "factor"), [("soft-hinge", 1.0), ("clamped", 0.5),
+@pytest.mark.parametrize(("edge", "factor"), [("paper", 1.0), ("clamped", 0.5),
                                               ("simply-supported", 3.3 / 2.6)])  # fmt: skip
 def test_modes_of_a_thin_plate_add_up_to_its_deflection_at_rest(edge: str, factor: float) -> None:
     """P b^2/(8 pi D) of the paper's edge, half of it clamped, (3 + nu)/(2 (1 + nu)) supported."""
     thin = scene(plate={"thickness": 2e-4, "edge": edge})
     model = replace(model_of(thin), h=1e-4)
-    law = ContactLaw(
-        model, WHOLE_PLATE | {"hertz", "edge"} if edge != "soft-hinge" else WHOLE_PLATE
-    )
+    law = ContactLaw(model, WHOLE_PLATE | {"hertz", "edge"} if edge != "paper" else WHOLE_PLATE)
     found = float(np.sum(plate_of(law, 400).modes.compliance))
     bending = model.modulus * (2.0 * model.h) ** 3 / 12.0
     assert found == pytest.approx(factor * model.b**2 / (8.0 * np.pi * bending), rel=2e-5)

@@ -12,7 +12,7 @@ from derivation.scene.result import Result
 from derivation.scene.scene import OUTPUTS
 
 PAD = load(EXAMPLES / "pad.toml").to_json()
-EFFECTS = dict.fromkeys(BY_NAME, True) | {"pressure": False, "perturbation": False}
+EFFECTS = dict.fromkeys(BY_NAME, True) | {"non_hertzian_pressure": False}
 del EFFECTS["hertz"], EFFECTS["edge"]
 
 
@@ -85,7 +85,12 @@ def test_contacts_that_begin_again_on_a_face_still_pressed_in_are_followed(
     mass: float, material: str, thickness: float, radius: float, time: float
 ) -> None:
     """To their end, and no energy is lost on the way."""
-    plate = {"radius": radius, "thickness": thickness, "material": material, "viscous_time": time}
+    plate = {
+        "radius": radius,
+        "thickness": thickness,
+        "material": material,
+        "retardation_time": time,
+    }
     found = simulate(
         read(
             {

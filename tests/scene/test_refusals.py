@@ -16,8 +16,8 @@ from derivation.engine.files import measurements
 from derivation.scene import SceneError, indent, limits, motion, read, simulate, viscous, waves
 from derivation.scene.edge_remainder import edge_remainder
 from derivation.scene.effects import PAPER, WHOLE_PLATE
-from derivation.scene.effects.curvature import LARGEST as CURVED
 from derivation.scene.effects.edge import WIDEST as HELD
+from derivation.scene.effects.spherical_profile import LARGEST as CURVED
 from derivation.scene.law import ContactLaw
 from derivation.scene.model import model_of
 from derivation.scene.result import Result
@@ -46,10 +46,22 @@ def refused_from(make: Callable[[float], Any], fine: float, bad: float) -> tuple
     [
         ({}, 0.13),
         ({"plate": {"radius": 0.05}}, 0.05),
-        ({"effects": {"curvature": True}}, 0.99 * 0.13),
+        ({"effects": {"spherical_profile": True}}, 0.99 * 0.13),
         ({"plate": {"radius": 0.1, "edge": "clamped"}}, 0.9 * 0.1),
-        ({"plate": {"radius": 0.1, "thickness": 0.2}, "effects": {"pressure": True}}, 0.9 * 0.1),
-        ({"plate": {"radius": 0.5, "thickness": 0.005}, "effects": {"pressure": True}}, 0.015),
+        (
+            {
+                "plate": {"radius": 0.1, "thickness": 0.2},
+                "effects": {"non_hertzian_pressure": True},
+            },
+            0.9 * 0.1,
+        ),
+        (
+            {
+                "plate": {"radius": 0.5, "thickness": 0.005},
+                "effects": {"non_hertzian_pressure": True},
+            },
+            0.015,
+        ),
     ],
     ids=["sphere", "plate", "steep", "held", "solved", "annulus"],
 )
@@ -64,7 +76,10 @@ def test_contact_radii_are_refused_from_the_limit_on(tables: Tables, limit: floa
 
 def test_a_contact_is_refused_where_it_opens_in_its_middle() -> None:
     """The pressure in the middle falls to nothing there; a sphere's does before a/H = 3."""
-    tables = {"plate": {"thickness": 0.02}, "effects": {"curvature": True, "pressure": True}}
+    tables = {
+        "plate": {"thickness": 0.02},
+        "effects": {"spherical_profile": True, "non_hertzian_pressure": True},
+    }
     given = read(changed(**tables))
     a, text = refused_from(lambda a: indent(given, contact_radius=a), 0.02, 0.07)
     assert 1.5 < a / 0.02 < 3.0
@@ -89,7 +104,11 @@ def test_impacts_are_refused_from_the_speed_named(gravity: float | None, solved:
                     sphere={"mass": 3e4},
                     plate={"thickness": 0.4},
                     impact={"speed": v, "gravity": gravity},
-                    effects={"pressure": solved, "curvature": solved, "gravity": True},
+                    effects={
+                        "non_hertzian_pressure": solved,
+                        "spherical_profile": solved,
+                        "gravity": True,
+                    },
                 )
             )
         )
@@ -191,7 +210,7 @@ def test_the_edges_model_error_is_said_and_refused() -> None:
         )
     with pytest.raises(SceneError, match="h/b up to 1"):
         simulate(scene(plate={"half_thickness": 0.6}, effects={"edge": True}))
-    assert simulate(scene(plate={"edge": "soft-hinge"})).model_note == ""
+    assert simulate(scene(plate={"edge": "paper"})).model_note == ""
 
 
 def test_beyond_the_law_is_refused_with_its_limit() -> None:
@@ -199,16 +218,16 @@ def test_beyond_the_law_is_refused_with_its_limit() -> None:
     with pytest.raises(SceneError, match=r"contact is lost at the centre, at 0\.059.* m.*lower"):
         simulate(scene(impact=fast))
     with pytest.raises(SceneError, match=rf"min\({HELD} b, {CURVED} R\) = 0\.099 m"):
-        simulate(scene(impact=fast, effects={"pressure": False}))
-    flat = {"curvature": False, "edge": False, "pressure": False}
+        simulate(scene(impact=fast, effects={"non_hertzian_pressure": False}))
+    flat = {"spherical_profile": False, "edge": False, "non_hertzian_pressure": False}
     with pytest.raises(SceneError, match=r"min\(b, R\) = 0\.1 m"):
         simulate(scene(impact=fast, effects=flat))
 
 
 def test_the_contact_opens_near_three_thicknesses() -> None:
     """Of a rigid paraboloid on a thin plate; a sphere's pressure is steeper and opens before."""
-    m = model(sphere_modulus=math.inf, h=0.001, R=10.0, edge="soft-hinge")
-    limit = ContactLaw(m, ALL - {"curvature", "edge", "gravity"}).limit
+    m = model(sphere_modulus=math.inf, h=0.001, R=10.0, edge="paper")
+    limit = ContactLaw(m, ALL - {"spherical_profile", "edge", "gravity"}).limit
     assert limit == 6 * m.h  # 3.01 thicknesses are beyond the law's own limit
     steep = ContactLaw(model(h=0.02), ALL).limit
     assert 0.04 < steep < 0.12
@@ -232,7 +251,7 @@ def test_impact_beyond_the_law_is_refused_at_the_speed_named(plate: dict[str, fl
 def test_energy_of_a_sphere_close_to_its_limit_by_another_quadrature() -> None:
     """Sneddon's force along his indentation, steep there, up to 0.99 R."""
     m = model(sphere_modulus=math.inf, h=1e3, b=1e4)
-    law = ContactLaw(m, frozenset({"hertz", "curvature"}))
+    law = ContactLaw(m, frozenset({"hertz", "spherical_profile"}))
     E, R, last = m.modulus, m.R, limits.last_radius(law)
 
     def power(a: float) -> float:
@@ -265,6 +284,6 @@ def test_an_impact_beyond_the_law_is_an_error_of_the_speed(
     run: Callable[[ContactLaw], object], effects: frozenset[str]
 ) -> None:
     """Every solver fails in the same way."""
-    m = replace(model_of(read(changed())), v0=1e6, viscous_time=1e-6, density=2700.0)
+    m = replace(model_of(read(changed())), v0=1e6, retardation_time=1e-6, density=2700.0)
     with pytest.raises(SceneError, match=r"impact\.speed: expected .*; lower the speed"):
         run(ContactLaw(m, effects))

@@ -79,8 +79,8 @@ BAD = [
     ("[impact]", "[inertia]\nmodes = 2.5\n[impact]", "inertia.modes|whole number from 2|got 2.5"),
     ("[impact]", "[inertia]\nmodes = 'all'\n[impact]", '"auto" or|without quotes|`modes = 40`'),
     ("[impact]", "[inertia]\nbranches = 'A1'\n[impact]", '"A0" or "all"|like `branches = "all"`'),
-    ("[impact]", "[inertia]\nclosure = 1\n[impact]", '"variational" or "pointwise"|got 1'),
-    ("[impact]", "[inertia]\nplate = 'x'\n[impact]", 'inertia.plate|"modes" or "infinite"'),
+    ("[impact]", "[inertia]\ncoupling = 1\n[impact]", '"variational" or "pointwise"|got 1'),
+    ("[impact]", "[inertia]\nextent = 'x'\n[impact]", 'inertia.extent|"finite" or "infinite"'),
     ("[impact]", "[inertia]\nmode = 3\n[impact]", "inertia.mode: unknown|did you mean modes?"),
     ("[impact]", "[effects]\ninertia = 1\n[impact]", 'inertia: expected "auto", true or|got 1'),
     ("lame_mu = 0.43e9", "lame_mu = 0.0", "plate.lame_mu: expected a positive number|got 0"),
@@ -250,7 +250,8 @@ def test_schema_describes_every_key_and_choice() -> None:
         {"const": "auto", "type": "string"}, {"type": "boolean"},
     ]  # fmt: skip
     assert list(made["$defs"]["Effects"]["properties"]) == [
-        effect.name for effect in EFFECTS if not effect.forced
+        *(effect.name for effect in EFFECTS if not effect.forced),
+        "compare_paper_motion",
     ]
     modes = made["$defs"]["Inertia"]["properties"]["modes"]["anyOf"]
     assert modes[1] == {"maximum": 6000, "minimum": 2, "type": "integer"}

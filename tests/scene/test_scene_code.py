@@ -31,23 +31,23 @@ PAD = {
     "sphere": {"radius": 0.01, "mass": 0.03},
     "plate": {
         "radius": 0.5, "thickness": 0.4, "youngs_modulus": 5e6, "poissons_ratio": 0.4,
-        "viscous_time": 1e-4,
+        "retardation_time": 1e-4,
     },
     "impact": {"speed": 1.0},
 }  # fmt: skip
 VISCOUS: dict[str, dict[str, dict[str, Any]]] = {
     "viscous": {
-        "effects": {"bending": False, "finite_thickness": False, "curvature": False},
+        "effects": {"bending": False, "finite_thickness": False, "spherical_profile": False},
         "accuracy": {"rtol": 1e-2},
     },
     "viscous, heavy": {
-        "plate": {"viscous_time": 1e-3}, "impact": {"gravity": 9.81},
-        "effects": {"bending": False, "pressure": False, "gravity": True},
+        "plate": {"retardation_time": 1e-3}, "impact": {"gravity": 9.81},
+        "effects": {"bending": False, "non_hertzian_pressure": False, "gravity": True},
         "accuracy": {"rtol": 1e-3},
     },
-    "viscous, bent": {"plate": {"thickness": 0.02, "viscous_time": 1e-3}},
+    "viscous, bent": {"plate": {"thickness": 0.02, "retardation_time": 1e-3}},
     "viscous, stiff": {
-        "plate": {"thickness": 0.04, "viscous_time": 1e-6}, "accuracy": {"rtol": 1e-9},
+        "plate": {"thickness": 0.04, "retardation_time": 1e-6}, "accuracy": {"rtol": 1e-9},
     },
 }  # fmt: skip
 CASES = [*sorted(path.stem for path in EXAMPLES.glob("*.toml")), *RANDOM, *VISCOUS]
@@ -153,7 +153,7 @@ def moved_numbers(law: ContactLaw) -> list[float]:
 
 
 def test_every_effect_in_it_presses_as_indent_does() -> None:
-    scene = read(changed(effects={"curvature": True, "pressure": True}))
+    scene = read(changed(effects={"spherical_profile": True, "non_hertzian_pressure": True}))
     names: dict[str, Any] = {}
     exec(scene_code(scene), names)
     delta = np.geomspace(1e-5, 0.6, 12) * names["MAX_INDENTATION"]
@@ -227,7 +227,7 @@ def test_a_lagging_force_by_indentation_and_rate() -> None:
     delta, P, k = (
         float(f(np.array([a]), shape)[0]) for f in (law.indentation, law.force, law.stiffness)
     )
-    lag = law.model.viscous_time
+    lag = law.model.retardation_time
     rate = np.array([-1e9, -0.1, 0.0, 0.1])
     told = names["force"](delta, rate)
     assert told == pytest.approx([0.0, *(P + lag * k * rate[1:])], rel=1e-12)
@@ -298,8 +298,8 @@ def test_a_plate_that_moves_is_refused(wanted: Any) -> None:
 MARKS = {
     "bending": {"BEND", "COMPLIANCE", "_GROWTH", "_polynomial"},
     "gravity": {"GRAVITY"},
-    "viscosity": {"VISCOUS_TIME", "elastic_force", "elastic_rate", "_extrapolated"},
-    "curvature": {"_FORCE"},
+    "viscosity": {"RETARDATION_TIME", "elastic_force", "elastic_rate", "_extrapolated"},
+    "spherical_profile": {"_FORCE"},
 }
 """Names that stand for an effect, of scenes that hold nothing else which needs them."""
 
@@ -310,7 +310,10 @@ def test_holds_no_code_of_effects_that_are_out(case: str) -> None:
     found = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
     found |= {node.name for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)}
     effects = recipe(scene_of(case)).law.effects
-    also = {"curvature": {"pressure"}, "bending": effects - {"hertz", "gravity", "viscosity"}}
+    also = {
+        "spherical_profile": {"non_hertzian_pressure"},
+        "bending": effects - {"hertz", "gravity", "viscosity"},
+    }
     for effect, marks in MARKS.items():
         if not effects & ({effect} | also.get(effect, set()) - {"sphere_elasticity"}):
             assert not found & marks, effect

@@ -32,10 +32,10 @@ DROP: dict[str, dict[str, Any]] = {
     "sphere": {"radius": 0.01, "material": "steel"},
     "plate": {
         "radius": 0.05, "thickness": 0.002, "material": "aluminium", "yield_stress": 1e8,
-        "strength": 1e7,
+        "tensile_strength": 1e7,
     },
     "impact": {"speed": 2.0},
-    "effects": {"inertia": True, "pressure": "auto"},
+    "effects": {"inertia": True, "non_hertzian_pressure": "auto"},
     "inertia": {"modes": 24},
 }  # fmt: skip
 
@@ -88,7 +88,7 @@ def test_plates_with_inertia_keep_every_warning() -> None:
 
 def test_the_largest_deflection_is_warned_of_at_whatever_time_it_is() -> None:
     """Here well before the largest indentation."""
-    plate = {"radius": 0.08, "yield_stress": 3e8, "strength": None}
+    plate = {"radius": 0.08, "yield_stress": 3e8, "tensile_strength": None}
     result = simulate(scene(plate=plate, impact={"speed": 3.0}))
     assert result.moving is not None
     times = np.linspace(0.0, result.total_time, 400)
@@ -203,9 +203,9 @@ def test_a_sphere_that_is_too_heavy_is_told_so() -> None:
     heavy = {
         "sphere": {"radius": 0.01, "mass": 1000.0, "material": None},
         "plate": {"radius": 0.1, "thickness": 0.01, "youngs_modulus": 5e6, "poissons_ratio": 0.4,
-                  "material": None, "yield_stress": None, "strength": None},
+                  "material": None, "yield_stress": None, "tensile_strength": None},
         "impact": {"speed": 0.1, "gravity": 9.81},
-        "effects": {"inertia": False, "pressure": False},
+        "effects": {"inertia": False, "non_hertzian_pressure": False},
     }  # fmt: skip
     data = scene(**heavy).model_dump(exclude_none=True)
     data.pop("inertia")

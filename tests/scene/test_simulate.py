@@ -94,7 +94,7 @@ def test_units_do_not_matter(moves: bool, rel: float) -> None:
             "density": 2.4e-9,
         },
         "impact": {"speed": 1000.0},
-        "effects": {"curvature": False, "pressure": False, "inertia": moves},
+        "effects": {"spherical_profile": False, "non_hertzian_pressure": False, "inertia": moves},
     }))  # fmt: skip
     assert millimetre.contact_time == pytest.approx(metre.contact_time, rel=rel)
     assert millimetre.max_indentation == pytest.approx(1e3 * metre.max_indentation, rel=rel)

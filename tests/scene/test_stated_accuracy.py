@@ -73,8 +73,8 @@ def test_rounding_of_a_small_part_beside_much_bending_is_within_the_bound() -> N
                     "plate": {"radius": 1.0 * f, "half_thickness": 0.002 * f,
                               "lame_lambda": 0.36e9 / f, "lame_mu": 0.43e9 / f},
                     "impact": {"speed": f},
-                    "effects": {"bending": False, "side_wall": True, "finite_thickness": True,
-                                "inertia": False, "pressure": False},
+                    "effects": {"bending": False, "finite_radius": True, "finite_thickness": True,
+                                "inertia": False, "non_hertzian_pressure": False},
                 }
             ), rtol=1e-9,
         )  # fmt: skip
@@ -95,7 +95,7 @@ def test_a_viscoelastic_contact_begins_again_on_a_nearly_recovered_face(
         {
             "sphere": {"radius": 0.02, "mass": 1.0},
             "plate": {"radius": 0.15, "thickness": 0.01, "material": "steel",
-                      "viscous_time": 1e-5},
+                      "retardation_time": 1e-5},
             "impact": {"speed": 1.0},
         }
     )  # fmt: skip
@@ -129,7 +129,7 @@ def test_a_long_run_says_how_far_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_slow_oscillators_alone_say_when_contact_is_impossible() -> None:
     """By looks at every oscillator sphere and plate meet at the same time, or never."""
     law = ContactLaw(replace(model_of(scene()), h=0.001, m=0.05), frozenset(
-        {"hertz", "bending", "finite_thickness", "side_wall", "inertia"}))  # fmt: skip
+        {"hertz", "bending", "finite_thickness", "finite_radius", "inertia"}))  # fmt: skip
     problem = waves.problem_of(law, 40)
     course = contact_sequence.course(problem, 14)
     for one, two in zip(course.contacts, course.contacts[1:], strict=False):
@@ -147,7 +147,7 @@ def test_a_tolerance_is_refused_where_omitted_effects_have_no_bound() -> None:
             "sphere": {"radius": 0.05, "material": "steel"},
             "plate": {"radius": 0.2, "thickness": 0.004, "material": "aluminium"},
             "impact": {"speed": 20.0},
-            "effects": {"side_wall": False, "inertia": False},
+            "effects": {"finite_radius": False, "inertia": False},
         }
     )
     assert math.isinf(simulate(scene).accuracy.effects.bound)

@@ -117,9 +117,7 @@ def _panes() -> Iterator[Case]:
 
 def _examples() -> Iterator[Case]:
     """Yield cases close to the examples of scenes."""
-    block = Case(
-        "impact_echo soft-hinge", "impact_echo", Plate(1.0, 0.2, *CONCRETE), _ball(0.004, 2)
-    )
+    block = Case("impact_echo paper", "impact_echo", Plate(1.0, 0.2, *CONCRETE), _ball(0.004, 2))
     yield block
     yield from _edges("ball_drop", Plate(0.2, 0.02, *ALUMINIUM), _ball(0.025, 1.98))
     yield from _edges("membrane", Plate(0.05, 0.0005, *ALUMINIUM), Sphere(0.01, 0.0002, 2.2))

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from derivation.checks.finite_elements.mesh import Double, Mesh
 from derivation.plate.edge.remainder import lobatto
 
-EDGES = ("soft-hinge", "simply-supported", "clamped")
+EDGES = ("paper", "simply-supported", "clamped")
 """On the whole edge r = b: w = 0 and a radial spring 2 mu/b; w = 0 alone; u = w = 0."""
 EVEN = 1e-8
 """Product of the faces' deflections at the axis, over the largest displacement squared, above
@@ -40,7 +40,7 @@ class Plate:
     youngs_modulus: float
     poissons_ratio: float
     density: float
-    edge: str = "soft-hinge"
+    edge: str = "paper"
 
     def __post_init__(self) -> None:
         if self.edge not in EDGES:
@@ -118,7 +118,7 @@ class System:
         )
         stiffness = sparse.csr_matrix((np.concatenate(stiff), places), shape=(size, size))
         mass = sparse.csr_matrix((np.concatenate(heavy), places), shape=(size, size))
-        if self.plate.edge == "soft-hinge":
+        if self.plate.edge == "paper":
             stiffness = stiffness + self._spring(size, edge)
         return tuple(m[self.free][:, self.free].tocsc() for m in (stiffness, mass))
 

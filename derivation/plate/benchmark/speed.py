@@ -41,7 +41,13 @@ ROUNDS = 25
 COMMAND = "from derivation.cli import main; main()"
 START, SOLVED_START, EXPLAINED = 2.0, 4.0, 1.3
 """Cold starts of simulate, of one that solves for the pressure, and of explain: at most."""
-SWITCHES = "curvature", "bending", "finite_thickness", "side_wall", "pressure"
+SWITCHES = (
+    "spherical_profile",
+    "bending",
+    "finite_thickness",
+    "finite_radius",
+    "non_hertzian_pressure",
+)
 """Effects of `block.toml` that can be off."""
 COLD_ROUNDS = 9
 LIBRARIES = "import numpy, scipy.special, pydantic, typer, rich"

@@ -21,7 +21,7 @@ RESULTS = {
     "restitution": "restitution",
 }
 """Results that are compared, by their name in the data."""
-MARKS = {"soft-hinge": ("o", "paper's edge"), "simply-supported": ("s", "simply supported"),
+MARKS = {"paper": ("o", "paper's edge"), "simply-supported": ("s", "simply supported"),
          "clamped": ("^", "clamped")}  # fmt: skip
 SHOWN = 0.3
 """Poisson's ratio of the natural frequencies in the table."""
@@ -114,7 +114,7 @@ def from_exact(plates: Sequence[Row]) -> float:
     """Return the largest difference from the exact frequencies on the paper's edge [1]."""
     found = [0.0]
     for row in plates:
-        if row["edge"] == "soft-hinge":
+        if row["edge"] == "paper":
             half, own = row["thickness_over_radius"] / 2.0, np.array(row["frequencies"])
             exact = bending_frequency(bessel_j0_zeros(own.size) * half, row["poissons_ratio"])
             found.append(float(np.abs(own * half / exact - 1.0).max()))

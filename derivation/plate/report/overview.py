@@ -34,7 +34,7 @@ def overview(pane: Scene, data: Mapping[str, Any]) -> Figure:
 
 def _draw_force(ax: Any, pane: Scene) -> None:
     """Of a half-space, of a pane at rest, and of the pane as it is."""
-    stiff = dict.fromkeys(("bending", "finite_thickness", "side_wall", "edge"), False)
+    stiff = dict.fromkeys(("bending", "finite_thickness", "finite_radius", "edge"), False)
     for label, effects in (
         ("half-space (Hertz)", stiff | {"inertia": False}),
         ("pane at rest", {"inertia": False}),

@@ -8,7 +8,7 @@ from derivation.engine.report.equations import body
 from derivation.engine.report.numbers import rounded
 from derivation.plate.report.prose import FACTOR
 from derivation.scene import edge_remainder, limits
-from derivation.scene.effects import curvature, edge, pressure
+from derivation.scene.effects import edge, non_hertzian_pressure, spherical_profile
 from derivation.scene.effects.effect import PLATES
 
 FORMULAS = (
@@ -33,19 +33,22 @@ def law_context(formulas: Mapping[str, Record]) -> dict[str, Any]:
 
 def limit_rows() -> list[str]:
     """Number, limit, what happens beyond it and why; the limits are those of the code."""
-    open_, held, curved = f"{pressure.OPEN:g}", f"{edge.WIDEST:g}", f"{curvature.LARGEST:g}"
+    open_, held = f"{non_hertzian_pressure.OPEN:g}", f"{edge.WIDEST:g}"
+    curved = f"{spherical_profile.LARGEST:g}"
     thin, thick = (rounded(ratio) for ratio in PLATES)
     rows = (
         (r"$a/b$, $a/R$", "1", "refused", "the contact would reach the edge, or past the sphere"),
         (r"$a/b$", held, "refused with an edge other than the paper's, or solved pressure",
          "the edge's sums and the kernel are known so far"),
-        (r"$a/R$", curved, "refused with \\texttt{curvature}", "the sphere's slope has no end"),
-        (r"$a/h$", open_, "refused with \\texttt{pressure}", "the contact opens in its middle"),
+        (r"$a/R$", curved, "refused with \\texttt{spherical\\_profile}",
+         "the slope of the spherical profile tends to infinity"),
+        (r"$a/h$", open_, "refused with \\texttt{non\\_hertzian\\_pressure}",
+         "contact is lost at the centre"),
         (r"$h/b$", f"{thin} to {thick}", "refused outside", "bounds are known for these plates"),
         (r"$\nu$", r"$-1$ to $1/2$", "refused outside", "the material would not be stable"),
-        (r"$a/H$", f"{limits.HERTZ_LIMIT:g}", "warned without \\texttt{pressure}",
+        (r"$a/H$", f"{limits.HERTZ_LIMIT:g}", "warned without \\texttt{non\\_hertzian\\_pressure}",
          "the pressure is no longer Hertz's"),
-        (r"$a/R$", f"{limits.CURVATURE_LIMIT:g}", "warned without \\texttt{curvature}",
+        (r"$a/R$", f"{limits.CURVATURE_LIMIT:g}", "warned without \\texttt{spherical\\_profile}",
          "the sphere is no paraboloid any more"),
         (r"$w/H$", f"{limits.STRETCH_LIMIT:g}", "warned", "the plate's middle surface stretches"),
         (r"$p_0$ over yield stress", f"{limits.YIELD_LIMIT:g}", "warned",

@@ -4,32 +4,30 @@ Read `effect` first: what all of them answer. The order below is that of the eff
 """
 
 from derivation.scene.effects.bending import Bending
-from derivation.scene.effects.curvature import Curvature
 from derivation.scene.effects.edge import Edge
 from derivation.scene.effects.effect import Effect
+from derivation.scene.effects.finite_radius import FiniteRadius
 from derivation.scene.effects.finite_thickness import WHOLE_PLATE, FiniteThickness
 from derivation.scene.effects.gravity import Gravity
 from derivation.scene.effects.hertz import Hertz
 from derivation.scene.effects.inertia import PlateInertia
-from derivation.scene.effects.perturbation import Perturbation
-from derivation.scene.effects.pressure import Pressure
-from derivation.scene.effects.side_wall import SideWall
+from derivation.scene.effects.non_hertzian_pressure import NonHertzianPressure
 from derivation.scene.effects.sphere_elasticity import SphereElasticity
+from derivation.scene.effects.spherical_profile import SphericalProfile
 from derivation.scene.effects.viscosity import Viscosity
 
 EFFECTS: tuple[Effect, ...] = (
     Hertz(),
     SphereElasticity(),
-    Curvature(),
+    SphericalProfile(),
     Bending(),
     FiniteThickness(),
-    SideWall(),
+    FiniteRadius(),
     Edge(),
-    Pressure(),
+    NonHertzianPressure(),
     Viscosity(),
     Gravity(),
     PlateInertia(),
-    Perturbation(),
 )
 """Every effect there is, in the order of the effects table."""
 

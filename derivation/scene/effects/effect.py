@@ -148,8 +148,6 @@ class Effect:
         Whether the contact is viscoelastic.
     dynamic
         Whether the plate has inertia.
-    compared
-        Whether the paper's motion is compared with the result.
     """
 
     name: ClassVar[str]
@@ -170,7 +168,6 @@ class Effect:
     solved: ClassVar[bool] = False
     viscous: ClassVar[bool] = False
     dynamic: ClassVar[bool] = False
-    compared: ClassVar[bool] = False
 
     def absent(self, model: Model) -> str:  # noqa: ARG002
         """Why the effect does not apply to a scene; empty if it does."""

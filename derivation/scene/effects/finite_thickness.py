@@ -5,10 +5,10 @@ import numpy as np
 from derivation.scene import kernels
 from derivation.scene.effects.bending import Bending
 from derivation.scene.effects.effect import Array, Bound, Place, PlateEffect, Share, plate_of
-from derivation.scene.effects.side_wall import SideWall
+from derivation.scene.effects.finite_radius import FiniteRadius
 from derivation.scene.model import Model
 
-WHOLE_PLATE = frozenset({"bending", "finite_thickness", "side_wall"})
+WHOLE_PLATE = frozenset({"bending", "finite_thickness", "finite_radius"})
 """Effects that `plate_share` holds together."""
 
 
@@ -42,7 +42,7 @@ class FiniteThickness(PlateEffect):
     def share(self, model: Model, a: Array) -> Share:
         """What the whole plate adds, less its other parts."""
         whole = plate_share(model, a)
-        parts = Bending().share(model, a), SideWall().share(model, a)
+        parts = Bending().share(model, a), FiniteRadius().share(model, a)
         return Share(
             whole.depth - parts[0].depth - parts[1].depth,
             whole.slope - parts[0].slope - parts[1].slope,

@@ -29,12 +29,14 @@ class Viscosity(Effect):
 
     def absent(self, model: Model) -> str:
         """A plate without a time is not viscous."""
-        return "" if model.viscous_time else "no plate.viscous_time"
+        return "" if model.retardation_time else "no plate.retardation_time"
 
     def value(self, model: Model, a: float) -> float:  # noqa: ARG002
         """Viscous number of Hertz's contact."""
         modulus = model.lam, model.mu
-        number = kernels.viscous_number(model.R, model.m, model.v0, *modulus, model.viscous_time)
+        number = kernels.viscous_number(
+            model.R, model.m, model.v0, *modulus, model.retardation_time
+        )
         return float(number * (1.0 + model.softness) ** -0.4)
 
     def bound(self, model: Model, place: Place) -> Bound:
@@ -42,7 +44,7 @@ class Viscosity(Effect):
         assert place.along is not None
         force, depth, stiffness, energy, growth = place.along
         speed = np.sqrt(2.0 * (energy / model.m))
-        epsilon = model.viscous_time * float(np.max(stiffness / force * speed))
+        epsilon = model.retardation_time * float(np.max(stiffness / force * speed))
         steepness = stiffness / force * depth
         steepening = 2.0 * stiffness / force * (energy / force) - 1.0
         deepening = 2.0 * energy / force / depth

@@ -274,7 +274,7 @@ def test_the_panes_tension_is_that_of_its_force() -> None:
 
 def test_the_tension_of_a_pane_that_moves_is_that_of_its_largest_force_at_rest() -> None:
     data = load(PANE).to_json() | {"effects": {"inertia": "auto"}}
-    result = simulate(read(data | {"plate": data["plate"] | {"strength": 1e9}}))
+    result = simulate(read(data | {"plate": data["plate"] | {"tensile_strength": 1e9}}))
     assert "inertia" in result.gate.law.effects
     force, a, m = result.max_force, result.max_contact_radius, result.model
     expected = kernels.supported_far_stress(force, a, m.h, m.b, m.lam, m.mu)
@@ -286,7 +286,7 @@ def test_the_tension_of_a_pane_that_moves_is_that_of_its_largest_force_at_rest()
 def test_it_breaks_on_one_side_of_its_strength_only() -> None:
     tension = simulate(pane()).max_tension
     for factor, breaks in ((0.999, True), (1.001, False)):
-        result = simulate(pane(strength=factor * tension))
+        result = simulate(pane(tensile_strength=factor * tension))
         said = [text for text in result.warnings if "predicted to fail" in text]
         assert bool(said) is breaks
         assert bool(result.verdict) is not breaks
@@ -313,9 +313,9 @@ def resultant(distance: Array, pressure: Array) -> float:
 @pytest.mark.parametrize(
     "chosen",
     [
-        {"curvature": False, "pressure": False},
-        {"curvature": True, "pressure": False},
-        {"curvature": True, "pressure": True},
+        {"spherical_profile": False, "non_hertzian_pressure": False},
+        {"spherical_profile": True, "non_hertzian_pressure": False},
+        {"spherical_profile": True, "non_hertzian_pressure": True},
     ],
 )
 def test_profiles_carry_the_force(chosen: dict[str, bool]) -> None:

@@ -11,21 +11,20 @@ import flint
 import numpy as np
 import pytest
 import sympy as sp
-from given import AT_REST, EXAMPLES, changed, model, scene
+from given import EXAMPLES, changed
 from mpmath import besseljzero, j1, mp, mpf, quad, sinh
 from mpmath import pi as mp_pi
 
 import derivation.checks.effects
 from derivation.cli import main
+from derivation.pipeline import in_doubles
 from derivation.plate.impact.oracle import printed_motion as printed_motion_balls
 from derivation.plate.impact.theory.impact import linear_motion, linearisation
 from derivation.plate.vocabulary import BY_NAME as SYMBOLS
 from derivation.plate.vocabulary import delta_0, m, v0, xi_k
-from derivation.scene import SceneError, explain, indent, indentation, kernels, load, read, simulate
-from derivation.scene.comparison import compare
-from derivation.scene.effect_selection import decide
-from derivation.scene.effects.perturbation import MODES
-from derivation.scene.model import Model, model_of
+from derivation.scene import SceneError, explain, indent, kernels, load, read, simulate
+from derivation.scene.comparison import MODES, compare
+from derivation.scene.model import Model
 from generated.impact import impact
 from generated.perturbation import PrintedMotion, printed_motion
 
@@ -211,7 +210,7 @@ def compared(**effects: object) -> dict[str, dict[str, object]]:
 
 
 def test_comparison_is_the_generated_motion_beside_the_result() -> None:
-    found = simulate(read(compared(perturbation=True)))
+    found = simulate(read(compared(compare_paper_motion=True)))
     assert found.comparison is not None
     numbers = found.model.numbers
     linear, *broken = found.comparison.motions
@@ -239,78 +238,61 @@ def test_it_changes_no_result(name: str, rtol: float | None) -> None:
     if rtol == 1e-6 or name == "paper":  # tighter than what a plate that moves can meet
         data["effects"] = {**data.get("effects", {}), "inertia": False}
     without = simulate(read(data), rtol=rtol)
-    data["effects"] = {**data.get("effects", {}), "perturbation": True}
+    data["effects"] = {**data.get("effects", {}), "compare_paper_motion": True}
     found = simulate(read(data), rtol=rtol)
     assert found.gate.law == without.gate.law
     assert found.gate.error == without.gate.error
     assert found.accuracy == without.accuracy
     assert found.warnings == without.warnings
     made, plain = found.to_json(), without.to_json()
-    assert made.pop("perturbation")["modes"] == MODES
-    for part in (made, plain):
-        del part["scene"]
-        assert part["effects"].pop()["name"] == "perturbation"
+    assert made.pop("paper_motion")["modes"] == MODES
+    assert made.pop("scene") != plain.pop("scene")
     assert made == plain
     for one, other in zip(found.history(5), without.history(5), strict=True):
         np.testing.assert_array_equal(one, other)
 
 
-def test_it_is_in_only_where_the_scene_says_true() -> None:
-    for wanted in ({}, {"perturbation": False}, {"perturbation": "auto"}):
-        for rtol in (1e-12, 1.0):
-            found = decide(model(), AT_REST | wanted, rtol)
-            row = found.rows[-1]
-            assert (row.name, row.included, row.bound) == ("perturbation", False, 0.0)
-            assert row.why == "never by itself: for comparison only"
-    row = decide(model(), AT_REST | {"perturbation": True}, 1e-3).rows[-1]
-    assert (row.included, row.bound, row.why) == (True, 0.0, "true in the scene")
-    assert row.value == printed_motion(*model().numbers, MODES).share
-    assert (
-        explain(scene(effects={"perturbation": True})).gate.rows[-1]
-        == decide(model_of(scene()), AT_REST | {"perturbation": True}, 1e-3).rows[-1]
-    )
-
-
-def test_it_is_no_part_of_any_law() -> None:
-    law = indentation.law_at_rest(read(compared(perturbation=True)))
-    assert "perturbation" not in law.effects
-    assert indent(read(compared(perturbation=True)), force=[10.0]) == indent(
-        read(compared()), force=[10.0]
-    )
-    found = derivation.checks.effects.everything(compared(perturbation=True))
-    assert found is not None
-    assert "perturbation" not in found[1]
-    assert found == derivation.checks.effects.everything(compared())
+def test_it_is_no_effect() -> None:
+    """It stands in no table of effects, and changes neither a static contact nor the reference."""
+    asked, plain = read(compared(compare_paper_motion=True)), read(compared())
+    assert explain(asked).gate == explain(plain).gate
+    assert indent(asked, force=[10.0]) == indent(plain, force=[10.0])
+    wanted = compared(compare_paper_motion=True), compared()
+    one, other = (derivation.checks.effects.everything(data) for data in wanted)
+    assert one == other is not None
+    assert in_doubles(asked).contact_time == in_doubles(plain).contact_time
 
 
 def test_the_fast_ways_are_taken_with_it(monkeypatch: pytest.MonkeyPatch) -> None:
     calls = []
     monkeypatch.setattr(kernels, "impact", lambda *x, **y: calls.append(x) or impact(*x, **y))
-    simulate(read(compared(perturbation=True)))
+    simulate(read(compared(compare_paper_motion=True)))
     assert len(calls) == 1
     thick = {"radius": 1e3, "thickness": 2e3}
-    found = simulate(read(changed(plate=thick, effects={"perturbation": True})), rtol=1e-2)
+    found = simulate(read(changed(plate=thick, effects={"compare_paper_motion": True})), rtol=1e-2)
     assert found.accuracy.method == "hertz"
     assert len(calls) == 1
 
 
 @pytest.mark.parametrize("wanted", ["auto", 1, "true"])
 def test_what_the_key_takes(wanted: object) -> None:
-    with pytest.raises(SceneError, match=r'perturbation: expected true or false \(it is never "a'):
-        read(compared(perturbation=wanted))
+    with pytest.raises(
+        SceneError, match=r'compare_paper_motion: expected true or false \(it is never "a'
+    ):
+        read(compared(compare_paper_motion=wanted))
 
 
 def test_what_is_shown(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "scene.toml"
     text = (EXAMPLES / "paper.toml").read_text()
     assert text.count("[effects]") == 1
-    path.write_text(text.replace("[effects]", "[effects]\nperturbation = true"))
+    path.write_text(text.replace("[effects]", "[effects]\ncompare_paper_motion = true"))
     out = tmp_path / "out.json"
     assert main(["simulate", str(path), "--json", str(out)]) == 0
     shown = " ".join(capsys.readouterr().out.split())
     assert f"after {MODES} modes" in shown
     assert "for comparison only" in shown
-    rows = json.loads(out.read_text())["perturbation"]["motions"]
+    rows = json.loads(out.read_text())["paper_motion"]["motions"]
     assert [row["contact_time"] is None for row in rows] == [False, True, True]
     assert [row["breaks_at"] is None for row in rows] == [True, False, False]
     html = simulate(load(path))._repr_html_()
@@ -318,7 +300,7 @@ def test_what_is_shown(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> No
     assert f"{rows[0]['contact_time']:.4g}" in html
     plain = simulate(load(EXAMPLES / "paper.toml"))
     assert plain.comparison is None
-    assert "perturbation" not in plain.to_json()
+    assert "paper_motion" not in plain.to_json()
     assert "linear term (15)" not in plain._repr_html_()
 
 
@@ -328,7 +310,7 @@ def test_nothing_of_it_is_imported_unless_asked_for(wanted: str) -> None:
 import sys
 from derivation.scene import explain, load, read, simulate
 data = load({str(EXAMPLES / "paper.toml")!r}).to_json()
-scene = read(data | {{"effects": {{"perturbation": {wanted.title()}, "inertia": False}}}})
+scene = read(data | {{"effects": {{"compare_paper_motion": {wanted.title()}, "inertia": False}}}})
 explain(scene)
 found = simulate(scene)
 found.to_json(), found._repr_html_(), found.history()
@@ -352,6 +334,6 @@ def test_what_is_no_number_is_null(size: float) -> None:
 def test_a_module_of_the_scene_does_not_speak_of_it(tmp_path: Path) -> None:
     path, out = tmp_path / "scene.toml", tmp_path / "made.py"
     text = (EXAMPLES / "paper.toml").read_text()
-    path.write_text(text.replace("[effects]", "[effects]\nperturbation = true"))
+    path.write_text(text.replace("[effects]", "[effects]\ncompare_paper_motion = true"))
     assert main(["generate", "--scene", str(path), "--out", str(out)]) == 0
     assert "(14) to (18)" not in out.read_text()

@@ -23,7 +23,7 @@ from generated.viscosity import Course, restitution_weak, viscous_logarithms, vi
 
 HERTZ = frozenset({"hertz", "viscosity"})
 PLATE = WHOLE_PLATE | HERTZ
-BALL = Model(R=0.01, m=0.03, v0=0.5, h=0.01, b=0.1, lam=2e9, mu=1e9, viscous_time=2e-6)
+BALL = Model(R=0.01, m=0.03, v0=0.5, h=0.01, b=0.1, lam=2e9, mu=1e9, retardation_time=2e-6)
 
 
 def moves(law: ContactLaw) -> Motion:
@@ -32,8 +32,8 @@ def moves(law: ContactLaw) -> Motion:
 
 def with_number(x: float, model: Model = BALL) -> Model:
     """The scene with a viscous time that gives a viscous number."""
-    one = replace(model, viscous_time=1.0)
-    return replace(model, viscous_time=x / BY_NAME["viscosity"].value(one, 0.0))
+    one = replace(model, retardation_time=1.0)
+    return replace(model, retardation_time=x / BY_NAME["viscosity"].value(one, 0.0))
 
 
 def spiral(x: float) -> tuple[float, float]:
@@ -91,8 +91,8 @@ def test_restitution_of_weak_viscosity_is_the_published_series() -> None:
 
 def test_viscous_number_is_that_of_the_scene() -> None:
     K = 4 / 3 * BALL.modulus * math.sqrt(BALL.R)
-    expected = 1.5 * BALL.viscous_time * (K / BALL.m) ** 0.4 * BALL.v0**0.2
-    found = viscous_number(BALL.R, BALL.m, BALL.v0, BALL.lam, BALL.mu, BALL.viscous_time)
+    expected = 1.5 * BALL.retardation_time * (K / BALL.m) ** 0.4 * BALL.v0**0.2
+    found = viscous_number(BALL.R, BALL.m, BALL.v0, BALL.lam, BALL.mu, BALL.retardation_time)
     assert float(found) == pytest.approx(expected, rel=1e-14)
     soft = replace(BALL, sphere_modulus=BALL.modulus)
     assert BY_NAME["viscosity"].value(soft, 0.0) == pytest.approx(expected / 2**0.4, rel=1e-14)
@@ -103,7 +103,7 @@ def by_scipy(law: ContactLaw) -> tuple[float, float, float, float]:
     """Time, indentation, force and restitution with a bent plate, as an ODE in z, v and a."""
     model = law.model
     bent = replace(law, effects=law.effects & {"bending", "edge"})
-    R, A = model.R, model.viscous_time
+    R, A = model.R, model.retardation_time
 
     def state(y: np.ndarray) -> tuple[float, float, float]:
         """Force, its elastic part and that part's slope by a."""
@@ -143,7 +143,7 @@ def by_scipy(law: ContactLaw) -> tuple[float, float, float, float]:
 
 
 def test_bent_plate_against_another_integrator() -> None:
-    model = replace(BALL, h=0.002, b=0.06, viscous_time=4e-5)
+    model = replace(BALL, h=0.002, b=0.06, retardation_time=4e-5)
     law = ContactLaw(model, PLATE)
     found = moves(law)
     time, depth, force, restitution = by_scipy(law)
@@ -160,7 +160,9 @@ def test_bent_plate_against_another_integrator() -> None:
     st.floats(-6, 0.5),
     st.floats(-2, 1),
     st.floats(-3, 0),
-    st.sampled_from([HERTZ, PLATE, HERTZ | {"curvature"}, PLATE | {"edge"}, HERTZ | {"bending"}]),
+    st.sampled_from(
+        [HERTZ, PLATE, HERTZ | {"spherical_profile"}, PLATE | {"edge"}, HERTZ | {"bending"}]
+    ),
     st.sampled_from(["simply-supported", "clamped"]),
 )
 def test_energy_closes(
@@ -182,20 +184,23 @@ def test_energy_closes(
 
 
 def test_energy_closes_with_weight_and_true_pressure() -> None:
-    model = replace(BALL, h=0.004, gravity=9.81, v0=0.3, sphere_modulus=5e9, viscous_time=2e-5)
-    law = ContactLaw(model, PLATE | {"gravity", "pressure", "curvature", "sphere_elasticity"})
+    model = replace(BALL, h=0.004, gravity=9.81, v0=0.3, sphere_modulus=5e9, retardation_time=2e-5)
+    law = ContactLaw(
+        model,
+        PLATE | {"gravity", "non_hertzian_pressure", "spherical_profile", "sphere_elasticity"},
+    )
     found = moves(law)
     assert found.ledger is not None
     assert found.ledger.weight > 0.0
     assert abs(found.ledger.closure) < 1e-12
-    hertz = moves(replace(law, effects=law.effects - {"pressure"}))
+    hertz = moves(replace(law, effects=law.effects - {"non_hertzian_pressure"}))
     assert found.numbers == pytest.approx(hertz.numbers, rel=0.02)
     assert found.numbers != pytest.approx(hertz.numbers, rel=1e-5)
 
 
 def test_little_viscosity_is_none() -> None:
     model = with_number(1e-9)
-    for effects in (HERTZ, PLATE, PLATE | {"pressure", "curvature"}):
+    for effects in (HERTZ, PLATE, PLATE | {"non_hertzian_pressure", "spherical_profile"}):
         law = ContactLaw(model, effects)
         calm = moves(replace(law, effects=effects - {"viscosity"}))
         assert moves(law).numbers == pytest.approx(calm.numbers, rel=3e-9)
@@ -203,12 +208,12 @@ def test_little_viscosity_is_none() -> None:
 
 def test_bending_takes_nothing() -> None:
     """The softer the plate, the less of the motion is the contact's, which alone lags."""
-    thin = [replace(BALL, h=h, viscous_time=1e-5) for h in (0.01, 0.004, 0.002, 0.001)]
+    thin = [replace(BALL, h=h, retardation_time=1e-5) for h in (0.01, 0.004, 0.002, 0.001)]
     lost = [1.0 - moves(ContactLaw(model, PLATE)).restitution for model in thin]
     assert lost == sorted(lost, reverse=True)
     assert lost[-1] < 0.02 * lost[0]
     # Where bending has no part the plate lags with the contact: nothing is left out.
-    thick = replace(BALL, h=1.0, viscous_time=1e-5)
+    thick = replace(BALL, h=1.0, retardation_time=1e-5)
     whole, local = moves(ContactLaw(thick, PLATE)), moves(ContactLaw(thick, PLATE - {"bending"}))
     assert whole.numbers == pytest.approx(local.numbers, rel=1e-2)
 
@@ -221,7 +226,7 @@ def test_a_sphere_that_stays_is_refused() -> None:
 
 
 def test_course_meets_the_results() -> None:
-    law = ContactLaw(replace(BALL, viscous_time=1e-5), PLATE)
+    law = ContactLaw(replace(BALL, retardation_time=1e-5), PLATE)
     found = moves(law)
     times = np.linspace(0.0, found.contact_time, 4001)
     depth, speed, radius, force = found.history(law, times)
@@ -255,17 +260,19 @@ def test_logarithms_hold_for_hertz() -> None:
 
 
 @pytest.mark.parametrize("output", OUTPUTS)
-@pytest.mark.parametrize("viscous_time", [1e-9, 1e-8, 1e-7, 1e-6])
+@pytest.mark.parametrize("retardation_time", [1e-9, 1e-8, 1e-7, 1e-6])
 def test_each_output_of_a_heavy_sphere_is_within_its_bound(
-    output: str, viscous_time: float
+    output: str, retardation_time: float
 ) -> None:
     """A sphere that falls in by its weight takes longer to leave if it leaves more slowly."""
     model = Model(
         R=0.1, m=32.9, v0=1e-3, h=10.0, b=10.0, lam=2.3e7, mu=1.54e7,
-        gravity=9.81, viscous_time=viscous_time,
+        gravity=9.81, retardation_time=retardation_time,
     )  # fmt: skip
-    wanted = dict.fromkeys((*WHOLE_PLATE, "gravity", "curvature"), True) | {"viscosity": False}
-    gate = decide(model, AT_REST | wanted | {"pressure": False}, 1.0, (output,))
+    wanted = dict.fromkeys((*WHOLE_PLATE, "gravity", "spherical_profile"), True) | {
+        "viscosity": False
+    }
+    gate = decide(model, AT_REST | wanted | {"non_hertzian_pressure": False}, 1.0, (output,))
     bound = {row.name: row.bound for row in gate.rows}["viscosity"]
     place = OUTPUTS.index(output)
     try:
@@ -278,17 +285,17 @@ def test_each_output_of_a_heavy_sphere_is_within_its_bound(
 
 def test_bending_stays_with_an_edge_that_does_not_lag() -> None:
     """Without it the edge would lag, which changes more than bending itself does."""
-    model = replace(BALL, h=0.5, edge="simply-supported", viscous_time=2e-6)
+    model = replace(BALL, h=0.5, edge="simply-supported", retardation_time=2e-6)
     for row in decide(model, AT_REST | {"edge": True, "viscosity": True}, 0.1).rows:
         assert row.name != "bending" or row.included
     alone = decide(model, AT_REST | {"edge": False, "viscosity": True}, 0.1)
     assert "bending" not in alone.law.effects
 
 
-@pytest.mark.parametrize("edge", ["soft-hinge", "clamped"])
+@pytest.mark.parametrize("edge", ["paper", "clamped"])
 @pytest.mark.parametrize("gravity", [0.0, 9.81])
 def test_gate_keeps_its_word_either_side_of_its_threshold(edge: str, gravity: float) -> None:
-    model = replace(BALL, edge=edge, gravity=gravity, h=0.008, viscous_time=3e-8)
+    model = replace(BALL, edge=edge, gravity=gravity, h=0.008, retardation_time=3e-8)
     others = dict.fromkeys(ALL - {"hertz", "viscosity"}, True)
     price = {row.name: row.bound for row in decide(model, AT_REST | others, 1e-12).rows}[
         "viscosity"

@@ -1,4 +1,4 @@
-"""Pressure: solved for, where the contact is not small beside the thickness."""
+"""Non-Hertzian pressure: from an integral equation, for contacts wide beside the thickness."""
 
 from typing import TYPE_CHECKING
 
@@ -21,15 +21,15 @@ LARGEST = 0.2
 """theta up to which it holds."""
 
 
-class Pressure(Effect):
+class NonHertzianPressure(Effect):
     """Fredholm's equation for the pressure of the whole plate, whose parts it then holds."""
 
-    name = "pressure"
+    name = "non_hertzian_pressure"
     adds = "the true contact pressure"
     equation = "chi + int N chi ds = (E*/pi) (delta - f), chi(a) = 0, P = 2 pi int chi dt"
     number = "a/H"
     source = "Abel's transform of the mixed problem; link 20"
-    contains = WHOLE_PLATE | {"curvature", "sphere_elasticity"}
+    contains = WHOLE_PLATE | {"spherical_profile", "sphere_elasticity"}
     requires = WHOLE_PLATE
     reach = Reach(plate=edge.WIDEST, thickness=OPEN)
     solved = True

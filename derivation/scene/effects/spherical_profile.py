@@ -1,4 +1,4 @@
-"""Curvature: the sphere is no paraboloid where the contact is not small beside it."""
+"""Spherical profile: the sphere is no paraboloid where the contact is not small beside it."""
 
 from typing import TYPE_CHECKING
 
@@ -15,10 +15,10 @@ LARGEST = 0.99
 """Contact radius over sphere radius up to which the profile's slope is resolved."""
 
 
-class Curvature(Effect):
+class SphericalProfile(Effect):
     """Sneddon's exact profile: a force takes a smaller contact and more indentation."""
 
-    name = "curvature"
+    name = "spherical_profile"
     adds = "a sphere, not a paraboloid"
     equation = "delta = (a/2) log((R+a)/(R-a)), dP = 2 E* a d delta"
     number = "a/R"

@@ -1,14 +1,14 @@
-"""Side wall: the plate's finite radius makes it stiffer."""
+"""Finite radius: the plate is stiffer than one without a lateral surface."""
 
 from derivation.scene import kernels
 from derivation.scene.effects.effect import Array, Bound, Place, PlateEffect, Share, none_of
 from derivation.scene.model import Model
 
 
-class SideWall(PlateEffect):
+class FiniteRadius(PlateEffect):
     """The integral over K0/I0, a function of a/b alone."""
 
-    name = "side_wall"
+    name = "finite_radius"
     adds = "finite radius of the plate"
     equation = "F = -(8/(pi^2 alpha^2)) int (x cosh x - sinh x) y^-3 K0/I0 dy, x = alpha y"
     number = "0.37 a/b"

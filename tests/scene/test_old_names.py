@@ -1,0 +1,238 @@
+"""Old names of scene keys and values: the same scene, one notice each, never both, never shown."""
+
+import json
+import re
+import tomllib
+import warnings
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from given import EXAMPLES, changed
+
+from derivation.cli import main
+from derivation.engine.files import ROOT
+from derivation.scene import Scene, SceneError, explain, load, read, schema, simulate, sweep
+from derivation.scene.old_names import KEYS, REMOVED, VALUES, OldNameWarning
+from derivation.scene.scene import TABLES
+
+Tables = dict[str, dict[str, Any]]
+GIVEN = {
+    "plate.tensile_strength": 1e8,
+    "plate.retardation_time": 1e-6,
+    "effects.compare_paper_motion": True,
+    "effects.finite_radius": True,
+    "effects.non_hertzian_pressure": True,
+    "effects.spherical_profile": True,
+    "inertia.coupling": "pointwise",
+    "inertia.extent": "infinite",
+}
+"""A value of each key that has an old name, which is not its default."""
+OLD = [(old, new, GIVEN[new], GIVEN[new]) for old, new in KEYS.items()] + [
+    (new, new, value, known) for (new, value), known in VALUES.items()
+]
+"""Old key, new key, value under the old key, value under the new key."""
+IDS = [f"{old} {value}" for old, _, value, _ in OLD]
+
+
+def scene(key: str, value: object) -> Tables:
+    """Tables with a key, on a plate with inertia where it is about that."""
+    table, name = key.split(".")
+    tables = changed(effects={"spherical_profile": None, "non_hertzian_pressure": None})
+    if table == "inertia":
+        tables["plate"]["density"] = 2000.0
+        tables["effects"] = {"inertia": True, "edge": False}
+    tables.setdefault(table, {})[name] = value
+    return tables
+
+
+def notices(of: list[warnings.WarningMessage]) -> list[str]:
+    return [str(item.message) for item in of if issubclass(item.category, OldNameWarning)]
+
+
+@pytest.mark.parametrize(("old", "new", "value", "known"), OLD, ids=IDS)
+def test_an_old_name_gives_the_same_scene_and_one_notice(
+    old: str, new: str, value: object, known: object
+) -> None:
+    plain = read(scene(new, known))
+    with pytest.warns(OldNameWarning) as caught:
+        found = read(scene(old, value))
+    assert found == plain
+    assert found.to_json() == plain.to_json()
+    [said] = notices(list(caught))
+    assert old in said
+    assert new in said
+    assert said.endswith(REMOVED)
+    assert caught[0].filename == __file__
+
+
+def test_each_new_name_is_a_key_and_no_old_one_is() -> None:
+    for old, new in KEYS.items():
+        (table, name), (there, known) = old.split("."), new.split(".")
+        assert table == there
+        assert known in TABLES[table].model_fields
+        assert name not in TABLES[table].model_fields
+
+
+@pytest.mark.parametrize(("old", "new"), KEYS.items())
+def test_both_names_are_refused(old: str, new: str) -> None:
+    tables = scene(new, GIVEN[new])
+    table, name = old.split(".")
+    tables[table][name] = GIVEN[new]
+    with pytest.raises(SceneError, match=rf"{new}: expected once, got it as {old} too; remove"):
+        read(tables)
+
+
+def test_an_old_value_under_an_old_key_is_one_notice() -> None:
+    with pytest.warns(OldNameWarning) as caught:
+        found = read(scene("inertia.plate", "modes"))
+    assert found == read(scene("inertia.extent", "finite"))
+    assert len(notices(list(caught))) == 1
+
+
+def test_other_problems_are_told_with_both_names() -> None:
+    tables = scene("plate.retardation_time", 1e-6)
+    tables["plate"] |= {"viscous_time": 1e-6, "strength": -1.0, "colour": "red"}
+    with pytest.warns(OldNameWarning), pytest.raises(SceneError) as caught:
+        read(tables)
+    for part in ("3 problems", "plate.viscous_time too", "plate.tensile_strength", "plate.colour"):
+        assert part in str(caught.value)
+
+
+OLD_FILE = """
+[sphere]
+radius = 0.02
+material = "steel"
+[plate]
+radius = 0.1
+thickness = 0.03
+youngs_modulus = 4e6
+poissons_ratio = 0.45
+viscous_time = 1e-3
+strength = 1e6
+edge = "soft-hinge"
+[impact]
+speed = 1.0
+[effects]
+pressure = false
+curvature = false
+side_wall = true
+perturbation = true
+inertia = false
+"""
+NEW_FILE = (
+    OLD_FILE.replace("viscous_time", "retardation_time")
+    .replace("strength", "tensile_strength").replace("soft-hinge", "paper")
+    .replace("pressure", "non_hertzian_pressure").replace("curvature", "spherical_profile")
+    .replace("side_wall", "finite_radius").replace("perturbation", "compare_paper_motion")
+)  # fmt: skip
+
+
+def test_a_file_of_old_names_gives_the_same_result_and_clean_output(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    shown = []
+    for name, text in (("old", OLD_FILE), ("new", NEW_FILE)):
+        (tmp_path / f"{name}.toml").write_text(text)
+        assert main(["simulate", str(tmp_path / f"{name}.toml"), "--json", "-"]) == 0
+        shown.append(capsys.readouterr())
+    assert shown[0].out == shown[1].out
+    assert json.loads(shown[0].out)["scene"]["plate"]["edge"] == "paper"
+    told = [line for line in shown[0].err.splitlines() if REMOVED in line]
+    assert len(told) == len(set(told)) == 7
+    assert all(line.startswith("note: ") for line in told)
+    assert REMOVED not in shown[1].err
+
+
+def test_a_sweep_of_an_old_key_is_one_of_the_new_key(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "scene.toml").write_text(NEW_FILE)
+    rows = []
+    for key in ("plate.viscous_time", "plate.retardation_time"):
+        out = tmp_path / "rows.csv"
+        command = ["simulate", str(tmp_path / "scene.toml"), "--sweep", f"{key}=1e-4:1e-3:2"]
+        assert main([*command, "--csv", str(out)]) == 0
+        rows.append((out.read_text(), capsys.readouterr().err.count(REMOVED)))
+    assert rows[0][0] == rows[1][0]
+    assert [count for _, count in rows] == [1, 0]
+    with pytest.warns(OldNameWarning):
+        assert sweep.parse("plate.strength=1:2:2").key == "tensile_strength"
+
+
+def test_a_caller_of_load_is_told_once_even_where_warnings_are_errors(tmp_path: Path) -> None:
+    (tmp_path / "old.toml").write_text(OLD_FILE.replace("side_wall = true\n", ""))
+    with pytest.warns(OldNameWarning) as caught:
+        load(tmp_path / "old.toml")
+    assert {item.filename for item in caught} == {__file__}
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert main(["explain", str(tmp_path / "old.toml")]) == 0
+
+
+def keys_and_values(found: object) -> Iterator[tuple[str, object]]:
+    """Every key of a JSON value with what it holds, at any depth."""
+    if isinstance(found, dict):
+        for key, value in found.items():
+            yield key, value
+            yield from keys_and_values(value)
+    elif isinstance(found, list):
+        for value in found:
+            yield from keys_and_values(value)
+
+
+def old_names_in(tables: object) -> list[str]:
+    """Old keys and values in tables of a scene."""
+    assert isinstance(tables, dict)
+    given = {f"{t}.{key}": value for t, keys in tables.items() for key, value in keys.items()}
+    texts = {key: value for key, value in given.items() if isinstance(value, str)}
+    return [k for k in given if k in KEYS] + [k for k, v in texts.items() if (k, v) in VALUES]
+
+
+def test_the_schema_names_no_old_key_or_value() -> None:
+    definitions = schema()["$defs"]
+    for table, model in TABLES.items():
+        keys = definitions[model.__name__]["properties"]
+        assert not {f"{table}.{key}" for key in keys} & KEYS.keys()
+        for key, field in keys.items():
+            choices = set(field.get("enum", []))
+            assert not {value for place, value in VALUES if place == f"{table}.{key}"} & choices
+
+
+@pytest.mark.parametrize("path", sorted(EXAMPLES.glob("*.toml")), ids=lambda path: path.stem)
+@pytest.mark.filterwarnings("error")
+def test_no_example_uses_an_old_name(path: Path) -> None:
+    found = load(path)
+    assert old_names_in(found.to_json()) == []
+    rows = {row["name"] for row in explain(found).to_json()["effects"]}
+    assert not rows & {old.partition(".")[2] for old in KEYS}
+
+
+def test_the_readme_shows_no_old_name() -> None:
+    blocks = re.findall(r"```toml\n(.*?)```", (ROOT / "README.md").read_text(), re.DOTALL)
+    assert len(blocks) >= 2
+    assert [old_names_in(tomllib.loads(block)) for block in blocks] == [[] for _ in blocks]
+    words = set(re.findall(r"`[a-z_.]*?([a-z_]+)(?: = [^`]*)?`", (ROOT / "README.md").read_text()))
+    unclear = {"plate", "pressure"}  # also names of tables and of modules
+    assert not words & ({old.partition(".")[2] for old in KEYS} - unclear)
+
+
+def test_a_result_names_nothing_old() -> None:
+    tables = scene("inertia.plate", "infinite")
+    tables["effects"] |= {"perturbation": True, "curvature": False, "pressure": False}
+    tables["plate"] |= {"strength": 1e8, "edge": "soft-hinge"}
+    with pytest.warns(OldNameWarning):
+        found: Scene = read(tables)
+    made = json.loads(json.dumps(simulate(found).to_json()))
+    assert old_names_in(made["scene"]) == []
+    names = {old.partition(".")[2] for old in KEYS} - {"plate", "closure"}  # energies
+    assert not {key for key, _ in keys_and_values(made)} & names
+    assert not {row["name"] for row in made["effects"]} & names
+
+
+def test_no_old_name_is_in_the_committed_records() -> None:
+    for path in sorted((ROOT / "reports" / "data").glob("*.json")):
+        for key, value in keys_and_values(json.loads(path.read_text())):
+            if key == "scene" and isinstance(value, dict):
+                assert old_names_in(value) == [], path.name

@@ -40,7 +40,7 @@ from derivation.plate.search.cases import Book, seconds_of
 from derivation.plate.search.search import Search, Tell, search
 from derivation.plate.search.targets import targets
 from derivation.scene.effects import BY_NAME, EFFECTS, WHOLE_PLATE
-from derivation.scene.impact import gated, simulate
+from derivation.scene.impact import selected_effects, simulate
 from derivation.scene.method_selection import solve
 from derivation.scene.model import NUMBERS, Model, model_of
 from derivation.scene.result import Result
@@ -162,7 +162,9 @@ def check_speed(record: bool = False, tell: Progress | None = None) -> list[spee
         expect_recordable(MEASURED_SPEED)
     examples = sorted(EXAMPLE.parent.glob("*.toml"))
     solved = [
-        path for path in examples if "non_hertzian_pressure" in gated(load(path))[1].law.effects
+        path
+        for path in examples
+        if "non_hertzian_pressure" in selected_effects(load(path))[1].law.effects
     ]
     timings = speed.measure(examples, solved, tell)
     if record:
@@ -350,7 +352,7 @@ def _needed(scene: Scene) -> list[str]:
         # Whether the plate's inertia matters cannot be told then.
         wanted["inertia"] = False
         scene = read(scene.to_json() | {"effects": wanted})
-    return sorted(gated(scene)[1].law.effects - WHOLE_PLATE - {"hertz"})
+    return sorted(selected_effects(scene)[1].law.effects - WHOLE_PLATE - {"hertz"})
 
 
 def time_of_reference(known: Result, digits: int) -> str:

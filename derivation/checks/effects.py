@@ -8,9 +8,9 @@ from derivation.checks.random_scenes import Scene, Tell
 from derivation.engine.files import measurements, write_file
 from derivation.plate.package_pipeline import expect_recordable
 from derivation.scene.effects import EFFECTS
-from derivation.scene.impact import gated as decided
+from derivation.scene.impact import selected_effects
 from derivation.scene.law import ContactLaw
-from derivation.scene.method_selection import moved, solve_gated
+from derivation.scene.method_selection import moved, solve_selected
 from derivation.scene.model import model_of
 from derivation.scene.scene import SceneError, read
 
@@ -31,12 +31,12 @@ def check_effects(
 
 def gated(data: Scene, rtol: float) -> tuple[Sequence[float], Sequence[str], float] | None:
     """A scene as `simulate` computes it at a tolerance; model errors stand apart."""
-    _, gate = decided(read(data), rtol)
+    _, selected = selected_effects(read(data), rtol)
     try:
-        values, accuracy = solve_gated(gate, rtol)
+        values, accuracy = solve_selected(selected, rtol)
     except SceneError:
         return None
-    return values, sorted(gate.law.effects), accuracy.bound
+    return values, sorted(selected.law.effects), accuracy.bound
 
 
 def everything(data: Scene) -> tuple[Sequence[float], Sequence[str]] | None:

@@ -99,16 +99,16 @@ def simulated(row: Mapping[str, Any]) -> dict[str, Any]:
         found = simulate(read({**row["scene"], "effects": effects}))
     except SceneError as error:
         return {"refused": str(error)}
-    moving = found.moving
-    assert moving is not None  # inertia is required
+    dynamics = found.dynamics
+    assert dynamics is not None  # inertia is required
     values: dict[str, float] = {name: getattr(found, name) for name in OUTPUTS}
-    values["total_time"] = moving.inertia.total_time
+    values["total_time"] = dynamics.inertia.total_time
     return {
-        "branches": moving.law.model.inertia.branches,
+        "branches": dynamics.law.model.inertia.branches,
         "values": {name: float(f"{values[name]:.8g}") for name in RESULTS},
         "bound": float(f"{found.accuracy.bound:.3g}"),
         "model_error": float(f"{found.model_error:.3g}"),
-        "contacts": len(moving.inertia.contacts),
+        "contacts": len(dynamics.inertia.contacts),
     }
 
 

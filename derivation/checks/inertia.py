@@ -15,14 +15,14 @@ from derivation.scene import motion, waves
 from derivation.scene.effect_selection import decide
 from derivation.scene.effects import EFFECTS
 from derivation.scene.effects.inertia import further_branches, weight_share
-from derivation.scene.impact import gated
+from derivation.scene.impact import selected_effects
 from derivation.scene.law import ContactLaw
 from derivation.scene.limits import zener_number
-from derivation.scene.method_selection import moved, moving, solve_gated
+from derivation.scene.method_selection import dynamic_impact, moved, solve_selected
 from derivation.scene.mode_count import count_of
 from derivation.scene.model import InertiaSettings, Model, model_of
 from derivation.scene.scene import SceneError, read
-from derivation.scene.wave_motion import WaveMotion
+from derivation.scene.wave_motion import DynamicImpact
 from generated.inertia import bending_frequency
 
 MEASURED: Path = measurements() / "inertia.json"
@@ -93,11 +93,11 @@ def solve(data: Scene, place: float) -> Found | str:
     """A scene as `simulate` computes it, and the truth; or the key that a message begins with."""
     try:
         data, rtol = placed(data, place)
-        _, gate = gated(read(data), rtol)
-        values, accuracy = solve_gated(gate, rtol)
-        known = "inertia" in gate.law.effects
-        used = moving(gate, rtol) if known else None
-        model = bending(gate.law.model)
+        _, selected = selected_effects(read(data), rtol)
+        values, accuracy = solve_selected(selected, rtol)
+        known = "inertia" in selected.law.effects
+        used = dynamic_impact(selected, rtol) if known else None
+        model = bending(selected.law.model)
         modes = _modes(used or _moving(model, rtol))
         many = replace(model, inertia=InertiaSettings(modes=2 * modes, branches="all"))
         if oscillators(many) > OSCILLATORS:
@@ -107,7 +107,7 @@ def solve(data: Scene, place: float) -> Found | str:
         return str(error).partition(":")[0]
     still = at_rest(model)
     assert still is not None  # such scenes are passed over
-    price = next(row.bound for row in gate.rows if row.name == "inertia")
+    price = next(row.bound for row in selected.rows if row.name == "inertia")
     total = used.inertia.total_time if used is not None else values[0]
     return Found(
         rtol,
@@ -154,12 +154,12 @@ def oscillators(model: Model) -> int:
     return modes + int((1.0 + gam) * float(root[0]) ** 2 / (2.0 * math.pi * model.eta))
 
 
-def _moving(model: Model, rtol: float) -> WaveMotion:
+def _moving(model: Model, rtol: float) -> DynamicImpact:
     """The impact with every effect."""
     with np.errstate(all="ignore"):
         return waves.impact(ContactLaw(model, present(model)), waves.goal(rtol))
 
 
-def _modes(found: WaveMotion) -> int:
+def _modes(found: DynamicImpact) -> int:
     """How many wave numbers the plate has."""
     return len(np.unique(found.course.problem.contact.modes.phi))

@@ -25,7 +25,7 @@ from derivation.plate.judge import PACKAGE
 from derivation.plate.package_pipeline import recorded_in
 from derivation.scene import contact_sequence, waves
 from derivation.scene.effects.effect import Array
-from derivation.scene.impact import gated, simulate
+from derivation.scene.impact import selected_effects, simulate
 from derivation.scene.modal import ContactSamples
 from derivation.scene.scene import OUTPUTS, Scene, read
 from derivation.scene.time_element import DynamicProblem, P
@@ -341,7 +341,7 @@ def tolerances() -> list[Trial]:
 def _simulated(rtol: float | None = None, **inertia: Any) -> Outcome:
     """The results of `simulate`, and how many oscillators there were."""
     found = simulate(_scene(**inertia), rtol=rtol)
-    count = found.moving.inertia.modes if found.moving else 0
+    count = found.dynamics.inertia.modes if found.dynamics else 0
     numbers = tuple(getattr(found, name) for name in OUTPUTS)
     return Outcome(numbers, count, None if rtol is None else found.accuracy.bound)
 
@@ -353,4 +353,4 @@ def _scene(**inertia: Any) -> Scene:
 
 def _problem() -> DynamicProblem:
     """The scene with the integrators' oscillators."""
-    return waves.problem_of(gated(_scene(modes=OSCILLATORS))[1].law, OSCILLATORS)
+    return waves.problem_of(selected_effects(_scene(modes=OSCILLATORS))[1].law, OSCILLATORS)

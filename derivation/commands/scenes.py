@@ -113,14 +113,14 @@ def _show(scene: Path, result: "Result") -> None:
     for note in filter(None, told):
         OUT.say(note)
     table(f"Impact of {scene.name}", ("quantity", "#value", "unit"), result.rows())
-    if result.verdict:
-        OUT.say(result.verdict)
-    table("Effects", HEADS, result.gate.lines())
-    if result.moving is not None:
+    if result.strength_note:
+        OUT.say(result.strength_note)
+    table("Effects", HEADS, result.effects.lines())
+    if result.dynamics is not None:
         from derivation.scene import wave_motion
 
-        table("Contacts", wave_motion.HEADS, result.moving.lines())
-        for note in result.moving.notes():
+        table("Contacts", wave_motion.HEADS, result.dynamics.lines())
+        for note in result.dynamics.notes():
             OUT.say(note)
     if result.comparison:
         from derivation.scene import comparison
@@ -223,7 +223,7 @@ def map_(
 
     check_outputs(scene, None, plot)
     result = run(load(scene), rtol=rtol)
-    write_file(plot, render(result, result.gate.rtol, plot.suffix))
+    write_file(plot, render(result, result.effects.rtol, plot.suffix))
     NOTES.say(f"{plot}")
 
 

@@ -189,27 +189,27 @@ def warn(warnings: Sequence[str]) -> None:
 
 
 @contextmanager
-def noted(category: type[Warning]) -> Iterator[None]:
+def noted(shown: type[Warning]) -> Iterator[None]:
     """Show each warning of a category once, as a remark; all others as Python does."""
     seen, usual = set[str](), warnings.showwarning
 
     def show(
         message: Warning | str,
-        kind: type[Warning],
+        category: type[Warning],
         filename: str,
         lineno: int,
         file: TextIO | None = None,
         line: str | None = None,
     ) -> None:
         text = str(message)
-        if not issubclass(kind, category):
-            usual(message, kind, filename, lineno, file, line)
+        if not issubclass(category, shown):
+            usual(message, category, filename, lineno, file, line)
         elif text not in seen:
             seen.add(text)
             NOTES.say(f"note: {text}")
 
     with warnings.catch_warnings():
-        warnings.simplefilter("always", category)
+        warnings.simplefilter("always", shown)
         warnings.showwarning = show
         yield
 

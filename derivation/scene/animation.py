@@ -33,14 +33,14 @@ def render(result: Result, suffix: str) -> bytes:
     from matplotlib.animation import FuncAnimation, PillowWriter
     from matplotlib.figure import Figure
 
-    if result.moving is None:
+    if result.dynamics is None:
         raise SceneError(
             "--animate: expected a plate with modes that move, but this scene has none; "
             "leave it out, or set effects.inertia = true"
         )
     times = np.linspace(0.0, result.total_time, FRAMES)
     r = np.linspace(-1.0, 1.0, POINTS) * result.model.b
-    profiles, way = result.moving.profiles(times, np.abs(r)), result.moving.rows(times)[Z]
+    profiles, way = result.dynamics.profiles(times, np.abs(r)), result.dynamics.rows(times)[Z]
     t, t_label = scaled(times, "time", "s")
     both, w_label = scaled(np.vstack((profiles, way[:, None] * np.ones_like(r))), "way", "m")
     profiles, way = both[:FRAMES], both[FRAMES:, 0]

@@ -21,10 +21,10 @@ from numpy.polynomial.chebyshev import cheb2poly, chebfit
 
 from derivation.scene import method_selection
 from derivation.scene.edge_remainder import edge_remainder
-from derivation.scene.effect_selection import Gate
+from derivation.scene.effect_selection import SelectedEffects
 from derivation.scene.effects import BY_NAME
 from derivation.scene.effects.effect import Array
-from derivation.scene.impact import gated, simulate
+from derivation.scene.impact import selected_effects, simulate
 from derivation.scene.law import ContactLaw
 from derivation.scene.limits import last_radius
 from derivation.scene.motion import Motion
@@ -79,7 +79,7 @@ def recipe(scene: Scene) -> Recipe:
     """
     _check_at_rest(scene)
     result = simulate(scene)
-    gate, law = result.gate, result.gate.law
+    selected, law = result.effects, result.effects.law
     motion = method_selection.moved(law)
     model = law.model
     compliance = _compliance(law, motion.max_contact_radius)
@@ -106,7 +106,7 @@ def recipe(scene: Scene) -> Recipe:
         "quadrature": not law.viscous and (bool(law.gravity) or not law.hertzian),
         "hertz_time": 0.8 * math.sqrt(math.pi) * math.gamma(0.4) / math.gamma(0.9),
         "nodes": NODES[2] if law.spherical else NODES[1],
-        **_words(scene, gate, motion.max_indentation, notes),
+        **_words(scene, selected, motion.max_indentation, notes),
     }
     return Recipe(law, motion, context)
 
@@ -119,7 +119,7 @@ def _check_at_rest(scene: Scene) -> None:
     SceneError
         If the scene calls for inertia.
     """
-    if gated(scene)[1].law.dynamic:
+    if selected_effects(scene)[1].law.dynamic:
         raise SceneError(
             "effects.inertia: expected false for the code of a scene, whose plate follows at rest, "
             "got a plate that moves; write effects.inertia = false"
@@ -231,7 +231,9 @@ def _shown(table: PanelTable) -> dict[str, Any]:
     }
 
 
-def _words(scene: Scene, gate: Gate, deepest: float, notes: tuple[str, ...]) -> dict[str, Any]:
+def _words(
+    scene: Scene, selected: SelectedEffects, deepest: float, notes: tuple[str, ...]
+) -> dict[str, Any]:
     """The module's head: the scene, effects in and out, tolerance, what to know."""
     data = scene.to_json()
     keys = [
@@ -240,20 +242,20 @@ def _words(scene: Scene, gate: Gate, deepest: float, notes: tuple[str, ...]) -> 
     ]
     rows = [
         f"{row.name}: {BY_NAME[row.name].equation}; {row.number} = {row.value:.3g}, {row.why}"
-        for row in gate.rows
+        for row in selected.rows
         if row.included and BY_NAME[row.name].by_itself  # what is only compared is not in the law
     ]
     out = [
         f"{row.name}: " + (row.why if math.isnan(row.value) else f"{_bound(row.bound)}; {row.why}")
-        for row in gate.rows
+        for row in selected.rows
         if not row.included
     ]
-    promise = "Nothing that applies is left out, unless the scene itself says false."
-    if gate.error:
+    promise = "No applicable effect is omitted, unless the scene disables it."
+    if selected.error:
         promise = (
-            "What is left out, unless the scene itself says false, changes no result of this "
-            f"impact by more than {gate.error:.1e} (tolerance {gate.rtol:.3g}). This holds up to "
-            f"its largest indentation, {deepest:.6g} m; beyond, up to MAX_INDENTATION, the "
+            "The omitted effects, unless the scene disables them, change each result of this "
+            f"impact by at most {selected.error:.1e} (tolerance {selected.rtol:.3g}). This holds "
+            f"up to its largest indentation, {deepest:.6g} m; beyond, up to MAX_INDENTATION, the "
             "effects stay the same."
         )
     return {

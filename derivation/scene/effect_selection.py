@@ -1,9 +1,9 @@
-"""The gate: which effects a scene calls for, by bounds of what leaving them out changes.
+"""Effect selection: the effects that a scene requires, by bounds on the change if omitted.
 
-Begun with what is always in, the effect with the largest bound is taken in until the bounds
-of all that is left out, together, stay within the tolerance. As S_1 grows with each effect
-taken in and radii shrink, bounds are taken anew each time. The order does not depend on the
-tolerance, so that a looser one never takes in more.
+Starting from the effects that are always included, the effect with the largest bound is included
+until the bound on all omitted effects together is within the tolerance. As S_1 grows with each
+included effect and radii shrink, bounds are evaluated anew each time. The order does not depend on
+the tolerance, so that a looser tolerance never includes more effects.
 """
 
 import math
@@ -70,18 +70,18 @@ class EffectRow:
 
 
 @dataclass(frozen=True)
-class Gate:
-    """What the gate decided.
+class SelectedEffects:
+    """The effects of a simulation: its contact law and the effects table.
 
     Attributes
     ----------
     law
         The contact law of the effects included.
     rtol
-        The tolerance it was decided for [1].
+        The tolerance of the selection [1].
     error
-        Bound of what the effects left out by the gate change together, the worst of the
-        outputs [1].
+        Bound on the change of the outputs, the worst of them, by all effects that the selection
+        omitted together [1].
     rows
         The effects table.
     outputs
@@ -158,7 +158,7 @@ def decide(
     rtol: float,
     outputs: Sequence[str] = OUTPUTS,
     default: bool = False,
-) -> Gate:
+) -> SelectedEffects:
     """Include effects until the tolerance is met, and say why.
 
     Parameters
@@ -183,7 +183,7 @@ def decide(
         effect.check(law, found.choice[effect.name] is True)
     tolerance = f"{'the default selection tolerance' if default else 'rtol ='} {rtol:.3g}"
     rows = [_row(effect, found, tolerance, outputs) for effect in EFFECTS]
-    return Gate(law, rtol, found.error, tuple(rows), tuple(outputs))
+    return SelectedEffects(law, rtol, found.error, tuple(rows), tuple(outputs))
 
 
 def select(

@@ -1,4 +1,4 @@
-"""Explains a scene: which effects it calls for, by which numbers, and what their terms cost."""
+"""Explains a scene: which effects it requires, by which parameters, and their evaluation times."""
 
 import math
 import time
@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from derivation.scene.effect_selection import HEADS, Gate
+from derivation.scene.effect_selection import HEADS, SelectedEffects
 from derivation.scene.effects import BY_NAME, EFFECTS
 from derivation.scene.effects.effect import NO_BOUND, Effect
-from derivation.scene.impact import gated
+from derivation.scene.impact import selected_effects
 from derivation.scene.law import ContactLaw
 from derivation.scene.limits import ZENER_LIMIT, zener_number
 from derivation.scene.quadrature import NODES, rule
@@ -24,59 +24,62 @@ class Explanation:
 
     Attributes
     ----------
-    gate
-        What was decided.
-    costs
-        Time of a law with each included effect alone at an impact's nodes, measured now [s].
+    effects
+        The effects included, and the effects table.
+    evaluation_times
+        Time to evaluate a law with each included effect alone at an impact's nodes, measured now
+        [s].
     notes
         What else to know.
     """
 
-    gate: Gate
-    costs: dict[str, float]
+    effects: SelectedEffects
+    evaluation_times: dict[str, float]
     notes: tuple[str, ...]
 
     def lines(self) -> list[tuple[str, ...]]:
-        """The effects table with the cost of each term, to be read by people."""
+        """The effects table with the evaluation time of each effect, to be read by people."""
         shown = (
-            f"{1e6 * self.costs[line[0]]:.0f} us" if line[0] in self.costs else "-"
-            for line in self.gate.lines()
+            f"{1e6 * self.evaluation_times[line[0]]:.0f} us"
+            if line[0] in self.evaluation_times
+            else "-"
+            for line in self.effects.lines()
         )
-        return [(*line, time) for line, time in zip(self.gate.lines(), shown, strict=True)]
+        return [(*line, time) for line, time in zip(self.effects.lines(), shown, strict=True)]
 
     def __str__(self) -> str:
         """The decision in a sentence."""
-        effects = ", ".join(row.name for row in self.gate.rows if row.included)
+        effects = ", ".join(row.name for row in self.effects.rows if row.included)
         of = "each result"
-        if self.gate.outputs != OUTPUTS:
-            of = "each of " + ", ".join(name.replace("_", " ") for name in self.gate.outputs)
-        omitted = any(row.bound and not (row.included or row.disabled) for row in self.gate.rows)
+        if self.effects.outputs != OUTPUTS:
+            of = "each of " + ", ".join(name.replace("_", " ") for name in self.effects.outputs)
+        omitted = any(row.bound and not (row.included or row.disabled) for row in self.effects.rows)
         said = (
-            f"The omitted effects change {of} by at most {self.gate.error:.1e} "
-            f"(tolerance {self.gate.rtol:.3g})."
+            f"The omitted effects change {of} by at most {self.effects.error:.1e} "
+            f"(tolerance {self.effects.rtol:.3g})."
             if omitted
             else "No applicable effect was omitted automatically."
         )
         disabled = ", ".join(
-            f"{row.name} ({_change(row.bound)})" for row in self.gate.rows if row.disabled
+            f"{row.name} ({_change(row.bound)})" for row in self.effects.rows if row.disabled
         )
         more = f" The scene disables {disabled}." if disabled else ""
         return f"Included effects: {effects}. {said}{more}"
 
     def to_json(self) -> dict[str, Any]:
-        """Decision and table under fixed keys; costs differ from run to run."""
+        """Decision and table under fixed keys; evaluation times differ from run to run."""
         return {
-            "included": [row.name for row in self.gate.rows if row.included],
-            "rtol": self.gate.rtol,
-            "bound": self.gate.error if np.isfinite(self.gate.error) else None,
-            "effects": [row.to_json() for row in self.gate.rows],
-            "costs": self.costs,
+            "included": [row.name for row in self.effects.rows if row.included],
+            "rtol": self.effects.rtol,
+            "bound": self.effects.error if np.isfinite(self.effects.error) else None,
+            "effects": [row.to_json() for row in self.effects.rows],
+            "evaluation_times": self.evaluation_times,
             "notes": list(self.notes),
         }
 
     def _repr_html_(self) -> str:
         """The table for a notebook."""
-        return f"<p>{escape(str(self))}</p>{self.gate.to_html()}"
+        return f"<p>{escape(str(self))}</p>{self.effects.to_html()}"
 
 
 def _change(bound: float) -> str:
@@ -91,7 +94,7 @@ REPEATS, SHORT = 3, 1e-3
 
 
 def explain(scene: Scene, rtol: float | None = None) -> Explanation:
-    """Say which effects a scene calls for, and why.
+    """Return the effects that a scene requires, with the reasons.
 
     Parameters
     ----------
@@ -105,13 +108,15 @@ def explain(scene: Scene, rtol: float | None = None) -> Explanation:
     SceneError
         If the tolerance is not between 1e-13 and 1.
     """
-    _, gate = gated(scene, rtol)
-    law = gate.law
-    costs = {effect.name: _cost(law, effect) for effect in EFFECTS if effect in law.chosen}
-    return Explanation(gate, costs, (_inertia(gate),))
+    _, selected = selected_effects(scene, rtol)
+    law = selected.law
+    times = {
+        effect.name: _evaluation_time(law, effect) for effect in EFFECTS if effect in law.chosen
+    }
+    return Explanation(selected, times, (_inertia(selected),))
 
 
-def _cost(law: ContactLaw, effect: Effect) -> float:
+def _evaluation_time(law: ContactLaw, effect: Effect) -> float:
     """Time [s] that a law with this effect alone takes at an impact's nodes.
 
     Of plate inertia that of its modes and tables.
@@ -134,9 +139,9 @@ def _cost(law: ContactLaw, effect: Effect) -> float:
     return best
 
 
-def _inertia(gate: Gate) -> str:
+def _inertia(selected: SelectedEffects) -> str:
     """What can be said of the plate's inertia before the impact is computed."""
-    law, model = gate.law, gate.law.model
+    law, model = selected.law, selected.law.model
     if law.dynamic:
         from derivation.scene.mode_count import count_of
 
@@ -146,8 +151,8 @@ def _inertia(gate: Gate) -> str:
         number = f"Zener's number lambda = {zener_number(model):.3g}"
         return f"The plate's inertia is included: {number}; {plate}."
     if not model.density:
-        [row] = [row for row in gate.rows if BY_NAME[row.name].dynamic]
-        if row.bound and row.name not in gate.forced_out:
+        [row] = [row for row in selected.rows if BY_NAME[row.name].dynamic]
+        if row.bound and row.name not in selected.forced_out:
             return "The plate's inertia is omitted by its bound, whatever the plate's density."
         return "The plate's inertia is not judged: no plate.density or material of known density."
     return (

@@ -55,7 +55,7 @@ class History(NamedTuple):
         return _some_rows(self._asdict())
 
 
-class MovingHistory(NamedTuple):
+class DynamicHistory(NamedTuple):
     """The course of an impact on a plate that moves.
 
     Attributes

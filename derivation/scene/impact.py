@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from derivation.scene.edge_remainder import edge_remainder
-from derivation.scene.effect_selection import Gate, decide
+from derivation.scene.effect_selection import SelectedEffects, decide
 from derivation.scene.limits import (
     check_radius,
     contact_warnings,
@@ -12,17 +12,17 @@ from derivation.scene.limits import (
     motion_warnings,
     neglects_inertia,
     pressure_warnings,
-    tension_warnings,
+    stress_warnings,
     warnings_at,
 )
-from derivation.scene.method_selection import check_rtol, moving, solve_gated
+from derivation.scene.method_selection import check_rtol, dynamic_impact, solve_selected
 from derivation.scene.model import model_of
 from derivation.scene.model_error import inertia_error
 from derivation.scene.result import Result
 from derivation.scene.scene import OUTPUTS, TIGHTEST, Scene
 
 if TYPE_CHECKING:
-    from derivation.scene.wave_motion import WaveMotion
+    from derivation.scene.wave_motion import DynamicImpact
 
 DEFAULT = 1e-3
 """What effects may change if they are to be left out and no tolerance is given [1]."""
@@ -58,14 +58,14 @@ def simulate(
         If the impact leaves the contact law's range, a time lies outside the contact, or the
         tolerance is not between 1e-13 and 1.
     """
-    rtol, gate = gated(scene, rtol)
-    numbers, accuracy = solve_gated(gate, rtol)
+    rtol, selected = selected_effects(scene, rtol)
+    numbers, accuracy = solve_selected(selected, rtol)
     contact_time, delta, force, a, _ = numbers
-    law, model = gate.law, gate.law.model
+    law, model = selected.law, selected.law.model
     check_radius(law, a, "impact.speed", "lower the speed")
-    motion = moving(gate, rtol) if law.dynamic else None
+    motion = dynamic_impact(selected, rtol) if law.dynamic else None
     pressure = law.max_pressure(a)
-    model_error = _model_error(gate, a, motion)
+    model_error = _model_error(selected, a, motion)
     share = 1.0 - float(local_indentation(law, a)) / delta
     deflection = motion.largest_deflection(law) if motion is not None else None
     warnings = (
@@ -76,25 +76,25 @@ def simulate(
     neglected = neglects_inertia(model, contact_time, share, motion is not None)
     strength, yield_stress = scene.plate.tensile_strength, scene.plate.yield_stress
     if strength is not None or yield_stress is not None:
-        tension = law.max_tension(a, force, not gate.edge_disabled)
-        warnings += tension_warnings(tension, strength, yield_stress)
+        stress = law.max_tensile_stress(a, force, not selected.edge_disabled)
+        warnings += stress_warnings(stress, strength, yield_stress)
     if motion is not None:
-        closing = [touch.closing for touch in motion.inertia.contacts]
-        warnings += contact_warnings(closing, motion.least)
+        speeds = [touch.relative_approach_speed for touch in motion.inertia.contacts]
+        warnings += contact_warnings(speeds, motion.least)
     result = Result(
-        *numbers, pressure, accuracy, model_error, warnings, scene, gate,
+        *numbers, pressure, accuracy, model_error, warnings, scene, selected,
         inertia_neglected=neglected,
     )  # fmt: skip
     return result if times is None else result.at(times)
 
 
-def _model_error(gate: Gate, a: float, motion: "WaveMotion | None") -> float:
+def _model_error(selected: SelectedEffects, a: float, motion: "DynamicImpact | None") -> float:
     """The largest model error of the outputs [1]: of the edge, and of the plate's inertia."""
-    model, other_edge = gate.law.model, gate.law.other_edge
+    model, other_edge = selected.law.model, selected.law.other_edge
     if motion is None:
         return edge_remainder(model, a) if other_edge else 0.0
     found = inertia_error(model, a, motion.contact_time)
-    size = max(found[name] for name in gate.outputs)
+    size = max(found[name] for name in selected.outputs)
     from derivation.scene.waves import echo_time
 
     # Before a wave has come back the edge has no effect.
@@ -103,8 +103,10 @@ def _model_error(gate: Gate, a: float, motion: "WaveMotion | None") -> float:
     return size
 
 
-def gated(scene: Scene, rtol: float | None = None) -> tuple[float | None, Gate]:
-    """The tolerance that counts, and what the gate decides by it; nothing is simulated.
+def selected_effects(
+    scene: Scene, rtol: float | None = None
+) -> tuple[float | None, SelectedEffects]:
+    """The tolerance that applies, and the effects that it requires; nothing is simulated.
 
     Raises
     ------

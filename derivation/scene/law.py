@@ -219,7 +219,7 @@ class ContactLaw:
         mean: Array = slopes @ weights
         return 2.0 / np.pi * self.modulus * (width / R) * mean
 
-    def max_tension(self, a: float, force: float, held: bool = True) -> float:
+    def max_tensile_stress(self, a: float, force: float, held: bool = True) -> float:
         """Stress on the far face under the axis [Pa], of a force [N] spread as Hertz's over a.
 
         Of the whole plate, whatever effects are in the law; on the paper's edge unless `held`,

@@ -28,7 +28,7 @@ SHARE_LIMIT = 0.01
 YIELD_LIMIT = 1.6
 """Pressure over yield stress at which a metal begins to yield below the contact."""
 GRAZING = 1e-3
-"""Closing speed over the impact's, or force over the largest, below which a contact grazes."""
+"""Approach speed over the impact speed, or force over the largest, below which a contact grazes."""
 MILD = 0.3
 """Relative correction above which its leading term is no estimate any more."""
 Values = TypeVar("Values", float, Array)
@@ -196,25 +196,24 @@ def zener_number(model: Model) -> float:
     return found / math.pow(1.0 + model.softness, 0.4)
 
 
-def contact_warnings(closing: Sequence[float], least: float) -> tuple[str, ...]:
-    """Where the number of contacts hangs by a thread.
+def contact_warnings(speeds: Sequence[float], least: float) -> tuple[str, ...]:
+    """Warn of grazing contacts, where the number of contacts is sensitive to rounding.
 
     Parameters
     ----------
-    closing
-        Speeds at which sphere and plate meet, over that of the impact [1].
+    speeds
+        Relative approach speeds of the contacts over the impact speed [1].
     least
         Smallest force between two maxima of it, over the largest [1]; 1 if there is none.
     """
-    slow = min(closing)
+    slow = min(speeds)
     if slow >= GRAZING and least >= GRAZING:
         return ()
-    how = f"all but part while they touch, at {least:.2g} of the largest force"
+    how = f"contact nearly lost: the force falls to {least:.2g} of its largest value"
     if slow < GRAZING:
-        how = f"meet again at {slow:.2g} of the impact's speed"
+        how = f"grazing re-contact at {slow:.2g} of the impact speed"
     text = (
-        f"grazing contact: sphere and plate {how}; how many contacts there are depends on the "
-        "last digits of the scene, and with it the restitution"
+        f"{how}; the number of contacts and the restitution are sensitive to rounding of the input"
     )
     return (text,)
 
@@ -291,29 +290,29 @@ def pressure_warnings(
     return (text,)
 
 
-def tension_warnings(
-    tension: float, strength: float | None, yield_stress: float | None = None
+def stress_warnings(
+    stress: float, strength: float | None, yield_stress: float | None = None
 ) -> tuple[str, ...]:
     """Whether the back face fails or yields, by its largest tensile stress.
 
     Parameters
     ----------
-    tension
+    stress
         Largest tensile stress on the back face [Pa].
     strength, yield_stress
         Of the plate [Pa], if they are given. Under the axis the stress is the same in both
         directions of the face, so that it alone says when the face yields.
     """
     found = []
-    if strength is not None and tension > strength:
+    if strength is not None and stress > strength:
         found.append(
-            f"the largest tensile stress on the back face is {tension / strength:.3g} times the "
+            f"the largest tensile stress on the back face is {stress / strength:.3g} times the "
             "strength: the plate is predicted to fail (quasi-static stress under the peak force), "
             "and the results assume that it does not"
         )
-    if yield_stress is not None and tension > yield_stress:
+    if yield_stress is not None and stress > yield_stress:
         found.append(
-            f"the largest tensile stress on the back face is {tension / yield_stress:.3g} times "
+            f"the largest tensile stress on the back face is {stress / yield_stress:.3g} times "
             "the yield stress: the plate is predicted to yield in bending (quasi-static stress "
             "under the peak force), and the results assume that it does not"
         )

@@ -86,7 +86,7 @@ def grid(result: Result, rtol: float) -> Grid:
                 if not 0.0 < speed < math.inf:
                     continue
                 case = replace(plate, v0=speed)
-                found = select(case, wanted, rtol, result.gate.outputs)
+                found = select(case, wanted, rtol, result.effects.outputs)
                 for name in names:
                     ratios[name][row, column] = _ratio(found, name, rtol)
     return Grid(thicknesses, radii, ratios)

@@ -1,10 +1,9 @@
 """Takes the cheapest method whose error bound meets a tolerance, and says what the bound rests on.
 
-The gate has decided which effects the law holds. From the cheapest: `hertz` and `leading` know
-a proven bound of what they leave out of the plate's law; `coarse` and `full` take the whole
-law, with half the quadrature's nodes and with all. A bound is a relative error of all its
-results against the law of every effect the scene leaves open, with the scene's numbers, these
-being the doubles that the scene turns into.
+The effects of the law have been selected. From the fastest: `hertz` and `leading` have a proven
+bound on what they omit of the plate's law; `coarse` and `full` take the whole law, with half the
+nodes of the quadrature and with all. A bound is a relative error of all its results against the
+law of every effect that the scene does not disable, the scene's numbers being exact doubles.
 """
 
 import math
@@ -14,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from derivation.scene import kernels, motion
-from derivation.scene.effect_selection import Gate
+from derivation.scene.effect_selection import SelectedEffects
 from derivation.scene.effects import BY_NAME, PAPER
 from derivation.scene.effects.effect import Results
 from derivation.scene.law import ContactLaw
@@ -24,7 +23,7 @@ from derivation.scene.model import Model
 from derivation.scene.scene import OUTPUTS, TIGHTEST, SceneError
 
 if TYPE_CHECKING:
-    from derivation.scene.wave_motion import WaveMotion
+    from derivation.scene.wave_motion import DynamicImpact
 
 METHODS = {
     "hertz": "Hertz's law alone",
@@ -33,9 +32,11 @@ METHODS = {
     "full": "the law of every effect included",
 }
 """From the cheapest to the dearest."""
-PROVED, COUNTED, TESTED, ESTIMATED = "proved", "counted", "tested", "estimated"
-"""What a bound rests on: a proof; operations times their rounding; an error budget that the test
-suite enforces; an estimate without guarantee, as of the omitted modes and branches."""
+PROVED, ROUNDING_ANALYSIS, TESTED, ESTIMATED = (
+    "proved", "rounding_analysis", "tested", "estimated",
+)  # fmt: skip
+"""What a bound rests on: a proof; the number of operations times their rounding; an error budget
+that the test suite enforces; an estimate without guarantee, as of omitted modes and branches."""
 
 
 @dataclass(frozen=True)
@@ -47,7 +48,7 @@ class Part:
     bound
         Relative error [1].
     basis
-        `proved`, `counted`, `tested` or `estimated`.
+        `proved`, `rounding_analysis`, `tested` or `estimated`.
     """
 
     bound: float
@@ -68,7 +69,7 @@ class AchievedAccuracy:
         Parts of the bound: what is left out of the contact law, what the integral for the
         contact time misses, and the arithmetic, of the law's tables too.
     effects
-        Another part: the effects that the gate left out.
+        Another part: the effects that the selection omitted.
     outputs
         The results that the bound is one of.
     """
@@ -150,13 +151,15 @@ def check_rtol(rtol: float) -> float:
     return float(rtol)
 
 
-def solve_gated(gate: Gate, rtol: float | None = None) -> tuple[Results, AchievedAccuracy]:
-    """The five results by the law that the gate decided on.
+def solve_selected(
+    selected: SelectedEffects, rtol: float | None = None
+) -> tuple[Results, AchievedAccuracy]:
+    """The five results by the law of the selected effects.
 
     Parameters
     ----------
     rtol
-        Relative tolerance of every result [1], what the gate left out included; without it
+        Relative tolerance of every result [1], the omitted effects included; without it
         the full method.
 
     Raises
@@ -164,15 +167,18 @@ def solve_gated(gate: Gate, rtol: float | None = None) -> tuple[Results, Achieve
     SceneError
         If the impact leaves the law's range, or the tolerance is out of reach.
     """
-    law, rest = gate.law, remaining(gate, rtol)
+    law, rest = selected.law, remaining(selected, rtol)
     if law.of_paper:
         found, accuracy = solve(law.model, rest)
     elif law.dynamic:
-        found, accuracy = _on_moving_plate(gate, rtol)
+        found, accuracy = _on_moving_plate(selected, rtol)
     else:
         found, accuracy = _composed(law)
     accuracy = replace(
-        accuracy, rtol=rtol, effects=Part(gate.error, _basis(gate)), outputs=gate.outputs
+        accuracy,
+        rtol=rtol,
+        effects=Part(selected.error, _basis(selected)),
+        outputs=selected.outputs,
     )
     # An incomplete course has no bound: it is shown as what it is, not refused.
     if rtol is not None and rtol < accuracy.bound and not math.isnan(found[-1]):
@@ -203,18 +209,18 @@ def _out_of_reach(rtol: float, accuracy: AchievedAccuracy, law: ContactLaw, a: f
     )
 
 
-def remaining(gate: Gate, rtol: float | None) -> float | None:
+def remaining(selected: SelectedEffects, rtol: float | None) -> float | None:
     """What a tolerance leaves beside the effects left out [1]."""
-    return None if rtol is None else (rtol - gate.error) / (1.0 + gate.error)
+    return None if rtol is None else (rtol - selected.error) / (1.0 + selected.error)
 
 
-def _basis(gate: Gate) -> str:
+def _basis(selected: SelectedEffects) -> str:
     """What the bound of the omitted effects rests on.
 
     Proofs are of elastic contacts on a quasi-static plate; others are tested on random scenes.
     """
-    law = gate.law
-    out = [row.name for row in gate.rows if row.bound and not (row.included or row.disabled)]
+    law = selected.law
+    out = [row.name for row in selected.rows if row.bound and not (row.included or row.disabled)]
     proved = all(BY_NAME[name].proved(law) for name in out)
     return PROVED if proved and not (law.model.retardation_time or law.dynamic) else TESTED
 
@@ -235,21 +241,23 @@ def _composed(law: ContactLaw) -> tuple[Results, AchievedAccuracy]:
     )
 
 
-def _on_moving_plate(gate: Gate, rtol: float | None) -> tuple[Results, AchievedAccuracy]:
+def _on_moving_plate(
+    selected: SelectedEffects, rtol: float | None
+) -> tuple[Results, AchievedAccuracy]:
     """The results with inertia, and their bounds."""
     from derivation.scene import waves
 
-    law, found = gate.law, moving(gate, rtol)
+    law, found = selected.law, dynamic_impact(selected, rtol)
     return found.numbers, AchievedAccuracy(
         "full",
         None,
-        law=Part(math.fsum(found.inertia.left(gate.outputs)), ESTIMATED),
+        law=Part(math.fsum(found.inertia.left(selected.outputs)), ESTIMATED),
         quadrature=Part(waves.INTEGRATION, TESTED),
         rounding=Part(_rounding(law), TESTED),
     )
 
 
-def moving(gate: Gate, rtol: float | None) -> "WaveMotion":
+def dynamic_impact(selected: SelectedEffects, rtol: float | None) -> "DynamicImpact":
     """The impact on a plate with inertia, as the tolerance asks for.
 
     Raises
@@ -260,7 +268,7 @@ def moving(gate: Gate, rtol: float | None) -> "WaveMotion":
     from derivation.scene import waves
 
     with np.errstate(all="ignore"):  # extreme scenes end in NaN, which is looked for
-        return waves.impact(gate.law, waves.goal(remaining(gate, rtol)), gate.outputs)
+        return waves.impact(selected.law, waves.goal(remaining(selected, rtol)), selected.outputs)
 
 
 def moved(law: ContactLaw) -> motion.Motion:
@@ -300,7 +308,7 @@ def _half_space(law: ContactLaw) -> tuple[Results, AchievedAccuracy] | None:
     found = kernels.hertz(R, m, v0, h, b, share * lam, share * mu)
     if found is None:
         return None
-    rounding = Part(found.rounding, COUNTED)
+    rounding = Part(found.rounding, ROUNDING_ANALYSIS)
     return (*found[:4], 1.0), AchievedAccuracy(
         "hertz", None, Part(0.0, PROVED), Part(0.0, PROVED), rounding
     )
@@ -359,5 +367,5 @@ def estimated(method: str, found: kernels.Estimate, rtol: float | None) -> Achie
         rtol,
         law=Part(found.law, PROVED),
         quadrature=Part(found.quadrature, PROVED),
-        rounding=Part(found.rounding, COUNTED),
+        rounding=Part(found.rounding, ROUNDING_ANALYSIS),
     )

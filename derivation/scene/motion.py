@@ -34,36 +34,37 @@ _CLOSE = 4e-16
 
 
 @dataclass(frozen=True)
-class Ledger:
-    """Where the energy [J] of an impact went.
+class EnergyBalance:
+    """Energy balance of an impact [J].
 
     Attributes
     ----------
-    brought, weight
-        Kinetic energy of the sphere before, and the work of its weight up to the release.
-    returned
-        Kinetic energy of the sphere after.
-    dissipated, left
-        Lost in the viscous contact, and left in its elastic part when the force is gone.
+    initial_kinetic, gravity_work
+        Kinetic energy of the sphere at impact, and the work of its weight up to separation.
+    rebound_kinetic
+        Kinetic energy of the sphere after separation.
+    viscous_loss, unrecovered_elastic
+        Dissipated in the viscoelastic contact, and stored in it at separation.
     plate
-        Left in the plate's motion, or gone into an endless plate.
-    leak
-        What a closure at the axis loses: no physics.
+        In the plate's vibration, or radiated into an infinite plate.
+    coupling_loss
+        Spurious loss of the pointwise coupling; 0 for the variational one.
     """
 
-    brought: float
-    weight: float
-    returned: float
-    dissipated: float
-    left: float
+    initial_kinetic: float
+    gravity_work: float
+    rebound_kinetic: float
+    viscous_loss: float
+    unrecovered_elastic: float
     plate: float = 0.0
-    leak: float = 0.0
+    coupling_loss: float = 0.0
 
     @property
-    def closure(self) -> float:
-        """What does not add up, over the energy brought [1]."""
-        gone = self.returned + self.dissipated + self.left + self.plate + self.leak
-        return (self.brought + self.weight - gone) / self.brought
+    def residual(self) -> float:
+        """Energy-balance error over the initial kinetic energy [1]."""
+        final = self.rebound_kinetic + self.viscous_loss + self.unrecovered_elastic
+        final += self.plate + self.coupling_loss
+        return (self.initial_kinetic + self.gravity_work - final) / self.initial_kinetic
 
 
 @dataclass(frozen=True)
@@ -78,8 +79,8 @@ class Motion:
         Relative change of the results at half the nodes [1].
     restitution
         Speed after over speed before [1]; 1 without viscosity.
-    ledger
-        Where the energy went, of a viscous contact.
+    energy_balance
+        Energy balance, of a viscoelastic contact.
     """
 
     contact_time: float
@@ -88,7 +89,7 @@ class Motion:
     max_contact_radius: float
     quadrature: float
     restitution: float = 1.0
-    ledger: Ledger | None = None
+    energy_balance: EnergyBalance | None = None
 
     @property
     def numbers(self) -> tuple[float, float, float, float, float]:

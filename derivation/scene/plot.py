@@ -66,7 +66,7 @@ def figure(result: Result) -> "Figure":
     """The drawing as a Matplotlib figure, to be shown or changed."""
     from matplotlib.figure import Figure
 
-    if result.moving is not None:
+    if result.dynamics is not None:
         from derivation.scene import wave_plot
 
         return wave_plot.figure(result)

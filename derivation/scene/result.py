@@ -11,16 +11,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from derivation.scene import kernels
-from derivation.scene.effect_selection import Gate
+from derivation.scene.effect_selection import SelectedEffects
 from derivation.scene.effects.effect import NO_BOUND
-from derivation.scene.history import POINTS, History, MovingHistory, Pressures
-from derivation.scene.method_selection import AchievedAccuracy, moved, moving
+from derivation.scene.history import POINTS, DynamicHistory, History, Pressures
+from derivation.scene.method_selection import AchievedAccuracy, dynamic_impact, moved
 from derivation.scene.model import Model
 from derivation.scene.scene import Scene, SceneError
 
 if TYPE_CHECKING:
     from derivation.scene.comparison import Comparison
-    from derivation.scene.wave_motion import WaveMotion
+    from derivation.scene.wave_motion import DynamicImpact
 
 Array = NDArray[np.float64]
 
@@ -44,14 +44,15 @@ class Result:
     max_contact_radius
         Largest contact radius [m].
     restitution
-        Speed after over speed before [1]; 1 unless the contact is viscous or the plate moves.
+        Rebound speed over impact speed [1]; 1 unless the contact is viscoelastic or the plate has
+        inertia.
     max_pressure
         Largest contact pressure, in the middle of the widest contact [Pa]; of a viscous contact
         that of its elastic part, beside which there is more while it grows.
     comparison
         The paper's own motion beside the result; None unless the scene asks for it.
-    max_tension
-        Largest tensile stress on the far face, under the axis [Pa]; below 0 if it is pressed.
+    max_tensile_stress
+        Largest tensile stress on the back face, under the axis [Pa]; below 0 if compressive.
     accuracy
         The method and the bound of its relative error.
     model_error
@@ -62,8 +63,8 @@ class Result:
         What to know about the result.
     scene
         What was simulated.
-    gate
-        Which effects were computed, and why.
+    effects
+        The effects included, and the effects table.
     times
         Times [s] asked for; none if the history is to cover the contact evenly.
     inertia_neglected
@@ -80,12 +81,12 @@ class Result:
     model_error: float
     warnings: tuple[str, ...]
     scene: Scene
-    gate: Gate = field(repr=False)
+    effects: SelectedEffects = field(repr=False)
     times: tuple[float, ...] | None = None
     inertia_neglected: bool = False
 
     @cached_property
-    def max_tension(self) -> float:
+    def max_tensile_stress(self) -> float:
         """Largest tensile stress on the back face, under the axis [Pa]; below 0 if compressive.
 
         Quasi-static, of the plate without inertia under the peak force, spread over the largest
@@ -94,21 +95,21 @@ class Result:
         them, but is none. Solved for, the pressure of the same force and radius gives less: by up
         to 0.06 % at a/h = 1, 3 % at 2, 40 % at 4.
         """
-        held = not self.gate.edge_disabled
-        return self.gate.law.max_tension(self.max_contact_radius, self.max_force, held)
+        held = not self.effects.edge_disabled
+        return self.effects.law.max_tensile_stress(self.max_contact_radius, self.max_force, held)
 
     @property
-    def verdict(self) -> str:
+    def strength_note(self) -> str:
         """How far the back face is from failure; empty without a strength, or if it is predicted.
 
         Cracks that start on the contact face, around the contact, are another matter.
         """
         strength = self.scene.plate.tensile_strength
-        if strength is None or self.max_tension > strength:
+        if strength is None or self.max_tensile_stress > strength:
             return ""
-        if self.max_tension <= 0:
+        if self.max_tensile_stress <= 0:
             return "no failure predicted on the back face: no tensile stress under the axis"
-        times = strength / self.max_tension
+        times = strength / self.max_tensile_stress
         doubt = "; plate inertia is neglected but may matter" if self.inertia_neglected else ""
         return (
             "no failure predicted on the back face: strength / largest tensile stress = "
@@ -121,7 +122,7 @@ class Result:
         Hertz's is that of the same force, on the radius that belongs to it; of a viscous contact
         both are the elastic part at its widest.
         """
-        law, a = self.gate.law, self.max_contact_radius
+        law, a = self.effects.law, self.max_contact_radius
         force = float(law.force(np.array([a]), law.at(np.array([a])))[0])
         hertz = float(law.hertz_radius(np.array(force)))
         # Closer towards the edge, where the pressure ends like a root.
@@ -141,23 +142,23 @@ class Result:
         return compare(self.model, self.contact_time, self.max_indentation)
 
     @cached_property
-    def moving(self) -> "WaveMotion | None":
-        """Contacts, energies and course on a plate that moves; None of a plate at rest."""
-        if not self.gate.law.dynamic:
+    def dynamics(self) -> "DynamicImpact | None":
+        """Contacts, energies and history with plate inertia; None of a quasi-static plate."""
+        if not self.effects.law.dynamic:
             return None
-        return moving(self.gate, self.accuracy.rtol)
+        return dynamic_impact(self.effects, self.accuracy.rtol)
 
     @property
     def total_time(self) -> float:
         """From the first contact to the last release [s]."""
-        if self.moving is None:
+        if self.dynamics is None:
             return self.contact_time
-        return self.moving.inertia.total_time
+        return self.dynamics.inertia.total_time
 
     @property
     def model(self) -> Model:
         """The scene in the kernels' numbers."""
-        return self.gate.law.model
+        return self.effects.law.model
 
     def at(self, times: Iterable[float]) -> "Result":
         """The same result with the times [s] at which its history is wanted.
@@ -176,7 +177,7 @@ class Result:
                 )
         return replace(self, times=wanted)
 
-    def history(self, n: int | None = None) -> History | MovingHistory:
+    def history(self, n: int | None = None) -> History | DynamicHistory:
         """The course of the impact, of the same effects, by the full method.
 
         Parameters
@@ -200,14 +201,14 @@ class Result:
             )
         return found
 
-    def _history(self, n: int | None) -> History | MovingHistory:
+    def _history(self, n: int | None) -> History | DynamicHistory:
         """The course as it is computed."""
-        law = self.gate.law
-        if self.moving is not None:
+        law = self.effects.law
+        if self.dynamics is not None:
             from derivation.scene.time_element import A, E, P, V, W, Z
 
             times = self._times(n, self.total_time)
-            return MovingHistory(times, *self.moving.rows(times)[[Z, V, A, P, W, E]])
+            return DynamicHistory(times, *self.dynamics.rows(times)[[Z, V, A, P, W, E]])
         if law.of_paper:
             end = float(kernels.impact(*self.model.numbers).contact_time)
             times = self._times(n, end)
@@ -228,14 +229,14 @@ class Result:
         # JSON has no NaN: what is not known of an incomplete impact is null.
         numbers = {name: x if math.isfinite(x) else None for name, x in found.items()}
         beside = {"paper_motion": self.comparison.to_json()} if self.comparison else {}
-        if self.moving is not None:
-            beside["inertia"] = self.moving.to_json()
+        if self.dynamics is not None:
+            beside["dynamics"] = self.dynamics.to_json()
         return (
             numbers
             | {
                 "accuracy": self.accuracy.to_json(),
                 "model_error": self.model_error,
-                "effects": [row.to_json() for row in self.gate.rows],
+                "effects": [row.to_json() for row in self.effects.rows],
                 "warnings": list(self.warnings),
                 "scene": self.scene.to_json(),
             }
@@ -248,7 +249,7 @@ class Result:
         if not self.model_error:
             return ""
         size = f"up to {100 * self.model_error:.2g} %"
-        if self.moving is not None:
+        if self.dynamics is not None:
             return (
                 f"Not included in this bound: model error of plate and edge, {size} (measured "
                 "against explicit finite-element simulations)"
@@ -261,24 +262,25 @@ class Result:
     @property
     def complete(self) -> bool:
         """Whether the sphere has left the plate for good."""
-        return self.moving is None or self.moving.inertia.complete
+        return self.dynamics is None or self.dynamics.inertia.complete
 
     @property
     def incomplete_note(self) -> str:
         """Why the simulation ended before the sphere left, and what to do; empty if it did not."""
-        if self.moving is None or self.complete:
+        if self.dynamics is None or self.complete:
             return ""
-        inertia = self.moving.inertia
+        inertia = self.dynamics.inertia
         return (
-            f"INCOMPLETE: {inertia.reason}. The results cover the first {len(inertia.contacts)} "
-            f"contact(s), up to {inertia.total_time:.6g} s; the restitution is not known. "
+            f"INCOMPLETE: {inertia.end_reason}. The results cover the first "
+            f"{len(inertia.contacts)} contact(s), up to {inertia.total_time:.6g} s; "
+            "the restitution is not known. "
             f"{inertia.remedy[0].upper()}{inertia.remedy[1:]}."
         )
 
     @property
     def disabled_note(self) -> str:
         """What the effects that the scene disables would change; empty if there are none."""
-        rows = [row for row in self.gate.rows if row.disabled]
+        rows = [row for row in self.effects.rows if row.disabled]
         known = ", ".join(
             f"{row.name} ({f'at most {row.bound:.1e}' if row.bound < NO_BOUND else 'no bound'})"
             for row in rows
@@ -299,7 +301,7 @@ class Result:
             (name.replace("_", " "), _shown(getattr(self, name), self.digits), unit)
             for name, unit in UNITS.items()
         ]
-        if self.moving is None:
+        if self.dynamics is None:
             return found
         (_, first, unit), *others = found
         total = ("total time", _shown(self.total_time, self.digits), unit)
@@ -313,12 +315,12 @@ class Result:
         )
         told = (self.incomplete_note, str(self.accuracy), self.model_note, self.disabled_note)
         notes = "".join(f"<p>{escape(text)}</p>" for text in told if text)
-        notes += f"<p>{escape(self.verdict)}</p>"
+        notes += f"<p>{escape(self.strength_note)}</p>"
         notes += "".join(f"<p><b>Warning:</b> {escape(text)}</p>" for text in self.warnings)
         beside = self.comparison.to_html() if self.comparison else ""
-        if self.moving is not None:
-            beside += self.moving.to_html()
-        return f"<table>{''.join(cells)}</table>{notes}{self.gate.to_html()}{beside}"
+        if self.dynamics is not None:
+            beside += self.dynamics.to_html()
+        return f"<table>{''.join(cells)}</table>{notes}{self.effects.to_html()}{beside}"
 
 
 def _shown(value: float, digits: int) -> str:
@@ -333,5 +335,5 @@ UNITS = {
     "max_contact_radius": "m",
     "restitution": "1",
     "max_pressure": "Pa",
-    "max_tension": "Pa",
+    "max_tensile_stress": "Pa",
 }

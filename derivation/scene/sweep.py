@@ -187,7 +187,7 @@ def _row(scene: Scene, sweep: Sweep, rtol: float | None, value: float) -> SweepR
     except SceneError as error:
         return SweepRow(value, {}, (), f"refused: {error}")
     results = {name: getattr(found, name) for name in UNITS}
-    included = tuple(row.name for row in found.gate.rows if row.included)
+    included = tuple(row.name for row in found.effects.rows if row.included)
     if not found.complete:  # there is no restitution: an empty row with the reason
         return SweepRow(value, {}, included, found.incomplete_note)
     return SweepRow(value, results, included, "; ".join(found.warnings))

@@ -22,7 +22,7 @@ from derivation.scene import motion
 from derivation.scene.collocation import NEWTON, ONSET, Element, Radau, newton_step, radau, settled
 from derivation.scene.effects.effect import Array
 from derivation.scene.law import ContactLaw
-from derivation.scene.motion import Ledger, Motion
+from derivation.scene.motion import EnergyBalance, Motion
 from derivation.scene.scene import SceneError
 from derivation.scene.viscous_law import Curve, ElasticBending, bending_of, curve_of
 
@@ -268,12 +268,12 @@ def _motion(problem: ViscousProblem, course: tuple[Element, ...]) -> ViscousMoti
     a, v, z, _, _ = course[-1].at(np.array([last]))[:, 0]
     depth, force, radius = (max(element.largest(row) for element in course) for row in (Z, P, A))
     energy = problem.law.model.m * problem.law.model.v0 * problem.law.model.v0
-    ledger = Ledger(
-        brought=0.5 * energy,
-        weight=energy * problem.weight * float(z),
-        returned=0.5 * energy * float(v) ** 2,
-        dissipated=energy * sum(_lost(element, last) for element in course),
-        left=_left(problem, problem.a * float(a)),
+    energy_balance = EnergyBalance(
+        initial_kinetic=0.5 * energy,
+        gravity_work=energy * problem.weight * float(z),
+        rebound_kinetic=0.5 * energy * float(v) ** 2,
+        viscous_loss=energy * sum(_lost(element, last) for element in course),
+        unrecovered_elastic=_left(problem, problem.a * float(a)),
     )
     return ViscousMotion(
         problem.T * last**ONSET,
@@ -282,7 +282,7 @@ def _motion(problem: ViscousProblem, course: tuple[Element, ...]) -> ViscousMoti
         problem.a * radius,
         0.0,
         -float(v),
-        ledger,
+        energy_balance,
         problem,
         course,
     )

@@ -1,4 +1,4 @@
-"""The course of an impact on a moving plate: contacts, histories, and where the energy goes."""
+"""The history of an impact on a plate with inertia: contacts, time histories, energy balance."""
 
 import math
 from collections.abc import Sequence
@@ -15,7 +15,7 @@ from derivation.scene.effects.effect import Array, Results
 from derivation.scene.html import html_table
 from derivation.scene.law import ContactLaw
 from derivation.scene.limits import local_indentation
-from derivation.scene.motion import Ledger, Motion
+from derivation.scene.motion import EnergyBalance, Motion
 from derivation.scene.scene import OUTPUTS
 from derivation.scene.time_element import LEAK, A, DynamicProblem, E, P, V, W, Z, oscillating
 
@@ -25,7 +25,10 @@ LOOKS = 2001
 """Times at which a contact's force is looked at."""
 FLIGHT = 129
 """Times at which the plate is looked at while nothing touches it: a peak is missed by 1 %."""
-HEADS = ("#start [s]", "#end [s]", "#impulse [N s]", "#peak force [N]", "#closing speed [v0]")
+HEADS = (
+    "#start [s]", "#end [s]", "#impulse [N s]", "#peak force [N]",
+    "#approach speed / impact speed",
+)  # fmt: skip
 """Heads of the table of contacts."""
 
 
@@ -40,20 +43,20 @@ class ContactInterval(NamedTuple):
         Of the contact force [N s].
     peak_force
         Largest contact force [N].
-    closing
-        Speed at which sphere and plate meet, over that of the impact [1].
+    relative_approach_speed
+        Speed at which sphere and plate meet over the impact speed [1].
     """
 
     start: float
     end: float
     impulse: float
     peak_force: float
-    closing: float
+    relative_approach_speed: float
 
 
 @dataclass(frozen=True)
 class InertiaDetails:
-    """What an impact on a moving plate has beside the results of every impact.
+    """Results of an impact with plate inertia that no other impact has.
 
     Attributes
     ----------
@@ -61,29 +64,29 @@ class InertiaDetails:
         Every contact, the first one first.
     total_time
         From the first contact to the last release [s].
-    reason
-        Why the course ends there.
+    end_reason
+        Why the simulation ends there.
     remedy
         What makes an incomplete course end with the sphere's departure; empty if it does.
     modes
         How many oscillators the plate has.
     energies
         Energy left in each of them [J].
-    doubt
+    mode_convergence
         Relative change of each result with the number of modes [1]; infinite if that says nothing,
         as of modes slower than the contact.
-    branches
-        What the branches left out may change each result besides [1].
+    omitted_branch_error
+        Estimated change of each result by the omitted wave branches [1].
     """
 
     contacts: tuple[ContactInterval, ...]
     total_time: float
-    reason: str
+    end_reason: str
     remedy: str
     modes: int
     energies: tuple[float, ...]
-    doubt: Results
-    branches: Results
+    mode_convergence: Results
+    omitted_branch_error: Results
 
     @property
     def complete(self) -> bool:
@@ -93,17 +96,18 @@ class InertiaDetails:
     def left(self, outputs: Sequence[str]) -> tuple[float, float]:
         """What modes and branches left out may change, the worst of some results [1]."""
         places = [OUTPUTS.index(name) for name in outputs]
-        return IRREGULAR * max(self.doubt[k] for k in places), max(self.branches[k] for k in places)
+        modes = max(self.mode_convergence[k] for k in places)
+        return IRREGULAR * modes, max(self.omitted_branch_error[k] for k in places)
 
 
 @dataclass(frozen=True)
-class WaveMotion(Motion):
-    """An impact on a moving plate, with its course."""
+class DynamicImpact(Motion):
+    """An impact on a plate with inertia, with its history."""
 
     course: Course = field(kw_only=True, repr=False)
     law: ContactLaw = field(kw_only=True, repr=False)
     inertia: InertiaDetails = field(kw_only=True)
-    ledger: Ledger = field(kw_only=True)
+    energy_balance: EnergyBalance = field(kw_only=True)
 
     @property
     def least(self) -> float:
@@ -142,49 +146,56 @@ class WaveMotion(Motion):
         return found
 
     def to_json(self) -> dict[str, Any]:
-        """Contacts, energies and what the modes are worth, under fixed keys."""
-        inertia, ledger = self.inertia, self.ledger
+        """Contacts, energies and error estimates under fixed keys."""
+        inertia, balance = self.inertia, self.energy_balance
         return {
             "total_time": inertia.total_time,
             "complete": inertia.complete,
-            "reason": inertia.reason,
+            "end_reason": inertia.end_reason,
             "contacts": [touch._asdict() for touch in inertia.contacts],
             "modes": inertia.modes,
             "mode_energies": list(inertia.energies),
-            "change_with_modes": {
+            "mode_convergence": {
                 name: value if np.isfinite(value) else None
-                for name, value in zip(OUTPUTS, inertia.doubt, strict=True)
+                for name, value in zip(OUTPUTS, inertia.mode_convergence, strict=True)
             },
-            "further_branches": dict(zip(OUTPUTS, inertia.branches, strict=True)),
-            "ledger": asdict(ledger) | {"closure": ledger.closure},
+            "omitted_branch_error": dict(zip(OUTPUTS, inertia.omitted_branch_error, strict=True)),
+            "energy_balance": asdict(balance) | {"residual": balance.residual},
         }
 
     def lines(self) -> list[tuple[str, ...]]:
-        """Start, end, impulse, peak force and closing speed of every contact."""
+        """Start, end, impulse, peak force and relative approach speed of every contact."""
         return [tuple(f"{value:.6g}" for value in touch) for touch in self.inertia.contacts]
 
     def notes(self) -> tuple[str, ...]:
-        """Where the energy went, and why the course ends, in sentences."""
-        ledger, inertia = self.ledger, self.inertia
-        shares = {
-            "the sphere": ledger.returned,
-            "the plate": ledger.plate,
-            "the viscous contact": ledger.dissipated + ledger.left,
-            "the closure's leak": ledger.leak,
+        """The energy balance and the end of the simulation in sentences."""
+        balance, inertia = self.energy_balance, self.inertia
+        parts = {
+            "sphere": balance.rebound_kinetic,
+            "plate": balance.plate,
+            "viscoelastic contact": balance.viscous_loss + balance.unrecovered_elastic,
+            "lost by the pointwise coupling": balance.coupling_loss,
         }
-        told = ", ".join(f"{100 * e / ledger.brought:.3g} % in {n}" for n, e in shares.items() if e)
-        energies = f"final energy: {told}; the energy balance closes to {abs(ledger.closure):.1e}"
+        told = ", ".join(
+            f"{100 * energy / balance.initial_kinetic:.3g} % {name}"
+            for name, energy in parts.items()
+            if energy
+        )
+        energies = (
+            f"Final energy: {told} (of the initial kinetic energy); "
+            f"energy-balance error {abs(balance.residual):.1e}."
+        )
         if not inertia.complete:
             return (energies,)
-        ended = f"no further contact is possible after {len(inertia.contacts)} contact(s); "
+        ended = f"No further contact is possible after {len(inertia.contacts)} contact(s); "
         branches = "all wave branches" if self.law.model.inertia.branches == "all" else "branch A0"
         change = "more modes are needed for an error estimate: these are slower than the contact"
-        if math.isfinite(max(inertia.doubt)):
+        if math.isfinite(max(inertia.mode_convergence)):
             change = (
                 "halving the number of modes changes the results by at most "
-                f"{max(inertia.doubt):.1e}"
+                f"{max(inertia.mode_convergence):.1e}"
             )
-        return energies, ended + f"{inertia.modes} oscillators ({branches}); {change}"
+        return energies, ended + f"{inertia.modes} modes ({branches}); {change}."
 
     def to_html(self) -> str:
         """The contacts and where the energy went, for a notebook."""

@@ -27,16 +27,16 @@ def figure(result: Result) -> "Figure":
     """The drawing as a Matplotlib figure."""
     from matplotlib.figure import Figure
 
-    moving = result.moving
-    assert moving is not None
+    dynamics = result.dynamics
+    assert dynamics is not None
     times = np.linspace(0.0, result.total_time, POINTS)
-    rows = moving.rows(times)
+    rows = dynamics.rows(times)
     t, label = scaled(times, "time", "s")
     made = Figure(figsize=(8.0, 9.5), layout="constrained")
     drawn = made.subplot_mosaic([["z", "z"], ["P", "v"], ["energy", "e"]])
-    (way, face), w_label = scaled(rows[[Z, W]], "way", "m")
+    (way, face), w_label = scaled(rows[[Z, W]], "displacement", "m")
     drawn["z"].plot(t, way, color=BLUE, linewidth=1.5, label="sphere")
-    drawn["z"].plot(t, face, color=BROWN, linewidth=1.2, label="plate under it")
+    drawn["z"].plot(t, face, color=BROWN, linewidth=1.2, label="plate at the axis")
     drawn["z"].legend(frameon=False)
     force, f_label = scaled(rows[P], "contact force", "N")
     drawn["P"].plot(t, force, color=BLUE, linewidth=1.5)
@@ -45,8 +45,8 @@ def figure(result: Result) -> "Figure":
     _energies(drawn["energy"], result, t, rows)
     _restitution(drawn["e"], result)
     for name, y_label in (("z", w_label), ("P", f_label), ("v", v_label), ("energy", "")):
-        frame(drawn[name], label, y_label or "energy over the energy brought")
-        for touch in moving.inertia.contacts:
+        frame(drawn[name], label, y_label or "energy / initial kinetic energy")
+        for touch in dynamics.inertia.contacts:
             begin, end = np.array([touch.start, touch.end]) * (t[-1] / times[-1])
             drawn[name].axvspan(begin, end, color="0.9", zorder=0, linewidth=0)
     drawn["z"].invert_yaxis()
@@ -59,8 +59,8 @@ def _energies(axes: "Axes", result: Result, t: Array, rows: Array) -> None:
     sphere, plate = (rows[V] / v0) ** 2, 2.0 * rows[E] / m / v0**2
     contact = np.maximum(1.0 - sphere - plate, 0.0)
     names = ["sphere", "plate", "contact"]
-    if result.gate.law.gravity or result.gate.law.viscous:
-        names[2] = "contact, and gone"
+    if result.effects.law.gravity or result.effects.law.viscous:
+        names[2] = "contact and dissipated"
     axes.stackplot(t, sphere, plate, contact, labels=names, colors=(BLUE, BROWN, GREEN), alpha=0.75)
     axes.legend(frameon=True, loc="center right")
     axes.set_ylim(0.0, 1.0)
@@ -69,7 +69,7 @@ def _energies(axes: "Axes", result: Result, t: Array, rows: Array) -> None:
 def _restitution(axes: "Axes", result: Result) -> None:
     """The impact beside Zener's curve."""
     curve = [zener_restitution(number) for number in NUMBERS]
-    axes.semilogx(NUMBERS, curve, color="0.4", linewidth=1.2, label="endless plate (Zener)")
+    axes.semilogx(NUMBERS, curve, color="0.4", linewidth=1.2, label="infinite plate (Zener)")
     number = zener_number(result.model)
     axes.plot([number], [result.restitution], "o", color=BROWN, label="this impact")
     frame(axes, "Zener's number", "restitution")
@@ -79,7 +79,7 @@ def _restitution(axes: "Axes", result: Result) -> None:
 
 @lru_cache(maxsize=64)
 def zener_restitution(number: float) -> float:
-    """Speed after over speed before on an endless thin plate under Hertz's contact (Zener, 1941).
+    """Restitution [1] on an infinite thin plate with Hertz's contact (Zener, 1941).
 
     Parameters
     ----------

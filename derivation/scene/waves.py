@@ -31,11 +31,11 @@ from derivation.scene.mode_count import (
     too_dear,
 )
 from derivation.scene.model import Model
-from derivation.scene.motion import Ledger, Motion
+from derivation.scene.motion import EnergyBalance, Motion
 from derivation.scene.quadrature import NODES, gauss
 from derivation.scene.scene import OUTPUTS, SceneError
 from derivation.scene.time_element import LEAK, LOST, A, DynamicProblem, ImpactState, P, Piece, Z
-from derivation.scene.wave_motion import ContactInterval, InertiaDetails, WaveMotion
+from derivation.scene.wave_motion import ContactInterval, DynamicImpact, InertiaDetails
 
 STAGES = 14, 16
 """Nodes of an element, of the run that checks and of the one that counts."""
@@ -56,7 +56,9 @@ def goal(rtol: float | None) -> float:
 
 
 @lru_cache(maxsize=4)
-def impact(law: ContactLaw, goal: float = LOOSE, outputs: tuple[str, ...] = OUTPUTS) -> WaveMotion:
+def impact(
+    law: ContactLaw, goal: float = LOOSE, outputs: tuple[str, ...] = OUTPUTS
+) -> DynamicImpact:
     """The impact by a law with inertia.
 
     Parameters
@@ -103,20 +105,22 @@ def _branches_matter(law: ContactLaw, quick: Motion, goal: float, outputs: tuple
     return rough.inertia.complete and rough.inertia.left(outputs)[1] > goal / SHARE - goal
 
 
-def _edge_heard(found: WaveMotion) -> bool:
+def _edge_heard(found: DynamicImpact) -> bool:
     """Whether a wave may have come back from the edge before the last contact ended."""
     model, problem = found.law.model, found.course.problem
     return problem.T * found.course.contacts[-1].end > echo_time(model)
 
 
-def _converged(law: ContactLaw, quick: Motion, goal: float, outputs: tuple[str, ...]) -> WaveMotion:
+def _converged(
+    law: ContactLaw, quick: Motion, goal: float, outputs: tuple[str, ...]
+) -> DynamicImpact:
     """The impact with as many modes as it takes, or as can be afforded."""
     count = affordable(law)
     check_followed(law, 2 * count)
     rough = _run(law, count, quick, STAGES[0])
     if not rough.inertia.complete:  # and no finer run would be
         return rough
-    best: WaveMotion | None = None
+    best: DynamicImpact | None = None
     while True:
         try:
             found = _run(law, 2 * count, quick, STAGES[1])
@@ -127,13 +131,13 @@ def _converged(law: ContactLaw, quick: Motion, goal: float, outputs: tuple[str, 
         if not found.inertia.complete:
             return best or found
         best, count, rough = _judged(rough, found), 2 * count, found
-        doubt, beyond = best.inertia.left(outputs)
+        change, beyond = best.inertia.left(outputs)
         # Where omitted branches are worth more than modes could mend, a tenth is small enough.
         enough = goal if beyond <= goal / SHARE else max(goal, 0.1 * beyond)
         if law.model.inertia.modes:
             return best if fast(law, count) else _unjudged(best)
-        near = doubt <= LAST * enough
-        if doubt <= enough or too_dear(law, count, _work(best.course), near):
+        near = change <= LAST * enough
+        if change <= enough or too_dear(law, count, _work(best.course), near):
             return best
 
 
@@ -148,22 +152,22 @@ def problem_of(law: ContactLaw, count: int) -> DynamicProblem:
     return _problem(law, plate_of(law, count), motion.impact(law.half_space))
 
 
-def _run(law: ContactLaw, count: int, quick: Motion, n: int) -> WaveMotion:
+def _run(law: ContactLaw, count: int, quick: Motion, n: int) -> DynamicImpact:
     """The impact with so many bending modes by elements of n nodes."""
     return _motion(law, contact_sequence.course(_problem(law, plate_of(law, count), quick), n))
 
 
-def _judged(rough: WaveMotion, found: WaveMotion) -> WaveMotion:
-    """A run with what it differs by from one with fewer modes."""
+def _judged(rough: DynamicImpact, found: DynamicImpact) -> DynamicImpact:
+    """Return the finer run with the relative change of each result since the coarser run."""
     pairs = zip(found.numbers, rough.numbers, strict=True)
     time, depth, force, radius, speed = (abs(new - old) / abs(new) for new, old in pairs)
-    doubt = time, depth, force, radius, speed
-    return replace(found, inertia=replace(found.inertia, doubt=doubt))
+    change = time, depth, force, radius, speed
+    return replace(found, inertia=replace(found.inertia, mode_convergence=change))
 
 
-def _unjudged(found: WaveMotion) -> WaveMotion:
-    """A run of which nothing is known that its modes leave out."""
-    return replace(found, inertia=replace(found.inertia, doubt=UNKNOWN))
+def _unjudged(found: DynamicImpact) -> DynamicImpact:
+    """Return a run of whose omitted modes no error estimate is known."""
+    return replace(found, inertia=replace(found.inertia, mode_convergence=UNKNOWN))
 
 
 def _problem(law: ContactLaw, plate: ModalPlate, quick: Motion) -> DynamicProblem:
@@ -188,7 +192,7 @@ def echo_time(model: Model) -> float:
     return 2.0 * model.b / (fastest * model.shear_speed)
 
 
-def _motion(law: ContactLaw, course: Course) -> WaveMotion:
+def _motion(law: ContactLaw, course: Course) -> DynamicImpact:
     """The results of a course."""
     problem, last = course.problem, course.contacts[-1].after
     energy = problem.m * problem.v0**2
@@ -197,14 +201,15 @@ def _motion(law: ContactLaw, course: Course) -> WaveMotion:
     way = max(largest[Z], max(touching.before.way for touching in course.contacts))
     energies = problem.energies(last)
     lost, leak = (sum(_sum(piece, row) for piece in pieces) for row in (LOST, LEAK))
-    ledger = Ledger(
-        brought=0.5 * energy,
-        weight=energy * problem.weight * last.way,
-        returned=0.5 * energy * last.velocity**2,
-        dissipated=energy * lost,
-        left=energy * sum(_given_up(problem, touching) for touching in course.contacts),
+    energy_balance = EnergyBalance(
+        initial_kinetic=0.5 * energy,
+        gravity_work=energy * problem.weight * last.way,
+        rebound_kinetic=0.5 * energy * last.velocity**2,
+        viscous_loss=energy * lost,
+        unrecovered_elastic=energy
+        * sum(_given_up(problem, touching) for touching in course.contacts),
         plate=energy * float(np.sum(energies)),
-        leak=energy * leak,
+        coupling_loss=energy * leak,
     )
     first, total = course.contacts[0], course.contacts[-1].end
     inertia = InertiaDetails(
@@ -217,14 +222,14 @@ def _motion(law: ContactLaw, course: Course) -> WaveMotion:
         NONE if course.complete else UNKNOWN,
         _branches(law, problem.a * largest[A], problem.depth * way, problem.T * first.end),
     )
-    return WaveMotion(
+    return DynamicImpact(
         problem.T * first.end,
         problem.depth * way,
         problem.force * largest[P],
         problem.a * largest[A],
         0.0,
         -last.velocity if course.complete else math.nan,
-        ledger=ledger,
+        energy_balance=energy_balance,
         course=course,
         inertia=inertia,
         law=law,

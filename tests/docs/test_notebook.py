@@ -58,7 +58,7 @@ def test_every_cell_shows_one_thing_richly(executed: list[Any]) -> None:
         ("scene", "text/html", ("<td>plate</td><td>edge</td><td>simply-supported</td>",)),
         ("explain(scene, rtol=1e-4)", "text/html", ("<td>bending</td>", "rtol = 0.0001")),
         ("result", "text/html", ("contact time", "predicted to fail", "<b>Warning:</b>")),
-        ("result.moving", "text/html", ("<th>", "energ")),
+        ("result.dynamics", "text/html", ("<th>", "energ")),
         ("result.history()", "text/html", ("plate energy [J]", "12 of 201 times")),
     ],
 )

@@ -111,8 +111,8 @@ def test_a_half_space_calls_bounds_and_its_closed_form_alone(calls: set[str]) ->
     block = {"half_thickness": 1e4, "radius": 1e4}
     auto = {"inertia": "auto"}
     result = simulate(scene(plate=block, sphere={"material": None}, effects=auto), rtol=0.02)
-    assert result.gate.law.effects == {"hertz"}
-    assert {row.name for row in result.gate.rows if row.bound > 0} >= {
+    assert result.effects.law.effects == {"hertz"}
+    assert {row.name for row in result.effects.rows if row.bound > 0} >= {
         "edge",
         "non_hertzian_pressure",
         *auto,
@@ -131,7 +131,7 @@ def test_what_is_out_is_not_called(monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("supported_edge", "supported_edge_slope"):
         monkeypatch.setattr(kernels, name, lambda *_, name=name: calls.append(name) or math.nan)
     result = simulate(scene(plate=thick, effects={"spherical_profile": False, "gravity": False}))
-    assert result.gate.law.effects == {"hertz", "sphere_elasticity"}
+    assert result.effects.law.effects == {"hertz", "sphere_elasticity"}
     assert calls == []
     motion.impact(ContactLaw(model(), frozenset({"hertz", "bending"})))
     assert calls == []
@@ -145,7 +145,7 @@ for effect, module in (
     ("non_hertzian_pressure", "generated.true_pressure"), ("viscosity", "derivation.scene.viscous"),
     ("inertia", "derivation.scene.waves"), ("inertia", "generated.inertia"),
 ):
-    print(effect in result.gate.law.effects, module in sys.modules)
+    print(effect in result.effects.law.effects, module in sys.modules)
 """
 
 

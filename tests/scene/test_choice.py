@@ -264,12 +264,19 @@ def test_method_bound_and_parts_in_every_output(tmp_path: Path, capsys: Captured
     assert data["rtol"] == 1e-3
     assert data["bound"] <= 1e-3
     assert {name: part["basis"] for name, part in data["parts"].items()} == {
-        "effects": "proved", "law": "proved", "quadrature": "proved", "rounding": "counted",
+        "effects": "proved", "law": "proved", "quadrature": "proved",
+        "rounding": "rounding_analysis",
     }  # fmt: skip
     result = simulate(load(PAPER), rtol=1e-3)
     assert str(result.accuracy) in said
     assert str(result.accuracy).replace("'", "&#x27;") in result._repr_html_()
-    for words in ("method leading", "relative error at most", "law", "(proved)", "(counted)"):
+    for words in (
+        "method leading",
+        "relative error at most",
+        "law",
+        "(proved)",
+        "(rounding_analysis)",
+    ):
         assert words in said
     full = simulate(load(PAPER)).accuracy.to_json()["parts"]
     assert full["quadrature"]["basis"] == full["rounding"]["basis"] == "tested"

@@ -95,9 +95,9 @@ def test_what_an_effect_changes_is_within_its_bound_and_near_it(
     one, other = impact(m, every - {name}).numbers, impact(m, every).numbers
     shares = []
     for output, x, y in zip(OUTPUTS, one, other, strict=True):
-        gate = decide(m, AT_REST | wanted, 1.0, (output,))
-        assert gate.law.effects == every - {name}
-        bound = {row.name: row.bound for row in gate.rows}[name]
+        selected = decide(m, AT_REST | wanted, 1.0, (output,))
+        assert selected.law.effects == every - {name}
+        bound = {row.name: row.bound for row in selected.rows}[name]
         if output == "restitution":  # which is 1 without viscosity
             assert (x, y, bound) == (1.0, 1.0, 0.0)
         else:
@@ -116,8 +116,8 @@ def test_prices_hold_under_the_true_pressure(name: str) -> None:
         sphere_modulus=1e10, gravity=0.05,
     )  # fmt: skip
     wanted = {effect.name: effect.name != name for effect in EFFECTS} | AT_REST
-    gate = decide(m, AT_REST | wanted, 1.0)
-    bound = {row.name: row.bound for row in gate.rows}[name]
+    selected = decide(m, AT_REST | wanted, 1.0)
+    bound = {row.name: row.bound for row in selected.rows}[name]
     assert 0.2 < apart(impact(m, ALL - {name}), impact(m, ALL)) / bound <= 1
     # What the profile adds is known under Hertz's pressure alone.
     flat = decide(m, AT_REST | wanted | {"spherical_profile": False}, 1.0)
@@ -129,9 +129,9 @@ def test_what_is_in_is_priced_too(edge: str) -> None:
     """What leaving one out of all would change, by the table of the law with all."""
     m = model(h=5.0, b=5.0, v0=0.3, edge=edge, sphere_modulus=1e13)
     every = applicable(m) - {"non_hertzian_pressure"}
-    gate = decide(m, AT_REST | {"non_hertzian_pressure": False}, 0.0)
-    assert gate.law.effects == every
-    for row in gate.rows:
+    selected = decide(m, AT_REST | {"non_hertzian_pressure": False}, 0.0)
+    assert selected.law.effects == every
+    for row in selected.rows:
         if row.included and row.name != "hertz":
             change = apart(impact(m, every - {row.name}), impact(m, every))
             assert 0.03 * row.bound < change <= 1.02 * row.bound

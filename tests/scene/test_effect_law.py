@@ -182,7 +182,7 @@ def test_peak_of_a_slow_sphere_under_its_weight(bent: bool, factor: float) -> No
 def test_history_keeps_the_energy_with_every_effect() -> None:
     wanted = dict.fromkeys(BY_NAME.keys() - {"hertz"} - AT_REST.keys(), True)
     result = simulate(scene(effects=wanted))
-    history, law = result.history(301), result.gate.law
+    history, law = result.history(301), result.effects.law
     m = result.model
     stored = np.array([
         0.0 if a == 0 else derivation.scene.limits.energy_of(law, float(a))

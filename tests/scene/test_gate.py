@@ -158,8 +158,10 @@ def test_the_scenes_outputs_are_those_the_tolerance_applies_to() -> None:
     rtol = math.sqrt(errors[0] * errors[1])
     for name, wanted in (("max_contact_radius", True), ("max_force", False)):
         result = simulate(read(given | {"accuracy": {"rtol": rtol, "outputs": [name]}}))
-        assert ("spherical_profile" in result.gate.law.effects) is wanted
-    assert result.accuracy.bound >= result.accuracy.parts["effects"].bound == result.gate.error > 0
+        assert ("spherical_profile" in result.effects.law.effects) is wanted
+    assert (
+        result.accuracy.bound >= result.accuracy.parts["effects"].bound == result.effects.error > 0
+    )
 
 
 def test_the_paper_scene_without_any_choice() -> None:
@@ -167,7 +169,7 @@ def test_the_paper_scene_without_any_choice() -> None:
     thick = scene(plate={"half_thickness": 1e3, "radius": 1e4}, sphere={"material": None})
     result = simulate(thick, rtol=1e-2)
     assert result.accuracy.method == "hertz"
-    assert result.gate.law.effects == {"hertz"}
+    assert result.effects.law.effects == {"hertz"}
     assert result.accuracy.bound <= 1e-2
 
 
@@ -181,7 +183,7 @@ def test_explain_simulates_nothing_and_says_why(capsys: Captured, tmp_path: Path
     shown = capsys.readouterr().out
     data = json.loads((tmp_path / "e.json").read_text())
     assert [row["name"] for row in data["effects"]] == [effect.name for effect in EFFECTS]
-    assert set(data["costs"]) == set(data["included"])
+    assert set(data["evaluation_times"]) == set(data["included"])
     assert re.search(
         r"disabled in the scene: changes [a-z_]+ by at most \S+ %\"", json.dumps(data["effects"])
     )
@@ -201,7 +203,7 @@ def test_explain_simulates_nothing_and_says_why(capsys: Captured, tmp_path: Path
 def test_the_reference_knows_the_papers_law_alone(tmp_path: Path) -> None:
     """What it refuses, it says how to write, and then takes."""
     example = EXAMPLES / "glass_pane.toml"
-    called = sorted(explain(load(example)).gate.law.effects - WHOLE_PLATE - {"hertz"})
+    called = sorted(explain(load(example)).effects.law.effects - WHOLE_PLATE - {"hertz"})
     assert {"edge", "gravity", "inertia", "sphere_elasticity"} <= set(called)
     with pytest.raises(SceneError, match=f"needs {', '.join(called)};") as caught:
         pipeline.in_doubles(load(example))
@@ -210,7 +212,7 @@ def test_the_reference_knows_the_papers_law_alone(tmp_path: Path) -> None:
     place = tmp_path / "scene.toml"
     place.write_text(example.read_text() + "\n[effects]\n" + "\n".join(lines) + "\n")
     found = pipeline.in_doubles(load(place))
-    assert found.gate.law.effects == WHOLE_PLATE | {"hertz"}
+    assert found.effects.law.effects == WHOLE_PLATE | {"hertz"}
     paper = (EXAMPLES / "paper.toml").read_text()
     for key in ("bending = false", "finite_radius = false"):
         place.write_text(f"{paper}{key}\n")

@@ -71,7 +71,7 @@ def test_an_incomplete_impact_is_shown_as_one(
     status = main(["simulate", str(file), "--json", "-"])
     data = json.loads(capsys.readouterr().out)
     waves.impact.cache_clear()
-    assert not data["inertia"]["complete"]
+    assert not data["dynamics"]["complete"]
     assert status == 1
     assert data["restitution"] is None
     assert data["accuracy"]["bound"] is None

@@ -176,7 +176,7 @@ def test_energy_and_momentum_are_kept(
     eta: float, size: float, heavy: float, speed: float, nu: float, gravity: float,
     pointwise: bool, edge: str,
 ) -> None:  # fmt: skip
-    """In random scenes: the ledger, the impulse, restitution, and the order of the contacts."""
+    """In random scenes: energy balance, impulse, restitution, and the order of the contacts."""
     b, mu, density = 0.2, 5e9, 2000.0
     R = b * 10**size
     model = Model(
@@ -192,7 +192,7 @@ def test_energy_and_momentum_are_kept(
     except SceneError:  # kept down by its weight, or bent too sharply
         assume(False)
     contacts = found.inertia.contacts
-    assert abs(found.ledger.closure) <= 1e-11
+    assert abs(found.energy_balance.residual) <= 1e-11
     if not gravity and not pointwise:
         assert 0.0 <= found.restitution <= 1.0
     times = [time for touch in contacts for time in (touch.start, touch.end)]

@@ -25,25 +25,25 @@ def coarse(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.parametrize("example", sorted(EXAMPLES.glob("*.toml")), ids=lambda path: path.stem)
 def test_the_star_is_on_the_side_that_explain_says(example: Path) -> None:
     result = simulate(load(example))
-    found = map_.grid(result, result.gate.rtol)
+    found = map_.grid(result, result.effects.rtol)
     column = np.flatnonzero(found.thicknesses == result.model.eta)
     row = np.flatnonzero(found.radii == result.max_contact_radius / result.model.h)
-    for effect in result.gate.rows:
+    for effect in result.effects.rows:
         if effect.name not in found.ratios:
             continue
         ratio = found.ratios[effect.name][row, column].item()
         if effect.disabled:
-            assert ratio == pytest.approx(min(effect.bound / result.gate.rtol, map_.MOST))
+            assert ratio == pytest.approx(min(effect.bound / result.effects.rtol, map_.MOST))
         else:
             assert (ratio > 1.0) == effect.included, effect.name
-        if not effect.included and effect.bound < result.gate.rtol:
-            assert ratio == pytest.approx(effect.bound / result.gate.rtol, rel=2e-3)
+        if not effect.included and effect.bound < result.effects.rtol:
+            assert ratio == pytest.approx(effect.bound / result.effects.rtol, rel=2e-3)
 
 
 def test_every_point_of_the_map_is_a_scene_of_its_own() -> None:
     """At the speed that a point stands for the selection decides as the map shows."""
     result = simulate(given.scene())
-    wanted, outputs = result.scene.effects.model_dump(), result.gate.outputs
+    wanted, outputs = result.scene.effects.model_dump(), result.effects.outputs
     for width, eta in ((0.01, 0.02), (0.3, 0.1)):
         model = map_.replace(result.model, h=eta * result.model.b)
         speed = map_._speed(model, width * model.h)

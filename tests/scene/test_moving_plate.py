@@ -13,7 +13,7 @@ import pytest
 from derivation.cli import main
 from derivation.scene import SceneError, explain, read, simulate
 from derivation.scene.effects import WHOLE_PLATE
-from derivation.scene.history import MovingHistory
+from derivation.scene.history import DynamicHistory
 from derivation.scene.law import ContactLaw
 from derivation.scene.modal import plate_of
 from derivation.scene.model import model_of
@@ -37,15 +37,15 @@ def result() -> Any:
 
 
 def test_a_scene_that_calls_for_inertia_gets_it(result: Any) -> None:
-    assert {"inertia", "bending", "finite_thickness", "finite_radius"} <= result.gate.law.effects
+    assert {"inertia", "bending", "finite_thickness", "finite_radius"} <= result.effects.law.effects
     still = simulate(scene(effects={"inertia": False}))
-    assert "inertia" not in still.gate.law.effects
+    assert "inertia" not in still.effects.law.effects
     assert still.inertia_neglected
     assert any("inertia is neglected" in text for text in still.warnings)
     assert not result.inertia_neglected
     assert not any("inertia" in text for text in result.warnings)
     assert result.restitution < 0.9 < still.restitution == 1.0
-    row = next(row for row in still.gate.rows if row.name == "inertia")
+    row = next(row for row in still.effects.rows if row.name == "inertia")
     assert row.disabled
 
 
@@ -60,7 +60,7 @@ def test_the_density_is_asked_for_where_inertia_is() -> None:
     block = own | {"radius": 1.0, "thickness": 1.0}
     known = read({**bare, "plate": block, "impact": {"speed": 1e-3}})
     assert known.effects.inertia == "auto"
-    assert "inertia" not in simulate(known, rtol=1e-1).gate.law.effects
+    assert "inertia" not in simulate(known, rtol=1e-1).effects.law.effects
 
 
 def test_the_whole_plate_has_to_move() -> None:
@@ -74,34 +74,36 @@ def test_the_whole_plate_has_to_move() -> None:
 def test_a_small_static_part_that_is_disabled_does_not_stop_the_plate(part: str) -> None:
     """Its own bound covers what it changes: the plate still takes most of the energy."""
     whole, without = (simulate(scene(effects=e)) for e in ({}, {part: False}))
-    assert "inertia" in without.gate.law.effects
-    size = next(row.bound for row in without.gate.rows if row.name == part)
-    for one, other in zip(whole.moving.numbers, without.moving.numbers, strict=True):  # type: ignore[union-attr]
+    assert "inertia" in without.effects.law.effects
+    size = next(row.bound for row in without.effects.rows if row.name == part)
+    for one, other in zip(whole.dynamics.numbers, without.dynamics.numbers, strict=True):  # type: ignore[union-attr]
         assert abs(other / one - 1.0) <= size + whole.accuracy.bound + without.accuracy.bound
 
 
 def test_results_as_data(result: Any) -> None:
-    data = json.loads(json.dumps(result.to_json()))["inertia"]
-    ledger = data["ledger"]
-    assert abs(ledger["closure"]) <= 1e-11
-    assert sum(data["mode_energies"]) == pytest.approx(ledger["plate"], rel=1e-12)
+    data = json.loads(json.dumps(result.to_json()))["dynamics"]
+    balance = data["energy_balance"]
+    assert abs(balance["residual"]) <= 1e-11
+    assert sum(data["mode_energies"]) == pytest.approx(balance["plate"], rel=1e-12)
     assert data["contacts"][0]["end"] == result.contact_time
     assert data["contacts"][-1]["end"] == data["total_time"] >= result.contact_time
     impulse = sum(touch["impulse"] for touch in data["contacts"])
     m, v0 = result.model.m, result.model.v0
     assert impulse == pytest.approx(m * v0 * (1.0 + result.restitution), rel=1e-10)
     history = result.history(301)
-    assert isinstance(history, MovingHistory)
+    assert isinstance(history, DynamicHistory)
     rows = list(csv.reader(io.StringIO(history.to_csv())))
     assert rows[0][-2:] == ["deflection", "plate_energy"]
     assert len(rows) == 302
     assert np.max(history.force) == pytest.approx(result.max_force, rel=1e-3)
     assert np.all(history.force >= 0.0)
-    assert 0.5 * m * history.velocity[-1] ** 2 == pytest.approx(ledger["returned"], rel=1e-9)
-    assert history.plate_energy[-1] == pytest.approx(ledger["plate"], rel=1e-9)
+    assert 0.5 * m * history.velocity[-1] ** 2 == pytest.approx(
+        balance["rebound_kinetic"], rel=1e-9
+    )
+    assert history.plate_energy[-1] == pytest.approx(balance["plate"], rel=1e-9)
     page = result._repr_html_()
-    assert "final energy" in page
-    assert "closing speed" in page
+    assert "Final energy" in page
+    assert "approach speed / impact speed" in page
 
 
 def test_times_reach_to_the_last_release(result: Any) -> None:
@@ -113,10 +115,10 @@ def test_times_reach_to_the_last_release(result: Any) -> None:
 
 def test_the_drawing_shades_every_contact(result: Any) -> None:
     drawn = figure(result)
-    contacts = len(result.moving.inertia.contacts)
+    contacts = len(result.dynamics.inertia.contacts)
     shaded = [len(axes.patches) for axes in drawn.axes]
     assert sorted(shaded) == [0, *[contacts] * 4]
-    stacked = next(axes for axes in drawn.axes if "brought" in axes.get_ylabel())
+    stacked = next(axes for axes in drawn.axes if "initial kinetic energy" in axes.get_ylabel())
     assert len(stacked.collections) == 3
 
 
@@ -144,7 +146,7 @@ def test_the_animation_shows_the_plate_move(tmp_path: Path, monkeypatch: Any) ->
 
 def test_profiles_are_zero_at_the_edge_and_the_deflection_at_the_axis(result: Any) -> None:
     times = np.linspace(0.1, 0.9, 5) * result.total_time
-    found = result.moving.profiles(times, np.array([0.0, result.model.b]))
+    found = result.dynamics.profiles(times, np.array([0.0, result.model.b]))
     history = result.at(times).history()
     np.testing.assert_allclose(found[:, 0], history.deflection, rtol=1e-9)
     assert np.max(np.abs(found[:, 1])) <= 1e-9 * np.max(np.abs(found[:, 0]))
@@ -172,8 +174,8 @@ def test_modes_of_a_thin_plate_add_up_to_its_deflection_at_rest(edge: str, facto
 @pytest.mark.parametrize("edge", ["simply-supported", "clamped"])
 def test_a_held_plate_moves_on_its_own_edge(edge: str) -> None:
     held = simulate(scene(plate={"edge": edge}))
-    assert {"edge", "inertia"} <= held.gate.law.effects
-    assert abs(held.moving.ledger.closure) <= 1e-11  # type: ignore[union-attr]
+    assert {"edge", "inertia"} <= held.effects.law.effects
+    assert abs(held.dynamics.energy_balance.residual) <= 1e-11  # type: ignore[union-attr]
     assert 0.0 < held.restitution < 1.0
 
 
@@ -187,4 +189,4 @@ def test_no_code_is_written_of_a_plate_that_moves() -> None:
 def test_explain_says_that_the_plate_moves() -> None:
     told = explain(scene())
     assert any("inertia is included" in note for note in told.notes)
-    assert told.costs["inertia"] > 0.0
+    assert told.evaluation_times["inertia"] > 0.0

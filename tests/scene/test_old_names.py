@@ -226,7 +226,7 @@ def test_a_result_names_nothing_old() -> None:
         found: Scene = read(tables)
     made = json.loads(json.dumps(simulate(found).to_json()))
     assert old_names_in(made["scene"]) == []
-    names = {old.partition(".")[2] for old in KEYS} - {"plate", "closure"}  # energies
+    names = {old.partition(".")[2] for old in KEYS} - {"plate"}  # of the energy balance
     assert not {key for key, _ in keys_and_values(made)} & names
     assert not {row["name"] for row in made["effects"]} & names
 

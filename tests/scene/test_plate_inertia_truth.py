@@ -44,7 +44,7 @@ def test_no_edge_is_felt_before_a_wave_returns_from_it(b: float, thickness: floa
     fastest = 1.1 * first.model.shear_speed
     assert first.total_time < 2.0 * b / fastest
     for other in others:
-        assert "edge" in other.gate.law.effects
+        assert "edge" in other.effects.law.effects
         assert differ(first, other) < 2e-5
 
 
@@ -170,8 +170,8 @@ def test_all_branches_of_a_thick_block_are_computed() -> None:
     """By finite elements and by radiation into a half-space e = 0.9907; thousands of modes."""
     scene = tomllib.loads((EXAMPLES / "impact_echo.toml").read_text())
     found = simulate(read(scene | {"inertia": {"branches": "all"}}))
-    assert found.moving is not None
-    assert found.moving.inertia.modes > 2000
+    assert found.dynamics is not None
+    assert found.dynamics.inertia.modes > 2000
     assert found.restitution == pytest.approx(0.9907, abs=5e-4)
 
 
@@ -180,8 +180,8 @@ def test_branches_are_included_if_the_tolerance_needs_them() -> None:
     scene = pane(0.1, 0.02) | {"impact": {"speed": 1.0}}
     fine = simulate(read(scene | {"inertia": {"branches": "all"}}))
     rough, exact = (simulate(read(scene), rtol=rtol) for rtol in (3e-2, 1e-3))
-    assert rough.moving is not None
-    assert exact.moving is not None
-    assert rough.moving.inertia.modes < exact.moving.inertia.modes
+    assert rough.dynamics is not None
+    assert exact.dynamics is not None
+    assert rough.dynamics.inertia.modes < exact.dynamics.inertia.modes
     for found in (rough, exact):
         assert differ(found, fine) <= found.accuracy.bound + fine.accuracy.bound

@@ -121,7 +121,7 @@ def test_alone_with_numpy_it_repeats_law_and_impact(case: str, tmp_path: Path) -
     place = tmp_path / "alone.py"
     place.write_text(code_of(case))
     result = simulate(scene_of(case))
-    law, a = result.gate.law, radii(case)
+    law, a = result.effects.law, radii(case)
     shape = law.at(a)
     delta = np.minimum(law.indentation(a, shape), names_of(case)["MAX_INDENTATION"])
     run = subprocess.run(
@@ -332,11 +332,11 @@ def test_hertz_alone_is_a_dozen_lines() -> None:
 def test_the_head_says_what_is_in_and_why() -> None:
     text = code_of("glass_pane")
     head = ast.get_docstring(ast.parse(text)) or ""
-    gate = simulate(scene_of("glass_pane")).gate
+    selected = simulate(scene_of("glass_pane")).effects
     inside, out = head.split("Left out:")
-    for row in gate.rows:
+    for row in selected.rows:
         assert f"- {row.name}:" in (inside if row.included else out)
-    assert f"{gate.error:.1e} (tolerance 0.001)" in head
+    assert f"{selected.error:.1e} (tolerance 0.001)" in head
     assert 'material = "glass"' in head
     notes = simulate(scene_of("glass_pane")).warnings
     assert any("inertia is neglected" in text for text in notes)

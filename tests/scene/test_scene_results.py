@@ -20,7 +20,7 @@ from derivation.scene.limits import (
     YIELD_LIMIT,
     check_energy,
     local_indentation,
-    tension_warnings,
+    stress_warnings,
 )
 from derivation.scene.modal import Modes, plate_of
 from derivation.scene.model import model_of
@@ -61,17 +61,17 @@ def write(folder: Path, data: Any) -> str:
 def test_the_deflection_of_a_plate_with_inertia_is_that_of_its_course() -> None:
     """It is largest at another time than the contact radius, and after the last contact too."""
     result = simulate(scene())
-    assert result.moving is not None
+    assert result.dynamics is not None
     history = result.history(4001)
-    local = local_indentation(result.gate.law, history.contact_radius)
+    local = local_indentation(result.effects.law, history.contact_radius)
     touching = history.force > 0.0
     seen = np.max(np.abs(history.indentation - local)[touching])
-    found = result.moving.largest_deflection(result.gate.law)
+    found = result.dynamics.largest_deflection(result.effects.law)
     assert found >= (1 - 1e-6) * seen
     assert found >= 0.98 * np.max(np.abs(history.deflection))
-    problem = result.moving.course.problem
+    problem = result.dynamics.course.problem
     later = np.linspace(1.0, 1.2, 200) * result.total_time
-    assert found >= 0.98 * np.max(np.abs(result.moving.profiles(later, np.zeros(1))))
+    assert found >= 0.98 * np.max(np.abs(result.dynamics.profiles(later, np.zeros(1))))
     assert problem.contact.modes.phi.size == 24  # with "auto" some have two branches
 
 
@@ -90,18 +90,18 @@ def test_the_largest_deflection_is_warned_of_at_whatever_time_it_is() -> None:
     """Here well before the largest indentation."""
     plate = {"radius": 0.08, "yield_stress": 3e8, "tensile_strength": None}
     result = simulate(scene(plate=plate, impact={"speed": 3.0}))
-    assert result.moving is not None
+    assert result.dynamics is not None
     times = np.linspace(0.0, result.total_time, 400)
-    seen = np.abs(result.moving.profiles(times, np.zeros(1))).max()
+    seen = np.abs(result.dynamics.profiles(times, np.zeros(1))).max()
     assert seen > STRETCH_LIMIT * 2.0 * result.model.h
     assert f"exceeds {STRETCH_LIMIT}" in " ".join(result.warnings)
 
 
 def test_tension_is_compared_with_what_is_given() -> None:
-    assert tension_warnings(3e8, None, None) == tension_warnings(1e8, 2e8, 2e8) == ()
-    [failure] = tension_warnings(3e8, 2e8, 4e8)
+    assert stress_warnings(3e8, None, None) == stress_warnings(1e8, 2e8, 2e8) == ()
+    [failure] = stress_warnings(3e8, 2e8, 4e8)
     assert failure.startswith("the largest tensile stress on the back face is 1.5 times the str")
-    [yielding] = tension_warnings(3e8, None, 2e8)
+    [yielding] = stress_warnings(3e8, None, 2e8)
     assert "1.5 times the yield stress: the plate is predicted to yield in bending" in yielding
 
 

@@ -55,7 +55,7 @@ def test_digits_are_those_that_bound_and_model_error_support() -> None:
 
 def test_what_a_scene_disables_is_named_with_its_bound() -> None:
     result = simulate(scene(effects={"sphere_elasticity": False}))
-    row = next(row for row in result.gate.rows if row.disabled)
+    row = next(row for row in result.effects.rows if row.disabled)
     assert row.name == "sphere_elasticity"
     known = row.bound < NO_BOUND
     assert ("at most" if known else "no bound") in result.disabled_note

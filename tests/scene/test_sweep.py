@@ -31,7 +31,7 @@ def test_rows_are_the_simulations_of_their_values(tmp_path: Path) -> None:
         result = simulate(read(data))
         for name in ("contact_time", "max_force", "max_pressure"):
             assert float(row[name]) == getattr(result, name)
-        assert row["effects"].split() == [r.name for r in result.gate.rows if r.included]
+        assert row["effects"].split() == [r.name for r in result.effects.rows if r.included]
 
 
 def test_a_key_stands_in_for_its_alternative() -> None:
@@ -45,8 +45,8 @@ def test_a_sweeps_tolerance_is_that_of_its_simulations() -> None:
     [row] = sweep.run(load(PAPER), sweep.parse("impact.speed=1:1:1"), rtol=0.9)
     result = simulate(load(PAPER), rtol=0.9)
     assert row.results["contact_time"] == result.contact_time
-    assert set(row.effects) == result.gate.law.effects
-    assert result.gate.law.effects < simulate(load(PAPER)).gate.law.effects
+    assert set(row.effects) == result.effects.law.effects
+    assert result.effects.law.effects < simulate(load(PAPER)).effects.law.effects
 
 
 def test_whole_numbers_are_swept_as_such() -> None:

@@ -53,7 +53,7 @@ def figures(case: Model, impact_of: Result) -> dict[str, Figure]:
     }
     found = {name: _drawn(draw, case) for name, draw in drawings.items()}
     with mpl.rc_context({"font.family": "serif"}):
-        return found | {"map": scene_map(impact_of, impact_of.gate.rtol)}
+        return found | {"map": scene_map(impact_of, impact_of.effects.rtol)}
 
 
 def _drawn(draw: Callable[[Figure, Model], None], case: Model) -> Figure:

@@ -30,7 +30,7 @@ def scene_context(name: str, scene: Scene) -> dict[str, Any]:
     rows = [
         " & ".join([rf"\texttt{{{escape(effect)}}}", prose(number), *map(cell, (value, bound)),
                     decided, prose(why)])
-        for effect, number, value, bound, decided, why in found.gate.lines()
+        for effect, number, value, bound, decided, why in found.effects.lines()
     ]  # fmt: skip
     return {
         "name": name,

@@ -262,48 +262,52 @@ def test_the_panes_tension_is_that_of_its_force() -> None:
     force, a = result.max_force, result.max_contact_radius
     m = result.model
     expected = kernels.supported_far_stress(force, a, m.h, m.b, m.lam, m.mu)
-    assert result.max_tension == float(expected)
-    assert result.to_json()["max_tension"] == result.max_tension
+    assert result.max_tensile_stress == float(expected)
+    assert result.to_json()["max_tensile_stress"] == result.max_tensile_stress
     (shown,) = (value for name, value, _ in result.rows() if name == "max tension")
-    assert float(shown) == pytest.approx(result.max_tension, rel=10.0 ** (1 - result.digits))
-    assert f"= {45e6 / result.max_tension:.3g}" in result.verdict
+    assert float(shown) == pytest.approx(result.max_tensile_stress, rel=10.0 ** (1 - result.digits))
+    assert f"= {45e6 / result.max_tensile_stress:.3g}" in result.strength_note
     assert result.inertia_neglected
-    assert "plate inertia is neglected" in result.verdict
-    assert result.verdict in result._repr_html_().replace("&#x27;", "'")
+    assert "plate inertia is neglected" in result.strength_note
+    assert result.strength_note in result._repr_html_().replace("&#x27;", "'")
 
 
 def test_the_tension_of_a_pane_that_moves_is_that_of_its_largest_force_at_rest() -> None:
     data = load(PANE).to_json() | {"effects": {"inertia": "auto"}}
     result = simulate(read(data | {"plate": data["plate"] | {"tensile_strength": 1e9}}))
-    assert "inertia" in result.gate.law.effects
+    assert "inertia" in result.effects.law.effects
     force, a, m = result.max_force, result.max_contact_radius, result.model
     expected = kernels.supported_far_stress(force, a, m.h, m.b, m.lam, m.mu)
-    assert result.max_tension == float(expected)
-    assert "quasi-static, under the peak force" in result.verdict
-    assert "inertia is neglected" not in result.verdict
+    assert result.max_tensile_stress == float(expected)
+    assert "quasi-static, under the peak force" in result.strength_note
+    assert "inertia is neglected" not in result.strength_note
 
 
 def test_it_breaks_on_one_side_of_its_strength_only() -> None:
-    tension = simulate(pane()).max_tension
+    tension = simulate(pane()).max_tensile_stress
     for factor, breaks in ((0.999, True), (1.001, False)):
         result = simulate(pane(tensile_strength=factor * tension))
         said = [text for text in result.warnings if "predicted to fail" in text]
         assert bool(said) is breaks
-        assert bool(result.verdict) is not breaks
+        assert bool(result.strength_note) is not breaks
     assert simulate(pane()).verdict == ""
 
 
 def test_effects_left_out_change_the_force_alone() -> None:
     """The stress of a given force is the whole plate's; the edge alone can be switched off."""
     whole = simulate(pane(), rtol=1e-9)
-    law, a, force = whole.gate.law, whole.max_contact_radius, whole.max_force
-    loose = simulate(pane(), rtol=0.5).gate.law
+    law, a, force = whole.effects.law, whole.max_contact_radius, whole.max_force
+    loose = simulate(pane(), rtol=0.5).effects.law
     assert loose.effects < law.effects
-    assert loose.max_tension(a, force) == law.max_tension(a, force) == whole.max_tension
-    soft = law.max_tension(a, force, held=False)
+    assert (
+        loose.max_tensile_stress(a, force)
+        == law.max_tensile_stress(a, force)
+        == whole.max_tensile_stress
+    )
+    soft = law.max_tensile_stress(a, force, held=False)
     m = law.model
     assert soft == float(kernels.far_stress(force, a, m.h, m.b, m.lam, m.mu))
-    assert soft > whole.max_tension
+    assert soft > whole.max_tensile_stress
 
 
 def resultant(distance: Array, pressure: Array) -> float:

@@ -240,8 +240,8 @@ def test_it_changes_no_result(name: str, rtol: float | None) -> None:
     without = simulate(read(data), rtol=rtol)
     data["effects"] = {**data.get("effects", {}), "compare_paper_motion": True}
     found = simulate(read(data), rtol=rtol)
-    assert found.gate.law == without.gate.law
-    assert found.gate.error == without.gate.error
+    assert found.effects.law == without.effects.law
+    assert found.effects.error == without.effects.error
     assert found.accuracy == without.accuracy
     assert found.warnings == without.warnings
     made, plain = found.to_json(), without.to_json()
@@ -255,7 +255,7 @@ def test_it_changes_no_result(name: str, rtol: float | None) -> None:
 def test_it_is_no_effect() -> None:
     """It stands in no table of effects, and changes neither a static contact nor the reference."""
     asked, plain = read(compared(compare_paper_motion=True)), read(compared())
-    assert explain(asked).gate == explain(plain).gate
+    assert explain(asked).effects == explain(plain).effects
     assert indent(asked, force=[10.0]) == indent(plain, force=[10.0])
     wanted = compared(compare_paper_motion=True), compared()
     one, other = (derivation.checks.effects.everything(data) for data in wanted)

@@ -175,11 +175,13 @@ def test_energy_closes(
     except SceneError:  # beyond the law's range
         return
     found = moved(ContactLaw(model, effects))
-    assert found.ledger is not None
-    assert abs(found.ledger.closure) < 1e-12
-    assert found.ledger.dissipated > 0.0 < found.ledger.left
+    assert found.energy_balance is not None
+    assert abs(found.energy_balance.residual) < 1e-12
+    assert found.energy_balance.viscous_loss > 0.0 < found.energy_balance.unrecovered_elastic
     assert 0.0 < found.restitution < 1.0
-    assert found.restitution**2 == pytest.approx(found.ledger.returned / found.ledger.brought)
+    assert found.restitution**2 == pytest.approx(
+        found.energy_balance.rebound_kinetic / found.energy_balance.initial_kinetic
+    )
     assert found.quadrature < 1e-9
 
 
@@ -190,9 +192,9 @@ def test_energy_closes_with_weight_and_true_pressure() -> None:
         PLATE | {"gravity", "non_hertzian_pressure", "spherical_profile", "sphere_elasticity"},
     )
     found = moves(law)
-    assert found.ledger is not None
-    assert found.ledger.weight > 0.0
-    assert abs(found.ledger.closure) < 1e-12
+    assert found.energy_balance is not None
+    assert found.energy_balance.gravity_work > 0.0
+    assert abs(found.energy_balance.residual) < 1e-12
     hertz = moves(replace(law, effects=law.effects - {"non_hertzian_pressure"}))
     assert found.numbers == pytest.approx(hertz.numbers, rel=0.02)
     assert found.numbers != pytest.approx(hertz.numbers, rel=1e-5)
@@ -272,15 +274,17 @@ def test_each_output_of_a_heavy_sphere_is_within_its_bound(
     wanted = dict.fromkeys((*WHOLE_PLATE, "gravity", "spherical_profile"), True) | {
         "viscosity": False
     }
-    gate = decide(model, AT_REST | wanted | {"non_hertzian_pressure": False}, 1.0, (output,))
-    bound = {row.name: row.bound for row in gate.rows}["viscosity"]
+    selected = decide(model, AT_REST | wanted | {"non_hertzian_pressure": False}, 1.0, (output,))
+    bound = {row.name: row.bound for row in selected.rows}["viscosity"]
     place = OUTPUTS.index(output)
     try:
-        true = moves(replace(gate.law, effects=gate.law.effects | {"viscosity"})).numbers[place]
+        true = moves(replace(selected.law, effects=selected.law.effects | {"viscosity"})).numbers[
+            place
+        ]
     except SceneError:  # it stays
         assert bound == math.inf
     else:
-        assert abs(moves(gate.law).numbers[place] / true - 1.0) <= bound
+        assert abs(moves(selected.law).numbers[place] / true - 1.0) <= bound
 
 
 def test_bending_stays_with_an_edge_that_does_not_lag() -> None:
@@ -301,10 +305,10 @@ def test_gate_keeps_its_word_either_side_of_its_threshold(edge: str, gravity: fl
         "viscosity"
     ]
     for rtol, included in ((price / 2, True), (price * 1.05, False)):
-        gate = decide(model, AT_REST | others, rtol)
-        assert ("viscosity" in gate.law.effects) is included
+        selected = decide(model, AT_REST | others, rtol)
+        assert ("viscosity" in selected.law.effects) is included
         whole = moves(ContactLaw(model, frozenset(n for n in ALL if not BY_NAME[n].absent(model))))
-        found = moves(gate.law)
+        found = moves(selected.law)
         errors = [abs(x / y - 1) for x, y in zip(found.numbers, whole.numbers, strict=True)]
-        assert max(errors) <= gate.error + 1e-11 <= rtol + 1e-11
+        assert max(errors) <= selected.error + 1e-11 <= rtol + 1e-11
     assert OUTPUTS[-1] == "restitution"

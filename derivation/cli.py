@@ -149,7 +149,7 @@ def misprints(paper: PaperFolder = None, json: Json = None) -> None:
     with stage("compare printed with derived"):
         findings = build.misprints(own)
     if put_json(lambda: [finding.to_json() for finding in findings], json):
-        rows = [(f.printed.equation, f.printed.name, f.diagnosis.kind, f.repair) for f in findings]
+        rows = [(f.printed.equation, f.printed.name, f.kind, f.repair) for f in findings]
         table("Published and derived formulas", ("equation", "formula", "finding", "fix"), rows)
 
 

@@ -50,7 +50,7 @@ def misprints() -> tuple[Finding, ...]:
     Examples
     --------
     >>> import platecontact as pc
-    >>> sum(finding.diagnosis.kind == "equal" for finding in pc.misprints()) > 0
+    >>> sum(finding.kind == "correct as published" for finding in pc.misprints()) > 0
     True
     """
     return derived.misprints()

@@ -12,7 +12,8 @@ from derivation.scene.impact import simulate
 from derivation.scene.scene import OUTPUTS, SceneError, read
 
 COLUMNS = (
-    "case", "#elements' error", "#difference", "in", "#bound", "#model error", "#contacts", "kept",
+    "case", "#elements' error", "#difference", "worst result", "#bound", "#model error",
+    "#contacts", "kept",
 )  # fmt: skip
 
 

@@ -1,7 +1,7 @@
 """Whether a plate that moves is what its bounds say: random scenes against a richer model.
 
 Scenes are drawn one by one from a seed and their number, log-uniform over shapes, stiffnesses,
-densities and speeds. Tolerances are placed by the caller on both sides of the gate's threshold. The
+densities and speeds. The caller places tolerances on both sides of the selection threshold. The
 truth is the same scene with every effect, twice the modes and all branches, solved by the caller
 too, so that this file knows no scene.
 """
@@ -29,7 +29,7 @@ class Found:
     rtol
         The tolerance asked for [1].
     included
-        Whether the gate took inertia in.
+        Whether the selection included inertia.
     values, truth
         The results, and those of the richer model.
     bound
@@ -67,7 +67,7 @@ class Row:
     number, rtol
         The scene and its tolerance.
     included
-        Whether the gate took inertia in.
+        Whether the selection included inertia.
     bound, error, quantity
         Stated bound, largest difference from the truth, and of which result [1].
     total_time
@@ -117,7 +117,7 @@ class Judged:
 
 @dataclass(frozen=True)
 class Side:
-    """How the bounds held on one side of the gate's threshold.
+    """How the bounds held on one side of the selection threshold.
 
     Parameters
     ----------
@@ -244,15 +244,18 @@ def _worst(values: Sequence[float], truth: Sequence[float]) -> tuple[float, str]
     return max(errors), OUTPUTS[errors.index(max(errors))]
 
 
-COLUMNS = ("inertia", "#scenes", "#worst error/rtol", "of", "#error/bound", "#change/price")
+COLUMNS = (
+    "inertia", "#scenes", "#worst error/rtol", "worst result", "#error/bound",
+    "#change/bound if omitted",
+)  # fmt: skip
 """Heads of the table of sides; the price is what leaving inertia out may change."""
 
 
 def cells(judged: Judged) -> list[tuple[str, ...]]:
     """A line of the table for each side."""
     return [
-        ("in" if side.included else "out", str(side.scenes), f"{side.ratio:.3f}", side.quantity,
-         f"{side.tightest:.3f}", f"{side.price:.3f}")
+        ("included" if side.included else "omitted", str(side.scenes), f"{side.ratio:.3f}",
+         side.quantity, f"{side.tightest:.3f}", f"{side.price:.3f}")
         for side in sides(judged.rows)
     ]  # fmt: skip
 

@@ -172,7 +172,7 @@ def _sweep(
         heads = (f"#{key}", *(f"#{n} [{u}]" for n, u in UNITS.items()))
         cells = [
             [f"{row.value:.6g}"]
-            + [f"{row.results[name]:.6g}" if row.results else "-" for name in UNITS]
+            + [f"{row.results[name]:.6g}" if row.results else "n/a" for name in UNITS]
             for row in rows
         ]
         table(f"Sweep of {scene.name}", heads, cells)

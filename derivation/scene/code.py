@@ -241,12 +241,15 @@ def _words(
         for table, keys in data.items()
     ]
     rows = [
-        f"{row.name}: {BY_NAME[row.name].equation}; {row.number} = {row.value:.3g}, {row.why}"
+        f"{row.name}: {BY_NAME[row.name].equation}; "
+        f"{row.parameter} = {row.parameter_value:.3g}, {row.reason}"
         for row in selected.rows
         if row.included and BY_NAME[row.name].by_itself  # what is only compared is not in the law
     ]
     out = [
-        f"{row.name}: " + (row.why if math.isnan(row.value) else f"{_bound(row.bound)}; {row.why}")
+        f"{row.name}: "
+        + ("" if math.isnan(row.parameter_value) else f"{_bound(row.bound)}; ")
+        + row.reason
         for row in selected.rows
         if not row.included
     ]

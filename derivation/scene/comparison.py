@@ -10,8 +10,8 @@ from derivation.scene.model import Model
 from generated.perturbation import PrintedMotion, printed_motion
 
 HEADS = (
-    "motion", "#time [s]", "#off by", "#indentation [m]", "#off by",
-    "#breaks [s]", "#t/t_c",
+    "motion", "#time [s]", "#difference", "#indentation [m]", "#difference",
+    "#valid until [s]", "#t/t_c",
 )  # fmt: skip
 """Heads of the table."""
 MODES = 100
@@ -79,15 +79,15 @@ class Comparison:
     @property
     def title(self) -> str:
         """What the table shows."""
-        return f"The paper's own motion, its sums cut off after {self.modes} modes"
+        return f"The paper's own motion, its sums truncated after {self.modes} modes"
 
     @property
     def note(self) -> str:
         """How to read it."""
         return (
-            "for comparison only: the sums diverge; a correction breaks, at t/t_c of the way to "
-            "the linear motion's turning point, while the indentation grows, so that it has no "
-            "contact time, and its largest indentation is that where it breaks"
+            "For comparison only: the sums diverge. A correction is valid only up to t/t_c of the "
+            "linear motion's time to its turning point. The indentation still grows there, so the "
+            "correction has no contact time; its largest indentation is the last valid one."
         )
 
     def lines(self) -> list[tuple[str, ...]]:
@@ -122,7 +122,7 @@ def compare(model: Model, contact_time: float, max_indentation: float) -> Compar
         end = motion.breaks_at
         return motion_of(name, math.nan, float(motion.corrected(end)), end, motion.share)
 
-    rows = broken("as printed, (16)-(18)", printed), broken("corrected, (16)-(18)", derived)
+    rows = broken("as published, (16)-(18)", printed), broken("corrected, (16)-(18)", derived)
     return Comparison(MODES, (linear, *rows))
 
 
@@ -131,4 +131,4 @@ def _number(value: float) -> float | None:
 
 
 def _shown(value: float | None, how: str) -> str:
-    return "-" if value is None else format(value, how)
+    return "n/a" if value is None else format(value, how)

@@ -19,7 +19,9 @@ from derivation.scene.model import Model
 from derivation.scene.omission_bounds import LargestContact, error_of, price_of, size_of, state_of
 from derivation.scene.scene import OUTPUTS, SceneError
 
-HEADS = ("effect", "number", "value", "max. change if omitted", "", "why")
+HEADS = (
+    "effect", "parameter", "parameter value", "max. change if omitted", "status", "reason",
+)  # fmt: skip
 """Heads of the effects table."""
 
 
@@ -31,30 +33,30 @@ class EffectRow:
     ----------
     name, adds
         The effect, and what it adds.
-    number, value
-        Its dimensionless number: what it is, and how large here [1].
+    parameter, parameter_value
+        Its dimensionless parameter, and the value in this scene [1]; NaN if it does not apply.
     bound
         Relative change of the results, the worst of them, if it is left out [1]; infinite
         where no bound is shown.
     included
         Whether it is computed.
-    why
+    reason
         The reason.
     disabled
-        Whether the scene switches it off.
+        Whether the scene disables it.
     """
 
     name: str
     adds: str
-    number: str
-    value: float
+    parameter: str
+    parameter_value: float
     bound: float
     included: bool
-    why: str
+    reason: str
     disabled: bool = False
 
     def to_json(self) -> dict[str, Any]:
-        """The row under fixed keys; a number or bound that there is not is null."""
+        """The row under fixed keys; null where there is no value or no bound."""
         return {
             name: None if isinstance(value, float) and not math.isfinite(value) else value
             for name, value in vars(self).items()
@@ -62,11 +64,13 @@ class EffectRow:
 
     def cells(self) -> tuple[str, str, str, str, str, str]:
         """The row as it is shown."""
-        applies = not math.isnan(self.value)
-        value = f"{self.value:.3g}" if applies else "-"
+        unknown = math.isnan(self.parameter_value)
+        value = "n/a" if unknown else f"{self.parameter_value:.3g}"
         bound = f"{self.bound:.1e}" if self.bound < NO_BOUND else "no bound"
-        decided = "in" if self.included else "out"
-        return self.name, self.number, value, bound if applies else "-", decided, self.why
+        status = "included" if self.included else "omitted"
+        if unknown and not self.bound:  # the effect does not apply
+            bound = status = "n/a"
+        return self.name, self.parameter, value, bound, status, self.reason
 
 
 @dataclass(frozen=True)
@@ -105,7 +109,7 @@ class SelectedEffects:
         return any(BY_NAME[name].other_edge for name in self.forced_out)
 
     def lines(self) -> list[tuple[str, str, str, str, str, str]]:
-        """Effect, number, value, bound, in or out, and why, to be read by people."""
+        """The rows as they are shown, under `HEADS`."""
         return [row.cells() for row in self.rows]
 
     def to_html(self) -> str:

@@ -42,7 +42,7 @@ class Explanation:
         shown = (
             f"{1e6 * self.evaluation_times[line[0]]:.0f} us"
             if line[0] in self.evaluation_times
-            else "-"
+            else "n/a"
             for line in self.effects.lines()
         )
         return [(*line, time) for line, time in zip(self.effects.lines(), shown, strict=True)]
@@ -87,7 +87,7 @@ def _change(bound: float) -> str:
     return f"changes the results by at most {bound:.1e}" if bound < NO_BOUND else "no bound"
 
 
-COLUMNS = (*HEADS, "term takes")
+COLUMNS = (*HEADS, "evaluation time")
 """Heads of the table."""
 REPEATS, SHORT = 3, 1e-3
 """How often a term is timed, of which the least counts, unless once takes longer [s]."""

@@ -134,9 +134,9 @@ def test_the_new_effect_has_its_row(copy: Path) -> None:
 
     asked = copy / "asked.toml"
     asked.write_text(SCENE.read_text().replace("[effects]", "[effects]\ndrag = true"))
-    assert row(SCENE)["value"] is None
+    assert row(SCENE)["parameter_value"] is None
     shown = row(asked)
-    assert 1e-9 < float(str(shown["value"])) < 1e-5
+    assert 1e-9 < float(str(shown["parameter_value"])) < 1e-5
     assert 0 < float(str(shown["bound"])) < 1e-5
 
 

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from derivation.engine import build
+from derivation.engine.errata.findings import CORRECT
 from derivation.engine.files import ROOT
 from derivation.engine.load import PaperError, begin, load
 from derivation.engine.measure.domain_grid import inside
@@ -79,12 +80,12 @@ def test_a_misprint_is_found_and_the_cache_notices_edits(folder: Path) -> None:
         shown = run("misprints", "--paper", str(folder), "--json", "-", home=folder.parent)
         return {row["name"]: row["kind"] for row in json.loads(shown.split("✓")[0])}
 
-    assert findings() == {"F_bonded": "equal", "F_slipping": "sign"}
+    assert findings() == {"F_bonded": CORRECT, "F_slipping": "sign"}
     printed = folder / "printed.py"
     wrong = printed.read_text()
     try:
         printed.write_text(wrong.replace("(sp.sinh(T) - T)", "(sp.sinh(T) + T)"))
-        assert findings() == {"F_bonded": "equal", "F_slipping": "equal"}
+        assert findings() == {"F_bonded": CORRECT, "F_slipping": CORRECT}
     finally:
         printed.write_text(wrong)
     theory = folder / "theory.py"

@@ -80,11 +80,11 @@ def test_forced_choices_are_honoured_and_priced() -> None:
     assert "gravity" in out.law.effects
     rows = {row.name: row for row in out.rows}
     assert rows["bending"].disabled
-    assert rows["gravity"].why == "true in the scene"
+    assert rows["gravity"].reason == "true in the scene"
     small = {row.name: row for row in decide(m, AT_REST | {"finite_radius": False}, 1e-9).rows}[
         "finite_radius"
     ]
-    assert f"at most {100 * small.bound:.2g} %" in small.why
+    assert f"at most {100 * small.bound:.2g} %" in small.reason
     hertz = ALL - {"non_hertzian_pressure"}
     whole, without = (motion.impact(ContactLaw(m, e)) for e in (hertz, hertz - {"finite_radius"}))
     changes = [abs(b / a - 1) for a, b in zip(whole.numbers, without.numbers, strict=True)]
@@ -125,12 +125,12 @@ def test_numbers_are_those_of_the_largest_contact() -> None:
         "bending": 2 / math.pi * a * m.b**2 / (2 * m.h) ** 3,
     }  # fmt: skip
     for name, value in true.items():
-        assert rows[name].value == pytest.approx(value, rel=0.02)
-    assert rows["finite_radius"].value == pytest.approx(0.37 * a / m.b, rel=0.01)
+        assert rows[name].parameter_value == pytest.approx(value, rel=0.02)
+    assert rows["finite_radius"].parameter_value == pytest.approx(0.37 * a / m.b, rel=0.01)
     # The static plate's: supported over hinged is (3 + nu)/(2 (1 + nu)).
     nu = m.lam / (2 * (m.lam + m.mu))
-    share = rows["bending"].value * ((3 + nu) / (2 * (1 + nu)) - 1)
-    assert rows["edge"].value == pytest.approx(share, rel=0.15)
+    share = rows["bending"].parameter_value * ((3 + nu) / (2 * (1 + nu)) - 1)
+    assert rows["edge"].parameter_value == pytest.approx(share, rel=0.15)
 
 
 def test_outputs_that_do_not_matter_take_in_nothing() -> None:
@@ -237,3 +237,17 @@ def test_rows_are_shown_in_every_output() -> None:
     assert [row["name"] for row in made] == [effect.name for effect in EFFECTS]
     assert effect_selection.HEADS[0] in result._repr_html_()
     assert result.model == model_of(scene())
+
+
+def test_a_row_tells_not_applicable_from_omitted_without_a_bound() -> None:
+    """Of inertia without a density no parameter is known, whether it is disabled or omitted."""
+    found = decide(model(gravity=0.0), {"inertia": False}, 1e-3)
+    cells = {
+        line[0]: dict(zip(effect_selection.HEADS, line, strict=True)) for line in found.lines()
+    }
+    away = cells["gravity"]
+    assert [away[h] for h in ("parameter value", "max. change if omitted", "status")] == ["n/a"] * 3
+    disabled = cells["inertia"]
+    assert disabled["parameter value"] == "n/a"
+    assert (disabled["max. change if omitted"], disabled["status"]) == ("no bound", "omitted")
+    assert cells["hertz"]["status"] == "included"

@@ -9,6 +9,8 @@ from derivation.engine.errata.relations import Formulas, Relations
 from derivation.engine.formula.notation import to_latex, to_markdown
 from derivation.engine.formula.record import Record
 
+CORRECT = "correct as published"
+
 
 @dataclass(frozen=True)
 class Printed:
@@ -71,6 +73,11 @@ class Finding:
         return self.diagnosis.verdict == DIFFERENT
 
     @property
+    def kind(self) -> str:
+        """The kind of misprint, or that there is none."""
+        return self.diagnosis.kind if self.is_misprint else CORRECT
+
+    @property
     def repair(self) -> str:
         """The correction, with the remark if there is one."""
         return f"{self.diagnosis.repair}. {self.remark}" if self.remark else self.diagnosis.repair
@@ -87,7 +94,7 @@ class Finding:
             "derived": str(diagnosis.derived),
             "derived_latex": f"{self.formula.latex} = {self.formula.right_hand_side}",
             "verdict": diagnosis.verdict,
-            "kind": diagnosis.kind,
+            "kind": self.kind,
             "repair": self.repair,
             "repaired": None if diagnosis.repaired is None else str(diagnosis.repaired),
             "ratio": None if diagnosis.ratio is None else str(diagnosis.ratio),
@@ -105,9 +112,7 @@ class Finding:
 
     def _repr_markdown_(self) -> str:
         """Published and derived formula, and the correction, for a notebook."""
-        where = (
-            f"**({self.printed.equation}) {to_markdown(self.printed.name)}: {self.diagnosis.kind}**"
-        )
+        where = f"**({self.printed.equation}) {to_markdown(self.printed.name)}: {self.kind}**"
         repair = f"\n\n{to_markdown(self.repair)}." if self.is_misprint else ""
         return f"{where}\n\n{self._repr_latex_()}{repair}"
 

@@ -122,7 +122,7 @@ def finding_context(finding: Finding) -> dict[str, Any]:
         "printed": as_printed(printed.symbol, printed.full or printed.latex),
         "derived": body(formula),
         "equal": not finding.is_misprint,
-        "kind": diagnosis.kind[0].upper() + diagnosis.kind[1:],
+        "kind": finding.kind[0].upper() + finding.kind[1:],
         "repair": spoken(
             finding.repair[0].upper() + finding.repair[1:].rstrip("."), formula.vocabulary
         ),

@@ -5,7 +5,7 @@ from typing import Any
 
 from derivation.plate.benchmark.headline import DIGITS
 
-COLUMNS = ("task", "#digits", "method", "#ns a point", "#over cheapest", "ties")
+COLUMNS = ("task", "#digits", "method", "#ns a point", "#relative time", "ties")
 CASES = ("paper", "scene")
 """Regimes shown: the paper's, or the scene in its place."""
 

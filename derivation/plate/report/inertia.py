@@ -21,7 +21,7 @@ def inertia_context(data: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _row(side: Mapping[str, Any]) -> str:
-    """Cells of a side of the gate's threshold."""
-    cells = ["in" if side["included"] else "left out", str(side["scenes"])]
+    """Cells of a side of the selection threshold."""
+    cells = ["included" if side["included"] else "omitted", str(side["scenes"])]
     cells += [f"{side[key]:.2f}" for key in ("ratio", "tightest", "price")]
     return " & ".join([*cells, escape(side["quantity"].replace("_", " "))])

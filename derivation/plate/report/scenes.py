@@ -1,4 +1,4 @@
-"""The effects tables of scenes as the report shows them, by the gate of every simulation."""
+"""The effects tables of scenes as the report shows them, by the selection of every simulation."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -8,7 +8,7 @@ from derivation.scene import explain
 from derivation.scene.effects import EFFECTS
 from derivation.scene.scene import Scene
 
-HEADS = ("effect", "number", "value", "if omitted", "", "reason")
+HEADS = ("effect", "parameter", "value", "max. change", "status", "reason")
 """Heads of the effects table, shorter than on the screen."""
 
 
@@ -28,9 +28,9 @@ def scene_context(name: str, scene: Scene) -> dict[str, Any]:
     """The effects table of a scene and the decision in a sentence."""
     found = explain(scene)
     rows = [
-        " & ".join([rf"\texttt{{{escape(effect)}}}", prose(number), *map(cell, (value, bound)),
-                    decided, prose(why)])
-        for effect, number, value, bound, decided, why in found.effects.lines()
+        " & ".join([rf"\texttt{{{escape(effect)}}}", prose(parameter), *map(cell, (value, bound)),
+                    status, prose(reason)])
+        for effect, parameter, value, bound, status, reason in found.effects.lines()
     ]  # fmt: skip
     return {
         "name": name,

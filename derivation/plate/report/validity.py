@@ -32,7 +32,7 @@ def law_context(formulas: Mapping[str, Record]) -> dict[str, Any]:
 
 
 def limit_rows() -> list[str]:
-    """Number, limit, what happens beyond it and why; the limits are those of the code."""
+    """Parameter, limit, what happens beyond it and the reason; the limits are those of the code."""
     open_, held = f"{non_hertzian_pressure.OPEN:g}", f"{edge.WIDEST:g}"
     curved = f"{spherical_profile.LARGEST:g}"
     thin, thick = (rounded(ratio) for ratio in PLATES)

@@ -332,7 +332,11 @@ def in_doubles(scene: Scene) -> Result:
     if missing or needed:
         model = model_of(scene)
         beyond = (e for e in EFFECTS if e.name in known and e.name not in WHOLE_PLATE)
-        applied = {e.name for e in beyond if not e.absent(model) and switched[e.name] is not False}
+        applied = {
+            e.name
+            for e in beyond
+            if not e.not_applicable_reason(model) and switched[e.name] is not False
+        }
         names = sorted({*missing, *needed, *applied})
         lines = [f"{name} = {str(known[name]).lower()}" for name in names]
         parts = [f"needs {', '.join(needed)}"] if needed else []

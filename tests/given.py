@@ -15,7 +15,7 @@ EXAMPLES = Path(derivation.scene.__file__).parent / "examples"
 PAPER = EXAMPLES / "paper.toml"
 AT_REST = {"inertia": False}
 """What a scene wants whose plate follows at rest."""
-ALL = frozenset(name for name, effect in BY_NAME.items() if effect.by_itself) - AT_REST.keys()
+ALL = frozenset(name for name, effect in BY_NAME.items() if effect.selectable) - AT_REST.keys()
 """Every effect of a law at rest; the plate of `model` is simply supported."""
 
 

@@ -45,7 +45,9 @@ def everything(data: Scene) -> tuple[Sequence[float], Sequence[str]] | None:
     None beyond the range of the models.
     """
     model = model_of(read(data))
-    present = sorted(e.name for e in EFFECTS if not e.absent(model) and e.name != "inertia")
+    present = sorted(
+        e.name for e in EFFECTS if not e.not_applicable_reason(model) and e.name != "inertia"
+    )
     try:
         found = moved(ContactLaw(model, frozenset(present)))
     except SceneError:

@@ -140,7 +140,7 @@ def at_rest(model: Model) -> motion.Motion | None:
 
 def present(model: Model) -> frozenset[str]:
     """Every effect that applies."""
-    return frozenset(e.name for e in EFFECTS if e.by_itself and not e.absent(model))
+    return frozenset(e.name for e in EFFECTS if e.selectable and not e.not_applicable_reason(model))
 
 
 def oscillators(model: Model) -> int:
@@ -162,4 +162,4 @@ def _moving(model: Model, rtol: float) -> DynamicImpact:
 
 def _modes(found: DynamicImpact) -> int:
     """How many wave numbers the plate has."""
-    return len(np.unique(found.course.problem.contact.modes.phi))
+    return len(np.unique(found.impact_history.problem.contact.modes.phi))

@@ -285,7 +285,9 @@ class _Motion:
         if self.pressed(state) <= 0.0:
             return np.concatenate(([0.0], own))
         at, unit = self._touching(state), problem.force
-        return np.concatenate((-at.force / unit, own + problem.drive * at.felt[0] / unit))
+        return np.concatenate(
+            (-at.force / unit, own + problem.inverse_modal_mass * at.felt[0] / unit)
+        )
 
     def force(self, state: Array) -> float:
         """Contact force."""

@@ -244,7 +244,7 @@ def _words(
         f"{row.name}: {BY_NAME[row.name].equation}; "
         f"{row.parameter} = {row.parameter_value:.3g}, {row.reason}"
         for row in selected.rows
-        if row.included and BY_NAME[row.name].by_itself  # what is only compared is not in the law
+        if row.included and BY_NAME[row.name].selectable  # what is only compared is not in the law
     ]
     out = [
         f"{row.name}: "

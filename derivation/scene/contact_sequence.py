@@ -17,7 +17,7 @@ from derivation.scene.time_element import (
     DynamicProblem,
     ImpactState,
     P,
-    Piece,
+    TimeElement,
     V,
     element,
     onset,
@@ -41,13 +41,13 @@ CONTACTS, ELEMENTS, WORK = 100, 20_000, 2.5e7
 """How many contacts of an impact are followed, with how many elements in all, and with how much
 work: elements weighted by the time that each takes."""
 TOLD = 50
-"""Elements after which a course says how far it is."""
+"""Elements after which the simulation reports its progress."""
 SHARP = 0.05
 """How much of the slope of the gap is left where the plate is nearly as curved as the sphere."""
 STAYS = 20.0
 """Contact time over half a swing on the resting plate from which a sphere is held to stay."""
 LEFT = "the sphere has left the plate's reach"
-"""Why a course ends."""
+"""Why a simulation ends."""
 
 
 class Touching(NamedTuple):
@@ -59,21 +59,21 @@ class Touching(NamedTuple):
     start: float
     end: float
     radius: float
-    pieces: tuple[Piece, ...]
+    pieces: tuple[TimeElement, ...]
     before: ImpactState
     after: ImpactState
 
 
 @dataclass(frozen=True)
-class Course:
+class ImpactHistory:
     """The contacts of an impact.
 
     Attributes
     ----------
     reason
-        Why the course ends.
+        Why the simulation ends.
     remedy
-        What makes it end with the sphere's departure; empty if it does.
+        What to change so that it ends when the sphere has separated for good; empty if it does.
     """
 
     problem: DynamicProblem
@@ -87,8 +87,8 @@ class Course:
         return not self.remedy
 
 
-def course(problem: DynamicProblem, n: int, tolerance: float = TOLERANCE) -> Course:
-    """An impact from the first contact on, by elements of n nodes.
+def impact_history(problem: DynamicProblem, n: int, tolerance: float = TOLERANCE) -> ImpactHistory:
+    """Simulate an impact from the first contact on, by elements of n nodes.
 
     Parameters
     ----------
@@ -97,7 +97,7 @@ def course(problem: DynamicProblem, n: int, tolerance: float = TOLERANCE) -> Cou
 
     Returns
     -------
-    Course
+    ImpactHistory
         All contacts; those before, if one is not followed to its end.
 
     Raises
@@ -117,15 +117,15 @@ def course(problem: DynamicProblem, n: int, tolerance: float = TOLERANCE) -> Cou
             if problem.weight and wait < math.inf:
                 wait, radius = meeting(problem, touching.after, touching.pieces[-1].radius)
             if wait == math.inf or touching.end + wait > problem.heard:
-                return Course(problem, tuple(found), LEFT)
+                return ImpactHistory(problem, tuple(found), LEFT)
             _check_count(problem, found, touching.end + wait)
         except IncompleteError as end:
             if not found:
                 raise
-            return Course(problem, tuple(found), end.why, end.remedy)
+            return ImpactHistory(problem, tuple(found), end.why, end.remedy)
         t, state = touching.end + wait, problem.flown(touching.after, wait)
         if not radius:
-            state = state._replace(into=0.0)
+            state = state._replace(approach=0.0)
 
 
 def steps_of(problem: DynamicProblem) -> int:
@@ -140,7 +140,7 @@ def weight_of(problem: DynamicProblem) -> float:
 
 
 def _check_count(problem: DynamicProblem, found: list[Touching], t: float) -> None:
-    """End a course that has had as many contacts as are followed."""
+    """End a simulation that has as many contacts as are followed."""
     if len(found) >= CONTACTS:
         raise IncompleteError(
             f"the sphere had not left the plate for good after {len(found)} contacts and "
@@ -166,7 +166,7 @@ def contact(
     radius
         At its beginning: above 0 where the face has not recovered from the contact before.
     tolerance
-        As `course` takes it.
+        As `impact_history` takes it.
     most
         Elements at most.
 
@@ -175,7 +175,7 @@ def contact(
     IncompleteError
         If it takes more elements, or cannot be followed.
     """
-    found: list[Piece] = []
+    found: list[TimeElement] = []
     x, length, state, first = _begun(begin, radius), FIRST, begin, radius
     origin = start - x**ONSET
     # Before a quantity has grown, what counts is how large it will be.
@@ -192,7 +192,7 @@ def contact(
         if found:
             guess = found[-1].element.slope_at(x + length * radau(n).x)
         else:
-            guess = np.zeros(n) if first else onset(problem, n, length, -begin.opening)
+            guess = np.zeros(n) if first else onset(problem, n, length, -begin.separation_speed)
         made = element(problem, n, x, length, state, radius, guess)
         if made is None:
             length *= 0.5
@@ -201,7 +201,8 @@ def contact(
         largest = np.maximum(scale, np.max(np.abs(rows), axis=1, keepdims=True))
         # Where the contact closes its radius matters beside itself: it says when.
         unit = np.vstack((OWN * np.max(np.abs(rows[A])), largest[V:]))
-        if problem.lag:  # a force by the radius' rate is as rough as that, and only integrated
+        # A force that depends on the rate of the radius is as rough as that; it is only integrated.
+        if problem.retardation_time:
             unit[P] *= ROUGH
         error = float(np.max(np.abs(rows[:, -2:]) / unit))
         change = 0.9 * (tolerance / max(error, 1e-300)) ** (1.0 / n)
@@ -217,7 +218,7 @@ def contact(
         x, state, radius, scale = x + length, made.end, made.radius, largest
         length = min(LONGEST, length * min(2.0, change))
         left = _left(state)
-        if left < CLOSED * x**ONSET and not problem.lag:
+        if left < CLOSED * x**ONSET and not problem.retardation_time:
             more, after = _released(problem, made, left)
             return Touching(start, start + x**ONSET + more, first, tuple(found), begin, after)
     raise _lost(problem, state, radius, problem.T * (origin + x**ONSET))
@@ -230,13 +231,13 @@ def _begun(begin: ImpactState, radius: float) -> float:
     as fast as now, would have begun to press in the face by as much as it still is: later, they
     are too coarse for the forces of a small radius.
     """
-    if not radius or begin.opening >= 0.0:
+    if not radius or begin.separation_speed >= 0.0:
         return 1.0 if radius else 0.0
-    return min(1.0, float((begin.into / -begin.opening) ** (1.0 / ONSET)))
+    return min(1.0, float((begin.approach / -begin.separation_speed) ** (1.0 / ONSET)))
 
 
 def _endless(problem: DynamicProblem, t: float) -> IncompleteError:
-    """A course that takes too many steps."""
+    """A simulation that takes too many steps."""
     return IncompleteError(
         f"the sphere was still in contact {problem.T * t:.6g} s after the first contact, when the "
         f"limit of {steps_of(problem)} time steps was reached",
@@ -268,7 +269,7 @@ def _lost(
 
 def _left(state: ImpactState) -> float:
     """How long a contact lasts if sphere and plate part as fast as now."""
-    return state.into / state.opening if state.opening > 0.0 else math.inf
+    return state.approach / state.separation_speed if state.separation_speed > 0.0 else math.inf
 
 
 def _longest(problem: DynamicProblem, n: int, x: float, state: ImpactState | None) -> float:
@@ -282,7 +283,7 @@ def _longest(problem: DynamicProblem, n: int, x: float, state: ImpactState | Non
 
 def _check_weight(problem: DynamicProblem, x: float) -> None:
     """End with a sphere that its weight keeps on the plate: it stays far longer than it swings."""
-    swing = math.pi * math.sqrt(float(np.sum(problem.drive / problem.omega**2)))
+    swing = math.pi * math.sqrt(float(np.sum(problem.inverse_modal_mass / problem.omega**2)))
     if problem.weight and x**ONSET > STAYS * max(1.0, swing):
         raise IncompleteError(
             "the weight of the sphere keeps it on the plate",
@@ -291,8 +292,8 @@ def _check_weight(problem: DynamicProblem, x: float) -> None:
 
 
 def _let_go(
-    problem: DynamicProblem, n: int, made: Piece, state: ImpactState, radius: float
-) -> Piece:
+    problem: DynamicProblem, n: int, made: TimeElement, state: ImpactState, radius: float
+) -> TimeElement:
     """The element that ends where its force does."""
     for _ in range(3):
         x, end = made.element.x, made.element.end(P)
@@ -304,20 +305,20 @@ def _let_go(
     return made
 
 
-def _released(problem: DynamicProblem, last: Piece, left: float) -> tuple[float, ImpactState]:
+def _released(problem: DynamicProblem, last: TimeElement, left: float) -> tuple[float, ImpactState]:
     """The last of a contact, as a half-space's: the force falls by the power 3/2 of the time."""
     state, force = last.end, float(np.sum(last.element.rows[P]))
     after = state
     for _ in range(3):
         flown = problem.flown(state, left)
         push, shift = 0.4 * left, 2.0 / 7.0 * left * left
-        pulled = problem.drive * last.felt[problem.contact.modes.shape]
+        pulled = problem.inverse_modal_mass * last.felt[problem.contact.modes.shape]
         after = ImpactState(
-            flown.way - force * shift,
+            flown.displacement - force * shift,
             flown.velocity - force * push,
             flown.q + pulled * shift,
-            flown.rate + pulled * push,
-            flown.into - force * shift - float(np.sum(pulled)) * shift,
+            flown.q_dot + pulled * push,
+            flown.approach - force * shift - float(np.sum(pulled)) * shift,
         )
-        left += after.into / after.opening
-    return left, after._replace(into=0.0)
+        left += after.approach / after.separation_speed
+    return left, after._replace(approach=0.0)

@@ -210,16 +210,16 @@ def select(
         If the scene includes an effect and disables a part of it, or disables a part of one that
         it must not omit.
     """
-    asked = {e.name for e in EFFECTS if not e.by_itself and wanted.get(e.name) is True}
-    reasons = {e.name: "" if e.name in asked else e.absent(model) for e in EFFECTS}
+    asked = {e.name for e in EFFECTS if not e.selectable and wanted.get(e.name) is True}
+    reasons = {e.name: "" if e.name in asked else e.not_applicable_reason(model) for e in EFFECTS}
     blocked = _blocked(wanted)
     present = [effect for effect in EFFECTS if not reasons[effect.name]]
     choice = {effect.name: wanted.get(effect.name, "auto") for effect in present}
-    present = [effect for effect in present if effect.by_itself]
+    present = [effect for effect in present if effect.selectable]
     free = {effect.name for effect in present if choice[effect.name] is not False}
     # What comes in with an effect costs nothing there; of pressure the bounds are Hertz's.
     along = {effect.name: effect.contains & free for effect in EFFECTS}
-    included = {e.name for e in present if e.forced or choice[e.name] is True}
+    included = {e.name for e in present if e.always_included or choice[e.name] is True}
     required: dict[str, str] = {}
     for name in sorted(included):
         required |= dict.fromkeys(along[name] - included, name)
@@ -279,12 +279,12 @@ def _row(
     state, choice, reasons, error = found.state, found.choice, found.reasons, found.error
     model, name = state.law.model, effect.name
     radius = state.law.limit if math.isnan(state.a) else state.a
-    included = name in state.law.effects or not effect.by_itself
+    included = name in state.law.effects or not effect.selectable
     if reasons[name]:
-        return EffectRow(name, effect.adds, effect.number, math.nan, 0.0, False, reasons[name])
+        return EffectRow(name, effect.adds, effect.parameter, math.nan, 0.0, False, reasons[name])
     value = effect.value(model, radius)
     bound = price_of(state, effect, outputs) if included else error_of(state, [effect], outputs)
-    if effect.forced:
+    if effect.always_included:
         why = "always"
     elif choice[name] != "auto":
         worst = max(outputs, key=lambda output: error_of(state, [effect], [output]))
@@ -297,8 +297,8 @@ def _row(
         why = f"omitted it could exceed {tolerance}"
     else:
         why = f"all omitted effects together change the results by at most {error:.1e}"
-    disabled = choice[name] is False and effect.by_itself
-    return EffectRow(name, effect.adds, effect.number, value, bound, included, why, disabled)
+    disabled = choice[name] is False and effect.selectable
+    return EffectRow(name, effect.adds, effect.parameter, value, bound, included, why, disabled)
 
 
 def _forced(included: bool, bound: float, output: str) -> str:

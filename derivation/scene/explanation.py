@@ -122,7 +122,7 @@ def _evaluation_time(law: ContactLaw, effect: Effect) -> float:
     Of plate inertia that of its modes and tables.
     """
     a = rule(NODES[0]).x * min(law.limit, law.model.h)
-    alone = law.only(lambda e: e.forced or e == effect)
+    alone = law.only(lambda e: e.always_included or e == effect)
     best = math.inf
     with np.errstate(all="ignore"):
         for _ in range(REPEATS):

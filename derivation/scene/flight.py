@@ -32,7 +32,7 @@ def meeting(problem: DynamicProblem, after: ImpactState, radius: float) -> tuple
         If this is not found out within `BLOCKS` blocks of looks.
     """
     omega, state, begin = problem.omega, after, 0.0
-    reach = float(np.sum(np.hypot(state.q, state.rate / omega)))
+    reach = float(np.sum(np.hypot(state.q, state.q_dot / omega)))
     block = max(2, min(BLOCK, AT_ONCE // omega.size))
     t = STEP / float(np.max(omega)) * np.arange(block + 1)
     turn = np.outer(t, omega)
@@ -40,22 +40,22 @@ def meeting(problem: DynamicProblem, after: ImpactState, radius: float) -> tuple
     for _ in range(BLOCKS * (BLOCK // block)):
         clear = _clear(problem, state)
         begin, state = begin + clear, problem.flown(state, clear)
-        bent = sin * (state.rate / omega) - versed * state.q
-        into = state.into + state.velocity * t + 0.5 * problem.weight * t * t
+        bent = sin * (state.q_dot / omega) - versed * state.q
+        into = state.approach + state.velocity * t + 0.5 * problem.weight * t * t
         into -= np.sum(bent, axis=1)
-        opening = cos @ state.rate - sin @ (state.q * omega) - state.velocity - problem.weight * t
-        if problem.lag:
+        opening = cos @ state.q_dot - sin @ (state.q * omega) - state.velocity - problem.weight * t
+        if problem.retardation_time:
             into -= _pressed(problem, np.add(begin, t), radius, np.add(state.q, bent))
         turned = (opening[:-1] < 0.0) & (opening[1:] > 0.0)  # they come closest in between
         for k in np.flatnonzero((into[1:] >= 0.0) | turned):
             low, high = begin + float(t[k]), begin + float(t[k + 1])
             if into[k + 1] < 0.0:
-                high = _where(lambda t: problem.flown(after, t).opening < 0.0, low, high)
+                high = _where(lambda t: problem.flown(after, t).separation_speed < 0.0, low, high)
             if _into(problem, after, high, radius) >= 0.0:
                 met = _where(lambda t: _into(problem, after, t, radius) < 0.0, low, high)
                 return met, float(_recovered(problem, np.array([met]), radius)[0])
         begin, state = begin + float(t[-1]), problem.flown(state, float(t[-1]))
-        if -state.way > reach and state.velocity <= 0.0:
+        if -state.displacement > reach and state.velocity <= 0.0:
             return math.inf, 0.0
     raise IncompleteError(
         f"sphere and plate moved side by side without contact for {problem.T * begin:.6g} s, the "
@@ -71,8 +71,8 @@ def _clear(problem: DynamicProblem, state: ImpactState) -> float:
     The fast ones, whose amplitudes add up to a part of the gap, cannot close it. What a
     viscoelastic face is still pressed in only widens the gap.
     """
-    order, gap = problem.by_speed, -state.into
-    omega, q, rate = (x[order] for x in (problem.omega, state.q, state.rate))
+    order, gap = problem.by_speed, -state.approach
+    omega, q, rate = (x[order] for x in (problem.omega, state.q, state.q_dot))
     beyond = np.cumsum(np.hypot(q, rate / omega)[::-1])[::-1]
     slow = max(1, int(np.searchsorted(-beyond, -FAST * gap)))
     if gap <= 0.0 or 2 * slow > order.size:
@@ -81,7 +81,7 @@ def _clear(problem: DynamicProblem, state: ImpactState) -> float:
     t = STEP / float(omega[-1]) * np.arange(max(2, min(BLOCK, AT_ONCE // slow)) + 1)
     turn = np.outer(t, omega)
     bent = np.sin(turn) @ (rate / omega) - 2.0 * np.sin(turn / 2.0) ** 2 @ q
-    into = state.into + state.velocity * t + 0.5 * problem.weight * t * t - bent
+    into = state.approach + state.velocity * t + 0.5 * problem.weight * t * t - bent
     # The fast ones may go from one end of their swing to the other.
     near = np.flatnonzero(into + 2.0 * float(beyond[slow]) >= 0.0)
     return float(t[max(int(near[0]) - 1, 0)]) if near.size else float(t[-1])
@@ -90,9 +90,9 @@ def _clear(problem: DynamicProblem, state: ImpactState) -> float:
 def _into(problem: DynamicProblem, after: ImpactState, t: float, radius: float) -> float:
     """By how much the sphere is further than the face, a time after the release."""
     state = problem.flown(after, t)
-    if not problem.lag:
-        return state.into
-    return state.into - float(_pressed(problem, np.array([t]), radius, state.q[None])[0])
+    if not problem.retardation_time:
+        return state.approach
+    return state.approach - float(_pressed(problem, np.array([t]), radius, state.q[None])[0])
 
 
 def _pressed(problem: DynamicProblem, t: Array, radius: float, q: Array) -> Array:
@@ -105,16 +105,16 @@ def _pressed(problem: DynamicProblem, t: Array, radius: float, q: Array) -> Arra
 def _recovered(problem: DynamicProblem, t: Array, radius: float) -> Array:
     """Radius at which the face is after a time without force: P_e falls like exp(-t/A_v)."""
     none = np.zeros_like(t)
-    if not problem.lag or not np.any(t < RECOVERED * problem.lag):
+    if not problem.retardation_time or not np.any(t < RECOVERED * problem.retardation_time):
         return none
     grid = radius * np.linspace(0.0, 1.0, 64)
     root = np.cbrt(problem.contact.at(problem.a * grid).force)
-    goal = root[-1] ** 3 * np.exp(-np.minimum(t / problem.lag, RECOVERED))
+    goal = root[-1] ** 3 * np.exp(-np.minimum(t / problem.retardation_time, RECOVERED))
     a = np.interp(np.cbrt(goal), root, grid)
     for _ in range(3):
         at = problem.contact.at(problem.a * a)
         a = a * np.cbrt(goal / at.force)
-    return np.where(t < RECOVERED * problem.lag, a, none)
+    return np.where(t < RECOVERED * problem.retardation_time, a, none)
 
 
 def _where(before: Callable[[float], bool], low: float, high: float) -> float:

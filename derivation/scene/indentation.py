@@ -124,7 +124,11 @@ def indent(
 def law_at_rest(scene: Scene) -> ContactLaw:
     """The law of every effect that applies to a static contact and is not false."""
     model, wanted = model_of(scene), scene.effects.model_dump()
-    present = (effect.name for effect in EFFECTS if effect.static and not effect.absent(model))
+    present = (
+        effect.name
+        for effect in EFFECTS
+        if effect.static and not effect.not_applicable_reason(model)
+    )
     return ContactLaw(model, frozenset(name for name in present if wanted.get(name) is not False))
 
 

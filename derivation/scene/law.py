@@ -20,8 +20,8 @@ import numpy as np
 
 from derivation.scene import kernels
 from derivation.scene.effects import BY_NAME, PAPER, WHOLE_PLATE, edge
-from derivation.scene.effects.effect import Array, Effect, PlateEffect, Reach, Share
-from derivation.scene.effects.finite_thickness import plate_share
+from derivation.scene.effects.effect import Array, Contribution, Effect, PlateEffect, Reach
+from derivation.scene.effects.finite_thickness import plate_contribution
 from derivation.scene.model import Model
 from derivation.scene.quadrature import NODES, gauss
 
@@ -230,7 +230,7 @@ class ContactLaw:
             edge.CLAMPED: kernels.clamped_far_stress,
         }
         model = self.model
-        reached = a <= edge.WIDEST * model.b and model.eta <= THICK
+        reached = a <= edge.MAX_A_OVER_B * model.b and model.eta <= THICK
         stress = of.get(model.edge if held and reached else "", kernels.far_stress)
         return float(stress(force, a, model.h, model.b, model.lam, model.mu))
 
@@ -266,7 +266,7 @@ class ContactLaw:
         growth = found.stiffness * found.slope / (4.0 * self.modulus * equal) * (R / equal)
         part = 1.0 / (1.0 + self.softness)
         for effect in self._beyond_whole_plate:
-            share = effect.share(self.model, equal)
+            share = effect.contribution(self.model, equal)
             depth = depth + part * (equal / a) ** 2 * share.depth
             additive = additive + part * share.slope
         return Shape(force, depth, additive * growth * (equal / a), additive)
@@ -303,20 +303,20 @@ class ContactLaw:
         if not differs or self.effects >= WHOLE_PLATE:
             return 0.0
         radii = np.array([a])
-        whole, slope = plate_share(self.model, radii), self.at(radii).additive
+        whole, slope = plate_contribution(self.model, radii), self.at(radii).additive
         return float(CANCELLED * np.abs(whole.slope[0]) / slope[0])
 
-    def deflection(self, a: Array) -> Share:
+    def deflection(self, a: Array) -> Contribution:
         """The plate's parts of F and S at Hertz's radii [m], of a rigid sphere."""
         if self.effects >= WHOLE_PLATE:
-            found, others = [plate_share(self.model, a)], self._beyond_whole_plate
+            found, others = [plate_contribution(self.model, a)], self._beyond_whole_plate
         else:
             found, others = [], self.plate_effects
-        found += [effect.share(self.model, a) for effect in others]
+        found += [effect.contribution(self.model, a) for effect in others]
         depth, slope = found[0]
         for other in found[1:]:
             depth, slope = depth + other.depth, slope + other.slope
-        return Share(depth, slope)
+        return Contribution(depth, slope)
 
     @property
     def _beyond_whole_plate(self) -> tuple[PlateEffect, ...]:

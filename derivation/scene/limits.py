@@ -21,7 +21,7 @@ STRETCH_LIMIT = 0.5
 """Plate deflection over thickness above which the plate's middle surface stretches."""
 ZENER_LIMIT = 0.006
 """Zener's number above which an infinite plate's waves carry off 1 % of the speed."""
-SLOW = 10.0
+QUASI_STATIC_PERIODS = 10.0
 """Contact time over the first bending period from which the plate follows without inertia."""
 SHARE_LIMIT = 0.01
 """Share of the plate's deflection in the indentation below which its inertia is no matter."""
@@ -29,7 +29,7 @@ YIELD_LIMIT = 1.6
 """Pressure over yield stress at which a metal begins to yield below the contact."""
 GRAZING = 1e-3
 """Approach speed over the impact speed, or force over the largest, below which a contact grazes."""
-MILD = 0.3
+SMALL_CORRECTION = 0.3
 """Relative correction above which its leading term is no estimate any more."""
 Values = TypeVar("Values", float, Array)
 DOUBT = 1e-3
@@ -209,7 +209,7 @@ def contact_warnings(speeds: Sequence[float], least: float) -> tuple[str, ...]:
     slow = min(speeds)
     if slow >= GRAZING and least >= GRAZING:
         return ()
-    how = f"contact nearly lost: the force falls to {least:.2g} of its largest value"
+    how = f"grazing contact: the force falls to {least:.2g} of its largest value"
     if slow < GRAZING:
         how = f"grazing re-contact at {slow:.2g} of the impact speed"
     text = (
@@ -229,7 +229,7 @@ def neglects_inertia(
         return False
     h, b, lam, mu = model.numbers[3:]
     period = float(kernels.bending_period(h, b, lam, mu, model.density))
-    slow = contact_time >= SLOW * period
+    slow = contact_time >= QUASI_STATIC_PERIODS * period
     return not slow and (zener_number(model) > ZENER_LIMIT or deflection > SHARE_LIMIT)
 
 
@@ -258,8 +258,9 @@ def motion_warnings(
         found.append(
             f"plate inertia is neglected but may matter: Zener's number lambda = {zener:.3g} "
             f"(negligible below {ZENER_LIMIT}), contact time over the first bending period on the "
-            f"paper's edge = {contact_time / period:.3g} (quasi-static above {SLOW:g}), plate "
-            f"deflection {100 * deflection:.3g} % of the indentation"
+            f"paper's edge = {contact_time / period:.3g} (quasi-static above "
+            f"{QUASI_STATIC_PERIODS:g}), plate deflection {100 * deflection:.3g} % of the "
+            "indentation"
         )
     plate = model.inertia
     echoing = moving and plate.branches == "all" and not plate.infinite_plate
@@ -349,7 +350,7 @@ def curvature_cost(model: Model, a: float, indentation: float) -> float:
 
 
 def _cost(change: float) -> str:
-    if abs(change) > MILD:
+    if abs(change) > SMALL_CORRECTION:
         return f"the error is too large to estimate (leading term {100 * change:+.2g} % of it)"
     return f"the indentation at this force would change by about {100 * change:+.2g} %"
 

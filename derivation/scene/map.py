@@ -56,7 +56,11 @@ class Grid:
 def drawn(result: Result) -> list[str]:
     """Effects that the map has lines of: of a static contact, as others depend on the speed."""
     model = result.model
-    return [e.name for e in EFFECTS if e.static and not (e.forced or e.absent(model))]
+    return [
+        e.name
+        for e in EFFECTS
+        if e.static and not (e.always_included or e.not_applicable_reason(model))
+    ]
 
 
 def grid(result: Result, rtol: float) -> Grid:

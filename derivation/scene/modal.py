@@ -52,7 +52,7 @@ class Modes:
         Wave numbers of the shapes [1/m], shape (shapes,).
     omega
         Angular frequencies [1/s], shape (oscillators,).
-    drive
+    inverse_modal_mass
         Acceleration by a unit force [1/kg]; over omega^2 the static compliance.
     first
         Index of each shape's first oscillator, shape (shapes,).
@@ -65,7 +65,7 @@ class Modes:
 
     phi: Array
     omega: Array
-    drive: Array
+    inverse_modal_mass: Array
     first: Indices
     held: "Waves | None" = None
     b: float = 1.0
@@ -73,7 +73,7 @@ class Modes:
     @property
     def compliance(self) -> Array:
         """Static deflection at the axis by a unit force [m/N], of each shape."""
-        return self.by_shape(self.drive / self.omega**2)
+        return self.by_shape(self.inverse_modal_mass / self.omega**2)
 
     @cached_property
     def shape(self) -> Indices:
@@ -196,9 +196,9 @@ def _residue(x: Array, root: Array, residue: Array, nu: float, lagging: bool) ->
 
 def _modes(model: Model, shapes: _Shapes, held: "Waves | None" = None) -> Modes:
     """Modes in SI."""
-    drive = shapes.strength / (model.density * model.h * model.b * model.b)
+    inverse_mass = shapes.strength / (model.density * model.h * model.b * model.b)
     omega = shapes.root * (model.shear_speed / model.h)
-    return Modes(shapes.k / model.b, omega, drive, shapes.first, held, model.b)
+    return Modes(shapes.k / model.b, omega, inverse_mass, shapes.first, held, model.b)
 
 
 def _branches(model: Model, lowest: _Shapes, highest: float, without: int = 0) -> _Shapes:

@@ -7,7 +7,7 @@ from derivation.scene.materials import MATERIALS, lame_constants, plane_strain_m
 from derivation.scene.scene import Plate, Scene, SceneError, Sphere
 
 NUMBERS = ("R", "m", "v0", "h", "b", "lam", "mu")
-ALONE, LONGER = 3.3, 5.0
+HERTZ_TIME, TIME_BY_ZENER = 3.3, 5.0
 """Contact time over (m^2/(K^2 v0))^(1/5), 2.94 by Hertz's law and little more on a plate; and how
 it grows with Zener's number: a first guess, for the radius of an infinite plate."""
 
@@ -175,7 +175,7 @@ def _unbounded(model: Model) -> float:
     alone = math.pow(model.m / stiffness, 0.4) / math.pow(model.v0, 0.2)
     bending = model.modulus * (2.0 * model.h) ** 3 / 12.0
     zener = model.m / (8.0 * alone * math.sqrt(bending * 2.0 * model.h * model.density))
-    time = alone * (ALONE + LONGER * zener)
+    time = alone * (HERTZ_TIME + TIME_BY_ZENER * zener)
     return max(model.shear_speed * time, 4.0 * model.h)
 
 

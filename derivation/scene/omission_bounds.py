@@ -11,7 +11,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from derivation.scene import kernels
-from derivation.scene.effects.effect import Along, Array, Bound, Effect, Place, PlateEffect, Results
+from derivation.scene.effects.effect import (
+    Array,
+    Bound,
+    BoundContext,
+    Effect,
+    LawSamples,
+    PlateEffect,
+    Results,
+)
 from derivation.scene.effects.inertia import WIDER
 from derivation.scene.law import ContactLaw, Shape
 from derivation.scene.motion import largest_radius
@@ -28,7 +36,7 @@ MARGIN = 1.05
 
 @dataclass(frozen=True)
 class LargestContact:
-    """A law at its largest radius [m]: S_1 at the place's radii, and elasticities of S_1.
+    """A law at its largest radius [m]: S_1 at the radii of `context`, and elasticities of S_1.
 
     `growth` is the largest elasticity of the contact radius by Hertz's radius of the force, at
     least 1. `a` is NaN if the impact exceeds the law's range.
@@ -36,7 +44,7 @@ class LargestContact:
 
     law: ContactLaw
     a: float
-    place: Place
+    context: BoundContext
     slope: Array
     fall: float
     rise: float
@@ -65,23 +73,23 @@ def state_of(law: ContactLaw, top: float = TOP) -> LargestContact:
         inner, last = (Shape(*(x[part] for x in shape)) for part in (slice(-1), slice(-1, None)))
         elasticity = nodes.x * (nodes.derivative @ inner.additive) / inner.additive
         equal = np.concatenate(([0.0], radii * np.cbrt(shape.force)))
-        along = _along(law, radii, shape)
+        samples = _samples(law, radii, shape)
     fall, rise = max(0.0, -float(np.min(elasticity))), max(0.0, float(np.max(elasticity)))
     # P goes with the cube of Hertz's radius, and dP = 2 E* a_H d delta/S.
     swelling = inner.slope / (inner.additive * np.cbrt(inner.force) ** 2)
     growth = 1.0 + MARGIN * max(0.0, float(np.max(1.0 / swelling)) - 1.0)
-    place = Place(equal, a * (a / law.model.R) * float(last.depth[0]), along)
+    context = BoundContext(equal, a * (a / law.model.R) * float(last.depth[0]), samples)
     slope = np.concatenate(([1.0], shape.additive))
-    return LargestContact(law, a, place, slope, MARGIN * fall, MARGIN * rise, growth)
+    return LargestContact(law, a, context, slope, MARGIN * fall, MARGIN * rise, growth)
 
 
-def _along(law: ContactLaw, radii: Array, shape: Shape) -> Along:
+def _samples(law: ContactLaw, radii: Array, shape: Shape) -> LawSamples:
     """Force, indentation, stiffness and energy at the nodes and the largest radius."""
     nodes, top = rule(NODES[0]), radii[-1]
     power = (shape.force * shape.slope)[:-1]
     share = np.append(stored(NODES[0]) @ power, np.sum(nodes.weights * nodes.x**4 * power))
     unit = law.force(top, Shape(*np.ones(4))) * law.indentation(top, Shape(*np.ones(4)))
-    return Along(
+    return LawSamples(
         law.force(radii, shape),
         law.indentation(radii, shape),
         law.stiffness(radii, shape),
@@ -91,9 +99,9 @@ def _along(law: ContactLaw, radii: Array, shape: Shape) -> Along:
 
 
 def bound_of(state: LargestContact, effect: Effect, stretch: float = 1.0) -> Bound:
-    """An effect's bound at the state's place, whose radii the sphere's elasticity may stretch."""
+    """An effect's bound in the state's context, whose radii the sphere's elasticity may stretch."""
     with np.errstate(all="ignore"):
-        found = effect.bound(state.law.model, state.place.stretched(stretch))
+        found = effect.bound(state.law.model, state.context.stretched(stretch))
     if not effect.bounded(state.law):
         return found._replace(up=found.up + math.inf)
     if isinstance(effect, PlateEffect):
@@ -167,7 +175,7 @@ def size_of(state: LargestContact, effect: Effect, outputs: Sequence[str]) -> fl
 
 def price_of(state: LargestContact, effect: Effect, outputs: Sequence[str]) -> float:
     """What leaving out an effect that is in would change: the law with it lies beside S_1."""
-    if effect.forced or math.isnan(state.a):
+    if effect.always_included or math.isnan(state.a):
         return math.inf
     if effect.dynamic:
         state = state_of(state.law.only(lambda e: not e.dynamic))

@@ -25,27 +25,27 @@ from derivation.scene.effects.effect import Array
 from derivation.scene.modal import ContactTables, sinc_less_one
 
 A, V, Z, P, W, E, LOST, LEAK = range(8)
-"""Rows of an element: radius, velocity, way, force, the plate's deflection and energy, and per x
-the energy lost and that which a closure at the axis leaks."""
+"""Rows of an element: radius, velocity, displacement, force, the plate's deflection and energy, and
+per x the energy lost in the contact and by the pointwise coupling."""
 
 
 class ImpactState(NamedTuple):
-    """Displacement and velocity of the sphere, deflection and rate of the oscillators.
+    """Displacement and velocity of the sphere, deflection and velocity of the modes.
 
-    `into` is the distance of the sphere beyond the plate's face: the difference of displacement
-    and deflections, which are not subtracted, as it may be far smaller.
+    `approach` is the displacement of the sphere less the deflection of the plate. It is integrated
+    and not subtracted, as it may be far smaller than both.
     """
 
-    way: float
+    displacement: float
     velocity: float
     q: Array
-    rate: Array
-    into: float
+    q_dot: Array
+    approach: float
 
     @property
-    def opening(self) -> float:
-        """How fast they part."""
-        return float(np.sum(self.rate)) - self.velocity
+    def separation_speed(self) -> float:
+        """Velocity of the plate less that of the sphere: positive while they separate."""
+        return float(np.sum(self.q_dot)) - self.velocity
 
 
 @dataclass(frozen=True)
@@ -60,7 +60,7 @@ class DynamicProblem:
         Units of radius [m] and time [s], mass [kg] and speed [m/s].
     weight
         What presses the sphere on, in units of v0/T.
-    lag
+    retardation_time
         A_v over T.
     heard
         Time from which waves may return from the edge of a plate that is to have none.
@@ -72,7 +72,7 @@ class DynamicProblem:
     m: float
     v0: float
     weight: float = 0.0
-    lag: float = 0.0
+    retardation_time: float = 0.0
     heard: float = math.inf
 
     @property
@@ -91,9 +91,9 @@ class DynamicProblem:
         return self.contact.modes.omega * self.T
 
     @cached_property
-    def drive(self) -> Array:
-        """Acceleration of an oscillator by a unit force."""
-        return self.contact.modes.drive * self.m
+    def inverse_modal_mass(self) -> Array:
+        """Acceleration of a mode by a unit force."""
+        return self.contact.modes.inverse_modal_mass * self.m
 
     @cached_property
     def by_speed(self) -> NDArray[np.intp]:
@@ -107,19 +107,19 @@ class DynamicProblem:
 
     def energies(self, state: ImpactState) -> Array:
         """Of each oscillator, over m v0^2."""
-        return (state.rate**2 + (self.omega * state.q) ** 2) / (2.0 * self.drive)
+        return (state.q_dot**2 + (self.omega * state.q) ** 2) / (2.0 * self.inverse_modal_mass)
 
     def flown(self, state: ImpactState, t: float) -> ImpactState:
         """A state after free flight."""
         turn = self.omega * t
-        bent = state.rate * t * sinc_less_one(turn) - 2.0 * state.q * np.sin(turn / 2.0) ** 2
+        bent = state.q_dot * t * sinc_less_one(turn) - 2.0 * state.q * np.sin(turn / 2.0) ** 2
         fallen = 0.5 * self.weight * t * t
         return ImpactState(
-            state.way + state.velocity * t + fallen,
+            state.displacement + state.velocity * t + fallen,
             state.velocity + self.weight * t,
-            state.q + state.rate * t + bent,
-            state.rate * np.cos(turn) - state.q * self.omega * np.sin(turn),
-            state.into - state.opening * t + (fallen - float(np.sum(bent))),
+            state.q + state.q_dot * t + bent,
+            state.q_dot * np.cos(turn) - state.q * self.omega * np.sin(turn),
+            state.approach - state.separation_speed * t + (fallen - float(np.sum(bent))),
         )
 
 
@@ -154,7 +154,7 @@ class Values(NamedTuple):
     v: Array
     z: Array
     q: Array
-    into: Array
+    approach: Array
     force: Array
     felt: Array
     load_a: Array
@@ -164,7 +164,7 @@ class Values(NamedTuple):
     share: Array
 
 
-class Piece(NamedTuple):
+class TimeElement(NamedTuple):
     """An element with its end: state, radius, and the force that drives each shape there."""
 
     element: Element
@@ -181,20 +181,20 @@ def nodes_of(problem: DynamicProblem, n: int, x: float, length: float, start: Im
     since = t - x**ONSET
     turn = np.outer(since, problem.omega)
     cos, sin = np.cos(turn), np.sin(turn)
-    free = start.rate * since[:, None] * sinc_less_one(turn)
+    free = start.q_dot * since[:, None] * sinc_less_one(turn)
     free -= 2.0 * start.q * np.sin(turn / 2.0) ** 2
     by_x = length * rule.integral
     by_t = by_x * rate
-    even = modes.by_shape(start.q) + since[:, None] * modes.by_shape(start.rate)
+    even = modes.by_shape(start.q) + since[:, None] * modes.by_shape(start.q_dot)
     response = _response(problem, cos, sin) * by_t
     moved = modes.by_shape(free)
     return Nodes(xs, t, since, rate, by_x, by_t, cos, sin, free, response, moved, even)
 
 
 def _response(problem: DynamicProblem, cos: Array, sin: Array) -> Array:
-    """sum (drive/omega) sin(omega (t_i - t_k)) of each shape, shape (shapes, nodes, nodes)."""
+    """sum sin(omega (t_i - t_k))/(M omega) per shape, shape (shapes, nodes, nodes)."""
     modes = problem.contact.modes
-    strong = sin * (problem.drive / problem.omega)
+    strong = sin * (problem.inverse_modal_mass / problem.omega)
     if modes.first.size == modes.omega.size:
         one = strong.T[:, :, None] * cos.T[:, None, :]
         return np.asarray(one - one.transpose(0, 2, 1), dtype=np.float64)
@@ -215,7 +215,7 @@ def values_at(
     felt = np.column_stack((at.force, at.felt)) / problem.force
     felt_a = np.column_stack((at.force_a, at.felt_a)) * (problem.a / problem.force)
     # The pressure keeps its shape: the retarded part drives each shape in the same proportion.
-    load_y = (problem.lag / nodes.rate * felt_a[:, 0] / felt[:, 0])[:, None] * felt
+    load_y = (problem.retardation_time / nodes.rate * felt_a[:, 0] / felt[:, 0])[:, None] * felt
     load = felt + load_y * y[:, None]
     force, driven = load[:, 0], load[:, 1:]
     slowed = nodes.by_t @ force
@@ -227,9 +227,9 @@ def values_at(
         a,
         y,
         start.velocity + problem.weight * nodes.since - slowed,
-        start.way + start.velocity * nodes.since + fallen,
+        start.displacement + start.velocity * nodes.since + fallen,
         q,
-        start.into - start.opening * nodes.since + (fallen - np.sum(bent, axis=1)),
+        start.approach - start.separation_speed * nodes.since + (fallen - np.sum(bent, axis=1)),
         force,
         driven,
         felt_a + 2.0 * load_y * (y / a)[:, None],  # d2P/da2 is nearly (2/a) dP/da
@@ -248,7 +248,7 @@ def element(
     start: ImpactState,
     radius: float,
     y: Array,
-) -> Piece | None:
+) -> TimeElement | None:
     """An element, by Newton's iteration from a guess of da/dx; None if it does not converge."""
     nodes, size = nodes_of(problem, n, x, length, start), math.inf
     for _ in range(NEWTON):
@@ -256,7 +256,7 @@ def element(
         if not np.all(at.a > 0.0):
             return None
         system = _system(problem, nodes, at) / nodes.t[:, None]
-        step = newton_step(system, (at.into - at.depth) / nodes.t, nodes.by_x, at.a)
+        step = newton_step(system, (at.approach - at.depth) / nodes.t, nodes.by_x, at.a)
         if step is None:
             return None
         y, before, size = y + step[0], size, step[1]
@@ -274,11 +274,11 @@ def _system(problem: DynamicProblem, nodes: Nodes, at: Values) -> Array:
         return np.asarray(by_force * load[:, 0] + moved, dtype=np.float64)
 
     found = (np.diag(at.depth_a) + by_load(at.load_a)) @ nodes.by_x
-    return found + by_load(at.load_y) if problem.lag else found
+    return found + by_load(at.load_y) if problem.retardation_time else found
 
 
 def _swing(nodes: Nodes, driven: Array) -> tuple[Array, Array]:
-    """Deflections over drive/omega and rates over drive of the oscillators under a force."""
+    """Deflections times M omega and velocities times M of the modes of mass M under a force."""
     cosine = nodes.by_t @ (nodes.cos * driven)
     sine = nodes.by_t @ (nodes.sin * driven)
     return nodes.sin * cosine - nodes.cos * sine, nodes.cos * cosine + nodes.sin * sine
@@ -286,17 +286,18 @@ def _swing(nodes: Nodes, driven: Array) -> tuple[Array, Array]:
 
 def _piece(
     problem: DynamicProblem, nodes: Nodes, at: Values, start: ImpactState, x: float, length: float
-) -> Piece:
+) -> TimeElement:
     """The element as polynomials, and its end."""
     modes, force, rate = problem.contact.modes, at.force, nodes.rate
     swing, turned = _swing(nodes, at.felt[:, modes.shape])
-    q = start.q + nodes.since[:, None] * start.rate + nodes.free
-    q += problem.drive / problem.omega * swing
-    moving = start.rate * nodes.cos - start.q * problem.omega * nodes.sin + problem.drive * turned
-    plate = np.sum((moving**2 + (problem.omega * q) ** 2) / (2.0 * problem.drive), axis=1)
+    inverse_mass, omega = problem.inverse_modal_mass, problem.omega
+    q = start.q + nodes.since[:, None] * start.q_dot + nodes.free
+    q += inverse_mass / omega * swing
+    moving = start.q_dot * nodes.cos - start.q * omega * nodes.sin + inverse_mass * turned
+    plate = np.sum((moving**2 + (omega * q) ** 2) / (2.0 * inverse_mass), axis=1)
     by_shape = modes.by_shape(moving)
     lost, leak = np.zeros_like(force), np.zeros_like(force)
-    if problem.lag:
+    if problem.retardation_time:
         felt = at.load_y[:, 1:] / at.load_y[:, :1]
         lost = at.load_y[:, 0] * at.y * (at.v - np.sum(felt * by_shape, axis=1)) * rate
     if problem.contact.pointwise:
@@ -304,8 +305,8 @@ def _piece(
     rule = radau(nodes.x.size)
     values = np.array([at.a, at.v, at.z, force, np.sum(at.q, axis=1), plate, lost, leak])
     made = Element(x, length, values @ rule.analysis.T, rule.analysis @ at.y)
-    end = ImpactState(float(at.z[-1]), float(at.v[-1]), q[-1], moving[-1], float(at.into[-1]))
-    return Piece(made, end, float(at.a[-1]), at.felt[-1])
+    end = ImpactState(float(at.z[-1]), float(at.v[-1]), q[-1], moving[-1], float(at.approach[-1]))
+    return TimeElement(made, end, float(at.a[-1]), at.felt[-1])
 
 
 def oscillating(

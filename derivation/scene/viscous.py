@@ -226,21 +226,21 @@ def _onset(problem: ViscousProblem, rule: Radau, length: float) -> Array:
 
 @dataclass(frozen=True)
 class ViscousMotion(Motion):
-    """An impact on a viscous contact, with its course."""
+    """An impact on a viscoelastic contact, with its time elements."""
 
     problem: ViscousProblem | None = None
-    course: tuple[Element, ...] = ()
+    elements: tuple[Element, ...] = ()
 
     def history(self, law: ContactLaw, times: Array) -> tuple[Array, Array, Array, Array]:  # noqa: ARG002
         """Indentation [m], velocity [m/s], contact radius [m] and force [N] at times [s]."""
         problem = self.problem
         assert problem is not None
         x = (np.minimum(times, self.contact_time) / problem.T) ** (1.0 / ONSET)
-        starts = [element.x for element in self.course]
+        starts = [element.x for element in self.elements]
         place = np.searchsorted(starts, x, side="right") - 1
         rows = np.empty((LOST + 1, x.size))
         for index in np.unique(place):
-            rows[:, place == index] = self.course[index].at(x[place == index])
+            rows[:, place == index] = self.elements[index].at(x[place == index])
         velocity, force = problem.law.model.v0 * rows[V], problem.force * np.maximum(rows[P], 0.0)
         return problem.depth * rows[Z], velocity, problem.a * rows[A], force
 
@@ -262,17 +262,17 @@ def impact(law: ContactLaw) -> ViscousMotion:
     return replace(found, quadrature=max(abs(new / old - 1.0) for new, old in pairs))
 
 
-def _motion(problem: ViscousProblem, course: tuple[Element, ...]) -> ViscousMotion:
-    """The results of a course."""
-    last = course[-1].end(P)
-    a, v, z, _, _ = course[-1].at(np.array([last]))[:, 0]
-    depth, force, radius = (max(element.largest(row) for element in course) for row in (Z, P, A))
+def _motion(problem: ViscousProblem, elements: tuple[Element, ...]) -> ViscousMotion:
+    """The results of an impact."""
+    last = elements[-1].end(P)
+    a, v, z, _, _ = elements[-1].at(np.array([last]))[:, 0]
+    depth, force, radius = (max(element.largest(row) for element in elements) for row in (Z, P, A))
     energy = problem.law.model.m * problem.law.model.v0 * problem.law.model.v0
     energy_balance = EnergyBalance(
         initial_kinetic=0.5 * energy,
         gravity_work=energy * problem.weight * float(z),
         rebound_kinetic=0.5 * energy * float(v) ** 2,
-        viscous_loss=energy * sum(_lost(element, last) for element in course),
+        viscous_loss=energy * sum(_lost(element, last) for element in elements),
         unrecovered_elastic=_left(problem, problem.a * float(a)),
     )
     return ViscousMotion(
@@ -284,7 +284,7 @@ def _motion(problem: ViscousProblem, course: tuple[Element, ...]) -> ViscousMoti
         -float(v),
         energy_balance,
         problem,
-        course,
+        elements,
     )
 
 

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.polynomial.chebyshev import chebder, chebfit, chebval
 
-from derivation.scene.effects.edge import WIDEST
+from derivation.scene.effects.edge import MAX_A_OVER_B
 from derivation.scene.effects.effect import Array
 from derivation.scene.law import ContactLaw, Shape
 
@@ -111,7 +111,7 @@ def bending_of(law: ContactLaw, a: float) -> ElasticBending:
     bent = law.only(lambda e: e.bends or e.other_edge)
     if not law.bends or float(bent.deflection(np.array([a])).slope[0]) <= 0.0:
         return ElasticBending(replace(law, effects=frozenset()))
-    top, x = min(BEYOND * a, WIDEST * law.model.b), _knots()
+    top, x = min(BEYOND * a, MAX_A_OVER_B * law.model.b), _knots()
     radius = top * x
     depth = radius * (radius / law.model.R) * bent.deflection(radius).depth
     force = law.force(radius, Shape(*(np.ones_like(x),) * 4))

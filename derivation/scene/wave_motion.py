@@ -10,7 +10,7 @@ import numpy as np
 
 from derivation.scene import contact_sequence
 from derivation.scene.collocation import ONSET
-from derivation.scene.contact_sequence import Course
+from derivation.scene.contact_sequence import ImpactHistory
 from derivation.scene.effects.effect import Array, Results
 from derivation.scene.html import html_table
 from derivation.scene.law import ContactLaw
@@ -67,7 +67,7 @@ class InertiaDetails:
     end_reason
         Why the simulation ends there.
     remedy
-        What makes an incomplete course end with the sphere's departure; empty if it does.
+        What to change so that an incomplete simulation ends; empty if it is complete.
     modes
         How many oscillators the plate has.
     energies
@@ -104,7 +104,7 @@ class InertiaDetails:
 class DynamicImpact(Motion):
     """An impact on a plate with inertia, with its history."""
 
-    course: Course = field(kw_only=True, repr=False)
+    impact_history: ImpactHistory = field(kw_only=True, repr=False)
     law: ContactLaw = field(kw_only=True, repr=False)
     inertia: InertiaDetails = field(kw_only=True)
     energy_balance: EnergyBalance = field(kw_only=True)
@@ -113,8 +113,8 @@ class DynamicImpact(Motion):
     def least(self) -> float:
         """Smallest force between two maxima of a contact, over the largest; 1 if there is none."""
         found = [1.0]
-        for touching in self.course.contacts:
-            times = np.linspace(touching.start, touching.end, LOOKS) * self.course.problem.T
+        for touching in self.impact_history.contacts:
+            times = np.linspace(touching.start, touching.end, LOOKS) * self.impact_history.problem.T
             force = self.rows(times)[P] / self.max_force
             inner = (force[1:-1] <= force[:-2]) & (force[1:-1] < force[2:])
             found += force[1:-1][inner].tolist()
@@ -127,11 +127,11 @@ class DynamicImpact(Motion):
         a half-space if that is more; also in flight, and for one period of the slowest mode
         after the last contact.
         """
-        problem, found = self.course.problem, 0.0
+        problem, found = self.impact_history.problem, 0.0
         slowest = float(np.min(problem.omega, initial=np.inf))
-        ends = [touching.start for touching in self.course.contacts[1:]]
-        ends.append(self.course.contacts[-1].end + 2.0 * np.pi / slowest)
-        for touching, end in zip(self.course.contacts, ends, strict=True):
+        ends = [touching.start for touching in self.impact_history.contacts[1:]]
+        ends.append(self.impact_history.contacts[-1].end + 2.0 * np.pi / slowest)
+        for touching, end in zip(self.impact_history.contacts, ends, strict=True):
             times = np.linspace(touching.start, touching.end, LOOKS) * problem.T
             rows = self.rows(times)
             a = np.minimum(np.maximum(rows[A], 0.0), law.limit)
@@ -211,13 +211,15 @@ class DynamicImpact(Motion):
 
     def rows(self, times: Array) -> Array:
         """Everything at times [s], in SI: the rows of `time_element`, energies in J."""
-        problem, t = self.course.problem, np.asarray(times, dtype=np.float64)
+        problem, t = self.impact_history.problem, np.asarray(times, dtype=np.float64)
         found = np.zeros((LEAK + 1, t.size))
-        starts = np.array([touching.start for touching in self.course.contacts])
+        starts = np.array([touching.start for touching in self.impact_history.contacts])
         place = np.maximum(np.searchsorted(starts, t / problem.T, side="right") - 1, 0)
         for index in np.unique(place):
             here = place == index
-            found[:, here] = _rows(problem, self.course.contacts[index], t[here] / problem.T)
+            found[:, here] = _rows(
+                problem, self.impact_history.contacts[index], t[here] / problem.T
+            )
         energy = problem.m * problem.v0**2
         units = np.ones(LEAK + 1)
         units[[A, V, Z, P, W, E]] = (
@@ -227,17 +229,17 @@ class DynamicImpact(Motion):
 
     def profiles(self, times: Array, r: Array) -> Array:
         """Deflection [m] of the plate's modes at times [s] (rows) and distances [m] (columns)."""
-        problem = self.course.problem
+        problem = self.impact_history.problem
         shapes = problem.contact.modes.shapes(r)
-        found = [deflections(self.course, float(t) / problem.T) @ shapes for t in times]
+        found = [deflections(self.impact_history, float(t) / problem.T) @ shapes for t in times]
         return problem.depth * np.array(found)
 
 
-def deflections(course: Course, t: float) -> Array:
+def deflections(history: ImpactHistory, t: float) -> Array:
     """Deflection of every shape at the axis at a time, in units of the problem."""
-    problem = course.problem
-    starts = [touching.start for touching in course.contacts]
-    touching = course.contacts[max(int(np.searchsorted(starts, t, side="right")) - 1, 0)]
+    problem = history.problem
+    starts = [touching.start for touching in history.contacts]
+    touching = history.contacts[max(int(np.searchsorted(starts, t, side="right")) - 1, 0)]
     if t > touching.end:
         q = problem.flown(touching.after, t - touching.end).q
         return problem.contact.modes.by_shape(q)
@@ -265,7 +267,7 @@ def _rows(problem: DynamicProblem, touching: contact_sequence.Touching, t: Array
     for k in np.flatnonzero(~inside):
         state = problem.flown(touching.after, float(t[k]) - touching.end)
         found[[V, Z, W, E], k] = (
-            state.velocity, state.way, float(np.sum(state.q)),
+            state.velocity, state.displacement, float(np.sum(state.q)),
             float(np.sum(problem.energies(state))),
         )  # fmt: skip
     found[P] = np.maximum(found[P], 0.0)

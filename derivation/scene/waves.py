@@ -15,7 +15,7 @@ from functools import lru_cache
 import numpy as np
 
 from derivation.scene import contact_sequence, motion
-from derivation.scene.contact_sequence import Course
+from derivation.scene.contact_sequence import ImpactHistory
 from derivation.scene.effects.effect import Results
 from derivation.scene.effects.inertia import WIDER, further_branches, weight_share
 from derivation.scene.law import ContactLaw
@@ -34,7 +34,16 @@ from derivation.scene.model import Model
 from derivation.scene.motion import EnergyBalance, Motion
 from derivation.scene.quadrature import NODES, gauss
 from derivation.scene.scene import OUTPUTS, SceneError
-from derivation.scene.time_element import LEAK, LOST, A, DynamicProblem, ImpactState, P, Piece, Z
+from derivation.scene.time_element import (
+    LEAK,
+    LOST,
+    A,
+    DynamicProblem,
+    ImpactState,
+    P,
+    TimeElement,
+    Z,
+)
 from derivation.scene.wave_motion import ContactInterval, DynamicImpact, InertiaDetails
 
 STAGES = 14, 16
@@ -107,8 +116,8 @@ def _branches_matter(law: ContactLaw, quick: Motion, goal: float, outputs: tuple
 
 def _edge_heard(found: DynamicImpact) -> bool:
     """Whether a wave may have come back from the edge before the last contact ended."""
-    model, problem = found.law.model, found.course.problem
-    return problem.T * found.course.contacts[-1].end > echo_time(model)
+    model, problem = found.law.model, found.impact_history.problem
+    return problem.T * found.impact_history.contacts[-1].end > echo_time(model)
 
 
 def _converged(
@@ -137,14 +146,14 @@ def _converged(
         if law.model.inertia.modes:
             return best if fast(law, count) else _unjudged(best)
         near = change <= LAST * enough
-        if change <= enough or too_dear(law, count, _work(best.course), near):
+        if change <= enough or too_dear(law, count, _work(best.impact_history), near):
             return best
 
 
-def _work(course: Course) -> float:
-    """Elements of a course, weighted by the time that each takes."""
-    elements = sum(len(touching.pieces) for touching in course.contacts)
-    return elements * contact_sequence.weight_of(course.problem)
+def _work(history: ImpactHistory) -> float:
+    """Number of time elements, weighted by the run time of each."""
+    elements = sum(len(touching.pieces) for touching in history.contacts)
+    return elements * contact_sequence.weight_of(history.problem)
 
 
 def problem_of(law: ContactLaw, count: int) -> DynamicProblem:
@@ -154,7 +163,9 @@ def problem_of(law: ContactLaw, count: int) -> DynamicProblem:
 
 def _run(law: ContactLaw, count: int, quick: Motion, n: int) -> DynamicImpact:
     """The impact with so many bending modes by elements of n nodes."""
-    return _motion(law, contact_sequence.course(_problem(law, plate_of(law, count), quick), n))
+    return _motion(
+        law, contact_sequence.impact_history(_problem(law, plate_of(law, count), quick), n)
+    )
 
 
 def _judged(rough: DynamicImpact, found: DynamicImpact) -> DynamicImpact:
@@ -175,10 +186,10 @@ def _problem(law: ContactLaw, plate: ModalPlate, quick: Motion) -> DynamicProble
     model, (a, T) = law.model, (quick.max_contact_radius, quick.contact_time)
     rest = law.only(lambda e: e.static and not e.other_edge)
     contact = contact_of(rest, plate, min(WIDER * a, law.limit), model.inertia.pointwise)
-    lag = model.retardation_time / T if law.viscous else 0.0
+    retardation = model.retardation_time / T if law.viscous else 0.0
     heard = echo_time(model) / T if model.inertia.infinite_plate else math.inf
     weight = law.gravity * (T / model.v0)
-    return DynamicProblem(contact, a, T, model.m, model.v0, weight, lag, heard)
+    return DynamicProblem(contact, a, T, model.m, model.v0, weight, retardation, heard)
 
 
 def echo_time(model: Model) -> float:
@@ -192,66 +203,68 @@ def echo_time(model: Model) -> float:
     return 2.0 * model.b / (fastest * model.shear_speed)
 
 
-def _motion(law: ContactLaw, course: Course) -> DynamicImpact:
-    """The results of a course."""
-    problem, last = course.problem, course.contacts[-1].after
+def _motion(law: ContactLaw, history: ImpactHistory) -> DynamicImpact:
+    """The results of an impact."""
+    problem, last = history.problem, history.contacts[-1].after
     energy = problem.m * problem.v0**2
-    pieces = [piece for touching in course.contacts for piece in touching.pieces]
+    pieces = [piece for touching in history.contacts for piece in touching.pieces]
     largest = {row: _largest(pieces, row) for row in (A, Z, P)}
-    way = max(largest[Z], max(touching.before.way for touching in course.contacts))
+    displacement = max(
+        largest[Z], max(touching.before.displacement for touching in history.contacts)
+    )
     energies = problem.energies(last)
     lost, leak = (sum(_sum(piece, row) for piece in pieces) for row in (LOST, LEAK))
     energy_balance = EnergyBalance(
         initial_kinetic=0.5 * energy,
-        gravity_work=energy * problem.weight * last.way,
+        gravity_work=energy * problem.weight * last.displacement,
         rebound_kinetic=0.5 * energy * last.velocity**2,
         viscous_loss=energy * lost,
         unrecovered_elastic=energy
-        * sum(_given_up(problem, touching) for touching in course.contacts),
+        * sum(_given_up(problem, touching) for touching in history.contacts),
         plate=energy * float(np.sum(energies)),
         coupling_loss=energy * leak,
     )
-    first, total = course.contacts[0], course.contacts[-1].end
+    first, total = history.contacts[0], history.contacts[-1].end
     inertia = InertiaDetails(
-        tuple(_touch(problem, touching) for touching in course.contacts),
+        tuple(_touch(problem, touching) for touching in history.contacts),
         problem.T * total,
-        course.reason,
-        course.remedy,
+        history.reason,
+        history.remedy,
         problem.omega.size,
         tuple((energy * energies).tolist()),
-        NONE if course.complete else UNKNOWN,
-        _branches(law, problem.a * largest[A], problem.depth * way, problem.T * first.end),
+        NONE if history.complete else UNKNOWN,
+        _branches(law, problem.a * largest[A], problem.depth * displacement, problem.T * first.end),
     )
     return DynamicImpact(
         problem.T * first.end,
-        problem.depth * way,
+        problem.depth * displacement,
         problem.force * largest[P],
         problem.a * largest[A],
         0.0,
-        -last.velocity if course.complete else math.nan,
+        -last.velocity if history.complete else math.nan,
         energy_balance=energy_balance,
-        course=course,
+        impact_history=history,
         inertia=inertia,
         law=law,
     )
 
 
-def _branches(law: ContactLaw, a: float, way: float, T: float) -> Results:
+def _branches(law: ContactLaw, a: float, displacement: float, T: float) -> Results:
     """What the branches left out may change in each result [1]: also of all, those too fast.
 
-    Where there is a weight, all but the way change by more.
+    Where there is a weight, all but the displacement change by more.
     """
     model = law.model
     if model.inertia.branches == "all":
         return NONE
-    heavier = 1.0 + weight_share(model, way)
+    heavier = 1.0 + weight_share(model, displacement)
     time, depth, force, radius, speed = further_branches(model, a, T)
     return heavier * time, depth, heavier * force, heavier * radius, heavier * speed
 
 
 def _given_up(problem: DynamicProblem, touching: contact_sequence.Touching) -> float:
     """Energy over m v0^2 in a viscoelastic contact at its end, less that at its beginning."""
-    if not problem.lag:
+    if not problem.retardation_time:
         return 0.0
     begun = _stored(problem, touching.radius, touching.before) if touching.radius else 0.0
     return _stored(problem, touching.pieces[-1].radius, touching.after) - begun
@@ -277,11 +290,11 @@ def _touch(problem: DynamicProblem, touching: contact_sequence.Touching) -> Cont
         problem.T * touching.end,
         problem.m * problem.v0 * (before.velocity - after.velocity + problem.weight * lasted),
         problem.force * max(piece.element.largest(P) for piece in touching.pieces),
-        -before.opening,
+        -before.separation_speed,
     )
 
 
-def _largest(pieces: Sequence[Piece], row: int) -> float:
+def _largest(pieces: Sequence[TimeElement], row: int) -> float:
     """The largest value of a row; elements whose coefficients say that it is not theirs are passed.
 
     No Legendre polynomial exceeds 1.
@@ -295,7 +308,7 @@ def _largest(pieces: Sequence[Piece], row: int) -> float:
     return found
 
 
-def _sum(piece: Piece, row: int) -> float:
+def _sum(piece: TimeElement, row: int) -> float:
     """Integral over an element of a row that is a rate by x, by Gauss' rule."""
     nodes, weights = gauss(piece.element.slope.size)
     values = piece.element.at(piece.element.x + piece.element.length * nodes)[row]

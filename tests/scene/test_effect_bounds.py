@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from derivation.scene import motion
 from derivation.scene.effect_selection import OUTPUTS, decide
 from derivation.scene.effects import BY_NAME, EFFECTS
-from derivation.scene.effects.effect import Place, PlateEffect
+from derivation.scene.effects.effect import BoundContext, PlateEffect
 from derivation.scene.law import ContactLaw
 from derivation.scene.model import Model
 from derivation.scene.motion import Motion
@@ -24,7 +24,7 @@ TINY = 1e-12
 
 def applicable(m: Model) -> frozenset[str]:
     """Effects of a plate at rest."""
-    return frozenset(name for name in ALL if not BY_NAME[name].absent(m))
+    return frozenset(name for name in ALL if not BY_NAME[name].not_applicable_reason(m))
 
 
 def impact(m: Model, effects: frozenset[str]) -> Motion:
@@ -51,9 +51,9 @@ def test_a_share_of_the_slope_lies_within_its_bound_at_every_radius(name: str) -
         edge = ("simply-supported", "clamped")[number % 2]
         m = model(b=1.0, h=h, lam=2 * 3e9 * nu / (1 - 2 * nu), edge=edge)
         a = np.geomspace(1e-4, 0.89, 60) * min(1.0, 6 * h)
-        bound, slope = effect.bound(m, Place(a)), effect.share(m, a).slope
+        bound, slope = effect.bound(m, BoundContext(a)), effect.contribution(m, a).slope
         # Parts are what is left of larger ones: their rounding is of these.
-        room = TINY * (1 + np.abs(slope) + BY_NAME["bending"].bound(m, Place(a)).up)
+        room = TINY * (1 + np.abs(slope) + BY_NAME["bending"].bound(m, BoundContext(a)).up)
         assert (slope <= bound.up + room).all()
         assert (-slope <= bound.low + room).all()
         assert (np.diff(bound.up) >= 0).all()

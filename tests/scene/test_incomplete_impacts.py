@@ -48,13 +48,13 @@ def test_contacts_before_one_that_does_not_end_are_kept(
     name: str, value: int, says: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     problem = waves.problem_of(ContactLaw(BALL, WHOLE_PLATE | {"hertz", "inertia"}), 8)
-    whole = contact_sequence.course(problem, 10)
+    whole = contact_sequence.impact_history(problem, 10)
     assert whole.complete
     assert len(whole.contacts) == 2
     limit = value or len(whole.contacts[0].pieces) + (1 if name == "ELEMENTS" else 0)
     module = flight if name == "BLOCKS" else contact_sequence
     monkeypatch.setattr(module, name, limit if name == "ELEMENTS" else value)
-    part = contact_sequence.course(problem, 10)
+    part = contact_sequence.impact_history(problem, 10)
     assert not part.complete
     assert len(part.contacts) == 1
     assert part.contacts[0].end == whole.contacts[0].end

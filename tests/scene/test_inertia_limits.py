@@ -104,14 +104,14 @@ def test_a_narrow_plate_gives_some_of_it_back() -> None:
 
 def course(
     model: Model, modes: Modes, n: int = 16, tolerance: float = contact_sequence.TOLERANCE
-) -> contact_sequence.Course:
+) -> contact_sequence.ImpactHistory:
     law = ContactLaw(model, REST | {"inertia"})
     quick = motion.impact(ContactLaw(model, frozenset({"hertz"})))
     problem = waves._problem(law, ModalPlate(modes, modes, None), quick)
-    return contact_sequence.course(problem, n, tolerance)
+    return contact_sequence.impact_history(problem, n, tolerance)
 
 
-def restitution(found: contact_sequence.Course) -> float:
+def restitution(found: contact_sequence.ImpactHistory) -> float:
     return -found.contacts[-1].after.velocity
 
 

@@ -104,6 +104,6 @@ def test_contacts_that_begin_again_on_a_face_still_pressed_in_are_followed(
         )
     )
     assert found.dynamics is not None
-    assert found.dynamics.course.complete
-    assert len(found.dynamics.course.contacts) == 3
+    assert found.dynamics.impact_history.complete
+    assert len(found.dynamics.impact_history.contacts) == 3
     assert abs(found.dynamics.energy_balance.residual) < 1e-12

@@ -16,8 +16,8 @@ from derivation.engine.files import measurements
 from derivation.scene import SceneError, indent, limits, motion, read, simulate, viscous, waves
 from derivation.scene.edge_remainder import edge_remainder
 from derivation.scene.effects import PAPER, WHOLE_PLATE
-from derivation.scene.effects.edge import WIDEST as HELD
-from derivation.scene.effects.spherical_profile import LARGEST as CURVED
+from derivation.scene.effects.edge import MAX_A_OVER_B
+from derivation.scene.effects.spherical_profile import MAX_A_OVER_R
 from derivation.scene.law import ContactLaw
 from derivation.scene.model import model_of
 from derivation.scene.result import Result
@@ -217,7 +217,7 @@ def test_beyond_the_law_is_refused_with_its_limit() -> None:
     fast = {"speed": 1e7}
     with pytest.raises(SceneError, match=r"contact is lost at the centre, at 0\.059.* m.*lower"):
         simulate(scene(impact=fast))
-    with pytest.raises(SceneError, match=rf"min\({HELD} b, {CURVED} R\) = 0\.099 m"):
+    with pytest.raises(SceneError, match=rf"min\({MAX_A_OVER_B} b, {MAX_A_OVER_R} R\) = 0\.099 m"):
         simulate(scene(impact=fast, effects={"non_hertzian_pressure": False}))
     flat = {"spherical_profile": False, "edge": False, "non_hertzian_pressure": False}
     with pytest.raises(SceneError, match=r"min\(b, R\) = 0\.1 m"):

@@ -250,7 +250,7 @@ def test_schema_describes_every_key_and_choice() -> None:
         {"const": "auto", "type": "string"}, {"type": "boolean"},
     ]  # fmt: skip
     assert list(made["$defs"]["Effects"]["properties"]) == [
-        *(effect.name for effect in EFFECTS if not effect.forced),
+        *(effect.name for effect in EFFECTS if not effect.always_included),
         "compare_paper_motion",
     ]
     modes = made["$defs"]["Inertia"]["properties"]["modes"]["anyOf"]

@@ -276,7 +276,7 @@ def test_a_first_contact_that_does_not_end_is_refused(
     problem = waves.problem_of(law(), 8)
     monkeypatch.setattr(contact_sequence, name, value)
     with pytest.raises(SceneError, match=rf"effects\.inertia: .*{says}"):
-        contact_sequence.course(problem, 10)
+        contact_sequence.impact_history(problem, 10)
 
 
 def test_why_a_contact_is_lost() -> None:
@@ -314,7 +314,7 @@ def test_a_viscous_contact_that_is_not_followed(
 def test_an_element_that_cannot_be_shortened_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
     """A contact that lags ends within its last element, wherever that itself ends."""
     found = waves.impact(law(MOVING | {"viscosity"}, retardation_time=1e-4))
-    problem, touching = found.course.problem, found.course.contacts[0]
+    problem, touching = found.impact_history.problem, found.impact_history.contacts[0]
     last, before = touching.pieces[-1], touching.pieces[-2]
     again = contact_sequence._let_go(problem, 10, last, before.end, before.radius)
     assert again.element.end(P) == pytest.approx(last.element.end(P), rel=1e-6)
@@ -365,7 +365,7 @@ def test_a_face_that_lags_recovers_between_contacts() -> None:
     """Without force the elastic part, as a^3, falls like exp(-t/viscous time)."""
     lagging = law(MOVING | {"viscosity"}, retardation_time=1e-4)
     found = waves.impact(lagging)
-    contacts, problem = found.course.contacts, found.course.problem
+    contacts, problem = found.impact_history.contacts, found.impact_history.problem
     again = [(one, two) for one, two in pairwise(contacts) if two.radius]
     assert len(again) >= 2
     for one, two in again:

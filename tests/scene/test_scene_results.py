@@ -69,7 +69,7 @@ def test_the_deflection_of_a_plate_with_inertia_is_that_of_its_course() -> None:
     found = result.dynamics.largest_deflection(result.effects.law)
     assert found >= (1 - 1e-6) * seen
     assert found >= 0.98 * np.max(np.abs(history.deflection))
-    problem = result.dynamics.course.problem
+    problem = result.dynamics.impact_history.problem
     later = np.linspace(1.0, 1.2, 200) * result.total_time
     assert found >= 0.98 * np.max(np.abs(result.dynamics.profiles(later, np.zeros(1))))
     assert problem.contact.modes.phi.size == 24  # with "auto" some have two branches

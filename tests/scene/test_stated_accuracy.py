@@ -104,7 +104,7 @@ def test_a_viscoelastic_contact_begins_again_on_a_nearly_recovered_face(
     found = []
     for recovered in (15.0, 20.0):
         monkeypatch.setattr(flight, "RECOVERED", recovered)
-        found.append(contact_sequence.course(problem, 16))
+        found.append(contact_sequence.impact_history(problem, 16))
     one, other = found
     assert one.complete
     assert len(one.contacts) == len(other.contacts) > 1
@@ -118,11 +118,11 @@ def test_a_long_run_says_how_far_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
     law = ContactLaw(model_of(scene()), PAPER | {"inertia"})
     problem, told = waves.problem_of(law, 4), list[str]()
     with activity.heard(told.append):
-        contact_sequence.course(problem, 10)
+        contact_sequence.impact_history(problem, 10)
     assert told
     count = len(told)
     assert all("after first contact" in text for text in told)
-    contact_sequence.course(problem, 10)
+    contact_sequence.impact_history(problem, 10)
     assert len(told) == count
 
 
@@ -131,13 +131,13 @@ def test_slow_oscillators_alone_say_when_contact_is_impossible() -> None:
     law = ContactLaw(replace(model_of(scene()), h=0.001, m=0.05), frozenset(
         {"hertz", "bending", "finite_thickness", "finite_radius", "inertia"}))  # fmt: skip
     problem = waves.problem_of(law, 40)
-    course = contact_sequence.course(problem, 14)
+    course = contact_sequence.impact_history(problem, 14)
     for one, two in zip(course.contacts, course.contacts[1:], strict=False):
         wait = two.start - one.end
         clear = flight._clear(problem, one.after)
         assert clear <= wait
         for share in (0.25, 0.5, 1.0):
-            assert problem.flown(one.after, share * clear).into <= 1e-12
+            assert problem.flown(one.after, share * clear).approach <= 1e-12
     assert len(course.contacts) > 1
 
 

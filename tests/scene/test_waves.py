@@ -21,11 +21,11 @@ BALL = Model(R=0.02, m=0.25, v0=1.0, h=0.005, b=0.15, lam=40e9, mu=27e9, density
 MODES = 8
 
 
-def course(model: Model, n: int = 16, modes: int = MODES) -> contact_sequence.Course:
+def course(model: Model, n: int = 16, modes: int = MODES) -> contact_sequence.ImpactHistory:
     law = ContactLaw(model, EFFECTS | ({"gravity"} if model.gravity else frozenset()))
     quick = motion.impact(ContactLaw(model, frozenset({"hertz"})))
     problem = waves._problem(law, plate_of(law, modes), quick)
-    return contact_sequence.course(problem, n)
+    return contact_sequence.impact_history(problem, n)
 
 
 def felt(y: np.ndarray) -> np.ndarray:
@@ -42,7 +42,11 @@ def integrated(model: Model, end: float) -> tuple[float, float, float]:
     unknowns: the depth's slope by the radius says how that grows.
     """
     modes = free_modes(model, MODES)
-    count, compliance, phi = modes.omega.size, modes.drive / modes.omega**2, modes.phi[modes.shape]
+    count, compliance, phi = (
+        modes.omega.size,
+        modes.inverse_modal_mass / modes.omega**2,
+        modes.phi[modes.shape],
+    )
 
     def force(square: float) -> float:
         return float(force_of_radius(math.sqrt(max(square, 0.0)), model.R, model.lam, model.mu))
@@ -62,7 +66,7 @@ def integrated(model: Model, end: float) -> tuple[float, float, float]:
         y = a * phi
         opened = v - float(np.sum(np.sinc(y / np.pi) * u))
         grown = model.R * opened / (slope(a, q) if a else 1.0)
-        pushed = modes.drive * P * felt(y) - modes.omega**2 * q
+        pushed = modes.inverse_modal_mass * P * felt(y) - modes.omega**2 * q
         return 2.0 * s * np.concatenate(([v, model.gravity - P / model.m, grown], u, pushed))
 
     def released(s: float, state: np.ndarray) -> float:  # noqa: ARG001
@@ -126,7 +130,7 @@ def test_nodes_do_not_matter_and_the_ledger_closes(h: float) -> None:
     for one, two in zip(fine.contacts[:-1], fine.contacts[1:], strict=True):
         for share in np.linspace(0.01, 0.99, 197):
             state = fine.problem.flown(one.after, share * (two.start - one.end))
-            assert state.into <= 1e-12
+            assert state.approach <= 1e-12
 
 
 def test_the_axis_leaks_what_it_is_said_to() -> None:

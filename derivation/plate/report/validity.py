@@ -33,8 +33,8 @@ def law_context(formulas: Mapping[str, Record]) -> dict[str, Any]:
 
 def limit_rows() -> list[str]:
     """Parameter, limit, what happens beyond it and the reason; the limits are those of the code."""
-    open_, held = f"{non_hertzian_pressure.OPEN:g}", f"{edge.WIDEST:g}"
-    curved = f"{spherical_profile.LARGEST:g}"
+    open_, held = f"{non_hertzian_pressure.MAX_A_OVER_H:g}", f"{edge.MAX_A_OVER_B:g}"
+    curved = f"{spherical_profile.MAX_A_OVER_R:g}"
     thin, thick = (rounded(ratio) for ratio in PLATES)
     rows = (
         (r"$a/b$, $a/R$", "1", "refused", "the contact would reach the edge, or past the sphere"),

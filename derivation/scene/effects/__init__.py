@@ -32,7 +32,7 @@ EFFECTS: tuple[Effect, ...] = (
 """Every effect there is, in the order of the effects table."""
 
 BY_NAME = {effect.name: effect for effect in EFFECTS}
-PAPER = WHOLE_PLATE | {effect.name for effect in EFFECTS if effect.forced}
+PAPER = WHOLE_PLATE | {effect.name for effect in EFFECTS if effect.always_included}
 """Effects of the paper's contact law."""
 
 __all__ = ["BY_NAME", "EFFECTS", "PAPER", "WHOLE_PLATE"]

@@ -3,7 +3,14 @@
 from typing import TYPE_CHECKING
 
 from derivation.scene import kernels
-from derivation.scene.effects.effect import Array, Bound, Place, PlateEffect, Share, none_of
+from derivation.scene.effects.effect import (
+    Array,
+    Bound,
+    BoundContext,
+    Contribution,
+    PlateEffect,
+    none_of,
+)
 from derivation.scene.model import Model
 
 if TYPE_CHECKING:
@@ -16,7 +23,7 @@ class Bending(PlateEffect):
     name = "bending"
     adds = "deflection of the plate"
     equation = "delta = P b^2/(8 pi D), D = E* H^3/12"
-    number = "(2/pi) a b^2/H^3"
+    parameter = "(2/pi) a b^2/H^3"
     source = "Kirchhoff plate; link 22"
     bends = True
 
@@ -24,15 +31,15 @@ class Bending(PlateEffect):
         """Its share of the indentation over Hertz's."""
         return float(kernels.bending(a / model.h, model.eta).depth)
 
-    def bound(self, model: Model, place: Place) -> Bound:
+    def bound(self, model: Model, context: BoundContext) -> Bound:
         """The share itself: exact."""
-        a = place.radii
-        return Bound(none_of(a), self.share(model, a).slope)
+        a = context.radii
+        return Bound(none_of(a), self.contribution(model, a).slope)
 
     def bounded(self, law: "ContactLaw") -> bool:
         """Not where the edge would become viscoelastic without it."""
         return not (law.other_edge and law.viscous)
 
-    def share(self, model: Model, a: Array) -> Share:
+    def contribution(self, model: Model, a: Array) -> Contribution:
         """Linear in the radius."""
-        return Share(*kernels.bending(a / model.h, model.eta))
+        return Contribution(*kernels.bending(a / model.h, model.eta))

@@ -3,11 +3,19 @@
 import numpy as np
 
 from derivation.scene import kernels
-from derivation.scene.effects.effect import Array, Bound, Place, PlateEffect, Reach, Share, none_of
+from derivation.scene.effects.effect import (
+    Array,
+    Bound,
+    BoundContext,
+    Contribution,
+    PlateEffect,
+    Reach,
+    none_of,
+)
 from derivation.scene.model import Model
 
 SUPPORTED, CLAMPED = "simply-supported", "clamped"
-WIDEST = 0.9
+MAX_A_OVER_B = 0.9
 """Contact radius over plate radius up to which its sums are known."""
 
 
@@ -21,12 +29,12 @@ class Edge(PlateEffect):
     name = "edge"
     adds = "a plate simply supported or clamped"
     equation = "F = (1 - nu)/(1 + nu) X supported, -X_c clamped"
-    number = "edge's c_1 a/h, at most"
+    parameter = "edge's c_1 a/h, at most"
     source = "polynomial states of bending and stretching; link 19"
-    reach = Reach(plate=WIDEST)
+    reach = Reach(plate=MAX_A_OVER_B)
     other_edge = True
 
-    def absent(self, model: Model) -> str:
+    def not_applicable_reason(self, model: Model) -> str:
         """The law begins with the paper's edge."""
         return "" if model.edge in (SUPPORTED, CLAMPED) else "the plate has the paper's edge"
 
@@ -35,9 +43,9 @@ class Edge(PlateEffect):
         low, up = self._range(model, np.array([a]))
         return float(up[0] - low[0]) / 1.5
 
-    def bound(self, model: Model, place: Place) -> Bound:
+    def bound(self, model: Model, context: BoundContext) -> Bound:
         """Of one sign; the bound holds at all smaller radii too."""
-        return Bound(*self._range(model, place.radii))
+        return Bound(*self._range(model, context.radii))
 
     def _range(self, model: Model, a: Array) -> tuple[Array, Array]:
         """How far S may be below and above."""
@@ -46,11 +54,11 @@ class Edge(PlateEffect):
             return none_of(a), kernels.supported_edge_bound(a, *plate)
         return kernels.clamped_edge_bound(a, *plate), none_of(a)
 
-    def share(self, model: Model, a: Array) -> Share:
+    def contribution(self, model: Model, a: Array) -> Contribution:
         """By sums over a few modes, or the thin plate's closed form."""
         plate = model.h, model.b, model.lam, model.mu
         if model.edge == SUPPORTED:
             runs = kernels.supported_edge, kernels.supported_edge_slope
         else:
             runs = kernels.clamped_edge, kernels.clamped_edge_slope
-        return Share(*(run(a, *plate) for run in runs))
+        return Contribution(*(run(a, *plate) for run in runs))

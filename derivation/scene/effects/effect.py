@@ -1,10 +1,10 @@
-"""What an effect answers: whether it applies, its number, its bound, what it makes of the law.
+"""The base of all effects: whether one applies, its parameter, its bound, its part of the law.
 
 The rest of `scene` asks these questions and knows no effect by its name: what is particular to an
 effect is in its file.
 
-Shares and bounds are parts of F and S: at equal force P, a being Hertz's radius with the modulus
-E* of the law, a^3 = 3 P R/(4 E*),
+Contributions and bounds are parts of F and S: at equal force P, a being Hertz's radius with the
+modulus E* of the law, a^3 = 3 P R/(4 E*),
 
     delta = (a^2/R) (1 + F),   d delta/da = (2a/R) S.
 """
@@ -29,15 +29,15 @@ NO_BOUND = 10.0
 Array = NDArray[np.float64]
 
 
-class Share(NamedTuple):
-    """A part of F and of S at radii [1]."""
+class Contribution(NamedTuple):
+    """What an effect adds to F and to S at contact radii [1]."""
 
     depth: Array
     slope: Array
 
 
-class Along(NamedTuple):
-    """The law taken at contact radii up to its largest.
+class LawSamples(NamedTuple):
+    """Samples of a contact law at contact radii up to its largest.
 
     Force [N], indentation [m], stiffness [N/m], energy [J] and d log delta/d log a [1].
     """
@@ -50,8 +50,8 @@ class Along(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Place:
-    """Where a bound is asked for.
+class BoundContext:
+    """Where a bound is evaluated.
 
     Attributes
     ----------
@@ -59,15 +59,15 @@ class Place:
         Hertz's radii of the force [m], from 0 on, growing.
     depth
         Largest indentation [m], of an impact.
-    along
-        The law taken, of an impact.
+    samples
+        Samples of the law of the included effects, of an impact.
     """
 
     radii: Array
     depth: float = 0.0
-    along: Along | None = None
+    samples: LawSamples | None = None
 
-    def stretched(self, factor: float) -> "Place":
+    def stretched(self, factor: float) -> "BoundContext":
         """The same with all radii larger."""
         return replace(self, radii=self.radii * factor)
 
@@ -118,15 +118,15 @@ class Effect:
         What it adds, in a few words.
     equation
         Its equation.
-    number
-        The dimensionless number that says when it matters.
+    parameter
+        The dimensionless parameter that shows when it matters.
     source
         Who derived it, and the link of the chain that proves it here.
-    forced
+    always_included
         Whether it cannot be omitted.
-    by_itself
-        Whether the selection may include it. If not, it is no part of the law, and is compared
-        with the result if a scene asks for it.
+    selectable
+        Whether the selection may include it. If not, it is no part of the law; its parameter and
+        bound are shown if a scene asks for it.
     contains, requires
         Names of the effects that it takes into its own equation, and so includes, and of those
         without which it cannot be computed.
@@ -153,10 +153,10 @@ class Effect:
     name: ClassVar[str]
     adds: ClassVar[str]
     equation: ClassVar[str]
-    number: ClassVar[str]
+    parameter: ClassVar[str]
     source: ClassVar[str]
-    forced: ClassVar[bool] = False
-    by_itself: ClassVar[bool] = True
+    always_included: ClassVar[bool] = False
+    selectable: ClassVar[bool] = True
     contains: ClassVar[frozenset[str]] = frozenset()
     requires: ClassVar[frozenset[str]] = frozenset()
     reach: ClassVar[Reach] = Reach()
@@ -169,9 +169,9 @@ class Effect:
     viscous: ClassVar[bool] = False
     dynamic: ClassVar[bool] = False
 
-    def absent(self, model: Model) -> str:  # noqa: ARG002
-        """Why the effect does not apply to a scene; empty if it does."""
-        return "" if self.by_itself else "never by itself: for comparison only"
+    def not_applicable_reason(self, model: Model) -> str:  # noqa: ARG002
+        """Return why the effect does not apply to a scene; empty if it does."""
+        return "" if self.selectable else "shown only if the scene asks for it"
 
     def softness(self, model: Model) -> float:  # noqa: ARG002
         """What it adds to E* of the plate over that of the sphere [1]."""
@@ -182,11 +182,11 @@ class Effect:
         return 0.0
 
     def value(self, model: Model, a: float) -> float:
-        """The dimensionless number at a largest contact radius [m]."""
+        """Return the dimensionless parameter at a largest contact radius [m]."""
         raise NotImplementedError
 
-    def bound(self, model: Model, place: Place) -> Bound:
-        """What leaving it out changes at most."""
+    def bound(self, model: Model, context: BoundContext) -> Bound:
+        """Return a bound on the change of the results if the effect is omitted."""
         raise NotImplementedError
 
     def bounded(self, law: "ContactLaw") -> bool:  # noqa: ARG002
@@ -243,8 +243,8 @@ class PlateEffect(Effect):
 
     difference: ClassVar[bool] = False
 
-    def share(self, model: Model, a: Array) -> Share:
-        """Its part of F and S at Hertz's radii [m], of a rigid sphere."""
+    def contribution(self, model: Model, a: Array) -> Contribution:
+        """Return its part of F and S at Hertz's radii [m], of a rigid sphere."""
         raise NotImplementedError
 
 

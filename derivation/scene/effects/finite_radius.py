@@ -1,7 +1,14 @@
 """Finite radius: the plate is stiffer than one without a lateral surface."""
 
 from derivation.scene import kernels
-from derivation.scene.effects.effect import Array, Bound, Place, PlateEffect, Share, none_of
+from derivation.scene.effects.effect import (
+    Array,
+    Bound,
+    BoundContext,
+    Contribution,
+    PlateEffect,
+    none_of,
+)
 from derivation.scene.model import Model
 
 
@@ -11,19 +18,19 @@ class FiniteRadius(PlateEffect):
     name = "finite_radius"
     adds = "finite radius of the plate"
     equation = "F = -(8/(pi^2 alpha^2)) int (x cosh x - sinh x) y^-3 K0/I0 dy, x = alpha y"
-    number = "0.37 a/b"
+    parameter = "0.37 a/b"
     source = "contour integral over Y0/J0; links 12 and 22"
 
     def value(self, model: Model, a: float) -> float:
         """Its leading share of the indentation over Hertz's."""
         return 2.0 / 3.0 * kernels.WALL_LINEAR * a / model.b
 
-    def bound(self, model: Model, place: Place) -> Bound:
+    def bound(self, model: Model, context: BoundContext) -> Bound:
         """Between nothing and the leading terms."""
-        a = place.radii
+        a = context.radii
         alpha = a / model.b
         return Bound(kernels.WALL_LINEAR * alpha + kernels.WALL_CUBIC * alpha**3, none_of(a))
 
-    def share(self, model: Model, a: Array) -> Share:
+    def contribution(self, model: Model, a: Array) -> Contribution:
         """By its power series."""
-        return Share(*kernels.side_wall(a / model.b))
+        return Contribution(*kernels.side_wall(a / model.b))

@@ -4,12 +4,19 @@ import numpy as np
 
 from derivation.scene import kernels
 from derivation.scene.effects.bending import Bending
-from derivation.scene.effects.effect import Array, Bound, Place, PlateEffect, Share, plate_of
+from derivation.scene.effects.effect import (
+    Array,
+    Bound,
+    BoundContext,
+    Contribution,
+    PlateEffect,
+    plate_of,
+)
 from derivation.scene.effects.finite_radius import FiniteRadius
 from derivation.scene.model import Model
 
 WHOLE_PLATE = frozenset({"bending", "finite_thickness", "finite_radius"})
-"""Effects that `plate_share` holds together."""
+"""Effects that `plate_contribution` holds together."""
 
 
 class FiniteThickness(PlateEffect):
@@ -18,7 +25,7 @@ class FiniteThickness(PlateEffect):
     name = "finite_thickness"
     adds = "shear and compression of the plate"
     equation = "F = (8/(pi alpha^2)) sum s(alpha j_n) (G(2 eta j_n) - 1)/(j_n^4 J_1^2) - F_bending"
-    number = "c_1 a/h less bending's"
+    parameter = "c_1 a/h less bending's"
     source = "sum over the modes; links 12, 18 and 22"
     difference = True
 
@@ -27,9 +34,9 @@ class FiniteThickness(PlateEffect):
         linear = plate_of(model).bend * a / model.h
         return float(linear - kernels.bending(a / model.h, model.eta).depth)
 
-    def bound(self, model: Model, place: Place) -> Bound:
+    def bound(self, model: Model, context: BoundContext) -> Bound:
         """3/2 c_1 A - K_3 A^3 <= S - 1 <= 3/2 c_1 A, less bending and the side wall."""
-        a = place.radii
+        a = context.radii
         plate, A, alpha = plate_of(model), a / model.h, a / model.b
         linear = 1.5 * plate.bend * A - kernels.bending(A, model.eta).slope
         doubt = 1.5 * plate.doubt * A
@@ -39,20 +46,20 @@ class FiniteThickness(PlateEffect):
         # Of either sign in between: no less than at any smaller radius.
         return Bound(np.maximum.accumulate(low), np.maximum.accumulate(up))
 
-    def share(self, model: Model, a: Array) -> Share:
+    def contribution(self, model: Model, a: Array) -> Contribution:
         """What the whole plate adds, less its other parts."""
-        whole = plate_share(model, a)
-        parts = Bending().share(model, a), FiniteRadius().share(model, a)
-        return Share(
+        whole = plate_contribution(model, a)
+        parts = Bending().contribution(model, a), FiniteRadius().contribution(model, a)
+        return Contribution(
             whole.depth - parts[0].depth - parts[1].depth,
             whole.slope - parts[0].slope - parts[1].slope,
         )
 
 
-def plate_share(model: Model, a: Array) -> Share:
+def plate_contribution(model: Model, a: Array) -> Contribution:
     """Bending, finite thickness and side wall in one: the contact law less the half-space's."""
     wide = 4.0 * float(np.max(a))  # the sphere's radius plays no part
     a = np.maximum(a, 1e-30 * wide)  # nothing at a = 0, and nothing here
     depth = kernels.indentation(a, wide, model.h, model.b) * (wide / a / a) - 1.0
     slope = kernels.indentation_slope(a, wide, model.h, model.b) * (wide / a / 2.0) - 1.0
-    return Share(depth, slope)
+    return Contribution(depth, slope)

@@ -2,7 +2,7 @@
 
 import math
 
-from derivation.scene.effects.effect import Bound, Effect, Place, none_of
+from derivation.scene.effects.effect import Bound, BoundContext, Effect, none_of
 from derivation.scene.model import Model
 
 
@@ -12,12 +12,12 @@ class Gravity(Effect):
     name = "gravity"
     adds = "weight of the sphere"
     equation = "m z'' = m g - P"
-    number = "m g a^2/(R E)"
+    parameter = "m g a^2/(R E)"
     source = "energy balance; link 22"
     static = False
     hertzian = True
 
-    def absent(self, model: Model) -> str:
+    def not_applicable_reason(self, model: Model) -> str:
         """None where the scene gives none."""
         return "" if model.gravity else "no impact.gravity"
 
@@ -29,9 +29,9 @@ class Gravity(Effect):
         """Work of the weight over Hertz's indentation, over the sphere's energy."""
         return 2.0 * model.gravity * a * (a / model.R) / model.v0 / model.v0
 
-    def bound(self, model: Model, place: Place) -> Bound:
+    def bound(self, model: Model, context: BoundContext) -> Bound:
         """-log(1 - e), e the work of the weight over the largest indentation over the energy."""
-        share = 2.0 * model.gravity * place.depth / model.v0 / model.v0
+        share = 2.0 * model.gravity * context.depth / model.v0 / model.v0
         energy = -math.log1p(-share) if share < 1.0 else math.inf
-        none = none_of(place.radii)
+        none = none_of(context.radii)
         return Bound(none, none, energy=energy)

@@ -10,9 +10,9 @@ class Hertz(Effect):
     name = "hertz"
     adds = "local indentation of a half-space"
     equation = "delta = a^2/R, P = (4/3) E* a^3/R"
-    number = "a/R"
+    parameter = "a/R"
     source = "Hertz 1881; link 8"
-    forced = True
+    always_included = True
     hertzian = True
 
     def value(self, model: Model, a: float) -> float:

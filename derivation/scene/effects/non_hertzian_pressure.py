@@ -6,18 +6,18 @@ import numpy as np
 
 from derivation.scene import kernels
 from derivation.scene.effects import edge
-from derivation.scene.effects.effect import Bound, Effect, Place, Reach, plate_of
+from derivation.scene.effects.effect import Bound, BoundContext, Effect, Reach, plate_of
 from derivation.scene.effects.finite_thickness import WHOLE_PLATE
 from derivation.scene.model import Model
 
 if TYPE_CHECKING:
     from derivation.scene.law import ContactLaw
 
-OPEN = 6.0
+MAX_A_OVER_H = 6.0
 """Contact radius over half-thickness at which contact is about to be lost at the centre."""
-WIDEST = 0.4
+BOUND_A_OVER_B = 0.4
 """Contact radius over plate radius up to which the bound holds."""
-LARGEST = 0.2
+BOUND_THETA = 0.2
 """theta up to which it holds."""
 
 
@@ -27,31 +27,31 @@ class NonHertzianPressure(Effect):
     name = "non_hertzian_pressure"
     adds = "the true contact pressure"
     equation = "chi + int N chi ds = (E*/pi) (delta - f), chi(a) = 0, P = 2 pi int chi dt"
-    number = "a/H"
+    parameter = "a/H"
     source = "Abel's transform of the mixed problem; link 20"
     contains = WHOLE_PLATE | {"spherical_profile", "sphere_elasticity"}
     requires = WHOLE_PLATE
-    reach = Reach(plate=edge.WIDEST, thickness=OPEN)
+    reach = Reach(plate=edge.MAX_A_OVER_B, thickness=MAX_A_OVER_H)
     solved = True
 
     def value(self, model: Model, a: float) -> float:
         """Contact radius over thickness."""
         return a / (2.0 * model.h)
 
-    def bound(self, model: Model, place: Place) -> Bound:
+    def bound(self, model: Model, context: BoundContext) -> Bound:
         """theta >= (-(15/2) c_3 + (2/25) eta^3) A^3: 5/3 of it downwards, 2/3 upwards.
 
         -(5/2) c_3 is at most K_3. It is proved for a paraboloid; a sphere's pressure is
         steeper, and theta is taken larger by its force over the paraboloid's.
         """
-        a = place.radii
+        a = context.radii
         cubic = (
             3.0 * plate_of(model).rest + kernels.PRESSURE_WALL * model.eta * model.eta * model.eta
         )
         rho = a / model.R
         steeper = kernels.sphere_contact(np.where(rho < 1, rho, np.nan)).force
         theta = np.where(rho < 1, cubic * (a / model.h) ** 3 * steeper, np.inf)
-        known = (theta <= LARGEST) & (a <= WIDEST * model.b)
+        known = (theta <= BOUND_THETA) & (a <= BOUND_A_OVER_B * model.b)
         low, up = (np.where(known, c * theta, np.inf) for c in (5.0 / 3.0, 2.0 / 3.0))
         radius = -np.log1p(-theta[-1]) / 3.0 if known[-1] else np.inf
         return Bound(low, up, radius=float(radius))

@@ -3,7 +3,7 @@
 import numpy as np
 
 from derivation.scene import kernels
-from derivation.scene.effects.effect import Bound, Effect, Place, plate_of
+from derivation.scene.effects.effect import Bound, BoundContext, Effect, plate_of
 from derivation.scene.model import Model
 
 
@@ -13,11 +13,11 @@ class SphereElasticity(Effect):
     name = "sphere_elasticity"
     adds = "elastic sphere"
     equation = "1/E* = (1 - nu^2)/E + (1 - nu_1^2)/E_1"
-    number = "E*/E_1*"
+    parameter = "E*/E_1*"
     source = "Hertz 1881; link 22"
     hertzian = True
 
-    def absent(self, model: Model) -> str:
+    def not_applicable_reason(self, model: Model) -> str:
         """A sphere without material is rigid."""
         return "" if model.softness else "the sphere is rigid: no sphere.material"
 
@@ -29,9 +29,9 @@ class SphereElasticity(Effect):
         """E* of the plate over that of the sphere."""
         return model.softness
 
-    def bound(self, model: Model, place: Place) -> Bound:
+    def bound(self, model: Model, context: BoundContext) -> Bound:
         """s^2 - 1, s^3 = 1 + E*/E_1*, and of it K A^3 in the plate either way."""
-        a = place.radii
+        a = context.radii
         log = np.log1p(model.softness) / 3.0
         growth = np.expm1(2.0 * log)
         plate, alpha = plate_of(model), a / model.b

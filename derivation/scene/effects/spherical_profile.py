@@ -5,13 +5,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from derivation.scene import kernels
-from derivation.scene.effects.effect import Bound, Effect, Place, Reach
+from derivation.scene.effects.effect import Bound, BoundContext, Effect, Reach
 from derivation.scene.model import Model
 
 if TYPE_CHECKING:
     from derivation.scene.law import ContactLaw
 
-LARGEST = 0.99
+MAX_A_OVER_R = 0.99
 """Contact radius over sphere radius up to which the profile's slope is resolved."""
 
 
@@ -21,18 +21,18 @@ class SphericalProfile(Effect):
     name = "spherical_profile"
     adds = "a sphere, not a paraboloid"
     equation = "delta = (a/2) log((R+a)/(R-a)), dP = 2 E* a d delta"
-    number = "a/R"
+    parameter = "a/R"
     source = "Sneddon 1965; link 21"
-    reach = Reach(sphere=LARGEST)
+    reach = Reach(sphere=MAX_A_OVER_R)
     spherical = True
 
     def value(self, model: Model, a: float) -> float:
         """Contact radius over sphere radius."""
         return a / model.R
 
-    def bound(self, model: Model, place: Place) -> Bound:
+    def bound(self, model: Model, context: BoundContext) -> Bound:
         """S - 1 = a_Hertz/a - 1 grows with a, and a is at most Hertz's."""
-        a = place.radii
+        a = context.radii
         rho = a / model.R
         ratio = np.cbrt(kernels.sphere_contact(np.where(rho < 1, rho, np.nan)).force)
         up = np.where(np.isfinite(ratio), ratio - 1.0, np.inf)

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from derivation.scene import kernels
-from derivation.scene.effects.effect import Bound, Effect, Place, none_of
+from derivation.scene.effects.effect import Bound, BoundContext, Effect, none_of
 from derivation.scene.model import Model
 
 if TYPE_CHECKING:
@@ -21,13 +21,13 @@ class Viscosity(Effect):
     name = "viscosity"
     adds = "viscoelastic contact"
     equation = "P = P_e + A_v dP_e/dt >= 0, P_e the half-space's force"
-    number = "x_v = (3/2) A_v (K/m)^(2/5) v0^(1/5)"
+    parameter = "x_v = (3/2) A_v (K/m)^(2/5) v0^(1/5)"
     source = "Kuwabara and Kono 1987, Brilliantov et al. 1996; link 24"
     static = False
     hertzian = True
     viscous = True
 
-    def absent(self, model: Model) -> str:
+    def not_applicable_reason(self, model: Model) -> str:
         """A plate without a time is not viscous."""
         return "" if model.retardation_time else "no plate.retardation_time"
 
@@ -39,10 +39,10 @@ class Viscosity(Effect):
         )
         return float(number * (1.0 + model.softness) ** -0.4)
 
-    def bound(self, model: Model, place: Place) -> Bound:
+    def bound(self, model: Model, context: BoundContext) -> Bound:
         """By the spiral of link 24, proved for a half-space; an elastic plate helps."""
-        assert place.along is not None
-        force, depth, stiffness, energy, growth = place.along
+        assert context.samples is not None
+        force, depth, stiffness, energy, growth = context.samples
         speed = np.sqrt(2.0 * (energy / model.m))
         epsilon = model.retardation_time * float(np.max(stiffness / force * speed))
         steepness = stiffness / force * depth
@@ -57,7 +57,7 @@ class Viscosity(Effect):
             MARGIN * float(np.max(deepening / growth)),
             max(1.0, MARGIN * float(energy[-1] / model.m) * 2.0 / model.v0 / model.v0),
         )
-        none = none_of(place.radii)
+        none = none_of(context.radii)
         return Bound(none, none, results=kernels.viscous_logarithms(course))
 
     def proved(self, law: "ContactLaw") -> bool:  # noqa: ARG002

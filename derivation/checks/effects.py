@@ -1,4 +1,4 @@
-"""Holds the gate to random scenes: what is left out against every effect that applies."""
+"""Test the effect selection on random scenes: omitted effects against every applicable effect."""
 
 from collections.abc import Sequence
 from pathlib import Path

@@ -14,7 +14,7 @@ from derivation.plate.package_pipeline import expect_recordable
 from derivation.scene import motion, waves
 from derivation.scene.effect_selection import decide
 from derivation.scene.effects import EFFECTS
-from derivation.scene.effects.inertia import further_branches, weight_share
+from derivation.scene.effects.inertia import higher_branch_error, weight_share
 from derivation.scene.impact import selected_effects
 from derivation.scene.law import ContactLaw
 from derivation.scene.limits import zener_number
@@ -82,7 +82,7 @@ def placed(data: Scene, place: float) -> tuple[Scene, float]:
     assert still is not None  # such scenes are passed over
     others = dict.fromkeys(present(model) - {"inertia", "hertz"}, True)
     price = decide(model, others | {"inertia": "auto"}, ANY).error
-    radiated = max(further_branches(model, still.max_contact_radius, still.contact_time))
+    radiated = max(higher_branch_error(model, still.max_contact_radius, still.contact_time))
     least = MET * radiated * (1.0 + weight_share(model, still.max_indentation)) + TIGHT
     if price < MUCH and (place < 0.5 or least > price):
         return {**data, "effects": {**others, "inertia": "auto"}}, price * (1.0 + place)

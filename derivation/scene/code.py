@@ -234,7 +234,7 @@ def _shown(table: PanelTable) -> dict[str, Any]:
 def _words(
     scene: Scene, selected: SelectedEffects, deepest: float, notes: tuple[str, ...]
 ) -> dict[str, Any]:
-    """The module's head: the scene, effects in and out, tolerance, what to know."""
+    """The module's head: the scene, effects included and omitted, tolerance, what to know."""
     data = scene.to_json()
     keys = [
         f"[{table}] " + ", ".join(f"{key} = {json.dumps(value)}" for key, value in keys.items())
@@ -246,7 +246,7 @@ def _words(
         for row in selected.rows
         if row.included and BY_NAME[row.name].selectable  # what is only compared is not in the law
     ]
-    out = [
+    omitted = [
         f"{row.name}: "
         + ("" if math.isnan(row.parameter_value) else f"{_bound(row.bound)}; ")
         + row.reason
@@ -264,7 +264,7 @@ def _words(
     return {
         "scene": _wrapped(keys),
         "included": _wrapped(rows),
-        "left_out": _wrapped(out),
+        "omitted": _wrapped(omitted),
         "notes": _wrapped(notes),
         "promise": textwrap.wrap(promise, WIDTH),
         "hash": hashlib.sha256(json.dumps(data, sort_keys=True).encode()).hexdigest()[:16],
@@ -272,7 +272,7 @@ def _words(
 
 
 def _bound(bound: float) -> str:
-    return f"changes {bound:.1e} at most" if math.isfinite(bound) else "no bound is shown"
+    return f"max. change {bound:.1e}" if math.isfinite(bound) else "no bound"
 
 
 def _wrapped(items: list[str] | tuple[str, ...]) -> list[str]:

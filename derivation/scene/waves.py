@@ -17,7 +17,7 @@ import numpy as np
 from derivation.scene import contact_sequence, motion
 from derivation.scene.contact_sequence import ImpactHistory
 from derivation.scene.effects.effect import Results
-from derivation.scene.effects.inertia import WIDER, further_branches, weight_share
+from derivation.scene.effects.inertia import WIDER, higher_branch_error, weight_share
 from derivation.scene.law import ContactLaw
 from derivation.scene.modal import ModalPlate, contact_of, plate_of
 from derivation.scene.mode_count import (
@@ -258,7 +258,7 @@ def _branches(law: ContactLaw, a: float, displacement: float, T: float) -> Resul
     if model.inertia.branches == "all":
         return NONE
     heavier = 1.0 + weight_share(model, displacement)
-    time, depth, force, radius, speed = further_branches(model, a, T)
+    time, depth, force, radius, speed = higher_branch_error(model, a, T)
     return heavier * time, depth, heavier * force, heavier * radius, heavier * speed
 
 

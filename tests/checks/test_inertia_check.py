@@ -16,7 +16,7 @@ from derivation.cli import main
 from derivation.engine.files import measurements
 from derivation.scene import limits, waves
 from derivation.scene.effect_selection import SelectedEffects, decide
-from derivation.scene.effects.inertia import further_branches, weight_share
+from derivation.scene.effects.inertia import higher_branch_error, weight_share
 from derivation.scene.law import ContactLaw
 from derivation.scene.limits import zener_number
 from derivation.scene.model import Model, model_of
@@ -70,7 +70,7 @@ def test_a_weight_makes_inertia_matter_more() -> None:
     # And of what branches may change the speed after has more too.
     found = waves.impact(ContactLaw(heavy, every[1]), 1e-3)
     a, time = found.max_contact_radius, found.contact_time
-    assert found.inertia.omitted_branch_error[-1] > share * further_branches(heavy, a, time)[-1]
+    assert found.inertia.omitted_branch_error[-1] > share * higher_branch_error(heavy, a, time)[-1]
 
 
 NUMBERS, OUT = (1, 5, 9, 16, 17, 44, 76), (5, 17, 76)

@@ -333,7 +333,7 @@ def test_the_head_says_what_is_in_and_why() -> None:
     text = code_of("glass_pane")
     head = ast.get_docstring(ast.parse(text)) or ""
     selected = simulate(scene_of("glass_pane")).effects
-    inside, out = head.split("Left out:")
+    inside, out = head.split("Omitted effects:")
     for row in selected.rows:
         assert f"- {row.name}:" in (inside if row.included else out)
     assert f"{selected.error:.1e} (tolerance 0.001)" in head

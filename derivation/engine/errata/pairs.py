@@ -1,4 +1,4 @@
-"""Two slips in different parts of a product or a sum, found by meeting in the middle.
+"""Two misprints in different parts of a product or a sum, found by meeting in the middle.
 
 Every edit of one part changes the whole by a known ratio (in a sum: difference);
 its partner is the edit of another part that supplies the rest.

@@ -83,7 +83,7 @@ def inner(place: Place) -> Iterator[Place]:
     elif isinstance(node, sp.Pow) and isinstance(node.exp, sp.Rational) and not node.base.is_Atom:
         yield Place(node.base, BASE, place, (0,))
         if isinstance(node.exp, sp.Integer) and abs(node.exp) > 1:
-            # SymPy writes equal factors as a power; the slip may be in one of them
+            # SymPy writes equal factors as a power; the misprint may be in one of them
             yield Place(node.base, FACTOR, place, (0,))
     elif isinstance(node, sp.Function) and len(args) == 1:
         yield Place(args[0], ARGUMENT, place, (0,))

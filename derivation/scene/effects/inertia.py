@@ -1,4 +1,4 @@
-"""Inertia: the plate moves, takes energy along in waves, and may give some of it back."""
+"""Inertia: the plate vibrates, takes energy from the sphere, and may return some of it."""
 
 import math
 from typing import TYPE_CHECKING
@@ -57,7 +57,7 @@ quasi-static response: 1.5 times the largest ratio in 500 random scenes."""
 
 
 class PlateInertia(Effect):
-    """Bending modes that oscillate; those beyond follow at rest, as without inertia all do."""
+    """Dynamic bending modes; higher modes respond quasi-statically."""
 
     name = "inertia"
     adds = "the plate's own motion"
@@ -78,20 +78,20 @@ class PlateInertia(Effect):
         return number / math.pow(1.0 + model.softness, 0.4)
 
     def bound(self, model: Model, context: BoundContext) -> Bound:
-        """What its modes are off their rest by, over the indentation; measured, not proved."""
+        """Deviation of the modes from their quasi-static response over the indentation; tested."""
         assert context.samples is not None
         heavier = 1.0 + weight_share(model, context.depth)
         T = SLOWEST * context.depth / (model.v0 * math.sqrt(heavier))
         a, force = float(context.radii[-1]), float(context.samples.force[-1])
         off = force / context.depth * _off_rest(model, a, T)
-        more = further_branches(model, a, T) if model.density else 5 * (0.0,)
+        more = higher_branch_error(model, a, T) if model.density else 5 * (0.0,)
         none = none_of(context.radii)
         logs = [factor * off + part for factor, part in zip(SENSITIVITY, more, strict=True)]
         logs[0], logs[4] = heavier * logs[0], heavier * logs[4]
         return Bound(none, none, results=(logs[0], logs[1], logs[2], logs[3], logs[4]))
 
     def proved(self, law: "ContactLaw") -> bool:  # noqa: ARG002
-        """Measured on random scenes."""
+        """Return False: tested on random scenes."""
         return False
 
     def check(self, law: "ContactLaw", asked: bool) -> None:
@@ -123,16 +123,16 @@ class PlateInertia(Effect):
 
 
 def weight_share(model: Model, depth: float) -> float:
-    """Work of the weight over the energy brought [1], at a largest indentation [m].
+    """Work of the weight over the initial kinetic energy [1], at a largest indentation [m].
 
-    A sphere that sinks in by its weight is faster on its way than where it meets the plate, and
-    what the plate takes is a part of the energy of both, but misses in that brought alone.
+    A sphere is accelerated by its weight during contact. The plate takes a fraction of the kinetic
+    energy and of this work, but the restitution refers to the initial kinetic energy alone.
     """
     return 2.0 * model.gravity * depth / model.v0 / model.v0
 
 
-def further_branches(model: Model, a: float, T: float) -> Results:
-    """What branches beyond the first may change in each result [1]: measured.
+def higher_branch_error(model: Model, a: float, T: float) -> Results:
+    """Return the change of each result by the branches beyond the first [1]: fitted, tested.
 
     Parameters
     ----------
@@ -171,7 +171,7 @@ def _rise(model: Model) -> float:
 
 
 def _off_rest(model: Model, a: float, T: float) -> float:
-    """How far a unit force's deflection may be off its rest [m/N], all modes together.
+    """Return the deviation from the quasi-static response to a unit force [m/N], of all modes.
 
     Wave numbers are (n - 1/4) pi/b and frequencies those of a thin plate, held below Rayleigh's
     waves: neither a zero of J_0 nor a root of the branch is computed. A mode follows a force as

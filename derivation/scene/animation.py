@@ -1,4 +1,4 @@
-"""Animates an impact on a plate that moves: the plate's profile under the sphere."""
+"""Animates an impact on a plate with inertia: the plate's profile under the sphere."""
 
 import tempfile
 from pathlib import Path
@@ -27,7 +27,7 @@ def render(result: Result, suffix: str) -> bytes:
     Raises
     ------
     SceneError
-        If the plate does not move.
+        If the plate has no inertia.
     """
     import matplotlib as mpl
     from matplotlib.animation import FuncAnimation, PillowWriter
@@ -35,27 +35,32 @@ def render(result: Result, suffix: str) -> bytes:
 
     if result.dynamics is None:
         raise SceneError(
-            "--animate: expected a plate with modes that move, but this scene has none; "
-            "leave it out, or set effects.inertia = true"
+            "--animate: expected a plate with inertia, got a quasi-static plate; remove --animate, "
+            "or set effects.inertia = true"
         )
     times = np.linspace(0.0, result.total_time, FRAMES)
     r = np.linspace(-1.0, 1.0, POINTS) * result.model.b
-    profiles, way = result.dynamics.profiles(times, np.abs(r)), result.dynamics.rows(times)[Z]
+    profiles, displacement = (
+        result.dynamics.profiles(times, np.abs(r)),
+        result.dynamics.rows(times)[Z],
+    )
     t, t_label = scaled(times, "time", "s")
-    both, w_label = scaled(np.vstack((profiles, way[:, None] * np.ones_like(r))), "way", "m")
-    profiles, way = both[:FRAMES], both[FRAMES:, 0]
+    both, w_label = scaled(
+        np.vstack((profiles, displacement[:, None] * np.ones_like(r))), "displacement", "m"
+    )
+    profiles, displacement = both[:FRAMES], both[FRAMES:, 0]
     x, x_label = scaled(r, "distance from the axis", "m")
     made = Figure(figsize=(7.0, 3.5), layout="constrained")
     axes = made.subplots()
     frame(axes, x_label, w_label)
-    axes.set_ylim(*_limits(profiles, way))
+    axes.set_ylim(*_limits(profiles, displacement))
     (plate,) = axes.plot(x, profiles[0], color=BROWN, linewidth=2.0)
-    (sphere,) = axes.plot([0.0], [way[0]], "v", color=BLUE, markersize=12.0)
+    (sphere,) = axes.plot([0.0], [displacement[0]], "v", color=BLUE, markersize=12.0)
     unit = t_label[t_label.index("[") + 1 : -1]
 
     def draw(k: int) -> list[object]:
         plate.set_ydata(profiles[k])
-        sphere.set_ydata([way[k]])
+        sphere.set_ydata([displacement[k]])
         axes.set_title(f"{t[k]:.3g} {unit}; the sphere's lowest point and the plate's deflection")
         return [plate, sphere]
 
@@ -69,8 +74,8 @@ def render(result: Result, suffix: str) -> bytes:
         return place.read_bytes()
 
 
-def _limits(profiles: Array, way: Array) -> tuple[float, float]:
+def _limits(profiles: Array, displacement: Array) -> tuple[float, float]:
     """Way downwards, with some room."""
-    low, high = min(profiles.min(), way.min()), max(profiles.max(), way.max())
+    low, high = min(profiles.min(), displacement.min()), max(profiles.max(), displacement.max())
     room = 0.1 * (high - low)
     return float(high + room), float(low - 3.0 * room)

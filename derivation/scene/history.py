@@ -1,4 +1,4 @@
-"""Courses of an impact and pressures of a contact, as arrays, CSV and notebook tables."""
+"""Time histories of an impact and pressures of a contact: arrays, CSV and notebook tables."""
 
 from collections.abc import Mapping
 from typing import NamedTuple
@@ -26,7 +26,7 @@ HISTORY_UNITS = {
 
 
 class History(NamedTuple):
-    """The course of an impact.
+    """Time history of an impact on a quasi-static plate.
 
     Attributes
     ----------
@@ -56,14 +56,14 @@ class History(NamedTuple):
 
 
 class DynamicHistory(NamedTuple):
-    """The course of an impact on a plate that moves.
+    """Time history of an impact on a plate with inertia.
 
     Attributes
     ----------
     time
         Time since first contact [s].
     indentation, velocity
-        Way of the sphere [m] and its rate [m/s].
+        Displacement of the sphere [m] and its rate [m/s].
     contact_radius
         Contact radius [m].
     force

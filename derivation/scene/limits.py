@@ -219,13 +219,13 @@ def contact_warnings(speeds: Sequence[float], least: float) -> tuple[str, ...]:
 
 
 def neglects_inertia(
-    model: Model, contact_time: float, deflection: float, moving: bool = False
+    model: Model, contact_time: float, deflection: float, dynamic: bool = False
 ) -> bool:
     """Whether the plate's inertia is neglected and may matter, as far as its density is known.
 
     The arguments are those of `motion_warnings`.
     """
-    if moving or not model.density:
+    if dynamic or not model.density:
         return False
     h, b, lam, mu = model.numbers[3:]
     period = float(kernels.bending_period(h, b, lam, mu, model.density))
@@ -234,7 +234,7 @@ def neglects_inertia(
 
 
 def motion_warnings(
-    model: Model, contact_time: float, deflection: float, moving: bool = False
+    model: Model, contact_time: float, deflection: float, dynamic: bool = False
 ) -> tuple[str, ...]:
     """Where the plate's own motion, which is left out, is not small; needs its density.
 
@@ -244,8 +244,8 @@ def motion_warnings(
         Contact time [s].
     deflection
         Share of the plate's deflection in the largest indentation [1].
-    moving
-        Whether its motion in bending is computed.
+    dynamic
+        Whether the plate has inertia.
     """
     if not model.density:
         return ()
@@ -254,7 +254,7 @@ def motion_warnings(
     period = float(kernels.bending_period(h, b, lam, mu, model.density))
     echoes = float(kernels.echo_time(h, lam, mu, model.density))
     found = []
-    if neglects_inertia(model, contact_time, deflection, moving):
+    if neglects_inertia(model, contact_time, deflection, dynamic):
         found.append(
             f"plate inertia is neglected but may matter: Zener's number lambda = {zener:.3g} "
             f"(negligible below {ZENER_LIMIT}), contact time over the first bending period on the "
@@ -263,7 +263,7 @@ def motion_warnings(
             "indentation"
         )
     plate = model.inertia
-    echoing = moving and plate.branches == "all" and not plate.infinite_plate
+    echoing = dynamic and plate.branches == "all" and not plate.infinite_plate
     if contact_time < echoes and not echoing:
         found.append(
             f"the contact time is below 4 H/c_P = {echoes:.3g} s: echoes through the thickness, "

@@ -178,7 +178,7 @@ class Result:
         return replace(self, times=wanted)
 
     def history(self, n: int | None = None) -> History | DynamicHistory:
-        """The course of the impact, of the same effects, by the full method.
+        """Return the time history of the impact, of the same effects, by the full method.
 
         Parameters
         ----------
@@ -202,7 +202,7 @@ class Result:
         return found
 
     def _history(self, n: int | None) -> History | DynamicHistory:
-        """The course as it is computed."""
+        """The time history as it is computed."""
         law = self.effects.law
         if self.dynamics is not None:
             from derivation.scene.time_element import A, E, P, V, W, Z

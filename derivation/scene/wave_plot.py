@@ -1,4 +1,4 @@
-"""Draws an impact on a plate that moves: its course, where the energy is, and restitution."""
+"""Draws an impact on a plate with inertia: time history, energies and restitution."""
 
 from functools import lru_cache
 from typing import TYPE_CHECKING
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 POINTS = 1201
-"""Times of the drawn course."""
+"""Number of times that are drawn."""
 NUMBERS = np.geomspace(1e-3, 10.0, 25)
 """Zener's numbers of the drawn curve."""
 NODES = 14

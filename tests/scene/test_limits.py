@@ -184,7 +184,7 @@ def test_echoes_are_not_warned_of_where_branches_hold_them() -> None:
         (InertiaSettings(branches="all"), False),
         (InertiaSettings(branches="all", infinite_plate=True), True),
     ):
-        texts = limits.motion_warnings(replace(slab, inertia=inertia), 1e-5, 0.0, moving=True)
+        texts = limits.motion_warnings(replace(slab, inertia=inertia), 1e-5, 0.0, dynamic=True)
         assert any("echoes" in text for text in texts) is told
     held = replace(slab, inertia=InertiaSettings(branches="all"))
     assert any("echoes" in text for text in limits.motion_warnings(held, 1e-5, 0.0))

@@ -1,6 +1,6 @@
-"""Physical effects, one file each: what it adds, when it matters, what leaving it out costs.
+"""Physical effects, one file each: what one adds, when it matters, the bound if it is omitted.
 
-Read `effect` first: what all of them answer. The order below is that of the effects table.
+Read `effect` first, the base of all. The order below is that of the effects table.
 """
 
 from derivation.scene.effects.bending import Bending

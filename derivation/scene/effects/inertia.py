@@ -60,7 +60,7 @@ class PlateInertia(Effect):
     """Dynamic bending modes; higher modes respond quasi-statically."""
 
     name = "inertia"
-    adds = "the plate's own motion"
+    adds = "vibration of the plate"
     equation = "q_j'' + omega_j^2 q_j = omega_j^2 c_j P_j"
     parameter = "Zener's lambda = m/(8 That sqrt(D rho H))"
     source = "Zener 1941; Rayleigh 1888 and Lamb 1917; links 26 to 29"

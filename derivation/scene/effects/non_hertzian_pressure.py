@@ -25,7 +25,7 @@ class NonHertzianPressure(Effect):
     """Fredholm's equation for the pressure of the whole plate, whose parts it then holds."""
 
     name = "non_hertzian_pressure"
-    adds = "the true contact pressure"
+    adds = "pressure from the integral equation"
     equation = "chi + int N chi ds = (E*/pi) (delta - f), chi(a) = 0, P = 2 pi int chi dt"
     parameter = "a/H"
     source = "Abel's transform of the mixed problem; link 20"

@@ -17,14 +17,14 @@ from derivation.commands import check as check_command
 from derivation.commands import formulas as formula_commands
 from derivation.commands import paper as paper_commands
 from derivation.commands import scenes as scene_commands
+from derivation.commands.command import Command
 from derivation.commands.groups import Grouped
-from derivation.commands.paper_option import PaperFolder, alone, chosen
+from derivation.commands.options import PaperFolder, alone, chosen
 from derivation.engine.console import (
     INTERRUPTED,
     NOTES,
     OUT,
     UNREAD,
-    Command,
     Json,
     UnreadError,
     counted,
@@ -151,7 +151,7 @@ def misprints(paper: PaperFolder = None, json: Json = None) -> None:
         table("Published and derived formulas", ("equation", "formula", "finding", "fix"), rows)
 
 
-command()(check_command.check)
+app.add_typer(check_command.app, name="check")
 
 
 @command("accuracy", hidden=True)  # its former name
@@ -170,14 +170,14 @@ def benchmark(
         Path | None,
         typer.Option("--out", metavar="FILE", help="Write the result to this file."),
     ] = None,
-    moving: Annotated[
-        bool, typer.Option("--moving", help="Benchmark impacts with plate inertia instead.")
+    dynamic: Annotated[
+        bool, typer.Option("--dynamic", help="Benchmark impacts with plate inertia instead.")
     ] = False,
-    record: Annotated[
+    update: Annotated[
         bool,
         typer.Option(
-            "--record",
-            help="Replace the committed reports/data/accuracy.json (with --moving: moving.json).",
+            "--update",
+            help="Replace the committed reports/data/accuracy.json (with --dynamic: moving.json).",
         ),
     ] = False,
 ) -> None:
@@ -185,18 +185,18 @@ def benchmark(
 
     Takes minutes.
 
-    Files are written only with --out or --record.
+    Files are written only with --out or --update.
 
     Example: platecontact benchmark --quick --out accuracy.json
     """
-    if moving:
-        _moving(out, record, others=quick or bool(method) or scene is not None)
+    if dynamic:
+        _dynamic(out, update, others=quick or bool(method) or scene is not None)
         return
     from derivation import pipeline
     from derivation.plate.benchmark.summary import COLUMNS, cells, headline
 
     with counted("benchmark") as tell:
-        data, path = pipeline.accuracy(method or (), quick, scene, out, tell, record)
+        data, path = pipeline.accuracy(method or (), quick, scene, out, tell, update)
     table("Fastest methods for arrays", COLUMNS, cells(data))
     OUT.say(headline(data))
     _written(path)
@@ -204,20 +204,20 @@ def benchmark(
 
 def _written(path: Path | None) -> None:
     """Say where a measurement was written, or how to keep it."""
-    said = f"written to {path}" if path else "not written: keep it with --out FILE or --record"
+    said = f"written to {path}" if path else "not written: keep it with --out FILE or --update"
     NOTES.say(said)
 
 
-def _moving(out: Path | None, record: bool, others: bool) -> None:
+def _dynamic(out: Path | None, update: bool, others: bool) -> None:
     """Benchmark impacts with plate inertia."""
     from derivation.checks import moving_costs
 
     if others:
         raise typer.BadParameter(
-            "--moving can be combined with --out or --record only; remove the other options"
+            "--dynamic can be combined with --out or --update only; remove the other options"
         )
     with counted("benchmark") as tell:
-        data, path = moving_costs.record(out, tell, record)
+        data, path = moving_costs.record(out, tell, update)
     table("An impact with plate inertia", moving_costs.COLUMNS, moving_costs.cells(data))
     _written(path)
 
@@ -371,9 +371,9 @@ def main(argv: Sequence[str] | None = None) -> int:
         status = platecontact(args=argv, prog_name="platecontact", standalone_mode=False)
         put("")
     except TyperException as error:
-        advice = "see `platecontact --help`"
-        text = f"platecontact: {error.format_message()} ({advice})"
-        NOTES.say(text)
+        context = getattr(error, "ctx", None)
+        command = context.command_path if context else "platecontact"
+        NOTES.say(f"platecontact: {error.format_message()} (see `{command} --help`)")
         return 2
     except UnreadError:
         silence(sys.stdout)

@@ -64,7 +64,7 @@ MEASURED_ACCURACY = measurements() / "accuracy.json"
 EXAMPLE = PACKAGE / "scene" / "examples" / "paper.toml"
 
 
-def check(digits: int = 50, record: bool = False, tell: Progress | None = None) -> tuple[Row, ...]:
+def check(digits: int = 50, update: bool = False, tell: Progress | None = None) -> tuple[Row, ...]:
     """Stage 5: measure the generated package against both oracles; keep the result if asked.
 
     Raises
@@ -72,15 +72,15 @@ def check(digits: int = 50, record: bool = False, tell: Progress | None = None) 
     derivation.engine.oracle.agreement.OracleError
         If the two oracles contradict each other.
     """
-    if record:
+    if update:
         expect_recordable(MEASURED)
     rows = measure(digits, progress=tell)
-    if record:
+    if update:
         write_file(MEASURED, to_json(rows, digits, GENERATED))
     return rows
 
 
-def check_contact(record: bool = False, tell: Progress | None = None) -> tuple[ContactRow, ...]:
+def check_contact(update: bool = False, tell: Progress | None = None) -> tuple[ContactRow, ...]:
     """Measure the contact law, its inversion and the impact against both oracles: minutes.
 
     Raises
@@ -88,13 +88,13 @@ def check_contact(record: bool = False, tell: Progress | None = None) -> tuple[C
     derivation.engine.oracle.agreement.OracleError
         If the two oracles contradict each other.
     """
-    if record:
+    if update:
         expect_recordable(MEASURED_CONTACT)
     kernels: dict[str, Callable[..., Any]] = {
         name: impact.impact if name == "impact" else getattr(contact_law, name) for name in KERNELS
     }
     rows = measure_contact(kernels, processes=os.cpu_count() or 1, tell=tell)
-    if record:
+    if update:
         text = json.dumps(contact_data(rows), indent=1, sort_keys=True) + "\n"
         write_file(MEASURED_CONTACT, text)
     return rows
@@ -126,7 +126,7 @@ def contact_data(rows: tuple[ContactRow, ...]) -> dict[str, Any]:
     return {"provenance": provenance(DIGITS, GENERATED), "limit": LIMIT, "rows": found}
 
 
-def check_hard(record: bool = False, tell: Progress | None = None) -> tuple[hard_check.Row, ...]:
+def check_hard(update: bool = False, tell: Progress | None = None) -> tuple[hard_check.Row, ...]:
     """Hold generated and printed forms to the hard cases' references.
 
     These are the committed ones; or found anew where they follow from something else now, which
@@ -139,10 +139,10 @@ def check_hard(record: bool = False, tell: Progress | None = None) -> tuple[hard
     ValueError
         If a case has none.
     """
-    if record:
+    if update:
         expect_recordable(MEASURED_HARD)
     cases, known = hard_check.cases(), hard_check.kernels()
-    if not record:
+    if not update:
         if not MEASURED_HARD.is_file():
             raise FileNotFoundError(f"no references in {MEASURED_HARD}: run `{hard_check.COMMAND}`")
         truth = hard_check.committed(json.loads(MEASURED_HARD.read_text()), cases)
@@ -156,37 +156,37 @@ def check_hard(record: bool = False, tell: Progress | None = None) -> tuple[hard
     return rows
 
 
-def check_speed(record: bool = False, tell: Progress | None = None) -> list[speed.Timing]:
+def check_speed(update: bool = False, tell: Progress | None = None) -> list[speed.Timing]:
     """Measure the speed of contact law, impact and cold starts on this machine."""
-    if record:
+    if update:
         expect_recordable(MEASURED_SPEED)
     examples = sorted(EXAMPLE.parent.glob("*.toml"))
     solved = [path for path in examples if "pressure" in gated(load(path))[1].law.effects]
     timings = speed.measure(examples, solved, tell)
-    if record:
+    if update:
         text = json.dumps(speed.as_data(timings), indent=1, sort_keys=True) + "\n"
         write_file(MEASURED_SPEED, text)
     return timings
 
 
 def check_bounds(
-    count: int, record: bool = False, tell: Progress | None = None
+    count: int, update: bool = False, tell: Progress | None = None
 ) -> tuple[bounds.Row, ...]:
     """Hold the bounds that `simulate` states to the first `count` random scenes.
 
     Truths that are committed are taken as they are; others are sought, about a second each,
     and if asked kept every few, so that a run that was stopped goes on where it was.
     """
-    if record:
+    if update:
         expect_recordable(MEASURED_BOUNDS)
     known = committed_truths()
     found: list[bounds.Truth] = []
     for true in bounds.truths(count, known, tell=tell):
         found.append(true)
-        if record and len(found) > len(known) and len(found) % KEPT_EVERY == 0:
+        if update and len(found) > len(known) and len(found) % KEPT_EVERY == 0:
             write_file(MEASURED_BOUNDS, bounds.to_json(found, ()))
     rows = bounds.judge(found, _chosen)
-    if record:
+    if update:
         write_file(MEASURED_BOUNDS, bounds.to_json(found + known[count:], rows))
     return rows
 
@@ -209,7 +209,7 @@ def accuracy(
     scene: Path | None = None,
     out: Path | None = None,
     tell: Progress | None = None,
-    record: bool = False,
+    update: bool = False,
 ) -> tuple[dict[str, Any], Path | None]:
     """Measure the run time that each accuracy takes, and write it to a file if asked.
 
@@ -225,7 +225,7 @@ def accuracy(
         Where to write the result.
     tell
         Told about each step.
-    record
+    update
         Whether to replace the project's committed measurement.
 
     Raises
@@ -235,12 +235,12 @@ def accuracy(
     OSError
         If the file cannot be written.
     """
-    if record and (methods or scene is not None or out is not None):
+    if update and (methods or scene is not None or out is not None):
         raise ValueError(
-            "--record replaces the whole committed measurement and cannot be combined with "
-            "--method, --scene or --out; remove --record, or these"
+            "--update replaces the whole committed measurement and cannot be combined with "
+            "--method, --scene or --out; remove --update, or these"
         )
-    path = recorded_in(MEASURED_ACCURACY, record, out)
+    path = recorded_in(MEASURED_ACCURACY, update, out)
     regime = None
     if scene is not None:
         case = model_of(load(scene))
@@ -251,12 +251,12 @@ def accuracy(
     return data, path
 
 
-def rewriting(record: bool = False, tell: Progress | None = None) -> tuple[Account, ...]:
+def rewriting(update: bool = False, tell: Progress | None = None) -> tuple[Account, ...]:
     """What the rules did to each formula, measured without and with every one of them."""
-    if record:
+    if update:
         expect_recordable(REWRITTEN)
     found = accounts(formulas(), AUTOMATIC, SCALES, tell)
-    if record:
+    if update:
         data = {"rows": plain([asdict(account) for account in found])}
         write_file(REWRITTEN, json.dumps(data, indent=1, sort_keys=True) + "\n")
     return found

@@ -18,13 +18,13 @@ MEASURED: Path = measurements() / "effects.json"
 
 
 def check_effects(
-    count: int, record: bool = False, tell: Tell | None = None
+    count: int, update: bool = False, tell: Tell | None = None
 ) -> tuple[effects.Row, ...]:
     """Random scenes at several tolerances against everything on; keep the rows if asked."""
-    if record:
+    if update:
         expect_recordable(MEASURED)
     rows = effects.judge(count, gated, everything, tell=tell)
-    if record:
+    if update:
         write_file(MEASURED, effects.to_json(rows, count))
     return rows
 

@@ -43,14 +43,14 @@ MET, TIGHT = 3.0, 1e-4
 def check_inertia(
     count: int,
     seed: int = inertia.SEED,
-    record: bool = False,
+    update: bool = False,
     tell: Tell | None = None,
 ) -> Judged:
     """Random scenes with a plate that may move against more modes; keep the rows if asked."""
-    if record:
+    if update:
         expect_recordable(MEASURED)
     found = inertia.judge(count, solve, pass_over, seed, tell)
-    if record:
+    if update:
         write_file(MEASURED, inertia.to_json(found, seed))
     return found
 

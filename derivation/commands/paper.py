@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from derivation.commands.paper_option import chosen
+from derivation.commands.options import chosen
 from derivation.engine.console import NOTES, counted, stage
 
 
@@ -25,7 +25,7 @@ def build(folder: Path) -> int:
         with stage(what):
             work(own)
     with counted("check") as tell:
-        rows = stages.check(own, record=True, tell=tell)
+        rows = stages.check(own, update=True, tell=tell)
     with stage("report"):
         try:
             stages.report(own)

@@ -80,7 +80,7 @@ def misprints(paper: Paper) -> tuple[Finding, ...]:
 
 
 def check(
-    paper: Paper, digits: int = 50, record: bool = False, tell: Progress | None = None
+    paper: Paper, digits: int = 50, update: bool = False, tell: Progress | None = None
 ) -> "tuple[Row, ...]":
     """Stage 5: compare the generated functions with both references; keep the result if asked.
 
@@ -102,7 +102,7 @@ def check(
         )
     _forget(own.target)
     rows = measure.check(paper.judge(), digits, progress=tell)
-    if record:
+    if update:
         write_file(paper.report().measured, to_json(rows, digits, own.target))
     return rows
 
@@ -131,7 +131,7 @@ def report(
         raise ValueError("--section: expected a report with sections of its own; leave it out")
     if not own.measured.is_file():
         raise FileNotFoundError(
-            f"no measurement in {own.measured}: run `platecontact check --record` with the same "
+            f"no measurement in {own.measured}: run `platecontact check --update` with the same "
             "paper"
         )
     contents = any_report.Contents(

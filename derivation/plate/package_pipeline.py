@@ -65,7 +65,7 @@ def writable_folder(out: Path | None, own: Path) -> Path:
     return folder
 
 
-def recorded_in(committed: Path, record: bool, out: Path | None) -> Path | None:
+def recorded_in(committed: Path, update: bool, out: Path | None) -> Path | None:
     """The file that a measurement is written to: the committed one, `out`, or none.
 
     Raises
@@ -75,9 +75,9 @@ def recorded_in(committed: Path, record: bool, out: Path | None) -> Path | None:
     OSError
         If the file cannot be written.
     """
-    if record and out is not None:
-        raise ValueError("--record and --out cannot be combined; remove one of them")
-    if record:
+    if update and out is not None:
+        raise ValueError("--update and --out cannot be combined; remove one of them")
+    if update:
         expect_recordable(committed)
         return committed
     if out is not None:
@@ -97,7 +97,7 @@ def expect_recordable(path: Path) -> None:
     """
     if not in_checkout():
         raise ValueError(
-            "--record: expected a checkout, got an installed copy; keep the result by --json FILE"
+            "--update: expected a checkout, got an installed copy; keep the result by --json FILE"
         )
     expect_writable(path)
 

@@ -65,7 +65,7 @@ def test_accounts_of_the_papers_formulas_are_recorded_as_they_are(
     assert main(["rewrite", "--json", "-"]) == 0
     assert json.loads(capsys.readouterr().out)["rows"] == kept
     assert not path.exists()
-    assert main(["rewrite", "--record"]) == 0
+    assert main(["rewrite", "--update"]) == 0
     assert json.loads(path.read_text())["rows"] == kept
     shown = capsys.readouterr().out
     assert all(f" {row['name']} " in shown for row in kept if row["applied"])
@@ -140,7 +140,7 @@ def test_a_missing_measurement_is_named_with_its_command(
             (tmp_path / path.name).write_bytes(path.read_bytes())
     monkeypatch.setattr(reporting, "measurements", lambda: tmp_path)
     assert main(["report", "--check"]) == 2
-    assert "hard.json: run `platecontact check --hard --record`" in capsys.readouterr().err
+    assert "hard.json: run `platecontact check hard-cases --update`" in capsys.readouterr().err
 
 
 def test_the_whole_report_takes_readme_and_picture_along(
@@ -215,7 +215,7 @@ def test_moving_costs_are_measured_and_written(
     monkeypatch.setattr(moving_costs, "branches", list)
     monkeypatch.setattr(moving_costs, "tolerances", list)
     path = tmp_path / "moving.json"
-    assert main(["accuracy", "--moving", "--out", str(path)]) == 0
+    assert main(["benchmark", "--dynamic", "--out", str(path)]) == 0
     data = json.loads(path.read_text())
     first, second = data["rows"]
     assert first["errors"] == {"contact_time": 0.0, "max_force": 0.0, "restitution": 0.25}

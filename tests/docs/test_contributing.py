@@ -189,7 +189,7 @@ def test_the_new_rule_acts(copy: Path) -> None:
 
 
 def test_the_new_hard_case_is_judged(copy: Path) -> None:
-    assert "T=0x1.5555555555555p-2" in run(copy, COMMAND, "check", "--hard", expect=2)
+    assert "T=0x1.5555555555555p-2" in run(copy, COMMAND, "check", "hard-cases", expect=2)
     [[kept, error, allowed]] = json.loads(run(copy, HARD))
     assert kept
     assert error <= allowed

@@ -118,8 +118,8 @@ def test_what_is_no_paper_is_refused(folder: Path, tmp_path: Path) -> None:
         "derive", "--paper", str(tmp_path), home=tmp_path, status=2
     )
     assert "expected an empty folder" in run("new", str(folder), home=tmp_path, status=2)
-    assert "remove the other options" in run(
-        "check", "--hard", "--paper", str(folder), home=tmp_path, status=2
+    assert "No such option: --paper" in run(
+        "check", "hard-cases", "--paper", str(folder), home=tmp_path, status=2
     )
     for text, says in (
         ("import nothing_of_that_name", "paper.py, line 1: ModuleNotFoundError: No module"),
@@ -137,7 +137,7 @@ def test_what_is_missing_is_named(tmp_path: Path) -> None:
     paper = load(tmp_path / "film")
     with pytest.raises(FileNotFoundError, match="run `platecontact generate`"):
         build.check(paper)
-    with pytest.raises(FileNotFoundError, match="run `platecontact check --record`"):
+    with pytest.raises(FileNotFoundError, match="run `platecontact check --update`"):
         build.report(paper)
     with pytest.raises(ValueError, match="sections of its own"):
         build.report(paper, sections=["misprints"])

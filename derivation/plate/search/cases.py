@@ -20,7 +20,7 @@ Case = dict[str, Any]
 
 _SECONDS = {"s": 1, "m": 60, "h": 3600}
 _HEADER = """\
-# Worst cases of `platecontact check --search`, as cases for the hard-case suite.
+# Worst cases of `platecontact check search`, as cases for the hard-case suite.
 """
 
 
@@ -34,7 +34,7 @@ def seconds_of(duration: str) -> int:
     """
     found = re.fullmatch(r"([1-9][0-9]{0,6})([smh])", duration)
     if found is None:
-        raise ValueError(f"expected a duration like 30s, 5m or 1h, got {duration!r}")
+        raise ValueError(f"--time: expected a duration like 30s, 5m or 1h, got {duration!r}")
     return int(found[1]) * _SECONDS[found[2]]
 
 

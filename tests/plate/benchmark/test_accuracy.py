@@ -172,10 +172,10 @@ def test_the_committed_measurement_is_replaced_only_on_demand(
         assert pipeline.accuracy(options[1:], quick=bool(options)) == (measured, None)
     assert committed.read_text() == "committed"
     for other in (["--method", "table of cubics"], ["--out", str(tmp_path / "x.json")]):
-        assert main(["accuracy", "--record", *other]) == 2
-        assert "--record" in capsys.readouterr().err
+        assert main(["benchmark", "--update", *other]) == 2
+        assert "--update" in capsys.readouterr().err
     assert committed.read_text() == "committed"
-    assert pipeline.accuracy(record=True) == (measured, committed)
+    assert pipeline.accuracy(update=True) == (measured, committed)
     assert json.loads(committed.read_text()) == measured
 
 

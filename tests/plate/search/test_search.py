@@ -188,11 +188,9 @@ def test_durations() -> None:
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [
-        (["--search", "soon"], "30s, 5m or 1h"),
-        (["--search", "1s", "--kernel", "nonsense"], "bessel_j1"),
-        (["--search", "1s", "--speed"], "stands alone"),
-        (["--kernel", "G"], "--search"),
-        (["--search", "1s", "--kernel", "G", "--out", str(ROOT / "pyproject.toml")], "--out"),
+        (["search", "--time", "soon"], "30s, 5m or 1h"),
+        (["search", "--function", "nonsense"], "bessel_j1"),
+        (["search", "--function", "G", "--out", str(ROOT / "pyproject.toml")], "--out"),
     ],
 )
 def test_bad_input_is_refused(
@@ -218,16 +216,16 @@ def test_a_case_with_other_arguments_is_refused(fast: Sequence[Target], tmp_path
 def test_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path, data = tmp_path / "cases.toml", tmp_path / "found.json"
     chosen = [
-        "--kernel",
+        "--function",
         "kappa_ratio",
-        "--kernel",
+        "--function",
         "bessel_j1",
         "--out",
         str(path),
         "--json",
         str(data),
     ]
-    status = main(["check", "--search", "1s", "--seed", "5", *chosen])
+    status = main(["check", "search", "--time", "1s", "--seed", "5", *chosen])
     found = json.loads(data.read_text())
     shown = capsys.readouterr().out
     assert [row["kernel"] for row in found["rows"]] == ["bessel_j1", "kappa_ratio"]
@@ -248,7 +246,8 @@ def loudly(*arguments):
     yield from look(*arguments)
     print("looked", flush=True)
 search._look = loudly
-sys.exit(cli.main(["check", "--search", "1h", "--kernel", "bessel_j0", "--out", sys.argv[1]]))
+command = "check search --time 1h --function bessel_j0 --out"
+sys.exit(cli.main([*command.split(), sys.argv[1]]))
 """
     path = tmp_path / "cases.toml"
     run = subprocess.Popen(

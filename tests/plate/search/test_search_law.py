@@ -199,7 +199,7 @@ def test_the_search_as_json_is_nothing_else(
     book = Book(tmp_path / "cases.toml", [target], NOWHERE, NOWHERE)
     book.keep(found)
     monkeypatch.setattr(pipeline, "search_worse", lambda *_: (found, book))
-    assert main(["check", "--search", "1s", "--json", "-"]) == status
+    assert main(["check", "search", "--time", "1s", "--json", "-"]) == status
     shown = capsys.readouterr()
     assert json.loads(shown.out) == as_data(found)
     assert "new worst cases in" in shown.err

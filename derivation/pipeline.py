@@ -13,13 +13,13 @@ import sympy as sp
 from derivation.checks import bounds
 from derivation.engine.bounded import bounded
 from derivation.engine.emit.standalone import standalone
-from derivation.engine.files import PACKAGE, ROOT, expect_writable, measurements, write_file
+from derivation.engine.files import PACKAGE, expect_writable, measurements, write_file
 from derivation.engine.formula.parse import FUNCTIONS, FormulaError, parse
 from derivation.engine.formula.size import terms_when_expanded
 from derivation.engine.formula.vocabulary import NOTHING
-from derivation.engine.measure.check import Progress, Row
-from derivation.engine.measure.record import plain, provenance, to_json
-from derivation.engine.rewrite.account import Account, accounts
+from derivation.engine.measure.check import Progress
+from derivation.engine.measure.record import plain, provenance
+from derivation.engine.outputs import expect_recordable, folder_for, recorded_in
 from derivation.engine.rewrite.stabilise import Stable, stabilise
 from derivation.engine.rewrite.tested import Tested
 from derivation.plate.benchmark import run as accuracy_run
@@ -28,14 +28,11 @@ from derivation.plate.contact.cases.check import KERNELS, LIMIT
 from derivation.plate.contact.cases.check import Row as ContactRow
 from derivation.plate.contact.cases.check import check as measure_contact
 from derivation.plate.contact.cases.truth import DIGITS
-from derivation.plate.derived import formulas
-from derivation.plate.forms import AUTOMATIC, SCALES
 from derivation.plate.hard import check as hard_check
 from derivation.plate.hard.record import find_references
 from derivation.plate.impact.oracle import many_costs, many_digits
 from derivation.plate.judge import PACKAGE as GENERATED
-from derivation.plate.judge import check as measure
-from derivation.plate.package_pipeline import expect_recordable, folder_for, recorded_in
+from derivation.plate.paper import PAPER
 from derivation.plate.search.cases import Book, seconds_of
 from derivation.plate.search.search import Search, Tell, search
 from derivation.plate.search.targets import targets
@@ -47,37 +44,18 @@ from derivation.scene.result import Result
 from derivation.scene.scene import Scene, SceneError, load, read
 from generated import contact_law, impact
 
-REPORTS = ROOT / "reports"
 MAX_TERMS = 5000
 """Terms that a formula to rewrite may have when expanded."""
 REWRITE_SECONDS = 30
 """Processor time [s] that rewriting a formula may take."""
 KEPT_EVERY = 20
 """Truths of random scenes after which they are written."""
-MEASURED = measurements() / "check.json"
 MEASURED_CONTACT = measurements() / "contact.json"
-REWRITTEN = measurements() / "rewrite.json"
 MEASURED_SPEED = measurements() / "speed.json"
 MEASURED_HARD = measurements() / "hard.json"
 MEASURED_BOUNDS = measurements() / "bounds.json"
 MEASURED_ACCURACY = measurements() / "accuracy.json"
 EXAMPLE = PACKAGE / "scene" / "examples" / "paper.toml"
-
-
-def check(digits: int = 50, update: bool = False, tell: Progress | None = None) -> tuple[Row, ...]:
-    """Stage 5: measure the generated package against both oracles; keep the result if asked.
-
-    Raises
-    ------
-    derivation.engine.oracle.agreement.OracleError
-        If the two oracles contradict each other.
-    """
-    if update:
-        expect_recordable(MEASURED)
-    rows = measure(digits, progress=tell)
-    if update:
-        write_file(MEASURED, to_json(rows, digits, GENERATED))
-    return rows
 
 
 def check_contact(update: bool = False, tell: Progress | None = None) -> tuple[ContactRow, ...]:
@@ -147,7 +125,6 @@ def check_hard(update: bool = False, tell: Progress | None = None) -> tuple[hard
             raise FileNotFoundError(f"no references in {MEASURED_HARD}: run `{hard_check.COMMAND}`")
         truth = hard_check.committed(json.loads(MEASURED_HARD.read_text()), cases)
         return hard_check.check(cases, truth, known)
-    folder_for(None, REPORTS)
     part = MEASURED_HARD.with_suffix(".part.json")
     truth = find_references(cases, known, MEASURED_HARD, part, tell)
     rows = hard_check.check(cases, truth, known)
@@ -251,17 +228,6 @@ def accuracy(
     return data, path
 
 
-def rewriting(update: bool = False, tell: Progress | None = None) -> tuple[Account, ...]:
-    """What the rules did to each formula, measured without and with every one of them."""
-    if update:
-        expect_recordable(REWRITTEN)
-    found = accounts(formulas(), AUTOMATIC, SCALES, tell)
-    if update:
-        data = {"rows": plain([asdict(account) for account in found])}
-        write_file(REWRITTEN, json.dumps(data, indent=1, sort_keys=True) + "\n")
-    return found
-
-
 def rewritten(text: str, variable: str = "x") -> tuple[Stable, str, Tested]:
     """The stable form of a user's formula, its NumPy module, and what testing that found.
 
@@ -301,9 +267,9 @@ def search_worse(
         If the duration or a kernel is none, or the file is of another kind.
     """
     seconds, chosen = seconds_of(duration), targets(kernels)
-    path = folder_for(None, REPORTS) / "search.toml" if out is None else out
+    path = folder_for(None, PAPER.report_folder) / "search.toml" if out is None else out
     expect_writable(path)
-    book = Book(path, chosen, MEASURED, MEASURED_CONTACT)
+    book = Book(path, chosen, PAPER.measured, MEASURED_CONTACT)
     found = search(chosen, seed, seconds, tell=tell, keep=book.keep)
     book.keep(found)
     return found, book
@@ -378,18 +344,3 @@ def reference(known: Result, digits: int, tell: Progress) -> many_digits.Referen
 def _motion(known: Result) -> many_costs.Motion:
     m = known.model
     return m.R, m.m, m.v0, m.h, m.b, m.lam, m.mu
-
-
-def verdict(rows: tuple[Row, ...]) -> list[str]:
-    """What a fresh measurement says, and whether it repeats the committed one."""
-    failed = [row.kernel for row in rows if row.passed is False]
-    lines = [f"beyond their budget: {', '.join(failed)}"] if failed else ["all budgets kept"]
-    if MEASURED.is_file():
-        kept = {(r["kernel"], r["module"]): r for r in json.loads(MEASURED.read_text())["rows"]}
-        fresh = {
-            (r["kernel"], r["module"]): r for r in json.loads(to_json(rows, 50, GENERATED))["rows"]
-        }
-        moved = sorted({n for n, m in fresh if fresh[n, m] != kept.get((n, m))})
-        if moved:
-            lines.append(f"not as committed in {MEASURED.name}: {', '.join(moved)}")
-    return lines

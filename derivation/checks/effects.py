@@ -6,7 +6,7 @@ from pathlib import Path
 from derivation.checks import effects_judged as effects
 from derivation.checks.random_scenes import Scene, Tell
 from derivation.engine.files import measurements, write_file
-from derivation.plate.package_pipeline import expect_recordable
+from derivation.engine.outputs import expect_recordable
 from derivation.scene.effects import EFFECTS
 from derivation.scene.impact import gated as decided
 from derivation.scene.law import ContactLaw

@@ -10,7 +10,7 @@ from derivation.checks import inertia_judged as inertia
 from derivation.checks.inertia_judged import Found, Judged
 from derivation.checks.random_scenes import Scene, Tell
 from derivation.engine.files import measurements, write_file
-from derivation.plate.package_pipeline import expect_recordable
+from derivation.engine.outputs import expect_recordable
 from derivation.scene import motion, waves
 from derivation.scene.effect_selection import decide
 from derivation.scene.effects import EFFECTS

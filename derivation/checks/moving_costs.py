@@ -19,10 +19,10 @@ from scipy.optimize import minimize_scalar
 
 from derivation.engine.files import measurements, write_file
 from derivation.engine.measure.record import provenance
+from derivation.engine.outputs import recorded_in
 from derivation.plate.benchmark.clock import Candidate, interleaved
 from derivation.plate.benchmark.speed import machine
 from derivation.plate.judge import PACKAGE
-from derivation.plate.package_pipeline import recorded_in
 from derivation.scene import contact_sequence, waves
 from derivation.scene.effects.effect import Array
 from derivation.scene.impact import gated, simulate

@@ -76,16 +76,12 @@ def check(
     """
     if context.invoked_subcommand is not None:
         return
-    from derivation import pipeline
     from derivation.engine import build
     from derivation.engine.measure.record import COLUMNS, as_data, cells, passed, worst
 
     own = chosen(paper)
     with counted("check") as tell:
-        if paper is None:
-            rows = pipeline.check(digits, update, tell)
-        else:
-            rows = build.check(own, digits, update, tell)
+        rows = build.check(own, digits, update, tell)
     target, tighter = own.package().target, suggested.as_data(rows, suggest_budgets)
     if put_json(lambda: as_data(rows, digits, target) | tighter, json):
         table(f"Errors against {digits} digits", COLUMNS, [cells(row) for row in rows])

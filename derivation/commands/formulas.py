@@ -15,7 +15,7 @@ def rewrite(
     ] = "",
     variable: Annotated[str, typer.Option(help="Variable of the formula, positive.")] = "x",
     update: Annotated[
-        bool, typer.Option("--update", help="Save the paper's result in reports/data/rewrite.json.")
+        bool, typer.Option("--update", help="Save the paper's result as its rewrite.json.")
     ] = False,
     paper: PaperFolder = None,
     json: Json = None,
@@ -33,7 +33,7 @@ def rewrite(
     from derivation.engine.measure.record import plain
 
     if formula:
-        alone(paper, "--json (and no formula)", formula)
+        alone(paper, "--update and --json (and no formula)", formula)
         if update:
             raise ValueError(
                 "--update applies to the paper's formulas and cannot be combined with FORMULA; "
@@ -45,12 +45,8 @@ def rewrite(
         applied = [asdict(a) for a in stable.applied]
         data: object = {"source": source, "tested": asdict(tested), "applied": applied}
     else:
-        alone(paper, "--json", update)
         with counted("rewrite") as tell:
-            if paper is None:
-                accounts = pipeline.rewriting(update, tell)
-            else:
-                accounts = build.account(chosen(paper), tell)
+            accounts = build.account(chosen(paper), update, tell)
         found = [(account.name, applied) for account in accounts for applied in account.applied]
         data, source = {"rows": [asdict(account) for account in accounts]}, ""
     if put_json(lambda: plain(data), json):

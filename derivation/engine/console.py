@@ -91,7 +91,7 @@ def counted(name: str) -> Iterator[Callable[[str, int, int], None]]:
     start = time.perf_counter()
     part = TextColumn("{task.description}", markup=False)
     columns = (TextColumn(name), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), part)
-    with Progress(*columns, console=NOTES, transient=True) as bar:
+    with Progress(*columns, console=NOTES, transient=True, disable=not NOTES.is_terminal) as bar:
         task = bar.add_task("", total=None)
         yield lambda part, number, total: bar.update(
             task, description=part, completed=number - 1, total=total

@@ -18,12 +18,16 @@ from derivation.checks import inertia as inertia_check
 from derivation.checks.effects_judged import TOLERANCES
 from derivation.checks.inertia_judged import Found
 from derivation.cli import main
+from derivation.engine import build
+from derivation.engine.measure import check as measure
 from derivation.plate import judge as plate_judge
+from derivation.plate import paper as plate_paper
 from derivation.plate.benchmark.speed import Timing
 from derivation.plate.contact.cases import check as contact
 from derivation.plate.hard import check as hard_check
 from derivation.plate.hard import record as hard_record
 from derivation.plate.judge import generated_kernels
+from derivation.plate.paper import PAPER
 
 Captured = pytest.CaptureFixture[str]
 Patch = pytest.MonkeyPatch
@@ -41,15 +45,15 @@ def rows_of(path: Path) -> list[dict[str, Any]]:
 def spoilt(monkeypatch: Patch, tmp_path: Path) -> Callable[[float], Path]:
     """Have `check` measure J0 alone, times a factor; gives where that is recorded."""
     path = tmp_path / "check.json"
-    monkeypatch.setattr(pipeline, "MEASURED", path)
+    monkeypatch.setattr(plate_paper, "PAPER", dataclasses.replace(PAPER, records=tmp_path))
 
     def of(factor: float) -> Path:
         [right] = [kernel for kernel in generated_kernels() if kernel.name == "bessel_j0"]
         wrong = dataclasses.replace(right, call=lambda x: right.call(x) * x.dtype.type(factor))
         silent = dataclasses.replace(wrong, module="as_printed", budget=None)
         monkeypatch.setattr(
-            pipeline, "measure",
-            lambda digits, progress: plate_judge.check(digits, [wrong, silent], progress),
+            measure, "check",
+            lambda _, digits, progress: plate_judge.check(digits, [wrong, silent], progress),
         )  # fmt: skip
         return path
 
@@ -80,19 +84,20 @@ def test_a_formula_that_is_off_fails_and_the_verdict_names_it(
     spoilt: Callable[[float], Path], capsys: Captured
 ) -> None:
     path = spoilt(1.0)
-    sound = pipeline.check(update=True)
+    paper = plate_paper.PAPER
+    sound = build.check(paper, update=True)
     before = path.read_bytes()
-    assert pipeline.verdict(sound) == ["all budgets kept"]
+    assert build.verdict(paper, sound) == ["all budgets kept"]
     spoilt(1.0 + 1e-13)
     assert main(["check"]) == 1
     assert "NO" in capsys.readouterr().out
-    assert pipeline.verdict(pipeline.check()) == [
+    assert build.verdict(paper, build.check(paper)) == [
         "beyond their budget: bessel_j0",
         "not as committed in check.json: bessel_j0",
     ]
     assert path.read_bytes() == before
     path.unlink()
-    assert pipeline.verdict(sound) == ["all budgets kept"]  # nothing to repeat
+    assert build.verdict(paper, sound) == ["all budgets kept"]  # nothing to repeat
 
 
 # --- contact law

@@ -9,6 +9,7 @@ from derivation import pipeline
 from derivation.cli import app, main
 from derivation.commands.check import MOVED, SUBCOMMANDS
 from derivation.commands.command import RENAMED
+from derivation.engine import build
 
 Captured = pytest.CaptureFixture[str]
 
@@ -39,11 +40,11 @@ def test_a_former_option_works_and_says_so_once(
 ) -> None:
     asked = list[object]()
 
-    def rewriting(update: bool, _: object) -> tuple[()]:
+    def account(_: object, update: bool, __: object) -> tuple[()]:
         asked.append(update)
         return ()
 
-    monkeypatch.setattr(pipeline, "rewriting", rewriting)
+    monkeypatch.setattr(build, "account", account)
     assert main(["rewrite", "--record", "--json", "-"]) == 0
     shown = capsys.readouterr()
     assert json.loads(shown.out) == {"rows": []}

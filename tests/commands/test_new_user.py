@@ -11,6 +11,7 @@ import tempfile
 import time
 import tomllib
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -22,8 +23,10 @@ from derivation.checks import effects as effects_check
 from derivation.checks import inertia as inertia_check
 from derivation.checks import moving_costs
 from derivation.cli import app, main
+from derivation.engine import outputs, report_files
 from derivation.engine.files import ROOT
-from derivation.plate import package_pipeline, reporting
+from derivation.plate import paper as plate_paper
+from derivation.plate import reporting
 
 
 def commands(group: Any, prefix: str = "") -> Iterator[tuple[str, Any]]:
@@ -37,7 +40,7 @@ def commands(group: Any, prefix: str = "") -> Iterator[tuple[str, Any]]:
 COMMANDS = dict(commands(get_command(app)))
 PAPER = str(ROOT / "derivation" / "scene" / "examples" / "paper.toml")
 NOBODY = 65534
-LOADED = moving_costs, reporting
+LOADED = moving_costs, reporting, report_files
 """What the commands below import, while nobody may not have leave to read Python's library."""
 Captured = pytest.CaptureFixture[str]
 
@@ -178,7 +181,6 @@ def test_without_leave_to_write_nothing_is_computed(
 @pytest.mark.parametrize(
     ("options", "module", "name"),
     [
-        ([], pipeline, "MEASURED"),
         (["contact-law"], pipeline, "MEASURED_CONTACT"),
         (["timing"], pipeline, "MEASURED_SPEED"),
         (["hard-cases"], pipeline, "MEASURED_HARD"),
@@ -196,6 +198,15 @@ def test_what_cannot_be_recorded_is_not_measured(
     _refused(capsys)
 
 
+@pytest.mark.parametrize("command", ["check", "rewrite"])
+def test_what_a_paper_cannot_keep_is_not_measured(
+    command: str, locked: Path, monkeypatch: pytest.MonkeyPatch, capsys: Captured
+) -> None:
+    monkeypatch.setattr(plate_paper, "PAPER", replace(plate_paper.PAPER, records=locked))
+    assert main([command, "--update"]) == 2
+    _refused(capsys)
+
+
 def _refused(capsys: Captured) -> None:
     lines = [line for line in capsys.readouterr().err.splitlines() if line.strip()]
     assert len(lines) == 1, lines
@@ -206,7 +217,7 @@ def _refused(capsys: Captured) -> None:
 def test_an_installed_copy_records_nothing(
     monkeypatch: pytest.MonkeyPatch, capsys: Captured
 ) -> None:
-    monkeypatch.setattr(package_pipeline, "in_checkout", lambda: False)
+    monkeypatch.setattr(outputs, "in_checkout", lambda: False)
     assert main(["check", "contact-law", "--update"]) == 2
     assert "keep the result by --json FILE" in capsys.readouterr().err
 

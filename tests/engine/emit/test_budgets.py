@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
-from derivation import pipeline
 from derivation.cli import main
+from derivation.engine import build
 from derivation.engine.emit.budgets import parse_budgets
 from derivation.engine.files import ROOT
 from derivation.engine.measure.check import Row
@@ -156,7 +156,7 @@ def test_the_command_prints_suggestions_and_writes_nothing(
 ) -> None:
     errors = Errors(9, 0, 0, 0, 0.6, 0.5, 0.4, 0.2, 0.1, None, "float64", ())
     rows = (Row("P", "pressure", 1.0, errors, errors, 2, passed=True),)
-    monkeypatch.setattr(pipeline, "check", lambda *_: rows)
+    monkeypatch.setattr(build, "check", lambda *_: rows)
     before = BUDGETS.read_bytes()
     assert main(["check", "--suggest-budgets"]) == 0
     printed = capsys.readouterr().out

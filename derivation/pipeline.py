@@ -19,6 +19,8 @@ from derivation.engine.formula.size import terms_when_expanded
 from derivation.engine.formula.vocabulary import NOTHING
 from derivation.engine.measure.check import Progress
 from derivation.engine.measure.record import plain, provenance
+from derivation.engine.measure.search import Search, Tell, search
+from derivation.engine.measure.search_record import Book, seconds_of
 from derivation.engine.outputs import expect_recordable, folder_for, recorded_in
 from derivation.engine.rewrite.stabilise import Stable, stabilise
 from derivation.engine.rewrite.tested import Tested
@@ -33,9 +35,7 @@ from derivation.plate.hard.record import find_references
 from derivation.plate.impact.oracle import many_costs, many_digits
 from derivation.plate.judge import PACKAGE as GENERATED
 from derivation.plate.paper import PAPER
-from derivation.plate.search.cases import Book, seconds_of
-from derivation.plate.search.search import Search, Tell, search
-from derivation.plate.search.targets import targets
+from derivation.plate.search.targets import recorded, targets
 from derivation.scene.effects import BY_NAME, EFFECTS, WHOLE_PLATE
 from derivation.scene.impact import gated, simulate
 from derivation.scene.method_selection import solve
@@ -269,7 +269,7 @@ def search_worse(
     seconds, chosen = seconds_of(duration), targets(kernels)
     path = folder_for(None, PAPER.report_folder) / "search.toml" if out is None else out
     expect_writable(path)
-    book = Book(path, chosen, PAPER.measured, MEASURED_CONTACT)
+    book = Book(path, chosen, *recorded(PAPER.measured, MEASURED_CONTACT))
     found = search(chosen, seed, seconds, tell=tell, keep=book.keep)
     book.keep(found)
     return found, book

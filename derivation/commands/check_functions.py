@@ -98,7 +98,7 @@ def search(
     Example: platecontact check search --time 5m --function G --out worst.toml
     """
     from derivation import pipeline
-    from derivation.plate.search.cases import COLUMNS, arguments, as_data, cells, kept
+    from derivation.engine.measure.search_record import COLUMNS, arguments, as_data, cells, kept
 
     with clocked("search") as tell:
         found, book = pipeline.search_worse(time, seed, function or [], out, tell)

@@ -16,7 +16,8 @@ def _package() -> Package:
     from derivation.plate.forms import AUTOMATIC, SCALES, stable_forms
     from derivation.plate.render import render
 
-    return Package("generated", stable_forms, render, ("plate/budgets.toml",), AUTOMATIC, SCALES)
+    sources = ("plate/budgets.toml", "plate/*/budgets.toml", "plate/templates", "plate/*/*.j2")
+    return Package("generated", stable_forms, render, sources, AUTOMATIC, SCALES)
 
 
 def _judge() -> "Judge":

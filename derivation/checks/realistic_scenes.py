@@ -155,7 +155,7 @@ def cells(found: Sequence[Outcome]) -> list[tuple[str, ...]]:
     """Tolerance, outcome, number and fraction of the runs at it, and reason, for a table."""
     runs = Counter(outcome.rtol for outcome in found)
     groups = Counter((outcome.rtol, outcome.kind, outcome.group) for outcome in found)
-    rows = []
+    rows: list[tuple[str, ...]] = []
     for rtol, total in runs.items():
         here = [(k, g, many) for (r, k, g), many in groups.items() if r == rtol]
         for kind, group, many in sorted(here, key=lambda x: (KINDS.index(x[0]), -x[2])):

@@ -17,14 +17,14 @@ from derivation.commands import check as check_command
 from derivation.commands import formulas as formula_commands
 from derivation.commands import paper as paper_commands
 from derivation.commands import scenes as scene_commands
+from derivation.commands.command import Command
 from derivation.commands.groups import Grouped
-from derivation.commands.paper_option import PaperFolder, alone, chosen
+from derivation.commands.options import PaperFolder, chosen
 from derivation.engine.console import (
     INTERRUPTED,
     NOTES,
     OUT,
     UNREAD,
-    Command,
     Json,
     UnreadError,
     counted,
@@ -51,9 +51,6 @@ app = typer.Typer(
 )
 
 command = partial(app.command, cls=Command)
-Out = Annotated[
-    Path | None, typer.Option("--out", metavar="DIR", help="Write here instead of the checkout.")
-]
 
 
 @command()
@@ -74,67 +71,7 @@ def derive(paper: PaperFolder = None, json: Json = None) -> None:
         table("Derived formulas", ("formula", "unit", "equation", "proof", "verified"), rows)
 
 
-@command()
-def generate(
-    check: Annotated[
-        bool, typer.Option("--check", help="Compare only: show what differs, write nothing.")
-    ] = False,
-    out: Annotated[
-        Path | None,
-        typer.Option(
-            "--out", metavar="PATH", help="Write into this folder, or the code of a scene here."
-        ),
-    ] = None,
-    scene: Annotated[
-        Path | None,
-        typer.Option("--scene", metavar="SCENE.toml", help="Write one module for this scene."),
-    ] = None,
-    paper: PaperFolder = None,
-) -> None:
-    """Write the NumPy package `generated`, or check that it is fresh.
-
-    Example: platecontact generate --out mypackage/plate
-
-    With --scene: one module that imports NumPy alone, with the contact law and the impact of a
-    scene, of the effects that it calls for.
-
-    Example: platecontact generate --scene glass_pane.toml --out glass_pane.py
-    """
-    alone(paper, "--check and --out", scene)
-    if scene is not None:
-        _scene_code(scene, out, check)
-        return
-    from derivation.engine import build
-    from derivation.plate import package_pipeline
-
-    own = chosen(paper)
-    if check:
-        with stage("compare"):
-            mend = f"platecontact generate --paper {paper}" + (f" --out {out}" if out else "")
-            freshness = (
-                package_pipeline.check_generated(out)
-                if paper is None
-                else build.check_generated(own, out, mend)
-            )
-        OUT.say(str(freshness))
-        raise typer.Exit(0 if freshness.fresh else 1)
-    with stage("derive and generate"):
-        written = package_pipeline.generate(out) if paper is None else build.generate(own, out)
-    NOTES.say(f"{len(written)} files in {written[0].parent}")
-
-
-def _scene_code(scene: Path, out: Path | None, check: bool) -> None:
-    """Write the module of one scene."""
-    from derivation.scene import SceneError, load
-    from derivation.scene_code import write_scene_code
-
-    if check:
-        raise SceneError("--check: expected the package, got --scene; leave out one of them")
-    if out is None:
-        raise SceneError("--out: expected a file for the scene's code, got none; add --out FILE.py")
-    scene_commands.check_outputs(scene, None, csv=out)
-    write_scene_code(load(scene), out)
-    NOTES.say(f"{out}")
+command()(paper_commands.generate)
 
 
 @command()
@@ -153,7 +90,7 @@ def misprints(paper: PaperFolder = None, json: Json = None) -> None:
         table("Published and derived formulas", ("equation", "formula", "finding", "fix"), rows)
 
 
-command()(check_command.check)
+app.add_typer(check_command.app, name="check")
 
 
 @command("accuracy", hidden=True)  # its former name
@@ -172,14 +109,14 @@ def benchmark(
         Path | None,
         typer.Option("--out", metavar="FILE", help="Write the result to this file."),
     ] = None,
-    moving: Annotated[
-        bool, typer.Option("--moving", help="Benchmark impacts with plate inertia instead.")
+    dynamic: Annotated[
+        bool, typer.Option("--dynamic", help="Benchmark impacts with plate inertia instead.")
     ] = False,
-    record: Annotated[
+    update: Annotated[
         bool,
         typer.Option(
-            "--record",
-            help="Replace the committed reports/data/accuracy.json (with --moving: moving.json).",
+            "--update",
+            help="Replace the committed reports/data/accuracy.json (with --dynamic: moving.json).",
         ),
     ] = False,
 ) -> None:
@@ -187,18 +124,18 @@ def benchmark(
 
     Takes minutes.
 
-    Files are written only with --out or --record.
+    Files are written only with --out or --update.
 
     Example: platecontact benchmark --quick --out accuracy.json
     """
-    if moving:
-        _moving(out, record, others=quick or bool(method) or scene is not None)
+    if dynamic:
+        _dynamic(out, update, others=quick or bool(method) or scene is not None)
         return
     from derivation import pipeline
     from derivation.plate.benchmark.summary import COLUMNS, cells, headline
 
     with counted("benchmark") as tell:
-        data, path = pipeline.accuracy(method or (), quick, scene, out, tell, record)
+        data, path = pipeline.accuracy(method or (), quick, scene, out, tell, update)
     table("Fastest methods for arrays", COLUMNS, cells(data))
     OUT.say(headline(data))
     _written(path)
@@ -206,124 +143,27 @@ def benchmark(
 
 def _written(path: Path | None) -> None:
     """Say where a measurement was written, or how to keep it."""
-    said = f"written to {path}" if path else "not written: keep it with --out FILE or --record"
+    said = f"written to {path}" if path else "not written: keep it with --out FILE or --update"
     NOTES.say(said)
 
 
-def _moving(out: Path | None, record: bool, others: bool) -> None:
+def _dynamic(out: Path | None, update: bool, others: bool) -> None:
     """Benchmark impacts with plate inertia."""
     from derivation.checks import moving_costs
 
     if others:
         raise typer.BadParameter(
-            "--moving can be combined with --out or --record only; remove the other options"
+            "--dynamic can be combined with --out or --update only; remove the other options"
         )
     with counted("benchmark") as tell:
-        data, path = moving_costs.record(out, tell, record)
+        data, path = moving_costs.record(out, tell, update)
     table("An impact with plate inertia", moving_costs.COLUMNS, moving_costs.cells(data))
     _written(path)
 
 
 command()(formula_commands.rewrite)
-
-
-@command()
-def report(
-    pdf: Annotated[bool, typer.Option("--pdf/--no-pdf", help="Compile the PDF too.")] = True,
-    check: Annotated[
-        bool, typer.Option("--check", help="Compare the committed files only, write nothing.")
-    ] = False,
-    section: Annotated[
-        list[str] | None,
-        typer.Option("--section", metavar="NAME", help="This section only; repeatable."),
-    ] = None,
-    fragment: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--fragment",
-            metavar="NAME",
-            help="Print a formula, or all of a link of the chain, as LaTeX to paste; repeatable.",
-        ),
-    ] = None,
-    out: Out = None,
-    paper: PaperFolder = None,
-) -> None:
-    """Write the report as LaTeX and HTML, and compile the PDF.
-
-    Example: platecontact report --section misprints --section accuracy
-
-    With --fragment: to the screen, or with --out into a folder, the bibliography beside it.
-
-    Example: platecontact report --fragment K_j --fragment "contact split" --out pieces
-    """
-    alone(paper, "--no-pdf and --out", check, section, fragment)
-    from derivation.engine import build
-
-    own = chosen(paper)
-    if paper is not None:
-        with stage("report"):
-            written = build.report(own, out, pdf)
-        NOTES.say("\n".join(str(path) for path in written))
-        return
-    from derivation.plate import reporting
-
-    if bool(check) + bool(section) + bool(fragment) > 1:
-        raise ValueError("expected one of --check, --section and --fragment: run one by one")
-    if check:
-        with stage("compare"):
-            freshness = reporting.check_report(out)
-        OUT.say(str(freshness))
-        raise typer.Exit(0 if freshness.fresh else 1)
-    if fragment:
-        if out is None:
-            put(reporting.fragments(fragment))
-            return
-        written = reporting.write_fragments(fragment, out)
-    else:
-        with stage("report"):
-            written = reporting.report(out, pdf, section or ())
-    NOTES.say("\n".join(str(path) for path in written))
-
-
-@command()
-def build(out: Out = None, paper: PaperFolder = None) -> None:
-    """Run the main job, from derivation to report.
-
-    Example: platecontact build
-    """
-    if paper is not None:
-        alone(paper, "no other option", out)
-        raise typer.Exit(paper_commands.build(paper))
-    from derivation.plate import derived, package_pipeline
-
-    for room in ("generated", "reports"):
-        package_pipeline.writable_folder(out / room if out else None, ROOT / room)
-    with stage("derive"):
-        derived.chain()
-    with stage("rewrite"):
-        package_pipeline.forms()
-    with stage("generate"):
-        package_pipeline.generate(out / "generated" if out else None)
-    with stage("misprints"):
-        derived.misprints()
-    # Only now, as these import what has just been generated.
-    from derivation import pipeline
-    from derivation.engine.measure.record import passed
-    from derivation.engine.report.pdf import TexError
-    from derivation.plate import reporting
-
-    with counted("check") as tell:
-        rows = pipeline.check(tell=tell)
-    with stage("report"):
-        try:
-            reporting.report(out / "reports" if out else None)
-        except TexError as error:
-            NOTES.say(f"no PDF, all else is there: {error}")
-    for line in pipeline.verdict(rows):
-        NOTES.say(line)
-    raise typer.Exit(0 if passed(rows) else 1)
-
-
+command()(paper_commands.report)
+command()(paper_commands.build)
 command()(formula_commands.diagnose)
 command()(paper_commands.new)
 
@@ -374,9 +214,9 @@ def main(argv: Sequence[str] | None = None) -> int:
             status = platecontact(args=argv, prog_name="platecontact", standalone_mode=False)
         put("")
     except TyperException as error:
-        advice = "see `platecontact --help`"
-        text = f"platecontact: {error.format_message()} ({advice})"
-        NOTES.say(text)
+        context = getattr(error, "ctx", None)
+        command = context.command_path if context else "platecontact"
+        NOTES.say(f"platecontact: {error.format_message()} (see `{command} --help`)")
         return 2
     except UnreadError:
         silence(sys.stdout)

@@ -13,13 +13,15 @@ import sympy as sp
 from derivation.checks import bounds
 from derivation.engine.bounded import bounded
 from derivation.engine.emit.standalone import standalone
-from derivation.engine.files import PACKAGE, ROOT, expect_writable, measurements, write_file
+from derivation.engine.files import PACKAGE, expect_writable, measurements, write_file
 from derivation.engine.formula.parse import FUNCTIONS, FormulaError, parse
 from derivation.engine.formula.size import terms_when_expanded
 from derivation.engine.formula.vocabulary import NOTHING
-from derivation.engine.measure.check import Progress, Row
-from derivation.engine.measure.record import plain, provenance, to_json
-from derivation.engine.rewrite.account import Account, accounts
+from derivation.engine.measure.check import Progress
+from derivation.engine.measure.record import plain, provenance
+from derivation.engine.measure.search import Search, Tell, search
+from derivation.engine.measure.search_record import Book, seconds_of
+from derivation.engine.outputs import expect_recordable, folder_for, recorded_in
 from derivation.engine.rewrite.stabilise import Stable, stabilise
 from derivation.engine.rewrite.tested import Tested
 from derivation.plate.benchmark import run as accuracy_run
@@ -28,17 +30,12 @@ from derivation.plate.contact.cases.check import KERNELS, LIMIT
 from derivation.plate.contact.cases.check import Row as ContactRow
 from derivation.plate.contact.cases.check import check as measure_contact
 from derivation.plate.contact.cases.truth import DIGITS
-from derivation.plate.derived import formulas
-from derivation.plate.forms import AUTOMATIC, SCALES
 from derivation.plate.hard import check as hard_check
 from derivation.plate.hard.record import find_references
 from derivation.plate.impact.oracle import many_costs, many_digits
 from derivation.plate.judge import PACKAGE as GENERATED
-from derivation.plate.judge import check as measure
-from derivation.plate.package_pipeline import expect_recordable, folder_for, recorded_in
-from derivation.plate.search.cases import Book, seconds_of
-from derivation.plate.search.search import Search, Tell, search
-from derivation.plate.search.targets import targets
+from derivation.plate.paper import PAPER
+from derivation.plate.search.targets import recorded, targets
 from derivation.scene.effects import BY_NAME, EFFECTS, WHOLE_PLATE
 from derivation.scene.impact import selected_effects, simulate
 from derivation.scene.method_selection import solve
@@ -47,16 +44,13 @@ from derivation.scene.result import Result
 from derivation.scene.scene import Scene, SceneError, load, read
 from generated import contact_law, impact
 
-REPORTS = ROOT / "reports"
 MAX_TERMS = 5000
 """Terms that a formula to rewrite may have when expanded."""
 REWRITE_SECONDS = 30
 """Processor time [s] that rewriting a formula may take."""
 KEPT_EVERY = 20
 """Truths of random scenes after which they are written."""
-MEASURED = measurements() / "check.json"
 MEASURED_CONTACT = measurements() / "contact.json"
-REWRITTEN = measurements() / "rewrite.json"
 MEASURED_SPEED = measurements() / "speed.json"
 MEASURED_HARD = measurements() / "hard.json"
 MEASURED_BOUNDS = measurements() / "bounds.json"
@@ -64,23 +58,7 @@ MEASURED_ACCURACY = measurements() / "accuracy.json"
 EXAMPLE = PACKAGE / "scene" / "examples" / "paper.toml"
 
 
-def check(digits: int = 50, record: bool = False, tell: Progress | None = None) -> tuple[Row, ...]:
-    """Stage 5: measure the generated package against both oracles; keep the result if asked.
-
-    Raises
-    ------
-    derivation.engine.oracle.agreement.OracleError
-        If the two oracles contradict each other.
-    """
-    if record:
-        expect_recordable(MEASURED)
-    rows = measure(digits, progress=tell)
-    if record:
-        write_file(MEASURED, to_json(rows, digits, GENERATED))
-    return rows
-
-
-def check_contact(record: bool = False, tell: Progress | None = None) -> tuple[ContactRow, ...]:
+def check_contact(update: bool = False, tell: Progress | None = None) -> tuple[ContactRow, ...]:
     """Measure the contact law, its inversion and the impact against both oracles: minutes.
 
     Raises
@@ -88,13 +66,13 @@ def check_contact(record: bool = False, tell: Progress | None = None) -> tuple[C
     derivation.engine.oracle.agreement.OracleError
         If the two oracles contradict each other.
     """
-    if record:
+    if update:
         expect_recordable(MEASURED_CONTACT)
     kernels: dict[str, Callable[..., Any]] = {
         name: impact.impact if name == "impact" else getattr(contact_law, name) for name in KERNELS
     }
     rows = measure_contact(kernels, processes=os.cpu_count() or 1, tell=tell)
-    if record:
+    if update:
         text = json.dumps(contact_data(rows), indent=1, sort_keys=True) + "\n"
         write_file(MEASURED_CONTACT, text)
     return rows
@@ -126,7 +104,7 @@ def contact_data(rows: tuple[ContactRow, ...]) -> dict[str, Any]:
     return {"provenance": provenance(DIGITS, GENERATED), "limit": LIMIT, "rows": found}
 
 
-def check_hard(record: bool = False, tell: Progress | None = None) -> tuple[hard_check.Row, ...]:
+def check_hard(update: bool = False, tell: Progress | None = None) -> tuple[hard_check.Row, ...]:
     """Hold generated and printed forms to the hard cases' references.
 
     These are the committed ones; or found anew where they follow from something else now, which
@@ -139,15 +117,14 @@ def check_hard(record: bool = False, tell: Progress | None = None) -> tuple[hard
     ValueError
         If a case has none.
     """
-    if record:
+    if update:
         expect_recordable(MEASURED_HARD)
     cases, known = hard_check.cases(), hard_check.kernels()
-    if not record:
+    if not update:
         if not MEASURED_HARD.is_file():
             raise FileNotFoundError(f"no references in {MEASURED_HARD}: run `{hard_check.COMMAND}`")
         truth = hard_check.committed(json.loads(MEASURED_HARD.read_text()), cases)
         return hard_check.check(cases, truth, known)
-    folder_for(None, REPORTS)
     part = MEASURED_HARD.with_suffix(".part.json")
     truth = find_references(cases, known, MEASURED_HARD, part, tell)
     rows = hard_check.check(cases, truth, known)
@@ -156,9 +133,9 @@ def check_hard(record: bool = False, tell: Progress | None = None) -> tuple[hard
     return rows
 
 
-def check_speed(record: bool = False, tell: Progress | None = None) -> list[speed.Timing]:
+def check_speed(update: bool = False, tell: Progress | None = None) -> list[speed.Timing]:
     """Measure the speed of contact law, impact and cold starts on this machine."""
-    if record:
+    if update:
         expect_recordable(MEASURED_SPEED)
     examples = sorted(EXAMPLE.parent.glob("*.toml"))
     solved = [
@@ -167,30 +144,30 @@ def check_speed(record: bool = False, tell: Progress | None = None) -> list[spee
         if "non_hertzian_pressure" in selected_effects(load(path))[1].law.effects
     ]
     timings = speed.measure(examples, solved, tell)
-    if record:
+    if update:
         text = json.dumps(speed.as_data(timings), indent=1, sort_keys=True) + "\n"
         write_file(MEASURED_SPEED, text)
     return timings
 
 
 def check_bounds(
-    count: int, record: bool = False, tell: Progress | None = None
+    count: int, update: bool = False, tell: Progress | None = None
 ) -> tuple[bounds.Row, ...]:
     """Hold the bounds that `simulate` states to the first `count` random scenes.
 
     Truths that are committed are taken as they are; others are sought, about a second each,
     and if asked kept every few, so that a run that was stopped goes on where it was.
     """
-    if record:
+    if update:
         expect_recordable(MEASURED_BOUNDS)
     known = committed_truths()
     found: list[bounds.Truth] = []
     for true in bounds.truths(count, known, tell=tell):
         found.append(true)
-        if record and len(found) > len(known) and len(found) % KEPT_EVERY == 0:
+        if update and len(found) > len(known) and len(found) % KEPT_EVERY == 0:
             write_file(MEASURED_BOUNDS, bounds.to_json(found, ()))
     rows = bounds.judge(found, _chosen)
-    if record:
+    if update:
         write_file(MEASURED_BOUNDS, bounds.to_json(found + known[count:], rows))
     return rows
 
@@ -213,7 +190,7 @@ def accuracy(
     scene: Path | None = None,
     out: Path | None = None,
     tell: Progress | None = None,
-    record: bool = False,
+    update: bool = False,
 ) -> tuple[dict[str, Any], Path | None]:
     """Measure the run time that each accuracy takes, and write it to a file if asked.
 
@@ -229,7 +206,7 @@ def accuracy(
         Where to write the result.
     tell
         Told about each step.
-    record
+    update
         Whether to replace the project's committed measurement.
 
     Raises
@@ -239,12 +216,12 @@ def accuracy(
     OSError
         If the file cannot be written.
     """
-    if record and (methods or scene is not None or out is not None):
+    if update and (methods or scene is not None or out is not None):
         raise ValueError(
-            "--record replaces the whole committed measurement and cannot be combined with "
-            "--method, --scene or --out; remove --record, or these"
+            "--update replaces the whole committed measurement and cannot be combined with "
+            "--method, --scene or --out; remove --update, or these"
         )
-    path = recorded_in(MEASURED_ACCURACY, record, out)
+    path = recorded_in(MEASURED_ACCURACY, update, out)
     regime = None
     if scene is not None:
         case = model_of(load(scene))
@@ -253,17 +230,6 @@ def accuracy(
     if path is not None:
         write_file(path, json.dumps(data, indent=1, sort_keys=True, allow_nan=False) + "\n")
     return data, path
-
-
-def rewriting(record: bool = False, tell: Progress | None = None) -> tuple[Account, ...]:
-    """What the rules did to each formula, measured without and with every one of them."""
-    if record:
-        expect_recordable(REWRITTEN)
-    found = accounts(formulas(), AUTOMATIC, SCALES, tell)
-    if record:
-        data = {"rows": plain([asdict(account) for account in found])}
-        write_file(REWRITTEN, json.dumps(data, indent=1, sort_keys=True) + "\n")
-    return found
 
 
 def rewritten(text: str, variable: str = "x") -> tuple[Stable, str, Tested]:
@@ -305,9 +271,9 @@ def search_worse(
         If the duration or a kernel is none, or the file is of another kind.
     """
     seconds, chosen = seconds_of(duration), targets(kernels)
-    path = folder_for(None, REPORTS) / "search.toml" if out is None else out
+    path = folder_for(None, PAPER.report_folder) / "search.toml" if out is None else out
     expect_writable(path)
-    book = Book(path, chosen, MEASURED, MEASURED_CONTACT)
+    book = Book(path, chosen, *recorded(PAPER.measured, MEASURED_CONTACT))
     found = search(chosen, seed, seconds, tell=tell, keep=book.keep)
     book.keep(found)
     return found, book
@@ -385,18 +351,3 @@ def reference(known: Result, digits: int, tell: Progress) -> many_digits.Referen
 def _motion(known: Result) -> many_costs.Motion:
     m = known.model
     return m.R, m.m, m.v0, m.h, m.b, m.lam, m.mu
-
-
-def verdict(rows: tuple[Row, ...]) -> list[str]:
-    """What a fresh measurement says, and whether it repeats the committed one."""
-    failed = [row.kernel for row in rows if row.passed is False]
-    lines = [f"beyond their budget: {', '.join(failed)}"] if failed else ["all budgets kept"]
-    if MEASURED.is_file():
-        kept = {(r["kernel"], r["module"]): r for r in json.loads(MEASURED.read_text())["rows"]}
-        fresh = {
-            (r["kernel"], r["module"]): r for r in json.loads(to_json(rows, 50, GENERATED))["rows"]
-        }
-        moved = sorted({n for n, m in fresh if fresh[n, m] != kept.get((n, m))})
-        if moved:
-            lines.append(f"not as committed in {MEASURED.name}: {', '.join(moved)}")
-    return lines

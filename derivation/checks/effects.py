@@ -6,7 +6,7 @@ from pathlib import Path
 from derivation.checks import effects_judged as effects
 from derivation.checks.random_scenes import Scene, Tell
 from derivation.engine.files import measurements, write_file
-from derivation.plate.package_pipeline import expect_recordable
+from derivation.engine.outputs import expect_recordable
 from derivation.scene.effects import EFFECTS
 from derivation.scene.impact import selected_effects
 from derivation.scene.law import ContactLaw
@@ -18,13 +18,13 @@ MEASURED: Path = measurements() / "effects.json"
 
 
 def check_effects(
-    count: int, record: bool = False, tell: Tell | None = None
+    count: int, update: bool = False, tell: Tell | None = None
 ) -> tuple[effects.Row, ...]:
     """Random scenes at several tolerances against everything on; keep the rows if asked."""
-    if record:
+    if update:
         expect_recordable(MEASURED)
     rows = effects.judge(count, gated, everything, tell=tell)
-    if record:
+    if update:
         write_file(MEASURED, effects.to_json(rows, count))
     return rows
 

@@ -10,7 +10,7 @@ from derivation.checks import inertia_judged as inertia
 from derivation.checks.inertia_judged import Found, Judged
 from derivation.checks.random_scenes import Scene, Tell
 from derivation.engine.files import measurements, write_file
-from derivation.plate.package_pipeline import expect_recordable
+from derivation.engine.outputs import expect_recordable
 from derivation.scene import motion, waves
 from derivation.scene.effect_selection import decide
 from derivation.scene.effects import EFFECTS
@@ -43,14 +43,14 @@ MET, TIGHT = 3.0, 1e-4
 def check_inertia(
     count: int,
     seed: int = inertia.SEED,
-    record: bool = False,
+    update: bool = False,
     tell: Tell | None = None,
 ) -> Judged:
     """Random scenes with a plate that may move against more modes; keep the rows if asked."""
-    if record:
+    if update:
         expect_recordable(MEASURED)
     found = inertia.judge(count, solve, pass_over, seed, tell)
-    if record:
+    if update:
         write_file(MEASURED, inertia.to_json(found, seed))
     return found
 

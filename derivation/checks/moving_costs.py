@@ -18,11 +18,11 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import minimize_scalar
 
 from derivation.engine.files import measurements, write_file
+from derivation.engine.measure.clock import Candidate, interleaved
 from derivation.engine.measure.record import provenance
-from derivation.plate.benchmark.clock import Candidate, interleaved
+from derivation.engine.outputs import recorded_in
 from derivation.plate.benchmark.speed import machine
 from derivation.plate.judge import PACKAGE
-from derivation.plate.package_pipeline import recorded_in
 from derivation.scene import contact_sequence, waves
 from derivation.scene.effects.effect import Array
 from derivation.scene.impact import selected_effects, simulate

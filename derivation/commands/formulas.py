@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from derivation.commands.paper_option import PaperFolder, alone, chosen
+from derivation.commands.options import PaperFolder, alone, chosen
 from derivation.engine.console import OUT, Json, counted, put_json, stage, table
 
 
@@ -14,8 +14,8 @@ def rewrite(
         str, typer.Argument(help="A formula of one variable (default: the paper's formulas).")
     ] = "",
     variable: Annotated[str, typer.Option(help="Variable of the formula, positive.")] = "x",
-    record: Annotated[
-        bool, typer.Option("--record", help="Save the paper's result in reports/data/rewrite.json.")
+    update: Annotated[
+        bool, typer.Option("--update", help="Save the paper's result as its rewrite.json.")
     ] = False,
     paper: PaperFolder = None,
     json: Json = None,
@@ -33,10 +33,10 @@ def rewrite(
     from derivation.engine.measure.record import plain
 
     if formula:
-        alone(paper, "--json (and no formula)", formula)
-        if record:
+        alone(paper, "--update and --json (and no formula)", formula)
+        if update:
             raise ValueError(
-                "--record applies to the paper's formulas and cannot be combined with FORMULA; "
+                "--update applies to the paper's formulas and cannot be combined with FORMULA; "
                 "remove one of them"
             )
         with stage("rewrite"):
@@ -45,12 +45,8 @@ def rewrite(
         applied = [asdict(a) for a in stable.applied]
         data: object = {"source": source, "tested": asdict(tested), "applied": applied}
     else:
-        alone(paper, "--json", record)
         with counted("rewrite") as tell:
-            if paper is None:
-                accounts = pipeline.rewriting(record, tell)
-            else:
-                accounts = build.account(chosen(paper), tell)
+            accounts = build.account(chosen(paper), update, tell)
         found = [(account.name, applied) for account in accounts for applied in account.applied]
         data, source = {"rows": [asdict(account) for account in accounts]}, ""
     if put_json(lambda: plain(data), json):

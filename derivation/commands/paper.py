@@ -1,39 +1,140 @@
-"""The commands for a paper in a folder: `platecontact new`, and `build` on it."""
+"""The commands that write what belongs to a paper: build, generate, report and new."""
 
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from derivation.commands.paper_option import chosen
-from derivation.engine.console import NOTES, counted, stage
+from derivation.commands.options import PaperFolder, alone, chosen
+from derivation.commands.scenes import check_outputs
+from derivation.engine.console import NOTES, OUT, counted, put, stage
+
+Out = Annotated[
+    Path | None, typer.Option("--out", metavar="DIR", help="Write here instead of the checkout.")
+]
 
 
-def build(folder: Path) -> int:
-    """Run the main job on the paper of a folder; returns the exit status."""
+def build(out: Out = None, paper: PaperFolder = None) -> None:
+    """Run the main job, from derivation to report.
+
+    The exit status is 1 if an error is above its budget.
+
+    Example: platecontact build
+    """
     from derivation.engine import build as stages
-    from derivation.engine.measure.record import passed
-    from derivation.engine.report.pdf import TexError
 
-    own = chosen(folder)
-    for what, work in (
-        ("derive", stages.derive),
-        ("rewrite", stages.rewrite),
-        ("generate", stages.generate),
-        ("misprints", stages.misprints),
-    ):
-        with stage(what):
-            work(own)
-    with counted("check") as tell:
-        rows = stages.check(own, record=True, tell=tell)
-    with stage("report"):
-        try:
-            stages.report(own)
-        except TexError as error:
-            NOTES.say(f"no PDF, all else is there: {error}")
-    failed = [row.kernel for row in rows if row.passed is False]
-    NOTES.say(f"beyond their budget: {', '.join(failed)}" if failed else "all budgets kept")
-    return 0 if passed(rows) else 1
+    alone(paper, "no other option", out)
+    built = stages.build(chosen(paper), out, counted)
+    NOTES.say("\n".join(built.notes))
+    raise typer.Exit(0 if built.passed else 1)
+
+
+def generate(
+    check: Annotated[
+        bool, typer.Option("--check", help="Compare only: show what differs, write nothing.")
+    ] = False,
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            "--out", metavar="PATH", help="Write into this folder, or the code of a scene here."
+        ),
+    ] = None,
+    scene: Annotated[
+        Path | None,
+        typer.Option("--scene", metavar="SCENE.toml", help="Write one module for this scene."),
+    ] = None,
+    paper: PaperFolder = None,
+) -> None:
+    """Write the NumPy package `generated`, or check that it is fresh.
+
+    Example: platecontact generate --out mypackage/plate
+
+    With --scene: one module that imports NumPy alone, with the contact law and the impact of a
+    scene, of the effects that it calls for.
+
+    Example: platecontact generate --scene glass_pane.toml --out glass_pane.py
+    """
+    alone(paper, "--check and --out", scene)
+    if scene is not None:
+        _scene_code(scene, out, check)
+        return
+    from derivation.engine import build
+
+    own = chosen(paper)
+    if check:
+        with stage("compare"):
+            freshness = build.check_generated(own, out, _repeated("generate", paper, out))
+        OUT.say(str(freshness))
+        raise typer.Exit(0 if freshness.fresh else 1)
+    with stage("derive and generate"):
+        written = build.generate(own, out)
+    NOTES.say(f"{len(written)} files in {written[0].parent}")
+
+
+def _scene_code(scene: Path, out: Path | None, check: bool) -> None:
+    """Write the module of one scene."""
+    from derivation.scene import SceneError, load
+    from derivation.scene_code import write_scene_code
+
+    if check:
+        raise SceneError(
+            "--check compares the whole package and cannot be combined with --scene; "
+            "remove one of them"
+        )
+    if out is None:
+        raise SceneError("--out: expected a file for the scene's code, got none; add --out FILE.py")
+    check_outputs(scene, None, csv=out)
+    write_scene_code(load(scene), out)
+    NOTES.say(f"{out}")
+
+
+def report(
+    pdf: Annotated[bool, typer.Option("--pdf/--no-pdf", help="Compile the PDF too.")] = True,
+    check: Annotated[
+        bool, typer.Option("--check", help="Compare the committed files only, write nothing.")
+    ] = False,
+    section: Annotated[
+        list[str] | None,
+        typer.Option("--section", metavar="NAME", help="This section only; repeatable."),
+    ] = None,
+    fragment: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--fragment",
+            metavar="NAME",
+            help="Print a formula, or all of a link of the chain, as LaTeX to paste; repeatable.",
+        ),
+    ] = None,
+    out: Out = None,
+    paper: PaperFolder = None,
+) -> None:
+    """Write the report as LaTeX and HTML, and compile the PDF.
+
+    Example: platecontact report --section misprints --section accuracy
+
+    With --fragment: to the screen, or with --out into a folder, the bibliography beside it.
+
+    Example: platecontact report --fragment K_j --fragment "contact split" --out pieces
+    """
+    if bool(check) + bool(section) + bool(fragment) > 1:
+        raise ValueError("expected one of --check, --section and --fragment: run one by one")
+    from derivation.engine import report_files
+
+    own = chosen(paper)
+    if check:
+        with stage("compare"):
+            freshness = report_files.freshness(own, out, _repeated("report", paper, out))
+        OUT.say(str(freshness))
+        raise typer.Exit(0 if freshness.fresh else 1)
+    if fragment and out is None:
+        put(report_files.fragments(own, fragment))
+        return
+    if fragment and out is not None:
+        written = report_files.write_fragments(own, fragment, out)
+    else:
+        with stage("report"):
+            written = report_files.write(own, out, pdf, section or ())
+    NOTES.say("\n".join(str(path) for path in written))
 
 
 def new(
@@ -48,3 +149,10 @@ def new(
     written = begin(folder)
     NOTES.say("\n".join(str(path) for path in written))
     NOTES.say(f"run it: platecontact build --paper {folder}")
+
+
+def _repeated(command: str, paper: Path | None, out: Path | None) -> str:
+    """Return the command that writes what was compared."""
+    options = {"--paper": paper, "--out": out}
+    given = [f" {name} {value}" for name, value in options.items() if value is not None]
+    return f"platecontact {command}{''.join(given)}"

@@ -1,4 +1,4 @@
-"""The stages of the main job on a paper, in their order.
+"""The main job on a paper: six stages in their order, each timed.
 
 1 derive     links -> proven formulas
 2 rewrite    formulas -> stable forms, proved equal
@@ -12,7 +12,8 @@ import importlib
 import json
 import sys
 from collections.abc import Callable, Sequence
-from importlib.metadata import version
+from contextlib import AbstractContextManager
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -20,9 +21,10 @@ from derivation.engine import package
 from derivation.engine.emit.freshness import Freshness
 from derivation.engine.errata.findings import Finding
 from derivation.engine.errata.text import TextDiagnosis, diagnosed
-from derivation.engine.files import write_file, write_files
+from derivation.engine.files import write_file
 from derivation.engine.formula.chain import Found
 from derivation.engine.formula.record import Record
+from derivation.engine.outputs import expect_recordable, folder_for, writable_folder
 from derivation.engine.paper import Paper
 from derivation.engine.rewrite.form import Form
 
@@ -31,11 +33,133 @@ if TYPE_CHECKING:
     from derivation.engine.rewrite.account import Account
 
 Progress = Callable[[str, int, int], None]
+Timed = Callable[[str], AbstractContextManager[Progress]]
+"""From a stage's name, shows that it runs and how long it took; gives what is told its parts."""
+
+
+@dataclass(frozen=True)
+class Built:
+    """What a build found.
+
+    Parameters
+    ----------
+    passed
+        Whether every function keeps its budget.
+    notes
+        What is to be said about it, in sentences.
+    """
+
+    passed: bool
+    notes: tuple[str, ...]
+
+
+def build(paper: Paper, out: Path | None, timed: Timed) -> Built:
+    """Run all six stages on a paper.
+
+    Parameters
+    ----------
+    out
+        Where the folders `generated` and `reports` are written, if not in the paper's own folder.
+    timed
+        Shows each stage.
+
+    Raises
+    ------
+    ValueError
+        If no folder is given and the paper's own belongs to an installed copy.
+    OSError
+        If a folder cannot be written to.
+    """
+    generated, reports = (out / name if out else None for name in ("generated", "reports"))
+    writable_folder(generated, paper.package_folder)
+    writable_folder(reports, paper.report_folder)
+    with timed("derive"):
+        derive(paper)
+    with timed("rewrite"):
+        rewrite(paper)
+    with timed("generate"):
+        generate(paper, generated)
+    with timed("misprints"):
+        misprints(paper)
+    with timed("check") as progress:
+        rows = check(paper, update=not paper.committed, tell=progress)
+    with timed("report"):
+        missing = _report_as_far_as_possible(paper, reports)
+    return Built(all(row.passed is not False for row in rows), (*missing, *verdict(paper, rows)))
+
+
+# --- the stages
 
 
 def derive(paper: Paper) -> Found:
     """Stage 1: the links with their formulas."""
     return paper.chain.found()
+
+
+def rewrite(paper: Paper) -> tuple[Form, ...]:
+    """Stage 2: the stable forms."""
+    return package.forms_of(paper.chain, paper.package())
+
+
+def generate(paper: Paper, out: Path | None = None) -> tuple[Path, ...]:
+    """Stage 3: write the package; returns the files written.
+
+    Raises
+    ------
+    OSError
+        If the folder cannot be written to.
+    """
+    folder, own = writable_folder(out, paper.package_folder), paper.package()
+    written = package.write(paper.chain, own, folder)
+    if folder == paper.package_folder:
+        _forget(own.target)
+    return written
+
+
+def misprints(paper: Paper) -> tuple[Finding, ...]:
+    """Stage 4: what each printed formula turns out to be."""
+    return paper.errata.found(paper.chain)
+
+
+def check(
+    paper: Paper, digits: int = 50, update: bool = False, tell: Progress | None = None
+) -> "tuple[Row, ...]":
+    """Stage 5: compare the generated functions with both references; keep the result if asked.
+
+    Raises
+    ------
+    derivation.engine.oracle.agreement.OracleError
+        If the two references contradict each other.
+    FileNotFoundError
+        If nothing is generated.
+    """
+    # Only now, as these load much, and references may import what has just been generated.
+    from derivation.engine.measure import check as measure
+    from derivation.engine.measure.record import to_json
+
+    if update:
+        expect_recordable(paper.measured)
+    if not (paper.package_folder / "manifest.py").is_file():
+        raise FileNotFoundError(
+            f"no package in {paper.package_folder}: run `platecontact generate` with the same paper"
+        )
+    rows = measure.check(paper.judge(), digits, progress=tell)
+    if update:
+        write_file(paper.measured, to_json(rows, digits, paper.package().target))
+    return rows
+
+
+def report(
+    paper: Paper, out: Path | None = None, compiled: bool = True, sections: Sequence[str] = ()
+) -> tuple[Path, ...]:
+    """Stage 6: write the report and, if asked, its PDF; see `derivation.engine.report_files`."""
+    # Only now, as it may import what has just been generated.
+    from derivation.engine import report_files
+
+    return report_files.write(paper, out, compiled, sections)
+
+
+# --- what belongs to a stage
 
 
 def formulas(paper: Paper) -> dict[str, Record]:
@@ -51,103 +175,57 @@ def diagnose(
     return diagnosed(paper.chain, relations, name, text, latex=latex, at=at, digits=digits)
 
 
-def rewrite(paper: Paper) -> tuple[Form, ...]:
-    """Stage 2: the stable forms."""
-    return package.forms_of(paper.chain, paper.package())
-
-
-def account(paper: Paper, tell: Progress | None = None) -> "tuple[Account, ...]":
-    """What the rules did to each formula, measured without and with every one of them."""
+def account(
+    paper: Paper, update: bool = False, tell: Progress | None = None
+) -> "tuple[Account, ...]":
+    """What the rules did to each formula, without and with each of them; keep it if asked."""
+    from derivation.engine.measure.record import plain
     from derivation.engine.rewrite.account import accounts
 
-    return accounts(formulas(paper), paper.package().rewritten, paper.package().scales, tell)
-
-
-def generate(paper: Paper, out: Path | None = None) -> tuple[Path, ...]:
-    """Stage 3: write the package; returns the files written."""
-    return package.write(paper.chain, paper.package(), out)
+    if update:
+        expect_recordable(paper.rewritten)
+    own = paper.package()
+    found = accounts(formulas(paper), own.rewritten, own.scales, tell)
+    if update:
+        data = {"rows": plain([asdict(account) for account in found])}
+        write_file(paper.rewritten, json.dumps(data, indent=1, sort_keys=True) + "\n")
+    return found
 
 
 def check_generated(paper: Paper, out: Path | None, mend: str) -> Freshness:
     """Compare the package with what would be written; `mend` is the command that writes it."""
-    folder = paper.package().folder if out is None else out
+    folder = folder_for(out, paper.package_folder)
     return package.freshness_of(paper.chain, paper.package(), folder, mend)
 
 
-def misprints(paper: Paper) -> tuple[Finding, ...]:
-    """Stage 4: what each printed formula turns out to be."""
-    return paper.errata.found(paper.chain)
-
-
-def check(
-    paper: Paper, digits: int = 50, record: bool = False, tell: Progress | None = None
-) -> "tuple[Row, ...]":
-    """Stage 5: compare the generated functions with both references; keep the result if asked.
-
-    Raises
-    ------
-    derivation.engine.oracle.agreement.OracleError
-        If the two references contradict each other.
-    FileNotFoundError
-        If nothing is generated.
-    """
-    # Only now, as these load much, and references may import what has just been generated.
-    from derivation.engine.measure import check as measure
+def verdict(paper: Paper, rows: "Sequence[Row]") -> list[str]:
+    """Say what a new measurement found, and whether it repeats the kept one."""
     from derivation.engine.measure.record import to_json
 
-    own = paper.package()
-    if not (own.folder / "manifest.py").is_file():
-        raise FileNotFoundError(
-            f"no package in {own.folder}: run `platecontact generate` with the same paper"
+    failed = [row.kernel for row in rows if row.passed is False]
+    lines = [f"beyond their budget: {', '.join(failed)}"] if failed else ["all budgets kept"]
+    if paper.measured.is_file():
+        kept, new = (
+            {(row["kernel"], row["module"]): row for row in json.loads(text)["rows"]}
+            for text in (paper.measured.read_text(), to_json(rows, 50, paper.package().target))
         )
-    _forget(own.target)
-    rows = measure.check(paper.judge(), digits, progress=tell)
-    if record:
-        write_file(paper.report().measured, to_json(rows, digits, own.target))
-    return rows
-
-
-def report(
-    paper: Paper, out: Path | None = None, compiled: bool = True, sections: Sequence[str] = ()
-) -> tuple[Path, ...]:
-    """Stage 6: write the report and, if asked, its PDF; returns the files written.
-
-    Raises
-    ------
-    FileNotFoundError
-        If no measurement was kept.
-    ValueError
-        If sections are chosen of a report that has no own ones.
-    derivation.engine.report.pdf.TexError
-        If LaTeX is missing or refuses the text: all else is there all the same.
-    """
-    from derivation.engine.report import any_report, pdf
-    from derivation.engine.report.html import page
-
-    own = paper.report()
-    if own.write is not None:
-        return own.write(out, compiled, sections)
-    if sections:
-        raise ValueError("--section: expected a report with sections of its own; leave it out")
-    if not own.measured.is_file():
-        raise FileNotFoundError(
-            f"no measurement in {own.measured}: run `platecontact check --record` with the same "
-            "paper"
+        moved = sorted(
+            {name for name, module in new if new[name, module] != kept.get((name, module))}
         )
-    contents = any_report.Contents(
-        paper.title, own.subtitle, own.abstract, derive(paper), misprints(paper),
-        json.loads(own.measured.read_text()), own.prose, version("platecontact"),
-    )  # fmt: skip
-    text = any_report.text(contents)
-    folder = own.folder if out is None else out
-    written = write_files(
-        {
-            folder / "report.tex": text.document(version("platecontact")),
-            folder / "report.html": page(text, paper.title, {}, own.prose.references),
-            folder / "report.bib": own.prose.references.bib(),
-        }
-    )
-    return (*written, *([pdf.compile_pdf(folder / "report.tex")] if compiled else []))
+        if moved:
+            lines.append(f"not as committed in {paper.measured.name}: {', '.join(moved)}")
+    return lines
+
+
+def _report_as_far_as_possible(paper: Paper, out: Path | None) -> tuple[str, ...]:
+    """Write the report; without LaTeX all of it but the PDF, and say so."""
+    from derivation.engine.report.pdf import TexError
+
+    try:
+        report(paper, out)
+    except TexError as error:
+        return (f"no PDF, all else is there: {error}",)
+    return ()
 
 
 def _forget(target: str) -> None:

@@ -22,7 +22,6 @@ from rich.progress import (
 )
 from rich.table import Table
 from rich.text import Text
-from typer.core import TyperCommand, TyperOption
 
 from derivation.engine.files import expect_writable, write_file
 from derivation.engine.printable import in_json, one_line, printable
@@ -78,22 +77,6 @@ MOST = 20
 """Lines of warnings that are shown."""
 
 
-class Command(TyperCommand):
-    """A command that refuses an option given twice where only one value counts."""
-
-    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        """Look at what is given more than once before anything is read."""
-        if not ctx.resilient_parsing:
-            given = self.make_parser(ctx).parse_args(args=list(args))[2]
-            options = [option for option in self.params if isinstance(option, TyperOption)]
-            for option in options:
-                count = given.count(option)
-                if count > 1 and not (option.multiple or option.is_flag):
-                    problem = f"expected once, got {count} times; leave out all but one"
-                    raise typer.BadParameter(problem, ctx=ctx, param=option)
-        return super().parse_args(ctx, args)
-
-
 @contextmanager
 def stage(name: str) -> Iterator[None]:
     """Show that a stage is running, then how long it took."""
@@ -109,7 +92,7 @@ def counted(name: str) -> Iterator[Callable[[str, int, int], None]]:
     start = time.perf_counter()
     part = TextColumn("{task.description}", markup=False)
     columns = (TextColumn(name), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), part)
-    with Progress(*columns, console=NOTES, transient=True) as bar:
+    with Progress(*columns, console=NOTES, transient=True, disable=not NOTES.is_terminal) as bar:
         task = bar.add_task("", total=None)
         yield lambda part, number, total: bar.update(
             task, description=part, completed=number - 1, total=total

@@ -23,8 +23,6 @@ class Package:
     ----------
     target
         Its import name.
-    folder
-        Where it stands.
     forms
         The stable forms of the formulas, proved equal to them.
     files
@@ -39,7 +37,6 @@ class Package:
     """
 
     target: str
-    folder: Path
     forms: Callable[[Formulas], tuple[Form, ...]]
     files: Callable[[Formulas, tuple[Form, ...]], dict[str, str]]
     sources: tuple[str | Path, ...] = ()
@@ -64,15 +61,15 @@ def files_of(chain: Chain, package: Package) -> dict[str, str]:
     return chain.kept("package", compute, also=rooms)
 
 
-def write(chain: Chain, package: Package, folder: Path | None = None) -> tuple[Path, ...]:
-    """Write the package; returns the files written.
+def write(chain: Chain, package: Package, folder: Path) -> tuple[Path, ...]:
+    """Write the package into a folder; returns the files written.
 
     Raises
     ------
     OSError
         If the folder cannot be written to.
     """
-    return write_folder(package.folder if folder is None else folder, files_of(chain, package))
+    return write_folder(folder, files_of(chain, package))
 
 
 def freshness_of(chain: Chain, package: Package, folder: Path, mend: str) -> Freshness:

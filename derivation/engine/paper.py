@@ -1,6 +1,6 @@
 """A paper: the one object through which everything about it reaches the engine."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -9,10 +9,18 @@ from derivation.engine.errata.errata import Errata
 from derivation.engine.formula.chain import Chain
 from derivation.engine.formula.vocabulary import Vocabulary
 from derivation.engine.package import Package
+from derivation.engine.report import any_report
+from derivation.engine.report.document import Text
 from derivation.engine.report.pieces import Prose
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from derivation.engine.measure.check import Judge
+
+
+def _nothing(_: Path) -> dict[Path, str | bytes]:
+    return {}
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,25 +29,29 @@ class Report:
 
     Parameters
     ----------
-    folder
-        Where the report is written.
-    measured
-        File with the kept measurement of the generated functions.
     prose
         Prose by link, and references.
     subtitle, abstract
         Below the title, and in a few sentences what the report is about.
-    write
-        Writes the report of a paper that has sections of its own, from the folder (if not
-        `folder`), whether to compile it, and the names of the chosen sections.
+    sections
+        Names of its sections, in order.
+    text
+        The report's LaTeX, from the names of the sections to show; None for the sections that
+        suit any paper.
+    figures
+        Every figure by name; those are drawn that a section shows.
+    beside
+        From the paper's folder, other files that follow from the same data and are written with
+        the whole report.
     """
 
-    folder: Path
-    measured: Path
     prose: Prose = field(default_factory=Prose)
     subtitle: str = ""
     abstract: str = ""
-    write: Callable[[Path | None, bool, Sequence[str]], tuple[Path, ...]] | None = None
+    sections: tuple[str, ...] = any_report.SECTIONS
+    text: Callable[[Sequence[str]], Text] | None = None
+    figures: Callable[[], Mapping[str, "Figure"]] = dict
+    beside: Callable[[Path], Mapping[Path, str | bytes]] = _nothing
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,6 +62,10 @@ class Paper:
     ----------
     title
         Its title.
+    folder
+        Where its package `generated` and its `reports` are written.
+    records
+        Folder of the measurements that are kept.
     chain
         Its vocabulary, the links of its derivation, and the files that they follow from.
     errata
@@ -60,16 +76,41 @@ class Paper:
         References and points; likewise.
     report
         The report; likewise.
+    committed
+        Whether the measurements are renewed on demand alone, and a build compares with them.
     """
 
     title: str
+    folder: Path
+    records: Path
     chain: Chain
     errata: Errata
     package: Callable[[], Package]
     judge: "Callable[[], Judge]"
     report: Callable[[], Report]
+    committed: bool = False
 
     @property
     def vocabulary(self) -> Vocabulary:
         """Its symbols."""
         return self.chain.vocabulary
+
+    @property
+    def package_folder(self) -> Path:
+        """Folder of the generated package."""
+        return self.folder / "generated"
+
+    @property
+    def report_folder(self) -> Path:
+        """Folder of the report."""
+        return self.folder / "reports"
+
+    @property
+    def measured(self) -> Path:
+        """File with the kept measurement of the generated functions."""
+        return self.records / "check.json"
+
+    @property
+    def rewritten(self) -> Path:
+        """File with the kept account of the rules that were applied."""
+        return self.records / "rewrite.json"

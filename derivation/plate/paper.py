@@ -13,9 +13,11 @@ if TYPE_CHECKING:
 
 
 def _package() -> Package:
-    from derivation.plate.package_pipeline import PACKAGE
+    from derivation.plate.forms import AUTOMATIC, SCALES, stable_forms
+    from derivation.plate.render import render
 
-    return PACKAGE
+    sources = ("plate/budgets.toml", "plate/*/budgets.toml", "plate/templates", "plate/*/*.j2")
+    return Package("generated", stable_forms, render, sources, AUTOMATIC, SCALES)
 
 
 def _judge() -> "Judge":
@@ -25,24 +27,19 @@ def _judge() -> "Judge":
 
 
 def _report() -> Report:
-    from derivation.plate import reporting
-    from derivation.plate.report.front import SUBTITLE
-    from derivation.plate.report.sections import PROSE
+    from derivation.plate.reporting import REPORT
 
-    return Report(
-        ROOT / "reports",
-        measurements() / "check.json",
-        PROSE,
-        SUBTITLE,
-        write=reporting.report,
-    )
+    return REPORT
 
 
 PAPER = Paper(
     title="Contact of a rigid sphere with an elastic plate",
+    folder=ROOT,
+    records=measurements(),
     chain=CHAIN,
     errata=ERRATA,
     package=_package,
     judge=_judge,
     report=_report,
+    committed=True,
 )

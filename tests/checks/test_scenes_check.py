@@ -1,4 +1,4 @@
-"""`check --scenes`: realistic scenes, each run counted for what became of it."""
+"""`check scenes`: realistic scenes, each run counted for what became of it."""
 
 import json
 from dataclasses import replace
@@ -125,12 +125,11 @@ def test_worker_processes_run_the_scenes() -> None:
 
 def test_the_command(monkeypatch: pytest.MonkeyPatch, capsys: Captured) -> None:
     monkeypatch.setattr(scenes_check, "check_scenes", lambda *_: (outcome("finished"),))
-    assert main(["check", "--scenes", "1", "--seed", "5"]) == 0
+    assert main(["check", "scenes", "-n", "1", "--seed", "5"]) == 0
     assert "finished" in capsys.readouterr().out
     monkeypatch.setattr(scenes_check, "check_scenes", lambda *_: (outcome("NaN"),))
-    assert main(["check", "--scenes", "1", "--json", "-"]) == 1
+    assert main(["check", "scenes", "-n", "1", "--json", "-"]) == 1
     data = json.loads(capsys.readouterr().out)
     assert data["runs"][0]["kind"] == "NaN"
     assert data["passed"] is False
-    assert main(["check", "--scenes", "1", "--record"]) == 2
-    assert main(["check", "--scenes", "1", "--speed"]) == 2
+    assert main(["check", "scenes", "-n", "1", "--update"]) == 2

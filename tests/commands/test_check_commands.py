@@ -18,12 +18,16 @@ from derivation.checks import inertia as inertia_check
 from derivation.checks.effects_judged import TOLERANCES
 from derivation.checks.inertia_judged import Found
 from derivation.cli import main
+from derivation.engine import build
+from derivation.engine.measure import check as measure
 from derivation.plate import judge as plate_judge
+from derivation.plate import paper as plate_paper
 from derivation.plate.benchmark.speed import Timing
 from derivation.plate.contact.cases import check as contact
 from derivation.plate.hard import check as hard_check
 from derivation.plate.hard import record as hard_record
 from derivation.plate.judge import generated_kernels
+from derivation.plate.paper import PAPER
 
 Captured = pytest.CaptureFixture[str]
 Patch = pytest.MonkeyPatch
@@ -41,15 +45,15 @@ def rows_of(path: Path) -> list[dict[str, Any]]:
 def spoilt(monkeypatch: Patch, tmp_path: Path) -> Callable[[float], Path]:
     """Have `check` measure J0 alone, times a factor; gives where that is recorded."""
     path = tmp_path / "check.json"
-    monkeypatch.setattr(pipeline, "MEASURED", path)
+    monkeypatch.setattr(plate_paper, "PAPER", dataclasses.replace(PAPER, records=tmp_path))
 
     def of(factor: float) -> Path:
         [right] = [kernel for kernel in generated_kernels() if kernel.name == "bessel_j0"]
         wrong = dataclasses.replace(right, call=lambda x: right.call(x) * x.dtype.type(factor))
         silent = dataclasses.replace(wrong, module="as_printed", budget=None)
         monkeypatch.setattr(
-            pipeline, "measure",
-            lambda digits, progress: plate_judge.check(digits, [wrong, silent], progress),
+            measure, "check",
+            lambda _, digits, progress: plate_judge.check(digits, [wrong, silent], progress),
         )  # fmt: skip
         return path
 
@@ -67,7 +71,7 @@ def test_a_fresh_measurement_is_recorded_as_it_was(
     assert [first] == committed
     assert (second["passed"], second["double"]["max_ulp"]) == (None, first["double"]["max_ulp"])
     assert not path.exists()
-    assert main(["check", "--record"]) == 0
+    assert main(["check", "--update"]) == 0
     assert rows_of(path) == [first, second]
     shown = capsys.readouterr().out
     assert "Errors against 50 digits" in shown
@@ -80,19 +84,20 @@ def test_a_formula_that_is_off_fails_and_the_verdict_names_it(
     spoilt: Callable[[float], Path], capsys: Captured
 ) -> None:
     path = spoilt(1.0)
-    sound = pipeline.check(record=True)
+    paper = plate_paper.PAPER
+    sound = build.check(paper, update=True)
     before = path.read_bytes()
-    assert pipeline.verdict(sound) == ["all budgets kept"]
+    assert build.verdict(paper, sound) == ["all budgets kept"]
     spoilt(1.0 + 1e-13)
     assert main(["check"]) == 1
     assert "NO" in capsys.readouterr().out
-    assert pipeline.verdict(pipeline.check()) == [
+    assert build.verdict(paper, build.check(paper)) == [
         "beyond their budget: bessel_j0",
         "not as committed in check.json: bessel_j0",
     ]
     assert path.read_bytes() == before
     path.unlink()
-    assert pipeline.verdict(sound) == ["all budgets kept"]  # nothing to repeat
+    assert build.verdict(paper, sound) == ["all budgets kept"]  # nothing to repeat
 
 
 # --- contact law
@@ -111,18 +116,19 @@ def few_contacts(monkeypatch: Patch, tmp_path: Path) -> Path:
 def test_contact_law_is_recorded_as_it_was(few_contacts: Path, capsys: Captured) -> None:
     kept = {r["kernel"]: r for r in rows_of(pipeline.measurements() / "contact.json")}
     known = [kept["force_of_radius"], kept["max_pressure"]]
-    assert main(["check", "--contact", "--json", "-"]) == 0
+    assert main(["check", "contact-law", "--json", "-"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["rows"] == known
     assert not few_contacts.exists()
-    assert main(["check", "--contact", "--record"]) == 0
+    assert main(["check", "contact-law", "--update"]) == 0
     assert json.loads(few_contacts.read_text()) == found
     shown = capsys.readouterr().out
     for row in known:
         assert f"{row['kernel']}: {' '.join(row['worst'])}" in shown
-    assert main(["check", "--contact", "--propose", "--json", "-"]) == 0
-    printed = capsys.readouterr().out
-    assert ("[ulp]" in printed) or "no budget can be tighter" in printed
+    assert main(["check", "contact-law", "--suggest-budgets", "--json", "-"]) == 0
+    suggested = json.loads(capsys.readouterr().out)["suggested_budgets"]
+    for name, ulp in suggested.items():
+        assert kept[name]["double"]["needed"] < ulp < kept[name]["budget"]
 
 
 def test_a_contact_law_that_is_off_fails(
@@ -136,7 +142,7 @@ def test_a_contact_law_that_is_off_fails(
             max_pressure=lambda *given: right(*given),
         ),
     )  # fmt: skip
-    assert main(["check", "--contact", "--json", "-"]) == 1
+    assert main(["check", "contact-law", "--json", "-"]) == 1
     wrong, sound = json.loads(capsys.readouterr().out)["rows"]
     assert (wrong["passed"], sound["passed"]) == (False, True)
     assert wrong["max_error"] == "inf"
@@ -177,7 +183,7 @@ def test_references_are_found_anew_as_they_were(
         hard_record, "references", lambda case, k: sought.append(case.key) or find(case, k)
     )
     monkeypatch.setattr(hard_record, "SAVED_EVERY", -1.0)
-    assert main(["check", "--hard", "--record"]) == 0
+    assert main(["check", "hard-cases", "--update"]) == 0
     assert json.loads(path.read_text())["cases"] == committed
     assert sought == [row["key"] for row in committed[1:]]  # the first still stands
     assert [p.name for p in path.parent.iterdir()] == ["hard.json"]
@@ -195,7 +201,7 @@ def test_a_search_for_references_that_was_stopped_goes_on(
         return find(case, kernel)
 
     monkeypatch.setattr(hard_record, "references", stopped)
-    assert main(["check", "--hard", "--record"]) == 2
+    assert main(["check", "hard-cases", "--update"]) == 2
     assert "interrupted" in capsys.readouterr().err
     assert path.read_bytes() == before
     part = path.with_suffix(".part.json")
@@ -206,7 +212,7 @@ def test_a_search_for_references_that_was_stopped_goes_on(
     monkeypatch.setattr(
         hard_record, "references", lambda case, k: sought.append(case.key) or find(case, k)
     )
-    assert main(["check", "--hard", "--record"]) == 0
+    assert main(["check", "hard-cases", "--update"]) == 0
     assert sought == [row["key"] for row in committed[2:]]
     assert json.loads(path.read_text())["cases"] == committed
     assert not part.exists()
@@ -238,16 +244,16 @@ def test_truths_are_kept_as_they_come(monkeypatch: Patch, tmp_path: Path, capsys
         return truths[point]
 
     monkeypatch.setattr(bounds, "truth", truth)
-    assert main(["check", "--bounds", "7", "--record"]) == 2
+    assert main(["check", "error-bounds", "-n", "7", "--update"]) == 2
     assert "interrupted" in capsys.readouterr().err
     assert pipeline.committed_truths() == known[:4]
     sought[:] = [None]
-    assert main(["check", "--bounds", "7", "--record"]) == 0
+    assert main(["check", "error-bounds", "-n", "7", "--update"]) == 0
     assert sought == [None, *(true.point for true in known[4:])]
     assert pipeline.committed_truths() == known
     whole = rows_of(path)
     assert sum(row["runs"] for row in whole) == 7 * len(bounds.TOLERANCES)
-    assert main(["check", "--bounds", "2", "--record"]) == 0
+    assert main(["check", "error-bounds", "-n", "2", "--update"]) == 0
     assert pipeline.committed_truths() == known
     assert sum(row["runs"] for row in rows_of(path)) == 2 * len(bounds.TOLERANCES)
     shown = capsys.readouterr().out
@@ -262,7 +268,7 @@ def test_a_result_that_is_no_number_is_json_all_the_same(
     monkeypatch: Patch, capsys: Captured
 ) -> None:
     monkeypatch.setattr(pipeline, "_chosen", lambda _, rtol: ([math.nan] * 4, "hertz", rtol))
-    assert main(["check", "--bounds", "1", "--json", "-"]) == 1
+    assert main(["check", "error-bounds", "-n", "1", "--json", "-"]) == 1
     [row] = json.loads(capsys.readouterr().out, parse_constant=pytest.fail)
     assert (row["ratio"], row["error"]) == ("inf", "inf")
 
@@ -290,7 +296,7 @@ def test_effects_are_shown_and_recorded(
     monkeypatch.setattr(effects_check, "MEASURED", path)
     monkeypatch.setattr(effects_check, "everything", everything)
     monkeypatch.setattr(effects_check, "gated", gated)
-    assert main(["check", "--effects", "6", "--record"]) == 0
+    assert main(["check", "effects", "-n", "6", "--update"]) == 0
     assert "Effects in 6 scenes" in capsys.readouterr().out
     rows = rows_of(path)
     assert [row["rtol"] for row in rows] == list(TOLERANCES)
@@ -303,7 +309,7 @@ def test_effects_are_shown_and_recorded(
     }
     path.unlink()
     monkeypatch.setattr(effects_check, "gated", lambda *_: ([math.nan] * 4, ["hertz"], 1.0))
-    assert main(["check", "--effects", "1", "--json", "-"]) == 1
+    assert main(["check", "effects", "-n", "1", "--json", "-"]) == 1
     found = json.loads(capsys.readouterr().out, parse_constant=pytest.fail)
     assert {row["ratio"] for row in found} == {"inf"}
     assert not path.exists()
@@ -315,7 +321,7 @@ def test_scenes_that_are_passed_over_are_listed(monkeypatch: Patch, capsys: Capt
     row = Found(1e-2, True, ones, ones, 1e-3, 1.0, 1.0, ones, 1e-3, 1, 4, 8)
     monkeypatch.setattr(inertia_check, "pass_over", lambda _: next(passed))
     monkeypatch.setattr(inertia_check, "solve", lambda *_: next(solved, row))
-    assert main(["check", "--inertia", "1"]) == 0
+    assert main(["check", "inertia", "-n", "1"]) == 0
     shown = capsys.readouterr().out
     assert "Inertia in 1 of 3 scenes drawn" in shown
     assert "1 refused: rtol" in shown
@@ -323,7 +329,7 @@ def test_scenes_that_are_passed_over_are_listed(monkeypatch: Patch, capsys: Capt
     broken = dataclasses.replace(row, values=[1.0, 1.0, 1.02, 1.0, 1.0])
     monkeypatch.setattr(inertia_check, "pass_over", lambda _: "")
     monkeypatch.setattr(inertia_check, "solve", lambda *_: broken)
-    assert main(["check", "--inertia", "1", "--json", "-"]) == 1
+    assert main(["check", "inertia", "-n", "1", "--json", "-"]) == 1
     [side] = json.loads(capsys.readouterr().out)["sides"]
     assert side["tightest"] == pytest.approx(20.0)
 
@@ -345,11 +351,11 @@ def test_speed_is_shown_and_recorded(
 
     monkeypatch.setattr(pipeline.speed, "measure", measured)
     monkeypatch.setattr(pipeline, "MEASURED_SPEED", path)
-    assert main(["check", "--speed", "--json", "-"]) == status
+    assert main(["check", "timing", "--json", "-"]) == status
     shown = json.loads(capsys.readouterr().out)
     assert shown["rows"] == [asdict(timing)]
     assert not path.exists()
-    assert main(["check", "--speed", "--record"]) == status
+    assert main(["check", "timing", "--update"]) == status
     assert "2.25 times" in capsys.readouterr().out
     assert rows_of(path) == shown["rows"]
     examples, solved = given[0]

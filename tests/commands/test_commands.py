@@ -4,21 +4,28 @@ import json
 import math
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from derivation import pipeline
 from derivation.checks import moving_costs
 from derivation.cli import main
+from derivation.engine import build, outputs, report_files
+from derivation.engine.files import ROOT
 from derivation.engine.measure.check import Row
 from derivation.engine.measure.evaluate import Errors
+from derivation.engine.package import files_of
+from derivation.engine.paper import Paper
 from derivation.engine.report.pdf import TexError
+from derivation.engine.rewrite import account as rules
 from derivation.engine.rewrite.account import Account
 from derivation.engine.rewrite.stabilise import Applied
-from derivation.plate import derived, package_pipeline, reporting
+from derivation.plate import paper as plate_paper
+from derivation.plate import reporting
+from derivation.plate.paper import PAPER
 from derivation.plate.report.overview import SHOWN, overview
 from derivation.scene import load
 from derivation.scene.model import model_of
@@ -56,16 +63,16 @@ def test_accounts_of_the_papers_formulas_are_recorded_as_they_are(
     monkeypatch: Patch, tmp_path: Path, capsys: Captured
 ) -> None:
     """The committed ones, read back: an infinite error is text in JSON, and a number before."""
-    kept = json.loads(pipeline.REWRITTEN.read_text())["rows"]
+    kept = json.loads(PAPER.rewritten.read_text())["rows"]
     assert any("inf" in applied["worst"] for row in kept for applied in row["applied"])
     found = tuple(account_of(row) for row in kept)
     path = tmp_path / "rewrite.json"
-    monkeypatch.setattr(pipeline, "REWRITTEN", path)
-    monkeypatch.setattr(pipeline, "accounts", lambda *_: found)
+    monkeypatch.setattr(plate_paper, "PAPER", replace(PAPER, records=tmp_path))
+    monkeypatch.setattr(rules, "accounts", lambda *_: found)
     assert main(["rewrite", "--json", "-"]) == 0
     assert json.loads(capsys.readouterr().out)["rows"] == kept
     assert not path.exists()
-    assert main(["rewrite", "--record"]) == 0
+    assert main(["rewrite", "--update"]) == 0
     assert json.loads(path.read_text())["rows"] == kept
     shown = capsys.readouterr().out
     assert all(f" {row['name']} " in shown for row in kept if row["applied"])
@@ -95,27 +102,28 @@ def test_build_goes_through_every_stage(
     """The package is written before it is checked; without LaTeX all else is there."""
     made = list[str]()
 
-    def checked(*, tell: Any) -> tuple[Row, ...]:
+    def checked(_: Paper, update: bool, tell: Any) -> tuple[Row, ...]:
         tell("P", 1, 1)
         made.append("check")
+        assert not update  # of the plate it is committed
         assert (tmp_path / "generated" / "pressure.py").is_file()
         return rows_of(kept)
 
-    def reported(out: Path | None) -> Sequence[Path]:
+    def reported(_: Paper, out: Path | None) -> Sequence[Path]:
         made.append("report")
         assert out == tmp_path / "reports"
         if not pdf:
             raise TexError("no latexmk: install texlive")
         return ()
 
-    monkeypatch.setattr(pipeline, "check", checked)
-    monkeypatch.setattr(reporting, "report", reported)
+    monkeypatch.setattr(build, "check", checked)
+    monkeypatch.setattr(build, "report", reported)
     assert main(["build", "--out", str(tmp_path)]) == (0 if kept else 1)
     assert made == ["check", "report"]
     written = {path.name: path.read_text() for path in (tmp_path / "generated").iterdir()}
-    assert written == package_pipeline.package()
+    assert written == files_of(PAPER.chain, PAPER.package())
     said = capsys.readouterr().err
-    stages = re.findall(r"✓ (\w+)", said)
+    stages = re.findall(r"✓ (\w+) +[\d.]+ s", said)
     assert stages == ["derive", "rewrite", "generate", "misprints", "check", "report"]
     assert ("no PDF, all else is there: no latexmk" in said) is not pdf
     assert ("beyond their budget: P" in said) is not kept
@@ -123,8 +131,8 @@ def test_build_goes_through_every_stage(
 
 
 def test_an_installed_copy_builds_into_a_folder_named(monkeypatch: Patch, capsys: Captured) -> None:
-    monkeypatch.setattr(package_pipeline, "in_checkout", lambda: False)
-    monkeypatch.setattr(derived, "chain", lambda: pytest.fail("derived all the same"))
+    monkeypatch.setattr(outputs, "in_checkout", lambda: False)
+    monkeypatch.setattr(build, "derive", lambda _: pytest.fail("derived all the same"))
     assert main(["build"]) == 2
     assert "add --out DIR" in capsys.readouterr().err
 
@@ -135,34 +143,30 @@ def test_an_installed_copy_builds_into_a_folder_named(monkeypatch: Patch, capsys
 def test_a_missing_measurement_is_named_with_its_command(
     monkeypatch: Patch, tmp_path: Path, capsys: Captured
 ) -> None:
-    for path in pipeline.measurements().glob("*.json"):
+    for path in PAPER.records.glob("*.json"):
         if path.stem != "hard":
             (tmp_path / path.name).write_bytes(path.read_bytes())
     monkeypatch.setattr(reporting, "measurements", lambda: tmp_path)
     assert main(["report", "--check"]) == 2
-    assert "hard.json: run `platecontact check --hard --record`" in capsys.readouterr().err
+    assert "hard.json: run `platecontact check hard-cases --update`" in capsys.readouterr().err
 
 
-def test_the_whole_report_takes_readme_and_picture_along(
-    monkeypatch: Patch, tmp_path: Path
-) -> None:
+def test_the_whole_report_takes_readme_and_picture_along(tmp_path: Path) -> None:
     """The README's block, emptied, becomes again what is committed; sections leave it alone."""
-    committed = reporting.README.read_text()
+    committed = (ROOT / reporting.README).read_text()
     begin, end = reporting.readme.BEGIN, reporting.readme.END
     emptied = committed.partition(begin)[0] + begin + end + committed.partition(end)[2]
-    one = reporting.report_text(["code"])
-    monkeypatch.setattr(reporting, "REPORTS", tmp_path / "reports")
-    monkeypatch.setattr(reporting, "README", tmp_path / "README.md")
-    monkeypatch.setattr(reporting, "PICTURE", tmp_path / "reports" / "overview.svg")
-    monkeypatch.setattr(reporting, "report_text", lambda _: one)
-    monkeypatch.setattr(reporting, "report_figures", dict)
-    reporting.README.write_text(emptied)
-    reporting.report(pdf=False, sections=["code"])
-    assert reporting.README.read_text() == emptied
-    assert not reporting.PICTURE.exists()
-    written = reporting.report(pdf=False)
-    assert reporting.README.read_text() == committed
-    assert reporting.PICTURE.read_text().startswith("<?xml")
+    one = report_files.text(PAPER, ["code"])
+    short = replace(PAPER.report(), text=lambda _: one, figures=dict)
+    paper = replace(PAPER, folder=tmp_path, report=lambda: short)
+    readme, picture = tmp_path / reporting.README, tmp_path / reporting.PICTURE
+    readme.write_text(emptied)
+    report_files.write(paper, compiled=False, sections=["code"])
+    assert readme.read_text() == emptied
+    assert not picture.exists()
+    written = report_files.write(paper, compiled=False)
+    assert readme.read_text() == committed
+    assert picture.read_text().startswith("<?xml")
     assert [path.name for path in written] == ["report.tex", "report.html", "report.bib"]
 
 
@@ -215,7 +219,7 @@ def test_moving_costs_are_measured_and_written(
     monkeypatch.setattr(moving_costs, "branches", list)
     monkeypatch.setattr(moving_costs, "tolerances", list)
     path = tmp_path / "moving.json"
-    assert main(["accuracy", "--moving", "--out", str(path)]) == 0
+    assert main(["benchmark", "--dynamic", "--out", str(path)]) == 0
     data = json.loads(path.read_text())
     first, second = data["rows"]
     assert first["errors"] == {"contact_time": 0.0, "max_force": 0.0, "restitution": 0.25}

@@ -11,7 +11,9 @@ import tempfile
 import time
 import tomllib
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 from typer.main import get_command
@@ -21,17 +23,24 @@ from derivation.checks import effects as effects_check
 from derivation.checks import inertia as inertia_check
 from derivation.checks import moving_costs
 from derivation.cli import app, main
+from derivation.engine import outputs, report_files
 from derivation.engine.files import ROOT
-from derivation.plate import package_pipeline, reporting
+from derivation.plate import paper as plate_paper
+from derivation.plate import reporting
 
-COMMANDS = sorted(
-    name
-    for name, command in get_command(app).commands.items()  # type: ignore[attr-defined]
-    if not command.hidden  # former names
-)
+
+def commands(group: Any, prefix: str = "") -> Iterator[tuple[str, Any]]:
+    """Commands with their names, subcommands included; without former names."""
+    for name, command in group.commands.items():
+        if not command.hidden:
+            yield prefix + name, command
+            yield from commands(command, f"{prefix}{name} ") if hasattr(command, "commands") else ()
+
+
+COMMANDS = dict(commands(get_command(app)))
 PAPER = str(ROOT / "derivation" / "scene" / "examples" / "paper.toml")
 NOBODY = 65534
-LOADED = moving_costs, reporting
+LOADED = moving_costs, reporting, report_files
 """What the commands below import, while nobody may not have leave to read Python's library."""
 Captured = pytest.CaptureFixture[str]
 
@@ -41,14 +50,15 @@ Captured = pytest.CaptureFixture[str]
 
 @pytest.mark.parametrize("command", COMMANDS)
 def test_help_is_complete_with_an_example(command: str, capsys: Captured) -> None:
-    assert main([command, "--help"]) == 0
+    assert main([*command.split(), "--help"]) == 0
     shown = capsys.readouterr().out
     assert f"Example: platecontact {command}" in shown
     example = re.search(rf"Example: platecontact {command}(.*)", shown)
     assert example is not None
     for option in re.findall(r"--[a-z-]+", example[1]):
         assert option in shown.replace(example[0], ""), "the example's options are explained"
-    for parameter in get_command(app).commands[command].params:  # type: ignore[attr-defined]
+    assert all(len(line) <= 80 for line in shown.splitlines())
+    for parameter in COMMANDS[command].params:
         if parameter.name not in {"more", "help"}:
             assert parameter.help, f"{parameter.name} is not explained"
 
@@ -84,12 +94,12 @@ def test_completion_is_offered_and_completes() -> None:
     [
         (["simulat", PAPER], "Did you mean 'simulate'?"),
         (["simulate", PAPER, "--plt", "x.svg"], "--plot"),
-        (["check", "--speeed"], "--speed"),
-        (["check", "--hard", "--propose"], "leave the others out"),
-        (["check", "--seed", "3"], "add --search 60s"),
+        (["check", "hardcases"], "Did you mean 'hard-cases'?"),
+        (["check", "--digits", "30", "timing"], "write the options of timing after it"),
+        (["check", "search", "--sed", "3"], "see `platecontact check search --help`"),
         (["report", "--check", "--fragment", "K_j"], "expected one of --check"),
         (["report", "--section", "law", "--fragment", "K_j"], "run one by one"),
-        (["rewrite", "x", "--record"], "cannot be combined with FORMULA"),
+        (["rewrite", "x", "--update"], "cannot be combined with FORMULA"),
         (["rewrite", "x", "--variable", "1"], "expected a name like x, got '1'"),
         (["generate", "--out", PAPER], "expected a folder, got a file"),
         (["report", "--out", PAPER], "expected a folder, got a file"),
@@ -139,10 +149,10 @@ def locked() -> Iterator[Path]:
         ["report", "--fragment", "K_j", "--out", "."],
         ["build", "--out", "."],
         ["check", "--json", "x.json"],
-        ["check", "--contact", "--json", "x.json"],
-        ["check", "--search", "60s", "--out", "x.toml"],
+        ["check", "contact-law", "--json", "x.json"],
+        ["check", "search", "--out", "x.toml"],
         ["accuracy", "--out", "x.json"],
-        ["accuracy", "--moving", "--out", "x.json"],
+        ["benchmark", "--dynamic", "--out", "x.json"],
         ["rewrite", "--json", "x.json"],
         ["reference", PAPER, "--digits", "1000", "--json", "x.json"],
         ["simulate", PAPER, "--plot", "x.svg"],
@@ -171,13 +181,12 @@ def test_without_leave_to_write_nothing_is_computed(
 @pytest.mark.parametrize(
     ("options", "module", "name"),
     [
-        ([], pipeline, "MEASURED"),
-        (["--contact"], pipeline, "MEASURED_CONTACT"),
-        (["--speed"], pipeline, "MEASURED_SPEED"),
-        (["--hard"], pipeline, "MEASURED_HARD"),
-        (["--bounds", "3000"], pipeline, "MEASURED_BOUNDS"),
-        (["--effects", "3000"], effects_check, "MEASURED"),
-        (["--inertia", "500"], inertia_check, "MEASURED"),
+        (["contact-law"], pipeline, "MEASURED_CONTACT"),
+        (["timing"], pipeline, "MEASURED_SPEED"),
+        (["hard-cases"], pipeline, "MEASURED_HARD"),
+        (["error-bounds", "-n", "3000"], pipeline, "MEASURED_BOUNDS"),
+        (["effects", "-n", "3000"], effects_check, "MEASURED"),
+        (["inertia", "-n", "500"], inertia_check, "MEASURED"),
     ],
 )
 def test_what_cannot_be_recorded_is_not_measured(
@@ -185,7 +194,16 @@ def test_what_cannot_be_recorded_is_not_measured(
     monkeypatch: pytest.MonkeyPatch, capsys: Captured,
 ) -> None:  # fmt: skip
     monkeypatch.setattr(module, name, locked / "x.json")
-    assert main(["check", *options, "--record"]) == 2
+    assert main(["check", *options, "--update"]) == 2
+    _refused(capsys)
+
+
+@pytest.mark.parametrize("command", ["check", "rewrite"])
+def test_what_a_paper_cannot_keep_is_not_measured(
+    command: str, locked: Path, monkeypatch: pytest.MonkeyPatch, capsys: Captured
+) -> None:
+    monkeypatch.setattr(plate_paper, "PAPER", replace(plate_paper.PAPER, records=locked))
+    assert main([command, "--update"]) == 2
     _refused(capsys)
 
 
@@ -199,8 +217,8 @@ def _refused(capsys: Captured) -> None:
 def test_an_installed_copy_records_nothing(
     monkeypatch: pytest.MonkeyPatch, capsys: Captured
 ) -> None:
-    monkeypatch.setattr(package_pipeline, "in_checkout", lambda: False)
-    assert main(["check", "--contact", "--record"]) == 2
+    monkeypatch.setattr(outputs, "in_checkout", lambda: False)
+    assert main(["check", "contact-law", "--update"]) == 2
     assert "keep the result by --json FILE" in capsys.readouterr().err
 
 
@@ -291,7 +309,18 @@ sys.exit(main(sys.argv[1:]))
     "arguments",
     [
         ["simulate", PAPER, "--sweep", "plate.thickness=1e-2:2e-1:99999", "--csv", "x.csv"],
-        ["check", "--search", "1h", "--kernel", "G", "--json", "x.json", "--out", "x.toml"],
+        [
+            "check",
+            "search",
+            "--time",
+            "1h",
+            "--function",
+            "G",
+            "--json",
+            "x.json",
+            "--out",
+            "x.toml",
+        ],
     ],
     ids=["sweep", "search"],
 )

@@ -13,8 +13,10 @@ from pathlib import Path
 
 import pytest
 
+from derivation.engine import build
 from derivation.engine.files import ROOT
-from derivation.plate import derived, package_pipeline
+from derivation.plate import derived
+from derivation.plate.paper import PAPER
 
 GUIDE = (ROOT / "CONTRIBUTING.md").read_text()
 BLOCK = re.compile(r"```(?:python|toml)\n# (.+?)\n(.*?)```", re.DOTALL)
@@ -165,9 +167,7 @@ def test_the_new_formula_has_a_stable_form_and_a_budget(copy: Path) -> None:
 def test_the_new_formula_is_generated_checked_and_reported(copy: Path) -> None:
     """To the guide's last step: nobody wrote a word about the link, or a route for an oracle."""
     known = copy / "known.pickle"
-    known.write_bytes(
-        pickle.dumps((derived.chain(), derived.misprints(), package_pipeline.forms()))
-    )
+    known.write_bytes(pickle.dumps((derived.chain(), derived.misprints(), build.rewrite(PAPER))))
     run(copy, GENERATE, str(known))
     code = "from generated.pressure import p_mean; print(p_mean(0.5, 3.0))"
     assert float(run(copy, code)) == pytest.approx(12 / math.pi, rel=1e-15)
@@ -189,7 +189,7 @@ def test_the_new_rule_acts(copy: Path) -> None:
 
 
 def test_the_new_hard_case_is_judged(copy: Path) -> None:
-    assert "T=0x1.5555555555555p-2" in run(copy, COMMAND, "check", "--hard", expect=2)
+    assert "T=0x1.5555555555555p-2" in run(copy, COMMAND, "check", "hard-cases", expect=2)
     [[kept, error, allowed]] = json.loads(run(copy, HARD))
     assert kept
     assert error <= allowed

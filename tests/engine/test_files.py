@@ -15,10 +15,9 @@ from typing import Any
 import pytest
 
 from derivation.cli import main
-from derivation.engine import staging
+from derivation.engine import package, staging
 from derivation.engine.files import read_file, write_file, write_files, write_folder
 from derivation.engine.staging import Temporary, recover, remove_leftovers
-from derivation.plate import package_pipeline
 
 STEPS = {
     "open", "os.chmod", "os.chown", "os.fsync", "os.link", "os.listdir", "os.mkdir", "os.remove",
@@ -128,7 +127,7 @@ def test_files_are_whole_and_what_a_killed_run_leaves_is_removed(tmp_path: Path)
 
 def test_a_package_is_swapped_whole(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """By `generate`: a broken folder of a killed run comes back before it is compared."""
-    monkeypatch.setattr(package_pipeline, "package", lambda: dict(NEW))
+    monkeypatch.setattr(package, "files_of", lambda *_: dict(NEW))
     place = tmp_path / "package"
     assert main(["generate", "--out", str(place)]) == 0
     before = place.stat().st_ino

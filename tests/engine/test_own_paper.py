@@ -27,7 +27,9 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A built paper, and beside it the cache that its processes share."""
     place = tmp_path_factory.mktemp("own") / "my film"
     run("new", str(place), home=place.parent)
-    run("build", "--paper", str(place), home=place.parent)
+    said = run("build", "--paper", str(place), home=place.parent)
+    timed = re.findall(r"✓ (\w+) +[\d.]+ s", said)
+    assert timed == ["derive", "rewrite", "generate", "misprints", "check", "report"]
     return place
 
 
@@ -109,9 +111,43 @@ def test_its_report_holds_what_was_found(folder: Path) -> None:
     assert made == (shutil.which("pdflatex") is not None)
 
 
-def test_rules_are_accounted_for(folder: Path) -> None:
-    shown = run("rewrite", "--paper", str(folder), home=folder.parent)
+def test_its_report_is_compared_and_taken_in_pieces(folder: Path, tmp_path: Path) -> None:
+    own = "--paper", str(folder)
+    assert "is fresh" in run("report", "--check", *own, home=folder.parent)
+    pasted = run("report", "--fragment", "F_slipping", *own, home=folder.parent)
+    assert r"\label{eq:F_slipping}" in pasted
+    run("report", "--section", "misprints", "--no-pdf", "--out", str(tmp_path), *own,
+        home=folder.parent)  # fmt: skip
+    names = sorted(path.name for path in tmp_path.iterdir())
+    assert names == ["report-misprints.html", "report-misprints.tex", "report.bib"]
+    text = (tmp_path / "report-misprints.tex").read_text()
+    assert MISPRINT in text
+    assert r"\label{eq:C_bonded}" not in text
+    edited = folder / "reports" / "report.tex"
+    right = edited.read_text()
+    try:
+        edited.write_text(right + "% by hand")
+        said = run("report", "--check", *own, home=folder.parent, status=1)
+    finally:
+        edited.write_text(right)
+    assert f"platecontact report --paper {folder}" in said
+
+
+def test_rules_are_accounted_for_and_kept(folder: Path) -> None:
+    shown = run("rewrite", "--paper", str(folder), "--update", home=folder.parent)
     assert "F_slipping" in shown
+    rows = json.loads((folder / "reports" / "rewrite.json").read_text())["rows"]
+    assert "F_slipping" in [row["name"] for row in rows]
+
+
+def test_tighter_budgets_are_suggested(folder: Path) -> None:
+    before = (folder / "budgets.toml").read_text()
+    shown = run("check", "--paper", str(folder), "--suggest-budgets", "--json", "-",
+                home=folder.parent)  # fmt: skip
+    found = json.loads(shown.split("✓")[0])
+    budgets = {row["kernel"]: row["budget"] for row in found["rows"]}
+    assert all(ulp < budgets[name] for name, ulp in found["suggested_budgets"].items())
+    assert (folder / "budgets.toml").read_text() == before
 
 
 def test_what_is_no_paper_is_refused(folder: Path, tmp_path: Path) -> None:
@@ -119,8 +155,8 @@ def test_what_is_no_paper_is_refused(folder: Path, tmp_path: Path) -> None:
         "derive", "--paper", str(tmp_path), home=tmp_path, status=2
     )
     assert "expected an empty folder" in run("new", str(folder), home=tmp_path, status=2)
-    assert "remove the other options" in run(
-        "check", "--hard", "--paper", str(folder), home=tmp_path, status=2
+    assert "No such option: --paper" in run(
+        "check", "hard-cases", "--paper", str(folder), home=tmp_path, status=2
     )
     for text, says in (
         ("import nothing_of_that_name", "paper.py, line 1: ModuleNotFoundError: No module"),
@@ -138,10 +174,10 @@ def test_what_is_missing_is_named(tmp_path: Path) -> None:
     paper = load(tmp_path / "film")
     with pytest.raises(FileNotFoundError, match="run `platecontact generate`"):
         build.check(paper)
-    with pytest.raises(FileNotFoundError, match="run `platecontact check --record`"):
+    with pytest.raises(FileNotFoundError, match="run `platecontact check --update`"):
         build.report(paper)
-    with pytest.raises(ValueError, match="sections of its own"):
-        build.report(paper, sections=["misprints"])
+    with pytest.raises(ValueError, match="no section 'law': expected one of derivation"):
+        build.report(paper, sections=["law"])
 
 
 def test_grids_stay_inside_the_domain(folder: Path) -> None:
@@ -159,7 +195,7 @@ def test_the_plate_is_a_paper_too() -> None:
     assert build.formulas(PAPER)["G"].unit == "1"
     assert build.diagnose(PAPER, "G", "G").verdict == "equal"
     assert PAPER.judge().package == PAPER.package().target == "generated"
-    assert PAPER.report().write is not None
+    assert "law" in PAPER.report().sections
 
 
 def test_the_engine_speaks_of_no_paper() -> None:

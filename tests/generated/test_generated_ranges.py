@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from derivation.engine.measure.target import Target
 from derivation.plate.grids import Point
 from derivation.plate.search.draw import draw
-from derivation.plate.search.targets import Target, targets
+from derivation.plate.search.targets import targets
 from generated import contact_law
 from generated.manifest import CONTACT, KERNELS
 

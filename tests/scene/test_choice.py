@@ -296,9 +296,8 @@ def test_history_is_by_the_full_method_to_its_end() -> None:
 
 
 def test_check_bounds_command(capsys: Captured, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert main(["check", "--bounds", "3", "--json", "-"]) == 0
+    assert main(["check", "error-bounds", "-n", "3", "--json", "-"]) == 0
     rows = json.loads(capsys.readouterr().out)
     assert sum(row["runs"] for row in rows) == 3 * len(bounds.TOLERANCES)
-    assert main(["check", "--bounds", "3", "--speed"]) == 2
     monkeypatch.setattr(pipeline, "_chosen", lambda _, rtol: ([1.0] * 4, "hertz", rtol))
-    assert main(["check", "--bounds", "1"]) == 1
+    assert main(["check", "error-bounds", "-n", "1"]) == 1

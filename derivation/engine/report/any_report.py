@@ -16,6 +16,9 @@ from derivation.engine.report.pieces import (
     link_context,
 )
 
+SECTIONS = ("derivation", "misprints", "accuracy")
+"""In the report's order."""
+
 
 @dataclass(frozen=True)
 class Contents:
@@ -47,8 +50,8 @@ class Contents:
     version: str
 
 
-def text(contents: Contents) -> Text:
-    """The report's LaTeX."""
+def text(contents: Contents, shown: Sequence[str] = SECTIONS) -> Text:
+    """The report's LaTeX, with the named sections."""
     made = environment()
     formulas = {f.name: f for _, found in contents.links for f in found}
     provenance = contents.check["provenance"]
@@ -81,6 +84,7 @@ def text(contents: Contents) -> Text:
     front, *sections = (
         made.get_template(f"any/{name}.tex.j2").render(**context)
         for name, context in contexts.items()
+        if name == "front" or name in shown
     )
     items = contents.prose.references.items()
     references = made.get_template("references.tex.j2").render(references=items) if items else ""

@@ -1,6 +1,8 @@
 """A report as a LaTeX document, made of its parts."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from difflib import get_close_matches
 
 from derivation.engine.report.latex import environment
 
@@ -30,3 +32,19 @@ class Text:
                 sections=[*self.sections, self.references],
             )
         )
+
+
+def chosen(names: Sequence[str], known: Sequence[str]) -> tuple[str, ...]:
+    """Return the named sections in the report's order; all of them if none is named.
+
+    Raises
+    ------
+    ValueError
+        If there is no section of a name.
+    """
+    for name in names:
+        if name not in known:
+            near = get_close_matches(name, known, n=1)
+            hint = f"did you mean {near[0]}? " if near else ""
+            raise ValueError(f"no section {name!r}: {hint}expected one of {', '.join(known)}")
+    return tuple(name for name in known if not names or name in names)

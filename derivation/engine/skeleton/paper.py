@@ -36,22 +36,17 @@ def easy(point: Point) -> bool:
 
 PAPER = Paper(
     title=prose.TITLE,
+    folder=HERE,
+    records=HERE / "reports",
     chain=CHAIN,
     errata=Errata(PRINTED, RELATIONS),
     package=lambda: Package(
         TARGET,
-        HERE / "generated",
         PRINTING.forms,
         PRINTING.files,
         rewritten=REWRITTEN,
         scales=SCALES,
     ),
     judge=lambda: domain_judge(CHAIN, ROUTES, TARGET, PRINTING.blocks, easy),
-    report=lambda: Report(
-        HERE / "reports",
-        HERE / "reports" / "check.json",
-        Prose(prose.ABOUT),
-        prose.SUBTITLE,
-        prose.ABSTRACT,
-    ),
+    report=lambda: Report(Prose(prose.ABOUT), prose.SUBTITLE, prose.ABSTRACT),
 )

@@ -8,9 +8,10 @@ import flint
 import numpy as np
 from flint import arb
 
-from derivation.plate.benchmark import clock, law_generated
+from derivation.engine.measure import clock
+from derivation.engine.measure.clock import CPU
+from derivation.plate.benchmark import law_generated
 from derivation.plate.benchmark.arithmetic import DOUBLE, HAS_LONG, LONG, SERIES_END, Array, as_ball
-from derivation.plate.benchmark.clock import CPU
 from derivation.plate.benchmark.errors import digits
 from derivation.plate.benchmark.far_zeros import far_zeros
 from derivation.plate.benchmark.interface import Doubles, Regime, deepest

@@ -2,16 +2,14 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
-import numpy as np
-from numpy.typing import NDArray
-
+from derivation.engine.measure import clock
 from generated.impact import impact
 
 Task = Literal["law", "inversion", "impact"]
-Doubles = NDArray[np.float64]
-Call = Callable[[Any], Any]
+Doubles = clock.Doubles
+Call = clock.Call
 """Radii -> indentations [m], indentations -> forces [N], or speeds -> contact times [s]."""
 
 TASKS: tuple[Task, ...] = ("law", "inversion", "impact")

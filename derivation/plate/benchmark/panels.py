@@ -4,8 +4,8 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from derivation.plate.benchmark import clock
-from derivation.plate.benchmark.clock import CPU, FULL, QUICK, Effort, Session, Timing
+from derivation.engine.measure import clock
+from derivation.engine.measure.clock import CPU, FULL, QUICK, Effort, Session, Timing
 from derivation.plate.benchmark.errors import Judged, judge
 from derivation.plate.benchmark.interface import Call, Doubles, Method, Regime, Task
 from derivation.plate.benchmark.problems import Problem, problem

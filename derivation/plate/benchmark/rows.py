@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Literal
 
-from derivation.plate.benchmark.clock import Timing
+from derivation.engine.measure.clock import Timing
 from derivation.plate.benchmark.errors import Errors
 from derivation.plate.benchmark.interface import Task
 

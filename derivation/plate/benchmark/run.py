@@ -5,10 +5,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from typing import Any
 
+from derivation.engine.measure.clock import CONTENDED, FULL, QUICK, SEED, Session
 from derivation.engine.measure.record import plain, provenance
 from derivation.plate.benchmark import scaling
 from derivation.plate.benchmark.catalogue import methods
-from derivation.plate.benchmark.clock import CONTENDED, FULL, QUICK, SEED, Session
 from derivation.plate.benchmark.headline import headline
 from derivation.plate.benchmark.interface import PAPER, REGIMES, TASKS, TIE, Regime, deepest
 from derivation.plate.benchmark.panels import panel

@@ -8,9 +8,9 @@ from functools import partial
 
 import numpy as np
 
+from derivation.engine.measure.clock import CPU
 from derivation.plate.benchmark import law_generated, law_series, speed
 from derivation.plate.benchmark.arithmetic import Balls, Mpmath
-from derivation.plate.benchmark.clock import CPU
 from derivation.plate.benchmark.interface import PAPER, Method
 from derivation.plate.benchmark.law_sums import split
 from derivation.plate.benchmark.problems import ARRAY

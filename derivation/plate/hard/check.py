@@ -21,7 +21,7 @@ from derivation.plate.hard.case import Case, handed_over, written
 from derivation.plate.hard.truth import DIGITS, Known, Stored, known_of, outputs, restored
 from derivation.plate.judge import PACKAGE, generated_kernels, printed_kernels
 
-COMMAND = "platecontact check --hard --record"
+COMMAND = "platecontact check hard-cases --update"
 COLUMNS = ("group", "kernel", "cause", "#generated", "#printed", "#allowed", "kept")
 _SIGNIFICANT = 3
 

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, NullLocator
 
-from derivation.plate.report.figures import STYLE
+from derivation.engine.report.figures import STYLE
 
 TASKS = {
     "law": "contact law",

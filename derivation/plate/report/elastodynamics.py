@@ -7,9 +7,9 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 
+from derivation.engine.report.figures import STYLE
 from derivation.engine.report.latex import escape
 from derivation.engine.report.numbers import number, rounded
-from derivation.plate.report.figures import STYLE
 from generated.bessel import bessel_j0_zeros
 from generated.inertia import bending_frequency
 

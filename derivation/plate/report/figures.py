@@ -1,6 +1,5 @@
 """Figures 1 and 2 as the paper draws them and as they should be; the peaks, the law and its map."""
 
-import io
 from collections.abc import Callable
 from dataclasses import replace
 from math import gamma, pi, sqrt
@@ -11,6 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from derivation.engine.report.figures import STYLE
 from derivation.scene.map import figure as scene_map
 from derivation.scene.model import Model
 from derivation.scene.result import Result
@@ -21,24 +21,6 @@ from generated.perturbation import printed_motion
 TRUNCATIONS = (25, 50, 100, 200, 400)
 THICKNESS = np.geomspace(0.04, 1.0, 49)
 """h/b of figure 2 and of the peaks."""
-STYLE: dict[Any, Any] = {
-    "font.family": "serif",
-    "font.size": 9,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.grid": True,
-    "grid.alpha": 0.3,
-    "legend.frameon": False,
-    "lines.linewidth": 1.3,
-    "pdf.fonttype": 42,
-    "svg.hashsalt": "platecontact",
-    "svg.fonttype": "none",
-}
-METADATA: dict[str, dict[str, Any]] = {
-    ".pdf": {"CreationDate": None, "Producer": None},
-    ".svg": {"Date": None, "Creator": None},
-}
-"""What is left out of a file, as it differs from run to run."""
 PLATES = (0.02, 0.05, 0.1, 0.2, 0.53, 2.0)
 """h/b of the law's figure; at 0.53 the first correction changes sign."""
 
@@ -61,14 +43,6 @@ def _drawn(draw: Callable[[Figure, Model], None], case: Model) -> Figure:
         figure = Figure(figsize=(6.3, 3.1), layout="constrained")
         draw(figure, case)
     return figure
-
-
-def saved(figure: Figure, suffix: str) -> bytes:
-    """A figure as the content of a file, `.pdf` or `.svg`, the same bytes for the same drawing."""
-    stream = io.BytesIO()
-    with mpl.rc_context(STYLE):
-        figure.savefig(stream, format=suffix[1:], transparent=True, metadata=METADATA[suffix])
-    return stream.getvalue()
 
 
 def draw_history(figure: Figure, case: Model) -> None:

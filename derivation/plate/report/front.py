@@ -77,7 +77,7 @@ def checks(measured: Mapping[str, Data]) -> Iterator[tuple[str, str]]:
     )
     rows = measured["contact"]["rows"]
     yield (
-        code("check --contact"),
+        code("check contact-law"),
         (
             f"contact law and impact at {sum(row['points'] for row in rows)} points, "
             + used(max(row["double"]["ratio"] for row in rows))
@@ -85,37 +85,37 @@ def checks(measured: Mapping[str, Data]) -> Iterator[tuple[str, str]]:
     )
     cases = measured["hard"]["cases"]
     failed = sum(not case["kept"] for case in cases)
-    yield code("check --hard"), f"{len(cases)} hard cases, {failed or 'none'} failed"
+    yield code("check hard-cases"), f"{len(cases)} hard cases, {failed or 'none'} failed"
     if "bounds" in measured:
         runs = sum(row["runs"] for row in measured["bounds"]["rows"])
         worst = max(float(row["ratio"]) for row in measured["bounds"]["rows"])
-        yield code("check --bounds"), f"{runs} impacts of random scenes, {used(worst, 'bound')}"
+        yield code("check error-bounds"), f"{runs} impacts of random scenes, {used(worst, 'bound')}"
     if "effects" in measured:
         worst = max(float(row["ratio"]) for row in measured["effects"]["rows"])
         yield (
-            code("check --effects"),
+            code("check effects"),
             (f"{measured['effects']['drawn']} random scenes, {used(worst, 'bound')}"),
         )
     moving = measured["inertia"]
     worst = max(float(side["tightest"]) for side in moving["sides"])
     yield (
-        code("check --inertia"),
+        code("check inertia"),
         f"{len(moving['rows'])} impacts on plates that move, {used(worst, 'bound')}",
     )
     rows = measured["speed"]["rows"]
     kept = sum(row["kept"] for row in rows)
-    yield code("check --speed"), f"{len(rows)} times measured, {kept} within their limits"
+    yield code("check timing"), f"{len(rows)} times measured, {kept} within their limits"
     rows = measured["accuracy"]["rows"]
     methods = {(row["task"], row["family"]) for row in rows}
     yield (
-        code("accuracy"),
+        code("benchmark"),
         (
             f"{len(methods)} methods in {len(measured['accuracy']['regimes'])} regimes, "
             f"{len(rows)} settings"
         ),
     )
     if "moving" in measured:
-        yield code("benchmark --moving"), f"{len(measured['moving']['rows'])} settings"
+        yield code("benchmark --dynamic"), f"{len(measured['moving']['rows'])} settings"
 
 
 def used(ratio: float, what: str = "allowed error") -> str:

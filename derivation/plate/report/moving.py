@@ -6,9 +6,9 @@ from typing import Any
 import matplotlib as mpl
 from matplotlib.figure import Figure
 
+from derivation.engine.report.figures import STYLE
 from derivation.engine.report.latex import escape
 from derivation.engine.report.numbers import rounded
-from derivation.plate.report.figures import STYLE
 
 LINES = {
     "elements, tolerance": "elements",

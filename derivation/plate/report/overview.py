@@ -7,8 +7,8 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 
+from derivation.engine.report.figures import STYLE
 from derivation.plate.report.accuracy_figures import pareto_front
-from derivation.plate.report.figures import STYLE
 from derivation.scene.impact import simulate
 from derivation.scene.scene import Scene, read
 

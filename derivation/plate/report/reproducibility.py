@@ -7,19 +7,19 @@ from typing import Any
 from derivation.engine.report.latex import escape
 
 RENEWED = {
-    "accuracy": "platecontact benchmark",
-    "bounds": "platecontact check --bounds 2000 --record",
-    "check": "platecontact check --record",
-    "contact": "platecontact check --contact --record",
+    "accuracy": "platecontact benchmark --update",
+    "bounds": "platecontact check error-bounds -n 2000 --update",
+    "check": "platecontact check --update",
+    "contact": "platecontact check contact-law --update",
     "edge_remainder": "python -m derivation.plate.edge.remainder",
     "edge_strip": "python -m derivation.plate.edge.strip",
-    "effects": "platecontact check --effects 3000 --record",
+    "effects": "platecontact check effects -n 3000 --update",
     "elastodynamics": "python -m derivation.checks.finite_elements",
-    "hard": "platecontact check --hard --record",
-    "inertia": "platecontact check --inertia 500 --seed 3 --record",
-    "moving": "platecontact benchmark --moving",
-    "rewrite": "platecontact rewrite --record",
-    "speed": "platecontact check --speed --record",
+    "hard": "platecontact check hard-cases --update",
+    "inertia": "platecontact check inertia -n 500 --seed 3 --update",
+    "moving": "platecontact benchmark --dynamic --update",
+    "rewrite": "platecontact rewrite --update",
+    "speed": "platecontact check timing --update",
 }
 """The command that renews a measurement."""
 DIGITS = 16

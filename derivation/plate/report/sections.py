@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from difflib import get_close_matches
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -150,31 +149,9 @@ SECTIONS: dict[str, Callable[[Material], dict[str, Any]]] = {
 """What fills `templates/sections/NAME.tex.j2`, by name, in the report's order."""
 
 
-def chosen(names: Sequence[str]) -> tuple[str, ...]:
-    """The sections named, in the report's order; all of them if none is.
-
-    Raises
-    ------
-    ValueError
-        If a name is no section's.
-    """
-    for name in names:
-        if name not in SECTIONS:
-            near = get_close_matches(name, SECTIONS, n=1)
-            hint = f"did you mean {near[0]}? " if near else ""
-            raise ValueError(f"no section {name!r}: {hint}expected one of {', '.join(SECTIONS)}")
-    return tuple(name for name in SECTIONS if not names or name in names)
-
-
-def text(material: Material, names: Sequence[str] = ()) -> Text:
-    """The report's LaTeX, a pure function of theory, generated code and measurements.
-
-    Raises
-    ------
-    ValueError
-        If a name is no section's.
-    """
-    made, shown = environment(TEMPLATES), chosen(names)
+def text(material: Material, shown: Sequence[str]) -> Text:
+    """The named sections' LaTeX, a pure function of theory, generated code and measurements."""
+    made = environment(TEMPLATES)
     front = made.get_template("front.tex.j2").render(
         title=TITLE,
         subtitle=SUBTITLE,

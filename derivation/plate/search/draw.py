@@ -1,4 +1,4 @@
-"""Where the search looks: points at random in every kernel's domain, and steps from a point.
+"""Where the search looks: points at random in every kernel's domain.
 
 What matters is dimensionless: x = phi h, y = a phi, h/b, a/h, z/h, r/b, nu. Each is
 drawn uniformly over the floats themselves, not over the numbers, so that every
@@ -7,14 +7,12 @@ decade gets its share, and is turned into arguments in units drawn at random.
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
-from functools import cache
 from random import Random
-from types import CodeType
 from typing import Any
 
 from derivation.engine.formula.ulp import from_ordinal, ordinal
 from derivation.engine.measure.point import Point
+from derivation.engine.measure.target import Domain
 from derivation.plate.impact.oracle.agreement import FIRST
 from derivation.plate.impact.oracle.impact import stored_energy
 
@@ -62,52 +60,23 @@ _TRIES = 1000
 _DIGITS = 20
 
 
-@dataclass(frozen=True)
-class Domain:
-    """Where a kernel is searched.
-
-    Parameters
-    ----------
-    name
-        The kernel.
-    arguments
-        Their names in order.
-    modes
-        Whether it is a modal sum.
-    conditions
-        What the arguments satisfy, as comparisons in Python's notation; the
-        doubles are compared as a kernel compares them, rounding included.
-    """
-
-    name: str
-    arguments: tuple[str, ...]
-    modes: bool
-    conditions: tuple[str, ...]
-
-    def holds(self, point: Point) -> bool:
-        """Whether a point lies in the domain."""
-        codes = _compiled((*self.conditions, *_SEARCHED), self.arguments)
-        finite = all(math.isfinite(value) for value in point.values.values())
-        # The conditions are the manifest's and this file's own, never a stranger's.
-        return finite and all(eval(code, {"abs": abs}, dict(point.values)) for code in codes)
+def domain_of(
+    name: str, arguments: Sequence[str], modes: bool, conditions: Sequence[str]
+) -> Domain:
+    """The domain of a kernel within what is searched."""
+    whole = arguments[0] in WHOLE
+    return Domain(name, tuple(arguments), modes, (*conditions, *_SEARCHED), whole)
 
 
 def domain_of_row(row: Any) -> Domain:
     """The domain a row of the manifest states."""
     conditions = tuple(part.strip() for part in row["domain"].split(",") if part.strip())
-    return Domain(row["name"], tuple(row["arguments"]), bool(row["modes"]), conditions)
+    return domain_of(row["name"], row["arguments"], bool(row["modes"]), conditions)
 
 
 def domain_of_law(name: str, arguments: Sequence[str]) -> Domain:
     """The domain of a kernel of the contact law."""
-    return Domain(name, tuple(arguments), False, _OF_LAW)
-
-
-@cache
-def _compiled(conditions: tuple[str, ...], arguments: tuple[str, ...]) -> tuple[CodeType, ...]:
-    """The conditions that name nothing but arguments."""
-    codes = (compile(condition, "<domain>", "eval") for condition in conditions)
-    return tuple(code for code in codes if set(code.co_names) - {"abs"} <= set(arguments))
+    return domain_of(name, arguments, False, _OF_LAW)
 
 
 # --- drawing
@@ -131,7 +100,7 @@ def draw(domain: Domain, generator: Random) -> Point:
 
 
 def _values(domain: Domain, generator: Random) -> dict[str, float]:
-    if domain.arguments[0] in WHOLE:
+    if domain.whole:
         return {domain.arguments[0]: _index(domain.name, generator)}
     if domain.arguments == ("x",):
         return {"x": generator.choice((-1, 1)) * _between(generator, 1e-150, 1e8)}
@@ -210,18 +179,3 @@ def _poisson(generator: Random) -> float:
 
 def _unit(generator: Random, decades: float) -> float:
     return float(10.0 ** generator.uniform(-decades, decades))
-
-
-# --- stepping
-
-
-def moved(point: Point, name: str, floats: int) -> Point:
-    """The point with one argument so many floats, or whole numbers, further on."""
-    value = point.values[name]
-    there = value + floats if name in WHOLE else _beside(value, floats)
-    return Point({**point.values, name: there}, point.modes)
-
-
-def _beside(value: float, floats: int) -> float:
-    end = ordinal(math.nextafter(math.inf, 0.0))
-    return from_ordinal(min(max(ordinal(value) + floats, -end), end))

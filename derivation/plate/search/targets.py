@@ -2,43 +2,37 @@
 
 import importlib
 import inspect
-import math
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+import json
+from collections.abc import Sequence
 from functools import lru_cache
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from flint import arb
 
-from derivation.engine.formula.ball import PrecisionError
 from derivation.engine.formula.ulp import overflows, ulp_error
-from derivation.engine.measure import evaluate
+from derivation.engine.measure import target
 from derivation.engine.measure.kernels import Kernel
 from derivation.engine.measure.point import Point
+from derivation.engine.measure.target import NO_REFERENCE, Domain, Error, Numbers, Target
 from derivation.plate.contact.cases.truth import tolerance
 from derivation.plate.impact.oracle.agreement import FIRST
-from derivation.plate.judge import generated_kernels
-from derivation.plate.oracle import reference, truth
+from derivation.plate.judge import JUDGE, generated_kernels
+from derivation.plate.oracle import truth
 from derivation.plate.search.draw import (
     CONTACTS,
     LAW,
-    Domain,
     domain_of_law,
     domain_of_row,
+    draw,
 )
-
-Numbers = tuple[float, ...]
-"""A kernel's results at a point: one, of an impact four."""
 
 ULP_OF_LAW = 8.0
 """Allowed to the contact law's kernels in ULP, times `contact.cases.truth.tolerance`."""
 
-_DIGITS, _FEW, _OF_LAW = 50, 20, 24
-"""Digits of the reference, of the screen's, and of the contact law's."""
-
-_SILENT = PrecisionError, ValueError, ZeroDivisionError, OverflowError
-"""What an oracle raises where it has no answer: at singular points, beyond the plate's edge."""
+_OF_LAW = 24
+"""Digits of the contact law's reference."""
 
 _SLOW, _SLOWEST = (1, 16), (1, 32)
 _SHARES = {
@@ -49,52 +43,6 @@ _SHARES = {
 """Points per turn, and how many rounds lie between turns, where the truth takes long."""
 
 _SHARE, _SHARE_OF_SUMS = (48, 1), (4, 1)
-
-
-@dataclass(frozen=True)
-class Error:
-    """What a computed number is away from the truth, and may be, in ULP."""
-
-    ulp: float
-    allowed: float
-
-    @property
-    def ratio(self) -> float:
-        """Error over allowance."""
-        return self.ulp / self.allowed
-
-
-@dataclass(frozen=True)
-class Target:
-    """A kernel to be searched.
-
-    Parameters
-    ----------
-    domain
-        Where.
-    call
-        Points -> results.
-    measure
-        Point and results -> the largest error; None where no double holds the
-        truth, the oracle has no answer, or the point lies outside the domain after all.
-    bound
-        Point and results -> a number that `measure`'s ratio never exceeds, found
-        with less effort; None where there is no such short cut.
-    share, every
-        Points per turn, and how many rounds go by for one turn.
-    """
-
-    domain: Domain
-    call: Callable[[Sequence[Point]], list[Numbers]]
-    measure: Callable[[Point, Numbers], Error | None]
-    bound: Callable[[Point, Numbers], float] | None
-    share: int
-    every: int
-
-    @property
-    def name(self) -> str:
-        """The kernel's name."""
-        return self.domain.name
 
 
 def targets(names: Sequence[str] = ()) -> tuple[Target, ...]:
@@ -109,11 +57,23 @@ def targets(names: Sequence[str] = ()) -> tuple[Target, ...]:
     closed = zip(manifest, generated_kernels(), strict=True)
     found = [closed_target(domain_of_row(row), kernel) for row, kernel in closed]
     found += [_law_target(name) for name in LAW]
-    known = [target.name for target in found]
+    known = [one.name for one in found]
     unknown = [name for name in names if name not in known]
     if unknown:
         raise ValueError(f"no kernel {', '.join(unknown)}: expected some of {', '.join(known)}")
-    return tuple(target for target in found if not names or target.name in names)
+    return tuple(one for one in found if not names or one.name in names)
+
+
+def recorded(check: Path, contact: Path) -> tuple[dict[str, float], dict[str, list[str]]]:
+    """By kernel, worst ratios of the committed check, and worst arguments of the contact law."""
+    rows = json.loads(check.read_text())["rows"] if check.is_file() else []
+    ratios = {row["kernel"]: row["double"]["ratio"] for row in rows}
+    worst = json.loads(contact.read_text())["rows"] if contact.is_file() else []
+    return (
+        # An infinity is text there.
+        {kernel: float(ratio) for kernel, ratio in ratios.items() if ratio is not None},
+        {row["kernel"]: row["worst"] for row in worst},
+    )
 
 
 # --- closed formulas, modal sums and tables
@@ -121,32 +81,8 @@ def targets(names: Sequence[str] = ()) -> tuple[Target, ...]:
 
 def closed_target(domain: Domain, kernel: Kernel) -> Target:
     """A kernel of the manifest, held to its budget and what conditioning allows."""
-    budget = float(kernel.budget or 0.0)
-
-    def call(points: Sequence[Point]) -> list[Numbers]:
-        return [(float(value),) for value in evaluate.call(kernel, points)]
-
-    def bound(point: Point, got: Numbers) -> float:
-        # The allowance is the budget and more, so error over budget is an upper bound:
-        # who stays below the worst ratio by this is spared the condition numbers.
-        try:
-            ball = truth(kernel.name, point.values, _FEW, point.modes)
-        except _SILENT:
-            return math.inf
-        return ulp_error(got[0], ball) / budget
-
-    def measure(point: Point, got: Numbers) -> Error | None:
-        try:
-            found = reference(kernel.name, point.values, _DIGITS, point.modes)
-        except _SILENT:
-            return None
-        if overflows(found.value):
-            return None
-        allowed = evaluate.allowed_ulp(found, budget)
-        return Error(ulp_error(got[0], found.value), allowed)
-
     share, every = _SHARES.get(kernel.name, _SHARE_OF_SUMS if kernel.modes else _SHARE)
-    return Target(domain, call, measure, bound, share, every)
+    return target.closed_target(JUDGE, domain, kernel, draw, share, every)
 
 
 # --- the contact law
@@ -171,7 +107,7 @@ def _law_target(name: str) -> Target:
         given = tuple(point.values[key] for key in domain.arguments)
         try:
             balls = _true(name, given, domain.arguments)
-        except _SILENT:
+        except NO_REFERENCE:
             return None
         if balls is None or any(overflows(ball) for ball in balls):
             return None
@@ -181,7 +117,7 @@ def _law_target(name: str) -> Target:
         return Error(ulp, ULP_OF_LAW * scale)
 
     share, every = _SHARES.get(name, _SHARE)
-    return Target(domain, call, measure, None, share, every)
+    return Target(domain, draw, call, measure, None, share, every)
 
 
 @lru_cache(maxsize=8)

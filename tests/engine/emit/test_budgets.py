@@ -7,15 +7,15 @@ from typing import Any
 
 import pytest
 
-from derivation import pipeline
 from derivation.cli import main
+from derivation.engine import build
 from derivation.engine.emit.budgets import parse_budgets
 from derivation.engine.files import ROOT
 from derivation.engine.measure.check import Row
 from derivation.engine.measure.evaluate import Errors
+from derivation.engine.measure.suggest import LEAST, MARGIN, suggestions, tighter
 from derivation.plate.budgets import BUDGETS, read_budgets
 from derivation.plate.modes.kernels.modal_sums import TESTED
-from derivation.plate.propose import LEAST, MARGIN, proposals, tighter
 from generated.manifest import CONTACT, KERNELS
 
 REQUIRED = {
@@ -108,7 +108,7 @@ def test_every_kernel_has_a_number_a_domain_and_one_rule() -> None:
         parse_budgets({**data, "rule": twice})
 
 
-# --- proposals
+# --- suggestions
 
 
 @dataclasses.dataclass(frozen=True)
@@ -118,7 +118,7 @@ class Measured:
 
 @dataclasses.dataclass(frozen=True)
 class Line:
-    """What a proposal looks at in a row."""
+    """What a suggestion looks at in a row."""
 
     kernel: str
     budget: float | None
@@ -128,37 +128,37 @@ class Line:
 
 
 @pytest.mark.parametrize(
-    ("budget", "needed", "proposed"),
+    ("budget", "needed", "suggested"),
     [(8.0, 3.0, 3.75), (8.0, 3.01, 4.0), (3.75, 3.0, None), (2.0, 9.0, None), (0.51, 0.1, 0.5),
      (4.0, 0.0, 0.5), (4.0, float("inf"), None)],
 )  # fmt: skip
-def test_a_proposal_is_the_worst_and_a_margin_in_quarters(
-    budget: float, needed: float, proposed: float | None
+def test_a_suggestion_is_the_worst_and_a_margin_in_quarters(
+    budget: float, needed: float, suggested: float | None
 ) -> None:
-    assert tighter(budget, needed) == proposed
-    assert proposed is None or needed * MARGIN <= proposed
+    assert tighter(budget, needed) == suggested
+    assert suggested is None or needed * MARGIN <= suggested
     assert LEAST == 0.5
 
 
-def test_proposals_can_be_pasted_and_leave_out_what_failed() -> None:
+def test_suggestions_can_be_pasted_and_leave_out_what_failed() -> None:
     rows = [
         Line("G", 4.0, Measured(1.0), Measured(2.0), True),
         Line("P", 1.0, Measured(0.9), None, True),
         Line("C_top", 3.0, Measured(0.1), None, False),
         Line("K_j", None, Measured(0.1), None, None),
     ]
-    assert tomllib.loads("\n".join(proposals(rows))) == {"ulp": {"G": 2.5}}  # type: ignore[arg-type]
-    assert proposals(rows[1:]) == []
+    assert tomllib.loads("\n".join(map(str, suggestions(rows)))) == {"G": 2.5}
+    assert suggestions(rows[1:]) == []
 
 
-def test_the_command_prints_proposals_and_writes_nothing(
+def test_the_command_prints_suggestions_and_writes_nothing(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     errors = Errors(9, 0, 0, 0, 0.6, 0.5, 0.4, 0.2, 0.1, None, "float64", ())
     rows = (Row("P", "pressure", 1.0, errors, errors, 2, passed=True),)
-    monkeypatch.setattr(pipeline, "check", lambda *_: rows)
+    monkeypatch.setattr(build, "check", lambda *_: rows)
     before = BUDGETS.read_bytes()
-    assert main(["check", "--propose"]) == 0
+    assert main(["check", "--suggest-budgets"]) == 0
     printed = capsys.readouterr().out
     assert tomllib.loads(printed[printed.index("[ulp]") :]) == {"ulp": {"P": 0.5}}
     assert BUDGETS.read_bytes() == before

@@ -12,10 +12,12 @@ import numpy as np
 import pytest
 
 import generated
+from derivation.engine import build
 from derivation.engine.emit.freshness import compare
 from derivation.engine.files import ROOT
-from derivation.plate import package_pipeline
+from derivation.engine.package import files_of
 from derivation.plate.budgets import read_budgets
+from derivation.plate.paper import PAPER
 from generated.manifest import CONTACT, KERNELS
 
 KERNEL = {row["name"]: row for row in KERNELS}
@@ -45,7 +47,7 @@ def _no_warnings() -> Iterator[None]:
 
 
 def test_package_is_fresh() -> None:
-    freshness = package_pipeline.check_generated()
+    freshness = build.check_generated(PAPER, None, "platecontact generate")
     assert freshness.fresh, str(freshness)
 
 
@@ -53,7 +55,7 @@ def test_package_is_fresh() -> None:
 def test_every_tampering_is_seen_and_the_remedy_named(deed: str, tmp_path: Path) -> None:
     copy = tmp_path / "generated"
     shutil.copytree(ROOT / "generated", copy, ignore=shutil.ignore_patterns("__pycache__"))
-    expected = package_pipeline.package()
+    expected = files_of(PAPER.chain, PAPER.package())
     assert compare(copy, expected, "regenerate").fresh
     if deed == "delete":
         (copy / "omega.py").unlink()
@@ -75,7 +77,7 @@ def test_output_does_not_depend_on_the_hash_seed(tmp_path: Path) -> None:
     seed = {"PYTHONHASHSEED": "1" if own == "4242" else "4242", "XDG_CACHE_HOME": str(tmp_path)}
     command = [sys.executable, "-m", "derivation.cli", "generate", "--out", str(out)]
     subprocess.run(command, env={**os.environ, **seed}, cwd=ROOT, check=True)
-    found = compare(out, package_pipeline.package(), "")
+    found = compare(out, files_of(PAPER.chain, PAPER.package()), "")
     assert found.fresh, str(found)
 
 
@@ -186,4 +188,4 @@ def test_a_broken_package_can_be_written_anew(tmp_path: Path) -> None:
         command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False
     )
     assert done.returncode == 0, done.stderr
-    assert compare(tmp_path / "generated", package_pipeline.package(), "").fresh
+    assert compare(tmp_path / "generated", files_of(PAPER.chain, PAPER.package()), "").fresh

@@ -8,6 +8,9 @@ import pytest
 from browser import browser, missing
 from markupsafe import Markup
 
+from derivation.engine import report_files
+from derivation.engine.report.document import Text
+from derivation.engine.report.figures import saved
 from derivation.engine.report.html import drawing, page
 from derivation.engine.report.html_blocks import Blocks
 from derivation.engine.report.html_text import HtmlError, Words, argument, parts
@@ -15,10 +18,11 @@ from derivation.engine.report.latex import _code
 from derivation.engine.report.mathml import MathError, mathml, unwrapped
 from derivation.engine.report.pdf import TexError
 from derivation.plate import reporting
-from derivation.plate.report.figures import figures, saved
+from derivation.plate.paper import PAPER
+from derivation.plate.report.figures import figures
 from derivation.plate.report.front import TITLE
 from derivation.plate.report.prose import REFERENCES
-from derivation.plate.report.sections import SECTIONS, Text
+from derivation.plate.report.sections import SECTIONS
 from derivation.scene.impact import simulate
 from derivation.scene.scene import load
 
@@ -66,7 +70,7 @@ class Parsed(HTMLParser):
 
 @pytest.fixture(scope="module")
 def text() -> Text:
-    return reporting.report_text()
+    return report_files.text(PAPER)
 
 
 @pytest.fixture(scope="module")
@@ -181,7 +185,7 @@ def test_figures_repeat_byte_for_byte_and_do_not_share_ids() -> None:
 
 @pytest.mark.parametrize("name", SECTIONS)
 def test_each_section_stands_alone(name: str) -> None:
-    alone = reporting.report_text([name])
+    alone = report_files.text(PAPER, [name])
     whole = "\n".join([*alone.sections, alone.front, alone.references])
     assert set(re.findall(r"\\ref\{(.*?)\}", whole)) <= set(re.findall(r"\\label\{(.*?)\}", whole))
     drawn = dict.fromkeys(re.findall(r"figures/([\w-]+)\.pdf", whole), b"<svg></svg>")
@@ -191,7 +195,7 @@ def test_each_section_stands_alone(name: str) -> None:
 def test_without_tex_the_html_is_there(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PATH", "")
     with pytest.raises(TexError, match="texlive-latex-base"):
-        reporting.report(tmp_path, sections=["speed"])
+        report_files.write(PAPER, tmp_path, sections=["speed"])
     names = sorted(path.name for path in tmp_path.iterdir())
     assert names == ["report-speed.html", "report-speed.tex", "report.bib"]
     assert "<h2" in (tmp_path / "report-speed.html").read_text()

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 import sympy as sp
 
+from derivation.engine import report_files
 from derivation.engine.formula.notation import to_latex
 from derivation.engine.report.equations import (
     DEEPEST,
@@ -27,6 +28,7 @@ from derivation.engine.report.width import typeset_width
 from derivation.plate import derived, reporting
 from derivation.plate import vocabulary as symbols
 from derivation.plate.chain import LINKS
+from derivation.plate.paper import PAPER
 from derivation.plate.report.consequence import Consequences
 from derivation.plate.report.prose import REFERENCES
 from derivation.plate.vocabulary import PLATE, R, a, lam, mu, phi
@@ -48,7 +50,7 @@ def blemishes(log: str) -> list[str]:
 
 
 def test_committed_tex_is_fresh() -> None:
-    freshness = reporting.check_report()
+    freshness = report_files.freshness(PAPER, None, "platecontact report")
     assert freshness.fresh, str(freshness)
 
 
@@ -195,7 +197,7 @@ def test_long_sums_are_broken_and_short_ones_are_not(formulas) -> None:
 
 
 def test_every_link_and_formula_is_in_the_report(formulas) -> None:
-    text = reporting.report_files()["report.tex"]
+    text = report_files.committed_files(PAPER)["report.tex"]
     for name, _ in LINKS:
         assert rf"\subsection{{{name[0].upper() + name[1:]}}}" in text
     for name in formulas:
@@ -205,7 +207,7 @@ def test_every_link_and_formula_is_in_the_report(formulas) -> None:
 
 @NEEDS_TEX
 def test_pdf_is_the_same_bytes_anywhere_and_nothing_stands_out(tmp_path: Path) -> None:
-    files = reporting.report(tmp_path / "one")
+    files = report_files.write(PAPER, tmp_path / "one")
     assert sorted(path.name for path in files) == [
         "report.bib", "report.html", "report.pdf", "report.tex",
     ]  # fmt: skip
@@ -231,7 +233,7 @@ def test_blemishes_are_seen(tmp_path: Path) -> None:
 
 @NEEDS_TEX
 def test_chosen_sections_compile_by_themselves(tmp_path: Path) -> None:
-    written = reporting.report(tmp_path, sections=["speed", "misprints"])
+    written = report_files.write(PAPER, tmp_path, sections=["speed", "misprints"])
     assert written[-1].name == "report-misprints-speed.pdf"
     tex = written[0].read_text()
     assert re.findall(r"\\section\{(.*?)\}", tex) == ["Misprints", "Speed"]
@@ -240,7 +242,7 @@ def test_chosen_sections_compile_by_themselves(tmp_path: Path) -> None:
 
 def test_a_section_that_is_not_there_is_refused_with_the_names_of_all() -> None:
     with pytest.raises(ValueError, match=r"did you mean misprints\?.*derivation, misprints, law"):
-        reporting.report_text(["misprint"])
+        report_files.text(PAPER, ["misprint"])
 
 
 def test_what_misprints_cost_is_as_found_by_hand(formulas) -> None:
@@ -277,7 +279,7 @@ def test_links_that_references_name_are_the_chains() -> None:
 
 @NEEDS_TEX
 def test_fragments_of_the_whole_chain_compile_once_pasted(tmp_path: Path) -> None:
-    pasted = reporting.fragments([name for name, _ in derived.chain()])
+    pasted = report_files.fragments(PAPER, [name for name, _ in derived.chain()])
     head = re.findall(r"^\\(?:newsavebox|newcommand)\{.*\n(?:  .*\n)?", pasted, re.MULTILINE)
     path = tmp_path / "paste.tex"
     path.write_text(
@@ -294,17 +296,17 @@ def test_fragments_of_the_whole_chain_compile_once_pasted(tmp_path: Path) -> Non
 
 
 def test_a_fragment_is_one_formula_with_its_source(formulas) -> None:
-    text = reporting.fragments(["K_j"])
+    text = report_files.fragments(PAPER, ["K_j"])
     assert text.count(r"\begin{equation}") == 1
     assert r"\label{eq:K_j}" in text
     assert r"equation~(6) of~\cite{paper}" in text
     assert equation(formulas["K_j"].latex, formulas["K_j"].expression, PLATE) in text
     with pytest.raises(ValueError, match="did you mean K_j"):
-        reporting.fragments(["Kj"])
+        report_files.fragments(PAPER, ["Kj"])
 
 
 def test_fragments_are_written_with_the_bibliography(tmp_path: Path) -> None:
-    names = [path.name for path in reporting.write_fragments(["G", "G_m"], tmp_path)]
+    names = [path.name for path in report_files.write_fragments(PAPER, ["G", "G_m"], tmp_path)]
     assert names == ["fragment.tex", "report.bib"]
     assert (tmp_path / "fragment.tex").read_text().count(r"\begin{equation}") == 2
 

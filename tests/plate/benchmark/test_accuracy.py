@@ -14,6 +14,7 @@ import pytest
 from derivation import pipeline
 from derivation.cli import main
 from derivation.engine.files import ROOT
+from derivation.engine.report.figures import saved
 from derivation.plate import reporting
 from derivation.plate.benchmark import run, scaling
 from derivation.plate.benchmark.catalogue import methods
@@ -23,7 +24,6 @@ from derivation.plate.report import readme
 from derivation.plate.report.accuracy import accuracy_context, duration, reasons
 from derivation.plate.report.accuracy_figures import scaling as scaling_figure
 from derivation.plate.report.accuracy_figures import work_precision
-from derivation.plate.report.figures import saved
 
 # --- interface
 
@@ -97,7 +97,7 @@ def test_the_section_names_every_failure(committed: dict[str, Any]) -> None:
 
 
 def test_the_readme_shows_what_was_measured(committed: dict[str, Any]) -> None:
-    text = reporting.README.read_text()
+    text = (ROOT / reporting.README).read_text()
     assert readme.renewed(text, committed) == text, "to mend: platecontact report"
 
 
@@ -172,10 +172,10 @@ def test_the_committed_measurement_is_replaced_only_on_demand(
         assert pipeline.accuracy(options[1:], quick=bool(options)) == (measured, None)
     assert committed.read_text() == "committed"
     for other in (["--method", "table of cubics"], ["--out", str(tmp_path / "x.json")]):
-        assert main(["accuracy", "--record", *other]) == 2
-        assert "--record" in capsys.readouterr().err
+        assert main(["benchmark", "--update", *other]) == 2
+        assert "--update" in capsys.readouterr().err
     assert committed.read_text() == "committed"
-    assert pipeline.accuracy(record=True) == (measured, committed)
+    assert pipeline.accuracy(update=True) == (measured, committed)
     assert json.loads(committed.read_text()) == measured
 
 

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 from derivation import pipeline
+from derivation.engine.measure import clock
 from derivation.plate.benchmark import (
     catalogue,
-    clock,
     headline,
     law_generated,
     law_sums,

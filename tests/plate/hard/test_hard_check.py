@@ -130,18 +130,18 @@ def test_a_missing_reference_is_refused(
 ) -> None:
     data, place = json.loads(pipeline.MEASURED_HARD.read_text()), tmp_path / "hard.json"
     monkeypatch.setattr(pipeline, "MEASURED_HARD", place)
-    assert main(["check", "--hard"]) == 2
-    assert "check --hard --record" in capsys.readouterr().err.replace("\n", " ")
+    assert main(["check", "hard-cases"]) == 2
+    assert "check hard-cases --update" in capsys.readouterr().err.replace("\n", " ")
     rows = [row for row in data["cases"] if row["key"] != cases[0].key]
     place.write_text(json.dumps({"cases": rows}))
-    assert main(["check", "--hard"]) == 2
+    assert main(["check", "hard-cases"]) == 2
     message = capsys.readouterr().err
-    assert "check --hard --record" in message
+    assert "check hard-cases --update" in message
     assert cases[0].key[:20] in message
 
 
 def test_command_shows_every_case(capsys: pytest.CaptureFixture[str]) -> None:
-    status = main(["check", "--hard", "--json", "-"])
+    status = main(["check", "hard-cases", "--json", "-"])
     shown = json.loads(capsys.readouterr().out)
     assert status == (0 if all(row["kept"] for row in shown["cases"]) else 1)
     assert shown == json.loads(pipeline.MEASURED_HARD.read_text())
@@ -155,5 +155,5 @@ def test_status_is_1_when_a_case_fails(
     sound = dataclasses.replace(rows[1], problem="")
     for found, status in (((sound,), 0), ((sound, broken), 1)):
         monkeypatch.setattr(pipeline, "check_hard", lambda *_, found=found: found)
-        assert main(["check", "--hard"]) == status
+        assert main(["check", "hard-cases"]) == status
     assert "99 ULP" in capsys.readouterr().out.replace("\n", " ")

@@ -10,9 +10,10 @@ import pytest
 
 from derivation.engine.formula.ball import enclose
 from derivation.engine.measure.point import Point
+from derivation.engine.measure.target import Target
 from derivation.engine.rewrite.sections import END, sections
 from derivation.plate.search.draw import draw
-from derivation.plate.search.targets import Target, targets
+from derivation.plate.search.targets import targets
 from generated import blocks as generated_blocks
 
 MODES = ("mode_f", "mode_g", "mode_zz", "mode_rz", "mode_rr", "mode_tt")

@@ -19,8 +19,8 @@ import pytest
 from derivation.cli import main
 from derivation.engine.files import ROOT
 from derivation.engine.measure.point import Point
-from derivation.plate.judge import generated_kernels
-from derivation.plate.search.cases import (
+from derivation.engine.measure.search import Search, search
+from derivation.engine.measure.search_record import (
     Book,
     as_data,
     case_of,
@@ -30,9 +30,10 @@ from derivation.plate.search.cases import (
     seconds_of,
     to_toml,
 )
-from derivation.plate.search.draw import Domain, draw, moved
-from derivation.plate.search.search import Search, search
-from derivation.plate.search.targets import Target, closed_target, targets
+from derivation.engine.measure.target import Target
+from derivation.plate.judge import generated_kernels
+from derivation.plate.search.draw import domain_of
+from derivation.plate.search.targets import closed_target, recorded, targets
 
 NOWHERE = Path("/nonexistent")
 FAST = ("p", "sonine", "delta", "bessel_j0", "bessel_j1", "bessel_j0_zeros")
@@ -53,7 +54,7 @@ def planted() -> Target:
         inside = (np.asarray(x) > 1) & (np.asarray(x) < 1.001)
         return np.where(inside, value + 20 * np.spacing(value), value)
 
-    domain = Domain("bessel_j0", ("x",), False, ())
+    domain = domain_of("bessel_j0", ("x",), False, ())
     return closed_target(domain, dataclasses.replace(kernel, call=wrong))
 
 
@@ -93,7 +94,7 @@ def test_every_target_draws_inside_its_domain() -> None:
         if target.name in ("contact_radius", "impact"):  # their arguments come from the oracle
             continue
         for _ in range(20):
-            point = draw(target.domain, generator)
+            point = target.draw(target.domain, generator)
             assert target.domain.holds(point)
             assert tuple(point.values) == target.domain.arguments
             assert (point.modes is not None) == target.domain.modes
@@ -113,7 +114,7 @@ def test_the_file_reads_back_and_reproduces_the_error(
     caught: Search, planted: Target, tmp_path: Path
 ) -> None:
     path = tmp_path / "cases.toml"
-    book = Book(path, [planted], NOWHERE, NOWHERE)
+    book = Book(path, [planted], {}, {})
     book.keep(caught)
     (case,) = tomllib.loads(path.read_text())["case"]
     assert case["kernel"] == "bessel_j0"
@@ -122,7 +123,7 @@ def test_the_file_reads_back_and_reproduces_the_error(
     assert all(texts == float.fromhex(texts).hex() for texts in case["inputs"].values())
     assert read(path) == [case]
     assert measured(case, {"bessel_j0": planted}) == caught.standings["bessel_j0"].worst
-    again = Book(path, [planted], NOWHERE, NOWHERE)
+    again = Book(path, [planted], {}, {})
     assert not again.is_new("bessel_j0", caught.standings["bessel_j0"].worst)
     before = path.read_text()
     again.keep(caught)
@@ -133,10 +134,10 @@ def test_what_is_worse_than_recorded_or_allowed_is_new(caught: Search, planted: 
     known = ROOT / "reports" / "data" / "check.json"
     worst = caught.standings["bessel_j0"].worst
     assert worst is not None
-    book = Book(NOWHERE, [planted], known, NOWHERE)
+    book = Book(NOWHERE, [planted], *recorded(known, NOWHERE))
     assert book.is_new("bessel_j0", worst)
-    recorded = next(r for r in json.loads(known.read_text())["rows"] if r["kernel"] == "bessel_j0")
-    smaller = dataclasses.replace(worst.error, ulp=0.99 * recorded["double"]["ratio"], allowed=1.0)
+    row = next(r for r in json.loads(known.read_text())["rows"] if r["kernel"] == "bessel_j0")
+    smaller = dataclasses.replace(worst.error, ulp=0.99 * row["double"]["ratio"], allowed=1.0)
     assert not book.is_new("bessel_j0", dataclasses.replace(worst, error=smaller))
 
 
@@ -167,15 +168,16 @@ def test_a_result_that_is_not_finite_is_the_worst(planted: Target, tmp_path: Pat
     assert found.standings["bessel_j0"].ratio == math.inf
     assert as_data(found)["rows"][0]["ratio"] == "inf"
     json.dumps(as_data(found), allow_nan=False)
-    Book(tmp_path / "x.toml", [broken], NOWHERE, NOWHERE).keep(found)
+    Book(tmp_path / "x.toml", [broken], {}, {}).keep(found)
     assert read(tmp_path / "x.toml")
 
 
 def test_steps_keep_to_floats_and_whole_numbers() -> None:
     point = Point({"phi": 1.0, "n": 5.0})
-    assert moved(point, "phi", 1).values["phi"] == math.nextafter(1.0, 2.0)
-    assert moved(point, "phi", -(2**52)).values["phi"] == 0.5
-    assert moved(point, "n", -3).values["n"] == 2.0
+    real, whole = domain_of("G", ("phi",), False, ()), domain_of("kappa", ("n",), False, ())
+    assert real.moved(point, "phi", 1).values["phi"] == math.nextafter(1.0, 2.0)
+    assert real.moved(point, "phi", -(2**52)).values["phi"] == 0.5
+    assert whole.moved(point, "n", -3).values["n"] == 2.0
 
 
 def test_durations() -> None:
@@ -188,11 +190,9 @@ def test_durations() -> None:
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [
-        (["--search", "soon"], "30s, 5m or 1h"),
-        (["--search", "1s", "--kernel", "nonsense"], "bessel_j1"),
-        (["--search", "1s", "--speed"], "stands alone"),
-        (["--kernel", "G"], "--search"),
-        (["--search", "1s", "--kernel", "G", "--out", str(ROOT / "pyproject.toml")], "--out"),
+        (["search", "--time", "soon"], "30s, 5m or 1h"),
+        (["search", "--function", "nonsense"], "bessel_j1"),
+        (["search", "--function", "G", "--out", str(ROOT / "pyproject.toml")], "--out"),
     ],
 )
 def test_bad_input_is_refused(
@@ -209,25 +209,25 @@ def test_a_case_with_other_arguments_is_refused(fast: Sequence[Target], tmp_path
     case = {"group": "search", "kernel": "p", "cause": "By hand.", "inputs": {"x": "0x1p+0"}}
     path.write_text(to_toml([(case, None)]))
     with pytest.raises(ValueError, match="p takes r, a, P"):
-        Book(path, fast, NOWHERE, NOWHERE)
+        Book(path, fast, {}, {})
     path.write_text(to_toml([({**case, "group": "seams"}, None)]))
     with pytest.raises(ValueError, match="--out FILE"):  # somebody's own cases
-        Book(path, fast, NOWHERE, NOWHERE)
+        Book(path, fast, {}, {})
 
 
 def test_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path, data = tmp_path / "cases.toml", tmp_path / "found.json"
     chosen = [
-        "--kernel",
+        "--function",
         "kappa_ratio",
-        "--kernel",
+        "--function",
         "bessel_j1",
         "--out",
         str(path),
         "--json",
         str(data),
     ]
-    status = main(["check", "--search", "1s", "--seed", "5", *chosen])
+    status = main(["check", "search", "--time", "1s", "--seed", "5", *chosen])
     found = json.loads(data.read_text())
     shown = capsys.readouterr().out
     assert [row["kernel"] for row in found["rows"]] == ["bessel_j1", "kappa_ratio"]
@@ -238,17 +238,19 @@ def test_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
 
 def test_interrupted_search_keeps_what_it_found(tmp_path: Path) -> None:
     program = """
-import pathlib, sys
+import dataclasses, pathlib, sys
 from derivation import cli, pipeline
 from derivation.engine import console as screen
-from derivation.plate.search import search
-pipeline.MEASURED = pathlib.Path(sys.argv[1] + ".none")  # nothing on record: any case is new
+from derivation.engine.measure import search
+nothing = pathlib.Path(sys.argv[1] + ".none")  # nothing on record: any case is new
+pipeline.PAPER = dataclasses.replace(pipeline.PAPER, records=nothing)
 look = search._look
 def loudly(*arguments):
     yield from look(*arguments)
     print("looked", flush=True)
 search._look = loudly
-sys.exit(cli.main(["check", "--search", "1h", "--kernel", "bessel_j0", "--out", sys.argv[1]]))
+command = "check search --time 1h --function bessel_j0 --out"
+sys.exit(cli.main([*command.split(), sys.argv[1]]))
 """
     path = tmp_path / "cases.toml"
     run = subprocess.Popen(

@@ -13,15 +13,16 @@ import pytest
 
 from derivation import pipeline
 from derivation.cli import main
+from derivation.engine.measure import search
 from derivation.engine.measure.point import Point
+from derivation.engine.measure.search import Found, Standing
+from derivation.engine.measure.search_record import Book, as_data, case_of, to_toml
+from derivation.engine.measure.target import Error, Numbers, Target
 from derivation.plate.contact.cases import judge as contact_judge
 from derivation.plate.contact.cases.truth import truth
 from derivation.plate.contact.oracle import balls as contact_balls
-from derivation.plate.search import search
-from derivation.plate.search.cases import Book, as_data, case_of, to_toml
-from derivation.plate.search.draw import Domain, draw
-from derivation.plate.search.search import Found, Standing
-from derivation.plate.search.targets import Error, Numbers, Target, targets
+from derivation.plate.search.draw import domain_of, draw
+from derivation.plate.search.targets import recorded, targets
 from generated.contact_law import indentation
 from generated.impact import impact
 
@@ -120,7 +121,7 @@ def plain(name: str, arguments: tuple[str, ...], conditions: tuple[str, ...]) ->
     def measure(point: Point, _: Numbers) -> Error | None:
         return Error(abs(point.values[arguments[0]]), 1.0)
 
-    return Target(Domain(name, arguments, False, conditions), call, measure, None, 48, 1)
+    return Target(domain_of(name, arguments, False, conditions), draw, call, measure, None, 48, 1)
 
 
 def test_points_without_truth_are_counted_and_no_worst_is_made_up() -> None:
@@ -143,14 +144,14 @@ def test_a_climb_leaves_a_zero_alone_and_stays_in_the_domain() -> None:
     steps = search._climb(target, random.Random(1), here, Standing())
     assert list(steps) == []
     assert seen == []
-    wide = dataclasses.replace(target, domain=Domain("zero", ("x", "y"), False, ()))
+    wide = dataclasses.replace(target, domain=domain_of("zero", ("x", "y"), False, ()))
     assert len(list(search._climb(wide, random.Random(1), here, Standing()))) > 10
     assert {point.values["x"] for point in seen} == {0.0}
 
 
 def test_conditions_that_contradict_each_other_are_said_to() -> None:
     with pytest.raises(ValueError, match="no point found in the domain of never"):
-        draw(Domain("never", ("x",), False, ("x > 1.0", "x < 1.0")), random.Random(1))
+        draw(domain_of("never", ("x",), False, ("x > 1.0", "x < 1.0")), random.Random(1))
 
 
 # --- the book of cases
@@ -161,7 +162,7 @@ def test_cases_of_kernels_not_searched_now_stay_in_the_file(tmp_path: Path) -> N
     other = {"group": "search", "kernel": "other", "cause": "Found by search, seed 3.",
              "inputs": {"x": "0x1.0p+0"}}  # fmt: skip
     path.write_text(to_toml([(other, None)]))
-    book = Book(path, [target], NOWHERE, NOWHERE)
+    book = Book(path, [target], {}, {})
     found = search.search([target], 1, evaluations=50)
     book.keep(found)
     first, second = tomllib.loads(path.read_text())["case"]
@@ -179,13 +180,13 @@ def test_what_the_contact_laws_check_found_is_not_new(law: dict[str, Target]) ->
     point = Point(dict(zip(target.domain.arguments, map(float.fromhex, texts), strict=True)))
     error = target.measure(point, target.call([point])[0])
     assert error is not None
-    book = Book(NOWHERE, [target], NOWHERE, pipeline.MEASURED_CONTACT)
+    book = Book(NOWHERE, [target], *recorded(NOWHERE, pipeline.MEASURED_CONTACT))
     elsewhere = Point({**point.values, "R": 2.0 * point.values["R"]})
     same = Found(elsewhere, None, error)
     assert not book.is_new(target.name, same)
     worse = Found(elsewhere, None, Error(1.001 * error.ulp, error.allowed))
     assert book.is_new(target.name, worse)
-    assert Book(NOWHERE, [target], NOWHERE, NOWHERE).is_new(target.name, same)
+    assert Book(NOWHERE, [target], {}, {}).is_new(target.name, same)
 
 
 @pytest.mark.parametrize(("off", "status"), [(0.5, 0), (2.0, 1)])
@@ -196,10 +197,10 @@ def test_the_search_as_json_is_nothing_else(
     """Beyond the allowance the status is 1; a new case is said beside, on standard error."""
     target = dataclasses.replace(plain("size", ("x",), ()), measure=lambda *_: Error(off, 1.0))
     found = search.search([target], 1, evaluations=20)
-    book = Book(tmp_path / "cases.toml", [target], NOWHERE, NOWHERE)
+    book = Book(tmp_path / "cases.toml", [target], {}, {})
     book.keep(found)
     monkeypatch.setattr(pipeline, "search_worse", lambda *_: (found, book))
-    assert main(["check", "--search", "1s", "--json", "-"]) == status
+    assert main(["check", "search", "--time", "1s", "--json", "-"]) == status
     shown = capsys.readouterr()
     assert json.loads(shown.out) == as_data(found)
     assert "new worst cases in" in shown.err

@@ -1,7 +1,7 @@
-"""The option `--paper`: which paper a command works on."""
+"""Options that several commands share: the paper, the record to renew, the random seed."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -12,6 +12,17 @@ PaperFolder = Annotated[
     Path | None,
     typer.Option("--paper", metavar="FOLDER", help="Work on the paper in this folder (see `new`)."),
 ]
+SEED = 1
+Seed = Annotated[int, typer.Option(help="Random seed.")]
+Suggest = Annotated[
+    bool,
+    typer.Option("--suggest-budgets", help="Print tighter error budgets too; change no file."),
+]
+
+
+def update_option(name: str) -> Any:
+    """Return the option that renews a committed measurement."""
+    return typer.Option("--update", help=f"Save the result in reports/data/{name}.json.")
 
 
 def chosen(folder: Path | None) -> "Paper":

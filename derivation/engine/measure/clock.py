@@ -13,9 +13,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from derivation.plate.benchmark.interface import Call, Doubles
-
+Doubles = NDArray[np.float64]
+Call = Callable[[Any], Any]
 Clock = Callable[[], float]
 CPU: Clock = time.process_time
 """What times are taken by [s]."""

@@ -9,8 +9,8 @@ from typing import Any
 
 from derivation.engine.files import write_file
 from derivation.engine.measure.point import Point
-from derivation.plate.search.search import Found, Search, weigh
-from derivation.plate.search.targets import Target
+from derivation.engine.measure.search import Found, Search, weigh
+from derivation.engine.measure.target import Target
 
 COLUMNS = ("kernel", "#evaluations", "#ratio", "#ULP", "#allowed", "new")
 """Headings of the table, all of the worst point: its ratio is error over allowance."""
@@ -20,7 +20,7 @@ Case = dict[str, Any]
 
 _SECONDS = {"s": 1, "m": 60, "h": 3600}
 _HEADER = """\
-# Worst cases of `platecontact check --search`, as cases for the hard-case suite.
+# Worst cases of `platecontact check search`, as cases for the hard-case suite.
 """
 
 
@@ -34,7 +34,7 @@ def seconds_of(duration: str) -> int:
     """
     found = re.fullmatch(r"([1-9][0-9]{0,6})([smh])", duration)
     if found is None:
-        raise ValueError(f"expected a duration like 30s, 5m or 1h, got {duration!r}")
+        raise ValueError(f"--time: expected a duration like 30s, 5m or 1h, got {duration!r}")
     return int(found[1]) * _SECONDS[found[2]]
 
 
@@ -136,18 +136,6 @@ def _table(case: Case, found: Found | None) -> str:
 # --- what is new
 
 
-def recorded(check: Path, contact: Path) -> tuple[dict[str, float], dict[str, list[str]]]:
-    """By kernel, worst ratios of the committed check, and worst arguments of the contact law."""
-    rows = json.loads(check.read_text())["rows"] if check.is_file() else []
-    ratios = {row["kernel"]: row["double"]["ratio"] for row in rows}
-    worst = json.loads(contact.read_text())["rows"] if contact.is_file() else []
-    return (
-        # An infinity is text there.
-        {kernel: float(ratio) for kernel, ratio in ratios.items() if ratio is not None},
-        {row["kernel"]: row["worst"] for row in worst},
-    )
-
-
 class Book:
     """The file of worst cases while a search runs.
 
@@ -157,8 +145,11 @@ class Book:
         Where it is; what an earlier search left there is kept.
     targets
         The kernels, by which earlier cases are measured anew.
-    check, contact
-        The committed measurements.
+    ratios
+        The worst ratio on record, by kernel.
+    worst
+        Arguments of the worst error on record, as hexadecimal doubles, of kernels whose ratio is
+        measured anew.
 
     Raises
     ------
@@ -166,11 +157,17 @@ class Book:
         If the file is of another kind.
     """
 
-    def __init__(self, path: Path, targets: Sequence[Target], check: Path, contact: Path) -> None:
+    def __init__(
+        self,
+        path: Path,
+        targets: Sequence[Target],
+        ratios: Mapping[str, float],
+        worst: Mapping[str, Sequence[str]],
+    ) -> None:
         self.path = path
         self._targets = {target.name: target for target in targets}
         self._earlier = [(case, measured(case, self._targets)) for case in read(path)]
-        self._known, self._contacts = recorded(check, contact)
+        self._known, self._unmeasured = dict(ratios), dict(worst)
         for case, found in self._earlier:
             self._learn(case["kernel"], found)
         self._written = ""
@@ -180,8 +177,8 @@ class Book:
             self._known[kernel] = max(found.ratio, self._known.get(kernel, 0.0))
 
     def _best_known(self, kernel: str) -> float:
-        """The worst ratio on record; the contact law's is measured when first asked for."""
-        texts = self._contacts.pop(kernel, None)
+        """The worst ratio on record, measured when first asked for if that was not kept."""
+        texts = self._unmeasured.pop(kernel, None)
         if texts is not None and kernel in self._targets:
             names = self._targets[kernel].domain.arguments
             inputs = dict(zip(names, texts, strict=True))

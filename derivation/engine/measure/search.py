@@ -13,8 +13,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from derivation.engine.measure.point import Point
-from derivation.plate.search.draw import WHOLE, draw, moved
-from derivation.plate.search.targets import Error, Target
+from derivation.engine.measure.target import Error, Target
 
 DRAWN = 256
 """Points drawn at random between climbs."""
@@ -185,7 +184,7 @@ def hunt(target: Target, seed: int, standing: Standing) -> Iterator[None]:
     generator = random.Random(f"{target.name} from {seed}")
     for cycle in itertools.count():
         best = Standing()
-        drawn = (draw(target.domain, generator) for _ in range(DRAWN))
+        drawn = (target.draw(target.domain, generator) for _ in range(DRAWN))
         while points := list(itertools.islice(drawn, 16)):
             yield from _look(target, points, best, standing)
         here = standing if cycle % 2 else best
@@ -198,15 +197,15 @@ def _climb(
     """Steps from a point, to either side in each argument, shrinking."""
     if here.worst is None:
         return
-    whole = target.domain.arguments[0] in WHOLE
-    for stride in WHOLE_STRIDES if whole else STRIDES:
-        for name in target.domain.arguments:
+    domain = target.domain
+    for stride in WHOLE_STRIDES if domain.whole else STRIDES:
+        for name in domain.arguments:
             centre = here.worst.point
-            if centre.values[name] == 0.0 and not whole:
+            if centre.values[name] == 0.0 and not domain.whole:
                 continue  # next to zero are subnormal numbers, far below every other length
             steps = (generator.randint(1, stride), -generator.randint(1, stride))
-            beside = (moved(centre, name, step) for step in steps)
-            points = [point for point in beside if target.domain.holds(point)]
+            beside = (domain.moved(centre, name, step) for step in steps)
+            points = [point for point in beside if domain.holds(point)]
             yield from _look(target, points, here, standing)
 
 

@@ -1,0 +1,128 @@
+"""The subcommands of `platecontact check` on generated functions."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from derivation.commands import suggested
+from derivation.commands.options import SEED, Seed, Suggest, update_option
+from derivation.engine.console import (
+    INTERRUPTED,
+    NOTES,
+    Json,
+    clocked,
+    counted,
+    listing,
+    put_json,
+    table,
+)
+
+
+def contact_law(
+    update: Annotated[bool, update_option("contact")] = False,
+    suggest_budgets: Suggest = False,
+    json: Json = None,
+) -> None:
+    """Compare contact law and impact with both references.
+
+    Takes minutes. The exit status is 1 if an error is above its budget.
+
+    Example: platecontact check contact-law --json contact.json
+    """
+    from derivation import pipeline
+
+    with counted("check") as tell:
+        rows = pipeline.check_contact(update, tell)
+    tighter = suggested.as_data(rows, suggest_budgets)
+    if put_json(lambda: pipeline.contact_data(rows) | tighter, json):
+        columns, cells = pipeline.contact_table(rows)
+        table("Errors of the contact law", columns, cells)
+        listing("Worst arguments", [f"{r.kernel}: {' '.join(r.worst)}" for r in rows])
+        suggested.show(rows, suggest_budgets)
+    raise typer.Exit(0 if all(r.passed for r in rows) else 1)
+
+
+def hard_cases(
+    update: Annotated[
+        bool,
+        typer.Option(
+            "--update",
+            help="Compute references that are missing or stale, and save all in "
+            "reports/data/hard.json: up to a quarter of an hour.",
+        ),
+    ] = False,
+    json: Json = None,
+) -> None:
+    """Compare functions with recorded references at hard cases.
+
+    The exit status is 1 if an error is above what is allowed.
+
+    Example: platecontact check hard-cases --json hard.json
+    """
+    from derivation import pipeline
+    from derivation.plate.hard.check import COLUMNS, as_data, cells
+
+    with counted("check") as tell:
+        rows = pipeline.check_hard(update, tell)
+    failed = [row for row in rows if not row.kept]
+    if put_json(lambda: as_data(rows), json):
+        table("Hard cases, errors in ULP", COLUMNS, [cells(row) for row in rows])
+        listing(
+            f"{len(rows)} cases, {len(failed)} failed",
+            [f"{row.case.key}: {row.problem}" for row in failed],
+        )
+    raise typer.Exit(1 if failed else 0)
+
+
+def search(
+    time: Annotated[str, typer.Option(metavar="60s|5m|1h", help="Search for this long.")] = "60s",
+    seed: Seed = SEED,
+    function: Annotated[
+        list[str] | None,
+        typer.Option("--function", metavar="NAME", help="Search this function only; repeatable."),
+    ] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            "--out", metavar="FILE", help="Write new cases here (default: reports/search.toml)."
+        ),
+    ] = None,
+    json: Json = None,
+) -> None:
+    """Search for larger errors at random arguments.
+
+    The same seed visits the same points in the same order. The exit status is 1 if an error is
+    above what is allowed.
+
+    Example: platecontact check search --time 5m --function G --out worst.toml
+    """
+    from derivation import pipeline
+    from derivation.engine.measure.search_record import COLUMNS, arguments, as_data, cells, kept
+
+    with clocked("search") as tell:
+        found, book = pipeline.search_worse(time, seed, function or [], out, tell)
+    if put_json(lambda: as_data(found), json):
+        table(f"Search, seed {seed}", COLUMNS, [cells(k, found, book) for k in found.standings])
+        listing("Worst arguments", [arguments(k, found) for k in found.standings])
+    if book.written:
+        NOTES.say(f"new worst cases in {book.path}")
+    raise typer.Exit(INTERRUPTED if found.interrupted else 0 if kept(found) else 1)
+
+
+def timing(update: Annotated[bool, update_option("speed")] = False, json: Json = None) -> None:
+    """Compare run times on this machine with their limits.
+
+    The exit status is 1 if one is above its limit.
+
+    Example: platecontact check timing --json timing.json
+    """
+    from derivation import pipeline
+    from derivation.plate.benchmark.speed import as_data
+
+    with counted("check") as tell:
+        timings = pipeline.check_speed(update, tell)
+    if put_json(lambda: as_data(timings), json):
+        cells = [(t.name, f"{t.value:.3g} {t.unit}", f"{t.limit:g}", t.kept) for t in timings]
+        table("Speed", ("what", "#measured", "#promise", "kept"), cells)
+    raise typer.Exit(0 if all(t.kept for t in timings) else 1)

@@ -1,0 +1,93 @@
+"""Tighter error budgets from measured errors, as lines of `budgets.toml`; no file is changed.
+
+Tightening is a deliberate edit, since a budget never grows again.
+"""
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Protocol
+
+MARGIN = 1.25
+"""A suggestion leaves a quarter more than the worst that was measured."""
+
+QUARTER = 0.25
+"""Suggestions are multiples of this many ULP."""
+
+LEAST = 0.5
+"""What rounding the result alone may cost: nothing below is suggested."""
+
+
+class Errors(Protocol):
+    """Measured errors in one format."""
+
+    @property
+    def needed(self) -> float:
+        """The budget [ULP] that would just have been kept."""
+
+
+class Row(Protocol):
+    """What a suggestion follows from."""
+
+    @property
+    def kernel(self) -> str:
+        """Name of the function."""
+
+    @property
+    def budget(self) -> float | None:
+        """What is promised [ULP]; None if nothing is."""
+
+    @property
+    def passed(self) -> bool | None:
+        """Whether the budget is kept."""
+
+    @property
+    def double(self) -> Errors:
+        """Errors with arguments in double precision."""
+
+    @property
+    def single(self) -> Errors | None:
+        """Errors with arguments in single precision, if there are any."""
+
+
+@dataclass(frozen=True)
+class Suggestion:
+    """A tighter budget.
+
+    Parameters
+    ----------
+    name
+        Of the function.
+    ulp, budget, needed
+        The suggested budget, the one in force, and the error that was measured, in ULP.
+    """
+
+    name: str
+    ulp: float
+    budget: float
+    needed: float
+
+    def __str__(self) -> str:
+        """A line for the table [ulp] of `budgets.toml`."""
+        return f"{self.name} = {self.ulp}  # {self.budget:g}, {self.needed:.3g} measured"
+
+
+def tighter(budget: float, needed: float) -> float | None:
+    """Return a tighter budget with its margin, or None if the present one cannot be improved."""
+    if not math.isfinite(needed):
+        return None
+    suggested = max(LEAST, math.ceil(needed * MARGIN / QUARTER) * QUARTER)
+    return suggested if suggested < budget else None
+
+
+def suggestions(rows: Iterable[Row]) -> list[Suggestion]:
+    """Return a suggestion for each function whose budget could be tighter."""
+    found = []
+    for row in rows:
+        if row.budget is None or not row.passed:
+            continue
+        needed = max(errors.needed for errors in (row.double, row.single) if errors is not None)
+        ulp = tighter(row.budget, needed)
+        if ulp is not None:
+            found.append(Suggestion(row.kernel, ulp, row.budget, needed))
+    return found

@@ -1,0 +1,96 @@
+"""The search with a function of no paper: it repeats, finds what is planted, and keeps it."""
+
+import dataclasses
+import math
+import tomllib
+from collections.abc import Sequence
+from pathlib import Path
+from random import Random
+
+import pytest
+
+from derivation.engine.measure.point import Point
+from derivation.engine.measure.search import Search, search
+from derivation.engine.measure.search_record import Book, as_data, kept, read
+from derivation.engine.measure.target import Domain, Error, Numbers, Target
+
+DOMAIN = Domain("square", ("x", "y"), False, ("0 < x <= 8", "y >= x", "z > 0"))
+
+
+EVALUATIONS = 20_000
+
+
+def drawn(_: Domain, generator: Random) -> Point:
+    x = 8.0 - 8.0 * generator.random()
+    return Point({"x": x, "y": x + generator.random()})
+
+
+def squares(points: Sequence[Point]) -> list[Numbers]:
+    """x squared, wrong by 1 where 3 < x < 3.01, and by more the nearer y is to x."""
+    rows = []
+    for point in points:
+        x, y = point.values["x"], point.values["y"]
+        rows.append((x * x + ((1.0 - (y - x) / 2) if 3 < x < 3.01 else 0.0),))
+    return rows
+
+
+def error(point: Point, results: Numbers) -> Error:
+    return Error(abs(results[0] - point.values["x"] ** 2), 0.5)
+
+
+@pytest.fixture
+def target() -> Target:
+    return Target(DOMAIN, drawn, squares, error, None, 48, 1)
+
+
+@pytest.fixture
+def found(target: Target) -> Search:
+    return search([target], seed=2, evaluations=EVALUATIONS)
+
+
+def test_a_planted_defect_is_found_refined_and_repeated(found: Search, target: Target) -> None:
+    worst = found.standings["square"].worst
+    assert worst is not None
+    assert 3 < worst.point.values["x"] < 3.01
+    assert worst.ratio > 1.999  # up to y = x
+    assert not kept(found)
+    assert as_data(search([target], seed=2, evaluations=EVALUATIONS)) == as_data(found)
+
+
+def test_it_is_written_and_measured_anew(found: Search, target: Target, tmp_path: Path) -> None:
+    path = tmp_path / "cases.toml"
+    book = Book(path, [target], {"square": 1.5}, {})
+    book.keep(found)
+    [case] = tomllib.loads(path.read_text())["case"]
+    worst = found.standings["square"].worst
+    assert worst is not None
+    assert {k: float.fromhex(v) for k, v in case["inputs"].items()} == worst.point.values
+    assert read(path) == [case]
+    assert not Book(path, [target], {}, {}).is_new("square", worst)
+
+
+def test_what_is_on_record_by_its_arguments_is_measured_when_asked_for(target: Target) -> None:
+    known = {"square": [(3.005).hex(), (3.105).hex()]}
+    book = Book(Path("/nonexistent"), [target], {}, known)
+    [(result,)] = squares([Point({"x": 3.005, "y": 3.105})])
+    same = error(Point({"x": 3.005, "y": 3.105}), (result,))
+    worst = search([target], seed=2, evaluations=EVALUATIONS).standings["square"].worst
+    assert worst is not None
+    assert book.is_new("square", worst)
+    within = dataclasses.replace(worst, error=Error(0.9, 1.0))
+    assert not book.is_new("square", within)
+    assert same.ratio == pytest.approx(1.9)
+
+
+def test_a_domain_is_what_its_conditions_on_its_own_arguments_say() -> None:
+    assert DOMAIN.holds(Point({"x": 8.0, "y": 8.0}))
+    assert not DOMAIN.holds(Point({"x": 8.5, "y": 9.0}))
+    assert not DOMAIN.holds(Point({"x": 2.0, "y": 1.0}))
+    assert not DOMAIN.holds(Point({"x": 2.0, "y": math.inf}))
+
+
+def test_steps_are_floats_or_whole_numbers() -> None:
+    whole, point = dataclasses.replace(DOMAIN, whole=True), Point({"x": 1.0, "y": 5.0})
+    assert DOMAIN.moved(point, "x", 1).values["x"] == math.nextafter(1.0, 2.0)
+    assert DOMAIN.moved(point, "x", -(2**64)).values["x"] == -math.nextafter(math.inf, 0.0)
+    assert whole.moved(point, "y", -3).values == {"x": 1.0, "y": 2.0}

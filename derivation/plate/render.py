@@ -30,7 +30,6 @@ from derivation.plate.contact.kernels.tables import (
     sensitivity_context,
 )
 from derivation.plate.edge.kernels import edge_context
-from derivation.plate.edge_modes.kernels.tables import held_context
 from derivation.plate.edge_modes.kernels.wave_context import held_waves_context
 from derivation.plate.effects.kernels import effect_context
 from derivation.plate.impact.kernels.perturbation import perturbation_context
@@ -86,7 +85,7 @@ def modules(kernels: tuple[Kernel, ...]) -> tuple[Module, ...]:
     planned = [
         *shared(known),
         tables("bessel", bessel_context()),
-        tables("moments", moment_context()),
+        tables("series_constants", moment_context()),
         own("as_printed", {"functions": printed_rows()}),
         tables("contact_series", contact_context()),
         tables("contact_law", {}),
@@ -94,16 +93,15 @@ def modules(kernels: tuple[Kernel, ...]) -> tuple[Module, ...]:
         tables("impact", {**impact_context(), "promises": read_promises()}),
         tables("sensitivity", sensitivity_context()),
         tables("edge", edge_context()),
-        tables("far_face", far_face_context()),
-        tables("held_modes", held_context()),
-        own("held_waves", held_waves_context(read_promises("held_waves"))),
+        tables("back_face", far_face_context()),
+        own("edge_modes", held_waves_context(read_promises("edge_modes"))),
         tables("effects", effect_context()),
         tables("viscosity", viscosity_context()),
         tables("inertia", inertia_context()),
         own("plate_waves", waves_context()),
         own("simple_impact", simple_impact_context()),
         own("perturbation", perturbation_context()),
-        own("true_pressure", pressure_context() | read_promises("pressure")),
+        own("non_hertzian_pressure", pressure_context() | read_promises("pressure")),
         own(
             "manifest",
             {

@@ -11,24 +11,24 @@ TABLES = (
     ("bessel_j0_zeros", "bessel", "count", "j_n", "the first zeros of J0"),
     ("bessel_j1_zeros", "bessel", "count", "j_{1,n}", "the first positive zeros of J1"),
     ("bessel_j1_at_j0_zeros", "bessel", "count", "J_1(j_n)", "J1 at the first zeros of J0"),
-    ("kappa", "moments", "n", r"\kappa_n", "integral of y^n K0/I0 over y > 0"),
+    ("kappa", "series_constants", "n", r"\kappa_n", "integral of y^n K0/I0 over y > 0"),
     (
         "kappa_ratio",
-        "moments",
+        "series_constants",
         "n",
         r"2^{n+1}\kappa_n/(\pi n!)",
         "kappa_n over its leading term for large n",
     ),
     (
         "finite_part",
-        "moments",
+        "series_constants",
         "k",
         "M_k",
         "finite part of the integral of T^(2k-4) (G - 1) over T > 0",
     ),
     (
         "finite_part_ratio",
-        "moments",
+        "series_constants",
         "k",
         "2^{2k-3}M_k/(2k-2)!",
         "M_k over its leading term for large k",
@@ -72,7 +72,7 @@ EDGE_FUNCTIONS: tuple[ContactRow, ...] = tuple(
 FAR_FACE_FUNCTIONS: tuple[ContactRow, ...] = tuple(
     (
         f"{kind}far_stress",
-        "far_face",
+        "back_face",
         ("P", "a", *PLATE[1:], *ELASTIC),
         "Pa",
         r"\sigma_{rr}(0, -h)",
@@ -137,8 +137,6 @@ CONTACT_FUNCTIONS: tuple[ContactRow, ...] = (
     ),
     *EDGE_FUNCTIONS,
     *FAR_FACE_FUNCTIONS,
-    ("clamped_modes", "held_modes", ("count",), "1", "k_n, c, W_n", "", "modes, clamp"),
-    ("supported_modes", "held_modes", ("count", "nu"), "1", "k_n, c, W_n", "", "modes, support"),
     ("history", "impact", ("t", *IMPACT), "m, m/s, m, N", "", "13", "an impact over time"),
     ("sphere_contact", "effects", ("a_over_R",), "1", "", "7", "a sphere over a paraboloid"),
     (

@@ -291,8 +291,6 @@ OUTPUTS: Mapping[str, int] = {
     "contact": 6,
     "impact_sensitivities": 28,
     "dynamic_influence": 2,
-    "clamped_modes": 3,
-    "supported_modes": 3,
     "clamped_waves": 7,
     "supported_waves": 7,
 }

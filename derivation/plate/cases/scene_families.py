@@ -25,7 +25,7 @@ from derivation.plate.hard.places import (
     exactly,
 )
 from derivation.plate.pressure import kernels as pressure_tables
-from generated.true_pressure import _LOW
+from generated.non_hertzian_pressure import _LOW
 
 EDGE, FAR = "seams of the edge", "seams of the far face"
 SPHERE, PRESSURE = "seams of the sphere", "seams of the true pressure"

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from derivation.plate.hard.case import Case
 from derivation.plate.hard.places import about, around, exactly
 from derivation.plate.waves.cases.places import partner_crossing
-from generated.held_waves import _SMALL
+from generated.edge_modes import _SMALL
 
 SEAMS, WAVES = "seams of held plates with a thickness", "waves of held plates"
 _MODES = ("clamped_waves", "supported_waves")

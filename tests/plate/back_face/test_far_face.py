@@ -27,8 +27,8 @@ from derivation.plate.modes.route.exponentials import Material, unit_mode
 from derivation.plate.vocabulary import T
 from derivation.scene import load, read, simulate
 from derivation.scene.effects.effect import Array
+from generated import back_face as kernels
 from generated import contact_law, modal_sum
-from generated import far_face as kernels
 
 BITS = 160
 KERNELS: dict[str, Callable[..., np.ndarray]] = {

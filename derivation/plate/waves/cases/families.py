@@ -1,21 +1,19 @@
-"""Hard cases of the plate's waves and of the modes of held plates: seams, ends, poles, shapes."""
+"""Hard cases of the plate's waves: switch points, ends of ranges, poles, shapes."""
 
 import math
 from collections.abc import Iterator
 from fractions import Fraction
 from itertools import chain, product
 
-from derivation.mathematics.bessel.kernels import asymptotic_start
 from derivation.plate.edge_modes.cases import held_wave_families
-from derivation.plate.edge_modes.kernels.tables import modes_before
 from derivation.plate.hard.case import Case
 from derivation.plate.hard.places import Inputs, about, around, beside, exactly
 from derivation.plate.waves import oracle as inertia_balls
-from derivation.plate.waves.cases.places import CROSSINGS, crossing, half_part
+from derivation.plate.waves.cases.places import CROSSINGS, crossing
 from generated.inertia import _NEAR, _SHALLOW, _SMALL
 
-WAVES, MODES = "seams of the plate's waves", "seams of held plates"
-HARD_WAVES, HARD_MODES = "waves of the plate", "modes of held plates"
+WAVES = "seams of the plate's waves"
+HARD_WAVES = "waves of the plate"
 
 LOWEST = ("bending_frequency", "bending_residue", "bending_share")
 BRANCHES = ("antisymmetric_frequency", "antisymmetric_residue", "symmetric_frequency",
@@ -33,8 +31,8 @@ _NEAREST = 2**10
 def wave_families() -> Iterator[Case]:
     """Every one of them."""
     return chain(
-        _lowest_seams(), _influence_seams(), _branch_seams(), _mode_seams(), _lowest(),
-        _influence(), _branches(), _modes(), _shapes(), held_wave_families(),
+        _lowest_seams(), _influence_seams(), _branch_seams(), _lowest(),
+        _influence(), _branches(), _shapes(), held_wave_families(),
     )  # fmt: skip
 
 
@@ -83,18 +81,6 @@ def _branch_seams() -> Iterator[Case]:
         place = crossing(name)
         given = exactly(x=around(place), nu=of.nu, index=float(of.index))
         yield about(WAVES, f"{of.kind}_residue", f"x = {place:g}, where {name}", given)
-
-
-def _mode_seams() -> Iterator[Case]:
-    last = modes_before(asymptotic_start())
-    for offset in (0, 1, 2, 32, 33):
-        cause = f"Mode {last + offset}: from number {last + 1} on the series at infinity serve."
-        count = float(last + offset)
-        yield Case(MODES, "clamped_modes", cause, exactly(count=count))
-        yield Case(MODES, "supported_modes", cause, exactly(count=count, nu=_METAL))
-    place = half_part()
-    why = f"nu = {place:g}, where the part of I0 in the first mode passes 1/2"
-    yield about(MODES, "supported_modes", why, exactly(count=1.0, nu=around(place)))
 
 
 # --- ends of ranges
@@ -176,18 +162,6 @@ def _branches() -> Iterator[Case]:
         yield from _refused(HARD_WAVES, kernel, "nu", _NO_RATIOS, x=1.0, index=2.0)
 
 
-def _modes() -> Iterator[Case]:
-    for count in (1, 2, 9, 100, 225, 226, 227, 236, 238, 1000, 10**4):
-        cause = f"Mode {count}: its part of I0 falls like e^(-{count} pi), to subnormals and 0."
-        yield Case(HARD_MODES, "clamped_modes", cause, exactly(count=float(count)))
-        given = exactly(count=float(count), nu=RATIOS)
-        yield Case(HARD_MODES, "supported_modes", cause, given, "array")
-    cause = "The first mode, whose wave number vanishes at nu = -1."
-    given = exactly(count=1.0, nu=(-1 + 1e-12, -1 + 1e-5, -0.97, 5e-324))
-    yield Case(HARD_MODES, "supported_modes", cause, given, "array")
-    yield from _refused(HARD_MODES, "supported_modes", "nu", _NO_RATIOS, count=2.0)
-
-
 # --- shapes and types
 
 
@@ -201,12 +175,9 @@ def _shapes() -> Iterator[Case]:
         for kernel, same in _same().items():
             given = exactly(x=_SINGLES) | same
             yield Case(HARD_WAVES, kernel, cause, given, form)
-        given = exactly(count=3.0, nu=(-0.75, 0.25, 0.375))
-        yield Case(HARD_MODES, "supported_modes", cause, given, form)
     cause = "No number at all."
     for kernel, same in _same().items():
         yield Case(HARD_WAVES, kernel, cause, exactly(x=_NONE) | same, "empty")
-    yield Case(HARD_MODES, "supported_modes", cause, exactly(count=3.0, nu=_NONE), "empty")
     both = exactly(x=_SINGLES, nu=(-0.5, 0.25))
     for kernel in LOWEST:
         yield Case(HARD_WAVES, kernel, "Every x with every nu.", both, "broadcast")
@@ -216,7 +187,6 @@ def _shapes() -> Iterator[Case]:
     for kernel in LOWEST:
         yield Case(HARD_WAVES, kernel, cause, whole, "integer")
     yield Case(HARD_WAVES, INFLUENCE, cause, whole | exactly(kap=3.0), "integer")
-    yield Case(HARD_MODES, "supported_modes", cause, exactly(count=4.0, nu=0.0), "integer")
 
 
 def _same() -> dict[str, Inputs]:

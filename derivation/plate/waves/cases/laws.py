@@ -93,22 +93,6 @@ def _of_branch(kind: str, function: Callable[..., arb], root: bool = False) -> L
 # --- held plates
 
 
-def _clamped(given: Given, digits: int) -> tuple[arb, ...]:
-    (count,) = given
-    return held_balls.mode("clamped", int(count), digits=digits)
-
-
-def _supported(given: Given, digits: int) -> tuple[arb, ...]:
-    count, nu = given
-    return held_balls.mode("supported", int(count), nu, digits)
-
-
-def _by_ratio(given: Given, values: Sequence[arb]) -> Sequence[arb]:
-    if 1 + Fraction(given[1]) < _FREE:
-        return [arb(0)] * len(values)
-    return _slopes(_supported, 1)(given, values)
-
-
 def _of_waves(edge: held_balls.Edge) -> Law:
     """A mode of a plate with a thickness, by its number; c and k2 are counted as budgets say."""
 
@@ -153,8 +137,6 @@ WAVES: Mapping[str, Law] = {
     "bending_residue": _of_lowest(_RESIDUE),
     "bending_share": _of_lowest(inertia_balls.share),
     "dynamic_influence": Law(_influence, slopes=_conditions, oracle=(inertia_balls.__name__,)),
-    "clamped_modes": Law(_clamped, conditioned=False, oracle=(held_balls.__name__,)),
-    "supported_modes": Law(_supported, slopes=_by_ratio, oracle=(held_balls.__name__,)),
     "clamped_waves": _of_waves("clamped"),
     "supported_waves": _of_waves("supported"),
     "wave_shape": _of_face(punch=False),

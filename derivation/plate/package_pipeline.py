@@ -25,7 +25,13 @@ GENERATED = ROOT / "generated"
 
 
 PACKAGE = Package(
-    "generated", GENERATED, stable_forms, render, ("plate/budgets.toml",), AUTOMATIC, SCALES
+    "generated",
+    GENERATED,
+    stable_forms,
+    render,
+    ("plate/budgets.toml", "plate/*/budgets.toml", "plate/templates", "plate/*/*.j2"),
+    AUTOMATIC,
+    SCALES,
 )
 
 

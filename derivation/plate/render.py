@@ -20,7 +20,6 @@ from derivation.engine.formula.record import Record
 from derivation.engine.rewrite.form import Form
 from derivation.engine.rewrite.sections import sections
 from derivation.mathematics.bessel.kernels import bessel_context
-from derivation.plate.back_face.kernels import far_face_context
 from derivation.plate.blocks import blocks
 from derivation.plate.budgets import read_budgets, read_promises
 from derivation.plate.contact.kernels.moments import moment_context
@@ -30,17 +29,14 @@ from derivation.plate.contact.kernels.tables import (
     sensitivity_context,
 )
 from derivation.plate.edge.kernels import edge_context
-from derivation.plate.edge_modes.kernels.wave_context import held_waves_context
-from derivation.plate.effects.kernels import effect_context
 from derivation.plate.impact.kernels.perturbation import perturbation_context
 from derivation.plate.impact.kernels.simple import simple_impact_context
 from derivation.plate.modes.kernels.modal_sums import MODAL_SUMS, STYLE, kernel_of_sum
+from derivation.plate.modules import printed_modules, template_modules
 from derivation.plate.pressure.kernels import pressure_context
 from derivation.plate.printed.contact import PRINTED
 from derivation.plate.table_rows import contact_rows, notes_of, table_rows
-from derivation.plate.viscosity.kernels import viscosity_context
 from derivation.plate.vocabulary import BY_NAME, arguments_of
-from derivation.plate.waves.kernels import inertia_context, waves_context
 
 TEMPLATES = Path(__file__).parent / "templates"
 CITATION = "Elastodynamic contact in plate-like bodies"
@@ -50,6 +46,7 @@ TITLES = {
     "pressure": "Hertz pressure and its Fourier-Bessel coefficients.",
     "mode_shapes": "Displacements and stresses of one mode through the thickness.",
     "modal_sum": "Indentation and interior fields as direct sums over the modes.",
+    **{printed.name: printed.title for printed in printed_modules()},
 }
 
 
@@ -79,8 +76,9 @@ def modules(kernels: tuple[Kernel, ...]) -> tuple[Module, ...]:
     grouped = rows_by_module(kernels)
     known, budgets = blocks() | sections(), read_budgets()
 
-    def tables(name: str, context: Mapping[str, Any]) -> Module:
-        return own(name, {**context, "notes": notes_of(name, budgets)})
+    def tables(name: str, context: Mapping[str, Any], folder: Path = TEMPLATES) -> Module:
+        notes = notes_of(name, budgets)
+        return Module(name, name, {**context, "notes": notes} if notes else context, folder)
 
     planned = [
         *shared(known),
@@ -93,12 +91,7 @@ def modules(kernels: tuple[Kernel, ...]) -> tuple[Module, ...]:
         tables("impact", {**impact_context(), "promises": read_promises()}),
         tables("sensitivity", sensitivity_context()),
         tables("edge", edge_context()),
-        tables("back_face", far_face_context()),
-        own("edge_modes", held_waves_context(read_promises("edge_modes"))),
-        tables("effects", effect_context()),
-        tables("viscosity", viscosity_context()),
-        tables("inertia", inertia_context()),
-        own("plate_waves", waves_context()),
+        *(tables(x.name, x.context(), x.folder) for x in template_modules()),
         own("simple_impact", simple_impact_context()),
         own("perturbation", perturbation_context()),
         own("non_hertzian_pressure", pressure_context() | read_promises("pressure")),

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 
 from derivation.engine.emit.budgets import Budget
+from derivation.plate.modules import template_modules
 
 TABLES = (
     # name, module, argument, symbol, meaning
@@ -69,18 +70,6 @@ EDGE_FUNCTIONS: tuple[ContactRow, ...] = tuple(
     )
     for kind, what in (("supported", "simple support"), ("clamped", "clamp"))
 )
-FAR_FACE_FUNCTIONS: tuple[ContactRow, ...] = tuple(
-    (
-        f"{kind}far_stress",
-        "back_face",
-        ("P", "a", *PLATE[1:], *ELASTIC),
-        "Pa",
-        r"\sigma_{rr}(0, -h)",
-        "",
-        f"tension of the far face under the axis{what}",
-    )
-    for kind, what in (("", ""), ("supported_", ", simple support"), ("clamped_", ", clamp"))
-)
 CONTACT_FUNCTIONS: tuple[ContactRow, ...] = (
     # name, module, arguments, unit, symbol, equation, meaning
     ("indentation", "contact_law", ("a", *PLATE), "m", r"\delta", "6", "indentation"),
@@ -136,76 +125,8 @@ CONTACT_FUNCTIONS: tuple[ContactRow, ...] = (
         "logarithmic derivatives of time and peaks by every parameter",
     ),
     *EDGE_FUNCTIONS,
-    *FAR_FACE_FUNCTIONS,
+    *((row[0], module.name, *row[1:]) for module in template_modules() for row in module.functions),
     ("history", "impact", ("t", *IMPACT), "m, m/s, m, N", "", "13", "an impact over time"),
-    ("sphere_contact", "effects", ("a_over_R",), "1", "", "7", "a sphere over a paraboloid"),
-    (
-        "zener_number",
-        "effects",
-        ("R", "m", "v0", "h", *ELASTIC, "rho"),
-        "1",
-        r"\lambda_Z",
-        "",
-        "how much of the impact the plate's waves carry away",
-    ),
-    (
-        "viscous_number",
-        "viscosity",
-        ("R", "m", "v0", "lam", "mu", "viscous_time"),
-        "1",
-        "x",
-        "",
-        "what a viscous contact takes of the speed",
-    ),
-    (
-        "restitution_weak",
-        "viscosity",
-        ("x_v",),
-        "1",
-        "e",
-        "",
-        "restitution of a weakly viscous contact",
-    ),
-    (
-        "bending_frequency",
-        "inertia",
-        ("x", "nu"),
-        "1",
-        r"\omega_0 h/c_T",
-        "",
-        "frequency of the lowest bending branch",
-    ),
-    (
-        "bending_residue",
-        "inertia",
-        ("x", "nu"),
-        "1",
-        r"\rho h\,r_0",
-        "",
-        "how the lowest bending branch answers a load",
-    ),
-    (
-        "bending_share",
-        "inertia",
-        ("x", "nu"),
-        "1",
-        "s_0",
-        "",
-        "share of the lowest bending branch in the deflection at rest",
-    ),
-    (
-        "dynamic_influence",
-        "inertia",
-        ("x", "kap", "nu"),
-        "1",
-        "1/B_a, 1/B_s",
-        "",
-        "deflection of the loaded face per pressure coefficient, over h/mu: bending, stretching",
-    ),
-    ("bending_period", "effects", ("h", "b", *ELASTIC, "rho"), "s", "T_1", "", "bending period"),
-    ("echo_time", "effects", ("h", *ELASTIC, "rho"), "s", "T_e", "", "time of two echoes"),
-    ("side_wall", "effects", ("alpha",), "1", "W", "6", "what the finite radius adds"),
-    ("bending", "effects", ("a_ratio", "eta"), "1", "F_B", "6", "what a thin plate's bending adds"),
 )
 
 

@@ -19,10 +19,8 @@ from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.grids import seams
 from derivation.plate.hard.case import Case, checked
 from derivation.plate.hard.places import LAM, MU, OFFSETS, Inputs, around, beside, exactly
-from derivation.plate.impact.cases import motion_families
 from derivation.plate.impact.oracle import impact as contact_impact
-from derivation.plate.modes.cases import mode_families
-from derivation.plate.waves.cases.families import wave_families
+from derivation.plate.subjects import handed_in
 
 INDICES = (1, 2, 10, 100, 1000, 10**4, 10**5, 10**6)
 LAST_KAPPA, LAST_FINITE_PART = 196, 99
@@ -51,8 +49,8 @@ def families() -> tuple[Case, ...]:
 def _families() -> tuple[Case, ...]:
     made = chain(
         _block_seams(), _bessel_seams(), _zeros_by_index(), _beside_zeros(), _moments(),
-        _contact_seams(), _thickness_seams(), _thinnest(), _impact_seams(), mode_families(),
-        scene_families(), motion_families(), wave_families(),
+        _contact_seams(), _thickness_seams(), _thinnest(), _impact_seams(), scene_families(),
+        *(cases() for cases in handed_in("cases", "CASES")),
     )  # fmt: skip
     return tuple(checked(case) for case in made)
 

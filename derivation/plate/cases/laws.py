@@ -23,7 +23,7 @@ from derivation.plate.impact.oracle import many_digits, many_sensitivities, stat
 from derivation.plate.impact.oracle import printed_motion as printed_motion_balls
 from derivation.plate.impact.oracle import quantities as contact_quantities
 from derivation.plate.pressure import oracle as pressure_balls
-from derivation.plate.waves.cases.laws import WAVES
+from derivation.plate.subjects import handed_in
 
 _SPARE, _FEW = 8, 20
 """Digits beyond those asked for, and of magnitudes, which only set allowances."""
@@ -214,6 +214,7 @@ def _state(given: Given, digits: int) -> tuple[arb, ...]:
 _ESTIMATE = Law(
     lambda given, digits: _impact(tuple(given), digits),
     conditioned=False,
+    results=4,
     oracle=(many_digits.__name__,),
 )
 """A simple law states its own error: of the impact by the law that holds."""
@@ -249,17 +250,21 @@ LAWS: Mapping[str, Law] = {
     "max_pressure": _one(contact_quantities.max_pressure),
     "force_by_series": _several(contact_quantities.truncated_series, 1),
     "impact": Law(
-        lambda given, digits: _impact(tuple(given), digits), oracle=(many_digits.__name__,)
+        lambda given, digits: _impact(tuple(given), digits),
+        results=4,
+        oracle=(many_digits.__name__,),
     ),
     "history": Law(
         _state,
         slopes=partial(state_rounding.rounding, _state),
+        results=4,
         oracle=(many_digits.__name__, contact_quantities.__name__),
     ),
     "impact_sensitivities": Law(
         many_sensitivities.impact_sensitivities,
         _at_least_one,
         slopes=many_sensitivities.rounding,
+        results=28,
         oracle=(many_sensitivities.__name__,),
     ),
     "supported_edge": _supported_edge("indentation"),
@@ -271,27 +276,14 @@ LAWS: Mapping[str, Law] = {
     "far_stress": _far(""),
     "supported_far_stress": _far("supported"),
     "clamped_far_stress": _far("clamped"),
-    "sphere_contact": Law(_sphere, oracle=(curvature.__name__,)),
-    "contact": Law(_contact, _of_means, conditioned=False, oracle=(pressure_balls.__name__,)),
+    "sphere_contact": Law(_sphere, results=3, oracle=(curvature.__name__,)),
+    "contact": Law(
+        _contact, _of_means, conditioned=False, results=6, oracle=(pressure_balls.__name__,)
+    ),
     "pressure": Law(_pressure, _mean, conditioned=False, oracle=(pressure_balls.__name__,)),
     "plate_of": Law(_first_coefficient, conditioned=False, oracle=(contact_balls.__name__,)),
     "hertz": _ESTIMATE,
     "leading": _ESTIMATE,
     "corrected": Law(_corrected, _largest, oracle=(printed_motion_balls.__name__,)),
-    **WAVES,
-}
+} | {name: law for laws in handed_in("cases", "LAWS") for name, law in laws.items()}
 """By kernel."""
-
-OUTPUTS: Mapping[str, int] = {
-    "impact": 4,
-    "history": 4,
-    "hertz": 4,
-    "leading": 4,
-    "sphere_contact": 3,
-    "contact": 6,
-    "impact_sensitivities": 28,
-    "dynamic_influence": 2,
-    "clamped_waves": 7,
-    "supported_waves": 7,
-}
-"""How many results a kernel has, if not one."""

@@ -11,7 +11,7 @@ from derivation.engine.formula.ball import to_ball
 from derivation.engine.formula.ulp import overflows, upper_float
 from derivation.engine.measure.kernels import Kernel
 from derivation.engine.oracle.oracle import Reference
-from derivation.plate.cases.laws import LAWS, OUTPUTS
+from derivation.plate.cases.laws import LAWS
 from derivation.plate.contact.cases.truth import tolerance
 from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.hard.case import Case
@@ -61,7 +61,7 @@ def references(case: Case, kernel: Kernel) -> list[Stored]:
 
 def outputs(name: str) -> int:
     """How many results a kernel has."""
-    return OUTPUTS.get(name, 1)
+    return LAWS[name].results if name in LAWS else 1
 
 
 def _closed(case: Case, kernel: Kernel, point: Mapping[str, float]) -> Stored:

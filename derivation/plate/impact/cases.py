@@ -116,3 +116,6 @@ def _paper() -> Iterator[Case]:
         given = exactly(t=around(place), m=m, v0=v0, xi_2=xi_2, xi_3=xi_3)
         why = f"the time when u = {u:g}, where one panel of the integrals ends"
         yield about(PAPER, "corrected", why, given)
+
+
+CASES = motion_families

@@ -144,3 +144,6 @@ def _one_plate() -> Iterator[Case]:
         )
         given = exactly(a=6.5, R=50.0, h=1.0, b=b)
         yield Case(PLATES, "indentation", f"{cause} more.", given)
+
+
+CASES = mode_families

@@ -13,7 +13,7 @@ import pytest
 
 import generated
 from derivation.engine.emit.freshness import compare
-from derivation.engine.files import ROOT
+from derivation.engine.files import PACKAGE, ROOT, sources
 from derivation.plate import package_pipeline
 from derivation.plate.budgets import read_budgets
 from generated.manifest import CONTACT, KERNELS
@@ -187,3 +187,11 @@ def test_a_broken_package_can_be_written_anew(tmp_path: Path) -> None:
     )
     assert done.returncode == 0, done.stderr
     assert compare(tmp_path / "generated", package_pipeline.package(), "").fresh
+
+
+def test_the_kept_package_follows_its_templates_and_budgets() -> None:
+    """An edit of a template is not answered with the package as it was before."""
+    plate = PACKAGE / "plate"
+    needed = {*plate.rglob("*.py.j2"), *plate.rglob("budgets.toml")}
+    assert {path.name for path in needed} >= {"impact.py.j2", "viscosity.py.j2", "budgets.toml"}
+    assert needed <= set(sources(*package_pipeline.PACKAGE.sources))

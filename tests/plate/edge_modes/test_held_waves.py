@@ -21,6 +21,7 @@ from derivation.mathematics.bessel.theory import modified as modified_bessel
 from derivation.plate import derived
 from derivation.plate.budgets import read_promises
 from derivation.plate.edge.route.supported import RouteError
+from derivation.plate.edge_modes.cases import LAWS
 from derivation.plate.edge_modes.kernels import wave_forms as forms
 from derivation.plate.edge_modes.oracle import modes as held_balls
 from derivation.plate.edge_modes.oracle import waves as held_wave_balls
@@ -29,7 +30,6 @@ from derivation.plate.edge_modes.theory import mindlin
 from derivation.plate.edge_modes.theory import waves as theory
 from derivation.plate.vocabulary import eta as thickness
 from derivation.plate.vocabulary import nu as poisson
-from derivation.plate.waves.cases.laws import WAVES
 from generated import edge_modes
 from generated.bessel import bessel_j0_zeros, bessel_j1_at_j0_zeros
 from generated.edge_modes import (
@@ -153,7 +153,7 @@ POINTS = [
 
 @pytest.mark.parametrize(("edge", "n", "eta", "nu"), POINTS)
 def test_modes_against_the_oracle(edge: str, n: int, eta: float, nu: float) -> None:
-    law, promised = WAVES[f"{edge}_waves"], read_promises("edge_modes")
+    law, promised = LAWS[f"{edge}_waves"], read_promises("edge_modes")
     given = float(n), eta, nu
     true = law.values(given, 25)
     assert law.sizes is not None

@@ -27,6 +27,7 @@ from derivation.plate.modes.route.exponentials import (
     solve_tractions,
     unit_mode,
 )
+from derivation.plate.subjects import handed_in
 
 MAX_OSCILLATIONS = 60
 
@@ -252,6 +253,8 @@ ROUTES: dict[str, Callable[[Values], mpf]] = {
     "finite_part_ratio": lambda v: finite_part(int(v["k"]), mp.dps) / leading_finite_part(v["k"]),
 }
 """For each formula the route to its value, or to one mode's share of it."""
+for _routes in handed_in("route", "ROUTES"):
+    ROUTES |= _routes
 
 
 def _mode_of_plate(j: int, values: Values) -> dict[str, mpf]:

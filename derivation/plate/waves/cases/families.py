@@ -5,7 +5,6 @@ from collections.abc import Iterator
 from fractions import Fraction
 from itertools import chain, product
 
-from derivation.plate.edge_modes.cases import held_wave_families
 from derivation.plate.hard.case import Case
 from derivation.plate.hard.places import Inputs, about, around, beside, exactly
 from derivation.plate.waves import oracle as inertia_balls
@@ -32,7 +31,7 @@ def wave_families() -> Iterator[Case]:
     """Every one of them."""
     return chain(
         _lowest_seams(), _influence_seams(), _branch_seams(), _lowest(),
-        _influence(), _branches(), _shapes(), held_wave_families(),
+        _influence(), _branches(), _shapes(),
     )  # fmt: skip
 
 

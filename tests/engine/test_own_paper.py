@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from guide import type_examples
 
 from derivation.engine import build
 from derivation.engine.files import ROOT
@@ -23,9 +24,10 @@ WORDS = re.compile(r"\b(plates?|spheres?)\b", re.IGNORECASE)
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A built paper, and beside it the cache that its processes share."""
+    """A paper with the guide's examples, built; beside it the cache that its processes share."""
     place = tmp_path_factory.mktemp("own") / "my film"
     run("new", str(place), home=place.parent)
+    assert type_examples(place, paper=True) >= 15
     run("build", "--paper", str(place), home=place.parent)
     return place
 
@@ -46,7 +48,8 @@ def test_it_derives(folder: Path) -> None:
         run("derive", "--paper", str(folder), "--json", "-", home=folder.parent).split("✓")[0]
     )
     assert {row["name"] for row in found} == {
-        f"{letter}_{held}" for letter in "CF" for held in ("bonded", "slipping")
+        "w_thin",
+        *(f"{letter}_{held}" for letter in "CF" for held in ("bonded", "slipping")),
     }
     assert all(row["proof"]["residuals"] for row in found)
 
@@ -70,7 +73,12 @@ def test_its_package_is_fresh_and_stands_alone(folder: Path, tmp_path: Path) -> 
 
 def test_both_references_check_it(folder: Path) -> None:
     data = json.loads((folder / "reports" / "check.json").read_text())
-    assert [row["kernel"] for row in data["rows"]] == ["F_bonded", "F_slipping", "C_slipping"]
+    assert [row["kernel"] for row in data["rows"]] == [
+        "F_bonded",
+        "F_slipping",
+        "C_slipping",
+        "w_thin",
+    ]
     assert all(row["passed"] and row["oracles"] == 2 for row in data["rows"])
 
 
@@ -79,12 +87,13 @@ def test_a_misprint_is_found_and_the_cache_notices_edits(folder: Path) -> None:
         shown = run("misprints", "--paper", str(folder), "--json", "-", home=folder.parent)
         return {row["name"]: row["kind"] for row in json.loads(shown.split("✓")[0])}
 
-    assert findings() == {"F_bonded": "equal", "F_slipping": "sign"}
+    misprint = {"w_thin": "constant ratio"}
+    assert findings() == {**misprint, "F_bonded": "equal", "F_slipping": "sign"}
     printed = folder / "printed.py"
     wrong = printed.read_text()
     try:
         printed.write_text(wrong.replace("(sp.sinh(T) - T)", "(sp.sinh(T) + T)"))
-        assert findings() == {"F_bonded": "equal", "F_slipping": "equal"}
+        assert findings() == {**misprint, "F_bonded": "equal", "F_slipping": "equal"}
     finally:
         printed.write_text(wrong)
     theory = folder / "theory.py"
@@ -102,6 +111,7 @@ def test_its_report_holds_what_was_found(folder: Path) -> None:
     assert MISPRINT in text
     assert "Reverse the sign of the term" in text
     assert r"\label{eq:C_bonded}" in text
+    assert r"\subsection{Thin film}" in text
     page = (folder / "reports" / "report.html").read_text()
     assert "A film on a rigid base" in page
     made = (folder / "reports" / "report.pdf").is_file()

@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterable
 
 from derivation.engine.measure.check import Row
-from derivation.plate.contact.cases.check import Row as ContactRow
+from derivation.plate.contact.cases.check import ContactRow
 
 MARGIN = 1.25
 """A proposal leaves a quarter more than the worst that was measured."""

@@ -9,7 +9,7 @@ import sympy as sp
 
 from derivation.engine.emit.kernels import (
     AsPrinted,
-    Kernel,
+    EmittedKernel,
     argument_text,
     kernel_of_form,
     rows_by_module,
@@ -57,7 +57,9 @@ def render(formulas: Mapping[str, Record], forms: tuple[Form, ...]) -> dict[str,
     return written(planned)
 
 
-def kernel_rows(formulas: Mapping[str, Record], forms: tuple[Form, ...]) -> tuple[Kernel, ...]:
+def kernel_rows(
+    formulas: Mapping[str, Record], forms: tuple[Form, ...]
+) -> tuple[EmittedKernel, ...]:
     """Stage 1: a row for every stable form and every modal sum."""
     budgets = read_budgets()
     shares = {f.name: f for f in forms if formulas[f.name].summed}
@@ -71,7 +73,7 @@ def kernel_rows(formulas: Mapping[str, Record], forms: tuple[Form, ...]) -> tupl
     return of_forms + of_sums
 
 
-def modules(kernels: tuple[Kernel, ...]) -> tuple[Module, ...]:
+def modules(kernels: tuple[EmittedKernel, ...]) -> tuple[Module, ...]:
     """Stage 2: every file's template and context."""
     grouped = rows_by_module(kernels)
     known, budgets = blocks() | sections(), read_budgets()
@@ -148,6 +150,6 @@ def printed_rows() -> tuple[AsPrinted, ...]:
     return tuple(rows)
 
 
-def manifest_rows(kernels: tuple[Kernel, ...]) -> list[dict[str, Any]]:
+def manifest_rows(kernels: tuple[EmittedKernel, ...]) -> list[dict[str, Any]]:
     """What the manifest says of each kernel, tables included."""
     return [kernel_row(k) for k in kernels] + table_rows(read_budgets())

@@ -60,8 +60,8 @@ def table_rows(budgets: Mapping[str, Budget]) -> list[dict[str, object]]:
 PLATE = ("R", "h", "b")
 ELASTIC = ("lam", "mu")
 IMPACT = ("R", "m", "v0", *PLATE[1:], *ELASTIC)
-ContactRow = tuple[str, str, tuple[str, ...], str, str, str, str]
-EDGE_FUNCTIONS: tuple[ContactRow, ...] = tuple(
+TableRow = tuple[str, str, tuple[str, ...], str, str, str, str]
+EDGE_FUNCTIONS: tuple[TableRow, ...] = tuple(
     (f"{kind}_edge{part}", "edge", ("a", *PLATE[1:], *ELASTIC), "1", "", "6", f"{what}: {meaning}")
     for part, meaning in (
         ("", "addition to delta R/a^2"),
@@ -70,7 +70,7 @@ EDGE_FUNCTIONS: tuple[ContactRow, ...] = tuple(
     )
     for kind, what in (("supported", "simple support"), ("clamped", "clamp"))
 )
-CONTACT_FUNCTIONS: tuple[ContactRow, ...] = (
+CONTACT_FUNCTIONS: tuple[TableRow, ...] = (
     # name, module, arguments, unit, symbol, equation, meaning
     ("indentation", "contact_law", ("a", *PLATE), "m", r"\delta", "6", "indentation"),
     ("contact_radius", "contact_law", ("delta", *PLATE), "m", "a", "6", "contact radius"),

@@ -9,8 +9,8 @@ from flint import arb
 
 from derivation.plate.edge_modes.oracle import modes as held_balls
 from derivation.plate.edge_modes.oracle import waves as held_wave_balls
-from derivation.plate.hard.case import Case
-from derivation.plate.hard.law import Given, Law
+from derivation.plate.hard.case import HardCase
+from derivation.plate.hard.law import Given, HardLaw
 from derivation.plate.hard.places import about, around, exactly
 from derivation.plate.waves.cases.laws import differences
 from derivation.plate.waves.cases.places import partner_crossing
@@ -24,7 +24,7 @@ CROSSING = 12
 """Mode that is followed to where its partner k2 passes the switch of I0."""
 
 
-def held_wave_families() -> Iterator[Case]:
+def held_wave_families() -> Iterator[HardCase]:
     """Every one of them."""
     for kernel in _MODES:
         place = partner_crossing(kernel.removesuffix("_waves"), CROSSING, _METAL)
@@ -39,29 +39,29 @@ def held_wave_families() -> Iterator[Case]:
         cause = "From the axis, and from a punch of no size, to the edge."
         places = (1e-9, 1e-3, 0.3, 0.9)
         given = exactly(k=(2.2, 8.6), k2=(2.1, 8.1), t=1.02, **{at: places})
-        yield Case(WAVES, kernel, cause, given, "broadcast")
+        yield HardCase(WAVES, kernel, cause, given, "broadcast")
         cause = "High modes, whose I0 overflows, of a thin plate."
         given = exactly(k=1259.0, k2=1258.5, t=1.0, **{at: (0.3, 0.9)})
-        yield Case(WAVES, kernel, cause, given, "array")
+        yield HardCase(WAVES, kernel, cause, given, "array")
     yield from _ends()
 
 
-def _ends() -> Iterator[Case]:
+def _ends() -> Iterator[HardCase]:
     for kernel in _MODES:
         cause = "The thinnest plates."
         given = exactly(count=2.0, eta=(1e-80, 1e-30, 1e-9), nu=_METAL)
-        yield Case(WAVES, kernel, cause, given, "array")
+        yield HardCase(WAVES, kernel, cause, given, "array")
         cause = "Poisson's ratio at its ends and at 0."
-        yield Case(
+        yield HardCase(
             WAVES, kernel, cause, exactly(count=2.0, eta=0.05, nu=(_FIRST, 0.0, _LAST)), "array"
         )
         cause = "A high mode, whose part of I0 is small."
-        yield Case(WAVES, kernel, cause, exactly(count=30.0, eta=0.01, nu=_METAL))
+        yield HardCase(WAVES, kernel, cause, exactly(count=30.0, eta=0.01, nu=_METAL))
         cause = "The last mode below the cut-off."
-        yield Case(WAVES, kernel, cause, exactly(count=6.0, eta=0.1, nu=_METAL))
+        yield HardCase(WAVES, kernel, cause, exactly(count=6.0, eta=0.1, nu=_METAL))
     cause = "The first mode, whose wave number vanishes at nu = -1, of a thick plate."
     given = exactly(count=1.0, eta=0.5, nu=(_FIRST, -1.0 + 1e-9, -0.97, _LAST))
-    yield Case(WAVES, "supported_waves", cause, given, "array")
+    yield HardCase(WAVES, "supported_waves", cause, given, "array")
 
 
 _FREE = 1e-9
@@ -72,7 +72,7 @@ there, whatever the condition number of nu."""
 # --- references
 
 
-def _of_waves(edge: held_balls.Edge) -> Law:
+def _of_waves(edge: held_balls.Edge) -> HardLaw:
     """A mode of a plate with a thickness, by its number; c and k2 are counted as budgets say."""
 
     def values(given: Given, digits: int) -> tuple[arb, ...]:
@@ -89,10 +89,10 @@ def _of_waves(edge: held_balls.Edge) -> Law:
             return differences(values, 1)(given, found)
         return differences(values, 1, 2)(given, found)
 
-    return Law(values, sizes, slopes=slopes, results=7, oracle=(held_wave_balls.__name__,))
+    return HardLaw(values, sizes, slopes=slopes, results=7, oracle=(held_wave_balls.__name__,))
 
 
-def _of_face(punch: bool) -> Law:
+def _of_face(punch: bool) -> HardLaw:
     """The loaded face, or its mean under a punch less 1, of a mode's numbers.
 
     Counted in the largest of its parts.
@@ -105,13 +105,13 @@ def _of_face(punch: bool) -> Law:
     def sizes(_: Given, found: Sequence[arb]) -> tuple[arb]:
         return (abs(found[0]) if punch else abs(found[0]).max(arb(1)),)
 
-    return Law(
+    return HardLaw(
         values, sizes, slopes=differences(values, 0, 1, 2, 3), oracle=(held_wave_balls.__name__,)
     )
 
 
 CASES = held_wave_families
-LAWS: Mapping[str, Law] = {
+LAWS: Mapping[str, HardLaw] = {
     "clamped_waves": _of_waves("clamped"),
     "supported_waves": _of_waves("supported"),
     "wave_shape": _of_face(punch=False),

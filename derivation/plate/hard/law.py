@@ -12,7 +12,7 @@ Values = Callable[[Given, int], tuple[arb, ...]]
 
 
 @dataclass(frozen=True)
-class Law:
+class HardLaw:
     """A kernel's truth.
 
     Parameters

@@ -17,10 +17,10 @@ from scipy.optimize import brentq
 from scipy.special import i0e, i1e, iv, j0, j1
 
 from derivation.engine.formula.proof import SYMBOLIC, ProofError
+from derivation.engine.oracle.agreement import RouteError
 from derivation.mathematics.bessel.theory import modified as modified_bessel
 from derivation.plate import derived
 from derivation.plate.budgets import read_promises
-from derivation.plate.edge.route.supported import RouteError
 from derivation.plate.edge_modes.cases import LAWS
 from derivation.plate.edge_modes.kernels import wave_forms as forms
 from derivation.plate.edge_modes.oracle import modes as held_balls

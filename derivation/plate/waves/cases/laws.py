@@ -8,7 +8,7 @@ import flint
 from flint import arb
 
 from derivation.engine.formula.ball import to_ball
-from derivation.plate.hard.law import Given, Law, Values
+from derivation.plate.hard.law import Given, HardLaw, Values
 from derivation.plate.waves import oracle as inertia_balls
 
 _STEP, _DIGITS = Fraction(1, 2**40), 30
@@ -39,7 +39,7 @@ def differences(values: Values, *places: int) -> Callable[[Given, Sequence[arb]]
 # --- the plate's waves
 
 
-def _of_lowest(function: Callable[..., arb], root: bool = False) -> Law:
+def _of_lowest(function: Callable[..., arb], root: bool = False) -> HardLaw:
     """A number of A0 at x and nu, or its square root."""
 
     def values(given: Given, digits: int) -> tuple[arb]:
@@ -47,7 +47,7 @@ def _of_lowest(function: Callable[..., arb], root: bool = False) -> Law:
         with flint.ctx.workprec(4 * digits + 64):
             return (found.sqrt() if root else found,)
 
-    return Law(values, slopes=differences(values, 0, 1), oracle=(inertia_balls.__name__,))
+    return HardLaw(values, slopes=differences(values, 0, 1), oracle=(inertia_balls.__name__,))
 
 
 def _influence(given: Given, digits: int) -> tuple[arb, ...]:
@@ -66,7 +66,7 @@ def _conditions(given: Given, values: Sequence[arb]) -> list[arb]:
     return found
 
 
-def _of_branch(kind: str, function: Callable[..., arb], root: bool = False) -> Law:
+def _of_branch(kind: str, function: Callable[..., arb], root: bool = False) -> HardLaw:
     """Frequency or residue of a branch, counted from 0."""
 
     def values(given: Given, digits: int) -> tuple[arb]:
@@ -81,15 +81,17 @@ def _of_branch(kind: str, function: Callable[..., arb], root: bool = False) -> L
         first, second = (values((x, nu, index), _DIGITS)[0] for index in (0, 1))
         return (abs(found[0]).max(first).max(second),)
 
-    return Law(values, None if root else sizes, conditioned=False, oracle=(inertia_balls.__name__,))
+    return HardLaw(
+        values, None if root else sizes, conditioned=False, oracle=(inertia_balls.__name__,)
+    )
 
 
 _FREQUENCY, _RESIDUE = inertia_balls.zero, inertia_balls.residue
-LAWS: Mapping[str, Law] = {
+LAWS: Mapping[str, HardLaw] = {
     "bending_frequency": _of_lowest(_FREQUENCY, root=True),
     "bending_residue": _of_lowest(_RESIDUE),
     "bending_share": _of_lowest(inertia_balls.share),
-    "dynamic_influence": Law(
+    "dynamic_influence": HardLaw(
         _influence, slopes=_conditions, results=2, oracle=(inertia_balls.__name__,)
     ),
 } | {

@@ -26,8 +26,7 @@ from derivation.engine.rewrite.stabilise import Stable, stabilise
 from derivation.engine.rewrite.tested import Tested
 from derivation.plate.benchmark import run as accuracy_run
 from derivation.plate.benchmark import speed
-from derivation.plate.contact.cases.check import KERNELS, LIMIT
-from derivation.plate.contact.cases.check import Row as ContactRow
+from derivation.plate.contact.cases.check import KERNELS, LIMIT, ContactRow
 from derivation.plate.contact.cases.check import check as measure_contact
 from derivation.plate.contact.cases.truth import DIGITS
 from derivation.plate.hard import check as hard_check
@@ -104,7 +103,9 @@ def contact_data(rows: tuple[ContactRow, ...]) -> dict[str, Any]:
     return {"provenance": provenance(DIGITS, GENERATED), "limit": LIMIT, "rows": found}
 
 
-def check_hard(update: bool = False, tell: Progress | None = None) -> tuple[hard_check.Row, ...]:
+def check_hard(
+    update: bool = False, tell: Progress | None = None
+) -> tuple[hard_check.HardRow, ...]:
     """Hold generated and printed forms to the hard cases' references.
 
     These are the committed ones; or found anew where they follow from something else now, which
@@ -133,7 +134,7 @@ def check_hard(update: bool = False, tell: Progress | None = None) -> tuple[hard
     return rows
 
 
-def check_speed(update: bool = False, tell: Progress | None = None) -> list[speed.Timing]:
+def check_speed(update: bool = False, tell: Progress | None = None) -> list[speed.SpeedTiming]:
     """Measure the speed of contact law, impact and cold starts on this machine."""
     if update:
         expect_recordable(MEASURED_SPEED)
@@ -152,7 +153,7 @@ def check_speed(update: bool = False, tell: Progress | None = None) -> list[spee
 
 def check_bounds(
     count: int, update: bool = False, tell: Progress | None = None
-) -> tuple[bounds.Row, ...]:
+) -> tuple[bounds.BoundRow, ...]:
     """Hold the bounds that `simulate` states to the first `count` random scenes.
 
     Truths that are committed are taken as they are; others are sought, about a second each,
@@ -161,7 +162,7 @@ def check_bounds(
     if update:
         expect_recordable(MEASURED_BOUNDS)
     known = committed_truths()
-    found: list[bounds.Truth] = []
+    found: list[bounds.SceneTruth] = []
     for true in bounds.truths(count, known, tell=tell):
         found.append(true)
         if update and len(found) > len(known) and len(found) % KEPT_EVERY == 0:
@@ -172,7 +173,7 @@ def check_bounds(
     return rows
 
 
-def committed_truths() -> list[bounds.Truth]:
+def committed_truths() -> list[bounds.SceneTruth]:
     """The random scenes' truths that are committed."""
     return bounds.from_json(MEASURED_BOUNDS.read_text()) if MEASURED_BOUNDS.is_file() else []
 

@@ -13,7 +13,7 @@ from derivation.plate import derived
 from derivation.plate.vocabulary import Formula
 
 if TYPE_CHECKING:  # they load the generated package, without which its own tests have to run
-    from derivation.plate.hard.case import Case
+    from derivation.plate.hard.case import HardCase
     from derivation.plate.hard.truth import Known
 
 # The same draws in every run, however slow; `pytest --hypothesis-profile default` draws others.
@@ -42,7 +42,7 @@ def silent(no_warning: None) -> Iterator[None]:  # noqa: ARG001
 
 
 @pytest.fixture(scope="session")
-def cases() -> "tuple[Case, ...]":
+def cases() -> "tuple[HardCase, ...]":
     """The hard cases."""
     from derivation.plate.hard import check as hard_check
 
@@ -50,7 +50,7 @@ def cases() -> "tuple[Case, ...]":
 
 
 @pytest.fixture(scope="session")
-def truth(cases: "tuple[Case, ...]") -> "dict[str, Known]":
+def truth(cases: "tuple[HardCase, ...]") -> "dict[str, Known]":
     """Their references, as recorded."""
     from derivation import pipeline
     from derivation.plate.hard import check as hard_check

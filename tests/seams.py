@@ -25,7 +25,7 @@ from derivation.plate.impact.oracle import impact as contact_impact
 from derivation.plate.impact.oracle.printed_motion import last_share
 from derivation.plate.modes.kernels.forms import mode_forms
 from derivation.plate.pressure import kernels as pressure_tables
-from generated import contact_series, true_pressure
+from generated import contact_series, non_hertzian_pressure
 
 Point = Mapping[str, Fraction]
 Place = float | Fraction
@@ -113,7 +113,7 @@ def times() -> Iterable[Place]:
 
 
 def wall_shares() -> Iterable[Place]:
-    places = [true_pressure._LOW / y for y in pressure_tables.wall_places()]
+    places = [non_hertzian_pressure._LOW / y for y in pressure_tables.wall_places()]
     places = [place for place in places if place < 0.9]
     return [places[0], places[-1]]
 

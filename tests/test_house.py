@@ -69,3 +69,24 @@ def test_every_package_that_is_imported_is_installed_along() -> None:
             if isinstance(node, ast.ImportFrom) and not node.level:
                 found = [node.module or ""]
             assert {name.partition(".")[0] for name in found} <= given, path
+
+
+SHARED = {
+    "Formula": "the class of a paper's formulas has this name in every paper",
+    **dict.fromkeys(
+        ("Impact", "Kernel", "Law", "Reference", "Series", "State", "Step", "Wave"),
+        "recorded references follow from the code of an oracle or a route with this class",
+    ),
+}
+"""Names that several classes have, with the reason."""
+
+
+def test_a_class_has_a_name_of_its_own() -> None:
+    """Beyond `scene`, which names what a user meets."""
+    found: dict[str, list[Path]] = {}
+    for path in sorted((ROOT / "derivation").rglob("*.py")):
+        if "scene" not in path.parts:
+            for node in ast.parse(path.read_text()).body:
+                if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
+                    found.setdefault(node.name, []).append(path)
+    assert {name for name, paths in found.items() if len(paths) > 1} == set(SHARED)

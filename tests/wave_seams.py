@@ -8,14 +8,12 @@ from typing import Any
 from mpmath import mp, mpf
 from seams import Place, Point, Seam
 
-from derivation.mathematics.bessel import kernels as bessel_tables
 from derivation.plate.blocks import blocks
 from derivation.plate.edge_modes import cases as hard_held_families
-from derivation.plate.edge_modes.kernels import tables as held_tables
 from derivation.plate.edge_modes.oracle import modes as held_balls
 from derivation.plate.edge_modes.oracle import waves as held_wave_balls
 from derivation.plate.hard import check as hard_check
-from generated import held_waves, inertia, plate_waves
+from generated import edge_modes, inertia, plate_waves
 from generated.plate_waves import branches
 
 LOWEST = ("bending_frequency", "bending_residue", "bending_share")
@@ -34,14 +32,6 @@ def both_roots(p: Point) -> Fraction:
     """p + q, where both are real."""
     squares = p["x"] ** 2 - gam(p) * p["kap"], p["x"] ** 2 - p["kap"]
     return sum(map(root, squares), Fraction(0)) if min(squares) >= 0 else Fraction(0)
-
-
-def half_part() -> Iterable[Place]:
-    """J0/I0 = 1/2 at the first mode of a simple support."""
-    with mp.workdps(30):
-        k = mp.findroot(lambda k: mp.besselj(0, k) / mp.besseli(0, k) - 0.5, 1.3)
-        rise = mp.besselj(1, k) / mp.besselj(0, k) + mp.besseli(1, k) / mp.besseli(0, k)
-        return [float(1 - 2 * k / rise)]
 
 
 Condition = Callable[[Any, Any], Any]
@@ -127,7 +117,7 @@ def partner_at_infinity(edge: held_balls.Edge) -> Callable[[], Iterable[Place]]:
         n = int(case.numbers["count"][0])
         for side, below in ((2.0, True), (-2.0, False)):
             k2 = held_wave_balls.wave(edge, n, place + side * math.ulp(place), nu, 25).k2
-            assert bool(k2 < held_waves._START) is below
+            assert bool(k2 < edge_modes._START) is below
         return [place]
 
     return places
@@ -140,11 +130,6 @@ def on_face(p: Point) -> Fraction:
 
 FACE = ("wave_shape", "wave_share")
 WAVE_SEAMS: dict[str, Seam] = {
-    "modes at infinity": Seam(
-        ("clamped_modes", "supported_modes"), lambda p: p["count"],
-        lambda: [held_tables.modes_before(bessel_tables.asymptotic_start()) + 1],
-    ),
-    "part of the first mode": Seam(("supported_modes",), lambda p: p["nu"], half_part),
     "clamped partner at infinity": Seam(
         ("clamped_waves",), lambda p: p["eta"], partner_at_infinity("clamped")
     ),
@@ -152,10 +137,10 @@ WAVE_SEAMS: dict[str, Seam] = {
         ("supported_waves",), lambda p: p["eta"], partner_at_infinity("supported")
     ),
     "small k on the face": Seam(
-        FACE, lambda p: p["k"] * on_face(p), lambda: [held_waves._SMALL]
+        FACE, lambda p: p["k"] * on_face(p), lambda: [edge_modes._SMALL]
     ),
     "small k2 on the face": Seam(
-        FACE, lambda p: p["k2"] * on_face(p), lambda: [held_waves._SMALL]
+        FACE, lambda p: p["k2"] * on_face(p), lambda: [edge_modes._SMALL]
     ),
     "x of the lowest branch": Seam(LOWEST, lambda p: p["x"], lambda: [inertia._SHALLOW]),
     "x of its share": Seam(LOWEST[2:], lambda p: p["x"], lambda: [inertia._SMALL]),

@@ -34,7 +34,7 @@ ORACLE: Callable[..., tuple[flint.arb, ...]] = contact_impact.impact
 
 
 @dataclass(frozen=True)
-class Truth:
+class SceneTruth:
     """An impact's results by the oracle, in decimal, to DIGITS digits."""
 
     point: Point
@@ -42,7 +42,7 @@ class Truth:
 
 
 @dataclass(frozen=True)
-class Row:
+class BoundRow:
     """How one method's bounds held.
 
     Parameters
@@ -88,15 +88,15 @@ def scene(number: int, seed: int = SEED) -> Point:
     return R, m, math.sqrt(2 * work / m), h, b, lam, mu
 
 
-def truth(point: Point) -> Truth:
+def truth(point: Point) -> SceneTruth:
     """What oracle 1 says of an impact."""
     balls = ORACLE(*point, digits=DIGITS)
-    return Truth(point, tuple(ball.str(_WRITTEN, radius=False) for ball in balls))
+    return SceneTruth(point, tuple(ball.str(_WRITTEN, radius=False) for ball in balls))
 
 
 def truths(
-    count: int, known: Sequence[Truth] = (), seed: int = SEED, tell: Tell | None = None
-) -> Iterator[Truth]:
+    count: int, known: Sequence[SceneTruth] = (), seed: int = SEED, tell: Tell | None = None
+) -> Iterator[SceneTruth]:
     """The first `count` scenes' truths, one by one; those already known are not sought again.
 
     Parameters
@@ -115,7 +115,7 @@ def truths(
         yield truth(point)
 
 
-def errors(values: Iterable[float], true: Truth) -> tuple[float, ...]:
+def errors(values: Iterable[float], true: SceneTruth) -> tuple[float, ...]:
     """Relative errors of the results, the truth's own radius added."""
     with flint.ctx.workprec(256):
         return tuple(
@@ -127,8 +127,8 @@ def errors(values: Iterable[float], true: Truth) -> tuple[float, ...]:
 
 
 def judge(
-    known: Sequence[Truth], solve: Solve, tolerances: Sequence[float] = TOLERANCES
-) -> tuple[Row, ...]:
+    known: Sequence[SceneTruth], solve: Solve, tolerances: Sequence[float] = TOLERANCES
+) -> tuple[BoundRow, ...]:
     """Every scene at every tolerance, gathered by method in order of first use.
 
     Raises
@@ -136,7 +136,7 @@ def judge(
     ValueError
         If a bound does not meet the tolerance, or a scene is refused.
     """
-    worst: dict[str, Row] = {}
+    worst: dict[str, BoundRow] = {}
     for rtol in tolerances:
         for true in known:
             values, method, bound = solve(true.point, rtol)
@@ -148,17 +148,17 @@ def judge(
             ratio, runs = error / bound, 1 + (before.runs if before else 0)
             if before is None or ratio > before.ratio:
                 quantity = QUANTITIES[found.index(error)]
-                worst[method] = Row(method, runs, ratio, error, bound, quantity, true.point)
+                worst[method] = BoundRow(method, runs, ratio, error, bound, quantity, true.point)
             else:
                 worst[method] = replace(before, runs=runs)
     return tuple(worst.values())
 
 
-def to_json(known: Sequence[Truth], rows: Sequence[Row]) -> str:
+def to_json(known: Sequence[SceneTruth], rows: Sequence[BoundRow]) -> str:
     """Truths and rows as JSON, one to a line."""
     head = {"digits": DIGITS, "seed": SEED, "python-flint": flint.__version__}
     parts = [f'"{name}": {json.dumps(value)}' for name, value in head.items()]
-    listed: tuple[tuple[str, Sequence[Row] | Sequence[Truth]], ...]
+    listed: tuple[tuple[str, Sequence[BoundRow] | Sequence[SceneTruth]], ...]
     listed = ("rows", rows), ("truths", known)
     for name, items in listed:
         body = ",\n ".join(json.dumps(plain(asdict(item))) for item in items)
@@ -166,9 +166,9 @@ def to_json(known: Sequence[Truth], rows: Sequence[Row]) -> str:
     return "{" + ",\n".join(parts) + "}\n"
 
 
-def from_json(text: str) -> list[Truth]:
+def from_json(text: str) -> list[SceneTruth]:
     """The truths of a file, none if they are of other digits."""
     data: dict[str, Any] = json.loads(text)
     if data["digits"] != DIGITS:
         return []
-    return [Truth(tuple(t["point"]), tuple(t["values"])) for t in data["truths"]]
+    return [SceneTruth(tuple(t["point"]), tuple(t["values"])) for t in data["truths"]]

@@ -19,7 +19,7 @@ MEASURED: Path = measurements() / "effects.json"
 
 def check_effects(
     count: int, update: bool = False, tell: Tell | None = None
-) -> tuple[effects.Row, ...]:
+) -> tuple[effects.EffectCheckRow, ...]:
     """Random scenes at several tolerances against everything on; keep the rows if asked."""
     if update:
         expect_recordable(MEASURED)

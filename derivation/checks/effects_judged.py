@@ -25,7 +25,7 @@ Everything = Callable[[Scene], tuple[Sequence[float], Sequence[str]] | None]
 
 
 @dataclass(frozen=True)
-class Row:
+class EffectCheckRow:
     """How the bounds held at one tolerance.
 
     Parameters
@@ -91,7 +91,7 @@ def scene(number: int, seed: int = SEED) -> dict[str, dict[str, Any]]:
 
 def judge(
     count: int, solve: Solve, everything: Everything, seed: int = SEED, tell: Tell | None = None
-) -> tuple[Row, ...]:
+) -> tuple[EffectCheckRow, ...]:
     """Every scene at every tolerance, the rows by tolerance."""
     found: dict[float, list[tuple[float, float, str, int, int, int]]] = {
         rtol: [] for rtol in TOLERANCES
@@ -120,10 +120,12 @@ def judge(
     return tuple(_row(rtol, rows, refused[rtol]) for rtol, rows in found.items())
 
 
-def _row(rtol: float, rows: Sequence[tuple[float, float, str, int, int, int]], refused: int) -> Row:
+def _row(
+    rtol: float, rows: Sequence[tuple[float, float, str, int, int, int]], refused: int
+) -> EffectCheckRow:
     worst = max(rows)
     n = len(rows)
-    return Row(
+    return EffectCheckRow(
         rtol,
         n,
         worst[0],
@@ -136,7 +138,7 @@ def _row(rtol: float, rows: Sequence[tuple[float, float, str, int, int, int]], r
     )
 
 
-def to_json(rows: Sequence[Row], count: int) -> str:
+def to_json(rows: Sequence[EffectCheckRow], count: int) -> str:
     """The rows as JSON, one to a line."""
     body = ",\n ".join(json.dumps(plain(asdict(row))) for row in rows)
     return f'{{"drawn": {count},\n"seed": {SEED},\n"rows": [\n {body}\n]}}\n'

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from derivation.checks import inertia_judged as inertia
-from derivation.checks.inertia_judged import Found, Judged
+from derivation.checks.inertia_judged import InertiaFound, InertiaJudged
 from derivation.checks.random_scenes import Scene, Tell
 from derivation.engine.files import measurements, write_file
 from derivation.engine.outputs import expect_recordable
@@ -45,7 +45,7 @@ def check_inertia(
     seed: int = inertia.SEED,
     update: bool = False,
     tell: Tell | None = None,
-) -> Judged:
+) -> InertiaJudged:
     """Random scenes with a plate that may move against more modes; keep the rows if asked."""
     if update:
         expect_recordable(MEASURED)
@@ -89,7 +89,7 @@ def placed(data: Scene, place: float) -> tuple[Scene, float]:
     return data, min(least * math.pow(10.0, 2.0 * place - 1.0), max(least, 0.9 * min(price, ANY)))
 
 
-def solve(data: Scene, place: float) -> Found | str:
+def solve(data: Scene, place: float) -> InertiaFound | str:
     """A scene as `simulate` computes it, and the truth; or the key that a message begins with."""
     try:
         data, rtol = placed(data, place)
@@ -109,7 +109,7 @@ def solve(data: Scene, place: float) -> Found | str:
     assert still is not None  # such scenes are passed over
     price = next(row.bound for row in selected.rows if row.name == "inertia")
     total = used.inertia.total_time if used is not None else values[0]
-    return Found(
+    return InertiaFound(
         rtol,
         known,
         values,

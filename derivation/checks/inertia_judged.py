@@ -21,7 +21,7 @@ SEED = 1
 
 
 @dataclass(frozen=True)
-class Found:
+class InertiaFound:
     """A scene's outcome, if it is not refused.
 
     Parameters
@@ -59,7 +59,7 @@ class Found:
 
 
 @dataclass(frozen=True)
-class Row:
+class InertiaRow:
     """How the bounds held in a scene.
 
     Parameters
@@ -94,7 +94,7 @@ class Row:
 
 
 @dataclass(frozen=True)
-class Judged:
+class InertiaJudged:
     """Random scenes, judged.
 
     Parameters
@@ -112,7 +112,7 @@ class Judged:
     drawn: int
     passed_over: Mapping[str, int]
     refused: Mapping[str, int]
-    rows: tuple[Row, ...]
+    rows: tuple[InertiaRow, ...]
 
 
 @dataclass(frozen=True)
@@ -147,7 +147,7 @@ class Side:
         return max(self.ratio, self.tightest, self.price) <= 1.0
 
 
-Solve = Callable[[Scene, float], Found | str]
+Solve = Callable[[Scene, float], InertiaFound | str]
 """A scene with a number in [0, 1) that places its tolerance, or how the message that refuses it
 begins."""
 PassOver = Callable[[Scene], str]
@@ -187,9 +187,9 @@ def judge(
     pass_over: PassOver,
     seed: int = SEED,
     tell: Tell | None = None,
-) -> Judged:
+) -> InertiaJudged:
     """So many scenes that are neither passed over nor refused."""
-    passed_over, refused, rows = Counter[str](), Counter[str](), list[Row]()
+    passed_over, refused, rows = Counter[str](), Counter[str](), list[InertiaRow]()
     number = 0
     while len(rows) < count:
         data, place = scene(number, seed)
@@ -205,16 +205,16 @@ def judge(
             refused[found] += 1
         else:
             rows.append(_row(number - 1, found))
-    return Judged(number, passed_over, refused, tuple(rows))
+    return InertiaJudged(number, passed_over, refused, tuple(rows))
 
 
-def sides(rows: Sequence[Row]) -> tuple[Side, ...]:
+def sides(rows: Sequence[InertiaRow]) -> tuple[Side, ...]:
     """Both sides of the threshold, those there are."""
     parted = ([row for row in rows if row.included is side] for side in (True, False))
     return tuple(_side(part) for part in parted if part)
 
 
-def _side(rows: Sequence[Row]) -> Side:
+def _side(rows: Sequence[InertiaRow]) -> Side:
     worst = max(rows, key=lambda row: row.error / row.rtol)
     return Side(
         worst.included,
@@ -227,11 +227,11 @@ def _side(rows: Sequence[Row]) -> Side:
     )
 
 
-def _row(number: int, found: Found) -> Row:
+def _row(number: int, found: InertiaFound) -> InertiaRow:
     error, quantity = _worst(found.values, found.truth)
     alone, worth = _worst(found.still, found.truth)
     total = abs(found.total_time / found.true_total_time - 1.0)
-    return Row(
+    return InertiaRow(
         number, found.rtol, found.included, found.bound, error, quantity, total,
         found.price, alone, worth, found.contacts, found.modes, found.oscillators,
     )  # fmt: skip
@@ -251,7 +251,7 @@ COLUMNS = (
 """Heads of the table of sides; the price is what leaving inertia out may change."""
 
 
-def cells(judged: Judged) -> list[tuple[str, ...]]:
+def cells(judged: InertiaJudged) -> list[tuple[str, ...]]:
     """A line of the table for each side."""
     return [
         ("included" if side.included else "omitted", str(side.scenes), f"{side.ratio:.3f}",
@@ -260,7 +260,7 @@ def cells(judged: Judged) -> list[tuple[str, ...]]:
     ]  # fmt: skip
 
 
-def as_data(judged: Judged, seed: int) -> dict[str, Any]:
+def as_data(judged: InertiaJudged, seed: int) -> dict[str, Any]:
     """What was judged as plain data, infinite prices as null."""
     rows = [asdict(row) for row in judged.rows]
     for row in rows:
@@ -275,7 +275,7 @@ def as_data(judged: Judged, seed: int) -> dict[str, Any]:
     }
 
 
-def to_json(judged: Judged, seed: int) -> str:
+def to_json(judged: InertiaJudged, seed: int) -> str:
     """The same as JSON, a row to a line."""
     data = as_data(judged, seed)
     lines = [f"{json.dumps(key)}: {json.dumps(data[key])}" for key in data if key != "rows"]

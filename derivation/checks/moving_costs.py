@@ -58,7 +58,7 @@ Numbers = tuple[float, ...]
 Tell = Callable[[str, int, int], None]
 
 
-class Outcome(NamedTuple):
+class CostOutcome(NamedTuple):
     """Results, how many oscillators there were, and the bound that was stated, if any."""
 
     numbers: Numbers
@@ -67,7 +67,7 @@ class Outcome(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Row:
+class CostRow:
     """A method at a setting.
 
     Attributes
@@ -102,7 +102,7 @@ class Trial:
     study: str
     method: str
     setting: float
-    call: Callable[[], Outcome]
+    call: Callable[[], CostOutcome]
     truth: Callable[[], Numbers]
     names: Sequence[str]
 
@@ -115,7 +115,7 @@ FIRST = ("contact_time", "max_force", "restitution")
 def measure(tell: Tell | None = None) -> dict[str, Any]:
     """Every row, timed in turns, with the scene, the machine and its load."""
     trials = [*integrators(), *modes(), *branches(), *tolerances()]
-    before, rows = os.getloadavg()[0], list[tuple[Trial, Outcome, dict[str, float]]]()
+    before, rows = os.getloadavg()[0], list[tuple[Trial, CostOutcome, dict[str, float]]]()
     for number, trial in enumerate(trials, start=1):
         if tell is not None:
             tell(f"{trial.study}: {trial.method}", number, len(trials) + 1)
@@ -135,7 +135,9 @@ def measure(tell: Tell | None = None) -> dict[str, Any]:
         "truth": {"tolerance": FINEST, "modes": MOST, "modes of all branches": MOST_ALL},
         "rows": [
             asdict(
-                Row(t.study, t.method, t.setting, out.oscillators, spent.seconds, errors, out.bound)
+                CostRow(
+                    t.study, t.method, t.setting, out.oscillators, spent.seconds, errors, out.bound
+                )
             )
             for (t, out, errors), spent in zip(rows, timings, strict=True)
         ],
@@ -183,7 +185,7 @@ def _timed(trial: Trial) -> Callable[[Array], object]:
 def integrators() -> list[Trial]:
     """The first contact by elements, by a Runge-Kutta method and by fixed steps."""
     truth = cache(lambda: by_runge_kutta(FINEST).numbers)
-    settings: list[tuple[str, float, Callable[[], Outcome]]] = [
+    settings: list[tuple[str, float, Callable[[], CostOutcome]]] = [
         ("elements, nodes", n, partial(by_elements, n, contact_sequence.TOLERANCE)) for n in NODES
     ]
     settings += [("elements, tolerance", t, partial(by_elements, 16, t)) for t in TOLERANCES]
@@ -192,15 +194,15 @@ def integrators() -> list[Trial]:
     return [Trial("integrator", name, x, call, truth, FIRST) for name, x, call in settings]
 
 
-def by_elements(n: int, tolerance: float) -> Outcome:
+def by_elements(n: int, tolerance: float) -> CostOutcome:
     """By elements of n nodes."""
     problem = _problem()
     found = contact_sequence.contact(problem, n, problem.begin(), 0.0, 0.0, tolerance)
     peak = max(piece.element.largest(P) for piece in found.pieces)
-    return Outcome((found.end, peak, -found.after.velocity), OSCILLATORS)
+    return CostOutcome((found.end, peak, -found.after.velocity), OSCILLATORS)
 
 
-def by_runge_kutta(rtol: float) -> Outcome:
+def by_runge_kutta(rtol: float) -> CostOutcome:
     """By SciPy's, in the root of time, in which the onset is smooth."""
     problem = _problem()
     motion = _Motion(problem)
@@ -225,10 +227,10 @@ def by_runge_kutta(rtol: float) -> Outcome:
     around = near - end / LOOKS, near + end / LOOKS
     near_enough = {"xatol": CLOSE * end}
     top = minimize_scalar(lambda s: -force(s), bounds=around, method="bounded", options=near_enough)
-    return Outcome((end * end, -float(top.fun), -float(found.y[1, -1])), OSCILLATORS)
+    return CostOutcome((end * end, -float(top.fun), -float(found.y[1, -1])), OSCILLATORS)
 
 
-def by_verlet(steps: int) -> Outcome:
+def by_verlet(steps: int) -> CostOutcome:
     """By equal steps of the time that the contact takes on a plate that does not yield."""
     motion = _Motion(_problem())
     state, dt = motion.begin(), 1.0 / steps
@@ -246,7 +248,7 @@ def by_verlet(steps: int) -> Outcome:
         forces.append(motion.force(state))
     end = times[-1] + dt * before / (before - after)
     peak = _peak(np.array(times), np.array(forces))
-    return Outcome((end, peak, -float(velocity[0])), OSCILLATORS)
+    return CostOutcome((end, peak, -float(velocity[0])), OSCILLATORS)
 
 
 def _peak(t: Array, force: Array) -> float:
@@ -340,12 +342,12 @@ def tolerances() -> list[Trial]:
     ]
 
 
-def _simulated(rtol: float | None = None, **inertia: Any) -> Outcome:
+def _simulated(rtol: float | None = None, **inertia: Any) -> CostOutcome:
     """The results of `simulate`, and how many oscillators there were."""
     found = simulate(_scene(**inertia), rtol=rtol)
     count = found.dynamics.inertia.modes if found.dynamics else 0
     numbers = tuple(getattr(found, name) for name in OUTPUTS)
-    return Outcome(numbers, count, None if rtol is None else found.accuracy.bound)
+    return CostOutcome(numbers, count, None if rtol is None else found.accuracy.bound)
 
 
 def _scene(**inertia: Any) -> Scene:

@@ -1,15 +1,35 @@
-"""The budgets of the plate's functions."""
+"""The budgets of the plate's functions: of the whole paper, and of single subjects."""
 
+import tomllib
 from pathlib import Path
+from typing import Any
 
 from derivation.engine.emit import budgets
 
 BUDGETS = Path(__file__).parent / "budgets.toml"
 
 
+def read_tables() -> dict[str, Any]:
+    """Read all tables; the subjects' own numbers and domains are added to those of the paper.
+
+    Raises
+    ------
+    ValueError
+        If a subject states again what stands elsewhere.
+    """
+    found = tomllib.loads(BUDGETS.read_text())
+    for file in sorted(BUDGETS.parent.glob("*/budgets.toml")):
+        own = tomllib.loads(file.read_text())
+        for table in ("ulp", "domain"):
+            if twice := own[table].keys() & found[table].keys():
+                raise ValueError(f"{file.parent.name}: a second budget for {', '.join(twice)}")
+            found[table] |= own[table]
+    return found
+
+
 def read_budgets() -> dict[str, budgets.Budget]:
     """Budgets by kernel, as committed."""
-    return budgets.read_budgets(BUDGETS)
+    return budgets.parse_budgets(read_tables())
 
 
 def read_promises(table: str = "impact") -> dict[str, float]:

@@ -1,5 +1,7 @@
 """The chain: its links in order, and every formula by name.
 
+What subjects hand in as `LINKS` of their theory follows at the end.
+
  1 equilibrium      Hooke's law, force balance -> ODEs for f_j, g_j
  2 mode shapes      ODEs -> general solution (2)
  3 stresses         Hooke's law of the mode
@@ -55,8 +57,6 @@ from derivation.plate.contact.theory.thin_remainder import thin_remainder
 from derivation.plate.edge.theory.clamped import clamp
 from derivation.plate.edge.theory.sums import edge_sums
 from derivation.plate.edge.theory.supported import edge
-from derivation.plate.edge_modes.theory.modes import held_modes
-from derivation.plate.edge_modes.theory.waves import held_waves
 from derivation.plate.effects.theory import effects
 from derivation.plate.impact.theory.impact import impact
 from derivation.plate.impact.theory.sensitivity import sensitivity
@@ -70,6 +70,7 @@ from derivation.plate.modes.theory.mode_shapes import mode_shapes
 from derivation.plate.modes.theory.plate_factor import plate_factor_slope, plate_factors
 from derivation.plate.modes.theory.stresses import modal_stresses
 from derivation.plate.pressure.theory.true_pressure import true_pressure
+from derivation.plate.subjects import handed_in
 from derivation.plate.viscosity.theory import viscosity
 from derivation.plate.vocabulary import Formula
 from derivation.plate.waves.theory.bending_branch import bending_branch
@@ -110,8 +111,7 @@ MOTION_LINKS: tuple[Link, ...] = (
     ("dynamic modes", dynamic_modes),
     ("bending branch", bending_branch),
     ("closure", closure),
-    ("held modes", held_modes),
-    ("held waves", held_waves),
+    *(link for links in handed_in("theory", "LINKS") for link in links),
 )
 """What follows from the contact law. Apart: these formulas hold integrals and constants too."""
 

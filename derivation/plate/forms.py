@@ -8,15 +8,17 @@ from collections.abc import Mapping
 
 import sympy as sp
 
+from derivation.engine.emit.package import Shape
 from derivation.engine.formula.record import Record
 from derivation.engine.rewrite.automatic import automatic
-from derivation.engine.rewrite.form import TIMES, Block, Form, Seam, Step, form
+from derivation.engine.rewrite.form import TIMES, Block, Form, Step, form
 from derivation.engine.rewrite.scales import Ratio, Scale, Scales
 from derivation.engine.rewrite.sections import sections
 from derivation.plate.blocks import blocks
 from derivation.plate.contact.theory.hertz import SINE_MINUS
 from derivation.plate.modes.kernels.forms import mode_forms
 from derivation.plate.modes.kernels.steps import RATIO, ratio
+from derivation.plate.modules import printed_modules
 from derivation.plate.vocabulary import P, R, a, h, lam, mu, phi, r
 
 share = sp.Symbol("share", real=True)
@@ -45,16 +47,20 @@ def stable_forms(formulas: Mapping[str, Record]) -> tuple[Form, ...]:
     """
     known = blocks()
 
-    def found(name: str) -> _Shape:
+    def found(name: str) -> Shape:
         return automatic(formulas[name].expression, known, SCALES, name in CLOSE)
 
-    groups: dict[str, dict[str, _Shape]] = {
+    groups: dict[str, dict[str, Shape]] = {
         "omega": {name: found(name) for name in OMEGAS},
         "influence": {name: found(name) for name in INFLUENCE},
         "pressure": _pressure() | {name: found(name) for name in ("sonine", "A_j")},
         "mode_shapes": mode_forms(),
         "modal_sum": {"delta": _indentation(formulas, known)},
     }
+    for printed in printed_modules():
+        groups[printed.name] = {name: found(name) for name in printed.automatic} | dict(
+            printed.stated()
+        )
     return tuple(
         form(name, module, formulas[name].expression, steps, value, known | sections())
         for module, group in groups.items()
@@ -64,16 +70,20 @@ def stable_forms(formulas: Mapping[str, Record]) -> tuple[Form, ...]:
 
 OMEGAS = tuple(f"Omega_{k}{tail}" for tail in ("", "_scaled") for k in range(1, 5))
 INFLUENCE = ("G", "G_m", "G_minus_1", "C_top", "C_bottom", "K_j", "K_j_bottom", "G_slope")
-AUTOMATIC = (*OMEGAS, *INFLUENCE, "sonine", "A_j")
+AUTOMATIC = (
+    *OMEGAS,
+    *INFLUENCE,
+    "sonine",
+    "A_j",
+    *(name for printed in printed_modules() for name in printed.automatic),
+)
 """Formulas whose forms the rules find."""
 
 CLOSE = ("G_m",)
 """Those among them whose budget leaves no room for the roundings of their powers."""
 
-_Shape = tuple[tuple[Step, ...], sp.Expr | Seam]
 
-
-def _pressure() -> dict[str, _Shape]:
+def _pressure() -> dict[str, Shape]:
     """Hertz pressure and the contact force: the edge's root by its two factors."""
     fraction = Step(share, r / a)
     root = sp.sqrt((1 - share) * (1 + share))
@@ -83,7 +93,7 @@ def _pressure() -> dict[str, _Shape]:
     }
 
 
-def _indentation(formulas: Mapping[str, Record], known: Mapping[str, Block]) -> _Shape:
+def _indentation(formulas: Mapping[str, Record], known: Mapping[str, Block]) -> Shape:
     """One mode's share: K_j phi^3 and s(a phi)/phi^3, lest powers of phi be rounded twice."""
     face, face_value = automatic(formulas["K_j"].expression * phi**3, known, SCALES)
     contact, contact_value = automatic(SINE_MINUS / phi**3, known, SCALES)

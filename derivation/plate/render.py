@@ -9,7 +9,7 @@ import sympy as sp
 
 from derivation.engine.emit.kernels import (
     AsPrinted,
-    Kernel,
+    EmittedKernel,
     argument_text,
     kernel_of_form,
     rows_by_module,
@@ -20,7 +20,6 @@ from derivation.engine.formula.record import Record
 from derivation.engine.rewrite.form import Form
 from derivation.engine.rewrite.sections import sections
 from derivation.mathematics.bessel.kernels import bessel_context
-from derivation.plate.back_face.kernels import far_face_context
 from derivation.plate.blocks import blocks
 from derivation.plate.budgets import read_budgets, read_promises
 from derivation.plate.contact.kernels.moments import moment_context
@@ -30,18 +29,14 @@ from derivation.plate.contact.kernels.tables import (
     sensitivity_context,
 )
 from derivation.plate.edge.kernels import edge_context
-from derivation.plate.edge_modes.kernels.tables import held_context
-from derivation.plate.edge_modes.kernels.wave_context import held_waves_context
-from derivation.plate.effects.kernels import effect_context
 from derivation.plate.impact.kernels.perturbation import perturbation_context
 from derivation.plate.impact.kernels.simple import simple_impact_context
 from derivation.plate.modes.kernels.modal_sums import MODAL_SUMS, STYLE, kernel_of_sum
+from derivation.plate.modules import printed_modules, template_modules
 from derivation.plate.pressure.kernels import pressure_context
 from derivation.plate.printed.contact import PRINTED
 from derivation.plate.table_rows import contact_rows, notes_of, table_rows
-from derivation.plate.viscosity.kernels import viscosity_context
 from derivation.plate.vocabulary import BY_NAME, arguments_of
-from derivation.plate.waves.kernels import inertia_context, waves_context
 
 TEMPLATES = Path(__file__).parent / "templates"
 CITATION = "Elastodynamic contact in plate-like bodies"
@@ -51,6 +46,7 @@ TITLES = {
     "pressure": "Hertz pressure and its Fourier-Bessel coefficients.",
     "mode_shapes": "Displacements and stresses of one mode through the thickness.",
     "modal_sum": "Indentation and interior fields as direct sums over the modes.",
+    **{printed.name: printed.title for printed in printed_modules()},
 }
 
 
@@ -61,7 +57,9 @@ def render(formulas: Mapping[str, Record], forms: tuple[Form, ...]) -> dict[str,
     return written(planned)
 
 
-def kernel_rows(formulas: Mapping[str, Record], forms: tuple[Form, ...]) -> tuple[Kernel, ...]:
+def kernel_rows(
+    formulas: Mapping[str, Record], forms: tuple[Form, ...]
+) -> tuple[EmittedKernel, ...]:
     """Stage 1: a row for every stable form and every modal sum."""
     budgets = read_budgets()
     shares = {f.name: f for f in forms if formulas[f.name].summed}
@@ -75,18 +73,19 @@ def kernel_rows(formulas: Mapping[str, Record], forms: tuple[Form, ...]) -> tupl
     return of_forms + of_sums
 
 
-def modules(kernels: tuple[Kernel, ...]) -> tuple[Module, ...]:
+def modules(kernels: tuple[EmittedKernel, ...]) -> tuple[Module, ...]:
     """Stage 2: every file's template and context."""
     grouped = rows_by_module(kernels)
     known, budgets = blocks() | sections(), read_budgets()
 
-    def tables(name: str, context: Mapping[str, Any]) -> Module:
-        return own(name, {**context, "notes": notes_of(name, budgets)})
+    def tables(name: str, context: Mapping[str, Any], folder: Path = TEMPLATES) -> Module:
+        notes = notes_of(name, budgets)
+        return Module(name, name, {**context, "notes": notes} if notes else context, folder)
 
     planned = [
         *shared(known),
         tables("bessel", bessel_context()),
-        tables("moments", moment_context()),
+        tables("series_constants", moment_context()),
         own("as_printed", {"functions": printed_rows()}),
         tables("contact_series", contact_context()),
         tables("contact_law", {}),
@@ -94,16 +93,10 @@ def modules(kernels: tuple[Kernel, ...]) -> tuple[Module, ...]:
         tables("impact", {**impact_context(), "promises": read_promises()}),
         tables("sensitivity", sensitivity_context()),
         tables("edge", edge_context()),
-        tables("far_face", far_face_context()),
-        tables("held_modes", held_context()),
-        own("held_waves", held_waves_context(read_promises("held_waves"))),
-        tables("effects", effect_context()),
-        tables("viscosity", viscosity_context()),
-        tables("inertia", inertia_context()),
-        own("plate_waves", waves_context()),
+        *(tables(x.name, x.context(), x.folder) for x in template_modules()),
         own("simple_impact", simple_impact_context()),
         own("perturbation", perturbation_context()),
-        own("true_pressure", pressure_context() | read_promises("pressure")),
+        own("non_hertzian_pressure", pressure_context() | read_promises("pressure")),
         own(
             "manifest",
             {
@@ -157,6 +150,6 @@ def printed_rows() -> tuple[AsPrinted, ...]:
     return tuple(rows)
 
 
-def manifest_rows(kernels: tuple[Kernel, ...]) -> list[dict[str, Any]]:
+def manifest_rows(kernels: tuple[EmittedKernel, ...]) -> list[dict[str, Any]]:
     """What the manifest says of each kernel, tables included."""
     return [kernel_row(k) for k in kernels] + table_rows(read_budgets())

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 
 from derivation.engine.emit.budgets import Budget
+from derivation.plate.modules import template_modules
 
 TABLES = (
     # name, module, argument, symbol, meaning
@@ -11,24 +12,24 @@ TABLES = (
     ("bessel_j0_zeros", "bessel", "count", "j_n", "the first zeros of J0"),
     ("bessel_j1_zeros", "bessel", "count", "j_{1,n}", "the first positive zeros of J1"),
     ("bessel_j1_at_j0_zeros", "bessel", "count", "J_1(j_n)", "J1 at the first zeros of J0"),
-    ("kappa", "moments", "n", r"\kappa_n", "integral of y^n K0/I0 over y > 0"),
+    ("kappa", "series_constants", "n", r"\kappa_n", "integral of y^n K0/I0 over y > 0"),
     (
         "kappa_ratio",
-        "moments",
+        "series_constants",
         "n",
         r"2^{n+1}\kappa_n/(\pi n!)",
         "kappa_n over its leading term for large n",
     ),
     (
         "finite_part",
-        "moments",
+        "series_constants",
         "k",
         "M_k",
         "finite part of the integral of T^(2k-4) (G - 1) over T > 0",
     ),
     (
         "finite_part_ratio",
-        "moments",
+        "series_constants",
         "k",
         "2^{2k-3}M_k/(2k-2)!",
         "M_k over its leading term for large k",
@@ -59,8 +60,8 @@ def table_rows(budgets: Mapping[str, Budget]) -> list[dict[str, object]]:
 PLATE = ("R", "h", "b")
 ELASTIC = ("lam", "mu")
 IMPACT = ("R", "m", "v0", *PLATE[1:], *ELASTIC)
-ContactRow = tuple[str, str, tuple[str, ...], str, str, str, str]
-EDGE_FUNCTIONS: tuple[ContactRow, ...] = tuple(
+TableRow = tuple[str, str, tuple[str, ...], str, str, str, str]
+EDGE_FUNCTIONS: tuple[TableRow, ...] = tuple(
     (f"{kind}_edge{part}", "edge", ("a", *PLATE[1:], *ELASTIC), "1", "", "6", f"{what}: {meaning}")
     for part, meaning in (
         ("", "addition to delta R/a^2"),
@@ -69,19 +70,7 @@ EDGE_FUNCTIONS: tuple[ContactRow, ...] = tuple(
     )
     for kind, what in (("supported", "simple support"), ("clamped", "clamp"))
 )
-FAR_FACE_FUNCTIONS: tuple[ContactRow, ...] = tuple(
-    (
-        f"{kind}far_stress",
-        "far_face",
-        ("P", "a", *PLATE[1:], *ELASTIC),
-        "Pa",
-        r"\sigma_{rr}(0, -h)",
-        "",
-        f"tension of the far face under the axis{what}",
-    )
-    for kind, what in (("", ""), ("supported_", ", simple support"), ("clamped_", ", clamp"))
-)
-CONTACT_FUNCTIONS: tuple[ContactRow, ...] = (
+CONTACT_FUNCTIONS: tuple[TableRow, ...] = (
     # name, module, arguments, unit, symbol, equation, meaning
     ("indentation", "contact_law", ("a", *PLATE), "m", r"\delta", "6", "indentation"),
     ("contact_radius", "contact_law", ("delta", *PLATE), "m", "a", "6", "contact radius"),
@@ -136,78 +125,8 @@ CONTACT_FUNCTIONS: tuple[ContactRow, ...] = (
         "logarithmic derivatives of time and peaks by every parameter",
     ),
     *EDGE_FUNCTIONS,
-    *FAR_FACE_FUNCTIONS,
-    ("clamped_modes", "held_modes", ("count",), "1", "k_n, c, W_n", "", "modes, clamp"),
-    ("supported_modes", "held_modes", ("count", "nu"), "1", "k_n, c, W_n", "", "modes, support"),
+    *((row[0], module.name, *row[1:]) for module in template_modules() for row in module.functions),
     ("history", "impact", ("t", *IMPACT), "m, m/s, m, N", "", "13", "an impact over time"),
-    ("sphere_contact", "effects", ("a_over_R",), "1", "", "7", "a sphere over a paraboloid"),
-    (
-        "zener_number",
-        "effects",
-        ("R", "m", "v0", "h", *ELASTIC, "rho"),
-        "1",
-        r"\lambda_Z",
-        "",
-        "how much of the impact the plate's waves carry away",
-    ),
-    (
-        "viscous_number",
-        "viscosity",
-        ("R", "m", "v0", "lam", "mu", "viscous_time"),
-        "1",
-        "x",
-        "",
-        "what a viscous contact takes of the speed",
-    ),
-    (
-        "restitution_weak",
-        "viscosity",
-        ("x_v",),
-        "1",
-        "e",
-        "",
-        "restitution of a weakly viscous contact",
-    ),
-    (
-        "bending_frequency",
-        "inertia",
-        ("x", "nu"),
-        "1",
-        r"\omega_0 h/c_T",
-        "",
-        "frequency of the lowest bending branch",
-    ),
-    (
-        "bending_residue",
-        "inertia",
-        ("x", "nu"),
-        "1",
-        r"\rho h\,r_0",
-        "",
-        "how the lowest bending branch answers a load",
-    ),
-    (
-        "bending_share",
-        "inertia",
-        ("x", "nu"),
-        "1",
-        "s_0",
-        "",
-        "share of the lowest bending branch in the deflection at rest",
-    ),
-    (
-        "dynamic_influence",
-        "inertia",
-        ("x", "kap", "nu"),
-        "1",
-        "1/B_a, 1/B_s",
-        "",
-        "deflection of the loaded face per pressure coefficient, over h/mu: bending, stretching",
-    ),
-    ("bending_period", "effects", ("h", "b", *ELASTIC, "rho"), "s", "T_1", "", "bending period"),
-    ("echo_time", "effects", ("h", *ELASTIC, "rho"), "s", "T_e", "", "time of two echoes"),
-    ("side_wall", "effects", ("alpha",), "1", "W", "6", "what the finite radius adds"),
-    ("bending", "effects", ("a_ratio", "eta"), "1", "F_B", "6", "what a thin plate's bending adds"),
 )
 
 

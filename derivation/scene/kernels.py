@@ -1,5 +1,6 @@
 """The only door to the generated package: the kernels a scene needs."""
 
+from generated.back_face import clamped_far_stress, far_stress, supported_far_stress
 from generated.contact_law import (
     contact_radius,
     force_of_radius,
@@ -29,7 +30,6 @@ from generated.effects import (
     sphere_contact,
     zener_number,
 )
-from generated.far_face import clamped_far_stress, far_stress, supported_far_stress
 from generated.impact import COARSE_QUADRATURE, FULL_QUADRATURE, ROUNDING, history, impact
 from generated.sensitivity import indentation_slope
 from generated.simple_impact import Estimate, Plate, hertz, law_errors, leading, plate_of

@@ -26,7 +26,7 @@ from derivation.scene.model import Model
 from derivation.scene.quadrature import NODES, gauss
 
 if TYPE_CHECKING:
-    from generated.true_pressure import Contact, Plate
+    from generated.non_hertzian_pressure import Contact, Plate
 
 THICK = 1.0
 """h/b up to which the supports' model is measured."""
@@ -207,9 +207,9 @@ class ContactLaw:
         """
         R = self.model.R
         if self.solved:
-            from generated import true_pressure
+            from generated import non_hertzian_pressure
 
-            found: Array = true_pressure.pressure(
+            found: Array = non_hertzian_pressure.pressure(
                 r, self._solved_plate, a, R, self.modulus, self.model.modulus, sphere=self.spherical
             )
             return found
@@ -273,19 +273,19 @@ class ContactLaw:
 
     def _contact(self, a: Array) -> "Contact":
         """The contact with the pressure that is solved for."""
-        from generated import true_pressure
+        from generated import non_hertzian_pressure
 
         model = self.model
-        return true_pressure.contact(
+        return non_hertzian_pressure.contact(
             self._solved_plate, a, model.R, self.modulus, model.modulus, sphere=self.spherical
         )
 
     @cached_property
     def _solved_plate(self) -> "Plate":
         """The plate as the integral equation of the pressure takes it."""
-        from generated import true_pressure
+        from generated import non_hertzian_pressure
 
-        return true_pressure.plate(self.model.h, self.model.b)
+        return non_hertzian_pressure.plate(self.model.h, self.model.b)
 
     def _sphere(self, a: Array) -> kernels.Sphere:
         """Force, indentation and slope on a half-space."""

@@ -10,7 +10,7 @@ s_j = dP_j/dP conserves energy for every law delta(a); s_j = 1 takes the deflect
 as the paper defines the indentation.
 
 On the paper's edge J0(phi_j r) is an exact mode of every branch. For a clamped or simply supported
-edge the lowest branch A0 has the modes of `generated.held_waves`. The quasi-static remainder is
+edge the lowest branch A0 has the modes of `generated.edge_modes`. The quasi-static remainder is
 that of the paper's edge: a remainder taken with the held edge's own law would know the edge before
 any wave has travelled there.
 """
@@ -33,7 +33,7 @@ from derivation.scene.quadrature import gauss
 from derivation.scene.scene import SceneError
 
 if TYPE_CHECKING:
-    from generated.held_waves import Waves
+    from generated.edge_modes import Waves
 
 Indices = NDArray[np.intp]
 DEGREE, RESOLVED = 32, 0.75
@@ -94,7 +94,7 @@ class Modes:
         free = np.asarray(bessel_j0(np.outer(self.phi[self._held :], r)), dtype=np.float64)
         if self.held is None:
             return free
-        from generated.held_waves import shape
+        from generated.edge_modes import shape
 
         return np.concatenate((shape(self.held, r / self.b), free))
 
@@ -103,7 +103,7 @@ class Modes:
         free = sinc_less_one(np.outer(a, self.phi[self._held :]))
         if self.held is None:
             return free
-        from generated.held_waves import shares_less_one
+        from generated.edge_modes import shares_less_one
 
         return np.concatenate((shares_less_one(self.held, a / self.b), free), axis=1)
 
@@ -275,7 +275,7 @@ def _some(waves: "Waves", part: slice) -> "Waves":
 @lru_cache(maxsize=8)
 def _waves(model: Model) -> "Waves":
     """All modes of the model's edge below the cut-off."""
-    from generated.held_waves import THICKEST, clamped_waves, cutoff, supported_waves
+    from generated.edge_modes import THICKEST, clamped_waves, cutoff, supported_waves
 
     if model.eta > THICKEST:
         raise _too_thick(model)

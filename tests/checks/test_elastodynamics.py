@@ -7,11 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from derivation.checks.finite_elements.cases import HERTZ, Case
+from derivation.checks.finite_elements.cases import HERTZ, ElementCase
 from derivation.checks.finite_elements.impact import (
     Sphere,
     Stepper,
-    Wide,
+    WideContactError,
     pressed,
     results,
     struck,
@@ -26,11 +26,11 @@ from generated.inertia import bending_frequency
 PLATE = Plate(0.1, 0.02, 70e9, 0.3, 2700.0)
 COARSE = Grading(contact=5, thickness=1.0, far=2.0, edge=0)
 FINE = Grading(contact=10)
-SMALL = Case("small", "small", PLATE, Sphere(0.01, 0.002, 5.0))
+SMALL = ElementCase("small", "small", PLATE, Sphere(0.01, 0.002, 5.0))
 """A light ball: its contact ends before the edge can be felt."""
 
 
-def system(case: Case, grading: Grading = COARSE, reach: float = 1.1) -> System:
+def system(case: ElementCase, grading: Grading = COARSE, reach: float = 1.1) -> System:
     mesh = graded(case.plate.radius, case.plate.thickness, reach * case.radius, grading)
     return System(case.plate, mesh)
 
@@ -170,7 +170,7 @@ def test_results_converge_with_mesh_and_steps() -> None:
 def test_several_contacts_keep_the_energy() -> None:
     """A light ball on a thin plate is struck again; flights are computed in longer steps."""
     plate = Plate(0.03, 0.001, 70e9, 0.3, 2700.0, "clamped")
-    case = Case("thin", "thin", plate, Sphere(0.01, 0.001, 1.0))
+    case = ElementCase("thin", "thin", plate, Sphere(0.01, 0.001, 1.0))
     made = system(case, Grading(contact=4, thickness=1.0, far=3.0, edge=0))
     history = struck(made, case.sphere, case.time / 100, 300.0 * case.time)
     impact = results(history, made.contact_radii)
@@ -181,7 +181,9 @@ def test_several_contacts_keep_the_energy() -> None:
 
 
 def test_a_contact_wider_than_its_mesh() -> None:
-    with pytest.raises(Wide, match="contact: expected it within the fine mesh, got a wider one"):
+    with pytest.raises(
+        WideContactError, match="contact: expected it within the fine mesh, got a wider one"
+    ):
         struck(system(SMALL, reach=0.5), SMALL.sphere, SMALL.time / 100, SMALL.time)
 
 

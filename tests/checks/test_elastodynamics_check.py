@@ -10,11 +10,11 @@ import pytest
 from derivation.checks import elastodynamics as elastodynamics_check
 from derivation.checks.elastodynamics import COLUMNS, cells, compare, compared, simulated
 from derivation.checks.finite_elements import cases, record
-from derivation.checks.finite_elements.cases import Case
+from derivation.checks.finite_elements.cases import ElementCase
 from derivation.checks.finite_elements.impact import Sphere
 from derivation.checks.finite_elements.mesh import Grading
 from derivation.checks.finite_elements.plate import Plate
-from derivation.checks.finite_elements.record import RESULTS, Setting, read, solved
+from derivation.checks.finite_elements.record import RESULTS, ElementSetting, read, solved
 from derivation.cli import main
 from derivation.plate import reporting
 from derivation.plate.report.elastodynamics import (
@@ -25,8 +25,8 @@ from derivation.plate.report.elastodynamics import (
 from derivation.scene.scene import SceneError
 from derivation.scene.scene import read as read_scene
 
-COARSE = Setting(Grading(contact=5, thickness=1.0, far=2.0, edge=0), 100)
-CASE = Case("one", "group", Plate(0.1, 0.02, 70e9, 0.3, 2700.0), Sphere(0.01, 0.002, 5.0))
+COARSE = ElementSetting(Grading(contact=5, thickness=1.0, far=2.0, edge=0), 100)
+CASE = ElementCase("one", "group", Plate(0.1, 0.02, 70e9, 0.3, 2700.0), Sphere(0.01, 0.002, 5.0))
 PLATE = Plate(1.0, 0.1, 1.0, 0.3, 1.0)
 
 
@@ -35,7 +35,7 @@ def few(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """Two cases and a plate, whose rows are counted instead of computed."""
     made: list[str] = []
 
-    def row(case: Case) -> dict[str, Any]:
+    def row(case: ElementCase) -> dict[str, Any]:
         made.append(case.name)
         return record.inputs(case) | {"contacts": 1}
 
@@ -103,7 +103,7 @@ def test_the_program_against_elements() -> None:
     """On the paper's edge program and elements agree to 0.2 % on a coarse mesh."""
     pane = cases.impacts()[0]
     assert pane.plate.edge == "paper"
-    setting = Setting(Grading(contact=6, thickness=1.0, far=3.0, edge=0), 150)
+    setting = ElementSetting(Grading(contact=6, thickness=1.0, far=3.0, edge=0), 150)
     impact, _ = solved(pane, setting, until_end=False)
     found = simulated(record.inputs(pane))
     for name in ("contact_time", "max_indentation", "max_force", "restitution"):

@@ -10,7 +10,7 @@ import pytest
 
 from derivation.checks import inertia as inertia_check
 from derivation.checks import inertia_judged as measure
-from derivation.checks.inertia_judged import Found
+from derivation.checks.inertia_judged import InertiaFound
 from derivation.checks.random_scenes import Scene
 from derivation.cli import main
 from derivation.engine.files import measurements
@@ -81,7 +81,7 @@ def test_bounds_hold_in_random_scenes(number: int) -> None:
     data, place = measure.scene(number)
     assert inertia_check.pass_over(data) == ""
     found = inertia_check.solve(data, place)
-    assert isinstance(found, Found)
+    assert isinstance(found, InertiaFound)
     row = measure._row(number, found)
     assert row.included is (number not in OUT)
     assert row.error <= min(row.bound, row.rtol)
@@ -89,9 +89,11 @@ def test_bounds_hold_in_random_scenes(number: int) -> None:
 
 
 def test_a_bound_that_does_not_hold_is_noticed() -> None:
-    def solve(data: Scene, place: float) -> Found | str:  # noqa: ARG001
-        return Found(1e-2, True, [1.0, 1.0, 1.02, 1.0, 1.0], [1.0] * 5, 1e-3, 1.0, 1.0, [1.0] * 5,
-                     1e-3, 1, 4, 8)  # fmt: skip
+    def solve(data: Scene, place: float) -> InertiaFound | str:  # noqa: ARG001
+        exact = [1.0] * 5
+        return InertiaFound(
+            1e-2, True, [1.0, 1.0, 1.02, 1.0, 1.0], exact, 1e-3, 1.0, 1.0, exact, 1e-3, 1, 4, 8
+        )
 
     found = measure.judge(3, solve, lambda _: "")
     (side,) = measure.sides(found.rows)
@@ -103,7 +105,7 @@ def test_a_bound_that_does_not_hold_is_noticed() -> None:
 
 def test_what_is_refused_or_passed_over_is_counted() -> None:
     turns = iter(["", "too dear", "", ""])
-    row = Found(1e-2, True, [1.0] * 5, [1.0] * 5, 1e-3, 1.0, 1.0, [1.0] * 5, 1e-3, 1, 4, 8)
+    row = InertiaFound(1e-2, True, [1.0] * 5, [1.0] * 5, 1e-3, 1.0, 1.0, [1.0] * 5, 1e-3, 1, 4, 8)
     solved = iter(["rtol", "rtol", row])
     found = measure.judge(1, lambda *_: next(solved), lambda _: next(turns))
     assert found.refused == {"rtol": 2}
@@ -136,9 +138,9 @@ def test_the_committed_scenes_keep_their_bounds() -> None:
 def test_the_command_shows_both_sides(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def solve(data: Scene, place: float) -> Found | str:
+    def solve(data: Scene, place: float) -> InertiaFound | str:
         known = data["inertia"]["branches"] == "A0"
-        return Found(
+        return InertiaFound(
             place, known, [1.0] * 5, [1.0] * 5, place, 1.0, 1.0, [1.0] * 5, math.inf, 1, 4, 8
         )
 
@@ -186,7 +188,7 @@ def test_scenes_out_of_reach_are_refused_by_name(monkeypatch: pytest.MonkeyPatch
     """A truth of too many oscillators; an impact beyond the law's range."""
     data, place = measure.scene(9)
     found = inertia_check.solve(data, place)
-    assert isinstance(found, Found)
+    assert isinstance(found, InertiaFound)
     monkeypatch.setattr(inertia_check, "OSCILLATORS", found.oscillators // 2)
     assert inertia_check.solve(data, place) == (
         f"truth: more than {found.oscillators // 2} oscillators"

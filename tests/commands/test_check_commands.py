@@ -16,13 +16,13 @@ from derivation.checks import bounds
 from derivation.checks import effects as effects_check
 from derivation.checks import inertia as inertia_check
 from derivation.checks.effects_judged import TOLERANCES
-from derivation.checks.inertia_judged import Found
+from derivation.checks.inertia_judged import InertiaFound
 from derivation.cli import main
 from derivation.engine import build
 from derivation.engine.measure import check as measure
 from derivation.plate import judge as plate_judge
 from derivation.plate import paper as plate_paper
-from derivation.plate.benchmark.speed import Timing
+from derivation.plate.benchmark.speed import SpeedTiming
 from derivation.plate.contact.cases import check as contact
 from derivation.plate.hard import check as hard_check
 from derivation.plate.hard import record as hard_record
@@ -318,7 +318,7 @@ def test_effects_are_shown_and_recorded(
 def test_scenes_that_are_passed_over_are_listed(monkeypatch: Patch, capsys: Captured) -> None:
     passed, solved = iter(["too heavy", "", ""]), iter(["rtol"])
     ones = [1.0] * 5
-    row = Found(1e-2, True, ones, ones, 1e-3, 1.0, 1.0, ones, 1e-3, 1, 4, 8)
+    row = InertiaFound(1e-2, True, ones, ones, 1e-3, 1.0, 1.0, ones, 1e-3, 1, 4, 8)
     monkeypatch.setattr(inertia_check, "pass_over", lambda _: next(passed))
     monkeypatch.setattr(inertia_check, "solve", lambda *_: next(solved, row))
     assert main(["check", "inertia", "-n", "1"]) == 0
@@ -342,9 +342,9 @@ def test_speed_is_shown_and_recorded(
     kept: bool, status: int, monkeypatch: Patch, tmp_path: Path, capsys: Captured
 ) -> None:
     given, path = list[Any](), tmp_path / "speed.json"
-    timing = Timing("law over exp", 2.25, "times", 2.0, 1.1, kept)
+    timing = SpeedTiming("law over exp", 2.25, "times", 2.0, 1.1, kept)
 
-    def measured(examples: Any, solved: Any, tell: Any) -> list[Timing]:
+    def measured(examples: Any, solved: Any, tell: Any) -> list[SpeedTiming]:
         tell("law", 1, 1)
         given.append((examples, solved))
         return [timing]

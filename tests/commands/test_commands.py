@@ -203,9 +203,9 @@ def test_moving_costs_are_measured_and_written(
     calls = list[str]()
 
     def outcome(name: str, *numbers: float) -> Any:
-        def call() -> moving_costs.Outcome:
+        def call() -> moving_costs.CostOutcome:
             calls.append(name)
-            return moving_costs.Outcome(numbers, 7, bound=None if name == "slow" else 0.1)
+            return moving_costs.CostOutcome(numbers, 7, bound=None if name == "slow" else 0.1)
 
         return call
 

@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from guide import type_examples
 
 from derivation.engine import build
 from derivation.engine.errata.findings import CORRECT
@@ -24,9 +25,10 @@ WORDS = re.compile(r"\b(plates?|spheres?)\b", re.IGNORECASE)
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A built paper, and beside it the cache that its processes share."""
+    """A paper with the guide's examples, built; beside it the cache that its processes share."""
     place = tmp_path_factory.mktemp("own") / "my film"
     run("new", str(place), home=place.parent)
+    assert type_examples(place, paper=True) >= 15
     said = run("build", "--paper", str(place), home=place.parent)
     timed = re.findall(r"✓ (\w+) +[\d.]+ s", said)
     assert timed == ["derive", "rewrite", "generate", "misprints", "check", "report"]
@@ -49,7 +51,8 @@ def test_it_derives(folder: Path) -> None:
         run("derive", "--paper", str(folder), "--json", "-", home=folder.parent).split("✓")[0]
     )
     assert {row["name"] for row in found} == {
-        f"{letter}_{held}" for letter in "CF" for held in ("bonded", "slipping")
+        "w_thin",
+        *(f"{letter}_{held}" for letter in "CF" for held in ("bonded", "slipping")),
     }
     assert all(row["proof"]["residuals"] for row in found)
 
@@ -73,7 +76,12 @@ def test_its_package_is_fresh_and_stands_alone(folder: Path, tmp_path: Path) -> 
 
 def test_both_references_check_it(folder: Path) -> None:
     data = json.loads((folder / "reports" / "check.json").read_text())
-    assert [row["kernel"] for row in data["rows"]] == ["F_bonded", "F_slipping", "C_slipping"]
+    assert [row["kernel"] for row in data["rows"]] == [
+        "F_bonded",
+        "F_slipping",
+        "C_slipping",
+        "w_thin",
+    ]
     assert all(row["passed"] and row["oracles"] == 2 for row in data["rows"])
 
 
@@ -82,12 +90,13 @@ def test_a_misprint_is_found_and_the_cache_notices_edits(folder: Path) -> None:
         shown = run("misprints", "--paper", str(folder), "--json", "-", home=folder.parent)
         return {row["name"]: row["kind"] for row in json.loads(shown.split("✓")[0])}
 
-    assert findings() == {"F_bonded": CORRECT, "F_slipping": "sign"}
+    misprint = {"w_thin": "constant ratio"}
+    assert findings() == {**misprint, "F_bonded": CORRECT, "F_slipping": "sign"}
     printed = folder / "printed.py"
     wrong = printed.read_text()
     try:
         printed.write_text(wrong.replace("(sp.sinh(T) - T)", "(sp.sinh(T) + T)"))
-        assert findings() == {"F_bonded": CORRECT, "F_slipping": CORRECT}
+        assert findings() == {**misprint, "F_bonded": CORRECT, "F_slipping": CORRECT}
     finally:
         printed.write_text(wrong)
     theory = folder / "theory.py"
@@ -105,6 +114,7 @@ def test_its_report_holds_what_was_found(folder: Path) -> None:
     assert MISPRINT in text
     assert "Reverse the sign of the term" in text
     assert r"\label{eq:C_bonded}" in text
+    assert r"\subsection{Thin film}" in text
     page = (folder / "reports" / "report.html").read_text()
     assert "A film on a rigid base" in page
     made = (folder / "reports" / "report.pdf").is_file()

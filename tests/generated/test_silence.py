@@ -26,7 +26,7 @@ POINTWISE = [name for name in ROWS if name not in TABLES]
 UNBOUNDED = [
     name
     for name in POINTWISE
-    if ROWS[name] in CONTACT or ROWS[name]["module"] in ("bessel", "moments")
+    if ROWS[name] in CONTACT or ROWS[name]["module"] in ("bessel", "series_constants")
 ]
 """Kernels whose forms hold for every double, not only for moderate phi h and a phi."""
 

@@ -16,7 +16,7 @@ from derivation.scene import kernels, motion, simulate
 from derivation.scene.effects import WHOLE_PLATE
 from derivation.scene.law import ContactLaw
 from derivation.scene.method_selection import moved
-from generated import contact_series, edge, true_pressure
+from generated import contact_series, edge, non_hertzian_pressure
 
 BOUNDS = {
     "bending", "sphere_contact", "supported_edge_bound", "clamped_edge_bound", "plate_of",
@@ -60,8 +60,8 @@ def calls(monkeypatch: pytest.MonkeyPatch) -> set[str]:
     for home in (edge, contact_series):
         for name in ZEROS:
             count(home, name)
-    count(true_pressure, "contact")
-    count(true_pressure, "plate")
+    count(non_hertzian_pressure, "contact")
+    count(non_hertzian_pressure, "plate")
     return found
 
 
@@ -142,7 +142,8 @@ import sys
 from derivation.scene import load, simulate
 result = simulate(load(sys.argv[1]))
 for effect, module in (
-    ("non_hertzian_pressure", "generated.true_pressure"), ("viscosity", "derivation.scene.viscous"),
+    ("non_hertzian_pressure", "generated.non_hertzian_pressure"),
+    ("viscosity", "derivation.scene.viscous"),
     ("inertia", "derivation.scene.waves"), ("inertia", "generated.inertia"),
 ):
     print(effect in result.effects.law.effects, module in sys.modules)

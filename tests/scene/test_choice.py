@@ -71,7 +71,7 @@ def test_a_bound_that_does_not_hold_is_noticed() -> None:
 
 def test_no_error_is_below_the_truths_own_radius() -> None:
     """Of a truth known to so many digits nothing is told apart that lies nearer."""
-    true = bounds.Truth((), ("1", "1"))
+    true = bounds.SceneTruth((), ("1", "1"))
     exact, off = bounds.errors((1.0, 1.0 + 2.0**-52), true)
     assert exact >= 10.0**-bounds.DIGITS
     assert off >= 2.0**-52 + 10.0**-bounds.DIGITS
@@ -81,9 +81,9 @@ def test_no_error_is_below_the_truths_own_radius() -> None:
 def test_truths_are_sought_once(monkeypatch: pytest.MonkeyPatch) -> None:
     asked: list[bounds.Point] = []
 
-    def oracle(point: bounds.Point) -> bounds.Truth:
+    def oracle(point: bounds.Point) -> bounds.SceneTruth:
         asked.append(point)
-        return bounds.Truth(point, ("1", "1", "1", "1"))
+        return bounds.SceneTruth(point, ("1", "1", "1", "1"))
 
     monkeypatch.setattr(bounds, "truth", oracle)
     first = list(bounds.truths(3))

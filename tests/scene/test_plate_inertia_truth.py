@@ -16,7 +16,7 @@ from derivation.scene.edge_remainder import edge_remainder
 from derivation.scene.model_error import inertia_error
 from derivation.scene.result import Result
 from derivation.scene.scene import OUTPUTS
-from generated.held_waves import clamped_waves, supported_waves
+from generated.edge_modes import clamped_waves, supported_waves
 
 EXAMPLES = Path(derivation.scene.__file__).parent / "examples"
 EDGES = ("paper", "simply-supported", "clamped")

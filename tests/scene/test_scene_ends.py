@@ -37,7 +37,7 @@ from derivation.scene.model import InertiaSettings, Model, model_of
 from derivation.scene.scene import IncompleteError
 from derivation.scene.time_element import P
 from derivation.scene.wave_plot import zener_restitution
-from generated.far_face import far_stress
+from generated.back_face import far_stress
 
 BALL = Model(
     R=0.02, m=0.25, v0=1.0, h=0.005, b=0.15, lam=40e9, mu=27e9, density=2700.0,

@@ -25,7 +25,7 @@ from derivation.scene.limits import (
 from derivation.scene.modal import Modes, plate_of
 from derivation.scene.model import model_of
 from derivation.scene.result import History, Result
-from generated import held_waves
+from generated import edge_modes
 
 Captured = pytest.CaptureFixture[str]
 DROP: dict[str, dict[str, Any]] = {
@@ -111,8 +111,8 @@ def test_tension_is_compared_with_what_is_given() -> None:
 def test_shapes_of_modes_with_many_nodes_are_finite() -> None:
     """I_0 alone is beyond the doubles, but no deflection is, and the edge is held."""
     with np.errstate(all="raise", under="ignore"):
-        waves = held_waves.clamped_waves(400, 1e-4, 0.3)
-        found = held_waves.shape(waves, np.linspace(0.0, 1.0, 11))
+        waves = edge_modes.clamped_waves(400, 1e-4, 0.3)
+        found = edge_modes.shape(waves, np.linspace(0.0, 1.0, 11))
     assert waves.k2[-1] > 1200.0
     assert np.isfinite(found).all()
     assert found[:, 0] == pytest.approx(1.0, rel=1e-12)

@@ -40,7 +40,7 @@ POISSON = (0.0, 0.2, 0.3, 0.45)
 
 
 @dataclass(frozen=True)
-class Case:
+class ElementCase:
     """An impact.
 
     Parameters
@@ -87,7 +87,7 @@ HERTZ = 2.0 * math.sqrt(math.pi) * math.gamma(0.4) / (5.0 * math.gamma(0.9)) * 2
 """Contact time on a half-space times impact speed, over the indentation: 2.943."""
 
 
-def impacts() -> tuple[Case, ...]:
+def impacts() -> tuple[ElementCase, ...]:
     """Return every impact that is computed."""
     panes, examples = [*_panes()], [*_examples()]
     return (*panes[:3], *_grid(GRID[:4]), *examples[:4], *_grid(GRID[4:-1]), *panes[3:],
@@ -106,7 +106,7 @@ def _ball(radius: float, speed: float, density: float = STEEL_DENSITY) -> Sphere
     return Sphere(radius, 4.0 / 3.0 * math.pi * radius**3 * density, speed)
 
 
-def _panes() -> Iterator[Case]:
+def _panes() -> Iterator[ElementCase]:
     """Yield the glass pane, wider and thicker ones: their edges cannot be felt in the contact."""
     pane = Plate(0.3, 0.008, *GLASS)
     for radius, thickness in ((0.3, 0.008), (0.3, 0.02), (0.6, 0.008), (0.6, 0.02)):
@@ -115,15 +115,17 @@ def _panes() -> Iterator[Case]:
         yield from _edges(group, replace(pane, radius=radius, thickness=thickness), _ball(0.01, 2))
 
 
-def _examples() -> Iterator[Case]:
+def _examples() -> Iterator[ElementCase]:
     """Yield cases close to the examples of scenes."""
-    block = Case("impact_echo paper", "impact_echo", Plate(1.0, 0.2, *CONCRETE), _ball(0.004, 2))
+    block = ElementCase(
+        "impact_echo paper", "impact_echo", Plate(1.0, 0.2, *CONCRETE), _ball(0.004, 2)
+    )
     yield block
     yield from _edges("ball_drop", Plate(0.2, 0.02, *ALUMINIUM), _ball(0.025, 1.98))
     yield from _edges("membrane", Plate(0.05, 0.0005, *ALUMINIUM), Sphere(0.01, 0.0002, 2.2))
 
 
-def _grid(rows: tuple[tuple[float, float, float, float], ...]) -> Iterator[Case]:
+def _grid(rows: tuple[tuple[float, float, float, float], ...]) -> Iterator[ElementCase]:
     """Yield plates of other shapes under other contacts."""
     for ratio, nu, width, echoes in rows:
         plate = Plate(THICKNESS / ratio, THICKNESS, GLASS[0], nu, GLASS[2])
@@ -136,6 +138,6 @@ def _grid(rows: tuple[tuple[float, float, float, float], ...]) -> Iterator[Case]
         yield from _edges(group, plate, Sphere(R, mass, speed))
 
 
-def _edges(group: str, plate: Plate, sphere: Sphere) -> Iterator[Case]:
+def _edges(group: str, plate: Plate, sphere: Sphere) -> Iterator[ElementCase]:
     for edge in EDGES:
-        yield Case(f"{group} {edge}", group, replace(plate, edge=edge), sphere)
+        yield ElementCase(f"{group} {edge}", group, replace(plate, edge=edge), sphere)

@@ -27,7 +27,7 @@ PEAK = 0.05
 """Time about the largest force, over the contact time, in which a polynomial is fitted to it."""
 
 
-class Wide(ArithmeticError):
+class WideContactError(ArithmeticError):
     """The contact is wider than the part of the mesh that is made for it."""
 
 
@@ -145,7 +145,7 @@ class Stepper:
         self.compliance = self.s * (columns[system.contact_nodes] + 1.0 / sphere.mass)
         self.profile = sphere.profile(system.contact_radii)
         # The sphere is the last unknown, downwards.
-        self.state = State.resting(system.free.size + 1)
+        self.state = ElementState.resting(system.free.size + 1)
         self.state.v[-1] = sphere.speed
         self.active = np.zeros(system.contact_nodes.size, dtype=bool)
 
@@ -162,7 +162,7 @@ class Stepper:
         real = (q - start) / self.s
         a = self.c * real + rest
         v = old.v + h * ((1.0 - self.gamma) * old.a + self.gamma * a)
-        self.state = State(q, v, a, real)
+        self.state = ElementState(q, v, a, real)
         return force
 
     def energy(self) -> float:
@@ -173,7 +173,7 @@ class Stepper:
 
 
 @dataclass(frozen=True)
-class State:
+class ElementState:
     """Displacements q, velocities v, and the scheme's and the equation's accelerations."""
 
     q: Double
@@ -182,7 +182,7 @@ class State:
     real: Double
 
     @classmethod
-    def resting(cls, size: int) -> "State":
+    def resting(cls, size: int) -> "ElementState":
         """Return the undeformed state, all velocities zero."""
         return cls(*(np.zeros(size) for _ in range(4)))
 
@@ -217,7 +217,7 @@ def struck(
             force = used.advance()
         fine.state = used.state
         if force[-1] > 0.0:
-            raise Wide("contact: expected it within the fine mesh, got a wider one")
+            raise WideContactError("contact: expected it within the fine mesh, got a wider one")
         total, speed, way = float(force.sum()), float(fine.state.v[-1]), float(fine.state.q[-1])
         time += used.h
         rows.append((time, way, speed, total, float(np.max(np.flatnonzero(force), initial=-1) + 1)))
@@ -232,7 +232,7 @@ def struck(
 
 
 @dataclass(frozen=True)
-class Impact:
+class ElementImpact:
     """Results of an impact.
 
     Parameters
@@ -265,12 +265,12 @@ class Impact:
     energy: float
 
 
-def results(history: History, radii: Double) -> Impact:
+def results(history: History, radii: Double) -> ElementImpact:
     """Return the results of an impact from its history and the radii [m] of the contact nodes."""
     spans = _spans(history.force)
     ends = [_end(history, start, stop) for start, stop in spans]
     widest = int(history.width.max())
-    return Impact(
+    return ElementImpact(
         contact_time=ends[0],
         max_indentation=float(history.way.max()),
         max_force=_peak(history, ends[0]),

@@ -12,8 +12,13 @@ from typing import Any
 import numpy as np
 
 from derivation.checks.finite_elements import cases
-from derivation.checks.finite_elements.cases import Case
-from derivation.checks.finite_elements.impact import Impact, Wide, results, struck
+from derivation.checks.finite_elements.cases import ElementCase
+from derivation.checks.finite_elements.impact import (
+    ElementImpact,
+    WideContactError,
+    results,
+    struck,
+)
 from derivation.checks.finite_elements.mesh import Grading, graded, resting
 from derivation.checks.finite_elements.plate import Plate, System
 from derivation.engine.files import measurements, write_file
@@ -37,7 +42,7 @@ Tell = Callable[[str, int, int], None]
 
 
 @dataclass(frozen=True)
-class Setting:
+class ElementSetting:
     """Mesh and time steps of a solution.
 
     Parameters
@@ -52,15 +57,17 @@ class Setting:
     steps: int
 
 
-BEST = Setting(Grading(contact=12, far=2.0), 400)
-COARSER = Setting(Grading(contact=8, thickness=1.0, far=3.0, edge=1), 400)
-LONGER = Setting(BEST.grading, 200)
+BEST = ElementSetting(Grading(contact=12, far=2.0), 400)
+COARSER = ElementSetting(Grading(contact=8, thickness=1.0, far=3.0, edge=1), 400)
+LONGER = ElementSetting(BEST.grading, 200)
 """The solution that is recorded, one on a coarser mesh and one with longer steps."""
 MODAL = ((5, 6), (4, 6), (5, 5))
 """Layers towards the edge, where a clamp is singular, and degree: the best mesh, two others."""
 
 
-def solved(case: Case, setting: Setting, *, until_end: bool = True) -> tuple[Impact, float]:
+def solved(
+    case: ElementCase, setting: ElementSetting, *, until_end: bool = True
+) -> tuple[ElementImpact, float]:
     """Return an impact's results, and half the distance of contact nodes at its widest [m]."""
     plate, reach = case.plate, SPREAD[0] * case.radius
     while True:
@@ -69,7 +76,7 @@ def solved(case: Case, setting: Setting, *, until_end: bool = True) -> tuple[Imp
         step = case.time / setting.steps
         try:
             history = struck(system, case.sphere, step, LONGEST * case.time, until_end=until_end)
-        except Wide:
+        except WideContactError:
             reach *= SPREAD[1]
             continue
         widest = int(history.width.max())
@@ -77,7 +84,7 @@ def solved(case: Case, setting: Setting, *, until_end: bool = True) -> tuple[Imp
         return results(history, system.contact_radii), apart / 2.0
 
 
-def impact_row(case: Case) -> dict[str, Any]:
+def impact_row(case: ElementCase) -> dict[str, Any]:
     """Return the row of an impact: inputs, results and their relative error estimates."""
     best, apart = solved(case, BEST)
     others = [solved(case, setting)[0] for setting in (COARSER, LONGER)]
@@ -103,7 +110,7 @@ def impact_row(case: Case) -> dict[str, Any]:
     }
 
 
-def inputs(case: Case) -> dict[str, Any]:
+def inputs(case: ElementCase) -> dict[str, Any]:
     """Return the inputs of an impact as tables of a scene, in SI units."""
     plate, sphere = asdict(case.plate), asdict(case.sphere)
     speed, exact = sphere.pop("speed"), sphere.pop("exact")
@@ -141,7 +148,7 @@ def computed(path: Path = MEASURED, tell: Tell | None = None) -> dict[str, Any]:
     record = read(path)
     version = source_hash()
     known = {_key(row): row for row in record["impacts"] + record["plates"]}
-    wanted: list[Case | Plate] = [*cases.impacts(), *cases.plates()]
+    wanted: list[ElementCase | Plate] = [*cases.impacts(), *cases.plates()]
     impacts: list[dict[str, Any]] = []
     plates: list[dict[str, Any]] = []
     todo = []
@@ -150,11 +157,11 @@ def computed(path: Path = MEASURED, tell: Tell | None = None) -> dict[str, Any]:
         if row is None:
             todo.append(item)
         else:
-            (impacts if isinstance(item, Case) else plates).append(row)
+            (impacts if isinstance(item, ElementCase) else plates).append(row)
     for number, item in enumerate(todo):
         if tell is not None:
-            tell(item.name if isinstance(item, Case) else "plate", number + 1, len(todo))
-        if isinstance(item, Case):
+            tell(item.name if isinstance(item, ElementCase) else "plate", number + 1, len(todo))
+        if isinstance(item, ElementCase):
             impacts.append(impact_row(item) | {"source": version})
         else:
             plates.append(plate_row(item) | {"source": version})
@@ -163,8 +170,8 @@ def computed(path: Path = MEASURED, tell: Tell | None = None) -> dict[str, Any]:
     return record
 
 
-def _inputs(item: Case | Plate) -> dict[str, Any]:
-    return inputs(item) if isinstance(item, Case) else plate_inputs(item)
+def _inputs(item: ElementCase | Plate) -> dict[str, Any]:
+    return inputs(item) if isinstance(item, ElementCase) else plate_inputs(item)
 
 
 def _key(row: Mapping[str, Any]) -> str:

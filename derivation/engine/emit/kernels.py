@@ -69,7 +69,7 @@ class ArgumentText:
 
 
 @dataclass(frozen=True)
-class Kernel:
+class EmittedKernel:
     """A generated function: everything templates and manifest say about it."""
 
     name: str
@@ -113,7 +113,7 @@ class Kernel:
         return self.budget.notes
 
 
-def kernel_of_form(stable: Form, formula: Record, budget: Budget, style: Style) -> Kernel:
+def kernel_of_form(stable: Form, formula: Record, budget: Budget, style: Style) -> EmittedKernel:
     """Row of a kernel that evaluates a stable form."""
     seam = seam_text(stable.value, whole=True) if isinstance(stable.value, Seam) else None
     return kernel(
@@ -139,7 +139,7 @@ def kernel(
     value: str,
     seam: SeamText | None = None,
     modes: bool = False,
-) -> Kernel:
+) -> EmittedKernel:
     """Row of a function of the given arguments.
 
     Raises
@@ -156,7 +156,7 @@ def kernel(
         )
     total = "sum over j of " if modes else ""
     stated = formula.expression if formula.stated is None else formula.stated
-    return Kernel(
+    return EmittedKernel(
         name=formula.name,
         module=module,
         summary=formula.meaning[0].upper() + formula.meaning[1:] + ".",
@@ -245,9 +245,9 @@ class AsPrinted:
     value: str
 
 
-def rows_by_module(kernels: tuple[Kernel, ...]) -> Mapping[str, list[Kernel]]:
+def rows_by_module(kernels: tuple[EmittedKernel, ...]) -> Mapping[str, list[EmittedKernel]]:
     """Kernels grouped by module, in order of first appearance."""
-    grouped: dict[str, list[Kernel]] = {}
+    grouped: dict[str, list[EmittedKernel]] = {}
     for kernel in kernels:
         grouped.setdefault(kernel.module, []).append(kernel)
     return grouped

@@ -11,7 +11,7 @@ import sympy as sp
 
 from derivation.engine.emit.budgets import read_budgets
 from derivation.engine.emit.kernels import (
-    Kernel,
+    EmittedKernel,
     Style,
     kernel_of_form,
     lines,
@@ -139,7 +139,7 @@ def shared(known: Mapping[str, Block]) -> tuple[Module, ...]:
 
 
 def kernel_modules(
-    kernels: tuple[Kernel, ...], titles: Mapping[str, str], known: Mapping[str, Block]
+    kernels: tuple[EmittedKernel, ...], titles: Mapping[str, str], known: Mapping[str, Block]
 ) -> tuple[Module, ...]:
     """A module for every group of kernels."""
     planned = []
@@ -173,7 +173,7 @@ def block_text(block: Block) -> dict[str, Any]:
     }
 
 
-def kernel_row(k: Kernel) -> dict[str, Any]:
+def kernel_row(k: EmittedKernel) -> dict[str, Any]:
     """What the manifest says of a kernel."""
     return {
         "name": k.name,

@@ -15,7 +15,7 @@ from derivation.engine.errata.edit import factor_pool, term_pool
 from derivation.engine.errata.relations import Relations
 from derivation.engine.errata.repairs import Repair, repairs
 from derivation.engine.errata.sample import BITS, Values, monomial, sample
-from derivation.engine.errata.variant import EXPONENT, FACE, MISSING, STRAY, TWICE, Search
+from derivation.engine.errata.variant import EXPONENT, FACE, MISSING, STRAY, TWICE, VariantSearch
 from derivation.engine.formula.ball import enclosable
 from derivation.engine.formula.notation import to_latex, to_markdown
 from derivation.engine.formula.parse import FormulaError
@@ -116,7 +116,7 @@ class _Case:
     formula: Record
     given: sp.Expr
     relations: Mapping[sp.Symbol, sp.Expr]
-    search: Search
+    search: VariantSearch
     have: Values
     truth: Values
 
@@ -245,7 +245,7 @@ def _case(
         formula,
         given,
         meanings,
-        Search(points, factors, term_pool(derived)),
+        VariantSearch(points, factors, term_pool(derived)),
         have,
         points.values(derived),
     )

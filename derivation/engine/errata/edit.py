@@ -21,8 +21,8 @@ from derivation.engine.errata.variant import (
     SUM,
     SUPERFLUOUS,
     TWICE,
-    Search,
     Variant,
+    VariantSearch,
     name_of,
     own_ratio,
     raised_to,
@@ -47,7 +47,7 @@ class Edit:
         return round(self.cost, 6), self.place.depth, self.says
 
 
-def single_edits(root: Place, truth: Values, search: Search) -> list[Edit]:
+def single_edits(root: Place, truth: Values, search: VariantSearch) -> list[Edit]:
     """Every edit below a place that gives it the true values, the likeliest first."""
     found: list[Edit] = []
     for place, need in with_needs(root, truth, search.points):
@@ -91,7 +91,7 @@ def _text(expression: sp.Expr) -> str:
 # Ratio: the needed value is a simple multiple of what stands there.
 
 
-def ratio_edits(place: Place, need: Values, search: Search) -> Iterator[Edit]:
+def ratio_edits(place: Place, need: Values, search: VariantSearch) -> Iterator[Edit]:
     """Sign, constant, stray or missing factor, a factor counted twice."""
     if not own_ratio(place):
         return
@@ -162,7 +162,7 @@ def _size(ratio: sp.Expr) -> float:
 # Exponent: the needed value is a power of what stands there.
 
 
-def exponent_edits(place: Place, need: Values, search: Search) -> Iterator[Edit]:
+def exponent_edits(place: Place, need: Values, search: VariantSearch) -> Iterator[Edit]:
     """Another power of the same base."""
     node = place.node
     if node.is_number or place.role in (BASE, TERMS):
@@ -182,7 +182,7 @@ def exponent_edits(place: Place, need: Values, search: Search) -> Iterator[Edit]
 # Terms: one too many in a sum, or a simple one missing.
 
 
-def term_edits(place: Place, need: Values, search: Search) -> Iterator[Edit]:
+def term_edits(place: Place, need: Values, search: VariantSearch) -> Iterator[Edit]:
     """A term left out or added."""
     if not isinstance(place.node, sp.Add) or place.role == TERMS:
         return
@@ -200,7 +200,7 @@ def term_edits(place: Place, need: Values, search: Search) -> Iterator[Edit]:
 # Parentheses: the terms in them need the factor that stands before another term only.
 
 
-def drawn_in_front(place: Place, need: Values, search: Search) -> Iterator[Edit]:
+def drawn_in_front(place: Place, need: Values, search: VariantSearch) -> Iterator[Edit]:
     """c (x + y) for c x + y, where c is found as the ratio that y needs."""
     if place.role not in (TERM, TERMS) or place.parent is None:
         return
@@ -223,7 +223,7 @@ def drawn_in_front(place: Place, need: Values, search: Search) -> Iterator[Edit]
                 yield _edit(LOST, place.parent, new, says, steep)
 
 
-def _cancelled(search: Search) -> tuple[sp.Expr, ...]:
+def _cancelled(search: VariantSearch) -> tuple[sp.Expr, ...]:
     """Sums at hand that may have cancelled against a part of the term, and 1."""
     sums = [factor for factor in search.factors if isinstance(factor, sp.Add)]
     return (sp.Integer(1), *(1 / factor for factor in sums), *sums)

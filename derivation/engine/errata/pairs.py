@@ -16,8 +16,8 @@ from derivation.engine.errata.edit import Edit, edit_of, ratio_edit
 from derivation.engine.errata.place import FACTOR, TERM, Place, everywhere
 from derivation.engine.errata.sample import Values, monomial, rational, real
 from derivation.engine.errata.variant import (
-    Search,
     Variant,
+    VariantSearch,
     multipliers,
     superfluous_parentheses,
     tried,
@@ -73,7 +73,7 @@ class _Change:
         return self.place.put(self.variant.build(), part)
 
 
-def pair_edits(root: Place, truth: Values, search: Search) -> list[Pair]:
+def pair_edits(root: Place, truth: Values, search: VariantSearch) -> list[Pair]:
     """Pairs of edits in different parts of a product or sum, the likeliest first."""
     if not isinstance(root.node, sp.Add | sp.Mul):
         return []
@@ -89,7 +89,7 @@ def pair_edits(root: Place, truth: Values, search: Search) -> list[Pair]:
     return sorted(found, key=Pair.order)
 
 
-def _changes(root: Place, search: Search) -> Iterator[_Change]:
+def _changes(root: Place, search: VariantSearch) -> Iterator[_Change]:
     """Every variant inside every part of the root, and those of the whole, with their effects."""
     product = isinstance(root.node, sp.Mul)
     for index, node in enumerate(root.node.args):
@@ -109,7 +109,7 @@ def _changes(root: Place, search: Search) -> Iterator[_Change]:
                 yield _Change(_OVERALL, root, variant, effect)
 
 
-def _of_the_whole(node: sp.Expr, search: Search) -> Iterator[Variant]:
+def _of_the_whole(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:
     """Variants of a product that no single factor shows."""
     yield from superfluous_parentheses(node, search)
     have = search.points.value(node, 0)
@@ -118,7 +118,7 @@ def _of_the_whole(node: sp.Expr, search: Search) -> Iterator[Variant]:
         yield Variant(kind, times, lambda f=factor: f * node, extra)  # type: ignore[misc]
 
 
-def _lifted(place: Place, value: flint.acb, top: Place, search: Search) -> flint.acb:
+def _lifted(place: Place, value: flint.acb, top: Place, search: VariantSearch) -> flint.acb:
     """Value of the place `top` when the place inside it takes another value."""
     while place is not top and place.parent is not None:
         node = place.parent.node
@@ -138,7 +138,7 @@ def _lifted(place: Place, value: flint.acb, top: Place, search: Search) -> flint
 
 
 def _meetings(
-    root: Place, changes: Sequence[_Change], goal: float, truth: Values, search: Search
+    root: Place, changes: Sequence[_Change], goal: float, truth: Values, search: VariantSearch
 ) -> Iterator[Pair]:
     """Pairs of changes in different parts whose effects make up the goal."""
     product = isinstance(root.node, sp.Mul)
@@ -163,7 +163,7 @@ def _meetings(
 
 
 def _with_overall_ratio(
-    root: Place, changes: Sequence[_Change], truth: Values, search: Search
+    root: Place, changes: Sequence[_Change], truth: Values, search: VariantSearch
 ) -> Iterator[Pair]:
     """Changes after which a monomial is all that is missing."""
     points = search.points
@@ -185,7 +185,7 @@ def _with_overall_ratio(
             )
 
 
-def _could_be_monomial(root: Place, change: _Change, truth: Values, search: Search) -> bool:
+def _could_be_monomial(root: Place, change: _Change, truth: Values, search: VariantSearch) -> bool:
     """Whether what is missing after a change scales like a power of each symbol in turn."""
     points = search.points
     old = root.node.args[change.part]
@@ -203,7 +203,7 @@ def _could_be_monomial(root: Place, change: _Change, truth: Values, search: Sear
     return True
 
 
-def _tell_tale_points(root: Place, search: Search) -> list[int]:
+def _tell_tale_points(root: Place, search: VariantSearch) -> list[int]:
     """The first sample point, then those that double a symbol on which a function depends."""
     inside: set[sp.Symbol] = set().union(*(f.free_symbols for f in root.node.atoms(sp.Function)))
     symbols = enumerate(search.points.symbols, start=1)

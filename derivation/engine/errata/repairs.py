@@ -9,7 +9,7 @@ from derivation.engine.errata.edit import single_edits
 from derivation.engine.errata.pairs import pair_edits
 from derivation.engine.errata.place import TERMS, Place, inner, needed
 from derivation.engine.errata.sample import Values
-from derivation.engine.errata.variant import Search
+from derivation.engine.errata.variant import VariantSearch
 
 TWO = "two misprints"
 MAX_OPERATIONS = 400
@@ -26,7 +26,7 @@ class Repair:
     edits: int
 
 
-def repairs(given: sp.Expr, truth: Values, search: Search) -> Iterator[Repair]:
+def repairs(given: sp.Expr, truth: Values, search: VariantSearch) -> Iterator[Repair]:
     """Repairs with the true values at every sample point: single edits, then pairs.
 
     Pairs are sought in different parts of the whole, then of each of its parts.
@@ -50,6 +50,6 @@ def repairs(given: sp.Expr, truth: Values, search: Search) -> Iterator[Repair]:
                     yield from _pairs(base, inside, search) if inside else ()
 
 
-def _pairs(place: Place, need: Values, search: Search) -> Iterator[Repair]:
+def _pairs(place: Place, need: Values, search: VariantSearch) -> Iterator[Repair]:
     for pair in pair_edits(place, need, search):
         yield Repair(TWO, pair.says, pair.new, 2)

@@ -77,7 +77,7 @@ class Variant:
 
 
 @dataclass(frozen=True)
-class Search:
+class VariantSearch:
     """What the search may use: the sample, factors of both formulas, terms of the right one."""
 
     points: Sample
@@ -89,7 +89,7 @@ class Search:
         return Variant(kind, self.points.value(new, 0), lambda: new, extra)
 
 
-def variants(place: Place, search: Search) -> Iterator[Variant]:
+def variants(place: Place, search: VariantSearch) -> Iterator[Variant]:
     """Other functions, parentheses and faces: what only trying can find."""
     if place.role != TERMS:
         yield from other_functions(place.node, search)
@@ -99,7 +99,7 @@ def variants(place: Place, search: Search) -> Iterator[Variant]:
         yield from other_faces(place.node, search)
 
 
-def tried(place: Place, search: Search) -> Iterator[Variant]:
+def tried(place: Place, search: VariantSearch) -> Iterator[Variant]:
     """All variants, simple multiples and powers included, for where nothing can be solved for."""
     yield from variants(place, search)
     node, value = place.node, search.points.value(place.node, 0)
@@ -126,7 +126,7 @@ def own_ratio(place: Place) -> bool:
     return place.role != FACTOR
 
 
-def multipliers(search: Search) -> Iterator[tuple[str, sp.Expr, float]]:
+def multipliers(search: VariantSearch) -> Iterator[tuple[str, sp.Expr, float]]:
     """Sign, small numbers, powers of the symbols, and the factors at hand."""
     yield SIGN, sp.Integer(-1), 0.0
     for kind, factor in small_factors(search.points.symbols):
@@ -150,7 +150,7 @@ def small_factors(symbols: Sequence[sp.Symbol]) -> Iterator[tuple[str, sp.Expr]]
             yield (STRAY if power < 0 else MISSING), symbol**power
 
 
-def other_functions(node: sp.Expr, search: Search) -> Iterator[Variant]:
+def other_functions(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:
     """Another function of the same argument, or the same one of a slightly other argument."""
     apply: Callable[[sp.Expr], sp.Expr]
     if isinstance(node, sp.besselj):
@@ -169,7 +169,7 @@ def other_functions(node: sp.Expr, search: Search) -> Iterator[Variant]:
             yield search.variant(kind, apply(factor * argument), 0.2)
 
 
-def other_faces(node: sp.Expr, search: Search) -> Iterator[Variant]:
+def other_faces(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:
     """The same with z or h reversed, where that changes it."""
     if node.is_Atom:
         return
@@ -180,7 +180,7 @@ def other_faces(node: sp.Expr, search: Search) -> Iterator[Variant]:
                 yield search.variant(FACE, new)
 
 
-def lost_parentheses(node: sp.Expr, search: Search) -> Iterator[Variant]:
+def lost_parentheses(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:
     """c (x + y) for c x + y: a factor of one term of a sum drawn in front of further terms."""
     if not isinstance(node, sp.Add):
         return
@@ -220,7 +220,7 @@ class _Grouped:
         return f"{sp.sstr(factor)}*({sp.sstr(inside)})"
 
 
-def superfluous_parentheses(node: sp.Expr, search: Search) -> Iterator[Variant]:
+def superfluous_parentheses(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:
     """c x + y for c (x + y): a factor of a product stands before some terms of a sum only."""
     for factor in node.args if isinstance(node, sp.Mul) else ():
         base, exponent = factor.as_base_exp()
@@ -263,7 +263,7 @@ class _Spread:
 
 
 def _partial_products(
-    term: sp.Expr, search: Search
+    term: sp.Expr, search: VariantSearch
 ) -> Iterator[tuple[tuple[sp.Expr, ...], flint.acb]]:
     """Some of a term's factors, their product other than +-1, and its value."""
     factors = sp.Mul.make_args(term)

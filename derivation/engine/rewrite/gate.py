@@ -31,7 +31,7 @@ KNOWN = {function.__name__ for function in FUNCTIONS}
 
 
 @dataclass(frozen=True)
-class Truth:
+class FormTruth:
     """A point, the exact value and half the condition number there.
 
     Parameters
@@ -66,9 +66,9 @@ class Gate:
 
     x: sp.Symbol
     others: tuple[tuple[sp.Symbol, float], ...]
-    truths: tuple[Truth, ...]
+    truths: tuple[FormTruth, ...]
     lead: int = 0
-    beyond: tuple[Truth, ...] = ()
+    beyond: tuple[FormTruth, ...] = ()
 
     def worst(self, form: sp.Expr | Shape) -> float:
         """Largest error in ULP beyond conditioning; infinite where a result is not finite."""
@@ -81,7 +81,7 @@ class Gate:
         return max(*below, *above)
 
     def _error(
-        self, truth: Truth, steps: tuple[Step, ...], value: sp.Expr | Seam, scale: float = 1.0
+        self, truth: FormTruth, steps: tuple[Step, ...], value: sp.Expr | Seam, scale: float = 1.0
     ) -> float:
         try:
             got = run(steps, value, {self.x: truth.x, **dict(self.others)}) * scale
@@ -160,7 +160,7 @@ def gate(
     for point in points(*ends, seed or str(expression)):
         value, slack = _truth(expression, x, point, fixed, equal)
         if value is not None and value != 0 and not overflows(value) and abs(value) > 1e-300:
-            found.append(Truth(point, value, slack))
+            found.append(FormTruth(point, value, slack))
     if len(found) < LEAST:
         raise UnreachableError(
             f"{expression!s:.80} has values at {len(found)} test points, expected {LEAST}"

@@ -18,11 +18,15 @@ from .theory import film
 from .vocabulary import FILM, Formula
 
 HERE = Path(__file__).resolve().parent
+LINKS = {
+    "film": film,
+}
+"""The links of the derivation, in order."""
 TARGET = f"{__package__}.generated"
 CHAIN = Chain(
     "film",
     FILM,
-    (Link("film", film),),
+    tuple(Link(name, derive) for name, derive in LINKS.items()),
     ("engine/cache.py", "engine/formula", *sorted(HERE.glob("*.py")), HERE / "budgets.toml"),
     (Formula,),
 )
@@ -31,7 +35,8 @@ CHAIN = Chain(
 def easy(point: Point) -> bool:
     """Whether the second reference takes little time: a film neither very thin nor thick."""
     v = point.values
-    return 1e-3 < (v["T"] if "T" in v else 2 * v["k"] * v["H"]) < 20
+    thickness = v["T"] if "T" in v else 2 * v.get("k", 1 / v["H"]) * v["H"]
+    return 1e-3 < thickness < 20
 
 
 PAPER = Paper(

@@ -19,7 +19,14 @@ FILM = Vocabulary(
         Argument(T, "1", "T", "wave number times twice the thickness, 2 k H", ("T >= 1e-100",)),
     ),
     guests=(Argument(nu, "1", r"\nu", "Poisson's ratio", ("nu > -1", "nu < 0.5")),),
-    values={"z": "0.001", "k": "500", "H": "0.002", "G": "1e6", "s": "0.4", "T": "2"},
+    values={
+        "z": "0.001",
+        "k": "500",
+        "H": "0.002",
+        "G": "1e6",
+        "s": "0.4",
+        "T": "2",
+    },
 )
 
 

@@ -1,9 +1,12 @@
 """Turns the theory of the far face into the numbers its generated code needs."""
 
+from pathlib import Path
+
 import sympy as sp
 
 from derivation.plate.back_face.theory import WIDE_TERMS, far_powers, moment_of_wave
 from derivation.plate.blocks import blocks
+from derivation.plate.modules import FunctionRow, TemplateModule
 
 THIN = sp.Rational(1, 20)
 """h/b below which a plate's sum is that of this h/b: exp(-4.212/THIN (1 - alpha/2)) < 1e-18."""
@@ -27,3 +30,39 @@ def far_face_context() -> dict[str, object]:
         "series": [repr(value) for value in series],
         "seam": repr(float(blocks()["sinh_pair"].value.at)),
     }
+
+
+FOLDER = Path(__file__).parent
+MODULES = (
+    TemplateModule(
+        "back_face",
+        FOLDER,
+        far_face_context,
+        (
+            FunctionRow(
+                "far_stress",
+                ("P", "a", "h", "b", "lam", "mu"),
+                "Pa",
+                r"\sigma_{rr}(0, -h)",
+                "",
+                "tension of the far face under the axis",
+            ),
+            FunctionRow(
+                "supported_far_stress",
+                ("P", "a", "h", "b", "lam", "mu"),
+                "Pa",
+                r"\sigma_{rr}(0, -h)",
+                "",
+                "tension of the far face under the axis, simple support",
+            ),
+            FunctionRow(
+                "clamped_far_stress",
+                ("P", "a", "h", "b", "lam", "mu"),
+                "Pa",
+                r"\sigma_{rr}(0, -h)",
+                "",
+                "tension of the far face under the axis, clamp",
+            ),
+        ),
+    ),
+)

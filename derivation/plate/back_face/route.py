@@ -8,6 +8,7 @@ The edge's part is taken from what three Poisson's ratios make of the indentatio
 
 from mpmath import mp, mpc, mpf
 
+from derivation.engine.oracle.agreement import RouteError
 from derivation.plate.edge.route import supported as edge_routes
 
 
@@ -56,7 +57,7 @@ def _roots(eta: mpf, A: mpf) -> mpf:
         total += share.imag
         if abs(share) < mp.eps:
             return mp.pi * total
-    raise edge_routes.RouteError(f"too few roots at h/b = {mp.nstr(eta)}")
+    raise RouteError(f"too few roots at h/b = {mp.nstr(eta)}")
 
 
 def far_edge(a: float, h: float, b: float, nu: float, digits: int = 30) -> mpf:

@@ -192,7 +192,7 @@ class Wide:
         return np.frompyfunc(self._printed, 1, 1)(x)
 
 
-class Balls(Wide):
+class BallArithmetic(Wide):
     """Arb: every result encloses the exact one."""
 
     def __init__(self, digits: int) -> None:
@@ -247,7 +247,7 @@ class Mpmath(Wide):
     def zeros(self, count: int) -> tuple[Array, Array]:
         """Arb's, since finding them is not what is compared."""
         with flint.ctx.workprec(math.ceil((self.digits + 10) * LOG2_10) + 24):
-            j, slopes = Balls(self.digits + 10).zeros(count)
+            j, slopes = BallArithmetic(self.digits + 10).zeros(count)
             return self.array(j), self.array(slopes)
 
     def _shape(self, y: mpf) -> mpf:

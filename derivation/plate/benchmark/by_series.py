@@ -32,7 +32,7 @@ def diverges(regime: Regime) -> str | None:
     return None if most < radius else f"diverges: a/h up to {most:.3g}, its radius is {radius:g}"
 
 
-class Law:
+class BenchmarkLaw:
     """The law of a regime's plate in an arithmetic, made in its context, and its inverses.
 
     Attributes
@@ -110,7 +110,7 @@ class Law:
         return 4 * self.modulus * a * a * a / (3 * self.R)
 
 
-class SeriesLaw(Law):
+class SeriesLaw(BenchmarkLaw):
     """By the power series in a/h, cut off."""
 
     def __init__(self, regime: Regime, terms: int, ar: Arithmetic) -> None:
@@ -158,7 +158,7 @@ def newton(terms: int, ar: Arithmetic = DOUBLE) -> Method:
 
 
 def duration(
-    nodes: int, made: Callable[[Regime, Arithmetic], Law], ar: Arithmetic
+    nodes: int, made: Callable[[Regime, Arithmetic], BenchmarkLaw], ar: Arithmetic
 ) -> Callable[[Regime], Call]:
     """Contact time over speed by a law and so many Gauss-Legendre nodes, prepared for a regime.
 
@@ -188,7 +188,7 @@ def duration(
 def gauss(nodes: int, terms: int, ar: Arithmetic = DOUBLE) -> Method:
     """Gauss-Legendre on the series."""
 
-    def made(regime: Regime, ar: Arithmetic) -> Law:
+    def made(regime: Regime, ar: Arithmetic) -> BenchmarkLaw:
         return SeriesLaw(regime, terms, ar)
 
     return Method(

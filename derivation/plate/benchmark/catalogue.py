@@ -14,7 +14,7 @@ from derivation.plate.benchmark import (
     motion,
     stepping,
 )
-from derivation.plate.benchmark.arithmetic import HAS_LONG, LONG, SINGLE, Balls, Mpmath
+from derivation.plate.benchmark.arithmetic import HAS_LONG, LONG, SINGLE, BallArithmetic, Mpmath
 from derivation.plate.benchmark.interface import PAPER, Method, Regime
 from derivation.plate.benchmark.levin import levin
 from derivation.plate.impact.oracle import many_costs
@@ -75,7 +75,7 @@ def _wide_laws() -> list[Method]:
         found += [law_series.small_contacts(24, LONG), law_sums.split(64, 5, LONG, quick=False)]
     for digits in DEEP:
         quick = digits == DEEP[0]
-        for ar in (Mpmath(digits), Balls(digits)):
+        for ar in (Mpmath(digits), BallArithmetic(digits)):
             found.append(law_series.small_contacts(TERMS[digits], ar, quick))
             found.append(law_sums.split(NODES[digits], 0.2 * digits, ar, quick=False))
         found.append(law_generated.oracle(digits, quick))
@@ -94,7 +94,7 @@ def _deepest_laws() -> list[Method]:
         return replace(method, fails=lambda regime: f"left out: {reason}")  # noqa: ARG005
 
     found = []
-    for ar in (Mpmath(DEEPEST), Balls(DEEPEST)):
+    for ar in (Mpmath(DEEPEST), BallArithmetic(DEEPEST)):
         small = law_series.small_contacts(TERMS[DEEPEST], ar, quick=False)
         found.append(replace(small, fails=elsewhere))
         # 1.7 digits for each node over the logarithm of all.

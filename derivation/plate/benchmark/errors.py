@@ -16,7 +16,7 @@ from derivation.plate.benchmark.problems import Problem
 
 
 @dataclass(frozen=True)
-class Errors:
+class BenchmarkErrors:
     """Digits of the worst point: -log10 of the relative error; None where it was not measured.
 
     Attributes
@@ -48,7 +48,7 @@ class Judged:
     """A prepared method with its errors; time of the set-up, and of the first call a point [s]."""
 
     call: Call
-    errors: Errors
+    errors: BenchmarkErrors
     setup: float
     first: float
 
@@ -65,7 +65,7 @@ def judge(method: Method, problem: Problem, clock: Callable[[], float]) -> Judge
     return Judged(call, errors, middle - begin, (end - middle) / points.size)
 
 
-def certified(values: Sequence[arb], points: Any) -> Errors:
+def certified(values: Sequence[arb], points: Any) -> BenchmarkErrors:
     """Of balls that enclose the truth: their radii, which are rounding.
 
     A radius holds a bound of what the method leaves out as well. But at each precision the
@@ -75,10 +75,10 @@ def certified(values: Sequence[arb], points: Any) -> Errors:
     with flint.ctx.workprec(64):
         worst = max(float((x.rad() / abs(x).abs_lower()).log()) for x in values)
     found = -worst / math.log(10)
-    return Errors(found, None, found, float(points[0]).hex())
+    return BenchmarkErrors(found, None, found, float(points[0]).hex())
 
 
-def split(method: Method, problem: Problem, values: Sequence[Any]) -> Errors:
+def split(method: Method, problem: Problem, values: Sequence[Any]) -> BenchmarkErrors:
     """Total, truncation and rounding; total <= truncation + rounding as errors at each point."""
     most = problem.digits
     with flint.ctx.workprec(math.ceil(most * LOG2_10) + 128):
@@ -92,7 +92,7 @@ def split(method: Method, problem: Problem, values: Sequence[Any]) -> Errors:
     place = int(np.argmin(total))
     worst = float(problem.points[place]).hex()
     remark = None if same is None else method.remark
-    return Errors(total[place], truncation, rounding, worst, unsplit, remark)
+    return BenchmarkErrors(total[place], truncation, rounding, worst, unsplit, remark)
 
 
 def _same(method: Method, problem: Problem) -> tuple[Sequence[Any] | None, str | None]:

@@ -7,8 +7,8 @@ import numpy as np
 from flint import arb
 from mpmath import mp, mpf
 
-from derivation.plate.benchmark.arithmetic import DOUBLE, Arithmetic, Array, Balls
-from derivation.plate.benchmark.by_series import LONG_NUMBERS, Law, horner
+from derivation.plate.benchmark.arithmetic import DOUBLE, Arithmetic, Array, BallArithmetic
+from derivation.plate.benchmark.by_series import LONG_NUMBERS, BenchmarkLaw, horner
 from derivation.plate.benchmark.coefficients import series
 from derivation.plate.benchmark.interface import Call, Doubles, Method, Regime, deepest
 from derivation.plate.benchmark.law_series import hermite
@@ -157,7 +157,7 @@ def table(knots: int, dtype: type[np.float32 | np.float64] = np.float64) -> Meth
     return Method("inversion", "table of cubics", f"{knots} knots", prepare, name, same)
 
 
-def _cubics_without_rounding(law: Law, t: Doubles, delta: Array) -> Array:
+def _cubics_without_rounding(law: BenchmarkLaw, t: Doubles, delta: Array) -> Array:
     """Force by the cubic between the two knots about each indentation."""
     start, step, per_h = mpf(t[0]), (mpf(t[-1]) - mpf(t[0])) / (t.size - 1), law.R / law.h**2
     found = []
@@ -184,7 +184,7 @@ def oracle(digits: int, quick: bool = True) -> Method:
 
     def prepare(regime: Regime) -> Call:
         def one(delta: float) -> object:
-            r, ar = regime, Balls(digits)
+            r, ar = regime, BallArithmetic(digits)
             with ar.context():
                 a = contact_balls.contact_radius(delta, r.R, r.h, r.b, digits)
                 return 4 * contact_balls.modulus(r.lam, r.mu) * a**3 / (3 * ar.array(r.R))
@@ -192,6 +192,6 @@ def oracle(digits: int, quick: bool = True) -> Method:
         return lambda delta: [one(float(x)) for x in np.atleast_1d(delta)]
 
     return Method(
-        "inversion", "enclosed root", f"{digits} digits", prepare, Balls(digits).name,
+        "inversion", "enclosed root", f"{digits} digits", prepare, BallArithmetic(digits).name,
         one_by_one=True, certified=True, quick=quick,
     )  # fmt: skip

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from derivation.plate.benchmark.arithmetic import Array, Balls
+from derivation.plate.benchmark.arithmetic import Array, BallArithmetic
 from derivation.plate.benchmark.interface import Call, Method, Regime
 from derivation.plate.benchmark.law_sums import EXACT, wrapped
 from derivation.plate.contact.oracle import balls as contact_balls
@@ -63,6 +63,6 @@ def oracle(digits: int, quick: bool = True) -> Method:
         return lambda a: [one(float(x)) for x in np.atleast_1d(a)]
 
     return Method(
-        "law", "contour integrals", f"{digits} digits", prepare, Balls(digits).name,
+        "law", "contour integrals", f"{digits} digits", prepare, BallArithmetic(digits).name,
         one_by_one=True, certified=True, quick=quick,
     )  # fmt: skip

@@ -7,10 +7,17 @@ from functools import cache
 import flint
 from flint import arb
 
-from derivation.plate.benchmark.arithmetic import DOUBLE, HAS_LONG, LONG, Arithmetic, Array, Balls
+from derivation.plate.benchmark.arithmetic import (
+    DOUBLE,
+    HAS_LONG,
+    LONG,
+    Arithmetic,
+    Array,
+    BallArithmetic,
+)
 from derivation.plate.benchmark.interface import Call, Method, Regime
 
-EXACT = Balls(40)
+EXACT = BallArithmetic(40)
 """What stands for exact arithmetic where a truncated method in doubles is judged."""
 
 DIRECT_MODES, SPLIT_MODES = 1000, 10_000
@@ -53,9 +60,9 @@ def wrapped(ar: Arithmetic, inner: Call) -> Call:
     return call
 
 
-def exact_for(ar: Arithmetic) -> Balls:
+def exact_for(ar: Arithmetic) -> BallArithmetic:
     """Exact arithmetic beside another: with digits enough for its rounding to be seen."""
-    return EXACT if ar.digits < EXACT.digits - 5 else Balls(ar.digits + 20)
+    return EXACT if ar.digits < EXACT.digits - 5 else BallArithmetic(ar.digits + 20)
 
 
 def _plate(ar: Arithmetic, regime: Regime) -> tuple[Array, Array, Array, Array]:

@@ -5,7 +5,7 @@ import math
 import numpy as np
 from flint import arb
 
-from derivation.plate.benchmark.arithmetic import Array, Balls
+from derivation.plate.benchmark.arithmetic import Array, BallArithmetic
 from derivation.plate.benchmark.interface import Call, Method, Regime
 from derivation.plate.benchmark.law_sums import EXACT, wrapped
 from derivation.plate.benchmark.reference_law import sure_duration
@@ -143,6 +143,6 @@ def oracle(digits: int, quick: bool = True) -> Method:
         return lambda v0: [one(float(v)) for v in np.atleast_1d(v0)]
 
     return Method(
-        "impact", "integrals in balls", f"{digits} digits", prepare, Balls(digits).name,
+        "impact", "integrals in balls", f"{digits} digits", prepare, BallArithmetic(digits).name,
         one_by_one=True, certified=True, quick=quick,
     )  # fmt: skip

@@ -9,7 +9,7 @@ from derivation.engine.measure.clock import CPU, FULL, QUICK, Effort, Session, T
 from derivation.plate.benchmark.errors import Judged, judge
 from derivation.plate.benchmark.interface import Call, Doubles, Method, Regime, Task
 from derivation.plate.benchmark.problems import Problem, problem
-from derivation.plate.benchmark.rows import Row
+from derivation.plate.benchmark.rows import BenchmarkRow
 
 SLOW = 0.05
 """Time of a single result from which it is timed but once, where it is judged [s]."""
@@ -22,19 +22,19 @@ NO_DIGITS = 0.5
 
 
 @dataclass(frozen=True)
-class Panel:
+class BenchmarkPanel:
     """Rows of a task in a regime, and how calm the machine was (None: nothing was timed)."""
 
-    rows: tuple[Row, ...]
+    rows: tuple[BenchmarkRow, ...]
     vector: Session | None
     single: Session | None
 
 
-def panel(task: Task, regime: Regime, methods: Sequence[Method], quick: bool) -> Panel:
+def panel(task: Task, regime: Regime, methods: Sequence[Method], quick: bool) -> BenchmarkPanel:
     """Judge and time the methods of a task in a regime."""
     wanted = [method for method in methods if method.task == task]
     if not wanted:
-        return Panel((), None, None)
+        return BenchmarkPanel((), None, None)
     set_task = problem(task, regime, quick)
     rows, calls = [], []
     for method in wanted:
@@ -44,10 +44,10 @@ def panel(task: Task, regime: Regime, methods: Sequence[Method], quick: bool) ->
     return _timed(rows, calls, wanted, set_task, QUICK if quick else FULL)
 
 
-def judged_row(method: Method, problem: Problem) -> tuple[Row, Judged | None]:
+def judged_row(method: Method, problem: Problem) -> tuple[BenchmarkRow, Judged | None]:
     """A method's row without times, and what to time unless it fails."""
     reason = method.fails(problem.regime)
-    row = Row(
+    row = BenchmarkRow(
         method.task, problem.regime.name, method.family, method.setting, method.arithmetic, reason
     )
     if reason is not None:
@@ -75,22 +75,25 @@ def _once(call: Call, array: Doubles) -> Timing:
 
 
 def _timed(
-    rows: list[Row], calls: Sequence[Judged | None], methods: Sequence[Method], problem: Problem,
+    rows: list[BenchmarkRow],
+    calls: Sequence[Judged | None],
+    methods: Sequence[Method],
+    problem: Problem,
     effort: Effort,
-) -> Panel:  # fmt: skip
+) -> BenchmarkPanel:
     """The rows with times, arrays and single calls each in turns of their own."""
     known = [(place, judged) for place, judged in enumerate(calls) if judged is not None]
     if not known:
-        return Panel(tuple(rows), None, None)
+        return BenchmarkPanel(tuple(rows), None, None)
     one = problem.points[-1:]
     alone = clock.session([clock.plan(judged.call, one) for _, judged in known], effort)
     for (place, _), timing in zip(known, alone.timings, strict=True):
         rows[place] = replace(rows[place], vector=timing, single=timing)
     known = [(place, judged) for place, judged in known if not methods[place].one_by_one]
     if not known:
-        return Panel(tuple(rows), None, alone)
+        return BenchmarkPanel(tuple(rows), None, alone)
     arrays = [clock.plan(judged.call, problem.sample) for _, judged in known]
     vector = clock.session(arrays, effort)
     for (place, _), timing in zip(known, vector.timings, strict=True):
         rows[place] = replace(rows[place], vector=timing)
-    return Panel(tuple(rows), vector, alone)
+    return BenchmarkPanel(tuple(rows), vector, alone)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from derivation.plate.benchmark.catalogue import simplicity
 from derivation.plate.benchmark.interface import TIE
-from derivation.plate.benchmark.rows import Kind, Row
+from derivation.plate.benchmark.rows import BenchmarkRow, Kind
 
 DIGITS = (3, 6, 9, 12, 15, 30, 100, 1000)
 DOUBTFUL = (1.15, 1.25)
@@ -43,7 +43,7 @@ class Winner:
     doubtful: tuple[str, ...]
 
 
-def winners(rows: Sequence[Row]) -> list[Winner]:
+def winners(rows: Sequence[BenchmarkRow]) -> list[Winner]:
     """Winners of every panel, for arrays and for single calls; none where nothing reaches."""
     panels = dict.fromkeys((row.task, row.regime) for row in rows)
     return [
@@ -54,14 +54,14 @@ def winners(rows: Sequence[Row]) -> list[Winner]:
     ]
 
 
-def _panel(rows: Sequence[Row], kind: Kind) -> Iterator[Winner]:
+def _panel(rows: Sequence[BenchmarkRow], kind: Kind) -> Iterator[Winner]:
     timed = [(row, row.seconds(kind)) for row in rows]
     known = [(row, seconds) for row, seconds in timed if seconds is not None]
     if not known:
         return
     cheapest = min((t for row, t in known if _reaches(row, DIGITS[0])), default=math.nan)
     for digits in DIGITS:
-        fastest: dict[str, tuple[Row, float]] = {}
+        fastest: dict[str, tuple[BenchmarkRow, float]] = {}
         for row, seconds in known:
             best = fastest[row.family][1] if row.family in fastest else math.inf
             if _reaches(row, digits) and seconds < best:
@@ -79,5 +79,5 @@ def _panel(rows: Sequence[Row], kind: Kind) -> Iterator[Winner]:
         )  # fmt: skip
 
 
-def _reaches(row: Row, digits: float) -> bool:
+def _reaches(row: BenchmarkRow, digits: float) -> bool:
     return row.errors is not None and row.errors.total >= digits

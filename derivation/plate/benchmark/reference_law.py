@@ -11,7 +11,7 @@ from flint import arb, arb_poly
 
 from derivation.engine.formula.ball import to_ball
 from derivation.plate.benchmark.arithmetic import Arithmetic, Array
-from derivation.plate.benchmark.by_series import LONG_NUMBERS, Law, SeriesLaw, duration
+from derivation.plate.benchmark.by_series import LONG_NUMBERS, BenchmarkLaw, SeriesLaw, duration
 from derivation.plate.benchmark.interface import Call, Regime, deepest
 from derivation.plate.contact.oracle import points as contact_points
 from derivation.plate.contact.oracle.balls import ratio_of
@@ -30,7 +30,7 @@ MOST_ZEROS = 20_000
 """Of J0, from which on finding them takes minutes."""
 
 
-class DeepLaw(Law):
+class DeepLaw(BenchmarkLaw):
     """The law up to a regime's largest contact by polynomials in t, A^2 = half (1 + t).
 
     Parameters
@@ -89,7 +89,7 @@ def _as_numbers(ar: Arithmetic, polynomial: arb_poly) -> list[Array]:
         return list(ar.array(terms[: last + 1]))
 
 
-def sure_law(regime: Regime, ar: Arithmetic = LONG_NUMBERS) -> Law:
+def sure_law(regime: Regime, ar: Arithmetic = LONG_NUMBERS) -> BenchmarkLaw:
     """The law without rounding, or next to none, to be used in the context of an arithmetic.
 
     Raises

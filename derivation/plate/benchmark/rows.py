@@ -4,14 +4,14 @@ from dataclasses import dataclass
 from typing import Literal
 
 from derivation.engine.measure.clock import Timing
-from derivation.plate.benchmark.errors import Errors
+from derivation.plate.benchmark.errors import BenchmarkErrors
 from derivation.plate.benchmark.interface import Task
 
 Kind = Literal["vector", "single"]
 
 
 @dataclass(frozen=True)
-class Row:
+class BenchmarkRow:
     """A method in a regime.
 
     Attributes
@@ -34,7 +34,7 @@ class Row:
     setting: str
     arithmetic: str
     fails: str | None
-    errors: Errors | None = None
+    errors: BenchmarkErrors | None = None
     vector: Timing | None = None
     single: Timing | None = None
     setup: float | None = None

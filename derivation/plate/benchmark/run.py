@@ -14,7 +14,7 @@ from derivation.plate.benchmark.interface import PAPER, REGIMES, TASKS, TIE, Reg
 from derivation.plate.benchmark.panels import panel
 from derivation.plate.benchmark.pareto import winners
 from derivation.plate.benchmark.problems import LAW_DIGITS, QUICK_DIGITS
-from derivation.plate.benchmark.rows import Row
+from derivation.plate.benchmark.rows import BenchmarkRow
 from derivation.plate.benchmark.speed import machine
 from derivation.plate.benchmark.tools import tools
 from derivation.plate.judge import PACKAGE
@@ -67,7 +67,7 @@ def measure(
     told = _Told(tell, len(TASKS) * len(places) + len(studies) + 2)
     effort = QUICK if quick else FULL
     before = os.getloadavg()[0]
-    rows: list[Row] = []
+    rows: list[BenchmarkRow] = []
     sessions: list[dict[str, Any]] = []
     for regime in places:
         for task in TASKS:

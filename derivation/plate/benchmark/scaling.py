@@ -10,7 +10,7 @@ import numpy as np
 
 from derivation.engine.measure.clock import CPU
 from derivation.plate.benchmark import law_generated, law_series, speed
-from derivation.plate.benchmark.arithmetic import Balls, Mpmath
+from derivation.plate.benchmark.arithmetic import BallArithmetic, Mpmath
 from derivation.plate.benchmark.interface import PAPER, Method
 from derivation.plate.benchmark.law_sums import split
 from derivation.plate.benchmark.problems import ARRAY
@@ -149,7 +149,7 @@ def digits(quick: bool) -> list[Growth]:
     for count in asked:
         terms = math.ceil(count / DIGITS_PER_TERM) + 3
         begin = CPU()
-        balls.append(law_series.small_contacts(terms, Balls(count)).prepare(PAPER))
+        balls.append(law_series.small_contacts(terms, BallArithmetic(count)).prepare(PAPER))
         setups.append(CPU() - begin)
         # The same coefficients: they are not found anew.
         numbers.append(law_series.small_contacts(terms, Mpmath(count)).prepare(PAPER))

@@ -56,7 +56,7 @@ ETA = 0.1
 
 
 @dataclass(frozen=True)
-class Timing:
+class SpeedTiming:
     """One comparison.
 
     Parameters
@@ -96,13 +96,13 @@ def interleaved(
 
 
 def ratio(name: str, one: Callable[[], object], base: Callable[[], object], limit: float,
-          rounds: int = ROUNDS) -> Timing:  # fmt: skip
+          rounds: int = ROUNDS) -> SpeedTiming:  # fmt: skip
     """How many times as long as the base one takes."""
     (mine, other), spread = interleaved((one, base), rounds)
-    return Timing(name, mine / other, "times", limit, spread, mine / other <= limit)
+    return SpeedTiming(name, mine / other, "times", limit, spread, mine / other <= limit)
 
 
-def law_over_exp(top: float, limit: float) -> Timing:
+def law_over_exp(top: float, limit: float) -> SpeedTiming:
     """The contact law of one plate over numpy.exp of the same array, a/h uniform up to `top`."""
     a = np.random.default_rng(1).uniform(1e-3, top, POINTS)
     name = f"contact law over numpy.exp, {POINTS:.0e} points, h/b = {ETA}, a/h up to {top}"
@@ -158,7 +158,7 @@ NAIVE_RIGHT = (2.0, 80.0)
 """Where naive forms neither cancel by more than a factor of two nor overflow."""
 
 
-def stable_over_naive(name: str) -> Timing:
+def stable_over_naive(name: str) -> SpeedTiming:
     """A stable kernel over its naive form, where the latter is right.
 
     Arrays stay in the cache. A large one is made and given back first, as any larger
@@ -185,16 +185,16 @@ def scenes(low: float, high: float, count: int = SCENES) -> dict[str, Any]:
     return {"R": R, "m": m, "v0": np.sqrt(work / m), "h": h, "b": b, "lam": lam, "mu": mu}
 
 
-def impact_rate(low: float, high: float, limit: float) -> Timing:
+def impact_rate(low: float, high: float, limit: float) -> SpeedTiming:
     """Impacts per second in one batch of different scenes."""
     arguments = scenes(low, high)
     (duration,), spread = interleaved((lambda: impact(**arguments),), 5)
     rate = SCENES / duration
     name = f"impacts in a batch of {SCENES:.0e} scenes, a_m/h from {low} to {high}"
-    return Timing(name, rate, "1/s", limit, spread, rate >= limit)
+    return SpeedTiming(name, rate, "1/s", limit, spread, rate >= limit)
 
 
-def cold_start(command: str, scene: Path, limit: float) -> Timing:
+def cold_start(command: str, scene: Path, limit: float) -> SpeedTiming:
     """A command over the imports of the libraries it builds on, as processes."""
     name = f"platecontact {command} {scene.name}, cold, over its libraries' imports"
     return ratio(name, process(COMMAND, command, str(scene), "--json", "-"), process(LIBRARIES),
@@ -208,7 +208,7 @@ def process(code: str, *arguments: str) -> Callable[[], object]:
     return lambda: subprocess.run(call, check=True, capture_output=True, env=usual)
 
 
-def hertz_alone(scene: Path, limit: float) -> Timing:
+def hertz_alone(scene: Path, limit: float) -> SpeedTiming:
     """A scene where Hertz's law is enough, over the same with every other effect switched off."""
     with tempfile.TemporaryDirectory() as folder:
         plain = Path(folder) / scene.name
@@ -225,7 +225,7 @@ def measure(
     examples: Sequence[Path],
     solved: Collection[Path] = (),
     tell: Callable[[str, int, int], None] | None = None,
-) -> list[Timing]:
+) -> list[SpeedTiming]:
     """Every comparison, one after the other.
 
     Parameters
@@ -237,7 +237,7 @@ def measure(
     tell
         Called before each with its name, number and how many there are.
     """
-    planned: tuple[tuple[str, Callable[[], Timing]], ...] = (
+    planned: tuple[tuple[str, Callable[[], SpeedTiming]], ...] = (
         ("small contacts", lambda: law_over_exp(0.3, 6.0)),
         ("contacts up to 3 h", lambda: law_over_exp(3.0, 15.0)),
         ("impacts", lambda: impact_rate(0.01, 2.9, 5e4)),
@@ -260,7 +260,7 @@ def measure(
     return found
 
 
-def as_data(timings: Sequence[Timing]) -> dict[str, Any]:
+def as_data(timings: Sequence[SpeedTiming]) -> dict[str, Any]:
     """The timings as plain data, with the machine and its load."""
     return {"machine": dict(machine()), "rows": [asdict(timing) for timing in timings]}
 

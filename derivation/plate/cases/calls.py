@@ -9,9 +9,8 @@ import numpy as np
 
 from derivation.engine.measure.kernels import Kernel
 from derivation.plate.budgets import read_budgets, read_promises
-from generated import held_waves, sensitivity, simple_impact, true_pressure
+from generated import edge_modes, non_hertzian_pressure, sensitivity, simple_impact
 from generated.bessel import bessel_j0
-from generated.held_modes import supported_modes
 from generated.perturbation import PrintedMotion
 from generated.plate_waves import branches
 
@@ -46,8 +45,8 @@ def others() -> tuple[Kernel, ...]:
     contact = ("a", "R", "h", "b", "modulus")
     motion = ("t", "m", "v0", "xi_2", "xi_3")
     found = [
-        Kernel("contact", "true_pressure", contact, _each(_contact), error),
-        Kernel("pressure", "true_pressure", ("r", *contact), _each(_pressure), error),
+        Kernel("contact", "non_hertzian_pressure", contact, _each(_contact), error),
+        Kernel("pressure", "non_hertzian_pressure", ("r", *contact), _each(_pressure), error),
         Kernel("corrected", "perturbation", motion, _each(_corrected), _INTEGRALS * _ULP),
         Kernel(
             "impact_sensitivities", "sensitivity", _SCENE, _sensitivities,
@@ -78,7 +77,7 @@ def _each(function: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def _contact(a: float, R: float, h: float, b: float, modulus: float) -> tuple[float, ...]:
-    found = true_pressure.contact(true_pressure.plate(h, b), a, R, modulus)
+    found = non_hertzian_pressure.contact(non_hertzian_pressure.plate(h, b), a, R, modulus)
     numbers = (
         found.force, found.indentation, found.stiffness, found.slope, found.centre_pressure,
         found.mean_pressure,
@@ -87,7 +86,9 @@ def _contact(a: float, R: float, h: float, b: float, modulus: float) -> tuple[fl
 
 
 def _pressure(r: float, a: float, R: float, h: float, b: float, modulus: float) -> float:
-    return float(true_pressure.pressure(r, true_pressure.plate(h, b), a, R, modulus))
+    return float(
+        non_hertzian_pressure.pressure(r, non_hertzian_pressure.plate(h, b), a, R, modulus)
+    )
 
 
 def _corrected(t: float, m: float, v0: float, xi_2: float, xi_3: float) -> float:
@@ -108,9 +109,8 @@ def _doubt(eta: float) -> float:
 
 
 def _of_waves() -> list[Kernel]:
-    """One branch by its index, counted from 0, and one mode of a simply supported plate."""
-    budget = read_budgets()["supported_modes"].ulp
-    found = [Kernel("supported_modes", "held_modes", ("count", "nu"), _supported, budget)]
+    """One branch by its index, counted from 0."""
+    found = []
     for parity in ("antisymmetric", "symmetric"):
         for part, (name, allowed) in enumerate((("frequency", _FREQUENCY), ("residue", _RESIDUE))):
             call = partial(_branch, parity, part)
@@ -121,42 +121,37 @@ def _of_waves() -> list[Kernel]:
 
 def _of_held_waves() -> list[Kernel]:
     """One mode of a held plate with a thickness, and the loaded face of a mode by its numbers."""
-    promised = read_promises("held_waves")
+    promised = read_promises("edge_modes")
     face = promised.pop("face")
     found = [
-        Kernel(name, "held_waves", ("count", "eta", "nu"), _each(partial(_mode, name)),
+        Kernel(name, "edge_modes", ("count", "eta", "nu"), _each(partial(_mode, name)),
                max(promised.values()))
         for name in ("clamped_waves", "supported_waves")
     ]  # fmt: skip
     for name, at in (("wave_shape", "r"), ("wave_share", "a")):
         call = _each(partial(_face, name))
-        found.append(Kernel(name, "held_waves", ("k", "k2", "t", at), call, face))
+        found.append(Kernel(name, "edge_modes", ("k", "k2", "t", at), call, face))
     return found
 
 
 def _mode(name: str, count: float, eta: float, nu: float) -> tuple[float, ...]:
-    found = getattr(held_waves, name)(int(count), eta, nu)
+    found = getattr(edge_modes, name)(int(count), eta, nu)
     return tuple(float(x[int(count) - 1]) for x in found)
 
 
 def _face(name: str, k: float, k2: float, t: float, at: float) -> float:
     numbers, none = np.array([[k], [k2], [t]]), np.zeros(1)
-    part = np.exp(-numbers[1]) * bessel_j0(numbers[0]) / held_waves._modified(numbers[1])[2]
-    waves = held_waves.Waves(
+    part = np.exp(-numbers[1]) * bessel_j0(numbers[0]) / edge_modes._modified(numbers[1])[2]
+    waves = edge_modes.Waves(
         k=numbers[0], k2=numbers[1], t=numbers[2], c=part, root=none, weight=none, residue=none
     )
     if name == "wave_shape":
-        return float(held_waves.shape(waves, at)[0, 0])
-    return float(held_waves.shares_less_one(waves, at)[0, 0])
+        return float(edge_modes.shape(waves, at)[0, 0])
+    return float(edge_modes.shares_less_one(waves, at)[0, 0])
 
 
 def _branch(parity: str, part: int, x: Any, nu: Any, index: Any) -> Any:
     return _picked(branches(x, nu, int(np.max(index)) + 1, parity)[part], index)
-
-
-def _supported(count: Any, nu: Any) -> Any:
-    found = supported_modes(int(np.max(count)), nu)
-    return tuple(_picked(table, np.asarray(count) - 1) for table in found)
 
 
 def _picked(table: Any, place: Any) -> Any:

@@ -17,19 +17,17 @@ from derivation.plate.contact.kernels import tables as contact_tables
 from derivation.plate.contact.kernels.moments import FIRST_K, finite_part_start, kappa_start
 from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.grids import seams
-from derivation.plate.hard.case import Case, checked
+from derivation.plate.hard.case import HardCase, checked
 from derivation.plate.hard.places import LAM, MU, OFFSETS, Inputs, around, beside, exactly
-from derivation.plate.impact.cases import motion_families
 from derivation.plate.impact.oracle import impact as contact_impact
-from derivation.plate.modes.cases import mode_families
-from derivation.plate.waves.cases.families import wave_families
+from derivation.plate.subjects import handed_in
 
 INDICES = (1, 2, 10, 100, 1000, 10**4, 10**5, 10**6)
 LAST_KAPPA, LAST_FINITE_PART = 196, 99
 """The last that doubles hold."""
 
 
-def families() -> tuple[Case, ...]:
+def families() -> tuple[HardCase, ...]:
     """Every systematic case; kept until what they follow from changes."""
     rooms = (
         "engine/cache.py",
@@ -45,14 +43,14 @@ def families() -> tuple[Case, ...]:
         "engine/emit",
     )
     own = ("plate/hard", "plate/grids.py", "plate/cases", "plate/*/cases*")
-    return cached("hard_families", (*rooms, *own), _families, Case)
+    return cached("hard_families", (*rooms, *own), _families, HardCase)
 
 
-def _families() -> tuple[Case, ...]:
+def _families() -> tuple[HardCase, ...]:
     made = chain(
         _block_seams(), _bessel_seams(), _zeros_by_index(), _beside_zeros(), _moments(),
-        _contact_seams(), _thickness_seams(), _thinnest(), _impact_seams(), mode_families(),
-        scene_families(), motion_families(), wave_families(),
+        _contact_seams(), _thickness_seams(), _thinnest(), _impact_seams(), scene_families(),
+        *(cases() for cases in handed_in("cases", "CASES")),
     )  # fmt: skip
     return tuple(checked(case) for case in made)
 
@@ -83,7 +81,7 @@ _OF_SEAM: dict[str, tuple[tuple[str, Callable[[float], Inputs]], ...]] = {
 by which they come to it: lengths are 1."""
 
 
-def _block_seams() -> Iterator[Case]:
+def _block_seams() -> Iterator[HardCase]:
     for variable, places in seams().items():
         for place in places:
             for offset in OFFSETS:
@@ -95,10 +93,10 @@ def _block_seams() -> Iterator[Case]:
                 cause += ", where a series hands over to exponentials or circular functions."
                 for kernel, inputs in _OF_SEAM[variable]:
                     given = inputs(beside(place, offset))
-                    yield Case("seams of the building blocks", kernel, cause, given)
+                    yield HardCase("seams of the building blocks", kernel, cause, given)
 
 
-def _bessel_seams() -> Iterator[Case]:
+def _bessel_seams() -> Iterator[HardCase]:
     start = float(bessel_tables.asymptotic_start())
     for place in bessel_tables.seams()[1:]:
         what = "one Taylor polynomial hands over to the next"
@@ -108,11 +106,11 @@ def _bessel_seams() -> Iterator[Case]:
             what = "multiples of pi/4 cease to be exact doubles"
         cause = f"0, 1 and 32 ULP to either side of x = {place:g}, where {what}."
         for kernel in ("bessel_j0", "bessel_j1"):
-            yield Case("seams of the Bessel functions", kernel, cause, exactly(x=around(place)),
+            yield HardCase("seams of the Bessel functions", kernel, cause, exactly(x=around(place)),
                        "array")  # fmt: skip
 
 
-def _zeros_by_index() -> Iterator[Case]:
+def _zeros_by_index() -> Iterator[HardCase]:
     kernels = (("bessel_j0_zeros", 0), ("bessel_j1_zeros", 1), ("bessel_j1_at_j0_zeros", 0))
     for kernel, order in kernels:
         start = bessel_tables.mcmahon_start(order)
@@ -120,20 +118,20 @@ def _zeros_by_index() -> Iterator[Case]:
             cause = f"Zero number {count}: all bits of it are asked, and no iteration."
             if count in (start - 1, start):
                 cause = f"Zero number {count}: the expansion begins with number {start}."
-            yield Case("Bessel zeros by index", kernel, cause, exactly(count=float(count)))
+            yield HardCase("Bessel zeros by index", kernel, cause, exactly(count=float(count)))
 
 
-def _beside_zeros() -> Iterator[Case]:
+def _beside_zeros() -> Iterator[HardCase]:
     for kernel, zero in (("bessel_j0", j0_zero), ("bessel_j1", j1_zero)):
         for index in (1, 3, 11, 100, 1000, 10**6):
             near = neighbours(float(zero(index, 80)), 1)
             cause = f"The doubles next to zero number {index}: the leading digits cancel."
-            yield Case(
+            yield HardCase(
                 "doubles next to zeros of J0 and J1", kernel, cause, exactly(x=near), "array"
             )
 
 
-def _moments() -> Iterator[Case]:
+def _moments() -> Iterator[HardCase]:
     group = "moments by index"
     first, last = float(FIRST_K), float(LAST_FINITE_PART)
     for argument, kernel, low, high in (
@@ -141,12 +139,12 @@ def _moments() -> Iterator[Case]:
     ):  # fmt: skip
         for index in (low, low + 1, low + 2, low + 9, low + 40, high - 1, high):
             cause = "An integral that grows like a factorial, to half a unit in the last place."
-            yield Case(group, kernel, cause, exactly(**{argument: index}))
+            yield HardCase(group, kernel, cause, exactly(**{argument: index}))
         cause = "The first index whose value no double holds."
-        yield Case(group, kernel, cause, exactly(**{argument: high + 1}), expect="nan")
+        yield HardCase(group, kernel, cause, exactly(**{argument: high + 1}), expect="nan")
         for index in (low, low + 1, 1e3, 1e6):
             cause = "The value over its leading term, far beyond where the value itself overflows."
-            yield Case(group, f"{kernel}_ratio", cause, exactly(**{argument: index}))
+            yield HardCase(group, f"{kernel}_ratio", cause, exactly(**{argument: index}))
     for argument, kernel, start in (
         ("n", "kappa_ratio", kappa_start()), ("k", "finite_part_ratio", finite_part_start()),
     ):  # fmt: skip
@@ -154,10 +152,10 @@ def _moments() -> Iterator[Case]:
             cause = (
                 f"{offset:+d} from index {start}, where the expansion takes over from the table."
             )
-            yield Case(group, kernel, cause, exactly(**{argument: float(start + offset)}))
+            yield HardCase(group, kernel, cause, exactly(**{argument: float(start + offset)}))
 
 
-def _contact_seams() -> Iterator[Case]:
+def _contact_seams() -> Iterator[HardCase]:
     """Ends of the polynomials in a/h: lengths are such that h is 1, and a therefore a/h."""
     group = "seams of the contact law"
     for b in (1e3, 10.0, 5.0, 2.0, 0.25):
@@ -171,20 +169,22 @@ def _contact_seams() -> Iterator[Case]:
             cause = f"0, 1 and 32 ULP to either side of a = {place:g} h, where {what}."
             same: dict[str, float] = {"R": 50.0, "h": 1.0, "b": b}
             near = around(place)
-            yield Case(group, "indentation", cause, exactly(a=near, **same), "array")
-            yield Case(group, "stiffness", cause, exactly(a=near, **same, lam=LAM, mu=MU), "array")
+            yield HardCase(group, "indentation", cause, exactly(a=near, **same), "array")
+            yield HardCase(
+                group, "stiffness", cause, exactly(a=near, **same, lam=LAM, mu=MU), "array"
+            )
             if place in (contact_tables.REACH, contact_tables.FAR_REACH):
-                yield Case(group, "indentation_slope", cause, exactly(a=near, **same), "array")
+                yield HardCase(group, "indentation_slope", cause, exactly(a=near, **same), "array")
             if place == contact_tables.FAR_REACH:
                 continue  # the inversion ends here
             depth = float(contact_balls.indentation(place, 50.0, 1.0, b, 30))
             given = exactly(delta=around(depth), **same)
-            yield Case(group, "contact_radius", cause, given, "array")
+            yield HardCase(group, "contact_radius", cause, given, "array")
             if b == 10.0 and place == reach:
-                yield Case(group, "force", cause, given | exactly(lam=LAM, mu=MU), "array")
+                yield HardCase(group, "force", cause, given | exactly(lam=LAM, mu=MU), "array")
 
 
-def _thickness_seams() -> Iterator[Case]:
+def _thickness_seams() -> Iterator[HardCase]:
     """Ends of the cells in b/h, of both polynomials: h is 1, and b therefore b/h."""
     ends = {float(end) for cell in contact_tables.CELLS for end in cell[:2]}
     far_ends = {float(end) for cell in contact_tables.FAR_CELLS for end in cell[:2]}
@@ -198,22 +198,22 @@ def _thickness_seams() -> Iterator[Case]:
             same: dict[str, float] = {"a": a, "R": 50.0, "h": 1.0}
             group = "seams of the contact law"
             given = exactly(**same, b=around(b))
-            yield Case(group, "indentation", cause, given, "array")
-            yield Case(group, "indentation_slope", cause, given, "array")
+            yield HardCase(group, "indentation", cause, given, "array")
+            yield HardCase(group, "indentation_slope", cause, given, "array")
             given = exactly(**same, b=around(b), lam=LAM, mu=MU)
-            yield Case(group, "stiffness", cause, given, "array")
+            yield HardCase(group, "stiffness", cause, given, "array")
 
 
-def _thinnest() -> Iterator[Case]:
+def _thinnest() -> Iterator[HardCase]:
     """The thinnest plate whose modes are summed directly, 1e-5: b is 1."""
     for offset in OFFSETS:
         given = exactly(a=6.5e-5, R=1e-2, h=beside(1e-5, offset), b=1.0)
         cause = f"{offset:+d} ULP from h/b = 1e-5, below which no sum is taken for a > 6 h."
         expect = "nan" if offset < 0 else "value"
-        yield Case("seams of the contact law", "indentation", cause, given, expect=expect)
+        yield HardCase("seams of the contact law", "indentation", cause, given, expect=expect)
 
 
-def _impact_seams() -> Iterator[Case]:
+def _impact_seams() -> Iterator[HardCase]:
     """Speeds at which the contact just grows to 3 h, in a thin plate and in the paper's."""
     for b in (100.0, 10.0):
         place = float(contact_tables.REACH)
@@ -221,4 +221,4 @@ def _impact_seams() -> Iterator[Case]:
         speeds = around(math.sqrt(2.0 * energy / 1e3))
         cause = f"0, 1 and 32 ULP to either side of the speed that reaches a = {place:g} h."
         given = exactly(R=50.0, m=1e3, v0=speeds, h=1.0, b=b, lam=LAM, mu=MU)
-        yield Case("seams of the contact law", "impact", cause, given, "array")
+        yield HardCase("seams of the contact law", "impact", cause, given, "array")

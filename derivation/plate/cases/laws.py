@@ -17,13 +17,13 @@ from derivation.plate.edge.oracle import clamped as clamp_balls
 from derivation.plate.edge.oracle import supported as edge_balls
 from derivation.plate.edge.theory import clamped as clamp
 from derivation.plate.edge.theory import sums as edge_sums
-from derivation.plate.hard.law import Given, Law
+from derivation.plate.hard.law import Given, HardLaw
 from derivation.plate.impact.oracle import impact as contact_impact
 from derivation.plate.impact.oracle import many_digits, many_sensitivities, state_rounding
 from derivation.plate.impact.oracle import printed_motion as printed_motion_balls
 from derivation.plate.impact.oracle import quantities as contact_quantities
 from derivation.plate.pressure import oracle as pressure_balls
-from derivation.plate.waves.cases.laws import WAVES
+from derivation.plate.subjects import handed_in
 
 _SPARE, _FEW = 8, 20
 """Digits beyond those asked for, and of magnitudes, which only set allowances."""
@@ -33,14 +33,14 @@ def _bits(digits: int) -> int:
     return 4 * digits + 64
 
 
-def _one(function: Callable[..., arb]) -> Law:
-    return Law(
+def _one(function: Callable[..., arb]) -> HardLaw:
+    return HardLaw(
         lambda given, digits: (function(*given, digits=digits),), oracle=(function.__module__,)
     )
 
 
-def _several(function: Callable[..., tuple[arb, ...]], count: int = 4) -> Law:
-    return Law(
+def _several(function: Callable[..., tuple[arb, ...]], count: int = 4) -> HardLaw:
+    return HardLaw(
         lambda given, digits: tuple(function(*given, digits=digits))[:count],
         oracle=(function.__module__,),
     )
@@ -56,26 +56,26 @@ def _moved(kind: str, given: tuple[Any, ...], digits: int) -> arb:
     return edge_balls.edge_part(kind, a, h, b, lam, mu, digits)
 
 
-def _supported_edge(kind: str) -> Law:
+def _supported_edge(kind: str) -> HardLaw:
     def values(given: Given, digits: int) -> tuple[arb]:
         taken = _moved(kind, tuple(given), digits)
         with flint.ctx.workprec(_bits(digits)):
             return (to_ball(edge_balls.support_ratio(*given[3:])) * taken,)
 
-    return Law(values, oracle=(edge_balls.__name__,))
+    return HardLaw(values, oracle=(edge_balls.__name__,))
 
 
-def _clamped_edge(kind: str) -> Law:
+def _clamped_edge(kind: str) -> HardLaw:
     def values(given: Given, digits: int) -> tuple[arb]:
         a, h, b, lam, mu = given
         taken = clamp_balls.clamp_part(kind, a, h, b, lam, mu, digits)
         with flint.ctx.workprec(_bits(digits)):
             return (-taken,)
 
-    return Law(values, oracle=(clamp_balls.__name__,))
+    return HardLaw(values, oracle=(clamp_balls.__name__,))
 
 
-def _edge_bound(support: str) -> Law:
+def _edge_bound(support: str) -> HardLaw:
     names = (symbols.alpha, symbols.eta, symbols.lam, symbols.mu)
 
     def values(given: Given, digits: int) -> tuple[arb]:
@@ -88,7 +88,7 @@ def _edge_bound(support: str) -> Law:
             return (to_ball(share) * found,)
 
     supported = (edge_sums.__name__, edge_balls.__name__)
-    return Law(values, oracle=supported if support == "supported" else (clamp.__name__,))
+    return HardLaw(values, oracle=supported if support == "supported" else (clamp.__name__,))
 
 
 # --- the far face
@@ -101,7 +101,7 @@ def _stiff(P: Exact, h: Exact, lam: Exact, mu: Exact) -> arb:
     return to_ball(share) / arb.pi()
 
 
-def _far(support: str) -> Law:
+def _far(support: str) -> HardLaw:
     def of_edge(given: Given, digits: int) -> tuple[arb, arb]:
         """What the states of bending and of stretching add to S."""
         _, a, h, b, lam, mu = given
@@ -135,7 +135,7 @@ def _far(support: str) -> Law:
             return (abs(_stiff(P, h, lam, mu)) * (abs(plain) + states),)
 
     oracle = (far_face_balls.__name__, *([clamp_balls.__name__] if support == "clamped" else []))
-    return Law(values, sizes if support else None, oracle=oracle)
+    return HardLaw(values, sizes if support else None, oracle=oracle)
 
 
 # --- the sphere and the pressure
@@ -211,9 +211,10 @@ def _state(given: Given, digits: int) -> tuple[arb, ...]:
     return contact_quantities.state(t, R, m, v0, h, b, lam, mu, digits, law)
 
 
-_ESTIMATE = Law(
+_ESTIMATE = HardLaw(
     lambda given, digits: _impact(tuple(given), digits),
     conditioned=False,
+    results=4,
     oracle=(many_digits.__name__,),
 )
 """A simple law states its own error: of the impact by the law that holds."""
@@ -238,7 +239,7 @@ def _at_least_one(_: Given, values: Sequence[arb]) -> tuple[arb, ...]:
     return tuple(abs(value).max(arb(1)) for value in values)
 
 
-LAWS: Mapping[str, Law] = {
+LAWS: Mapping[str, HardLaw] = {
     "indentation": _one(contact_balls.indentation),
     "indentation_slope": _one(contact_balls.slope),
     "contact_radius": _one(contact_balls.contact_radius),
@@ -248,18 +249,22 @@ LAWS: Mapping[str, Law] = {
     "radius_of_force": _one(contact_quantities.radius_of_force),
     "max_pressure": _one(contact_quantities.max_pressure),
     "force_by_series": _several(contact_quantities.truncated_series, 1),
-    "impact": Law(
-        lambda given, digits: _impact(tuple(given), digits), oracle=(many_digits.__name__,)
+    "impact": HardLaw(
+        lambda given, digits: _impact(tuple(given), digits),
+        results=4,
+        oracle=(many_digits.__name__,),
     ),
-    "history": Law(
+    "history": HardLaw(
         _state,
         slopes=partial(state_rounding.rounding, _state),
+        results=4,
         oracle=(many_digits.__name__, contact_quantities.__name__),
     ),
-    "impact_sensitivities": Law(
+    "impact_sensitivities": HardLaw(
         many_sensitivities.impact_sensitivities,
         _at_least_one,
         slopes=many_sensitivities.rounding,
+        results=28,
         oracle=(many_sensitivities.__name__,),
     ),
     "supported_edge": _supported_edge("indentation"),
@@ -271,29 +276,14 @@ LAWS: Mapping[str, Law] = {
     "far_stress": _far(""),
     "supported_far_stress": _far("supported"),
     "clamped_far_stress": _far("clamped"),
-    "sphere_contact": Law(_sphere, oracle=(curvature.__name__,)),
-    "contact": Law(_contact, _of_means, conditioned=False, oracle=(pressure_balls.__name__,)),
-    "pressure": Law(_pressure, _mean, conditioned=False, oracle=(pressure_balls.__name__,)),
-    "plate_of": Law(_first_coefficient, conditioned=False, oracle=(contact_balls.__name__,)),
+    "sphere_contact": HardLaw(_sphere, results=3, oracle=(curvature.__name__,)),
+    "contact": HardLaw(
+        _contact, _of_means, conditioned=False, results=6, oracle=(pressure_balls.__name__,)
+    ),
+    "pressure": HardLaw(_pressure, _mean, conditioned=False, oracle=(pressure_balls.__name__,)),
+    "plate_of": HardLaw(_first_coefficient, conditioned=False, oracle=(contact_balls.__name__,)),
     "hertz": _ESTIMATE,
     "leading": _ESTIMATE,
-    "corrected": Law(_corrected, _largest, oracle=(printed_motion_balls.__name__,)),
-    **WAVES,
-}
+    "corrected": HardLaw(_corrected, _largest, oracle=(printed_motion_balls.__name__,)),
+} | {name: law for laws in handed_in("cases", "LAWS") for name, law in laws.items()}
 """By kernel."""
-
-OUTPUTS: Mapping[str, int] = {
-    "impact": 4,
-    "history": 4,
-    "hertz": 4,
-    "leading": 4,
-    "sphere_contact": 3,
-    "contact": 6,
-    "impact_sensitivities": 28,
-    "dynamic_influence": 2,
-    "clamped_modes": 3,
-    "supported_modes": 3,
-    "clamped_waves": 7,
-    "supported_waves": 7,
-}
-"""How many results a kernel has, if not one."""

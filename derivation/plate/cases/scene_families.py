@@ -13,7 +13,7 @@ from derivation.plate.edge import kernels as edge_tables
 from derivation.plate.edge.theory.clamped import LEVEL
 from derivation.plate.effects import kernels as effect_tables
 from derivation.plate.grids import seams
-from derivation.plate.hard.case import Case
+from derivation.plate.hard.case import HardCase
 from derivation.plate.hard.places import (
     LAM,
     MU,
@@ -25,7 +25,7 @@ from derivation.plate.hard.places import (
     exactly,
 )
 from derivation.plate.pressure import kernels as pressure_tables
-from generated.true_pressure import _LOW
+from generated.non_hertzian_pressure import _LOW
 
 EDGE, FAR = "seams of the edge", "seams of the far face"
 SPHERE, PRESSURE = "seams of the sphere", "seams of the true pressure"
@@ -41,7 +41,7 @@ _MODES = (1, 2, 3)
 """Modes at whose seams cases lie: all go through the same code."""
 
 
-def scene_families() -> Iterator[Case]:
+def scene_families() -> Iterator[HardCase]:
     """Every one of them; lengths are such that the plate's radius or half-thickness is 1."""
     return chain(_edge(), _far_face(), _sphere(), _pressure())
 
@@ -50,18 +50,18 @@ def _zero(mode: int) -> float:
     return float(j0_zero(mode, 80))
 
 
-def _beside(group: str, kernels: tuple[str, ...], why: str, given: Inputs) -> Iterator[Case]:
+def _beside(group: str, kernels: tuple[str, ...], why: str, given: Inputs) -> Iterator[HardCase]:
     """A case for each kernel, with the doubles about a place."""
     return (about(group, kernel, why, given) for kernel in kernels)
 
 
 def _one_by_one(
     group: str, kernels: tuple[str, ...], place: float, why: str, moved: str, same: dict[str, float]
-) -> Iterator[Case]:
+) -> Iterator[HardCase]:
     """Cases with one double each: several in a call would share what the least of them takes."""
     for kernel, offset in product(kernels, OFFSETS):
         given = exactly(**{**same, moved: beside(place, offset)})
-        yield Case(group, kernel, f"{offset:+d} ULP from {why}.", given)
+        yield HardCase(group, kernel, f"{offset:+d} ULP from {why}.", given)
 
 
 def _last_mode(faded: int, mode: int) -> float:
@@ -72,7 +72,7 @@ def _last_mode(faded: int, mode: int) -> float:
 # --- the edge
 
 
-def _edge() -> Iterator[Case]:
+def _edge() -> Iterator[HardCase]:
     for width in (0.1, 0.5, 0.8):
         place = float((1 - Fraction(width)) / edge_tables.THIN)
         given = exactly(a=width, h=around(place), b=1.0, **_STEEL)
@@ -100,13 +100,13 @@ def _edge() -> Iterator[Case]:
 
 def _last(
     group: str, kernels: tuple[str, ...], end: float, why: str, same: dict[str, float]
-) -> Iterator[Case]:
+) -> Iterator[HardCase]:
     """About the end of a domain in a, beyond which NaN is expected."""
     for case in _one_by_one(group, kernels, end, why, "a", same):
         yield replace(case, expect="nan") if case.numbers["a"][0] > end else case
 
 
-def _shape(group: str, kernels: tuple[str, ...], more: dict[str, float]) -> Iterator[Case]:
+def _shape(group: str, kernels: tuple[str, ...], more: dict[str, float]) -> Iterator[HardCase]:
     """Where g(y) of the modes' sums changes branches."""
     for mode, place in product(_MODES[:2], seams()["y"]):
         a = around(place / _zero(mode))
@@ -115,7 +115,7 @@ def _shape(group: str, kernels: tuple[str, ...], more: dict[str, float]) -> Iter
         yield from _beside(group, kernels, why, given)
 
 
-def _materials() -> Iterator[Case]:
+def _materials() -> Iterator[HardCase]:
     why = "lam = mu, where the other of the two becomes the unit"
     for kernels, more in (((*SUMS, *CLAMPED, *BOUNDS), {}), (FAR_EDGES, {"P": _FORCE})):
         given = exactly(**more, a=0.3, h=0.2, b=1.0, lam=around(MU), mu=MU)
@@ -135,7 +135,7 @@ def _materials() -> Iterator[Case]:
 # --- the far face
 
 
-def _far_face() -> Iterator[Case]:
+def _far_face() -> Iterator[HardCase]:
     every = ("far_stress", *FAR_EDGES)
     thin, wide = float(far_face_tables.THIN), float(far_face_tables.WIDE)
     for width in (1e-3, 0.3, 0.89):
@@ -163,13 +163,13 @@ def _far_face() -> Iterator[Case]:
 # --- the sphere, the true pressure
 
 
-def _sphere() -> Iterator[Case]:
+def _sphere() -> Iterator[HardCase]:
     place = math.sqrt(effect_tables.NEAR)
     why = f"(a/R)^2 = {float(effect_tables.NEAR):g}, where a series hands over to the logarithm"
     yield from _beside(SPHERE, ("sphere_contact",), why, exactly(a_over_R=around(place)))
 
 
-def _pressure() -> Iterator[Case]:
+def _pressure() -> Iterator[HardCase]:
     same: dict[str, float] = {"R": 1e3, "modulus": 7e10}
     thin = float(pressure_tables.THIN)
     for a in (0.01, 1.0, 3.0, 5.9):

@@ -49,7 +49,7 @@ RADIUS = 1e3
 
 
 @dataclass(frozen=True)
-class Case:
+class RemainderCase:
     """A plate of radius 1 and shear modulus 1."""
 
     support: str
@@ -63,14 +63,14 @@ class Case:
 
 
 @dataclass(frozen=True)
-class Mesh:
+class RemainderMesh:
     """Degree of the elements, and how many layers are graded towards rim and corners."""
 
     degree: int = 8
     layers: int = 5
 
 
-MESHES = (Mesh(), Mesh(degree=6), Mesh(layers=4))
+MESHES = (RemainderMesh(), RemainderMesh(degree=6), RemainderMesh(layers=4))
 """The one that is believed, and two that say how far."""
 
 
@@ -106,7 +106,7 @@ def radii(h: float, layers: int) -> Double:
     return np.unique(np.concatenate(([0.0], 1.0 - np.array(steps[:-1]), [1.0])))
 
 
-def rim_displacement(case: Case, a: float, z: Double, modes: int = MODES) -> Double:
+def rim_displacement(case: RemainderCase, a: float, z: Double, modes: int = MODES) -> Double:
     """u(b, z) of the modes, their number bounded."""
     j = bessel_j0_zeros(modes)
     slope = bessel_j1_at_j0_zeros(modes)
@@ -126,7 +126,7 @@ def moments(u: Double, z: Double, weights: Double, h: float) -> tuple[float, flo
 class Field:
     """The remainder's finite-element system on one mesh."""
 
-    def __init__(self, case: Case, mesh: Mesh) -> None:
+    def __init__(self, case: RemainderCase, mesh: RemainderMesh) -> None:
         self.case, self.degree = case, mesh.degree
         self.r_ends, self.z_ends = radii(case.h, mesh.layers), heights(case.h, mesh.layers)
         self.columns = (len(self.r_ends) - 1) * mesh.degree + 1
@@ -245,14 +245,14 @@ class Field:
         return 2.0 * u - ratio * stiff * flat, 0.0 * u, -ratio * deep
 
 
-def added(case: Case, a: float) -> tuple[float, float]:
+def added(case: RemainderCase, a: float) -> tuple[float, float]:
     """What the law adds to the indentation on the paper's edge, and both together."""
     edge = {"supported": supported_edge, "clamped": clamped_edge}[case.support]
     more = float(edge(a, case.h, 1.0, case.lam, 1.0)) * a**2 / RADIUS
     return more, more + float(indentation(a, RADIUS, case.h, 1.0))
 
 
-def remainders(case: Case, mesh: Mesh) -> list[float]:
+def remainders(case: RemainderCase, mesh: RemainderMesh) -> list[float]:
     """What the law leaves out, as a share of the indentation, by a/b."""
     depths = Field(case, mesh).depths(WIDTHS)
     laws = [added(case, a) for a in WIDTHS]
@@ -265,7 +265,7 @@ def rows(
     """Every case: the remainder, and how it changes with degree and layers."""
     found: list[dict[str, object]] = []
     for support, h, nu in itertools.product(SUPPORTS, sizes, poisson):
-        case = Case(support, h, nu)
+        case = RemainderCase(support, h, nu)
         shares, *others = (remainders(case, mesh) for mesh in MESHES)
         for a, share, *rest in zip(WIDTHS, shares, *others, strict=True):
             changes = (float(f"{other - share:.1e}") for other in rest)

@@ -27,20 +27,20 @@ from collections.abc import Sequence
 import numpy as np
 
 from derivation.engine.files import measurements, write_file
-from derivation.plate.edge.remainder import Double, Mesh, heights, lobatto
+from derivation.plate.edge.remainder import Double, RemainderMesh, heights, lobatto
 
 LENGTH = 6.0
 """Of the strip, over its half-thickness: what decays goes with e^(-3.75 x) at least."""
 THINNINGS = (-0.49, -0.4, -1 / 3, -1 / 6, -0.05, 0.05, 1 / 9, 0.25, 3 / 7, 2 / 3, 9 / 11, 0.96)
 """n; nu = n/(1 + n) from -0.96 to 0.49."""
-MESHES = (Mesh(9, 9), Mesh(7, 9), Mesh(9, 7))
+MESHES = (RemainderMesh(9, 9), RemainderMesh(7, 9), RemainderMesh(9, 7))
 """The one that is used, and two that say how far."""
 
 
 class Strip:
     """The strip's finite elements for one n, shear modulus 1."""
 
-    def __init__(self, n: float, mesh: Mesh) -> None:
+    def __init__(self, n: float, mesh: RemainderMesh) -> None:
         from scipy import sparse
         from scipy.sparse.linalg import splu
 
@@ -116,7 +116,7 @@ class Strip:
 
 
 def rows(
-    thinnings: Sequence[float] = THINNINGS, meshes: Sequence[Mesh] = MESHES
+    thinnings: Sequence[float] = THINNINGS, meshes: Sequence[RemainderMesh] = MESHES
 ) -> list[dict[str, float]]:
     """Every n: its constants, and by how much another mesh changes them at most."""
     found = []

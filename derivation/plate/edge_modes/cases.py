@@ -1,12 +1,20 @@
-"""Hard cases of held plates with a thickness: the switch of I0, ends of ranges, the cut-off."""
+"""Hard cases of plates with a held edge, and their references: the switch of I0, the cut-off."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
+from fractions import Fraction
 
-from derivation.plate.hard.case import Case
+import flint
+from flint import arb
+
+from derivation.plate.edge_modes.oracle import modes as held_balls
+from derivation.plate.edge_modes.oracle import waves as held_wave_balls
+from derivation.plate.hard.case import HardCase
+from derivation.plate.hard.law import Given, HardLaw
 from derivation.plate.hard.places import about, around, exactly
+from derivation.plate.waves.cases.laws import differences
 from derivation.plate.waves.cases.places import partner_crossing
-from generated.held_waves import _SMALL
+from generated.edge_modes import _SMALL
 
 SEAMS, WAVES = "seams of held plates with a thickness", "waves of held plates"
 _MODES = ("clamped_waves", "supported_waves")
@@ -16,7 +24,7 @@ CROSSING = 12
 """Mode that is followed to where its partner k2 passes the switch of I0."""
 
 
-def held_wave_families() -> Iterator[Case]:
+def held_wave_families() -> Iterator[HardCase]:
     """Every one of them."""
     for kernel in _MODES:
         place = partner_crossing(kernel.removesuffix("_waves"), CROSSING, _METAL)
@@ -31,26 +39,82 @@ def held_wave_families() -> Iterator[Case]:
         cause = "From the axis, and from a punch of no size, to the edge."
         places = (1e-9, 1e-3, 0.3, 0.9)
         given = exactly(k=(2.2, 8.6), k2=(2.1, 8.1), t=1.02, **{at: places})
-        yield Case(WAVES, kernel, cause, given, "broadcast")
+        yield HardCase(WAVES, kernel, cause, given, "broadcast")
         cause = "High modes, whose I0 overflows, of a thin plate."
         given = exactly(k=1259.0, k2=1258.5, t=1.0, **{at: (0.3, 0.9)})
-        yield Case(WAVES, kernel, cause, given, "array")
+        yield HardCase(WAVES, kernel, cause, given, "array")
     yield from _ends()
 
 
-def _ends() -> Iterator[Case]:
+def _ends() -> Iterator[HardCase]:
     for kernel in _MODES:
         cause = "The thinnest plates."
         given = exactly(count=2.0, eta=(1e-80, 1e-30, 1e-9), nu=_METAL)
-        yield Case(WAVES, kernel, cause, given, "array")
+        yield HardCase(WAVES, kernel, cause, given, "array")
         cause = "Poisson's ratio at its ends and at 0."
-        yield Case(
+        yield HardCase(
             WAVES, kernel, cause, exactly(count=2.0, eta=0.05, nu=(_FIRST, 0.0, _LAST)), "array"
         )
         cause = "A high mode, whose part of I0 is small."
-        yield Case(WAVES, kernel, cause, exactly(count=30.0, eta=0.01, nu=_METAL))
+        yield HardCase(WAVES, kernel, cause, exactly(count=30.0, eta=0.01, nu=_METAL))
         cause = "The last mode below the cut-off."
-        yield Case(WAVES, kernel, cause, exactly(count=6.0, eta=0.1, nu=_METAL))
+        yield HardCase(WAVES, kernel, cause, exactly(count=6.0, eta=0.1, nu=_METAL))
     cause = "The first mode, whose wave number vanishes at nu = -1, of a thick plate."
     given = exactly(count=1.0, eta=0.5, nu=(_FIRST, -1.0 + 1e-9, -0.97, _LAST))
-    yield Case(WAVES, "supported_waves", cause, given, "array")
+    yield HardCase(WAVES, "supported_waves", cause, given, "array")
+
+
+_FREE = 1e-9
+"""1 + nu below which a support resists hardly: a kernel that takes 1 + nu exactly loses nothing
+there, whatever the condition number of nu."""
+
+
+# --- references
+
+
+def _of_waves(edge: held_balls.Edge) -> HardLaw:
+    """A mode of a plate with a thickness, by its number; c and k2 are counted as budgets say."""
+
+    def values(given: Given, digits: int) -> tuple[arb, ...]:
+        count, eta, nu = given
+        return held_wave_balls.wave(edge, int(count), eta, nu, digits)
+
+    def sizes(_: Given, found: Sequence[arb]) -> tuple[arb, ...]:
+        mode = held_wave_balls.Wave(*found)
+        counted = mode._replace(k2=mode.k**2 / mode.k2, c=mode.c * (1 + mode.k))
+        return tuple(abs(x) for x in counted._replace(t=abs(mode.t).max(arb(1))))
+
+    def slopes(given: Given, found: Sequence[arb]) -> Sequence[arb]:
+        if 1 + Fraction(given[2]) < _FREE:
+            return differences(values, 1)(given, found)
+        return differences(values, 1, 2)(given, found)
+
+    return HardLaw(values, sizes, slopes=slopes, results=7, oracle=(held_wave_balls.__name__,))
+
+
+def _of_face(punch: bool) -> HardLaw:
+    """The loaded face, or its mean under a punch less 1, of a mode's numbers.
+
+    Counted in the largest of its parts.
+    """
+
+    def values(given: Given, digits: int) -> tuple[arb]:
+        with flint.ctx.workprec(8 * digits + 64):
+            return (held_wave_balls.on_face(punch, *given),)
+
+    def sizes(_: Given, found: Sequence[arb]) -> tuple[arb]:
+        return (abs(found[0]) if punch else abs(found[0]).max(arb(1)),)
+
+    return HardLaw(
+        values, sizes, slopes=differences(values, 0, 1, 2, 3), oracle=(held_wave_balls.__name__,)
+    )
+
+
+CASES = held_wave_families
+LAWS: Mapping[str, HardLaw] = {
+    "clamped_waves": _of_waves("clamped"),
+    "supported_waves": _of_waves("supported"),
+    "wave_shape": _of_face(punch=False),
+    "wave_share": _of_face(punch=True),
+}
+"""By kernel."""

@@ -10,6 +10,7 @@ S has the power n of it 1 + n/2 times.
 """
 
 from fractions import Fraction
+from pathlib import Path
 
 import flint
 from flint import arb as Ball
@@ -21,6 +22,7 @@ from derivation.plate.contact.theory.split import zero_of_j0
 from derivation.plate.effects.theory import wall_growth_ball
 from derivation.plate.impact.kernels.simple import above
 from derivation.plate.impact.theory.substitution import wall_rest_ball
+from derivation.plate.modules import FunctionRow, TemplateModule
 from derivation.plate.pressure.theory.bound import WALL_EXTRA
 from derivation.plate.vocabulary import j_n, lam, mu
 from derivation.plate.waves.theory.plate_motion import plate_motion
@@ -96,3 +98,36 @@ def wall_rows() -> tuple[list[Ball], list[Ball]]:
             return depth, slope
         factorial *= 2 * k * (2 * k + 1)
     raise ArithmeticError("the side wall's series needs more of kappa_n")
+
+
+FOLDER = Path(__file__).parent
+MODULES = (
+    TemplateModule(
+        "effects",
+        FOLDER,
+        effect_context,
+        (
+            FunctionRow(
+                "sphere_contact", ("a_over_R",), "1", "", "7", "a sphere over a paraboloid"
+            ),
+            FunctionRow(
+                "zener_number",
+                ("R", "m", "v0", "h", "lam", "mu", "rho"),
+                "1",
+                r"\lambda_Z",
+                "",
+                "how much of the impact the plate's waves carry away",
+            ),
+            FunctionRow(
+                "bending_period", ("h", "b", "lam", "mu", "rho"), "s", "T_1", "", "bending period"
+            ),
+            FunctionRow(
+                "echo_time", ("h", "lam", "mu", "rho"), "s", "T_e", "", "time of two echoes"
+            ),
+            FunctionRow("side_wall", ("alpha",), "1", "W", "6", "what the finite radius adds"),
+            FunctionRow(
+                "bending", ("a_ratio", "eta"), "1", "F_B", "6", "what a thin plate's bending adds"
+            ),
+        ),
+    ),
+)

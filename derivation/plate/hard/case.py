@@ -31,7 +31,7 @@ Numbers = tuple[float, ...]
 
 
 @dataclass(frozen=True)
-class Case:
+class HardCase:
     """One hard case.
 
     Parameters
@@ -103,7 +103,7 @@ class Case:
         return found
 
 
-def written() -> Iterator[Case]:
+def written() -> Iterator[HardCase]:
     """The cases written by hand.
 
     Raises
@@ -116,15 +116,15 @@ def written() -> Iterator[Case]:
     yield from (_read(row) for row in rows)
 
 
-def _read(row: Mapping[str, Any]) -> Case:
+def _read(row: Mapping[str, Any]) -> HardCase:
     given = {
         name: (texts,) if isinstance(texts, str) else tuple(texts)
         for name, texts in row["inputs"].items()
     }
-    return checked(Case(**{**row, "inputs": given}))
+    return checked(HardCase(**{**row, "inputs": given}))
 
 
-def checked(case: Case) -> Case:
+def checked(case: HardCase) -> HardCase:
     """The case, if it is well formed.
 
     Raises
@@ -152,14 +152,14 @@ def _is_single(point: Mapping[str, float]) -> bool:
     return all(math.isnan(x) or float(np.float32(x)) == x for x in point.values())
 
 
-def handed_over(case: Case, names: tuple[str, ...]) -> list[Any]:
+def handed_over(case: HardCase, names: tuple[str, ...]) -> list[Any]:
     """A kernel's arguments in the case's form, in the kernel's order."""
     numbers = case.numbers
     axes = {name: axis for axis, name in enumerate(case.listed)}
     return [_argument(case, numbers[name], axes.get(name)) for name in names]
 
 
-def _argument(case: Case, values: Numbers, axis: int | None) -> Any:
+def _argument(case: HardCase, values: Numbers, axis: int | None) -> Any:
     if case.form == "integer":
         whole = [int(x) for x in values]
         return whole[0] if axis is None else np.array(whole)

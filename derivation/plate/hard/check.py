@@ -17,7 +17,7 @@ from derivation.engine.measure.kernels import Kernel
 from derivation.engine.measure.record import provenance
 from derivation.plate.cases.calls import Stating, others
 from derivation.plate.cases.families import families
-from derivation.plate.hard.case import Case, handed_over, written
+from derivation.plate.hard.case import HardCase, handed_over, written
 from derivation.plate.hard.truth import DIGITS, Known, Stored, known_of, outputs, restored
 from derivation.plate.judge import PACKAGE, generated_kernels, printed_kernels
 
@@ -29,7 +29,7 @@ Data = Mapping[str, Any]
 
 
 @dataclass(frozen=True)
-class Row:
+class HardRow:
     """What became of a case.
 
     Parameters
@@ -47,7 +47,7 @@ class Row:
         Why the case failed; empty if it did not.
     """
 
-    case: Case
+    case: HardCase
     truth: Known
     error: float
     allowed: float
@@ -60,7 +60,7 @@ class Row:
         return not self.problem
 
 
-def cases() -> tuple[Case, ...]:
+def cases() -> tuple[HardCase, ...]:
     """Every hard case, those written by hand first.
 
     Raises
@@ -90,7 +90,7 @@ def kernels() -> dict[str, Kernel]:
     return found | {kernel.name: kernel for kernel in others()}
 
 
-def committed(data: Data, given: Sequence[Case]) -> dict[str, Known]:
+def committed(data: Data, given: Sequence[HardCase]) -> dict[str, Known]:
     """The references that were recorded.
 
     Raises
@@ -108,10 +108,10 @@ def committed(data: Data, given: Sequence[Case]) -> dict[str, Known]:
 
 
 def check(
-    given: Sequence[Case],
+    given: Sequence[HardCase],
     truth: Mapping[str, Known],
     known: Mapping[str, Kernel],
-) -> tuple[Row, ...]:
+) -> tuple[HardRow, ...]:
     """Hold generated and printed forms to the references, case by case."""
     printed = {kernel.name: kernel for kernel in printed_kernels()}
     return tuple(
@@ -119,7 +119,7 @@ def check(
     )
 
 
-def _row(case: Case, known: Known, kernel: Kernel, printed: Kernel | None) -> Row:
+def _row(case: HardCase, known: Known, kernel: Kernel, printed: Kernel | None) -> HardRow:
     stored = known.references
     results, problem = _results(case, kernel, stored)
     if not problem and results.shape[1:] != case.shape:
@@ -142,11 +142,11 @@ def _row(case: Case, known: Known, kernel: Kernel, printed: Kernel | None) -> Ro
     if printed is not None and case.expect == "value" and stored:
         with np.errstate(all="ignore"):
             shown = _largest(_call(case, printed).ravel().tolist(), stored, case.format)
-    return Row(case, known, error, allowed, shown, problem)
+    return HardRow(case, known, error, allowed, shown, problem)
 
 
 def _results(
-    case: Case, kernel: Kernel, stored: Sequence[Stored]
+    case: HardCase, kernel: Kernel, stored: Sequence[Stored]
 ) -> tuple[np.ndarray[Any, Any], str]:
     """Results, one output after the other, and what was wrong with the call.
 
@@ -164,7 +164,7 @@ def _results(
         return np.empty((0, *case.shape)), f"{type(error).__name__}: {error}"
 
 
-def _call(case: Case, kernel: Kernel) -> np.ndarray[Any, Any]:
+def _call(case: HardCase, kernel: Kernel) -> np.ndarray[Any, Any]:
     """The kernel's results, of shape (outputs, *shape)."""
     if kernel.by_count:
         (count,) = case.numbers["count"]
@@ -182,7 +182,7 @@ def _call(case: Case, kernel: Kernel) -> np.ndarray[Any, Any]:
     return np.stack([np.asarray(result) for result in results])
 
 
-def _budgets(case: Case, kernel: Kernel, stored: Sequence[Stored]) -> list[float]:
+def _budgets(case: HardCase, kernel: Kernel, stored: Sequence[Stored]) -> list[float]:
     """What is allowed in ULP before conditioning, result by result."""
     if not isinstance(kernel, Stating):
         return [kernel.budget or 0.0] * len(stored)
@@ -214,7 +214,7 @@ def _largest(values: Sequence[float], stored: Sequence[Stored], fmt: Format) -> 
     return max(errors)
 
 
-def cells(row: Row) -> tuple[str, ...]:
+def cells(row: HardRow) -> tuple[str, ...]:
     """A row's entries under `COLUMNS`, as text."""
     return (
         row.case.group,
@@ -227,17 +227,17 @@ def cells(row: Row) -> tuple[str, ...]:
     )
 
 
-def as_data(rows: Sequence[Row]) -> dict[str, Any]:
+def as_data(rows: Sequence[HardRow]) -> dict[str, Any]:
     """Rows and provenance as plain data; infinities as text."""
     return {"provenance": provenance(DIGITS, PACKAGE), "cases": [_plain(row) for row in rows]}
 
 
-def to_json(rows: Sequence[Row]) -> str:
+def to_json(rows: Sequence[HardRow]) -> str:
     """The rows as JSON text, byte for byte the same for the same measurement."""
     return json.dumps(as_data(rows), indent=1, allow_nan=False) + "\n"
 
 
-def _plain(row: Row) -> dict[str, Any]:
+def _plain(row: HardRow) -> dict[str, Any]:
     case = {name: value for name, value in asdict(row.case).items() if value is not None}
     return case | {
         "inputs": {name: list(texts) for name, texts in row.case.inputs.items()},

@@ -12,7 +12,7 @@ Values = Callable[[Given, int], tuple[arb, ...]]
 
 
 @dataclass(frozen=True)
-class Law:
+class HardLaw:
     """A kernel's truth.
 
     Parameters
@@ -28,6 +28,8 @@ class Law:
     slopes
         From arguments and results, the sum of |x df/dx| over the arguments, of each result;
         found by differences if there is no quicker way.
+    results
+        How many results the kernel has.
     oracle
         Modules that the results follow from.
     """
@@ -36,4 +38,5 @@ class Law:
     sizes: Callable[[Given, Sequence[arb]], tuple[arb, ...]] | None = None
     conditioned: bool = True
     slopes: Callable[[Given, Sequence[arb]], Sequence[arb]] | None = None
+    results: int = field(default=1, kw_only=True)
     oracle: tuple[str, ...] = field(kw_only=True)

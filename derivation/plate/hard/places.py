@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from derivation.engine.formula.ulp import from_ordinal, ordinal
-from derivation.plate.hard.case import Case
+from derivation.plate.hard.case import HardCase
 
 OFFSETS = (-32, -1, 0, 1, 32)
 """How many doubles from a seam its cases lie."""
@@ -32,6 +32,8 @@ def exactly(**values: float | Sequence[float]) -> Inputs:
     }
 
 
-def about(group: str, kernel: str, why: str, given: Inputs, modes: int | None = None) -> Case:
+def about(group: str, kernel: str, why: str, given: Inputs, modes: int | None = None) -> HardCase:
     """A case of the doubles about a place, as an array."""
-    return Case(group, kernel, f"0, 1 and 32 ULP to either side of {why}.", given, "array", modes)
+    return HardCase(
+        group, kernel, f"0, 1 and 32 ULP to either side of {why}.", given, "array", modes
+    )

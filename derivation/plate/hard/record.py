@@ -8,7 +8,7 @@ from pathlib import Path
 from derivation.engine.files import write_file
 from derivation.engine.measure.check import Progress
 from derivation.engine.measure.kernels import Kernel
-from derivation.plate.hard.case import Case
+from derivation.plate.hard.case import HardCase
 from derivation.plate.hard.origin import origin
 from derivation.plate.hard.truth import Known, known_of, references
 
@@ -17,7 +17,7 @@ SAVED_EVERY = 30.0
 
 
 def find_references(
-    given: Sequence[Case], kernels: Mapping[str, Kernel], recorded: Path, part: Path,
+    given: Sequence[HardCase], kernels: Mapping[str, Kernel], recorded: Path, part: Path,
     tell: Progress | None = None,
 ) -> dict[str, Known]:  # fmt: skip
     """The truth of every case by its key, from the original expressions: minutes.

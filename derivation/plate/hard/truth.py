@@ -11,11 +11,11 @@ from derivation.engine.formula.ball import to_ball
 from derivation.engine.formula.ulp import overflows, upper_float
 from derivation.engine.measure.kernels import Kernel
 from derivation.engine.oracle.oracle import Reference
-from derivation.plate.cases.laws import LAWS, OUTPUTS
+from derivation.plate.cases.laws import LAWS
 from derivation.plate.contact.cases.truth import tolerance
 from derivation.plate.contact.oracle import balls as contact_balls
-from derivation.plate.hard.case import Case
-from derivation.plate.hard.law import Law
+from derivation.plate.hard.case import HardCase
+from derivation.plate.hard.law import HardLaw
 from derivation.plate.impact.oracle import quantities as contact_quantities
 from derivation.plate.oracle import reference
 
@@ -46,7 +46,7 @@ def known_of(data: Mapping[str, Any]) -> dict[str, Known]:
     return {row["key"]: Known(row["origin"], row["references"]) for row in data["cases"]}
 
 
-def references(case: Case, kernel: Kernel) -> list[Stored]:
+def references(case: HardCase, kernel: Kernel) -> list[Stored]:
     """The truth of a case: for every result, and of each for every point."""
     if case.expect != "value":
         values = {"nan": "nan", "zero": "0"}
@@ -61,10 +61,10 @@ def references(case: Case, kernel: Kernel) -> list[Stored]:
 
 def outputs(name: str) -> int:
     """How many results a kernel has."""
-    return OUTPUTS.get(name, 1)
+    return LAWS[name].results if name in LAWS else 1
 
 
-def _closed(case: Case, kernel: Kernel, point: Mapping[str, float]) -> Stored:
+def _closed(case: HardCase, kernel: Kernel, point: Mapping[str, float]) -> Stored:
     given = {name: point[name] for name in kernel.arguments}
     if any(number != number or abs(number) == float("inf") for number in given.values()):
         return _bare("nan")
@@ -72,7 +72,9 @@ def _closed(case: Case, kernel: Kernel, point: Mapping[str, float]) -> Stored:
     return _stored(case, found.value, found.total, found.magnitude, 1.0)
 
 
-def _of_law(case: Case, kernel: Kernel, law: Law, point: Mapping[str, float]) -> list[Stored]:
+def _of_law(
+    case: HardCase, kernel: Kernel, law: HardLaw, point: Mapping[str, float]
+) -> list[Stored]:
     given = [point[name] for name in kernel.arguments]
     values = law.values(given, DIGITS + 2)
     slopes: Sequence[arb] = [arb(0)] * len(values)
@@ -86,7 +88,7 @@ def _of_law(case: Case, kernel: Kernel, law: Law, point: Mapping[str, float]) ->
     ]
 
 
-def _sensitivities(kernel: Kernel, law: Law, given: Sequence[float]) -> list[arb]:
+def _sensitivities(kernel: Kernel, law: HardLaw, given: Sequence[float]) -> list[arb]:
     """Of every result, the sum of |x df/dx| over the arguments."""
     here = law.values(given, _SLOPE_DIGITS)
     totals = [arb(0)] * len(here)
@@ -121,7 +123,7 @@ def _bare(value: str) -> Stored:
     return {"value": value, "radius": "0", "rounding": "0", "magnitude": "0", "scale": "1"}
 
 
-def _stored(case: Case, value: arb, slope: arb, magnitude: arb, scale: float) -> Stored:
+def _stored(case: HardCase, value: arb, slope: arb, magnitude: arb, scale: float) -> Stored:
     with flint.ctx.workprec(_BITS):
         if overflows(value, case.format):
             return _bare("inf" if value > 0 else "-inf")

@@ -9,7 +9,7 @@ import flint
 from derivation.mathematics.bessel.oracle import j0_zero
 from derivation.plate.contact.kernels import tables as contact_tables
 from derivation.plate.contact.oracle import balls as contact_balls
-from derivation.plate.hard.case import Case
+from derivation.plate.hard.case import HardCase
 from derivation.plate.hard.places import LAM, MU, about, around, exactly
 from derivation.plate.impact.kernels import simple as simple_impact_tables
 from derivation.plate.impact.oracle import impact as contact_impact
@@ -23,7 +23,7 @@ _STEEL: dict[str, float] = {"lam": LAM, "mu": MU}
 _FEW = 30
 
 
-def motion_families() -> Iterator[Case]:
+def motion_families() -> Iterator[HardCase]:
     """Every one of them; the plate's half-thickness is 1 where nothing else is said."""
     return chain(_sensitivities(), _history(), _simple_impacts(), _paper())
 
@@ -34,7 +34,7 @@ def _speed(a: float, h: float, b: float) -> float:
     return math.sqrt(2.0 * float(energy) / _SPHERE["m"])
 
 
-def _sensitivities() -> Iterator[Case]:
+def _sensitivities() -> Iterator[HardCase]:
     reach, b = float(contact_tables.REACH), 10.0
     given = exactly(**_SPHERE, v0=around(_speed(reach, 1.0, b)), h=1.0, b=b, **_STEEL)
     why = f"the speed that reaches a = {reach:g} h, where the second polynomial comes in"
@@ -49,7 +49,7 @@ def _sensitivities() -> Iterator[Case]:
             yield about(IMPACTS, "impact", why, given)
 
 
-def _history() -> Iterator[Case]:
+def _history() -> Iterator[HardCase]:
     R, m = _SPHERE.values()
     h, b, reach = 1.0, 10.0, float(contact_tables.REACH)
     v0 = _speed(1.1 * reach, h, b)
@@ -66,7 +66,7 @@ def _history() -> Iterator[Case]:
 # --- simple impacts
 
 
-def _simple_impacts() -> Iterator[Case]:
+def _simple_impacts() -> Iterator[HardCase]:
     inverse = float(simple_impact_tables.THIN)
     thin = f"b = {inverse:g} h, beyond which c_1 is the thin plate's closed form"
     yield from _estimates(thin, 1.0, around(inverse))
@@ -85,7 +85,7 @@ def _simple_impacts() -> Iterator[Case]:
 
 def _estimates(
     why: str, h: float | tuple[float, ...], b: float | tuple[float, ...]
-) -> Iterator[Case]:
+) -> Iterator[HardCase]:
     """Both laws, of a contact that is narrow beside thickness and radius."""
     thickness, radius = (x if isinstance(x, float) else x[0] for x in (h, b))
     speed = _speed(0.1 * min(thickness, radius), thickness, radius)
@@ -106,7 +106,7 @@ def _root() -> float:
 # --- the paper's own motion
 
 
-def _paper() -> Iterator[Case]:
+def _paper() -> Iterator[HardCase]:
     m, v0, xi_2, xi_3 = 72.0, 1.0, 7e6, 1e8
     with flint.ctx.workprec(128):
         last = float(printed_motion_balls.last_share(m, v0, xi_2, xi_3))
@@ -116,3 +116,6 @@ def _paper() -> Iterator[Case]:
         given = exactly(t=around(place), m=m, v0=v0, xi_2=xi_2, xi_3=xi_3)
         why = f"the time when u = {u:g}, where one panel of the integrals ends"
         yield about(PAPER, "corrected", why, given)
+
+
+CASES = motion_families

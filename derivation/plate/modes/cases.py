@@ -8,7 +8,7 @@ from derivation.engine.rewrite.form import FAR, ONCE
 from derivation.mathematics.bessel.oracle import j0_zero
 from derivation.plate.blocks import blocks
 from derivation.plate.grids import seams
-from derivation.plate.hard.case import Case
+from derivation.plate.hard.case import HardCase
 from derivation.plate.hard.places import LAM, MU, OFFSETS, about, around, beside, exactly
 from derivation.plate.modes.kernels.forms import mode_forms
 from derivation.plate.oracle import arguments
@@ -52,26 +52,26 @@ _OF_SUMS = ("delta", "u", "w", "sigma_rr", "sigma_tt", "sigma_zz", "sigma_rz")
 _MODES = 3
 
 
-def mode_families() -> Iterator[Case]:
+def mode_families() -> Iterator[HardCase]:
     """Every one of them."""
     return chain(_closed(), _mode_shapes(), _sums(), _one_plate())
 
 
 def _case(
     group: str, kernel: str, why: str, given: Mapping[str, Numbers], modes: int | None = None
-) -> Case:
+) -> HardCase:
     """A case of the arguments that its kernel has."""
     own = exactly(**{name: given[name] for name in arguments(kernel)})
     return about(group, kernel, why, own, modes)
 
 
-def _by_depth(kernel: str, T: float, why: str) -> Case:
+def _by_depth(kernel: str, T: float, why: str) -> HardCase:
     """Where T = 2 phi h is a place: h is 1."""
     depth = tuple(x / 2 for x in around(T))
     return _case(CLOSED, kernel, why, {**_LENGTHS, "T": around(T), "phi": depth})
 
 
-def _closed() -> Iterator[Case]:
+def _closed() -> Iterator[HardCase]:
     pair = float(blocks()["sinh_pair"].value.at)
     for kernel in _BY_T:
         why = f"T = {pair:g}, where sinh^2 T - T^2 ceases to be a power series"
@@ -85,7 +85,7 @@ def _closed() -> Iterator[Case]:
         yield _by_depth(kernel, place, f"T = {place:g}, beyond which nothing changes")
 
 
-def _mode_shapes() -> Iterator[Case]:
+def _mode_shapes() -> Iterator[HardCase]:
     for kernel, (_, form) in mode_forms().items():
         place = float(form.at)
         phi = tuple(x / 2 for x in around(place))
@@ -102,7 +102,7 @@ def _mode_shapes() -> Iterator[Case]:
     yield _case(CLOSED, "mode_zz", why, {**_LENGTHS, "z": -0.5, "phi": phi})
 
 
-def _sums() -> Iterator[Case]:
+def _sums() -> Iterator[HardCase]:
     zero = float(j0_zero(1, 80))
     for kernel in _OF_SUMS:
         for place in seams()["T"]:
@@ -117,7 +117,7 @@ def _sums() -> Iterator[Case]:
         yield _case(SUMS, kernel, why, {**_PLATE, "r": around(_AXIS / zero)}, _MODES)
 
 
-def _one_plate() -> Iterator[Case]:
+def _one_plate() -> Iterator[HardCase]:
     """Where one sphere and one plate cease to be computed in plain numbers; the direct sum."""
     for places, moved, what in (
         (_ORDINARY, "R", "sphere radius"), (_ORDINARY, "h", "half-thickness"),
@@ -129,13 +129,13 @@ def _one_plate() -> Iterator[Case]:
                 a = 1e-3 * min(size.values())
                 given = exactly(a=a, **size)
                 cause = f"{offset:+d} ULP from a {what} of {place:g}, beyond which factors are kept"
-                yield Case(PLATES, "indentation", f"{cause} in range.", given)
+                yield HardCase(PLATES, "indentation", f"{cause} in range.", given)
     for place in _USUAL:
         for offset in OFFSETS:
             h = beside(place, offset)
             given = exactly(a=1e-3 * min(h, 1.0), R=50.0, h=h, b=1.0)
             cause = f"{offset:+d} ULP from h/b = {place:g}, beyond which factors are kept in range"
-            yield Case(PLATES, "indentation", f"{cause}.", given)
+            yield HardCase(PLATES, "indentation", f"{cause}.", given)
     count = 30
     for offset in OFFSETS:
         b = beside(count / _DIRECT, offset)
@@ -143,4 +143,7 @@ def _one_plate() -> Iterator[Case]:
             f"{offset:+d} ULP from b = {count / _DIRECT:.4g} h, where the direct sum takes a mode"
         )
         given = exactly(a=6.5, R=50.0, h=1.0, b=b)
-        yield Case(PLATES, "indentation", f"{cause} more.", given)
+        yield HardCase(PLATES, "indentation", f"{cause} more.", given)
+
+
+CASES = mode_families

@@ -27,7 +27,7 @@ WIDEST = 0.5
 """Largest a/b: beyond it too many moments would count."""
 
 
-class State(NamedTuple):
+class RouteState(NamedTuple):
     """P R/(E* a^3), delta R/a^2 and q(0) R/(E* a) [1], E* of the contact."""
 
     force: mpf
@@ -41,7 +41,7 @@ def solve(
     curvature: Fraction = Fraction(0),
     share: Fraction = Fraction(1),
     digits: int = 25,
-) -> State:
+) -> RouteState:
     """The contact of a/h, h/b, a/R (0 for a paraboloid), E* over the plate's, to so many digits.
 
     Raises
@@ -169,7 +169,7 @@ def _profile(test: int, curvature: mpf, goal: int) -> mpf:
 
 def _solve(
     case: tuple[Fraction, Fraction, Fraction, Fraction], sizes: tuple[int, ...], digits: int
-) -> list[State]:
+) -> list[RouteState]:
     """Some sizes of the basis; matrices are as ill-conditioned as those of Bernstein's powers."""
     a_ratio, eta, curvature, share = case
     most = max(sizes)
@@ -191,5 +191,5 @@ def _solve(
             chi = [solution[k] for k in range(size)]
             force = mp.fsum(c * half[k + 1] for k, c in enumerate(chi))
             centre = mp.fsum(2 * (k + 1) * c * half[k] for k, c in enumerate(chi))
-            found.append(State(2 * force, solution[size], centre / mp.pi))
+            found.append(RouteState(2 * force, solution[size], centre / mp.pi))
         return found

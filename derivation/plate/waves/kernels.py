@@ -1,8 +1,11 @@
 """Turns the theory of the plate's own motion into the numbers its generated code needs."""
 
+from pathlib import Path
+
 import sympy as sp
 
 from derivation.engine.rewrite.series import UNIT_ROUNDOFF
+from derivation.plate.modules import FunctionRow, TemplateModule
 from derivation.plate.vocabulary import gam, xi_R
 from derivation.plate.waves.theory.bending_branch import rayleigh
 
@@ -64,3 +67,49 @@ def _below_one(cubic: sp.Expr) -> sp.Rational:
     roots = (root for root in sp.Poly(cubic, xi_R).nroots() if root.is_real and 0 < root < 1)
     (root,) = (sp.Rational(root) for root in roots)
     return root
+
+
+FOLDER = Path(__file__).parent
+MODULES = (
+    TemplateModule(
+        "inertia",
+        FOLDER,
+        inertia_context,
+        (
+            FunctionRow(
+                "bending_frequency",
+                ("x", "nu"),
+                "1",
+                r"\omega_0 h/c_T",
+                "",
+                "frequency of the lowest bending branch",
+            ),
+            FunctionRow(
+                "bending_residue",
+                ("x", "nu"),
+                "1",
+                r"\rho h\,r_0",
+                "",
+                "how the lowest bending branch answers a load",
+            ),
+            FunctionRow(
+                "bending_share",
+                ("x", "nu"),
+                "1",
+                "s_0",
+                "",
+                "share of the lowest bending branch in the deflection at rest",
+            ),
+            FunctionRow(
+                "dynamic_influence",
+                ("x", "kap", "nu"),
+                "1",
+                "1/B_a, 1/B_s",
+                "",
+                "deflection of the loaded face per pressure coefficient, over h/mu: bending, "
+                "stretching",
+            ),
+        ),
+    ),
+    TemplateModule("plate_waves", FOLDER, waves_context),
+)

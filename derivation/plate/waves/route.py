@@ -14,12 +14,10 @@ from collections.abc import Callable
 
 from mpmath import mp, mpf
 
+from derivation.engine.oracle.agreement import RouteError
+
 _BITS = 200
 """Halvings at most between a frequency too low and one too high."""
-
-
-class RouteError(ArithmeticError):
-    """The route does not lead to the digits asked for."""
 
 
 def influence(x: float, kap: float, nu: float, digits: int = 30) -> tuple[mpf, mpf]:

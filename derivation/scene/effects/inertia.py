@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from derivation.scene.law import ContactLaw
 
 # The coefficients below are fitted, with no value from the literature unless one is named. Tested:
-# `check --inertia` compares the bounds that follow from them with simulations of random scenes;
+# `check inertia` compares the bounds that follow from them with simulations of random scenes;
 # reports/data/inertia.json holds 500 of them.
 MAX_DYNAMIC_FACTOR = 2.0
 """Largest deviation of a mode from its quasi-static response, over its static deflection: that of

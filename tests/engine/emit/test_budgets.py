@@ -3,6 +3,7 @@
 import dataclasses
 import subprocess
 import tomllib
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -14,7 +15,8 @@ from derivation.engine.files import ROOT
 from derivation.engine.measure.check import Row
 from derivation.engine.measure.evaluate import Errors
 from derivation.engine.measure.suggest import LEAST, MARGIN, suggestions, tighter
-from derivation.plate.budgets import BUDGETS, read_budgets
+from derivation.plate import budgets
+from derivation.plate.budgets import BUDGETS, read_budgets, read_tables
 from derivation.plate.modes.kernels.modal_sums import TESTED
 from generated.manifest import CONTACT, KERNELS
 
@@ -67,23 +69,36 @@ def looser(now: dict[str, Any], before: dict[str, Any]) -> list[str]:
 
 
 def test_budgets_are_within_what_is_required() -> None:
-    budgets = read_budgets()
-    assert {name for name, limit in REQUIRED.items() if budgets[name].ulp > limit} == set()
+    found = read_budgets()
+    assert {name for name, limit in REQUIRED.items() if found[name].ulp > limit} == set()
 
 
-def test_no_budget_was_ever_tighter() -> None:
-    versions = git("log", "--format=%H", "--", BUDGETS.relative_to(ROOT).as_posix())
+@pytest.mark.parametrize(
+    "file", [BUDGETS, *sorted(BUDGETS.parent.glob("*/budgets.toml"))], ids=lambda f: f.parent.name
+)
+def test_no_budget_was_ever_tighter(file: Path) -> None:
+    versions = git("log", "--format=%H", "--", file.relative_to(ROOT).as_posix())
     if not versions:
         pytest.skip("no history to compare with")
-    now = tomllib.loads(BUDGETS.read_text())
+    now = read_tables()
     for version in versions.split():
-        text = git("show", f"{version}:{BUDGETS.relative_to(ROOT).as_posix()}")
+        text = git("show", f"{version}:{file.relative_to(ROOT).as_posix()}")
         if text:  # a version that deletes the file shows nothing
             assert looser(now, tomllib.loads(text)) == [], version
 
 
+def test_a_second_budget_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(budgets, "BUDGETS", tmp_path / "budgets.toml")
+    text = '[ulp]\nG = 4.0\n[domain]\nG = "T > 0"\n'
+    (tmp_path / "budgets.toml").write_text(text)
+    (tmp_path / "modes").mkdir()
+    (tmp_path / "modes" / "budgets.toml").write_text(text)
+    with pytest.raises(ValueError, match="modes: a second budget for G"):
+        read_tables()
+
+
 def test_what_is_looser_is_noticed() -> None:
-    now = tomllib.loads(BUDGETS.read_text())
+    now = read_tables()
     first = {"ulp": {name: u for name, u in now["ulp"].items() if name not in REQUIRED}}
     assert looser(now, first) == []
     for name in ("Omega_1", "impact"):
@@ -98,7 +113,7 @@ def test_what_is_looser_is_noticed() -> None:
 
 
 def test_every_kernel_has_a_number_a_domain_and_one_rule() -> None:
-    data = tomllib.loads(BUDGETS.read_text())
+    data = read_tables()
     assert set(parse_budgets(data)) == {row["name"] for row in (*KERNELS, *CONTACT)}
     for table in ("ulp", "domain"):
         with pytest.raises(ValueError, match="mend G"):

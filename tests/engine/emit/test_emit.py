@@ -14,7 +14,7 @@ import pytest
 import generated
 from derivation.engine import build
 from derivation.engine.emit.freshness import compare
-from derivation.engine.files import ROOT
+from derivation.engine.files import PACKAGE, ROOT, sources
 from derivation.engine.package import files_of
 from derivation.plate.budgets import read_budgets
 from derivation.plate.paper import PAPER
@@ -189,3 +189,11 @@ def test_a_broken_package_can_be_written_anew(tmp_path: Path) -> None:
     )
     assert done.returncode == 0, done.stderr
     assert compare(tmp_path / "generated", files_of(PAPER.chain, PAPER.package()), "").fresh
+
+
+def test_the_kept_package_follows_its_templates_and_budgets() -> None:
+    """An edit of a template is not answered with the package as it was before."""
+    plate = PACKAGE / "plate"
+    needed = {*plate.rglob("*.py.j2"), *plate.rglob("budgets.toml")}
+    assert {path.name for path in needed} >= {"impact.py.j2", "viscosity.py.j2", "budgets.toml"}
+    assert needed <= set(sources(*PAPER.package().sources))

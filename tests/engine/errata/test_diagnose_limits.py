@@ -13,7 +13,7 @@ from derivation.engine.errata import compare, place, repairs, sample
 from derivation.engine.errata.dimensions import unit_name
 from derivation.engine.errata.edit import factor_pool, single_edits, term_pool
 from derivation.engine.errata.place import FACTOR, TERM, TERMS, Place, inner
-from derivation.engine.errata.variant import TWICE, Search
+from derivation.engine.errata.variant import TWICE, VariantSearch
 from derivation.engine.formula.dimension import Dimension
 from derivation.engine.formula.parse import FormulaError
 from derivation.engine.formula.proof import SYMBOLIC
@@ -26,12 +26,12 @@ from derivation.plate.vocabulary import A_j, Formula, P, R, T, a, b, h, lam, mu,
 Formulas = Mapping[str, Formula]
 
 
-def search_for(given: sp.Expr, truth: sp.Expr) -> Search:
+def search_for(given: sp.Expr, truth: sp.Expr) -> VariantSearch:
     """What the search is given for a comparison of two expressions."""
     points = sample.sample([given, truth], {}, {})
     for expression in (given, truth, *factor_pool((given, truth))):
         points.learn(expression)
-    return Search(points, factor_pool((given, truth)), term_pool(truth))
+    return VariantSearch(points, factor_pool((given, truth)), term_pool(truth))
 
 
 def mended(given: sp.Expr, truth: sp.Expr) -> Iterable[repairs.Repair]:

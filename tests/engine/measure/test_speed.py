@@ -47,7 +47,7 @@ def test_scenes_are_different_and_within_the_law() -> None:
 
 
 def test_data_names_the_machine() -> None:
-    data = speed.as_data([speed.Timing("x", 2.0, "times", 3.0, 1.1, True)])
+    data = speed.as_data([speed.SpeedTiming("x", 2.0, "times", 3.0, 1.1, True)])
     assert json.loads(json.dumps(data)) == data
     assert data["machine"]["numpy"] == np.__version__
     assert data["rows"][0]["kept"] is True

@@ -23,12 +23,12 @@ from derivation.plate.back_face import theory as far_face
 from derivation.plate.budgets import read_budgets
 from derivation.plate.edge.oracle import clamped as clamp_balls
 from derivation.plate.edge.oracle import supported as edge_balls
-from derivation.plate.modes.route.exponentials import Material, unit_mode
+from derivation.plate.modes.route.exponentials import ModeMaterial, unit_mode
 from derivation.plate.vocabulary import T
 from derivation.scene import load, read, simulate
 from derivation.scene.effects.effect import Array
+from generated import back_face as kernels
 from generated import contact_law, modal_sum
-from generated import far_face as kernels
 
 BITS = 160
 KERNELS: dict[str, Callable[..., np.ndarray]] = {
@@ -73,7 +73,7 @@ def test_factor_against_tractions_solved_in_numbers(wave: float, ratio: float) -
         derived.formulas()["far_factor"].expression, {T: Fraction(2 * Fraction(wave))}, 30
     )
     with mp.workdps(40):
-        mode = unit_mode(mpf(wave), mpf(1), Material(mpf(first), mpf(second)), mpf(-1))
+        mode = unit_mode(mpf(wave), mpf(1), ModeMaterial(mpf(first), mpf(second)), mpf(-1))
         nu = mpf(first) / (2 * (mpf(first) + second))
         stress = -2 / (1 + nu) * (mode.rr - second * wave * mode.u)
         with flint.ctx.workprec(BITS):

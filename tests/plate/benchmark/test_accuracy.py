@@ -19,7 +19,7 @@ from derivation.plate import reporting
 from derivation.plate.benchmark import run, scaling
 from derivation.plate.benchmark.catalogue import methods
 from derivation.plate.benchmark.interface import PAPER, REGIMES
-from derivation.plate.benchmark.rows import Row
+from derivation.plate.benchmark.rows import BenchmarkRow
 from derivation.plate.report import readme
 from derivation.plate.report.accuracy import accuracy_context, duration, reasons
 from derivation.plate.report.accuracy_figures import scaling as scaling_figure
@@ -62,7 +62,7 @@ def test_data_have_rows_of_every_kind(committed: dict[str, Any]) -> None:
     assert {"generated", "numpy", "python"} <= committed["provenance"].keys()
     assert [r["name"] for r in committed["regimes"]] == [r.name for r in REGIMES]
     for entry in committed["rows"]:
-        assert entry.keys() == set(Row.__dataclass_fields__)
+        assert entry.keys() == set(BenchmarkRow.__dataclass_fields__)
         assert entry["fails"] or (entry["errors"] and entry["vector"] and entry["single"])
         # Of no method that works is truncation not told from rounding.
         assert entry["fails"] or entry["errors"]["rounding"] is not None

@@ -13,19 +13,21 @@ import pytest
 
 from derivation.engine.measure.clock import Timing
 from derivation.plate.benchmark import law_series, scaling, tools
-from derivation.plate.benchmark.errors import Errors
+from derivation.plate.benchmark.errors import BenchmarkErrors
 from derivation.plate.benchmark.pareto import winners
-from derivation.plate.benchmark.rows import Row
+from derivation.plate.benchmark.rows import BenchmarkRow
 from derivation.plate.report.accuracy_figures import pareto_front
 from derivation.scene import method_selection
 
 # --- winners
 
 
-def row(family: str, total: float, seconds: float, setting: str = "") -> Row:
+def row(family: str, total: float, seconds: float, setting: str = "") -> BenchmarkRow:
     timing = Timing(seconds, 1, 1.0, 1)
-    errors = Errors(total, None, None, "0x0p+0")
-    return Row("law", "paper", family, setting, "float64", None, errors, timing, timing, 0.0)
+    errors = BenchmarkErrors(total, None, None, "0x0p+0")
+    return BenchmarkRow(
+        "law", "paper", family, setting, "float64", None, errors, timing, timing, 0.0
+    )
 
 
 def test_the_simplest_of_the_ties_wins_and_the_rest_are_named() -> None:

@@ -28,7 +28,7 @@ from derivation.plate.benchmark import (
 )
 from derivation.plate.benchmark.arithmetic import DOUBLE, HAS_LONG, LONG
 from derivation.plate.benchmark.interface import PAPER, REGIMES, Method
-from derivation.plate.benchmark.rows import Row
+from derivation.plate.benchmark.rows import BenchmarkRow
 from derivation.plate.contact.oracle import balls as contact_balls
 from generated.contact_law import force, indentation
 from generated.impact import impact
@@ -126,11 +126,13 @@ def test_one_by_one_is_timed_alone_and_other_tasks_not_at_all() -> None:
     assert row.errors is not None
     assert row.errors.total > 14.0
     assert row.vector == row.single
-    assert panels.panel("impact", PAPER, [method(right)], True) == panels.Panel((), None, None)
+    assert panels.panel("impact", PAPER, [method(right)], True) == panels.BenchmarkPanel(
+        (), None, None
+    )
 
 
 def test_a_panel_in_which_nothing_was_timed_has_no_winner() -> None:
-    row = Row("law", "paper", "m", "", "float64", "why")
+    row = BenchmarkRow("law", "paper", "m", "", "float64", "why")
     assert list(pareto._panel([row], "vector")) == []
 
 

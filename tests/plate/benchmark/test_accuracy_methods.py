@@ -24,7 +24,7 @@ from derivation.plate.benchmark.arithmetic import (
     HAS_LONG,
     LONG,
     SINGLE,
-    Balls,
+    BallArithmetic,
     Mpmath,
     as_ball,
 )
@@ -62,7 +62,7 @@ def law() -> Problem:
 )
 def test_floats_agree_with_balls(ar, right: float) -> None:
     y = np.array([1e-6, 0.3, 1.5, 1.7, 5.0], dtype=ar.dtype)
-    exact = Balls(40)
+    exact = BallArithmetic(40)
     for name in ("shape", "wall_shape", "excess"):
         values = getattr(ar, name)(y)
         with exact.context():
@@ -71,7 +71,7 @@ def test_floats_agree_with_balls(ar, right: float) -> None:
 
 
 def test_mpmath_agrees_with_balls() -> None:
-    ar, exact, y = Mpmath(30), Balls(60), [1e-3, 0.5, 3.0]
+    ar, exact, y = Mpmath(30), BallArithmetic(60), [1e-3, 0.5, 3.0]
     with ar.context(), exact.context():
         for name in ("shape", "wall_shape", "excess"):
             values = getattr(ar, name)(ar.array(y))
@@ -92,7 +92,7 @@ def test_late_coefficients_are_the_oracles_too() -> None:
     assert digits(series(0.45, 1.0, 12, 30)[11], true, 32) > 30
 
 
-@pytest.mark.parametrize("ar", [*([LONG] if HAS_LONG else []), Mpmath(30), Balls(30)])
+@pytest.mark.parametrize("ar", [*([LONG] if HAS_LONG else []), Mpmath(30), BallArithmetic(30)])
 def test_the_split_reaches_its_arithmetics_digits(law: Problem, ar) -> None:
     found = judge(law_sums.split(NODES[30], 6, ar), law, lambda: 0.0).errors
     assert found.total > ar.digits - 2
@@ -243,7 +243,7 @@ def test_what_truncates_nothing_has_rounding_alone(pressed: Problem) -> None:
 
 
 def test_truncation_is_told_beyond_doubles_too(law: Problem) -> None:
-    for ar in (Mpmath(50), Balls(50)):
+    for ar in (Mpmath(50), BallArithmetic(50)):
         found = judge(law_series.small_contacts(4, ar), law, lambda: 0.0).errors
         assert found.truncation == pytest.approx(found.total, abs=1e-9)
         assert found.rounding == law.digits

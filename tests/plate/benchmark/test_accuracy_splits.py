@@ -17,10 +17,10 @@ from derivation.plate.benchmark import (
     motion,
     stepping,
 )
-from derivation.plate.benchmark.arithmetic import HAS_LONG, LONG, Balls, as_ball
+from derivation.plate.benchmark.arithmetic import HAS_LONG, LONG, BallArithmetic, as_ball
 from derivation.plate.benchmark.by_series import LONG_NUMBERS, duration
 from derivation.plate.benchmark.collocation import radau_step
-from derivation.plate.benchmark.errors import Errors, digits, judge
+from derivation.plate.benchmark.errors import BenchmarkErrors, digits, judge
 from derivation.plate.benchmark.far_zeros import far_zeros
 from derivation.plate.benchmark.interface import PAPER, REGIMES, Method, deepest
 from derivation.plate.benchmark.problems import Problem, problem
@@ -57,7 +57,7 @@ def deep() -> Problem:
     return Problem("impact", r, speeds, (found.contact_time,), 32, speeds)
 
 
-def judged(method: Method, task: Problem) -> Errors:
+def judged(method: Method, task: Problem) -> BenchmarkErrors:
     """Errors whose parts are known and add up."""
     found = judge(method, task, lambda: 0.0).errors
     assert found.unsplit is None
@@ -91,7 +91,7 @@ def test_zeros_that_are_not_far_are_refused() -> None:
 @pytest.mark.parametrize("modes", [300, 1500])
 def test_a_sum_in_long_doubles_is_that_in_balls(modes: int) -> None:
     radii = PAPER.h * np.array([0.01, 0.1, 0.3])
-    exact = law_sums._direct(Balls(40), modes, False)(PAPER)(radii)
+    exact = law_sums._direct(BallArithmetic(40), modes, False)(PAPER)(radii)
     found = law_sums._direct(LONG, modes, False)(PAPER)(radii)
     with flint.ctx.workprec(160):
         assert min(map(digits, found, exact, [30] * 3)) > 18
@@ -125,7 +125,7 @@ def test_the_headlines_sums_in_long_doubles_are_those_in_balls(
     told = headline.told_apart(PAPER, a, true, reached, partial)
     with flint.ctx.workprec(160):
         for each in told:
-            (exact,) = law_sums._direct(Balls(40), each.modes, False)(PAPER)(np.array([a]))
+            (exact,) = law_sums._direct(BallArithmetic(40), each.modes, False)(PAPER)(np.array([a]))
             block = each.modes // 512 - 1
             assert digits(found[block], exact, 30) > 17.5
             assert each.truncation == pytest.approx(digits(exact, true, 30), abs=1e-9)

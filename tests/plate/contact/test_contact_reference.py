@@ -219,9 +219,9 @@ def test_oracles_agree_on_the_inversion() -> None:
     contact_agreement.agree("contact_radius", (1.04629, 2.0, 0.1, 1.0), 40)
 
 
-def reaching(a: float, h: float) -> contact_grid.Shape:
+def reaching(a: float, h: float) -> contact_grid.ContactShape:
     """The impact whose largest contact radius is about a, in a plate of radius 1."""
-    return contact_grid.Shape(a, R=40.0, h=h, b=1.0, lam=3e9, mu=2e9, m=0.5)
+    return contact_grid.ContactShape(a, R=40.0, h=h, b=1.0, lam=3e9, mu=2e9, m=0.5)
 
 
 @pytest.mark.parametrize(
@@ -234,7 +234,7 @@ def reaching(a: float, h: float) -> contact_grid.Shape:
     ],
 )
 def test_oracles_agree_on_impacts(
-    where: tuple[float, ...] | contact_grid.Shape, bending: float
+    where: tuple[float, ...] | contact_grid.ContactShape, bending: float
 ) -> None:
     """To 24 digits each; c_1 A says how far from Hertz's the impact is."""
     found = contact_truth.truth(("impact", where))

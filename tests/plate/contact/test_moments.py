@@ -11,7 +11,7 @@ import sympy as sp
 from flint import arb
 
 import generated
-import generated.moments
+import generated.series_constants
 from derivation.engine.formula.proof import ProofError
 from derivation.engine.formula.ulp import ulp_error
 from derivation.mathematics.bessel.theory.functions import phase_shift, power
@@ -273,7 +273,7 @@ def test_trapezoids_are_right_far_beyond_a_double() -> None:
 def test_generated_steps_are_those_of_the_theory() -> None:
     """The last ones are too small to be seen in any value."""
     expected = [float(a) for a in theory.kappa_steps(tables.TERMS)]
-    assert list(generated.moments._KAPPA_STEPS) == expected
+    assert list(generated.series_constants._KAPPA_STEPS) == expected
 
 
 def test_a_table_that_does_not_reach_the_end_is_refused() -> None:

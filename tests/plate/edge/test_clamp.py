@@ -18,7 +18,7 @@ from derivation.engine.formula.proof import SYMBOLIC, ProofError, prove
 from derivation.plate.back_face import theory as far_face
 from derivation.plate.budgets import read_budgets
 from derivation.plate.edge.oracle import clamped as clamp_balls
-from derivation.plate.edge.remainder import RADIUS, Case, Mesh, added
+from derivation.plate.edge.remainder import RADIUS, RemainderCase, RemainderMesh, added
 from derivation.plate.edge.route import clamped as clamp_routes
 from derivation.plate.edge.theory import clamped as clamp
 from derivation.plate.edge.theory.supported import states
@@ -79,7 +79,7 @@ def test_strip_is_measured_as_recorded() -> None:
     pytest.importorskip("scipy")
     from derivation.plate.edge.strip import Strip
 
-    strip = Strip(0.25, Mesh(degree=5, layers=4))
+    strip = Strip(0.25, RemainderMesh(degree=5, layers=4))
     (row,) = (row for row in strip_record() if row["n"] == 0.25)
     for got, name in zip(strip.constants(), ("turn", "level", "shear"), strict=True):
         assert got == pytest.approx(row[name], rel=2e-3)
@@ -97,7 +97,7 @@ def test_law_against_three_dimensional_elements() -> None:
     for row in rows:
         size = row["h_over_b"]
         if row["support"] == "clamped" and size in limits:
-            case = Case("clamped", size, row["nu"])
+            case = RemainderCase("clamped", size, row["nu"])
             a = row["a_over_b"]
             error = row["share_of_indentation"] * added(case, a)[1]
             kirchhoff = a**3 / RADIUS / (8 * math.pi * size**3)

@@ -23,7 +23,7 @@ from derivation.plate.edge.oracle import supported as edge_balls
 from derivation.plate.edge.route import supported as edge_routes
 from derivation.plate.edge.theory import sums as edge_sums
 from derivation.plate.edge.theory import supported as edge
-from derivation.plate.modes.route.exponentials import Material, unit_mode
+from derivation.plate.modes.route.exponentials import ModeMaterial, unit_mode
 from derivation.plate.modes.theory.influence import PLANE_STRAIN_MODULUS
 from derivation.plate.vocabulary import J1, A_j, R, a, alpha, b, eta, h, lam, mu, phi
 from generated import contact_law
@@ -85,7 +85,7 @@ def test_resultants_against_integrals_over_the_thickness(wave: float, ratio: flo
     first, second = lame(ratio)
     radius, slope = 2.4 / wave, 0.52
     with mp.workdps(40):
-        material = Material(mpf(first), mpf(second))
+        material = ModeMaterial(mpf(first), mpf(second))
 
         def moment(power: int) -> mpf:
             return slope * mp.quad(

@@ -14,9 +14,9 @@ from derivation.plate.edge.remainder import (
     SIZES,
     SUPPORTS,
     WIDTHS,
-    Case,
     Field,
-    Mesh,
+    RemainderCase,
+    RemainderMesh,
     added,
     heights,
     lobatto,
@@ -25,7 +25,7 @@ from derivation.plate.edge.remainder import (
     rim_displacement,
 )
 
-COARSE = Mesh(degree=6, layers=4)
+COARSE = RemainderMesh(degree=6, layers=4)
 
 
 def test_lobatto_is_exact_for_polynomials() -> None:
@@ -46,7 +46,7 @@ def test_meshes_fill_the_plate(h: float) -> None:
 
 def test_modes_at_the_rim_are_many_enough() -> None:
     """Their sum at both faces and within, against a quarter of the modes."""
-    case, z = Case("supported", 0.2, 0.3), np.array([-0.2, 0.0, 0.1, 0.2])
+    case, z = RemainderCase("supported", 0.2, 0.3), np.array([-0.2, 0.0, 0.1, 0.2])
     values = rim_displacement(case, 0.1, z)
     fewer = rim_displacement(case, 0.1, z, modes=1500)
     assert np.abs(values - fewer).max() < 1e-6 * np.abs(values).max()
@@ -55,7 +55,7 @@ def test_modes_at_the_rim_are_many_enough() -> None:
 @pytest.mark.parametrize("support", SUPPORTS)
 def test_states_and_elements_are_the_whole_difference(support: str) -> None:
     """Elasticity alone, without the states, gives what states and elements give together."""
-    case = Case(support, 0.2, 0.3)
+    case = RemainderCase(support, 0.2, 0.3)
     whole = Field(case, COARSE).depths(WIDTHS, states=False)
     rest = Field(case, COARSE).depths(WIDTHS)
     shares = remainders(case, COARSE)
@@ -66,8 +66,8 @@ def test_states_and_elements_are_the_whole_difference(support: str) -> None:
 
 
 def test_remainder_converges() -> None:
-    case = Case("supported", 0.3, 0.3)
-    coarse, fine = remainders(case, COARSE), remainders(case, Mesh(degree=8, layers=4))
+    case = RemainderCase("supported", 0.3, 0.3)
+    coarse, fine = remainders(case, COARSE), remainders(case, RemainderMesh(degree=8, layers=4))
     assert np.abs(np.array(coarse) / fine - 1).max() < 1e-4
 
 
@@ -91,7 +91,7 @@ def test_record() -> None:
 
 def test_rows_are_shares_and_their_changes(monkeypatch: pytest.MonkeyPatch) -> None:
     """Coarser elements come close to the record; both changes are to another mesh."""
-    meshes = (COARSE, Mesh(degree=5, layers=4), Mesh(degree=6, layers=3))
+    meshes = (COARSE, RemainderMesh(degree=5, layers=4), RemainderMesh(degree=6, layers=3))
     monkeypatch.setattr(edge_remainder, "MESHES", meshes)
     monkeypatch.setattr(edge_remainder, "SIZES", (1.0,))
     monkeypatch.setattr(edge_remainder, "POISSON", (0.3,))
@@ -106,7 +106,9 @@ def test_rows_are_shares_and_their_changes(monkeypatch: pytest.MonkeyPatch) -> N
         best = known[tuple(row[key] for key in head)]["share_of_indentation"]
         assert abs(row["share_of_indentation"] / best - 1) < 1e-2
     for support in SUPPORTS:
-        shares, lower, fewer = (remainders(Case(support, 1.0, 0.3), mesh) for mesh in meshes)
+        shares, lower, fewer = (
+            remainders(RemainderCase(support, 1.0, 0.3), mesh) for mesh in meshes
+        )
         mine = [row for row in found["rows"] if row["support"] == support]
         for row, share, one, other in zip(mine, shares, lower, fewer, strict=True):
             assert row["lower_degree"] == pytest.approx(one - share, rel=0.06)

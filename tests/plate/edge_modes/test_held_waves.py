@@ -17,10 +17,11 @@ from scipy.optimize import brentq
 from scipy.special import i0e, i1e, iv, j0, j1
 
 from derivation.engine.formula.proof import SYMBOLIC, ProofError
+from derivation.engine.oracle.agreement import RouteError
 from derivation.mathematics.bessel.theory import modified as modified_bessel
 from derivation.plate import derived
 from derivation.plate.budgets import read_promises
-from derivation.plate.edge.route.supported import RouteError
+from derivation.plate.edge_modes.cases import LAWS
 from derivation.plate.edge_modes.kernels import wave_forms as forms
 from derivation.plate.edge_modes.oracle import modes as held_balls
 from derivation.plate.edge_modes.oracle import waves as held_wave_balls
@@ -29,10 +30,9 @@ from derivation.plate.edge_modes.theory import mindlin
 from derivation.plate.edge_modes.theory import waves as theory
 from derivation.plate.vocabulary import eta as thickness
 from derivation.plate.vocabulary import nu as poisson
-from derivation.plate.waves.cases.laws import WAVES
-from generated import held_waves
+from generated import edge_modes
 from generated.bessel import bessel_j0_zeros, bessel_j1_at_j0_zeros
-from generated.held_waves import (
+from generated.edge_modes import (
     Waves,
     clamped_waves,
     cutoff,
@@ -153,7 +153,7 @@ POINTS = [
 
 @pytest.mark.parametrize(("edge", "n", "eta", "nu"), POINTS)
 def test_modes_against_the_oracle(edge: str, n: int, eta: float, nu: float) -> None:
-    law, promised = WAVES[f"{edge}_waves"], read_promises("held_waves")
+    law, promised = LAWS[f"{edge}_waves"], read_promises("edge_modes")
     given = float(n), eta, nu
     true = law.values(given, 25)
     assert law.sizes is not None
@@ -215,7 +215,7 @@ def test_results_change_smoothly(edge: str) -> None:
         [WAVES_OF[edge](12, eta, 0.3) for eta in np.linspace(0.01, 0.02, 201)],
         [WAVES_OF[edge](2, 0.1, nu) for nu in np.linspace(-0.99, 0.4999, 401)],
     ]
-    assert lines[0][0].k2[-1] > held_waves._START > lines[0][-1].k2[-1]
+    assert lines[0][0].k2[-1] > edge_modes._START > lines[0][-1].k2[-1]
     for line, allowed in zip(lines, (3e-3, 3e-2), strict=True):
         for name in Waves._fields:
             values = np.array([getattr(waves, name) for waves in line])

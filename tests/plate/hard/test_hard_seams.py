@@ -15,7 +15,7 @@ from wave_seams import WAVE_SEAMS
 import generated
 from derivation.engine.formula.ulp import ordinal
 from derivation.plate.hard import check as hard_check
-from derivation.plate.hard.case import Case
+from derivation.plate.hard.case import HardCase
 from derivation.plate.hard.places import OFFSETS
 
 SWITCHES: dict[str, dict[str, str]] = tomllib.loads(
@@ -91,7 +91,7 @@ def test_every_name_is_a_seam_or_a_reason() -> None:
 SEAMS = KERNEL_SEAMS | WAVE_SEAMS
 
 
-def missing(seam: Seam, cases: Iterable[Case]) -> list[str]:
+def missing(seam: Seam, cases: Iterable[HardCase]) -> list[str]:
     """Kernels and places without cases at the place, and 1 and 32 ULP to either side."""
     values: dict[str, set[float]] = {kernel: set() for kernel in seam.kernels}
     for case in cases:

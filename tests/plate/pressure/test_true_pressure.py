@@ -20,7 +20,15 @@ from derivation.plate.pressure.theory import true_pressure as theory
 from derivation.plate.vocabulary import a_ratio, c_A
 from derivation.plate.vocabulary import eta as eta_symbol
 from generated.contact_series import plates_of
-from generated.true_pressure import ERROR, THIN, WIDEST, WIDEST_SHARE, contact, plate, pressure
+from generated.non_hertzian_pressure import (
+    ERROR,
+    THIN,
+    WIDEST,
+    WIDEST_SHARE,
+    contact,
+    plate,
+    pressure,
+)
 
 R, E = 1e3, 7e10
 OPEN = 3.012493

@@ -16,7 +16,7 @@ from derivation.plate.vocabulary import P as force
 from derivation.plate.vocabulary import a as radius
 from derivation.plate.vocabulary import k, phi
 from derivation.plate.waves.theory import closure
-from generated import contact_law, true_pressure
+from generated import contact_law, non_hertzian_pressure
 from generated.contact_series import plate_coefficients
 
 PHI = np.array([0.7, 2.3, 9.1])
@@ -171,7 +171,7 @@ def test_variational_law_has_the_true_pressures_third_coefficient() -> None:
     h, b, R = 0.2, 1.0, 1e3
     misses = []
     for A in (0.05, 0.1):
-        true = true_pressure.contact(true_pressure.plate(h, b), A * h, R, 2.0)
+        true = non_hertzian_pressure.contact(non_hertzian_pressure.plate(h, b), A * h, R, 2.0)
         # E* = 2 with lam = 0, mu = 1: Hertz's radius of the same force.
         a = float((0.75 * true.force * R / 2.0) ** (1 / 3))
         laws = np.array([variational(a, h, b), contact_law.indentation(a, R, h, b)])

@@ -14,7 +14,7 @@ from derivation.engine.formula.ball import to_ball
 from derivation.engine.formula.ulp import DOUBLE, SINGLE, Format, spacing_exponent, ulp_error
 from derivation.plate.budgets import read_budgets
 from derivation.plate.contact.cases.judge import judge
-from derivation.plate.contact.cases.truth import Truth
+from derivation.plate.contact.cases.truth import ContactTruth
 from derivation.plate.vocabulary import xi_R
 from derivation.plate.waves import oracle as inertia_balls
 from derivation.plate.waves.oracle import KINDS
@@ -77,7 +77,7 @@ def test_lowest_branch_keeps_its_budget(name: str, fmt: Format) -> None:
         if not (-1 < point[1] < 0.5):
             continue
         ball = truth(*point, DIGITS)
-        found.append(Truth(point, (ball.str(30),), DIGITS, 1.0, 0.0, 0.0))
+        found.append(ContactTruth(point, (ball.str(30),), DIGITS, 1.0, 0.0, 0.0))
     assert judge(kernel, found, read_budgets()[name].ulp, fmt).ratio <= 1.0
 
 

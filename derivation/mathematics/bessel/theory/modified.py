@@ -1,4 +1,4 @@
-"""I0 and I1 for code: their ratio at infinity, Bessel's integral as a sum, products with J0, J1.
+"""I0 and I1 for code: their ratio at infinity and Bessel's integral as a sum.
 
 The ratio s = I1/I0 solves s' = 1 - s/k - s^2. Its series S at infinity, cut off, leaves the
 residual rho(k) there, a polynomial in 1/k that begins with the first power N left out. The
@@ -164,30 +164,3 @@ def fourth_power() -> Proof:
             ) - 1,
         },
     )  # fmt: skip
-
-
-@cache
-def products(terms: int) -> tuple[Coefficients, Coefficients]:
-    """J0 I0 and (J0 I1 + J1 I0)/k in powers of k^4."""
-    count = 2 * terms
-    a = [sp.Rational(1, 4**m * factorial(m) ** 2) for m in range(count)]
-    b = [c / (2 * (m + 1)) for m, c in enumerate(a)]  # I1/k
-    signed = [[(-1) ** m * c for m, c in enumerate(series)] for series in (a, b)]
-
-    def product(one: list[sp.Rational], other: list[sp.Rational]) -> list[sp.Rational]:
-        return [sum(one[i] * other[m - i] for i in range(m + 1)) for m in range(count)]
-
-    even = product(signed[0], a)
-    mixed = [x + y for x, y in zip(product(signed[0], b), product(signed[1], a), strict=True)]
-    closed = [
-        (-1) ** m / (sp.Integer(16) ** m * sp.factorial(m) ** 2 * sp.factorial(2 * m))
-        for m in range(terms)
-    ]
-    prove(
-        "Products of Bessel functions",
-        "Power series multiplied: powers of k^2 alone vanish, and J0 I0 has closed coefficients.",
-        {f"k^{2 * m}": even[m] for m in range(1, count, 2)}
-        | {f"k^{2 * m} mixed": mixed[m] for m in range(1, count, 2)}
-        | {f"k^{4 * m} closed": even[2 * m] - c for m, c in enumerate(closed)},
-    )
-    return tuple(even[::2]), tuple(mixed[::2])

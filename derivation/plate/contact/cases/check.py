@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from derivation.engine.formula.ulp import SINGLE
-from derivation.plate.contact.cases.grid import PAPERS_IMPACT, Point, Shape, arguments, grid
+from derivation.plate.contact.cases.grid import PAPERS_IMPACT, ContactShape, Point, arguments, grid
 from derivation.plate.contact.cases.judge import Ulps, judge, results
-from derivation.plate.contact.cases.truth import DIGITS, Job, Tell, Truth, relative, truths
+from derivation.plate.contact.cases.truth import DIGITS, ContactTruth, Job, Tell, relative, truths
 
 LIMIT = 2e-15
 """Relative error that a kernel keeps besides its budget."""
@@ -30,7 +30,7 @@ EVERY = 4
 
 
 @dataclass(frozen=True)
-class Case:
+class ContactCase:
     """One impact.
 
     Parameters
@@ -53,7 +53,7 @@ class Case:
 
 
 @dataclass(frozen=True)
-class Row:
+class ContactRow:
     """What one kernel did.
 
     Parameters
@@ -88,7 +88,7 @@ class Row:
     double: Ulps
     single: Ulps | None
     passed: bool
-    cases: tuple[Case, ...]
+    cases: tuple[ContactCase, ...]
 
 
 def check(
@@ -96,7 +96,7 @@ def check(
     points: Mapping[str, Sequence[Point]] | None = None,
     processes: int = 1,
     tell: Tell | None = None,
-) -> tuple[Row, ...]:
+) -> tuple[ContactRow, ...]:
     """Hold kernels to the truth, which is what both oracles agree on, asked point by point.
 
     Parameters
@@ -142,7 +142,7 @@ def _rounded(jobs: Sequence[Job]) -> list[Job]:
     """Some of the jobs, their arguments rounded to single precision."""
     found: list[Job] = []
     for name, where in jobs[::EVERY]:
-        point = arguments(name, where, DIGITS) if isinstance(where, Shape) else where
+        point = arguments(name, where, DIGITS) if isinstance(where, ContactShape) else where
         found.append((name, tuple(float(np.float32(x)) for x in point)))
     return found
 
@@ -169,9 +169,9 @@ def _row(
     name: str,
     call: Callable[..., Any],
     budget: float,
-    found: Sequence[Truth],
-    rounded: Sequence[Truth],
-) -> Row:
+    found: Sequence[ContactTruth],
+    rounded: Sequence[ContactTruth],
+) -> ContactRow:
     errors = [_error(name, call, true) for true in found]
     where = max(range(len(found)), key=lambda i: errors[i])
     finite = [error if math.isfinite(error) else 1e300 for error in errors]
@@ -179,7 +179,7 @@ def _row(
     single = judge(call, rounded, budget, SINGLE) if rounded else None
     kept = errors[where] <= LIMIT and double.kept and (single is None or single.kept)
     cases = [_case(t, e) for t, e in zip(found, errors, strict=True)] if name == "impact" else []
-    return Row(
+    return ContactRow(
         name,
         len(found),
         math.floor(min(true.digits for true in found)),
@@ -194,7 +194,7 @@ def _row(
     )
 
 
-def _error(name: str, call: Callable[..., Any], true: Truth) -> float:
+def _error(name: str, call: Callable[..., Any], true: ContactTruth) -> float:
     """Largest error over the results at a point; infinite if one is not finite."""
     values = [float(value) for value in results(call, true.point)]
     if len(values) != len(true.values):
@@ -203,6 +203,6 @@ def _error(name: str, call: Callable[..., Any], true: Truth) -> float:
     return max(relative(value, ball, true.scale) for value, ball in pairs)
 
 
-def _case(true: Truth, error: float) -> Case:
+def _case(true: ContactTruth, error: float) -> ContactCase:
     h, b = true.point[3], true.point[4]
-    return Case(true.bend, h / b, true.radius / h, error, math.floor(true.digits))
+    return ContactCase(true.bend, h / b, true.radius / h, error, math.floor(true.digits))

@@ -45,7 +45,7 @@ PAPERS_IMPACT = (0.13, 72.2, 1.0, 0.1, 1.0, 0.36e9, 0.43e9)
 Point = tuple[float, ...]
 
 
-class Shape(NamedTuple):
+class ContactShape(NamedTuple):
     """A contact, and what may lead to it."""
 
     a: float
@@ -57,7 +57,7 @@ class Shape(NamedTuple):
     m: float
 
 
-def grid(name: str) -> tuple[Shape, ...]:
+def grid(name: str) -> tuple[ContactShape, ...]:
     """Contacts at which a kernel is measured, the same in every run."""
     generator = random.Random(name)
     if name == "impact":
@@ -71,17 +71,17 @@ def grid(name: str) -> tuple[Shape, ...]:
     return tuple(found)
 
 
-def _drawn(generator: random.Random, i: int, eta: float, ratio: float) -> Shape:
+def _drawn(generator: random.Random, i: int, eta: float, ratio: float) -> ContactShape:
     """A contact of a given h/b and a/h in a plate of some size and matter."""
     b = LENGTHS[i % len(LENGTHS)] * generator.uniform(0.5, 2.0)
     R = b * generator.uniform(1.5, 60.0)
     mu = 10 ** generator.uniform(0.0, 11.0)
     lam = mu * generator.uniform(-0.6, 50.0)
     m = 10 ** generator.uniform(-3.0, 3.0)
-    return Shape(b * eta * ratio, R, b * eta, b, lam, mu, m)
+    return ContactShape(b * eta * ratio, R, b * eta, b, lam, mu, m)
 
 
-def arguments(name: str, shape: Shape, digits: int) -> Point:
+def arguments(name: str, shape: ContactShape, digits: int) -> Point:
     """Arguments with which a kernel should come to a contact, but for their rounding."""
     a, R, h, b, lam, mu, m = shape
     if name == "indentation":

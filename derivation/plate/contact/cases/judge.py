@@ -10,7 +10,7 @@ import numpy as np
 
 from derivation.engine.formula.ulp import DOUBLE, Format, spacing_exponent, ulp_error
 from derivation.plate.contact.cases.grid import Point
-from derivation.plate.contact.cases.truth import Truth
+from derivation.plate.contact.cases.truth import ContactTruth
 
 STEP = 1e-5
 """By how much of itself an argument is moved to find a condition number.
@@ -77,7 +77,7 @@ def conditioning(call: Callable[..., Any], point: Point) -> np.ndarray:
 
 
 def judge(
-    call: Callable[..., Any], found: Sequence[Truth], budget: float, fmt: Format = DOUBLE
+    call: Callable[..., Any], found: Sequence[ContactTruth], budget: float, fmt: Format = DOUBLE
 ) -> Ulps:
     """Hold a kernel to the truth.
 
@@ -100,7 +100,7 @@ def judge(
     )
 
 
-def _error(call: Callable[..., Any], true: Truth, fmt: Format) -> tuple[str, float, float]:
+def _error(call: Callable[..., Any], true: ContactTruth, fmt: Format) -> tuple[str, float, float]:
     """Type, ULP of error and ULP that conditioning allows, of the result worst off."""
     got = results(call, [np.dtype(fmt.name).type(x) for x in true.point])
     if got.size != len(true.values):

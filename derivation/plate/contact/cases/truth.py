@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import flint
 
-from derivation.plate.contact.cases.grid import Point, Shape, arguments
+from derivation.plate.contact.cases.grid import ContactShape, Point, arguments
 from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.impact.oracle.agreement import agree
 
@@ -19,11 +19,11 @@ _WRITTEN = 50
 """Digits with which a ball is passed on between processes."""
 
 Tell = Callable[[str, int, int], None]
-Job = tuple[str, Shape | Point]
+Job = tuple[str, ContactShape | Point]
 
 
 @dataclass(frozen=True)
-class Truth:
+class ContactTruth:
     """What both oracles say at a point.
 
     Parameters
@@ -50,7 +50,7 @@ class Truth:
     radius: float
 
 
-def truth(job: Job) -> Truth:
+def truth(job: Job) -> ContactTruth:
     """Both oracles' answer for a kernel at its arguments, or at a contact of the grid.
 
     Raises
@@ -59,13 +59,13 @@ def truth(job: Job) -> Truth:
         If they contradict each other.
     """
     name, where = job
-    point = arguments(name, where, DIGITS) if isinstance(where, Shape) else where
+    point = arguments(name, where, DIGITS) if isinstance(where, ContactShape) else where
     found = agree(name, point, DIGITS)
     values = tuple(ball.str(_WRITTEN) for ball in found.values)
     first, last = float(found.values[0]), float(found.values[-1])
     radius = last if name in ("impact", "contact_radius") else point[0]
     bend = bending(point, radius) if name == "impact" else 0.0
-    return Truth(point, values, found.digits, tolerance(name, point, first), bend, radius)
+    return ContactTruth(point, values, found.digits, tolerance(name, point, first), bend, radius)
 
 
 def tolerance(name: str, point: Point, true: float) -> float:
@@ -92,7 +92,7 @@ def bending(point: Point, radius: float) -> float:
     return float(contact_balls.coefficient(1, h, b, 12)) * (radius / h)
 
 
-def truths(jobs: Sequence[Job], processes: int = 1, tell: Tell | None = None) -> list[Truth]:
+def truths(jobs: Sequence[Job], processes: int = 1, tell: Tell | None = None) -> list[ContactTruth]:
     """Answers in the order of the questions.
 
     Parameters
@@ -113,7 +113,7 @@ def truths(jobs: Sequence[Job], processes: int = 1, tell: Tell | None = None) ->
     # Fresh processes, since a copy of one with threads may hang.
     pool = ProcessPoolExecutor(processes, multiprocessing.get_context("spawn"))
     try:
-        futures: dict[Future[Truth], str] = {pool.submit(truth, job): job[0] for job in jobs}
+        futures: dict[Future[ContactTruth], str] = {pool.submit(truth, job): job[0] for job in jobs}
         for done, future in enumerate(as_completed(futures), start=1):
             future.result()
             _report(tell, futures[future], done, len(jobs))

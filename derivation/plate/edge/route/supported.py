@@ -9,13 +9,11 @@ from collections.abc import Callable
 
 from mpmath import mp, mpc, mpf
 
+from derivation.engine.oracle.agreement import RouteError
+
 MOST = 20000
 """Roots at most."""
 _SAMPLES = 48
-
-
-class RouteError(ArithmeticError):
-    """The route does not lead to the digits asked for."""
 
 
 def _indentation(y: mpc) -> mpc:

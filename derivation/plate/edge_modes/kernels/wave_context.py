@@ -5,7 +5,7 @@ from collections.abc import Mapping
 
 from derivation.engine.emit.kernels import lines
 from derivation.engine.emit.printer import to_numpy
-from derivation.plate.edge_modes.kernels.wave_forms import Block
+from derivation.plate.edge_modes.kernels.wave_forms import WaveBlock
 from derivation.plate.edge_modes.kernels.wave_tables import held_wave_context
 
 
@@ -21,7 +21,7 @@ def held_waves_context(promised: Mapping[str, float]) -> dict[str, object]:
     }
 
 
-def _text(block: Block) -> dict[str, object]:
+def _text(block: WaveBlock) -> dict[str, object]:
     return {
         "name": block.name,
         "arguments": ", ".join(f"{argument}: Double" for argument in block.arguments),

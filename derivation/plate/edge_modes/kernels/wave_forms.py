@@ -41,7 +41,7 @@ r, square, rate, lacking = sp.symbols("r square rate lacking", real=True)
 excess, rise = sp.symbols("excess rise", real=True)
 
 
-class Block(NamedTuple):
+class WaveBlock(NamedTuple):
     """A printed function of plain statements."""
 
     name: str
@@ -91,27 +91,27 @@ def _changes() -> tuple[Step, ...]:
     )
 
 
-def _wave() -> Block:
+def _wave() -> WaveBlock:
     steps = (
         Step(xi, (root / (k * eta)) ** 2, "kap/x^2"),
         *(Step(symbol, value) for symbol, value in _parts().items()),
     )
     results = (xi, left, bent, turned, k * sp.sqrt(sp.Max(left, 0)))
-    return Block("_wave", (k, eta, nu, root), steps, results,
+    return WaveBlock("_wave", (k, eta, nu, root), steps, results,
                  "xi, k2^2/k^2, g1, g2 k2^2/k^2 and k2.")  # fmt: skip
 
 
-def _cutoff() -> Block:
+def _cutoff() -> WaveBlock:
     steps = (
         Step(xi, (root / x) ** 2),
         *(Step(symbol, value) for symbol, value in _parts().items()),
         Step(rate, _RATE),
     )
-    return Block("_to_cutoff", (x, nu, root), steps, (x * (1 + left / ((1 - left) * rate)),),
+    return WaveBlock("_to_cutoff", (x, nu, root), steps, (x * (1 + left / ((1 - left) * rate)),),
                  "A step of Newton's in log x, for k2 = 0.")  # fmt: skip
 
 
-def _edge() -> Block:
+def _edge() -> WaveBlock:
     value = k * (beta * (1 + left) - turned * mean / 2) / bent
     steep_q = _slope_of(value, {mean: (less - mean**2 / 4) * square})
     steps = (
@@ -122,11 +122,11 @@ def _edge() -> Block:
         Step(rise, j0 - j1 / k + q * j1 - slope * j0),
     )
     arguments = (k, nu, beta, xi, left, bent, turned, mean, less, j0, j1)
-    return Block("_edge", arguments, steps, (q, excess, rise),
+    return WaveBlock("_edge", arguments, steps, (q, excess, rise),
                  "q, J1 - q J0 that vanishes at a mode, and its slope by k.")  # fmt: skip
 
 
-def _first() -> Block:
+def _first() -> WaveBlock:
     bracket = turned * curl_2 / i0 + (ROTARY * xi * k**2 / 8 - goal) * (1 + left)
     value = bent * curl + j0 * bracket
     others = {
@@ -135,40 +135,40 @@ def _first() -> Block:
     steps = (*_changes(), Step(excess, value), Step(rise, _slope_of(value, others)))
     arguments = (k, nu, goal, xi, left, bent, turned, mean, j0, j1, i0, curl, steep, curl_2,
                  steep_2)  # fmt: skip
-    return Block("_first_edge", arguments, steps, (excess, rise),
+    return WaveBlock("_first_edge", arguments, steps, (excess, rise),
                  "What vanishes at the first mode of a support, and its slope by k.")  # fmt: skip
 
 
-def _start() -> Block:
+def _start() -> WaveBlock:
     """By the lowest power of k, where 3 n xi = x^2."""
     u = sp.Symbol("u", positive=True)
     lowest = 2 * curls(2)[1] * u + eta**2 / 12 * u - 2 * goal
-    return Block("_first_power", (eta, goal), (), (sp.solve(lowest, u)[0],),
+    return WaveBlock("_first_power", (eta, goal), (), (sp.solve(lowest, u)[0],),
                  "k^4 of the first mode of a support, near nu = -1.")  # fmt: skip
 
 
-def _support() -> Block:
-    return Block("_support", (nu,), (), ((1 + nu) / (1 - nu), theory.SUPPORTED),
+def _support() -> WaveBlock:
+    return WaveBlock("_support", (nu,), (), ((1 + nu) / (1 - nu), theory.SUPPORTED),
                  "goal, and beta of a simple support.")  # fmt: skip
 
 
-def _clamp() -> Block:
+def _clamp() -> WaveBlock:
     chi = sp.Symbol("chi", real=True)
     steps = (Step(chi, theory.CLAMP, "measured"),)
-    return Block("_clamp", (eta, nu), steps, (theory.CLAMPED.subs(theory.CLAMP, chi),),
+    return WaveBlock("_clamp", (eta, nu), steps, (theory.CLAMPED.subs(theory.CLAMP, chi),),
                  "beta of a clamp.")  # fmt: skip
 
 
-def _corrected() -> Block:
+def _corrected() -> WaveBlock:
     both = (sp.besselj(order, k) for order in (0, 1))
     moved = (lower_bessel(sp.diff(f, k)) for f in both)
     plain = {sp.besselj(0, k): j0, sp.besselj(1, k): j1}
     results = tuple(f + lacking * d.subs(plain) for f, d in zip((j0, j1), moved, strict=True))
-    return Block("_moved", (k, lacking, j0, j1), (), results,
+    return WaveBlock("_moved", (k, lacking, j0, j1), (), results,
                  "J0 and J1 at the root that k rounded lacks so much of.")  # fmt: skip
 
 
-def _weight() -> Block:
+def _weight() -> WaveBlock:
     total, turn, of_w, of_psi = sp.symbols("total turn of_w of_psi", real=True)
     steps = (
         Step(total, 1 + left),
@@ -182,28 +182,28 @@ def _weight() -> Block:
     )  # fmt: skip
     N = of_w + turn * of_psi
     value = (q * (1 - c * t) / j1) ** 2 * (1 + turn * bent**2) / (2 * sp.pi * N)
-    return Block("_weight", (k, eta, nu, left, bent, turned, mean, less, q, j1, c), steps,
+    return WaveBlock("_weight", (k, eta, nu, left, bent, turned, mean, less, q, j1, c), steps,
                  (t, value), "t and W.")  # fmt: skip
 
 
-def _part() -> Block:
+def _part() -> WaveBlock:
     scaled = sp.Symbol("scaled", positive=True)
-    return Block("_part", (j0, scaled, k_2), (), (j0 / scaled * sp.exp(-k_2),),
+    return WaveBlock("_part", (j0, scaled, k_2), (), (j0 / scaled * sp.exp(-k_2),),
                  "c, of I0 e^(-k2).")  # fmt: skip
 
 
-def _energy() -> Block:
+def _energy() -> WaveBlock:
     w, psi = sp.symbols("w psi", real=True)
     steps = (
         Step(w, c * growth_2 - growth),
         Step(psi, k**2 * r / 2 * (bent * short + c * turned * short_2)),
     )
     arguments = (k, eta, r, c, bent, turned, growth, growth_2, short, short_2)
-    return Block("_energy", arguments, steps, ((w**2 + eta**2 / 3 * psi**2) * r,),
+    return WaveBlock("_energy", arguments, steps, ((w**2 + eta**2 / 3 * psi**2) * r,),
                  "(w^2 + (eta^2/3) psi^2) r.")  # fmt: skip
 
 
-def _first_weight() -> Block:
+def _first_weight() -> WaveBlock:
     N, turn, bulge, axis = sp.symbols("N turn bulge axis", real=True)
     steps = (
         Step(turn, (k * eta) ** 2 / 3),
@@ -212,13 +212,13 @@ def _first_weight() -> Block:
     )
     value = axis**2 * (1 + turn * bent**2) / (2 * sp.pi * N)
     arguments = (k, eta, nu, left, bent, c, i0, growth, growth_2, N)
-    return Block("_first_weight", arguments, steps, (1 + bulge, value),
+    return WaveBlock("_first_weight", arguments, steps, (1 + bulge, value),
                  "t and W of the first mode of a support.")  # fmt: skip
 
 
-def _face() -> Block:
+def _face() -> WaveBlock:
     near, far = sp.symbols("near far", real=True)
-    return Block(
+    return WaveBlock(
         "_face",
         (c, t, near, far),
         (),
@@ -228,7 +228,7 @@ def _face() -> Block:
 
 
 @cache
-def blocks() -> tuple[Block, ...]:
+def blocks() -> tuple[WaveBlock, ...]:
     """The printed functions, by need."""
     return (
         _wave(), _cutoff(), _support(), _clamp(), _edge(), _corrected(), _part(), _weight(),
@@ -333,7 +333,7 @@ def _shorts() -> dict[sp.Symbol, sp.Expr]:
     }
 
 
-def _slopes(edge: Block, first: Block) -> dict[str, sp.Expr]:
+def _slopes(edge: WaveBlock, first: WaveBlock) -> dict[str, sp.Expr]:
     """Both slopes, xi being any function of k."""
     of_k = sp.Function("xi")(k)
     parts = {s: value.subs(xi, of_k) for s, value in _parts().items()}

@@ -15,10 +15,15 @@ from derivation.mathematics.bessel.kernels import (
     nearest_double,
     wrapped,
 )
-from derivation.mathematics.bessel.theory.modified import fourth_bound, ratio_series, sum_bound
+from derivation.mathematics.bessel.theory.modified import (
+    fourth_bound,
+    logarithm_bound,
+    ratio_bound,
+    ratio_series,
+    sum_bound,
+)
 from derivation.plate.contact.kernels.moments import BITS
 from derivation.plate.contact.kernels.tables import gauss_legendre
-from derivation.plate.edge_modes.kernels.tables import series_terms, turns
 from derivation.plate.edge_modes.kernels.wave_forms import blocks, curls, forms
 from derivation.plate.edge_modes.theory.mindlin import ROTARY, slack
 
@@ -42,6 +47,25 @@ def enough(coefficients: tuple[sp.Rational, ...]) -> int:
     """How many coefficients count up to the widest argument."""
     limit = sp.Rational(TOLERANCE) * coefficients[1]
     return first_true(lambda n: n > 2 and bool(coefficients[n] * WIDEST**n <= limit), 32) + 1
+
+
+def series_terms(start: Fraction) -> int:
+    """Terms of I1/I0 at infinity, so that neither it nor I0 is off by more than the tolerance."""
+    limit = to_ball(TOLERANCE)
+
+    def enough(terms: int) -> bool:
+        if terms < 3:
+            return False
+        within = ratio_bound(terms, start), logarithm_bound(terms, start)
+        return all(bool(bound <= limit) for bound in within)
+
+    return first_true(enough, int(start))
+
+
+def turns(steps: int) -> tuple[flint.arb, ...]:
+    """1 - cos t over half a turn, the largest first."""
+    halves = (flint.arb.sin_pi_fmpq(flint.fmpq(i, steps)) for i in reversed(range(steps // 2 + 1)))
+    return tuple(2 * half**2 for half in halves)
 
 
 def turn_steps(largest: Fraction) -> int:

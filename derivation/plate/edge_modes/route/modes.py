@@ -9,13 +9,13 @@ from typing import NamedTuple
 
 from mpmath import mp, mpf
 
-from derivation.plate.edge.route.supported import RouteError
+from derivation.engine.oracle.agreement import RouteError
 
 STEP = mpf("0.25")
 """Step of k in the count: far below the distance of modes, about pi."""
 
 
-class Mode(NamedTuple):
+class RouteMode(NamedTuple):
     """Wave number times plate radius, part of I0, and weight."""
 
     k: mpf
@@ -23,7 +23,7 @@ class Mode(NamedTuple):
     weight: mpf
 
 
-def mode(edge: str, n: int, nu: float = 0.0, digits: int = 30) -> Mode:
+def mode(edge: str, n: int, nu: float = 0.0, digits: int = 30) -> RouteMode:
     """The n-th mode of a plate held by its `edge`, "clamped" or "supported".
 
     The work goes with n^2: one mode after the other is passed.
@@ -40,7 +40,7 @@ def mode(edge: str, n: int, nu: float = 0.0, digits: int = 30) -> Mode:
         norm = mp.quad(squared, mp.linspace(0, 1, n + 1))
         # w(0) = A (1 - c), nabla^2 w(0) = -k^2 A (1 + c), and nabla^2 r^2 = 4.
         ratio = k**2 * edge_other / (4 * edge_one)
-        return Mode(k, (1 - ratio) / (1 + ratio), edge_other**2 / (2 * mp.pi * norm))
+        return RouteMode(k, (1 - ratio) / (1 + ratio), edge_other**2 / (2 * mp.pi * norm))
 
 
 def _series(start: int, strength: mpf) -> list[mpf]:

@@ -14,14 +14,14 @@ from typing import NamedTuple
 
 from mpmath import mp, mpf
 
-from derivation.plate.edge.route.supported import RouteError
+from derivation.engine.oracle.agreement import RouteError
 from derivation.plate.edge_modes.theory.waves import CHI
 from derivation.plate.waves import route as inertia_routes
 
 _STEPS = 40
 
 
-class Wave(NamedTuple):
+class RouteWave(NamedTuple):
     """As of `edge_modes.oracle.waves`."""
 
     k: mpf
@@ -48,7 +48,7 @@ class _Series(NamedTuple):
         return w, r * psi, slope
 
 
-def wave(edge: str, thickness: float, ratio: float, near: float, digits: int = 20) -> Wave:
+def wave(edge: str, thickness: float, ratio: float, near: float, digits: int = 20) -> RouteWave:
     """The mode of a plate held by its `edge`, "clamped" or "supported", that is next to a guess."""
     with mp.workdps(2 * digits + int(near) + 20):
         eta, nu = mpf(thickness), mpf(ratio)
@@ -76,7 +76,7 @@ def wave(edge: str, thickness: float, ratio: float, near: float, digits: int = 2
         weight = face**2 * (1 + (eta * k * shear) ** 2 / 3) / (2 * mp.pi * norm)
         t = (1 - face * (1 - c) / axis) / c
         residue = inertia_routes.residue(k * eta, nu, digits)
-        return Wave(k, mp.sqrt(kap), mp.sqrt(partner), c, t, weight, residue)
+        return RouteWave(k, mp.sqrt(kap), mp.sqrt(partner), c, t, weight, residue)
 
 
 def _both(k: mpf, kap: mpf, eta: mpf, nu: mpf) -> tuple[mpf, _Series, _Series]:

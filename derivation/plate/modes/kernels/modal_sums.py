@@ -3,7 +3,7 @@
 import sympy as sp
 
 from derivation.engine.emit.budgets import Budget
-from derivation.engine.emit.kernels import Kernel, Style, kernel, lines
+from derivation.engine.emit.kernels import EmittedKernel, Style, kernel, lines
 from derivation.engine.emit.printer import to_numpy
 from derivation.engine.formula.record import Record
 from derivation.engine.rewrite.form import Form
@@ -36,7 +36,7 @@ STYLE = Style(TESTED, _constants)
 
 def kernel_of_sum(
     formula: Record, coefficient: Record, factor: Record, budget: Budget, share: Form | None
-) -> Kernel:
+) -> EmittedKernel:
     """Row of a modal sum: its arguments are those of its parts, less phi and J1.
 
     One mode's share has a stable form of its own, or is one of `MODAL_SUMS`.

@@ -10,7 +10,7 @@ from mpmath import mp, mpf
 
 
 @dataclass(frozen=True)
-class Material:
+class ModeMaterial:
     """Lame's constants."""
 
     lam: mpf
@@ -31,7 +31,7 @@ class Exponential:
     sign: int
     power: int
     foot: mpf
-    material: Material
+    material: ModeMaterial
 
     def _parts(self, z: mpf) -> tuple[mpf, mpf, mpf, mpf]:
         """W, W', D and the exponential itself."""
@@ -41,7 +41,7 @@ class Exponential:
         dilatation = -2 * self.material.mu / (self.material.lam + self.material.mu) * e
         return z * e, (1 + self.sign * self.phi * z) * e, dilatation, e
 
-    def at(self, z: mpf) -> "State":
+    def at(self, z: mpf) -> "ModeState":
         """Displacements and stresses at height z."""
         lam, mu = self.material.lam, self.material.mu
         w, slope_w, dilatation, e = self._parts(z)
@@ -49,7 +49,7 @@ class Exponential:
         # U' = (D' - W'')/phi, with W'' = phi^2 W + 2 sign phi e for power 1.
         curvature = self.phi**2 * w + (2 * self.sign * self.phi * e if self.power else 0)
         slope_u = (self.sign * self.phi * dilatation - curvature) / self.phi
-        return State(
+        return ModeState(
             w=w,
             u=u,
             zz=lam * dilatation + 2 * mu * slope_w,
@@ -60,7 +60,7 @@ class Exponential:
 
 
 @dataclass(frozen=True)
-class State:
+class ModeState:
     """A mode at one height: factors of J0 (w, zz, rr, tt) and J1 (u, rz).
 
     sigma_rr and sigma_tt have beside them -+ 2 mu u J1(phi r)/r.
@@ -74,23 +74,23 @@ class State:
     tt: mpf
 
 
-def combine(weights: list[mpf], states: list[State]) -> State:
+def combine(weights: list[mpf], states: list[ModeState]) -> ModeState:
     """Weighted sum of states."""
 
     def total(part: str) -> mpf:
         return mp.fsum(c * getattr(s, part) for c, s in zip(weights, states, strict=True))
 
-    return State(*(total(part) for part in ("w", "u", "zz", "rz", "rr", "tt")))
+    return ModeState(*(total(part) for part in ("w", "u", "zz", "rz", "rr", "tt")))
 
 
-def basis(phi: mpf, h: mpf, material: Material) -> list[Exponential]:
+def basis(phi: mpf, h: mpf, material: ModeMaterial) -> list[Exponential]:
     """The four exponentials of a plate, each 1 on the face towards which it grows."""
     return [
         Exponential(phi, sign, power, sign * h, material) for power in (0, 1) for sign in (1, -1)
     ]
 
 
-def solve_tractions(phi: mpf, h: mpf, material: Material) -> list[mpf]:
+def solve_tractions(phi: mpf, h: mpf, material: ModeMaterial) -> list[mpf]:
     """Weights of the four exponentials for unit axial traction above and no other."""
     four = basis(phi, h, material)
     above, below = [e.at(h) for e in four], [e.at(-h) for e in four]
@@ -104,13 +104,13 @@ def solve_tractions(phi: mpf, h: mpf, material: Material) -> list[mpf]:
     return list(solution)
 
 
-def unit_mode(phi: mpf, h: mpf, material: Material, z: mpf) -> State:
+def unit_mode(phi: mpf, h: mpf, material: ModeMaterial, z: mpf) -> ModeState:
     """The mode under unit pressure coefficient at height z."""
     weights = solve_tractions(phi, h, material)
     return combine(weights, [e.at(z) for e in basis(phi, h, material)])
 
 
-def half_space(phi: mpf, material: Material) -> mpf:
+def half_space(phi: mpf, material: ModeMaterial) -> mpf:
     """Surface deflection of the half-space z < 0 per unit traction: two decaying exponentials."""
     surface = [Exponential(phi, 1, power, mpf(0), material).at(mpf(0)) for power in (0, 1)]
     rows = mp.matrix([[s.zz for s in surface], [s.rz for s in surface]])

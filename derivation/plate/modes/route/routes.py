@@ -21,12 +21,13 @@ from derivation.plate.contact.route.moments import (
 )
 from derivation.plate.modes.route.exponentials import (
     Exponential,
-    Material,
+    ModeMaterial,
     combine,
     half_space,
     solve_tractions,
     unit_mode,
 )
+from derivation.plate.subjects import handed_in
 
 MAX_OSCILLATIONS = 60
 
@@ -69,7 +70,7 @@ def _boussinesq_drop(digits: int) -> mpf:
         return _integral(drop, [0, mp.pi / 2], "tanh-sinh")
 
 
-def peak_pressure(R: mpf, a: mpf, material: Material) -> mpf:
+def peak_pressure(R: mpf, a: mpf, material: ModeMaterial) -> mpf:
     """p(0) > 0 such that the half-space's surface drops by a^2/(2R) from centre to edge."""
     modulus = 2 / half_space(mpf(1), material)  # E* = 2/(phi C)
     return mp.pi * modulus * a / (2 * R * _boussinesq_drop(mp.dps))
@@ -99,16 +100,16 @@ def _pressure_coefficient(v: Values) -> mpf:
     return -peak_pressure(v["R"], v["a"], _material(v)) * _sonine(v) / norm
 
 
-def _material(v: Values) -> Material:
-    return Material(v["lam"], v["mu"])
+def _material(v: Values) -> ModeMaterial:
+    return ModeMaterial(v["lam"], v["mu"])
 
 
-_UNIT = Material(mpf(1), mpf(1))
+_UNIT = ModeMaterial(mpf(1), mpf(1))
 
 
 def _omega(k: int, v: Values) -> mpf:
     """Constant of cosh, sinh, z cosh, z sinh from the weights of the exponentials."""
-    material = Material(v.get("lam", mpf(1)), v["mu"])
+    material = ModeMaterial(v.get("lam", mpf(1)), v["mu"])
     up, down, z_up, z_down = solve_tractions(v["phi"], v["h"], material)
     foot = mp.exp(-v["phi"] * v["h"])  # the exponentials are 1 on their faces
     sums = (up + down, up - down, z_up + z_down, z_up - z_down)
@@ -147,7 +148,7 @@ def _mode(v: Values, part: str) -> mpf:
 def _general(v: Values, part: str) -> mpf:
     """The general solution: hyperbolic functions as exponentials standing on z = 0."""
     c1, c2, c3, c4 = (v.get(f"C{k}", mpf(0)) for k in range(1, 5))
-    material = Material(v.get("lam", mpf(1)), v.get("mu", mpf(1)))
+    material = ModeMaterial(v.get("lam", mpf(1)), v.get("mu", mpf(1)))
     four = [
         Exponential(v["phi"], sign, power, mpf(0), material) for power in (0, 1) for sign in (1, -1)
     ]
@@ -252,6 +253,8 @@ ROUTES: dict[str, Callable[[Values], mpf]] = {
     "finite_part_ratio": lambda v: finite_part(int(v["k"]), mp.dps) / leading_finite_part(v["k"]),
 }
 """For each formula the route to its value, or to one mode's share of it."""
+for _routes in handed_in("route", "ROUTES"):
+    ROUTES |= _routes
 
 
 def _mode_of_plate(j: int, values: Values) -> dict[str, mpf]:

@@ -1,21 +1,18 @@
-"""Hard cases of the plate's waves and of the modes of held plates: seams, ends, poles, shapes."""
+"""Hard cases of the plate's waves: switch points, ends of ranges, poles, shapes."""
 
 import math
 from collections.abc import Iterator
 from fractions import Fraction
 from itertools import chain, product
 
-from derivation.mathematics.bessel.kernels import asymptotic_start
-from derivation.plate.edge_modes.cases import held_wave_families
-from derivation.plate.edge_modes.kernels.tables import modes_before
-from derivation.plate.hard.case import Case
+from derivation.plate.hard.case import HardCase
 from derivation.plate.hard.places import Inputs, about, around, beside, exactly
 from derivation.plate.waves import oracle as inertia_balls
-from derivation.plate.waves.cases.places import CROSSINGS, crossing, half_part
+from derivation.plate.waves.cases.places import CROSSINGS, crossing
 from generated.inertia import _NEAR, _SHALLOW, _SMALL
 
-WAVES, MODES = "seams of the plate's waves", "seams of held plates"
-HARD_WAVES, HARD_MODES = "waves of the plate", "modes of held plates"
+WAVES = "seams of the plate's waves"
+HARD_WAVES = "waves of the plate"
 
 LOWEST = ("bending_frequency", "bending_residue", "bending_share")
 BRANCHES = ("antisymmetric_frequency", "antisymmetric_residue", "symmetric_frequency",
@@ -30,18 +27,18 @@ _NEAREST = 2**10
 """ULP from a pole: nearer to it the value depends on the arguments' last bits like 1/x at 0."""
 
 
-def wave_families() -> Iterator[Case]:
+def wave_families() -> Iterator[HardCase]:
     """Every one of them."""
     return chain(
-        _lowest_seams(), _influence_seams(), _branch_seams(), _mode_seams(), _lowest(),
-        _influence(), _branches(), _modes(), _shapes(), held_wave_families(),
+        _lowest_seams(), _influence_seams(), _branch_seams(), _lowest(),
+        _influence(), _branches(), _shapes(),
     )  # fmt: skip
 
 
 # --- seams
 
 
-def _lowest_seams() -> Iterator[Case]:
+def _lowest_seams() -> Iterator[HardCase]:
     everywhere = {_SHALLOW: LOWEST, _SMALL: LOWEST[2:], 1.0: LOWEST[2:]}
     what = {
         _SHALLOW: "where a power series hands over to exponentials",
@@ -54,7 +51,7 @@ def _lowest_seams() -> Iterator[Case]:
             yield about(WAVES, kernel, f"x = {place:g}, {what[place]}", given)
 
 
-def _influence_seams() -> Iterator[Case]:
+def _influence_seams() -> Iterator[HardCase]:
     gam = _level(_METAL)
     for x in (1e-3, 0.7, 20.1):
         square = Fraction(x) ** 2
@@ -78,34 +75,22 @@ def _level(nu: float) -> Fraction:
     return (1 - 2 * Fraction(nu)) / (2 * (1 - Fraction(nu)))
 
 
-def _branch_seams() -> Iterator[Case]:
+def _branch_seams() -> Iterator[HardCase]:
     for name, of in CROSSINGS.items():
         place = crossing(name)
         given = exactly(x=around(place), nu=of.nu, index=float(of.index))
         yield about(WAVES, f"{of.kind}_residue", f"x = {place:g}, where {name}", given)
 
 
-def _mode_seams() -> Iterator[Case]:
-    last = modes_before(asymptotic_start())
-    for offset in (0, 1, 2, 32, 33):
-        cause = f"Mode {last + offset}: from number {last + 1} on the series at infinity serve."
-        count = float(last + offset)
-        yield Case(MODES, "clamped_modes", cause, exactly(count=count))
-        yield Case(MODES, "supported_modes", cause, exactly(count=count, nu=_METAL))
-    place = half_part()
-    why = f"nu = {place:g}, where the part of I0 in the first mode passes 1/2"
-    yield about(MODES, "supported_modes", why, exactly(count=1.0, nu=around(place)))
-
-
 # --- ends of ranges
 
 
-def _lowest() -> Iterator[Case]:
+def _lowest() -> Iterator[HardCase]:
     thinnest, shortest = 1e-90, 1e90
     x = (thinnest, 1e-40, 1e-8, 1e-3, 0.3, 1.5, 17.0, 300.0, 1e5, 1e40, shortest)
     for kernel, nu in product(LOWEST, RATIOS):
         cause = f"From the thinnest plates to Rayleigh's waves: nu = {nu:.17g}."
-        yield Case(HARD_WAVES, kernel, cause, exactly(x=x, nu=nu), "array")
+        yield HardCase(HARD_WAVES, kernel, cause, exactly(x=x, nu=nu), "array")
     for kernel in LOWEST:
         ends = (beside(thinnest, -1), beside(shortest, 1))
         yield from _refused(HARD_WAVES, kernel, "x", (*ends, *_NO_LENGTHS), nu=_METAL)
@@ -118,24 +103,24 @@ _NO_RATIOS = (0.5, -1.0, math.inf, -math.inf, math.nan)
 
 def _refused(
     group: str, kernel: str, name: str, places: tuple[float, ...], **same: float
-) -> Iterator[Case]:
+) -> Iterator[HardCase]:
     """Outside the domain in an argument: all places in one array, and one by itself."""
     cause = f"Values of {name} outside the domain."
     for given, form in ((places, "array"), (places[0], "scalar")):
-        yield Case(group, kernel, cause, exactly(**{name: given}, **same), form, expect="nan")
+        yield HardCase(group, kernel, cause, exactly(**{name: given}, **same), form, expect="nan")
 
 
-def _influence() -> Iterator[Case]:
+def _influence() -> Iterator[HardCase]:
     x = (1e-40, 1e-8, 0.3, 1.0, 2.0, 300.0, 1e40)
     for nu in (_METAL, _LAST, _FIRST):
         loads = {"at rest": 0.0, "of a subnormal number": 5e-324}
         for what, load in loads.items():
             cause = f"A load that is {what}, at nu = {nu:.17g}."
-            yield Case(HARD_WAVES, INFLUENCE, cause, exactly(x=x, kap=load, nu=nu), "array")
+            yield HardCase(HARD_WAVES, INFLUENCE, cause, exactly(x=x, kap=load, nu=nu), "array")
     for nu in (_METAL, _LAST, -0.9):  # at nu = -1 the lowest branch of stretching is there
         cause = f"A load of kap = x^2, where the expression is 0/0: nu = {nu:.17g}."
         given = exactly(x=x, kap=tuple(y * y for y in x), nu=nu)
-        yield Case(HARD_WAVES, INFLUENCE, cause, given, "array")
+        yield HardCase(HARD_WAVES, INFLUENCE, cause, given, "array")
     for y in (1e-3, 0.7, 30.0):
         for index, kind in product((0, 1, 5), inertia_balls.KINDS):
             place = float(inertia_balls.zero(y, _METAL, kind, index))
@@ -144,7 +129,7 @@ def _influence() -> Iterator[Case]:
             yield _next_to(y, y * y + (angle * math.pi) ** 2, f"a zero of the part in {what}")
     cause = "Fast beyond any branch that could be told apart."
     given = exactly(x=(1.0, 1e-40, 1e39), kap=1e80, nu=_METAL)
-    yield Case(HARD_WAVES, INFLUENCE, cause, given, "array")
+    yield HardCase(HARD_WAVES, INFLUENCE, cause, given, "array")
     places = (beside(1e-40, -1), beside(1e40, 1), *_NO_LENGTHS)
     yield from _refused(HARD_WAVES, INFLUENCE, "x", places, kap=0.5, nu=_METAL)
     loads_beyond = (-5e-324, beside(1e80, 1), math.inf, math.nan)
@@ -152,40 +137,28 @@ def _influence() -> Iterator[Case]:
     yield from _refused(HARD_WAVES, INFLUENCE, "nu", _NO_RATIOS, x=1.0, kap=0.5)
 
 
-def _next_to(x: float, place: float, what: str) -> Case:
+def _next_to(x: float, place: float, what: str) -> HardCase:
     near = tuple(beside(place, offset) for offset in (-_NEAREST, _NEAREST))
     cause = f"{_NEAREST} ULP to either side of {what}; x = {x:g}."
-    return Case(HARD_WAVES, INFLUENCE, cause, exactly(x=x, kap=near, nu=_METAL), "array")
+    return HardCase(HARD_WAVES, INFLUENCE, cause, exactly(x=x, kap=near, nu=_METAL), "array")
 
 
-def _branches() -> Iterator[Case]:
+def _branches() -> Iterator[HardCase]:
     for kernel in BRANCHES:
         for nu, index in product((_METAL, _LAST, _FIRST), (0, 1, 7)):
             cause = f"Branch {index} of thin plates and of short waves, nu = {nu:.17g}."
             given = exactly(x=(1e-40, 1e-6, 0.3, 3.0, 200.0, 1e40), nu=nu, index=float(index))
-            yield Case(HARD_WAVES, kernel, cause, given, "array")
+            yield HardCase(HARD_WAVES, kernel, cause, given, "array")
         for x, index in ((1.0, 300), (1e-6, 2000)):
             cause = f"Branch {index}, far up."
-            yield Case(HARD_WAVES, kernel, cause, exactly(x=x, nu=_METAL, index=float(index)))
+            yield HardCase(HARD_WAVES, kernel, cause, exactly(x=x, nu=_METAL, index=float(index)))
         # sqrt(gam) = 1/3: a third of a pressure wave's frequency is a shear wave's.
         cause = "Two poles that lie 8 x^2 apart enclose a branch."
         given = exactly(x=(1e-9, 1e-5, 1e-2), nu=0.4375, index=1.0)
-        yield Case(HARD_WAVES, kernel, cause, given, "array")
+        yield HardCase(HARD_WAVES, kernel, cause, given, "array")
         places = (beside(1e-40, -1), beside(1e40, 1), *_NO_LENGTHS)
         yield from _refused(HARD_WAVES, kernel, "x", places, nu=_METAL, index=2.0)
         yield from _refused(HARD_WAVES, kernel, "nu", _NO_RATIOS, x=1.0, index=2.0)
-
-
-def _modes() -> Iterator[Case]:
-    for count in (1, 2, 9, 100, 225, 226, 227, 236, 238, 1000, 10**4):
-        cause = f"Mode {count}: its part of I0 falls like e^(-{count} pi), to subnormals and 0."
-        yield Case(HARD_MODES, "clamped_modes", cause, exactly(count=float(count)))
-        given = exactly(count=float(count), nu=RATIOS)
-        yield Case(HARD_MODES, "supported_modes", cause, given, "array")
-    cause = "The first mode, whose wave number vanishes at nu = -1."
-    given = exactly(count=1.0, nu=(-1 + 1e-12, -1 + 1e-5, -0.97, 5e-324))
-    yield Case(HARD_MODES, "supported_modes", cause, given, "array")
-    yield from _refused(HARD_MODES, "supported_modes", "nu", _NO_RATIOS, count=2.0)
 
 
 # --- shapes and types
@@ -195,28 +168,24 @@ _SINGLES = (0.3125, 1.75, 9.5)
 _NONE: tuple[float, ...] = ()
 
 
-def _shapes() -> Iterator[Case]:
+def _shapes() -> Iterator[HardCase]:
     cause = "Arguments in another form, with numbers from both sides of a seam."
     for form in ("array", "strided", "read-only", "float32"):
         for kernel, same in _same().items():
             given = exactly(x=_SINGLES) | same
-            yield Case(HARD_WAVES, kernel, cause, given, form)
-        given = exactly(count=3.0, nu=(-0.75, 0.25, 0.375))
-        yield Case(HARD_MODES, "supported_modes", cause, given, form)
+            yield HardCase(HARD_WAVES, kernel, cause, given, form)
     cause = "No number at all."
     for kernel, same in _same().items():
-        yield Case(HARD_WAVES, kernel, cause, exactly(x=_NONE) | same, "empty")
-    yield Case(HARD_MODES, "supported_modes", cause, exactly(count=3.0, nu=_NONE), "empty")
+        yield HardCase(HARD_WAVES, kernel, cause, exactly(x=_NONE) | same, "empty")
     both = exactly(x=_SINGLES, nu=(-0.5, 0.25))
     for kernel in LOWEST:
-        yield Case(HARD_WAVES, kernel, "Every x with every nu.", both, "broadcast")
+        yield HardCase(HARD_WAVES, kernel, "Every x with every nu.", both, "broadcast")
     cause, given = "Every x with every kap and nu.", both | exactly(kap=(0.0, 2.5))
-    yield Case(HARD_WAVES, INFLUENCE, cause, given, "broadcast")
+    yield HardCase(HARD_WAVES, INFLUENCE, cause, given, "broadcast")
     cause, whole = "Whole numbers as arguments.", exactly(x=(1.0, 2.0, 300.0), nu=0.0)
     for kernel in LOWEST:
-        yield Case(HARD_WAVES, kernel, cause, whole, "integer")
-    yield Case(HARD_WAVES, INFLUENCE, cause, whole | exactly(kap=3.0), "integer")
-    yield Case(HARD_MODES, "supported_modes", cause, exactly(count=4.0, nu=0.0), "integer")
+        yield HardCase(HARD_WAVES, kernel, cause, whole, "integer")
+    yield HardCase(HARD_WAVES, INFLUENCE, cause, whole | exactly(kap=3.0), "integer")
 
 
 def _same() -> dict[str, Inputs]:

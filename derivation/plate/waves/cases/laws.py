@@ -1,4 +1,4 @@
-"""What the plate's waves and the modes of held plates are held to in the hard cases: balls."""
+"""References of the plate's waves in the hard cases: Arb balls."""
 
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
@@ -8,21 +8,15 @@ import flint
 from flint import arb
 
 from derivation.engine.formula.ball import to_ball
-from derivation.plate.edge_modes.oracle import modes as held_balls
-from derivation.plate.edge_modes.oracle import waves as held_wave_balls
-from derivation.plate.hard.law import Given, Law, Values
+from derivation.plate.hard.law import Given, HardLaw, Values
 from derivation.plate.waves import oracle as inertia_balls
 
 _STEP, _DIGITS = Fraction(1, 2**40), 30
-_FREE = 1e-9
-"""1 + nu below which a support resists hardly: a kernel that takes 1 + nu exactly loses nothing
-there, whatever the condition number of nu."""
-
 _AT_REST = Fraction(1, 2**60)
 """For the condition of a load at rest, whose frequency does nothing."""
 
 
-def _slopes(values: Values, *places: int) -> Callable[[Given, Sequence[arb]], Sequence[arb]]:
+def differences(values: Values, *places: int) -> Callable[[Given, Sequence[arb]], Sequence[arb]]:
     """Of every result the sum of |x df/dx| over the arguments at these places, by differences."""
 
     def slopes(given: Given, _: Sequence[arb]) -> list[arb]:
@@ -45,7 +39,7 @@ def _slopes(values: Values, *places: int) -> Callable[[Given, Sequence[arb]], Se
 # --- the plate's waves
 
 
-def _of_lowest(function: Callable[..., arb], root: bool = False) -> Law:
+def _of_lowest(function: Callable[..., arb], root: bool = False) -> HardLaw:
     """A number of A0 at x and nu, or its square root."""
 
     def values(given: Given, digits: int) -> tuple[arb]:
@@ -53,7 +47,7 @@ def _of_lowest(function: Callable[..., arb], root: bool = False) -> Law:
         with flint.ctx.workprec(4 * digits + 64):
             return (found.sqrt() if root else found,)
 
-    return Law(values, slopes=_slopes(values, 0, 1), oracle=(inertia_balls.__name__,))
+    return HardLaw(values, slopes=differences(values, 0, 1), oracle=(inertia_balls.__name__,))
 
 
 def _influence(given: Given, digits: int) -> tuple[arb, ...]:
@@ -72,7 +66,7 @@ def _conditions(given: Given, values: Sequence[arb]) -> list[arb]:
     return found
 
 
-def _of_branch(kind: str, function: Callable[..., arb], root: bool = False) -> Law:
+def _of_branch(kind: str, function: Callable[..., arb], root: bool = False) -> HardLaw:
     """Frequency or residue of a branch, counted from 0."""
 
     def values(given: Given, digits: int) -> tuple[arb]:
@@ -87,78 +81,19 @@ def _of_branch(kind: str, function: Callable[..., arb], root: bool = False) -> L
         first, second = (values((x, nu, index), _DIGITS)[0] for index in (0, 1))
         return (abs(found[0]).max(first).max(second),)
 
-    return Law(values, None if root else sizes, conditioned=False, oracle=(inertia_balls.__name__,))
-
-
-# --- held plates
-
-
-def _clamped(given: Given, digits: int) -> tuple[arb, ...]:
-    (count,) = given
-    return held_balls.mode("clamped", int(count), digits=digits)
-
-
-def _supported(given: Given, digits: int) -> tuple[arb, ...]:
-    count, nu = given
-    return held_balls.mode("supported", int(count), nu, digits)
-
-
-def _by_ratio(given: Given, values: Sequence[arb]) -> Sequence[arb]:
-    if 1 + Fraction(given[1]) < _FREE:
-        return [arb(0)] * len(values)
-    return _slopes(_supported, 1)(given, values)
-
-
-def _of_waves(edge: held_balls.Edge) -> Law:
-    """A mode of a plate with a thickness, by its number; c and k2 are counted as budgets say."""
-
-    def values(given: Given, digits: int) -> tuple[arb, ...]:
-        count, eta, nu = given
-        return held_wave_balls.wave(edge, int(count), eta, nu, digits)
-
-    def sizes(_: Given, found: Sequence[arb]) -> tuple[arb, ...]:
-        mode = held_wave_balls.Wave(*found)
-        counted = mode._replace(k2=mode.k**2 / mode.k2, c=mode.c * (1 + mode.k))
-        return tuple(abs(x) for x in counted._replace(t=abs(mode.t).max(arb(1))))
-
-    def slopes(given: Given, found: Sequence[arb]) -> Sequence[arb]:
-        if 1 + Fraction(given[2]) < _FREE:
-            return _slopes(values, 1)(given, found)
-        return _slopes(values, 1, 2)(given, found)
-
-    return Law(values, sizes, slopes=slopes, oracle=(held_wave_balls.__name__,))
-
-
-def _of_face(punch: bool) -> Law:
-    """The loaded face, or its mean under a punch less 1, of a mode's numbers.
-
-    Counted in the largest of its parts.
-    """
-
-    def values(given: Given, digits: int) -> tuple[arb]:
-        with flint.ctx.workprec(8 * digits + 64):
-            return (held_wave_balls.on_face(punch, *given),)
-
-    def sizes(_: Given, found: Sequence[arb]) -> tuple[arb]:
-        return (abs(found[0]) if punch else abs(found[0]).max(arb(1)),)
-
-    return Law(
-        values, sizes, slopes=_slopes(values, 0, 1, 2, 3), oracle=(held_wave_balls.__name__,)
+    return HardLaw(
+        values, None if root else sizes, conditioned=False, oracle=(inertia_balls.__name__,)
     )
 
 
 _FREQUENCY, _RESIDUE = inertia_balls.zero, inertia_balls.residue
-WAVES: Mapping[str, Law] = {
+LAWS: Mapping[str, HardLaw] = {
     "bending_frequency": _of_lowest(_FREQUENCY, root=True),
     "bending_residue": _of_lowest(_RESIDUE),
     "bending_share": _of_lowest(inertia_balls.share),
-    "dynamic_influence": Law(_influence, slopes=_conditions, oracle=(inertia_balls.__name__,)),
-    "clamped_modes": Law(_clamped, conditioned=False, oracle=(held_balls.__name__,)),
-    "supported_modes": Law(_supported, slopes=_by_ratio, oracle=(held_balls.__name__,)),
-    "clamped_waves": _of_waves("clamped"),
-    "supported_waves": _of_waves("supported"),
-    "wave_shape": _of_face(punch=False),
-    "wave_share": _of_face(punch=True),
+    "dynamic_influence": HardLaw(
+        _influence, slopes=_conditions, results=2, oracle=(inertia_balls.__name__,)
+    ),
 } | {
     f"{kind}_{name}": _of_branch(kind, function, root)
     for kind in inertia_balls.KINDS

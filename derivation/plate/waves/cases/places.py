@@ -13,7 +13,7 @@ from derivation.engine.formula.ball import Exact, to_ball
 from derivation.plate.edge_modes.oracle import modes as held_balls
 from derivation.plate.edge_modes.oracle import waves as held_wave_balls
 from derivation.plate.waves import oracle as inertia_balls
-from generated.held_waves import _START
+from generated.edge_modes import _START
 from generated.plate_waves import _CLOSE
 
 _DIGITS, _BITS = 25, 128
@@ -106,16 +106,6 @@ def partner_crossing(edge: held_balls.Edge, n: int, nu: float) -> float:
         return bool(held_wave_balls.wave(edge, n, eta, nu, _DIGITS).k2 < arb(_START))
 
     return _nearest(below, 0.012, 0.018)
-
-
-@cache
-def half_part() -> float:
-    """The double nearest to nu at which c of the first simply supported mode passes 1/2."""
-
-    def beyond(nu: Exact) -> bool:
-        return bool(held_balls.mode("supported", 1, nu, _DIGITS).c > 0.5)
-
-    return _nearest(beyond, -0.99, 0.3)
 
 
 def _nearest(holds: Callable[[Exact], bool], low: float, high: float) -> float:

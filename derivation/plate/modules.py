@@ -1,0 +1,81 @@
+"""A subject's modules of the generated package: printed from formulas, or with a template."""
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from derivation.engine.emit.package import Shape
+from derivation.plate.subjects import handed_in
+
+
+def _none() -> Mapping[str, Shape]:
+    return {}
+
+
+@dataclass(frozen=True, eq=False)
+class PrintedModule:
+    """A module of functions that are printed from formulas.
+
+    Parameters
+    ----------
+    name, title
+        Its name, and its first line.
+    stated
+        The stable form of each formula by name, written out; it is proved equal to the formula.
+    automatic
+        Formulas whose stable forms the rules find.
+    """
+
+    name: str
+    title: str
+    stated: Callable[[], Mapping[str, Shape]] = _none
+    automatic: tuple[str, ...] = ()
+
+
+class FunctionRow(NamedTuple):
+    """What the manifest says of a function whose module has a template."""
+
+    name: str
+    arguments: tuple[str, ...]
+    unit: str
+    symbol: str
+    equation: str
+    meaning: str
+
+
+@dataclass(frozen=True, eq=False)
+class TemplateModule:
+    """A module with an algorithm: a template, `NAME.py.j2` in the subject's folder.
+
+    Parameters
+    ----------
+    name
+        Its name.
+    folder
+        The subject's folder.
+    context
+        What the template is filled with: numbers and printed expressions, as text.
+    functions
+        Its functions with an error budget. The template has their notes by name in `notes`.
+    """
+
+    name: str
+    folder: Path
+    context: Callable[[], Mapping[str, Any]]
+    functions: tuple[FunctionRow, ...] = ()
+
+
+def printed_modules() -> tuple[PrintedModule, ...]:
+    """Return the printed modules of all subjects."""
+    return tuple(module for module in _modules() if isinstance(module, PrintedModule))
+
+
+def template_modules() -> tuple[TemplateModule, ...]:
+    """Return the modules with a template of all subjects."""
+    return tuple(module for module in _modules() if isinstance(module, TemplateModule))
+
+
+def _modules() -> Iterator[PrintedModule | TemplateModule]:
+    for modules in handed_in("kernels", "MODULES"):
+        yield from modules

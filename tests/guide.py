@@ -1,0 +1,38 @@
+"""The worked examples of CONTRIBUTING.md, typed in where they say."""
+
+import re
+from pathlib import Path
+
+from derivation.engine.files import ROOT
+
+GUIDE = (ROOT / "CONTRIBUTING.md").read_text()
+BLOCK = re.compile(r"```(?:python|toml|jinja)\n# (.+?)\n(.*?)```", re.DOTALL)
+PAPER = "FOLDER/"
+"""What the place of a block begins with that belongs to a paper of one's own."""
+
+
+def type_examples(root: Path, *, paper: bool) -> int:
+    """Type every block for the sources, or for a paper, into a folder; returns how many."""
+    blocks = [block for block in BLOCK.findall(GUIDE) if block[0].startswith(PAPER) is paper]
+    for place, text in blocks:
+        _typed(place.removeprefix(PAPER), text, root)
+    return len(blocks)
+
+
+def _typed(place: str, text: str, root: Path) -> None:
+    """Do what a block's first line says."""
+    if place.startswith("new file: "):
+        path = root / place.removeprefix("new file: ")
+        assert not path.exists(), f"{path.name} is no new file"
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+        return
+    name, where, line = (*re.split(r", (below|above|at the end)", place, maxsplit=1), "")[:3]
+    old = (root / name).read_text()
+    if where == "at the end":
+        (root / name).write_text(old + text)
+        return
+    line = line.removeprefix(": ") + "\n"
+    assert f"\n{old}".count(f"\n{line}") == 1, f"{name} has not just one line {line}"
+    both = line + text if where == "below" else f"{text}\n\n{line}"
+    (root / name).write_text(old.replace(line, both))

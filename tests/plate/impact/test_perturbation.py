@@ -291,7 +291,7 @@ def test_what_is_shown(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> No
     assert main(["simulate", str(path), "--json", str(out)]) == 0
     shown = " ".join(capsys.readouterr().out.split())
     assert f"after {MODES} modes" in shown
-    assert "for comparison only" in shown
+    assert "For comparison only" in shown
     rows = json.loads(out.read_text())["paper_motion"]["motions"]
     assert [row["contact_time"] is None for row in rows] == [False, True, True]
     assert [row["breaks_at"] is None for row in rows] == [True, False, False]

@@ -18,7 +18,7 @@ LEAST = 0.5
 """What rounding the result alone may cost: nothing below is suggested."""
 
 
-class Errors(Protocol):
+class MeasuredErrors(Protocol):
     """Measured errors in one format."""
 
     @property
@@ -26,7 +26,7 @@ class Errors(Protocol):
         """The budget [ULP] that would just have been kept."""
 
 
-class Row(Protocol):
+class MeasuredRow(Protocol):
     """What a suggestion follows from."""
 
     @property
@@ -42,11 +42,11 @@ class Row(Protocol):
         """Whether the budget is kept."""
 
     @property
-    def double(self) -> Errors:
+    def double(self) -> MeasuredErrors:
         """Errors with arguments in double precision."""
 
     @property
-    def single(self) -> Errors | None:
+    def single(self) -> MeasuredErrors | None:
         """Errors with arguments in single precision, if there are any."""
 
 
@@ -80,7 +80,7 @@ def tighter(budget: float, needed: float) -> float | None:
     return suggested if suggested < budget else None
 
 
-def suggestions(rows: Iterable[Row]) -> list[Suggestion]:
+def suggestions(rows: Iterable[MeasuredRow]) -> list[Suggestion]:
     """Return a suggestion for each function whose budget could be tighter."""
     found = []
     for row in rows:

@@ -26,7 +26,7 @@ EXPECTED = {
     "poissons_ratio": "a number above -1 and below 0.5",
     "rtol": "a number from 1e-13 to 1",
     "compare_paper_motion": 'true or false (it is never "auto")',
-    "modes": '"auto" or a whole number from 2 to 3000',
+    "modes": '"auto" or a whole number from 2 to 6000',
     "branches": '"A0" or "all"',
     "coupling": '"variational" or "pointwise"',
     "extent": '"finite" or "infinite"',

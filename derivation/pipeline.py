@@ -329,7 +329,7 @@ def time_of_reference(known: Result, digits: int) -> str:
     return f"about {long} on an idle machine"
 
 
-def reference(known: Result, digits: int, tell: Progress) -> many_digits.Reference:
+def reference(known: Result, digits: int, tell: Progress) -> many_digits.ImpactReference:
     """Contact law and impact of a scene to many digits by both oracles.
 
     Raises

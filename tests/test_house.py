@@ -71,13 +71,7 @@ def test_every_package_that_is_imported_is_installed_along() -> None:
             assert {name.partition(".")[0] for name in found} <= given, path
 
 
-SHARED = {
-    "Formula": "the class of a paper's formulas has this name in every paper",
-    **dict.fromkeys(
-        ("Impact", "Kernel", "Law", "Reference", "Series", "State", "Step", "Wave"),
-        "recorded references follow from the code of an oracle or a route with this class",
-    ),
-}
+SHARED = {"Formula": "the class of a paper's formulas has this name in every paper"}
 """Names that several classes have, with the reason."""
 
 

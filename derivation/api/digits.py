@@ -5,7 +5,7 @@ from derivation.plate.impact.oracle import many_digits
 from derivation.scene import Scene
 
 
-def reference(scene: Scene, digits: int = 50) -> many_digits.Reference:
+def reference(scene: Scene, digits: int = 50) -> many_digits.ImpactReference:
     """Return contact law and impact to many digits, by both references (Arb and mpmath).
 
     The scene's numbers are taken as the exact doubles they are read as.

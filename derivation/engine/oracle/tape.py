@@ -24,7 +24,7 @@ _UNARY: dict[type[sp.Basic], Unary] = {
 
 
 @dataclass(frozen=True)
-class Step:
+class Operation:
     """One operation: the slots it reads, its value, and its slopes towards each of them."""
 
     reads: tuple[int, ...]
@@ -37,7 +37,7 @@ class Tape:
     """Inputs take the first slots, then each step fills the next; the last one is the result."""
 
     inputs: tuple[sp.Symbol, ...]
-    steps: tuple[Step, ...]
+    steps: tuple[Operation, ...]
 
     def run(self, values: Sequence[flint.arb]) -> list[flint.arb]:
         """Every slot's ball at the precision now set; the last one is the formula's value."""
@@ -77,7 +77,7 @@ def record(expression: sp.Expr, inputs: Sequence[sp.Symbol]) -> Tape:
     if missing:
         raise ValueError(f"the expression also depends on {', '.join(missing)}")
     slots: dict[sp.Basic, int] = {symbol: i for i, symbol in enumerate(inputs)}
-    steps: list[Step] = []
+    steps: list[Operation] = []
 
     def visit(node: sp.Basic) -> int:
         if node not in slots:
@@ -87,7 +87,7 @@ def record(expression: sp.Expr, inputs: Sequence[sp.Symbol]) -> Tape:
         return slots[node]
 
     if visit(expression) < len(inputs):  # a bare input: the result must be the last slot
-        steps.append(Step((slots[expression],), lambda x: x, lambda _, __: (flint.arb(1),)))
+        steps.append(Operation((slots[expression],), lambda x: x, lambda _, __: (flint.arb(1),)))
     return Tape(tuple(inputs), tuple(steps))
 
 
@@ -102,27 +102,27 @@ def _operands(node: sp.Basic) -> tuple[sp.Basic, ...]:
     return tuple(node.args)
 
 
-def _step(node: sp.Basic, reads: tuple[int, ...]) -> Step:
+def _step(node: sp.Basic, reads: tuple[int, ...]) -> Operation:
     if isinstance(node, sp.Rational):
         return _constant(flint.fmpq(int(node.p), int(node.q)))
     if node is sp.pi:
-        return Step((), flint.arb.pi, lambda _: ())
+        return Operation((), flint.arb.pi, lambda _: ())
     if isinstance(node, sp.Add):
-        return Step(reads, _sum, lambda _, *terms: (flint.arb(1),) * len(terms))
+        return Operation(reads, _sum, lambda _, *terms: (flint.arb(1),) * len(terms))
     if isinstance(node, sp.Mul):
-        return Step(reads, _product, _product_slopes)
+        return Operation(reads, _product, _product_slopes)
     if isinstance(node, sp.Pow):
         return _power(reads, node.exp)
     if isinstance(node, sp.besselj) and node.args[0].is_Integer:
         return _bessel(reads, int(node.args[0]))
     if node.func in _UNARY:
         function, slope = _UNARY[node.func]
-        return Step(reads, function, lambda value, x: (slope(x, value),))
+        return Operation(reads, function, lambda value, x: (slope(x, value),))
     raise NotImplementedError(f"no ball arithmetic for {node.func.__name__} in {node}")
 
 
-def _constant(number: flint.fmpq) -> Step:
-    return Step((), lambda: flint.arb(number), lambda _: ())
+def _constant(number: flint.fmpq) -> Operation:
+    return Operation((), lambda: flint.arb(number), lambda _: ())
 
 
 def _sum(*terms: flint.arb) -> flint.arb:
@@ -143,17 +143,17 @@ def _product_slopes(_: flint.arb, *factors: flint.arb) -> tuple[flint.arb, ...]:
     )
 
 
-def _power(reads: tuple[int, ...], exponent: sp.Basic) -> Step:
+def _power(reads: tuple[int, ...], exponent: sp.Basic) -> Operation:
     if exponent == sp.Rational(1, 2):
-        return Step(reads, lambda x: x.sqrt(), lambda value, _: (1 / (2 * value),))
+        return Operation(reads, lambda x: x.sqrt(), lambda value, _: (1 / (2 * value),))
     if isinstance(exponent, sp.Integer):
         n = int(exponent)
-        return Step(reads, lambda x: x**n, lambda _, x: (n * x ** (n - 1),))
+        return Operation(reads, lambda x: x**n, lambda _, x: (n * x ** (n - 1),))
     raise NotImplementedError(f"no ball arithmetic for the power {exponent}")
 
 
-def _bessel(reads: tuple[int, ...], order: int) -> Step:
+def _bessel(reads: tuple[int, ...], order: int) -> Operation:
     def slope(_: flint.arb, x: flint.arb) -> tuple[flint.arb, ...]:
         return ((x.bessel_j(order - 1) - x.bessel_j(order + 1)) / 2,)
 
-    return Step(reads, lambda x: x.bessel_j(order), slope)
+    return Operation(reads, lambda x: x.bessel_j(order), slope)

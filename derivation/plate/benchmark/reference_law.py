@@ -70,7 +70,7 @@ class DeepLaw(BenchmarkLaw):
         return (1 - q**5 * (self.work(A * q) / self.work(A))) / (1 - q)
 
 
-def _oracles(regime: Regime, top: float) -> contact_points.Series:
+def _oracles(regime: Regime, top: float) -> contact_points.PointSeries:
     """Oracle 1's power series of a plate up to a/h = top."""
     reach = top * regime.eta * (1 + 1e-9)
     if contact_points.mode_count(regime.eta, BITS) > MOST_ZEROS:

@@ -80,7 +80,7 @@ def _of_waves(edge: held_balls.Edge) -> HardLaw:
         return held_wave_balls.wave(edge, int(count), eta, nu, digits)
 
     def sizes(_: Given, found: Sequence[arb]) -> tuple[arb, ...]:
-        mode = held_wave_balls.Wave(*found)
+        mode = held_wave_balls.HeldWave(*found)
         counted = mode._replace(k2=mode.k**2 / mode.k2, c=mode.c * (1 + mode.k))
         return tuple(abs(x) for x in counted._replace(t=abs(mode.t).max(arb(1))))
 

@@ -27,7 +27,7 @@ _SPARE = 40
 _Column = list[arb]
 
 
-class State(NamedTuple):
+class PressureState(NamedTuple):
     """A contact in units of a, R and the contact's E*."""
 
     force: arb
@@ -72,7 +72,7 @@ def case(
     return Case(a / h, h / b, curvature, Fraction(share), tuple(Fraction(x) for x in places))
 
 
-def solve(case: Case, digits: int = 25) -> State:
+def solve(case: Case, digits: int = 25) -> PressureState:
     """The contact, each result's relative radius below 10^-digits.
 
     Raises
@@ -91,7 +91,7 @@ def solve(case: Case, digits: int = 25) -> State:
         pressures = zip(coarse.pressures, fine.pressures, strict=True)
         force, depth, stiffness, slope, centre = found
         beside = tuple(_wider(x, y, digits) for x, y in pressures)
-        return State(force, depth, stiffness, slope, centre, beside)
+        return PressureState(force, depth, stiffness, slope, centre, beside)
 
 
 def _wider(coarse: arb, fine: arb, digits: int) -> arb:
@@ -194,7 +194,7 @@ def _table(rows: Sequence[_Column]) -> arb_mat:
     return arb_mat(len(rows), len(rows[0]), [x for row in rows for x in row])
 
 
-def _solve(case: Case, count: int, fineness: Fraction, bits: int) -> State:
+def _solve(case: Case, count: int, fineness: Fraction, bits: int) -> PressureState:
     """One resolution; the state's balls hold rounding and the modes' rest alone."""
     with flint.ctx.workprec(bits):
         x, w = _rule(count, bits)
@@ -237,7 +237,7 @@ def _solve(case: Case, count: int, fineness: Fraction, bits: int) -> State:
             return gap.sqrt() * _dot(values, w) / arb.pi()
 
         flat = _dot(psi, w)
-        return State(
+        return PressureState(
             2 * _dot(chi, w),
             depth,
             2 * flat,

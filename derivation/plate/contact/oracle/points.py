@@ -37,7 +37,7 @@ DEEPEST = 1.5
 _SPARE = 64
 
 
-class Series(NamedTuple):
+class PointSeries(NamedTuple):
     """L as a power series up to a largest contact.
 
     Attributes
@@ -148,7 +148,7 @@ def mode_points(eta: Fraction, bits: int, working: int) -> Points:
 
 
 @lru_cache(maxsize=PLATES)
-def series(eta: Fraction, reach: float, bits: int) -> Series:
+def series(eta: Fraction, reach: float, bits: int) -> PointSeries:
     """L for a/b up to `reach`, all that is left out below about 2^-bits.
 
     After M terms what remains of the kernels' series at the points is, C_m being at most
@@ -200,4 +200,4 @@ def series(eta: Fraction, reach: float, bits: int) -> Series:
             name: arb_poly([(-1) ** m * arb(size(m)) * term for m, term in enumerate(moments)])
             for name, size in COEFFICIENTS.items()
         }
-        return Series(powers, alpha, rest.abs_upper(), working)
+        return PointSeries(powers, alpha, rest.abs_upper(), working)

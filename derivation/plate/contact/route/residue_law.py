@@ -15,8 +15,8 @@ from mpmath import mp, mpf
 
 from derivation.engine.oracle.agreement import RouteError
 from derivation.plate.contact.route import sums as contact_routes
-from derivation.plate.contact.route.residues import Scaled, Series, fixed, floating, series
-from derivation.plate.contact.route.sums import Impact
+from derivation.plate.contact.route.residues import ResidueSeries, Scaled, fixed, floating, series
+from derivation.plate.contact.route.sums import RouteImpact
 
 ELLIPSE = 1.8
 """Axes' sum of an ellipse about [-1, 1] that the integrand is analytic in: in a stiff
@@ -28,10 +28,10 @@ _EXTRA = 30
 _STEPS = 60
 
 
-class Law(NamedTuple):
+class ResidueLaw(NamedTuple):
     """A plate's law up to some contact radius, its argument q = a/(reach b)."""
 
-    known: Series
+    known: ResidueSeries
     h: float
     b: float
 
@@ -67,7 +67,7 @@ def _horner(terms: Sequence[int], x: int, bits: int) -> int:
     return total
 
 
-def law(h: float, b: float, reach: float, digits: int) -> Law:
+def law(h: float, b: float, reach: float, digits: int) -> ResidueLaw:
     """The law of a plate.
 
     Parameters
@@ -87,23 +87,25 @@ def law(h: float, b: float, reach: float, digits: int) -> Law:
     if not 0 < reach < 1:
         raise ValueError(f"the law has meaning for 0 < a/b < 1, got {reach}")
     with mp.workdps(digits + _EXTRA):
-        return Law(series(mpf(h) / mpf(b), mpf(reach), digits), h, b)
+        return ResidueLaw(series(mpf(h) / mpf(b), mpf(reach), digits), h, b)
 
 
-def indentation(a: float, R: float, of: Law, digits: int) -> mpf:
+def indentation(a: float, R: float, of: ResidueLaw, digits: int) -> mpf:
     """Indentation [m] at a contact radius [m]."""
     with mp.workdps(digits + _EXTRA):
         return mpf(a) ** 2 / mpf(R) * of.depth(of.ratio(a))
 
 
-def stiffness(a: float, R: float, lam: float, mu: float, of: Law, digits: int) -> mpf:
+def stiffness(a: float, R: float, lam: float, mu: float, of: ResidueLaw, digits: int) -> mpf:
     """dP/d delta [N/m] at a contact radius [m]: (dP/da)/(d delta/da)."""
     with mp.workdps(digits + _EXTRA):
         steep = 3 * contact_routes.hertz_stiffness(mpf(R), lam, mu) * mpf(a) ** 2
         return steep / (2 * mpf(a) / mpf(R) * of.slope(of.ratio(a)))
 
 
-def impact(R: float, m: float, v0: float, lam: float, mu: float, of: Law, digits: int) -> Impact:
+def impact(
+    R: float, m: float, v0: float, lam: float, mu: float, of: ResidueLaw, digits: int
+) -> RouteImpact:
     """The conservative impact of a sphere of mass m [kg] at speed v0 [m/s].
 
     Raises
@@ -118,10 +120,10 @@ def impact(R: float, m: float, v0: float, lam: float, mu: float, of: Law, digits
         radius = largest * reach
         time = 2 * radius**2 / mpf(R) * mp.sqrt(mpf(m) / (2 * unit)) * _quarter(of, largest, digits)
         deepest = radius**2 / mpf(R) * of.depth(largest)
-        return Impact(2 * time, deepest, stiff * radius**3, radius)
+        return RouteImpact(2 * time, deepest, stiff * radius**3, radius)
 
 
-def _largest(of: Law, target: mpf) -> mpf:
+def _largest(of: ResidueLaw, target: mpf) -> mpf:
     """q at which the work reaches a value: Newton's iteration in logarithms."""
     q, close = mpf(1), mpf(10) ** (-mp.dps // 2 - 4)
     for _ in range(_STEPS):
@@ -133,7 +135,7 @@ def _largest(of: Law, target: mpf) -> mpf:
     raise RouteError(f"no largest contact radius found near {mp.nstr(q * of.known.reach)} b")
 
 
-def _quarter(of: Law, largest: mpf, digits: int) -> mpf:
+def _quarter(of: ResidueLaw, largest: mpf, digits: int) -> mpf:
     """int_0^1 2 u r S/sqrt(E(largest) - E(q)) du of slope S and work E, q = largest (1 - u^2)."""
     count = 2 * math.ceil((digits + 10) / math.log10(_ellipse(of, largest)) / 2)
     bits, whole, total = of.known.bits, of.work(largest), mpf(0)
@@ -148,7 +150,7 @@ def _quarter(of: Law, largest: mpf, digits: int) -> mpf:
     return total
 
 
-def _ellipse(of: Law, largest: mpf) -> float:
+def _ellipse(of: ResidueLaw, largest: mpf) -> float:
     """Axes' sum of an ellipse for deep contacts too: the law is singular at a = +-4 i h."""
     square = complex(1, -4 * of.h / (of.b * float(largest * of.known.reach)))
     u = cmath.sqrt(square)

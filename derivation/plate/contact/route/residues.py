@@ -38,7 +38,7 @@ Scaled = list[int]
 """Numbers times a power of two, rounded down."""
 
 
-class Series(NamedTuple):
+class ResidueSeries(NamedTuple):
     """The law as a power series in q = a/(reach b).
 
     Attributes
@@ -57,7 +57,7 @@ class Series(NamedTuple):
 
 
 @lru_cache(maxsize=PLATES)
-def series(eta: mpf, reach: mpf, digits: int) -> Series:
+def series(eta: mpf, reach: mpf, digits: int) -> ResidueSeries:
     """The law of a plate of h/b = eta for contacts up to a/b = reach < 1.
 
     Parameters
@@ -82,7 +82,7 @@ def series(eta: mpf, reach: mpf, digits: int) -> Series:
                 break
             total = sum(part or 0 for part in parts)
             terms.append((-1) ** len(terms) * _product(total, factor, bits))
-        return Series(terms, bits, reach)
+        return ResidueSeries(terms, bits, reach)
 
 
 def fixed(x: mpf, bits: int) -> int:

@@ -16,7 +16,7 @@ from derivation.engine.oracle.agreement import RouteError
 from derivation.plate.contact.oracle.modes import nodes_of, spread
 
 
-class Impact(NamedTuple):
+class RouteImpact(NamedTuple):
     """What an impact comes to."""
 
     contact_time: mpf
@@ -89,7 +89,7 @@ def _moments(y: mpf) -> tuple[mpf, mpf]:
         return inverse * (odd + (4 - 24 * square) * inverse * sine), sine
 
 
-class Law(NamedTuple):
+class SumLaw(NamedTuple):
     """One evaluation of the law for a plate of h/b = eta, lengths in units of b and R."""
 
     eta: mpf
@@ -134,7 +134,7 @@ def setting(digits: int) -> tuple[Setting]:
 
 
 def _results(
-    compute: Callable[[Law], Sequence[mpf]],
+    compute: Callable[[SumLaw], Sequence[mpf]],
     h: float,
     b: float,
     digits: int,
@@ -155,7 +155,7 @@ def _results(
     results = []
     for one in chosen:
         with mp.workdps(one.dps):
-            results.append(list(compute(Law(eta, one))))
+            results.append(list(compute(SumLaw(eta, one))))
     with mp.workdps(chosen[-1].dps):
         for light, full in zip(results[0], results[-1], strict=True):
             if not abs(light - full) <= abs(full) * mpf(10) ** (-digits - 1):
@@ -206,7 +206,7 @@ def stiffness(
     """dP/d delta at a contact radius: (dP/da)/(d delta/da)."""
     x = _inside(_quotient(a, b, digits))
 
-    def compute(law: Law) -> list[mpf]:
+    def compute(law: SumLaw) -> list[mpf]:
         steep = 3 * hertz_stiffness(mpf(R), lam, mu) * mpf(a) ** 2
         return [steep / (mpf(b) / mpf(R) * law.depth_and_slope(x)[1])]
 
@@ -245,7 +245,7 @@ def _root(function: Callable[[mpf], tuple[mpf, mpf]], target: mpf, start: mpf) -
 def contact_radius(delta: float, R: float, h: float, b: float, digits: int = 40) -> mpf:
     """Contact radius at an indentation."""
 
-    def compute(law: Law) -> list[mpf]:
+    def compute(law: SumLaw) -> list[mpf]:
         def function(x: mpf) -> tuple[mpf, mpf]:
             depth, steep = law.depth_and_slope(x)
             return depth, x * steep / depth
@@ -261,10 +261,10 @@ def contact_radius(delta: float, R: float, h: float, b: float, digits: int = 40)
 def impact(
     R: float, m: float, v0: float, h: float, b: float, lam: float, mu: float, digits: int = 30,
     settings: Settings = None,
-) -> Impact:  # fmt: skip
+) -> RouteImpact:  # fmt: skip
     """The conservative impact: a = a_m sin t takes the root's singularity away."""
 
-    def compute(law: Law) -> list[mpf]:
+    def compute(law: SumLaw) -> list[mpf]:
         stiff = hertz_stiffness(mpf(R), lam, mu)
         unit = stiff * mpf(b) ** 5 / mpf(R)
 
@@ -281,10 +281,10 @@ def impact(
         deepest = depth * law.depth_and_slope(largest)[0]
         return [2 * depth * time, deepest, stiff * radius**3, radius]
 
-    return Impact(*_results(compute, h, b, digits, settings))
+    return RouteImpact(*_results(compute, h, b, digits, settings))
 
 
-def _quarter(law: Law, largest: mpf) -> mpf:
+def _quarter(law: SumLaw, largest: mpf) -> mpf:
     """int slope dx/sqrt(work(largest) - work(x)) from 0 to the largest x, x = largest sin t."""
     total, time, arcs = law.work_and_slope(largest)[0], mpf(0), law.setting.arcs
     for t, w in spread([mp.pi / 2 * k / arcs for k in range(arcs + 1)], law.setting.arc_level):

@@ -29,7 +29,7 @@ from derivation.mathematics.bessel.oracle import j0_zero
 from derivation.plate.contact.oracle.balls import ratio_of, settle
 
 
-class Kernel(NamedTuple):
+class EdgeKernel(NamedTuple):
     """k on the real axis and k(iy), and the first two coefficients of its power series."""
 
     real: Callable[[arb], arb]
@@ -38,12 +38,12 @@ class Kernel(NamedTuple):
 
 
 KERNELS = {
-    "indentation": Kernel(
+    "indentation": EdgeKernel(
         lambda y: 3 * (y.sin() - y * y.cos()) / y**3,
         lambda y: 3 * (y * y.cosh() - y.sinh()) / y**3,
         lambda m: flint.fmpq(6 * (m + 1), math.factorial(2 * m + 3)),
     ),
-    "slope": Kernel(
+    "slope": EdgeKernel(
         lambda y: 3 * y.sin() / (2 * y),
         lambda y: 3 * y.sinh() / (2 * y),
         lambda m: flint.fmpq(3, 2 * math.factorial(2 * m + 1)),
@@ -136,7 +136,7 @@ def _rest(T: arb, eta: arb) -> arb:
     return arb(0, bound.abs_upper())
 
 
-def plain_sum(kernel: Kernel, alpha: arb) -> arb:
+def plain_sum(kernel: EdgeKernel, alpha: arb) -> arb:
     """P: half the coefficient of z^2 in k(alpha z)/J0(z), J0 = 1 - z^2/4 + ..."""
     return (arb(kernel.power(0)) / 4 - arb(kernel.power(1)) * alpha**2) / 2
 
@@ -165,12 +165,12 @@ def alternating_sum(kind: str, width: Fraction, bits: int) -> arb:
         return (total + arb(0, rest.abs_upper())) / arb.pi()
 
 
-def _far(kernel: Kernel, alpha: arb, y: acb) -> acb:
+def _far(kernel: EdgeKernel, alpha: arb, y: acb) -> acb:
     """k(i alpha y)/(y^2 I0(y))."""
     return kernel.turned(alpha * y) / (y * y * y.bessel_i(0))
 
 
-def _near(kernel: Kernel, alpha: arb, y: acb) -> acb:
+def _near(kernel: EdgeKernel, alpha: arb, y: acb) -> acb:
     """(k(0) - k(i alpha y)/I0(y))/y^2 = (k(0) (I0 - 1) - (k(i alpha y) - k(0)))/(y^2 I0), |y| <= 4.
 
     Both series' coefficients of y^(2m) are below 3/2 1/m!^2, and their terms beyond `count`

@@ -61,7 +61,7 @@ _y = alpha * j_n
 
 
 @dataclass(frozen=True)
-class State:
+class PlateState:
     """A polynomial state of unit size: displacements, edge force and moment per length."""
 
     u: sp.Expr
@@ -86,7 +86,7 @@ def _through(expression: sp.Expr) -> sp.Expr:
 
 
 @cache
-def states() -> tuple[State, State]:
+def states() -> tuple[PlateState, PlateState]:
     """Stretching and bending with e = k = 1, proved to balance and to leave the faces free."""
     found = []
     for name, u, w in (
@@ -110,7 +110,7 @@ def states() -> tuple[State, State]:
                 "moment": moment - (0 if name == "Stretching" else 2 * h**3 / 3 * stiff),
             },
         )
-        found.append(State(u, w, sp.factor(force), sp.factor(moment)))
+        found.append(PlateState(u, w, sp.factor(force), sp.factor(moment)))
     stretching, bending = found
     return stretching, bending
 

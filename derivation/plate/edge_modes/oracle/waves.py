@@ -29,7 +29,7 @@ _LOWEST = Fraction(1, 2**14)
 """Where the first supported mode is sought from: below it at nu = -1 + 2^-53."""
 
 
-class Wave(NamedTuple):
+class HeldWave(NamedTuple):
     """Wave number times b, omega h/c_T, partner, part of I0, loaded face over mean, W, rho h r."""
 
     k: arb
@@ -41,7 +41,7 @@ class Wave(NamedTuple):
     residue: arb
 
 
-def wave(edge: Edge, n: int, thickness: Exact, ratio: Exact, digits: int = 30) -> Wave:
+def wave(edge: Edge, n: int, thickness: Exact, ratio: Exact, digits: int = 30) -> HeldWave:
     """The n-th mode of a held plate.
 
     Parameters
@@ -74,7 +74,9 @@ def wave(edge: Edge, n: int, thickness: Exact, ratio: Exact, digits: int = 30) -
         with flint.ctx.workprec(bits + 2 * n.bit_length() + _GUARD):
             return _values(*_root(edge, n, *given, bits), *given, bits)
 
-    return Wave(*settle(compute, digits, f"{edge} wave {n} at {float(thickness)}, {float(ratio)}"))
+    return HeldWave(
+        *settle(compute, digits, f"{edge} wave {n} at {float(thickness)}, {float(ratio)}")
+    )
 
 
 @cache

@@ -54,7 +54,7 @@ NORM = (J0**2 + J1**2) / 2 - PART * (J0 * I1 + J1 * I0) / k_n + PART**2 * (I0**2
 """N = int_0^1 w^2 r dr for any k."""
 WEIGHT = (1 - PART) ** 2 / (2 * sp.pi * NORM)
 """W."""
-CLAMPED_COMPLIANCE, SOFT_COMPLIANCE = 1 / (16 * sp.pi), 1 / (8 * sp.pi)
+CLAMPED_COMPLIANCE, PAPER_COMPLIANCE = 1 / (16 * sp.pi), 1 / (8 * sp.pi)
 SUPPORTED_COMPLIANCE = (3 + nu) / (16 * sp.pi * (1 + nu))
 
 
@@ -167,7 +167,7 @@ def norm() -> Formula:
             "clamped": NORM.subs(J1, -J0 * I1 / I0) - J0**2,
             "supported": NORM.subs(J1, J0 * slope)
             - J0**2 / 2 * (slope**2 - (I1 / I0) ** 2 + 2 - 4 / (1 - nu)),
-            "soft hinge": NORM.subs(J0, 0) - J1**2 / 2,
+            "paper's edge": NORM.subs(J0, 0) - J1**2 / 2,
         },
     )
     return Formula(
@@ -194,7 +194,7 @@ def weight() -> tuple[Formula, ...]:
     clamped, supported = sp.Rational(1, 2), (3 + nu) / (2 * (1 + nu))
     found = {
         name: static_deflection(span)
-        for name, span in (("clamped", clamped), ("supported", supported), ("soft hinge", 1))
+        for name, span in (("clamped", clamped), ("supported", supported), ("paper's edge", 1))
     }
     slopes = {name: sp.diff(w, _r).subs(_r, 1) for name, w in found.items()}
     bends = {name: sp.diff(w, _r, 2).subs(_r, 1) for name, w in found.items()}
@@ -212,13 +212,13 @@ def weight() -> tuple[Formula, ...]:
             "edge": static_deflection(_A).subs(_r, 1),
             "clamped edge": slopes["clamped"],
             "supported edge": bends["supported"] + nu * slopes["supported"],
-            "soft hinge": bends["soft hinge"] + slopes["soft hinge"],
+            "paper's edge": bends["paper's edge"] + slopes["paper's edge"],
             "axis": sp.limit(sp.expand(near), _r, 0) - w_0 / (2 * sp.pi),
             "clamped sum": axis["clamped"] - CLAMPED_COMPLIANCE,
             "supported sum": axis["supported"] - SUPPORTED_COMPLIANCE,
-            "soft sum": axis["soft hinge"] - SOFT_COMPLIANCE,
-            "soft hinge as nu": SUPPORTED_COMPLIANCE.subs(nu, 1) - SOFT_COMPLIANCE,
-            "soft weight": WEIGHT.subs(J0, 0) - 1 / (sp.pi * J1**2),
+            "paper's edge: sum": axis["paper's edge"] - PAPER_COMPLIANCE,
+            "paper's edge as nu": SUPPORTED_COMPLIANCE.subs(nu, 1) - PAPER_COMPLIANCE,
+            "paper's edge: weight": WEIGHT.subs(J0, 0) - 1 / (sp.pi * J1**2),
         },
     )
     return (

@@ -26,7 +26,7 @@ _PIECES = (16, 256)
 """Of [0, 1], to show that the slope is positive: few, and more if they do not suffice."""
 
 
-class Impact(NamedTuple):
+class ImpactBalls(NamedTuple):
     """What an impact comes to: balls."""
 
     contact_time: arb
@@ -35,7 +35,7 @@ class Impact(NamedTuple):
     max_contact_radius: arb
 
 
-class Law(Protocol):
+class BallLaw(Protocol):
     """What a plate adds to Hertz's law up to a/b = `reach`, at the precision now set."""
 
     @property
@@ -194,7 +194,7 @@ def _duration(course: Course, u: arb, bits: int) -> arb:
         return course.scale * body * arb(1, course.doubt)
 
 
-def _course(alpha: arb, R: Exact, m: Exact, b: Exact, stiff: arb, law: Law) -> Course:
+def _course(alpha: arb, R: Exact, m: Exact, b: Exact, stiff: arb, law: BallLaw) -> Course:
     """Polynomials at a largest a/b; `stiff` is C = 4 E*/(3R)."""
     bits = flint.ctx.prec
     bare, error = law.slope(alpha)
@@ -215,8 +215,8 @@ def _course(alpha: arb, R: Exact, m: Exact, b: Exact, stiff: arb, law: Law) -> C
 
 def impact(
     R: Exact, m: Exact, v0: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact, digits: int = 40,
-    law: Callable[[int], Law] | None = None,
-) -> Impact:  # fmt: skip
+    law: Callable[[int], BallLaw] | None = None,
+) -> ImpactBalls:  # fmt: skip
     """The conservative impact of a sphere of mass m at speed v0.
 
     `law` gives the plate's law at so many bits; without it integrals serve.
@@ -228,10 +228,10 @@ def impact(
     """
     chosen = law or (lambda _: Integrals(ratio_of(h, b)))
 
-    def compute(bits: int) -> Impact:
+    def compute(bits: int) -> ImpactBalls:
         return _impact(R, m, v0, h, b, lam, mu, (), chosen(bits))[0]
 
-    return Impact(*settle(compute, digits, "impact"))
+    return ImpactBalls(*settle(compute, digits, "impact"))
 
 
 def stored_energy(
@@ -250,7 +250,7 @@ def stored_energy(
 def history(
     radii: Sequence[Exact],
     R: Exact, m: Exact, v0: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact,
-    digits: int = 40, law: Callable[[int], Law] | None = None,
+    digits: int = 40, law: Callable[[int], BallLaw] | None = None,
 ) -> tuple[arb, ...]:  # fmt: skip
     """Times since first touch at which the growing contact reaches the given radii.
 
@@ -265,7 +265,7 @@ def history(
 
 
 def largest_ratio(
-    R: Exact, m: Exact, v0: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact, law: Law
+    R: Exact, m: Exact, v0: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact, law: BallLaw
 ) -> arb:
     """Largest a/b of an impact, at the precision now set.
 
@@ -292,15 +292,15 @@ def largest_ratio(
 
 def _impact(
     R: Exact, m: Exact, v0: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact,
-    radii: Sequence[Exact], law: Law,
-) -> tuple[Impact, tuple[arb, ...]]:  # fmt: skip
+    radii: Sequence[Exact], law: BallLaw,
+) -> tuple[ImpactBalls, tuple[arb, ...]]:  # fmt: skip
     stiff, bits = 4 * modulus(lam, mu) / (3 * to_ball(R)), flint.ctx.prec
     alpha = largest_ratio(R, m, v0, h, b, lam, mu, law)
     course = _course(alpha, R, m, b, stiff, law)
     whole = _duration(course, arb(1), bits)
     deepest = course.radius**2 / to_ball(R) * (1 + law.excess("hertz", alpha))
     force = stiff * course.radius**3
-    found = Impact(2 * whole, deepest, force, course.radius)
+    found = ImpactBalls(2 * whole, deepest, force, course.radius)
     return found, tuple(whole - _duration(course, _left(a, course), bits) for a in radii)
 
 

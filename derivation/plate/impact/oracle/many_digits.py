@@ -23,7 +23,7 @@ from derivation.plate.contact.oracle.balls import modulus, ratio_of, settle
 from derivation.plate.contact.route import residue_law
 from derivation.plate.contact.route import sums as contact_routes
 from derivation.plate.impact.oracle import impact as contact_impact
-from derivation.plate.impact.oracle.impact import Integrals, Law
+from derivation.plate.impact.oracle.impact import BallLaw, Integrals
 from derivation.plate.impact.oracle.many_costs import (
     INPUTS,
     Motion,
@@ -97,7 +97,7 @@ class Pressed(NamedTuple):
     quantities: tuple[Quantity, ...]
 
 
-class Reference(NamedTuple):
+class ImpactReference(NamedTuple):
     """What both oracles say of a scene.
 
     Attributes
@@ -170,7 +170,7 @@ class Reference(NamedTuple):
         return found
 
 
-def reference(motion: Motion, digits: int, tell: Tell) -> Reference:
+def reference(motion: Motion, digits: int, tell: Tell) -> ImpactReference:
     """Law and impact by both oracles.
 
     Parameters
@@ -208,7 +208,7 @@ def reference(motion: Motion, digits: int, tell: Tell) -> Reference:
         laws.append(Pressed(a, again))
     tell("oracle 2: impact", 1, 1)
     moved = _beside(found._fields, found, second.impact(), second.digits)
-    return Reference(motion, digits, moved, tuple(laws))
+    return ImpactReference(motion, digits, moved, tuple(laws))
 
 
 class _Second(NamedTuple):
@@ -243,7 +243,7 @@ def _second(motion: Motion, reach: float, digits: int) -> _Second:
     )
 
 
-def law_for(motion: Sequence[Any], digits: int) -> Callable[[int], Law]:
+def law_for(motion: Sequence[Any], digits: int) -> Callable[[int], BallLaw]:
     """Oracle 1's law at so many bits, up to the largest contact of an impact of exact numbers."""
     return law_of(ratio_of(motion[3], motion[4]), _reach(motion), digits, lambda *_: None)
 
@@ -257,7 +257,7 @@ def _reach(motion: Sequence[Any]) -> float:
     return min(float(largest.upper()) * _MARGIN, math.nextafter(1.0, 0.0))
 
 
-def law_of(eta: Fraction, reach: float, digits: int, tell: Tell) -> Callable[[int], Law]:
+def law_of(eta: Fraction, reach: float, digits: int, tell: Tell) -> Callable[[int], BallLaw]:
     """Oracle 1's law at so many bits: a power series where that is possible and quicker.
 
     Parameters
@@ -275,7 +275,7 @@ def law_of(eta: Fraction, reach: float, digits: int, tell: Tell) -> Callable[[in
         tell("oracle 1: integrals", 1, 1)
         return lambda _: Integrals(eta)
 
-    def law(bits: int) -> Law:
+    def law(bits: int) -> BallLaw:
         contact_points.prepare(eta, reach, bits, lambda k, n: tell("oracle 1: zeros of J0", k, n))
         tell("oracle 1: power series", 1, 1)
         return contact_points.series(eta, reach, bits)
@@ -284,7 +284,7 @@ def law_of(eta: Fraction, reach: float, digits: int, tell: Tell) -> Callable[[in
 
 
 def pressed(
-    a: float, R: float, b: float, lam: float, mu: float, law: Callable[[int], Law], digits: int
+    a: float, R: float, b: float, lam: float, mu: float, law: Callable[[int], BallLaw], digits: int
 ) -> tuple[arb, ...]:
     """Indentation [m] and stiffness [N/m] at a contact radius [m]."""
     alpha = ratio_of(a, b)

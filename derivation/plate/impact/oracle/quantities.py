@@ -83,7 +83,7 @@ def power(series: Sequence[arb], exponent: arb) -> list[arb]:
 
 def state(
     t: Exact, R: Exact, m: Exact, v0: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact,
-    digits: int = 40, law: Callable[[int], contact_impact.Law] | None = None,
+    digits: int = 40, law: Callable[[int], contact_impact.BallLaw] | None = None,
 ) -> tuple[arb, arb, arb, arb]:  # fmt: skip
     """Indentation, its rate, contact radius and force at a time since the first touch.
 
@@ -131,7 +131,9 @@ def state(
         return depth, -speed if falling else speed, radius, load
 
 
-def _turned(t: Exact, course: contact_impact.Impact, motion: Motion) -> tuple[arb, arb, arb, arb]:
+def _turned(
+    t: Exact, course: contact_impact.ImpactBalls, motion: Motion
+) -> tuple[arb, arb, arb, arb]:
     """The state next to the turning point, at the precision now set.
 
     m z'' = -P(z) from rest at z_m, with K = dP/dz there: in powers of x = (K/m) tau^2,
@@ -156,8 +158,8 @@ def _turned(t: Exact, course: contact_impact.Impact, motion: Motion) -> tuple[ar
 
 
 def _start(
-    goal: arb, course: contact_impact.Impact, motion: Motion,
-    law: Callable[[int], contact_impact.Law] | None,
+    goal: arb, course: contact_impact.ImpactBalls, motion: Motion,
+    law: Callable[[int], contact_impact.BallLaw] | None,
 ) -> Fraction:  # fmt: skip
     """Contact radius a_m (1 - u^2) near a time, u interpolated between times of a grid.
 

@@ -8,6 +8,7 @@ less well; these count apart.
 """
 
 import json
+import math
 from functools import cache
 from typing import NamedTuple
 
@@ -17,7 +18,7 @@ from derivation.scene.scene import OUTPUTS
 
 SHORT, WIDE = 4.0, 0.3
 """Contact time over that of a thickness echo, below which a contact is short; and contact radius
-over thickness, from which it is wide."""
+over thickness, on the plate or on a half-space, from which it is wide."""
 CONVERGED, ROUGHLY = 1e-3, 1e-2
 """Own error of the elements up to which a comparison counts, and that of a rough contact."""
 FLOOR = 1e-3
@@ -44,12 +45,21 @@ def inertia_error(model: Model, a: float, contact_time: float) -> dict[str, floa
         Duration of the first contact [s].
     """
     fastest = model.shear_speed * ((model.lam + 2.0 * model.mu) / model.mu) ** 0.5
-    rough = _rough(contact_time * fastest / (4.0 * model.h), a / (2.0 * model.h))
+    # A light plate gives way: the contact stays narrower, but the force rises as on a half-space.
+    widest = max(a, _half_space_radius(model))
+    rough = _rough(contact_time * fastest / (4.0 * model.h), widest / (2.0 * model.h))
     found: dict[str, float] = dict.fromkeys(OUTPUTS, FLOOR)
     for case in _cases():
         if rough or not case.rough:
             found = {name: max(size, case.errors.get(name, 0.0)) for name, size in found.items()}
     return found
+
+
+def _half_space_radius(model: Model) -> float:
+    """Largest contact radius [m] on a half-space, by Hertz."""
+    stiffness = 4.0 / 3.0 * model.modulus / (1.0 + model.softness) * math.sqrt(model.R)
+    depth = math.pow(1.25 * model.m / stiffness, 0.4) * math.pow(model.v0, 0.8)
+    return math.sqrt(model.R * depth)
 
 
 def _rough(echoes: float, width: float) -> bool:

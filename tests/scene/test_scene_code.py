@@ -377,7 +377,7 @@ def test_the_command_writes_the_same_bytes_without_sympy(tmp_path: Path) -> None
         (["scene.toml", "--out", "x.txt"], "expected a file ending in .py, got x.txt"),
         (["scene.toml", "--out", "."], "got a folder"),
         (["scene.toml", "--out", "scene.toml"], "got the scene file"),
-        (["scene.toml", "--out", "x.py", "--check"], "--check: expected the package"),
+        (["scene.toml", "--out", "x.py", "--check"], "--check compares the whole package"),
         (["scene.toml", "--out", "/proc/nowhere/x.py"], "/proc/nowhere"),
     ],
 )

@@ -18,7 +18,6 @@ from derivation.engine.rewrite.shape import Shape
 from derivation.engine.rewrite.stabilise import stabilise
 from derivation.engine.rewrite.terms import UnreachableError, terms_of
 from derivation.mathematics.bessel import kernels as bessel_tables
-from derivation.pipeline import REWRITTEN
 from derivation.plate.contact.kernels import moments as moment_tables
 from derivation.plate.contact.kernels import tables as contact_tables
 from derivation.plate.derived import formulas
@@ -28,6 +27,7 @@ from derivation.plate.edge_modes.kernels import wave_tables as held_tables
 from derivation.plate.effects import kernels as effect_tables
 from derivation.plate.forms import SCALES
 from derivation.plate.impact.kernels import simple as simple_impact_tables
+from derivation.plate.paper import PAPER
 from derivation.plate.waves import kernels as inertia_tables
 
 x = sp.Symbol("x", positive=True)
@@ -40,7 +40,7 @@ def test_an_account_is_the_one_committed() -> None:
     (found,) = account.accounts(*chosen, lambda *step: told.append(step))
     assert told == [("Omega_3", 1, 1)]
     assert account.accounts(*chosen) == (found,)
-    (row,) = (r for r in json.loads(REWRITTEN.read_text())["rows"] if r["name"] == "Omega_3")
+    (row,) = (r for r in json.loads(PAPER.rewritten.read_text())["rows"] if r["name"] == "Omega_3")
     assert (found.variable, found.worst) == (row["variable"], row["worst"])
     assert [a.rule for a in found.applied] == [a["rule"] for a in row["applied"]]
 

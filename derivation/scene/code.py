@@ -207,9 +207,17 @@ def tabulated(law: ContactLaw, last: float) -> PanelTable:
             todo += [(middle, high), (low, middle)]
             continue
         ends.append(high)
-        rows.append(np.array([cheb2poly(column) for column in found.T]))
+        rows.append(np.array([_powers(column) for column in found.T]))
     growth, force = np.stack(rows, axis=1)
     return PanelTable(np.array(ends), growth, force if law.spherical or law.solved else None)
+
+
+def _powers(series: Array) -> Array:
+    """Powers of a Chebyshev series, the same number of them: `cheb2poly` drops zeros at the end."""
+    powers: Array = np.zeros(len(series))
+    found = cheb2poly(series)
+    powers[: len(found)] = found
+    return powers
 
 
 def _shown(table: PanelTable) -> dict[str, Any]:

@@ -201,8 +201,8 @@ def _out_of_reach(rtol: float, accuracy: AchievedAccuracy, law: ContactLaw, a: f
         mend += ", or more inertia.modes"
     if math.isinf(accuracy.bound):
         return SceneError(
-            f"inertia.modes: expected modes as fast as the contact, without which no error bound "
-            f"is known, got {law.model.inertia.modes}; give more, or leave out the tolerance"
+            f"inertia.modes: expected modes as fast as the contact, as the error bound requires, "
+            f"got {law.model.inertia.modes}; give more, or remove the tolerance"
         )
     return SceneError(
         f"rtol: expected at least {_above(accuracy.bound)} {where}, got {rtol:.3g}; {mend}"

@@ -74,7 +74,7 @@ class InertiaDetails:
         Energy left in each of them [J].
     mode_convergence
         Relative change of each result with the number of modes [1]; infinite if that says nothing,
-        as of modes slower than the contact.
+        as of modes that are slower than the contact.
     omitted_branch_error
         Estimated change of each result by the omitted wave branches [1].
     """
@@ -189,7 +189,7 @@ class DynamicImpact(Motion):
             return (energies,)
         ended = f"No further contact is possible after {len(inertia.contacts)} contact(s); "
         branches = "all wave branches" if self.law.model.inertia.branches == "all" else "branch A0"
-        change = "more modes are needed for an error estimate: these are slower than the contact"
+        change = "more modes are needed for an error estimate: these do not follow the contact"
         if math.isfinite(max(inertia.mode_convergence)):
             change = (
                 "halving the number of modes changes the results by at most "

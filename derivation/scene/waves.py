@@ -144,7 +144,7 @@ def _converged(
         # Where omitted branches are worth more than modes could mend, a tenth is small enough.
         enough = goal if beyond <= goal / SHARE else max(goal, 0.1 * beyond)
         if law.model.inertia.modes:
-            return best if fast(law, count) else _unjudged(best)
+            return _of_chosen_modes(best, law, count, quick)
         near = change <= LAST * enough
         if change <= enough or too_dear(law, count, _work(best.impact_history), near):
             return best
@@ -172,6 +172,27 @@ def _judged(rough: DynamicImpact, found: DynamicImpact) -> DynamicImpact:
     """Return the finer run with the relative change of each result since the coarser run."""
     pairs = zip(found.numbers, rough.numbers, strict=True)
     time, depth, force, radius, speed = (abs(new - old) / abs(new) for new, old in pairs)
+    change = time, depth, force, radius, speed
+    return replace(found, inertia=replace(found.inertia, mode_convergence=change))
+
+
+def _of_chosen_modes(
+    found: DynamicImpact, law: ContactLaw, count: int, quick: Motion
+) -> DynamicImpact:
+    """A run with as many modes as the scene says, and what its error estimate is worth.
+
+    Half as many that are slower than the contact may agree with it by chance: then a quarter as
+    many are asked too. If all of them are slower, no estimate is known.
+    """
+    if fast(law, count // 2):
+        return found
+    if not fast(law, count):
+        return _unjudged(found)
+    coarse = _run(law, max(1, count // 4), quick, STAGES[0])
+    if not coarse.inertia.complete:
+        return _unjudged(found)
+    further = _judged(coarse, found).inertia.mode_convergence
+    time, depth, force, radius, speed = map(max, found.inertia.mode_convergence, further)
     change = time, depth, force, radius, speed
     return replace(found, inertia=replace(found.inertia, mode_convergence=change))
 

@@ -153,9 +153,23 @@ def test_bending_that_lengthens_a_contact_does_not_calm_the_thickness() -> None:
     """The membrane's force rises in a thirtieth of its contact, and makes the thickness ring."""
     scene = tomllib.loads((EXAMPLES / "membrane.toml").read_text())
     lowest = simulate(read(scene))
+    del scene["accuracy"]
     every = simulate(read(scene | {"inertia": {"branches": "all", "modes": 200}}))
     change = abs(lowest.max_force / every.max_force - 1.0)
     assert 2e-3 < change < lowest.accuracy.bound
+
+
+def test_a_bound_of_chosen_modes_covers_what_more_modes_change() -> None:
+    """The membrane's peak force is the same with 90 and 180 modes by chance, not with 340."""
+    scene = tomllib.loads((EXAMPLES / "membrane.toml").read_text())
+    del scene["accuracy"]
+    few, more = (
+        simulate(read(scene | {"inertia": {"branches": "all", "modes": modes}}))
+        for modes in (180, 340)
+    )
+    change = abs(few.max_force / more.max_force - 1.0)
+    assert change > 1e-3
+    assert few.accuracy.bound > change
 
 
 def test_a_contact_too_short_for_the_modes_of_its_plate_is_refused() -> None:

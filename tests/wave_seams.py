@@ -13,7 +13,7 @@ from derivation.plate.edge_modes import cases as hard_held_families
 from derivation.plate.edge_modes.oracle import modes as held_balls
 from derivation.plate.edge_modes.oracle import waves as held_wave_balls
 from derivation.plate.hard import check as hard_check
-from generated import edge_modes, inertia, plate_waves
+from generated import edge_modes, wave_numbers
 from generated.plate_waves import branches
 
 LOWEST = ("bending_frequency", "bending_residue", "bending_share")
@@ -96,12 +96,12 @@ def lifted(p: Any, q: Any) -> Any:
 
 
 A1_CLOSE: dict[float, Condition] = {
-    1.42: lambda p, _: p + plate_waves._CLOSE,
-    1.83: lambda p, _: p - plate_waves._CLOSE,
+    1.42: lambda p, _: p + wave_numbers.CLOSE,
+    1.83: lambda p, _: p - wave_numbers.CLOSE,
 }
 S0_CLOSE: dict[float, Condition] = {
-    0.37: lambda _, q: q + plate_waves._CLOSE,
-    3.5: lambda _, q: q - plate_waves._CLOSE,
+    0.37: lambda _, q: q + wave_numbers.CLOSE,
+    3.5: lambda _, q: q - wave_numbers.CLOSE,
 }
 
 
@@ -142,8 +142,8 @@ WAVE_SEAMS: dict[str, Seam] = {
     "small k2 on the face": Seam(
         FACE, lambda p: p["k2"] * on_face(p), lambda: [edge_modes._SMALL]
     ),
-    "x of the lowest branch": Seam(LOWEST, lambda p: p["x"], lambda: [inertia._SHALLOW]),
-    "x of its share": Seam(LOWEST[2:], lambda p: p["x"], lambda: [inertia._SMALL]),
+    "x of the lowest branch": Seam(LOWEST, lambda p: p["x"], lambda: [wave_numbers.SHALLOW]),
+    "x of its share": Seam(LOWEST[2:], lambda p: p["x"], lambda: [wave_numbers.SMALL]),
     "T of its share": Seam(
         LOWEST[2:], lambda p: 2 * p["x"], lambda: [float(blocks()["sinh_minus"].value.at)]
     ),
@@ -152,7 +152,7 @@ WAVE_SEAMS: dict[str, Seam] = {
     "2 q = p": Seam(
         ("dynamic_influence",), lambda p: (4 - gam(p)) * p["kap"] / (3 * p["x"] ** 2), lambda: [1]
     ),
-    "p + q of the influence": Seam(("dynamic_influence",), both_roots, lambda: [inertia._NEAR]),
+    "p + q of the influence": Seam(("dynamic_influence",), both_roots, lambda: [wave_numbers.NEAR]),
     "smallest in bending": Seam(*at_x("antisymmetric", 0.3, 1, {1.17: smallest})),
     "smallest in stretching": Seam(*at_x("symmetric", 0.3, 1, {1.12: smallest})),
     "cosh p = cosh q": Seam(

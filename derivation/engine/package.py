@@ -47,13 +47,14 @@ class Package:
 def forms_of(chain: Chain, package: Package) -> tuple[Form, ...]:
     """The stable forms, proved equal to the formulas."""
     kinds = (Form, Step, Branch, Seam)
-    rooms = ("engine/rewrite",)
+    rooms = ("engine/rewrite", *package.sources)
     return chain.kept("forms", lambda: package.forms(chain.formulas()), *kinds, also=rooms)
 
 
 def files_of(chain: Chain, package: Package) -> dict[str, str]:
     """The files of the package by name."""
-    rooms = ("engine/rewrite", "engine/errata", "engine/emit", *package.sources)
+    own = ("engine/rewrite", "engine/errata", "engine/emit", "engine/runtime")
+    rooms = (*own, *package.sources)
 
     def compute() -> dict[str, str]:
         return package.files(chain.formulas(), forms_of(chain, package))

@@ -20,16 +20,22 @@ def read_tables() -> dict[str, Any]:
     found = tomllib.loads(BUDGETS.read_text())
     for file in sorted(BUDGETS.parent.glob("*/budgets.toml")):
         own = tomllib.loads(file.read_text())
-        for table in ("ulp", "domain"):
-            if twice := own[table].keys() & found[table].keys():
-                raise ValueError(f"{file.parent.name}: a second budget for {', '.join(twice)}")
-            found[table] |= own[table]
+        if twice := own["ulp"].keys() & found["ulp"].keys():
+            raise ValueError(f"{file.parent.name}: a second budget for {', '.join(twice)}")
+        found["ulp"] |= own["ulp"]
+        found["domain"] |= own.get("domain", {})
     return found
 
 
 def read_budgets() -> dict[str, budgets.Budget]:
     """Budgets by kernel, as committed."""
     return budgets.parse_budgets(read_tables())
+
+
+def read_domains() -> dict[str, str]:
+    """Domains of the functions whose modules have a template."""
+    domains: dict[str, str] = read_tables()["domain"]
+    return domains
 
 
 def read_promises(table: str = "impact") -> dict[str, float]:

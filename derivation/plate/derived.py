@@ -13,7 +13,6 @@ GROUND = (
     "engine/formula",
     "plate/*.py",
     "plate/*/theory*",
-    "plate/*/kernels*",
     "plate/printed",
     "mathematics",
 )

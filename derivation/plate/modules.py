@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from derivation.engine.emit.package import Shape
+from derivation.engine.emit.package import Numbers, Routines, Shape
 from derivation.plate.subjects import handed_in
 
 
@@ -66,6 +66,34 @@ class TemplateModule:
     functions: tuple[FunctionRow, ...] = ()
 
 
+class RuntimeModule(NamedTuple):
+    """A module that is written by hand and copied: its name, and the original."""
+
+    name: str
+    file: Path
+
+
+@dataclass(frozen=True, eq=False)
+class ComputedModule:
+    """A module of routines or of numbers: its name, and what makes it."""
+
+    name: str
+    make: Callable[[], Routines | Numbers]
+
+
+SubjectModule = PrintedModule | TemplateModule | RuntimeModule | ComputedModule
+
+
+def runtime_files() -> dict[str, Path]:
+    """The modules written by hand of all subjects, by name."""
+    return {part.name: part.file for part in _modules() if isinstance(part, RuntimeModule)}
+
+
+def computed_modules() -> tuple[ComputedModule, ...]:
+    """Return the modules of routines and of numbers of all subjects."""
+    return tuple(part for part in _modules() if isinstance(part, ComputedModule))
+
+
 def printed_modules() -> tuple[PrintedModule, ...]:
     """Return the printed modules of all subjects."""
     return tuple(module for module in _modules() if isinstance(module, PrintedModule))
@@ -76,6 +104,6 @@ def template_modules() -> tuple[TemplateModule, ...]:
     return tuple(module for module in _modules() if isinstance(module, TemplateModule))
 
 
-def _modules() -> Iterator[PrintedModule | TemplateModule]:
+def _modules() -> Iterator[SubjectModule]:
     for modules in handed_in("kernels", "MODULES"):
         yield from modules

@@ -16,7 +16,8 @@ def _package() -> Package:
     from derivation.plate.forms import AUTOMATIC, SCALES, stable_forms
     from derivation.plate.render import render
 
-    sources = ("plate/budgets.toml", "plate/*/budgets.toml", "plate/templates", "plate/*/*.j2")
+    parts = ("kernels*", "runtime*", "budgets.toml", "*.j2")
+    sources = ("plate/budgets.toml", "plate/templates", *(f"plate/*/{part}" for part in parts))
     return Package("generated", stable_forms, render, sources, AUTOMATIC, SCALES)
 
 

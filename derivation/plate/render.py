@@ -14,7 +14,15 @@ from derivation.engine.emit.kernels import (
     kernel_of_form,
     rows_by_module,
 )
-from derivation.engine.emit.package import Module, kernel_modules, kernel_row, shared, written
+from derivation.engine.emit.package import (
+    Copy,
+    Module,
+    Planned,
+    kernel_modules,
+    kernel_row,
+    shared,
+    written,
+)
 from derivation.engine.emit.printer import to_numpy
 from derivation.engine.formula.record import Record
 from derivation.engine.rewrite.form import Form
@@ -32,7 +40,12 @@ from derivation.plate.edge.kernels import edge_context
 from derivation.plate.impact.kernels.perturbation import perturbation_context
 from derivation.plate.impact.kernels.simple import simple_impact_context
 from derivation.plate.modes.kernels.modal_sums import MODAL_SUMS, STYLE, kernel_of_sum
-from derivation.plate.modules import printed_modules, template_modules
+from derivation.plate.modules import (
+    computed_modules,
+    printed_modules,
+    runtime_files,
+    template_modules,
+)
 from derivation.plate.pressure.kernels import pressure_context
 from derivation.plate.printed.contact import PRINTED
 from derivation.plate.table_rows import contact_rows, notes_of, table_rows
@@ -73,7 +86,7 @@ def kernel_rows(
     return of_forms + of_sums
 
 
-def modules(kernels: tuple[EmittedKernel, ...]) -> tuple[Module, ...]:
+def modules(kernels: tuple[EmittedKernel, ...]) -> tuple[Planned, ...]:
     """Stage 2: every file's template and context."""
     grouped = rows_by_module(kernels)
     known, budgets = blocks() | sections(), read_budgets()
@@ -82,7 +95,7 @@ def modules(kernels: tuple[EmittedKernel, ...]) -> tuple[Module, ...]:
         notes = notes_of(name, budgets)
         return Module(name, name, {**context, "notes": notes} if notes else context, folder)
 
-    planned = [
+    planned: list[Planned] = [
         *shared(known),
         tables("bessel", bessel_context()),
         tables("series_constants", moment_context()),
@@ -94,6 +107,8 @@ def modules(kernels: tuple[EmittedKernel, ...]) -> tuple[Module, ...]:
         tables("sensitivity", sensitivity_context()),
         tables("edge", edge_context()),
         *(tables(x.name, x.context(), x.folder) for x in template_modules()),
+        *(x.make() for x in computed_modules()),
+        *(Copy(name, file, "generated", budgets) for name, file in runtime_files().items()),
         own("simple_impact", simple_impact_context()),
         own("perturbation", perturbation_context()),
         own("non_hertzian_pressure", pressure_context() | read_promises("pressure")),

@@ -3,7 +3,9 @@
 from collections.abc import Mapping
 
 from derivation.engine.emit.budgets import Budget
-from derivation.plate.modules import template_modules
+from derivation.engine.emit.copies import ListedFunction, listed_functions
+from derivation.plate.budgets import read_domains
+from derivation.plate.modules import runtime_files, template_modules
 
 TABLES = (
     # name, module, argument, symbol, meaning
@@ -52,6 +54,7 @@ def table_rows(budgets: Mapping[str, Budget]) -> list[dict[str, object]]:
             "equation": "",
             "modes": False,
         }
+        | {"domain": read_domains()[name]}
         | budgets[name].row()
         for name, module, argument, symbol, meaning in TABLES
     ]
@@ -134,11 +137,37 @@ def contact_rows(budgets: Mapping[str, Budget]) -> list[dict[str, object]]:
     """Manifest rows of the contact law and the impact, whose modules are made of tables."""
     keys = ("name", "module", "arguments", "unit", "symbol", "equation", "meaning")
     rows = [dict(zip(keys, row, strict=True)) for row in CONTACT_FUNCTIONS]
-    return [row | budgets[str(row["name"])].row() for row in rows]
+    domains = read_domains()
+    of_templates = [
+        row | {"domain": domains[str(row["name"])]} | budgets[str(row["name"])].row()
+        for row in rows
+    ]
+    return of_templates + [
+        listed_row(name, function, budgets)
+        for name, file in runtime_files().items()
+        for function in listed_functions(file)
+    ]
+
+
+def listed_row(
+    module: str, function: ListedFunction, budgets: Mapping[str, Budget]
+) -> dict[str, object]:
+    """Manifest row of a function that is written by hand."""
+    return {
+        "name": function.name,
+        "module": module,
+        "arguments": tuple(x.name for x in function.arguments),
+        "unit": function.unit,
+        "symbol": function.symbol,
+        "equation": function.equation,
+        "meaning": function.meaning,
+        "domain": function.domain,
+    } | budgets[function.name].row()
 
 
 def notes_of(module: str, budgets: Mapping[str, Budget]) -> dict[str, tuple[str, ...]]:
     """Notes of the functions of a module made of tables, by name."""
     rows = [row[:2] for row in TABLES] + [row[:2] for row in CONTACT_FUNCTIONS]
     names = [name for name, place in rows if place == module]
-    return {name: budgets[name].notes for name in names}
+    domains = read_domains()
+    return {name: budgets[name].notes(domains[name]) for name in names}

@@ -1,7 +1,7 @@
-"""Budgets as committed data: what each generated function promises, and where.
+"""Budgets as committed data: what each generated function promises.
 
-A budget is a number of units in the last place (ULP), a domain and a conditioning
-rule, which says what the number counts in and what comes on top of it.
+A budget is a number of units in the last place (ULP) and a conditioning rule, which says what
+the number counts in and what comes on top of it.
 """
 
 import textwrap
@@ -23,30 +23,25 @@ class Budget:
     ----------
     ulp
         Allowed error in units in the last place.
-    domain
-        Conditions, separated by commas, outside which the kernel gives NaN.
     rule
         Of what these units are, and what is allowed on top.
     """
 
     ulp: float
-    domain: str
     rule: str
 
-    @property
-    def notes(self) -> tuple[str, ...]:
-        """Its three parts as lines of a docstring."""
+    def notes(self, domain: str) -> tuple[str, ...]:
+        """What a docstring promises: the budget, and the conditions outside which there is NaN."""
         promise = f"Error budget: {self.ulp:g} units in the last place of {self.rule}."
-        domain = self.domain or "all real numbers"
         where = (
-            f"Domain: {domain}. The budget holds wherever the value is a normal number; smaller "
-            "ones are rounded to a subnormal number or to zero."
+            f"Domain: {domain or 'all real numbers'}. The budget holds wherever the value is a "
+            "normal number; smaller ones are rounded to a subnormal number or to zero."
         )
         return (*textwrap.wrap(promise, 84), *textwrap.wrap(where, 84, break_on_hyphens=False))
 
     def row(self) -> dict[str, object]:
-        """Its three parts under the manifest's keys."""
-        return {"domain": self.domain, "budget": self.ulp, "rule": self.rule}
+        """Its parts under the manifest's keys."""
+        return {"budget": self.ulp, "rule": self.rule}
 
 
 def read_budgets(file: Path) -> dict[str, Budget]:
@@ -55,7 +50,7 @@ def read_budgets(file: Path) -> dict[str, Budget]:
     Raises
     ------
     ValueError
-        If a kernel has a budget but no domain, or the other way round, or two rules.
+        If a rule names a kernel without a number, or a kernel has two rules.
     """
     return parse_budgets(tomllib.loads(file.read_text()))
 
@@ -67,19 +62,16 @@ def read_promises(file: Path, table: str) -> dict[str, float]:
 
 
 def parse_budgets(data: Mapping[str, Any]) -> dict[str, Budget]:
-    """Budgets by kernel from the tables `ulp`, `domain` and `rule`."""
-    numbers, domains, rules = data["ulp"], data["domain"], data["rule"]
+    """Budgets by kernel from the tables `ulp` and `rule`."""
+    numbers, rules = data["ulp"], data["rule"]
     named = [name for rule in rules.values() for name in rule.get("kernels", ())]
-    unmatched = set(numbers) ^ set(domains) | set(named) - set(numbers)
+    unmatched = set(named) - set(numbers)
     twice = {name for name in named if named.count(name) > 1}
     if unmatched or twice:
         raise ValueError(
-            "expected one number, one domain and at most one rule per kernel in budgets.toml; "
+            "expected one number and at most one rule per kernel in budgets.toml; "
             f"mend {', '.join(sorted(unmatched | twice))}"
         )
     rule_of = {name: rule["text"] for rule in rules.values() for name in rule.get("kernels", ())}
     ordinary = rules[ORDINARY]["text"]
-    return {
-        name: Budget(float(ulp), domains[name], rule_of.get(name, ordinary))
-        for name, ulp in numbers.items()
-    }
+    return {name: Budget(float(ulp), rule_of.get(name, ordinary)) for name, ulp in numbers.items()}

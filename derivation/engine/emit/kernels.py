@@ -110,7 +110,12 @@ class EmittedKernel:
     @property
     def notes(self) -> tuple[str, ...]:
         """What the docstring promises about the error."""
-        return self.budget.notes
+        return self.budget.notes(self.domain)
+
+    @property
+    def domain(self) -> str:
+        """Conditions outside which it gives NaN."""
+        return ", ".join(self.conditions)
 
 
 def kernel_of_form(stable: Form, formula: Record, budget: Budget, style: Style) -> EmittedKernel:
@@ -140,20 +145,9 @@ def kernel(
     seam: SeamText | None = None,
     modes: bool = False,
 ) -> EmittedKernel:
-    """Row of a function of the given arguments.
-
-    Raises
-    ------
-    ValueError
-        If its budget names another domain than the formula.
-    """
+    """Row of a function of the given arguments."""
     names = {x.name for x in arguments}
     where = conditions(arguments, formula.where, style)
-    if budget.domain != ", ".join(where):
-        raise ValueError(
-            f"the budget of {formula.name} names the domain {budget.domain!r}; "
-            f"the formula's is {', '.join(where)!r}"
-        )
     total = "sum over j of " if modes else ""
     stated = formula.expression if formula.stated is None else formula.stated
     return EmittedKernel(

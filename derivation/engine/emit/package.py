@@ -2,14 +2,15 @@
 
 import hashlib
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
 import sympy as sp
 
-from derivation.engine.emit.budgets import read_budgets
+from derivation.engine.emit import copies, tables
+from derivation.engine.emit.budgets import Budget, read_budgets
 from derivation.engine.emit.kernels import (
     EmittedKernel,
     Style,
@@ -19,13 +20,16 @@ from derivation.engine.emit.kernels import (
     seam_text,
 )
 from derivation.engine.emit.printer import to_numpy
+from derivation.engine.emit.routine import Routine
+from derivation.engine.emit.routine import text as routine_text
 from derivation.engine.emit.source import TEMPLATES, filled, format_files
 from derivation.engine.formula.record import Record
 from derivation.engine.rewrite.automatic import automatic
 from derivation.engine.rewrite.blocks import HYPERBOLIC, Definition, built
-from derivation.engine.rewrite.form import ONCE, SCALINGS, Block, Form, Seam, Step, form
+from derivation.engine.rewrite.form import SCALINGS, Block, Form, Seam, Step, form
 from derivation.engine.rewrite.scales import Scales
 
+RUNTIME = Path(__file__).parents[1] / "runtime"
 Shape = tuple[tuple[Step, ...], sp.Expr | Seam]
 """Steps and value of a form."""
 
@@ -38,6 +42,60 @@ class Module:
     template: str
     context: Mapping[str, Any]
     folder: Path = TEMPLATES
+
+
+@dataclass(frozen=True)
+class Numbers:
+    """A module of numbers: its name, its first line, and the numbers."""
+
+    name: str
+    title: str
+    constants: tuple[tables.Constant, ...]
+
+
+@dataclass(frozen=True)
+class Routines:
+    """A module of routines: its name, its first line, and what it takes from which module.
+
+    Parameters
+    ----------
+    name, title
+        Its name, and its first line.
+    routines
+        Its functions, in order.
+    imports
+        Modules of the package, and the names that the functions need of them.
+    """
+
+    name: str
+    title: str
+    routines: tuple[Routine, ...]
+    imports: Mapping[str, tuple[str, ...]]
+
+
+@dataclass(frozen=True)
+class Copy:
+    """A module written by hand, which is copied.
+
+    Parameters
+    ----------
+    name
+        Its name in the package.
+    file
+        The original.
+    package
+        Import name of the package, by which the original refers to it.
+    budgets
+        Error budgets by function.
+    """
+
+    name: str
+    file: Path
+    package: str = "generated"
+    budgets: Mapping[str, Budget] = field(default_factory=dict)
+
+
+Planned = Module | Numbers | Routines | Copy
 
 
 @dataclass(frozen=True)
@@ -129,11 +187,11 @@ class Printing:
         return written(planned)
 
 
-def shared(known: Mapping[str, Block]) -> tuple[Module, ...]:
+def shared(known: Mapping[str, Block]) -> tuple[Planned, ...]:
     """The modules that every package begins with."""
     return (
-        Module("arrays", "arrays", {}),
-        Module("ranges", "ranges", {"once": ONCE}),
+        Copy("arrays", RUNTIME / "arrays.py"),
+        Copy("ranges", RUNTIME / "ranges.py"),
         Module("blocks", "blocks", {"functions": [block_text(b) for b in known.values()]}),
     )
 
@@ -152,10 +210,47 @@ def kernel_modules(
     return tuple(planned)
 
 
-def written(planned: Sequence[Module]) -> dict[str, str]:
-    """The files of a package by name; the same bytes for the same modules."""
-    source = {f"{module.name}.py": fill(module) for module in planned}
-    return format_files(source) | {"py.typed": ""}
+def written(planned: Sequence[Planned]) -> dict[str, str]:
+    """The files of a package by name; the same bytes for the same modules.
+
+    Copies keep their lines; all others are formatted.
+    """
+    copied = {f"{part.name}.py": _copied(part) for part in planned if isinstance(part, Copy)}
+    printed = {f"{part.name}.py": _text(part) for part in planned if not isinstance(part, Copy)}
+    return copied | format_files(printed) | {"py.typed": ""}
+
+
+def _copied(part: Copy) -> str:
+    source = f"{part.file.read_text()}{sorted(part.budgets.items())}"
+    return copies.copied(part.file, part.package, header(source), part.budgets)
+
+
+def _text(part: Module | Numbers | Routines) -> str:
+    if isinstance(part, Numbers):
+        return tables.module_text(part.title, header(repr(part.constants)), part.constants)
+    if isinstance(part, Routines):
+        return _routines_text(part)
+    return fill(part)
+
+
+def _routines_text(part: Routines) -> str:
+    """Source of a module of routines.
+
+    Raises
+    ------
+    ValueError
+        Naming what the routines need and no module is named for.
+    """
+    needed = {name for r in part.routines for name in r.calls | r.constants}
+    given = {name for names in part.imports.values() for name in names}
+    if missing := needed - given - {r.name for r in part.routines}:
+        raise ValueError(f"{part.name}: expected modules for {', '.join(sorted(missing))}")
+    lines = ["import numpy as np", "", "from .arrays import Double"]
+    for module, names in sorted(part.imports.items()):
+        used = sorted(needed & set(names))
+        lines += [f"from .{module} import {', '.join(used)}"] if used else []
+    body = "\n\n\n".join(["\n".join(lines), *map(routine_text, part.routines)])
+    return f'"""{part.title}"""\n{header(body)}\n\n{body}\n'
 
 
 def block_text(block: Block) -> dict[str, Any]:
@@ -185,23 +280,24 @@ def kernel_row(k: EmittedKernel) -> dict[str, Any]:
         "latex": k.latex,
         "meaning": k.meaning,
         "equation": k.equation,
+        "domain": k.domain,
         "modes": k.modes,
     } | k.budget.row()
 
 
 def fill(module: Module) -> str:
     """Stage 3: a module's source, its header naming versions and the hash of what it came from."""
-    header = "# " + "\n# ".join(header_lines(module))
-    return filled(module.template, {"header": header, **module.context}, module.folder)
+    source = repr(sorted(module.context.items()))
+    source += (module.folder / f"{module.template}.py.j2").read_text()
+    source += (TEMPLATES / "macros.j2").read_text()
+    return filled(module.template, {"header": header(source), **module.context}, module.folder)
 
 
-def header_lines(module: Module) -> tuple[str, str]:
-    """Who generated a module, from what."""
-    digest = hashlib.sha256(repr(sorted(module.context.items())).encode())
-    digest.update((module.folder / f"{module.template}.py.j2").read_bytes())
-    digest.update((TEMPLATES / "macros.j2").read_bytes())
+def header(source: str) -> str:
+    """Comment that says who generated a module, and from what."""
+    digest = hashlib.sha256(source.encode()).hexdigest()
     versions = f"platecontact {version('platecontact')} with SymPy {sp.__version__}"
     return (
-        f"Generated by {versions} from {digest.hexdigest()[:16]}.",
-        "Do not edit: `platecontact generate` writes it anew.",
+        f"# Generated by {versions} from {digest[:16]}.\n"
+        "# Do not edit: `platecontact generate` writes it anew."
     )

@@ -7,6 +7,7 @@ import sympy as sp
 from sympy.codegen.cfunctions import expm1
 
 from derivation.engine.formula.proof import Proof, prove
+from derivation.engine.runtime import ranges
 
 TIMES = sp.Function("times")
 """A value, then bases and their powers in turn: the product, which may leave the doubles' range
@@ -21,8 +22,8 @@ LOST = sp.Function("lost")
 SUM = sp.Function("sum_closely")
 """A sum, rounded as if once; its last term is small."""
 
-ONCE = sp.Integer(512)
-"""e^(-v) is applied in one piece up to this v; e^(-745) is the smallest double."""
+ONCE = sp.Integer(ranges.ONCE)
+"""e^(-v) is applied in one piece up to this v."""
 
 TAIL = sp.Function("tail")
 """What e^(-min(v, ONCE)) lacks of e^(-v), lest it underflow alone."""

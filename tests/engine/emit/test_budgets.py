@@ -3,6 +3,7 @@
 import dataclasses
 import subprocess
 import tomllib
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -47,7 +48,12 @@ def git(*arguments: str) -> str | None:
     return done.stdout if done.returncode == 0 else None
 
 
-def looser(now: dict[str, Any], before: dict[str, Any]) -> list[str]:
+DOMAINS = {row["name"]: row["domain"] for row in (*KERNELS, *CONTACT)}
+
+
+def looser(
+    now: dict[str, Any], before: dict[str, Any], domains: Mapping[str, str] = DOMAINS
+) -> list[str]:
     """Kernels that promise less than before: more ULP, or a smaller domain.
 
     That a domain ends where the tests do was true before it was said.
@@ -59,7 +65,7 @@ def looser(now: dict[str, Any], before: dict[str, Any]) -> list[str]:
         added = (
             set()
             if old_domain is None
-            else set(now["domain"][name].split(", ")) - set(old_domain.split(", "))
+            else set(domains[name].split(", ")) - set(old_domain.split(", "))
         )
         if ulp > former.get(name, ulp) or added - {"", *TESTED}:
             found.append(name)
@@ -107,17 +113,16 @@ def test_what_is_looser_is_noticed() -> None:
     assert looser({**now, "ulp": {**now["ulp"], "force": 9.25}}, first) == ["force"]
     measured = {**now, "impact": {**now["impact"], "rounding": 2 * now["impact"]["rounding"]}}
     assert looser(measured, now) == ["rounding"]
-    narrower = {**now, "domain": {**now["domain"], "G": "T > 0, T < 9"}}
-    assert looser(narrower, now) == ["G"]
-    assert looser(now, narrower) == []
+    stated = {**now, "domain": DOMAINS}
+    assert looser(now, stated, DOMAINS | {"G": "T > 0, T < 9"}) == ["G"]
+    assert looser(now, {**now, "domain": DOMAINS | {"G": "T > 0, T >= 1e-151, T < 9"}}) == []
 
 
-def test_every_kernel_has_a_number_a_domain_and_one_rule() -> None:
+def test_every_kernel_has_a_number_and_one_rule() -> None:
     data = read_tables()
     assert set(parse_budgets(data)) == {row["name"] for row in (*KERNELS, *CONTACT)}
-    for table in ("ulp", "domain"):
-        with pytest.raises(ValueError, match="mend G"):
-            parse_budgets({**data, table: {k: v for k, v in data[table].items() if k != "G"}})
+    with pytest.raises(ValueError, match="mend delta"):
+        parse_budgets({**data, "ulp": {k: v for k, v in data["ulp"].items() if k != "delta"}})
     twice = {**data["rule"], "new": {"text": "nothing", "kernels": ["delta"]}}
     with pytest.raises(ValueError, match="mend delta"):
         parse_budgets({**data, "rule": twice})

@@ -9,7 +9,7 @@ from derivation.plate.hard.case import HardCase
 from derivation.plate.hard.places import Inputs, about, around, beside, exactly
 from derivation.plate.waves import oracle as inertia_balls
 from derivation.plate.waves.cases.places import CROSSINGS, crossing
-from generated.inertia import _NEAR, _SHALLOW, _SMALL
+from generated.wave_numbers import NEAR, SHALLOW, SMALL
 
 WAVES = "seams of the plate's waves"
 HARD_WAVES = "waves of the plate"
@@ -39,10 +39,10 @@ def wave_families() -> Iterator[HardCase]:
 
 
 def _lowest_seams() -> Iterator[HardCase]:
-    everywhere = {_SHALLOW: LOWEST, _SMALL: LOWEST[2:], 1.0: LOWEST[2:]}
+    everywhere = {SHALLOW: LOWEST, SMALL: LOWEST[2:], 1.0: LOWEST[2:]}
     what = {
-        _SHALLOW: "where a power series hands over to exponentials",
-        _SMALL: "where the share ceases to be 1 less what A0 lacks",
+        SHALLOW: "where a power series hands over to exponentials",
+        SMALL: "where the share ceases to be 1 less what A0 lacks",
         1.0: "where sinh T - T, T = 2 x, ceases to be a power series",
     }
     for (place, kernels), nu in product(everywhere.items(), (_METAL, _LAST, _FIRST)):
@@ -64,9 +64,9 @@ def _influence_seams() -> Iterator[HardCase]:
             yield about(WAVES, INFLUENCE, f"{what}; x = {x:g}", given)
     for kap in (0.0, 2.0):
         # p + q = S and p - q = (1 - gam) kap/S.
-        p = (Fraction(_NEAR) + (1 - gam) * Fraction(kap) / Fraction(_NEAR)) / 2
+        p = (Fraction(NEAR) + (1 - gam) * Fraction(kap) / Fraction(NEAR)) / 2
         x = math.sqrt(p * p + gam * Fraction(kap))
-        why = f"p + q = {_NEAR:g} at kap = {kap:g}, up to where F is a power series"
+        why = f"p + q = {NEAR:g} at kap = {kap:g}, up to where F is a power series"
         yield about(WAVES, INFLUENCE, why, exactly(x=around(x), kap=kap, nu=_METAL))
 
 

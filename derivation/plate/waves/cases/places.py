@@ -14,7 +14,7 @@ from derivation.plate.edge_modes.oracle import modes as held_balls
 from derivation.plate.edge_modes.oracle import waves as held_wave_balls
 from derivation.plate.waves import oracle as inertia_balls
 from generated.edge_modes import _START
-from generated.plate_waves import _CLOSE
+from generated.wave_numbers import CLOSE
 
 _DIGITS, _BITS = 25, 128
 
@@ -77,16 +77,16 @@ CROSSINGS = {
     "cosh p is as small as cosh q": Crossing(_BENT, _apart, -0.2, 1, 0.83, 0.89),
     "p sinh p is as small as sinh(q)/q": Crossing(_STRETCHED, _lift, -0.2, 1, 5.1, 5.2),
     "p^2 is small, real p":
-        Crossing(_BENT, lambda of: of.level_p - arb(_CLOSE), 0.3, 1, 1.8, 1.85),
+        Crossing(_BENT, lambda of: of.level_p - arb(CLOSE), 0.3, 1, 1.8, 1.85),
     "p^2 is small, imaginary p":
-        Crossing(_BENT, lambda of: of.level_p + arb(_CLOSE), 0.3, 1, 1.4, 1.45),
+        Crossing(_BENT, lambda of: of.level_p + arb(CLOSE), 0.3, 1, 1.4, 1.45),
     "p is neither real nor imaginary": Crossing(_BENT, lambda of: of.level_p, 0.3, 1, 1.5, 1.7),
     "q is neither real nor imaginary":
         Crossing(_STRETCHED, lambda of: of.level_q, 0.3, 0, 3.25, 3.45),
     "q^2 is small, real q":
-        Crossing(_STRETCHED, lambda of: of.level_q - arb(_CLOSE), 0.3, 0, 3.4, 3.6),
+        Crossing(_STRETCHED, lambda of: of.level_q - arb(CLOSE), 0.3, 0, 3.4, 3.6),
     "q^2 is small, imaginary q":
-        Crossing(_STRETCHED, lambda of: of.level_q + arb(_CLOSE), 0.3, 0, 0.36, 0.38),
+        Crossing(_STRETCHED, lambda of: of.level_q + arb(CLOSE), 0.3, 0, 0.36, 0.38),
 }  # fmt: skip
 """By what happens there."""
 

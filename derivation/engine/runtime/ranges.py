@@ -1,5 +1,4 @@
 """Products and roots whose shares may leave the range of doubles though the whole does not."""
-{{ header }}
 
 import numpy as np
 from numpy.typing import NDArray
@@ -7,6 +6,8 @@ from numpy.typing import NDArray
 from .arrays import Double
 
 Factors = tuple[Double | float, ...]
+ONCE = 512
+"""e^(-v) is applied in one piece up to this v; e^(-745) is the smallest double."""
 
 
 def product(factors: Factors, divisors: Factors = ()) -> Double:
@@ -70,10 +71,10 @@ def sum_closely(*parts: Double | float) -> Double:
 
 
 def tail(v: Double) -> Double:
-    """What e^(-min(v, {{ once }})) lacks of e^(-v), which may underflow alone: as a factor."""
-    if not (v > {{ once }}).any():
+    """What e^(-min(v, ONCE)) lacks of e^(-v), which may underflow alone: as a factor."""
+    if not (v > ONCE).any():
         return np.ones(())
-    result: Double = np.exp(np.minimum(v, {{ once }}) - v)
+    result: Double = np.exp(np.minimum(v, ONCE) - v)
     return result
 
 
@@ -113,9 +114,7 @@ def root_factors(degree: int, factors: Factors, divisors: Factors = ()) -> Facto
     return value, np.ldexp(1.0, half), np.ldexp(1.0, np.clip(power - half, -1000, 1000))
 
 
-def _root(
-    degree: int, factors: Factors, divisors: Factors
-) -> tuple[Double, NDArray[np.intc]]:
+def _root(degree: int, factors: Factors, divisors: Factors) -> tuple[Double, NDArray[np.intc]]:
     """The root as a number of moderate size and a power of two."""
     value, power = _split(factors, divisors)
     value = np.ldexp(value, power % degree)

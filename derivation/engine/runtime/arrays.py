@@ -1,12 +1,13 @@
 """Arguments in, result out: what every function of this package does with its arrays."""
-{{ header }}
 
 from collections.abc import Callable
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 Double = NDArray[np.float64]
+Function = TypeVar("Function", bound=Callable[..., object])
 
 quiet = np.errstate(over="ignore", under="ignore", divide="ignore")
 """Decorator of every public function, whatever its caller's settings are.
@@ -14,6 +15,24 @@ quiet = np.errstate(over="ignore", under="ignore", divide="ignore")
 A value beyond the doubles is rounded to an infinity or to zero, which is no error, and
 so are shares of a value that are too small to count. An invalid operation is one.
 """
+
+
+def in_manifest(
+    symbol: str, equation: str = "", domain: str = ""
+) -> Callable[[Function], Function]:
+    """What the manifest says of a function besides its docstring; it changes nothing.
+
+    Parameters
+    ----------
+    symbol
+        How its result is written, in LaTeX.
+    equation
+        Number of its equation in the paper, if it has one.
+    domain
+        Conditions on its arguments, separated by commas; outside it gives NaN.
+    """
+    del symbol, equation, domain
+    return lambda function: function
 
 
 def as_doubles(*arguments: ArrayLike) -> tuple[np.dtype, list[Double]]:

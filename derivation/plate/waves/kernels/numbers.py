@@ -1,11 +1,10 @@
-"""Turns the theory of the plate's own motion into the numbers its generated code needs."""
-
-from pathlib import Path
+"""The numbers that the generated code of the waves needs."""
 
 import sympy as sp
 
+from derivation.engine.emit.package import Numbers
+from derivation.engine.emit.tables import Constant
 from derivation.engine.rewrite.series import UNIT_ROUNDOFF
-from derivation.plate.modules import FunctionRow, TemplateModule
 from derivation.plate.vocabulary import gam, xi_R
 from derivation.plate.waves.theory.bending_branch import rayleigh
 
@@ -24,21 +23,22 @@ PLACES = (sp.Integer(0), sp.Rational(1, 4), sp.Rational(1, 2), sp.Rational(3, 4)
 _MOST = 40
 
 
-def inertia_context() -> dict[str, object]:
-    """What the template of the generated inertia needs, numbers as text."""
-    return {
-        "shallow": repr(float(SHALLOW)),
-        "small": repr(float(SMALL)),
-        "near": repr(float(NEAR)),
-        "steps": STEPS,
-        "rayleigh": ", ".join(map(repr, rayleigh_polynomial())),
-        "factorials": [f"1 / {sp.factorial(2 * n + 3)}" for n in range(terms(2 * SHALLOW))],
-    }
-
-
-def waves_context() -> dict[str, object]:
-    """What the template of the further branches needs, numbers as text."""
-    return {"close": repr(float(CLOSE))}
+def numbers() -> Numbers:
+    """Where each way to compute ends, where Newton's method begins, and F's coefficients."""
+    factorials = tuple(sp.Rational(1, sp.factorial(2 * n + 3)) for n in range(terms(2 * SHALLOW)))
+    return Numbers(
+        "wave_numbers",
+        "Numbers of the waves: limits of the series, and their coefficients.",
+        (
+            Constant("SHALLOW", float(SHALLOW), "x up to which F of A0 is a power series."),
+            Constant("SMALL", float(SMALL), "x up to which the share is 1 less what A0 lacks."),
+            Constant("NEAR", float(NEAR), "S up to which F is a power series for any kap <= x^2."),
+            Constant("CLOSE", float(CLOSE), "p^2 up to which differences are power series."),
+            Constant("STEPS", STEPS, "Steps of Newton's method, from a start right to a tenth."),
+            Constant("RAYLEIGH", rayleigh_polynomial(), "Rayleigh's xi as a polynomial in gam."),
+            Constant("FACTORIALS", factorials, "1/(2n + 3)!: of F in powers of S^2 and d^2."),
+        ),
+    )
 
 
 def terms(largest: sp.Rational) -> int:
@@ -67,49 +67,3 @@ def _below_one(cubic: sp.Expr) -> sp.Rational:
     roots = (root for root in sp.Poly(cubic, xi_R).nroots() if root.is_real and 0 < root < 1)
     (root,) = (sp.Rational(root) for root in roots)
     return root
-
-
-FOLDER = Path(__file__).parent
-MODULES = (
-    TemplateModule(
-        "inertia",
-        FOLDER,
-        inertia_context,
-        (
-            FunctionRow(
-                "bending_frequency",
-                ("x", "nu"),
-                "1",
-                r"\omega_0 h/c_T",
-                "",
-                "frequency of the lowest bending branch",
-            ),
-            FunctionRow(
-                "bending_residue",
-                ("x", "nu"),
-                "1",
-                r"\rho h\,r_0",
-                "",
-                "how the lowest bending branch answers a load",
-            ),
-            FunctionRow(
-                "bending_share",
-                ("x", "nu"),
-                "1",
-                "s_0",
-                "",
-                "share of the lowest bending branch in the deflection at rest",
-            ),
-            FunctionRow(
-                "dynamic_influence",
-                ("x", "kap", "nu"),
-                "1",
-                "1/B_a, 1/B_s",
-                "",
-                "deflection of the loaded face per pressure coefficient, over h/mu: bending, "
-                "stretching",
-            ),
-        ),
-    ),
-    TemplateModule("plate_waves", FOLDER, waves_context),
-)

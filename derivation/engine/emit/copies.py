@@ -1,0 +1,186 @@
+"""A module written by hand -> its copy in the generated package, and what its functions say.
+
+A copy has the lines of the original, but for three things: a header names where it comes from,
+imports from the package are relative, and the docstring of a function in the manifest promises
+its error budget and its domain.
+"""
+
+import ast
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from derivation.engine.emit.budgets import Budget
+
+MARK = "in_manifest"
+"""The decorator of the functions that the manifest lists, see `engine.runtime.arrays`."""
+_UNIT = re.compile(r"\[([^\]]+)\]")
+
+
+@dataclass(frozen=True)
+class Argument:
+    """An argument of a function: its name, unit and meaning."""
+
+    name: str
+    unit: str
+    meaning: str
+
+
+@dataclass(frozen=True)
+class ListedFunction:
+    """What a function written by hand says of itself.
+
+    Parameters
+    ----------
+    name
+        Its name.
+    arguments
+        Its arguments, as its docstring has them.
+    unit
+        Units of its results, separated by commas.
+    symbol, equation, domain
+        As its decorator has them.
+    meaning
+        The first line of its docstring.
+    """
+
+    name: str
+    arguments: tuple[Argument, ...]
+    unit: str
+    symbol: str
+    equation: str
+    meaning: str
+    domain: str
+
+
+def listed_functions(file: Path) -> tuple[ListedFunction, ...]:
+    """The functions of a module that the manifest lists, from the syntax tree.
+
+    Raises
+    ------
+    ValueError
+        Naming the function whose docstring or decorator lacks something.
+    """
+    return tuple(_listed(node, mark, file) for node, mark in _marked(ast.parse(file.read_text())))
+
+
+def copied(file: Path, package: str, header: str, budgets: Mapping[str, Budget]) -> str:
+    """The text of a module's copy.
+
+    Parameters
+    ----------
+    file
+        The original.
+    package
+        Import name of the generated package.
+    header
+        Comment below the module's docstring.
+    budgets
+        Error budgets by function.
+    """
+    tree = ast.parse(file.read_text())
+    lines = file.read_text().splitlines()
+    added: list[tuple[int, list[str]]] = [(_end_of_docstring(tree, file), header.splitlines())]
+    for node, mark in _marked(tree):
+        notes = budgets[node.name].notes(_words(mark).get("domain", ""))
+        added.append(_promise(node, notes, lines))
+    for place, text in sorted(added, key=lambda pair: -pair[0]):
+        lines[place:place] = text
+    return "\n".join(_relative(line, package) for line in lines) + "\n"
+
+
+def _relative(line: str, package: str) -> str:
+    """An import from the package as one from a module beside."""
+    for own in (package, "derivation.engine.runtime"):
+        line = re.sub(rf"^from {re.escape(own)}\.(\w+) import", r"from .\1 import", line)
+    return re.sub(rf"^from {re.escape(package)} import", "from . import", line)
+
+
+def _marked(tree: ast.Module) -> Iterator[tuple[ast.FunctionDef, ast.Call]]:
+    for node in tree.body:
+        if isinstance(node, ast.FunctionDef):
+            for mark in node.decorator_list:
+                if isinstance(mark, ast.Call) and ast.unparse(mark.func) == MARK:
+                    yield node, mark
+
+
+def _words(mark: ast.Call) -> dict[str, str]:
+    """The decorator's arguments by name."""
+    given = zip(("symbol", "equation", "domain"), mark.args, strict=False)
+    named = ((str(word.arg), word.value) for word in mark.keywords)
+    return {name: str(ast.literal_eval(value)) for name, value in (*given, *named)}
+
+
+def _listed(node: ast.FunctionDef, mark: ast.Call, file: Path) -> ListedFunction:
+    text = ast.get_docstring(node) or ""
+    words, parts = _words(mark), _sections(text)
+    meanings = dict(_parameters(parts.get("Parameters", ())))
+    arguments = []
+    for argument in node.args.args:
+        meaning = meanings.get(argument.arg, "")
+        unit = _UNIT.search(meaning)
+        if unit is None:
+            raise ValueError(
+                f"{file.name}: expected a unit in brackets for the argument {argument.arg} of "
+                f"{node.name}, got {meaning!r}"
+            )
+        arguments.append(Argument(argument.arg, unit[1], meaning[: unit.start()].strip()))
+    units = _UNIT.findall(" ".join(parts.get("Returns", ())))
+    if not units or "symbol" not in words:
+        raise ValueError(f"{file.name}: {node.name} needs a symbol, and units of its results")
+    meaning = text.partition("\n")[0].rstrip(".")
+    return ListedFunction(
+        node.name,
+        tuple(arguments),
+        ", ".join(units),
+        words["symbol"],
+        words.get("equation", ""),
+        meaning[0].lower() + meaning[1:],
+        words.get("domain", ""),
+    )
+
+
+def _sections(text: str) -> dict[str, list[str]]:
+    """Lines of a docstring by the heading above them."""
+    found: dict[str, list[str]] = {}
+    lines = text.splitlines()
+    current: list[str] = []
+    for line, below in zip(lines, [*lines[1:], ""], strict=True):
+        if below and set(below) == {"-"}:
+            current = found.setdefault(line, [])
+        elif line and set(line) != {"-"}:
+            current.append(line)
+    return found
+
+
+def _parameters(lines: list[str] | tuple[str, ...]) -> Iterator[tuple[str, str]]:
+    """Names and meanings of a section."""
+    names: list[str] = []
+    meaning: list[str] = []
+    for line in lines:
+        if line.startswith(" "):
+            meaning.append(line.strip())
+            continue
+        yield from ((name, " ".join(meaning)) for name in names)
+        names, meaning = line.partition(":")[0].replace(",", " ").split(), []
+    yield from ((name, " ".join(meaning)) for name in names)
+
+
+def _promise(
+    node: ast.FunctionDef, notes: tuple[str, ...], lines: list[str]
+) -> tuple[int, list[str]]:
+    """Where a docstring's notes go, and what they are."""
+    docstring = node.body[0]
+    last = int(docstring.end_lineno or 0) - 1
+    indented = [f"    {note}" for note in notes]
+    for index in range(docstring.lineno - 1, last):
+        if lines[index].strip() == "Notes" and set(lines[index + 1].strip()) == {"-"}:
+            return index + 2, [*indented, ""]
+    return last, ["", "    Notes", "    -----", *indented]
+
+
+def _end_of_docstring(tree: ast.Module, file: Path) -> int:
+    if ast.get_docstring(tree) is None:
+        raise ValueError(f"{file.name}: expected a docstring in its first line")
+    return int(tree.body[0].end_lineno or 0)

@@ -1,0 +1,1 @@
+"""Plain modules that every generated package starts with, copied as they stand."""

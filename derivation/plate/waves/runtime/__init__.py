@@ -1,0 +1,1 @@
+"""Algorithms of the plate's waves, copied into the generated package."""

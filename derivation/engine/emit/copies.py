@@ -12,19 +12,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from derivation.engine.emit.budgets import Budget
+from derivation.engine.emit.kernels import ArgumentText
 
 MARK = "in_manifest"
 """The decorator of the functions that the manifest lists, see `engine.runtime.arrays`."""
 _UNIT = re.compile(r"\[([^\]]+)\]")
-
-
-@dataclass(frozen=True)
-class Argument:
-    """An argument of a function: its name, unit and meaning."""
-
-    name: str
-    unit: str
-    meaning: str
 
 
 @dataclass(frozen=True)
@@ -46,7 +38,7 @@ class ListedFunction:
     """
 
     name: str
-    arguments: tuple[Argument, ...]
+    arguments: tuple[ArgumentText, ...]
     unit: str
     symbol: str
     equation: str
@@ -125,7 +117,7 @@ def _listed(node: ast.FunctionDef, mark: ast.Call, file: Path) -> ListedFunction
                 f"{file.name}: expected a unit in brackets for the argument {argument.arg} of "
                 f"{node.name}, got {meaning!r}"
             )
-        arguments.append(Argument(argument.arg, unit[1], meaning[: unit.start()].strip()))
+        arguments.append(ArgumentText(argument.arg, unit[1], meaning[: unit.start()].strip(), ""))
     units = _UNIT.findall(" ".join(parts.get("Returns", ())))
     if not units or "symbol" not in words:
         raise ValueError(f"{file.name}: {node.name} needs a symbol, and units of its results")

@@ -96,6 +96,10 @@ class Choice:
             raise ValueError(
                 f"{self.symbol}: expected the side that is not claimed, yes or no, and the reason"
             )
+        if self.condition in (sp.true, sp.false):
+            raise ValueError(
+                f"{self.symbol}: expected a condition that may fail, got {self.condition}"
+            )
 
 
 Statement = Let | Several | Choice

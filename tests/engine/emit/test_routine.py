@@ -1,0 +1,126 @@
+"""Routines: what is printed is what was claimed, and nothing else can be printed."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+import sympy as sp
+from hypothesis import given
+from hypothesis import strategies as st
+from mutants import of_expression
+
+from derivation.engine.emit.package import Routines, written
+from derivation.engine.emit.routine import Choice, Let, Routine, Several, routine, text
+from derivation.engine.formula.proof import ProofError
+
+x, y = sp.symbols("x y", positive=True)
+t, u, v = sp.symbols("t u v", real=True)
+CLAIM = (sp.exp(x) - 1) / x
+EXACT = Several((t,), "np.expm1", (x,), (sp.exp(x) - 1,))
+
+
+def growth(**changes: object) -> Routine:
+    """(e^x - 1)/x by NumPy's function."""
+    given = {"statements": (EXACT,), "results": (t / x,), "claims": (CLAIM,)} | changes
+    return routine("growth", (x,), summary="Growth.", meaning={}, **given)  # type: ignore[arg-type]
+
+
+def run(made: Routine, *values: float) -> np.ndarray:
+    """Run the printed text."""
+    room = {"np": np, "Double": np.ndarray}
+    exec(text(made), room)
+    return np.asarray(room[made.name](*map(np.asarray, values)))  # type: ignore[operator]
+
+
+@given(st.floats(1e-3, 50))
+def test_the_printed_text_gives_what_is_claimed(value: float) -> None:
+    assert run(growth(), value) == pytest.approx(float(CLAIM.subs(x, value)), rel=1e-12)
+
+
+@pytest.mark.parametrize("mutant", of_expression(t / x), ids=lambda m: m.name)
+def test_another_result_is_refused(mutant: SimpleNamespace) -> None:
+    with pytest.raises(ProofError, match=r"growth\[0\]"):
+        growth(results=(mutant.expression,))
+
+
+def test_another_lemma_is_refused() -> None:
+    half = Let(u, t / 2, means=(sp.exp(x) - 1) / 2)
+    assert growth(statements=(EXACT, half), results=(2 * u / x,)).proof.residuals == (
+        "u",
+        "growth[0]",
+    )
+    with pytest.raises(ProofError, match="u leaves"):
+        growth(statements=(EXACT, replace(half, expression=t / 3)), results=(2 * u / x,))
+
+
+def larger(yes: sp.Expr, no: sp.Expr, **more: str) -> Routine:
+    """|x - y|, by which is larger."""
+    sides = {sp.Abs(x - y): x - y}, {sp.Abs(x - y): y - x}
+    choice = Choice(u, x > y, yes, no, *sides, **more)
+    return routine("distance", (x, y), (choice,), (u,), (sp.Abs(x - y),), "Distance.", {})
+
+
+@given(st.floats(0.1, 9), st.floats(0.1, 9))
+def test_each_side_of_a_choice_is_proved_with_what_holds_there(one: float, two: float) -> None:
+    made = larger(x - y, y - x)
+    assert len(made.proof.residuals) == 2
+    assert run(made, one, two) == abs(one - two)
+
+
+@pytest.mark.parametrize(
+    ("yes", "no", "side"), [(y - x, y - x, "x > y"), (x - y, x - y, "x <= y"), (x, y, "x > y")]
+)
+def test_the_side_that_is_wrong_is_named(yes: sp.Expr, no: sp.Expr, side: str) -> None:
+    with pytest.raises(ProofError, match=side):
+        larger(yes, no)
+
+
+def test_a_side_without_a_claim_needs_a_reason() -> None:
+    assert larger(x - y, sp.Integer(0), unclaimed="no", reason="not for these").proof
+    for more in ({"unclaimed": "no"}, {"reason": "no side"}, {"unclaimed": "left", "reason": "?"}):
+        with pytest.raises(ValueError, match="expected the side"):
+            larger(x - y, y - x, **more)
+
+
+def test_choices_with_one_condition_share_a_mask() -> None:
+    """Two of four combinations cannot be, and would not be what is claimed."""
+    first, second = (Choice(k, x > y, a, b) for k, a, b in ((u, x, y), (v, y, x)))
+    made = routine("product", (x, y), (first, second), (u * v,), (x * y,), "Product.", {})
+    assert text(made).count("np.greater") == 1
+    assert len(made.proof.residuals) == 2
+
+
+def test_a_side_is_guarded_against_points_that_it_is_not_for() -> None:
+    harmless = {v: sp.Integer(1)}
+    nothing = "has no inverse"
+    choice = Choice(
+        u, v > 0, 1 / v, sp.Integer(0), safe_yes=harmless, unclaimed="no", reason=nothing
+    )
+    made = routine("inverse", (v,), (choice,), (u,), (1 / v,), "Inverse.", {})
+    with np.errstate(divide="raise"):
+        assert run(made, 0.0) == 0.0
+    assert run(made, 4.0) == 0.25
+
+
+def test_a_condition_that_always_holds_is_refused() -> None:
+    with pytest.raises(ValueError, match="expected a condition that may fail, got True"):
+        Choice(u, x > 0, x, y)
+
+
+def test_idle_arguments_and_unknown_functions_are_refused() -> None:
+    with pytest.raises(ValueError, match="expected arguments that count, got y"):
+        routine("same", (x, y), (), (x,), (x,), "x.", {})
+    called = routine("called", (x,), (Several((t,), "other", (x,), (x,)),), (t,), (x,), "x.", {})
+    with pytest.raises(ValueError, match="expected modules for other"):
+        written([Routines("part", "A part.", (called,), {})])
+    made = written([Routines("part", "A part.", (called,), {"beside": ("other", "idle")})])
+    assert "from .beside import other\n" in made["part.py"]
+
+
+def test_a_scale_that_does_not_cancel_is_refused() -> None:
+    scale = Let(u, sp.Max(x, y), opaque=True)
+    result = (x / u) / (y / u)
+    assert routine("ratio", (x, y), (scale,), (result,), (x / y,), "Ratio.", {}).proof
+    with pytest.raises(ProofError):
+        routine("ratio", (x, y), (scale,), (x / u / y,), (x / y,), "Ratio.", {})

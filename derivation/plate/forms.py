@@ -11,6 +11,7 @@ import sympy as sp
 from derivation.engine.emit.package import Shape
 from derivation.engine.formula.record import Record
 from derivation.engine.rewrite.automatic import automatic
+from derivation.engine.rewrite.every_variable import accurate
 from derivation.engine.rewrite.form import TIMES, Block, Form, Step, form
 from derivation.engine.rewrite.scales import Ratio, Scale, Scales
 from derivation.engine.rewrite.sections import sections
@@ -48,7 +49,8 @@ def stable_forms(formulas: Mapping[str, Record]) -> tuple[Form, ...]:
     known = blocks()
 
     def found(name: str) -> Shape:
-        return automatic(formulas[name].expression, known, SCALES, name in CLOSE)
+        shape = automatic(formulas[name].expression, known, SCALES, name in CLOSE)
+        return accurate(formulas[name], *shape, known)
 
     groups: dict[str, dict[str, Shape]] = {
         "omega": {name: found(name) for name in OMEGAS},

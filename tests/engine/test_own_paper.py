@@ -14,8 +14,8 @@ from guide import type_examples
 from derivation.engine import build
 from derivation.engine.errata.findings import CORRECT
 from derivation.engine.files import ROOT
+from derivation.engine.formula.grid import inside
 from derivation.engine.load import PaperError, begin, load
-from derivation.engine.measure.domain_grid import inside
 from derivation.engine.measure.kernels import generated_kernels
 from derivation.plate.paper import PAPER
 

@@ -26,6 +26,7 @@ from derivation.engine.emit.source import TEMPLATES, filled, format_files
 from derivation.engine.formula.record import Record
 from derivation.engine.rewrite.automatic import automatic
 from derivation.engine.rewrite.blocks import HYPERBOLIC, Definition, built
+from derivation.engine.rewrite.every_variable import accurate
 from derivation.engine.rewrite.form import SCALINGS, Block, Form, Seam, Step, form
 from derivation.engine.rewrite.scales import Scales
 
@@ -152,7 +153,7 @@ class Printing:
         ProofError
             Naming the form that is not its formula.
         UnreachableError
-            Naming a formula that the rules do not reach.
+            Naming a formula that the rules do not reach, or whose form loses digits.
         """
         known = built(self.blocks)
         stated = self.stated(known)
@@ -160,7 +161,8 @@ class Printing:
         def shape(name: str) -> Shape:
             if name in stated:
                 return stated[name]
-            return automatic(formulas[name].expression, known, self.scales)
+            found = automatic(formulas[name].expression, known, self.scales)
+            return accurate(formulas[name], *found, known)
 
         return tuple(
             form(name, part.name, formulas[name].expression, *shape(name), known)

@@ -13,7 +13,7 @@ import flint
 import sympy as sp
 from sympy.codegen.cfunctions import expm1, log1p
 
-from derivation.engine.rewrite.form import Branch, Seam, Step
+from derivation.engine.rewrite.form import CLOSELY, TIMES, Block, Branch, Seam, Step
 from derivation.engine.rewrite.series import POLYNOMIAL
 
 _BITS = 160
@@ -33,9 +33,11 @@ FUNCTIONS: dict[type[sp.Basic], Callable[[flint.arb], flint.arb]] = {
 }
 
 Values = Mapping[sp.Basic, float]
+Blocks = Mapping[str, Block]
+NO_BLOCKS: Blocks = {}
 
 
-def rounded(expression: sp.Expr, values: Values) -> float:
+def rounded(expression: sp.Expr, values: Values, blocks: Blocks = NO_BLOCKS) -> float:
     """The expression node by node in doubles; NaN where a step has no value.
 
     Raises
@@ -47,7 +49,12 @@ def rounded(expression: sp.Expr, values: Values) -> float:
 
     def visit(node: sp.Basic) -> float:
         if node not in memo:
-            memo[node] = _node(node, visit)
+            block = blocks.get(node.func.__name__)
+            if block is None:
+                memo[node] = _node(node, visit)
+            else:
+                own = {block.arguments[0]: visit(node.args[0])}
+                memo[node] = run(block.steps, block.value, own, blocks)
         return memo[node]
 
     return visit(expression)
@@ -74,6 +81,10 @@ def _node(node: sp.Basic, visit: Callable[[sp.Basic], float]) -> float:
         for coefficient in reversed(coefficients[:-1]):
             value = value * variable + coefficient
         return value
+    if isinstance(node, sp.Min | sp.Max):
+        return (min if isinstance(node, sp.Min) else max)(visit(part) for part in node.args)
+    if node.func in (TIMES, CLOSELY):
+        return _held_apart(*(visit(part) for part in node.args))
     if node.func in FUNCTIONS:
         return _function(FUNCTIONS[node.func], visit(node.args[0]))
     raise NotImplementedError(f"no double precision for {node.func.__name__}")
@@ -90,6 +101,17 @@ def _product(node: sp.Mul, visit: Callable[[sp.Basic], float]) -> float:
     if below == 0.0:
         return math.nan if above == 0.0 else math.copysign(math.inf, above)
     return above / below
+
+
+def _held_apart(value: float, *powers: float) -> float:
+    """A value times bases to their powers, exponents of 2 apart, as `ranges.times` does it."""
+    total, exponent = math.frexp(value)
+    for base, power in zip(powers[::2], powers[1::2], strict=True):
+        mantissa, shift = math.frexp(base)
+        for _ in range(abs(int(power))):
+            total = total * mantissa if power > 0 else total / mantissa
+        exponent += int(power) * shift
+    return math.ldexp(total, exponent)
 
 
 def _power(base: float, exponent: sp.Expr) -> float:
@@ -117,13 +139,18 @@ def _function(function: Callable[[flint.arb], flint.arb], argument: float) -> fl
     return nearest if abs(nearest) <= _LIMIT else math.copysign(math.inf, nearest)
 
 
-def run(steps: tuple[Step, ...], value: sp.Expr | Seam, values: Values) -> float:
+def run(
+    steps: tuple[Step, ...],
+    value: sp.Expr | Seam,
+    values: Values,
+    blocks: Blocks = NO_BLOCKS,
+) -> float:
     """A form at a point: its steps in order, then the branch that the point lies in."""
     known = dict(values)
     for step in steps:
-        known[step.symbol] = rounded(step.expression, known)
+        known[step.symbol] = rounded(step.expression, known, blocks)
     if not isinstance(value, Seam):
-        return rounded(value, known)
+        return rounded(value, known, blocks)
     below = known[value.variable] < float(value.at)
     branch: Branch = value.below if below else value.above
-    return run(branch.steps, branch.value, known)
+    return run(branch.steps, branch.value, known, blocks)

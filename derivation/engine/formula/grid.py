@@ -1,0 +1,103 @@
+"""Hard points of any function, from the domains of its arguments: the same in every run.
+
+Every argument takes decades from the smallest to the largest, places next to the ends of its own
+domain and both sides of the switch points of its forms; the others are drawn at random inside
+their domains meanwhile.
+"""
+
+import math
+import random
+from collections.abc import Iterator, Mapping, Sequence
+from fractions import Fraction
+
+from derivation.engine.formula.domain import broken
+from derivation.engine.formula.ulp import neighbours
+from derivation.engine.formula.vocabulary import Vocabulary
+
+EXPONENTS = (-150, -100, -50, -20, -12, -8, -5, -3, -2, -1, 0, 1, 2, 3, 6, 9)
+"""Decades that every argument is set to, as far as its domain reaches."""
+FRACTIONS = (0.5, 1e-3, 1e-8, 1e-15)
+"""Distances from the end of a domain, as a share of the end."""
+DRAWN = 24
+"""Points at which all arguments are random."""
+ATTEMPTS = 400
+
+
+def inside(vocabulary: Vocabulary, values: Mapping[str, float]) -> bool:
+    """Whether a point lies in the domain of its symbols."""
+    own = vocabulary.by_name
+    domain = [condition for key in values for condition in own[key].domain]
+    return not broken(domain, {own[key].symbol: Fraction(value) for key, value in values.items()})
+
+
+def domain_grid(
+    name: str,
+    arguments: Sequence[str],
+    vocabulary: Vocabulary,
+    seams: Mapping[str, Sequence[float]],
+) -> tuple[dict[str, float], ...]:
+    """Points for a function.
+
+    Parameters
+    ----------
+    name
+        The function's name; seeds what is drawn at random.
+    arguments
+        Its arguments' names.
+    vocabulary
+        The symbols with their domains.
+    seams
+        Where its forms change branches, by argument.
+
+    Raises
+    ------
+    ValueError
+        If nothing that is drawn lies in the domain.
+    """
+    generator = random.Random(f"{name} on {','.join(arguments)}")
+
+    def drawn() -> dict[str, float]:
+        for _ in range(ATTEMPTS):
+            values = {key: _random(generator) for key in arguments}
+            if inside(vocabulary, values):
+                return values
+        raise ValueError(f"no point of {name} is found in its domain; widen the domain")
+
+    points = [drawn() for _ in range(DRAWN)]
+    for key in arguments:
+        own = (*_candidates(vocabulary.by_name[key].domain), *_around(seams.get(key, ())))
+        points += [drawn() | {key: value} for value in own]
+    return tuple(values for values in points if inside(vocabulary, values))
+
+
+def _random(generator: random.Random) -> float:
+    """A number of moderate size, one in three negative."""
+    size = 10 ** generator.uniform(-2.5, 1.5)
+    return -size if generator.random() < 1 / 3 else size
+
+
+def _candidates(domain: Sequence[str]) -> Iterator[float]:
+    """Decades of both signs, and numbers next to those that the domain names."""
+    for exponent in EXPONENTS:
+        yield from (10.0**exponent, -(10.0**exponent))
+    for end in _ends(domain):
+        yield from (end, math.nextafter(end, math.inf), math.nextafter(end, -math.inf))
+        for part in FRACTIONS:
+            yield from (end * (1 + part), end * (1 - part))
+
+
+def _ends(domain: Sequence[str]) -> Iterator[float]:
+    """Numbers that the conditions name."""
+    for condition in domain:
+        for word in condition.split():
+            try:
+                yield float(word)
+            except ValueError:  # a name or a sign
+                continue
+
+
+def _around(places: Sequence[float]) -> Iterator[float]:
+    """Places, their neighbours, and the doubles 32 away."""
+    for place in places:
+        near = neighbours(place, 32)
+        yield from (near[0], near[31], near[32], near[33], near[64])

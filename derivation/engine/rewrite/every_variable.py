@@ -1,0 +1,132 @@
+"""Measures a form in several variables, in each of them over its domain, against exact values."""
+
+import math
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import flint
+import sympy as sp
+
+from derivation.engine.formula.ball import PrecisionError, evaluate, to_ball
+from derivation.engine.formula.grid import domain_grid
+from derivation.engine.formula.record import Record
+from derivation.engine.formula.ulp import overflows, ulp_error
+from derivation.engine.rewrite.doubles import run
+from derivation.engine.rewrite.form import Block, Seam, Step
+from derivation.engine.rewrite.stabilise import ENOUGH
+from derivation.engine.rewrite.terms import UnreachableError
+
+DIGITS = 25
+ENOUGH_POINTS = 20
+"""Without so many values there is no judging."""
+SMALLEST = 1e-150
+"""Arguments are not set to smaller numbers, whose products underflow."""
+LEAST_VALUE = 1e-300
+"""Smaller values may be subnormal numbers, which do not have all digits."""
+
+
+class Worst(NamedTuple):
+    """The largest error [ULP beyond half the condition numbers], where, and of how many points."""
+
+    error: float
+    at: Mapping[str, float]
+    points: int
+
+
+def accurate(
+    formula: Record, steps: tuple[Step, ...], value: sp.Expr | Seam, blocks: Mapping[str, Block]
+) -> tuple[tuple[Step, ...], sp.Expr | Seam]:
+    """Return a form that is accurate in every variable of its formula.
+
+    Parameters
+    ----------
+    formula
+        The formula, whose arguments have domains.
+    steps, value
+        The form.
+    blocks
+        Building blocks of forms.
+
+    Raises
+    ------
+    UnreachableError
+        If it is not, naming the point where it loses most.
+    """
+    worst = measured(formula, steps, value, blocks)
+    if worst.error > ENOUGH:
+        where = ", ".join(f"{name} = {x!r}" for name, x in worst.at.items())
+        raise UnreachableError(
+            f"the form found for {formula.name} is off by {worst.error:.2g} ULP at {where}, "
+            f"expected at most {ENOUGH:g}; state its form, or use a variable that is small there"
+        )
+    return steps, value
+
+
+def measured(
+    formula: Record, steps: tuple[Step, ...], value: sp.Expr | Seam, blocks: Mapping[str, Block]
+) -> Worst:
+    """The largest error of a form at hard points of every variable.
+
+    Raises
+    ------
+    UnreachableError
+        If too few of them have a value.
+    """
+    own = [argument.name for argument in formula.arguments]
+    symbols = {argument.name: argument.symbol for argument in formula.arguments}
+    found = []
+    for point in domain_grid(formula.name, own, formula.vocabulary, _seams(value)):
+        if all(x == 0 or abs(x) >= SMALLEST for x in point.values()):
+            at = {symbols[name]: x for name, x in point.items()}
+            truth = _truth(formula.expression, at)
+            if truth is not None:
+                got = _computed(steps, value, at, blocks)
+                found.append((_beyond(formula.expression, truth, got, at), point))
+    if len(found) < ENOUGH_POINTS:
+        raise UnreachableError(
+            f"{formula.name} has values at {len(found)} test points, expected {ENOUGH_POINTS}"
+        )
+    error, at_worst = max(found, key=lambda pair: pair[0])
+    return Worst(error, at_worst, len(found))
+
+
+def _seams(value: sp.Expr | Seam) -> dict[str, tuple[float, ...]]:
+    return {str(value.variable): (float(value.at),)} if isinstance(value, Seam) else {}
+
+
+def _truth(expression: sp.Expr, at: Mapping[sp.Symbol, float]) -> flint.arb | None:
+    """The value; nothing where it has no ball, or no double has its digits."""
+    try:
+        value = evaluate(expression, at, DIGITS)
+    except (PrecisionError, NotImplementedError):
+        return None
+    return None if overflows(value) or not abs(value) > LEAST_VALUE else value
+
+
+def _computed(
+    steps: tuple[Step, ...],
+    value: sp.Expr | Seam,
+    at: Mapping[sp.Symbol, float],
+    blocks: Mapping[str, Block],
+) -> float:
+    try:
+        return run(steps, value, at, blocks)
+    except (OverflowError, ZeroDivisionError):
+        return math.nan
+
+
+def _beyond(
+    expression: sp.Expr, truth: flint.arb, got: float, at: Mapping[sp.Symbol, float]
+) -> float:
+    """The error [ULP], less half the condition numbers where it would count."""
+    error = ulp_error(got, truth)
+    if not ENOUGH / 2 < error < math.inf:
+        return error
+    for symbol, x in at.items():
+        try:
+            slope = evaluate(expression.diff(symbol), at, 3)
+        except (PrecisionError, NotImplementedError):
+            continue  # then nothing is excused
+        with flint.ctx.workprec(64):
+            error -= float(abs(slope * to_ball(x) / truth).abs_upper()) / 2
+    return max(error, 0.0)

@@ -13,7 +13,7 @@ from derivation.plate.edge_modes import cases as hard_held_families
 from derivation.plate.edge_modes.oracle import modes as held_balls
 from derivation.plate.edge_modes.oracle import waves as held_wave_balls
 from derivation.plate.hard import check as hard_check
-from generated import edge_modes, wave_numbers
+from generated import edge_mode_numbers, wave_numbers
 from generated.plate_waves import branches
 
 LOWEST = ("bending_frequency", "bending_residue", "bending_share")
@@ -117,7 +117,7 @@ def partner_at_infinity(edge: held_balls.Edge) -> Callable[[], Iterable[Place]]:
         n = int(case.numbers["count"][0])
         for side, below in ((2.0, True), (-2.0, False)):
             k2 = held_wave_balls.wave(edge, n, place + side * math.ulp(place), nu, 25).k2
-            assert bool(k2 < edge_modes._START) is below
+            assert bool(k2 < edge_mode_numbers.START) is below
         return [place]
 
     return places
@@ -137,10 +137,10 @@ WAVE_SEAMS: dict[str, Seam] = {
         ("supported_waves",), lambda p: p["eta"], partner_at_infinity("supported")
     ),
     "small k on the face": Seam(
-        FACE, lambda p: p["k"] * on_face(p), lambda: [edge_modes._SMALL]
+        FACE, lambda p: p["k"] * on_face(p), lambda: [edge_mode_numbers.SMALL]
     ),
     "small k2 on the face": Seam(
-        FACE, lambda p: p["k2"] * on_face(p), lambda: [edge_modes._SMALL]
+        FACE, lambda p: p["k2"] * on_face(p), lambda: [edge_mode_numbers.SMALL]
     ),
     "x of the lowest branch": Seam(LOWEST, lambda p: p["x"], lambda: [wave_numbers.SHALLOW]),
     "x of its share": Seam(LOWEST[2:], lambda p: p["x"], lambda: [wave_numbers.SMALL]),

@@ -1,10 +1,11 @@
 """A subject's modules of the generated package: printed from formulas, or with a template."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from derivation.engine.emit.copies import NO_NOTES
 from derivation.engine.emit.package import Numbers, Routines, Shape
 from derivation.plate.subjects import handed_in
 
@@ -66,11 +67,24 @@ class TemplateModule:
     functions: tuple[FunctionRow, ...] = ()
 
 
+def _no_notes() -> Mapping[str, Sequence[str]]:
+    return NO_NOTES
+
+
 class RuntimeModule(NamedTuple):
-    """A module that is written by hand and copied: its name, and the original."""
+    """A module that is written by hand and copied.
+
+    Attributes
+    ----------
+    name, file
+        Its name, and the original.
+    notes
+        Lines about errors by function, of those that the manifest does not list.
+    """
 
     name: str
     file: Path
+    notes: Callable[[], Mapping[str, Sequence[str]]] = _no_notes
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,9 +98,14 @@ class ComputedModule:
 SubjectModule = PrintedModule | TemplateModule | RuntimeModule | ComputedModule
 
 
+def runtime_modules() -> tuple[RuntimeModule, ...]:
+    """Return the modules written by hand of all subjects."""
+    return tuple(part for part in _modules() if isinstance(part, RuntimeModule))
+
+
 def runtime_files() -> dict[str, Path]:
-    """The modules written by hand of all subjects, by name."""
-    return {part.name: part.file for part in _modules() if isinstance(part, RuntimeModule)}
+    """The originals of these modules by name."""
+    return {part.name: part.file for part in runtime_modules()}
 
 
 def computed_modules() -> tuple[ComputedModule, ...]:

@@ -43,7 +43,7 @@ from derivation.plate.modes.kernels.modal_sums import MODAL_SUMS, STYLE, kernel_
 from derivation.plate.modules import (
     computed_modules,
     printed_modules,
-    runtime_files,
+    runtime_modules,
     template_modules,
 )
 from derivation.plate.pressure.kernels import pressure_context
@@ -108,7 +108,7 @@ def modules(kernels: tuple[EmittedKernel, ...]) -> tuple[Planned, ...]:
         tables("edge", edge_context()),
         *(tables(x.name, x.context(), x.folder) for x in template_modules()),
         *(x.make() for x in computed_modules()),
-        *(Copy(name, file, "generated", budgets) for name, file in runtime_files().items()),
+        *(Copy(x.name, x.file, "generated", budgets, x.notes()) for x in runtime_modules()),
         own("simple_impact", simple_impact_context()),
         own("perturbation", perturbation_context()),
         own("non_hertzian_pressure", pressure_context() | read_promises("pressure")),

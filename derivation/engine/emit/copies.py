@@ -7,7 +7,7 @@ its error budget and its domain.
 
 import ast
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -16,6 +16,7 @@ from derivation.engine.emit.kernels import ArgumentText
 
 MARK = "in_manifest"
 """The decorator of the functions that the manifest lists, see `engine.runtime.arrays`."""
+NO_NOTES: Mapping[str, Sequence[str]] = {}
 _UNIT = re.compile(r"\[([^\]]+)\]")
 
 
@@ -57,7 +58,13 @@ def listed_functions(file: Path) -> tuple[ListedFunction, ...]:
     return tuple(_listed(node, mark, file) for node, mark in _marked(ast.parse(file.read_text())))
 
 
-def copied(file: Path, package: str, header: str, budgets: Mapping[str, Budget]) -> str:
+def copied(
+    file: Path,
+    package: str,
+    header: str,
+    budgets: Mapping[str, Budget],
+    notes: Mapping[str, Sequence[str]] = NO_NOTES,
+) -> str:
     """The text of a module's copy.
 
     Parameters
@@ -70,13 +77,17 @@ def copied(file: Path, package: str, header: str, budgets: Mapping[str, Budget])
         Comment below the module's docstring.
     budgets
         Error budgets by function.
+    notes
+        Lines about errors by function, of those that the manifest does not list.
     """
     tree = ast.parse(file.read_text())
     lines = file.read_text().splitlines()
     added: list[tuple[int, list[str]]] = [(_end_of_docstring(tree, file), header.splitlines())]
     for node, mark in _marked(tree):
-        notes = budgets[node.name].notes(_words(mark).get("domain", ""))
-        added.append(_promise(node, notes, lines))
+        budget = budgets[node.name].notes(_words(mark).get("domain", ""))
+        added.append(_promise(node, budget, lines))
+    functions = {node.name: node for node in tree.body if isinstance(node, ast.FunctionDef)}
+    added += (_promise(functions[name], text, lines) for name, text in notes.items())
     for place, text in sorted(added, key=lambda pair: -pair[0]):
         lines[place:place] = text
     return "\n".join(_relative(line, package) for line in lines) + "\n"
@@ -160,7 +171,7 @@ def _parameters(lines: list[str] | tuple[str, ...]) -> Iterator[tuple[str, str]]
 
 
 def _promise(
-    node: ast.FunctionDef, notes: tuple[str, ...], lines: list[str]
+    node: ast.FunctionDef, notes: Sequence[str], lines: list[str]
 ) -> tuple[int, list[str]]:
     """Where a docstring's notes go, and what they are."""
     docstring = node.body[0]

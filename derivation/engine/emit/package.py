@@ -88,12 +88,15 @@ class Copy:
         Import name of the package, by which the original refers to it.
     budgets
         Error budgets by function.
+    notes
+        Lines about errors by function, of those that the manifest does not list.
     """
 
     name: str
     file: Path
     package: str = "generated"
     budgets: Mapping[str, Budget] = field(default_factory=dict)
+    notes: Mapping[str, Sequence[str]] = field(default_factory=dict)
 
 
 Planned = Module | Numbers | Routines | Copy
@@ -223,8 +226,9 @@ def written(planned: Sequence[Planned]) -> dict[str, str]:
 
 
 def _copied(part: Copy) -> str:
-    source = f"{part.file.read_text()}{sorted(part.budgets.items())}"
-    return copies.copied(part.file, part.package, header(source), part.budgets)
+    told = sorted(part.budgets.items()), *sorted(part.notes.items())
+    source = f"{part.file.read_text()}{''.join(map(str, told))}"
+    return copies.copied(part.file, part.package, header(source), part.budgets, part.notes)
 
 
 def _text(part: Module | Numbers | Routines) -> str:

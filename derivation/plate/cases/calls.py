@@ -9,6 +9,7 @@ import numpy as np
 
 from derivation.engine.measure.kernels import Kernel
 from derivation.plate.budgets import read_budgets, read_promises
+from generated import edge_mode_kernels as kernels
 from generated import edge_modes, non_hertzian_pressure, sensitivity, simple_impact
 from generated.bessel import bessel_j0
 from generated.perturbation import PrintedMotion
@@ -141,7 +142,7 @@ def _mode(name: str, count: float, eta: float, nu: float) -> tuple[float, ...]:
 
 def _face(name: str, k: float, k2: float, t: float, at: float) -> float:
     numbers, none = np.array([[k], [k2], [t]]), np.zeros(1)
-    part = np.exp(-numbers[1]) * bessel_j0(numbers[0]) / edge_modes._modified(numbers[1])[2]
+    part = kernels.first_part(bessel_j0(numbers[0]), kernels.faded(numbers[1]), numbers[1])
     waves = edge_modes.Waves(
         k=numbers[0], k2=numbers[1], t=numbers[2], c=part, root=none, weight=none, residue=none
     )

@@ -14,7 +14,7 @@ from derivation.plate.hard.law import Given, HardLaw
 from derivation.plate.hard.places import about, around, exactly
 from derivation.plate.waves.cases.laws import differences
 from derivation.plate.waves.cases.places import partner_crossing
-from generated.edge_modes import _SMALL
+from generated.edge_mode_numbers import SMALL
 
 SEAMS, WAVES = "seams of held plates with a thickness", "waves of held plates"
 _MODES = ("clamped_waves", "supported_waves")
@@ -32,8 +32,8 @@ def held_wave_families() -> Iterator[HardCase]:
         given = exactly(count=float(CROSSING), eta=around(place), nu=_METAL)
         yield about(SEAMS, kernel, why, given)
     for kernel, at in (("wave_shape", "r"), ("wave_share", "a")):
-        why = f"{at}/b = 0.5, where k {at} or k2 {at} = {_SMALL:g} ends the power series"
-        size = 2.0 * _SMALL
+        why = f"{at}/b = 0.5, where k {at} or k2 {at} = {SMALL:g} ends the power series"
+        size = 2.0 * SMALL
         for k, k2 in ((size, 3.0), (5.0, size)):
             yield about(SEAMS, kernel, why, exactly(k=k, k2=k2, t=1.02, **{at: around(0.5)}))
         cause = "From the axis, and from a punch of no size, to the edge."

@@ -78,6 +78,14 @@ def test_a_copy_promises_the_budget_and_the_domain(tmp_path: Path) -> None:
     assert "Domain: x > 0." in docstring
 
 
+def test_a_copy_says_of_other_functions_what_it_is_told(tmp_path: Path) -> None:
+    file = tmp_path / "double.py"
+    file.write_text(MODULE.replace('@in_manifest(r"2\\,x", domain="x > 0")\n', ""))
+    text = copied(file, "generated", "# From here.", {}, {"twice": ("Exact.",)})
+    docstring = ast.get_docstring(ast.parse(text).body[-1]) or ""  # type: ignore[arg-type]
+    assert docstring.endswith("Notes\n-----\nExact.")
+
+
 def test_what_the_manifest_says_comes_from_the_function(tmp_path: Path) -> None:
     file = tmp_path / "double.py"
     file.write_text(MODULE)

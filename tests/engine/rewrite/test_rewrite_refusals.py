@@ -23,7 +23,7 @@ from derivation.plate.contact.kernels import tables as contact_tables
 from derivation.plate.derived import formulas
 from derivation.plate.edge import kernels as edge_tables
 from derivation.plate.edge.theory.sums import slope_kernel
-from derivation.plate.edge_modes.kernels import wave_tables as held_tables
+from derivation.plate.edge_modes.kernels import numbers as held_tables
 from derivation.plate.effects import kernels as effect_tables
 from derivation.plate.forms import SCALES
 from derivation.plate.impact.kernels import simple as simple_impact_tables

@@ -22,7 +22,6 @@ from derivation.mathematics.bessel.theory import modified as modified_bessel
 from derivation.plate import derived
 from derivation.plate.budgets import read_promises
 from derivation.plate.edge_modes.cases import LAWS
-from derivation.plate.edge_modes.kernels import wave_forms as forms
 from derivation.plate.edge_modes.oracle import modes as held_balls
 from derivation.plate.edge_modes.oracle import waves as held_wave_balls
 from derivation.plate.edge_modes.route import waves as held_wave_routes
@@ -30,8 +29,8 @@ from derivation.plate.edge_modes.theory import mindlin
 from derivation.plate.edge_modes.theory import waves as theory
 from derivation.plate.vocabulary import eta as thickness
 from derivation.plate.vocabulary import nu as poisson
-from generated import edge_modes
 from generated.bessel import bessel_j0_zeros, bessel_j1_at_j0_zeros
+from generated.edge_mode_numbers import START
 from generated.edge_modes import (
     Waves,
     clamped_waves,
@@ -59,7 +58,6 @@ def test_every_formula_of_the_link_is_verified_symbolically() -> None:
     (link,) = (found for name, found in derived.chain() if name == "held waves")
     assert len(link) == 13
     assert {formula.proof.method for formula in link} == {SYMBOLIC}
-    assert forms.forms().method == SYMBOLIC
 
 
 def test_shear_coefficient() -> None:
@@ -74,8 +72,6 @@ def test_shear_coefficient() -> None:
         (theory, "NORM", theory.NORM + theory.J1**2 / 7, theory.norm),
         (theory, "SUPPORTED_REST", -theory.SUPPORTED_REST, theory.at_rest),
         (mindlin, "u_2", lambda: 1 + mindlin.ROTARY * mindlin.xi, mindlin.waves),
-        (forms, "_RATE", 2 * forms._RATE, forms.forms),
-        (forms, "_curls", lambda: {forms.curl: forms.j0, forms.curl_2: forms.i0}, forms.forms),
     ],
 )
 def test_a_wrong_step_is_refused(
@@ -215,7 +211,7 @@ def test_results_change_smoothly(edge: str) -> None:
         [WAVES_OF[edge](12, eta, 0.3) for eta in np.linspace(0.01, 0.02, 201)],
         [WAVES_OF[edge](2, 0.1, nu) for nu in np.linspace(-0.99, 0.4999, 401)],
     ]
-    assert lines[0][0].k2[-1] > edge_modes._START > lines[0][-1].k2[-1]
+    assert lines[0][0].k2[-1] > START > lines[0][-1].k2[-1]
     for line, allowed in zip(lines, (3e-3, 3e-2), strict=True):
         for name in Waves._fields:
             values = np.array([getattr(waves, name) for waves in line])

@@ -1,15 +1,48 @@
-"""Which expressions become code, and the numbers that this code needs: plates with a held edge."""
+"""What the modes of plates with a held edge hand in for the generated package."""
 
+import textwrap
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from derivation.engine.emit.package import Routines
 from derivation.plate.budgets import read_promises
-from derivation.plate.edge_modes.kernels.wave_context import held_waves_context
-from derivation.plate.modules import TemplateModule
+from derivation.plate.edge_modes.kernels import amplitudes, edges, faces, states
+from derivation.plate.edge_modes.kernels.numbers import numbers
+from derivation.plate.modules import ComputedModule, RuntimeModule
+
+RUNTIME = Path(__file__).parents[1] / "runtime"
+
+
+def edge_mode_kernels() -> Routines:
+    """Waves, the conditions of both edges, weights and the loaded face, printed."""
+    made = [make for part in (states, edges, amplitudes, faces) for make in part.ROUTINES]
+    functions = "curled", "even", "even_beyond", "grown", "logarithm_series", "odd", "punch_beyond"
+    imports = {
+        "bessel": ("bessel_j0",),
+        "edge_mode_functions": (*functions, "ratio_series", "turn_mean", "turn_means"),
+        "edge_mode_numbers": ("SMALL", "START"),
+        "wave_functions": ("shc",),
+    }
+    title = "Modes of a plate with a held edge: waves, edges, weights and the loaded face."
+    return Routines("edge_mode_kernels", title, tuple(make() for make in made), imports)
+
+
+def _limits() -> Mapping[str, Sequence[str]]:
+    """Tested limits as lines of a docstring."""
+    promised = read_promises("edge_modes").items()
+    numbers = ", ".join(f"{name} {ulp:g}" for name, ulp in promised if name != "face")
+    text = (
+        f"Tested error limits in units in the last place (ULP): {numbers}; of c in those of "
+        "c (1 + k), of k2 in those of k^2/k2, of t in those of max(1, |t|). Half the sum of the "
+        "condition numbers of eta and nu is allowed on top. A mode whose x = k eta is within a "
+        "few ULP of the cut-off may be missing or there."
+    )
+    return dict.fromkeys(("clamped_waves", "supported_waves"), textwrap.wrap(text, 84))
+
 
 MODULES = (
-    TemplateModule(
-        "edge_modes",
-        Path(__file__).parents[1],
-        lambda: held_waves_context(read_promises("edge_modes")),
-    ),
+    ComputedModule("edge_mode_numbers", numbers),
+    ComputedModule("edge_mode_kernels", edge_mode_kernels),
+    RuntimeModule("edge_mode_functions", RUNTIME / "edge_mode_functions.py"),
+    RuntimeModule("edge_modes", RUNTIME / "edge_modes.py", _limits),
 )

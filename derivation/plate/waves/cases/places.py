@@ -13,7 +13,7 @@ from derivation.engine.formula.ball import Exact, to_ball
 from derivation.plate.edge_modes.oracle import modes as held_balls
 from derivation.plate.edge_modes.oracle import waves as held_wave_balls
 from derivation.plate.waves import oracle as inertia_balls
-from generated.edge_modes import _START
+from generated.edge_mode_numbers import START
 from generated.wave_numbers import CLOSE
 
 _DIGITS, _BITS = 25, 128
@@ -103,7 +103,7 @@ def partner_crossing(edge: held_balls.Edge, n: int, nu: float) -> float:
     """The double nearest to h/b at which a mode's k2 passes where I0 becomes a series."""
 
     def below(eta: Exact) -> bool:
-        return bool(held_wave_balls.wave(edge, n, eta, nu, _DIGITS).k2 < arb(_START))
+        return bool(held_wave_balls.wave(edge, n, eta, nu, _DIGITS).k2 < arb(START))
 
     return _nearest(below, 0.012, 0.018)
 

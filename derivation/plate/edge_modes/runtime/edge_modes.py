@@ -1,4 +1,3 @@
-{% import "macros.j2" as macros with context %}
 """Modes of a circular plate with a thickness whose edge is clamped or simply supported.
 
 With b = 1 a mode is J0(k r) - c I0(k2 r), c = J0(k)/I0(k2), of the frequency of the lowest bending
@@ -15,67 +14,26 @@ lacks of its root goes on into c and W. The first supported mode, whose k is 0 a
 from power series in -k^2 and k2^2.
 
 I0, I1 and I2 are Bessel's integral as a sum, or their series at infinity.
-"""
-{{ header }}
 
-from collections.abc import Callable
+Arithmetic: x = k eta, where Newton's method starts, its steps and intervals, a quadrature.
+"""
+
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .arrays import Double, quiet
-from .bessel import _whole, bessel_j0, bessel_j0_zeros, bessel_j1
-from .blocks import polynomial
-from .inertia import bending_frequency, bending_residue
+from generated import edge_mode_kernels as kernels
+from generated.arrays import Double, quiet
+from generated.bessel import _whole, bessel_j0, bessel_j0_zeros, bessel_j1
+from generated.edge_mode_numbers import NODES, WEIGHTS
+from generated.inertia import bending_frequency, bending_residue
 
 THINNEST, THICKEST = 1e-80, 0.5
 """Range of eta."""
 
 _STEPS = 60  # of Newton's method and halving: 5 to 8 are enough
 _CLOSE = 2.0**-50  # a step over k after which the next would be rounding alone
-_START = {{ start }}  # k2 from which on the series at infinity serve
-_SMALL = 2.0  # size of y up to which J0 - 1, I0 - 1 and others are power series
-
-{% macro row(name) %}
-_{{ name | upper }} = (
-{% for line in series[name] %}
-    {{ line }}
-{% endfor %}
-)
-{% endmacro %}
-# fmt: off
-# I1/I0, and k log(I0 sqrt(2 pi k) e^(-k)), in powers of 1/k.
-{{ row("ratio") -}}
-{{ row("logarithm") -}}
-# x = 1 - cos t over half a turn.
-_TURNS = np.array((
-{% for line in turns %}
-    {{ line }}
-{% endfor %}
-))
-# Gauss' rule on (0, 1).
-_NODES = np.array((
-{% for line in nodes %}
-    {{ line }}
-{% endfor %}
-))
-_WEIGHTS = np.array((
-{% for line in weights %}
-    {{ line }}
-{% endfor %}
-))
-# R/y, I0, 2 I1/sqrt(y) in powers of y, sinh(y)/y in those of y^2.
-{{ row("curl") -}}
-{{ row("even") -}}
-{{ row("odd") -}}
-{{ row("punch") -}}
-# fmt: on
-# The ends count half. I0 e^(-k) is the mean of e^(-k x), I1 e^(-k)/k that of sin^2(t) e^(-k x) and
-# 3 I2 e^(-k)/k^2 that of sin^4(t) e^(-k x).
-_MEAN = np.r_[0.5, np.ones(_TURNS.size - 2), 0.5] / (_TURNS.size - 1)
-_SECOND = _TURNS * (2.0 - _TURNS)
-_CURL_SLOPE = tuple((m + 1) * c for m, c in enumerate(_CURL))
 
 
 class Waves(NamedTuple):
@@ -123,16 +81,9 @@ def clamped_waves(count: int, eta: float, nu: float) -> Waves:
     ------
     ValueError
         If an argument is outside its range.
-
-    Notes
-    -----
-{% for line in promises %}
-    {{ line }}
-{% endfor %}
     """
     count, size, ratio = _given(count, eta, nu)
-    [beta] = _clamp(size, ratio)
-    return _below_cutoff(count, size, ratio, beta)
+    return _below_cutoff(count, size, ratio, kernels.clamp(size, ratio))
 
 
 @quiet
@@ -164,15 +115,9 @@ def supported_waves(count: int, eta: float, nu: float) -> Waves:
     ------
     ValueError
         If an argument is outside its range.
-
-    Notes
-    -----
-{% for line in promises %}
-    {{ line }}
-{% endfor %}
     """
     count, size, ratio = _given(count, eta, nu)
-    goal, beta = _support(ratio)
+    goal, beta = kernels.support(ratio)
     if count == 0:
         return _below_cutoff(0, size, ratio, beta)
     parts = _lowest(size, ratio, goal), _below_cutoff(count - 1, size, ratio, beta)
@@ -221,7 +166,7 @@ def shape(waves: Waves, r: ArrayLike) -> np.ndarray:
     ndarray
         of shape (modes, distances) [1]; NaN outside the range
     """
-    return 1.0 + _on_face(waves, _within(r), _even_less_one, _even_scaled).T
+    return kernels.face(_within(r), waves.k, waves.k2, waves.c, waves.t).T
 
 
 @quiet
@@ -244,23 +189,9 @@ def shares_less_one(waves: Waves, a: ArrayLike) -> np.ndarray:
     ndarray
         of shape (radii, modes) [1]; NaN outside the range
     """
-    return _on_face(waves, _within(a), _mean_less_one, _mean_scaled)
+    return kernels.punch_mean_less_one(_within(a), waves.k, waves.k2, waves.c, waves.t)
 
 
-# --- printed from the theory
-
-
-{% for function in functions %}
-def {{ function.name }}({{ function.arguments }}) -> tuple[Double, ...]:
-    """{{ function.summary }}"""
-{% for step in function.steps %}
-    {{ step.name }} = {{ step.code }}{% if step.comment %}  # {{ step.comment }}{% endif %}
-
-{% endfor %}
-    return ({{ function.results }}{{ function.comma }})
-
-
-{% endfor %}
 # --- modes
 
 
@@ -275,25 +206,51 @@ def _given(count: int, eta: float, nu: float) -> tuple[int, Double, Double]:
 
 
 def _within(r: ArrayLike) -> Double:
-    given = np.ravel(np.asarray(r, dtype=np.float64))
+    """A column of distances that are in their range."""
+    given = np.ravel(np.asarray(r, dtype=np.float64))[:, None]
     return np.where((given >= 0.0) & (given <= 1.0), given, np.nan)
 
 
 def _cutoff(nu: Double) -> Double:
-    x = np.asarray({{ cutoff }})
+    x = kernels.cutoff_of_mindlin(nu)
     for _ in range(_STEPS):
         near = x
-        [x] = _to_cutoff(near, nu, bending_frequency(near, nu))
+        x = kernels.to_cutoff(near, nu, bending_frequency(near, nu))
         if np.abs(x - near) <= _CLOSE * near:
             break
     return x
 
 
-def _state(k: Double, eta: Double, nu: Double) -> tuple[Double, ...]:
-    """Frequency, the printed wave, and of its partner M, L and I0 e^(-k2)."""
+class _State(NamedTuple):
+    """A wave of one wave number.
+
+    Attributes
+    ----------
+    root
+        omega h/c_T.
+    xi, left, bent, turned
+        kap/x^2, k2^2/k^2, g1 and g2 k2^2/k^2.
+    k2
+        Its partner's wave number.
+    mean, less, scaled
+        M, L and I0 e^(-k2) of the partner.
+    """
+
+    root: Double
+    xi: Double
+    left: Double
+    bent: Double
+    turned: Double
+    k2: Double
+    mean: Double
+    less: Double
+    scaled: Double
+
+
+def _state(k: Double, eta: Double, nu: Double) -> _State:
     root = bending_frequency(k * eta, nu)
-    xi, left, bent, turned, k_2 = _wave(k, eta, nu, root)
-    return root, xi, left, bent, turned, k_2, *_modified(k_2)
+    wave = kernels.wave(k, eta, nu, root)
+    return _State(root, *wave, *kernels.modified(wave[-1]))
 
 
 def _below_cutoff(count: int, eta: Double, nu: Double, beta: Double) -> Waves:
@@ -314,7 +271,8 @@ def _below_cutoff(count: int, eta: Double, nu: Double, beta: Double) -> Waves:
 def _residual(k: Double, eta: Double, nu: Double, beta: Double) -> tuple[Double, ...]:
     """q, J1 - q J0 and its slope by k."""
     _, xi, left, bent, turned, _, mean, less, _ = _state(k, eta, nu)
-    return _edge(k, nu, beta, xi, left, bent, turned, mean, less, bessel_j0(k), bessel_j1(k))
+    bessel = bessel_j0(k), bessel_j1(k)
+    return kernels.edge(k, nu, beta, xi, left, bent, turned, mean, less, *bessel)
 
 
 def _solved(
@@ -336,33 +294,32 @@ def _solved(
         low, high = np.where(over, low, near), np.where(over, near, high)
         step = -excess / rise
         close = np.abs(step) <= _CLOSE * near
-        k = np.where(close | ((low < near + step) & (near + step < high)), near + step, 0.5 * (low + high))
+        k = near + step
+        k = np.where(close | ((low < k) & (k < high)), k, 0.5 * (low + high))
         if close.all():
             break
     lacking = step - (k - near) if k.size else step
     root, xi, left, bent, turned, k_2, mean, less, scaled = _state(k, eta, nu)
     j0, j1 = bessel_j0(k), bessel_j1(k)
-    q = _edge(k, nu, beta, xi, left, bent, turned, mean, less, j0, j1)[0]
-    j0, j1 = _moved(k, lacking, j0, j1)
-    [c] = _part(j1 / q, scaled, k_2)
-    t, weight = _weight(k, eta, nu, left, bent, turned, mean, less, q, j1, c)
+    q = kernels.edge(k, nu, beta, xi, left, bent, turned, mean, less, j0, j1)[0]
+    _, j1 = kernels.moved(k, lacking, j0, j1)
+    c, t, weight = kernels.weight(
+        k, eta, nu, left, bent, turned, mean, less, scaled, k_2, q, j1
+    )  # fmt: skip
     return Waves(k, root, k_2, c, t, weight, bending_residue(k * eta, nu))
 
 
 def _lowest(eta: Double, nu: Double, goal: Double) -> Waves:
     """The first supported mode."""
     pole = bessel_j0_zeros(1)
-    [power] = _first_power(eta, goal)
+    power = kernels.first_power(eta, goal)
     k = np.sqrt(np.sqrt(power / (1.0 + power / pole**4)))
     for _ in range(_STEPS):
         near = k
         _, xi, left, bent, turned, _, mean, _, _ = _state(near, eta, nu)
-        y, partner = -near * near, near * near * left
-        j0, j1, i0 = bessel_j0(near), bessel_j1(near), polynomial(partner, *_EVEN)
-        excess, rise = _first_edge(
-            near, nu, goal, xi, left, bent, turned, mean, j0, j1, i0,
-            y * polynomial(y, *_CURL), polynomial(y, *_CURL_SLOPE),
-            partner * polynomial(partner, *_CURL), polynomial(partner, *_CURL_SLOPE),
+        bessel = bessel_j0(near), bessel_j1(near)
+        excess, rise = kernels.first_edge(
+            near, nu, goal, xi, left, bent, turned, mean, *bessel
         )  # fmt: skip
         step = -excess / rise
         k = np.minimum(near + step, 0.5 * (near + pole))
@@ -370,87 +327,8 @@ def _lowest(eta: Double, nu: Double, goal: Double) -> Waves:
             break
     lacking = step - (k - near)
     root, _, left, bent, turned, k_2, _, _, scaled = _state(k, eta, nu)
-    y, partner = -k * k, k * k * left
-    j0, _ = _moved(k, lacking, bessel_j0(k), bessel_j1(k))
-    [c] = _part(j0, scaled, k_2)
-    r, i0 = _NODES, polynomial(partner, *_EVEN)
-    [squares] = _energy(
-        k, eta, r, c, bent, turned, _grown(y, r), _grown(partner, r),
-        polynomial(y * r * r, *_ODD), polynomial(partner * r * r, *_ODD),
-    )  # fmt: skip
-    axis = np.zeros(1)
-    t, weight = _first_weight(
-        k, eta, nu, left, bent, c, i0, _grown(y, axis), _grown(partner, axis), _WEIGHTS @ squares
-    )
+    j0, _ = kernels.moved(k, lacking, bessel_j0(k), bessel_j1(k))
+    c = kernels.first_part(j0, scaled, k_2)
+    kinetic = WEIGHTS @ kernels.energy(k, eta, NODES, c, left, bent, turned)
+    t, weight = kernels.first_weight(k, eta, nu, left, bent, c, kinetic)
     return Waves(k, root, k_2, c, t, weight, bending_residue(k * eta, nu))
-
-
-def _grown(y: Double, r: Double) -> Double:
-    """I0(sqrt(y)) - I0(r sqrt(y))."""
-    total, square, part = np.zeros_like(r), r * r, np.ones_like(r)
-    terms = []
-    for m, coefficient in enumerate(_EVEN):
-        terms.append(coefficient * y**m * (1.0 - part))
-        part = part * square
-    for term in terms[::-1]:
-        total = total + term
-    return total
-
-
-# --- Bessel functions and the loaded face
-
-
-def _modified(y: Double) -> tuple[Double, Double, Double]:
-    """2 I1/(y I0), I2/(y^2 I0) and I0 e^(-y), y >= 0."""
-    low = np.minimum(y, _START)
-    faded = np.exp(-np.multiply.outer(low, _TURNS)) * _MEAN
-    scaled = np.sum(faded, axis=-1)
-    mean = 2.0 * np.sum(faded * _SECOND, axis=-1) / scaled
-    less = np.sum(faded * (_SECOND * _SECOND), axis=-1) / (3.0 * scaled)
-    far = y > _START
-    high = np.where(far, y, _START)
-    inverse = 1.0 / high
-    above = 2.0 * inverse * polynomial(inverse, *_RATIO)
-    beyond = np.exp(inverse * polynomial(inverse, *_LOGARITHM)) * np.sqrt(inverse / (2.0 * np.pi))
-    return (
-        np.where(far, above, mean),
-        np.where(far, (1.0 - above) * inverse * inverse, less),
-        np.where(far, beyond, scaled),
-    )
-
-
-Part = Callable[[Double], Double]
-
-
-def _on_face(waves: Waves, r: Double, near: Part, scaled: Part) -> Double:
-    """Less 1, by functions f(y) - 1 of the part J0, from -y^2, and f e^(-y) of the part I0."""
-    k_2, c, t = waves.k2, waves.c, waves.t
-    whole = bessel_j0(waves.k) / _modified(k_2)[2]  # c e^k2
-    y, z = np.multiply.outer(r, waves.k), np.multiply.outer(r, k_2)
-    small = z < _SMALL
-    low = np.where(small, z, 0.0)
-    faded = np.where(small, 0.0, whole * scaled(z) * np.exp(z - k_2) - c)
-    [less] = _face(c, t, near(-y * y), np.where(small, c * near(low * low), faded))
-    return less
-
-
-def _even_less_one(y: Double) -> Double:
-    """I0(sqrt(y)) - 1."""
-    low = np.where(np.abs(y) < _SMALL * _SMALL, y, 0.0)
-    far = bessel_j0(np.sqrt(np.maximum(-y, 0.0))) - 1.0
-    return np.where(np.abs(y) < _SMALL * _SMALL, low * polynomial(low, *_EVEN[1:]), far)
-
-
-def _even_scaled(y: Double) -> Double:
-    return _modified(y)[2]
-
-
-def _mean_less_one(y: Double) -> Double:
-    """sinh(sqrt(y))/sqrt(y) - 1."""
-    low = np.where(np.abs(y) < _SMALL * _SMALL, y, 0.0)
-    far = np.sinc(np.sqrt(np.maximum(-y, 0.0)) / np.pi) - 1.0
-    return np.where(np.abs(y) < _SMALL * _SMALL, low * polynomial(low, *_PUNCH[1:]), far)
-
-
-def _mean_scaled(y: Double) -> Double:
-    return -0.5 * np.expm1(-2.0 * y) / np.where(y > 0.0, y, 1.0)

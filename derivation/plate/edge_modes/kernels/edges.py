@@ -1,0 +1,227 @@
+"""What vanishes at a mode of a held plate, and its slope by the wave number.
+
+The edge is J1 = q J0,
+
+    q = k [beta (1 + left) - turned M/2]/bent.
+
+The first mode of a support, whose k vanishes at nu = -1, is
+
+    bent R(-k^2) + J0 [turned R(k2^2)/I0 + (n xi k^2/8 - goal)(1 + left)] = 0,
+    R(y) = y/8 I0 - I2 at sqrt(y), R(-k^2) = J2 - (k^2/8) J0,   goal = (1 + nu)/(1 - nu),
+
+where all terms but the last are positive for k < j_1.
+"""
+
+import sympy as sp
+
+from derivation.engine.emit.routine import Let, Routine, Several, routine
+from derivation.engine.formula.proof import lower_bessel
+from derivation.plate.edge_modes.kernels.states import (
+    NAMES,
+    bent,
+    beta,
+    by_wave_number,
+    change,
+    changes,
+    in_xi,
+    j0,
+    j1,
+    k,
+    left,
+    less,
+    mean,
+    of_xi,
+    parts,
+    q,
+    slope_of,
+    square,
+    turned,
+    xi,
+)
+from derivation.plate.edge_modes.theory import waves as theory
+from derivation.plate.edge_modes.theory.mindlin import ROTARY, k_2
+from derivation.plate.vocabulary import eta, k_n, nu
+
+goal, i0, slope, excess, lacking = sp.symbols("goal i0 slope excess lacking", real=True)
+curl, steep, curl_2, steep_2 = sp.symbols("curl steep curl_2 steep_2", real=True)
+_y = sp.Symbol("y", positive=True)
+
+
+def condition(of: sp.Expr) -> sp.Expr:
+    """S - beta Gam times J0/(g1 k), which is J1 - q J0."""
+    return (theory.TURN - of * theory.BEND) * theory.J0 / (theory.g_1 * k_n)
+
+
+def _plain(expression: sp.Expr) -> sp.Expr:
+    """At a quarter of xi, so that k2^2 > 0 wherever it is tried."""
+    return lower_bessel(expression).subs(xi, xi / 4)
+
+
+def _between(expression: sp.Expr) -> sp.Expr:
+    """Derivative of an expression of the theory along k, by any change of xi."""
+    return by_wave_number(in_xi(expression))
+
+
+def edge() -> Routine:
+    """Of all modes but the first of a support."""
+    value = k * (beta * (1 + left) - turned * mean / 2) / bent
+    steep_q = slope_of(value, {mean: (less - mean**2 / 4) * square})
+    stated = condition(beta)
+    (root,) = sp.solve(stated, theory.J1)
+    return routine(
+        "edge",
+        (k, nu, beta, xi, left, bent, turned, mean, less, j0, j1),
+        (
+            Let(q, value),
+            *changes(),
+            Let(slope, sp.collect(sp.expand(steep_q), (change, square), sp.factor)),
+            Let(excess, j1 - q * j0),
+        ),
+        (q, excess, j0 - j1 / k + q * j1 - slope * j0),
+        (in_xi(root / theory.J0), in_xi(stated), _between(stated)),
+        "q, J1 - q J0 that vanishes at a mode, and its slope by k.",
+        of_xi(),
+        _plain,
+    )
+
+
+def curl_of(of: type[sp.Function]) -> sp.Expr:
+    """R(y) by J of y = -k^2, or by I of y = k^2, in k."""
+    sign = -1 if of is sp.besselj else 1
+    return sign * (k_n**2 / 8 * of(0, k_n) - of(2, k_n))
+
+
+def _curls(partner: sp.Symbol) -> tuple[Several, Several]:
+    """R and its slope by y, of both waves."""
+    first, second = (curl_of(of) for of in (sp.besselj, sp.besseli))
+    slopes = -sp.diff(first, k_n) / (2 * k_n), sp.diff(second, k_n) / (2 * k_n)
+    wave_number = k_n * sp.sqrt(parts()[left])
+    of_partner = (value.subs(k_n, k_2).subs(k_2, wave_number) for value in (second, slopes[1]))
+    return (
+        Several((curl, steep), "curled", (-(k**2),), (first, slopes[0])),
+        Several((curl_2, steep_2), "curled", (partner,), tuple(of_partner)),
+    )
+
+
+def first_edge() -> Routine:
+    """Of the first mode of a support."""
+    partner = sp.Symbol("partner", real=True)
+    bracket = turned * curl_2 / i0 + (ROTARY * xi * k**2 / 8 - goal) * (1 + left)
+    value = bent * curl + j0 * bracket
+    others = {
+        curl: -2 * k * steep,
+        curl_2: steep_2 * square,
+        i0: i0 * mean / 4 * square,
+        j0: -j1,
+    }
+    stated = condition(theory.SUPPORTED) * 2 * theory.g_1 / k_n
+    return routine(
+        "first_edge",
+        (k, nu, goal, xi, left, bent, turned, mean, j0, j1),
+        (
+            Let(partner, k**2 * left, "k2^2"),
+            Several((i0,), "even", (partner,), (in_xi(theory.I0),)),
+            *_curls(partner),
+            *changes(),
+            Let(excess, value),
+        ),
+        (excess, slope_of(value, others)),
+        (in_xi(stated), _between(stated)),
+        "What vanishes at the first mode of a support, and its slope by k.",
+        {**of_xi(), goal: 2 * theory.SUPPORTED - 1},
+        _plain,
+    )
+
+
+def first_power() -> Routine:
+    """Where Newton's method begins: by the lowest power of k, where 3 n xi = x^2."""
+    u = sp.Symbol("u", positive=True)
+    lowest = 2 * curl_powers(2)[1] * u + eta**2 / 12 * u - 2 * goal
+    return routine(
+        "first_power",
+        (eta, goal),
+        (),
+        (sp.solve(lowest, u)[0],),
+        (_lowest_power(),),
+        "k^4 of the first mode of a support, near nu = -1.",
+        {},
+    )
+
+
+def curl_powers(count: int) -> tuple[sp.Rational, ...]:
+    """R by powers of y, from y^1 on."""
+    rows = []
+    for m in range(count):
+        own, other = sp.factorial(m) ** 2, sp.factorial(m) * sp.factorial(m + 2)
+        rows.append(sp.Rational(1, 8 * 4**m * own) - sp.Rational(1, 4 ** (m + 1) * other))
+    return tuple(rows)
+
+
+def _lowest_power() -> sp.Expr:
+    """k^4 to lowest order of the support's condition, where 1 + nu is as small as k^4."""
+    size, u = sp.symbols("size u", positive=True)
+    order = 5
+
+    def bessel(of: type[sp.Function], n: int) -> sp.Expr:
+        sign = -1 if of is sp.besselj else 1
+        return sp.Lambda(_y, sp.Add(*(
+            sign**m * (_y / 2) ** (2 * m + n) / (sp.factorial(m) * sp.factorial(m + n))
+            for m in range(order)
+        )))  # fmt: skip
+
+    found = in_xi((theory.TURN - theory.SUPPORTED * theory.BEND) / k_n**2)
+    for of in (sp.besselj, sp.besseli):
+        found = found.replace(of, lambda n, z, of=of: bessel(of, int(n))(z))
+    small = {nu: (goal - 1) / (goal + 1), xi: k_n**2 * eta**2 / (3 * ROTARY)}
+    for s in (xi, nu):
+        found = found.subs(s, small[s])
+    found = sp.cancel(sp.together(found).subs(goal, goal * size**4).subs(k_n, size))
+    (value,) = sp.solve(sp.series(found, size, 0, order).removeO().coeff(size, 4), goal)
+    return sp.solve(value * u - goal, u)[0]
+
+
+def support() -> Routine:
+    """Both numbers of a support."""
+    return routine(
+        "support",
+        (nu,),
+        (),
+        ((1 + nu) / (1 - nu), theory.SUPPORTED),
+        (2 * theory.SUPPORTED - 1, theory.SUPPORTED),
+        "goal, and beta of a simple support.",
+        {},
+    )
+
+
+def clamp() -> Routine:
+    """How a clamp turns."""
+    chi = sp.Symbol("chi", real=True)
+    return routine(
+        "clamp",
+        (eta, nu),
+        (Let(chi, theory.CLAMP, "measured"),),
+        (theory.CLAMPED.subs(theory.CLAMP, chi),),
+        (theory.CLAMPED,),
+        "beta of a clamp.",
+        {},
+    )
+
+
+def moved() -> Routine:
+    """Both Bessel functions beside a rounded wave number."""
+    exact = tuple(sp.besselj(order, k_n) for order in (0, 1))
+    known = {exact[0]: j0, exact[1]: j1, k_n: k}
+    slopes = [lower_bessel(sp.diff(f, k_n)) for f in exact]
+    return routine(
+        "moved",
+        (k, lacking, j0, j1),
+        (),
+        tuple(f + lacking * s.subs(known) for f, s in zip((j0, j1), slopes, strict=True)),
+        tuple(f + lacking * sp.diff(f, k_n) for f in exact),
+        "J0 and J1 at the root that k rounded lacks so much of.",
+        {s: NAMES[s] for s in (k, j0, j1)},
+        lower_bessel,
+    )
+
+
+ROUTINES = (support, clamp, edge, moved, first_power, first_edge)

@@ -1,0 +1,150 @@
+"""The numbers that the generated code of plates with a held edge needs."""
+
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+from math import factorial
+
+import flint
+import numpy as np
+import sympy as sp
+
+from derivation.engine.emit.package import Numbers
+from derivation.engine.emit.tables import Constant
+from derivation.engine.formula.ball import to_ball
+from derivation.mathematics.bessel.kernels import (
+    TOLERANCE,
+    asymptotic_start,
+    first_true,
+    nearest_double,
+)
+from derivation.mathematics.bessel.theory.modified import (
+    fourth_bound,
+    logarithm_bound,
+    ratio_bound,
+    ratio_series,
+    sum_bound,
+)
+from derivation.plate.contact.kernels.moments import BITS
+from derivation.plate.contact.kernels.tables import gauss_legendre
+from derivation.plate.edge_modes.kernels.edges import curl_powers
+
+NODES = 20
+"""Of the integral of the first supported mode's square, a smooth function of r."""
+SMALL = 2.0
+"""y up to which J0 - 1, I0 - 1 and the means under a punch less 1 are power series."""
+WIDEST = 6
+"""Above j_1^2: |y| up to which power series in y = -k^2 or k2^2 serve."""
+
+
+def powers(order: int, count: int) -> tuple[sp.Rational, ...]:
+    """I0 (order 0) or 2 I1/sqrt(y) (order 1) by powers of y."""
+    return tuple(sp.Rational(1, 4**m * factorial(m) * factorial(m + order)) for m in range(count))
+
+
+def means(count: int) -> tuple[sp.Rational, ...]:
+    """sinh(y)/y by powers of y^2."""
+    return tuple(sp.Rational(1, factorial(2 * m + 1)) for m in range(count))
+
+
+def enough(coefficients: tuple[sp.Rational, ...]) -> int:
+    """How many coefficients count up to the widest argument."""
+    limit = sp.Rational(TOLERANCE) * coefficients[1]
+    return first_true(lambda n: n > 2 and bool(coefficients[n] * WIDEST**n <= limit), 32) + 1
+
+
+def series_terms(start: Fraction) -> int:
+    """Terms of I1/I0 at infinity, so that neither it nor I0 is off by more than the tolerance."""
+    limit = to_ball(TOLERANCE)
+
+    def enough(terms: int) -> bool:
+        if terms < 3:
+            return False
+        within = ratio_bound(terms, start), logarithm_bound(terms, start)
+        return all(bool(bound <= limit) for bound in within)
+
+    return first_true(enough, int(start))
+
+
+def turns(steps: int) -> tuple[flint.arb, ...]:
+    """1 - cos t over half a turn, the largest first."""
+    halves = (flint.arb.sin_pi_fmpq(flint.fmpq(i, steps)) for i in reversed(range(steps // 2 + 1)))
+    return tuple(2 * half**2 for half in halves)
+
+
+def turn_steps(largest: Fraction) -> int:
+    """Steps of Bessel's integral, an even number, for I0, I1 and I2 up to the largest."""
+    least = int(largest) // 2 + 4
+
+    def within(n: int) -> bool:
+        steps = 2 * (least + n)
+        return max(sum_bound(steps, largest), fourth_bound(steps, largest)) <= TOLERANCE
+
+    return 2 * (least + first_true(within))
+
+
+def _doubles(values: Iterable[sp.Rational]) -> tuple[float, ...]:
+    return tuple(nearest_double(to_ball(Fraction(int(v.p), int(v.q)))) for v in values)
+
+
+def _counted(values: tuple[sp.Rational, ...]) -> tuple[sp.Rational, ...]:
+    return values[: enough(values)]
+
+
+def _of_turns(steps: int) -> tuple[Constant, ...]:
+    """Bessel's integral as a sum over half a turn, whose ends count half."""
+    places = turns(steps)
+    count = len(places) - 1
+    shares = [flint.arb(1) / (count if 0 < i < count else 2 * count) for i in range(count + 1)]
+    rows = {
+        "TURNS": (places, "x = 1 - cos t over half a turn."),
+        "MEAN": (shares, "I0 e^(-y) is the sum of these times e^(-y x),"),
+        "SECOND": (_times_sine(shares, places), "I1 e^(-y)/y that of these times e^(-y x),"),
+        "FOURTH": (
+            _times_sine(_times_sine(shares, places), places),
+            "3 I2 e^(-y)/y^2 that of these times e^(-y x).",
+        ),
+    }
+    return tuple(
+        Constant(name, np.array([nearest_double(v) for v in values]), meaning)
+        for name, (values, meaning) in rows.items()
+    )
+
+
+def _times_sine(values: Sequence[flint.arb], places: Sequence[flint.arb]) -> list[flint.arb]:
+    """With sin^2 t of x = 1 - cos t."""
+    return [value * x * (2 - x) for value, x in zip(values, places, strict=True)]
+
+
+def _of_series() -> tuple[Constant, ...]:
+    curl = _counted(curl_powers(32))
+    series = ratio_series(series_terms(asymptotic_start()))
+    logarithm = tuple(-v / (m - 1) for m, v in enumerate(series) if m > 1)
+    rows = {
+        "RATIO": (series, "I1/I0 of y, in powers of 1/y."),
+        "LOGARITHM": (logarithm, "y log(I0 sqrt(2 pi y) e^(-y)), in powers of 1/y."),
+        "EVEN": (_counted(powers(0, 32)), "I0 of sqrt(y), in powers of y."),
+        "ODD": (_counted(powers(1, 32)), "2 I1/sqrt(y) of sqrt(y), in powers of y."),
+        "PUNCH": (_counted(means(32)), "sinh(y)/y, in powers of y^2."),
+        "CURL": (curl, "R/y, R = y/8 I0 - I2 of sqrt(y), in powers of y."),
+        "CURL_SLOPE": (tuple((m + 1) * v for m, v in enumerate(curl)), "R', in powers of y."),
+    }
+    return tuple(Constant(name, _doubles(v), meaning) for name, (v, meaning) in rows.items())
+
+
+def numbers() -> Numbers:
+    """Where each way to compute ends, and coefficients of series and sums."""
+    start = asymptotic_start()
+    with flint.ctx.workprec(BITS):
+        places, weights = (np.array(x) for x in gauss_legendre(NODES))
+        return Numbers(
+            "edge_mode_numbers",
+            "Numbers of the modes of plates with a held edge: coefficients, and where series end.",
+            (
+                Constant("START", float(start), "y from which on I0 is its series at infinity."),
+                Constant("SMALL", SMALL, "y up to which J0 - 1, I0 - 1 and others are series."),
+                *_of_series(),
+                *_of_turns(turn_steps(start)),
+                Constant("NODES", places, "Gauss' rule on (0, 1),"),
+                Constant("WEIGHTS", weights, "and its weights."),
+            ),
+        )

@@ -1,0 +1,142 @@
+"""A wave of a held plate: the variables of the code, and how they change along Mindlin's branch.
+
+With xi = kap/x^2, k2^2 = k^2 left, g1 = bent and g2 k2^2 = k^2 turned nothing cancels for thin
+plates. With M = 2 I1/(k2 I0) and L = (1 - M)/k2^2 = I2/(k2^2 I0) nothing does where k2 vanishes.
+"""
+
+import sympy as sp
+
+from derivation.engine.emit.routine import Choice, Facts, Let, Routine, routine
+from derivation.plate.edge_modes.theory import mindlin
+from derivation.plate.edge_modes.theory import waves as theory
+from derivation.plate.edge_modes.theory.mindlin import k_2, shear, slack
+from derivation.plate.vocabulary import eta, k_n, kap, nu, x_h
+
+k, x, xi, root = sp.symbols("k x xi root", positive=True)
+left, bent, turned, mean, less, q = sp.symbols("left bent turned mean less q", real=True)
+j0, j1, c, t, beta = sp.symbols("j0 j1 c t beta", real=True)
+change, square, rate = sp.symbols("change square rate", real=True)
+
+_RATIO = 2 * theory.I1 / (k_2 * theory.I0)
+NAMES: Facts = {
+    k: k_n,
+    left: k_2**2 / k_n**2,
+    bent: theory.g_1,
+    turned: theory.g_2 * k_2**2 / k_n**2,
+    mean: _RATIO,
+    less: (1 - _RATIO) / k_2**2,
+    j0: theory.J0,
+    j1: theory.J1,
+    t: theory.FACE,
+    c: theory.PART,
+}
+"""What the variables stand for, g1 and g2 being any."""
+
+
+def parts() -> dict[sp.Symbol, sp.Expr]:
+    """Left, bent and turned in xi, with the shear coefficient of A0."""
+    found = {left: mindlin.left(), bent: mindlin.u_1(), turned: mindlin.u_2()}
+    return {s: sp.collect(sp.expand(v.subs(shear, slack())), xi) for s, v in found.items()}
+
+
+def in_xi(expression: sp.Expr) -> sp.Expr:
+    """An expression of the theory in k and xi."""
+    found = parts()
+    known = {theory.g_1: found[bent], theory.g_2: found[turned] / found[left]}
+    return expression.subs(known).subs(k_2, k_n * sp.sqrt(found[left]))
+
+
+def of_xi() -> Facts:
+    """What the variables stand for, as functions of k and xi."""
+    names = {s: in_xi(sp.sympify(value)) for s, value in NAMES.items()}
+    return names | parts()
+
+
+def by_wave_number(expression: sp.Expr) -> sp.Expr:
+    """Derivative of an expression in k and xi, `change` being that of xi."""
+    return sp.diff(expression, k_n) + sp.diff(expression, xi) * change
+
+
+def branch_rate() -> sp.Expr:
+    """d log(xi)/d log(k) on Mindlin's branch, in xi: x follows from the dispersion relation."""
+    (there,) = sp.solve(mindlin.dispersion(x_h), x_h**2)
+    return mindlin.on_lower_branch().subs(x_h**2, there).subs(shear, slack())
+
+
+RATE = 2 * bent * turned / (bent + turned - bent * turned)
+"""The same in the code's variables."""
+
+
+def slope_of(value: sp.Expr, others: Facts) -> sp.Expr:
+    """d/dk of the code's expression in k, in what depends on xi, and in others."""
+    by_xi = sum(sp.diff(value, s) * sp.diff(part, xi) for s, part in parts().items())
+    total = sp.diff(value, k) + (by_xi + sp.diff(value, xi)) * change
+    return total + sum(sp.diff(value, s) * each for s, each in others.items())
+
+
+def changes() -> tuple[Let, Let]:
+    """Of xi and k2^2 with k; what uses the first holds for any."""
+    return (
+        Let(
+            change, xi * RATE / k, "of xi by k", opaque=True, means=xi * branch_rate() / k_n
+        ),
+        Let(square, slope_of(k**2 * left, {}), "of k2^2 by k"),
+    )  # fmt: skip
+
+
+def wave() -> Routine:
+    """What a mode's wave number and frequency make of its partner and of both rotations."""
+    held = sp.Symbol("held", real=True)
+    beyond = "beyond the cut-off there are no modes"
+    partner, first, second = (formula.expression for formula in mindlin.waves())
+    return routine(
+        "wave",
+        (k, eta, nu, root),
+        (
+            Let(xi, (root / (k * eta)) ** 2, "kap/x^2"),
+            *(Let(symbol, value) for symbol, value in parts().items()),
+            Choice(held, left > 0, left, sp.Integer(0), unclaimed="no", reason=beyond),
+        ),
+        (xi, left, bent, turned, k * sp.sqrt(held)),
+        (kap / (k_n * eta) ** 2, partner**2 / k_n**2, first, second * partner**2 / k_n**2, partner),
+        "xi, k2^2/k^2, g1, g2 k2^2/k^2 and k2.",
+        {k: k_n, root: sp.sqrt(kap)},
+    )
+
+
+def to_cutoff() -> Routine:
+    """A step of Newton's method towards k2 = 0."""
+    plain = parts()[left]
+    claim = x_h * (1 - plain / (xi * sp.diff(plain, xi) * branch_rate()))
+    return routine(
+        "to_cutoff",
+        (x, nu, root),
+        (
+            Let(xi, (root / x) ** 2),
+            *(Let(symbol, value) for symbol, value in parts().items()),
+            Let(rate, RATE),
+        ),
+        (x * (1 + left / ((1 - left) * rate)),),
+        (claim.subs(xi, kap / x_h**2),),
+        "A step of Newton's in log x, for k2 = 0.",
+        {x: x_h, root: sp.sqrt(kap)},
+    )
+
+
+def cutoff_of_mindlin() -> Routine:
+    """Where Newton's method begins: where k2 vanishes on Mindlin's own branch."""
+    (there,) = sp.solve(mindlin.left(), xi)
+    (square_there,) = sp.solve(mindlin.dispersion(x_h).subs(xi, there), x_h**2)
+    exact = square_there.subs(shear, slack())
+    return routine(
+        "cutoff_of_mindlin",
+        (nu,),
+        (Let(square, sp.factor(exact), "of x", means=exact),),
+        (sp.sqrt(square),),
+        (sp.sqrt(exact),),
+        "x at which k2 vanishes on Mindlin's branch.",
+        {},
+    )
+
+
+ROUTINES = (wave, to_cutoff, cutoff_of_mindlin)

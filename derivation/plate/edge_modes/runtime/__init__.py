@@ -1,0 +1,1 @@
+"""Algorithms of the modes of plates with a held edge, copied into the generated package."""

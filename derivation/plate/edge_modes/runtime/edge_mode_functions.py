@@ -1,0 +1,90 @@
+"""Bessel's integral as a sum, and power series: what the modes of held plates are made of.
+
+Arithmetic: sums and Horner's rule, with coefficients computed beforehand.
+"""
+
+import numpy as np
+
+from generated.arrays import Double
+from generated.blocks import polynomial
+from generated.edge_mode_numbers import (
+    CURL,
+    CURL_SLOPE,
+    EVEN,
+    FOURTH,
+    LOGARITHM,
+    MEAN,
+    ODD,
+    PUNCH,
+    RATIO,
+    SECOND,
+    TURNS,
+)
+
+
+def turn_mean(y: Double) -> Double:
+    """I0 e^(-y), 0 <= y <= START."""
+    value: Double = np.sum(_faded(y) * MEAN, axis=-1)
+    return value
+
+
+def turn_means(y: Double) -> tuple[Double, Double, Double]:
+    """I0 e^(-y), I1 e^(-y)/y and 3 I2 e^(-y)/y^2, 0 <= y <= START."""
+    faded = _faded(y)
+    return (
+        np.sum(faded * MEAN, axis=-1),
+        np.sum(faded * SECOND, axis=-1),
+        np.sum(faded * FOURTH, axis=-1),
+    )
+
+
+def _faded(y: Double) -> Double:
+    value: Double = np.exp(-np.multiply.outer(y, TURNS))
+    return value
+
+
+def ratio_series(inverse: Double) -> Double:
+    """I1/I0 of 1/inverse >= START."""
+    return polynomial(inverse, *RATIO)
+
+
+def logarithm_series(inverse: Double) -> Double:
+    """Of y = 1/inverse >= START: y log(I0 sqrt(2 pi y) e^(-y))."""
+    return polynomial(inverse, *LOGARITHM)
+
+
+def even(y: Double) -> Double:
+    """I0(sqrt(y))."""
+    return polynomial(y, *EVEN)
+
+
+def even_beyond(y: Double) -> Double:
+    """(I0(sqrt(y)) - 1)/y."""
+    return polynomial(y, *EVEN[1:])
+
+
+def odd(y: Double) -> Double:
+    """2 I1(sqrt(y))/sqrt(y)."""
+    return polynomial(y, *ODD)
+
+
+def punch_beyond(y: Double) -> Double:
+    """(sinh(sqrt(y))/sqrt(y) - 1)/y."""
+    return polynomial(y, *PUNCH[1:])
+
+
+def curled(y: Double) -> tuple[Double, Double]:
+    """R = y/8 I0(sqrt(y)) - I2(sqrt(y)), and its slope by y."""
+    return y * polynomial(y, *CURL), polynomial(y, *CURL_SLOPE)
+
+
+def grown(y: Double, r: Double) -> Double:
+    """I0(sqrt(y)) - I0(r sqrt(y)), term by term."""
+    total, square, part = np.zeros_like(r), r * r, np.ones_like(r)
+    terms = []
+    for m, coefficient in enumerate(EVEN):
+        terms.append(coefficient * y**m * (1.0 - part))
+        part = part * square
+    for term in terms[::-1]:
+        total = total + term
+    return total

@@ -1,0 +1,32 @@
+"""Printed routines of held plates: proved, and refused where a step is wrong."""
+
+from typing import Any
+
+import pytest
+
+from derivation.engine.formula.proof import SYMBOLIC, ProofError
+from derivation.plate.edge_modes.kernels import amplitudes, edge_mode_kernels, edges, faces, states
+from derivation.plate.vocabulary import k_n
+
+
+def test_every_routine_is_verified_symbolically() -> None:
+    assert {made.proof.method for made in edge_mode_kernels().routines} == {SYMBOLIC}
+
+
+@pytest.mark.parametrize(
+    ("module", "name", "wrong", "make"),
+    [
+        (states, "RATE", 2 * states.RATE, states.to_cutoff),
+        (states, "RATE", 2 * states.RATE, edges.edge),
+        (edges, "curl_of", lambda of: of(2, k_n), edges.first_edge),
+        (edges, "curl_powers", lambda count: (0,) * (count - 1) + (1,), edges.first_power),
+        (amplitudes, "PART", -amplitudes.PART, amplitudes.weight),
+        (faces, "FADED", 2 * faces.FADED, faces.modified),
+    ],
+)
+def test_a_wrong_routine_is_refused(
+    monkeypatch: pytest.MonkeyPatch, module: Any, name: str, wrong: Any, make: Any
+) -> None:
+    monkeypatch.setattr(module, name, wrong)
+    with pytest.raises(ProofError):
+        make()

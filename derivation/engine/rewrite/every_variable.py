@@ -25,7 +25,7 @@ LEAST_VALUE = 1e-300
 """Smaller values may be subnormal numbers, which do not have all digits."""
 
 
-class Worst(NamedTuple):
+class LargestError(NamedTuple):
     """The largest error [ULP beyond half the condition numbers], where, and of how many points."""
 
     error: float
@@ -64,7 +64,7 @@ def accurate(
 
 def measured(
     formula: Record, steps: tuple[Step, ...], value: sp.Expr | Seam, blocks: Mapping[str, Block]
-) -> Worst:
+) -> LargestError:
     """The largest error of a form at hard points of every variable.
 
     Raises
@@ -87,7 +87,7 @@ def measured(
             f"{formula.name} has values at {len(found)} test points, expected {ENOUGH_POINTS}"
         )
     error, at_worst = max(found, key=lambda pair: pair[0])
-    return Worst(error, at_worst, len(found))
+    return LargestError(error, at_worst, len(found))
 
 
 def _seams(value: sp.Expr | Seam) -> dict[str, tuple[float, ...]]:

@@ -11,12 +11,12 @@ from derivation.engine.rewrite.automatic import FADES
 from derivation.engine.rewrite.form import FAR, ONCE
 from derivation.mathematics.bessel import kernels as bessel_tables
 from derivation.mathematics.bessel.oracle import j0_zero
-from derivation.plate.back_face import kernels as far_face_tables
+from derivation.plate.back_face.kernels import tables as back_face_tables
 from derivation.plate.blocks import blocks
 from derivation.plate.contact.kernels import moments as moment_tables
 from derivation.plate.contact.kernels import tables as contact_tables
 from derivation.plate.contact.oracle import balls as contact_balls
-from derivation.plate.edge import kernels as edge_tables
+from derivation.plate.edge.kernels import tables as edge_tables
 from derivation.plate.effects import kernels as effect_tables
 from derivation.plate.grids import seams
 from derivation.plate.hard import check as hard_check
@@ -54,7 +54,7 @@ EDGE_SUMS = ("supported_edge", "supported_edge_slope")
 EDGES = (*EDGE_SUMS, "clamped_edge", "clamped_edge_slope")
 BOUNDS = ("supported_edge_bound", "clamped_edge_bound")
 FAR_EDGES = ("supported_far_stress", "clamped_far_stress")
-FAR_FACE = ("far_stress", *FAR_EDGES)
+BACK_FACE = ("far_stress", *FAR_EDGES)
 SUMS = ("delta", "u", "w", "sigma_rr", "sigma_tt", "sigma_zz", "sigma_rz")
 PLATE_FACTORS = ("G", "G_m", "G_minus_1", "G_slope", "C_top", "C_bottom", "K_j", "K_j_bottom")
 OMEGAS = ("Omega_1", "Omega_2", "Omega_3", "Omega_4")
@@ -213,19 +213,21 @@ SEAMS: dict[str, Seam] = {
     ),
     "T of the edge": Seam(EDGE_SUMS, ratio("h", "b"), of_mode(edge_tables.SEAM)),
     "y of the edge": Seam(
-        (*EDGE_SUMS[:1], *FAR_FACE), ratio("a", "b"), lambda: [y_of(1), y_of(2)]
+        (*EDGE_SUMS[:1], *BACK_FACE), ratio("a", "b"), lambda: [y_of(1), y_of(2)]
     ),
     "modes of the edge": Seam(
         EDGE_SUMS[1:], ratio("h", "b"), last_modes(edge_tables.FADED, 1, 10)
     ),
     "lam = mu": Seam((*EDGES, *BOUNDS, *FAR_EDGES, "mode_g"), ratio("lam", "mu"), lambda: [1]),
-    "thin far face": Seam(FAR_FACE, ratio("h", "b"), lambda: [float(far_face_tables.THIN)]),
-    "wide contacts of the far face": Seam(
-        FAR_FACE, ratio("a", "h"), lambda: [Fraction(int(far_face_tables.WIDE))]
+    "thin plates of the back face": Seam(
+        BACK_FACE, ratio("h", "b"), lambda: [float(back_face_tables.THIN)]
     ),
-    "T of the far face": Seam(("far_stress",), ratio("h", "b"), of_mode(PAIR)),
-    "modes of the far face": Seam(
-        ("far_stress",), ratio("h", "b"), last_modes(far_face_tables.FADED, 1, 10)
+    "wide contacts of the back face": Seam(
+        BACK_FACE, ratio("a", "h"), lambda: [Fraction(int(back_face_tables.WIDE))]
+    ),
+    "T of the back face": Seam(("far_stress",), ratio("h", "b"), of_mode(PAIR)),
+    "modes of the back face": Seam(
+        ("far_stress",), ratio("h", "b"), last_modes(back_face_tables.FADED, 1, 10)
     ),
     "sphere": Seam(
         ("sphere_contact",), lambda p: p["a_over_R"], lambda: [math.sqrt(effect_tables.NEAR)]

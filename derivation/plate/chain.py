@@ -29,7 +29,7 @@ and from the contact law to the motion:
 22 effects          how much each effect can change the law
 23 plate motion     when the plate's own motion matters: Zener's number, periods
 24 viscosity        a viscoelastic contact: restitution, and what it changes at most
-25 far face         the tension under the axis on the far face, where a plate breaks first
+25 back face        the largest tensile stress, on the back face under the contact
 26 dynamic modes    the first six links with the plate's inertia: influence at any frequency
 27 bending branch   the lowest branch of free waves: frequency, answer to a load, limits
 28 closure          a contact beside a plate of oscillators that neither loses nor makes energy
@@ -107,7 +107,7 @@ MOTION_LINKS: tuple[Link, ...] = (
     ("effects", effects),
     ("plate motion", plate_motion),
     ("viscosity", viscosity),
-    ("far face", far_face),
+    ("back face", far_face),
     ("dynamic modes", dynamic_modes),
     ("bending branch", bending_branch),
     ("closure", closure),

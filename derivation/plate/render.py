@@ -36,7 +36,6 @@ from derivation.plate.contact.kernels.tables import (
     impact_context,
     sensitivity_context,
 )
-from derivation.plate.edge.kernels import edge_context
 from derivation.plate.impact.kernels.perturbation import perturbation_context
 from derivation.plate.impact.kernels.simple import simple_impact_context
 from derivation.plate.modes.kernels.modal_sums import MODAL_SUMS, STYLE, kernel_of_sum
@@ -105,7 +104,6 @@ def modules(kernels: tuple[EmittedKernel, ...]) -> tuple[Planned, ...]:
         tables("reversed_series", {}),
         tables("impact", {**impact_context(), "promises": read_promises()}),
         tables("sensitivity", sensitivity_context()),
-        tables("edge", edge_context()),
         *(tables(x.name, x.context(), x.folder) for x in template_modules()),
         *(x.make() for x in computed_modules()),
         *(Copy(x.name, x.file, "generated", budgets, x.notes()) for x in runtime_modules()),

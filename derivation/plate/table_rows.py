@@ -64,15 +64,6 @@ PLATE = ("R", "h", "b")
 ELASTIC = ("lam", "mu")
 IMPACT = ("R", "m", "v0", *PLATE[1:], *ELASTIC)
 TableRow = tuple[str, str, tuple[str, ...], str, str, str, str]
-EDGE_FUNCTIONS: tuple[TableRow, ...] = tuple(
-    (f"{kind}_edge{part}", "edge", ("a", *PLATE[1:], *ELASTIC), "1", "", "6", f"{what}: {meaning}")
-    for part, meaning in (
-        ("", "addition to delta R/a^2"),
-        ("_slope", "addition to (R/2a) d delta/da"),
-        ("_bound", "bound of the addition to (R/2a) d delta/da up to this contact"),
-    )
-    for kind, what in (("supported", "simple support"), ("clamped", "clamp"))
-)
 CONTACT_FUNCTIONS: tuple[TableRow, ...] = (
     # name, module, arguments, unit, symbol, equation, meaning
     ("indentation", "contact_law", ("a", *PLATE), "m", r"\delta", "6", "indentation"),
@@ -127,7 +118,6 @@ CONTACT_FUNCTIONS: tuple[TableRow, ...] = (
         "13",
         "logarithmic derivatives of time and peaks by every parameter",
     ),
-    *EDGE_FUNCTIONS,
     *((row[0], module.name, *row[1:]) for module in template_modules() for row in module.functions),
     ("history", "impact", ("t", *IMPACT), "m, m/s, m, N", "", "13", "an impact over time"),
 )

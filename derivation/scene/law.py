@@ -220,7 +220,7 @@ class ContactLaw:
         return 2.0 / np.pi * self.modulus * (width / R) * mean
 
     def max_tensile_stress(self, a: float, force: float, held: bool = True) -> float:
-        """Stress on the far face under the axis [Pa], of a force [N] spread as Hertz's over a.
+        """Largest tensile stress on the back face [Pa], of a force [N] spread as Hertz's over a.
 
         Of the whole plate, whatever effects are in the law; on the paper's edge unless `held`,
         or where contact or plate are wider or thicker than the support's model reaches.

@@ -1,4 +1,4 @@
-"""Oracle 1 of the far face's stress: the modes' sum in balls, as it is defined.
+"""Oracle 1 of the back face's stress: the modes' sum in balls, as it is defined.
 
     S = sum 4 eta^2 g(alpha j) B(T)/J1^2,  T = 2 eta j,  B = 2 T sinh T/(sinh^2 T - T^2)
 

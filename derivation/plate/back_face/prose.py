@@ -1,7 +1,7 @@
 """What the report says of the back face, by link."""
 
 ABOUT = {
-    "far face": "A plate breaks where it is drawn most: on the far face, under the axis. What its "
-    "modes add up to there is, of a thin plate, a function of a/h and a logarithm of b/h; the "
-    "edge's states of stretching and bending add their own stress.",
+    "back face": "The tensile stress is evaluated where bending makes it largest: on the back "
+    "face, on the axis. For a thin plate the sum over the modes reduces to a function of a/h plus "
+    "a logarithm of b/h. The edge correction adds the stress of its bending and extension states.",
 }

@@ -1,4 +1,4 @@
-"""Oracle 2 of the far face's stress: an integral and residues in mpmath, no sum over modes.
+"""Oracle 2 of the back face's stress: an integral and residues in mpmath, no sum over modes.
 
 F(T) = T g(A T/2) B(T) is integrated from 0 to its end without its pole 6/T; 3 (gamma_E - log 4 eta)
 and the residues at sinh T = +-T, found here by Newton's method, make the plate finite.

@@ -1,4 +1,4 @@
-"""Link 25: the stress on the far face under the axis, where a plate breaks first.
+"""Link 25: the stress on the back face under the axis, where a plate breaks first.
 
 There S_zz = 0, and a mode's stress sigma_rr = sigma_tt = S_rr - mu g phi^2 = (1 + nu)/2 S_rr, with
 S_rr = -A_j B(T), T = 2 phi h. Under Hertz's pressure of resultant P, H = 2h and alpha = a/b,
@@ -95,7 +95,7 @@ def far_factor() -> Formula:
     # On the axis J1(phi r)/r is phi/2.
     on_axis = (S_rr - mu * g_j * phi**2).subs(z, -h)
     proof = prove(
-        "Stress of the far face",
+        "Stress of the back face",
         "The stresses of the loaded mode at z = -h; S_zz = 0 there, and Hooke's law gives g.",
         {
             "free face": loaded(S_zz.subs(z, -h)),
@@ -108,7 +108,7 @@ def far_factor() -> Formula:
     return Formula(
         "far_factor",
         "B(T)",
-        "radial stress of the far face per pressure coefficient, sign turned",
+        "radial stress of the back face per pressure coefficient, sign turned",
         value,
         "1",
         "",
@@ -125,7 +125,7 @@ def _mode() -> sp.Expr:
 
 @cache
 def far_stress() -> tuple[Formula, ...]:
-    """One mode of the stress on the far face's centre, and of S."""
+    """One mode of the stress on the back face's centre, and of S."""
     far_factor()
     stress = -ONE_AND_NU / 2 * A_j * far_function().subs(T, 2 * phi * h)
     stress = stress.subs(A_j, pressure_coefficient().expression)
@@ -137,7 +137,7 @@ def far_stress() -> tuple[Formula, ...]:
     )
     sources = ("far_factor", "A_j", "P")
     rows = (
-        ("far_stress", r"\sigma_{rr}(0, -h)", "tension of the far face under the axis", "Pa"),
+        ("far_stress", r"\sigma_{rr}(0, -h)", "largest tensile stress on the back face", "Pa"),
         ("far_sum", "S", "the same over (1 + nu) P/(8 pi h^2)", "1"),
     )
     return tuple(
@@ -209,7 +209,7 @@ def thin_far_face() -> tuple[Formula, Formula]:
     total += c * (sp.EulerGamma + sp.log(start / 2)) / 2
     expected = finite / 2 + 3 * (sp.EulerGamma - sp.log(4 * eta))
     proof = prove(
-        "Far face of a thin plate",
+        "Back face of a thin plate",
         "F is odd, 6/T at 0; the real axis leaves the finite part, quarter circles the logarithm, "
         "the poles inside their residues.",
         {
@@ -296,7 +296,7 @@ def wide_far_face() -> Formula:
         )
     )
     proof = prove(
-        "Far face under a wide contact",
+        "Back face under a wide contact",
         "Each power of B times g, its integral continued analytically (Watson's lemma on the "
         "imaginary axis, where g decays); 6/T^2 alone is Kirchhoff's plate, exactly.",
         residuals,
@@ -329,7 +329,7 @@ def far_edge() -> Formula:
     scale = SCALE.subs(P, contact_radius().expression)
     hoop = [hooke(state.u, state.w).tt.subs(z, -h) for state in (stretching, bending)]
     proof = prove(
-        "Edge's part of the far face's stress",
+        "Edge's part of the back face's stress",
         "Hooke's law of both states at z = -h, times the modes' mean motion of the edge.",
         {
             "stress": (stress - scale * value).subs(_REDUCED),
@@ -364,7 +364,7 @@ def far_clamp() -> Formula:
     value = sp.Rational(3, 2) * ((1 + 2 * clamp.turn() * eta) * wide - lost) + 2 * RATIO * eta**2
     stress = strain * below[0] - rotation * below[1]
     proof = prove(
-        "Clamp's part of the far face's stress",
+        "Clamp's part of the back face's stress",
         "Hooke's law of both states at z = -h, times what a clamp takes of turn and stretch.",
         {"stress": (stress - SCALE.subs(P, force) * value).subs(_REDUCED)},
     )

@@ -10,7 +10,7 @@ from flint import arb
 
 from derivation.engine.formula.ball import Exact, enclose, evaluate, to_ball
 from derivation.plate import vocabulary as symbols
-from derivation.plate.back_face import oracle as far_face_balls
+from derivation.plate.back_face import oracle as back_face_balls
 from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.contact.theory import curvature
 from derivation.plate.edge.oracle import clamped as clamp_balls
@@ -91,7 +91,7 @@ def _edge_bound(support: str) -> HardLaw:
     return HardLaw(values, oracle=supported if support == "supported" else (clamp.__name__,))
 
 
-# --- the far face
+# --- the back face
 
 
 def _stiff(P: Exact, h: Exact, lam: Exact, mu: Exact) -> arb:
@@ -116,9 +116,9 @@ def _far(support: str) -> HardLaw:
 
     def values(given: Given, digits: int) -> tuple[arb]:
         P, a, h, b, lam, mu = given
-        total = far_face_balls.far_sum(a, h, b, digits + _SPARE)
+        total = back_face_balls.far_sum(a, h, b, digits + _SPARE)
         if support == "supported":
-            moved = far_face_balls.far_edge(a, h, b, lam, mu, digits + _SPARE)
+            moved = back_face_balls.far_edge(a, h, b, lam, mu, digits + _SPARE)
         with flint.ctx.workprec(_bits(digits)):
             if support == "supported":
                 total += to_ball(edge_balls.support_ratio(lam, mu)) * moved
@@ -129,12 +129,12 @@ def _far(support: str) -> HardLaw:
     def sizes(given: Given, _: Sequence[arb]) -> tuple[arb]:
         """Of the paper's edge and of the states of stretching and bending."""
         P, a, h, b, lam, mu = given
-        plain = far_face_balls.far_sum(a, h, b, _FEW)
+        plain = back_face_balls.far_sum(a, h, b, _FEW)
         with flint.ctx.workprec(_bits(_FEW)):
             states = sum((abs(x) for x in of_edge(given, _FEW)), arb(0))
             return (abs(_stiff(P, h, lam, mu)) * (abs(plain) + states),)
 
-    oracle = (far_face_balls.__name__, *([clamp_balls.__name__] if support == "clamped" else []))
+    oracle = (back_face_balls.__name__, *([clamp_balls.__name__] if support == "clamped" else []))
     return HardLaw(values, sizes if support else None, oracle=oracle)
 
 

@@ -1,4 +1,4 @@
-"""Hard cases at the seams of what scenes are made of: edge, far face, sphere, pressure."""
+"""Hard cases at the seams of what scenes are made of: edge, back face, sphere, pressure."""
 
 import math
 from collections.abc import Iterator
@@ -7,9 +7,9 @@ from fractions import Fraction
 from itertools import chain, product
 
 from derivation.mathematics.bessel.oracle import j0_zero
-from derivation.plate.back_face import kernels as far_face_tables
+from derivation.plate.back_face.kernels import tables as back_face_tables
 from derivation.plate.blocks import blocks
-from derivation.plate.edge import kernels as edge_tables
+from derivation.plate.edge.kernels import tables as edge_tables
 from derivation.plate.edge.theory.clamped import LEVEL
 from derivation.plate.effects import kernels as effect_tables
 from derivation.plate.grids import seams
@@ -43,7 +43,7 @@ _MODES = (1, 2, 3)
 
 def scene_families() -> Iterator[HardCase]:
     """Every one of them; lengths are such that the plate's radius or half-thickness is 1."""
-    return chain(_edge(), _far_face(), _sphere(), _pressure())
+    return chain(_edge(), _back_face(), _sphere(), _pressure())
 
 
 def _zero(mode: int) -> float:
@@ -132,12 +132,12 @@ def _materials() -> Iterator[HardCase]:
     yield from _beside(EDGE, (*CLAMPED, *BOUNDS[1:]), why, given)
 
 
-# --- the far face
+# --- the back face
 
 
-def _far_face() -> Iterator[HardCase]:
+def _back_face() -> Iterator[HardCase]:
     every = ("far_stress", *FAR_EDGES)
-    thin, wide = float(far_face_tables.THIN), float(far_face_tables.WIDE)
+    thin, wide = float(back_face_tables.THIN), float(back_face_tables.WIDE)
     for width in (1e-3, 0.3, 0.89):
         given = exactly(P=_FORCE, a=width, h=around(thin), b=1.0, **_STEEL)
         why = f"h/b = {thin:g}, below which another plate's sum serves; a = {width:g} b"
@@ -153,7 +153,7 @@ def _far_face() -> Iterator[HardCase]:
         why = f"T = {pair:g} of mode {mode}, where B(T) ceases to be a power series"
         yield from _beside(FAR, every if mode == 1 else every[:1], why, given)
     for mode in (1, 10):
-        place = _last_mode(far_face_tables.FADED, mode)
+        place = _last_mode(back_face_tables.FADED, mode)
         same = {"P": _FORCE, "a": 0.3, "b": 1.0, **_STEEL}
         why = f"h/b = {place:.4g}, beyond which the sum takes a mode less"
         yield from _one_by_one(FAR, every[:1], place, why, "h", same)

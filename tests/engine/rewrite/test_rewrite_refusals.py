@@ -21,14 +21,14 @@ from derivation.mathematics.bessel import kernels as bessel_tables
 from derivation.plate.contact.kernels import moments as moment_tables
 from derivation.plate.contact.kernels import tables as contact_tables
 from derivation.plate.derived import formulas
-from derivation.plate.edge import kernels as edge_tables
+from derivation.plate.edge.kernels import tables as edge_tables
 from derivation.plate.edge.theory.sums import slope_kernel
 from derivation.plate.edge_modes.kernels import numbers as held_tables
 from derivation.plate.effects import kernels as effect_tables
 from derivation.plate.forms import SCALES
 from derivation.plate.impact.kernels import simple as simple_impact_tables
 from derivation.plate.paper import PAPER
-from derivation.plate.waves import kernels as inertia_tables
+from derivation.plate.waves.kernels.numbers import terms as wave_terms
 
 x = sp.Symbol("x", positive=True)
 
@@ -129,7 +129,7 @@ def test_tables_whose_last_coefficients_count_are_refused(
     monkeypatch.setattr(edge_tables, "alternating_sum", lambda _, at: abs(at - arb(0.25)))
     with flint.ctx.workprec(moment_tables.BITS):
         first = arb("2.404825557695772768621632")
-        with pytest.raises(ArithmeticError, match="coefficients of rest_square leave out"):
+        with pytest.raises(ArithmeticError, match="coefficients of SQUARE leave out"):
             edge_tables._tables(slope_kernel, first, [arb(0), arb(0)])
 
 
@@ -138,7 +138,7 @@ def test_series_that_end_too_early_are_refused(monkeypatch: pytest.MonkeyPatch) 
     with pytest.raises(ArithmeticError, match="needs more of kappa_n"):
         effect_tables.wall_rows()
     with pytest.raises(ValueError, match="F takes more than 40 terms up to S = 100"):
-        inertia_tables.terms(sp.Integer(100))
+        wave_terms(sp.Integer(100))
     with pytest.raises(ValueError, match=r"takes more terms than 30 up to 9/4"):
         sections._coefficients(1 / (1 - sections.y**2), 0)
     cosh, _ = sections._coefficients(sp.cosh(sections.y), 0)

@@ -1,4 +1,4 @@
-"""The far face under the axis: theory, oracles, kernels, known limits, and does the pane break?"""
+"""The stress on the back face: theory, oracles, kernels, known limits, and does the pane break?"""
 
 import itertools
 import math
@@ -17,9 +17,9 @@ from mpmath import mp, mpf
 from derivation.engine.formula.ball import evaluate, to_ball
 from derivation.engine.formula.proof import SYMBOLIC, ProofError, prove
 from derivation.plate import derived
-from derivation.plate.back_face import oracle as far_face_balls
-from derivation.plate.back_face import route as far_face_routes
-from derivation.plate.back_face import theory as far_face
+from derivation.plate.back_face import oracle as back_face_balls
+from derivation.plate.back_face import route as back_face_routes
+from derivation.plate.back_face import theory as back_face
 from derivation.plate.budgets import read_budgets
 from derivation.plate.edge.oracle import clamped as clamp_balls
 from derivation.plate.edge.oracle import supported as edge_balls
@@ -54,14 +54,14 @@ def test_every_formula_of_the_link_is_proved_symbolically() -> None:
     found = [f for name, f in derived.formulas().items() if name.startswith("far_")]
     assert len(found) == 8
     assert {formula.proof.method for formula in found} == {SYMBOLIC}
-    assert far_face.pole_at_zero().method == SYMBOLIC
+    assert back_face.pole_at_zero().method == SYMBOLIC
 
 
 def test_another_factor_is_refused() -> None:
-    wrong = far_face.far_function() * sp.cosh(T)
+    wrong = back_face.far_function() * sp.cosh(T)
     with pytest.raises(ProofError, match="radial"):
         prove(
-            "Far face", "", {"radial stress": wrong - derived.formulas()["far_factor"].expression}
+            "Back face", "", {"radial stress": wrong - derived.formulas()["far_factor"].expression}
         )
 
 
@@ -85,9 +85,9 @@ def test_factor_against_tractions_solved_in_numbers(wave: float, ratio: float) -
 
 @pytest.mark.parametrize(("thickness", "width"), [(0.02, 0.3), (0.1, 0.01), (0.1, 0.9), (0.3, 0.5)])
 def test_oracles_agree(thickness: float, width: float) -> None:
-    ball = far_face_balls.far_sum(width, thickness, 1, 24)
+    ball = back_face_balls.far_sum(width, thickness, 1, 24)
     with mp.workdps(40):
-        route = far_face_routes.far_sum(width, thickness, 1, 24)
+        route = back_face_routes.far_sum(width, thickness, 1, 24)
         with flint.ctx.workprec(BITS):
             assert abs(ball / arb(mp.nstr(route, 35)) - 1) < 1e-22
 
@@ -95,16 +95,16 @@ def test_oracles_agree(thickness: float, width: float) -> None:
 @pytest.mark.parametrize(("thickness", "width", "ratio"), [(0.05, 0.3, 0.25), (0.7, 0.4, -0.5)])
 def test_oracles_agree_on_the_edge(thickness: float, width: float, ratio: float) -> None:
     n = Fraction(ratio)
-    ball = far_face_balls.far_edge(width, thickness, 1, 2 * n, 1 - 2 * n, 24)
+    ball = back_face_balls.far_edge(width, thickness, 1, 2 * n, 1 - 2 * n, 24)
     with mp.workdps(40):
-        route = far_face_routes.far_edge(width, thickness, 1, ratio, 24)
+        route = back_face_routes.far_edge(width, thickness, 1, ratio, 24)
         with flint.ctx.workprec(BITS):
             assert abs(ball / arb(mp.nstr(route, 35)) - 1) < 1e-22
 
 
 def test_oracle_refuses_what_has_no_meaning() -> None:
     with pytest.raises(ValueError, match="a < b"):
-        far_face_balls.far_sum(1.0, 0.1, 1.0)
+        back_face_balls.far_sum(1.0, 0.1, 1.0)
 
 
 # --- generated kernels
@@ -125,7 +125,7 @@ def points() -> Iterator[Point]:
 def truths(point: Point) -> dict[str, tuple[arb, arb]]:
     """The stress of every edge, and what its error is measured by."""
     force, a, h, b, lam, mu = point
-    plain = far_face_balls.far_sum(a, h, b, 22)
+    plain = back_face_balls.far_sum(a, h, b, 22)
     first, second = Fraction(lam), Fraction(mu)
     ratio = edge_balls.support_ratio(first, second)
     eta = Fraction(h) / Fraction(b)
@@ -172,7 +172,7 @@ def test_thin_plates_differ_by_a_logarithm() -> None:
     """Down to h/b = 1e-50: the ball of h/b = 1/64 with the same a/h, and 3 log(1/(64 h/b))."""
     for A in (1e-30, 0.25, 6.0, 19.0, 21.0, 60.0):
         with flint.ctx.workprec(BITS):
-            start = far_face_balls.far_sum(A / 64, 1 / 64, 1, 25)
+            start = back_face_balls.far_sum(A / 64, 1 / 64, 1, 25)
             for power in (-10, -170):
                 true = start + 3 * (arb(2) ** (-power) / 64).log()
                 h = 2.0**power
@@ -257,7 +257,7 @@ def pane(**plate: Any) -> Any:
     return scene(plate=keys | plate)
 
 
-def test_the_panes_tension_is_that_of_its_force() -> None:
+def test_the_panes_stress_is_that_of_its_force() -> None:
     result = simulate(read(load(PANE).to_json() | {"effects": {"inertia": False}}))
     force, a = result.max_force, result.max_contact_radius
     m = result.model
@@ -272,7 +272,7 @@ def test_the_panes_tension_is_that_of_its_force() -> None:
     assert result.strength_note in result._repr_html_().replace("&#x27;", "'")
 
 
-def test_the_tension_of_a_pane_that_moves_is_that_of_its_largest_force_at_rest() -> None:
+def test_the_stress_of_a_pane_that_moves_is_that_of_its_largest_force_at_rest() -> None:
     data = load(PANE).to_json() | {"effects": {"inertia": "auto"}}
     result = simulate(read(data | {"plate": data["plate"] | {"tensile_strength": 1e9}}))
     assert "inertia" in result.effects.law.effects
@@ -284,9 +284,9 @@ def test_the_tension_of_a_pane_that_moves_is_that_of_its_largest_force_at_rest()
 
 
 def test_it_breaks_on_one_side_of_its_strength_only() -> None:
-    tension = simulate(pane()).max_tensile_stress
+    stress = simulate(pane()).max_tensile_stress
     for factor, breaks in ((0.999, True), (1.001, False)):
-        result = simulate(pane(tensile_strength=factor * tension))
+        result = simulate(pane(tensile_strength=factor * stress))
         said = [text for text in result.warnings if "predicted to fail" in text]
         assert bool(said) is breaks
         assert bool(result.strength_note) is not breaks

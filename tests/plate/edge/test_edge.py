@@ -18,7 +18,7 @@ from derivation.engine.formula.proof import SYMBOLIC, ProofError, prove
 from derivation.plate.budgets import read_budgets
 from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.contact.theory.hertz import contact_radius, pressure_coefficient
-from derivation.plate.edge import kernels as edge_tables
+from derivation.plate.edge.kernels import tables as edge_tables
 from derivation.plate.edge.oracle import supported as edge_balls
 from derivation.plate.edge.route import supported as edge_routes
 from derivation.plate.edge.theory import sums as edge_sums

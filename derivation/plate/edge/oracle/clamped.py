@@ -1,4 +1,4 @@
-"""Oracle 1 of a clamp's part of the law and of the far face's stress: exact rational arithmetic.
+"""Oracle 1 of a clamp's part of the law and of the back face's stress: exact rational arithmetic.
 
 But for 1/pi all of it is rational in the arguments. Of Hertz's pressure the mean of r^2 is 2 a^2/5;
 in the slope it is a flat punch's, 2 a^2/3.

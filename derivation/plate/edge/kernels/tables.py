@@ -1,13 +1,7 @@
-"""Turns the theory of the edge into the numbers its generated code needs.
+"""The numbers that the generated code of the edge needs: limits, and tables of sums.
 
-Link 19's sums over the modes, with k(z) = g or (3/2) sinc, alpha = a/b and T = 2 eta j, are
-
-    sum k (1 + 3 n - n Q)/(j^3 J1) = P + n D,   D = 3 P - 2 eta E + sum k (T - Q)/(j^3 J1)
-    sum k H/(j^2 J1) = E + sum k (H - 1)/(j^2 J1)
-    P = sum k/(j^3 J1), a polynomial;   E = sum k/(j^2 J1), a function of alpha
-
-Both remaining sums die like e^(-T). In a thin plate D is small and its parts are not: of P
-and E what follows the first mode is tabulated, and the first mode is put in as a whole.
+P = sum k/(j^3 J1) is a polynomial in alpha^2, E = sum k/(j^2 J1) a function of it; of both, what
+follows the first mode is tabulated.
 """
 
 from collections.abc import Callable
@@ -16,23 +10,23 @@ import flint
 import sympy as sp
 from flint import arb as Ball
 
+from derivation.engine.emit.package import Numbers
+from derivation.engine.emit.tables import Constant
 from derivation.engine.formula.ball import enclose
-from derivation.mathematics.bessel.kernels import nearest_double, wrapped
+from derivation.mathematics.bessel.kernels import nearest_double
 from derivation.plate.contact.kernels.moments import BITS
 from derivation.plate.contact.kernels.tables import chebyshev_nodes, in_powers
 from derivation.plate.contact.theory.split import zero_of_j0
-from derivation.plate.edge.theory.clamped import HERTZ_MEAN, LEVEL, SHEAR, TURN
 from derivation.plate.edge.theory.sums import (
     Kernel,
     closed,
     indentation_kernel,
-    inverse_squares,
     slope_kernel,
 )
-from derivation.plate.vocabulary import alpha, eta
+from derivation.plate.vocabulary import alpha
 
 WIDEST = sp.Rational(9, 10)
-"""Largest a/b: nearer to the rim the states say nothing, and the tables grow without end."""
+"""Largest a/b: nearer to the edge the states say nothing, and the tables grow without end."""
 TERMS = 34
 """Coefficients of the tables in alpha^2."""
 CUT_OFF = 2**-58
@@ -42,7 +36,7 @@ SEAM = 2
 FADED = 46
 """T beyond which modes are left out: T^2 e^(-T) is below 1e-16 of what the first modes are."""
 THIN = sp.Rational(29, 2)
-"""(1 - alpha)/eta from which on the closed form stands alone.
+"""(1 - alpha)/eta from which on the closed form is all there is.
 
 The bending roots' share of it is then below e^(-3.7 THIN) = 3e-24, the stretching roots'
 below e^(-2.1 THIN) = 6e-14, times (8/3) n^2 eta^3 z^(-3/2), below 1e-4 of the bending sum.
@@ -50,60 +44,42 @@ below e^(-2.1 THIN) = 6e-14, times (8/3) n^2 eta^3 z^(-3/2), below 1e-4 of the b
 _STEP = 48
 _LAST = -120
 _END = 1000
+KERNELS = {"INDENTATION": indentation_kernel, "SLOPE": slope_kernel}
 
 
-def edge_context() -> dict[str, object]:
-    """What the template of the generated edge needs, numbers as text."""
-    kinds = {"indentation": indentation_kernel, "slope": slope_kernel}
+def numbers() -> Numbers:
+    """Where each way to compute ends, the first mode's weights, and the tables."""
     with flint.ctx.workprec(BITS):
         first = zero_of_j0(1, BITS // 2)
         weights = [1 / (first**power * first.bessel_j(1)) for power in (3, 2)]
-        found = {
-            name: {**_closed(kernel), **_tables(kernel, first, weights)}
-            for name, kernel in kinds.items()
-        }
-        third, square = (repr(nearest_double(weight)) for weight in weights)
-    return {
-        "kinds": found,
-        "first_third": third,
-        "first_square": square,
-        "series": [f"{c.p} / {c.q}" for c in _bending_series()],
-        "widest": repr(float(WIDEST)),
-        "middle": repr(float(WIDEST**2 / 2)),
-        "thin": repr(float(THIN)),
-        "faded": f"{FADED}.0",
-        "seam": f"{SEAM}.0",
-        "inverse_squares": repr(float(inverse_squares())),
-        **_clamp(),
-    }
-
-
-def _clamp() -> dict[str, str]:
-    """The clamped end's constants, in powers of n, as numbers and as printed."""
-    found = {"shear": repr(float(SHEAR)), "hertz": repr(float(HERTZ_MEAN))}
-    found["punch"] = "2.0 / 3.0"
-    for name, powers in (("turn", TURN), ("level", LEVEL)):
-        found[name] = ", ".join(repr(c / 1000) for c in powers)
-        terms = [
-            f"{c / 1000:+g}" + " n" * (i > 0) + f"^{i}" * (i > 1) for i, c in enumerate(powers)
+        tables = [
+            Constant(f"{name}_{table}", values, f"{of} of the {name.lower()} {FROM}")
+            for name, kernel in KERNELS.items()
+            for (table, of), values in zip(
+                TABLES.items(), _tables(kernel, first, weights), strict=True
+            )
         ]
-        found[f"{name}_text"] = " ".join(f"{t[0]} {t[1:]}" for t in terms).removeprefix("+ ")
-    return found
+        third, square = (nearest_double(weight) for weight in weights)
+    return Numbers(
+        "edge_numbers",
+        "Numbers of the edge: limits, and sums over the modes as tables.",
+        (
+            Constant("WIDEST", float(WIDEST), "Largest a/b."),
+            Constant("MIDDLE", float(WIDEST**2 / 2), "Of alpha^2, about which the tables are."),
+            Constant("THIN", float(THIN), "(1 - alpha)/eta from which on the closed form holds."),
+            Constant("FADED", float(FADED), "T beyond which modes are left out."),
+            Constant("FIRST_THIRD", third, "1/(j^3 J1) of the first mode."),
+            Constant("FIRST_SQUARE", square, "1/(j^2 J1) of the first mode."),
+            *tables,
+        ),
+    )
 
 
-def _closed(kernel: Kernel) -> dict[str, str]:
-    """P by powers of alpha^2, and what stands with eta^2 and with eta in the closed form."""
-    half = closed(kernel)
-    parts = {
-        "plain": half.plain.subs(alpha, 0),
-        "narrowed": half.plain.coeff(alpha, 2),
-        "bent": half.bent / eta**2,
-        "stretched": half.stretched / eta,
-    }
-    return {name: repr(float(value)) for name, value in parts.items()}
+TABLES = {"THIRD": "sum k/(j^3 J1)", "SQUARE": "sum k/(j^2 J1)"}
+FROM = "from the second mode on, by powers of alpha^2/MIDDLE - 1."
 
 
-def _tables(kernel: Kernel, first: Ball, weights: list[Ball]) -> dict[str, tuple[str, ...]]:
+def _tables(kernel: Kernel, first: Ball, weights: list[Ball]) -> tuple[tuple[float, ...], ...]:
     """P and E without their first mode, in powers of alpha^2/middle - 1.
 
     Raises
@@ -123,15 +99,15 @@ def _tables(kernel: Kernel, first: Ball, weights: list[Ball]) -> dict[str, tuple
         alternating_sum(kernel, at) - weights[1] * share
         for at, share in zip(points, shares, strict=True)
     ]
-    found = {}
-    for name, values in (("rest_third", cubes), ("rest_square", squares)):
+    found = []
+    for name, values in zip(TABLES, (cubes, squares), strict=True):
         # Chebyshev's coefficients fall by 0.39 each: the last is what is left out.
         waves = [((TERMS - 1) * angle).cos() for angle in _angles()]
         last = 2 * sum((f * t for f, t in zip(values, waves, strict=True)), Ball(0)) / TERMS
         if not abs(last) < CUT_OFF:
             raise ArithmeticError(f"{TERMS} coefficients of {name} leave out {last}")
-        found[name] = wrapped(repr(nearest_double(c)) for c in _that_count(in_powers(values)))
-    return found
+        found.append(tuple(nearest_double(c) for c in _that_count(in_powers(values))))
+    return tuple(found)
 
 
 def _that_count(coefficients: list[Ball]) -> list[Ball]:
@@ -189,12 +165,3 @@ def _nodes() -> list[tuple[Ball, Ball, Ball, Ball]]:
                 bell = (-y * y).exp()
                 _cached.append((y, step * (1 + fade) / y, y.bessel_i(0), bell))
     return _cached
-
-
-def _bending_series() -> list[sp.Rational]:
-    """(T cosh T + 2 T - 3 sinh T)/T^5 by powers of T^2, cut off below 2^-60 at the seam."""
-    found: list[sp.Rational] = []
-    while not found or found[-1] * SEAM ** (2 * len(found) - 2) > found[0] / 2**60:
-        k = len(found) + 2
-        found.append(sp.Rational(2 * k - 2, sp.factorial(2 * k + 1)))
-    return found

@@ -1,0 +1,29 @@
+"""What the back face hands in for the generated package."""
+
+from pathlib import Path
+
+from derivation.engine.emit.package import Routines
+from derivation.plate.back_face.kernels import stress
+from derivation.plate.back_face.kernels.tables import numbers
+from derivation.plate.modules import ComputedModule, RuntimeModule
+
+RUNTIME = Path(__file__).parents[1] / "runtime"
+
+
+def back_face_kernels() -> Routines:
+    """The stress by its sum, printed from proven expressions."""
+    imports = {
+        "back_face_numbers": ("THIN",),
+        "blocks": ("polynomial", "sinh_pair"),
+        "edge_kernels": ("depth_lost", "turn_of_clamp"),
+        "ranges": ("times",),
+    }
+    title = "Stress on the back face of a plate: its modes, its series, and the edge's part."
+    return Routines("back_face_kernels", title, tuple(make() for make in stress.ROUTINES), imports)
+
+
+MODULES = (
+    ComputedModule("back_face_numbers", numbers),
+    ComputedModule("back_face_kernels", back_face_kernels),
+    RuntimeModule("back_face", RUNTIME / "back_face.py"),
+)

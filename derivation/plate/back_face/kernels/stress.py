@@ -1,0 +1,168 @@
+"""The stress on the back face: its modes, its series under a wide contact, and the edge's part."""
+
+import sympy as sp
+from sympy.codegen.cfunctions import expm1
+
+from derivation.engine.emit.routine import Choice, Let, Routine, Several, routine
+from derivation.engine.rewrite.form import TIMES, undo
+from derivation.engine.rewrite.series import POLYNOMIAL
+from derivation.plate.back_face.theory import (
+    SCALE,
+    far_clamp,
+    far_edge,
+    far_stress,
+    thin_far_face,
+    wide_far_face,
+)
+from derivation.plate.blocks import blocks
+from derivation.plate.edge.kernels.supported import (
+    bent,
+    in_ratio,
+    n,
+    one_mode,
+    stretched,
+    support,
+)
+from derivation.plate.edge.theory.clamped import HERTZ_MEAN, depth_lost, turn
+from derivation.plate.edge.theory.sums import indentation_kernel
+from derivation.plate.edge.theory.supported import RATIO, support_ratio
+from derivation.plate.vocabulary import J1, P, T, a_ratio, alpha, eta, h, j_n, lam, mu
+
+A, j, share, thick, unit = sp.symbols("A j share thick unit", positive=True)
+total, stiff = sp.symbols("total stiff", real=True)
+THIN = sp.Symbol("THIN", positive=True)
+_sum = sp.Symbol("S", real=True)
+
+
+def modes() -> Routine:
+    """Each mode's part of S; the block is over the smaller of T and its seam, to the fourth."""
+    names = "low pair square low_square"
+    low, pair, square, low_square = sp.symbols(names, positive=True)
+    block = blocks()["sinh_pair"]
+    (_, mode) = far_stress()
+    cubed = T * square / low_square**2
+    return routine(
+        "back_face_modes",
+        (eta, j, J1, share),
+        (
+            Let(T, 2 * eta * j),
+            Let(low, sp.Min(T, block.value.at)),
+            Let(low_square, low * low),
+            Let(square, T * T),
+            Several((pair,), "sinh_pair", (T,), (block.definition(T),)),
+        ),
+        (-4 * share * cubed * sp.exp(-T) * expm1(-2 * T) / (pair * (j * J1) ** 2),),
+        (mode.expression,),
+        "4 eta^2 k B(2 eta j)/J1^2 of modes, `share` being k.",
+        {j: j_n, share: indentation_kernel(alpha * j_n)},
+        in_ratio,
+    )
+
+
+def other_plate() -> Routine:
+    """Which plate is summed: of a thin one a thicker one with the same a/h."""
+    width = sp.Symbol("width", positive=True)
+    is_thin = sp.Lt(eta, THIN)
+    held = sp.Max(eta, THIN)
+    return routine(
+        "summed_plate",
+        (alpha, eta, A),
+        (Choice(width, is_thin, A * THIN, alpha, if_yes={held: THIN}, if_no={held: eta}),),
+        (width, held),
+        (a_ratio * held, None),
+        "a/b and h/b of the plate that is summed.",
+        {alpha: a_ratio * eta, A: a_ratio},
+    )
+
+
+def thin_plate() -> Routine:
+    """S of a thin plate by that of a thicker one."""
+    stated = thin_far_face()[0].expression
+    return routine(
+        "of_thin_plate",
+        (total, thick, eta),
+        (),
+        (total + 3 * sp.log(thick / eta),),
+        (stated,),
+        "S by that of a thicker plate with the same a/h.",
+        {total: stated.subs(eta, thick)},
+        lambda e: sp.expand(sp.expand_log(sp.expand(e))),
+    )
+
+
+def wide_contact() -> Routine:
+    """S where the contact is wide beside the thickness."""
+    square = sp.Symbol("square", positive=True)
+    stated = wide_far_face().expression
+    powers = sp.Poly(
+        stated.subs(alpha, sp.Rational(1, 2)).subs(a_ratio, 2 / sp.sqrt(square)), square
+    )
+    coefficients = [powers.coeff_monomial(square**k) for k in range(1, powers.degree() + 1)]
+
+    def summed(expression: sp.Expr) -> sp.Expr:
+        found = expression.replace(
+            POLYNOMIAL, lambda x, *c: sp.Add(*(part * x**k for k, part in enumerate(c)))
+        )
+        return sp.expand(sp.expand_log(found))
+
+    return routine(
+        "under_wide_contact",
+        (alpha, A),
+        (Let(square, (2 / A) ** 2),),
+        (4 - 3 * sp.log(2 * alpha) + square * POLYNOMIAL(square, *coefficients),),
+        (stated,),
+        "S where the contact is wide beside the thickness.",
+        {A: a_ratio},
+        summed,
+    )
+
+
+def supported() -> Routine:
+    """S and what a simple support adds."""
+    return routine(
+        "with_support",
+        (total, eta, n, support, bent, stretched),
+        (),
+        (total + support * (12 * bent + 8 * n * eta * stretched),),
+        (_sum + support_ratio().expression * far_edge().expression,),
+        "S and what a simple support adds, by both sums over the modes.",
+        one_mode(indentation_kernel) | {total: _sum},
+        in_ratio,
+    )
+
+
+def clamped() -> Routine:
+    """S and what a clamp adds."""
+    chi, lost, wide, moment = sp.symbols("chi lost wide moment", real=True)
+    return routine(
+        "with_clamp",
+        (total, alpha, eta, n),
+        (
+            Several((chi,), "turn_of_clamp", (n,), (turn(),)),
+            Several((lost,), "depth_lost", (eta, n), (depth_lost() / eta,)),
+            Let(wide, 1 - HERTZ_MEAN * alpha**2),
+            Let(moment, wide * (1 + 2 * chi * eta) - eta * lost),
+        ),
+        (total - sp.Rational(3, 2) * moment - 2 * n * eta**2,),
+        (_sum - far_clamp().expression,),
+        "S and what a clamp adds.",
+        {n: RATIO, total: _sum},
+        in_ratio,
+    )
+
+
+def scaled() -> Routine:
+    """The stress by S; lam and mu over any common scale."""
+    return routine(
+        "stress_of_sum",
+        (total, P, h, lam, mu),
+        (Let(stiff, (3 * lam + 2 * mu) / (16 * sp.pi * (lam + mu))),),
+        (TIMES(total, stiff, 1, P, 1, h, -2),),
+        (SCALE * _sum,),
+        "(1 + nu) P/(2 pi H^2) S by S; lam and mu over any common scale.",
+        {lam: lam / unit, mu: mu / unit, total: _sum},
+        lambda e: undo(e, (), {}),
+    )
+
+
+ROUTINES = (modes, other_plate, thin_plate, wide_contact, supported, clamped, scaled)

@@ -1,0 +1,1 @@
+"""Algorithms of the back face, copied into the generated package."""

@@ -1,0 +1,213 @@
+"""Largest tensile stress of a plate, on its back face under the contact, where it breaks first.
+
+Under Hertz's pressure of resultant P on the contact radius a, with H = 2h, alpha = a/b,
+eta = h/b and j the zeros of J0::
+
+    sigma_rr = sigma_tt = (1 + nu) P/(2 pi H^2) (S + edge)
+    S = sum 4 eta^2 g(alpha j) B(2 eta j)/J1(j)^2,   g(y) = 3 (sin y - y cos y)/y^3
+    B(T) = 2 T sinh T/(sinh^2 T - T^2)
+
+In a thin plate S + 3 log(h/b) depends on a/h alone, so that the sum is that of a thicker one;
+and where a is much larger than h, with rational c_k::
+
+    S = 3 (4/3 - log 2 - log alpha) + sum c_k (2 h/a)^(2k+2)
+
+The edge adds 0 as the paper has it; clamped -X_c, simply supported (1 - nu)/(1 + nu) X, where,
+see `edge`::
+
+    X = sum g [12 (1 + 3 n - n Q)/(j^3 J1) + 8 n eta H/(j^2 J1)]
+    X_c = (3/2) [(1 + 2 chi eta) (1 - 2 alpha^2/5) - s] + 2 n eta^2
+
+Arithmetic: quotients of the arguments, the ends of their domain, and how many modes are summed.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from generated import back_face_kernels as kernels
+from generated import back_face_numbers as numbers
+from generated.arrays import Double, as_doubles, as_result, in_manifest, inside, quiet
+from generated.bessel import bessel_j0_zeros, bessel_j1_at_j0_zeros
+from generated.contact_series import THICKEST, THINNEST
+from generated.edge_kernels import indentation_kernel
+from generated.edge_numbers import WIDEST
+from generated.edge_sums import INDENTATION, edge_sums, elastic_ratios
+
+_POINTS = 64  # summed at a time
+
+
+@in_manifest(
+    r"\sigma_{rr}(0, -h)",
+    domain="P >= 0, a > 0, a < b, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, "
+    "3 * lam > -2 * mu, mu > 0",
+)
+@quiet
+def far_stress(
+    P: ArrayLike, a: ArrayLike, h: ArrayLike, b: ArrayLike, lam: ArrayLike, mu: ArrayLike
+) -> np.ndarray:
+    """Largest tensile stress on the back face, on the paper's edge.
+
+    Formula::
+
+        (1 + nu) P/(2 pi H^2) S
+
+    Parameters
+    ----------
+    P : array_like
+        contact force [N]; P >= 0
+    a : array_like
+        contact radius [m]; 0 < a < b
+    h : array_like
+        half the plate's thickness [m]; h > 0
+    b : array_like
+        plate radius [m]; b > 0, 1e-90 <= h/b <= 1e90
+    lam : array_like
+        first Lame constant [Pa]; 3 lam > -2 mu
+    mu : array_like
+        second Lame constant (shear modulus) [Pa]; mu > 0
+
+    Returns
+    -------
+    float or ndarray
+        sigma_rr = sigma_tt at r = 0, z = -h [Pa], tensile stress positive,
+        in the arguments' broadcast shape; NaN outside the domain.
+    """
+    return _evaluated(P, a, h, b, lam, mu, None)
+
+
+@in_manifest(
+    r"\sigma_{rr}(0, -h)",
+    domain="P >= 0, a > 0, a <= 0.9 * b, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, "
+    "3 * lam > -2 * mu, mu > 0",
+)
+@quiet
+def supported_far_stress(
+    P: ArrayLike, a: ArrayLike, h: ArrayLike, b: ArrayLike, lam: ArrayLike, mu: ArrayLike
+) -> np.ndarray:
+    """Largest tensile stress on the back face of a plate that is simply supported.
+
+    Formula::
+
+        (1 + nu) P/(2 pi H^2) (S + (1 - nu)/(1 + nu) X)
+
+    Parameters
+    ----------
+    P : array_like
+        contact force [N]; P >= 0
+    a : array_like
+        contact radius [m]; 0 < a <= 0.9 b
+    h : array_like
+        half the plate's thickness [m]; h > 0
+    b : array_like
+        plate radius [m]; b > 0, 1e-90 <= h/b <= 1e90
+    lam : array_like
+        first Lame constant [Pa]; 3 lam > -2 mu
+    mu : array_like
+        second Lame constant (shear modulus) [Pa]; mu > 0
+
+    Returns
+    -------
+    float or ndarray
+        sigma_rr = sigma_tt at r = 0, z = -h [Pa], tensile stress positive; below 0
+        where a thick plate's back face is compressed,
+        in the arguments' broadcast shape; NaN outside the domain.
+    """
+    return _evaluated(P, a, h, b, lam, mu, _with_support)
+
+
+@in_manifest(
+    r"\sigma_{rr}(0, -h)",
+    domain="P >= 0, a > 0, a <= 0.9 * b, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, "
+    "3 * lam > -2 * mu, mu > 0",
+)
+@quiet
+def clamped_far_stress(
+    P: ArrayLike, a: ArrayLike, h: ArrayLike, b: ArrayLike, lam: ArrayLike, mu: ArrayLike
+) -> np.ndarray:
+    """Largest tensile stress on the back face of a plate that is clamped.
+
+    Formula::
+
+        (1 + nu) P/(2 pi H^2) (S - X_c)
+
+    Parameters
+    ----------
+    P : array_like
+        contact force [N]; P >= 0
+    a : array_like
+        contact radius [m]; 0 < a <= 0.9 b
+    h : array_like
+        half the plate's thickness [m]; h > 0
+    b : array_like
+        plate radius [m]; b > 0, 1e-90 <= h/b <= 1e90
+    lam : array_like
+        first Lame constant [Pa]; 3 lam > -2 mu
+    mu : array_like
+        second Lame constant (shear modulus) [Pa]; mu > 0
+
+    Returns
+    -------
+    float or ndarray
+        sigma_rr = sigma_tt at r = 0, z = -h [Pa], tensile stress positive; below 0
+        where a thick plate's back face is compressed,
+        in the arguments' broadcast shape; NaN outside the domain.
+    """
+    return _evaluated(P, a, h, b, lam, mu, _with_clamp)
+
+
+def _evaluated(
+    P: ArrayLike,
+    a: ArrayLike,
+    h: ArrayLike,
+    b: ArrayLike,
+    lam: ArrayLike,
+    mu: ArrayLike,
+    edge: Callable[[Double, Double, Double, Double, Double], Double] | None,
+) -> np.ndarray:
+    """The stress of S and of what the edge adds to it, nothing on the paper's edge."""
+    kind, [P, a, h, b, lam, mu] = as_doubles(P, a, h, b, lam, mu)
+    reach = a < b if edge is None else a <= WIDEST * b
+    [P, a] = inside([P, a], P >= 0, a > 0, reach)
+    [h, b] = inside([h, b], h > 0, b > 0)
+    [lam, mu] = inside([lam, mu], 3.0 * lam > -2.0 * mu, mu > 0)
+    eta, A = h / b, a / h
+    [eta, A] = inside([eta, A], eta >= THINNEST, eta <= THICKEST)
+    alpha = a / b
+    total = _sum(alpha, eta, A)
+    if edge is not None:
+        total = edge(total, alpha, eta, *elastic_ratios(lam, mu))
+    most = np.maximum(lam, mu)
+    return as_result(kernels.stress_of_sum(total, P, h, lam / most, mu / most), kind)
+
+
+def _with_support(total: Double, alpha: Double, eta: Double, n: Double, support: Double) -> Double:
+    sums = edge_sums(alpha, eta, n, INDENTATION)
+    return kernels.with_support(total, eta, n, support, *sums)
+
+
+def _with_clamp(total: Double, alpha: Double, eta: Double, n: Double, _: Double) -> Double:
+    return kernels.with_clamp(total, alpha, eta, n)
+
+
+def _sum(alpha: Double, eta: Double, A: Double) -> Double:
+    """S: a series where the contact is wide beside the thickness, a sum over modes elsewhere."""
+    shape = np.broadcast_shapes(alpha.shape, eta.shape, A.shape)
+    alpha, eta, A = (np.ravel(np.broadcast_to(x, shape)) for x in (alpha, eta, A))
+    value = kernels.under_wide_contact(alpha, np.maximum(A, numbers.WIDE))
+    near = np.flatnonzero(A < numbers.WIDE)
+    near = near[np.argsort(eta[near])]
+    for start in range(0, near.size, _POINTS):
+        part = near[start : start + _POINTS]
+        value[part] = _summed(alpha[part], eta[part], A[part])
+    return value.reshape(shape)
+
+
+def _summed(alpha: Double, eta: Double, A: Double) -> Double:
+    """The sum over modes, of points in the order of eta."""
+    width, thick = kernels.summed_plate(alpha, eta, A)
+    count = 2 + int(numbers.FADED / (2.0 * np.pi * thick[0]))
+    j, J1 = bessel_j0_zeros(count), bessel_j1_at_j0_zeros(count)
+    shares = kernels.back_face_modes(thick[:, None], j, J1, indentation_kernel(width[:, None], j))
+    return kernels.of_thin_plate(shares.sum(axis=1), thick, eta)

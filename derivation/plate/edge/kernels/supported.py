@@ -1,0 +1,310 @@
+"""A simple support: its sums over the modes, how the law takes them up, and their bound.
+
+With n = nu/(1 - nu), T = 2 eta j and k the kernel of the indentation or of the slope::
+
+    sum k (1 + 3 n - n Q)/(j^3 J1) = P + n [3 P - 2 eta E + sum k (T - Q)/(j^3 J1)]
+    sum k H/(j^2 J1) = E + sum k (H - 1)/(j^2 J1)
+    P = sum k/(j^3 J1), a polynomial;   E = sum k/(j^2 J1), a function of alpha
+
+Both sums on the right fade like e^(-T). In a thin plate the bracket is small and its parts are not:
+of P and E what follows the first mode is tabulated, and the first mode is put in as a whole. The
+proofs have two modes, the first one and one for all others, as the sums are linear.
+"""
+
+from functools import partial
+
+import sympy as sp
+from sympy.codegen.cfunctions import expm1
+
+from derivation.engine.emit.routine import GUARDED, Choice, Facts, Let, Routine, Several, routine
+from derivation.engine.rewrite.form import undo
+from derivation.engine.rewrite.series import taylor_section
+from derivation.engine.rewrite.terms import terms_of
+from derivation.plate.blocks import blocks
+from derivation.plate.edge.kernels.tables import SEAM
+from derivation.plate.edge.theory.sums import (
+    Kernel,
+    closed,
+    edge_bound,
+    indentation_kernel,
+    inverse_squares,
+    slope_kernel,
+)
+from derivation.plate.edge.theory.supported import (
+    RATIO,
+    bending_function,
+    edge_law,
+    stretching_function,
+    support_ratio,
+)
+from derivation.plate.vocabulary import J1, T, alpha, eta, j_n, lam, mu
+
+SMALLEST = sp.Float("1e-300")
+"""Below it sin(y)/y is 1."""
+n = sp.Symbol("n", real=True)
+j, y, share, support = sp.symbols("j y share support", positive=True)
+bent, stretched, plain = sp.symbols("bent stretched plain", real=True)
+_unit, _size = sp.symbols("unit M", positive=True)
+Q, H = bending_function(), stretching_function()
+KERNELS = {"indentation": indentation_kernel, "slope": slope_kernel}
+
+
+def in_ratio(expression: sp.Expr) -> sp.Expr:
+    """In n, without building blocks, the smallest number and common scales of lam and mu."""
+    found = undo(expression, (), blocks()).replace(
+        lambda e: isinstance(e, sp.Max) and SMALLEST in e.args,
+        lambda e: sp.Mul(*(part for part in e.args if part != SMALLEST)),
+    )
+    scaled = {lam + 2 * mu: _size, 3 * lam + 2 * mu: _size * (1 + 2 * n)}
+    reduced: sp.Expr = found.xreplace(scaled).subs(lam, n * _size)
+    return reduced
+
+
+def of_material() -> Routine:
+    """Two ratios of elastic constants, by these over any common scale."""
+    return routine(
+        "elastic_ratios",
+        (lam, mu),
+        (),
+        (lam / (lam + 2 * mu), (lam + 2 * mu) / (3 * lam + 2 * mu)),
+        (RATIO, support_ratio().expression),
+        "n = nu/(1 - nu) and (1 - nu)/(1 + nu), by lam and mu over any common scale.",
+        {lam: lam / _unit, mu: mu / _unit},
+        sp.cancel,
+    )
+
+
+def of_indentation() -> Routine:
+    """The kernel of the indentation; the block is over the smaller of y and 2, squared."""
+    at = blocks()["hertz_shape"].value.at
+    high, shape = sp.symbols("high shape", positive=True)
+
+    def without_seam(expression: sp.Expr) -> sp.Expr:
+        width = alpha * j_n
+        return sp.simplify(expression.xreplace({sp.Min(width, at): at * width / sp.Max(width, at)}))
+
+    return routine(
+        "indentation_kernel",
+        (alpha, j),
+        (
+            Let(y, alpha * j),
+            Let(high, sp.Max(y, at)),
+            Several((shape,), "hertz_shape", (y,), (blocks()["hertz_shape"].definition(y),)),
+        ),
+        (3 * at**2 * shape / high**2,),
+        (indentation_kernel(alpha * j_n),),
+        "3 (sin y - y cos y)/y^3, y = alpha j.",
+        {j: j_n},
+        without_seam,
+    )
+
+
+def of_slope() -> Routine:
+    """The kernel of the slope."""
+    return routine(
+        "slope_kernel",
+        (alpha, j),
+        (Let(y, sp.Max(alpha * j, SMALLEST)),),
+        (slope_kernel(y),),
+        (slope_kernel(alpha * j_n),),
+        "(3/2) sin(y)/y, y = alpha j.",
+        {j: j_n},
+        in_ratio,
+    )
+
+
+def thin(kind: str) -> Routine:
+    """P, and the sums of a thin plate in closed form."""
+    half = closed(KERNELS[kind])
+    parts = half.plain, plain - n * half.bent, half.stretched
+    return routine(
+        f"thin_{kind}",
+        (alpha, eta, n),
+        (Let(plain, half.plain),),
+        (plain, *parts[1:]),
+        (half.plain, half.plain - RATIO * half.bent, half.stretched),
+        "sum k/(j^3 J1), and both sums of a thin plate.",
+        {n: RATIO},
+        in_ratio,
+    )
+
+
+def _bent_series(square: sp.Symbol, series: sp.Symbol) -> Several:
+    """(T cosh T + 2 T - 3 sinh T)/T^5 by powers of T^2, cut off where nothing is left to see."""
+    total = sp.expand(sp.numer(sp.together(Q - 3)))
+    section = taylor_section(terms_of(total, T), sp.Integer(SEAM))
+    return Several(
+        (series,), "polynomial", (square, *section.coefficients), (total / T**section.lead,)
+    )
+
+
+def _of_T() -> tuple[dict[str, sp.Symbol], tuple[Let | Several, ...]]:
+    """What Q and H are made of."""
+    names = "fading", "gone", "lower", "upper", "square", "series"
+    s = {name: sp.Symbol(name, real=True) for name in names}
+    known = blocks()
+    return s, (
+        Let(s["fading"], sp.exp(-T)),
+        Let(s["gone"], expm1(-T)),
+        *(
+            Several((s[name],), block, (T,), (known[block].definition(T),))
+            for name, block in (("lower", "sinh_minus"), ("upper", "sinh_plus"))
+        ),
+        Let(s["square"], GUARDED(T, SEAM) ** 2),
+        _bent_series(s["square"], s["series"]),
+    )
+
+
+def _sides(mode: sp.Symbol) -> tuple[sp.Basic, Facts, Facts]:
+    """Whether Q - 3 is a power series, and what the block's power is on either side."""
+    size = 2 * eta * mode
+    near = sp.Min(size, SEAM)
+    return sp.Lt(T, SEAM), {near: size}, {near: SEAM}
+
+
+def later_modes() -> Routine:
+    """What a mode but the first adds to both sums, less what the tables have of it."""
+    s, statements = _of_T()
+    fading, gone, lower, upper, square, series = s.values()
+    weight, above = sp.symbols("weight above", real=True)
+    condition, near, far = _sides(j_n)
+    of_series = T - 3 - 2 * fading * square * series / lower
+    of_decay = -T * fading * (T + gone) / (SEAM**2 * lower)
+    kernel = sp.Symbol("k", real=True)
+    mode = kernel / (j_n**2 * J1)
+    size = {T: 2 * eta * j_n}
+    return routine(
+        "later_modes",
+        (eta, j, J1, share),
+        (
+            Let(T, 2 * eta * j),
+            *statements,
+            Choice(above, condition, of_series, of_decay, if_yes=near, if_no=far),
+            Let(weight, share / (j**2 * J1)),
+        ),
+        (weight * above / j, -2 * weight * fading * (T - gone) / upper),
+        (mode * (T - Q).subs(size) / j_n, mode * (H - 1).subs(size)),
+        "k (T - Q)/(j^3 J1) and k (H - 1)/(j^2 J1) of modes, `share` being k.",
+        {j: j_n, share: kernel},
+        in_ratio,
+    )
+
+
+def all_modes() -> Routine:
+    """Both sums of the first mode, the tables, and the sums of what fades."""
+    s, statements = _of_T()
+    fading, gone, lower, upper, square, series = s.values()
+    names = "FIRST_THIRD FIRST_SQUARE rest_third rest_square fading_third fading_square below"
+    third, square_1, rest_third, rest_square, fading_third, fading_square, below = sp.symbols(
+        names, real=True
+    )
+    ratio = sp.Symbol("ratio", real=True)
+    j_2, J1_2, k_1, k_2 = sp.symbols("j_2 J1_2 k_1 k_2", positive=True)
+    condition, near, far = _sides(j_n)
+    of_series = -2 * fading * square * series / lower
+    lead = sp.Symbol("lead", real=True)
+    of_decay = lead - T * fading * (T + gone) / (SEAM**2 * lower)
+    modes = ((k_1, j_n, J1), (k_2, j_2, J1_2))
+    (cube_1, cube_2), (square_of_1, square_of_2) = (
+        [k / (zero**power * slope) for k, zero, slope in modes] for power in (3, 2)
+    )
+    Q_1, Q_2, H_1, H_2 = (f.subs(T, 2 * eta * zero) for f in (Q, H) for zero in (j_n, j_2))
+    meaning = {
+        n: RATIO,
+        j: j_n,
+        share: k_1,
+        third: cube_1 / k_1,
+        square_1: square_of_1 / k_1,
+        plain: cube_1 + cube_2,
+        rest_third: cube_2,
+        rest_square: square_of_2,
+        fading_third: cube_2 * (2 * eta * j_2 - Q_2),
+        fading_square: square_of_2 * (H_2 - 1),
+    }
+    bracket = third * share * below + (3 * rest_third - 2 * eta * rest_square) + fading_third
+    return routine(
+        "all_modes",
+        (eta, n, j, share, plain, rest_third, rest_square, fading_third, fading_square),
+        (
+            Let(T, 2 * eta * j),
+            *statements,
+            Let(lead, 3 - T),
+            Choice(below, condition, of_series, of_decay, if_yes=near, if_no=far),
+            Let(ratio, gone**2 / upper, means=H_1),
+        ),
+        (plain + n * bracket, square_1 * share * ratio + rest_square + fading_square),
+        (
+            sum(cube * (1 + 3 * RATIO - RATIO * f) for cube, f in ((cube_1, Q_1), (cube_2, Q_2))),
+            square_of_1 * H_1 + square_of_2 * H_2,
+        ),
+        "sum k (1 + 3 n - n Q)/(j^3 J1) and sum k H/(j^2 J1).",
+        meaning,
+        in_ratio,
+    )
+
+
+def one_mode(kernel: Kernel) -> Facts:
+    """Both sums, one mode standing for all."""
+    at = {T: 2 * eta * j_n}
+    return {
+        n: RATIO,
+        support: support_ratio().expression,
+        bent: kernel(alpha * j_n) * (1 + 3 * RATIO - RATIO * Q.subs(at)) / (j_n**3 * J1),
+        stretched: kernel(alpha * j_n) * H.subs(at) / (j_n**2 * J1),
+    }
+
+
+def of_law() -> Routine:
+    """What a support adds, by both sums: of the indentation as of the slope."""
+    square, stiff = sp.symbols("square stiff", positive=True)
+    law, slope = edge_law()
+    value = support * alpha / sp.pi * (stiff * bent + sp.Rational(8, 3) * n**2 * stretched)
+    proved = [
+        routine(
+            "of_support",
+            (alpha, eta, n, support, bent, stretched),
+            (Let(square, eta * eta), Let(stiff, (1 - 2 * n * square) / (eta * square))),
+            (value,),
+            (support_ratio().expression * formula.expression,),
+            "What a simple support adds to the law, or to its slope, by both sums.",
+            one_mode(kernel),
+            in_ratio,
+        )
+        for formula, kernel in ((law, indentation_kernel), (slope, slope_kernel))
+    ]
+    return proved[0]
+
+
+def of_bound() -> Routine:
+    """The bound of the slope."""
+    square, bending, large = sp.symbols("square bending large", positive=True)
+    sum_of_squares = inverse_squares()
+    extended = sp.Rational(1, 8) + 2 * eta * sp.Abs(n) * sum_of_squares
+    value = bending * extended + sp.Rational(8, 3) * n**2 * sum_of_squares
+    return routine(
+        "support_bound",
+        (alpha, eta, n, support),
+        (
+            Let(square, eta * eta),
+            Let(bending, sp.Abs(1 - 2 * n * square) / (eta * square)),
+            Let(large, value),
+        ),
+        (3 * alpha * support * large / (2 * sp.pi),),
+        (support_ratio().expression * edge_bound().expression,),
+        "Bound of what a simple support adds to the slope, for every contact up to this one.",
+        {n: RATIO, support: support_ratio().expression},
+        in_ratio,
+    )
+
+
+ROUTINES = (
+    of_material,
+    of_indentation,
+    of_slope,
+    partial(thin, "indentation"),
+    partial(thin, "slope"),
+    later_modes,
+    all_modes,
+    of_law,
+    of_bound,
+)

@@ -1,0 +1,1 @@
+"""Algorithms of supported and clamped edges, copied into the generated package."""

@@ -1,0 +1,293 @@
+"""Plates that are simply supported or clamped at their edge, from the law of the paper's edge.
+
+The paper's edge is elastically restrained: w = 0 and sigma_rr = -(2 mu/b) u at r = b. A simple
+support takes its force and moment away, by the exact polynomial states of stretching and bending::
+
+    delta R/a^2 = 1 + F + (1 - nu)/(1 + nu) X        simply supported
+    delta R/a^2 = 1 + F - X_c                        clamped
+
+At fixed a both parts go with the force, delta = P 3 (...)/(4 E* a). With alpha = a/b,
+eta = h/b, n = nu/(1 - nu) and T = 2 eta j, j the zeros of J0::
+
+    X = (alpha/pi) [ (1 - 2 n eta^2)/eta^3 sum g (1 + 3 n - n Q)/(j^3 J1)
+                     + (8/3) n^2 sum g H/(j^2 J1) ],  g = 3 (sin y - y cos y)/y^3, y = alpha j
+    Q = T (cosh T - 1)/(sinh T - T),  H = (cosh T - 1)/(sinh T + T)
+
+In the slope (R/2a) d delta/da it is (3/2) sin y/y for g. What else the edge's tractions do
+dies within a thickness of the edge, and is left out.
+
+A clamp, u = w = 0 on the whole edge, takes the same states' displacement away, and forbids the
+plate's thinning at the edge. There psi = chi eta psi' for the plate's rotation, and the middle
+plane's w is n G h^2 (kappa_r + kappa_t); chi and G are measured on a strip, and fitted by
+`turn_of_clamp` and `depth_lost` in `edge_kernels`::
+
+    X_c = alpha/(8 pi eta^3) [ (1 - s) (1 - 2 alpha^2/5 - s) + 2 chi eta (1 - 2 alpha^2/5)
+                               + eta^3/5 + (16/3) n^2 eta^4 ],  s = 2 n (1 - 2 G) eta^2
+
+In the slope it is 2/3 for 2/5, and 3/2 of all.
+
+Arithmetic: quotients of the arguments, and the ends of their domain.
+"""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from generated import edge_kernels as kernels
+from generated.arrays import Double, as_doubles, as_result, in_manifest, inside, quiet
+from generated.contact_series import THICKEST, THINNEST
+from generated.edge_numbers import WIDEST
+from generated.edge_sums import INDENTATION, SLOPE, SummedKernel, edge_sums, elastic_ratios
+
+
+@in_manifest(
+    "",
+    equation="6",
+    domain="a >= 0, a <= 0.9 * b, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, "
+    "3 * lam > -2 * mu, mu > 0",
+)
+@quiet
+def supported_edge(
+    a: ArrayLike, h: ArrayLike, b: ArrayLike, lam: ArrayLike, mu: ArrayLike
+) -> np.ndarray:
+    """Addition to delta R/a^2 of the paper's edge by a simple support.
+
+    Formula::
+
+        (1 - nu)/(1 + nu) X
+
+    Parameters
+    ----------
+    a : array_like
+        contact radius [m]; 0 <= a <= 0.9 b
+    h : array_like
+        half the plate's thickness [m]; h > 0
+    b : array_like
+        plate radius [m]; b > 0, 1e-90 <= h/b <= 1e90
+    lam : array_like
+        first Lame constant [Pa]; 3 lam > -2 mu
+    mu : array_like
+        second Lame constant (shear modulus) [Pa]; mu > 0
+
+    Returns
+    -------
+    float or ndarray
+        addition to delta R/a^2 [1] in the arguments' broadcast shape;
+        NaN outside the domain.
+    """
+    return _supported(a, h, b, lam, mu, INDENTATION)
+
+
+@in_manifest(
+    "",
+    equation="6",
+    domain="a >= 0, a <= 0.9 * b, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, "
+    "3 * lam > -2 * mu, mu > 0",
+)
+@quiet
+def clamped_edge(
+    a: ArrayLike, h: ArrayLike, b: ArrayLike, lam: ArrayLike, mu: ArrayLike
+) -> np.ndarray:
+    """Addition to delta R/a^2 of the paper's edge by a clamp; it makes the plate stiffer.
+
+    Formula::
+
+        -X_c
+
+    Parameters
+    ----------
+    a : array_like
+        contact radius [m]; 0 <= a <= 0.9 b
+    h : array_like
+        half the plate's thickness [m]; h > 0
+    b : array_like
+        plate radius [m]; b > 0, 1e-90 <= h/b <= 1e90
+    lam : array_like
+        first Lame constant [Pa]; 3 lam > -2 mu
+    mu : array_like
+        second Lame constant (shear modulus) [Pa]; mu > 0
+
+    Returns
+    -------
+    float or ndarray
+        addition to delta R/a^2 [1] in the arguments' broadcast shape;
+        NaN outside the domain.
+    """
+    kind, alpha, eta, n, _ = _inside(a, h, b, lam, mu, WIDEST)
+    return as_result(kernels.of_clamp(alpha, eta, n), kind)
+
+
+@in_manifest(
+    "",
+    equation="6",
+    domain="a >= 0, a <= 0.9 * b, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, "
+    "3 * lam > -2 * mu, mu > 0",
+)
+@quiet
+def supported_edge_slope(
+    a: ArrayLike, h: ArrayLike, b: ArrayLike, lam: ArrayLike, mu: ArrayLike
+) -> np.ndarray:
+    """Addition to (R/2a) d delta/da of the paper's edge by a simple support.
+
+    Formula::
+
+        (1 - nu)/(1 + nu) (X + a X'/2)
+
+    Parameters
+    ----------
+    a : array_like
+        contact radius [m]; 0 <= a <= 0.9 b
+    h : array_like
+        half the plate's thickness [m]; h > 0
+    b : array_like
+        plate radius [m]; b > 0, 1e-90 <= h/b <= 1e90
+    lam : array_like
+        first Lame constant [Pa]; 3 lam > -2 mu
+    mu : array_like
+        second Lame constant (shear modulus) [Pa]; mu > 0
+
+    Returns
+    -------
+    float or ndarray
+        addition to (R/2a) d delta/da [1] in the arguments' broadcast shape;
+        NaN outside the domain.
+    """
+    return _supported(a, h, b, lam, mu, SLOPE)
+
+
+@in_manifest(
+    "",
+    equation="6",
+    domain="a >= 0, a <= 0.9 * b, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, "
+    "3 * lam > -2 * mu, mu > 0",
+)
+@quiet
+def clamped_edge_slope(
+    a: ArrayLike, h: ArrayLike, b: ArrayLike, lam: ArrayLike, mu: ArrayLike
+) -> np.ndarray:
+    """Addition to (R/2a) d delta/da of the paper's edge by a clamp.
+
+    Formula::
+
+        -(X_c + a X_c'/2)
+
+    Parameters
+    ----------
+    a : array_like
+        contact radius [m]; 0 <= a <= 0.9 b
+    h : array_like
+        half the plate's thickness [m]; h > 0
+    b : array_like
+        plate radius [m]; b > 0, 1e-90 <= h/b <= 1e90
+    lam : array_like
+        first Lame constant [Pa]; 3 lam > -2 mu
+    mu : array_like
+        second Lame constant (shear modulus) [Pa]; mu > 0
+
+    Returns
+    -------
+    float or ndarray
+        addition to (R/2a) d delta/da [1] in the arguments' broadcast shape;
+        NaN outside the domain.
+    """
+    kind, alpha, eta, n, _ = _inside(a, h, b, lam, mu, WIDEST)
+    return as_result(kernels.slope_of_clamp(alpha, eta, n), kind)
+
+
+@in_manifest(
+    "",
+    equation="6",
+    domain="a >= 0, a <= b, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2 * mu, mu > 0",
+)
+@quiet
+def supported_edge_bound(
+    a: ArrayLike, h: ArrayLike, b: ArrayLike, lam: ArrayLike, mu: ArrayLike
+) -> np.ndarray:
+    """Bound of what a simple support adds to (R/2a) d delta/da, for every contact up to a.
+
+    Formula::
+
+        (1 - nu)/(1 + nu) (3 alpha/(2 pi)) [|1 - 2 n eta^2|/eta^3 (1/8 + 2 eta |n| s) + (8/3) n^2 s]
+        s > sum 1/(j^2 |J1|), by a thousandth or two
+
+    Parameters
+    ----------
+    a : array_like
+        contact radius [m]; 0 <= a <= b
+    h : array_like
+        half the plate's thickness [m]; h > 0
+    b : array_like
+        plate radius [m]; b > 0, 1e-90 <= h/b <= 1e90
+    lam : array_like
+        first Lame constant [Pa]; 3 lam > -2 mu
+    mu : array_like
+        second Lame constant (shear modulus) [Pa]; mu > 0
+
+    Returns
+    -------
+    float or ndarray
+        bound of the slope's size but for rounding [1] in the arguments' broadcast shape;
+        NaN outside the domain.
+    """
+    kind, *plate = _inside(a, h, b, lam, mu, 1.0)
+    return as_result(kernels.support_bound(*plate), kind)
+
+
+@in_manifest(
+    "",
+    equation="6",
+    domain="a >= 0, a <= b, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2 * mu, mu > 0",
+)
+@quiet
+def clamped_edge_bound(
+    a: ArrayLike, h: ArrayLike, b: ArrayLike, lam: ArrayLike, mu: ArrayLike
+) -> np.ndarray:
+    """Bound of what a clamp takes from (R/2a) d delta/da, for every contact up to a.
+
+    Formula::
+
+        (3 alpha/(16 pi eta^3)) [(1 - s)^2 + 2 chi eta + eta^3/5 + (16/3) n^2 eta^4
+                                 + (|1 - s| - (1 - s))/3]
+
+    Parameters
+    ----------
+    a : array_like
+        contact radius [m]; 0 <= a <= b
+    h : array_like
+        half the plate's thickness [m]; h > 0
+    b : array_like
+        plate radius [m]; b > 0, 1e-90 <= h/b <= 1e90
+    lam : array_like
+        first Lame constant [Pa]; 3 lam > -2 mu
+    mu : array_like
+        second Lame constant (shear modulus) [Pa]; mu > 0
+
+    Returns
+    -------
+    float or ndarray
+        bound of the slope's size but for rounding [1] in the arguments' broadcast shape;
+        NaN outside the domain.
+    """
+    kind, alpha, eta, n, _ = _inside(a, h, b, lam, mu, 1.0)
+    return as_result(kernels.clamp_bound(alpha, eta, n), kind)
+
+
+def _inside(
+    a: ArrayLike, h: ArrayLike, b: ArrayLike, lam: ArrayLike, mu: ArrayLike, widest: float
+) -> tuple[np.dtype, Double, Double, Double, Double]:
+    """The result's type, alpha, eta, n and (1 - nu)/(1 + nu); NaN outside the domain."""
+    kind, [a, h, b, lam, mu] = as_doubles(a, h, b, lam, mu)
+    [a] = inside([a], a >= 0, a <= widest * b, b > 0)
+    [h, b] = inside([h, b], h > 0, b > 0)
+    [lam, mu] = inside([lam, mu], 3.0 * lam > -2.0 * mu, mu > 0)
+    eta = h / b
+    [eta] = inside([eta], eta >= THINNEST, eta <= THICKEST)
+    return kind, a / b, eta, *elastic_ratios(lam, mu)
+
+
+def _supported(
+    a: ArrayLike, h: ArrayLike, b: ArrayLike, lam: ArrayLike, mu: ArrayLike, kernel: SummedKernel
+) -> np.ndarray:
+    """What a simple support adds, by the sums of the kernel."""
+    kind, alpha, eta, n, support = _inside(a, h, b, lam, mu, WIDEST)
+    sums = edge_sums(alpha, eta, n, kernel)
+    return as_result(kernels.of_support(alpha, eta, n, support, *sums), kind)

@@ -1,0 +1,87 @@
+"""What a plate's edge is given by, and both sums over the modes of a simple support.
+
+With n = nu/(1 - nu), T = 2 eta j, k the kernel of the indentation or of the slope::
+
+    sum k (1 + 3 n - n Q)/(j^3 J1),   Q = T (cosh T - 1)/(sinh T - T)
+    sum k H/(j^2 J1),                 H = (cosh T - 1)/(sinh T + T)
+
+Arithmetic: quotients of the arguments; how many modes are summed; the variable of the tables.
+"""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from generated import edge_kernels as kernels
+from generated import edge_numbers as numbers
+from generated.arrays import Double
+from generated.bessel import bessel_j0_zeros, bessel_j1_at_j0_zeros
+from generated.blocks import polynomial
+
+_POINTS = 128  # summed at a time
+
+
+class SummedKernel(NamedTuple):
+    """The kernel of the indentation or of the slope, and its sums over the modes.
+
+    Attributes
+    ----------
+    value
+        k by alpha and j.
+    thin
+        sum k/(j^3 J1) and both sums of a thin plate by alpha, eta and n.
+    third, square
+        sum k/(j^3 J1) and sum k/(j^2 J1) from the second mode on, by powers of alpha^2/MIDDLE - 1.
+    """
+
+    value: Callable[[Double, Double], Double]
+    thin: Callable[[Double, Double, Double], tuple[Double, Double, Double]]
+    third: tuple[float, ...]
+    square: tuple[float, ...]
+
+
+INDENTATION = SummedKernel(
+    kernels.indentation_kernel,
+    kernels.thin_indentation,
+    numbers.INDENTATION_THIRD,
+    numbers.INDENTATION_SQUARE,
+)
+SLOPE = SummedKernel(
+    kernels.slope_kernel, kernels.thin_slope, numbers.SLOPE_THIRD, numbers.SLOPE_SQUARE
+)
+
+
+def elastic_ratios(lam: Double, mu: Double) -> tuple[Double, Double]:
+    """n and (1 - nu)/(1 + nu), by lam and mu over the larger: nothing overflows or vanishes."""
+    most = np.maximum(lam, mu)
+    return kernels.elastic_ratios(lam / most, mu / most)
+
+
+def edge_sums(alpha: Double, eta: Double, n: Double, kernel: SummedKernel) -> tuple[Double, Double]:
+    """Both sums: closed forms of a thin plate where that is all there is, over modes elsewhere."""
+    shape = np.broadcast_shapes(alpha.shape, eta.shape, n.shape)
+    alpha, eta, n = (np.ravel(np.broadcast_to(x, shape)) for x in (alpha, eta, n))
+    plain, bent, stretched = kernel.thin(alpha, eta, n)
+    thick = np.flatnonzero(1.0 - alpha < numbers.THIN * eta)
+    thick = thick[np.argsort(eta[thick])]
+    for start in range(0, thick.size, _POINTS):
+        part = thick[start : start + _POINTS]
+        sums = _summed(alpha[part], eta[part], n[part], plain[part], kernel)
+        bent[part], stretched[part] = sums
+    return bent.reshape(shape), stretched.reshape(shape)
+
+
+def _summed(
+    alpha: Double, eta: Double, n: Double, plain: Double, kernel: SummedKernel
+) -> tuple[Double, Double]:
+    """Both sums over the modes, of points in the order of eta."""
+    count = 2 + int(numbers.FADED / (2.0 * np.pi * eta[0]))
+    j, J1 = bessel_j0_zeros(count), bessel_j1_at_j0_zeros(count)
+    place = alpha * alpha / numbers.MIDDLE - 1.0
+    rest_third, rest_square = (polynomial(place, *x) for x in (kernel.third, kernel.square))
+    later = kernel.value(alpha[:, None], j[1:])
+    fading = kernels.later_modes(eta[:, None], j[1:], J1[1:], later)
+    third, square = (part.sum(axis=1) for part in fading)
+    first, rest = kernel.value(alpha, j[0]), (plain, rest_third, rest_square)
+    return kernels.all_modes(eta, n, j[0], first, *rest, third, square)

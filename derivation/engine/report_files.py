@@ -79,7 +79,7 @@ def write(
     references = own.prose.references
     files = {
         f"{name}.tex": parts.document(version("platecontact")),
-        f"{name}.html": page(parts, paper.title, vectors, references),
+        f"{name}.html": page(parts, paper.title, vectors),
         "report.bib": references.bib(),
     }
     written = tuple(folder / name for name in files)

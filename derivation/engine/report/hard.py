@@ -50,7 +50,7 @@ def case_row(case: Mapping[str, Any]) -> str:
     cells = [f"{kernel}: {prose(case['cause'])}{note}", references(case["references"])]
     printed = "" if case["printed"] is None else error(case["printed"])
     first = " & ".join([*cells, error(case["error"]), printed, error(case["allowed"])])
-    return rf"{first}\\*{chr(10)}\given{{{inputs(case)}}}"
+    return rf"{first}\kept{chr(10)}\given{{{inputs(case)}}}"
 
 
 def inputs(case: Mapping[str, Any]) -> str:

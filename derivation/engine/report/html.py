@@ -1,24 +1,30 @@
-"""The report as one HTML file that needs nothing beside it: formulas as MathML, figures as SVG."""
+"""The report as one HTML file that needs nothing beside it: formulas as MathML, figures as SVG.
+
+Pandoc reads the same LaTeX that becomes the PDF. `page.tex` says what the report's own commands
+mean there, `page.lua` adds numbers and references and refuses what pandoc does not know.
+"""
 
 import re
+import shutil
+import subprocess
 from collections.abc import Mapping
+from importlib.util import find_spec
 from pathlib import Path
 
-import jinja2
-from markupsafe import Markup
-
 from derivation.engine.report.document import Text
-from derivation.engine.report.html_blocks import Blocks, numbers_of
-from derivation.engine.report.html_text import Words
-from derivation.engine.report.references import References
 
 TEMPLATES = Path(__file__).parent / "templates"
 _PROLOG = re.compile(rb"^.*?(?=<svg)", re.DOTALL)
 _METADATA = re.compile(r"<metadata>.*?</metadata>", re.DOTALL)
 _OWN = re.compile(r'(\bid="|url\(#|href="#)')
+_PLACE = re.compile(r'<embed\s+src="figures/([\w-]+)\.pdf"([^>]*?)\s*/>')
 
 
-def page(text: Text, title: str, figures: Mapping[str, bytes], references: References) -> str:
+class HtmlError(ValueError):
+    """The report's LaTeX holds something that has no counterpart in HTML."""
+
+
+def page(text: Text, title: str, figures: Mapping[str, bytes]) -> str:
     """The report as HTML.
 
     Parameters
@@ -29,37 +35,60 @@ def page(text: Text, title: str, figures: Mapping[str, bytes], references: Refer
         Title of the window.
     figures
         Figures as SVG files by name.
-    references
-        The sources that are cited.
 
     Raises
     ------
-    derivation.engine.report.html_text.HtmlError
-        If the LaTeX holds a command that has no counterpart here.
+    HtmlError
+        If the LaTeX holds a command or a formula that has no counterpart in HTML, or a figure
+        that is not given.
     """
-    drawings = {name: drawing(name, content) for name, content in figures.items()}
-    words = Words(
-        numbers_of(text.sections), {key: n for n, key in enumerate(references.entries, 1)}
-    )
-    blocks = Blocks(words, drawings)
-    front = blocks.read(text.front)
-    sections = [blocks.read(section) for section in (*text.sections, text.references)]
-    environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(TEMPLATES),
-        undefined=jinja2.StrictUndefined,
-        autoescape=True,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        keep_trailing_newline=True,
-    )
-    style = Markup((TEMPLATES / "page.css").read_text())
-    return environment.get_template("page.html.j2").render(
-        title=title, style=style, front=front, sections=sections, headings=blocks.headings
-    )
+    meanings = (TEMPLATES / "page.tex").read_text(encoding="utf-8")
+    parts = (meanings, text.front, *text.sections, text.references)
+    found = _converted("\n\n".join(parts), title)
+    try:
+        return _PLACE.sub(lambda at: drawing(at[1], figures[at[1]], f'role="img"{at[2]} '), found)
+    except KeyError as error:
+        raise HtmlError(f"expected a figure {error}, got none of this name") from None
 
 
-def drawing(name: str, content: bytes) -> Markup:
-    """A figure's SVG element, its ids its own."""
+def _converted(latex: str, title: str) -> str:
+    run = subprocess.run(
+        [
+            _pandoc(),
+            "--from=latex+raw_tex",
+            "--to=html5",
+            "--mathml",
+            "--toc",
+            "--section-divs",
+            "--wrap=preserve",
+            "--fail-if-warnings",
+            f"--metadata=pagetitle={title}",
+            f"--variable=style={(TEMPLATES / 'page.css').read_text(encoding='utf-8')}",
+            f"--template={TEMPLATES / 'page.html'}",
+            f"--lua-filter={TEMPLATES / 'page.lua'}",
+        ],
+        input=latex,
+        capture_output=True,
+        encoding="utf-8",
+        check=False,
+    )
+    if run.returncode:
+        raise HtmlError(f"pandoc refused the report: {run.stderr.strip()}")
+    return run.stdout
+
+
+def _pandoc() -> str:
+    """The program that comes with the Python package, whichever else is installed."""
+    package = find_spec("pypandoc")
+    folder = Path(package.origin or "").parent / "files" if package else Path()
+    found = shutil.which("pandoc", path=folder)
+    if found is None:
+        raise HtmlError(f"expected pandoc in {folder.resolve()}: pip install pypandoc_binary")
+    return found
+
+
+def drawing(name: str, content: bytes, attributes: str = "") -> str:
+    """A figure's SVG element with more attributes, its ids its own."""
     text = _METADATA.sub("", _PROLOG.sub(b"", content, count=1).decode())
-    text = text.replace("xlink:href", "href")
-    return Markup(_OWN.sub(rf"\g<1>{name}-", text))
+    text = text.replace("xlink:href", "href").replace("<svg ", f"<svg {attributes}", 1)
+    return _OWN.sub(rf"\g<1>{name}-", text)

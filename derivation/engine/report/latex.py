@@ -140,6 +140,11 @@ def unit(text: str) -> str:
     return re.sub(r"\^(?:\(([^)]*)\)|(-?\d+(?:/\d+)?))", lambda m: f"$^{{{m[1] or m[2]}}}$", text)
 
 
+def columns(spec: str) -> str:
+    """A table's columns in LaTeX's own letters; `P{0.3}` is text in a share of the line."""
+    return re.sub(r"P\{([\d.]+)\}", r">{\\ragged}p{\1\\linewidth}", spec)
+
+
 def environment(*folders: Path) -> jinja2.Environment:
     """Jinja2 with delimiters that LaTeX leaves alone; what is not defined is an error.
 
@@ -161,4 +166,5 @@ def environment(*folders: Path) -> jinja2.Environment:
     )
     made.filters["tex"] = escape
     made.filters["prose"] = prose
+    made.filters["columns"] = columns
     return made

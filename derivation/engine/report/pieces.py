@@ -154,7 +154,7 @@ def accuracy_row(row: Mapping[str, Any]) -> str:
     """Cells of one row; a result that is not a number counts as infinitely wrong."""
     errors = row["double"]
     cells = [
-        escape(row["kernel"]),
+        rf"\texttt{{{escape(row['kernel'])}}}",
         str(errors["points"]),
         number(errors["max_ulp"]) if not errors["not_finite"] else r"$\infty$",
         number(errors["p99_ulp"]),

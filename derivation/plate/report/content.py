@@ -56,7 +56,7 @@ def root_text(n: int) -> str:
 
 def contact_row(row: Mapping[str, Any]) -> str:
     """Cells of a row of the contact law's errors."""
-    cells = [escape(row["kernel"]), str(row["points"]), str(row["digits"])]
+    cells = [rf"\texttt{{{escape(row['kernel'])}}}", str(row["points"]), str(row["digits"])]
     return " & ".join([*cells, number(row["max_error"]), number(row["p99_error"])])
 
 

@@ -44,7 +44,7 @@ def file_row(name: str, content: bytes) -> str:
     command = escape(RENEWED.get(name, "")).replace("--", "-{}-")
     digest = hashlib.sha256(content).hexdigest()[:DIGITS]
     shown = rf"\texttt{{{command}}}" if command else "see CONTRIBUTING.md"
-    return f"{escape(name)}.json & {shown} & {len(content)} & {digest}"
+    return rf"\texttt{{{escape(name)}.json}} & {shown} & {len(content)} & \texttt{{{digest}}}"
 
 
 def _said(values: Mapping[str, Any]) -> Iterator[str]:

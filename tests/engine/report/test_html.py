@@ -6,27 +6,21 @@ from pathlib import Path
 
 import pytest
 from browser import browser, missing
-from markupsafe import Markup
 
 from derivation.engine import report_files
 from derivation.engine.report.document import Text
 from derivation.engine.report.figures import saved
-from derivation.engine.report.html import drawing, page
-from derivation.engine.report.html_blocks import Blocks
-from derivation.engine.report.html_text import HtmlError, Words, argument, parts
-from derivation.engine.report.latex import _code
-from derivation.engine.report.mathml import MathError, mathml, unwrapped
+from derivation.engine.report.html import HtmlError, drawing, page
 from derivation.engine.report.pdf import TexError
 from derivation.plate import reporting
 from derivation.plate.paper import PAPER
 from derivation.plate.report.figures import figures
 from derivation.plate.report.front import TITLE
-from derivation.plate.report.prose import REFERENCES
 from derivation.plate.report.sections import SECTIONS
 from derivation.scene.impact import simulate
 from derivation.scene.scene import load
 
-VOID = {"meta", "link", "wbr", "br", "img"}
+VOID = {"meta", "link", "wbr", "br", "img", "col"}
 
 
 class Parsed(HTMLParser):
@@ -64,8 +58,13 @@ class Parsed(HTMLParser):
             self.open.pop()
 
     def handle_data(self, data: str) -> None:
-        if not {"code", "pre", "style"} & set(self.open):
+        if not {"code", "pre", "style", "annotation"} & set(self.open):
             self.words.append(data)
+
+
+def made(body: str) -> str:
+    """A page of one section, which holds one figure."""
+    return page(Text("A", r"\reporttitle{A}{B}", (body,), ""), "A", {"law": b"<svg ></svg>"})
 
 
 @pytest.fixture(scope="module")
@@ -76,7 +75,7 @@ def text() -> Text:
 @pytest.fixture(scope="module")
 def html(text: Text) -> str:
     drawn = {name: saved(figure, ".svg") for name, figure in reporting.report_figures().items()}
-    return page(text, TITLE, drawn, REFERENCES)
+    return page(text, TITLE, drawn)
 
 
 @pytest.fixture(scope="module")
@@ -110,66 +109,80 @@ def test_it_holds_what_the_latex_holds(text: Text, html: str, parsed: Parsed) ->
     assert html.count('class="equation"') == whole.count(r"\begin{equation}")
     assert parsed.tags.count("figure") == whole.count(r"\begin{figure}")
     assert parsed.tags.count("pre") == whole.count(r"\begin{verbatim}")
-    tables = re.findall(r"\\begin\{(?:longtable|tabular)\}", whole + text.front)
-    assert parsed.tags.count("table") == len(tables)
+    tables = re.findall(
+        r"\\begin\{(longtable|tabular)\}(.*?)\\end\{\1\}", whole + text.front, re.DOTALL
+    )
+    assert parsed.tags.count("table") == parsed.tags.count("thead") == len(tables)
+    ends = r"(?:\\\\(?:\[\d+pt\])?|\\kept|\\heads\{.*\})$"
+    rows = sum(
+        len(re.findall(ends, re.sub(r"(?s)\\caption.*?\}\\\\\n", "", table), re.MULTILINE))
+        for _, table in tables
+    )
+    assert parsed.tags.count("tr") == rows
+    displayed = len(re.findall(r"(?<!\\)\\\[|\\begin\{equation\}", whole))
+    inline = len(re.findall(r"(?<!\\)\$", whole + text.front)) // 2
+    assert parsed.tags.count("math") >= displayed + inline
+
+
+def test_references_lead_to_what_they_name(text: Text, html: str) -> None:
+    whole = "\n".join([text.front, *text.sections])
+    for label in set(re.findall(r"\\ref\{(.*?)\}", whole)):
+        assert re.search(rf'<a href="#{re.escape(label)}">(\d+|[A-Z])</a>', html), label
+    for keys in re.findall(r"\\cite\{(.*?)\}", whole):
+        for key in keys.split(","):
+            assert f'href="#source-{key}"' in html
+    assert html.count('id="source-') == text.references.count(r"\bibitem")
 
 
 def test_equations_have_the_numbers_of_the_latex(text: Text, html: str) -> None:
     labels = re.findall(r"\\begin\{equation\}\\label\{eq:(\w+)\}", "\n".join(text.sections))
-    found = re.findall(r'id="eq-(\w+)">.*?<span>\((\d+)\)</span>', html, re.DOTALL)
+    found = re.findall(
+        r'id="eq:(\w+)" class="equation">.*?<span class="count">\((\d+)\)</span>', html, re.DOTALL
+    )
     assert found == [(name, str(number)) for number, name in enumerate(labels, start=1)]
 
 
-def test_words_are_escaped_and_what_is_not_known_is_refused() -> None:
-    words = Words({"eq:K_j": "7"}, {"paper": 3})
-    assert words.read(r"a<b \& \emph{c}~1--2") == "a&lt;b &amp; <em>c</em>&nbsp;1\u20132"
-    assert words.read(r"(\ref{eq:K_j})") == '(<a href="#eq-K_j">7</a>)'
-    assert words.read("of $a$, it") == f"of <span>{mathml('a')},</span> it"
-    assert words.read(r"\cite{paper}") == '[<a href="#source-paper">3</a>]'
-    for wrong in (r"\nonsense{x}", r"\emph x", r"\emph{x"):
-        with pytest.raises(HtmlError):
-            words.read(wrong)
-    for wrong in ("a}", "a$b", "a\\"):
-        with pytest.raises(HtmlError, match="no HTML for '"):
-            words.read(wrong)
-    assert words.read("a% the source's own remark\nb\\%") == "ab%"
-    assert words.read(_code("a*b<c")) == "<code>a*<wbr>b&lt;c</code>"  # may be broken there
-    with pytest.raises(MathError):
-        mathml(r"\nonsense{x}")
+def test_every_figure_says_what_it_shows(html: str) -> None:
+    figures = re.findall(r"<figure>.*?</figure>", html, re.DOTALL)
+    for number, figure in enumerate(figures, start=1):
+        assert re.search(r'<svg role="img" aria-label="[^"]{20,}"', figure)
+        assert f"<figcaption>Figure {number}: " in figure
 
 
-def test_cells_are_cut_outside_of_braces_and_formulas() -> None:
-    assert list(parts(r"a & {b & c} & $d & e$ & \& f", "&")) == [
-        "a ", " {b & c} ", " $d & e$ ", r" \& f",
-    ]  # fmt: skip
-    assert argument(r"{a\{{b}}c", 0) == (r"a\{{b}", 8)
-    for wrong in (r"\{a}", "}a{", "{a{b}", "a", "a{b}"):
-        with pytest.raises(HtmlError, match="expected an argument in braces"):
-            argument(wrong, 0)
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        r"a \nonsense{x}",
+        r"$\nonsense{x}$",
+        r"\begin{nonsense}a\end{nonsense}",
+        r"see \ref{eq:none}",
+        r"see \cite{none}",
+        r"\begin{figure}[H]\includegraphics{figures/none.pdf}\caption{A.}\end{figure}",
+    ],
+)
+def test_what_is_not_known_is_refused(wrong: str) -> None:
+    with pytest.raises(HtmlError, match="non"):
+        made(wrong)
 
 
-def test_a_figure_without_a_file_is_refused() -> None:
-    whole = r"\begin{figure}[H]\includegraphics{%s}\caption{A law.}\end{figure}"
-    blocks = Blocks(Words({}, {}), {"law": Markup("<svg/>")})
-    assert "<svg/>" in blocks.read(whole % "figures/law.pdf")
-    with pytest.raises(HtmlError, match="expected a figure's name"):
-        blocks.read(whole % "law.png")
+def test_pages_repeat_and_words_are_escaped() -> None:
+    body = r"a\textless{}b \& \emph{c}~1--2 of $a$, \texttt{a*\allowbreak{}b}"
+    found = made(body)
+    assert found == made(body)
+    assert "a&lt;b &amp; <em>c</em>\u00a01\u20132 of" in found
+    assert "<code>a*</code><wbr><code>b</code>" in found
+    assert re.search(r"</math>,</span>", found)  # stays on the formula's line
 
 
-def test_braces_around_a_part_of_a_formula_stay() -> None:
-    assert unwrapped("{a + b}") == "a + b"
-    assert unwrapped("{a}{b}") == "{a}{b}"
-    assert unwrapped(r"{a}\{b\}") == r"{a}\{b\}"
-
-
-def test_sums_that_are_broken_into_lines_are_aligned() -> None:
-    found = mathml(r"\fit{\begin{aligned}a ={}& b \\ & c\end{aligned}}", display=True)
-    assert found.count("<mtr>") == 2
-    assert found.count("<mtd>") == 4
-
-
-def test_a_displayed_sum_has_its_limits_below_and_above() -> None:
-    assert "<munderover>" in mathml(r"\fit[1]{\sum_{j=1}^{\infty} a}", display=True)
+def test_numbers_of_sections_turn_into_letters_in_the_appendix() -> None:
+    body = (
+        r"\section{One}\subsection{Two}\subsection*{None}\appendix\section{Last}\label{sec:last}"
+        "\n\nsee \\ref{sec:last}"
+    )
+    found = re.sub(r"</?span[^>]*>", "", made(body))
+    for heading in ("<h2>1 One", "<h3>1.1 Two", "None</h3>", "<h2>A Last"):
+        assert heading in found
+    assert 'see <a href="#sec:last">A</a>' in found
 
 
 def test_figures_repeat_byte_for_byte_and_do_not_share_ids() -> None:
@@ -188,8 +201,8 @@ def test_each_section_stands_alone(name: str) -> None:
     alone = report_files.text(PAPER, [name])
     whole = "\n".join([*alone.sections, alone.front, alone.references])
     assert set(re.findall(r"\\ref\{(.*?)\}", whole)) <= set(re.findall(r"\\label\{(.*?)\}", whole))
-    drawn = dict.fromkeys(re.findall(r"figures/([\w-]+)\.pdf", whole), b"<svg></svg>")
-    assert Parsed(page(alone, TITLE, drawn, REFERENCES)).tags.count("h2") == 2
+    drawn = dict.fromkeys(re.findall(r"figures/([\w-]+)\.pdf", whole), b"<svg ></svg>")
+    assert Parsed(page(alone, TITLE, drawn)).tags.count("h2") == 2
 
 
 def test_without_tex_the_html_is_there(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -18,7 +18,6 @@ from derivation.engine.report.equations import (
     folded,
     in_parts,
 )
-from derivation.engine.report.html_text import argument
 from derivation.engine.report.latex import escape, prose
 from derivation.engine.report.listings import source_of
 from derivation.engine.report.numbers import number
@@ -138,6 +137,16 @@ def fractions_within(latex: str) -> int:
         below, _ = argument(latex, place)
         depth = max(depth, 1 + fractions_within(above), 1 + fractions_within(below))
     return depth
+
+
+def argument(latex: str, start: int) -> tuple[str, int]:
+    """What stands in braces from a place on, and where they end."""
+    depth = 0
+    for brace in re.finditer(r"\\.|[{}]", latex[start:]):
+        depth += {"{": 1, "}": -1}.get(brace[0], 0)
+        if depth == 0:
+            break
+    return latex[start + 1 : start + brace.start()], start + brace.end()
 
 
 def test_parts_put_back_are_the_formula(formulas) -> None:

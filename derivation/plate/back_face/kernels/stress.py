@@ -126,7 +126,7 @@ def supported() -> Routine:
         (total + support * (12 * bent + 8 * n * eta * stretched),),
         (_sum + support_ratio().expression * far_edge().expression,),
         "S and what a simple support adds, by both sums over the modes.",
-        one_mode(indentation_kernel) | {total: _sum},
+        {**one_mode(indentation_kernel), total: _sum},
         in_ratio,
     )
 

@@ -32,6 +32,12 @@ def read_budgets() -> dict[str, budgets.Budget]:
     return budgets.parse_budgets(read_tables())
 
 
+def read_printed_share() -> float:
+    """The part of the package's arithmetic that is printed at least [1], as committed."""
+    share: float = read_tables()["package"]["printed"]
+    return share
+
+
 def read_domains() -> dict[str, str]:
     """Domains of the functions whose modules have a template."""
     domains: dict[str, str] = read_tables()["domain"]

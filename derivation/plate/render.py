@@ -1,7 +1,6 @@
 """The plate's package `generated`: proven formulas and their stable forms in, text out."""
 
 from collections.abc import Mapping
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -24,12 +23,13 @@ from derivation.engine.emit.package import (
     written,
 )
 from derivation.engine.emit.printer import to_numpy
+from derivation.engine.emit.share import expect_growth, shares
 from derivation.engine.formula.record import Record
 from derivation.engine.rewrite.form import Form
 from derivation.engine.rewrite.sections import sections
 from derivation.mathematics.bessel.kernels import bessel_context
 from derivation.plate.blocks import blocks
-from derivation.plate.budgets import read_budgets, read_promises
+from derivation.plate.budgets import read_budgets, read_printed_share, read_promises
 from derivation.plate.contact.kernels.moments import moment_context
 from derivation.plate.contact.kernels.tables import (
     contact_context,
@@ -38,7 +38,8 @@ from derivation.plate.contact.kernels.tables import (
 )
 from derivation.plate.impact.kernels.perturbation import perturbation_context
 from derivation.plate.impact.kernels.simple import simple_impact_context
-from derivation.plate.modes.kernels.modal_sums import MODAL_SUMS, STYLE, kernel_of_sum
+from derivation.plate.modes.kernels.modal_sums import STYLE, kernel_of_sum
+from derivation.plate.modes.kernels.shares import SHARES
 from derivation.plate.modules import (
     computed_modules,
     printed_modules,
@@ -63,10 +64,19 @@ TITLES = {
 
 
 def render(formulas: Mapping[str, Record], forms: tuple[Form, ...]) -> dict[str, str]:
-    """Files of the generated package by name; the same bytes for the same input."""
+    """Files of the generated package by name; the same bytes for the same input.
+
+    Raises
+    ------
+    ValueError
+        If less of its arithmetic is printed than before.
+    """
     kernels = kernel_rows(formulas, forms)
     planned = modules(kernels)
-    return written(planned)
+    files = written(planned)
+    sources = {name.removesuffix(".py"): text for name, text in files.items()}
+    expect_growth(shares(sources), read_printed_share())
+    return files
 
 
 def kernel_rows(
@@ -74,13 +84,13 @@ def kernel_rows(
 ) -> tuple[EmittedKernel, ...]:
     """Stage 1: a row for every stable form and every modal sum."""
     budgets = read_budgets()
-    shares = {f.name: f for f in forms if formulas[f.name].summed}
-    closed = (f for f in forms if f.name not in shares)
+    of_modes = {f.name: f for f in forms if formulas[f.name].summed}
+    closed = (f for f in forms if f.name not in of_modes)
     of_forms = tuple(kernel_of_form(f, formulas[f.name], budgets[f.name], STYLE) for f in closed)
     load = formulas["A_j"], formulas["Omega_1"]
     of_sums = tuple(
-        kernel_of_sum(formulas[name], *load, budgets[name], shares.get(name))
-        for name in (*shares, *MODAL_SUMS)
+        kernel_of_sum(formulas[name], *load, budgets[name], of_modes.get(name))
+        for name in (*of_modes, *SHARES)
     )
     return of_forms + of_sums
 
@@ -120,7 +130,7 @@ def modules(kernels: tuple[EmittedKernel, ...]) -> tuple[Planned, ...]:
         ),
     ]
     planned += (
-        replace(module, template="modal_sum", folder=TEMPLATES)
+        own(module.name, {**module.context, "shares": [f"{name}_of_mode" for name in SHARES]})
         if module.name == "modal_sum"
         else module
         for module in kernel_modules(kernels, TITLES, known)

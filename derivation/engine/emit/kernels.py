@@ -91,16 +91,6 @@ class EmittedKernel:
     seam: SeamText | None = None
 
     @property
-    def loaded(self) -> bool:
-        """Whether the sum's share needs the pressure coefficient."""
-        return self.modes and re.search(r"\bA\b", self.value) is not None
-
-    @property
-    def in_plane(self) -> bool:
-        """Whether the sum's share is made of both stresses in plane and the chord of J1."""
-        return self.modes and "chord" in self.value
-
-    @property
     def carried(self) -> tuple[str, ...]:
         """Of a value that does not depend on all arguments: the last it needs, then the idle."""
         code = set(re.findall(r"\w+", repr((self.value, self.steps, self.seam))))

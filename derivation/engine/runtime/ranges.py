@@ -1,4 +1,8 @@
-"""Products and roots whose shares may leave the range of doubles though the whole does not."""
+"""Products and roots whose shares may leave the range of doubles though the whole does not.
+
+Arithmetic: products, quotients and roots of fractions, their exponents of 2 apart; sums that keep
+what rounding drops.
+"""
 
 import numpy as np
 from numpy.typing import NDArray

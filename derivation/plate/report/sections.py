@@ -9,6 +9,7 @@ from typing import Any
 from derivation.engine.errata.findings import Finding
 from derivation.engine.formula.record import Record
 from derivation.engine.report import pieces
+from derivation.engine.report.arithmetic import arithmetic_context
 from derivation.engine.report.document import Text
 from derivation.engine.report.hard import hard_context
 from derivation.engine.report.latex import environment
@@ -134,7 +135,10 @@ SECTIONS: dict[str, Callable[[Material], dict[str, Any]]] = {
     "law": lambda m: {"law": law_context(m.formulas)},
     "motion": lambda m: {"motion": motion_context(m.case)},
     "rewriting": _rewriting,
-    "code": lambda m: {"code": listings_context(m.sources, m.formulas)},
+    "code": lambda m: {
+        "code": listings_context(m.sources, m.formulas),
+        "arithmetic": arithmetic_context(m.sources),
+    },
     "accuracy": _accuracy,
     "hard": lambda m: {"hard": hard_context(m.measured["hard"])},
     "speed": _speed,

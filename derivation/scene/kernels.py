@@ -17,12 +17,9 @@ from generated.edge import (
     supported_edge_bound,
     supported_edge_slope,
 )
+from generated.effect_numbers import PRESSURE_WALL, WALL_CUBIC, WALL_GROWTH, WALL_LINEAR
 from generated.effects import (
-    PRESSURE_WALL,
-    WALL_CUBIC,
-    WALL_GROWTH,
-    WALL_LINEAR,
-    Sphere,
+    SphereContact,
     bending,
     bending_period,
     echo_time,
@@ -46,7 +43,7 @@ __all__ = [
     "Course",
     "Estimate",
     "Plate",
-    "Sphere",
+    "SphereContact",
     "bending",
     "bending_period",
     "clamped_edge",

@@ -17,6 +17,8 @@ from derivation.engine.formula.proof import Proof, prove
 
 GUARDED = sp.Function("np.minimum")
 """A value held below a bound that it does not exceed where the branch counts."""
+RAISED = sp.Function("np.maximum")
+"""A value held above a bound that it is not below where the branch counts."""
 Facts = Mapping[sp.Basic, sp.Expr]
 """What symbols stand for, or are equal to on one side of a choice."""
 
@@ -243,7 +245,8 @@ def _undone(
         if isinstance(s, Choice) and s.condition in taken:
             facts |= s.if_yes if taken[s.condition] else s.if_no
     label = ", ".join(f"{c if side else sp.Not(c)}" for c, side in taken.items())
-    yield label, value.replace(GUARDED, lambda v, _: v), facts
+    free = value.replace(GUARDED, lambda v, _: v).replace(RAISED, lambda v, _: v)
+    yield label, free, facts
 
 
 def text(r: Routine) -> str:

@@ -18,7 +18,7 @@ so are shares of a value that are too small to count. An invalid operation is on
 
 
 def in_manifest(
-    symbol: str, equation: str = "", domain: str = ""
+    symbol: str, equation: str = "", domain: str = "", kernel: bool = False
 ) -> Callable[[Function], Function]:
     """What the manifest says of a function besides its docstring; it changes nothing.
 
@@ -30,8 +30,10 @@ def in_manifest(
         Number of its equation in the paper, if it has one.
     domain
         Conditions on its arguments, separated by commas; outside it gives NaN.
+    kernel
+        Whether it is listed with the printed formulas.
     """
-    del symbol, equation, domain
+    del symbol, equation, domain, kernel
     return lambda function: function
 
 

@@ -20,15 +20,8 @@ from derivation.plate.pressure.theory import true_pressure as theory
 from derivation.plate.vocabulary import a_ratio, c_A
 from derivation.plate.vocabulary import eta as eta_symbol
 from generated.contact_series import plates_of
-from generated.non_hertzian_pressure import (
-    ERROR,
-    THIN,
-    WIDEST,
-    WIDEST_SHARE,
-    contact,
-    plate,
-    pressure,
-)
+from generated.non_hertzian_pressure import contact, plate, pressure
+from generated.pressure_numbers import ERROR, THIN, WIDEST, WIDEST_SHARE
 
 R, E = 1e3, 7e10
 OPEN = 3.012493

@@ -19,7 +19,7 @@ from generated.edge import (
 )
 from generated.effect_numbers import PRESSURE_WALL, WALL_CUBIC, WALL_GROWTH, WALL_LINEAR
 from generated.effects import (
-    SphereContact,
+    Sphere,
     bending,
     bending_period,
     echo_time,
@@ -43,7 +43,7 @@ __all__ = [
     "Course",
     "Estimate",
     "Plate",
-    "SphereContact",
+    "Sphere",
     "bending",
     "bending_period",
     "clamped_edge",

@@ -26,7 +26,7 @@ from derivation.scene.model import Model
 from derivation.scene.quadrature import NODES, gauss
 
 if TYPE_CHECKING:
-    from generated.non_hertzian_pressure import Contact, PressurePlate
+    from generated.non_hertzian_pressure import Contact, Plate
 
 THICK = 1.0
 """h/b up to which the supports' model is measured."""
@@ -287,11 +287,11 @@ class ContactLaw:
 
         return non_hertzian_pressure.plate(self.model.h, self.model.b)
 
-    def _sphere(self, a: Array) -> kernels.SphereContact:
+    def _sphere(self, a: Array) -> kernels.Sphere:
         """Force, indentation and slope on a half-space."""
         if self.spherical:
             return kernels.sphere_contact(a / self.model.R)
-        return kernels.SphereContact(*(np.ones_like(a),) * 3)
+        return kernels.Sphere(*(np.ones_like(a),) * 3)
 
     def cancellation(self, a: float) -> float:
         """Rounding error of the slope [1] at a radius [m] where an effect's part is a difference.

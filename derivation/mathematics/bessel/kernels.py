@@ -337,8 +337,7 @@ def bessel_numbers() -> Numbers:
         Constant(
             "ZERO_CORRECTION",
             tuple(zero_correction(n, TERMS).coefficients for n in both),
-            "beta (j - beta) in powers of 1/beta^2, j a zero of J0 with beta = (n - 1/4) pi, of "
-            "J1 with beta = (n + 1/4) pi.",
+            "beta (j - beta) in powers of 1/beta^2; beta is (n - 1/4) pi, for J1 (n + 1/4) pi.",
         ),
         Constant(
             "SLOPE_EXCESS",

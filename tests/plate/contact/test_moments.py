@@ -5,13 +5,13 @@ from fractions import Fraction
 from itertools import pairwise
 
 import flint
-import generated.series_numbers
 import numpy as np
 import pytest
 import sympy as sp
 from flint import arb
 
 import generated
+import generated.series_numbers
 from derivation.engine.formula.proof import ProofError
 from derivation.engine.formula.ulp import ulp_error
 from derivation.mathematics.bessel.theory.functions import phase_shift, power

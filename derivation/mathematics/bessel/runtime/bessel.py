@@ -14,6 +14,9 @@ and phase as above, products of doubles without rounding errors, one Newton step
 """
 
 import numpy as np
+from numpy.typing import ArrayLike
+
+from generated.arrays import Double, in_manifest, quiet, refuse_masked
 from generated.bessel_numbers import (
     ASYMPTOTIC_START,
     CELLS,
@@ -38,9 +41,6 @@ from generated.bessel_numbers import (
     TAYLOR,
     ZERO_CORRECTION,
 )
-from numpy.typing import ArrayLike
-
-from generated.arrays import Double, in_manifest, quiet, refuse_masked
 
 _BLOCK = 8192  # points worked on at a time, so that intermediates stay in the cache
 _SPLITTER = 134217729.0  # 2^27 + 1 halves a double's bits

@@ -11,6 +11,9 @@ Arithmetic: look-up, and the expansions, whose coefficients are numbers computed
 """
 
 import numpy as np
+from numpy.typing import ArrayLike
+
+from generated.arrays import Double, as_doubles, as_result, in_manifest, quiet
 from generated.series_numbers import (
     FINITE_PART,
     FINITE_PART_RATIO,
@@ -23,9 +26,6 @@ from generated.series_numbers import (
     LIMIT_POLE,
     LIMIT_RESIDUE,
 )
-from numpy.typing import ArrayLike
-
-from generated.arrays import Double, as_doubles, as_result, in_manifest, quiet
 
 
 @in_manifest(r"\kappa_n", domain="n >= 0", kernel=True)

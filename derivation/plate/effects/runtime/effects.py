@@ -18,7 +18,7 @@ from generated.blocks import polynomial
 from generated.effect_numbers import WALL_DEPTH, WALL_SLOPE
 
 
-class SphereContact(NamedTuple):
+class Sphere(NamedTuple):
     """A sphere on a half-space over Hertz's paraboloid at equal contact radius [1]."""
 
     force: np.ndarray
@@ -26,7 +26,7 @@ class SphereContact(NamedTuple):
     slope: np.ndarray
 
 
-class EffectShare(NamedTuple):
+class Share(NamedTuple):
     """A part of F and of S [1]."""
 
     depth: np.ndarray
@@ -35,7 +35,7 @@ class EffectShare(NamedTuple):
 
 @in_manifest("", equation="7", domain="a_over_R >= 0, a_over_R < 1")
 @quiet
-def sphere_contact(a_over_R: ArrayLike) -> SphereContact:
+def sphere_contact(a_over_R: ArrayLike) -> Sphere:
     """Force, indentation and its slope of a sphere over those of a paraboloid.
 
     Formula (Sneddon, 1965), x = a/R::
@@ -50,19 +50,19 @@ def sphere_contact(a_over_R: ArrayLike) -> SphereContact:
 
     Returns
     -------
-    SphereContact
+    Sphere
         P/((4/3) E* a^3/R), delta R/a^2 and (R/2a) d delta/da [1], a being the contact radius
         itself, in the argument's shape; NaN outside the domain.
     """
     kind, [a_over_R] = as_doubles(a_over_R)
     [a_over_R] = inside([a_over_R], a_over_R >= 0, a_over_R < 1)
     values = kernels.sphere_over_paraboloid(a_over_R)
-    return SphereContact(*(as_result(x, kind) for x in values))
+    return Sphere(*(as_result(x, kind) for x in values))
 
 
 @in_manifest("W", equation="6", domain="alpha >= 0, alpha < 1")
 @quiet
-def side_wall(alpha: ArrayLike) -> EffectShare:
+def side_wall(alpha: ArrayLike) -> Share:
     """What the plate's finite radius adds, of Hertz's pressure and the paper's edge.
 
     Formula::
@@ -76,19 +76,19 @@ def side_wall(alpha: ArrayLike) -> EffectShare:
 
     Returns
     -------
-    EffectShare
+    Share
         Its part of F and of S [1], below 0, in the argument's shape; NaN outside the domain.
     """
     kind, [alpha] = as_doubles(alpha)
     [alpha] = inside([alpha], alpha >= 0, alpha < 1)
     square = alpha * alpha
     depth, slope = (-alpha * polynomial(square, *row) for row in (WALL_DEPTH, WALL_SLOPE))
-    return EffectShare(as_result(depth, kind), as_result(slope, kind))
+    return Share(as_result(depth, kind), as_result(slope, kind))
 
 
 @in_manifest("F_B", equation="6", domain="a_ratio >= 0, eta > 0")
 @quiet
-def bending(a_ratio: ArrayLike, eta: ArrayLike) -> EffectShare:
+def bending(a_ratio: ArrayLike, eta: ArrayLike) -> Share:
     """What the deflection of a thin plate adds, P b^2/(8 pi D), on the paper's edge.
 
     Formula::
@@ -104,12 +104,12 @@ def bending(a_ratio: ArrayLike, eta: ArrayLike) -> EffectShare:
 
     Returns
     -------
-    EffectShare
+    Share
         Its part of F and of S [1], in the arguments' broadcast shape; NaN outside the domain.
     """
     kind, [a_ratio, eta] = as_doubles(a_ratio, eta)
     [a_ratio, eta] = inside([a_ratio, eta], a_ratio >= 0, eta > 0)
-    return EffectShare(*(as_result(x, kind) for x in kernels.bent_plate(a_ratio, eta)))
+    return Share(*(as_result(x, kind) for x in kernels.bent_plate(a_ratio, eta)))
 
 
 @in_manifest(r"\lambda_Z", domain="R > 0, m > 0, v0 > 0, h > 0, 3 * lam > -2 * mu, mu > 0, rho > 0")

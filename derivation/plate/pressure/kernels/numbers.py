@@ -63,8 +63,7 @@ def pressure_numbers() -> Numbers:
             Constant(
                 "ERROR",
                 read_promises("pressure")["error"],
-                "Relative error of every result: a promise that tests hold against an oracle, no "
-                "proof. The pressure's is of its mean, all others' are their own.",
+                "Tested limit of the relative error of every result, the pressure's over its mean.",
             ),
             Constant("FADED", float(FADED), "Modes count up to T = 2 eta j_n = FADED."),
             Constant("LOW", LOW, "Up to here sinh(x)/x is 1 + x^2/6, to 1e-14."),
@@ -82,8 +81,10 @@ def pressure_numbers() -> Numbers:
 
 
 def _doubles(pairs: list[tuple[Ball, Ball]]) -> tuple[np.ndarray, np.ndarray]:
-    places, weights = zip(*pairs, strict=True)
-    return tuple(np.array([nearest_double(x) for x in row]) for row in (places, weights))
+    places, weights = (
+        np.array([nearest_double(x) for x in row]) for row in zip(*pairs, strict=True)
+    )
+    return places, weights
 
 
 def _powers() -> tuple[float, float]:

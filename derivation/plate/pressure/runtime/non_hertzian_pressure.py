@@ -37,8 +37,8 @@ from generated.pressure_numbers import (
     THIN,
     WALL,
     WALL_WEIGHTS,
-    WAVES,
     WAVE_WEIGHTS,
+    WAVES,
     WEIGHTS,
     WIDEST,
     WIDEST_SHARE,
@@ -48,7 +48,7 @@ _POINTS = np.append(NODES, 1.0)
 _BLOCK = 8  # contacts worked on at a time, so that intermediates stay in the cache
 
 
-class PressurePlate(NamedTuple):
+class Plate(NamedTuple):
     """The kernel of a plate; lengths are in units of `unit`, h or b [m]."""
 
     h: float
@@ -105,7 +105,7 @@ class _Solution(NamedTuple):
     bends: Double  # -chi'(x)/x at the nodes and at x = 1
 
 
-def plate(h: float, b: float) -> PressurePlate:
+def plate(h: float, b: float) -> Plate:
     """What a plate's contacts have in common.
 
     Parameters
@@ -117,14 +117,14 @@ def plate(h: float, b: float) -> PressurePlate:
 
     Returns
     -------
-    PressurePlate
+    Plate
         For `contact`. Outside the domain its numbers are NaN.
     """
     _, [height, radius] = as_doubles(h, b)
     h, b = float(height), float(radius)
     if not (h > 0 and b > 0 and THINNEST <= h / b <= THICKEST):
         none = np.zeros(0)
-        return PressurePlate(np.nan, np.nan, np.nan, np.nan, np.nan, none, none, none, none)
+        return Plate(np.nan, np.nan, np.nan, np.nan, np.nan, none, none, none, none)
     eta = h / b
     first = FIRST * float(plates_of(np.array([eta])).first.coefficients[0, 0])
     if eta * THIN < 1.0:
@@ -132,16 +132,16 @@ def plate(h: float, b: float) -> PressurePlate:
         # k h = 3/2 c_1 + 15/2 c_3 A^2 + the integral of cos - 1 + (A T/2)^2/2.
         square = CUBIC * float(cubic) + 0.5 * float(WAVE_WEIGHTS @ WAVES**2)
         none = np.zeros(0)
-        return PressurePlate(h, b, h, first, square, WAVES, WAVE_WEIGHTS, none, none)
+        return Plate(h, b, h, first, square, WAVES, WAVE_WEIGHTS, none, none)
     count = int(FADED / (2.0 * np.pi * eta)) + 2
     zeros, weights = _weights(np.asarray(eta), count)
     modes = MODES * weights
-    return PressurePlate(h, b, b, first / eta, 0.0, zeros, modes, WALL, WALL_WEIGHTS)
+    return Plate(h, b, b, first / eta, 0.0, zeros, modes, WALL, WALL_WEIGHTS)
 
 
 @quiet
 def contact(
-    plate: PressurePlate,
+    plate: Plate,
     a: ArrayLike,
     R: ArrayLike,
     modulus: ArrayLike,
@@ -159,7 +159,7 @@ def contact(
 
     Parameters
     ----------
-    plate : PressurePlate
+    plate : Plate
         of `plate`
     a : array_like
         contact radius [m]; 0 < a <= 0.95 b, a <= 7 h, a < R
@@ -183,8 +183,9 @@ def contact(
 
     Notes
     -----
-    Relative errors are below `pressure_numbers.ERROR`, measured against an oracle from h/b = 1e-4 to 1e5: 1e-15
-    up to a = h, 7e-14 near a = 6 h, where next to nothing of the pressure is left at the centre.
+    Relative errors are below `pressure_numbers.ERROR`, measured against an oracle from h/b = 1e-4
+    to 1e5: 1e-15 up to a = h, 7e-14 near a = 6 h, where next to nothing of the pressure is left
+    at the centre.
     """
     own = modulus if plate_modulus is None else plate_modulus
     _, given = as_doubles(a, R, modulus, own, compliance)
@@ -205,7 +206,7 @@ def contact(
     return _contact(plate, solved, (a, R, modulus, own, compliance))
 
 
-def _contact(plate: PressurePlate, found: _Solution, given: tuple[Double, ...]) -> Contact:
+def _contact(plate: Plate, found: _Solution, given: tuple[Double, ...]) -> Contact:
     """From units of the half-space to those of the arguments."""
     a, R, modulus, own, compliance = given
     stiff = 2.0 * modulus * a
@@ -234,7 +235,7 @@ def _contact(plate: PressurePlate, found: _Solution, given: tuple[Double, ...]) 
     return Contact(*arrays, *wide)
 
 
-def _waves(plate: PressurePlate, a: Double, x: Double, share: Double) -> _Waves:
+def _waves(plate: Plate, a: Double, x: Double, share: Double) -> _Waves:
     """At points x = t/a of shape (contacts, points)."""
     ratio = (a / plate.unit)[:, None]
     points, phase, rise = x[:, :, None], ratio * plate.waves, ratio * plate.rises
@@ -246,7 +247,7 @@ def _waves(plate: PressurePlate, a: Double, x: Double, share: Double) -> _Waves:
     return _Waves(rises, bends, weights * share[:, None], faded)
 
 
-def _solve(plate: PressurePlate, a: Double, R: Double, share: Double, sphere: bool) -> _Solution:
+def _solve(plate: Plate, a: Double, R: Double, share: Double, sphere: bool) -> _Solution:
     """chi at the nodes by Nystroem's method; `share` is E* of the contact over the plate's."""
     x = np.broadcast_to(_POINTS, (a.size, _POINTS.size))
     waves = _waves(plate, a, x, share)
@@ -293,7 +294,7 @@ def _bends(waves: _Waves, transform: Double) -> Double:
 @quiet
 def pressure(
     r: ArrayLike,
-    plate: PressurePlate,
+    plate: Plate,
     a: float,
     R: float,
     modulus: float,

@@ -73,6 +73,19 @@ def refuse_masked(*arguments: ArrayLike) -> None:
         )
 
 
+def whole(count: int, what: str) -> int:
+    """A number of some things as a plain integer.
+
+    Raises
+    ------
+    ValueError
+        If it is negative or not an integer.
+    """
+    if not count >= 0 or count != np.floor(count) or count == np.inf:
+        raise ValueError(f"expected a number of {what}, an integer >= 0, got {count!r}")
+    return int(count)
+
+
 def inside(arguments: list[Double], *conditions: NDArray[np.bool_]) -> list[Double]:
     """The arguments where all conditions hold, NaN elsewhere."""
     holds: NDArray[np.bool_] = np.asarray(True)

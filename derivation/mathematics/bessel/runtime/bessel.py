@@ -16,7 +16,7 @@ and phase as above, products of doubles without rounding errors, one Newton step
 import numpy as np
 from numpy.typing import ArrayLike
 
-from generated.arrays import Double, in_manifest, quiet, refuse_masked
+from generated.arrays import Double, in_manifest, quiet, refuse_masked, whole
 from generated.bessel_numbers import (
     ASYMPTOTIC_START,
     CELLS,
@@ -184,7 +184,7 @@ def bessel_j1_at_j0_zeros(count: int) -> Double:
     ValueError
         If the count is negative or not an integer.
     """
-    count = _whole(count)
+    count = whole(count, "zeros")
     m = _mcmahon_numbers(count, 0)
     square = 1.0 / (QUARTER_PI * m) ** 2
     excess = square * _polynomial(SLOPE_EXCESS, square)
@@ -272,7 +272,7 @@ def _far(x: Double, order: int) -> Double:
 
 def _zeros(count: int, order: int) -> Double:
     """The first positive zeros of J_order: a table, then McMahon's expansion."""
-    count = _whole(count)
+    count = whole(count, "zeros")
     beta, rest = _times_quarter_pi(_mcmahon_numbers(count, order))
     inverse = 1.0 / beta
     rest += inverse * _polynomial(ZERO_CORRECTION[order], inverse * inverse)
@@ -304,13 +304,6 @@ def _mcmahon_numbers(count: int, order: int) -> Double:
     """beta/(pi/4) for the zeros of J_order from the expansion's first number up to count."""
     index = np.arange(FIRST_MCMAHON[order], count + 1, dtype=np.float64)
     return 4.0 * index + QUARTERS[order]
-
-
-def _whole(count: int, what: str = "zeros") -> int:
-    """A number of zeros, or of something else, as a plain integer, refused if it is none."""
-    if not count >= 0 or count != np.floor(count) or count == np.inf:
-        raise ValueError(f"expected a number of {what}, an integer >= 0, got {count!r}")
-    return int(count)
 
 
 def _polynomial(coefficients: tuple[float, ...], variable: Double) -> Double:

@@ -37,7 +37,13 @@ pytestmark = pytest.mark.usefixtures("no_warning")
 def test_formulas_of_the_link_are_proved_symbolically() -> None:
     for formula in theory.true_pressure():
         assert formula.proof.method == "symbolically"
-    for proof in (theory.representation(), theory.profiles(), theory.motion_of_the_edge()):
+    for proof in (
+        theory.representation(),
+        theory.profiles(),
+        theory.motion_of_the_edge(),
+        theory.results().proof,
+        theory.substitution()[-1],
+    ):
         assert proof.method == "symbolically"
 
 

@@ -1,8 +1,4 @@
-"""The effects' formulas as code computes them, each proved to be a formula of its link.
-
-Products and roots may leave the range of doubles in between: `root_factors` gives a root as three
-factors, and `product` multiplies as if only the whole were rounded.
-"""
+"""The effects' formulas as code computes them, each proved to be a formula of its link."""
 
 import sympy as sp
 
@@ -19,18 +15,15 @@ from derivation.engine.emit.routine import (
 from derivation.plate.contact.theory.curvature import spherical_contact
 from derivation.plate.effects.kernels.numbers import NEAR, arc_coefficients, factor
 from derivation.plate.effects.theory import bending
+from derivation.plate.factors import MODERATE, PRODUCT, YOUNG, multiplied, root
 from derivation.plate.modes.theory.influence import PLANE_STRAIN_MODULUS
 from derivation.plate.vocabulary import R, a, a_ratio, b, eta, h, lam, m, mu, rho, v0
 from derivation.plate.waves.theory.plate_motion import plate_motion
 
-PRODUCT = sp.Function("product")
 ZENER, PERIOD = sp.symbols("ZENER PERIOD", positive=True)
 _FACTORS: Facts = {ZENER: factor("zener_number"), PERIOD: factor("bending_period")}
 a_over_R, square = sp.symbols("a_over_R square", positive=True)
-first, second, scale = sp.symbols("first second scale", positive=True)
 THREE_HALVES = sp.Float(1.5)
-YOUNG = 4, mu, (first + second) / (first + 2 * second)
-"""E* as factors, `first` and `second` being Lame's constants over a power of two."""
 
 
 def _by_contact_radius(expression: sp.Expr) -> sp.Expr:
@@ -46,7 +39,7 @@ ARC = (sp.atanh(a_over_R) - a_over_R) / a_over_R**3
 def sphere() -> Routine:
     """Force, indentation and slope of a sphere over those of Hertz's paraboloid."""
     arc, series, depth, whole = sp.symbols("arc series depth whole", positive=True)
-    far = sp.Symbol("far", positive=True)
+    far, steep = sp.symbols("far steep", positive=True)
     delta, force = (formula.expression for formula in spherical_contact())
     hertz = sp.Rational(4, 3) * PLANE_STRAIN_MODULUS * a**3 / R
     near = sp.Rational(NEAR)
@@ -60,12 +53,13 @@ def sphere() -> Routine:
             Let(far, RAISED(a_over_R, sp.sqrt(near))),
             Choice(arc, sp.Lt(square, near), series, (sp.atanh(far) - far) / cube),
             Let(depth, 1 + square * arc),
-            Let(whole, 1 + (1 + square) * arc),
+            Let(steep, depth + 1 / ((1 - a_over_R) * (1 + a_over_R)), within=True),
+            Let(whole, 1 + (1 + square) * arc, within=True),
         ),
         (
             sp.Float(0.75) * whole,
             depth,
-            (depth + 1 / ((1 - a_over_R) * (1 + a_over_R))) / 2,
+            steep / 2,
         ),
         (force / hertz, delta * R / a**2, R / (2 * a) * sp.diff(delta, a)),
         "Force, indentation and its slope of a sphere over those of a paraboloid.",
@@ -81,7 +75,11 @@ def bent_plate() -> Routine:
     return routine(
         "bent_plate",
         (a_ratio, eta),
-        (Let(part, a_ratio / (4 * sp.pi)), Let(over, part / eta), Let(depth, over / eta)),
+        (
+            Let(part, a_ratio / (4 * sp.pi), within=True),
+            Let(over, part / eta, within=True),
+            Let(depth, over / eta),
+        ),
         (depth, THREE_HALVES * depth),
         (share, share + a_ratio * sp.diff(share, a_ratio) / 2),
         "Bending's part of F and of S.",
@@ -89,50 +87,25 @@ def bent_plate() -> Routine:
     )
 
 
-def _root(name: str, degree: int, factors: tuple[sp.Expr, ...], *below: sp.Expr) -> Several:
-    """The three factors of a root."""
-    parts = sp.symbols(f"{name}_0 {name}_1 {name}_2", positive=True)
-    whole = (sp.Mul(*factors) / sp.Mul(*below)) ** sp.Rational(1, degree)
-    given = (sp.Integer(degree), sp.Tuple(*factors), *([sp.Tuple(*below)] if below else []))
-    return Several(parts, "root_factors", given, (whole / (parts[1] * parts[2]), *parts[1:]))
-
-
-def _multiplied(expression: sp.Expr) -> sp.Expr:
-    """The difference of two products as the logarithm of their quotient."""
-    found = expression.replace(
-        PRODUCT, lambda above, *below: sp.Mul(*above) / sp.Mul(*(x for row in below for x in row))
-    )
-    first_term, second_term = sp.Add.make_args(found)
-    quotient = sp.log(-first_term / second_term)
-    return sp.expand(sp.expand_log(quotient.replace(sp.Add, _one_fraction), force=True))
-
-
-def _one_fraction(*terms: sp.Expr) -> sp.Expr:
-    return sp.factor(sp.Add(*terms))
-
-
-MODERATE = Several((first, second), "moderate", (lam, mu), (lam / scale, mu / scale))
-
-
 def zener() -> Routine:
     """Zener's number."""
-    waves = _root("waves", 5, (m, m, m, R, v0))
-    young = _root("young", 5, YOUNG)
-    mass = _root("mass", 2, (rho, *young.symbols))
+    waves = root("waves", 5, (m, m, m, R, v0))
+    young = root("young", 5, YOUNG)
+    mass = root("mass", 2, (rho, *young.symbols))
     value = PRODUCT(sp.Tuple(ZENER, *waves.symbols), sp.Tuple(h, h, *mass.symbols))
     return _of_motion("zener_number", (R, m, v0, h, lam, mu, rho), (waves, young, mass), value)
 
 
 def first_period() -> Routine:
     """The first bending period."""
-    slowness = _root("slowness", 2, (rho,), *YOUNG)
+    slowness = root("slowness", 2, (rho,), *YOUNG)
     value = PRODUCT(sp.Tuple(PERIOD, b, b, *slowness.symbols), sp.Tuple(h))
     return _of_motion("bending_period", (h, b, lam, mu, rho), (slowness,), value)
 
 
 def echo() -> Routine:
     """The time of two echoes."""
-    slowness = _root("slowness", 2, (rho,), sp.Integer(4), lam / 4 + mu / 2)
+    slowness = root("slowness", 2, (rho,), sp.Integer(4), lam / 4 + mu / 2)
     value = PRODUCT(sp.Tuple(8, h, *slowness.symbols))
     return _of_motion("echo_time", (h, lam, mu, rho), (slowness,), value)
 
@@ -142,7 +115,7 @@ def _of_motion(
 ) -> Routine:
     """A formula of link 23."""
     formula = {f.name: f for f in plate_motion()}[name]
-    scaled = [MODERATE] if name != "echo_time" else []
+    scaled = MODERATE if name != "echo_time" else ()
     return routine(
         f"{name}_of_factors",
         arguments,
@@ -151,7 +124,7 @@ def _of_motion(
         (formula.expression,),
         f"{formula.meaning[0].upper()}{formula.meaning[1:]}.",
         _FACTORS,
-        _multiplied,
+        multiplied,
     )
 
 

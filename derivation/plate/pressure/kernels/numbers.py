@@ -69,6 +69,9 @@ def pressure_numbers() -> Numbers:
             Constant("LOW", LOW, "Up to here sinh(x)/x is 1 + x^2/6, to 1e-14."),
             Constant("FIRST", first, "N(0, 0) over c_1/h."),
             Constant("CUBIC", cubic, "What c_3 a^2/h^3 times x^2 + s^2 has in N."),
+            Constant(
+                "SQUARE", float(waves[1] @ waves[0] ** 2) / 2, "Of the waves' sum in x^2 + s^2."
+            ),
             Constant("MODES", modes, "Of the modes' weights in the kernel."),
             Constant("NODES", nodes[0], "Collocation: t/a."),
             Constant("WEIGHTS", nodes[1], "And weights of int_0^1 of an even function."),

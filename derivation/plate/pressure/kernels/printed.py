@@ -7,8 +7,9 @@ The kernel is a sum of cosines, and cosines of imaginary arguments beside the wa
 import sympy as sp
 
 from derivation.engine.emit.routine import RAISED, Choice, Let, Routine, routine
+from derivation.plate.pressure.theory import results as theory
 from derivation.plate.pressure.theory.true_pressure import kernel, profile
-from derivation.plate.vocabulary import R, alpha
+from derivation.plate.vocabulary import R, a, alpha, r
 
 LOW = sp.Symbol("LOW", positive=True)
 phase, rise, x, y, c, unit = sp.symbols("phase rise x y c unit", positive=True)
@@ -114,4 +115,102 @@ def sphere() -> Routine:
     )
 
 
-ROUTINES = wave, wall_wave, paraboloid, sphere
+modulus, plate_modulus, compliance = sp.symbols("modulus plate_modulus compliance", positive=True)
+first, per = sp.symbols("first per", positive=True)
+GIVEN = a, R, modulus, plate_modulus, compliance, first, per
+SOLVED = (
+    theory.force, theory.depth, theory.work, theory.flat, theory.edge, theory.bend, theory.centre,
+)  # fmt: skip
+MEANING = {
+    modulus: theory.E,
+    compliance: theory.support,
+    first: theory.N_0 * per * plate_modulus / theory.E,
+}
+"""`first` is the kernel's constant, lengths over `per`, for the plate's own modulus."""
+
+
+def contact_results() -> Routine:
+    """What a solution gives; products in an order in which no part leaves the range of doubles."""
+    ratio, deep, stiff, series = sp.symbols("ratio deep stiff series", positive=True)
+    pressed, peak, reach, share = sp.symbols("pressed peak reach share", positive=True)
+    found = theory.results()
+    return routine(
+        "contact_results",
+        (*GIVEN, *SOLVED),
+        (
+            Let(ratio, a / R),
+            Let(deep, a * ratio),
+            Let(stiff, 2 * modulus * a),
+            Let(reach, a / per),
+            Let(share, modulus / plate_modulus),
+            Let(series, first * reach * share + stiff * compliance),
+            Let(pressed, stiff * deep),
+            Let(peak, modulus * ratio / sp.pi),
+        ),
+        (
+            pressed * theory.force,
+            deep * (theory.depth + theory.force * series),
+            stiff / (1 / theory.flat + series),
+            ratio * theory.bend / theory.edge * (1 + theory.flat * series),
+            pressed * deep * (theory.work + theory.force**2 * series) / 2,
+            peak * theory.centre,
+            2 * peak * theory.force,
+        ),
+        found[:7],
+        "Force, indentation, stiffness, slope, energy, pressure at the centre and on the mean.",
+        MEANING,
+        sp.cancel,
+    )
+
+
+def pressure_unit() -> Routine:
+    """What the sums of -c'/x are in units of."""
+    unit = theory.results().centre_pressure / theory.centre
+    return _unit("pressure_unit", modulus / sp.pi * a / R, unit, "Unit of the pressure.")
+
+
+def chi_unit() -> Routine:
+    """What c is in units of."""
+    return _unit("chi_unit", modulus / sp.pi * a**2 / R, theory.results().chi, "Unit of chi.")
+
+
+def _unit(name: str, value: sp.Expr, exact: sp.Expr, summary: str) -> Routine:
+    ratio = sp.Symbol("ratio", positive=True)
+    by_ratio = value / a * R * ratio
+    start = (Let(ratio, a / R),)
+    return routine(name, (a, R, modulus), start, (by_ratio,), (exact,), summary, MEANING)
+
+
+def pressure_points() -> Routine:
+    """Where the pressure's integral is summed."""
+    within, node, gap = sp.symbols("within node gap", positive=True)
+    t, front, _ = theory.substitution()
+    (u,) = t.free_symbols - {a, r}
+    there = {r: within * a, u: node}
+
+    def squares(expression: sp.Expr) -> sp.Expr:
+        left, right = sp.Add.make_args(expression)
+        return sp.expand(left**2 - right**2)
+
+    return routine(
+        "pressure_points",
+        (within, node),
+        (Let(gap, (1 - within) * (1 + within)),),
+        (sp.sqrt(within**2 + gap * node**2), sp.sqrt(gap)),
+        tuple(value.subs(there) / a for value in (t, front)),
+        "t/a where the pressure at r/a is summed, and the front of that sum.",
+        {},
+        squares,
+    )
+
+
+ROUTINES = (
+    wave,
+    wall_wave,
+    paraboloid,
+    sphere,
+    contact_results,
+    chi_unit,
+    pressure_unit,
+    pressure_points,
+)

@@ -17,7 +17,7 @@ in a thin plate, is split off: it adds N(0, 0) P/(2 E*) to the indentation. The 
 like more curvature of the sphere, so that a thin plate's pressure has a shape of a/h alone.
 
 Arithmetic: the equation's matrix from products of the kernel's waves, sums by Gauss' rule, and
-units: lengths over h or b, chi over E* a^2/(pi R).
+units: lengths over h or b.
 """
 
 from typing import NamedTuple
@@ -34,6 +34,7 @@ from generated.pressure_numbers import (
     FIRST,
     MODES,
     NODES,
+    SQUARE,
     THIN,
     WALL,
     WALL_WEIGHTS,
@@ -130,7 +131,7 @@ def plate(h: float, b: float) -> Plate:
     if eta * THIN < 1.0:
         _, cubic = _bending(np.array(1.0 / eta))
         # k h = 3/2 c_1 + 15/2 c_3 A^2 + the integral of cos - 1 + (A T/2)^2/2.
-        square = CUBIC * float(cubic) + 0.5 * float(WAVE_WEIGHTS @ WAVES**2)
+        square = CUBIC * float(cubic) + SQUARE
         none = np.zeros(0)
         return Plate(h, b, h, first, square, WAVES, WAVE_WEIGHTS, none, none)
     count = int(FADED / (2.0 * np.pi * eta)) + 2
@@ -209,27 +210,15 @@ def contact(
 def _contact(plate: Plate, found: _Solution, given: tuple[Double, ...]) -> Contact:
     """From units of the half-space to those of the arguments."""
     a, R, modulus, own, compliance = given
-    stiff = 2.0 * modulus * a
-    constant = plate.first * (a / plate.unit) * (modulus / own)
-    series = constant + stiff * compliance
-    depth = a * (a / R)
-    force = stiff * depth * found.force
-    centre = modulus / np.pi * (a / R) * (found.bends[..., :-1] @ WEIGHTS)
-    stiffness = stiff / (1.0 / found.flat + series)
-    slope = a / R * found.bends[..., -1] / found.edge * (1.0 + found.flat * series)
-    chi = found.chi * (modulus / np.pi * depth)[..., None]
-    values = [
-        a,
-        force,
-        depth * (found.depth + found.force * series),
-        stiffness,
-        slope,
-        stiff * depth * depth * 0.5 * (found.work + found.force**2 * series),
-        centre,
-        2.0 / np.pi * modulus * (a / R) * found.force,
-    ]
-    closed = centre > 0
-    arrays = [np.where(closed, x, np.nan) for x in values]
+    centre = found.bends[..., :-1] @ WEIGHTS
+    edge, bend = found.edge, found.bends[..., -1]
+    values = kernels.contact_results(
+        a, R, modulus, own, compliance, np.asarray(plate.first), np.asarray(plate.unit),
+        found.force, found.depth, found.work, found.flat, edge, bend, centre,
+    )  # fmt: skip
+    chi = found.chi * kernels.chi_unit(a, R, modulus)[..., None]
+    closed = values[5] > 0
+    arrays = [np.where(closed, x, np.nan) for x in (a, *values)]
     nodes = a[..., None] * NODES
     wide = [np.where(closed[..., None], x, np.nan) for x in (nodes, chi)]
     return Contact(*arrays, *wide)
@@ -333,13 +322,12 @@ def pressure(
     transform = _transform(_waves(plate, radius, points, share), solution.chi)
     square = 2.0 * plate.square * (radius / plate.unit) ** 3 * share * solution.force
     ratio = np.ravel(r) / float(a)
-    gap = (1.0 - ratio) * (1.0 + ratio)
     result = np.empty(ratio.size)
     for start in range(0, ratio.size, _BLOCK):
         part = slice(start, start + _BLOCK)
-        x = np.sqrt(ratio[part, None] ** 2 + gap[part, None] * NODES**2)
+        x, front = kernels.pressure_points(ratio[part, None], NODES)
         waves = _waves(plate, radius, x.reshape(1, -1), share)
         _, bend = _profile(x, np.asarray(a / R), sphere)
         bends = bend - _bends(waves, transform).reshape(x.shape) + square
-        result[part] = np.sqrt(gap[part]) * (bends @ WEIGHTS)
-    return (modulus / np.pi * (a / R) * result.reshape(r.shape))[()]
+        result[part] = front[:, 0] * (bends @ WEIGHTS)
+    return (kernels.pressure_unit(*map(np.asarray, (a, R, modulus))) * result.reshape(r.shape))[()]

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 from derivation.engine.emit.copies import NO_NOTES
 from derivation.engine.emit.package import Numbers, Routines, Shape
+from derivation.mathematics.bessel.kernels import RUNTIME, bessel_numbers
 from derivation.plate.subjects import handed_in
 
 
@@ -123,6 +124,14 @@ def template_modules() -> tuple[TemplateModule, ...]:
     return tuple(module for module in _modules() if isinstance(module, TemplateModule))
 
 
+MATHEMATICS: tuple[SubjectModule, ...] = (
+    ComputedModule("bessel_numbers", bessel_numbers),
+    RuntimeModule("bessel", RUNTIME / "bessel.py"),
+)
+"""Modules of what papers share."""
+
+
 def _modules() -> Iterator[SubjectModule]:
+    yield from MATHEMATICS
     for modules in handed_in("kernels", "MODULES"):
         yield from modules

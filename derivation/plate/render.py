@@ -27,10 +27,8 @@ from derivation.engine.emit.share import expect_growth, shares
 from derivation.engine.formula.record import Record
 from derivation.engine.rewrite.form import Form
 from derivation.engine.rewrite.sections import sections
-from derivation.mathematics.bessel.kernels import bessel_context
 from derivation.plate.blocks import blocks
 from derivation.plate.budgets import read_budgets, read_printed_share, read_promises
-from derivation.plate.contact.kernels.moments import moment_context
 from derivation.plate.contact.kernels.tables import (
     contact_context,
     impact_context,
@@ -46,7 +44,6 @@ from derivation.plate.modules import (
     runtime_modules,
     template_modules,
 )
-from derivation.plate.pressure.kernels import pressure_context
 from derivation.plate.printed.contact import PRINTED
 from derivation.plate.table_rows import contact_rows, notes_of, table_rows
 from derivation.plate.vocabulary import BY_NAME, arguments_of
@@ -106,8 +103,6 @@ def modules(kernels: tuple[EmittedKernel, ...]) -> tuple[Planned, ...]:
 
     planned: list[Planned] = [
         *shared(known),
-        tables("bessel", bessel_context()),
-        tables("series_constants", moment_context()),
         own("as_printed", {"functions": printed_rows()}),
         tables("contact_series", contact_context()),
         tables("contact_law", {}),
@@ -119,7 +114,6 @@ def modules(kernels: tuple[EmittedKernel, ...]) -> tuple[Planned, ...]:
         *(Copy(x.name, x.file, "generated", budgets, x.notes()) for x in runtime_modules()),
         own("simple_impact", simple_impact_context()),
         own("perturbation", perturbation_context()),
-        own("non_hertzian_pressure", pressure_context() | read_promises("pressure")),
         own(
             "manifest",
             {

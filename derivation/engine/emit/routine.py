@@ -17,6 +17,8 @@ from derivation.engine.formula.proof import Proof, prove
 
 GUARDED = sp.Function("np.minimum")
 """A value held below a bound that it does not exceed where the branch counts."""
+RAISED = sp.Function("np.maximum")
+"""A value held above a bound that it is not below where the branch counts."""
 Facts = Mapping[sp.Basic, sp.Expr]
 """What symbols stand for, or are equal to on one side of a choice."""
 
@@ -33,6 +35,8 @@ class Let:
         The claim holds whatever this is, such as a common scale.
     means
         What it is exactly: a lemma, proved on its own and then used.
+    within
+        It has no line but is written where it is used, once, so that NumPy works in place.
     """
 
     symbol: sp.Symbol
@@ -40,6 +44,7 @@ class Let:
     comment: str = ""
     opaque: bool = False
     means: sp.Expr | None = None
+    within: bool = False
 
 
 @dataclass(frozen=True)
@@ -243,7 +248,8 @@ def _undone(
         if isinstance(s, Choice) and s.condition in taken:
             facts |= s.if_yes if taken[s.condition] else s.if_no
     label = ", ".join(f"{c if side else sp.Not(c)}" for c, side in taken.items())
-    yield label, value.replace(GUARDED, lambda v, _: v), facts
+    free = value.replace(GUARDED, lambda v, _: v).replace(RAISED, lambda v, _: v)
+    yield label, free, facts
 
 
 def text(r: Routine) -> str:
@@ -253,9 +259,13 @@ def text(r: Routine) -> str:
     returns = "Double" if len(r.results) == 1 else several
     lines = [f"def {r.name}({of}) -> {returns}:", f'    """{r.summary}"""']
     masks: dict[sp.Basic, str] = {}
+    written: dict[sp.Symbol, sp.Symbol] = {}
     for s in r.statements:
-        lines += (f"    {line}" for line in _lines(s, masks))
-    values = [to_numpy(v) for v in r.results]
+        if isinstance(s, Let) and s.within:
+            written[s.symbol] = sp.Symbol(f"({to_numpy(s.expression.xreplace(written))})")
+        else:
+            lines += (f"    {line}" for line in _lines(s, masks, written))
+    values = [to_numpy(v.xreplace(written)) for v in r.results]
     if len(values) == 1:
         lines += [f"    value: Double = {values[0]}", "    return value"]
     else:
@@ -263,9 +273,10 @@ def text(r: Routine) -> str:
     return "\n".join(lines)
 
 
-def _lines(s: Statement, masks: dict[sp.Basic, str]) -> Iterator[str]:
+def _lines(s: Statement, masks: dict[sp.Basic, str], written: Facts) -> Iterator[str]:
     if isinstance(s, Let):
-        yield f"{s.symbol} = {to_numpy(s.expression)}" + (f"  # {s.comment}" if s.comment else "")
+        value = to_numpy(s.expression.xreplace(written))
+        yield f"{s.symbol} = {value}" + (f"  # {s.comment}" if s.comment else "")
     elif isinstance(s, Several):
         names, given = map(str, s.symbols), map(to_numpy, s.arguments)
         yield f"{', '.join(names)} = {s.name}({', '.join(given)})"

@@ -74,6 +74,12 @@ def sum_closely(*parts: Double | float) -> Double:
     return result
 
 
+def moderate(first: Double, second: Double) -> tuple[Double, Double]:
+    """Both over the power of two above the larger, so that their sums stay in range."""
+    _, power = np.frexp(np.maximum(np.abs(first), np.abs(second)))
+    return np.ldexp(first, -power), np.ldexp(second, -power)
+
+
 def tail(v: Double) -> Double:
     """What e^(-min(v, ONCE)) lacks of e^(-v), which may underflow alone: as a factor."""
     if not (v > ONCE).any():

@@ -28,6 +28,7 @@ from derivation.plate.impact.theory.substitution import slope_law
 from derivation.plate.modes.theory.influence import influence_coefficients
 from derivation.plate.modes.theory.plate_factor import plate_factors
 from derivation.plate.pressure.theory.bound import pressure_bound
+from derivation.plate.pressure.theory.results import results, substitution
 from derivation.plate.vocabulary import (
     J1,
     Formula,
@@ -331,4 +332,6 @@ def true_pressure() -> tuple[Formula, ...]:
     """The formulas of this link, what they rest on proved with them."""
     profiles()
     motion_of_the_edge()
+    results()
+    substitution()
     return (*kernel(), *at_given_force(), *pressure_bound())

@@ -1,129 +1,60 @@
-{% import "macros.j2" as macros with context %}
 """Bessel functions J0 and J1, their zeros, and J1 at the zeros of J0, in NumPy alone.
 
-Up to x = {{ asymptotic_start }}: Taylor polynomials of degree {{ degree }}. Every zero of J0 and of J1 is
-one of their centres, held as a sum of two doubles, so that the value keeps its
-digits right up to the zero. Beyond: modulus and phase,
+Up to ASYMPTOTIC_START: Taylor polynomials. Every zero of J0 and of J1 is one of their centres,
+held as a sum of two doubles, so that the value keeps its digits right up to the zero. Beyond:
+modulus and phase,
 
     J_nu(x) = sqrt(2 p(x) / (pi x)) sin(x +- pi/4 + s(x)),   + for J0, - for J1,
 
 p and s series in 1/x with exact rational coefficients; the multiple of pi/4
 taken off x is carried in two doubles.
+
+Arithmetic: polynomials of expansions whose coefficients are numbers computed beforehand, modulus
+and phase as above, products of doubles without rounding errors, one Newton step.
 """
-{{ header }}
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .arrays import Double, quiet, refuse_masked
+from generated.arrays import Double, in_manifest, quiet, refuse_masked, whole
+from generated.bessel_numbers import (
+    ASYMPTOTIC_START,
+    CELLS,
+    CENTRE_HIGH,
+    CENTRE_LOW,
+    EIGHT_OVER_PI2,
+    EIGHT_OVER_PI2_TAIL,
+    FIRST_MCMAHON,
+    HALF_PI,
+    INVERSE_PI,
+    INVERSE_ROOT_PI,
+    LARGEST_PHASE,
+    LOW_SLOPES,
+    LOW_ZEROS,
+    MODULUS,
+    QUARTER_PI,
+    QUARTER_PI_TAIL,
+    QUARTERS,
+    SEAMS,
+    SHIFT,
+    SLOPE_EXCESS,
+    TAYLOR,
+    ZERO_CORRECTION,
+)
 
-_ASYMPTOTIC_START = {{ asymptotic_start }}
-_LARGEST_PHASE = {{ largest_phase }}  # up to here n in n pi/4 is an exact double
 _BLOCK = 8192  # points worked on at a time, so that intermediates stay in the cache
-
-_QUARTER_PI = {{ quarter_pi }}
-_QUARTER_PI_TAIL = {{ quarter_pi_tail }}  # pi/4 less _QUARTER_PI
-_EIGHT_OVER_PI2 = {{ eight_over_pi2 }}
-_EIGHT_OVER_PI2_TAIL = {{ eight_over_pi2_tail }}  # 8/pi^2 less _EIGHT_OVER_PI2
-_HALF_PI = {{ half_pi }}
-_INVERSE_PI = {{ inverse_pi }}
-_INVERSE_ROOT_PI = {{ inverse_root_pi }}
 _SPLITTER = 134217729.0  # 2^27 + 1 halves a double's bits
-
-{% macro rationals(values) %}
-{% for value in values %}
-    {{ value }},
-{% endfor %}
-{% endmacro %}
-{% macro block(lines, indent) %}
-{% for line in lines %}
-{{ indent }}{{ line }}
-{% endfor %}
-{% endmacro %}
-# (pi x/2) (J_nu^2 + Y_nu^2) = p(x) in powers of 1/x^2.
-_MODULUS_J0 = (
-{{ rationals(modulus[0]) -}}
-)
-_MODULUS_J1 = (
-{{ rationals(modulus[1]) -}}
-)
-# x s(x) in powers of 1/x^2.
-_SHIFT_J0 = (
-{{ rationals(shift[0]) -}}
-)
-_SHIFT_J1 = (
-{{ rationals(shift[1]) -}}
-)
-# beta (j - beta), j a zero of J0 with beta = (n - 1/4) pi, of J1 with beta = (n + 1/4) pi,
-# in powers of 1/beta^2.
-_ZERO_CORRECTION_J0 = (
-{{ rationals(zero_correction[0]) -}}
-)
-_ZERO_CORRECTION_J1 = (
-{{ rationals(zero_correction[1]) -}}
-)
-# (pi beta/2) J1(j_n)^2 - 1 at the zeros of J0, the first power being 1/beta^2.
-_SLOPE_EXCESS = (
-{{ rationals(slope_excess) -}}
-)
-_MODULUS = (_MODULUS_J0, _MODULUS_J1)
-_SHIFT = (_SHIFT_J0, _SHIFT_J1)
-_ZERO_CORRECTION = (_ZERO_CORRECTION_J0, _ZERO_CORRECTION_J1)
-_QUARTERS = ({{ quarters | join(", ") }})  # beta = (4 n + quarters) pi/4
-_FIRST_MCMAHON = ({{ first_mcmahon | join(", ") }})  # number of the first zero by the expansion
-
-# fmt: off
-# The zeros of J0 below number {{ first_mcmahon[0] }}, of J1 below number {{ first_mcmahon[1] }}.
-_LOW_ZEROS_J0 = np.array((
-{{ block(low_zeros[0], "    ") -}}
-))
-_LOW_ZEROS_J1 = np.array((
-{{ block(low_zeros[1], "    ") -}}
-))
-# J1 at the zeros of J0 below number {{ first_mcmahon[0] }}.
-_LOW_SLOPES = np.array((
-{{ block(low_slopes, "    ") -}}
-))
-# Where the interval of each centre begins, in multiples of 1/{{ cells }}.
-_SEAMS = np.array((
-{{ block(seams, "    ") -}}
-))
-# Centres, each high + low.
-_CENTRE_HIGH = np.array((
-{{ block(centres_high, "    ") -}}
-))
-_CENTRE_LOW = np.array((
-{{ block(centres_low, "    ") -}}
-))
-# Taylor coefficients about each centre, constant term first.
-_TAYLOR_J0 = (
-{% for row in taylor[0] %}
-    (
-{{ block(row, "        ") -}}
-{{ "    )," }}
-{% endfor %}
-)
-_TAYLOR_J1 = (
-{% for row in taylor[1] %}
-    (
-{{ block(row, "        ") -}}
-{{ "    )," }}
-{% endfor %}
-)
-# fmt: on
-_LOW_ZEROS = (_LOW_ZEROS_J0, _LOW_ZEROS_J1)
 # By power, the highest first: each line then holds one coefficient of all centres.
-_TAYLOR = tuple(
-    np.array(table).T[::-1].copy() for table in (_TAYLOR_J0, _TAYLOR_J1)
-)
-_CENTRE_OF_CELL = (
-    np.searchsorted(_SEAMS, np.arange(int({{ cells }} * _ASYMPTOTIC_START)) / {{ cells }}, "right") - 1
-)
+_TAYLOR = tuple(np.array(table).T[::-1].copy() for table in TAYLOR)
+_CELLS = np.arange(int(CELLS * ASYMPTOTIC_START)) / CELLS
+_CENTRE_OF_CELL = np.searchsorted(SEAMS, _CELLS, "right") - 1
+_HIGH, _LOW = np.array(CENTRE_HIGH), np.array(CENTRE_LOW)
 
 
+@in_manifest("J_0(x)", kernel=True)
 @quiet
 def bessel_j0(x: ArrayLike) -> np.ndarray:
-    """Bessel function of the first kind of order 0.
+    """The Bessel function of the first kind of order 0.
 
     Formula::
 
@@ -140,15 +71,17 @@ def bessel_j0(x: ArrayLike) -> np.ndarray:
         J_0(x) [1] in the shape of x; float32 for float32, else float64. NaN for NaN
         and for the infinities.
 
-{{ macros.promise(notes["bessel_j0"]) }}
+    Notes
+    -----
     The condition number is |x J_1(x)/J_0(x)|.
     """
     return _evaluate(x, 0)
 
 
+@in_manifest("J_1(x)", kernel=True)
 @quiet
 def bessel_j1(x: ArrayLike) -> np.ndarray:
-    """Bessel function of the first kind of order 1.
+    """The Bessel function of the first kind of order 1.
 
     Formula::
 
@@ -165,17 +98,19 @@ def bessel_j1(x: ArrayLike) -> np.ndarray:
         J_1(x) [1] in the shape of x; float32 for float32, else float64. NaN for NaN
         and for the infinities.
 
-{{ macros.promise(notes["bessel_j1"]) }}
+    Notes
+    -----
     The condition number is |x J_0(x)/J_1(x) - 1|.
     """
     return _evaluate(x, 1)
 
 
+@in_manifest("j_n", domain="count >= 0", kernel=True)
 @quiet
 def bessel_j0_zeros(count: int) -> Double:
     """The first positive zeros of J_0, ascending.
 
-    Formula, from number {{ first_mcmahon[0] }} on (McMahon)::
+    Formula, beyond the first ten (McMahon)::
 
         j_n = beta + 1/(8 beta) - 31/(384 beta^3) + ...,   beta = (n - 1/4) pi
 
@@ -193,17 +128,16 @@ def bessel_j0_zeros(count: int) -> Double:
     ------
     ValueError
         If the count is negative or not an integer.
-
-{{ macros.promise(notes["bessel_j0_zeros"]) }}
     """
     return _zeros(count, 0)
 
 
+@in_manifest("j_{1,n}", domain="count >= 0", kernel=True)
 @quiet
 def bessel_j1_zeros(count: int) -> Double:
     """The first positive zeros of J_1, ascending; x = 0, a zero too, is not among them.
 
-    Formula, from number {{ first_mcmahon[1] }} on (McMahon)::
+    Formula, beyond the first seven (McMahon)::
 
         j_(1,n) = beta - 3/(8 beta) + 3/(128 beta^3) - ...,   beta = (n + 1/4) pi
 
@@ -221,17 +155,16 @@ def bessel_j1_zeros(count: int) -> Double:
     ------
     ValueError
         If the count is negative or not an integer.
-
-{{ macros.promise(notes["bessel_j1_zeros"]) }}
     """
     return _zeros(count, 1)
 
 
+@in_manifest("J_1(j_n)", domain="count >= 0", kernel=True)
 @quiet
 def bessel_j1_at_j0_zeros(count: int) -> Double:
-    """J_1 at the first positive zeros of J_0.
+    """Values of J_1 at the first positive zeros of J_0.
 
-    Formula, from number {{ first_mcmahon[0] }} on::
+    Formula, beyond the first ten::
 
         J_1(j_n)^2 = 2/(pi beta) (1 - 7/(48 beta^4) + ...),   beta = (n - 1/4) pi
 
@@ -250,22 +183,20 @@ def bessel_j1_at_j0_zeros(count: int) -> Double:
     ------
     ValueError
         If the count is negative or not an integer.
-
-{{ macros.promise(notes["bessel_j1_at_j0_zeros"]) }}
     """
-    count = _whole(count)
+    count = whole(count, "zeros")
     m = _mcmahon_numbers(count, 0)
-    square = 1.0 / (_QUARTER_PI * m) ** 2
-    excess = square * _polynomial(_SLOPE_EXCESS, square)
-    slope = np.sqrt(_EIGHT_OVER_PI2 * (1.0 + excess) / m)
+    square = 1.0 / (QUARTER_PI * m) ** 2
+    excess = square * _polynomial(SLOPE_EXCESS, square)
+    slope = np.sqrt(EIGHT_OVER_PI2 * (1.0 + excess) / m)
     # One Newton step for m J_1^2 = (8/pi^2) (1 + excess), its residual without rounding errors.
     slope_squared, error = _product(slope, slope)
     scaled, scaled_error = _product(m, slope_squared)
-    missing = (_EIGHT_OVER_PI2 - scaled) - scaled_error - m * error
-    missing += _EIGHT_OVER_PI2_TAIL + _EIGHT_OVER_PI2 * excess
-    slope += slope * missing / (2.0 * _EIGHT_OVER_PI2)
-    slope[_FIRST_MCMAHON[0] % 2 :: 2] *= -1.0  # even numbers
-    return np.concatenate((_LOW_SLOPES[:count], slope))
+    missing = (EIGHT_OVER_PI2 - scaled) - scaled_error - m * error
+    missing += EIGHT_OVER_PI2_TAIL + EIGHT_OVER_PI2 * excess
+    slope += slope * missing / (2.0 * EIGHT_OVER_PI2)
+    slope[FIRST_MCMAHON[0] % 2 :: 2] *= -1.0  # even numbers
+    return np.concatenate((LOW_SLOPES[:count], slope))
 
 
 def _evaluate(argument: ArrayLike, order: int) -> np.ndarray:
@@ -287,12 +218,12 @@ def _evaluate(argument: ArrayLike, order: int) -> np.ndarray:
 
 def _block(x: Double, order: int) -> Double:
     """J_order for x >= 0, each point by the method of its range."""
-    low = x < _ASYMPTOTIC_START
+    low = x < ASYMPTOTIC_START
     if low.all():
         return _taylor(x, order)
     result = np.full_like(x, np.nan)
-    middle = (x >= _ASYMPTOTIC_START) & (x <= _LARGEST_PHASE)
-    high = (x > _LARGEST_PHASE) & (x < np.inf)
+    middle = (x >= ASYMPTOTIC_START) & (x <= LARGEST_PHASE)
+    high = (x > LARGEST_PHASE) & (x < np.inf)
     for points, method in ((low, _taylor), (middle, _modulus_phase), (high, _far)):
         chosen = np.flatnonzero(points)
         if chosen.size == x.size:
@@ -303,10 +234,10 @@ def _block(x: Double, order: int) -> Double:
 
 
 def _taylor(x: Double, order: int) -> Double:
-    """Taylor polynomial about the centre nearest to x, 0 <= x < _ASYMPTOTIC_START."""
-    centre = _CENTRE_OF_CELL.take(({{ cells }} * x).astype(np.intp))
+    """Taylor polynomial about the centre nearest to x, 0 <= x < ASYMPTOTIC_START."""
+    centre = _CENTRE_OF_CELL.take((CELLS * x).astype(np.intp))
     # The first difference is exact where it cancels; the second supplies the centre's tail.
-    t = (x - _CENTRE_HIGH.take(centre)) - _CENTRE_LOW.take(centre)
+    t = (x - _HIGH.take(centre)) - _LOW.take(centre)
     table = _TAYLOR[order]
     value: Double = table[0].take(centre)
     coefficient = np.empty_like(value)
@@ -317,13 +248,13 @@ def _taylor(x: Double, order: int) -> Double:
 
 
 def _modulus_phase(x: Double, order: int) -> Double:
-    """sqrt(2 p/(pi x)) sin(x +- pi/4 + s), _ASYMPTOTIC_START <= x <= _LARGEST_PHASE."""
+    """sqrt(2 p/(pi x)) sin(x +- pi/4 + s), ASYMPTOTIC_START <= x <= LARGEST_PHASE."""
     quarter = 2.0 * order - 1.0  # J0 crosses zero near (4 k - 1) pi/4, J1 near (4 k + 1) pi/4
     inverse = 1.0 / x
     square = inverse * inverse
-    shift = inverse * _polynomial(_SHIFT[order], square)
-    modulus = np.sqrt(_polynomial(_MODULUS[order], square) / (_HALF_PI * x))
-    half_turns = np.rint(x * _INVERSE_PI - 0.25 * quarter)
+    shift = inverse * _polynomial(SHIFT[order], square)
+    modulus = np.sqrt(_polynomial(MODULUS[order], square) / (HALF_PI * x))
+    half_turns = np.rint(x * INVERSE_PI - 0.25 * quarter)
     product, rest = _times_quarter_pi(4.0 * half_turns + quarter)
     phase = (x - product) + (shift - rest)
     half = 0.5 * half_turns
@@ -333,25 +264,25 @@ def _modulus_phase(x: Double, order: int) -> Double:
 
 
 def _far(x: Double, order: int) -> Double:
-    """(sin x +- cos x)/sqrt(pi x), x > _LARGEST_PHASE, where p = 1 and s = 0 in double."""
+    """(sin x +- cos x)/sqrt(pi x), x > LARGEST_PHASE, where p = 1 and s = 0 in double."""
     wave = np.sin(x) + (1.0 - 2.0 * order) * np.cos(x)
-    value: Double = _INVERSE_ROOT_PI * wave / np.sqrt(x)
+    value: Double = INVERSE_ROOT_PI * wave / np.sqrt(x)
     return value
 
 
 def _zeros(count: int, order: int) -> Double:
     """The first positive zeros of J_order: a table, then McMahon's expansion."""
-    count = _whole(count)
+    count = whole(count, "zeros")
     beta, rest = _times_quarter_pi(_mcmahon_numbers(count, order))
     inverse = 1.0 / beta
-    rest += inverse * _polynomial(_ZERO_CORRECTION[order], inverse * inverse)
-    return np.concatenate((_LOW_ZEROS[order][:count], beta + rest))
+    rest += inverse * _polynomial(ZERO_CORRECTION[order], inverse * inverse)
+    return np.concatenate((LOW_ZEROS[order][:count], beta + rest))
 
 
 def _times_quarter_pi(n: Double) -> tuple[Double, Double]:
     """n pi/4 as the sum of two doubles."""
-    product, error = _product(n, _QUARTER_PI)
-    return product, error + n * _QUARTER_PI_TAIL
+    product, error = _product(n, QUARTER_PI)
+    return product, error + n * QUARTER_PI_TAIL
 
 
 def _product(a: Double, b: Double | float) -> tuple[Double, Double]:
@@ -371,15 +302,8 @@ def _halves(a: Double | float) -> tuple[Double | float, Double | float]:
 
 def _mcmahon_numbers(count: int, order: int) -> Double:
     """beta/(pi/4) for the zeros of J_order from the expansion's first number up to count."""
-    index = np.arange(_FIRST_MCMAHON[order], count + 1, dtype=np.float64)
-    return 4.0 * index + _QUARTERS[order]
-
-
-def _whole(count: int, what: str = "zeros") -> int:
-    """A number of zeros, or of something else, as a plain integer, refused if it is none."""
-    if not count >= 0 or count != np.floor(count) or count == np.inf:
-        raise ValueError(f"expected a number of {what}, an integer >= 0, got {count!r}")
-    return int(count)
+    index = np.arange(FIRST_MCMAHON[order], count + 1, dtype=np.float64)
+    return 4.0 * index + QUARTERS[order]
 
 
 def _polynomial(coefficients: tuple[float, ...], variable: Double) -> Double:

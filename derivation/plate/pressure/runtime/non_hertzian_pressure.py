@@ -15,60 +15,38 @@ for a thick plate over its modes, w = j_n/b, and the side wall, w = i y/b with n
 thin one over the nodes of an integral, with a multiple of t^2 + s^2 besides. N(0, 0), large
 in a thin plate, is split off: it adds N(0, 0) P/(2 E*) to the indentation. The t^2 + s^2 acts
 like more curvature of the sphere, so that a thin plate's pressure has a shape of a/h alone.
+
+Arithmetic: the equation's matrix from products of the kernel's waves, sums by Gauss' rule, and
+units: lengths over h or b.
 """
-{{ header }}
 
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .arrays import Double, as_doubles, inside, quiet
-from .contact_series import THICKEST, THINNEST, _bending, _weights, plates_of
+from generated import pressure_kernels as kernels
+from generated.arrays import Double, as_doubles, inside, quiet
+from generated.contact_series import THICKEST, THINNEST, _bending, _weights, plates_of
+from generated.pressure_numbers import (
+    CUBIC,
+    FADED,
+    FIRST,
+    MODES,
+    NODES,
+    SQUARE,
+    THIN,
+    WALL,
+    WALL_WEIGHTS,
+    WAVE_WEIGHTS,
+    WAVES,
+    WEIGHTS,
+    WIDEST,
+    WIDEST_SHARE,
+)
 
-THIN = {{ thin }}.0
-"""1/eta = b/h beyond which a plate is thin."""
-WIDEST = {{ widest }}.0
-"""Largest a/h."""
-WIDEST_SHARE = {{ widest_share }}
-"""Largest a/b: the kernel is singular at the edge."""
-ERROR = {{ error }}
-"""Relative error of every result: a promise that tests hold against an oracle, no proof.
-
-The pressure's is of its mean, all others' are their own."""
-
-{% macro row(lines) %}
-{% for line in lines %}
-    {{ line }}
-{% endfor %}
-{% endmacro %}
-# fmt: off
-# Collocation: t/a, weights of int_0^1 of an even function.
-_NODES = np.array((
-{{ row(nodes_places) -}}
-))
-_WEIGHTS = np.array((
-{{ row(nodes_weights) -}}
-))
-# Thin plate: w h = T/2, and (G(T) - 1)/pi dT.
-_WAVES = np.array((
-{{ row(waves_places) -}}
-))
-_WAVE_WEIGHTS = np.array((
-{{ row(waves_weights) -}}
-))
-# Side wall: y, and (4/pi^2) K0/I0 e^(2y) dy.
-_WALL = np.array((
-{{ row(wall_places) -}}
-))
-_WALL_WEIGHTS = np.array((
-{{ row(wall_weights) -}}
-))
-# fmt: on
-_POINTS = np.append(_NODES, 1.0)
-_FADED = {{ faded }}.0  # modes count up to T = 2 eta j_n
+_POINTS = np.append(NODES, 1.0)
 _BLOCK = 8  # contacts worked on at a time, so that intermediates stay in the cache
-_LOW = 1e-3  # up to here sinh(x)/x is 1 + x^2/6, to 1e-14
 
 
 class Plate(NamedTuple):
@@ -149,17 +127,17 @@ def plate(h: float, b: float) -> Plate:
         none = np.zeros(0)
         return Plate(np.nan, np.nan, np.nan, np.nan, np.nan, none, none, none, none)
     eta = h / b
-    first = 1.5 * float(plates_of(np.array([eta])).first.coefficients[0, 0])
+    first = FIRST * float(plates_of(np.array([eta])).first.coefficients[0, 0])
     if eta * THIN < 1.0:
         _, cubic = _bending(np.array(1.0 / eta))
         # k h = 3/2 c_1 + 15/2 c_3 A^2 + the integral of cos - 1 + (A T/2)^2/2.
-        square = 7.5 * float(cubic) + 0.5 * float(_WAVE_WEIGHTS @ _WAVES**2)
+        square = CUBIC * float(cubic) + SQUARE
         none = np.zeros(0)
-        return Plate(h, b, h, first, square, _WAVES, _WAVE_WEIGHTS, none, none)
-    count = int(_FADED / (2.0 * np.pi * eta)) + 2
+        return Plate(h, b, h, first, square, WAVES, WAVE_WEIGHTS, none, none)
+    count = int(FADED / (2.0 * np.pi * eta)) + 2
     zeros, weights = _weights(np.asarray(eta), count)
-    modes = 4.0 / np.pi * weights
-    return Plate(h, b, b, first / eta, 0.0, zeros, modes, _WALL, _WALL_WEIGHTS)
+    modes = MODES * weights
+    return Plate(h, b, b, first / eta, 0.0, zeros, modes, WALL, WALL_WEIGHTS)
 
 
 @quiet
@@ -185,7 +163,7 @@ def contact(
     plate : Plate
         of `plate`
     a : array_like
-        contact radius [m]; 0 < a <= {{ widest_share }} b, a <= {{ widest }} h, a < R
+        contact radius [m]; 0 < a <= 0.95 b, a <= 7 h, a < R
     R : array_like
         sphere radius [m]; R > 0
     modulus : array_like
@@ -206,8 +184,9 @@ def contact(
 
     Notes
     -----
-    Relative errors are below `ERROR`, measured against an oracle from h/b = 1e-4 to 1e5: 1e-15
-    up to a = h, 7e-14 near a = 6 h, where next to nothing of the pressure is left at the centre.
+    Relative errors are below `pressure_numbers.ERROR`, measured against an oracle from h/b = 1e-4
+    to 1e5: 1e-15 up to a = h, 7e-14 near a = 6 h, where next to nothing of the pressure is left
+    at the centre.
     """
     own = modulus if plate_modulus is None else plate_modulus
     _, given = as_doubles(a, R, modulus, own, compliance)
@@ -217,7 +196,7 @@ def contact(
     a, R, modulus, own = inside([a, R, modulus, own], *holds, *elastic)
     shape = a.shape
     flat = [np.ravel(x) for x in (a, R, modulus / own)]
-    sizes: tuple[tuple[int, ...], ...] = ((_NODES.size,), (), (), (), (), (), (_POINTS.size,))
+    sizes: tuple[tuple[int, ...], ...] = ((NODES.size,), (), (), (), (), (), (_POINTS.size,))
     inner = [np.empty((flat[0].size, *size)) for size in sizes]
     for start in range(0, flat[0].size, _BLOCK):
         part = slice(start, start + _BLOCK)
@@ -231,28 +210,16 @@ def contact(
 def _contact(plate: Plate, found: _Solution, given: tuple[Double, ...]) -> Contact:
     """From units of the half-space to those of the arguments."""
     a, R, modulus, own, compliance = given
-    stiff = 2.0 * modulus * a
-    constant = plate.first * (a / plate.unit) * (modulus / own)
-    series = constant + stiff * compliance
-    depth = a * (a / R)
-    force = stiff * depth * found.force
-    centre = modulus / np.pi * (a / R) * (found.bends[..., :-1] @ _WEIGHTS)
-    stiffness = stiff / (1.0 / found.flat + series)
-    slope = a / R * found.bends[..., -1] / found.edge * (1.0 + found.flat * series)
-    chi = found.chi * (modulus / np.pi * depth)[..., None]
-    values = [
-        a,
-        force,
-        depth * (found.depth + found.force * series),
-        stiffness,
-        slope,
-        stiff * depth * depth * 0.5 * (found.work + found.force**2 * series),
-        centre,
-        2.0 / np.pi * modulus * (a / R) * found.force,
-    ]
-    closed = centre > 0
-    arrays = [np.where(closed, x, np.nan) for x in values]
-    nodes = a[..., None] * _NODES
+    centre = found.bends[..., :-1] @ WEIGHTS
+    edge, bend = found.edge, found.bends[..., -1]
+    values = kernels.contact_results(
+        a, R, modulus, own, compliance, np.asarray(plate.first), np.asarray(plate.unit),
+        found.force, found.depth, found.work, found.flat, edge, bend, centre,
+    )  # fmt: skip
+    chi = found.chi * kernels.chi_unit(a, R, modulus)[..., None]
+    closed = values[5] > 0
+    arrays = [np.where(closed, x, np.nan) for x in (a, *values)]
+    nodes = a[..., None] * NODES
     wide = [np.where(closed[..., None], x, np.nan) for x in (nodes, chi)]
     return Contact(*arrays, *wide)
 
@@ -260,24 +227,13 @@ def _contact(plate: Plate, found: _Solution, given: tuple[Double, ...]) -> Conta
 def _waves(plate: Plate, a: Double, x: Double, share: Double) -> _Waves:
     """At points x = t/a of shape (contacts, points)."""
     ratio = (a / plate.unit)[:, None]
-    phase = ratio * plate.waves
-    turns = x[:, :, None] * phase[:, None, :]
-    rise = ratio * plate.rises
-    grown = x[:, :, None] * rise[:, None, :]
-    # (cosh - 1) and sinh/(.) times e^-y, of exponents that are not positive.
-    half = 0.5 * (np.exp(0.5 * (grown - plate.rises)) - np.exp(-0.5 * (grown + plate.rises)))
-    upper, lower = np.exp(grown - plate.rises), np.exp(-grown - plate.rises)
-    faded = np.exp(-plate.rises)
-    chord = (upper - lower) / (2.0 * np.maximum(grown, _LOW))
-    sinch = np.where(grown > _LOW, chord, faded * (1.0 + grown**2 / 6.0))
-    rises = np.concatenate((2.0 * np.sin(0.5 * turns) ** 2, -2.0 * half**2), axis=2)
-    bends = np.concatenate(
-        ((phase**2)[:, None, :] * np.sinc(turns / np.pi), -(rise**2)[:, None, :] * sinch), axis=2
-    )
+    points, phase, rise = x[:, :, None], ratio * plate.waves, ratio * plate.rises
+    waves = kernels.wave(points, phase[:, None, :])
+    walls = kernels.wall_wave(points, rise[:, None, :], plate.rises)
+    rises, bends = (np.concatenate(pair, axis=2) for pair in zip(waves, walls, strict=True))
+    faded = np.concatenate((np.ones(plate.waves.size), np.exp(-plate.rises)))
     weights = np.concatenate((ratio * plate.wave_weights, -ratio * plate.rise_weights), axis=1)
-    return _Waves(
-        rises, bends, weights * share[:, None], np.concatenate((np.ones(plate.waves.size), faded))
-    )
+    return _Waves(rises, bends, weights * share[:, None], faded)
 
 
 def _solve(plate: Plate, a: Double, R: Double, share: Double, sphere: bool) -> _Solution:
@@ -290,33 +246,31 @@ def _solve(plate: Plate, a: Double, R: Double, share: Double, sphere: bool) -> _
     kernel = weighted @ np.swapaxes(waves.rises[:, :-1], 1, 2)
     kernel -= alone[:, :, None] + alone[:, None, :-1]
     kernel = np.where(np.isfinite(kernel), kernel, 0.0)
-    system = np.eye(_NODES.size) + kernel[:, :-1] * _WEIGHTS
+    system = np.eye(NODES.size) + kernel[:, :-1] * WEIGHTS
     profile, bend = _profile(x, (a / R)[:, None], sphere)
     sides = np.stack((np.ones_like(profile), profile), axis=2)
     inner = np.linalg.solve(system, sides[:, :-1])
-    ends = sides[:, -1] - (kernel[:, -1:] * _WEIGHTS @ inner)[:, 0]
+    ends = sides[:, -1] - (kernel[:, -1:] * WEIGHTS @ inner)[:, 0]
     psi, omega = inner[:, :, 0], inner[:, :, 1]
     depth = ends[:, 1] / ends[:, 0]
     chi = depth[:, None] * psi - omega
-    force = chi @ _WEIGHTS
-    work = (chi * (depth[:, None] - profile[:, :-1])) @ _WEIGHTS
+    force = chi @ WEIGHTS
+    work = (chi * (depth[:, None] - profile[:, :-1])) @ WEIGHTS
     bends = bend - _bends(waves, _transform(waves, chi)) + 2.0 * (square * force)[:, None]
-    return _Solution(chi, force, depth, work, psi @ _WEIGHTS, ends[:, 0], bends)
+    return _Solution(chi, force, depth, work, psi @ WEIGHTS, ends[:, 0], bends)
 
 
 def _profile(x: Double, c: Double, sphere: bool) -> tuple[Double, Double]:
     """f R/a^2 and its slope by x over x, c = a/R."""
-    if not sphere:
-        return x * x + 0.0 * c, 2.0 + 0.0 * x * c
-    y = c * x
-    share = np.arctanh(y) / y
-    return x * x * share, share + 1.0 / ((1.0 - y) * (1.0 + y))
+    if sphere:
+        return kernels.sphere(x, c)
+    return kernels.paraboloid(x, np.ones_like(x * c))
 
 
 def _transform(waves: _Waves, chi: Double) -> Double:
     """int_0^1 chi cos(w a x) dx, scaled as the waves are."""
-    weighted = (chi * _WEIGHTS)[:, None, :]
-    near = waves.rises[:, : _NODES.size]
+    weighted = (chi * WEIGHTS)[:, None, :]
+    near = waves.rises[:, : NODES.size]
     whole: Double = weighted.sum(axis=2) * waves.faded - (weighted @ near)[:, 0]
     return whole
 
@@ -368,13 +322,12 @@ def pressure(
     transform = _transform(_waves(plate, radius, points, share), solution.chi)
     square = 2.0 * plate.square * (radius / plate.unit) ** 3 * share * solution.force
     ratio = np.ravel(r) / float(a)
-    gap = (1.0 - ratio) * (1.0 + ratio)
     result = np.empty(ratio.size)
     for start in range(0, ratio.size, _BLOCK):
         part = slice(start, start + _BLOCK)
-        x = np.sqrt(ratio[part, None] ** 2 + gap[part, None] * _NODES**2)
+        x, front = kernels.pressure_points(ratio[part, None], NODES)
         waves = _waves(plate, radius, x.reshape(1, -1), share)
         _, bend = _profile(x, np.asarray(a / R), sphere)
         bends = bend - _bends(waves, transform).reshape(x.shape) + square
-        result[part] = np.sqrt(gap[part]) * (bends @ _WEIGHTS)
-    return (modulus / np.pi * (a / R) * result.reshape(r.shape))[()]
+        result[part] = front[:, 0] * (bends @ WEIGHTS)
+    return (kernels.pressure_unit(*map(np.asarray, (a, R, modulus))) * result.reshape(r.shape))[()]

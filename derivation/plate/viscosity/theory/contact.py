@@ -1,4 +1,4 @@
-"""Link 24: a viscous contact, how much of the speed it takes and what it can change at most.
+"""Link 24: a viscous contact, and how much of the speed it takes.
 
 Kuwabara and Kono (1987), Brilliantov et al. (1996): the indentation of the half-space lags the
 force, P = P_e + A_v dP_e/dt, A_v a retardation time, and the contact ends with P = 0, for it
@@ -9,26 +9,8 @@ epsilon(s) = A_v P_e'(z) s/P_e,
                                            phi' = Omega (1 + epsilon sin(phi) cos(phi)),
                                            P = m Omega rho (sin(phi) + epsilon cos(phi)).
 
-The impact runs from phi = 0 over the turning point phi = pi/2 to tan(phi) = -epsilon. Let
-epsilon stand for its largest value below, s <= v0; n = d log P_e/d log z at its largest over
-that at the turning point; and d log Omega/d log s lie between -nu_- and nu_+. Then
-
-    at the turning point   0 <= -log(s/v0) <= (pi/4) epsilon,     as |sin phi cos phi| <= 1/2
-    in the end             0 <= -log(rho/v0) <= Lambda = (pi/2) epsilon/(1 - epsilon/2)
-    largest force          P_e(s) <= P <= P_m sqrt(1 + epsilon^2)
-    restitution            1 >= e >= exp(-Lambda)/sqrt(1 + epsilon^2)
-    contact time, over     exp(nu_+ Lambda)/(1 - epsilon/2)
-      that without         (1 - n epsilon/2) exp(-nu_- Lambda)/(1 + epsilon/2)
-
-where the elastic motion from tan(phi) = -epsilon on, left out, has z <= n_z A_v |v| to go and
-lasts n_z A_v at most, while the whole lasts 2 delta_m/v0 at least. Proved for a half-space
-without weight; with a plate, whose bending is elastic, epsilon is taken of the whole law.
-The weight, sinking by delta_m, makes the largest U that of the sphere times u > 1. Of this the
-same share is lost, so that e^2 >= 1 - u (1 - exp(-2 Lambda)/(1 + epsilon^2)); and what sinks less
-than it rises, z <= n_z A_v |v| at the end, may leave faster: e^2 <= 1 + (u - 1) n epsilon.
-The time of a sphere that rises against its weight grows like what it lost of its speed, by which
-its bound is widened. What is said of the end takes epsilon(s) and P_e to fall with s, P_e
-convex; with weight and plates these are no proofs, and random scenes hold them.
+The impact runs from phi = 0 over the turning point phi = pi/2 to tan(phi) = -epsilon. What it
+can change at most is in `bounds`.
 """
 
 from functools import cache
@@ -42,8 +24,15 @@ from derivation.plate.modes.theory.influence import PLANE_STRAIN_MODULUS
 from derivation.plate.vocabulary import Formula, R, m, v0, viscous_time, x_v
 
 _FIFTH = sp.Rational(1, 5)
-_s, _v, _Omega, _e, _phi, _rho = sp.symbols("s v Omega epsilon phi rho", positive=True)
+epsilon, phi = sp.symbols("epsilon phi", positive=True)
+_s, _v, _Omega, _rho = sp.symbols("s v Omega rho", positive=True)
 _K, _z = sp.symbols("K z", positive=True)
+
+
+def spiral() -> tuple[sp.Expr, sp.Expr, sp.Expr]:
+    """rho'/(Omega rho), phi'/Omega and P/(m Omega rho), in epsilon and phi."""
+    turning = 1 + epsilon * sp.sin(phi) * sp.cos(phi)
+    return -epsilon * sp.cos(phi) ** 2, turning, sp.sin(phi) + epsilon * sp.cos(phi)
 
 
 @cache
@@ -51,24 +40,20 @@ def polar() -> Proof:
     """The motion in the plane of s and v, in polar coordinates."""
     # m s s' = P_e v, and m v' = -(P_e + A P_e' v) with A P_e' = epsilon P_e/s.
     rate_s = _Omega * _v
-    rate_v = -_Omega * _s - _e * _Omega * _v
-    there = {_s: _rho * sp.sin(_phi), _v: _rho * sp.cos(_phi)}
+    rate_v = -_Omega * _s - epsilon * _Omega * _v
+    there = {_s: _rho * sp.sin(phi), _v: _rho * sp.cos(phi)}
 
     def on_circle(x: sp.Expr) -> sp.Expr:
-        return sp.expand(sp.expand(x.subs(there)).subs(sp.sin(_phi) ** 2, 1 - sp.cos(_phi) ** 2))
+        return sp.expand(sp.expand(x.subs(there)).subs(sp.sin(phi) ** 2, 1 - sp.cos(phi) ** 2))
 
-    radial = (_s * rate_s + _v * rate_v) / _rho
-    turning = (_v * rate_s - _s * rate_v) / _rho**2
-    across = _e * sp.sin(_phi) * sp.cos(_phi)
+    radial, turning, force = spiral()
     return prove(
         "Viscous contact in polar coordinates",
         "s' = Omega v and v' = -Omega (s + epsilon v) with s = rho sin phi, v = rho cos phi.",
         {
-            "radius": on_circle(radial + _e * _Omega * _rho * sp.cos(_phi) ** 2),
-            "angle": on_circle(turning - _Omega * (1 + across)),
-            "quarter": sp.integrate(sp.cos(_phi) ** 2, (_phi, 0, sp.pi / 2)) - sp.pi / 4,
-            "half": sp.integrate(sp.cos(_phi) ** 2, (_phi, 0, sp.pi)) - sp.pi / 2,
-            "across": sp.expand_trig(across - _e * sp.sin(2 * _phi) / 2),
+            "radius": on_circle((_s * rate_s + _v * rate_v) / _rho**2 - _Omega * radial),
+            "angle": on_circle((_v * rate_s - _s * rate_v) / _rho**2 - _Omega * turning),
+            "force": on_circle(-rate_v - _Omega * _rho * force),
         },
     )
 
@@ -127,8 +112,8 @@ def weak_restitution() -> Formula:
     c_1, c_2, x = sp.symbols("c_1 c_2 x", positive=True)
     back = 1 + c_1 * x * (1 - c_1 * x) ** _FIFTH + c_2 * x**2
     product = sp.series((1 - c_1 * x + c_2 * x**2) * back, x, 0, 3).removeO()
-    share = _phi**_FIFTH * sp.sqrt(1 - _phi**2)  # phi -> arcsin, both halves: twice
-    loss = 2 * sp.hyperexpand(sp.integrate(share, (_phi, 0, 1)))
+    share = phi**_FIFTH * sp.sqrt(1 - phi**2)  # phi -> arcsin, both halves: twice
+    loss = 2 * sp.hyperexpand(sp.integrate(share, (phi, 0, 1)))
     loss *= sp.Rational(4, 5) ** sp.Rational(2, 5)
     proof = prove(
         "Weakly viscous restitution",
@@ -148,11 +133,6 @@ def weak_restitution() -> Formula:
         ("viscous_number",),
         proof,
     )
-
-
-def viscosity() -> tuple[Formula, ...]:
-    """The formulas of the link."""
-    return viscous_number(), weak_restitution()
 
 
 def loss_ball(digits: int = 20) -> flint.arb:

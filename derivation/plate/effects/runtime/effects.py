@@ -1,45 +1,21 @@
-{% import "macros.j2" as macros with context %}
 """What single effects add to the contact law, apart from the others, and bounds of it.
 
 Depth and slope are a part of F and of S, where at equal force, a being Hertz's radius::
 
     delta = (a^2/R) (1 + F),   d delta/da = (2a/R) S
+
+Arithmetic: the side wall's power series, whose coefficients are numbers computed beforehand.
 """
-{{ header }}
 
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .arrays import Double, as_doubles, as_result, inside, quiet
-from .contact_law import _modulus
-from .ranges import product, root_factors
-
-{% macro rows(lines) %}
-{% for line in lines %}
-    {{ line }}
-{% endfor %}
-{% endmacro %}
-# fmt: off
-_ARC = (
-{{ rows(arc) -}}
-)
-_WALL_DEPTH = (
-{{ rows(wall_depth) -}}
-)
-_WALL_SLOPE = (
-{{ rows(wall_slope) -}}
-)
-# fmt: on
-_NEAR = {{ near }}  # (a/R)^2 up to which the series is summed
-
-WALL_LINEAR, WALL_CUBIC = {{ wall_linear }}, {{ wall_rest }}
-"""The side wall takes at most WALL_LINEAR alpha + WALL_CUBIC alpha^3 from S, alpha = a/b < 1."""
-PRESSURE_WALL = {{ pressure_wall }}
-"""What the side wall adds, times (a/b)^3, to theta, which bounds what Hertz's pressure changes."""
-WALL_GROWTH = {{ wall_growth }}
-"""And (s^2 - 1) WALL_GROWTH alpha^3 more if the radius grows from a to s a, s alpha < 1."""
+from generated import effect_kernels as kernels
+from generated.arrays import as_doubles, as_result, in_manifest, inside, quiet
+from generated.blocks import polynomial
+from generated.effect_numbers import WALL_DEPTH, WALL_SLOPE
 
 
 class Sphere(NamedTuple):
@@ -57,6 +33,7 @@ class Share(NamedTuple):
     slope: np.ndarray
 
 
+@in_manifest("", equation="7", domain="a_over_R >= 0, a_over_R < 1")
 @quiet
 def sphere_contact(a_over_R: ArrayLike) -> Sphere:
     """Force, indentation and its slope of a sphere over those of a paraboloid.
@@ -76,21 +53,14 @@ def sphere_contact(a_over_R: ArrayLike) -> Sphere:
     Sphere
         P/((4/3) E* a^3/R), delta R/a^2 and (R/2a) d delta/da [1], a being the contact radius
         itself, in the argument's shape; NaN outside the domain.
-
-{{ macros.promise(notes["sphere_contact"]) }}
     """
     kind, [a_over_R] = as_doubles(a_over_R)
     [a_over_R] = inside([a_over_R], a_over_R >= 0, a_over_R < 1)
-    t = a_over_R * a_over_R
-    near = np.minimum(t, _NEAR)
-    far = np.maximum(a_over_R, np.sqrt(_NEAR))
-    arc = np.where(t < _NEAR, _sum(_ARC, near), (np.arctanh(far) - far) / (far * far * far))
-    depth = 1.0 + t * arc
-    force = 0.75 * (1.0 + (1.0 + t) * arc)
-    slope = 0.5 * (depth + 1.0 / ((1.0 - a_over_R) * (1.0 + a_over_R)))
-    return Sphere(*(as_result(x, kind) for x in (force, depth, slope)))
+    values = kernels.sphere_over_paraboloid(a_over_R)
+    return Sphere(*(as_result(x, kind) for x in values))
 
 
+@in_manifest("W", equation="6", domain="alpha >= 0, alpha < 1")
 @quiet
 def side_wall(alpha: ArrayLike) -> Share:
     """What the plate's finite radius adds, of Hertz's pressure and the paper's edge.
@@ -108,16 +78,15 @@ def side_wall(alpha: ArrayLike) -> Share:
     -------
     Share
         Its part of F and of S [1], below 0, in the argument's shape; NaN outside the domain.
-
-{{ macros.promise(notes["side_wall"]) }}
     """
     kind, [alpha] = as_doubles(alpha)
     [alpha] = inside([alpha], alpha >= 0, alpha < 1)
     square = alpha * alpha
-    depth, slope = (-alpha * _sum(row, square) for row in (_WALL_DEPTH, _WALL_SLOPE))
+    depth, slope = (-alpha * polynomial(square, *row) for row in (WALL_DEPTH, WALL_SLOPE))
     return Share(as_result(depth, kind), as_result(slope, kind))
 
 
+@in_manifest("F_B", equation="6", domain="a_ratio >= 0, eta > 0")
 @quiet
 def bending(a_ratio: ArrayLike, eta: ArrayLike) -> Share:
     """What the deflection of a thin plate adds, P b^2/(8 pi D), on the paper's edge.
@@ -137,23 +106,13 @@ def bending(a_ratio: ArrayLike, eta: ArrayLike) -> Share:
     -------
     Share
         Its part of F and of S [1], in the arguments' broadcast shape; NaN outside the domain.
-
-{{ macros.promise(notes["bending"]) }}
     """
     kind, [a_ratio, eta] = as_doubles(a_ratio, eta)
     [a_ratio, eta] = inside([a_ratio, eta], a_ratio >= 0, eta > 0)
-    depth = a_ratio / (4.0 * np.pi) / eta / eta
-    return Share(as_result(depth, kind), as_result(1.5 * depth, kind))
+    return Share(*(as_result(x, kind) for x in kernels.bent_plate(a_ratio, eta)))
 
 
-def _sum(coefficients: tuple[float, ...], x: Double) -> Double:
-    """A polynomial, coefficients from the lowest power."""
-    value: Double = np.full_like(x, coefficients[-1])
-    for coefficient in coefficients[-2::-1]:
-        value = value * x + coefficient
-    return value
-
-
+@in_manifest(r"\lambda_Z", domain="R > 0, m > 0, v0 > 0, h > 0, 3 * lam > -2 * mu, mu > 0, rho > 0")
 @quiet
 def zener_number(
     R: ArrayLike,
@@ -187,17 +146,14 @@ def zener_number(
     -------
     float or ndarray
         The number [1] in the arguments' broadcast shape; NaN outside the domain.
-
-{{ macros.promise(notes["zener_number"]) }}
     """
     kind, [R, m, v0, h, lam, mu, rho] = as_doubles(R, m, v0, h, lam, mu, rho)
     [R, m, v0] = inside([R, m, v0], R > 0, m > 0, v0 > 0)
     [h, lam, mu, rho] = inside([h, lam, mu, rho], h > 0, mu > 0, 3 * lam > -2 * mu, rho > 0)
-    waves = root_factors(5, (m, m, m, R, v0))
-    mass = root_factors(2, (rho, *root_factors(5, (0.75, *_modulus(lam, mu)))))
-    return as_result(product(({{ zener }}, *waves), (h, h, *mass)), kind)
+    return as_result(kernels.zener_number_of_factors(R, m, v0, h, lam, mu, rho), kind)
 
 
+@in_manifest("T_1", domain="h > 0, b > 0, 3 * lam > -2 * mu, mu > 0, rho > 0")
 @quiet
 def bending_period(
     h: ArrayLike, b: ArrayLike, lam: ArrayLike, mu: ArrayLike, rho: ArrayLike
@@ -221,17 +177,15 @@ def bending_period(
     -------
     float or ndarray
         The period [s] in the arguments' broadcast shape; NaN outside the domain.
-
-{{ macros.promise(notes["bending_period"]) }}
     """
     kind, [h, b, lam, mu, rho] = as_doubles(h, b, lam, mu, rho)
     [h, b, lam, mu, rho] = inside(
         [h, b, lam, mu, rho], h > 0, b > 0, mu > 0, 3 * lam > -2 * mu, rho > 0
     )
-    slowness = root_factors(2, (rho,), (0.75, *_modulus(lam, mu)))
-    return as_result(product(({{ period }}, b, b, *slowness), (h,)), kind)
+    return as_result(kernels.bending_period_of_factors(h, b, lam, mu, rho), kind)
 
 
+@in_manifest("T_e", domain="h > 0, 3 * lam > -2 * mu, mu > 0, rho > 0")
 @quiet
 def echo_time(h: ArrayLike, lam: ArrayLike, mu: ArrayLike, rho: ArrayLike) -> np.ndarray:
     """Time of two echoes of a pressure wave through the thickness.
@@ -253,10 +207,7 @@ def echo_time(h: ArrayLike, lam: ArrayLike, mu: ArrayLike, rho: ArrayLike) -> np
     -------
     float or ndarray
         The time [s] in the arguments' broadcast shape; NaN outside the domain.
-
-{{ macros.promise(notes["echo_time"]) }}
     """
     kind, [h, lam, mu, rho] = as_doubles(h, lam, mu, rho)
     [h, lam, mu, rho] = inside([h, lam, mu, rho], h > 0, mu > 0, 3 * lam > -2 * mu, rho > 0)
-    slowness = root_factors(2, (rho,), (4.0, 0.25 * lam + 0.5 * mu))
-    return as_result(product((8.0, h, *slowness)), kind)
+    return as_result(kernels.echo_time_of_factors(h, lam, mu, rho), kind)

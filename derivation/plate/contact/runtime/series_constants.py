@@ -1,56 +1,34 @@
-{% import "macros.j2" as macros with context %}
 """Constants of the contact law by whole index, in NumPy alone.
 
     kappa_n = int_0^oo y^n K0(y)/I0(y) dy            the side wall's moments
     M_k     = FP int_0^oo T^(2k-4) (G(T) - 1) dT     the thin plate's finite parts
 
-Both grow like a factorial, and leave the range of doubles beyond n = {{ last_kappa }} and k = {{ last_finite_part }};
+Both grow like a factorial, and leave the range of doubles beyond n = 196 and k = 99;
 over their leading terms they tend to 1, and these ratios are given for every index: for
 low index correctly rounded, beyond from the first terms of an expansion.
+
+Arithmetic: look-up, and the expansions, whose coefficients are numbers computed beforehand.
 """
-{{ header }}
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .arrays import Double, as_doubles, as_result, quiet
-
-{% macro block(lines) %}
-{% for line in lines %}
-    {{ line }}
-{% endfor %}
-{% endmacro %}
-_FIRST_K = {{ first_k }}.0  # M_k is counted from here
-_KAPPA_START = {{ kappa_start }}.0  # from here on the expansion
-_FINITE_PART_START = {{ finite_part_start }}.0  # from here on the limit
-
-# Numerators of 1, 1/n, 1/(n (n-1)), ... in kappa_n's ratio.
-_KAPPA_STEPS = (
-{% for value in kappa_steps %}
-    {{ value }},
-{% endfor %}
+from generated.arrays import Double, as_doubles, as_result, in_manifest, quiet
+from generated.series_numbers import (
+    FINITE_PART,
+    FINITE_PART_RATIO,
+    FINITE_PART_START,
+    FIRST_K,
+    KAPPA,
+    KAPPA_RATIO,
+    KAPPA_START,
+    KAPPA_STEPS,
+    LIMIT_POLE,
+    LIMIT_RESIDUE,
 )
 
-# fmt: off
-# kappa_n, n = 0 ... {{ last_kappa }}.
-_KAPPA = np.array((
-{{ block(kappa) -}}
-))
-# kappa_n 2^(n+1)/(pi n!), n = 0 ... _KAPPA_START - 1.
-_KAPPA_RATIO = np.array((
-{{ block(kappa_ratio) -}}
-))
-# M_k, k = {{ first_k }} ... {{ last_finite_part }}.
-_FINITE_PART = np.array((
-{{ block(finite_part) -}}
-))
-# M_k 2^(2k-3)/(2k-2)!, k = {{ first_k }} ... _FINITE_PART_START - 1.
-_FINITE_PART_RATIO = np.array((
-{{ block(finite_part_ratio) -}}
-))
-# fmt: on
 
-
+@in_manifest(r"\kappa_n", domain="n >= 0", kernel=True)
 @quiet
 def kappa(n: ArrayLike) -> np.ndarray:
     """The side wall's moment kappa_n.
@@ -68,14 +46,13 @@ def kappa(n: ArrayLike) -> np.ndarray:
     -------
     float or ndarray
         kappa_n [1] in the shape of n; float32 for float32, else float64. NaN for what is
-        no such index, and for values too large for the type: n > {{ last_kappa }} in float64.
-
-{{ macros.promise(notes["kappa"]) }}
+        no such index, and for values too large for the type: n > 196 in float64.
     """
     kind, (index,) = as_doubles(n)
-    return _representable(_looked_up(_KAPPA, index), kind)
+    return _representable(_looked_up(KAPPA, index), kind)
 
 
+@in_manifest(r"2^{n+1}\kappa_n/(\pi n!)", domain="n >= 0", kernel=True)
 @quiet
 def kappa_ratio(n: ArrayLike) -> np.ndarray:
     """The side wall's moment kappa_n over its leading term for large n.
@@ -94,19 +71,18 @@ def kappa_ratio(n: ArrayLike) -> np.ndarray:
     float or ndarray
         r_n [1] in the shape of n; float32 for float32, else float64. NaN for what is no
         such index.
-
-{{ macros.promise(notes["kappa_ratio"]) }}
     """
     kind, (index,) = as_doubles(n)
-    far = (index >= _KAPPA_START) & (index == np.floor(index))
-    large = np.where(far, index, _KAPPA_START)
-    value = np.full_like(large, _KAPPA_STEPS[-1])
-    for step in range(len(_KAPPA_STEPS) - 2, -1, -1):
+    far = (index >= KAPPA_START) & (index == np.floor(index))
+    large = np.where(far, index, KAPPA_START)
+    value = np.full_like(large, KAPPA_STEPS[-1])
+    for step in range(len(KAPPA_STEPS) - 2, -1, -1):
         value /= large - step
-        value += _KAPPA_STEPS[step]
-    return as_result(np.where(far, value, _looked_up(_KAPPA_RATIO, index)), kind)
+        value += KAPPA_STEPS[step]
+    return as_result(np.where(far, value, _looked_up(KAPPA_RATIO, index)), kind)
 
 
+@in_manifest("M_k", domain="k >= 2", kernel=True)
 @quiet
 def finite_part(k: ArrayLike) -> np.ndarray:
     """The thin plate's constant M_k, a finite part in Hadamard's sense.
@@ -120,20 +96,19 @@ def finite_part(k: ArrayLike) -> np.ndarray:
     Parameters
     ----------
     k : array_like
-        index [1], whole and at least {{ first_k }}, of any shape
+        index [1], whole and at least 2, of any shape
 
     Returns
     -------
     float or ndarray
         M_k [1] in the shape of k; float32 for float32, else float64. NaN for what is no
-        such index, and for values too large for the type: k > {{ last_finite_part }} in float64.
-
-{{ macros.promise(notes["finite_part"]) }}
+        such index, and for values too large for the type: k > 99 in float64.
     """
     kind, (index,) = as_doubles(k)
-    return _representable(_looked_up(_FINITE_PART, index - _FIRST_K), kind)
+    return _representable(_looked_up(FINITE_PART, index - FIRST_K), kind)
 
 
+@in_manifest("2^{2k-3}M_k/(2k-2)!", domain="k >= 2", kernel=True)
 @quiet
 def finite_part_ratio(k: ArrayLike) -> np.ndarray:
     """The thin plate's constant M_k over its leading term for large k.
@@ -145,21 +120,19 @@ def finite_part_ratio(k: ArrayLike) -> np.ndarray:
     Parameters
     ----------
     k : array_like
-        index [1], whole and at least {{ first_k }}, of any shape and size
+        index [1], whole and at least 2, of any shape and size
 
     Returns
     -------
     float or ndarray
         rho_k [1] in the shape of k; float32 for float32, else float64. NaN for what is no
         such index.
-
-{{ macros.promise(notes["finite_part_ratio"]) }}
     """
     kind, (index,) = as_doubles(k)
-    far = (index >= _FINITE_PART_START) & (index == np.floor(index))
-    large = np.where(far, index, _FINITE_PART_START)
-    limit = 1.0 + {{ limit_residue }} / (large - {{ limit_pole }})
-    return as_result(np.where(far, limit, _looked_up(_FINITE_PART_RATIO, index - _FIRST_K)), kind)
+    far = (index >= FINITE_PART_START) & (index == np.floor(index))
+    large = np.where(far, index, FINITE_PART_START)
+    limit = 1.0 + LIMIT_RESIDUE / (large - LIMIT_POLE)
+    return as_result(np.where(far, limit, _looked_up(FINITE_PART_RATIO, index - FIRST_K)), kind)
 
 
 def _looked_up(table: Double, place: Double) -> Double:

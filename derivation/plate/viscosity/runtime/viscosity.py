@@ -1,18 +1,16 @@
-{% import "macros.j2" as macros with context %}
-"""A viscous contact, P = P_e + A_v dP_e/dt: what it takes of the speed, and what it can change."""
-{{ header }}
+"""A viscous contact, P = P_e + A_v dP_e/dt: what it takes of the speed, and what it can change.
 
-from math import expm1, inf, log1p, pi
+Arithmetic: the restitution's bound widens that of the time.
+"""
+
+from math import inf
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .arrays import as_doubles, as_result, inside, quiet
-from .contact_law import _modulus
-from .ranges import product, root_factors
-
-_LOSS = {{ loss }}  # (4/5)^(2/5) B(3/5, 3/2)
+from generated import viscosity_kernels as kernels
+from generated.arrays import as_doubles, as_result, in_manifest, inside, quiet
 
 
 class Course(NamedTuple):
@@ -43,6 +41,7 @@ class Course(NamedTuple):
     energy: float = 1.0
 
 
+@in_manifest("x", domain="R > 0, m > 0, v0 > 0, 3 * lam > -2 * mu, mu > 0, viscous_time > 0")
 @quiet
 def viscous_number(
     R: ArrayLike,
@@ -75,19 +74,16 @@ def viscous_number(
     -------
     float or ndarray
         The number [1] in the arguments' broadcast shape; NaN outside the domain.
-
-{{ macros.promise(notes["viscous_number"]) }}
     """
     kind, [R, m, v0, lam, mu, viscous_time] = as_doubles(R, m, v0, lam, mu, viscous_time)
     [R, m, v0] = inside([R, m, v0], R > 0, m > 0, v0 > 0)
     [lam, mu, viscous_time] = inside(
         [lam, mu, viscous_time], mu > 0, 3 * lam > -2 * mu, viscous_time > 0
     )
-    modulus = _modulus(lam, mu)
-    rate = root_factors(5, (*modulus, *modulus, R, v0), (m, m))
-    return as_result(product((1.5, viscous_time, *rate)), kind)
+    return as_result(kernels.viscous_number_of_factors(R, m, v0, lam, mu, viscous_time), kind)
 
 
+@in_manifest("e", domain="x_v >= 0")
 @quiet
 def restitution_weak(x_v: ArrayLike) -> np.ndarray:
     """Restitution of a weakly viscous contact, to second order.
@@ -106,13 +102,10 @@ def restitution_weak(x_v: ArrayLike) -> np.ndarray:
     float or ndarray
         The coefficient of restitution [1], in the argument's shape; NaN outside the domain. What
         follows is of order x^(5/2).
-
-{{ macros.promise(notes["restitution_weak"]) }}
     """
     kind, [x_v] = as_doubles(x_v)
     [x_v] = inside([x_v], x_v >= 0)
-    first = _LOSS * x_v
-    return as_result(1.0 + first * (0.6 * first - 1.0), kind)
+    return as_result(kernels.restitution_of_number(x_v), kind)
 
 
 def viscous_logarithms(course: Course) -> tuple[float, float, float, float, float]:
@@ -130,20 +123,16 @@ def viscous_logarithms(course: Course) -> tuple[float, float, float, float, floa
         and contact radius, and of the restitution; inf where nothing is shown: for epsilon >= 1,
         or if the weight may keep the sphere.
     """
-    epsilon, steepness, fall, rise, depth, radius, energy = course
-    early = steepness * epsilon / 2
-    if not (epsilon < 1.0 and early < 1.0):
+    epsilon, steepness, fall, rise, depth, radius, energy = map(np.asarray, course)
+    if not (epsilon < 1.0 and steepness * epsilon < 2.0):
         return inf, inf, inf, inf, inf
-    quarter = pi / 4 * epsilon
-    loss = 2 * quarter / (1 - epsilon / 2)
-    longer = rise * loss - log1p(-epsilon / 2)
-    shorter = fall * loss + log1p(epsilon / 2) - log1p(-early)
-    pull = log1p(epsilon * epsilon) / 2
-    stronger = max(pull, (1 + rise) * quarter)
-    gone = -expm1(-2 * (loss + pull)) * energy
+    along = kernels.spiral_bounds(epsilon, steepness, fall, rise, depth, radius, energy)
+    *_, gone = along
     if not gone < 1.0:
         return inf, inf, inf, inf, inf  # the weight may keep the sphere
-    leaving = max(-log1p(-gone), log1p((energy - 1) * early * 2)) / 2
+    longer, shorter, shallower, narrower, pull, weaker, _ = map(float, along)
+    leaving = float(max(kernels.rebound_bounds(gone, epsilon, steepness, energy)))
+    time = max(longer, shorter)
     if energy > 1.0:  # a slower sphere takes longer to rise against its weight
-        longer, shorter = longer + leaving, shorter + leaving
-    return max(longer, shorter), depth * quarter, stronger, radius * quarter, leaving
+        time += leaving
+    return time, shallower, max(pull, weaker), narrower, leaving

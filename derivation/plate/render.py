@@ -33,11 +33,8 @@ from derivation.plate.budgets import read_budgets, read_promises
 from derivation.plate.contact.kernels.moments import moment_context
 from derivation.plate.contact.kernels.tables import (
     contact_context,
-    impact_context,
     sensitivity_context,
 )
-from derivation.plate.impact.kernels.perturbation import perturbation_context
-from derivation.plate.impact.kernels.simple import simple_impact_context
 from derivation.plate.modes.kernels.modal_sums import MODAL_SUMS, STYLE, kernel_of_sum
 from derivation.plate.modules import (
     computed_modules,
@@ -101,14 +98,10 @@ def modules(kernels: tuple[EmittedKernel, ...]) -> tuple[Planned, ...]:
         own("as_printed", {"functions": printed_rows()}),
         tables("contact_series", contact_context()),
         tables("contact_law", {}),
-        tables("reversed_series", {}),
-        tables("impact", {**impact_context(), "promises": read_promises()}),
         tables("sensitivity", sensitivity_context()),
         *(tables(x.name, x.context(), x.folder) for x in template_modules()),
         *(x.make() for x in computed_modules()),
         *(Copy(x.name, x.file, "generated", budgets, x.notes()) for x in runtime_modules()),
-        own("simple_impact", simple_impact_context()),
-        own("perturbation", perturbation_context()),
         own("non_hertzian_pressure", pressure_context() | read_promises("pressure")),
         own(
             "manifest",

@@ -30,9 +30,10 @@ from generated.effects import (
     sphere_contact,
     zener_number,
 )
-from generated.impact import COARSE_QUADRATURE, FULL_QUADRATURE, ROUNDING, history, impact
+from generated.impact import history, impact
+from generated.impact_numbers import COARSE_QUADRATURE, FULL_QUADRATURE, ROUNDING
 from generated.sensitivity import indentation_slope
-from generated.simple_impact import Estimate, Plate, hertz, law_errors, leading, plate_of
+from generated.simple_impact import Estimate, PlateBounds, hertz, law_errors, leading, plate_of
 from generated.viscosity import Course, viscous_logarithms, viscous_number
 
 __all__ = [
@@ -45,7 +46,7 @@ __all__ = [
     "WALL_LINEAR",
     "Course",
     "Estimate",
-    "Plate",
+    "PlateBounds",
     "Sphere",
     "bending",
     "bending_period",

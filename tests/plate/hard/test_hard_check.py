@@ -44,7 +44,7 @@ def test_printed_forms_stand_beside(cases: tuple[HardCase, ...], truth: dict[str
         ("impact", "_WEIGHTS", {"impact"}),
         ("edge_kernels", "FIRST_THIRD", {"supported_edge", "supported_edge_slope"}),
         ("non_hertzian_pressure", "_WEIGHTS", {"contact"}),
-        ("simple_impact", "_THIN_LINEAR", {"plate_of"}),
+        ("simple_impact_kernels", "THIN_LINEAR", {"plate_of"}),
     ],
 )
 def test_a_tampered_constant_is_noticed(

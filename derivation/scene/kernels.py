@@ -33,7 +33,7 @@ from generated.effects import (
 from generated.impact import history, impact
 from generated.impact_numbers import COARSE_QUADRATURE, FULL_QUADRATURE, ROUNDING
 from generated.sensitivity import indentation_slope
-from generated.simple_impact import Estimate, PlateBounds, hertz, law_errors, leading, plate_of
+from generated.simple_impact import Estimate, Plate, hertz, law_errors, leading, plate_of
 from generated.viscosity import Course, viscous_logarithms, viscous_number
 
 __all__ = [
@@ -46,7 +46,7 @@ __all__ = [
     "WALL_LINEAR",
     "Course",
     "Estimate",
-    "PlateBounds",
+    "Plate",
     "Sphere",
     "bending",
     "bending_period",

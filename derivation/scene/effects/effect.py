@@ -248,11 +248,11 @@ class PlateEffect(Effect):
         raise NotImplementedError
 
 
-def plate_of(model: Model) -> kernels.PlateBounds:
+def plate_of(model: Model) -> kernels.Plate:
     """c_1, its doubt and K_3 of the plate; infinite where h/b is out of their range."""
     low, high = PLATES
     if not low < model.eta < high:
-        return kernels.PlateBounds(np.inf, np.inf, np.inf)
+        return kernels.Plate(np.inf, np.inf, np.inf)
     return kernels.plate_of(model.eta)
 
 

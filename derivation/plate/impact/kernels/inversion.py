@@ -1,4 +1,4 @@
-"""The force by the reversed series, proved: eps^2 = A^2 (1 + F), P = C sqrt(R) delta^(3/2) (...)."""
+"""The force by the reversed series, proved: eps^2 = A^2 (1 + F), P = C sqrt(R) delta^(3/2) (..)."""
 
 import sympy as sp
 
@@ -15,11 +15,10 @@ from derivation.plate.contact.theory.reversion import (
     power_series,
 )
 from derivation.plate.contact.theory.split import contact_split
-from derivation.plate.vocabulary import R, a, a_ratio, delta, h, lam, mu
+from derivation.plate.vocabulary import R, a, a_ratio, delta, h, mu
 
-n, radius, modulus, bracket, circle, F, whole = sp.symbols(
-    "n radius modulus bracket circle F whole", positive=True
-)
+n, radius, modulus, bracket, circle = sp.symbols("n radius modulus bracket circle", positive=True)
+F, whole = sp.symbols("F whole", complex=True)
 MODULUS = contact_radius().expression * R / a**3 / mu
 """(4/3) E* over mu."""
 

@@ -26,8 +26,11 @@ q, s, A, A_h, near, share, ratio = sp.symbols("q s A A_h near share ratio", posi
 lift, slope, quotient, whole, energy, rate = sp.symbols(
     "lift slope quotient whole energy rate", positive=True
 )
-value, square, inner, added, goal, known, mean, left, short, rise, modulus = sp.symbols(
-    "value square inner added goal known mean left short rise modulus", positive=True
+F, extra, by_first, square, inner, modulus = sp.symbols(
+    "F extra by_first square inner modulus", positive=True
+)
+added, goal, known, mean, left, short, rise = sp.symbols(
+    "added goal known mean left short rise", positive=True
 )
 
 
@@ -114,9 +117,9 @@ def near_quotient() -> Routine:
             Let(square, s**2),
             Let(cube, square * s),
             Let(fourth, 1 + s * (1 + s * (1 + s * (1 + s)))),
-            Let(value, first * (fourth + cube * square)),
+            Let(by_first, first * (fourth + cube * square)),
         ),
-        (2 * fourth / 5 + value + cube**2 * (1 + s) * rest,),
+        (2 * fourth / 5 + by_first + cube**2 * (1 + s) * rest,),
         (sp.Add(*(sp.Rational(n, n + 3) * weight(n) * geometric(n + 3, s) for n in NUMBERS)),),
         "(E_near - E)/((1 - s) A_near^5) by the first of the tails, and the sum of all others.",
         {
@@ -145,12 +148,12 @@ def whole_work() -> Routine:
     """E/A^5."""
     return routine(
         "whole_work",
-        (value,),
+        (extra,),
         (),
-        (value + sp.Rational(2, 5),),
+        (extra + sp.Rational(2, 5),),
         (WHOLE,),
         "E/A^5 by what the plate adds to Hertz's.",
-        {value: WHOLE - work_of_contact(0)},
+        {extra: WHOLE - work_of_contact(0)},
     )
 
 
@@ -158,12 +161,12 @@ def share_of_work() -> Routine:
     """Hertz's radius over that with the same work."""
     return routine(
         "share_of_work",
-        (value,),
+        (extra,),
         (),
-        ((1 + 5 * value / 2) ** sp.Rational(-1, 5),),
+        ((1 + 5 * extra / 2) ** sp.Rational(-1, 5),),
         ((work_of_contact(0) / WHOLE) ** sp.Rational(1, 5),),
         "A over Hertz's radius, by what the plate adds to E/A^5 at A.",
-        {value: WHOLE - work_of_contact(0)},
+        {extra: WHOLE - work_of_contact(0)},
     )
 
 
@@ -186,9 +189,9 @@ def deeper_step() -> Routine:
     plain = _in_radius(WHOLE) - work_of_contact(0)
     return routine(
         "deeper_step",
-        (share, value, slope),
+        (share, extra, slope),
         (
-            Let(whole, value + sp.Rational(2, 5)),
+            Let(whole, extra + sp.Rational(2, 5)),
             Let(square, share**2),
             Let(residual, 2 / (5 * (square * (square * share))) / whole - 1),
             Let(exponent, whole / (5 * whole + slope)),
@@ -197,7 +200,7 @@ def deeper_step() -> Routine:
         (residual, exponent * residual * (1 + inner)),
         (missing, step.subs({residual: missing, exponent: power})),
         "The work over that at A, less 1, and by what share of itself A is to grow.",
-        {share: A / A_h, value: plain, slope: A * sp.diff(plain, A)},
+        {share: A / A_h, extra: plain, slope: A * sp.diff(plain, A)},
     )
 
 
@@ -205,12 +208,12 @@ def work_density() -> Routine:
     """P d delta."""
     return routine(
         "work_density",
-        (q, value, slope),
+        (q, F, slope),
         (Let(square, q**2),),
-        (square**2 * (2 * (1 + value) + slope),),
+        (square**2 * (2 * (1 + F) + slope),),
         (q**3 * sp.diff(q**2 * lifted(q), q),),
         "P d delta/dq over C a_m^5.",
-        {value: lifted(q) - 1, slope: sloped(q)},
+        {F: lifted(q) - 1, slope: sloped(q)},
         sp.expand,
     )
 
@@ -270,12 +273,12 @@ def far_step() -> Routine:
     plain = _in_radius(lifted(sp.Integer(1))) - 1
     return routine(
         "far_step",
-        (A, goal, known, rise, value, slope),
+        (A, goal, known, rise, F, slope),
         (Let(fifth, A**5), Let(residual, (goal - known) / fifth - rise)),
-        (fifth, residual, residual / (2 * (1 + value) + slope)),
+        (fifth, residual, residual / (2 * (1 + F) + slope)),
         (A**5, claim, claim / DENSITY),
         "A^5, the work that is missing over it, and by what share of itself A is to grow.",
-        {rise: (ENERGY - known) / A**5, value: plain, slope: A * sp.diff(plain, A)},
+        {rise: (ENERGY - known) / A**5, F: plain, slope: A * sp.diff(plain, A)},
         sp.cancel,
     )
 
@@ -334,7 +337,7 @@ def peak_shares() -> Routine:
 
 def hertz_impact() -> Routine:
     """Largest radius, indentation and force on a half-space, in the range of doubles."""
-    brought = sp.Rational(5, 4), m, v0, v0
+    one, brought = sp.Integer(1), (sp.Rational(5, 4), m, v0, v0)
     radius = sp.Symbol("radius", positive=True)
     C = contact_radius().expression / a**3 / R
     fifth = m * v0**2 / 2 / (C * work_of_contact(0))
@@ -344,13 +347,12 @@ def hertz_impact() -> Routine:
     def factors(letter: str, above: tuple[sp.Expr, ...], below: tuple[sp.Expr, ...]) -> Several:
         exact = (sp.Mul(*above) / sp.Mul(*below)) ** sp.Rational(1, 5)
         names = sp.symbols(f"{letter}1:4", positive=True)
-        given = (sp.Integer(5), sp.Tuple(*above), sp.Tuple(*below))
-        one = sp.Integer(1)
+        divisors = (sp.Tuple(*below),) if below else ()
+        given = (sp.Integer(5), sp.Tuple(*above), *divisors)
         return Several(names, "root_factors", given, (exact, one, one))
 
     depth = factors("depth", brought * 2, (mu, modulus, mu, modulus, R))
-    load = factors("load", (*brought * 3, R, mu, modulus, mu, modulus), (sp.Integer(1),))
-    one = sp.Integer(1)
+    load = factors("load", (*brought * 3, R, mu, modulus, mu, modulus), ())
     return routine(
         "hertz_impact",
         (R, m, v0, mu, modulus),

@@ -49,8 +49,8 @@ class History(NamedTuple):
 @in_manifest(
     "",
     equation="13",
-    domain="m > 0, v0 > 0, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2 * mu, mu > 0, "
-    "a < R, a <= b, a <= 6 * h for the largest a",
+    domain="m > 0, v0 > 0, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, "
+    "3 * lam > -2 * mu, mu > 0, a < R, a <= b, a <= 6 * h for the largest a",
 )
 @quiet
 def impact(
@@ -115,8 +115,8 @@ def impact(
 @in_manifest(
     "",
     equation="13",
-    domain="m > 0, v0 > 0, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2 * mu, mu > 0, "
-    "a < R, a <= b, a <= 6 * h for the largest a",
+    domain="m > 0, v0 > 0, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, "
+    "3 * lam > -2 * mu, mu > 0, a < R, a <= b, a <= 6 * h for the largest a",
 )
 @quiet
 def history(
@@ -186,9 +186,7 @@ def history(
     return History(*(as_result(value.reshape(shape), kind) for value in values))
 
 
-def _state(
-    since: Double, left: Double, scenes: Scenes, owner: np.ndarray, whole: Double
-) -> Double:
+def _state(since: Double, left: Double, scenes: Scenes, owner: np.ndarray, whole: Double) -> Double:
     """Indentation, velocity, contact radius and force over their largest values.
 
     sqrt(t(w)) is inverted: t starts like w^2, and is smooth to w = 1.
@@ -228,13 +226,13 @@ def _solve(
     plates, numbers = _plates(h, b)
     given = np.broadcast_arrays(R, m, v0, h, b, lam, mu)
     [R, m, v0, h, b, lam, mu] = inside([*given], ok)
-    factor, mu, ratio = _modulus(lam, mu)
-    modulus = factor * ratio
+    factor, _, ratio = _modulus(lam, mu)
+    modulus: Double = np.multiply(factor, ratio)  # over mu
     hertz, *factors = kernels.hertz_impact(R, m, v0, mu, modulus)
     over_h = np.minimum(np.ravel(hertz / h), 1e200)  # no contact is that wide
     owner = np.ravel(np.broadcast_to(numbers, ok.shape))
     pieces = plates.first.coefficients
-    shares = kernels.work_share(2.0 * np.arange(pieces.shape[0]) + 3.0)
+    shares = kernels.work_share(np.arange(3.0, 2.0 * pieces.shape[0] + 3.0, 2.0))
     energy = Piece(pieces * shares[:, None], plates.first.middle, plates.first.half)
     share, far = np.empty(over_h.size), np.zeros(over_h.size, dtype=bool)
     for part in _parts(over_h.size, 8):
@@ -259,9 +257,7 @@ def _solve(
     return found, radius, (*factors[:3], deep), (*factors[3:], loaded), ok
 
 
-def _scaled(
-    pieces: Double, near: Double, reach: Double, shares: Double
-) -> tuple[Double, Double]:
+def _scaled(pieces: Double, near: Double, reach: Double, shares: Double) -> tuple[Double, Double]:
     """Terms and tails as of `Scenes`, from coefficients of powers of A/reach."""
     terms = pieces * near
     ratio = (near / reach) ** 2

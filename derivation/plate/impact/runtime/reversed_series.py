@@ -76,8 +76,9 @@ def force_by_series(
     for power in reversed(range(terms)):
         coefficient = np.array([row[1][power] for row in rows] or [np.nan])[owner]
         value = value * eps + coefficient
-    factor, mu, ratio = _modulus(lam, mu)
-    return as_result(kernels.force_of_bracket(delta, R, mu, factor * ratio, value), kind)
+    factor, _, ratio = _modulus(lam, mu)
+    modulus: Double = np.multiply(factor, ratio)  # over mu
+    return as_result(kernels.force_of_bracket(delta, R, mu, modulus, value), kind)
 
 
 def _reversed(plates: Plates, plate: int, terms: int) -> tuple[float, Double]:
@@ -109,11 +110,9 @@ def _reversed(plates: Plates, plate: int, terms: int) -> tuple[float, Double]:
     for k in range(min(row.size, terms // 2)):
         scaled[2 * k + 1] = row[k] * scale * (scale / reach) ** (2 * k)
     ratio = radius / scale
-    powers = np.zeros(terms)
-    for n in range(terms):
-        exponent, factor = kernels.lagrange(np.float64(n))
-        powers[n] = _power(scaled, float(exponent))[n] * factor * ratio**n
-    return radius, powers
+    exponents, factors = kernels.lagrange(np.arange(float(terms)))
+    powers = [_power(scaled, exponent)[n] for n, exponent in enumerate(exponents)]
+    return radius, np.array(powers) * factors * ratio ** np.arange(terms)
 
 
 def _power(series: Double, exponent: float) -> Double:

@@ -55,7 +55,7 @@ the contact time twice as many and those of its sum. The C library's powers, roo
 logarithms are taken to be right to two units in the last place."""
 
 
-class PlateBounds(NamedTuple):
+class Plate(NamedTuple):
     """c_1, by how much it may be wrong, and a bound of K_3."""
 
     bend: float
@@ -90,16 +90,16 @@ class _Scene(NamedTuple):
     b: float
 
 
-def plate_of(eta: float) -> PlateBounds:
+def plate_of(eta: float) -> Plate:
     """c_1 and K_3 of a plate h/b = eta, 1e-50 <= eta <= 1e50."""
     v = 1.0 / eta
     if v > THIN:
         bend, rest, roots = thin_plate(v)
         doubt = ROOTS_LINEAR * roots + 1e-14 * bend
-        return PlateBounds(bend, doubt, rest * _SLACK + ROOTS_CUBIC * roots)
+        return Plate(bend, doubt, rest * _SLACK + ROOTS_CUBIC * roots)
     counted = MODES[: bisect_right(_ZEROS, 0.5 * FADED * v)]  # T = 2 eta j_n <= FADED
     bend, size, rest, more_bend, more_rest = thick_plate(eta, counted)
-    return PlateBounds(bend, more_bend + 1e-13 * size, rest * _SLACK + more_rest)
+    return Plate(bend, more_bend + 1e-13 * size, rest * _SLACK + more_rest)
 
 
 def hertz(

@@ -22,7 +22,7 @@ from derivation.engine.emit.kernels import (
     seam_text,
 )
 from derivation.engine.emit.printer import to_numpy
-from derivation.engine.emit.routine import ARRAYS, Dialect, Routine
+from derivation.engine.emit.routine import ARRAYS, QUIET_SCALARS, Dialect, Routine
 from derivation.engine.emit.routine import text as routine_text
 from derivation.engine.emit.source import TEMPLATES, filled, format_files
 from derivation.engine.formula.record import Record
@@ -271,6 +271,8 @@ def _first_lines(printed: Sequence[str], dialect: Dialect) -> list[str]:
     lines = ["from collections.abc import Sequence"] if dialect.rows in code else []
     if dialect is ARRAYS:
         return [*lines, "import numpy as np", "", "from .arrays import Double"]
+    if dialect is QUIET_SCALARS:
+        return [*lines, "import numpy as np", ""]
     if functions := sorted(set(re.findall(r"(?<!\.)\b[a-z]+\b", code)) & set(vars(math))):
         lines.append(f"from math import {', '.join(functions)}")
     return [*lines, ""]

@@ -317,6 +317,8 @@ ARRAYS = Dialect(to_numpy, "Double")
 """NumPy's functions of arrays."""
 SCALARS = Dialect(to_math, "float")
 """Python's functions of single numbers, which are much faster on these."""
+QUIET_SCALARS = Dialect(to_numpy, "float")
+"""NumPy's functions of single numbers: they give NaN where Python's raise an error."""
 
 
 def text(r: Routine, dialect: Dialect = ARRAYS) -> str:

@@ -8,7 +8,7 @@ from derivation.plate.impact.kernels import simple, simple_laws
 from derivation.plate.impact.kernels.inversion import reversed_kernels
 from derivation.plate.impact.kernels.motion import impact_kernels
 from derivation.plate.impact.kernels.numbers import impact_numbers
-from derivation.plate.impact.kernels.perturbation import perturbation_kernels
+from derivation.plate.impact.kernels.perturbation import motion_kernels, perturbation_kernels
 from derivation.plate.modules import ComputedModule, RuntimeModule
 
 RUNTIME = Path(__file__).parents[1] / "runtime"
@@ -33,6 +33,7 @@ MODULES = (
     ComputedModule("simple_impact_numbers", simple.numbers),
     ComputedModule("simple_impact_kernels", simple_impact_kernels),
     RuntimeModule("simple_impact", RUNTIME / "simple_impact.py"),
+    ComputedModule("motion_kernels", motion_kernels),
     ComputedModule("perturbation_kernels", perturbation_kernels),
     RuntimeModule("perturbation", RUNTIME / "perturbation.py"),
 )

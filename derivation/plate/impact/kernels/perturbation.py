@@ -8,7 +8,7 @@ The radicand vanishes at s = last; s = last x^3, x = 1 - u^2 makes the integrals
 import sympy as sp
 
 from derivation.engine.emit.package import Routines
-from derivation.engine.emit.routine import Facts, Let, Routine, routine
+from derivation.engine.emit.routine import QUIET_SCALARS, Facts, Let, Routine, routine
 from derivation.plate.contact.theory.divergence import printed_term
 from derivation.plate.contact.theory.hertz import contact_radius
 from derivation.plate.contact.theory.law import contact_law
@@ -211,15 +211,13 @@ def coefficients() -> Routine:
     )
 
 
-ROUTINES = (
-    linear,
+ROUTINES = linear, integrands, shares
+OF_ONE_MOTION = (
     turning_point,
     excess_at_turn,
     end_of_radicand,
     cosine_at_end,
-    integrands,
     radius_cubed,
-    shares,
     coefficients,
 )
 
@@ -228,3 +226,10 @@ def perturbation_kernels() -> Routines:
     """The paper's own motion, printed from proven expressions."""
     title = "The paper's own motion, (10) and (14) to (18)."
     return Routines("perturbation_kernels", title, tuple(make() for make in ROUTINES), {})
+
+
+def motion_kernels() -> Routines:
+    """Its numbers: of one motion at a time."""
+    title = "Numbers of the paper's own motion, (10) and (15) to (18)."
+    made = tuple(make() for make in OF_ONE_MOTION)
+    return Routines("motion_kernels", title, made, {}, QUIET_SCALARS)

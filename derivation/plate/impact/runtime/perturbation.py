@@ -21,17 +21,15 @@ from numpy.typing import ArrayLike
 from generated.arrays import Double, as_doubles, as_result, inside, quiet
 from generated.bessel import bessel_j0_zeros, bessel_j1_at_j0_zeros
 from generated.influence import K_j
-from generated.perturbation_kernels import (
+from generated.motion_kernels import (
     coefficients,
     cosine_at_end,
     end_of_radicand,
     excess_at_turn,
-    integrands,
-    linear,
     radius_cubed,
-    shares,
     turning_point,
 )
+from generated.perturbation_kernels import integrands, linear, shares
 
 _NODES = 24  # of Gauss' rule on each part
 _PARTS = 27  # [1/2, 1], [1/4, 1/2], ..., [0, 2^-26] of u: for a radicand that vanishes late
@@ -61,26 +59,23 @@ class PrintedMotion:
     xi_2: float
     xi_3: float
 
-    def _numbers(self) -> list[Double]:
-        return [np.asarray(x, dtype=np.float64) for x in (self.m, self.v0, self.xi_2, self.xi_3)]
-
     @property
     @quiet
     def contact_time(self) -> float:
         """Contact time 2 t_c of the linear term, (15) [s]."""
-        return float(turning_point(*self._numbers()[:3])[0])
+        return float(turning_point(np.float64(self.m), self.v0, self.xi_2)[0])
 
     @property
     @quiet
     def max_indentation(self) -> float:
         """Largest indentation of the linear term, (15) [m]."""
-        return float(turning_point(*self._numbers()[:3])[1])
+        return float(turning_point(np.float64(self.m), self.v0, self.xi_2)[1])
 
     @property
     @quiet
     def excess(self) -> float:
         """Radicand of (17), (18) at the linear motion's turning point, over -v0^2 [1]."""
-        return float(excess_at_turn(*self._numbers()))
+        return float(excess_at_turn(*np.array((self.m, self.v0, self.xi_2, self.xi_3))))
 
     @property
     def last(self) -> float:
@@ -88,8 +83,8 @@ class PrintedMotion:
 
         Newton's iteration for y^3 + excess y^4 = 1, s^2 = y^3, convex, from above its root.
         """
-        excess = np.asarray(self.excess)
-        y = np.minimum(1.0, excess**-0.25) if excess > 0.0 else np.asarray(np.nan)
+        excess = self.excess
+        y = min(1.0, excess**-0.25) if excess > 0.0 else np.nan
         for _ in range(_STEPS):
             value, slope = end_of_radicand(y, excess)
             step = value / slope
@@ -107,8 +102,7 @@ class PrintedMotion:
     def share(self) -> float:
         """That time over the one at which the linear motion turns, t_c [1]."""
         s = self.last
-        cosine = cosine_at_end(*map(np.asarray, (self.excess, s)))
-        return float(np.arctan2(s, cosine)) / (np.pi / 2)
+        return float(np.arctan2(s, cosine_at_end(self.excess, s))) / (np.pi / 2)
 
     @quiet
     def linear(self, t: ArrayLike) -> np.ndarray:
@@ -129,7 +123,7 @@ class PrintedMotion:
             delta_0 [m] in the shape of t.
         """
         kind, [t] = as_doubles(t)
-        return as_result(linear(t, *self._numbers()[:3]), kind)
+        return as_result(linear(t, *np.array((self.m, self.v0, self.xi_2))), kind)
 
     @quiet
     def corrected(self, t: ArrayLike) -> np.ndarray:
@@ -163,8 +157,9 @@ class PrintedMotion:
         nodes, weights = leggauss(_NODES)
         ends = np.append(0.5 ** np.arange(_PARTS), 0.0)
         middle, half = (ends[:-1] + ends[1:]) / 2, (ends[:-1] - ends[1:]) / 2
-        excess, last = map(np.asarray, (self.excess, self.last))
-        F, G = integrands(middle[:, None] + half[:, None] * nodes, excess, last)
+        F, G = integrands(
+            middle[:, None] + half[:, None] * nodes, *np.array((self.excess, self.last))
+        )
         series = legvander(nodes, _NODES - 1) * weights[:, None] * (np.arange(_NODES) + 0.5)
 
         def integral(values: Double) -> tuple[Double, Double]:
@@ -227,9 +222,8 @@ def printed_motion(
     phi = zeros / b
     K = K_j(phi, h, b, R, J1)
     elastic = mu > 0 and 3 * lam > -2 * mu
-    numbers = (np.asarray(x, float) for x in (R, *((lam, mu) if elastic else (np.nan, np.nan))))
-    of_modes = shares(phi, K, np.cbrt(radius_cubed(*numbers)))
-    xi_2, derived, printed = coefficients(*(np.asarray(share.sum()) for share in of_modes))
+    cubed = radius_cubed(R, *map(np.float64, (lam, mu) if elastic else (np.nan, np.nan)))
+    xi_2, derived, printed = coefficients(*map(np.sum, shares(phi, K, np.cbrt(cubed))))
     motion = PrintedMotion(m, v0, float(xi_2), float(derived if corrected else printed))
     known = (m, v0, motion.xi_2, motion.xi_3, motion.max_indentation)
     if all(0 < x < np.inf for x in known):

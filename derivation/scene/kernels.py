@@ -30,8 +30,7 @@ from generated.effects import (
     sphere_contact,
     zener_number,
 )
-from generated.impact import history, impact
-from generated.impact_numbers import COARSE_QUADRATURE, FULL_QUADRATURE, ROUNDING
+from generated.impact import COARSE_QUADRATURE, FULL_QUADRATURE, ROUNDING, history, impact
 from generated.sensitivity import indentation_slope
 from generated.simple_impact import Estimate, Plate, hertz, law_errors, leading, plate_of
 from generated.viscosity import Course, viscous_logarithms, viscous_number

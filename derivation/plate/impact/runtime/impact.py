@@ -19,10 +19,27 @@ from generated import impact_kernels as kernels
 from generated.arrays import Double, as_doubles, as_result, in_manifest, inside, quiet
 from generated.contact_law import _elastic, _modulus, _plates
 from generated.contact_series import ROUNDED, Piece, Plates, columns, far_piece, with_slope
-from generated.impact_numbers import INNER_NODES, INNER_WEIGHTS, NODES, WEIGHTS
+from generated.impact_numbers import (
+    COARSE_QUADRATURE,
+    FULL_QUADRATURE,
+    INNER_NODES,
+    INNER_WEIGHTS,
+    NODES,
+    ROUNDING,
+    WEIGHTS,
+)
 from generated.impact_shapes import Beyond, Scenes, cut, mean_work, shapes, time_rate
 from generated.ranges import Factors, product
 
+__all__ = [
+    "COARSE_QUADRATURE",
+    "FULL_QUADRATURE",
+    "ROUNDING",
+    "History",
+    "Impact",
+    "history",
+    "impact",
+]
 _STEPS = 60  # of Newton's iteration at most; it takes four to six
 _CLOSE = 1e-9  # a relative residual whose square is far below rounding
 _SCENES = 512  # worked on at a time, so that intermediates stay in the cache
@@ -90,7 +107,7 @@ def impact(
         second Lame constant (shear modulus) [Pa]; mu > 0
     coarse : bool
         with half the nodes: the contact time's relative error is then up to
-        COARSE_QUADRATURE of `impact_numbers`
+        COARSE_QUADRATURE
 
     Returns
     -------

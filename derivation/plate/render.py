@@ -28,14 +28,11 @@ from derivation.engine.formula.record import Record
 from derivation.engine.rewrite.form import Form
 from derivation.engine.rewrite.sections import sections
 from derivation.plate.blocks import blocks
-from derivation.plate.budgets import read_budgets, read_printed_share, read_promises
+from derivation.plate.budgets import read_budgets, read_printed_share
 from derivation.plate.contact.kernels.tables import (
     contact_context,
-    impact_context,
     sensitivity_context,
 )
-from derivation.plate.impact.kernels.perturbation import perturbation_context
-from derivation.plate.impact.kernels.simple import simple_impact_context
 from derivation.plate.modes.kernels.modal_sums import STYLE, kernel_of_sum
 from derivation.plate.modes.kernels.shares import SHARES
 from derivation.plate.modules import (
@@ -106,14 +103,10 @@ def modules(kernels: tuple[EmittedKernel, ...]) -> tuple[Planned, ...]:
         own("as_printed", {"functions": printed_rows()}),
         tables("contact_series", contact_context()),
         tables("contact_law", {}),
-        tables("reversed_series", {}),
-        tables("impact", {**impact_context(), "promises": read_promises()}),
         tables("sensitivity", sensitivity_context()),
         *(tables(x.name, x.context(), x.folder) for x in template_modules()),
         *(x.make() for x in computed_modules()),
         *(Copy(x.name, x.file, "generated", budgets, x.notes()) for x in runtime_modules()),
-        own("simple_impact", simple_impact_context()),
-        own("perturbation", perturbation_context()),
         own(
             "manifest",
             {

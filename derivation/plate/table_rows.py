@@ -51,15 +51,6 @@ CONTACT_FUNCTIONS: tuple[TableRow, ...] = (
     ),
     ("max_pressure", "contact_law", ("a", "R", *ELASTIC), "Pa", "p_0", "7", "largest pressure"),
     (
-        "force_by_series",
-        "reversed_series",
-        ("delta", *PLATE, *ELASTIC),
-        "N",
-        "P",
-        "10",
-        "contact force by the truncated reversed series",
-    ),
-    (
         "plate_coefficients",
         "contact_series",
         ("eta",),
@@ -68,7 +59,6 @@ CONTACT_FUNCTIONS: tuple[TableRow, ...] = (
         "",
         "coefficients of the contact law of a plate",
     ),
-    ("impact", "impact", IMPACT, "s, m, N, m", "", "13", "time and peaks of an impact"),
     (
         "indentation_slope",
         "sensitivity",
@@ -88,7 +78,6 @@ CONTACT_FUNCTIONS: tuple[TableRow, ...] = (
         "logarithmic derivatives of time and peaks by every parameter",
     ),
     *((row[0], module.name, *row[1:]) for module in template_modules() for row in module.functions),
-    ("history", "impact", ("t", *IMPACT), "m, m/s, m, N", "", "13", "an impact over time"),
 )
 
 

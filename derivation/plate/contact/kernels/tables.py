@@ -341,14 +341,6 @@ def gauss_legendre(count: int) -> tuple[tuple[float, ...], tuple[float, ...]]:
         return _round([(1 + x) / 2 for x, _ in pairs]), _round([w / 2 for _, w in pairs])
 
 
-def impact_context() -> dict[str, object]:
-    """What the template of the generated impact needs: the nodes of its quadratures."""
-    outer, inner = (gauss_legendre(count) for count in (IMPACT_NODES, INNER_NODES))
-    names = ("nodes", "weights", "inner_nodes", "inner_weights")
-    rules = (*outer, *inner)
-    return {name: wrapped(map(repr, rule)) for name, rule in zip(names, rules, strict=True)}
-
-
 def sensitivity_context() -> dict[str, object]:
     """What the template of the generated sensitivities needs: every result's powers, as text."""
     table = exponents()

@@ -202,6 +202,7 @@ def shared(known: Mapping[str, Block]) -> tuple[Planned, ...]:
     """The modules that every package begins with."""
     return (
         Copy("arrays", RUNTIME / "arrays.py"),
+        Copy("polynomials", RUNTIME / "polynomials.py"),
         Copy("ranges", RUNTIME / "ranges.py"),
         Module("blocks", "blocks", {"functions": [block_text(b) for b in known.values()]}),
     )

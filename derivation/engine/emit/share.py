@@ -15,7 +15,7 @@ REASON = "Arithmetic:"
 
 
 @dataclass(frozen=True)
-class Share:
+class ModuleArithmetic:
     """The arithmetic of a module.
 
     Parameters
@@ -39,19 +39,21 @@ class Share:
         return not self.reason
 
 
-def shares(sources: Mapping[str, str]) -> tuple[Share, ...]:
+def shares(sources: Mapping[str, str]) -> tuple[ModuleArithmetic, ...]:
     """The arithmetic of every module that has some, from the text of the modules by name."""
     counted = ((name, operations(text), text) for name, text in sorted(sources.items()))
-    return tuple(Share(name, count, reason_of(text)) for name, count, text in counted if count)
+    return tuple(
+        ModuleArithmetic(name, count, reason_of(text)) for name, count, text in counted if count
+    )
 
 
-def printed_share(found: Sequence[Share]) -> float:
+def printed_share(found: Sequence[ModuleArithmetic]) -> float:
     """The part of all operations that is printed [1]."""
     printed = sum(part.operations for part in found if part.printed)
     return printed / sum(part.operations for part in found)
 
 
-def expect_growth(found: Sequence[Share], kept: float) -> None:
+def expect_growth(found: Sequence[ModuleArithmetic], kept: float) -> None:
     """Refuse a package of which less is printed than was.
 
     Parameters

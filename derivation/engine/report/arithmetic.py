@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from derivation.engine.emit.share import Share, printed_share, shares
+from derivation.engine.emit.share import ModuleArithmetic, printed_share, shares
 from derivation.engine.report.latex import escape, prose
 
 
@@ -17,7 +17,7 @@ def arithmetic_context(sources: Mapping[str, str]) -> dict[str, Any]:
     }
 
 
-def _row(part: Share) -> str:
+def _row(part: ModuleArithmetic) -> str:
     printed, by_hand = (part.operations, 0) if part.printed else (0, part.operations)
     cells = rf"\texttt{{{escape(part.module)}}}", str(printed), str(by_hand), prose(part.reason)
     return " & ".join(cells)

@@ -13,7 +13,6 @@ from derivation.engine.report.arithmetic import arithmetic_context
 from derivation.engine.report.document import Text
 from derivation.engine.report.hard import hard_context
 from derivation.engine.report.latex import environment
-from derivation.engine.report.listings import listings_context
 from derivation.engine.report.numbers import number, rounded
 from derivation.engine.rewrite.account import ENDS
 from derivation.plate.contact.cases.grid import RATIOS, THICKNESSES
@@ -24,6 +23,7 @@ from derivation.plate.report.elastodynamics import elastodynamics_context
 from derivation.plate.report.figures import motion_context
 from derivation.plate.report.front import SUBTITLE, TITLE, front_context
 from derivation.plate.report.inertia import inertia_context
+from derivation.plate.report.listings import listings_context
 from derivation.plate.report.moving import moving_context
 from derivation.plate.report.prose import ABOUT, FACTOR, REFERENCES
 from derivation.plate.report.reproducibility import reproducibility_context

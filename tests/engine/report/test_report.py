@@ -19,7 +19,6 @@ from derivation.engine.report.equations import (
     in_parts,
 )
 from derivation.engine.report.latex import escape, prose
-from derivation.engine.report.listings import source_of
 from derivation.engine.report.numbers import number
 from derivation.engine.report.pdf import TexError, compile_pdf, typeset
 from derivation.engine.report.spoken import spoken
@@ -29,6 +28,7 @@ from derivation.plate import vocabulary as symbols
 from derivation.plate.chain import LINKS
 from derivation.plate.paper import PAPER
 from derivation.plate.report.consequence import Consequences
+from derivation.plate.report.listings import source_of
 from derivation.plate.report.prose import REFERENCES
 from derivation.plate.vocabulary import PLATE, R, a, lam, mu, phi
 from derivation.scene.effects import EFFECTS

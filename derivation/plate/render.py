@@ -31,11 +31,7 @@ from derivation.mathematics.bessel.kernels import bessel_context
 from derivation.plate.blocks import blocks
 from derivation.plate.budgets import read_budgets, read_promises
 from derivation.plate.contact.kernels.moments import moment_context
-from derivation.plate.contact.kernels.tables import (
-    contact_context,
-    impact_context,
-    sensitivity_context,
-)
+from derivation.plate.contact.kernels.tables import impact_context
 from derivation.plate.impact.kernels.perturbation import perturbation_context
 from derivation.plate.impact.kernels.simple import simple_impact_context
 from derivation.plate.modes.kernels.modal_sums import MODAL_SUMS, STYLE, kernel_of_sum
@@ -99,11 +95,8 @@ def modules(kernels: tuple[EmittedKernel, ...]) -> tuple[Planned, ...]:
         tables("bessel", bessel_context()),
         tables("series_constants", moment_context()),
         own("as_printed", {"functions": printed_rows()}),
-        tables("contact_series", contact_context()),
-        tables("contact_law", {}),
         tables("reversed_series", {}),
         tables("impact", {**impact_context(), "promises": read_promises()}),
-        tables("sensitivity", sensitivity_context()),
         *(tables(x.name, x.context(), x.folder) for x in template_modules()),
         *(x.make() for x in computed_modules()),
         *(Copy(x.name, x.file, "generated", budgets, x.notes()) for x in runtime_modules()),

@@ -66,21 +66,6 @@ IMPACT = ("R", "m", "v0", *PLATE[1:], *ELASTIC)
 TableRow = tuple[str, str, tuple[str, ...], str, str, str, str]
 CONTACT_FUNCTIONS: tuple[TableRow, ...] = (
     # name, module, arguments, unit, symbol, equation, meaning
-    ("indentation", "contact_law", ("a", *PLATE), "m", r"\delta", "6", "indentation"),
-    ("contact_radius", "contact_law", ("delta", *PLATE), "m", "a", "6", "contact radius"),
-    ("force", "contact_law", ("delta", *PLATE, *ELASTIC), "N", "P", "10", "contact force"),
-    ("force_of_radius", "contact_law", ("a", "R", *ELASTIC), "N", "P", "7", "contact force"),
-    ("radius_of_force", "contact_law", ("P", "R", *ELASTIC), "m", "a", "7", "contact radius"),
-    (
-        "stiffness",
-        "contact_law",
-        ("a", *PLATE, *ELASTIC),
-        "N/m",
-        r"\mathrm{d}P/\mathrm{d}\delta",
-        "10",
-        "force per indentation added",
-    ),
-    ("max_pressure", "contact_law", ("a", "R", *ELASTIC), "Pa", "p_0", "7", "largest pressure"),
     (
         "force_by_series",
         "reversed_series",
@@ -90,34 +75,7 @@ CONTACT_FUNCTIONS: tuple[TableRow, ...] = (
         "10",
         "contact force by the truncated reversed series",
     ),
-    (
-        "plate_coefficients",
-        "contact_series",
-        ("eta",),
-        "1",
-        "S_k",
-        "",
-        "coefficients of the contact law of a plate",
-    ),
     ("impact", "impact", IMPACT, "s, m, N, m", "", "13", "time and peaks of an impact"),
-    (
-        "indentation_slope",
-        "sensitivity",
-        ("a", *PLATE),
-        "1",
-        r"\mathrm{d}\delta/\mathrm{d}a",
-        "6",
-        "indentation per contact radius added",
-    ),
-    (
-        "impact_sensitivities",
-        "sensitivity",
-        IMPACT,
-        "1",
-        "",
-        "13",
-        "logarithmic derivatives of time and peaks by every parameter",
-    ),
     *((row[0], module.name, *row[1:]) for module in template_modules() for row in module.functions),
     ("history", "impact", ("t", *IMPACT), "m, m/s, m, N", "", "13", "an impact over time"),
 )

@@ -18,6 +18,7 @@ from derivation.plate.benchmark.motion import hertz_time
 from derivation.plate.benchmark.reference_law import sure_law
 from derivation.plate.benchmark.replay import Step, dop853_step, turning_time
 from generated import contact_law, contact_series
+from generated.contact_numbers import REACH
 from generated.impact import impact
 
 LONGEST = 40.0
@@ -37,7 +38,7 @@ def scalar_force(regime: Regime) -> Callable[[float], float]:
     """
     plates = contact_series.plates_of(np.array([regime.eta]))
     pieces = [(plates.first, float(plates.reach[0]))]
-    if regime.eta < 1 / contact_series.REACH:
+    if regime.eta < 1 / REACH:
         pieces.append((contact_series.far_piece(plates.eta), float(plates.far[0])))
     rows = [
         (p.coefficients[::-1, 0].tolist(), float(p.middle[0]), 1 / float(p.half[0]), end)

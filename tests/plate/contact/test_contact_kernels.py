@@ -20,7 +20,7 @@ from derivation.engine.emit.source import format_files
 from derivation.plate.budgets import read_budgets, read_promises
 from derivation.plate.contact.kernels import tables
 from derivation.plate.contact.kernels.moments import finite_parts, kappas
-from derivation.plate.contact.kernels.tables import contact_context, impact_context
+from derivation.plate.contact.kernels.tables import impact_context
 from derivation.plate.render import own
 from derivation.plate.table_rows import notes_of
 
@@ -45,8 +45,6 @@ def rendered(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, Mod
     shutil.copytree(Path(derivation.__file__).parents[1] / "generated", folder / PACKAGE)
     (folder / PACKAGE / "__init__.py").write_text("")
     contexts = {
-        "contact_series": contact_context(),
-        "contact_law": {},
         "reversed_series": {},
         "impact": {**impact_context(), "promises": read_promises()},
     }
@@ -58,7 +56,8 @@ def rendered(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, Mod
     for name, text in format_files(source).items():
         (folder / PACKAGE / name).write_text(text)
     sys.path.insert(0, str(folder))
-    yield {name: importlib.import_module(f"{PACKAGE}.{name}") for name in contexts}
+    names = (*contexts, "contact_series", "contact_law")
+    yield {name: importlib.import_module(f"{PACKAGE}.{name}") for name in names}
     sys.path.remove(str(folder))
     for name in [name for name in sys.modules if name.split(".")[0] == PACKAGE]:
         del sys.modules[name]

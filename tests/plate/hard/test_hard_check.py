@@ -38,7 +38,7 @@ def test_printed_forms_stand_beside(cases: tuple[HardCase, ...], truth: dict[str
 @pytest.mark.parametrize(
     ("module", "name", "kernels"),
     [
-        ("contact_series", "_CONSTANT", {"indentation", "stiffness", "contact_radius", "impact"}),
+        ("contact_kernels", "LINEAR", {"indentation", "stiffness", "contact_radius", "impact"}),
         ("contact_series", "REACH", {"indentation"}),
         ("bessel", "_INVERSE_ROOT_PI", {"bessel_j0"}),
         ("impact", "_WEIGHTS", {"impact"}),

@@ -18,6 +18,7 @@ from derivation.engine.formula.parse import FUNCTIONS, FormulaError, parse
 from derivation.engine.formula.size import terms_when_expanded
 from derivation.engine.formula.vocabulary import NOTHING
 from derivation.engine.measure.check import Progress
+from derivation.engine.measure.judge import Errors
 from derivation.engine.measure.record import plain, provenance
 from derivation.engine.measure.search import Search, Tell, search
 from derivation.engine.measure.search_record import Book, seconds_of
@@ -29,8 +30,6 @@ from derivation.plate.benchmark import speed
 from derivation.plate.contact.cases.check import KERNELS, LIMIT, ContactRow
 from derivation.plate.contact.cases.check import check as measure_contact
 from derivation.plate.contact.cases.truth import DIGITS
-from derivation.plate.hard import check as hard_check
-from derivation.plate.hard.record import find_references
 from derivation.plate.impact.oracle import many_costs, many_digits
 from derivation.plate.judge import PACKAGE as GENERATED
 from derivation.plate.paper import PAPER
@@ -51,7 +50,6 @@ KEPT_EVERY = 20
 """Truths of random scenes after which they are written."""
 MEASURED_CONTACT = measurements() / "contact.json"
 MEASURED_SPEED = measurements() / "speed.json"
-MEASURED_HARD = measurements() / "hard.json"
 MEASURED_BOUNDS = measurements() / "bounds.json"
 MEASURED_ACCURACY = measurements() / "accuracy.json"
 EXAMPLE = PACKAGE / "scene" / "examples" / "paper.toml"
@@ -99,39 +97,18 @@ def contact_table(rows: tuple[ContactRow, ...]) -> tuple[tuple[str, ...], list[t
 
 def contact_data(rows: tuple[ContactRow, ...]) -> dict[str, Any]:
     """Rows of the contact law as plain data, with what they were measured with."""
-    found = plain([asdict(row) for row in rows])
-    return {"provenance": provenance(DIGITS, GENERATED), "limit": LIMIT, "rows": found}
+    found = [
+        asdict(row) | {"double": _short(row.double), "single": row.single and _short(row.single)}
+        for row in rows
+    ]
+    return {"provenance": provenance(DIGITS, GENERATED), "limit": LIMIT, "rows": plain(found)}
 
 
-def check_hard(
-    update: bool = False, tell: Progress | None = None
-) -> tuple[hard_check.HardRow, ...]:
-    """Hold generated and printed forms to the hard cases' references.
-
-    These are the committed ones; or found anew where they follow from something else now, which
-    takes minutes, and recorded. A run that was stopped goes on where it was.
-
-    Raises
-    ------
-    FileNotFoundError
-        If no references were recorded.
-    ValueError
-        If a case has none.
-    """
-    if update:
-        expect_recordable(MEASURED_HARD)
-    cases, known = hard_check.cases(), hard_check.kernels()
-    if not update:
-        if not MEASURED_HARD.is_file():
-            raise FileNotFoundError(f"no references in {MEASURED_HARD}: run `{hard_check.COMMAND}`")
-        truth = hard_check.committed(json.loads(MEASURED_HARD.read_text()), cases)
-        return hard_check.check(cases, truth, known)
-    part = MEASURED_HARD.with_suffix(".part.json")
-    truth = find_references(cases, known, MEASURED_HARD, part, tell)
-    rows = hard_check.check(cases, truth, known)
-    write_file(MEASURED_HARD, hard_check.to_json(rows))
-    part.unlink()
-    return rows
+def _short(errors: Errors) -> dict[str, Any]:
+    """What is recorded of a contact kernel's errors in a format."""
+    kept = ("points", "max_ulp", "needed", "ratio", "dtype")
+    worst = [exact for _, exact, _ in errors.worst.arguments]
+    return {name: getattr(errors, name) for name in kept} | {"worst": worst}
 
 
 def check_speed(update: bool = False, tell: Progress | None = None) -> list[speed.SpeedTiming]:

@@ -13,8 +13,8 @@ from derivation.plate import derived
 from derivation.plate.vocabulary import Formula
 
 if TYPE_CHECKING:  # they load the generated package, without which its own tests have to run
-    from derivation.plate.hard.case import HardCase
-    from derivation.plate.hard.truth import Known
+    from derivation.engine.measure.case import HardCase
+    from derivation.engine.measure.suite import Known, Suite
 
 # The same draws in every run, however slow; `pytest --hypothesis-profile default` draws others.
 settings.register_profile("same", derandomize=True, deadline=None, database=None)
@@ -42,17 +42,23 @@ def silent(no_warning: None) -> Iterator[None]:  # noqa: ARG001
 
 
 @pytest.fixture(scope="session")
-def cases() -> "tuple[HardCase, ...]":
-    """The hard cases."""
-    from derivation.plate.hard import check as hard_check
+def suite() -> "Suite":
+    """The hard cases with all that they are compared with."""
+    from derivation.plate.cases.suite import suite
 
-    return hard_check.cases()
+    return suite()
+
+
+@pytest.fixture(scope="session")
+def cases(suite: "Suite") -> "tuple[HardCase, ...]":
+    """The hard cases."""
+    return suite.cases
 
 
 @pytest.fixture(scope="session")
 def truth(cases: "tuple[HardCase, ...]") -> "dict[str, Known]":
     """Their references, as recorded."""
-    from derivation import pipeline
-    from derivation.plate.hard import check as hard_check
+    from derivation.engine.measure import hard
+    from derivation.plate.paper import PAPER
 
-    return hard_check.committed(json.loads(pipeline.MEASURED_HARD.read_text()), cases)
+    return hard.committed(json.loads(PAPER.hard.read_text()), cases)

@@ -13,13 +13,13 @@ from derivation.mathematics.bessel import kernels as bessel_tables
 from derivation.mathematics.bessel.oracle import j0_zero
 from derivation.plate.back_face.kernels import tables as back_face_tables
 from derivation.plate.blocks import blocks
+from derivation.plate.cases import suite as hard_suite
 from derivation.plate.contact.kernels import moments as moment_tables
 from derivation.plate.contact.kernels import tables as contact_tables
 from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.edge.kernels import tables as edge_tables
 from derivation.plate.effects import kernels as effect_tables
 from derivation.plate.grids import seams
-from derivation.plate.hard import check as hard_check
 from derivation.plate.impact.kernels import simple as simple_impact_tables
 from derivation.plate.impact.oracle import impact as contact_impact
 from derivation.plate.impact.oracle.printed_motion import last_share
@@ -104,7 +104,7 @@ def speeds() -> Iterable[Place]:
 def times() -> Iterable[Place]:
     """When the contact passes its reach and turns, of the scene that is in the suite."""
     scene = next(
-        c for c in hard_check.cases() if c.group == "seams of the impact" and c.kernel == "history"
+        c for c in hard_suite.cases() if c.group == "seams of the impact" and c.kernel == "history"
     )
     R, m, v0, h, b, lam, mu = (scene.numbers[x][0] for x in ("R", "m", "v0", "h", "b", "lam", "mu"))
     (crossing,) = contact_impact.history([3], R, m, v0, h, b, lam, mu, 20)

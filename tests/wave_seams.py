@@ -9,10 +9,10 @@ from mpmath import mp, mpf
 from seams import Place, Point, Seam
 
 from derivation.plate.blocks import blocks
+from derivation.plate.cases import suite as hard_suite
 from derivation.plate.edge_modes import cases as hard_held_families
 from derivation.plate.edge_modes.oracle import modes as held_balls
 from derivation.plate.edge_modes.oracle import waves as held_wave_balls
-from derivation.plate.hard import check as hard_check
 from generated import edge_mode_numbers, wave_numbers
 from generated.plate_waves import branches
 
@@ -111,7 +111,7 @@ def partner_at_infinity(edge: held_balls.Edge) -> Callable[[], Iterable[Place]]:
     def places() -> Iterable[Place]:
         group = hard_held_families.SEAMS
         (case,) = (
-            c for c in hard_check.cases() if c.group == group and c.kernel == f"{edge}_waves"
+            c for c in hard_suite.cases() if c.group == group and c.kernel == f"{edge}_waves"
         )
         place, nu = case.numbers["eta"][2], case.numbers["nu"][0]
         n = int(case.numbers["count"][0])

@@ -6,7 +6,14 @@ from typing import Annotated
 import typer
 
 from derivation.commands import suggested
-from derivation.commands.options import SEED, Seed, Suggest, update_option
+from derivation.commands.options import (
+    SEED,
+    PaperFolder,
+    Seed,
+    Suggest,
+    chosen,
+    update_option,
+)
 from derivation.engine.console import (
     INTERRUPTED,
     NOTES,
@@ -48,10 +55,11 @@ def hard_cases(
         bool,
         typer.Option(
             "--update",
-            help="Compute references that are missing or stale, and save all in "
-            "reports/data/hard.json: up to a quarter of an hour.",
+            help="Compute references that are missing or stale, and save all as the paper's "
+            "hard.json: up to a quarter of an hour.",
         ),
     ] = False,
+    paper: PaperFolder = None,
     json: Json = None,
 ) -> None:
     """Compare functions with recorded references at hard cases.
@@ -60,13 +68,14 @@ def hard_cases(
 
     Example: platecontact check hard-cases --json hard.json
     """
-    from derivation import pipeline
-    from derivation.plate.hard.check import COLUMNS, as_data, cells
+    from derivation.engine import build
+    from derivation.engine.measure.hard import COLUMNS, as_data, cells
 
+    own = chosen(paper)
     with counted("check") as tell:
-        rows = pipeline.check_hard(update, tell)
+        rows = build.check_hard(own, update, tell)
     failed = [row for row in rows if not row.kept]
-    if put_json(lambda: as_data(rows), json):
+    if put_json(lambda: as_data(rows, own.package().target), json):
         table("Hard cases, errors in ULP", COLUMNS, [cells(row) for row in rows])
         listing(
             f"{len(rows)} cases, {len(failed)} failed",

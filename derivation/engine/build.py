@@ -30,6 +30,7 @@ from derivation.engine.rewrite.form import Form
 
 if TYPE_CHECKING:
     from derivation.engine.measure.check import Row
+    from derivation.engine.measure.hard import HardRow
     from derivation.engine.rewrite.account import Account
 
 Progress = Callable[[str, int, int], None]
@@ -146,6 +147,41 @@ def check(
     rows = measure.check(paper.judge(), digits, progress=tell)
     if update:
         write_file(paper.measured, to_json(rows, digits, paper.package().target))
+    return rows
+
+
+def check_hard(
+    paper: Paper, update: bool = False, tell: Progress | None = None
+) -> "tuple[HardRow, ...]":
+    """Stage 5 at the hard cases: compare generated and printed forms with recorded references.
+
+    With `update` these are found anew where they follow from something else now, which takes
+    minutes, and recorded. A run that was stopped goes on where it was.
+
+    Raises
+    ------
+    FileNotFoundError
+        If no references were recorded.
+    ValueError
+        If a case has none, or the paper no cases.
+    """
+    from derivation.engine.measure import hard
+    from derivation.engine.measure.suite import find_references
+
+    if update:
+        expect_recordable(paper.hard)
+    handed_in = paper.judge().hard
+    if handed_in is None:
+        raise ValueError("expected a paper with hard cases, got none: hand them in as Judge.hard")
+    suite = handed_in()
+    if not update:
+        if not paper.hard.is_file():
+            raise FileNotFoundError(f"no references in {paper.hard}: run `{hard.COMMAND}`")
+        return hard.check(suite, hard.committed(json.loads(paper.hard.read_text()), suite.cases))
+    part = paper.hard.with_suffix(".part.json")
+    rows = hard.check(suite, find_references(suite, paper.hard, part, tell))
+    write_file(paper.hard, hard.to_json(rows, paper.package().target))
+    part.unlink()
     return rows
 
 

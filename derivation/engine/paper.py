@@ -111,6 +111,11 @@ class Paper:
         return self.records / "check.json"
 
     @property
+    def hard(self) -> Path:
+        """File with the references of the hard cases, and how they were kept."""
+        return self.records / "hard.json"
+
+    @property
     def rewritten(self) -> Path:
         """File with the kept account of the rules that were applied."""
         return self.records / "rewrite.json"

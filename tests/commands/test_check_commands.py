@@ -20,12 +20,15 @@ from derivation.checks.inertia_judged import InertiaFound
 from derivation.cli import main
 from derivation.engine import build
 from derivation.engine.measure import check as measure
+from derivation.engine.measure import suite
+from derivation.engine.measure.case import read_cases
+from derivation.engine.measure.suite import Suite
+from derivation.engine.paper import Paper
 from derivation.plate import judge as plate_judge
 from derivation.plate import paper as plate_paper
 from derivation.plate.benchmark.speed import SpeedTiming
+from derivation.plate.cases import suite as hard_suite
 from derivation.plate.contact.cases import check as contact
-from derivation.plate.hard import check as hard_check
-from derivation.plate.hard import record as hard_record
 from derivation.plate.judge import generated_kernels
 from derivation.plate.paper import PAPER
 
@@ -161,15 +164,15 @@ def test_a_law_of_another_shape_is_no_measurement() -> None:
 @pytest.fixture
 def few_cases(monkeypatch: Patch, tmp_path: Path) -> tuple[Path, list[dict[str, Any]]]:
     """Four hard cases with their committed references, of which only the first stands."""
-    everything = json.loads(pipeline.MEASURED_HARD.read_text())["cases"]
-    every = [c for c in hard_check.cases() if c.kernel == "bessel_j0"]
+    everything = json.loads(PAPER.hard.read_text())["cases"]
+    every = [c for c in hard_suite.cases() if c.kernel == "bessel_j0"]
     wanted = [*(c for c in every if c.expect == "value")][:3]
     wanted += [c for c in every if c.expect == "nan"]
     keys = [case.key for case in wanted]
     rows = sorted((r for r in everything if r["key"] in keys), key=lambda r: keys.index(r["key"]))
     path = tmp_path / "hard.json"
-    monkeypatch.setattr(pipeline, "MEASURED_HARD", path)
-    monkeypatch.setattr(hard_check, "cases", lambda: tuple(wanted))
+    monkeypatch.setattr(Paper, "hard", path)
+    monkeypatch.setattr(hard_suite, "cases", lambda: tuple(wanted))
     path.write_text(json.dumps({"cases": [rows[0], {**rows[1], "origin": "of another formula"}]}))
     return path, rows
 
@@ -178,11 +181,11 @@ def test_references_are_found_anew_as_they_were(
     few_cases: tuple[Path, list[dict[str, Any]]], monkeypatch: Patch
 ) -> None:
     path, committed = few_cases
-    sought, find = list[str](), hard_record.references
+    sought, find = list[str](), Suite.references
     monkeypatch.setattr(
-        hard_record, "references", lambda case, k: sought.append(case.key) or find(case, k)
+        Suite, "references", lambda self, case: sought.append(case.key) or find(self, case)
     )
-    monkeypatch.setattr(hard_record, "SAVED_EVERY", -1.0)
+    monkeypatch.setattr(suite, "SAVED_EVERY", -1.0)
     assert main(["check", "hard-cases", "--update"]) == 0
     assert json.loads(path.read_text())["cases"] == committed
     assert sought == [row["key"] for row in committed[1:]]  # the first still stands
@@ -193,14 +196,14 @@ def test_a_search_for_references_that_was_stopped_goes_on(
     few_cases: tuple[Path, list[dict[str, Any]]], monkeypatch: Patch, capsys: Captured
 ) -> None:
     path, committed = few_cases
-    before, find = path.read_bytes(), hard_record.references
+    before, find = path.read_bytes(), Suite.references
 
-    def stopped(case: Any, kernel: Any) -> Any:
+    def stopped(self: Suite, case: Any) -> Any:
         if case.key == committed[2]["key"]:
             raise KeyboardInterrupt
-        return find(case, kernel)
+        return find(self, case)
 
-    monkeypatch.setattr(hard_record, "references", stopped)
+    monkeypatch.setattr(Suite, "references", stopped)
     assert main(["check", "hard-cases", "--update"]) == 2
     assert "interrupted" in capsys.readouterr().err
     assert path.read_bytes() == before
@@ -210,7 +213,7 @@ def test_a_search_for_references_that_was_stopped_goes_on(
     ]
     sought = list[str]()
     monkeypatch.setattr(
-        hard_record, "references", lambda case, k: sought.append(case.key) or find(case, k)
+        Suite, "references", lambda self, case: sought.append(case.key) or find(self, case)
     )
     assert main(["check", "hard-cases", "--update"]) == 0
     assert sought == [row["key"] for row in committed[2:]]
@@ -219,10 +222,10 @@ def test_a_search_for_references_that_was_stopped_goes_on(
 
 
 def test_a_hard_case_that_stands_there_twice_is_refused(monkeypatch: Patch) -> None:
-    once = tuple(hard_check.written())
-    monkeypatch.setattr(hard_check, "written", lambda: (*once, once[0]))
+    once = tuple(read_cases(hard_suite.WRITTEN))
+    monkeypatch.setattr(hard_suite, "cases", lambda: (*once, once[0]))
     with pytest.raises(ValueError, match="twice") as refused:
-        hard_check.cases()
+        hard_suite.suite()
     assert once[0].key in str(refused.value)
 
 

@@ -16,7 +16,7 @@ from derivation.cli import main
 from derivation.engine import build, outputs, report_files
 from derivation.engine.files import ROOT
 from derivation.engine.measure.check import Row
-from derivation.engine.measure.evaluate import Errors
+from derivation.engine.measure.judge import Errors, Worst
 from derivation.engine.package import files_of
 from derivation.engine.paper import Paper
 from derivation.engine.report.pdf import TexError
@@ -91,7 +91,8 @@ def account_of(row: dict[str, Any]) -> Account:
 
 
 def rows_of(passed: bool) -> tuple[Row, ...]:
-    errors = Errors(9, 0, 0, 0, 0.6, 0.5, 0.4, 0.2, 0.1, None, "float64", ())
+    worst = Worst((), None, ("", ""), "", 0.1, 1.0)
+    errors = Errors(9, 0, 0, 0, 0.6, 0.5, 0.4, 0.2, 0.1, worst, "float64", ())
     return (Row("P", "pressure", 1.0, errors, errors, 2, passed=passed),)
 
 

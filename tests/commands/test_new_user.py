@@ -25,6 +25,7 @@ from derivation.checks import moving_costs
 from derivation.cli import app, main
 from derivation.engine import outputs, report_files
 from derivation.engine.files import ROOT
+from derivation.engine.paper import Paper
 from derivation.plate import paper as plate_paper
 from derivation.plate import reporting
 
@@ -183,7 +184,7 @@ def test_without_leave_to_write_nothing_is_computed(
     [
         (["contact-law"], pipeline, "MEASURED_CONTACT"),
         (["timing"], pipeline, "MEASURED_SPEED"),
-        (["hard-cases"], pipeline, "MEASURED_HARD"),
+        (["hard-cases"], Paper, "hard"),
         (["error-bounds", "-n", "3000"], pipeline, "MEASURED_BOUNDS"),
         (["effects", "-n", "3000"], effects_check, "MEASURED"),
         (["inertia", "-n", "500"], inertia_check, "MEASURED"),

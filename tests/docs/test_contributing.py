@@ -89,12 +89,14 @@ CHECK = WHOLE
 CHECK += """
 import json
 from derivation.engine.measure.record import to_json
-from derivation.plate.hard import check as hard_check
-from derivation.plate.hard.record import find_references
+from dataclasses import replace
+from derivation.engine.measure import hard
+from derivation.engine.measure.suite import find_references
+from derivation.plate.cases import suite
 from derivation.plate.judge import PACKAGE, check, generated_kernels
 from derivation.plate.subjects import handed_in
 [own] = [cases for cases in handed_in("cases", "CASES") if "imprint" in cases.__module__]
-hard_check.families = lambda: (*families, *own())
+suite.families = lambda: (*families, *own())
 committed = Path("reports/data")
 def added(name, key, text):
     data = json.loads((committed / name).read_text())
@@ -104,10 +106,10 @@ rows = check(kernels=[k for k in generated_kernels() if k.name in sys.argv[2:]])
 added("check.json", "rows", to_json(rows, 50, PACKAGE))
 assert main(["check", "hard-cases"]) == 2, "there are no references yet"
 recorded = {case["key"] for case in json.loads((committed / "hard.json").read_text())["cases"]}
-cases = [case for case in hard_check.cases() if case.key not in recorded]
-kernels, nowhere = hard_check.kernels(), Path("nowhere.json")
-judged = hard_check.check(cases, find_references(cases, kernels, nowhere, nowhere), kernels)
-added("hard.json", "cases", hard_check.to_json(judged))
+whole, nowhere = suite.suite(), Path("nowhere.json")
+new = replace(whole, cases=tuple(c for c in whole.cases if c.key not in recorded))
+judged = hard.check(new, find_references(new, nowhere, nowhere))
+added("hard.json", "cases", hard.to_json(judged, PACKAGE))
 print(json.dumps({
     "functions": [[row.kernel, row.module, row.passed, row.oracles] for row in rows],
     "cases": [[row.case.kernel, row.kept, row.error, row.allowed] for row in judged],

@@ -5,16 +5,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from derivation.plate.hard import check as hard_check
+from derivation.plate.cases import suite as hard_suite
 
-CASES = {case.kernel: case for case in hard_check.cases() if case.expect == "value" and case.points}
+CASES = {case.kernel: case for case in hard_suite.cases() if case.expect == "value" and case.points}
 LAST_AXIS = {"plate_coefficients"}
 """Kernels whose results lie along a last axis of their own."""
 
 
 @pytest.mark.parametrize("name", sorted(CASES.keys() - LAST_AXIS))
 def test_one_argument_alone_gives_its_shape(name: str) -> None:
-    kernel, case = hard_check.kernels()[name], CASES[name]
+    kernel, case = hard_suite.kernels()[name], CASES[name]
     if kernel.by_count:
         return
     point = case.points[0]

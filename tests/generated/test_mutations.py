@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 from derivation.engine.files import ROOT
-from derivation.engine.measure.evaluate import Truth, judge
+from derivation.engine.measure.judge import Truth, measured
 from derivation.engine.measure.kernels import Kernel
 from derivation.engine.measure.point import Point
 from derivation.engine.rewrite.form import Seam
@@ -62,7 +62,7 @@ def damaged(tmp_path: Path) -> Iterator[Callable[..., Any]]:
 
 
 def fails(kernel: Kernel, found: list[Truth]) -> bool:
-    errors = judge(kernel, found)
+    errors = measured(kernel, found)
     return errors.ratio is None or errors.ratio > 1.0 or errors.not_finite > 0
 
 

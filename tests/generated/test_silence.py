@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from derivation.engine.formula.ulp import DOUBLE, SINGLE
-from derivation.engine.measure.evaluate import call, to_single
+from derivation.engine.measure.point import to_single
 from derivation.plate.contact.cases import grid as contact_grid
 from derivation.plate.grids import grid
 from derivation.plate.judge import generated_kernels
@@ -67,7 +67,7 @@ def test_hard_points_are_silent(kernel: Any, fmt: Any) -> None:
         # Numbers too large for the type are outside the domain.
         points = [p for p in points if max(p.values.values()) <= (15 if fmt is SINGLE else 100)]
     with np.errstate(all="raise"):
-        found = call(kernel, points, fmt)
+        found = kernel.results(points, fmt)
     assert not np.isnan(found).any()
 
 

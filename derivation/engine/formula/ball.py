@@ -6,7 +6,8 @@ from functools import cache
 
 import flint
 import sympy as sp
-from sympy.codegen.cfunctions import expm1, log1p
+
+from derivation.engine.formula.operations import operation
 
 Exact = int | float | Fraction
 """A number taken as it is: a double stands for the binary fraction it holds."""
@@ -18,24 +19,6 @@ SPARE_BITS = 24
 
 class PrecisionError(ArithmeticError):
     """A ball did not become small enough: the value is zero, singular or out of reach."""
-
-
-_FUNCTIONS: dict[type[sp.Basic], Callable[[flint.arb], flint.arb]] = {
-    sp.sin: lambda x: x.sin(),
-    sp.cos: lambda x: x.cos(),
-    sp.tan: lambda x: x.tan(),
-    sp.sinh: lambda x: x.sinh(),
-    sp.cosh: lambda x: x.cosh(),
-    sp.tanh: lambda x: x.tanh(),
-    sp.coth: lambda x: x.coth(),
-    sp.log: lambda x: x.log(),
-    log1p: lambda x: x.log1p(),
-    expm1: lambda x: x.expm1(),
-    sp.exp: lambda x: x.exp(),
-    sp.asin: lambda x: x.asin(),
-    sp.Abs: abs,
-    sp.gamma: lambda x: x.gamma(),
-}
 
 
 def to_ball(number: Exact) -> flint.arb:
@@ -58,7 +41,8 @@ def enclose(expression: sp.Basic, values: Mapping[sp.Basic, flint.arb]) -> flint
 
     def visit(node: sp.Basic) -> flint.arb:
         if node not in memo:
-            memo[node] = _node(node, visit)
+            found = operation(node)
+            memo[node] = found.value(*(visit(operand) for operand in found.operands))
         return memo[node]
 
     return visit(expression)
@@ -73,46 +57,6 @@ def enclosable(expression: sp.Basic) -> bool:
         except NotImplementedError:
             return False
     return True
-
-
-def _node(node: sp.Basic, visit: Callable[[sp.Basic], flint.arb]) -> flint.arb:
-    if isinstance(node, sp.Rational):
-        return flint.arb(flint.fmpq(int(node.p), int(node.q)))
-    if node is sp.pi:
-        return flint.arb.pi()
-    if node is sp.E:
-        return flint.arb.const_e()
-    if node is sp.EulerGamma:
-        return flint.arb.const_euler()
-    if isinstance(node, sp.Add):
-        return sum((visit(term) for term in node.args), flint.arb(0))
-    if isinstance(node, sp.Mul):
-        product = flint.arb(1)
-        for factor in node.args:
-            product *= visit(factor)
-        return product
-    if isinstance(node, sp.Pow):
-        return _power(visit(node.base), node.exp, visit)
-    if isinstance(node, sp.besselj):
-        return visit(node.args[1]).bessel_j(visit(node.args[0]))
-    if isinstance(node, sp.besseli):
-        return visit(node.args[1]).bessel_i(visit(node.args[0]))
-    if isinstance(node, sp.beta):
-        x, y = (visit(argument) for argument in node.args)
-        return x.gamma() * y.gamma() / (x + y).gamma()
-    if node.func in _FUNCTIONS:
-        return _FUNCTIONS[node.func](visit(node.args[0]))
-    raise NotImplementedError(f"no ball arithmetic for {node.func.__name__} in {node}")
-
-
-def _power(
-    base: flint.arb, exponent: sp.Basic, visit: Callable[[sp.Basic], flint.arb]
-) -> flint.arb:
-    if isinstance(exponent, sp.Integer):
-        return base ** int(exponent)
-    if exponent == sp.Rational(1, 2):
-        return base.sqrt()
-    return base ** visit(exponent)
 
 
 def evaluate(

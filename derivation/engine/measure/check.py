@@ -3,11 +3,13 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from derivation.engine.formula.ulp import DOUBLE, SINGLE
-from derivation.engine.measure.evaluate import Errors, Truth, judge, to_single, truths
+from derivation.engine.formula.ulp import DOUBLE, SINGLE, Format, overflows
+from derivation.engine.measure.judge import Errors, Truth, measured
 from derivation.engine.measure.kernels import Kernel, generated_kernels, printed_kernels
-from derivation.engine.measure.point import Point
+from derivation.engine.measure.point import Point, to_single
+from derivation.engine.measure.suite import Suite
 from derivation.engine.oracle.agreement import Routes
+from derivation.engine.oracle.oracle import Balls
 
 Progress = Callable[[str, int, int], None]
 """Called with a kernel's name, its number and how many there are, before it is measured."""
@@ -42,6 +44,9 @@ class Judge:
         Whether the second reference takes little time at a point.
     inside
         Whether a point lies in the domain, which rounding to single precision may leave.
+    hard
+        The hard cases, if there are any. A function, so that what they need is loaded when they
+        are asked for.
     """
 
     routes: Routes
@@ -49,6 +54,7 @@ class Judge:
     package: str
     easy: Callable[[Point], bool] = _anywhere
     inside: Callable[[Point], bool] = _anywhere
+    hard: Callable[[], Suite] | None = None
 
 
 @dataclass(frozen=True)
@@ -131,27 +137,29 @@ def check(
 def _row(
     by: Judge, kernel: Kernel, points: Sequence[Point], found: Sequence[Truth], digits: int
 ) -> Row:
-    double = judge(kernel, found, len(points) - len(found), DOUBLE)
+    double = measured(kernel, found, len(points) - len(found))
     if kernel.budget is None:
         return Row(kernel.name, kernel.module, None, double, None, 0, None)
-    single = None if kernel.by_count else judge_single(by, kernel, points, digits)
-    passed = _kept(double, DOUBLE.name) and (single is None or _kept(single, SINGLE.name))
+    single = None if kernel.by_count else _single(by, kernel, points, digits)
+    passed = double.kept() and (single is None or single.kept(SINGLE))
     oracles = confirm(by, kernel, found, digits)
     return Row(kernel.name, kernel.module, kernel.budget, double, single, oracles, passed)
 
 
-def _kept(errors: Errors, dtype: str) -> bool:
-    """Whether every result is finite, within its allowance, of the right type and silent."""
-    within = errors.ratio is not None and errors.ratio <= 1.0
-    return within and errors.not_finite == 0 and errors.dtype == dtype and not errors.warned
+def truths(
+    balls: Balls, name: str, points: Sequence[Point], digits: int, fmt: Format = DOUBLE
+) -> list[Truth]:
+    """References at the points whose value the format can hold."""
+    found = ((p, balls.reference(name, p.values, digits, p.modes)) for p in points)
+    return [Truth(point, (true,)) for point, true in found if not overflows(true.value, fmt)]
 
 
-def judge_single(by: Judge, kernel: Kernel, points: Sequence[Point], digits: int) -> Errors:
-    """Hold a kernel to the truth in single precision, at every fourth point it can hold."""
+def _single(by: Judge, kernel: Kernel, points: Sequence[Point], digits: int) -> Errors:
+    """Judge a kernel in single precision, at every fourth point it can hold."""
     singles = (single for p in points[::EVERY] if (single := to_single(p)) is not None)
     rounded = [single for single in singles if by.inside(single)]
     found = truths(by.routes.balls, kernel.name, rounded, digits, SINGLE)
-    return judge(kernel, found, len(rounded) - len(found), SINGLE)
+    return measured(kernel, found, len(rounded) - len(found), SINGLE)
 
 
 def confirm(by: Judge, kernel: Kernel, found: Sequence[Truth], digits: int) -> int:
@@ -162,7 +170,7 @@ def confirm(by: Judge, kernel: Kernel, found: Sequence[Truth], digits: int) -> i
     OracleError
         If it contradicts the first.
     """
-    easy = [t for t in found if by.easy(t.point) and bool(abs(t.reference.value) > SMALL)]
+    easy = [t for t in found if by.easy(t.point) and bool(abs(t.references[0].value) > SMALL)]
     chosen = easy[:: max(1, len(easy) // AGREEMENTS)][:AGREEMENTS]
     for truth in chosen:
         by.routes.agree(kernel.name, truth.point.values, digits, truth.point.modes)

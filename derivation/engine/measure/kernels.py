@@ -3,9 +3,16 @@
 import importlib
 import importlib.util
 import inspect
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any
+
+import numpy as np
+
+from derivation.engine.formula.ulp import DOUBLE, Format
+from derivation.engine.measure.point import Point
+
+Results = np.ndarray[Any, np.dtype[Any]]
 
 AS_PRINTED = "as_printed"
 """Module of the formulas as printed: measured for contrast, without a promise."""
@@ -42,6 +49,42 @@ class Kernel:
     def by_count(self) -> bool:
         """Whether it returns a table whose length is its only argument."""
         return self.arguments == ("count",)
+
+    def results(self, points: Sequence[Point], fmt: Format = DOUBLE) -> Results:
+        """Results at the points, in their own type, one call per number of modes."""
+        if self.by_count:
+            last = [int(point.values["count"]) for point in points]
+            table: Results = np.asarray(self.call(max(last)))
+            entries: Results = table[np.array(last) - 1]
+            return entries
+        columns = [
+            np.array([point.values[key] for point in points], dtype=fmt.name)
+            for key in self.arguments
+        ]
+        if not self.modes:
+            return np.asarray(self.call(*columns))
+        counts = np.array([point.modes for point in points])
+        parts = {
+            count: self.call(*(column[counts == count] for column in columns), modes=count)
+            for count in sorted({point.modes or 0 for point in points})
+        }
+        found = np.empty(len(points), dtype=np.result_type(*parts.values()))
+        for count, part in parts.items():
+            found[counts == count] = part
+        return found
+
+
+@dataclass(frozen=True)
+class Stating(Kernel):
+    """A kernel whose promise depends on its arguments: it states its errors itself.
+
+    Parameters
+    ----------
+    stated
+        Arguments -> the largest error of every result in its own unit, in the results' shapes.
+    """
+
+    stated: Callable[..., Any] = field(kw_only=True)
 
 
 def kernel_of_row(package: str, row: Mapping[str, Any]) -> Kernel:

@@ -1,7 +1,10 @@
 """A point at which a function is measured."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+
+import numpy as np
 
 
 @dataclass(frozen=True)
@@ -10,3 +13,19 @@ class Point:
 
     values: Mapping[str, float]
     modes: int | None = None
+
+
+def to_single(point: Point) -> Point | None:
+    """The point in numbers of single precision, or None if that is another kind of point.
+
+    So it is where one of them leaves the range, or where two that differ
+    become equal: then a point next to an edge comes to lie on it.
+    """
+    with np.errstate(over="ignore"):
+        values = {key: float(np.float32(value)) for key, value in point.values.items()}
+    in_range = all(
+        math.isfinite(single) and (single == 0.0) == (point.values[key] == 0.0)
+        for key, single in values.items()
+    )
+    distinct = len(set(values.values())) == len(set(point.values.values()))
+    return Point(values, point.modes) if in_range and distinct else None

@@ -47,8 +47,8 @@ def cells(row: Row) -> tuple[str, ...]:
 def worst(row: Row) -> str:
     """Where a row's error is largest in proportion to what is allowed, in exact doubles."""
     found = row.double.worst
-    arguments = " ".join(f"{name}={exact}" for name, exact, _ in found.arguments) if found else ""
-    modes = f" modes={found.modes}" if found and found.modes else ""
+    arguments = " ".join(f"{name}={exact}" for name, exact, _ in found.arguments)
+    modes = f" modes={found.modes}" if found.modes else ""
     return f"{row.kernel}: {arguments}{modes}"
 
 

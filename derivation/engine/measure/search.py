@@ -12,8 +12,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from derivation.engine.measure.judge import Error
 from derivation.engine.measure.point import Point
-from derivation.engine.measure.target import Error, Target
+from derivation.engine.measure.target import Target
 
 DRAWN = 256
 """Points drawn at random between climbs."""

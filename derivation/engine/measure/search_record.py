@@ -2,21 +2,22 @@
 
 import json
 import re
-import tomllib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from derivation.engine.files import write_file
+from derivation.engine.measure.case import HardCase, read_cases
 from derivation.engine.measure.point import Point
+from derivation.engine.measure.record import plain
 from derivation.engine.measure.search import Found, Search, weigh
 from derivation.engine.measure.target import Target
 
 COLUMNS = ("kernel", "#evaluations", "#ratio", "#ULP", "#allowed", "new")
 """Headings of the table, all of the worst point: its ratio is error over allowance."""
 
-Case = dict[str, Any]
-"""A `[[case]]` table: group, kernel, cause, inputs, and form and modes where they matter."""
+GROUP = "search"
+"""Group of its cases."""
 
 _SECONDS = {"s": 1, "m": 60, "h": 3600}
 _HEADER = """\
@@ -41,39 +42,21 @@ def seconds_of(duration: str) -> int:
 # --- cases
 
 
-def case_of(kernel: str, found: Found, seed: int) -> Case:
+def case_of(kernel: str, found: Found, seed: int) -> HardCase:
     """A found point as a case; two points in one array if it takes two."""
     points = [found.point] if found.company is None else [found.point, found.company]
-    inputs: dict[str, Any] = {
-        name: [point.values[name].hex() for point in points] for name in found.point.values
-    }
-    if found.company is None:
-        inputs = {name: texts[0] for name, texts in inputs.items()}
-    case: Case = {"group": "search", "kernel": kernel, "cause": f"Found by search, seed {seed}."}
-    if found.company is not None:
-        case["form"] = "array"
-    modes = {} if found.point.modes is None else {"modes": found.point.modes}
-    return {**case, **modes, "inputs": inputs}
+    inputs = {name: tuple(p.values[name].hex() for p in points) for name in found.point.values}
+    form = "scalar" if found.company is None else "array"
+    cause = f"Found by search, seed {seed}."
+    return HardCase(GROUP, kernel, cause, inputs, form, found.point.modes)
 
 
-def points_of(case: Mapping[str, Any]) -> list[Point]:
-    """A case's points: the one in question, and the other if there is one.
-
-    Raises
-    ------
-    ValueError
-        If the inputs are not hexadecimal floats.
-    """
-    given = {
-        name: [texts] if isinstance(texts, str) else list(texts)
-        for name, texts in case["inputs"].items()
-    }
-    count = max(map(len, given.values()))
-    rows = ({name: float.fromhex(texts[i]) for name, texts in given.items()} for i in range(count))
-    return [Point(row, case.get("modes")) for row in rows]
+def points_of(case: HardCase) -> list[Point]:
+    """A case's points: the one in question, and the other if there is one."""
+    return [Point(values, case.modes) for values in case.points]
 
 
-def measured(case: Mapping[str, Any], targets: Mapping[str, Target]) -> Found | None:
+def measured(case: HardCase, targets: Mapping[str, Target]) -> Found | None:
     """A case's error as the kernel is now; None if it is not searched or not to be judged.
 
     Raises
@@ -81,17 +64,17 @@ def measured(case: Mapping[str, Any], targets: Mapping[str, Target]) -> Found | 
     ValueError
         If the inputs are not the kernel's arguments.
     """
-    target = targets.get(case["kernel"])
+    target = targets.get(case.kernel)
     if target is None:
         return None
-    if set(case["inputs"]) != set(target.domain.arguments):
+    if set(case.inputs) != set(target.domain.arguments):
         expected = ", ".join(target.domain.arguments)
-        raise ValueError(f"{target.name} takes {expected}; got {', '.join(case['inputs'])}")
+        raise ValueError(f"{target.name} takes {expected}; got {', '.join(case.inputs)}")
     point, *company = points_of(case)
     return weigh(target, point, company[0] if company else None)
 
 
-def read(path: Path) -> list[Case]:
+def read(path: Path) -> list[HardCase]:
     """Cases of an earlier search's file; none if there is no file.
 
     Raises
@@ -102,11 +85,9 @@ def read(path: Path) -> list[Case]:
     if not path.exists():
         return []
     try:
-        cases: list[Case] = tomllib.loads(path.read_text())["case"]
-        for case in cases:
-            if case["group"] != "search" or not case["kernel"] or not case["cause"]:
-                raise ValueError("a case of another group")
-            points_of(case)
+        cases = read_cases(path)
+        if not all(case.group == GROUP and case.points for case in cases):
+            raise ValueError("a case of another group")
     except (ValueError, KeyError, TypeError, AttributeError, IndexError) as error:
         raise ValueError(
             f"{path} is not a file of searched cases ({error}): name another one with --out FILE"
@@ -114,12 +95,12 @@ def read(path: Path) -> list[Case]:
     return cases
 
 
-def to_toml(cases: Sequence[tuple[Case, Found | None]]) -> str:
+def to_toml(cases: Sequence[tuple[HardCase, Found | None]]) -> str:
     """The file: a table per case; what was measured stands above it as a comment."""
     return _HEADER + "".join(_table(case, found) for case, found in cases)
 
 
-def _table(case: Case, found: Found | None) -> str:
+def _table(case: HardCase, found: Found | None) -> str:
     lines = [""]
     if found is not None:
         error = found.error
@@ -127,9 +108,10 @@ def _table(case: Case, found: Found | None) -> str:
                      f"{error.allowed:.6g} allowed.")  # fmt: skip
     lines.append("[[case]]")
     # JSON's strings, numbers and lists of strings are TOML's too.
-    lines += [f"{key} = {json.dumps(value)}" for key, value in case.items() if key != "inputs"]
+    inputs = (table := case.table).pop("inputs")
+    lines += [f"{key} = {json.dumps(value)}" for key, value in table.items()]
     lines.append("[case.inputs]")
-    lines += [f"{name} = {json.dumps(texts)}" for name, texts in case["inputs"].items()]
+    lines += [f"{name} = {json.dumps(texts)}" for name, texts in inputs.items()]
     return "\n".join(lines) + "\n"
 
 
@@ -169,7 +151,7 @@ class Book:
         self._earlier = [(case, measured(case, self._targets)) for case in read(path)]
         self._known, self._unmeasured = dict(ratios), dict(worst)
         for case, found in self._earlier:
-            self._learn(case["kernel"], found)
+            self._learn(case.kernel, found)
         self._written = ""
 
     def _learn(self, kernel: str, found: Found | None) -> None:
@@ -181,15 +163,14 @@ class Book:
         texts = self._unmeasured.pop(kernel, None)
         if texts is not None and kernel in self._targets:
             names = self._targets[kernel].domain.arguments
-            inputs = dict(zip(names, texts, strict=True))
-            self._learn(kernel, measured({"kernel": kernel, "inputs": inputs}, self._targets))
+            inputs = {name: (text,) for name, text in zip(names, texts, strict=True)}
+            self._learn(kernel, measured(HardCase(GROUP, kernel, "", inputs), self._targets))
         return self._known.get(kernel, 0.0)
 
     def is_new(self, kernel: str, found: Found | None) -> bool:
         """Whether a case is worse than what is known of its kernel, or beyond its allowance."""
         if found is None or any(
-            case["kernel"] == kernel and points_of(case)[0] == found.point
-            for case, _ in self._earlier
+            case.kernel == kernel and points_of(case)[0] == found.point for case, _ in self._earlier
         ):
             return False
         return found.ratio > min(self._best_known(kernel), 1.0)
@@ -231,7 +212,7 @@ def arguments(kernel: str, search: Search) -> str:
     worst = search.standings[kernel].worst
     if worst is None:
         return f"{kernel}:"
-    given = case_of(kernel, worst, search.seed)["inputs"].items()
+    given = case_of(kernel, worst, search.seed).table["inputs"].items()
     texts = [f"{k}={v}" if isinstance(v, str) else f"{k}={','.join(v)}" for k, v in given]
     modes = [] if worst.point.modes is None else [f"modes={worst.point.modes}"]
     return f"{kernel}: {' '.join(texts + modes)}"
@@ -252,12 +233,10 @@ def _row(kernel: str, search: Search) -> dict[str, Any]:
     counts = {"evaluations": standing.evaluations, "unjudged": standing.unjudged}
     if standing.worst is None:
         return {"kernel": kernel, **counts, "ratio": None, "ulp": None, "allowed": None}
-    error, found = standing.worst.error, case_of(kernel, standing.worst, search.seed)
+    error, found = standing.worst.error, case_of(kernel, standing.worst, search.seed).table
     numbers: dict[str, float] = {"ratio": error.ratio, "ulp": error.ulp, "allowed": error.allowed}
-    # JSON has no infinities: they become text.
-    plain: dict[str, Any] = {key: repr(x) if x == float("inf") else x for key, x in numbers.items()}
-    where: Case = {key: found[key] for key in ("inputs", "form", "modes") if key in found}
-    return {"kernel": kernel, **counts, **plain, **where}
+    where = {key: found[key] for key in ("inputs", "form", "modes") if key in found}
+    return {"kernel": kernel, **counts, **plain(numbers), **where}
 
 
 def kept(search: Search) -> bool:

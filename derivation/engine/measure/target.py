@@ -9,10 +9,11 @@ from types import CodeType
 
 from derivation.engine.formula.ball import PrecisionError
 from derivation.engine.formula.ulp import from_ordinal, ordinal, overflows, ulp_error
-from derivation.engine.measure import evaluate
 from derivation.engine.measure.check import Judge
+from derivation.engine.measure.judge import Error, judge, largest
 from derivation.engine.measure.kernels import Kernel
 from derivation.engine.measure.point import Point
+from derivation.engine.oracle.reference import Reference
 
 Numbers = tuple[float, ...]
 """A function's results at a point."""
@@ -21,19 +22,6 @@ NO_REFERENCE = PrecisionError, ValueError, ZeroDivisionError, OverflowError
 
 _DIGITS, _FEW = 50, 20
 """Digits of the reference, and of the upper bound."""
-
-
-@dataclass(frozen=True)
-class Error:
-    """What a computed number is away from the reference value, and may be, in ULP."""
-
-    ulp: float
-    allowed: float
-
-    @property
-    def ratio(self) -> float:
-        """Error over allowance."""
-        return self.ulp / self.allowed
 
 
 @dataclass(frozen=True)
@@ -89,6 +77,9 @@ def _beside(value: float, floats: int) -> float:
 
 Draw = Callable[[Domain, Random], Point]
 """Returns a random point of a domain."""
+Measure = Callable[[Point, Numbers], Error | None]
+"""Point and results -> the largest error; None where no double holds the reference value, there is
+none, or the point lies outside the domain after all."""
 
 
 @dataclass(frozen=True)
@@ -104,8 +95,7 @@ class Target:
     call
         Points -> results.
     measure
-        Point and results -> the largest error; None where no double holds the reference value,
-        there is none, or the point lies outside the domain after all.
+        Judges results.
     bound
         Point and results -> a number that `measure`'s ratio never exceeds, found with less effort;
         None where there is no such short cut.
@@ -116,7 +106,7 @@ class Target:
     domain: Domain
     draw: Draw
     call: Callable[[Sequence[Point]], list[Numbers]]
-    measure: Callable[[Point, Numbers], Error | None]
+    measure: Measure
     bound: Callable[[Point, Numbers], float] | None
     share: int
     every: int
@@ -127,6 +117,22 @@ class Target:
         return self.domain.name
 
 
+def measure_by(references: Callable[[Point], Sequence[Reference] | None], budget: float) -> Measure:
+    """Return what judges all results at a point by their references."""
+
+    def measure(point: Point, results: Numbers) -> Error | None:
+        try:
+            found = references(point)
+        except NO_REFERENCE:
+            return None
+        if found is None or any(overflows(true.value) for true in found):
+            return None
+        pairs = zip(results, found, strict=True)
+        return largest(judge(got, true, budget) for got, true in pairs)
+
+    return measure
+
+
 def closed_target(
     by: Judge, domain: Domain, kernel: Kernel, draw: Draw, share: int = 48, every: int = 1
 ) -> Target:
@@ -134,7 +140,7 @@ def closed_target(
     balls, budget = by.routes.balls, float(kernel.budget or 0.0)
 
     def call(points: Sequence[Point]) -> list[Numbers]:
-        return [(float(value),) for value in evaluate.call(kernel, points)]
+        return [(float(value),) for value in kernel.results(points)]
 
     def bound(point: Point, results: Numbers) -> float:
         # The allowance is the budget and more, so error over budget is an upper bound:
@@ -145,14 +151,7 @@ def closed_target(
             return math.inf
         return ulp_error(results[0], ball) / budget
 
-    def measure(point: Point, results: Numbers) -> Error | None:
-        try:
-            found = balls.reference(kernel.name, point.values, _DIGITS, point.modes)
-        except NO_REFERENCE:
-            return None
-        if overflows(found.value):
-            return None
-        allowed = evaluate.allowed_ulp(found, budget)
-        return Error(ulp_error(results[0], found.value), allowed)
+    def references(point: Point) -> tuple[Reference]:
+        return (balls.reference(kernel.name, point.values, _DIGITS, point.modes),)
 
-    return Target(domain, draw, call, measure, bound, share, every)
+    return Target(domain, draw, call, measure_by(references, budget), bound, share, every)

@@ -10,6 +10,7 @@ import sympy as sp
 from derivation.engine.formula.ball import LOG2_10, MAX_BITS, SPARE_BITS, PrecisionError, enclosable
 from derivation.engine.formula.record import Record
 from derivation.engine.formula.vocabulary import Vocabulary
+from derivation.engine.oracle.reference import Reference, unsized
 from derivation.engine.oracle.tape import Tape, record
 
 FLOOR = flint.arb(2) ** -1200
@@ -22,39 +23,6 @@ relatively small, so this is also how exact zeros are recognised, without a gues
 
 SLOPE_BITS = 20
 """Accuracy asked of the sensitivities, which only set allowances."""
-
-
-@dataclass(frozen=True)
-class Reference:
-    """A formula's reference value at a point, and what its arguments' rounding does to it.
-
-    Parameters
-    ----------
-    value
-        Ball around the value.
-    sensitivity
-        |x_i df/dx_i| by argument. For a summed formula these are added over the
-        terms; an argument acts through those of a term too, which stand among the
-        arguments, as a function reads them from a table.
-    magnitude
-        |value|, or for a summed formula the sum of its terms' magnitudes.
-    """
-
-    value: flint.arb
-    sensitivity: Mapping[str, flint.arb]
-    magnitude: flint.arb
-
-    @property
-    def total(self) -> flint.arb:
-        """Sum of the sensitivities."""
-        return sum(self.sensitivity.values(), flint.arb(0))
-
-    @property
-    def condition(self) -> dict[str, float]:
-        """Condition number by argument; infinite (or NaN for 0/0) where the value is zero."""
-        if self.value == 0:
-            return {n: float("inf") if s > 0 else float("nan") for n, s in self.sensitivity.items()}
-        return {n: float((s / abs(self.value)).mid()) for n, s in self.sensitivity.items()}
 
 
 @dataclass(frozen=True)
@@ -233,7 +201,7 @@ class Balls:
         if values[argument] != int(values[argument]):
             raise ValueError(f"{name} is counted in whole numbers, got {values[argument]}")
         ball = number(int(values[argument]), int(digits * LOG2_10) + SPARE_BITS)
-        return Reference(ball, {}, abs(ball))
+        return unsized(ball)
 
     def _check(self, name: str, values: Mapping[str, float], modes: int | None) -> None:
         summed = self.is_summed(name)

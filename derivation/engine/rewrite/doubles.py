@@ -11,27 +11,14 @@ from collections.abc import Callable, Mapping
 
 import flint
 import sympy as sp
-from sympy.codegen.cfunctions import expm1, log1p
 
+from derivation.engine.formula.operations import FUNCTIONS
 from derivation.engine.rewrite.form import CLOSELY, TIMES, Block, Branch, Seam, Step
 from derivation.engine.rewrite.series import POLYNOMIAL
 
 _BITS = 160
 _LIMIT = sys.float_info.max
-FUNCTIONS: dict[type[sp.Basic], Callable[[flint.arb], flint.arb]] = {
-    sp.exp: lambda x: x.exp(),
-    expm1: lambda x: x.expm1(),
-    sp.log: lambda x: x.log(),
-    log1p: lambda x: x.log1p(),
-    sp.sin: lambda x: x.sin(),
-    sp.cos: lambda x: x.cos(),
-    sp.tan: lambda x: x.tan(),
-    sp.sinh: lambda x: x.sinh(),
-    sp.cosh: lambda x: x.cosh(),
-    sp.tanh: lambda x: x.tanh(),
-    sp.coth: lambda x: x.coth(),
-}
-
+_EXP = FUNCTIONS[sp.exp][0]
 Values = Mapping[sp.Basic, float]
 Blocks = Mapping[str, Block]
 NO_BLOCKS: Blocks = {}
@@ -86,7 +73,7 @@ def _node(node: sp.Basic, visit: Callable[[sp.Basic], float]) -> float:
     if node.func in (TIMES, CLOSELY):
         return _held_apart(*(visit(part) for part in node.args))
     if node.func in FUNCTIONS:
-        return _function(FUNCTIONS[node.func], visit(node.args[0]))
+        return _function(FUNCTIONS[node.func][0], visit(node.args[0]))
     raise NotImplementedError(f"no double precision for {node.func.__name__}")
 
 
@@ -128,13 +115,13 @@ def _power(base: float, exponent: sp.Expr) -> float:
 def _function(function: Callable[[flint.arb], flint.arb], argument: float) -> float:
     """Correctly rounded for all practical purposes: from 160 bits."""
     if not math.isfinite(argument):
-        if function is FUNCTIONS[sp.exp] and not math.isnan(argument):
+        if function is _EXP and not math.isnan(argument):
             return 0.0 if argument < 0 else math.inf
         return math.nan
     with flint.ctx.workprec(_BITS):
         value = function(flint.arb(argument))
         if not value.is_finite():
-            return math.inf if function is FUNCTIONS[sp.exp] and argument > 0 else math.nan
+            return math.inf if function is _EXP and argument > 0 else math.nan
         nearest = float(value.mid())
     return nearest if abs(nearest) <= _LIMIT else math.copysign(math.inf, nearest)
 

@@ -9,8 +9,9 @@ import flint
 import sympy as sp
 
 from derivation.engine.formula.ball import Exact, PrecisionError, evaluate, to_ball
+from derivation.engine.formula.operations import FUNCTIONS
 from derivation.engine.formula.ulp import neighbours, overflows, ulp_error
-from derivation.engine.rewrite.doubles import FUNCTIONS, run
+from derivation.engine.rewrite.doubles import run
 from derivation.engine.rewrite.form import Seam, Step
 from derivation.engine.rewrite.shape import Shape, assembled
 from derivation.engine.rewrite.terms import UnreachableError

@@ -1,4 +1,4 @@
-"""Arithmetics for one and the same sum: NumPy floats of any width, mpmath, and Arb balls.
+"""Arithmetics for one and the same method: NumPy floats of any width, mpmath, and Arb balls.
 
 Each knows zeros of J0, s(y) = sin y - y cos y and its hyperbolic counterpart, and the
 plate factor, to its own precision; arrays hold its numbers.
@@ -7,17 +7,19 @@ plate factor, to its own precision; arrays hold its numbers.
 import math
 from collections.abc import Callable
 from contextlib import AbstractContextManager
-from typing import Any, Protocol
+from fractions import Fraction
+from functools import cache
+from typing import Any
 
 import flint
 import numpy as np
 from flint import acb, arb
-from mpmath import mp, mpf
+from mpmath import mp, mpc, mpf
 
 from derivation.engine.formula.ball import LOG2_10
 from derivation.engine.oracle.agreement import to_ball
 from derivation.mathematics.bessel import oracle as certified
-from derivation.plate.benchmark.far_zeros import FIRST, far_zeros
+from derivation.mathematics.bessel.theory.zeros import slope_squared, zero_correction
 from derivation.plate.contact.oracle.sums import kernel, plate_excess
 from generated.bessel import bessel_j0_zeros, bessel_j1_at_j0_zeros
 
@@ -25,253 +27,292 @@ Array = Any
 """NumPy array of an arithmetic's numbers."""
 
 SERIES_END = 1.6
-"""Below this s(y) is summed as a power series: its closed form cancels."""
+"""Below this floats sum s(y) as a power series: its closed form cancels."""
+
+TERMS = 12, 17
+"""Of the series of s(y) and of the plate factor's denominator: the next is below 1e-20 of them."""
+
+FAR, FAR_TERMS = 1000, 4
+"""Zeros beyond this number come in long doubles from McMahon's expansion: so many terms leave out
+less than 1e-26 of the value."""
+
+KNOWN = 1 << 16
+"""Zeros up to this number come in doubles from the generated code."""
 
 
-class Arithmetic(Protocol):
-    """What a sum asks of its numbers."""
+class Arithmetic:
+    """What a method asks of its numbers.
+
+    Attributes
+    ----------
+    digits, constants
+        Decimal digits its numbers hold, and to which constants are found.
+    wide
+        Whether numbers are objects, taken one by one.
+    """
 
     name: str
     digits: int
-    """Decimal digits its numbers hold."""
+    constants: int
     wide: bool
-    """Whether numbers are objects, taken one by one."""
+    exp: Callable[[Array], Array]
+    log: Callable[[Array], Array]
+
+    @property
+    def bits(self) -> int:
+        """Precision at which constants are found, with some to spare."""
+        return math.ceil(LOG2_10 * (self.constants + 10)) + 24
 
     def context(self) -> AbstractContextManager[Any]:
         """Where its precision holds."""
+        raise NotImplementedError
+
+    def number(self, value: Any) -> Any:
+        """A double, a ball or a number of its own as its number."""
+        raise NotImplementedError
 
     def array(self, values: Any) -> Array:
-        """Doubles, balls or a single one of them as an array of its numbers."""
+        """Each as its number."""
+        raise NotImplementedError
+
+    def wrapped(self, inner: Callable[[Array], Array]) -> Callable[[Any], Array]:
+        """A function of its numbers as one of doubles, in its precision."""
+
+        def call(values: Any) -> Array:
+            with self.context():
+                return inner(self.array(values))
+
+        return call
+
+    def pi(self) -> Any:
+        """The number pi."""
+        with flint.ctx.workprec(self.bits):
+            return self.number(arb.pi())
 
     def zeros(self, count: int) -> tuple[Array, Array]:
         """The first zeros j_n of J0, and J1(j_n)."""
+        with flint.ctx.workprec(self.bits):
+            j = [certified.j0_zero(n, self.bits + 16) for n in range(1, count + 1)]
+            slopes = [certified.j1_at_zero(n, self.bits) for n in range(1, count + 1)]
+            return self.array(j), self.array(slopes)
 
     def shape(self, y: Array) -> Array:
         """s(y) = sin y - y cos y."""
+        raise NotImplementedError
 
     def wall_shape(self, t: Array) -> Array:
         """t cosh t - sinh t = s(i t) i."""
+        raise NotImplementedError
+
+    def turned(self, y: Array) -> Array:
+        """(1 - i y) e^(iy), whose imaginary part is s(y)."""
+        raise NotImplementedError
 
     def excess(self, T: Array) -> Array:
         """G(T) - 1."""
+        raise NotImplementedError
 
     def printed_factor(self, x: Array) -> Array:
         """Plate factor as the paper prints it, x = phi h."""
+        raise NotImplementedError
 
 
-class Floats:
+class Floats(Arithmetic):
     """NumPy floats: Taylor series where closed forms cancel, found anew for each width."""
 
-    wide = False
+    wide, constants, exp, log = False, 60, np.exp, np.log
 
     def __init__(self, name: str, dtype: type[np.floating[Any]]) -> None:
         self.name, self.dtype = name, np.dtype(dtype)
-        accuracy = np.finfo(dtype)
-        self.digits = int(accuracy.precision) + 1
-        least = float(accuracy.eps) / 64
-        self._odd = self._series(
-            lambda k: mpf(2 * k + 2) / mp.factorial(2 * k + 3), SERIES_END, least
-        )
-        self._even = self._series(
-            lambda k: mpf(2) ** (2 * k + 3) / mp.factorial(2 * k + 4), 2.0, least
-        )
-
-    def _series(self, term: Callable[[int], mpf], end: float, least: float) -> Array:
-        """Coefficients of a power series in x^2 up to those too small to count at x = end."""
-        with mp.workdps(self.digits + 10):
-            terms = [term(0)]
-            while terms[-1] * end ** (2 * len(terms)) > least * terms[0]:
-                terms.append(term(len(terms)))
-            return np.array([self.dtype.type(mp.nstr(x, self.digits + 5)) for x in terms])
+        self.digits = int(np.finfo(dtype).precision) + 1
+        odd, even = map(range, TERMS)
+        with flint.ctx.workprec(self.bits):
+            self._sinh = self.array([arb(2 * k + 2) / math.factorial(2 * k + 3) for k in odd])
+            self._even = self.array(
+                [arb(2) ** (2 * k + 3) / math.factorial(2 * k + 4) for k in even]
+            )
+        self._sine = self._sinh * self.array((-1.0) ** np.arange(len(odd)))
 
     def context(self) -> AbstractContextManager[Any]:
         """Overflow is a result here, not an error."""
         return np.errstate(all="ignore")
 
-    def array(self, values: Any) -> Array:
+    def number(self, value: Any) -> Any:
         """Balls are rounded by way of 25 decimals."""
-        if isinstance(values, arb):
-            return self.dtype.type(values.str(25, radius=False))
-        if isinstance(values, list) and values and isinstance(values[0], arb):
-            return np.array([self.array(value) for value in values])
+        given = value.str(25, radius=False) if isinstance(value, arb) else value
+        return self.dtype.type(given)
+
+    def array(self, values: Any) -> Array:
+        """Each as a float."""
+        if isinstance(values, list):
+            values = [self.number(value) for value in values]
         return np.asarray(values, self.dtype)
 
-    def zeros(self, count: int) -> tuple[Array, Array]:
-        """From the generated code up to double precision; beyond it certified ones, then far."""
-        if self.dtype.itemsize <= 8:
-            return self.array(bessel_j0_zeros(count)), self.array(bessel_j1_at_j0_zeros(count))
-        near = range(1, min(count, FIRST) + 1)
-        j = [certified.j0_zero(n, 80) for n in near]
-        slopes = [certified.j1_at_zero(n, 80) for n in near]
-        with flint.ctx.workprec(96):
-            found, pi = (self.array(j), self.array(slopes)), self.array(arb.pi())
-        if count <= FIRST:
-            return found
-        far = far_zeros(FIRST, count, pi)
-        return np.concatenate([found[0], far[0]]), np.concatenate([found[1], far[1]])
+    def wrapped(self, inner: Callable[[Array], Array]) -> Callable[[Any], Array]:
+        """Nothing is added to a function of doubles."""
+        return inner if self is DOUBLE else lambda values: inner(values.astype(self.dtype))
 
-    def _taylor(self, y: Array, sign: int) -> Array:
-        t = np.minimum(y, self.array(SERIES_END)) ** 2
-        value = np.full_like(t, self._odd[-1])
-        for coefficient in self._odd[-2::-1]:
-            value = value * (sign * t) + coefficient
-        return value
+    def zeros(self, count: int, begin: int = 0) -> tuple[Array, Array]:
+        """Those with begin < n <= count: known ones, and beyond by McMahon's expansion."""
+        known = min(count, KNOWN if self.digits <= 16 else FAR)
+        if self.digits <= 16:
+            near = self.array(bessel_j0_zeros(known)), self.array(bessel_j1_at_j0_zeros(known))
+        else:
+            near = super().zeros(known)
+        if count == known:
+            return near[0][begin:], near[1][begin:]
+        far = self._far(max(begin, known), count)
+        j, slope = (np.concatenate([x[begin:], y]) for x, y in zip(near, far, strict=True))
+        return j, slope
+
+    def _far(self, begin: int, end: int) -> tuple[Array, Array]:
+        """With beta = (n - 1/4) pi, j = beta (1 + s) and J1(j)^2 = 2 q/(pi beta).
+
+        s and q are in powers of 1/beta^2 (McMahon 1895; DLMF 10.21.19 and 10.21.20).
+        """
+        n, pi = np.arange(begin + 1, end + 1).astype(self.dtype), self.pi()
+        beta = (n - self.number(0.25)) * pi
+        w = 1 / (beta * beta)
+        stretch, slope = (horner(self.array(row), w) for row in mcmahon())
+        return beta * (1 + w * stretch), np.sqrt(2 * slope / (pi * beta)) * np.where(n % 2, 1, -1)
 
     def shape(self, y: Array) -> Array:
         """Power series below SERIES_END."""
-        return np.where(
-            y < SERIES_END, self._taylor(y, -1) * (y * y * y), np.sin(y) - y * np.cos(y)
-        )
+        near = np.minimum(y, self.number(SERIES_END))
+        series = horner(self._sine, near * near) * (y * y * y)
+        return np.where(y < SERIES_END, series, np.sin(y) - y * np.cos(y))
 
     def wall_shape(self, t: Array) -> Array:
         """The same series without the alternating sign."""
-        return np.where(
-            t < SERIES_END, self._taylor(t, 1) * (t * t * t), t * np.cosh(t) - np.sinh(t)
-        )
+        near = np.minimum(t, self.number(SERIES_END))
+        series = horner(self._sinh, near * near) * (t * t * t)
+        return np.where(t < SERIES_END, series, t * np.cosh(t) - np.sinh(t))
+
+    def turned(self, y: Array) -> Array:
+        """As it stands."""
+        return (1 - 1j * y) * np.exp(1j * y)
 
     def excess(self, T: Array) -> Array:
         """4 e^(-2T) n/((1 - e^(-2T))^2 - 4 T^2 e^(-2T)), the denominator by its series below 2."""
         decay = np.exp(-2 * T)
         numerator = -np.expm1(-2 * T) / 2 + T + T * T
-        near = np.minimum(T, self.array(2.0))
+        near = np.minimum(T, self.number(2.0))
         square = near * near
-        series = np.full_like(square, self._even[-1])
-        for coefficient in self._even[-2::-1]:
-            series = series * square + coefficient
-        apart = np.where(T > 2, (1 - decay) ** 2 - 4 * T * T * decay, self.array(1.0))
-        return np.where(T > 2, 4 * decay * numerator / apart, numerator / (square**2 * series))
+        apart = np.where(T > 2, (1 - decay) ** 2 - 4 * T * T * decay, self.number(1.0))
+        small = numerator / (square * square * horner(self._even, square))
+        return np.where(T > 2, 4 * decay * numerator / apart, small)
 
     def printed_factor(self, x: Array) -> Array:
         """Overflows from x = 88.7 on in doubles."""
         return _printed_factor(x, np.exp(2 * x))
 
 
-class Wide:
-    """Numbers of any precision, as objects in arrays; each function takes them one by one."""
+class Wide(Arithmetic):
+    """Numbers of any precision, as objects in arrays; a function takes them one by one."""
 
     wide = True
-    name: str
-    digits: int
 
     def array(self, values: Any) -> Array:
         """Every number converted; an array without axes stays one number."""
         if isinstance(values, list | np.ndarray):
-            flat = [self._number(value) for value in np.ravel(np.array(values, dtype=object))]
+            flat = [self.number(value) for value in np.ravel(np.array(values, dtype=object))]
             return np.array(flat, dtype=object)
-        return self._number(values)
-
-    def _number(self, value: Any) -> Any:
-        raise NotImplementedError
-
-    def _shape(self, y: Any) -> Any:
-        raise NotImplementedError
-
-    def _wall_shape(self, t: Any) -> Any:
-        raise NotImplementedError
-
-    def _excess(self, T: Any) -> Any:
-        raise NotImplementedError
-
-    def _printed(self, x: Any) -> Any:
-        raise NotImplementedError
-
-    def shape(self, y: Array) -> Array:
-        """Each by itself."""
-        return np.frompyfunc(self._shape, 1, 1)(y)
-
-    def wall_shape(self, t: Array) -> Array:
-        """Each by itself."""
-        return np.frompyfunc(self._wall_shape, 1, 1)(t)
-
-    def excess(self, T: Array) -> Array:
-        """Each by itself."""
-        return np.frompyfunc(self._excess, 1, 1)(T)
-
-    def printed_factor(self, x: Array) -> Array:
-        """Each by itself."""
-        return np.frompyfunc(self._printed, 1, 1)(x)
+        return self.number(values)
 
 
 class BallArithmetic(Wide):
     """Arb: every result encloses the exact one."""
 
     def __init__(self, digits: int) -> None:
-        self.name, self.digits = f"Arb, {digits} digits", digits
-        self.bits = math.ceil(digits * LOG2_10) + 24
+        self.name, self.digits, self.constants = f"Arb, {digits} digits", digits, digits + 10
 
     def context(self) -> AbstractContextManager[Any]:
         """Its precision and some bits to spare."""
-        manager: AbstractContextManager[Any] = flint.ctx.workprec(self.bits)
+        manager: AbstractContextManager[Any] = flint.ctx.workprec(
+            math.ceil(self.digits * LOG2_10) + 24
+        )
         return manager
 
-    def _number(self, value: Any) -> arb:
+    def number(self, value: Any) -> Any:
+        """Exactly."""
         return value if isinstance(value, arb) else arb(float(value))
 
-    def zeros(self, count: int) -> tuple[Array, Array]:
-        """Certified ones."""
-        j = [certified.j0_zero(n, self.bits + 16) for n in range(1, count + 1)]
-        slopes = [certified.j1_at_zero(n, self.bits) for n in range(1, count + 1)]
-        return np.array(j, dtype=object), np.array(slopes, dtype=object)
+    def shape(self, y: Array) -> Array:
+        """By the oracle's kernel, which knows the power series; and so is all else."""
+        return np.frompyfunc(lambda x: kernel("hertz", acb(x)).real * x**3 / 3, 1, 1)(y)
 
-    def _shape(self, y: arb) -> arb:
-        return kernel("hertz", acb(y)).real * y**3 / 3
+    def wall_shape(self, t: Array) -> Array:
+        """The same on the imaginary axis."""
+        return np.frompyfunc(lambda x: kernel("hertz", acb(0, x)).real * x**3 / 3, 1, 1)(t)
 
-    def _wall_shape(self, t: arb) -> arb:
-        return kernel("hertz", acb(0, t)).real * t**3 / 3
-
-    def _excess(self, T: arb) -> arb:
-        return plate_excess(acb(T)).real
-
-    def _printed(self, x: arb) -> arb:
-        # 1 - e^(8x) against 8 x e^(4x) costs up to 3 log2(1/x) bits.
-        with flint.ctx.workprec(self.bits + 64):
-            return _printed_factor(x, (2 * x).exp())
+    def excess(self, T: Array) -> Array:
+        """The oracle's."""
+        return np.frompyfunc(lambda x: plate_excess(acb(x)).real, 1, 1)(T)
 
 
 class Mpmath(Wide):
     """mpmath at a number of digits; where closed forms cancel it takes more."""
 
-    def __init__(self, digits: int) -> None:
+    exp, log = np.frompyfunc(mp.exp, 1, 1), np.frompyfunc(mp.log, 1, 1)
+
+    def __init__(self, digits: int, constants: int | None = None) -> None:
         self.name, self.digits = f"mpmath, {digits} digits", digits
+        self.constants = constants or digits + 10
 
     def context(self) -> AbstractContextManager[Any]:
         """Its precision and some digits to spare."""
         manager: AbstractContextManager[Any] = mp.workdps(self.digits + 3)
         return manager
 
-    def _number(self, value: Any) -> mpf:
+    def number(self, value: Any) -> Any:
+        """Balls are rounded by way of decimals."""
         if isinstance(value, arb):
             return mpf(value.str(self.digits + 8, radius=False))
-        return mpf(float(value))
+        return value if isinstance(value, mpf) else mpf(float(value))
 
-    def zeros(self, count: int) -> tuple[Array, Array]:
-        """Arb's, since finding them is not what is compared."""
-        with flint.ctx.workprec(math.ceil((self.digits + 10) * LOG2_10) + 24):
-            j, slopes = BallArithmetic(self.digits + 10).zeros(count)
-            return self.array(j), self.array(slopes)
+    def shape(self, y: Array) -> Array:
+        """As it stands."""
+        return self._each(lambda x, c, s: s - x * c, 3, y)
 
-    def _shape(self, y: mpf) -> mpf:
-        with mp.extradps(_lost(y, 3)):
-            cosine, sine = mp.cos_sin(y)
-            return sine - y * cosine
+    def wall_shape(self, t: Array) -> Array:
+        """As it stands."""
+        return self._each(lambda x, *_: x * mp.cosh(x) - mp.sinh(x), 3, t)
 
-    def _wall_shape(self, t: mpf) -> mpf:
-        with mp.extradps(_lost(t, 3)):
-            return t * mp.cosh(t) - mp.sinh(t)
+    def turned(self, y: Array) -> Array:
+        """By its parts."""
+        return self._each(lambda x, c, s: mpc(c + x * s, s - x * c), 0, y)
 
-    def _excess(self, T: mpf) -> mpf:
-        with mp.extradps(_lost(T, 4)):
-            decay = mp.exp(-2 * T)
-            numerator = (1 - decay) / 2 + T + T * T
-            return 4 * decay * numerator / ((1 - decay) ** 2 - 4 * T * T * decay)
+    def excess(self, T: Array) -> Array:
+        """By decaying exponentials."""
 
-    def _printed(self, x: mpf) -> mpf:
-        return _printed_factor(x, mp.exp(2 * x))
+        def function(x: mpf, *_: mpf) -> mpf:
+            decay = mp.exp(-2 * x)
+            numerator = (1 - decay) / 2 + x + x * x
+            return 4 * decay * numerator / ((1 - decay) ** 2 - 4 * x * x * decay)
+
+        return self._each(function, 4, T)
+
+    def printed_factor(self, x: Array) -> Array:
+        """As printed."""
+        return self._each(lambda x, *_: _printed_factor(x, mp.exp(2 * x)), 3, x)
+
+    def _each(self, function: Callable[..., Any], power: int, values: Array) -> Array:
+        """A function of a number, its cosine and sine that cancels like the number's power."""
+
+        def one(x: mpf) -> Any:
+            with mp.extradps(5 + max(0, math.ceil(-power * math.log10(float(x))))):
+                return function(x, *mp.cos_sin(x))
+
+        return np.frompyfunc(one, 1, 1)(values)
 
 
-def _lost(x: mpf, power: int) -> int:
-    """Digits that a difference of the order x^power loses."""
-    return 5 + max(0, int(-power * mp.log10(x)) + 1)
+def horner(coefficients: Any, x: Array) -> Array:
+    """A polynomial, its constant first."""
+    value = coefficients[-1] + 0 * x
+    for coefficient in coefficients[-2::-1]:
+        value *= x
+        value += coefficient
+    return value
 
 
 def _printed_factor(x: Any, e2: Any) -> Any:
@@ -279,11 +320,31 @@ def _printed_factor(x: Any, e2: Any) -> Any:
     return (1 - e4 * e4 - 8 * x * e4) / ((-1 + e4 + 4 * x * e2) * (1 - e4 + 4 * x * e2))
 
 
+@cache
+def mcmahon() -> list[list[arb]]:
+    """Coefficients of s/w and q of `Floats._far`, w = 1/beta^2."""
+    rows = zero_correction(0, FAR_TERMS).coefficients, slope_squared(FAR_TERMS).coefficients
+    with flint.ctx.workprec(96):
+        return [[arb(int(c.p)) / int(c.q) for c in row] for row in rows]
+
+
 SINGLE = Floats("float32", np.float32)
 DOUBLE = Floats("float64", np.float64)
 LONG = Floats("long double", np.longdouble)
 HAS_LONG = LONG.digits > DOUBLE.digits
 """Whether the platform's long double is any longer than double."""
+
+WIDE = 60
+"""Digits at least of what stands for exact arithmetic."""
+
+
+def exact_for(ar: Arithmetic) -> Arithmetic:
+    """What stands for exact arithmetic beside another: digits enough for its rounding to be seen.
+
+    Constants are found to as many digits for both, so that they are found once.
+    """
+    digits = max(WIDE, ar.digits + 10)
+    return Mpmath(digits, digits)
 
 
 def as_ball(value: Any) -> arb:
@@ -296,3 +357,9 @@ def as_ball(value: Any) -> arb:
         high = float(value)
         return arb(high) + arb(float(value - np.longdouble(high)))
     return arb(float(value))
+
+
+def as_fraction(value: mpf) -> Fraction:
+    """An mpmath number, exactly."""
+    mantissa, exponent = value.man_exp
+    return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)

@@ -3,20 +3,10 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
-import numpy as np
-
-from derivation.plate.benchmark import (
-    by_series,
-    inversion,
-    law_generated,
-    law_series,
-    law_sums,
-    motion,
-    stepping,
-)
+from derivation.plate.benchmark import inversion, laws, motion, polynomials, shipped, sums
 from derivation.plate.benchmark.arithmetic import HAS_LONG, LONG, SINGLE, BallArithmetic, Mpmath
 from derivation.plate.benchmark.interface import PAPER, Method, Regime
-from derivation.plate.benchmark.levin import levin
+from derivation.plate.benchmark.shipped import hertz
 from derivation.plate.impact.oracle import many_costs
 
 SIMPLEST = (
@@ -42,29 +32,20 @@ NODES = {30: 84, 50: 156, 100: 360}
 
 def law_methods() -> list[Method]:
     """Indentation over contact radius."""
-    found = [
-        law_generated.hertz(),
-        law_generated.called(),
-        law_generated.prepared(),
-        law_generated.called(np.float32),
-    ]
-    found += [law_sums.printed(n) for n in (10, 100, 1000)]
-    found += [law_sums.direct(n, quick=n <= 10_000) for n in (100, 1000, 10_000, 100_000)]
-    found += [law_sums.direct(1000, SINGLE)]
-    found += [
-        law_sums.split(n, m) for n, m in ((8, 1), (12, 2), (16, 2), (24, 3), (32, 4), (48, 4))
-    ]
-    found += [
-        law_sums.split(n, m, double_exponential=False) for n, m in ((16, 2), (32, 4), (64, 5))
-    ]
-    found += [law_sums.split(48, 4, SINGLE)]
-    found += [levin(n) for n in (4, 8, 12, 16, 20)]
-    found += [law_series.small_contacts(n) for n in (1, 2, 4, 8, 12, 16)]
-    found += [law_series.small_contacts(16, SINGLE)]
-    found += [law_series.thin_plate(n) for n in (2, 4, 8, 16)]
-    found += [law_series.chebyshev(n) for n in (2, 4, 6, 9, 16)]
-    found += [law_series.chebyshev(6, SINGLE)]
-    found += [law_series.table(n) for n in (64, 1024, 8192)]
+    found = [hertz("law"), shipped.called(), shipped.prepared(), shipped.called(SINGLE)]
+    found += [sums.printed(n) for n in (10, 100, 1000)]
+    found += [sums.direct(n, quick=n <= 10_000) for n in (100, 1000, 10_000, 100_000)]
+    found += [sums.direct(1000, SINGLE)]
+    found += [sums.split(n, m) for n, m in ((8, 1), (12, 2), (16, 2), (24, 3), (32, 4), (48, 4))]
+    found += [sums.split(n, m, double_exponential=False) for n, m in ((16, 2), (32, 4), (64, 5))]
+    found += [sums.split(48, 4, SINGLE)]
+    found += [sums.levin(n) for n in (4, 8, 12, 16, 20)]
+    found += [polynomials.small_contacts(n) for n in (1, 2, 4, 8, 12, 16)]
+    found += [polynomials.small_contacts(16, SINGLE)]
+    found += [polynomials.thin_plate(n) for n in (2, 4, 8, 16)]
+    found += [polynomials.chebyshev(n) for n in (2, 4, 6, 9, 16)]
+    found += [polynomials.chebyshev(6, SINGLE)]
+    found += [polynomials.table(n) for n in (64, 1024, 8192)]
     return found + _wide_laws()
 
 
@@ -72,13 +53,13 @@ def _wide_laws() -> list[Method]:
     """The same beyond double precision."""
     found = []
     if HAS_LONG:
-        found += [law_series.small_contacts(24, LONG), law_sums.split(64, 5, LONG, quick=False)]
+        found += [polynomials.small_contacts(24, LONG), sums.split(64, 5, LONG, quick=False)]
     for digits in DEEP:
         quick = digits == DEEP[0]
         for ar in (Mpmath(digits), BallArithmetic(digits)):
-            found.append(law_series.small_contacts(TERMS[digits], ar, quick))
-            found.append(law_sums.split(NODES[digits], 0.2 * digits, ar, quick=False))
-        found.append(law_generated.oracle(digits, quick))
+            found.append(polynomials.small_contacts(TERMS[digits], ar, quick))
+            found.append(sums.split(NODES[digits], 0.2 * digits, ar, quick=False))
+        found.append(shipped.oracle("law", digits, quick))
     return found + _deepest_laws()
 
 
@@ -95,50 +76,50 @@ def _deepest_laws() -> list[Method]:
 
     found = []
     for ar in (Mpmath(DEEPEST), BallArithmetic(DEEPEST)):
-        small = law_series.small_contacts(TERMS[DEEPEST], ar, quick=False)
+        small = polynomials.small_contacts(TERMS[DEEPEST], ar, quick=False)
         found.append(replace(small, fails=elsewhere))
         # 1.7 digits for each node over the logarithm of all.
-        split = law_sums.split(5000, 0.2 * DEEPEST, ar, quick=False)
+        split = sums.split(5000, 0.2 * DEEPEST, ar, quick=False)
         dear = f"nodes, weights and zeros of J0 to {DEEPEST} digits take minutes, a point seconds"
         found.append(refused(split, dear))
     hours = many_costs.integrals_seconds(DEEPEST) / 3600
-    oracle = law_generated.oracle(DEEPEST, quick=False)
+    oracle = shipped.oracle("law", DEEPEST, quick=False)
     return [*found, refused(oracle, f"{DEEPEST} digits take about {hours:.0f} hours")]
 
 
 def inversion_methods() -> list[Method]:
     """Force over indentation."""
-    found = [inversion.hertz(), inversion.newton(), inversion.newton(np.float32)]
+    found = [hertz("inversion"), shipped.newton(), shipped.newton(SINGLE)]
     found += [inversion.reversed_series(n) for n in (2, 4, 8, 12, 16, 24)]
     found += [inversion.reversed_series(12, SINGLE)]
     found += [inversion.table(n) for n in (64, 1024, 8192)]
-    found += [inversion.table(1024, np.float32)]
-    found += [by_series.newton(n) for n in (4, 8, 16)]
-    found += [by_series.newton(8, SINGLE), by_series.newton(24, Mpmath(DEEP[0]))]
+    found += [inversion.table(1024, SINGLE)]
+    found += [laws.newton(n) for n in (4, 8, 16)]
+    found += [laws.newton(8, SINGLE), laws.newton(24, Mpmath(DEEP[0]))]
     if HAS_LONG:
-        found += [inversion.reversed_series(24, LONG), by_series.newton(24, LONG)]
-    return found + [inversion.oracle(digits, digits == DEEP[0]) for digits in DEEP]
+        found += [inversion.reversed_series(24, LONG), laws.newton(24, LONG)]
+    return found + [shipped.oracle("inversion", digits, digits == DEEP[0]) for digits in DEEP]
 
 
 def impact_methods() -> list[Method]:
     """Contact time over speed."""
-    found = [motion.hertz(), motion.production(), motion.production(np.float32)]
+    found = [hertz("impact"), shipped.bounce(), shipped.bounce(SINGLE)]
     found += [motion.linear(n) for n in (25, 100, 400)]
     found += [motion.perturbation(corrected) for corrected in (False, True)]
     found += [motion.gauss(n) for n in (4, 6, 8, 12, 16, 20, 24)]
-    found += [by_series.gauss(n, m) for n, m in ((4, 4), (12, 8), (24, 16))]
-    found += [by_series.gauss(8, 8, SINGLE), by_series.gauss(48, 24, Mpmath(DEEP[0]))]
+    found += [laws.gauss(n, m) for n, m in ((4, 4), (12, 8), (24, 16))]
+    found += [laws.gauss(8, 8, SINGLE), laws.gauss(48, 24, Mpmath(DEEP[0]))]
     if HAS_LONG:
-        found += [by_series.gauss(32, 24, LONG)]
+        found += [laws.gauss(32, 24, LONG)]
     for name in ("DOP853", "Radau", "LSODA"):
         for rtol in (1e-3, 1e-6, 1e-9, 1e-12):
             quick = name != "Radau" or rtol > 1e-8
-            found.append(stepping.solver(name, rtol, quick=quick))
+            found.append(motion.solver(name, rtol, quick=quick))
             if name != "DOP853":
-                found.append(stepping.solver(name, rtol, share=0.05, quick=False))
-    found += [stepping.verlet(n, n == 20) for n in (20, 100, 1000)]
-    found += [stepping.verlet(100, False, np.float32)]
-    return found + [motion.oracle(digits, quick=False) for digits in DEEP]
+                found.append(motion.solver(name, rtol, share=0.05, quick=False))
+    found += [motion.verlet(n, n == 20) for n in (20, 100, 1000)]
+    found += [motion.verlet(100, False, SINGLE)]
+    return found + [shipped.oracle("impact", digits, quick=False) for digits in DEEP]
 
 
 def methods(names: Sequence[str] = (), quick: bool = False) -> list[Method]:

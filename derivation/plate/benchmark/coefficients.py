@@ -1,37 +1,88 @@
 """Coefficients of the contact law's power series in a/h to any number of digits, in balls.
 
-delta = (a^2/R) (1 + A (c_1 + c_3 A^2 + ...)), A = a/h. Each is the side wall's moment
-plus the modes' one; for plates so thin that the residues at the roots of sinh T = +-T
-are below the digits asked for, the closed form. What sums and nodes leave out is not
-bounded: these are methods to be judged, not references.
+delta = (a^2/R) (1 + A (c_1 + c_3 A^2 + ...)), A = a/h: the oracle's power series; for plates so
+thin that the residues at the roots of sinh T = +-T are below the digits asked for, the closed
+form. They are for methods to be judged: bounds of what is left out are not kept.
 """
 
 import math
 from functools import cache
 
 import flint
-from flint import acb, arb
+from flint import arb
 
 from derivation.engine.formula.ball import LOG2_10
-from derivation.mathematics.bessel import oracle as certified
+from derivation.plate.benchmark.interface import Regime, deepest
+from derivation.plate.contact.oracle import points as contact_points
+from derivation.plate.contact.oracle.balls import ratio_of
 from derivation.plate.contact.oracle.moments import finite_part
-from derivation.plate.contact.oracle.sums import plate_excess
+from derivation.plate.contact.oracle.sums import SHARES
 
 ROOT_HEIGHT = 4.2
 """The first residue is of the order e^(-ROOT_HEIGHT b/h)."""
 
+RADIUS = 4.0
+"""Of convergence in a/h, in a thin plate."""
 
-def series(h: float, b: float, count: int, digits: int) -> list[arb]:
-    """c_1, c_3 ... of h/b to some digits."""
-    if ROOT_HEIGHT * b / h > (digits + 5) * math.log(10):
-        return closed_form(h, b, count, digits)
-    return by_moments(h, b, count, digits)
+LEAST = 0.5
+"""a/h up to which coefficients are found at least, though a regime's contacts be smaller."""
+
+MOST_ZEROS = 20_000
+"""Of J0, from which on finding them takes minutes."""
+
+LAW_DIGITS, MOST_TERMS = 40, 200
+"""Of the law that stands for the exact one, and terms of it in a thin plate."""
+
+
+def is_thin(h: float, b: float, digits: int) -> bool:
+    """Whether the closed form gives so many digits."""
+    return ROOT_HEIGHT * b / h > (digits + 5) * math.log(10)
+
+
+def coefficients(regime: Regime, count: int, digits: int) -> list[arb]:
+    """c_1, c_3 ... to some digits; fewer where the rest are below all of these."""
+    if is_thin(regime.h, regime.b, digits):
+        return closed_form(regime.h, regime.b, count, digits)
+    reach = max(regime.high if regime.high < RADIUS else 0.0, 1.05 * deepest(regime) / regime.h)
+    return oracles(regime.h, regime.b, min(max(reach, LEAST), 0.95 / regime.eta), digits)[:count]
+
+
+def exact_law(regime: Regime) -> list[arb]:
+    """All of them that the law takes up to a regime's largest contact, to LAW_DIGITS.
+
+    Raises
+    ------
+    NotImplementedError
+        If they would take minutes.
+    """
+    top = min(1.05 * deepest(regime) / regime.h, RADIUS * contact_points.DEEPEST * (1 - 1e-9))
+    if is_thin(regime.h, regime.b, LAW_DIGITS):
+        count = math.ceil(LAW_DIGITS / (2 * math.log10(RADIUS / top))) + 2 if top < RADIUS else 0
+        if 0 < count < MOST_TERMS:
+            return closed_form(regime.h, regime.b, count, LAW_DIGITS)
+    return oracles(regime.h, regime.b, top, LAW_DIGITS)
+
+
+@cache
+def oracles(h: float, b: float, top: float, digits: int) -> list[arb]:
+    """Oracle 1's up to a/h = top; beyond 4 its terms cancel, and it knows more of them."""
+    eta, bits = ratio_of(h, b), math.ceil((digits + 5) * LOG2_10)
+    if contact_points.mode_count(float(eta), bits) > MOST_ZEROS:
+        raise NotImplementedError("the law of so large contacts on so thin a plate takes minutes")
+    known = contact_points.series(eta, top * float(eta) * (1 + 1e-9), bits)
+    with flint.ctx.workprec(known.working + 64):
+        ratio = arb(eta.numerator) / eta.denominator
+        share = SHARES["hertz"] * ratio / arb.pi()
+        return [
+            share * ratio ** (2 * k) * power
+            for k, power in enumerate(known.powers["hertz"].coeffs())
+        ]  # fmt: skip
 
 
 @cache
 def closed_form(h: float, b: float, count: int, digits: int) -> list[arb]:
     """The thin plate's: a logarithm and finite parts M_k."""
-    bits = bits_of(digits)
+    bits = math.ceil(digits * LOG2_10) + 64
     with flint.ctx.workprec(bits):
         eta, pi = arb(h) / arb(b), arb.pi()
         log = arb.const_euler() - (4 * eta).log()
@@ -44,74 +95,3 @@ def closed_form(h: float, b: float, count: int, digits: int) -> list[arb]:
             share = (-1) ** k * 8 * (2 * k - 2) / (pi * math.factorial(2 * k - 1))
             found.append(share * M[k - 2] / arb(2) ** (2 * k - 2))
         return found[:count]
-
-
-@cache
-def by_moments(h: float, b: float, count: int, digits: int) -> list[arb]:
-    """c_(2k+1) = eta^(2k+1) (8/pi^2) (2k+2)/(2k+3)! (pi (-1)^k sum_n w_n j_n^(2k) - kappa_2k).
-
-    Up to h/b = 1/2 the modes outweigh the wall; in thicker plates they take more bits.
-    """
-    bits = bits_of(digits) + (4 * count if h > b / 2 else 0)
-    with flint.ctx.workprec(bits):
-        eta, pi = arb(h) / arb(b), arb.pi()
-        walls, modes = wall_moments(count, bits), mode_moments(h, b, count, bits)
-        return [
-            eta ** (2 * k + 1) * 8 / pi**2 * (2 * k + 2) / math.factorial(2 * k + 3)
-            * ((-1) ** k * pi * modes[k] - walls[k])
-            for k in range(count)
-        ]  # fmt: skip
-
-
-@cache
-def wall_moments(count: int, bits: int) -> list[arb]:
-    """kappa_0, kappa_2 ...: (2k+1) kappa_2k = int_0^oo y^(2k)/I0(y)^2 dy.
-
-    The integrand is even with poles on the imaginary axis only; y = 2 sinh t makes it analytic
-    for |Im t| < pi/2, where the trapezoidal rule converges like e^(-2 pi 1.35/step).
-    """
-    step = arb(2 * math.pi * 1.35 / ((bits + 40) * math.log(2)))
-    powers, t, k = [], arb(0), 0
-    least = arb(2) ** (-bits - 8 * count)
-    while True:
-        y = 2 * t.sinh()
-        weight = step * 2 * t.cosh() / y.bessel_i(0) ** 2 / (1 if k else 2)
-        powers.append((weight, y * y))
-        if k and weight * y ** (2 * count) < least:
-            break
-        k, t = k + 1, t + step
-    found = []
-    for k in range(count):
-        found.append(sum((w for w, _ in powers), arb(0)) / (2 * k + 1))
-        powers = [(w * square, square) for w, square in powers]
-    return found
-
-
-def mode_moments(h: float, b: float, count: int, bits: int) -> list[arb]:
-    """sum_n w_n j_n^(2k), w_n = (G(2 eta j_n) - 1)/(j_n J1(j_n)^2)."""
-    eta = arb(h) / arb(b)
-    powers = []
-    for n in range(1, modes_needed(h / b, count, bits) + 1):
-        j = certified.j0_zero(n, bits + 16)
-        slope = j.bessel_j(1)
-        powers.append((plate_excess(acb(2 * eta * j)).real / (j * slope * slope), j * j))
-    found = []
-    for _ in range(count):
-        found.append(sum((w for w, _ in powers), arb(0)))
-        powers = [(w * square, square) for w, square in powers]
-    return found
-
-
-def modes_needed(eta: float, count: int, bits: int) -> int:
-    """Until x^(2k + 2) e^(-4x), x = eta j_n, is 2^-bits of its largest value, for every k."""
-    power = 2 * count + 2
-    peak = power * math.log(power / 4) - power
-    x = power / 4 + 1
-    while power * math.log(x) - 4 * x > peak - bits * math.log(2):
-        x += 0.5
-    return math.ceil(x / (eta * math.pi)) + 2
-
-
-def bits_of(digits: int) -> int:
-    """Working precision."""
-    return math.ceil(digits * LOG2_10) + 64

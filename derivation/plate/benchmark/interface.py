@@ -1,10 +1,11 @@
 """What is compared, and where: a method prepares a contact and returns a function of an array."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from derivation.engine.measure import clock
+from derivation.plate.benchmark.arithmetic import DOUBLE, Arithmetic
 from generated.impact import impact
 
 Task = Literal["law", "inversion", "impact"]
@@ -54,14 +55,17 @@ class Regime:
         return self.h / self.b
 
     @property
-    def v0(self) -> float:
-        """The speed, by its symbol [m/s]."""
-        return self.speed
-
-    @property
     def modulus(self) -> float:
         """E* = 4 mu (lam + mu)/(lam + 2 mu) [Pa]."""
         return 4 * self.mu * (self.lam + self.mu) / (self.lam + 2 * self.mu)
+
+    def in_units(self, length: float, time: float) -> "Regime":
+        """The same where lengths and times are counted in other units [m, s]."""
+        press = length * time * time
+        return replace(
+            self, R=self.R / length, h=self.h / length, b=self.b / length,
+            speed=self.speed * time / length, lam=self.lam * press, mu=self.mu * press,
+        )  # fmt: skip
 
 
 REGIMES = (
@@ -87,46 +91,63 @@ def never_fails(regime: Regime) -> str | None:  # noqa: ARG001
     return None
 
 
+Split = Literal["wide", "long", "units", "all", "ball"]
+"""How rounding is told from truncation.
+
+`wide` and `long`: by the same method in 60 digits or more, or in long doubles. `units`: by the
+spread of its results in other units of length and time. `all`: the method truncates nothing, or
+less than its arithmetic tells. `ball`: results are balls that enclose the truth.
+"""
+
+
 @dataclass(frozen=True)
 class Method:
     """One way to a result.
 
     Attributes
     ----------
-    task, family, setting, arithmetic
-        What it computes; its kind; what is varied within the kind; in which numbers.
+    task, family, setting
+        What it computes; its kind; what is varied within the kind.
     prepare
-        Set-up for a regime: coefficients, zeros, tables. What it returns is timed.
-    same
-        The same truncated method in balls or long numbers, where there is one: it has no rounding
-        error, or next to none; or an estimate of its results as balls. NotImplementedError says
-        why there is none in a regime.
+        Set-up for a regime in an arithmetic: coefficients, zeros, tables. What it returns is
+        timed; it takes and gives arrays of the arithmetic's numbers.
+    ar
+        The arithmetic that is compared.
+    split
+        How rounding is told from truncation.
     fails
         Why the method is not tried in a regime, or None.
-    one_by_one
+    scalar
         Whether it takes numbers singly, so that an array buys nothing.
-    certified
-        Whether results are balls that enclose the truth, which judge themselves.
     quick
         Whether a quick run takes it along.
-    exact
-        Whether nothing is truncated, or less than its arithmetic tells: all error is rounding.
-    remark
-        What is to be said of how `same` tells truncation from rounding, or None.
     """
 
     task: Task
     family: str
     setting: str
-    prepare: Callable[[Regime], Call]
-    arithmetic: str = "float64"
-    same: Callable[[Regime], Call] | None = None
+    prepare: Callable[[Regime, Arithmetic], Call]
+    ar: Arithmetic = DOUBLE
+    split: Split = "wide"
     fails: Callable[[Regime], str | None] = never_fails
-    one_by_one: bool = False
-    certified: bool = False
+    scalar: bool = False
     quick: bool = True
-    exact: bool = False
-    remark: str | None = None
+
+    @property
+    def arithmetic(self) -> str:
+        """Name of the numbers."""
+        return self.ar.name
+
+    @property
+    def one_by_one(self) -> bool:
+        """Whether numbers are taken singly, by the method or by its arithmetic."""
+        return self.scalar or self.ar.wide
+
+    def ready(self, regime: Regime, ar: Arithmetic | None = None) -> Call:
+        """What is timed: a function of doubles, in its own arithmetic or in another."""
+        numbers = ar or self.ar
+        with numbers.context():
+            return numbers.wrapped(self.prepare(regime, numbers))
 
     @property
     def name(self) -> str:

@@ -1,76 +1,52 @@
-"""The contact time of an impact without stepping: paper's formulas, quadrature, oracle."""
+"""The contact time of an impact: the paper's formulas, quadrature, and steps."""
 
 import math
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
-from flint import arb
 
-from derivation.plate.benchmark.arithmetic import Array, BallArithmetic
-from derivation.plate.benchmark.interface import Call, Method, Regime
-from derivation.plate.benchmark.law_sums import EXACT, wrapped
-from derivation.plate.benchmark.reference_law import sure_duration
-from derivation.plate.contact.oracle.balls import modulus
-from derivation.plate.impact.oracle import impact as contact_impact
+from derivation.plate.benchmark.arithmetic import DOUBLE, Arithmetic, Array, Floats
+from derivation.plate.benchmark.interface import Call, Doubles, Method, Regime
+from derivation.plate.benchmark.laws import SeriesLaw
+from derivation.plate.benchmark.shipped import hertz_time, plate
+from generated import contact_law, contact_series
+from generated.contact_numbers import REACH
 from generated.impact import _kernel, _parts, _solve, impact
 from generated.perturbation import PrintedMotion, printed_motion
 from generated.ranges import product
 
-NODES = 24
-"""Of the generated code."""
-
 MODES = 100
 """Where the paper's divergent sums are cut off for its perturbation."""
 
-HERTZ_TIME = 4 * math.sqrt(math.pi) * math.gamma(0.4) / (5 * math.gamma(0.9))
-"""Contact time v0/delta_max on a half-space [1]."""
+LONGEST = 40.0
+"""Contact times over Hertz's up to which fixed steps of his time are tried."""
 
-
-def hertz_time(regime: Regime) -> Call:
-    """Contact times on a half-space [s] for speeds [m/s]."""
-    stiff = 4 / 3 * regime.modulus * math.sqrt(regime.R)
-    return lambda v0: HERTZ_TIME * (1.25 * regime.m * v0 * v0 / stiff) ** 0.4 / v0
-
-
-def hertz() -> Method:
-    """The plate left out."""
-
-    def same(regime: Regime) -> Call:
-        with EXACT.context():
-            fifth = arb(1) / 5
-            factor = 4 * arb.pi().sqrt() * (2 * fifth).gamma() / (5 * (arb(9) / 10).gamma())
-            stiff = 4 * modulus(regime.lam, regime.mu) * arb(regime.R).sqrt() / 3
-            scale = factor * (5 * arb(regime.m) / (4 * stiff)) ** (2 * fifth)
-            return wrapped(EXACT, lambda v0: scale / np.array([v**fifth for v in v0]))
-
-    return Method("impact", "Hertz", "", hertz_time, same=same)
-
-
-def paper_motion(
-    regime: Regime, v0: float, modes: int, *, corrected: bool = False
-) -> PrintedMotion:
-    """The paper's motion in a regime at a speed [m/s]."""
-    r = regime
-    return printed_motion(r.R, r.m, v0, r.h, r.b, r.lam, r.mu, modes, corrected=corrected)
+MOST_STEPS = 80_000
+"""Enough for 1000 steps of the longest of these, twice over."""
 
 
 def linear(modes: int) -> Method:
     """The paper's linear term (15), whose contact time does not know the speed."""
 
-    def prepare(regime: Regime) -> Call:
-        time = paper_motion(regime, regime.v0, modes).contact_time
-        return lambda v0: np.full(np.shape(v0), time)
-
-    def same(regime: Regime) -> Call:
+    def prepare(regime: Regime, ar: Arithmetic) -> Call:
         """pi sqrt(m gamma_2), gamma_2 = R/(4 E*) sum phi^3 K."""
-        with EXACT.context():
-            h, b, m = (EXACT.array(x) for x in (regime.h, regime.b, regime.m))
-            j, slope = EXACT.zeros(modes)
-            factors = (1 + EXACT.excess(2 * h * j / b)) / (j * slope * slope)
-            gamma = 8 * factors.sum() / (4 * modulus(regime.lam, regime.mu) * arb.pi() * b)
-            time = arb.pi() * (m * gamma).sqrt()
-        return lambda v0: np.array([time] * np.size(v0))
+        h, b, m, lam, mu = (
+            ar.number(x) for x in (regime.h, regime.b, regime.m, regime.lam, regime.mu)
+        )
+        j, slope = ar.zeros(modes)
+        factors = (1 + ar.excess(2 * h * j / b)) / (j * slope * slope)
+        modulus = 4 * mu * (lam + mu) / (lam + 2 * mu)
+        time = ar.pi() * np.sqrt(m * (2 * factors.sum() / (modulus * ar.pi() * b)))
+        return lambda v0: 0 * v0 + time
 
-    return Method("impact", "paper's linear term", f"{modes} modes", prepare, same=same)
+    return Method("impact", "paper's linear term", f"{modes} modes", prepare)
+
+
+def paper_motion(regime: Regime, v0: float, *, corrected: bool) -> PrintedMotion:
+    """The paper's motion in a regime at a speed [m/s]."""
+    r = regime
+    return printed_motion(r.R, r.m, v0, r.h, r.b, r.lam, r.mu, MODES, corrected=corrected)
 
 
 def perturbation(corrected: bool) -> Method:
@@ -79,30 +55,29 @@ def perturbation(corrected: bool) -> Method:
 
     def fails(regime: Regime) -> str:
         # Everywhere: both xi_3 are sums of positive terms.
-        share = paper_motion(regime, regime.v0, MODES, corrected=corrected).share
+        share = paper_motion(regime, regime.speed, corrected=corrected).share
         return f"root of a negative number in (17), (18) from {share:.3g} of the way to the top on"
 
-    def prepare(regime: Regime) -> Call:
+    def prepare(regime: Regime, _: Arithmetic) -> Call:
         def one(v0: float) -> float:
-            motion = paper_motion(regime, v0, MODES, corrected=corrected)
+            motion = paper_motion(regime, v0, corrected=corrected)
             t = np.linspace(0, motion.contact_time / 2, 2001)
             return float(2 * t[int(np.nanargmax(motion.corrected(t)))])
 
-        return lambda v0: np.array([one(float(v)) for v in np.atleast_1d(v0)])
+        return lambda v0: np.array([one(float(v)) for v in v0])
 
-    return Method(
-        "impact", f"paper's perturbation, {kind}", f"{MODES} modes", prepare, fails=fails,
-        one_by_one=True,
-    )  # fmt: skip
+    return Method("impact", f"paper's perturbation, {kind}", f"{MODES} modes", prepare,
+                  split="units", fails=fails, scalar=True)  # fmt: skip
 
 
 def gauss(nodes: int) -> Method:
     """The generated code's integrand for the contact time with another number of nodes."""
-    x, w = np.polynomial.legendre.leggauss(nodes)
-    x, w = (1 + x) / 2, w / 2
 
-    def prepare(regime: Regime) -> Call:
-        r = regime
+    def prepare(regime: Regime, ar: Arithmetic) -> Call:
+        if ar is not DOUBLE:
+            return SeriesLaw(regime, ar).duration(nodes, ar)
+        x, w = np.polynomial.legendre.leggauss(nodes)
+        x, w, r = (1 + x) / 2, w / 2, regime
         R, m, h, b, lam, mu = (np.asarray(y, float) for y in (r.R, r.m, r.h, r.b, r.lam, r.mu))
 
         def call(v0: Array) -> Array:
@@ -116,33 +91,128 @@ def gauss(nodes: int) -> Method:
 
         return call
 
-    return Method("impact", "Gauss-Legendre", f"{nodes} nodes", prepare, same=sure_duration(nodes))
+    return Method("impact", "Gauss-Legendre", f"{nodes} nodes", prepare)
 
 
-def production(dtype: type[np.float32 | np.float64] = np.float64) -> Method:
-    """`impact` as called, with its 24 nodes and all four results."""
+# --- steps
 
-    def prepare(regime: Regime) -> Call:
+
+def scalar_force(regime: Regime) -> Callable[[float], float]:
+    """Force over indentation for one number, fast in plain Python: Newton's iteration for a/h.
+
+    It starts from the last contact radius found, as steps are small.
+    """
+    plates = contact_series.plates_of(np.array([regime.eta]))
+    pieces = [(plates.first, float(plates.reach[0]))]
+    if regime.eta < 1 / REACH:
+        pieces.append((contact_series.far_piece(plates.eta), float(plates.far[0])))
+    rows = [
+        (p.coefficients[::-1, 0].tolist(), float(p.middle[0]), 1 / float(p.half[0]), end)
+        for p, end in pieces
+    ]
+    stiff = 4 * regime.modulus * regime.h**3 / (3 * regime.R)
+    last = 0.0
+
+    def share(A: float) -> tuple[float, float]:
+        """F and A F'."""
+        row, middle, inverse, _ = next((r for r in rows if r[3] >= A), rows[-1])
+        t = (A * A - middle) * inverse
+        value, slope = 0.0, 0.0
+        for coefficient in row:
+            slope = slope * t + value
+            value = value * t + coefficient
+        return A * value, A * (value + 2 * A * A * inverse * slope)
+
+    def force(delta: float) -> float:
+        nonlocal last
+        if delta <= 0:
+            return 0.0
+        target = delta * regime.R / regime.h**2
+        # Hertz's radius may lie beyond the polynomials' end, where they mean nothing.
+        A = last or min(math.sqrt(target), rows[-1][3])
+        for _ in range(60):
+            F, rise = share(A)
+            step = (A * A * (1 + F) - target) / (A * (2 * (1 + F) + rise))
+            A = min(max(A - step, 0.3 * A), rows[-1][3])
+            if abs(step) < 1e-15 * A:
+                break
+        last = A
+        return stiff * A**3
+
+    return force
+
+
+def solver(name: str, rtol: float, share: float | None = None, quick: bool = True) -> Method:
+    """SciPy's solve_ivp up to the turning point; `share` of the contact bounds its steps."""
+    limited = "" if share is None else f", steps below T/{1 / share:g}"
+
+    def one(regime: Regime, v0: float) -> float:
+        from scipy.integrate import solve_ivp
+
+        r, force = regime, scalar_force(regime)
+        time = float(impact(r.R, r.m, v0, r.h, r.b, r.lam, r.mu).contact_time)
+
+        def rate(t: float, state: Doubles) -> tuple[float, float]:  # noqa: ARG001
+            return state[1], -force(state[0]) / r.m
+
+        def top(t: float, state: Doubles) -> float:  # noqa: ARG001
+            return float(state[1])
+
+        top.terminal = True  # type: ignore[attr-defined]
+        found = solve_ivp(
+            rate, (0, 2 * time), (0.0, v0), method=name, rtol=rtol, events=top,
+            atol=(1e-3 * rtol * v0 * time, 1e-3 * rtol * v0),
+            max_step=np.inf if share is None else share * time,
+        )  # fmt: skip
+        return 2 * float(found.t_events[0][0]) if found.t_events[0].size else math.nan
+
+    def prepare(regime: Regime, _: Arithmetic) -> Call:
+        return lambda v0: np.array([one(regime, float(v)) for v in v0])
+
+    return Method("impact", f"solve_ivp {name}{limited}", f"rtol {rtol:g}", prepare,
+                  split="units", scalar=True, quick=quick)  # fmt: skip
+
+
+def verlet(steps: int, quick: bool = True, ar: Floats = DOUBLE) -> Method:
+    """Velocity Verlet as particle codes use it: a fixed step, Hertz's contact time over `steps`.
+
+    All speeds advance together; the end is interpolated linearly in the last step.
+    """
+
+    def fails(regime: Regime) -> str | None:
         r = regime
-        R, m, h, b, lam, mu = (dtype(x) for x in (r.R, r.m, r.h, r.b, r.lam, r.mu))
-        return lambda v0: impact(R, m, v0.astype(dtype), h, b, lam, mu).contact_time
+        time = impact(r.R, r.m, r.speed, r.h, r.b, r.lam, r.mu).contact_time
+        longer = float(time / hertz_time(r, DOUBLE)(r.speed))
+        if longer < LONGEST:
+            return None
+        return f"contact lasts {longer:.3g} times as long as Hertz's, whose time sets the step"
 
-    name = np.dtype(dtype).name
-    return Method("impact", "production", "as called", prepare, name, sure_duration(NODES))
+    def prepare(regime: Regime, _: Arithmetic) -> Call:
+        free, others = hertz_time(regime, ar), plate(regime, ar)
+
+        def force(delta: Any) -> Any:
+            return contact_law.force(delta, *others)
+
+        return lambda v0: _verlet(v0, free(v0) / steps, ar.number(regime.m), force)
+
+    return Method("impact", "velocity Verlet", f"Hertz's time/{steps}", prepare, ar, "units",
+                  fails, quick=quick)  # fmt: skip
 
 
-def oracle(digits: int, quick: bool = True) -> Method:
-    """The conservative impact in balls."""
-
-    def prepare(regime: Regime) -> Call:
-        def one(v0: float) -> object:
-            r = regime
-            found = contact_impact.impact(r.R, r.m, v0, r.h, r.b, r.lam, r.mu, digits)
-            return found.contact_time
-
-        return lambda v0: [one(float(v)) for v in np.atleast_1d(v0)]
-
-    return Method(
-        "impact", "integrals in balls", f"{digits} digits", prepare, BallArithmetic(digits).name,
-        one_by_one=True, certified=True, quick=quick,
-    )  # fmt: skip
+def _verlet(v0: Array, dt: Array, m: Any, force: Callable[[Array], Array]) -> Array:
+    """Contact times for speeds; those still open when steps run out are NaN."""
+    v, x, acceleration, ended = v0, 0 * v0, 0 * v0, 0 * v0
+    touching = np.ones(v0.shape, bool)
+    for step in range(MOST_STEPS):
+        ahead = x + dt * v + dt * dt * acceleration / 2
+        pressed = ahead > 0
+        load = np.where(pressed, force(np.where(pressed, ahead, dt * v0)), 0 * v0)
+        v = v - dt * (load / m - acceleration) / 2
+        over = touching & ~pressed
+        share = x / np.where(over, x - ahead, 1)
+        ended = np.where(over, dt * (step + share), ended)
+        touching = touching & pressed
+        x, acceleration = ahead, -load / m
+        if not touching.any():
+            return ended
+    return np.where(touching, math.nan, ended)

@@ -4,6 +4,8 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from derivation.engine.measure import clock
 from derivation.engine.measure.clock import CPU, FULL, QUICK, Effort, Session, Timing
 from derivation.plate.benchmark.errors import Judged, judge
@@ -36,12 +38,11 @@ def panel(task: Task, regime: Regime, methods: Sequence[Method], quick: bool) ->
     if not wanted:
         return BenchmarkPanel((), None, None)
     set_task = problem(task, regime, quick)
-    rows, calls = [], []
-    for method in wanted:
-        row, judged = judged_row(method, set_task)
-        rows.append(row)
-        calls.append(judged)
-    return _timed(rows, calls, wanted, set_task, QUICK if quick else FULL)
+    # Floats may overflow: their calls need not turn off the warning each time.
+    with np.errstate(all="ignore"):
+        judged = [judged_row(method, set_task) for method in wanted]
+        rows, calls = [row for row, _ in judged], [call for _, call in judged]
+        return _timed(rows, calls, wanted, set_task, QUICK if quick else FULL)
 
 
 def judged_row(method: Method, problem: Problem) -> tuple[BenchmarkRow, Judged | None]:

@@ -10,7 +10,6 @@ from flint import arb
 
 from derivation.engine.formula.ball import LOG2_10
 from derivation.plate.benchmark.interface import PAPER, Doubles, Regime, Task, deepest
-from derivation.plate.benchmark.inversion import SPAN
 from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.contact.oracle.balls import ratio_of
 from derivation.plate.impact.oracle import impact as contact_impact
@@ -26,6 +25,9 @@ MANY_DIGITS = 1030
 """Of the law in the paper's regime, by a certified power series instead of integrals."""
 
 INVERSION_DIGITS, IMPACT_DIGITS = 40, 40
+
+SPAN = 100.0
+"""Largest contact radius of a regime's impacts over the smallest one looked at."""
 
 
 @dataclass(frozen=True)

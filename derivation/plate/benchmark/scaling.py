@@ -9,10 +9,9 @@ from functools import partial
 import numpy as np
 
 from derivation.engine.measure.clock import CPU
-from derivation.plate.benchmark import law_generated, law_series, speed
+from derivation.plate.benchmark import polynomials, shipped, speed, sums
 from derivation.plate.benchmark.arithmetic import BallArithmetic, Mpmath
 from derivation.plate.benchmark.interface import PAPER, Method
-from derivation.plate.benchmark.law_sums import split
 from derivation.plate.benchmark.problems import ARRAY
 from generated.contact_law import indentation
 from generated.impact import impact
@@ -104,7 +103,7 @@ def points() -> list[Growth]:
     """The law over the number of points, the plate's preparation included and not."""
     sizes = [10**k for k in range(8)]
     radii = np.random.default_rng(1).uniform(1e-3, 0.03, sizes[-1])
-    ready = law_generated.prepared().prepare(PAPER)
+    ready = shipped.prepared().ready(PAPER)
     whole = "set-up of a call (domain, plate) outweighs the points below"
     return [
         growth(
@@ -125,7 +124,7 @@ def thinness() -> list[Growth]:
     plates = [replace(PAPER, R=100.0, h=1 / ratio) for ratio in ratios]
 
     def calls(method: Method, count: int) -> list[Callable[[], object]]:
-        made = [(method.prepare(plate), shares[:count] * plate.h) for plate in plates]
+        made = [(method.ready(plate), shares[:count] * plate.h) for plate in plates]
         return [partial(call, a) for call, a in made]
 
     flat = "flat: coefficients come from tables in h/b, the points see polynomials only"
@@ -133,11 +132,11 @@ def thinness() -> list[Growth]:
     return [
         growth(
             "b/h", f"production, as called, {ARRAY} points", ratios,
-            calls(law_generated.called(), ARRAY), flat,
+            calls(shipped.called(), ARRAY), flat,
         ),
         growth(
             "b/h", f"split, 48 nodes, {SPLIT_POINTS} points", ratios,
-            calls(split(48, 4), SPLIT_POINTS), modes,
+            calls(sums.split(48, 4), SPLIT_POINTS), modes,
         ),
     ]  # fmt: skip
 
@@ -149,10 +148,10 @@ def digits(quick: bool) -> list[Growth]:
     for count in asked:
         terms = math.ceil(count / DIGITS_PER_TERM) + 3
         begin = CPU()
-        balls.append(law_series.small_contacts(terms, BallArithmetic(count)).prepare(PAPER))
+        balls.append(polynomials.small_contacts(terms, BallArithmetic(count)).ready(PAPER))
         setups.append(CPU() - begin)
         # The same coefficients: they are not found anew.
-        numbers.append(law_series.small_contacts(terms, Mpmath(count)).prepare(PAPER))
+        numbers.append(polynomials.small_contacts(terms, Mpmath(count)).ready(PAPER))
     a, setup_slope = np.array([0.3 * PAPER.h]), line(asked, setups)
     return [
         Growth(

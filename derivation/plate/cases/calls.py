@@ -1,13 +1,12 @@
 """Kernels that hard cases call in a form of their own, and those that state their own errors."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from derivation.engine.measure.kernels import Kernel
+from derivation.engine.measure.kernels import Kernel, Stating
 from derivation.plate.budgets import read_budgets, read_promises
 from generated import edge_mode_kernels as kernels
 from generated import edge_modes, non_hertzian_pressure, sensitivity, simple_impact
@@ -25,19 +24,6 @@ _FREQUENCY, _RESIDUE = 8.0, 1e-12 * _ULP
 """In ULP, and in those of the largest residue: what `plate_waves` says of its branches."""
 
 _SCENE = ("R", "m", "v0", "h", "b", "lam", "mu")
-
-
-@dataclass(frozen=True)
-class Stating(Kernel):
-    """A kernel whose promise depends on its arguments: it states its errors itself.
-
-    Parameters
-    ----------
-    stated
-        Arguments -> the largest error of every result in its own unit, in the results' shapes.
-    """
-
-    stated: Callable[..., Any] = field(kw_only=True)
 
 
 def others() -> tuple[Kernel, ...]:

@@ -10,15 +10,16 @@ from itertools import chain
 
 from derivation.engine.cache import cached
 from derivation.engine.formula.ulp import neighbours
+from derivation.engine.measure.case import HardCase, checked
+from derivation.engine.measure.places import OFFSETS, Inputs, around, beside, exactly
 from derivation.mathematics.bessel import kernels as bessel_tables
 from derivation.mathematics.bessel.oracle import j0_zero, j1_zero
 from derivation.plate.cases.scene_families import scene_families
+from derivation.plate.cases.steel import LAM, MU
 from derivation.plate.contact.kernels import tables as contact_tables
 from derivation.plate.contact.kernels.moments import FIRST_K, finite_part_start, kappa_start
 from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.grids import seams
-from derivation.plate.hard.case import HardCase, checked
-from derivation.plate.hard.places import LAM, MU, OFFSETS, Inputs, around, beside, exactly
 from derivation.plate.impact.oracle import impact as contact_impact
 from derivation.plate.subjects import handed_in
 
@@ -42,7 +43,8 @@ def families() -> tuple[HardCase, ...]:
         "plate/*/route*",
         "engine/emit",
     )
-    own = ("plate/hard", "plate/grids.py", "plate/cases", "plate/*/cases*")
+    cases = ("engine/measure/case.py", "engine/measure/places.py")
+    own = (*cases, "plate/grids.py", "plate/cases", "plate/*/cases*")
     return cached("hard_families", (*rooms, *own), _families, HardCase)
 
 

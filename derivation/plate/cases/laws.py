@@ -9,15 +9,17 @@ import flint
 from flint import arb
 
 from derivation.engine.formula.ball import Exact, enclose, evaluate, to_ball
+from derivation.engine.formula.ulp import upper_float
+from derivation.engine.measure.suite import Given, HardLaw
 from derivation.plate import vocabulary as symbols
 from derivation.plate.back_face import oracle as back_face_balls
+from derivation.plate.contact.cases.truth import tolerance
 from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.contact.theory import curvature
 from derivation.plate.edge.oracle import clamped as clamp_balls
 from derivation.plate.edge.oracle import supported as edge_balls
 from derivation.plate.edge.theory import clamped as clamp
 from derivation.plate.edge.theory import sums as edge_sums
-from derivation.plate.hard.law import Given, HardLaw
 from derivation.plate.impact.oracle import impact as contact_impact
 from derivation.plate.impact.oracle import many_digits, many_sensitivities, state_rounding
 from derivation.plate.impact.oracle import printed_motion as printed_motion_balls
@@ -25,25 +27,45 @@ from derivation.plate.impact.oracle import quantities as contact_quantities
 from derivation.plate.pressure import oracle as pressure_balls
 from derivation.plate.subjects import handed_in
 
-_SPARE, _FEW = 8, 20
-"""Digits beyond those asked for, and of magnitudes, which only set allowances."""
+_SPARE, _FEW, _FEW_OF_RADIUS = 8, 20, 15
+"""Digits beyond those asked for, and of magnitudes and radii, which only set allowances."""
+
+_RADIUS: Callable[..., arb] = contact_balls.contact_radius
+_SERIES: Callable[..., tuple[arb, arb]] = contact_quantities.truncated_series
+
+Scale = Callable[[Given, arb], float]
+"""As `HardLaw.scale`."""
 
 
 def _bits(digits: int) -> int:
     return 4 * digits + 64
 
 
-def _one(function: Callable[..., arb]) -> HardLaw:
+def _one(function: Callable[..., arb], scale: Scale | None = None) -> HardLaw:
     return HardLaw(
-        lambda given, digits: (function(*given, digits=digits),), oracle=(function.__module__,)
-    )
-
-
-def _several(function: Callable[..., tuple[arb, ...]], count: int = 4) -> HardLaw:
-    return HardLaw(
-        lambda given, digits: tuple(function(*given, digits=digits))[:count],
+        lambda given, digits: (function(*given, digits=digits),),
+        scale=scale,
         oracle=(function.__module__,),
     )
+
+
+def _of_sum(name: str) -> Scale:
+    """What multiplies the budget of a sum whose parts cancel, see `tolerance`."""
+    return lambda given, value: tolerance(name, tuple(given), float(value))
+
+
+def _of_radius(given: Given, _: arb) -> float:
+    """A force is excused as its contact radius is."""
+    radius = float(_RADIUS(*given[:4], digits=_FEW_OF_RADIUS))
+    return tolerance("contact_radius", tuple(given[:4]), radius)
+
+
+def _series(given: Given, digits: int) -> tuple[arb]:
+    return (_SERIES(*given, digits=digits)[0],)
+
+
+def _of_series(given: Given, _: arb) -> float:
+    return upper_float(_SERIES(*given)[1])
 
 
 # --- the edge
@@ -240,15 +262,15 @@ def _at_least_one(_: Given, values: Sequence[arb]) -> tuple[arb, ...]:
 
 
 LAWS: Mapping[str, HardLaw] = {
-    "indentation": _one(contact_balls.indentation),
+    "indentation": _one(contact_balls.indentation, _of_sum("indentation")),
     "indentation_slope": _one(contact_balls.slope),
-    "contact_radius": _one(contact_balls.contact_radius),
-    "stiffness": _one(contact_balls.stiffness),
-    "force": _one(contact_quantities.force),
+    "contact_radius": _one(contact_balls.contact_radius, _of_sum("contact_radius")),
+    "stiffness": _one(contact_balls.stiffness, _of_sum("stiffness")),
+    "force": _one(contact_quantities.force, _of_radius),
     "force_of_radius": _one(contact_quantities.force_of_radius),
     "radius_of_force": _one(contact_quantities.radius_of_force),
     "max_pressure": _one(contact_quantities.max_pressure),
-    "force_by_series": _several(contact_quantities.truncated_series, 1),
+    "force_by_series": HardLaw(_series, scale=_of_series, oracle=(contact_quantities.__name__,)),
     "impact": HardLaw(
         lambda given, digits: _impact(tuple(given), digits),
         results=4,

@@ -6,24 +6,16 @@ from dataclasses import replace
 from fractions import Fraction
 from itertools import chain, product
 
+from derivation.engine.measure.case import HardCase
+from derivation.engine.measure.places import OFFSETS, Inputs, about, around, beside, exactly
 from derivation.mathematics.bessel.oracle import j0_zero
 from derivation.plate.back_face.kernels import tables as back_face_tables
 from derivation.plate.blocks import blocks
+from derivation.plate.cases.steel import LAM, MU
 from derivation.plate.edge.kernels import tables as edge_tables
 from derivation.plate.edge.theory.clamped import LEVEL
 from derivation.plate.effects import kernels as effect_tables
 from derivation.plate.grids import seams
-from derivation.plate.hard.case import HardCase
-from derivation.plate.hard.places import (
-    LAM,
-    MU,
-    OFFSETS,
-    Inputs,
-    about,
-    around,
-    beside,
-    exactly,
-)
 from derivation.plate.pressure import kernels as pressure_tables
 from generated.non_hertzian_pressure import _LOW
 

@@ -7,11 +7,11 @@ from fractions import Fraction
 import flint
 from flint import arb
 
+from derivation.engine.measure.case import HardCase
+from derivation.engine.measure.places import about, around, exactly
+from derivation.engine.measure.suite import Given, HardLaw
 from derivation.plate.edge_modes.oracle import modes as held_balls
 from derivation.plate.edge_modes.oracle import waves as held_wave_balls
-from derivation.plate.hard.case import HardCase
-from derivation.plate.hard.law import Given, HardLaw
-from derivation.plate.hard.places import about, around, exactly
 from derivation.plate.waves.cases.laws import differences
 from derivation.plate.waves.cases.places import partner_crossing
 from generated.edge_mode_numbers import SMALL

@@ -6,11 +6,12 @@ from itertools import chain
 
 import flint
 
+from derivation.engine.measure.case import HardCase
+from derivation.engine.measure.places import about, around, exactly
 from derivation.mathematics.bessel.oracle import j0_zero
+from derivation.plate.cases.steel import LAM, MU
 from derivation.plate.contact.kernels import tables as contact_tables
 from derivation.plate.contact.oracle import balls as contact_balls
-from derivation.plate.hard.case import HardCase
-from derivation.plate.hard.places import LAM, MU, about, around, exactly
 from derivation.plate.impact.kernels import simple as simple_impact_tables
 from derivation.plate.impact.oracle import impact as contact_impact
 from derivation.plate.impact.oracle import printed_motion as printed_motion_balls

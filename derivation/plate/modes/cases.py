@@ -3,13 +3,14 @@
 from collections.abc import Iterator, Mapping
 from itertools import chain
 
+from derivation.engine.measure.case import HardCase
+from derivation.engine.measure.places import OFFSETS, about, around, beside, exactly
 from derivation.engine.rewrite.automatic import FADES
 from derivation.engine.rewrite.form import FAR, ONCE
 from derivation.mathematics.bessel.oracle import j0_zero
 from derivation.plate.blocks import blocks
+from derivation.plate.cases.steel import LAM, MU
 from derivation.plate.grids import seams
-from derivation.plate.hard.case import HardCase
-from derivation.plate.hard.places import LAM, MU, OFFSETS, about, around, beside, exactly
 from derivation.plate.modes.kernels.forms import mode_forms
 from derivation.plate.oracle import arguments
 from generated.contact_series import _ORDINARY, _USUAL

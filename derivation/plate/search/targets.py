@@ -11,11 +11,11 @@ from typing import Any
 import numpy as np
 from flint import arb
 
-from derivation.engine.formula.ulp import overflows, ulp_error
 from derivation.engine.measure import target
 from derivation.engine.measure.kernels import Kernel
 from derivation.engine.measure.point import Point
-from derivation.engine.measure.target import NO_REFERENCE, Domain, Error, Numbers, Target
+from derivation.engine.measure.target import Domain, Numbers, Target, measure_by
+from derivation.engine.oracle.reference import Reference, unsized
 from derivation.plate.contact.cases.truth import tolerance
 from derivation.plate.impact.oracle.agreement import FIRST
 from derivation.plate.judge import JUDGE, generated_kernels
@@ -103,20 +103,17 @@ def _law_target(name: str) -> Target:
         rows = [np.ravel(row) for row in (results if name == "impact" else (results,))]
         return [tuple(float(row[i]) for row in rows) for i in range(len(points))]
 
-    def measure(point: Point, got: Numbers) -> Error | None:
+    def references(point: Point) -> list[Reference] | None:
         given = tuple(point.values[key] for key in domain.arguments)
-        try:
-            balls = _true(name, given, domain.arguments)
-        except NO_REFERENCE:
+        balls = _true(name, given, domain.arguments)
+        if balls is None:
             return None
-        if balls is None or any(overflows(ball) for ball in balls):
-            return None
-        ulp = max(ulp_error(value, ball) for value, ball in zip(got, balls, strict=True))
         scaled = name in ("indentation", "contact_radius", "stiffness")
         scale = tolerance(name, given, float(balls[0])) if scaled else 1.0
-        return Error(ulp, ULP_OF_LAW * scale)
+        return [unsized(ball, scale) for ball in balls]
 
     share, every = _SHARES.get(name, _SHARE)
+    measure = measure_by(references, ULP_OF_LAW)
     return Target(domain, draw, call, measure, None, share, every)
 
 

@@ -14,7 +14,7 @@ from derivation.engine import build
 from derivation.engine.emit.budgets import parse_budgets
 from derivation.engine.files import ROOT
 from derivation.engine.measure.check import Row
-from derivation.engine.measure.evaluate import Errors
+from derivation.engine.measure.judge import Errors, Worst
 from derivation.engine.measure.suggest import LEAST, MARGIN, suggestions, tighter
 from derivation.plate import budgets
 from derivation.plate.budgets import BUDGETS, read_budgets, read_tables
@@ -174,7 +174,8 @@ def test_suggestions_can_be_pasted_and_leave_out_what_failed() -> None:
 def test_the_command_prints_suggestions_and_writes_nothing(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    errors = Errors(9, 0, 0, 0, 0.6, 0.5, 0.4, 0.2, 0.1, None, "float64", ())
+    worst = Worst((), None, ("", ""), "", 0.1, 1.0)
+    errors = Errors(9, 0, 0, 0, 0.6, 0.5, 0.4, 0.2, 0.1, worst, "float64", ())
     rows = (Row("P", "pressure", 1.0, errors, errors, 2, passed=True),)
     monkeypatch.setattr(build, "check", lambda *_: rows)
     before = BUDGETS.read_bytes()

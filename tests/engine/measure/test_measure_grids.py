@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from derivation.engine.measure import evaluate, record
+from derivation.engine.measure import judge, record
 from derivation.plate.contact.cases import check as contact
 from derivation.plate.contact.cases import grid as contact_grid
 from derivation.plate.judge import generated_kernels
@@ -59,12 +59,12 @@ def test_without_a_point_there_is_nothing_to_measure() -> None:
         contact.check({"force": contact_law.force}, {"force": []})
     [kernel] = [kernel for kernel in generated_kernels() if kernel.name == "G"]
     with pytest.raises(ValueError, match="no point at which float64 can hold G"):
-        evaluate.judge(kernel, [], 3)
+        judge.measured(kernel, [], 3)
 
 
 def test_errors_that_are_all_zero_have_no_size() -> None:
-    assert evaluate._rms([0.0, 0.0]) == evaluate._rms([]) == 0.0
-    assert evaluate._rms([3e200, 4e200]) == pytest.approx(5e200 / 2**0.5, rel=1e-15)
+    assert judge._rms([0.0, 0.0]) == judge._rms([]) == 0.0
+    assert judge._rms([3e200, 4e200]) == pytest.approx(5e200 / 2**0.5, rel=1e-15)
 
 
 def test_a_package_without_files_is_to_be_generated(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -9,10 +9,11 @@ from random import Random
 
 import pytest
 
+from derivation.engine.measure.judge import Error
 from derivation.engine.measure.point import Point
 from derivation.engine.measure.search import Search, search
 from derivation.engine.measure.search_record import Book, as_data, kept, read
-from derivation.engine.measure.target import Domain, Error, Numbers, Target
+from derivation.engine.measure.target import Domain, Numbers, Target
 
 DOMAIN = Domain("square", ("x", "y"), False, ("0 < x <= 8", "y >= x", "z > 0"))
 
@@ -65,7 +66,7 @@ def test_it_is_written_and_measured_anew(found: Search, target: Target, tmp_path
     worst = found.standings["square"].worst
     assert worst is not None
     assert {k: float.fromhex(v) for k, v in case["inputs"].items()} == worst.point.values
-    assert read(path) == [case]
+    assert [known.table for known in read(path)] == [case]
     assert not Book(path, [target], {}, {}).is_new("square", worst)
 
 

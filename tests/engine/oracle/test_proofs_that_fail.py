@@ -1,7 +1,6 @@
 """Proofs, bounds and printers that are given something false, and refuse it."""
 
 import math
-from collections.abc import Mapping
 from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
@@ -11,13 +10,12 @@ import pytest
 import sympy as sp
 from flint import acb, arb
 
-from derivation.engine.emit import kernels, printer, source
+from derivation.engine.emit import printer, source
 from derivation.engine.formula import hyperbolic
 from derivation.engine.formula.ball import enclose
 from derivation.engine.formula.dimension import LENGTH, DimensionError, dimension
 from derivation.engine.formula.parse import FormulaError, parse
 from derivation.engine.formula.proof import ProofError, lower_bessel
-from derivation.plate.budgets import read_budgets
 from derivation.plate.contact.theory import (
     curvature,
     divergence,
@@ -29,9 +27,8 @@ from derivation.plate.contact.theory import (
 from derivation.plate.contact.theory import split as contact_split
 from derivation.plate.impact.oracle import quantities as contact_quantities
 from derivation.plate.impact.theory import impact, substitution
-from derivation.plate.modes.kernels.modal_sums import STYLE
 from derivation.plate.pressure.theory import bound as pressure_bound
-from derivation.plate.vocabulary import PLATE, Formula, phi
+from derivation.plate.vocabulary import PLATE, phi
 
 x = sp.Symbol("x", positive=True)
 
@@ -185,17 +182,6 @@ def test_endless_formulas_are_refused(text: str, says: str) -> None:
 
 
 # --- emit
-
-
-def test_a_budget_names_its_formulas_domain(formulas: Mapping[str, Formula]) -> None:
-    G, budget = formulas["G"], read_budgets()["G"]
-    assert (
-        kernels.kernel(G, G.arguments, "plate_factors", budget, STYLE, value="1").budget == budget
-    )
-    budget = replace(budget, domain="T > 1")
-    says = r"budget of G names the domain 'T > 1'; .* is 'T > 0, T >= 1e-151'"
-    with pytest.raises(ValueError, match=says):
-        kernels.kernel(G, G.arguments, "plate_factors", budget, STYLE, value="1")
 
 
 @pytest.mark.parametrize(

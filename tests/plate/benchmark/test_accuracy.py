@@ -8,7 +8,6 @@ import sys
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 
 from derivation import pipeline
@@ -17,38 +16,12 @@ from derivation.engine.files import ROOT
 from derivation.engine.report.figures import saved
 from derivation.plate import reporting
 from derivation.plate.benchmark import run, scaling
-from derivation.plate.benchmark.catalogue import methods
 from derivation.plate.benchmark.interface import PAPER, REGIMES
 from derivation.plate.benchmark.rows import BenchmarkRow
 from derivation.plate.report import readme
 from derivation.plate.report.accuracy import accuracy_context, duration, reasons
 from derivation.plate.report.accuracy_figures import scaling as scaling_figure
 from derivation.plate.report.accuracy_figures import work_precision
-
-# --- interface
-
-
-@pytest.mark.parametrize("regime", REGIMES, ids=lambda r: r.name)
-def test_every_quick_method_gives_numbers_or_says_why(regime) -> None:
-    for method in methods(quick=True):
-        if method.certified or method.one_by_one or method.arithmetic != "float64":
-            continue
-        if method.task == "law" and not method.family.startswith(("split", "Chebyshev")):
-            reason = method.fails(regime)
-            if reason is None:
-                found = method.prepare(regime)(regime.h * np.array([regime.low, regime.high]))
-                assert np.isfinite(np.asarray(found, dtype=float)).all(), method.name
-            else:
-                assert reason
-
-
-def test_names_are_unique_and_unknown_ones_are_refused() -> None:
-    every = [(m.task, m.name) for m in methods()]
-    assert len(set(every)) == len(every)
-    with pytest.raises(ValueError, match="Levin u"):
-        methods(["Levin"])
-    assert {m.family for m in methods(["Levin u"])} == {"Levin u"}
-
 
 # --- data and report
 
@@ -101,32 +74,15 @@ def test_the_readme_shows_what_was_measured(committed: dict[str, Any]) -> None:
     assert readme.renewed(text, committed) == text, "to mend: platecontact report"
 
 
-def test_the_readmes_block_follows_the_data_and_nothing_else(committed: dict[str, Any]) -> None:
-    head = {"digits": 15.52, "called": 4e-9, "reached": [
-        {"digits": 6, "modes": 10, "seconds": 1.0}, {"digits": 12, "modes": 2000, "seconds": 0.2},
-    ]}  # fmt: skip
-    won = {
-        "task": "law", "regime": "paper", "kind": "vector", "digits": 9, "family": "split",
-        "setting": "8 nodes", "ties": ["Levin u"], "seconds": 2.5e-6,
-    }  # fmt: skip
-    others = [won | {"kind": "single"}, won | {"digits": 30}, won | {"regime": "thin"}]
-    grown = {"what": "scenes", "method": "hertz", "x": [1, 10_000], "seconds": [5e-6, 0.03]}
-    data = committed | {"headline": head, "pareto": [won, *others], "scaling": [grown]}
+def test_the_readmes_block_is_found_by_its_markers(committed: dict[str, Any]) -> None:
     text = f"above\n{readme.BEGIN}\nold numbers\n{readme.END}\nbelow"
-    found = readme.renewed(text, data)
-    prose = " ".join(found.split())
-    assert "15.5 digits in 4 ns a point" in prose
-    assert "2,000 modes and 200 ms for 12 digits, 5e+07 times as long" in prose
-    assert found.count("| 9 | split, 8 nodes (or Levin u) | 2.5 us |") == 1
-    assert "| 30 |" not in found
-    assert "| hertz | 5 us | 3 us | 10,000 |" in found
+    found = readme.renewed(text, committed)
     assert found.startswith("above\n")
     assert found.endswith("\nbelow")
     assert "old" not in found
-    assert readme.renewed(found, data) == found
     for bad in ("no markers", text + text, text.replace(readme.END, "")):
         with pytest.raises(ValueError, match="once each"):
-            readme.renewed(bad, data)
+            readme.renewed(bad, committed)
 
 
 # --- commands

@@ -1,9 +1,12 @@
-"""Methods compared: where they fail and why, what panels do with that, what a platform lacks."""
+"""Where methods fail and why; panels, winners, how cost grows, and other programs."""
 
 import json
 import math
+import subprocess
+import sys
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import asdict, replace
+from functools import partial
 from typing import Any
 
 import flint
@@ -12,38 +15,39 @@ import pytest
 
 from derivation import pipeline
 from derivation.engine.measure import clock
+from derivation.engine.measure.clock import Timing
 from derivation.plate.benchmark import (
     catalogue,
+    half_space,
     headline,
-    law_generated,
-    law_sums,
     panels,
     pareto,
     problems,
-    reference_law,
-    replay,
-    run,
     scaling,
-    stepping,
+    shipped,
+    sums,
+    tools,
 )
-from derivation.plate.benchmark.arithmetic import DOUBLE, HAS_LONG, LONG
-from derivation.plate.benchmark.interface import PAPER, REGIMES, Method
+from derivation.plate.benchmark.arithmetic import DOUBLE, HAS_LONG, LONG, Mpmath, as_ball
+from derivation.plate.benchmark.errors import BenchmarkErrors, digits
+from derivation.plate.benchmark.interface import PAPER, REGIMES, Method, deepest
 from derivation.plate.benchmark.rows import BenchmarkRow
-from derivation.plate.contact.oracle import balls as contact_balls
-from generated.contact_law import force, indentation
-from generated.impact import impact
+from derivation.plate.report.accuracy_figures import pareto_front
+from derivation.scene import method_selection
+from generated.contact_law import indentation
 
-BY_NAME = {regime.name: regime for regime in REGIMES}
 Patch = pytest.MonkeyPatch
 
 
+# --- failures
+
+
+@pytest.mark.skipif(not HAS_LONG, reason="recorded with long doubles")
 def test_methods_fail_in_the_regimes_recorded_and_for_the_reason_recorded() -> None:
     """What no method says of itself beforehand was found by judging its numbers."""
     rows = json.loads(pipeline.MEASURED_ACCURACY.read_text())["rows"]
     names = "task", "regime", "family", "setting", "arithmetic"
     recorded = {tuple(row[name] for name in names): row["fails"] for row in rows}
-    if not HAS_LONG:
-        pytest.skip("recorded with long doubles")
     told = 0
     for method in catalogue.methods():
         for regime in REGIMES:
@@ -58,12 +62,76 @@ def test_methods_fail_in_the_regimes_recorded_and_for_the_reason_recorded() -> N
     assert told > 20
 
 
+@pytest.mark.parametrize("regime", REGIMES, ids=lambda r: r.name)
+def test_quick_laws_in_doubles_give_numbers_or_say_why(regime) -> None:
+    for method in catalogue.methods(quick=True):
+        if method.task != "law" or method.arithmetic != "float64" or method.one_by_one:
+            continue
+        if method.fails(regime) is None and not method.family.startswith(("split", "Chebyshev")):
+            found = method.ready(regime)(regime.h * np.array([regime.low, regime.high]))
+            assert np.isfinite(found).all(), method.name
+
+
+def test_names_are_unique_and_unknown_ones_are_refused() -> None:
+    every = [(m.task, m.name) for m in catalogue.methods()]
+    assert len(set(every)) == len(every)
+    with pytest.raises(ValueError, match="Levin u"):
+        catalogue.methods(["Levin"])
+    assert {m.family for m in catalogue.methods(["Levin u"])} == {"Levin u"}
+
+
+def test_a_thousand_digits_are_the_papers_alone_and_left_out_with_a_reason() -> None:
+    deep = [m for m in catalogue.methods() if m.arithmetic.endswith("1000 digits")]
+    assert {m.family for m in deep if m.fails(PAPER) is None} == {"small-a series"}
+    for regime in REGIMES:
+        if regime is not PAPER:
+            assert all((m.fails(regime) or "").startswith("left out") for m in deep)
+    assert not any(m.arithmetic.endswith("1000 digits") for m in catalogue.methods(quick=True))
+
+
+def test_without_long_doubles_all_other_methods_are_compared(monkeypatch: Patch) -> None:
+    every = [m.name for m in catalogue.methods()]
+    monkeypatch.setattr(catalogue, "HAS_LONG", False)
+    assert [m.name for m in catalogue.methods()] == [x for x in every if "long double" not in x]
+
+
+def test_without_long_doubles_the_headline_is_told_in_doubles(monkeypatch: Patch) -> None:
+    """What a direct sum reaches is no more than doubles hold, and grows with the modes."""
+    monkeypatch.setattr(headline, "HAS_LONG", False)
+    monkeypatch.setattr(headline, "QUICK_MODES", 1 << 19)
+    monkeypatch.setattr(headline, "POINTS", 1000)
+    found = headline.headline(PAPER, quick=True)
+    assert found.digits > 14.0
+    reached = [(r.digits, r.modes) for r in found.reached]
+    assert reached == sorted(reached)
+    assert {r.truncation for r in found.reached} == {None}
+    assert found.modes == 1 << 19
+
+
+@pytest.mark.skipif(not HAS_LONG, reason="long double is a double")
+def test_the_headlines_sums_are_those_in_balls(monkeypatch: Patch) -> None:
+    monkeypatch.setattr(headline, "CHUNK", 1024)
+    monkeypatch.setattr(headline, "BLOCK", 512)
+    a = deepest(PAPER)
+    for ar, least in ((DOUBLE, 14.5), (LONG, 17.5)):
+        partial, times, _ = headline.direct(PAPER, a, 1536, ar)
+        assert len(times) == len(partial) == 4
+        (exact,) = sums.direct(1536, Mpmath(40)).ready(PAPER)(np.array([a]))
+        with flint.ctx.workprec(160):
+            assert digits(partial[2], as_ball(exact), 30) > least
+
+
+def test_a_plate_of_no_ordinary_size_is_not_prepared() -> None:
+    with pytest.raises(ValueError, match="ordinary lengths"):
+        shipped.prepared().ready(replace(PAPER, R=1e-300, h=1e-300, b=1e-299))
+
+
 # --- panels
 
 
-def method(values: Callable[[Any], Any], *, one_by_one: bool = False, **others: Any) -> Method:
+def method(values: Callable[[Any], Any], **others: Any) -> Method:
     """A method of the law by a function of the radii."""
-    return Method("law", "m", "", lambda _: values, one_by_one=one_by_one, **others)
+    return Method("law", "m", "", lambda *_: values, split="all", **others)
 
 
 def right(a: Any) -> Any:
@@ -75,8 +143,7 @@ def fewer_digits(monkeypatch: Patch) -> None:
     monkeypatch.setattr(problems, "QUICK_DIGITS", 20)
     monkeypatch.setattr(problems, "ARRAY", 50)
     monkeypatch.setattr(panels, "SLOW", math.inf)
-    effort = replace(clock.QUICK, rounds=2)
-    monkeypatch.setattr(panels, "QUICK", effort)
+    monkeypatch.setattr(panels, "QUICK", replace(clock.QUICK, rounds=2))
 
 
 @pytest.mark.usefixtures("fewer_digits")
@@ -90,11 +157,10 @@ def test_what_fails_is_named_and_not_timed() -> None:
         "too thin",
     ]
     assert [row.vector for row in found.rows] == [None, None]
-    assert found.rows[1].errors is None
     [row] = panels.panel("law", PAPER, [method(lambda a: 9.0 * right(a))], True).rows
     assert row.fails == "no digit right: relative error up to 8"
-    assert row.errors is not None
     assert row.vector is not None  # timed all the same: it gives numbers
+    assert list(pareto._panel([found.rows[0]], "vector")) == []
 
 
 @pytest.mark.usefixtures("fewer_digits")
@@ -107,175 +173,138 @@ def test_what_is_slow_is_called_once_with_a_shorter_array(monkeypatch: Patch) ->
 
     monkeypatch.setattr(panels, "SLOW", -1.0)
     monkeypatch.setattr(panels, "SLOW_ARRAY", 7)
-    found = panels.panel("law", PAPER, [method(noted), method(noted, one_by_one=True)], True)
+    found = panels.panel("law", PAPER, [method(noted), method(noted, scalar=True)], True)
     assert (found.vector, found.single) == (None, None)
     assert sizes.count(7) == 1
     many, alone = found.rows
     assert many.vector is not None
     assert (many.vector.points, many.vector.rounds) == (7, 1)
     assert alone.vector == alone.single
-    assert alone.fails is None
 
 
 @pytest.mark.usefixtures("fewer_digits")
-def test_one_by_one_is_timed_alone_and_other_tasks_not_at_all() -> None:
-    found = panels.panel("law", PAPER, [method(right, one_by_one=True)], True)
+def test_scalar_methods_are_timed_alone_and_other_tasks_not_at_all() -> None:
+    found = panels.panel("law", PAPER, [method(right, scalar=True)], True)
     assert found.vector is None
-    assert found.single is not None
     [row] = found.rows
     assert row.errors is not None
     assert row.errors.total > 14.0
-    assert row.vector == row.single
-    assert panels.panel("impact", PAPER, [method(right)], True) == panels.BenchmarkPanel(
-        (), None, None
+    assert row.vector == row.single is not None
+    assert panels.panel("impact", PAPER, [method(right)], True).rows == ()
+
+
+# --- winners
+
+
+def row(family: str, total: float, seconds: float, setting: str = "") -> BenchmarkRow:
+    timing, errors = Timing(seconds, 1, 1.0, 1), BenchmarkErrors(total, None, None, "0x0p+0")
+    return BenchmarkRow(
+        "law", "paper", family, setting, "float64", None, errors, timing, timing, 0.0
     )
 
 
-def test_a_panel_in_which_nothing_was_timed_has_no_winner() -> None:
-    row = BenchmarkRow("law", "paper", "m", "", "float64", "why")
-    assert list(pareto._panel([row], "vector")) == []
+def test_the_simplest_of_the_ties_wins_and_the_rest_are_named() -> None:
+    rows = [
+        row("Chebyshev surrogate", 15.1, 2.0), row("production", 15.5, 2.3),
+        row("table of cubics", 15.9, 2.42), row("split", 15.9, 9.0), row("Hertz", 0.1, 0.1),
+        row("small-a series", 3.5, 1.0, "1 terms"), row("small-a series", 6.5, 3.0, "2 terms"),
+        replace(row("Levin u", 15.0, 0.1), fails="why", vector=None, single=None),
+    ]  # fmt: skip
+    found = {w.digits: w for w in pareto.winners(rows) if w.kind == "vector"}
+    assert sorted(found) == [3, 6, 9, 12, 15]
+    assert (found[3].family, found[3].setting) == ("small-a series", "1 terms")
+    assert found[3].relative == 1
+    assert found[15].family == "production"
+    assert found[15].ties == ("Chebyshev surrogate",)
+    assert found[15].doubtful == ("production", "table of cubics")
+    assert found[15].relative == pytest.approx(2.3)
 
 
-@pytest.mark.usefixtures("fewer_digits")
-def test_growth_is_measured_once_for_each_study(monkeypatch: Patch) -> None:
-    grown = scaling.Growth("points", "m", (1.0, 2.0), (0.5, 1.0), 1.0, None, "why", None)
-    monkeypatch.setattr(scaling, "studies", lambda quick: (("points", lambda: [grown] * quick),))
-    monkeypatch.setattr(run, "REGIMES", ())
-    monkeypatch.setattr(run, "headline", lambda *_: grown)  # any record will do
-    monkeypatch.setattr(run, "tools", list)
-    told = list[Any]()
-    data = run.measure(quick=True, tell=lambda *given: told.append(given))
-    assert [row["slope"] for row in data["scaling"]] == [1.0]
-    assert told == [("scaling with points", 1, 3), ("headline", 2, 3), ("other tools", 3, 3)]
-    again = run.measure(quick=True)  # with nobody to tell
-    assert again["scaling"] == data["scaling"]
+def test_the_front_holds_what_nothing_beats() -> None:
+    rows = [asdict(row("x", total, t)) for total, t in ((3, 2.0), (5, 1.0), (9, 4.0), (8, 5.0))]
+    assert pareto_front(rows, "vector") == [(1.0, 5), (4.0, 9)]
 
 
-# --- laws and sums
+# --- growth
 
 
-@pytest.mark.parametrize("double_exponential", [True, False])
-def test_the_side_walls_nodes_by_either_rule_give_its_moments(double_exponential: bool) -> None:
-    """int y^n K0/I0 dy by oracle 1; weights are for that over y^3."""
-    nodes, weights = law_sums.wall_nodes(64, 16, double_exponential, 120)
-    y, w = (np.array([float(x) for x in column]) for column in (nodes, weights))
-    for n in (0, 2, 4):
-        true = float(contact_balls.kappa(n, 20))
-        off = abs((w * y ** (n + 3)).sum() / true - 1)
-        assert off < (1e-13 if double_exponential else 1e-8)  # K0's logarithm at 0 is felt
+def test_a_line_and_where_it_is_left() -> None:
+    x = [1.0, 10.0, 100.0, 1000.0, 1e4]
+    slope, leaves = scaling.line(x, [1 + t for t in x])
+    assert slope == pytest.approx(1.0, abs=0.01)
+    assert leaves == 1.0
+    assert scaling.line(x, x)[1] is None
 
 
-def test_zeros_are_the_same_whether_known_or_by_their_expansion() -> None:
-    for begin in (headline.KNOWN_ZEROS - 3, headline.KNOWN_ZEROS, headline.KNOWN_ZEROS + 7):
-        j, square = headline.zeros(begin, begin + 10)
-        known, slope = DOUBLE.zeros(begin + 10)
-        np.testing.assert_allclose(j, known[begin:], rtol=1e-13)
-        np.testing.assert_allclose(square, slope[begin:] ** 2, rtol=1e-7)
+def test_growth_is_of_calls_on_a_clock(monkeypatch: Patch) -> None:
+    """Lower quartile of seven, of one alone where that takes long; memory of the last."""
+    now, calls = [0.0], list[float]()
+    monkeypatch.setattr(scaling, "CPU", lambda: now[0])
+
+    def work(seconds: float) -> None:
+        calls.append(seconds)
+        now[0] += seconds * (1.0 if calls.count(seconds) % 2 else 3.0)
+
+    sizes = [1, 10, 100]
+    grown = scaling.growth("points", "m", sizes, [partial(work, x / 100) for x in sizes], "why")
+    assert [calls.count(x / 100) for x in sizes] == [8, 8, 3]  # the last is traced too
+    assert grown.seconds == pytest.approx((0.01, 0.1, 3.0))
+    assert 8e6 <= scaling.peak(lambda: np.ones(1_000_000)) < 9e6
 
 
-def test_a_plate_of_no_ordinary_size_is_not_prepared() -> None:
-    with pytest.raises(ValueError, match="ordinary lengths"):
-        law_generated.prepared().prepare(replace(PAPER, R=1e-300, h=1e-300, b=1e-299))
+def test_studies_time_calls_that_agree(monkeypatch: Patch) -> None:
+    """Points, plates and scenes by each method; sizes and calls are as many."""
+    monkeypatch.setattr(scaling, "growth", lambda what, _, x, calls, why: (what, x, calls, why))
+    monkeypatch.setattr(scaling, "ARRAY", scaling.SPLIT_POINTS)
+    for one, other in (scaling.points(), scaling.thinness()):
+        assert one[1] == other[1]
+        for first, second in zip(one[2][:4], other[2][:4], strict=True):
+            np.testing.assert_allclose(first(), second(), rtol=1e-12)
+    found = dict(zip(method_selection.METHODS, scaling.scenes(quick=True), strict=True))
+    results = {name: growth[2][1]() for name, growth in found.items()}
+    true = results["full"].contact_time
+    np.testing.assert_allclose(results["coarse"].contact_time, true, rtol=1e-8)
+    for name in ("hertz", "leading"):
+        known = [(x, t) for x, t in zip(results[name], true, strict=True) if x is not None]
+        assert known
+        assert all(abs(x.contact_time / t - 1) <= x.law + 1e-12 for x, t in known)
+    assert list(dict(scaling.studies(quick=True))) == ["points", "b/h", "digits", "scenes"]
 
 
-def test_a_law_beyond_the_oracles_series_is_not_made_up() -> None:
-    deep = replace(BY_NAME["large contacts"], speed=1e5)
-    with pytest.raises(NotImplementedError, match="series does not reach"):
-        reference_law._oracles(deep, 1.05 / deep.eta)
-    with pytest.raises(NotImplementedError, match="takes minutes"):
-        reference_law._oracles(replace(PAPER, h=1e-6), 1.0)
+# --- other programs
 
 
-def test_the_papers_law_is_judged_to_a_thousand_digits(monkeypatch: Patch) -> None:
-    """Many digits agree with few ones; other regimes do with fewer."""
-    few = problems.problem("law", PAPER, True)
-    monkeypatch.setattr(problems, "MANY_DIGITS", 60)
-    radii = few.points[:2]
-    many = problems._many_digits(radii, PAPER)
-    with flint.ctx.workprec(300):
-        assert all(abs(x / y - 1) < 1e-44 for x, y in zip(few.truths, many, strict=False))
-    asked = list[Any]()
-    monkeypatch.setattr(problems, "_many_digits", lambda _, regime: asked.append(regime) or many)
-    assert problems.problem("law", PAPER, False).digits == 60
-    assert asked == [PAPER]
+def test_programs_are_read_or_said_to_be_missing(monkeypatch: Patch) -> None:
+    monkeypatch.delenv(tools.VARIABLE, raising=False)
+    found = tools.tools()
+    for own in found[:2]:
+        assert own.name == "platecontact"
+        assert own.error is not None
+        assert own.error < 2e-15
+    assert {tool.name for tool in found[2:]} == set(half_space.PROGRAMS)
+    scipy = [tool for tool in found if tool.name == "SciPy quad"]
+    assert min(tool.error for tool in scipy if tool.error is not None) < 1e-13
+    assert all("names no Python" in (tool.missing or "") for tool in found[2:] if tool not in scipy)
 
 
-# --- impacts by steps
+@pytest.mark.parametrize(
+    ("python", "says"),
+    [
+        (sys.executable, "not installed: ModuleNotFoundError"),
+        ("/nowhere/python", "not installed: /nowhere/python: No such file or directory"),
+    ],
+)
+def test_a_program_that_cannot_run_is_missing(python: str, says: str) -> None:
+    assert (tools.run("LAMMPS", {tools.VARIABLE: python})[0].missing or "").startswith(says)
 
 
-@pytest.mark.parametrize("name", ["thick", "thin", "large contacts"])
-def test_a_force_in_plain_python_is_the_generated_one(name: str) -> None:
-    """Of thick plates one polynomial is enough; a plate not pressed does not push."""
-    r = BY_NAME[name]
-    top = min(r.high, 5.5) * r.h
-    call = stepping.scalar_force(r)
-    for share in (1e-3, 0.1, 0.5, 1.0):
-        delta = float(indentation(share * top, r.R, r.h, r.b))
-        true = float(force(delta, r.R, r.h, r.b, r.lam, r.mu))
-        assert call(delta) == pytest.approx(true, rel=1e-13)
-    assert call(0.0) == call(-1.0) == 0.0
+def test_a_program_that_fails_or_hangs_is_missing(monkeypatch: Patch) -> None:
+    given, failed = {tools.VARIABLE: sys.executable}, subprocess.CompletedProcess([], 3, "", "")
+    monkeypatch.setattr(subprocess, "run", lambda *_, **__: failed)
+    assert tools.run("tamaas", given)[0].missing == "failed: no message"
 
+    def hangs(*_: Any, **__: Any) -> None:
+        raise subprocess.TimeoutExpired("x", tools.LIMIT)
 
-def test_steps_that_run_out_or_over_give_no_time(monkeypatch: Patch) -> None:
-    r = PAPER
-    speeds = np.array([r.speed])
-    true = float(impact(r.R, r.m, r.speed, r.h, r.b, r.lam, r.mu).contact_time)
-    verlet = stepping.verlet(100)
-    assert verlet.prepare(r)(speeds)[0] == pytest.approx(true, rel=1e-2)
-    monkeypatch.setattr(stepping, "MOST_STEPS", 20)
-    assert np.isnan(verlet.prepare(r)(speeds)).all()
-    monkeypatch.setattr(stepping, "SAME_STEPS", 20)
-    assert verlet.same is not None
-    with pytest.raises(NotImplementedError, match="minutes"):
-        verlet.same(r)
-
-
-def test_without_long_doubles_steps_are_not_repeated(monkeypatch: Patch) -> None:
-    monkeypatch.setattr(stepping, "HAS_LONG", False)
-    stepping._repeated.cache_clear()
-    with pytest.raises(NotImplementedError, match="no longer than double"):
-        stepping._repeated(PAPER, "DOP853", 1.0, (0.0, 1.0))
-
-
-@pytest.mark.skipif(not HAS_LONG, reason="long double is a double")
-def test_steps_that_end_too_early_are_not_split() -> None:
-    with pytest.raises(NotImplementedError, match="does not stop in the last step"):
-        stepping._repeated(PAPER, "DOP853", 1.0, (0.0, 1e-5, 2e-5))
-
-
-@pytest.mark.skipif(not HAS_LONG, reason="long double is a double")
-def test_a_sphere_that_does_not_stop_in_the_last_step_has_no_turning_point() -> None:
-    law = reference_law.sure_law(PAPER, LONG)
-    half = float(impact(PAPER.R, PAPER.m, 1.0, PAPER.h, PAPER.b, PAPER.lam, PAPER.mu)[0]) / 2
-    steps = [half * k / 40 for k in range(42)]
-    found = replay.turning_time(replay.dop853_step, 1.0, PAPER.m, steps, law.force)
-    assert float(found) == pytest.approx(half, rel=1e-8)
-    for ends in (steps[:30], [*steps, 1.1 * half, 1.2 * half]):  # too early, too late
-        assert np.isnan(replay.turning_time(replay.dop853_step, 1.0, PAPER.m, ends, law.force))
-
-
-def test_without_long_doubles_all_other_methods_are_compared(monkeypatch: Patch) -> None:
-    every = catalogue.methods()
-    monkeypatch.setattr(catalogue, "HAS_LONG", False)
-    others = catalogue.methods()
-
-    def names(found: list[Method]) -> list[tuple[str, ...]]:
-        return [(m.task, m.family, m.setting, m.arithmetic) for m in found]
-
-    wanted = [name for name in names(every) if name[-1] != "long double"]
-    assert names(others) == wanted
-    if HAS_LONG:
-        assert len(wanted) < len(every)
-
-
-def test_without_long_doubles_the_headline_is_told_in_doubles(monkeypatch: Patch) -> None:
-    """What a direct sum reaches is no more than doubles hold, and grows with the modes."""
-    monkeypatch.setattr(headline, "HAS_LONG", False)
-    monkeypatch.setattr(headline, "QUICK_MODES", 1 << 19)
-    monkeypatch.setattr(headline, "POINTS", 1000)
-    found = headline.headline(PAPER, quick=True)
-    assert found.digits > 14.0
-    reached = [(r.digits, r.modes) for r in found.reached]
-    assert reached == sorted(reached)
-    assert reached[-1][0] <= 16
-    assert found.modes == 1 << 19
+    monkeypatch.setattr(subprocess, "run", hangs)
+    assert tools.run("tamaas", given)[0].missing == "no result within 120 s"

@@ -1,4 +1,4 @@
-"""Methods compared: their arithmetics, their digits, and how these split, by independent truth."""
+"""Methods compared: what each reaches, against oracles, and truncation told from rounding."""
 
 import math
 from dataclasses import replace
@@ -6,18 +6,18 @@ from dataclasses import replace
 import flint
 import numpy as np
 import pytest
+from flint import arb
 
+from derivation.mathematics.bessel import oracle as zeros
 from derivation.plate.benchmark import (
-    by_series,
+    errors,
     inversion,
-    law_generated,
-    law_series,
-    law_sums,
-    levin,
+    laws,
     motion,
-    panels,
+    polynomials,
     problems,
-    stepping,
+    shipped,
+    sums,
 )
 from derivation.plate.benchmark.arithmetic import (
     DOUBLE,
@@ -27,23 +27,21 @@ from derivation.plate.benchmark.arithmetic import (
     BallArithmetic,
     Mpmath,
     as_ball,
+    exact_for,
 )
 from derivation.plate.benchmark.catalogue import NODES, methods
-from derivation.plate.benchmark.coefficients import series
-from derivation.plate.benchmark.errors import digits, judge
-from derivation.plate.benchmark.headline import zeros
+from derivation.plate.benchmark.coefficients import coefficients
+from derivation.plate.benchmark.errors import BenchmarkErrors, digits, judge
 from derivation.plate.benchmark.interface import PAPER, REGIMES, Method, deepest
-from derivation.plate.benchmark.levin import u_transform
 from derivation.plate.benchmark.problems import Problem
-from derivation.plate.benchmark.replay import turning_time
-from derivation.plate.benchmark.stepping import scalar_force
 from derivation.plate.contact.oracle import balls as contact_balls
+from derivation.plate.contact.oracle import sums as contact_sums
 from derivation.plate.impact.oracle import impact as contact_impact
 from generated.contact_law import force, indentation
-from generated.contact_series import plates_of
 from generated.impact import impact
-from generated.reversed_series import _reversed
 
+needs_long = pytest.mark.skipif(not HAS_LONG, reason="long double is a double")
+THIN, THICK, LARGE = REGIMES[0], REGIMES[2], REGIMES[4]
 RADII = np.array([0.002, 0.01, 0.03])
 
 
@@ -54,83 +52,130 @@ def law() -> Problem:
     return Problem("law", PAPER, RADII, tuple(truths), 40, np.full(50, 0.01))
 
 
-# --- arithmetics and methods
+@pytest.fixture(scope="module")
+def pressed() -> Problem:
+    """Inversion in the thick plate at two indentations."""
+    depths = np.array([1e-4, 0.1])
+    found = [contact_balls.contact_radius(d, THICK.R, THICK.h, THICK.b, 40) for d in depths]
+    with flint.ctx.workprec(160):
+        truths = [4 * contact_balls.modulus(THICK.lam, THICK.mu) * a**3 / (3 * arb(THICK.R))
+                  for a in found]  # fmt: skip
+    return Problem("inversion", THICK, depths, tuple(truths), 38, np.full(50, 0.01))
+
+
+def bounce(regime) -> Problem:
+    r, speeds = regime, np.array([regime.speed])
+    found = contact_impact.impact(r.R, r.m, r.speed, r.h, r.b, r.lam, r.mu, 32)
+    return Problem("impact", r, speeds, (found.contact_time,), 32, speeds)
+
+
+@pytest.fixture(scope="module")
+def bounced() -> Problem:
+    """The paper's impact."""
+    return bounce(PAPER)
+
+
+@pytest.fixture(scope="module")
+def deep() -> Problem:
+    """The impact of large contacts."""
+    return bounce(LARGE)
+
+
+def judged(method: Method, task: Problem) -> BenchmarkErrors:
+    """Errors whose parts are known and add up."""
+    with np.errstate(all="ignore"):
+        found = judge(method, task, lambda: 0.0).errors
+    assert found.unsplit is None
+    assert found.truncation is not None
+    assert found.rounding is not None
+    assert 10**-found.total <= 1.05 * (10**-found.truncation + 10**-found.rounding)
+    return found
+
+
+# --- arithmetics
 
 
 @pytest.mark.parametrize(
-    ("ar", "right"), [(SINGLE, 6), (DOUBLE, 14.5), (LONG, 17.5 if HAS_LONG else 14.5)]
+    ("ar", "right"),
+    [(SINGLE, 6), (DOUBLE, 14.5), (LONG, 17.5 if HAS_LONG else 14.5), (Mpmath(30), 29)],
+    ids=lambda ar: getattr(ar, "name", ""),
 )
-def test_floats_agree_with_balls(ar, right: float) -> None:
-    y = np.array([1e-6, 0.3, 1.5, 1.7, 5.0], dtype=ar.dtype)
-    exact = BallArithmetic(40)
-    for name in ("shape", "wall_shape", "excess"):
-        values = getattr(ar, name)(y)
-        with exact.context():
-            balls = getattr(exact, name)(np.array([as_ball(x) for x in y], dtype=object))
-            assert min(map(digits, values, balls, [40] * len(y))) > right, name
-
-
-def test_mpmath_agrees_with_balls() -> None:
-    ar, exact, y = Mpmath(30), BallArithmetic(60), [1e-3, 0.5, 3.0]
+def test_arithmetics_agree_with_balls(ar, right: float) -> None:
+    exact, given = BallArithmetic(60), np.array([1e-3, 0.3, 1.5, 1.7, 5.0])
     with ar.context(), exact.context():
+        y = ar.array(given)
+        balls = exact.array([as_ball(x) for x in y])
         for name in ("shape", "wall_shape", "excess"):
-            values = getattr(ar, name)(ar.array(y))
-            balls = getattr(exact, name)(exact.array(y))
-            assert min(map(digits, values, balls, [60] * 3)) > 29, name
+            values, true = getattr(ar, name)(y), getattr(exact, name)(balls)
+            assert min(map(digits, values, true, [60] * len(y))) > right, name
+        turned = [as_ball(x.imag) for x in ar.turned(y)]
+        assert min(map(digits, turned[1:], exact.shape(balls)[1:], [60] * 4)) > right - 1.5
 
 
-@pytest.mark.parametrize("h", [0.1, 1e-2])
-def test_coefficients_are_the_oracles(h: float) -> None:
-    found = series(h, 1.0, 3, 20)
-    for k in (0, 2):
-        true = contact_balls.coefficient(2 * k + 1, h, 1.0, 20)
-        assert digits(found[k], true, 20) > 18
-
-
-def test_late_coefficients_are_the_oracles_too() -> None:
-    true = contact_balls.coefficient(23, 0.45, 1.0, 32)
-    assert digits(series(0.45, 1.0, 12, 30)[11], true, 32) > 30
-
-
-@pytest.mark.parametrize("ar", [*([LONG] if HAS_LONG else []), Mpmath(30), BallArithmetic(30)])
-def test_the_split_reaches_its_arithmetics_digits(law: Problem, ar) -> None:
-    found = judge(law_sums.split(NODES[30], 6, ar), law, lambda: 0.0).errors
-    assert found.total > ar.digits - 2
-    assert found.truncation > ar.digits
-
-
-@pytest.mark.parametrize("ar", [LONG, Mpmath(30)], ids=lambda ar: ar.name)
-def test_no_constant_of_a_split_sum_is_a_double(ar) -> None:
-    if ar.digits <= DOUBLE.digits:
-        pytest.skip("long double is a double")
-    true = contact_balls.indentation(0.03, PAPER.R, PAPER.h, PAPER.b, 40)
-    (found,) = law_sums.split(72, 6, ar).prepare(PAPER)(np.array([0.03]))
+@pytest.mark.parametrize("number", [3, 1001, 123_457, 20_000_000])
+@pytest.mark.parametrize(
+    "ar", [DOUBLE, pytest.param(LONG, marks=needs_long)], ids=lambda ar: ar.name
+)
+def test_zeros_are_the_certified_ones_however_far(ar, number: int) -> None:
+    (j,), (slope,) = ar.zeros(number, number - 1)
     with flint.ctx.workprec(160):
-        assert digits(found, true, 40) > min(ar.digits - 2, 27)
+        least = ar.digits - 1.3
+        assert digits(j, zeros.j0_zero(number, 120), 30) > least
+        assert digits(slope, zeros.j1_at_zero(number, 120), 30) > least
+
+
+def test_long_doubles_have_no_constant_of_a_double() -> None:
+    for ar in [Mpmath(30), *([LONG] if HAS_LONG else [])]:
+        (found,) = sums.split(72, 6, ar).ready(PAPER)(RADII[-1:])
+        true = contact_balls.indentation(0.03, PAPER.R, PAPER.h, PAPER.b, 40)
+        with flint.ctx.workprec(160):
+            assert digits(found, true, 40) > min(ar.digits - 2, 27)
+
+
+def test_float32_goes_in_and_comes_out() -> None:
+    for method in methods():
+        if method.arithmetic == "float32" and method.fails(PAPER) is None:
+            point = {"law": 0.01, "inversion": 1e-4, "impact": 1.0}[method.task]
+            assert method.ready(PAPER)(np.array([point])).dtype == np.float32, method.name
+
+
+# --- parts of methods
+
+
+@pytest.mark.parametrize(("h", "order"), [(0.1, 1), (0.01, 5), (0.45, 23)])
+def test_coefficients_are_the_oracles(h: float, order: int) -> None:
+    """To as many digits as their terms have in the sum at a/h = 0.5; h = 0.01 is thin."""
+    found = coefficients(replace(PAPER, h=h, speed=1e-3), 12, 30)[order // 2]
+    true = contact_balls.coefficient(order, h, 1.0, 32)
+    with flint.ctx.workprec(160):
+        assert abs(found - true) / 2**order < 1e-30
+
+
+@pytest.mark.parametrize("double_exponential", [True, False])
+def test_the_side_walls_nodes_by_either_rule_give_its_moments(double_exponential: bool) -> None:
+    """int y^n K0/I0 dy by oracle 1; weights are for that over y^3."""
+    nodes, weights = sums.wall_nodes(64, 16, double_exponential, 120)
+    y, w = (np.array([float(x) for x in column]) for column in (nodes, weights))
+    for n in (0, 2, 4):
+        true = float(contact_balls.kappa(n, 20))
+        off = abs((w * y ** (n + 3)).sum() / true - 1)
+        assert off < (1e-13 if double_exponential else 1e-8)  # K0's logarithm at 0 is felt
 
 
 def test_levins_transformation_sums_an_alternating_series() -> None:
     n = np.arange(1, 13.0)
     terms = (-1) ** (n + 1) / n
-    found = u_transform(np.cumsum(terms) + 0j, n * terms + 0j, n)
+    found = sums.u_transform(np.cumsum(terms) + 0j, n * terms + 0j, n)
     assert found.real == pytest.approx(math.log(2), rel=1e-10)
 
 
-def test_far_zeros_are_those_of_the_generated_code() -> None:
-    from generated.bessel import bessel_j0_zeros, bessel_j1_at_j0_zeros
-
-    j, square = zeros(65_000, 66_000)
-    np.testing.assert_allclose(j, bessel_j0_zeros(66_000)[65_000:], rtol=4e-16)
-    np.testing.assert_allclose(square, bessel_j1_at_j0_zeros(66_000)[65_000:] ** 2, rtol=1e-15)
-
-
-@pytest.mark.parametrize("regime", [REGIMES[1], REGIMES[4]], ids=lambda r: r.name)
-def test_the_scalar_force_is_the_generated_one(regime) -> None:
-    a = np.array([0.1, 0.6, 1.0]) * regime.h * min(regime.high, 4.0)
-    depths = indentation(a, regime.R, regime.h, regime.b)
-    r, scalar = regime, scalar_force(regime)
+@pytest.mark.parametrize("regime", [THIN, PAPER, THICK, LARGE], ids=lambda r: r.name)
+def test_a_force_in_plain_python_is_the_generated_one(regime) -> None:
+    r, scalar = regime, motion.scalar_force(regime)
+    depths = indentation(np.array([1e-3, 0.1, 0.5, 1.0]) * r.h * min(r.high, 5.5), r.R, r.h, r.b)
     expected = force(depths, r.R, r.h, r.b, r.lam, r.mu)
     np.testing.assert_allclose([scalar(float(d)) for d in depths], expected, rtol=1e-13)
+    assert scalar(0.0) == scalar(-1.0) == 0.0
 
 
 @pytest.mark.parametrize("regime", REGIMES[:4], ids=lambda r: r.name)
@@ -141,216 +186,204 @@ def test_the_series_invert_and_bounce_like_the_generated_code(regime) -> None:
     speeds = r.speed * np.array([0.5, 1.0])
     times = impact(r.R, r.m, speeds, r.h, r.b, r.lam, r.mu).contact_time
     for ar, tolerance in ((SINGLE, 2e-6), (DOUBLE, 3e-15)):
-        found = by_series.inverse(20, ar)(regime)(depths)
-        assert found.dtype == ar.dtype
+        found = laws.newton(20, ar).ready(regime)(depths)
         np.testing.assert_allclose(found, expected, rtol=tolerance)
-        found = by_series.gauss(24, 20, ar).prepare(regime)(speeds)
+        found = laws.gauss(24, 20, ar).ready(regime)(speeds)
         np.testing.assert_allclose(found, times, rtol=tolerance)
-    assert by_series.diverges(REGIMES[4])
+    assert laws.diverges(LARGE)
 
 
-def test_reversed_series_in_balls_is_the_generated_one() -> None:
-    thick = REGIMES[2]
-    radius, generated = _reversed(plates_of(np.array([thick.eta])), 0, 8)
-    balls = [float(p) for p in inversion._reversed_balls(thick, 8, radius)]
-    np.testing.assert_allclose(balls, generated, rtol=1e-8)
-    c_1 = float(contact_balls.coefficient(1, thick.h, thick.b, 20))
-    assert balls[1] / radius == pytest.approx(-1.5 * c_1, rel=1e-13)
+def test_steps_that_run_out_give_no_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(motion, "MOST_STEPS", 20)
+    assert np.isnan(motion.verlet(100).ready(PAPER)(np.array([1.0]))).all()
 
 
-def test_float32_goes_in_and_comes_out() -> None:
-    for method in methods():
-        if method.arithmetic == "float32" and method.fails(PAPER) is None:
-            problem = {"law": 0.01, "inversion": 1e-4, "impact": 1.0}[method.task]
-            assert method.prepare(PAPER)(np.array([problem])).dtype == np.float32, method.name
+# --- the law that stands for the exact one
 
 
-def test_nodes_of_the_oracle_are_set_up_not_timed(monkeypatch: pytest.MonkeyPatch) -> None:
-    asked = []
-    monkeypatch.setattr(contact_balls, "indentation", lambda *arguments: asked.append(arguments))
-    call = law_generated.oracle(30).prepare(PAPER)
-    assert asked == [(PAPER.high * PAPER.h, PAPER.R, PAPER.h, PAPER.b, 30)]
-    assert len(call(RADII)) == 3
-    assert len(asked) == 4
+@pytest.mark.parametrize("regime", [THIN, PAPER, LARGE], ids=lambda r: r.name)
+def test_the_whole_law_is_the_oracles(regime) -> None:
+    r, ar, a = regime, exact_for(DOUBLE), deepest(regime) * np.array([0.01, 0.3, 1.0])
+    with ar.context():
+        law, A = laws.SeriesLaw(r, ar), ar.array(a) / ar.number(r.h)
+        lift, slope = law.lift(A), law.slope(A)
+        time = law.duration(56, ar)(ar.array(np.array([r.speed])))[0]
+    for k, radius in enumerate(a.tolist()):
+        depth = contact_balls.indentation(radius, r.R, r.h, r.b, 45)
+        steep = contact_balls.slope(radius, r.R, r.h, r.b, 45)
+        with flint.ctx.workprec(200):
+            first, second = arb(radius), arb(r.R)
+            assert digits(lift[k], depth * second / first**2, 45) > 37
+            assert digits(slope[k], steep * second / (2 * first), 45) > 37
+    assert digits(time, bounce(r).truths[0], 32) > 30
 
 
-# --- errors
+def test_a_law_that_would_take_minutes_says_so() -> None:
+    thin = replace(LARGE, h=1e-5, speed=0.003)
+    assert deepest(thin) / thin.h > 4
+    with pytest.raises(NotImplementedError, match="thin a plate takes minutes"):
+        laws.SeriesLaw(thin, exact_for(DOUBLE))
 
 
-@pytest.fixture(scope="module")
-def pressed() -> Problem:
-    """Inversion in the thick plate at two indentations."""
-    thick = REGIMES[2]
-    depths = np.array([1e-4, 0.1])
-    found = [contact_balls.contact_radius(d, thick.R, thick.h, thick.b, 40) for d in depths]
-    with flint.ctx.workprec(160):
-        truths = [4 * contact_balls.modulus(thick.lam, thick.mu) * a**3 / (3 * flint.arb(thick.R))
-                  for a in found]  # fmt: skip
-    return Problem("inversion", thick, depths, tuple(truths), 38, np.full(50, 0.01))
-
-
-@pytest.fixture(scope="module")
-def bounced() -> Problem:
-    """The paper's impact."""
-    p, speeds = PAPER, np.array([1.0])
-    times = [contact_impact.impact(p.R, p.m, v, p.h, p.b, p.lam, p.mu, 30)[0] for v in speeds]
-    return Problem("impact", PAPER, speeds, tuple(times), 30, np.full(50, 0.9))
-
-
-SPLITS = {
-    "Hertz": (inversion.hertz(), 1, 15),
-    "reversed series": (inversion.reversed_series(12), 6.1, 15),
-    "reversed series, float32": (inversion.reversed_series(12, SINGLE), 6.1, 6.5),
-    "table": (inversion.table(64), 7.5, 14),
-    "Newton on 4 terms": (by_series.newton(4), 7.8, 15),
-    "Newton on 4 terms, float32": (by_series.newton(4, SINGLE), 7.8, 6),
-    "Hertz's impact": (motion.hertz(), 0.5, 15),
-    "linear term": (motion.linear(25), 0.8, 15),
-    "Gauss": (motion.gauss(8), 8.2, 15),
-    "Gauss on the series": (by_series.gauss(8, 12), 8.2, 15),
-    "Gauss on the series, float32": (by_series.gauss(8, 12, SINGLE), 8.2, 7),
-    "production, float32": (motion.production(np.float32), 21.7, 7.5),
-    "DOP853": (stepping.solver("DOP853", 1e-6), 7.0, 15),
-    "Verlet": (stepping.verlet(20), 3.3, 15),
-    "Verlet, float32": (stepping.verlet(20, dtype=np.float32), 3.3, 7),
-}
-"""Methods with their digits of truncation and of rounding, about."""
-
-
-@pytest.mark.parametrize("name", SPLITS)
-def test_inversion_and_impact_are_split_too(pressed: Problem, bounced: Problem, name: str) -> None:
-    method, truncation, rounding = SPLITS[name]
-    found = judge(method, bounced if method.task == "impact" else pressed, lambda: 0.0).errors
-    assert found.truncation == pytest.approx(truncation, abs=0.8)
-    assert found.rounding == pytest.approx(rounding, abs=1.5)
-    assert 10**-found.total <= 1.01 * (10**-found.truncation + 10**-found.rounding)
-
-
-def test_long_numbers_are_as_long_as_they_say(pressed: Problem, bounced: Problem) -> None:
-    wide = [(Mpmath(30), 30)] + ([(LONG, 17.5)] if HAS_LONG else [])
-    for ar, least in wide:
-        assert judge(by_series.newton(28, ar), pressed, lambda: 0.0).errors.total > least
-        found = judge(by_series.gauss(48, 24, ar), bounced, lambda: 0.0).errors
-        assert found.total >= min(least, bounced.digits)
-    if HAS_LONG:
-        found = judge(inversion.reversed_series(24, LONG), pressed, lambda: 0.0).errors
-        assert found.rounding > 17.5
-
-
-def test_what_truncates_nothing_has_rounding_alone(pressed: Problem) -> None:
-    found = judge(inversion.newton(), pressed, lambda: 0.0).errors
-    assert (found.truncation, found.rounding) == (None, found.total)
-
-
-def test_truncation_is_told_beyond_doubles_too(law: Problem) -> None:
-    for ar in (Mpmath(50), BallArithmetic(50)):
-        found = judge(law_series.small_contacts(4, ar), law, lambda: 0.0).errors
-        assert found.truncation == pytest.approx(found.total, abs=1e-9)
-        assert found.rounding == law.digits
-
-
-def test_many_digits_are_held_to_another_oracle(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_papers_law_is_judged_to_many_digits_by_another_oracle(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     monkeypatch.setattr(problems, "MANY_DIGITS", 40)
-    found = problems._many_digits(RADII, PAPER)
-    for a, value in zip(RADII, found, strict=True):
+    monkeypatch.setattr(problems, "ARRAY", 50)
+    set_task = problems.problem("law", PAPER, quick=False)
+    assert set_task.digits == 40
+    for a, value in list(zip(set_task.points, set_task.truths, strict=True))[:3]:
         true = contact_balls.indentation(float(a), PAPER.R, PAPER.h, PAPER.b, 42)
         assert digits(value, true, 50) > 39
 
 
-def test_a_thousand_digits_are_the_papers_alone_and_left_out_with_a_reason() -> None:
-    deep = [m for m in methods() if m.arithmetic.endswith("1000 digits")]
-    assert {m.arithmetic for m in deep} == {"mpmath, 1000 digits", "Arb, 1000 digits"}
-    tried = {m.family for m in deep if m.fails(PAPER) is None}
-    assert tried == {"small-a series"}
-    for regime in REGIMES:
-        if regime is not PAPER:
-            assert all((m.fails(regime) or "").startswith("left out") for m in deep)
-    assert not any(m.arithmetic.endswith("1000 digits") for m in methods(quick=True))
+# --- truncation and rounding
+
+SPLITS = {
+    "law": (
+        (sums.direct(100), 0.2, 15),
+        (sums.direct(1000, SINGLE), 1.8, 6.8),
+        (sums.split(16, 2), 8.2, 15),
+        (sums.split(48, 4, SINGLE), 11.2, 6.8),
+        (sums.split(NODES[30], 6, Mpmath(30)), 31.5, 33.2),
+        (sums.split(NODES[30], 6, BallArithmetic(30)), 31.5, 34.8),
+        (sums.levin(4), 6, 15),
+        (polynomials.small_contacts(1), 3.2, 15.2),
+        (polynomials.small_contacts(4), 10.7, 15.2),
+        (polynomials.small_contacts(4, Mpmath(50)), 10.7, 40),
+        (polynomials.small_contacts(4, BallArithmetic(50)), 10.7, 40),
+        (polynomials.chebyshev(2), 9.8, 15.2),
+        (polynomials.chebyshev(6, SINGLE), 21.4, 7),
+        (polynomials.table(3), 12.8, 15),
+    ),
+    "inversion": (
+        (shipped.hertz("inversion"), 1, 15),
+        (inversion.reversed_series(12), 6.1, 15),
+        (inversion.reversed_series(12, SINGLE), 6.1, 6.5),
+        (inversion.table(64), 7.5, 14.3),
+        (laws.newton(4), 7.8, 15),
+        (laws.newton(4, SINGLE), 7.8, 6),
+    ),
+    "impact": (
+        (shipped.hertz("impact"), 0.5, 15.3),
+        (motion.linear(25), 0.8, 15.5),
+        (motion.gauss(8), 8.2, 15.3),
+        (laws.gauss(8, 12), 8.2, 15.3),
+        (laws.gauss(8, 12, SINGLE), 8.2, 7),
+        (motion.solver("DOP853", 1e-6), 7.0, 14.5),
+        (motion.solver("Radau", 1e-6), 8.8, 15),
+        (motion.solver("LSODA", 1e-6), 6.0, 15),
+        (motion.verlet(20), 3.3, 15.3),
+        (motion.verlet(20, ar=SINGLE), 3.3, 7),
+    ),
+}
+"""Methods with their digits of truncation and of rounding, about."""
 
 
-def test_error_split_adds_up(law: Problem) -> None:
-    for method in (law_sums.split(16, 2), law_series.small_contacts(4), law_sums.direct(100)):
-        found = judge(method, law, lambda: 0.0).errors
-        assert found.truncation is not None
-        assert found.rounding is not None
-        parts = 10**-found.truncation + 10**-found.rounding
-        assert 10**-found.total <= parts * 1.01
-        assert found.rounding > 13
-    assert judge(law_series.small_contacts(1), law, lambda: 0.0).errors.total == pytest.approx(
-        judge(law_series.small_contacts(1), law, lambda: 0.0).errors.truncation, abs=1e-3
-    )
+@pytest.mark.parametrize("task", SPLITS)
+def test_truncation_and_rounding_are_told_apart(task: str, law, pressed, bounced) -> None:
+    where = {"law": law, "inversion": pressed, "impact": bounced}[task]
+    for method, truncation, rounding in SPLITS[task]:
+        found = judged(method, where)
+        assert found.truncation == pytest.approx(truncation, abs=0.8), method.name
+        assert found.rounding == pytest.approx(rounding, abs=1.5), method.name
+        assert bool(found.remark) == (method.split == "units")
 
 
-@pytest.mark.parametrize(
-    ("method", "truncation"),
-    [
-        (law_series.chebyshev(2), 9.7),
-        (law_series.chebyshev(6, SINGLE), 21.2),
-        (law_series.table(3), 13.0),
-        (levin.levin(4), 6.0),
-    ],
-    ids=lambda x: getattr(x, "name", None),
-)
-def test_surrogates_and_samples_are_split(law: Problem, method: Method, truncation: float) -> None:
-    found = judge(method, law, lambda: 0.0).errors
-    assert found.truncation == pytest.approx(truncation, abs=1.5)
-    assert found.rounding is not None
-    assert found.rounding > (6.5 if method.arithmetic == "float32" else 14)
-    assert 10**-found.total <= 1.01 * (10**-found.truncation + 10**-found.rounding)
-    assert 10**-found.total >= 0.9 * abs(10**-found.truncation - 10**-found.rounding)
+@needs_long
+def test_long_sums_truncate_like_those_in_more_digits(law: Problem) -> None:
+    task = replace(law, points=RADII[1:], truths=law.truths[1:])
+    method = sums.direct(1500)
+    assert method.split == "long"
+    found, again = judged(method, task), judged(replace(method, split="wide"), task)
+    assert found.truncation == pytest.approx(again.truncation, abs=1e-9)
+    assert found.rounding == pytest.approx(again.rounding, abs=0.02)
 
 
-def test_what_is_not_split_says_why(
-    law: Problem, bounced: Problem, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Every method that is tried and none of whose errors is known apart has its reason."""
-    monkeypatch.setattr(stepping, "HAS_LONG", False)
-    monkeypatch.setattr(law_sums, "HAS_LONG", False)
-    stepping._repeated.cache_clear()
-    for problem, method, reason in (
-        (bounced, stepping.solver("Radau", 1e-3), "long double"),
-        (law, law_sums.direct(2000), "modes"),
-    ):
-        found = judge(method, problem, lambda: 0.0).errors
-        assert (found.truncation, found.rounding, found.remark) == (None, None, None)
-        assert reason in (found.unsplit or "")
-    assert judge(law_series.chebyshev(2), law, lambda: 0.0).errors.unsplit is None
-    assert all(m.same or m.exact or m.certified or "perturbation" in m.family for m in methods())
+def test_other_units_tell_what_longer_numbers_do(law, pressed, bounced) -> None:
+    """Of methods that can be split both ways; where truncation is below rounding it is a bound."""
+    for method, where in (
+        (sums.split(16, 2), law), (polynomials.small_contacts(4), law),
+        (polynomials.small_contacts(16), law), (inversion.reversed_series(12), pressed),
+        (laws.newton(4, SINGLE), pressed), (motion.gauss(8), bounced),
+    ):  # fmt: skip
+        exact, estimate = judged(method, where), judged(replace(method, split="units"), where)
+        assert estimate.rounding == pytest.approx(exact.rounding, abs=1.2), method.name
+        seen = min(exact.truncation, exact.rounding)
+        assert estimate.truncation == pytest.approx(seen, abs=1.2), method.name
+        if exact.truncation < exact.rounding - 2:
+            assert estimate.truncation == pytest.approx(exact.truncation, abs=0.01)
 
 
-@pytest.mark.parametrize("name", ["DOP853", "Radau"])
-def test_repeated_steps_are_scipys(name: str) -> None:
-    """A force that is linear: the time is pi/2 over the frequency, but for the steps' own error."""
-    from scipy.integrate import solve_ivp
+def test_a_force_of_fewer_bits_is_seen_as_rounding(bounced, monkeypatch) -> None:
+    exact = motion.scalar_force
 
-    def top(t: float, y: np.ndarray) -> float:  # noqa: ARG001
-        return float(y[1])
+    def short(regime):
+        force = exact(regime)
+        return lambda x: float(np.float32(force(x)))
 
-    top.terminal = True  # type: ignore[attr-defined]
-    found = solve_ivp(
-        lambda t, y: (y[1], -4 * y[0]), (0, 2), (0.0, 3.0), method=name,  # noqa: ARG005
-        rtol=1e-4, atol=1e-6, events=top, dense_output=True,
-    )  # fmt: skip
-    ends = [p.t_old for p in found.sol.interpolants] + [found.sol.interpolants[-1].t]
-    time = float(turning_time(stepping.REPEATED[name], 3.0, 2.0, ends, lambda x: 8 * x))
-    # Radau's Newton iteration has a Jacobian by differences, and stops at a tolerance.
-    rel = 1e-14 if name == "DOP853" else 1e-9
-    assert time == pytest.approx(float(found.t_events[0][0]), rel=rel)
-    assert 1e-12 < abs(time / (math.pi / 4) - 1) < 1e-4
+    monkeypatch.setattr(motion, "scalar_force", short)
+    assert 6.3 < judged(motion.solver("LSODA", 1e-6), bounced).rounding < 9.5
+
+
+@pytest.mark.parametrize("name", ["DOP853", "Radau", "LSODA"])
+def test_a_solvers_truncation_falls_with_its_tolerance(bounced, deep, name: str) -> None:
+    for where in (bounced, deep):
+        loose, tight = (judged(motion.solver(name, rtol), where) for rtol in (1e-6, 1e-9))
+        assert loose.truncation + 1.5 < tight.truncation < tight.rounding
+        assert loose.truncation == pytest.approx(loose.total, abs=0.05)
+
+
+def test_the_spread_of_numbers_is_their_mean_and_deviation() -> None:
+    found = errors.spread([arb(1), arb(2), arb(3)])
+    assert float(found.mid()) == 2
+    assert float(found.rad()) == pytest.approx(1)
+
+
+def test_what_cannot_be_split_says_why(bounced, monkeypatch) -> None:
+    monkeypatch.setattr(errors, "HAS_LONG", False)
+    found = errors.split(sums.direct(2000), replace(bounced, points=RADII[:1]), [1.0])
+    assert (found.truncation, found.rounding) == (None, None)
+    assert "long double" in (found.unsplit or "")
+
+
+def test_what_truncates_nothing_has_rounding_alone(pressed) -> None:
+    found = judge(shipped.newton(), pressed, lambda: 0.0).errors
+    assert (found.truncation, found.rounding) == (None, found.total)
+    assert found.total > 14.5
 
 
 def test_digits_of_no_number_and_of_exact_ones() -> None:
-    one = flint.arb(1)
+    one = arb(1)
     assert digits(math.nan, one, 30) == -math.inf
     assert digits(1.0, one, 30) == 30
     assert digits(1.001, one, 30) == pytest.approx(3, abs=0.01)
 
 
-def test_a_method_without_digits_fails_with_a_reason(law: Problem) -> None:
-    half = Method("law", "half", "", lambda regime: lambda a: 0.1 * a)  # noqa: ARG005
-    nothing = Method("law", "nothing", "", lambda regime: lambda a: a * math.nan)  # noqa: ARG005
-    refused = replace(half, fails=lambda regime: "dear")  # noqa: ARG005
-    reasons = [panels.judged_row(method, law)[0].fails for method in (half, nothing, refused)]
-    assert reasons[0] is not None
-    assert "no digit" in reasons[0]
-    assert reasons[1:] == ["gives no number in part of the regime", "dear"]
+# --- balls
+
+
+def test_a_balls_radius_is_rounding_whatever_is_left_out(bounced, monkeypatch) -> None:
+    """Without the bounds of what is left out the radii are the same."""
+    p, made, asked = PAPER, contact_sums._panels, []
+
+    def computed() -> list[arb]:
+        return [
+            contact_balls.indentation(p.high * p.h, p.R, p.h, p.b, 30),
+            contact_balls.contact_radius(1e-4, p.R, p.h, p.b, 30),
+        ]
+
+    def without(*arguments):
+        panels, _ = made(*arguments)
+        asked.append(arguments)
+        return tuple(panel._replace(bound=arb(0)) for panel in panels), arb(0)
+
+    whole = computed()
+    monkeypatch.setattr(contact_sums, "_panels", without)
+    for ball, bare in zip(whole, computed(), strict=True):
+        assert float(bare.rad() / ball.rad()) == pytest.approx(1, rel=1e-6)
+    assert asked
+    monkeypatch.undo()
+    found = judge(shipped.oracle("impact", 30), bounced, lambda: 0.0).errors
+    assert (found.truncation, found.unsplit) == (None, None)
+    assert found.rounding == found.total > 30

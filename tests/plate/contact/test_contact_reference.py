@@ -315,17 +315,17 @@ def test_contacts_are_judged_in_units_of_their_format() -> None:
             return right + ulps * np.spacing(right)
 
         kept = contact_judge.judge(off, [true], 8.0, fmt)
-        assert kept.kept
+        assert kept.kept(fmt)
         assert kept.max_ulp <= 0.5
         broken = contact_judge.judge(partial(off, ulps=11), [true], 8.0, fmt)
-        assert broken.ratio > 1.0
+        assert not broken.kept(fmt)
         assert 10.0 < broken.needed <= 11.5  # a constant: nothing conditions it
     nan = contact_judge.judge(lambda *_: np.float64(math.nan), [true], 8.0)
     assert nan.ratio == math.inf
     always_double = contact_judge.judge(contact_law.force_of_radius, [true], 8.0, SINGLE)
-    assert always_double.kept
+    assert always_double.kept(SINGLE)
     wrong_type = contact_judge.judge(lambda *_: np.float64(0.1), [true], 8.0, SINGLE)
-    assert wrong_type.ratio == math.inf
+    assert not wrong_type.kept(SINGLE)
     assert wrong_type.dtype == "float64"
 
 

@@ -10,19 +10,18 @@ from typing import Any
 import flint
 import pytest
 
-from derivation import pipeline
 from derivation.engine.formula.ulp import from_ordinal, ordinal
+from derivation.engine.measure import origin as hard_origin
+from derivation.engine.measure.case import FORMS, HardCase, checked, handed_over, read_cases
+from derivation.engine.measure.places import OFFSETS
+from derivation.engine.measure.suite import Known, Suite, find_references
+from derivation.engine.oracle.reference import Stored, restored
 from derivation.plate.cases.laws import LAWS
+from derivation.plate.cases.suite import WRITTEN
 from derivation.plate.grids import seams
-from derivation.plate.hard import check as hard_check
-from derivation.plate.hard import origin as hard_origin
-from derivation.plate.hard import record as hard_record
-from derivation.plate.hard.case import FORMS, HardCase, checked, handed_over, written
-from derivation.plate.hard.places import OFFSETS
-from derivation.plate.hard.record import find_references
-from derivation.plate.hard.truth import Known, references, restored
 from derivation.plate.impact.oracle.agreement import agree
 from derivation.plate.modes.route import routes
+from derivation.plate.paper import PAPER
 
 GROUPS = {
     "found by search": 39,
@@ -70,7 +69,7 @@ GROUPS = {
 
 @pytest.fixture(scope="module")
 def data() -> dict[str, Any]:
-    found: dict[str, Any] = json.loads(pipeline.MEASURED_HARD.read_text())
+    found: dict[str, Any] = json.loads(PAPER.hard.read_text())
     return found
 
 
@@ -148,16 +147,16 @@ def test_file_repeats_the_definitions(cases: tuple[HardCase, ...], data: dict[st
         assert {name: tuple(texts) for name, texts in row["inputs"].items()} == case.inputs
 
 
-def test_references_repeat(cases: tuple[HardCase, ...], truth: dict[str, Known]) -> None:
+def test_references_repeat(suite: Suite, truth: dict[str, Known]) -> None:
     generator = random.Random(7)
-    values = [case for case in cases if case.expect == "value" and 0 < len(case.points) < 6]
+    values = [c for c in suite.cases if c.expect == "value" and 0 < len(c.points) < 6]
     closed = [case for case in values if case.kernel not in LAWS]
     laws = [c for c in values if c.kernel in ("indentation", "stiffness") and not c.shape]
     quick = ("sphere_contact", "plate_of", "far_stress", "contact", "clamped_edge_bound",
              "dynamic_influence", "bending_share", "symmetric_residue")  # fmt: skip
     seams = [next(c for c in values if c.kernel == kernel) for kernel in quick]
     for case in (*generator.sample(closed, 24), *generator.sample(laws, 3), *seams):
-        fresh = references(case, hard_check.kernels()[case.kernel])
+        fresh = suite.references(case)
         for old, new in zip(truth[case.key].references, fresh, strict=True):
             if new["value"] in ("nan", "inf", "-inf"):
                 assert old == new
@@ -166,16 +165,17 @@ def test_references_repeat(cases: tuple[HardCase, ...], truth: dict[str, Known])
                 assert restored(old).value.overlaps(restored(new).value), case.key
 
 
-def test_the_second_oracle_agrees(cases: tuple[HardCase, ...], truth: dict[str, Known]) -> None:
+def test_the_second_oracle_agrees(suite: Suite, truth: dict[str, Known]) -> None:
     generator = random.Random(3)
     moderate = {"systems of units", "shapes and types", "contacts beyond 3 h"}
-    values = [c for c in cases if c.expect == "value" and not c.shape and c.group in moderate]
+    values = [c for c in suite.cases if c.expect == "value" and not c.shape]
+    values = [c for c in values if c.group in moderate]
     sizes = [c for c in values if all(1e-9 < abs(x[0]) < 1e12 for x in c.numbers.values())]
     laws = [case for case in sizes if case.kernel in ("indentation", "stiffness")]
     closed = [case for case in sizes if case.kernel in ("K_j", "C_top", "G", "mode_f")]
     for case in (*generator.sample(laws, 3), *generator.sample(closed, 3)):
         (row,), (point,) = truth[case.key].references, case.points
-        arguments = [point[name] for name in hard_check.kernels()[case.kernel].arguments]
+        arguments = [point[name] for name in suite.kernels[case.kernel].arguments]
         if case in laws:
             (value,) = agree(case.kernel, arguments, 24).values
         else:
@@ -185,44 +185,64 @@ def test_the_second_oracle_agrees(cases: tuple[HardCase, ...], truth: dict[str, 
 
 
 def test_references_follow_from_the_expressions_as_they_are(
-    cases: tuple[HardCase, ...], truth: dict[str, Known]
+    suite: Suite, truth: dict[str, Known]
 ) -> None:
     """Those of closed formulas; what balls come to does not change with their oracle's text."""
-    closed = {case.kernel: case for case in cases if case.kernel not in LAWS}
+    closed = {case.kernel: case for case in suite.cases if case.kernel not in LAWS}
     assert {name: truth[case.key].origin for name, case in closed.items()} == {
-        name: hard_origin.origin(name) for name in closed
+        name: suite.origin(name) for name in closed
     }
 
 
 # --- how they are found
 
 
-def test_an_origin_changes_with_code_alone(tmp_path: Path) -> None:
-    plain, said, other = (tmp_path / f"{name}.py" for name in ("plain", "said", "other"))
-    plain.write_text("def f(x):\n    return x\n")
-    said.write_text('"""What it does."""\ndef f(x):\n    """Same."""\n    return x  # as it is\n')
-    other.write_text("def f(x):\n    return -x\n")
-    assert hard_origin._code(plain) == hard_origin._code(said) != hard_origin._code(other)
+def test_an_origin_changes_with_code_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Not with words about it, nor with the engine; a module of its own that is imported counts."""
+    monkeypatch.syspath_prepend(tmp_path)
+    engine = "from derivation.engine.formula.ball import to_ball\n"
+    texts = {
+        "plain": f"{engine}from .part import g\ndef f(x):\n    return g(x)\n",
+        "said": f'"""What it does."""\n{engine}from .part import g\n'
+                'def f(x):\n    """Same."""\n    return g(x)  # as it is\n',
+        "other": f"{engine}from .part import g\ndef f(x):\n    return -g(x)\n",
+        "part": "def g(x):\n    return x\n",
+    }  # fmt: skip
+    package = tmp_path / "some_paper"
+    package.mkdir()
+    for name, text in {"__init__": "", **texts}.items():
+        (package / f"{name}.py").write_text(text)
+
+    def origins() -> list[str]:
+        hard_origin.of_modules.cache_clear()
+        names = ("plain", "said", "other")
+        return [hard_origin.of_modules((f"some_paper.{name}",)) for name in names]
+
+    plain, said, other = before = origins()
+    assert plain == said != other
+    (package / "part.py").write_text("def g(x):\n    return 2 * x\n")
+    assert not set(before) & set(origins())
 
 
 def test_a_stopped_record_goes_on_where_it_was(
-    cases: tuple[HardCase, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    suite: Suite, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """What was saved is not sought again, unless it follows from something else by now."""
     recorded, part = tmp_path / "hard.json", tmp_path / "hard.part.json"
-    given = [case for case in cases if case.kernel == "G" and case.expect == "value"][:4]
+    given = [case for case in suite.cases if case.kernel == "G" and case.expect == "value"][:4]
+    few, references = dataclasses.replace(suite, cases=tuple(given)), Suite.references
     sought: list[str] = []
 
-    def seek(case: HardCase, kernel: Any) -> Any:
+    def seek(self: Suite, case: HardCase) -> list[Stored]:
         if len(sought) == 2:
             raise KeyboardInterrupt
         sought.append(case.key)
-        return references(case, kernel)
+        return references(self, case)
 
     def found() -> dict[str, Known]:
-        return find_references(given, hard_check.kernels(), recorded, part)
+        return find_references(few, recorded, part)
 
-    monkeypatch.setattr(hard_record, "references", seek)
+    monkeypatch.setattr(Suite, "references", seek)
     with pytest.raises(KeyboardInterrupt):
         found()
     assert sought == [case.key for case in given[:2]]
@@ -234,9 +254,9 @@ def test_a_stopped_record_goes_on_where_it_was(
     whole = found()
     assert not sought
     assert [list(whole[case.key].references) for case in given] == [
-        references(case, hard_check.kernels()["G"]) for case in given
+        references(suite, case) for case in given
     ]
-    monkeypatch.setattr(hard_record, "origin", lambda _: "something else")
+    monkeypatch.setattr(Suite, "origin", lambda *_: "something else")
     with pytest.raises(KeyboardInterrupt):
         found()
     assert sought == [case.key for case in given[:2]]
@@ -284,4 +304,4 @@ def test_forms_are_what_they_say() -> None:
 
 
 def test_hand_written_cases_are_most_of_the_groups() -> None:
-    assert len({case.group for case in written()}) >= 18
+    assert len({case.group for case in read_cases(WRITTEN)}) >= 18

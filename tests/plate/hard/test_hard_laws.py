@@ -9,17 +9,17 @@ import numpy as np
 import pytest
 from mpmath import mp, mpf
 
+from derivation.engine.measure import hard
+from derivation.engine.measure.case import HardCase
+from derivation.engine.measure.kernels import Stating
+from derivation.engine.measure.suite import Known, Suite
 from derivation.engine.oracle.agreement import to_ball as as_ball
+from derivation.engine.oracle.reference import restored
 from derivation.plate.back_face import route as far_face_routes
-from derivation.plate.cases.calls import Stating
 from derivation.plate.cases.laws import LAWS
 from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.edge.route import clamped as clamp_routes
 from derivation.plate.edge.route import supported as edge_routes
-from derivation.plate.hard import check as hard_check
-from derivation.plate.hard import truth as hard_truth
-from derivation.plate.hard.case import HardCase
-from derivation.plate.hard.truth import Known, restored
 from derivation.plate.pressure import route as pressure_routes
 from derivation.plate.waves.cases import places as hard_wave_places
 from generated.impact import history
@@ -56,18 +56,17 @@ def test_the_second_oracle_agrees(cases: tuple[HardCase, ...], truth: dict[str, 
         assert abs(value / as_ball(force) - 1) < 1e-19
 
 
-def test_who_states_an_error_is_held_to_it(
-    cases: tuple[HardCase, ...], truth: dict[str, Known]
-) -> None:
-    known = hard_check.kernels()["leading"]
+def test_who_states_an_error_is_held_to_it(suite: Suite, truth: dict[str, Known]) -> None:
+    known = suite.kernels["leading"]
     assert isinstance(known, Stating)
-    case = next(c for c in cases if c.kernel == "leading")
+    case = next(c for c in suite.cases if c.kernel == "leading")
 
-    def with_stated(share: float) -> hard_check.HardRow:
+    def with_stated(share: float) -> hard.HardRow:
         less = dataclasses.replace(
             known, stated=lambda *x: tuple(share * error for error in known.stated(*x))
         )
-        (row,) = hard_check.check([case], truth, {"leading": less})
+        one = dataclasses.replace(suite, cases=(case,), kernels={"leading": less})
+        (row,) = hard.check(one, truth)
         return row
 
     assert with_stated(1.0).kept
@@ -106,10 +105,13 @@ def test_a_force_is_excused_as_its_contact_radius_is() -> None:
     """Of a thick plate, where the plate's part has a size of its own."""
     a, R, h, b = 0.4, 1.0, 1.0, 1.0
     delta = float(contact_balls.indentation(a, R, h, b, 20))
-    known = hard_truth._scale("contact_radius", (delta, R, h, b), flint.arb(a))
-    assert hard_truth._scale("force", (delta, R, h, b, 1.0, 1.0), flint.arb(1)) == known
+    of_radius, of_force = (LAWS[name].scale for name in ("contact_radius", "force"))
+    assert of_radius is not None
+    assert of_force is not None
+    known = of_radius((delta, R, h, b), flint.arb(a))
+    assert of_force((delta, R, h, b, 1.0, 1.0), flint.arb(1)) == known
     assert known > 1.0
-    assert hard_truth._scale("impact", (), flint.arb(1)) == 1.0
+    assert LAWS["impact"].scale is None
 
 
 def test_a_supported_mode_of_no_bending_share_is_judged_without_conditioning() -> None:
@@ -123,9 +125,9 @@ def test_a_supported_mode_of_no_bending_share_is_judged_without_conditioning() -
 
 
 @pytest.mark.parametrize("name", ["hertz", "leading"])
-def test_a_simple_law_shows_nothing_beyond_its_range(name: str) -> None:
+def test_a_simple_law_shows_nothing_beyond_its_range(name: str, suite: Suite) -> None:
     """A sphere a thousand times too fast; what it states is NaN where its results are."""
-    known = hard_check.kernels()[name]
+    known = suite.kernels[name]
     assert isinstance(known, Stating)
     paper = (0.13, 72.2, 1.0, 0.1, 1.0, 0.36e9, 0.43e9)
     for speed, shown in ((1.0, True), (1e9, False)):

@@ -10,9 +10,9 @@ from seams import Place, Seam
 from wave_seams import WAVE_SEAMS
 
 from derivation.engine.formula.ulp import ordinal
-from derivation.plate.hard import check as hard_check
-from derivation.plate.hard.case import HardCase
-from derivation.plate.hard.places import OFFSETS
+from derivation.engine.measure.case import HardCase
+from derivation.engine.measure.places import OFFSETS
+from derivation.plate.cases import suite as hard_suite
 
 SEAMS = KERNEL_SEAMS | WAVE_SEAMS
 
@@ -63,13 +63,13 @@ def surrounded(place: Place, found: Iterable[float]) -> bool:
 
 @pytest.mark.parametrize("name", SEAMS)
 def test_every_seam_has_cases_on_both_sides(name: str) -> None:
-    assert missing(SEAMS[name], hard_check.cases()) == []
+    assert missing(SEAMS[name], hard_suite.cases()) == []
 
 
 @pytest.mark.parametrize("name", ["thin edge", "sphere", "index of kappa", "cells of the law"])
 def test_a_seam_without_cases_is_noticed(name: str) -> None:
     seam = SEAMS[name]
-    others = [case for case in hard_check.cases() if case.kernel != seam.kernels[0]]
+    others = [case for case in hard_suite.cases() if case.kernel != seam.kernels[0]]
     assert missing(seam, others)
     moved = Seam(seam.kernels, seam.of, lambda: [float(x) * 1.001 for x in seam.places()])
-    assert missing(moved, hard_check.cases())
+    assert missing(moved, hard_suite.cases())

@@ -18,6 +18,7 @@ import pytest
 
 from derivation.cli import main
 from derivation.engine.files import ROOT
+from derivation.engine.measure.case import HardCase, read_cases
 from derivation.engine.measure.point import Point
 from derivation.engine.measure.search import Search, search
 from derivation.engine.measure.search_record import (
@@ -116,12 +117,13 @@ def test_the_file_reads_back_and_reproduces_the_error(
     path = tmp_path / "cases.toml"
     book = Book(path, [planted], {}, {})
     book.keep(caught)
-    (case,) = tomllib.loads(path.read_text())["case"]
-    assert case["kernel"] == "bessel_j0"
-    assert case["group"] == "search"
-    assert case["cause"] == "Found by search, seed 10."
-    assert all(texts == float.fromhex(texts).hex() for texts in case["inputs"].values())
-    assert read(path) == [case]
+    (table,) = tomllib.loads(path.read_text())["case"]
+    assert table["kernel"] == "bessel_j0"
+    assert table["group"] == "search"
+    assert table["cause"] == "Found by search, seed 10."
+    assert all(texts == float.fromhex(texts).hex() for texts in table["inputs"].values())
+    [case] = read(path)
+    assert case.table == table
     assert measured(case, {"bessel_j0": planted}) == caught.standings["bessel_j0"].worst
     again = Book(path, [planted], {}, {})
     assert not again.is_new("bessel_j0", caught.standings["bessel_j0"].worst)
@@ -141,7 +143,7 @@ def test_what_is_worse_than_recorded_or_allowed_is_new(caught: Search, planted: 
     assert not book.is_new("bessel_j0", dataclasses.replace(worst, error=smaller))
 
 
-def test_a_case_of_two_points_in_company(fast: tuple[Target, ...]) -> None:
+def test_a_case_of_two_points_in_company(fast: tuple[Target, ...], tmp_path: Path) -> None:
     """A kernel that is wrong for arrays only: the case holds both points, as an array."""
     kernel = next(k for k in generated_kernels() if k.name == "bessel_j1")
 
@@ -156,8 +158,10 @@ def test_a_case_of_two_points_in_company(fast: tuple[Target, ...]) -> None:
     assert worst is not None
     assert worst.company is not None
     case = case_of("bessel_j1", worst, 1)
-    assert case["form"] == "array"
-    (read_back,) = tomllib.loads(to_toml([(case, worst)]))["case"]
+    assert case.form == "array"
+    path = tmp_path / "cases.toml"
+    path.write_text(to_toml([(case, worst)]))
+    (read_back,) = read_cases(path)
     assert read_back == case
     assert measured(read_back, {"bessel_j1": target}) == worst
 
@@ -206,11 +210,11 @@ def test_bad_input_is_refused(
 
 def test_a_case_with_other_arguments_is_refused(fast: Sequence[Target], tmp_path: Path) -> None:
     path = tmp_path / "cases.toml"
-    case = {"group": "search", "kernel": "p", "cause": "By hand.", "inputs": {"x": "0x1p+0"}}
+    case = HardCase("search", "p", "By hand.", {"x": ("0x1p+0",)})
     path.write_text(to_toml([(case, None)]))
     with pytest.raises(ValueError, match="p takes r, a, P"):
         Book(path, fast, {}, {})
-    path.write_text(to_toml([({**case, "group": "seams"}, None)]))
+    path.write_text(to_toml([(dataclasses.replace(case, group="seams"), None)]))
     with pytest.raises(ValueError, match="--out FILE"):  # somebody's own cases
         Book(path, fast, {}, {})
 
@@ -267,5 +271,5 @@ sys.exit(cli.main([*command.split(), sys.argv[1]]))
     assert "Traceback" not in message
     assert "bessel_j0: x=" in shown
     (case,) = read(path)
-    assert case["kernel"] == "bessel_j0"
+    assert case.kernel == "bessel_j0"
     assert [p.name for p in tmp_path.iterdir()] == ["cases.toml"]

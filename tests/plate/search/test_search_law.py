@@ -14,10 +14,12 @@ import pytest
 from derivation import pipeline
 from derivation.cli import main
 from derivation.engine.measure import search
+from derivation.engine.measure.case import HardCase, read_cases
+from derivation.engine.measure.judge import Error
 from derivation.engine.measure.point import Point
 from derivation.engine.measure.search import Found, Standing
 from derivation.engine.measure.search_record import Book, as_data, case_of, to_toml
-from derivation.engine.measure.target import Error, Numbers, Target
+from derivation.engine.measure.target import Numbers, Target
 from derivation.plate.contact.cases import judge as contact_judge
 from derivation.plate.contact.cases.truth import truth
 from derivation.plate.contact.oracle import balls as contact_balls
@@ -159,13 +161,12 @@ def test_conditions_that_contradict_each_other_are_said_to() -> None:
 
 def test_cases_of_kernels_not_searched_now_stay_in_the_file(tmp_path: Path) -> None:
     path, target = tmp_path / "cases.toml", plain("size", ("x",), ())
-    other = {"group": "search", "kernel": "other", "cause": "Found by search, seed 3.",
-             "inputs": {"x": "0x1.0p+0"}}  # fmt: skip
+    other = HardCase("search", "other", "Found by search, seed 3.", {"x": ("0x1.0p+0",)})
     path.write_text(to_toml([(other, None)]))
     book = Book(path, [target], {}, {})
     found = search.search([target], 1, evaluations=50)
     book.keep(found)
-    first, second = tomllib.loads(path.read_text())["case"]
+    first, second = read_cases(path)
     assert first == other
     worst = found.standings["size"].worst
     assert worst is not None

@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 
 from derivation.engine.formula.ulp import SINGLE
+from derivation.engine.measure.judge import Errors
 from derivation.plate.contact.cases.grid import PAPERS_IMPACT, ContactShape, Point, arguments, grid
-from derivation.plate.contact.cases.judge import Ulps, judge, results
+from derivation.plate.contact.cases.judge import judge, results
 from derivation.plate.contact.cases.truth import DIGITS, ContactTruth, Job, Tell, relative, truths
 
 LIMIT = 2e-15
@@ -85,8 +86,8 @@ class ContactRow:
     p99_error: float
     worst: tuple[str, ...]
     budget: float
-    double: Ulps
-    single: Ulps | None
+    double: Errors
+    single: Errors | None
     passed: bool
     cases: tuple[ContactCase, ...]
 
@@ -177,7 +178,7 @@ def _row(
     finite = [error if math.isfinite(error) else 1e300 for error in errors]
     double = judge(call, found, budget)
     single = judge(call, rounded, budget, SINGLE) if rounded else None
-    kept = errors[where] <= LIMIT and double.kept and (single is None or single.kept)
+    kept = errors[where] <= LIMIT and double.kept() and (single is None or single.kept(SINGLE))
     cases = [_case(t, e) for t, e in zip(found, errors, strict=True)] if name == "impact" else []
     return ContactRow(
         name,

@@ -12,7 +12,7 @@ from derivation.plate.impact.theory.sensitivity import PARAMETERS, RESULTS, expo
 
 FAR_MIDDLE = sp.Rational(FAR_REACH**2 + REACH**2, 2)
 FAR_HALF = sp.Rational(FAR_REACH**2 - REACH**2, 2)
-_CELL = "first and last b/h, then rows by powers of b/h, scaled to [-1, 1]"
+_CELL = "ends in b/h, then rows by powers of b/h, scaled to [-1, 1]"
 
 
 def numbers() -> Numbers:

@@ -5,8 +5,8 @@ from collections.abc import Iterator
 from fractions import Fraction
 from itertools import chain, product
 
-from derivation.plate.hard.case import HardCase
-from derivation.plate.hard.places import Inputs, about, around, beside, exactly
+from derivation.engine.measure.case import HardCase
+from derivation.engine.measure.places import Inputs, about, around, beside, exactly
 from derivation.plate.waves import oracle as inertia_balls
 from derivation.plate.waves.cases.places import CROSSINGS, crossing
 from generated.wave_numbers import NEAR, SHALLOW, SMALL

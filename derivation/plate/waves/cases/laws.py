@@ -8,7 +8,7 @@ import flint
 from flint import arb
 
 from derivation.engine.formula.ball import to_ball
-from derivation.plate.hard.law import Given, HardLaw, Values
+from derivation.engine.measure.suite import Given, HardLaw, Values
 from derivation.plate.waves import oracle as inertia_balls
 
 _STEP, _DIGITS = Fraction(1, 2**40), 30

@@ -3,13 +3,10 @@
 from collections.abc import Sequence
 
 from derivation.engine.formula.ulp import from_ordinal, ordinal
-from derivation.plate.hard.case import HardCase
+from derivation.engine.measure.case import HardCase
 
 OFFSETS = (-32, -1, 0, 1, 32)
 """How many doubles from a seam its cases lie."""
-
-LAM, MU = 1.2e11, 8.1e10
-"""Steel [Pa]."""
 
 Inputs = dict[str, tuple[str, ...]]
 

@@ -1,9 +1,9 @@
-"""The hard cases as data: what is computed where, in which form, and why that is hard."""
+"""A hard case as data: what is computed where, in which form, and why that is hard."""
 
 import itertools
 import math
 import tomllib
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -12,7 +12,6 @@ import numpy as np
 
 from derivation.engine.formula.ulp import DOUBLE, SINGLE, Format
 
-WRITTEN = Path(__file__).parents[1] / "cases" / "hard_cases.toml"
 FORMS = (
     "scalar", "array", "empty", "broadcast", "strided", "read-only", "integer", "float32",
 )  # fmt: skip
@@ -68,6 +67,17 @@ class HardCase:
         return f"{self.kernel} {self.form}{modes} {given}"
 
     @property
+    def table(self) -> dict[str, Any]:
+        """The table that describes it in a file, without what goes without saying."""
+        form = {} if self.form == "scalar" else {"form": self.form}
+        modes = {} if self.modes is None else {"modes": self.modes}
+        expect = {} if self.expect == "value" else {"expect": self.expect}
+        scalar = self.form == "scalar"
+        inputs = {name: texts[0] if scalar else [*texts] for name, texts in self.inputs.items()}
+        said = {"group": self.group, "kernel": self.kernel, "cause": self.cause}
+        return {**said, **form, **modes, **expect, "inputs": inputs}
+
+    @property
     def numbers(self) -> dict[str, Numbers]:
         """The inputs as the doubles they are."""
         return {
@@ -103,17 +113,15 @@ class HardCase:
         return found
 
 
-def written() -> Iterator[HardCase]:
-    """The cases written by hand.
+def read_cases(path: Path) -> list[HardCase]:
+    """The cases that a file describes, each as a table `[[case]]` of TOML.
 
     Raises
     ------
     ValueError
         Naming a case that does not say what it must.
     """
-    with WRITTEN.open("rb") as stream:
-        rows = tomllib.load(stream)["case"]
-    yield from (_read(row) for row in rows)
+    return [_read(row) for row in tomllib.loads(path.read_text())["case"]]
 
 
 def _read(row: Mapping[str, Any]) -> HardCase:

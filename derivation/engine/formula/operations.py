@@ -1,0 +1,138 @@
+"""The one table of operations: SymPy function -> value in balls, and its derivatives.
+
+Balls of an expression, its gradient and its correctly rounded doubles all follow from it.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import flint
+import sympy as sp
+from flint import arb
+from sympy.codegen.cfunctions import expm1, log1p
+
+Unary = tuple[Callable[[arb], arb], Callable[[arb, arb], arb]]
+"""A function, and its derivative from argument and value."""
+
+FUNCTIONS: dict[type[sp.Basic], Unary] = {
+    sp.sin: (lambda x: x.sin(), lambda x, _: x.cos()),
+    sp.cos: (lambda x: x.cos(), lambda x, _: -x.sin()),
+    sp.tan: (lambda x: x.tan(), lambda x, _: x.sec() ** 2),
+    sp.sinh: (lambda x: x.sinh(), lambda x, _: x.cosh()),
+    sp.cosh: (lambda x: x.cosh(), lambda x, _: x.sinh()),
+    sp.tanh: (lambda x: x.tanh(), lambda x, _: x.sech() ** 2),
+    sp.coth: (lambda x: x.coth(), lambda x, _: -(x.csch() ** 2)),
+    sp.log: (lambda x: x.log(), lambda x, _: 1 / x),
+    log1p: (lambda x: x.log1p(), lambda x, _: 1 / (1 + x)),
+    expm1: (lambda x: x.expm1(), lambda x, _: x.exp()),
+    sp.exp: (lambda x: x.exp(), lambda _, value: value),
+    sp.asin: (lambda x: x.asin(), lambda x, _: 1 / (1 - x**2).sqrt()),
+    sp.Abs: (abs, lambda x, _: x.sgn()),
+    sp.gamma: (lambda x: x.gamma(), lambda x, value: value * x.digamma()),
+}
+
+
+@dataclass(frozen=True)
+class Operation:
+    """A node of an expression.
+
+    Parameters
+    ----------
+    operands
+        The parts that it is computed from.
+    value
+        Their balls -> its ball, at the precision now set.
+    slopes
+        From its ball and theirs, the derivatives towards each of them.
+    """
+
+    operands: tuple[sp.Basic, ...]
+    value: Callable[..., arb]
+    slopes: Callable[..., tuple[arb, ...]]
+
+
+def operation(node: sp.Basic) -> Operation:
+    """What a node of an expression does.
+
+    Raises
+    ------
+    NotImplementedError
+        For a function or constant without a rigorous counterpart.
+    """
+    if isinstance(node, sp.Rational):
+        number = flint.fmpq(int(node.p), int(node.q))
+        return _constant(lambda: arb(number))
+    if node in _CONSTANTS:
+        return _constant(_CONSTANTS[node])
+    if isinstance(node, sp.Add):
+        return Operation(node.args, _sum, lambda _, *terms: (arb(1),) * len(terms))
+    if isinstance(node, sp.Mul):
+        return Operation(node.args, _product, _product_slopes)
+    if isinstance(node, sp.Pow):
+        return _power(node)
+    if type(node) in _OF_TWO:
+        return Operation(node.args, *_OF_TWO[type(node)])
+    if node.func in FUNCTIONS:
+        function, slope = FUNCTIONS[node.func]
+        return Operation(node.args, function, lambda value, x: (slope(x, value),))
+    raise NotImplementedError(f"no ball arithmetic for {node.func.__name__} in {node}")
+
+
+_CONSTANTS: dict[sp.Basic, Callable[[], arb]] = {
+    sp.pi: arb.pi,
+    sp.E: arb.const_e,
+    sp.EulerGamma: arb.const_euler,
+}
+
+
+def _constant(value: Callable[[], arb]) -> Operation:
+    return Operation((), value, lambda _: ())
+
+
+def _sum(*terms: arb) -> arb:
+    return sum(terms, arb(0))
+
+
+def _product(*factors: arb) -> arb:
+    result = arb(1)
+    for factor in factors:
+        result *= factor
+    return result
+
+
+def _product_slopes(_: arb, *factors: arb) -> tuple[arb, ...]:
+    # Products of the others, not value/factor: a factor may be zero.
+    return tuple(_product(*factors[:i], *factors[i + 1 :]) for i in range(len(factors)))
+
+
+def _power(node: sp.Pow) -> Operation:
+    base, exponent = node.args
+    if isinstance(exponent, sp.Integer):
+        n = int(exponent)
+        return Operation((base,), lambda x: x**n, lambda _, x: (n * x ** (n - 1),))
+    if exponent == sp.Rational(1, 2):
+        return Operation((base,), lambda x: x.sqrt(), lambda value, _: (1 / (2 * value),))
+    return Operation(
+        (base, exponent),
+        lambda x, y: x**y,
+        lambda value, x, y: (y * x ** (y - 1), value * x.log()),
+    )
+
+
+def _bessel_slopes(
+    sign: int, function: Callable[[arb, arb], arb]
+) -> Callable[..., tuple[arb, ...]]:
+    """Towards the argument; none is known towards the order, and NaN is never narrow."""
+    return lambda _, n, x: (arb.nan(), (function(x, n - 1) + sign * function(x, n + 1)) / 2)
+
+
+def _beta_slopes(value: arb, x: arb, y: arb) -> tuple[arb, arb]:
+    common = (x + y).digamma()
+    return value * (x.digamma() - common), value * (y.digamma() - common)
+
+
+_OF_TWO: dict[type[sp.Basic], tuple[Callable[..., arb], Callable[..., tuple[arb, ...]]]] = {
+    sp.besselj: (lambda n, x: x.bessel_j(n), _bessel_slopes(-1, lambda x, n: x.bessel_j(n))),
+    sp.besseli: (lambda n, x: x.bessel_i(n), _bessel_slopes(1, lambda x, n: x.bessel_i(n))),
+    sp.beta: (lambda x, y: x.gamma() * y.gamma() / (x + y).gamma(), _beta_slopes),
+}

@@ -1,0 +1,245 @@
+"""How an error is judged: computed numbers against reference values, in ULP of the true value.
+
+Allowed is the function's budget, and half the sum of the condition numbers: what rounding every
+argument by half a unit in the last place does to the value. The error itself is kept beside that.
+NaN or an infinity where the true value is finite is an infinite error, and so is the reverse. Below
+the smallest normal number errors are counted in the smallest double.
+
+The check on grids, the hard cases, the check of the contact law and the search all ask `judge`.
+"""
+
+import math
+import warnings
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import flint
+import numpy as np
+
+from derivation.engine.formula.ulp import (
+    DOUBLE,
+    Format,
+    spacing_exponent,
+    ulp_error,
+    upper_float,
+)
+from derivation.engine.measure.kernels import Kernel
+from derivation.engine.measure.point import Point
+from derivation.engine.oracle.reference import Reference
+
+
+@dataclass(frozen=True)
+class Error:
+    """What a computed number is away from the reference value, and may be.
+
+    Parameters
+    ----------
+    ulp, allowed
+        Error and allowance in ULP.
+    needed
+        The budget that the error would just keep.
+    """
+
+    ulp: float
+    allowed: float
+    needed: float = math.nan
+
+    @property
+    def ratio(self) -> float:
+        """Error over allowance."""
+        return self.ulp / self.allowed
+
+
+def judge(got: float, reference: Reference, budget: float, fmt: Format = DOUBLE) -> Error:
+    """Judge one computed number.
+
+    Parameters
+    ----------
+    got
+        The number; a float32 is passed as the double of equal value.
+    reference
+        What is true.
+    budget
+        Allowed error in ULP before conditioning, to be multiplied by the reference's scale. It is
+        counted in units of the reference's magnitude, which for a sum over modes is that of all
+        modes together.
+    fmt
+        The format whose units are meant.
+    """
+    value = reference.value
+    if not value.is_finite():
+        same = math.isnan(got) if value.is_nan() else got == float(value)
+        return Error(0.0 if same else math.inf, budget, 0.0 if same else math.inf)
+    spacing = spacing_exponent(value, fmt)
+    unit = math.ldexp(1.0, spacing_exponent(reference.magnitude, fmt) - spacing)
+    # 2^-p times the sensitivities: so it also holds where the value is subnormal or zero, and a
+    # condition number says nothing.
+    with flint.ctx.workprec(128):
+        rounding = upper_float(reference.total * flint.arb(2) ** (-fmt.precision - spacing))
+    ulp = ulp_error(got, value, fmt)
+    needed = max(0.0, (ulp - rounding) / unit) if math.isfinite(ulp) else math.inf
+    return Error(ulp, budget * reference.scale * unit + rounding, needed)
+
+
+def largest(errors: Iterable[Error]) -> Error:
+    """The error that is largest in proportion to what is allowed."""
+    return max(errors, key=lambda error: error.ratio)
+
+
+# --- a function at many points
+
+
+@dataclass(frozen=True)
+class Truth:
+    """A point with the reference value of each result there."""
+
+    point: Point
+    references: tuple[Reference, ...]
+
+
+@dataclass(frozen=True)
+class Worst:
+    """A point where the error is largest in proportion to what is allowed.
+
+    Parameters
+    ----------
+    arguments
+        Names, hexadecimal floats and their decimal form.
+    modes
+        Number of modes of a modal sum.
+    got, truth
+        The computed number in hexadecimal and decimal; the true one to 20 digits.
+    ulp, allowed
+        Error and allowance in ULP of the truth.
+    """
+
+    arguments: tuple[tuple[str, str, str], ...]
+    modes: int | None
+    got: tuple[str, str]
+    truth: str
+    ulp: float
+    allowed: float
+
+
+@dataclass(frozen=True)
+class Errors:
+    """What one kernel did on its points, in one format.
+
+    Parameters
+    ----------
+    points
+        How many were judged.
+    excluded
+        How many were left out: their truth overflows.
+    zeros
+        How many results have a true value of exactly zero (or below 2^-1200). There a
+        unit in the last place is the smallest subnormal and says nothing, so
+        the ULP columns leave them out; the ratio judges them.
+    not_finite
+        How many results were NaN or infinite.
+    max_ulp, p99_ulp, rms_ulp
+        Of the finite results.
+    ratio
+        The largest error over what is allowed; infinite if any was not finite.
+        None if nothing is promised.
+    needed
+        The budget that would just do: the largest error beyond what conditioning allows.
+    worst
+        Where that was (or the largest error, if nothing is promised).
+    dtype
+        NumPy name of the results' type.
+    warned
+        Warnings raised.
+    """
+
+    points: int
+    excluded: int
+    zeros: int
+    not_finite: int
+    max_ulp: float
+    p99_ulp: float
+    rms_ulp: float
+    ratio: float | None
+    needed: float
+    worst: Worst
+    dtype: str
+    warned: tuple[str, ...]
+
+    def kept(self, fmt: Format = DOUBLE) -> bool:
+        """Whether every result is finite, within its allowance, of the right type and silent."""
+        within = self.ratio is not None and self.ratio <= 1.0
+        return within and self.not_finite == 0 and self.dtype == fmt.name and not self.warned
+
+
+def measured(
+    kernel: Kernel, found: Sequence[Truth], excluded: int = 0, fmt: Format = DOUBLE
+) -> Errors:
+    """Judge a function at the given points.
+
+    Parameters
+    ----------
+    kernel
+        The function and its budget.
+    found
+        Points with their references, none of them overflowing.
+    excluded
+        How many overflowing points were left out, for the record.
+    fmt
+        Format of arguments and results.
+
+    Raises
+    ------
+    ValueError
+        If there is no point, or another number of results than are true.
+    """
+    if not found:
+        raise ValueError(f"no point at which {fmt.name} can hold {kernel.name}")
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        results = np.atleast_2d(kernel.results([truth.point for truth in found], fmt))
+    expected = len(found[0].references), len(found)
+    if results.shape != expected:
+        raise ValueError(f"{kernel.name} gave shape {results.shape}, {expected} is expected")
+    budget = math.inf if kernel.budget is None else kernel.budget
+    all_of = [
+        (truth, reference, got, judge(got, reference, budget, fmt))
+        for truth, row in zip(found, results.T.tolist(), strict=True)
+        for reference, got in zip(truth.references, row, strict=True)
+    ]
+    worst = max(all_of, key=lambda one: one[3].ulp if kernel.budget is None else one[3].ratio)
+    counted = [error.ulp for _, reference, _, error in all_of if reference.value != 0]
+    finite = [ulp for ulp in counted if math.isfinite(ulp)]
+    return Errors(
+        points=len(found),
+        excluded=excluded,
+        zeros=len(all_of) - len(counted),
+        not_finite=sum(not math.isfinite(got) for _, _, got, _ in all_of),
+        max_ulp=max(finite, default=0.0),
+        p99_ulp=float(np.quantile(finite, 0.99)) if finite else 0.0,
+        rms_ulp=_rms(finite),
+        ratio=None if kernel.budget is None else worst[3].ratio,
+        needed=max(error.needed for _, _, _, error in all_of),
+        worst=_worst(*worst),
+        dtype=str(results.dtype),
+        warned=tuple(sorted({str(w.message) for w in caught})),
+    )
+
+
+def _rms(errors: Sequence[float]) -> float:
+    """Root of the mean square, scaled so that squares do not overflow."""
+    most = max(errors, default=0.0)
+    if most == 0.0:
+        return 0.0
+    return most * math.sqrt(math.fsum((e / most) ** 2 for e in errors) / len(errors))
+
+
+def _worst(truth: Truth, reference: Reference, got: float, error: Error) -> Worst:
+    arguments = truth.point.values.items()
+    return Worst(
+        tuple((key, value.hex(), repr(value)) for key, value in arguments),
+        truth.point.modes,
+        (got.hex(), repr(got)),
+        reference.value.str(20, radius=False),
+        error.ulp,
+        error.allowed,
+    )

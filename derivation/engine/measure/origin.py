@@ -1,0 +1,102 @@
+"""What references follow from, as a hash: one that changes asks for them anew.
+
+The engine is no part of it. Its balls enclose the same number however they are computed, so that
+a change of the engine may move their radii and nothing else; its own tests see to that.
+"""
+
+import ast
+import hashlib
+from collections.abc import Iterator
+from functools import cache
+from importlib.util import find_spec, resolve_name
+from pathlib import Path
+
+import sympy as sp
+
+from derivation.engine.oracle.reference import DIGITS
+
+_HERE = __package__.partition(".")[0]
+_ENGINE = f"{_HERE}.engine"
+
+
+def of_expression(expression: sp.Expr) -> str:
+    """Hash of an expression that balls are computed from."""
+    return _hash(sp.srepr(expression))
+
+
+@cache
+def of_modules(names: tuple[str, ...]) -> str:
+    """Hash of modules and of all that they import from their own package and from this one.
+
+    Parameters
+    ----------
+    names
+        The modules' names.
+    """
+    own = {_HERE, *(name.partition(".")[0] for name in names)}
+    found: dict[str, str] = {}
+    waiting = list(names)
+    while waiting:
+        name = waiting.pop()
+        if name not in found:
+            tree = ast.parse(_file(name).read_text())
+            waiting += [part for part in _modules(tree, name) if part.partition(".")[0] in own]
+            found[name] = _code(tree, name)
+    return _hash("".join(sorted(found.values())))
+
+
+def _code(tree: ast.Module, name: str) -> str:
+    """A module without its comments, its docstrings, and the places that it imports from."""
+    imported: list[str] = []
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef):
+            node.body = node.body[ast.get_docstring(node) is not None :]
+        body = getattr(node, "body", None)
+        if isinstance(body, list):
+            imported += [word for part in body for word in _imported(part, name)]
+            body[:] = [part for part in body if not isinstance(part, ast.ImportFrom)]
+    return ast.dump(tree) + repr(sorted(imported))
+
+
+def _imported(node: ast.AST, where: str) -> Iterator[str]:
+    """What a statement imports: a module by the name that it has here, since it may move."""
+    if isinstance(node, ast.ImportFrom):
+        for alias in node.names:
+            name = alias.asname or alias.name
+            moves = _is_module(f"{_source(node, where)}.{alias.name}")
+            yield name if moves else f"{alias.name} as {name}"
+
+
+def _modules(tree: ast.Module, where: str) -> Iterator[str]:
+    """Modules that a module imports, the engine's left out."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ImportFrom):
+            source = _source(node, where)
+            names = [source, *(f"{source}.{alias.name}" for alias in node.names)]
+            yield from (n for n in names if not f"{n}.".startswith(f"{_ENGINE}.") and _is_module(n))
+
+
+def _source(node: ast.ImportFrom, where: str) -> str:
+    """Full name of what a statement imports from."""
+    return resolve_name("." * node.level + (node.module or ""), where.rpartition(".")[0])
+
+
+@cache
+def _is_module(name: str) -> bool:
+    """Whether this is a module, not a package or something inside a module."""
+    try:
+        spec = find_spec(name)
+    except ModuleNotFoundError:
+        return False
+    return spec is not None and spec.submodule_search_locations is None and spec.has_location
+
+
+def _file(name: str) -> Path:
+    spec = find_spec(name)
+    if spec is None or spec.origin is None:
+        raise ModuleNotFoundError(f"no module {name}")
+    return Path(spec.origin)
+
+
+def _hash(text: str) -> str:
+    return hashlib.sha256(f"{DIGITS} {text}".encode()).hexdigest()[:16]

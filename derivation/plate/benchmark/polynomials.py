@@ -1,0 +1,175 @@
+"""The contact law as a polynomial in a/h or a table: series, thin plate, Chebyshev, cubics."""
+
+import math
+from collections.abc import Callable
+from fractions import Fraction
+from functools import cache
+from typing import Any
+
+import flint
+import numpy as np
+from flint import arb, arb_mat
+
+from derivation.engine.formula.ball import to_ball
+from derivation.plate.benchmark.arithmetic import DOUBLE, Arithmetic, Array, as_fraction, horner
+from derivation.plate.benchmark.coefficients import closed_form, coefficients
+from derivation.plate.benchmark.interface import Call, Method, Regime
+from derivation.plate.contact.oracle import balls as contact_balls
+from generated import contact_series
+
+SURE_DIGITS = 32
+"""Of the law that a surrogate interpolates: a truncation below them is not seen."""
+
+
+def polynomial(
+    regime: Regime, ar: Arithmetic, found: list[arb], middle: float = 0.0, scale: float = 1.0
+) -> Call:
+    """(a^2/R) (1 + A (c_0 + c_1 t + ...)), A = a/h, t = scale (A^2 - middle)."""
+    R, h, c = ar.number(regime.R), ar.number(regime.h), list(ar.array(found))
+    start, factor = ar.number(middle), ar.number(scale)
+
+    def call(a: Array) -> Array:
+        A = a / h
+        t = A * A
+        if scale != 1.0:
+            t -= start
+            t *= factor
+        value = horner(c, t)
+        value *= A
+        value += 1
+        value *= a
+        value *= a
+        value /= R
+        return value
+
+    return call
+
+
+def small_contacts(count: int, ar: Arithmetic = DOUBLE, quick: bool = True) -> Method:
+    """Power series in a/h with coefficients for this h/b."""
+
+    def fails(regime: Regime) -> str | None:
+        radius = min(4.0, 2 / regime.eta)
+        if regime.high < radius:
+            return None
+        return f"diverges: a/h up to {regime.high:g}, its radius is {radius:g}"
+
+    def prepare(regime: Regime, ar: Arithmetic) -> Call:
+        return polynomial(regime, ar, coefficients(regime, count, ar.constants))
+
+    return Method("law", "small-a series", f"{count} terms", prepare, ar, fails=fails, quick=quick)
+
+
+def thin_plate(count: int) -> Method:
+    """The thin plate's closed form, in powers of a/h too."""
+
+    def fails(regime: Regime) -> str | None:
+        return f"diverges: a/h up to {regime.high:g}, its radius is 4" if regime.high >= 4 else None
+
+    def prepare(regime: Regime, ar: Arithmetic) -> Call:
+        return polynomial(regime, ar, closed_form(regime.h, regime.b, count, ar.constants))
+
+    return Method("law", "thin-plate closed form", f"{count} terms", prepare, fails=fails)
+
+
+def chebyshev(degree: int, ar: Arithmetic = DOUBLE) -> Method:
+    """Interpolation of F/A in A^2 between the smallest and the largest contact."""
+
+    def prepare(regime: Regime, ar: Arithmetic) -> Call:
+        low, high = regime.low**2, regime.high**2
+        middle, scale = (high + low) / 2, 2 / (high - low)
+        return polynomial(
+            regime, ar, interpolant(regime, degree, middle, scale, ar.bits), middle, scale
+        )  # fmt: skip
+
+    return Method("law", "Chebyshev surrogate", f"degree {degree}", prepare, ar)
+
+
+def interpolant(
+    regime: Regime, degree: int, middle: float, scale: float, bits: int
+) -> list[arb]:  # fmt: skip
+    """Coefficients of the polynomial in t through F/A near Chebyshev's nodes."""
+    nodes = np.cos(math.pi * (np.arange(degree + 1) + 0.5) / (degree + 1))
+    radii = (np.sqrt(middle + nodes / scale) * regime.h).tolist()
+    with flint.ctx.workprec(bits):
+        A = [arb(a) / arb(regime.h) for a in radii]
+        shares = [_departure(a, regime.h, regime.b) / x for a, x in zip(radii, A, strict=True)]
+        powers = [[(arb(scale) * (x * x - arb(middle))) ** k for k in range(degree + 1)] for x in A]
+        found = arb_mat(powers).solve(arb_mat([[share.mid()] for share in shares]))
+        return list(found.entries())
+
+
+@cache
+def _departure(a: float, h: float, b: float) -> arb:
+    return contact_balls.departure(a, h, b, SURE_DIGITS)
+
+
+def table(knots: int) -> Method:
+    """Cubics between knots at equal steps of A^2, through the values and slopes of F/A."""
+
+    def prepare(regime: Regime, ar: Arithmetic) -> Call:
+        R, h = ar.number(regime.R), ar.number(regime.h)
+        ends = regime.low**2, regime.high**2
+
+        def node(t: Array) -> tuple[Array, Array]:
+            A = np.sqrt(t)
+            F, rise = correction(regime, ar, A)
+            return F / A, (rise - F) / (2 * A * t)
+
+        cubic = hermite(ar, ends, knots, node)
+
+        def call(a: Array) -> Array:
+            A = a / h
+            return (1 + A * cubic(A * A)) * a * a / R
+
+        return call
+
+    return Method("law", "table of cubics", f"{knots} knots", prepare)
+
+
+def correction(regime: Regime, ar: Arithmetic, A: Array) -> tuple[Array, Array]:
+    """F and A F' = 2 ((R/2a) d delta/da - 1 - F) at a/h = A: generated, or the oracle's."""
+    if not ar.wide:
+        plates = contact_series.plates_of(np.array([regime.eta]))
+        F, rise = contact_series.correction_with_slope(A, plates, None)
+        return F, rise
+    found = [_corrections(as_fraction(x) * Fraction(regime.h), regime.h, regime.b) for x in A]
+    F, rise = (ar.array(list(column)) for column in zip(*found, strict=True))
+    return F, rise
+
+
+@cache
+def _corrections(a: Fraction, h: float, b: float) -> tuple[arb, arb]:
+    with flint.ctx.workprec(200):
+        F = contact_balls.departure(a, h, b, SURE_DIGITS)
+        slope = contact_balls.slope(a, 1.0, h, b, SURE_DIGITS) / (2 * to_ball(a)) - 1
+        return F, 2 * (slope - F)
+
+
+def hermite(
+    ar: Arithmetic, ends: tuple[float, float], knots: int, node: Callable[[Array], Any]
+) -> Call:
+    """The piecewise cubic through values and slopes at equidistant knots.
+
+    Floats have a table of them; objects find those they ask for.
+    """
+    start, last = (ar.number(end) for end in ends)
+    # Not the difference of two knots, whose rounding would grow with their number.
+    step = (last - start) / (knots - 1)
+
+    def at(i: Array) -> tuple[Array, Array]:
+        value, slope = node(start + i * step)
+        return value, slope * step
+
+    if not ar.wide:
+        values, rises = (ar.array(column) for column in at(np.arange(knots)))
+        at = lambda i: (values[i], rises[i])  # noqa: E731
+
+    def call(x: Array) -> Array:
+        u = (x - start) / step
+        i = np.clip(u.astype(np.intp), 0, knots - 2)
+        u -= i
+        (f0, d0), (f1, d1) = at(i), at(i + 1)
+        return f0 + u * (d0 + u * (3 * (f1 - f0) - 2 * d0 - d1 + u * (2 * (f0 - f1) + d0 + d1)))
+
+    return call

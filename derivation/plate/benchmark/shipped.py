@@ -1,0 +1,151 @@
+"""What needs no set-up of its own: Hertz's formulas, the generated code, and the oracles."""
+
+from collections.abc import Callable
+
+import flint
+import numpy as np
+from flint import arb
+
+from derivation.plate.benchmark.arithmetic import (
+    DOUBLE,
+    Arithmetic,
+    Array,
+    BallArithmetic,
+    Floats,
+)
+from derivation.plate.benchmark.interface import Call, Method, Regime, Task
+from derivation.plate.contact.oracle import balls as contact_balls
+from derivation.plate.impact.oracle import impact as contact_impact
+from generated import contact_law, contact_series
+from generated.impact import impact
+
+# --- Hertz's formulas
+
+
+def hertz_law(regime: Regime, ar: Arithmetic) -> Call:
+    """delta = a^2/R."""
+    R = ar.number(regime.R)
+    return lambda a: a * a / R
+
+
+def hertz_force(regime: Regime, ar: Arithmetic) -> Call:
+    """P = (4/3) E* sqrt(R) delta^(3/2)."""
+    stiff = stiffness(regime, ar)
+    return lambda delta: stiff * (delta * np.sqrt(delta))
+
+
+def hertz_time(regime: Regime, ar: Arithmetic) -> Call:
+    """Contact times on a half-space [s] for speeds [m/s]."""
+    with flint.ctx.workprec(ar.bits):
+        root, tenth = arb.pi().sqrt(), arb(1) / 10
+        factor = ar.number(4 * root * (4 * tenth).gamma() / (5 * (9 * tenth).gamma()))
+    m, power, stiff = ar.number(regime.m), 2 * ar.number(1.0) / 5, stiffness(regime, ar)
+    return lambda v0: factor * (5 * m * v0 * v0 / (4 * stiff)) ** power / v0
+
+
+def stiffness(regime: Regime, ar: Arithmetic) -> Array:
+    """(4/3) E* sqrt(R) [N/m^(3/2)]."""
+    R, lam, mu = (ar.number(x) for x in (regime.R, regime.lam, regime.mu))
+    return 16 * mu * (lam + mu) / (3 * (lam + 2 * mu)) * np.sqrt(R)
+
+
+def hertz(task: Task) -> Method:
+    """The plate left out."""
+    made = {"law": hertz_law, "inversion": hertz_force, "impact": hertz_time}
+    return Method(task, "Hertz", "", made[task])
+
+
+# --- the generated code
+
+
+def plate(regime: Regime, ar: Floats) -> list[Array]:
+    """R, h, b, lam and mu in doubles or singles."""
+    r = regime
+    return [ar.number(x) for x in (r.R, r.h, r.b, r.lam, r.mu)]
+
+
+def called(ar: Floats = DOUBLE) -> Method:
+    """`indentation` as anyone calls it: domain and plate are looked into every time."""
+
+    def prepare(regime: Regime, _: Arithmetic) -> Call:
+        R, h, b, *_elastic = plate(regime, ar)
+        return lambda a: contact_law.indentation(a, R, h, b)
+
+    return Method("law", "production", "as called", prepare, ar, "all")
+
+
+def prepared() -> Method:
+    """The same polynomials, the plate prepared once, the arguments trusted."""
+
+    def prepare(regime: Regime, _: Arithmetic) -> Call:
+        plates = contact_series.plates_of(np.array([regime.eta]))
+        law = contact_series.sphere_on_plate(plates, np.array([regime.h]), np.array(regime.R))
+        if law is None:
+            raise ValueError(f"expected ordinary lengths, got {regime}")
+
+        def call(a: Array) -> Array:
+            found = np.empty(a.size)
+            for part in contact_series.blocks_of(a.size):
+                contact_series.indent(a[part], a[part].max(), law, found[part])
+            return found
+
+        return call
+
+    return Method("law", "production", "prepared", prepare, DOUBLE, "all")
+
+
+def newton(ar: Floats = DOUBLE) -> Method:
+    """`force`, the generated code's Newton iteration."""
+
+    def prepare(regime: Regime, _: Arithmetic) -> Call:
+        others = plate(regime, ar)
+        return lambda delta: contact_law.force(delta, *others)
+
+    return Method("inversion", "Newton (production)", "as called", prepare, ar, "all")
+
+
+def bounce(ar: Floats = DOUBLE) -> Method:
+    """`impact` as called, with its 24 nodes, 20 digits of truncation, and all four results."""
+
+    def prepare(regime: Regime, _: Arithmetic) -> Call:
+        R, *others = plate(regime, ar)
+        m = ar.number(regime.m)
+        return lambda v0: impact(R, m, v0, *others).contact_time
+
+    return Method("impact", "production", "as called", prepare, ar, "all")
+
+
+# --- the oracles
+
+
+def oracle(task: Task, digits: int, quick: bool = True) -> Method:
+    """Balls that enclose the truth; what all points share is found at the set-up."""
+    family = {
+        "law": "contour integrals", "inversion": "enclosed root", "impact": "integrals in balls",
+    }  # fmt: skip
+
+    def prepare(regime: Regime, ar: Arithmetic) -> Call:
+        one = _enclosed(task, regime, ar)
+        if task == "law":
+            one(regime.high * regime.h)
+        return lambda values: np.array([one(float(x)) for x in values], dtype=object)
+
+    return Method(task, family[task], f"{digits} digits", prepare, BallArithmetic(digits), "ball",
+                  quick=quick)  # fmt: skip
+
+
+def _enclosed(task: Task, regime: Regime, ar: Arithmetic) -> Callable[[float], arb]:
+    r, digits = regime, ar.digits
+
+    def force(delta: float) -> arb:
+        a = contact_balls.contact_radius(delta, r.R, r.h, r.b, digits)
+        return 4 * contact_balls.modulus(r.lam, r.mu) * a**3 / (3 * arb(r.R))
+
+    def time(v0: float) -> arb:
+        return contact_impact.impact(r.R, r.m, v0, r.h, r.b, r.lam, r.mu, digits).contact_time
+
+    def depth(a: float) -> arb:
+        return contact_balls.indentation(a, r.R, r.h, r.b, digits)
+
+    found: dict[Task, Callable[[float], arb]] = {"law": depth, "inversion": force, "impact": time}
+    return found[task]

@@ -1,0 +1,201 @@
+"""The contact law as sums over the modes: as printed, stable, extrapolated, and split."""
+
+import math
+from functools import cache, partial
+
+import flint
+import numpy as np
+from flint import arb
+
+from derivation.plate.benchmark.arithmetic import DOUBLE, LONG, Arithmetic, Array
+from derivation.plate.benchmark.interface import Call, Method, Regime
+
+WIDE_MODES = 1000
+"""Direct sums of more modes are repeated in long doubles: they leave out so much that these tell
+it. Split ones of more are left out where numbers are taken one by one."""
+
+_MODES, _ELEMENTS = 4096, 65536
+"""Modes, and elements of an array, worked on at a time, so that they stay in the cache."""
+
+OVERFLOW = 709.78
+"""Exponent from which e^x is no double."""
+
+TURN = 2 * math.pi / 3
+"""Phase between two samples of Levin's partial sums: a third of a circle separates them best."""
+
+MOST_MODES = 100_000
+
+
+def modal(ar: Arithmetic, phi: Array, weights: Array) -> Call:
+    """sum_j weights_j s(phi_j a), the block of the last modes first: their terms are small."""
+
+    def call(a: Array) -> Array:
+        total = a * 0
+        for begin in reversed(range(0, phi.size, _MODES)):
+            some, factors = phi[begin : begin + _MODES], weights[begin : begin + _MODES]
+            step = max(1, _ELEMENTS // some.size)
+            for k in range(0, a.size, step):
+                terms = ar.shape(a[k : k + step, None] * some) * factors
+                total[k : k + step] += terms.sum(axis=-1)
+        return total
+
+    return call
+
+
+def _direct(modes: int, is_printed: bool, regime: Regime, ar: Arithmetic) -> Call:
+    R, h, b = (ar.number(x) for x in (regime.R, regime.h, regime.b))
+    j, slope = ar.zeros(modes)
+    phi = j / b
+    factor = ar.printed_factor(phi * h) if is_printed else 1 + ar.excess(2 * phi * h)
+    square = phi * phi * slope
+    return modal(ar, phi, 8 * factor / (ar.pi() * R * b * b * square * square))
+
+
+def printed(modes: int) -> Method:
+    """The paper's sum (6) with its own plate factor, in doubles."""
+
+    def fails(regime: Regime) -> str | None:
+        most = 8 * math.pi * modes * regime.eta
+        return (
+            f"overflow: e^(8 phi h) with phi h up to {most / 8:.3g} is infinite, inf/inf is NaN"
+            if most > OVERFLOW
+            else None
+        )
+
+    return Method("law", "printed sum", f"{modes} modes", partial(_direct, modes, True),
+                  fails=fails)  # fmt: skip
+
+
+def direct(modes: int, ar: Arithmetic = DOUBLE, quick: bool = True) -> Method:
+    """The same sum with a plate factor that neither overflows nor cancels."""
+    return Method(
+        "law", "direct sum", f"{modes:g} modes", partial(_direct, modes, False), ar,
+        "long" if modes > WIDE_MODES and ar is not LONG else "wide", quick=quick,
+    )  # fmt: skip
+
+
+# --- Levin's transformation
+
+
+def levin(samples: int) -> Method:
+    """s(y) = Im (1 - i y) e^(iy): complex partial sums, sampled and extrapolated.
+
+    The head, y < TURN, is summed as s itself, since (1 - i y) e^(iy) cancels there.
+    """
+
+    def fails(regime: Regime) -> str | None:
+        needed = round((samples + 3) * TURN / (regime.low * regime.eta * math.pi))
+        if needed > MOST_MODES:
+            return f"its {samples} samples, a third of a turn apart, take {needed:.1g} modes"
+        return None
+
+    def prepare(regime: Regime, ar: Arithmetic) -> Call:
+        R, h, b = (ar.number(x) for x in (regime.R, regime.h, regime.b))
+        j, slope = ar.zeros((samples + 3) * stride_at(regime.low * regime.eta))
+        square = j * j * slope
+        weights = 8 * b * b * (1 + ar.excess(2 * j * h / b)) / (ar.pi() * R * square * square)
+
+        def one(a: Array) -> Array:
+            stride = stride_at(float(a) / regime.b)
+            count = stride * (samples + 2)
+            y, w = a / b * j[:count], weights[:count]
+            head = (w[:stride] * ar.shape(y[:stride])).sum()
+            terms = w[stride:] * ar.turned(y[stride:])
+            at = stride * np.arange(1, samples + 2) - 1
+            place = ar.array(at + 1.0 + stride)
+            limit = u_transform(np.cumsum(terms)[at], place * terms[at], place)
+            return head + limit.imag
+
+        return lambda a: np.array([one(x) for x in np.atleast_1d(a)])
+
+    return Method("law", "Levin u", f"{samples} samples", prepare, fails=fails, scalar=True)
+
+
+def stride_at(alpha: float) -> int:
+    """Modes between two samples."""
+    return max(1, round(TURN / (alpha * math.pi)))
+
+
+def u_transform(sums: Array, estimates: Array, places: Array) -> Array:
+    """Levin's transformation: partial sums and estimates of their remainders at given places.
+
+    The k-th divided differences of places^(k-1) sums/estimates and places^(k-1)/estimates,
+    their quotient.
+    """
+    k = len(sums) - 1
+    binomials = np.array([(-1.0) ** i * math.comb(k, i) for i in range(k + 1)])
+    weights = binomials * (places / places[-1]) ** (k - 1) / estimates
+    return (weights * sums).sum() / weights.sum()
+
+
+# --- split: Hertz's term, the side wall by n nodes, the thickness by m modes
+
+
+@cache
+def wall_nodes(count: int, digits: int, double_exponential: bool, bits: int) -> list[list[arb]]:
+    """Nodes y, and weights times K0/(I0 y^3), of the side wall's integral, good for alpha <= 1.
+
+    Double exponential: trapezoidal rule in t, y = exp(t - exp(-t)), which does away with
+    K0's logarithm at 0. Otherwise Gauss-Legendre in u, y = u^3.
+    """
+    with flint.ctx.workprec(bits):
+        if double_exponential:
+            low = -math.log(math.log(10) * digits)
+            high = math.log(math.log(10) * (digits + 1)) + 0.05
+            step = arb(high - low) / (count - 1)
+            times = [arb(low) + step * k for k in range(count)]
+            ys = [(t - (-t).exp()).exp() for t in times]
+            steps = [step * y * (1 + (-t).exp()) for t, y in zip(times, ys, strict=True)]
+        else:
+            end = (arb(digits + 2) * arb(10).log()).root(3)
+            rule = [arb.legendre_p_root(count, k, weight=True) for k in range(count)]
+            us = [end * (1 + x) / 2 for x, _ in rule]
+            ys = [u**3 for u in us]
+            steps = [end / 2 * w * 3 * u * u for u, (_, w) in zip(us, rule, strict=True)]
+        weights = [
+            w * y.bessel_k(0) / (y.bessel_i(0) * y**3) for w, y in zip(steps, ys, strict=True)
+        ]
+        return [ys, weights]
+
+
+def modes_of(regime: Regime, share: float) -> int:
+    """Modes of the thickness' part, which decays like e^(-4 pi n h/b)."""
+    return max(1, math.ceil(share / regime.eta))
+
+
+def split(
+    nodes: int, share: float, ar: Arithmetic = DOUBLE, double_exponential: bool = True,
+    quick: bool = True,
+) -> Method:  # fmt: skip
+    """Hertz's term less the side wall's integral plus the thickness' sum of share b/h modes."""
+    end = ar.digits + 1  # digits to which the integral's ends are chosen, in any arithmetic
+
+    def fails(regime: Regime) -> str | None:
+        modes = modes_of(regime, share)
+        dear = modes > WIDE_MODES and ar.name != DOUBLE.name
+        return f"takes {modes} modes a point in numbers other than doubles" if dear else None
+
+    def prepare(regime: Regime, ar: Arithmetic) -> Call:
+        y, W = (ar.array(row) for row in wall_nodes(nodes, end, double_exponential, ar.bits))
+        R, h, b = (ar.number(x) for x in (regime.R, regime.h, regime.b))
+        j, slope = ar.zeros(modes_of(regime, share))
+        phi, pi = j / b, ar.pi()
+        square = phi * phi * slope
+        thickness = modal(
+            ar, phi, 8 * ar.excess(2 * phi * h) / (pi * R * b * b * square * square)
+        )  # fmt: skip
+        factor = 8 * b * b / (pi * pi * R)
+
+        def call(a: Array) -> Array:
+            found = thickness(a) + a * a / R
+            for k in range(0, a.size, _ELEMENTS // 64):
+                part = slice(k, k + _ELEMENTS // 64)
+                t = (a[part] / b)[:, None] * y
+                found[part] -= factor * (ar.wall_shape(t) * W).sum(axis=-1)
+            return found
+
+        return call
+
+    rule = "" if double_exponential else ", y = u^3"
+    return Method("law", f"split{rule}", f"{nodes} nodes, {share:g} b/h modes", prepare, ar,
+                  fails=fails, quick=quick)  # fmt: skip

@@ -1,0 +1,50 @@
+"""The plate's hard cases: those written by hand, the families, and what they are compared with."""
+
+import importlib
+from functools import cache
+from pathlib import Path
+
+from derivation.engine.measure.case import HardCase, read_cases
+from derivation.engine.measure.kernels import Kernel
+from derivation.engine.measure.suite import Suite
+from derivation.mathematics.bessel import oracle as zeros
+from derivation.plate.cases.calls import others
+from derivation.plate.cases.families import families
+from derivation.plate.cases.laws import LAWS
+from derivation.plate.contact.oracle import moments
+from derivation.plate.judge import generated_kernels, printed_kernels
+from derivation.plate.oracle import ORACLE
+
+WRITTEN = Path(__file__).with_name("hard_cases.toml")
+
+
+def suite() -> Suite:
+    """All of it."""
+    return Suite(
+        cases(),
+        kernels(),
+        {kernel.name: kernel for kernel in printed_kernels()},
+        ORACLE,
+        LAWS,
+        (zeros.__name__, moments.__name__),
+        # Plates grow and contacts shrink, so that none comes to lie beyond the edge.
+        outwards=("b", "h", "R", "lam", "mu"),
+    )
+
+
+def cases() -> tuple[HardCase, ...]:
+    """Every hard case, those written by hand first."""
+    return (*read_cases(WRITTEN), *families())
+
+
+@cache
+def kernels() -> dict[str, Kernel]:
+    """Everything a hard case can be about, by name."""
+    manifest = importlib.import_module("generated.manifest")
+    found = {kernel.name: kernel for kernel in generated_kernels()}
+    for row in manifest.CONTACT:
+        call = getattr(importlib.import_module(f"generated.{row['module']}"), row["name"])
+        found[row["name"]] = Kernel(
+            row["name"], row["module"], tuple(row["arguments"]), call, float(row["budget"])
+        )
+    return found | {kernel.name: kernel for kernel in others()}

@@ -100,7 +100,7 @@ def plate_coefficients(eta: ArrayLike) -> np.ndarray:
     Formula::
 
         delta = (a^2/R) (1 + F),  F = A sum_k S_k (A/reach)^(2k)
-        A = a/h, reach = min(REACH, 1/eta)
+        A = a/h, reach = min(REACH, 1/eta), REACH as in `contact_numbers`
 
     S_k reach^(-2k) is the paper's zeta-regularised c_(2k+1) up to economisation.
 
@@ -112,7 +112,8 @@ def plate_coefficients(eta: ArrayLike) -> np.ndarray:
     Returns
     -------
     ndarray
-        S_0, S_1, ... [1] along a last axis; NaN outside the domain.
+        S_0, S_1, ... [1] along a last axis, as many as `contact_numbers.THIN` has; NaN outside
+        the domain.
     """
     kind, [eta] = as_doubles(eta)
     [eta] = inside([eta], eta >= THINNEST, eta <= THICKEST)

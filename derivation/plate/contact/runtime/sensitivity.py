@@ -209,7 +209,8 @@ def _changes(found: _Scenes, part: slice, eta: Double, deeper: _Law) -> tuple[Do
         rate[far], lift_slope[far] = beyond.rate, beyond.lift_slope
         energy_slope[far] = energy_slope[far] * ends[0] ** 5 + beyond.rises[2]
     by_energy, by_eta, *depth = kernels.peak_growth(energy, rate, energy_slope, lift, lift_slope)
-    time = kernels.time_growth(*(_inner(laws, ratio, gap, rises) + outer), by_energy, by_eta)
+    total, by_radius, by_thickness = _inner(laws, ratio, gap, rises) + outer
+    time = kernels.time_growth(total, by_radius, by_thickness, by_energy, by_eta)
     rows = zip(time, depth, (by_energy, by_eta), strict=True)
     first, second = (np.stack((t, d, 3.0 * radius, radius)) for t, d, radius in rows)
     return first, second
@@ -249,7 +250,8 @@ def _near_sums(s: Double, law: _Law) -> tuple[Double, Double]:
 
 def _integrals(sums: list[_Sums], weights: Double) -> Double:
     """int N/sqrt(S), and int (N' - N S'/(2 S))/sqrt(S) for both slopes."""
-    terms = kernels.time_terms(*(part for pair in sums for part in pair), weights)
+    law, by_radius, by_thickness = sums
+    terms = kernels.time_terms(*law, *by_radius, *by_thickness, weights)
     return np.stack([term.sum(axis=1) for term in terms])
 
 

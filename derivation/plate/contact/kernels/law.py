@@ -15,7 +15,7 @@ from derivation.plate.contact.theory.hertz import contact_radius, pressure
 from derivation.plate.contact.theory.split import contact_split
 from derivation.plate.vocabulary import P, R, a, delta, eps, h, lam, mu, r
 
-F, slope, rise, share, whole = sp.symbols("F slope rise share whole", positive=True)
+F, S, slope, rise, share, whole = sp.symbols("F S slope rise share whole", positive=True)
 modulus, first, second, scale, A, inverse_R = sp.symbols(
     "modulus first second scale A inverse_R", positive=True
 )
@@ -184,6 +184,21 @@ def indentation_in_range() -> Routine:
     )
 
 
+def depth_coefficients() -> Routine:
+    """What a coefficient of F/A is in the indentation."""
+    hertz = DEPTH.subs(CORRECTION, 0)
+    return routine(
+        "depth_coefficients",
+        (S, R, h),
+        (Let(inverse_R, 1 / R),),
+        (inverse_R, S * inverse_R / h),
+        (hertz / a**2, (DEPTH - hertz) / a**3),
+        "What goes with a^2 in the indentation; and with a^3, by what goes with A in F.",
+        {S: CORRECTION * h / a},
+        reduce,
+    )
+
+
 def relative_rise() -> Routine:
     """The slope of the indentation over half that of the half-space, times 2."""
     return routine(
@@ -312,6 +327,7 @@ ROUTINES = (
     largest_pressure,
     indentation,
     indentation_in_range,
+    depth_coefficients,
     relative_rise,
     indentation_slope,
     stiffness,

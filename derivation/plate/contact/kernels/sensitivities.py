@@ -8,17 +8,17 @@ from collections.abc import Mapping
 
 import sympy as sp
 
-from derivation.engine.emit.routine import Facts, Let, Routine, routine
+from derivation.engine.emit.routine import Facts, Let, Routine, Statement, routine
 from derivation.plate.contact.kernels import law
-from derivation.plate.contact.kernels.law import CORRECTION, DEPTH, log_eta
-from derivation.plate.impact.theory.impact import contact_time, orders
+from derivation.plate.contact.kernels.law import CORRECTION, DEPTH, FORCE, log_eta
+from derivation.plate.impact.theory.impact import contact_time, geometric, orders
 from derivation.plate.impact.theory.sensitivity import modulus_slope, peaks, times, weighted
 from derivation.plate.vocabulary import D, D_eta, R, a, lam, mu, u_t
 
 energy, rate, lift, energy_slope, lift_slope = sp.symbols(
     "energy rate lift energy_slope lift_slope", real=True
 )
-n, term, s, x, weight, powers = sp.symbols("n term s x weight powers", positive=True)
+n, term, s, x, q, weight, powers = sp.symbols("n term s x q weight powers", positive=True)
 first, second, by_energy, by_eta = sp.symbols("first second by_energy by_eta", real=True)
 total, by_radius, by_thickness = sp.symbols("total by_radius by_thickness", positive=True)
 own, of_energy, of_eta = sp.symbols("own of_energy of_eta", real=True)
@@ -40,53 +40,48 @@ def power_work() -> Routine:
     )
 
 
-def hertz_work() -> Routine:
-    """What Hertz's term adds to S."""
-    nested = sp.Integer(1)
-    for _ in range(4):
-        nested = 1 + s * nested
-    work = sp.integrate(x**3 * sp.diff(x**2, x), (x, s, 1))
+def power_slope() -> Routine:
+    """A F' of one power of A."""
     return routine(
-        "hertz_work",
-        (s,),
-        (Let(powers, nested),),
-        (sp.Rational(2, 5) * powers,),
-        (sp.cancel(work / (1 - s)),),
-        "Work of Hertz's term from s to 1, over 1 - s.",
+        "power_slope",
+        (n, term),
+        (),
+        (term * (n - 2),),
+        (sp.diff(term * x ** (n - 2), x).subs(x, 1),),
+        "The slope by log A of a term of F that is one of delta with the n-th power of A.",
         {},
-        sp.expand,
     )
 
 
 class Nodes:
     """Where the inner integral's nodes lie, w = 1 - u from 0 to 1 - sqrt(1 - ratio)."""
 
-    node, ratio, root = sp.symbols("node ratio root", positive=True)
-    last, w, rest, q, left, short = sp.symbols("last w rest q left short", positive=True)
-    height = sp.Symbol("height", positive=True)
+    node, ratio, root, share = sp.symbols("node ratio root share", positive=True)
+    last, w, rest, left, short, height = sp.symbols("last w rest left short height", positive=True)
 
 
 def near_nodes() -> Routine:
     """q, 1 - q and s = q/ratio at the nodes, without cancellation."""
     k = Nodes
     u = 1 - (1 - k.root) * k.node
-    q, s_there = 1 - u**2, (1 - u**2) / (1 - k.root**2)
+    there, s_there = 1 - u**2, (1 - u**2) / (1 - k.root**2)
     statements = (
         Let(k.last, k.ratio / (1 + k.root)),
         Let(k.w, k.last * k.node),
         Let(k.rest, k.last * (1 - k.node)),
-        Let(k.q, k.w * (2 - k.w)),
+        Let(q, k.w * (2 - k.w)),
         Let(k.height, k.root + k.rest),
         Let(k.left, k.height**2),
         Let(k.short, k.rest * (k.root + k.height) / k.ratio, "1 - s"),
     )
-    results = k.q, k.q / k.ratio, k.left, k.short * k.ratio**5 / k.left, k.last
+    results = q, q / k.ratio, k.left, k.short * k.ratio**5 / k.left, k.last
+    share = (1 - s_there) * (1 - k.root**2) ** 5 / (1 - there)
     return routine(
         "near_nodes",
         (k.node, k.ratio, k.root),
         statements,
         results,
-        (q, s_there, 1 - q, (1 - s_there) * (1 - k.root**2) ** 5 / (1 - q), 1 - k.root),
+        (there, s_there, 1 - there, share, 1 - k.root),
         "q, s = q/ratio, 1 - q, (1 - s) ratio^5/(1 - q), and where w ends; root^2 is 1 - ratio.",
         {k.ratio: 1 - k.root**2},
         sp.cancel,
@@ -158,24 +153,114 @@ SUMS: Facts = {
 
 
 def peak_growth() -> Routine:
-    """How the largest radius and indentation grow."""
+    """How the largest radius, indentation and force grow."""
+    by_radius = a * sp.diff(sp.log(FORCE), a)
+    growth = tuple(formula.expression for formula in peaks())
     return routine(
         "peak_growth",
         (energy, rate, energy_slope, lift, lift_slope),
-        (),
-        (energy / rate, -energy_slope / rate, energy / lift, (lift_slope - energy_slope) / lift),
-        tuple(formula.expression for formula in peaks()),
-        "How A_m and delta_m grow with energy number and h/b: logarithmic slopes.",
+        (Let(first, energy / rate), Let(second, -energy_slope / rate)),
+        (
+            first,
+            second,
+            energy / lift,
+            (lift_slope - energy_slope) / lift,
+            by_radius * first,
+            by_radius * second,
+        ),
+        (*growth, *(by_radius * value for value in growth[:2])),
+        "How A_m, delta_m and P_m grow with energy number and h/b: logarithmic slopes.",
         SUMS,
         sp.cancel,
     )
 
 
-def _time_parts(weights: Mapping[int, sp.Expr]) -> tuple[sp.Expr, sp.Expr]:
+def whole_work() -> Routine:
+    """E up to A_m."""
+    near, within, rise = sp.symbols("near within rise", positive=True)
+    work = sp.integrate(x**3 * sp.diff(term * x**n, x), x)
+    return routine(
+        "whole_work",
+        (near, within, rise),
+        (),
+        (within * near**5 + rise,),
+        (sp.simplify(work.subs(x, 1)),),
+        "The work over A_m^5 by that over A_near^5 and what is added; near is A_near/A_m.",
+        {within: work.subs(x, near) / near**5, rise: work.subs(x, 1) - work.subs(x, near)},
+        sp.simplify,
+    )
+
+
+# --- the contact time
+
+
+def _time_parts(weights: Mapping[int, sp.Expr], at: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
     """N and S."""
-    q = 1 - u_t**2
-    stored = weighted(weights, lambda k: _work(k) * sp.Add(*(q**i for i in range(k + 3))))
-    return weighted(weights, lambda k: k * q ** (k - 1)), stored
+    stored = weighted(weights, lambda k: _work(k) * geometric(k + 3, at))
+    return weighted(weights, lambda k: k * at ** (k - 1)), stored
+
+
+def _near_terms(name: str, hertz: int, summary: str) -> Routine:
+    """N and S at s = q/ratio by sums over the powers that begin with the third."""
+    k = Nodes
+    rest, square, cube, six, start, rise = sp.symbols("rest square cube six start rise")
+    every = _weights(D, hertz)
+    deeper = {j: weight for j, weight in every.items() if j > 2}
+    held = [_work(j) * weight * k.ratio ** (j - 2) for j, weight in deeper.items()]
+    at = q / k.ratio
+    further = [sp.Add(*held[i:]) * at ** (2 * i - 2) for i in range(1, len(held))]
+    nested = 1 + s * (1 + s * (1 + s * (1 + s)))
+    statements: tuple[Statement, ...] = (
+        Let(square, s**2),
+        Let(cube, square * s),
+        Let(six, (1 + s + square) * (1 + cube), "1 + s + ... + s^5"),
+        Let(start, first * six + hertz * sp.Rational(2, 5) * nested),
+    )
+    left = start + cube**2 * (1 + s) * rest
+    return routine(
+        name,
+        (q, s, k.left, k.share, rate, first, rest, rise),
+        statements,
+        (q * (s * rate + 2 * hertz), left * k.share + rise / k.left),
+        _time_parts(every, q),
+        summary,
+        {
+            rate: weighted(deeper, lambda j: j * k.ratio ** (j - 2) * at ** (j - 3)),
+            first: sp.Add(*held),
+            rest: sp.Add(*further),
+            rise: weighted(every, lambda j: _work(j) * (1 - k.ratio ** (j + 3))),
+            k.share: (1 - at) * k.ratio**5 / (1 - q),
+            k.left: 1 - q,
+            s: at,
+        },
+        sp.cancel,
+    )
+
+
+def near_terms() -> Routine:
+    """Of the law."""
+    what = "N and S by sums over the terms of F up to A_near, at s = A/A_near, and the work beyond."
+    return _near_terms("near_terms", 1, what)
+
+
+def near_slope_terms() -> Routine:
+    """Of its slopes, in which Hertz's term is not."""
+    return _near_terms("near_slope_terms", 0, "The same for a slope of F.")
+
+
+def far_nodes() -> Routine:
+    """Where the nodes beyond the first polynomial lie."""
+    gap, u = sp.symbols("gap u", positive=True)
+    return routine(
+        "far_nodes",
+        (gap, u, Nodes.node),
+        (),
+        (1 - gap * u**2 * Nodes.node,),
+        (1 - Nodes.node * (1 - q),),
+        "The node of [q, 1] counted from 1, where 1 - q = gap u^2.",
+        {gap: (1 - q) / u**2},
+        sp.expand,
+    )
 
 
 def time_terms() -> Routine:
@@ -186,7 +271,7 @@ def time_terms() -> Routine:
     values = [
         value
         for weights in (LAW_WEIGHTS, RADIUS_WEIGHTS, ETA_WEIGHTS)
-        for value in _time_parts(weights)
+        for value in _time_parts(weights, 1 - u_t**2)
     ]
     return routine(
         "time_terms",
@@ -243,15 +328,16 @@ def parameter_power() -> Routine:
     )
 
 
-def share_of_lam() -> Routine:
+def constants_powers() -> Routine:
     """Of the modulus; quotients, so that products stay in range."""
+    by_lam = modulus_slope().expression
     return routine(
-        "share_of_lam",
-        (lam, mu),
-        (Let(first, lam / (lam + mu)), Let(second, mu / (lam + 2 * mu))),
-        (first * second,),
-        (modulus_slope().expression,),
-        "d log E*/d log lam; that by log mu is the rest to 1.",
+        "constants_powers",
+        (powers, lam, mu),
+        (Let(first, lam / (lam + mu)), Let(second, mu / (lam + 2 * mu)), Let(own, first * second)),
+        (powers * own, powers * (1 - own)),
+        (powers * by_lam, powers * (1 - by_lam)),
+        "Powers of lam and mu in a result by that of E*.",
         {},
         sp.cancel,
     )
@@ -259,13 +345,17 @@ def share_of_lam() -> Routine:
 
 ROUTINES = (
     power_work,
-    hertz_work,
+    power_slope,
     near_nodes,
     work_weight,
     rates,
     peak_growth,
+    whole_work,
+    near_terms,
+    near_slope_terms,
+    far_nodes,
     time_terms,
     time_growth,
     parameter_power,
-    share_of_lam,
+    constants_powers,
 )

@@ -295,12 +295,12 @@ def thick_by_thickness() -> Routine:
     coefficient = eta**order * Table(sp.log(eta))
     return routine(
         "thick_by_thickness",
-        (order, S, change),
+        (order, S, eta, change),
         (),
-        (change + order * S,),
-        (eta * sp.diff(coefficient, eta),),
+        (eta * change + order * S,),
+        (eta * sp.diff(coefficient, eta) / eta ** (order - 1),),
         "The slope of S_k by log(h/b) at fixed A, in powers of A eta; order is 2k + 1.",
-        {S: coefficient, change: eta**order * TableSlope(sp.log(eta))},
+        {S: eta * Table(sp.log(eta)), change: TableSlope(sp.log(eta))},
         sp.simplify,
     )
 

@@ -10,11 +10,12 @@ reach = min(REACH, 1/eta) it is a polynomial in (A/reach)^2, up to A = FAR_REACH
 beyond that the sum itself. The coefficients come from tables: for eta >= 1/REACH an exact linear
 map of the first weights w_n, below it the thin plate's closed form and a remainder.
 
-Arithmetic: Horner's rule, in place, as blocks of points stay in the cache; so one sphere on one
-plate is a^2 (1/R + a S(t)/(h R)), whose products are made once. Scaling of polynomials' variables
-to their ranges, and how many modes the direct sum needs.
+Arithmetic: Horner's rule, in place, as blocks of points stay in the cache; one sphere on one plate
+is a polynomial of a, its coefficients made once. Scaling of polynomials' variables to their ranges,
+and how many modes the direct sum needs.
 """
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -53,6 +54,10 @@ _MODE_BLOCK = 4096
 _THINNER = CELLS[-1][1]  # from this 1/eta on the closed form is all there is
 
 
+Cells = tuple[tuple[float, float, Double], ...]
+"""Polynomials in 1/eta: for each its first and last 1/eta, and its rows."""
+
+
 class Piece(NamedTuple):
     """F = A (S_0 + S_1 t + ...), t = (A^2 - middle)/half, plates along the last axis."""
 
@@ -83,8 +88,8 @@ class Single(NamedTuple):
     """One sphere on one plate: delta = a^2 (1/R + a S(t)/(h R)), t = (a scale)^2."""
 
     plates: Plates
-    h: float
-    inverse_R: float
+    h: Double
+    inverse_R: Double
     scale: float
     brief: float  # a up to which the short polynomial serves
     end: float  # a up to which the first polynomial serves
@@ -164,17 +169,23 @@ def _thin(eta: Double) -> Double:
     return total
 
 
-def _tabulated(v: Double, cells: tuple[tuple[float, float, Double], ...], total: Double) -> None:
+def _tabulated(v: Double, cells: Cells, total: Double) -> None:
     """Add the polynomials in v of the cells to the coefficients, of shape (terms, plates)."""
+    for chosen, tau, _, rows in in_cells(v, cells):
+        value = rows[-1] + 0.0 * tau
+        for row in rows[-2::-1]:
+            value *= tau
+            value += row
+        total[:, chosen] += value
+
+
+def in_cells(v: Double, cells: Cells) -> Iterator[tuple[np.ndarray, Double, float, Double]]:
+    """Which v are in a cell, where in [-1, 1] of it, half its width, its rows for such points."""
     for first, last, rows in cells:
         chosen = np.flatnonzero((v > first) & (v <= last))
         if chosen.size:
-            tau = (v[chosen] - 0.5 * (first + last)) / (0.5 * (last - first))
-            value = np.repeat(rows[-1][:, None], chosen.size, axis=1)
-            for row in rows[-2::-1]:
-                value *= tau
-                value += row[:, None]
-            total[:, chosen] += value
+            half = 0.5 * (last - first)
+            yield chosen, (v[chosen] - 0.5 * (first + last)) / half, half, rows[:, :, None]
 
 
 def _bending(v: Double) -> tuple[Double, Double]:
@@ -262,15 +273,20 @@ def value_of(A: Double, piece: Columns) -> Double:
 def with_slope(A: Double, piece: Columns) -> tuple[Double, Double]:
     """F and A F'(A)."""
     square = A * A
-    t = (square - piece.middle) * piece.inverse_half
-    value: Double = piece.coefficients[-1] + 0.0 * t
-    slope = np.zeros_like(t)
-    for coefficient in piece.coefficients[-2::-1]:
+    value, slope = horner(piece.coefficients, (square - piece.middle) * piece.inverse_half)
+    return kernels.with_slope_of(A, square, piece.inverse_half, value, slope)
+
+
+def horner(coefficients: list[Double] | list[float] | Double, t: Double) -> tuple[Double, Double]:
+    """A polynomial and its slope."""
+    value: Double = coefficients[-1] + 0.0 * t
+    slope = np.zeros_like(value)
+    for coefficient in coefficients[-2::-1]:
         slope *= t
         slope += value
         value *= t
         value += coefficient
-    return kernels.with_slope_of(A, square, piece.inverse_half, value, slope)
+    return value, slope
 
 
 def with_slopes(A: Double, piece: Columns) -> tuple[Double, Double, Double]:
@@ -295,8 +311,11 @@ def sphere_on_plate(plates: Plates, h: Double, R: Double) -> Single | None:
         return None
     if not all(_ORDINARY[0] < length < _ORDINARY[1] for length in (R.item(), h.flat[0])):
         return None
-    height, over, reach = float(h.flat[0]), 1.0 / R.item(), float(plates.reach[0])
-    short, first = ((p.coefficients[:, 0] * over / height).tolist() for p in plates[3:])
+    height, reach = h.ravel()[0], plates.reach[0]
+    both = np.concatenate((plates.short.coefficients, plates.first.coefficients))[:, 0]
+    over, scaled = kernels.depth_coefficients(both, R.ravel()[0], height)
+    count = plates.short.coefficients.shape[0]
+    short, first = scaled[:count].tolist(), scaled[count:].tolist()
     brief, end = reach * SHORT * height, reach * ROUNDED * height
     return Single(plates, height, over, 1.0 / (height * reach), brief, end, short, first)
 
@@ -323,7 +342,7 @@ def indent(a: Double, most: float, law: Single, out: Double) -> None:
             indent(inner, inner.max(), law, part)
             out[near] = part
         value = correction(beyond / law.h, law.plates, None)
-        out[~near] = kernels.indentation_in_range(beyond, np.asarray(law.inverse_R), value)
+        out[~near] = kernels.indentation_in_range(beyond, law.inverse_R, value)
 
 
 def _indent(a: Double, law: Single, coefficients: list[float], out: Double) -> None:

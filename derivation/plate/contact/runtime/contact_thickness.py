@@ -20,7 +20,7 @@ from generated.contact_numbers import (
     REACH,
     THIN,
 )
-from generated.contact_series import Piece
+from generated.contact_series import Cells, Piece, horner, in_cells
 
 _THINNER = CELLS[-1][1]  # from this 1/eta on the closed form is all there is
 
@@ -34,11 +34,10 @@ def first_by_thickness(first: Piece, eta: Double) -> Double:
         total = np.zeros((MODES.shape[1], chosen.size))
         for index in reversed(range(zeros.size)):
             total += MODES[index][:, None] * slopes[..., index]
-        total *= eta[chosen]
         # reach is 1/eta: at fixed weights F is a function of alpha = A eta.
         orders = 2.0 * np.arange(total.shape[0], dtype=np.float64)[:, None] + 1.0
         whole = first.coefficients[:, chosen]
-        found[:, chosen] = kernels.thick_by_thickness(orders, whole, total)
+        found[:, chosen] = kernels.thick_by_thickness(orders, whole, eta[chosen], total)
     chosen = np.flatnonzero(eta < 1.0 / REACH)
     if chosen.size:
         v = 1.0 / eta[chosen]
@@ -66,23 +65,10 @@ def far_by_thickness(far: Piece, eta: Double) -> Piece:
     return Piece(-total, far.middle, far.half)
 
 
-def _tabulated_slope(
-    v: Double, cells: tuple[tuple[float, float, Double], ...], total: Double
-) -> None:
+def _tabulated_slope(v: Double, cells: Cells, total: Double) -> None:
     """Add v times the slopes by v of the cells' polynomials."""
-    for first, last, rows in cells:
-        chosen = np.flatnonzero((v > first) & (v <= last))
-        if chosen.size:
-            half = 0.5 * (last - first)
-            tau = (v[chosen] - 0.5 * (first + last)) / half
-            value = np.repeat(rows[-1][:, None], chosen.size, axis=1)
-            slope = np.zeros_like(value)
-            for row in rows[-2::-1]:
-                slope *= tau
-                slope += value
-                value *= tau
-                value += row[:, None]
-            total[:, chosen] += slope * (v[chosen] / half)
+    for chosen, tau, half, rows in in_cells(v, cells):
+        total[:, chosen] += horner(rows, tau)[1] * (v[chosen] / half)
 
 
 def _weight_slopes(eta: Double, count: int) -> tuple[Double, Double]:

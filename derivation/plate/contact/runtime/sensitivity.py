@@ -40,10 +40,7 @@ __all__ = ["PARAMETERS", "RESULTS", "impact_sensitivities", "indentation_slope"]
 
 
 class _Sums(NamedTuple):
-    """Of 1 + F, or of a slope of it: sums at nodes and the whole, E and V as above.
-
-    `rate` is V, `stored` the work left over 1 - s, both without Hertz's share.
-    """
+    """N and S at nodes, of the law or of a slope of it."""
 
     rate: Double
     stored: Double
@@ -165,11 +162,10 @@ def impact_sensitivities(
     parameters = POWERS[:, :, None], ENERGY[:, None], ETA[:, None]
     powers = kernels.parameter_power(*parameters, by_energy[:, None], by_eta[:, None])
     powers = powers.reshape(*POWERS.shape, *ok.shape)
+    modulus = np.where(ok, powers[:, -1:], np.nan)
     with np.errstate(divide="ignore", invalid="ignore"):
-        share = np.where(ok, kernels.share_of_lam(lam, mu), np.nan)
-    modulus = powers[:, -1:]
-    parts = (powers[:, :-1], modulus * share, modulus * (1.0 - share))
-    return as_result(np.concatenate(parts, axis=1), kind)
+        constants = kernels.constants_powers(modulus, lam, mu)
+    return as_result(np.concatenate((powers[:, :-1], *constants), axis=1), kind)
 
 
 def _scaled(rows: Double, which: np.ndarray, near: Double, reach: Double) -> tuple[Double, Double]:
@@ -184,18 +180,21 @@ def _scaled(rows: Double, which: np.ndarray, near: Double, reach: Double) -> tup
 
 
 def _tails(terms: Double) -> Double:
-    order = 2.0 * np.arange(terms.shape[0], dtype=np.float64)[:, None] + 3.0
-    return np.cumsum(kernels.power_work(order, terms)[::-1], axis=0)[::-1]
+    return np.cumsum(kernels.power_work(_orders(terms), terms)[::-1], axis=0)[::-1]
+
+
+def _orders(terms: Double) -> Double:
+    """With which powers of A the terms of F are in the indentation."""
+    return 2.0 * np.arange(terms.shape[0], dtype=np.float64)[:, None] + 3.0
 
 
 def _changes(found: _Scenes, part: slice, eta: Double, deeper: _Law) -> tuple[Double, Double]:
     """Logarithmic slopes of A_m^(-1/2) I, A^2 (1 + F), A^3 and A by Y and by eta."""
     terms = found.terms[:, part]
-    wider = terms * (2.0 * np.arange(terms.shape[0])[:, None] + 1.0)
+    wider = kernels.power_slope(_orders(terms), terms)
     laws = _Law(terms, found.tails[:, part]), _Law(wider, _tails(wider)), deeper
-    order = 2.0 * np.arange(terms.shape[0])[:, None] + 3.0
     lift, energy = found.lift[part], found.energy[part]
-    rate = 2.0 + (order * terms).sum(axis=0)
+    rate = relative_rise(terms.sum(axis=0), wider.sum(axis=0))
     lift_slope, energy_slope = deeper.terms.sum(axis=0), deeper.tails[0].copy()
     slot = found.slot[part]
     far = np.flatnonzero(slot >= 0)
@@ -207,13 +206,11 @@ def _changes(found: _Scenes, part: slice, eta: Double, deeper: _Law) -> tuple[Do
         ratio[far], gap[far] = ends
         rises[:, far], outer[:, far] = beyond.rises, beyond.integrals
         rate[far], lift_slope[far] = beyond.rate, beyond.lift_slope
-        energy_slope[far] = energy_slope[far] * ends[0] ** 5 + beyond.rises[2]
-    by_energy, by_eta, *depth = kernels.peak_growth(energy, rate, energy_slope, lift, lift_slope)
+        energy_slope[far] = kernels.whole_work(ends[0], energy_slope[far], beyond.rises[2])
+    by_energy, by_eta, *others = kernels.peak_growth(energy, rate, energy_slope, lift, lift_slope)
     total, by_radius, by_thickness = _inner(laws, ratio, gap, rises) + outer
     time = kernels.time_growth(total, by_radius, by_thickness, by_energy, by_eta)
-    rows = zip(time, depth, (by_energy, by_eta), strict=True)
-    first, second = (np.stack((t, d, 3.0 * radius, radius)) for t, d, radius in rows)
-    return first, second
+    return np.stack((time[0], *others[::2], by_energy)), np.stack((time[1], *others[1::2], by_eta))
 
 
 def _inner(laws: tuple[_Law, _Law, _Law], ratio: Double, gap: Double, rises: Double) -> Double:
@@ -223,17 +220,15 @@ def _inner(laws: tuple[_Law, _Law, _Law], ratio: Double, gap: Double, rises: Dou
     """
     q, s, left, share, last = kernels.near_nodes(_NODES, ratio[:, None], np.sqrt(gap)[:, None])
     found = []
-    for law, rise, hertz in zip(laws, rises, (1.0, 0.0, 0.0), strict=True):
-        rate, stored = _near_sums(s, law)
-        if hertz:
-            rate += 2.0
-            stored += kernels.hertz_work(s)
-        found.append(_Sums(q * rate, stored * share + rise[:, None] / left))
+    made = kernels.near_terms, kernels.near_slope_terms, kernels.near_slope_terms
+    for law, rise, terms in zip(laws, rises, made, strict=True):
+        sums = terms(q, s, left, share, *_near_sums(s, law), rise[:, None])
+        found.append(_Sums(*sums))
     return _integrals(found, _WEIGHTS * last)
 
 
-def _near_sums(s: Double, law: _Law) -> tuple[Double, Double]:
-    """V and the work from s on over (1 - s) A_near^5, without Hertz's share."""
+def _near_sums(s: Double, law: _Law) -> tuple[Double, Double, Double]:
+    """Sums of the terms times their powers, and of the tails from the second on; the first tail."""
     square, count = s * s, law.terms.shape[0]
     rate = (2 * count + 1) * law.terms[-1][:, None] + 0.0 * s
     rest = law.tails[-1][:, None] + 0.0 * s
@@ -243,9 +238,7 @@ def _near_sums(s: Double, law: _Law) -> tuple[Double, Double]:
         if k > 0:
             rest *= square
             rest += law.tails[k][:, None]
-    cube = square * s
-    six = (1.0 + s + square) * (1.0 + cube)
-    return s * rate, law.tails[0][:, None] * six + cube * cube * (1.0 + s) * rest
+    return rate, law.tails[0][:, None], rest
 
 
 def _integrals(sums: list[_Sums], weights: Double) -> Double:
@@ -275,8 +268,8 @@ def _beyond(A: Double, gap: Double, eta: Double) -> _Beyond:
     law, deeper = (_more_axes(piece) for piece in pieces)
     # The outer nodes: 1 - q = gap u^2; the inner ones run over [q, 1], and over [near, 1].
     u = np.concatenate((_NODES, [1.0]))
-    span = (gap[:, None] * u**2)[:, :, None]
-    x = 1.0 - span * np.concatenate(([1.0], _INNER_NODES))
+    nodes = np.concatenate(([1.0], _INNER_NODES))
+    x = kernels.far_nodes(gap[:, None, None], u[:, None], nodes)
     rates = _rates(A[:, None, None] * x, law, deeper)
     fourth = kernels.work_weight(x[:, :, 1:], _INNER_WEIGHTS)
     means = [(rate[:, :, 1:] * fourth).sum(axis=2) for rate in rates]

@@ -29,23 +29,19 @@ from derivation.engine.rewrite.form import Form
 from derivation.engine.rewrite.sections import sections
 from derivation.plate.blocks import blocks
 from derivation.plate.budgets import read_budgets, read_printed_share
-from derivation.plate.contact.kernels.tables import (
-    contact_context,
-    sensitivity_context,
-)
+from derivation.plate.manifest_rows import hand_written_rows
 from derivation.plate.modes.kernels.modal_sums import STYLE, kernel_of_sum
 from derivation.plate.modes.kernels.shares import SHARES
 from derivation.plate.modules import (
     computed_modules,
     printed_modules,
     runtime_modules,
-    template_modules,
 )
 from derivation.plate.printed.contact import PRINTED
-from derivation.plate.table_rows import contact_rows, notes_of, table_rows
 from derivation.plate.vocabulary import BY_NAME, arguments_of
 
 TEMPLATES = Path(__file__).parent / "templates"
+SUMMARY = "Contact of a rigid sphere with an elastic plate, in NumPy alone."
 CITATION = "Elastodynamic contact in plate-like bodies"
 TITLES = {
     "omega": "Integration constants C_k = A_j Omega_k of a mode, scaled by e^(phi h) and plain.",
@@ -94,24 +90,17 @@ def modules(kernels: tuple[EmittedKernel, ...]) -> tuple[Planned, ...]:
     grouped = rows_by_module(kernels)
     known, budgets = blocks() | sections(), read_budgets()
 
-    def tables(name: str, context: Mapping[str, Any], folder: Path = TEMPLATES) -> Module:
-        notes = notes_of(name, budgets)
-        return Module(name, name, {**context, "notes": notes} if notes else context, folder)
-
+    listed, others = hand_written_rows(budgets)
     planned: list[Planned] = [
         *shared(known),
         own("as_printed", {"functions": printed_rows()}),
-        tables("contact_series", contact_context()),
-        tables("contact_law", {}),
-        tables("sensitivity", sensitivity_context()),
-        *(tables(x.name, x.context(), x.folder) for x in template_modules()),
         *(x.make() for x in computed_modules()),
         *(Copy(x.name, x.file, "generated", budgets, x.notes()) for x in runtime_modules()),
         own(
             "manifest",
             {
-                "rows": manifest_rows(kernels),
-                "contact": contact_rows(budgets),
+                "rows": [*map(kernel_row, kernels), *listed],
+                "contact": others,
                 "citation": CITATION,
             },
         ),
@@ -123,20 +112,18 @@ def modules(kernels: tuple[EmittedKernel, ...]) -> tuple[Planned, ...]:
         for module in kernel_modules(kernels, TITLES, known)
     )
     exported = {name: [k.name for k in group] for name, group in grouped.items()}
-    for row in table_rows(budgets):
-        exported.setdefault(str(row["module"]), []).append(str(row["name"]))
     # The module `impact` keeps its name: its function is reached through it.
-    for row in contact_rows(budgets):
-        if row["module"] != "impact":
-            exported.setdefault(str(row["module"]), []).append(str(row["name"]))
+    for row in (*listed, *(row for row in others if row["module"] != "impact")):
+        exported.setdefault(row["module"], []).append(row["name"])
     names = sorted(name for group in exported.values() for name in group)
-    planned.append(own("__init__", {"modules": exported, "all_names": names}, "init"))
+    package = {"summary": SUMMARY, "modules": exported, "all_names": names}
+    planned.append(Module("__init__", "package", package))
     return tuple(planned)
 
 
-def own(name: str, context: Mapping[str, Any], template: str = "") -> Module:
+def own(name: str, context: Mapping[str, Any]) -> Module:
     """A module with a template of the paper's."""
-    return Module(name, template or name, context, TEMPLATES)
+    return Module(name, name, context, TEMPLATES)
 
 
 def printed_rows() -> tuple[AsPrinted, ...]:
@@ -158,8 +145,3 @@ def printed_rows() -> tuple[AsPrinted, ...]:
             )
         )
     return tuple(rows)
-
-
-def manifest_rows(kernels: tuple[EmittedKernel, ...]) -> list[dict[str, Any]]:
-    """What the manifest says of each kernel, tables included."""
-    return [kernel_row(k) for k in kernels] + table_rows(read_budgets())

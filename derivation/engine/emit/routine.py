@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
+from sympy.printing.precedence import PRECEDENCE
 
 from derivation.engine.emit.printer import to_numpy
 from derivation.engine.formula.proof import Proof, prove
@@ -252,6 +253,12 @@ def _undone(
     yield label, free, facts
 
 
+class _Written(sp.Symbol):
+    """Code in place of a symbol, put in parentheses wherever an operation follows."""
+
+    precedence = PRECEDENCE["Lambda"]
+
+
 def text(r: Routine) -> str:
     """Python source of the function."""
     of = ", ".join(f"{a}: Double" for a in r.arguments)
@@ -262,7 +269,7 @@ def text(r: Routine) -> str:
     written: dict[sp.Symbol, sp.Symbol] = {}
     for s in r.statements:
         if isinstance(s, Let) and s.within:
-            written[s.symbol] = sp.Symbol(f"({to_numpy(s.expression.xreplace(written))})")
+            written[s.symbol] = _Written(to_numpy(s.expression.xreplace(written)))
         else:
             lines += (f"    {line}" for line in _lines(s, masks, written))
     values = [to_numpy(v.xreplace(written)) for v in r.results]

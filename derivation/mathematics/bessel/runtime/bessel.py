@@ -40,13 +40,14 @@ from generated.bessel_numbers import (
     TAYLOR,
     ZERO_CORRECTION,
 )
-from generated.ranges import lost
+from generated.ranges import halves, lost_by_halves
 
 _BLOCK = 8192  # points worked on at a time, so that intermediates stay in the cache
 # By power, the highest first: each line then holds one coefficient of all centres.
 _TAYLOR = tuple(np.array(table).T[::-1].copy() for table in TAYLOR)
 _CELLS = np.arange(int(CELLS * ASYMPTOTIC_START)) / CELLS
 _CENTRE_OF_CELL = np.searchsorted(SEAMS, _CELLS, "right") - 1
+_QUARTER_HALVES = halves(np.array(QUARTER_PI))
 _HIGH, _LOW = np.array(CENTRE_HIGH), np.array(CENTRE_LOW)
 
 
@@ -189,9 +190,11 @@ def bessel_j1_at_j0_zeros(count: int) -> Double:
     excess = square * _polynomial(SLOPE_EXCESS, square)
     slope = kernels.slope(m, excess)
     # One Newton step for m J_1^2 = (8/pi^2) (1 + excess), its residual without rounding errors.
-    slope_squared, error = _product(slope, slope)
-    scaled, scaled_error = _product(m, slope_squared)
-    missing = (EIGHT_OVER_PI2 - scaled) - scaled_error - m * error
+    slope_squared, slope_halves = slope * slope, halves(slope)
+    scaled = m * slope_squared
+    missing = EIGHT_OVER_PI2 - scaled
+    missing -= lost_by_halves(halves(m), halves(slope_squared), scaled)
+    missing -= m * lost_by_halves(slope_halves, slope_halves, slope_squared)
     missing += EIGHT_OVER_PI2_TAIL + EIGHT_OVER_PI2 * excess
     slope += slope * missing / (2.0 * EIGHT_OVER_PI2)
     slope[FIRST_MCMAHON[0] % 2 :: 2] *= -1.0  # even numbers
@@ -276,13 +279,8 @@ def _zeros(count: int, order: int) -> Double:
 
 def _times_quarter_pi(n: Double) -> tuple[Double, Double]:
     """n pi/4 as the sum of two doubles."""
-    product, error = _product(n, np.asarray(QUARTER_PI))
-    return product, error + n * QUARTER_PI_TAIL
-
-
-def _product(a: Double, b: Double) -> tuple[Double, Double]:
-    """a b as product + error."""
-    return a * b, lost(a, b)
+    product = n * QUARTER_PI
+    return product, lost_by_halves(halves(n), _QUARTER_HALVES, product) + n * QUARTER_PI_TAIL
 
 
 def _mcmahon_numbers(count: int, order: int) -> Double:

@@ -59,6 +59,19 @@ def listed_functions(file: Path) -> tuple[ListedFunction, ...]:
     return tuple(_listed(node, mark, file) for node, mark in _marked(ast.parse(file.read_text())))
 
 
+def function_text(file: Path, name: str) -> str:
+    """The lines of one function of a module.
+
+    Raises
+    ------
+    StopIteration
+        If the module has none of this name.
+    """
+    text = file.read_text()
+    named = (n for n in ast.parse(text).body if isinstance(n, ast.FunctionDef) and n.name == name)
+    return ast.get_source_segment(text, next(named)) or ""
+
+
 def copied(
     file: Path,
     package: str,

@@ -1,4 +1,7 @@
-"""Arguments in, result out: what every function of this package does with its arrays."""
+"""Arguments in, result out: what every function of this package does with its arrays.
+
+Arithmetic: the types of results, and whether a number is whole.
+"""
 
 from collections.abc import Callable
 from typing import TypeVar

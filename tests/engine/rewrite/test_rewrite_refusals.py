@@ -164,4 +164,4 @@ def test_blurred_numbers_are_not_tabulated() -> None:
 def test_modes_of_simple_impacts_reach_their_tails_bound(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(simple_impact_tables, "zero_of_j0", lambda *_: arb(2.4))
     with pytest.raises(ArithmeticError, match="too few modes for the tail's bound"):
-        simple_impact_tables.simple_impact_context()
+        simple_impact_tables.numbers()

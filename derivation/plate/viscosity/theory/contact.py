@@ -75,7 +75,7 @@ def viscous_number() -> Formula:
 
     proof = prove(
         "Viscous number",
-        "epsilon of Hertz's law goes with s^(1/5); at the turning point s = v0.",
+        r"$\varepsilon$ of Hertz's law goes with $s^{1/5}$; at the turning point $s = v_0$.",
         {
             "rise": sp.diff(plain(rise), _z),
             "turning point": plain(ratio.subs(_z, deepest))

@@ -1,32 +1,26 @@
-{% import "macros.j2" as macros with context %}
-"""Force over indentation by the paper's reversed series, cut off: to show, not to compute with."""
-{{ header }}
+"""Force over indentation by the paper's reversed series, cut off: to show, not to compute with.
+
+Arithmetic: Horner's rule; powers of a power series by Euler's recurrence; the search for the
+best circle; scaling of coefficients by powers of a radius.
+"""
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .arrays import Double, as_doubles, as_result, inside, quiet
-from .contact_law import _elastic, _modulus, _plates
-from .contact_series import Plates
-from .ranges import product, root
+from generated import reversed_kernels as kernels
+from generated.arrays import Double, as_doubles, as_result, in_manifest, inside, quiet
+from generated.contact_law import _elastic, _modulus, _plates
+from generated.contact_series import Plates
 
 _CIRCLE = 128  # directions in which a radius of convergence is sought
 
-{% macro plate_arguments() %}
-    R : array_like
-        sphere radius [m]; R > 0
-    h : array_like
-        half the plate's thickness [m]; h > 0
-    b : array_like
-        plate radius [m]; b > 0, 1e-90 <= h/b <= 1e90
-{% endmacro %}
-{% macro elastic_arguments() %}
-    lam : array_like
-        first Lame constant [Pa]; 3 lam > -2 mu
-    mu : array_like
-        second Lame constant (shear modulus) [Pa]; mu > 0
-{% endmacro %}
 
+@in_manifest(
+    "P",
+    equation="10",
+    domain="delta >= 0, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2 * mu, mu > 0, "
+    "sqrt(R * delta)/h < radius of convergence",
+)
 @quiet
 def force_by_series(
     delta: ArrayLike,
@@ -49,9 +43,17 @@ def force_by_series(
     ----------
     delta : array_like
         indentation [m]; 0 <= delta, eps within the radius of convergence
-{{ plate_arguments() -}}
-{{ elastic_arguments() -}}
-{{ "    terms : int" }}
+    R : array_like
+        sphere radius [m]; R > 0
+    h : array_like
+        half the plate's thickness [m]; h > 0
+    b : array_like
+        plate radius [m]; b > 0, 1e-90 <= h/b <= 1e90
+    lam : array_like
+        first Lame constant [Pa]; 3 lam > -2 mu
+    mu : array_like
+        second Lame constant (shear modulus) [Pa]; mu > 0
+    terms : int
         Number of terms of the bracket, at least 1.
 
     Returns
@@ -59,27 +61,23 @@ def force_by_series(
     float or ndarray
         P [N] in the arguments' broadcast shape; NaN outside the domain and for eps
         beyond the radius of convergence (a lower bound of it, by Rouche's theorem).
-
-{{ macros.promise(notes["force_by_series"]) }}
     """
     if terms < 1:
         raise ValueError(f"expected at least one term, got terms={terms}")
     kind, [delta, R, h, b, lam, mu] = as_doubles(delta, R, h, b, lam, mu)
-    [delta, R, lam, mu] = inside(
-        [delta, R, lam, mu], delta >= 0, R > 0, *_elastic(lam, mu)
-    )
+    [delta, R, lam, mu] = inside([delta, R, lam, mu], delta >= 0, R > 0, *_elastic(lam, mu))
     [h] = inside([h], h > 0)
     plates, owner = _plates(h, b)
     rows = [_reversed(plates, plate, terms) for plate in range(plates.eta.size)]
     radius = np.array([row[0] for row in rows] or [np.nan])[owner]
-    eps = root(2, (delta, R), (h, h)) / radius
+    eps = kernels.eps_over(delta, R, h, radius)
     [eps] = inside([eps], eps < 1)
     value = np.zeros_like(eps)
     for power in reversed(range(terms)):
         coefficient = np.array([row[1][power] for row in rows] or [np.nan])[owner]
         value = value * eps + coefficient
-    a = root(2, (R, delta))
-    return as_result(product((*_modulus(lam, mu), a, delta, value)), kind)
+    _, modulus = _modulus(lam, mu)  # over mu
+    return as_result(kernels.force_of_bracket(delta, R, mu, modulus, value), kind)
 
 
 def _reversed(plates: Plates, plate: int, terms: int) -> tuple[float, Double]:
@@ -102,7 +100,7 @@ def _reversed(plates: Plates, plate: int, terms: int) -> tuple[float, Double]:
         value = np.full_like(t, row[-1])
         for coefficient in row[-2::-1]:
             value = value * t + coefficient
-        least = float(np.min(circle * np.sqrt(np.abs(1.0 + A * value))))
+        least = float(np.min(kernels.size_of_eps(circle, A * value)))
         if least < radius:
             break
         radius, scale = least, float(circle)
@@ -111,8 +109,9 @@ def _reversed(plates: Plates, plate: int, terms: int) -> tuple[float, Double]:
     for k in range(min(row.size, terms // 2)):
         scaled[2 * k + 1] = row[k] * scale * (scale / reach) ** (2 * k)
     ratio = radius / scale
-    powers = [_power(scaled, -0.5 * (n + 3))[n] * 3.0 / (n + 3) * ratio**n for n in range(terms)]
-    return radius, np.array(powers)
+    exponents, factors = kernels.lagrange(np.arange(float(terms)))
+    powers = [_power(scaled, exponent)[n] for n, exponent in enumerate(exponents)]
+    return radius, np.array(powers) * factors * ratio ** np.arange(terms)
 
 
 def _power(series: Double, exponent: float) -> Double:

@@ -1,4 +1,3 @@
-{% import "macros.j2" as macros with context %}
 """Slope of the contact law, and what every parameter of a scene does to an impact.
 
 With A = a/h, eta = h/b and Y = m v0^2/2 over (4/3) E* h^5/R^2 every result of an impact is
@@ -9,55 +8,41 @@ a product of powers times a function of Y and eta::
 
 and so on for the indentation; the contact time is sqrt(m/(E* h)) A_m^(-1/2) int N/sqrt(S) dw
 up to a number, N and S as in `impact`, which changes by int (N' - N S'/(2 S))/sqrt(S) dw.
+
+Arithmetic: sums over powers by Horner's rule, over nodes of quadratures, and of the works up to
+the end of the first polynomial and beyond; A = a/h; where the nodes lie.
 """
-{{ header }}
 
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .arrays import Double, as_doubles, as_result, inside, quiet
-from .contact_law import _cut, _cut_index, _elastic, _flat, _index, _plates
-from .contact_series import (
+from generated import sensitivity_kernels as kernels
+from generated.arrays import Double, as_doubles, as_result, in_manifest, inside, quiet
+from generated.contact_kernels import relative_rise, slope_of_indentation
+from generated.contact_law import _plates
+from generated.contact_numbers import ENERGY, ETA, PARAMETERS, POWERS, RESULTS
+from generated.contact_points import cut, cut_index, flat, index_of
+from generated.contact_series import (
     Columns,
     blocks_of,
     columns,
     correction_with_slope,
-    far_by_thickness,
     far_piece,
-    first_by_thickness,
     with_slope,
     with_slopes,
 )
-from .impact import _INNER_NODES, _INNER_WEIGHTS, _NODES, _WEIGHTS, _parts, _Scenes, _solve
+from generated.contact_thickness import far_by_thickness, first_by_thickness
+from generated.impact import _parts, _solve
+from generated.impact_numbers import INNER_NODES, INNER_WEIGHTS, NODES, WEIGHTS
+from generated.impact_shapes import Scenes
 
-RESULTS = ({% for name in results %}"{{ name }}", {% endfor %})
-"""What the first axis of the sensitivities counts."""
-PARAMETERS = ("R", "m", "v0", "h", "b", "lam", "mu")
-"""What their second axis counts."""
+__all__ = ["PARAMETERS", "RESULTS", "impact_sensitivities", "indentation_slope"]
 
-# Powers of R, m, v0, h, b and E*: in every result, in Y and in eta.
-_LAWS = np.array((
-{% for row in laws %}
-    {{ row }},
-{% endfor %}
-))
-_ENERGY = np.array({{ energy }})
-_ETA = np.array({{ eta }})
-
-{% macro plate_arguments() %}
-    h : array_like
-        half the plate's thickness [m]; h > 0
-    b : array_like
-        plate radius [m]; b > 0, 1e-90 <= h/b <= 1e90
-{% endmacro %}
 
 class _Sums(NamedTuple):
-    """Of 1 + F, or of a slope of it: sums at nodes and the whole, E and V as above.
-
-    `rate` is V, `stored` the work left over 1 - s, both without Hertz's share.
-    """
+    """N and S at nodes, of the law or of a slope of it."""
 
     rate: Double
     stored: Double
@@ -73,6 +58,12 @@ class _Law(NamedTuple):
     tails: Double
 
 
+@in_manifest(
+    r"\mathrm{d}\delta/\mathrm{d}a",
+    equation="6",
+    domain="a >= 0, a < b, a < R, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, "
+    "a <= 6 * h or h/b >= 1e-5",
+)
 @quiet
 def indentation_slope(a: ArrayLike, R: ArrayLike, h: ArrayLike, b: ArrayLike) -> np.ndarray:
     """Indentation added per contact radius added, d delta/da.
@@ -84,32 +75,39 @@ def indentation_slope(a: ArrayLike, R: ArrayLike, h: ArrayLike, b: ArrayLike) ->
     Parameters
     ----------
     a : array_like
-        contact radius [m]; a >= 0, a < b, a < R; beyond 6 h only for h/b >= 1e-5, slowly
+        Contact radius [m]; a >= 0, a < b, a < R; beyond 6 h only for h/b >= 1e-5, slowly.
     R : array_like
-        sphere radius [m]; R > 0
-{{ plate_arguments() -}}
-{{ "" }}
+        Sphere radius [m]; R > 0.
+    h : array_like
+        Half the plate's thickness [m]; h > 0.
+    b : array_like
+        Plate radius [m]; b > 0, 1e-90 <= h/b <= 1e90.
+
     Returns
     -------
     float or ndarray
         d delta/da [1] in the arguments' broadcast shape; NaN outside the domain.
-
-{{ macros.promise(notes["indentation_slope"]) }}
     """
     kind, [a, R, h, b] = as_doubles(a, R, h, b)
     [a, R], [h] = inside([a, R], a >= 0, a < b, a < R, R > 0), inside([h], h > 0)
     plates, owner = _plates(h, b)
     shape = np.broadcast_shapes(a.shape, R.shape, owner.shape)
-    flat_a, flat_R, flat_h = (_flat(x, shape) for x in (a, R, h))
-    index = _index(owner, shape)
+    flat_a, flat_R, flat_h = (flat(x, shape) for x in (a, R, h))
+    index = index_of(owner, shape)
     result = np.empty(int(np.prod(shape)))
     for part in blocks_of(result.size):
-        A = flat_a[part] / _cut(flat_h, part)
-        value, slope = correction_with_slope(A, plates, _cut_index(index, part))
-        result[part] = flat_a[part] / _cut(flat_R, part) * (2.0 * (1.0 + value) + slope)
+        A = flat_a[part] / cut(flat_h, part)
+        value, slope = correction_with_slope(A, plates, cut_index(index, part))
+        result[part] = slope_of_indentation(flat_a[part], cut(flat_R, part), value, slope)
     return as_result(result.reshape(shape), kind)
 
 
+@in_manifest(
+    "",
+    equation="13",
+    domain="m > 0, v0 > 0, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2 * mu, "
+    "mu > 0, a < R, a <= b, a <= 6 * h for the largest a",
+)
 @quiet
 def impact_sensitivities(
     R: ArrayLike,
@@ -120,7 +118,7 @@ def impact_sensitivities(
     lam: ArrayLike,
     mu: ArrayLike,
 ) -> np.ndarray:
-    """What every parameter does to the results of `impact`: d log(result)/d log(parameter).
+    """Logarithmic derivatives of the results of `impact`: d log(result)/d log(parameter).
 
     A value of 0.4 says that 1 % more of the parameter gives 0.4 % more of the result. For lam,
     which may be negative or 0, it is lam/result d(result)/d(lam).
@@ -128,16 +126,19 @@ def impact_sensitivities(
     Parameters
     ----------
     R : array_like
-        sphere radius [m]; R > 0
+        Sphere radius [m]; R > 0.
     m : array_like
-        sphere mass [kg]; m > 0
+        Sphere mass [kg]; m > 0.
     v0 : array_like
-        speed of approach [m/s]; v0 > 0
-{{ plate_arguments() -}}
-{{ "" }}    lam : array_like
-        first Lame constant [Pa]; 3 lam > -2 mu
+        Speed of approach [m/s]; v0 > 0.
+    h : array_like
+        Half the plate's thickness [m]; h > 0.
+    b : array_like
+        Plate radius [m]; b > 0, 1e-90 <= h/b <= 1e90.
+    lam : array_like
+        First Lame constant [Pa]; 3 lam > -2 mu.
     mu : array_like
-        second Lame constant (shear modulus) [Pa]; mu > 0
+        Second Lame constant (shear modulus) [Pa]; mu > 0.
 
     Returns
     -------
@@ -145,8 +146,6 @@ def impact_sensitivities(
         Logarithmic derivatives [1], of shape (4, 7) + the arguments' broadcast shape: the
         first axis counts RESULTS (contact time, largest indentation, force, contact
         radius), the second PARAMETERS (R, m, v0, h, b, lam, mu). NaN where `impact` is.
-
-{{ macros.promise(notes["impact_sensitivities"]) }}
     """
     kind, [R, m, v0, h, b, lam, mu] = as_doubles(R, m, v0, h, b, lam, mu)
     found, radius, _, _, ok = _solve(R, m, v0, h, b, lam, mu)
@@ -162,20 +161,16 @@ def impact_sensitivities(
         )
     lost = np.isnan(np.ravel(radius))
     by_energy[:, lost], by_eta[:, lost] = np.nan, np.nan
-    powers = (
-        _LAWS[:, :, None] + by_energy[:, None] * _ENERGY[:, None] + by_eta[:, None] * _ETA[:, None]
-    )
-    powers = powers.reshape(*_LAWS.shape, *ok.shape)
+    parameters = POWERS[:, :, None], ENERGY[:, None], ETA[:, None]
+    powers = kernels.parameter_power(*parameters, by_energy[:, None], by_eta[:, None])
+    powers = powers.reshape(*POWERS.shape, *ok.shape)
+    modulus = np.where(ok, powers[:, -1:], np.nan)
     with np.errstate(divide="ignore", invalid="ignore"):
-        share = np.where(ok, lam / (lam + mu) * (mu / (lam + 2.0 * mu)), np.nan)
-    modulus = powers[:, -1:]
-    parts = (powers[:, :-1], modulus * share, modulus * (1.0 - share))
-    return as_result(np.concatenate(parts, axis=1), kind)
+        constants = kernels.constants_powers(modulus, lam, mu)
+    return as_result(np.concatenate((powers[:, :-1], *constants), axis=1), kind)
 
 
-def _scaled(
-    rows: Double, which: np.ndarray, near: Double, reach: Double
-) -> tuple[Double, Double]:
+def _scaled(rows: Double, which: np.ndarray, near: Double, reach: Double) -> tuple[Double, Double]:
     """Coefficients of the plates `which` as terms in powers of A/near, and their tails."""
     terms = rows[:, which] * near
     ratio = (near / reach[which]) ** 2
@@ -187,21 +182,21 @@ def _scaled(
 
 
 def _tails(terms: Double) -> Double:
-    order = 2.0 * np.arange(terms.shape[0])[:, None]
-    shares: Double = terms * ((order + 3.0) / (order + 6.0))
-    return np.cumsum(shares[::-1], axis=0)[::-1]
+    return np.cumsum(kernels.power_work(_orders(terms), terms)[::-1], axis=0)[::-1]
 
 
-def _changes(
-    found: _Scenes, part: slice, eta: Double, deeper: _Law
-) -> tuple[Double, Double]:
+def _orders(terms: Double) -> Double:
+    """With which powers of A the terms of F are in the indentation."""
+    return 2.0 * np.arange(terms.shape[0], dtype=np.float64)[:, None] + 3.0
+
+
+def _changes(found: Scenes, part: slice, eta: Double, deeper: _Law) -> tuple[Double, Double]:
     """Logarithmic slopes of A_m^(-1/2) I, A^2 (1 + F), A^3 and A by Y and by eta."""
     terms = found.terms[:, part]
-    wider = terms * (2.0 * np.arange(terms.shape[0])[:, None] + 1.0)
+    wider = kernels.power_slope(_orders(terms), terms)
     laws = _Law(terms, found.tails[:, part]), _Law(wider, _tails(wider)), deeper
-    order = 2.0 * np.arange(terms.shape[0])[:, None] + 3.0
     lift, energy = found.lift[part], found.energy[part]
-    rate = 2.0 + (order * terms).sum(axis=0)
+    rate = relative_rise(terms.sum(axis=0), wider.sum(axis=0))
     lift_slope, energy_slope = deeper.terms.sum(axis=0), deeper.tails[0].copy()
     slot = found.slot[part]
     far = np.flatnonzero(slot >= 0)
@@ -213,14 +208,11 @@ def _changes(
         ratio[far], gap[far] = ends
         rises[:, far], outer[:, far] = beyond.rises, beyond.integrals
         rate[far], lift_slope[far] = beyond.rate, beyond.lift_slope
-        energy_slope[far] = energy_slope[far] * ends[0] ** 5 + beyond.rises[2]
-    whole, by_radius, by_eta = _inner(laws, ratio, gap, rises) + outer
-    radius = np.stack((energy / rate, -energy_slope / rate))
-    time = (by_radius / whole - 0.5) * radius
-    time[1] += by_eta / whole
-    depth = np.stack((energy, lift_slope - energy_slope)) / lift
-    every = np.stack((time, depth, 3.0 * radius, radius), axis=1)
-    return every[0], every[1]
+        energy_slope[far] = kernels.whole_work(ends[0], energy_slope[far], beyond.rises[2])
+    by_energy, by_eta, *others = kernels.peak_growth(energy, rate, energy_slope, lift, lift_slope)
+    total, by_radius, by_thickness = _inner(laws, ratio, gap, rises) + outer
+    time = kernels.time_growth(total, by_radius, by_thickness, by_energy, by_eta)
+    return np.stack((time[0], *others[::2], by_energy)), np.stack((time[1], *others[1::2], by_eta))
 
 
 def _inner(laws: tuple[_Law, _Law, _Law], ratio: Double, gap: Double, rises: Double) -> Double:
@@ -228,27 +220,17 @@ def _inner(laws: tuple[_Law, _Law, _Law], ratio: Double, gap: Double, rises: Dou
 
     q = w (2 - w) up to w = 1 - sqrt(gap), where gap = 1 - ratio; rises are the works beyond.
     """
-    root = np.sqrt(gap)[:, None]
-    last = ratio[:, None] / (1.0 + root)
-    w, rest = last * _NODES, last * (1.0 - _NODES)
-    q, left = w * (2.0 - w), (root + rest) ** 2
-    near = ratio[:, None]
-    s = q / near
-    # (ratio - q)/ratio: 1 - s without cancellation.
-    short = rest * (2.0 * root + rest) / near
-    share = short * near**5 / left
+    q, s, left, share, last = kernels.near_nodes(NODES, ratio[:, None], np.sqrt(gap)[:, None])
     found = []
-    for law, rise, hertz in zip(laws, rises, (1.0, 0.0, 0.0), strict=True):
-        rate, stored = _near_sums(s, law)
-        if hertz:
-            rate += 2.0
-            stored += 0.4 * (1.0 + s * (1.0 + s * (1.0 + s * (1.0 + s))))
-        found.append(_Sums(q * rate, stored * share + rise[:, None] / left))
-    return _integrals(found, _WEIGHTS * last)
+    made = kernels.near_terms, kernels.near_slope_terms, kernels.near_slope_terms
+    for law, rise, terms in zip(laws, rises, made, strict=True):
+        sums = terms(q, s, left, share, *_near_sums(s, law), rise[:, None])
+        found.append(_Sums(*sums))
+    return _integrals(found, WEIGHTS * last)
 
 
-def _near_sums(s: Double, law: _Law) -> tuple[Double, Double]:
-    """V and the work from s on over (1 - s) A_near^5, without Hertz's share."""
+def _near_sums(s: Double, law: _Law) -> tuple[Double, Double, Double]:
+    """Sums of the terms times their powers, and of the tails from the second on; the first tail."""
     square, count = s * s, law.terms.shape[0]
     rate = (2 * count + 1) * law.terms[-1][:, None] + 0.0 * s
     rest = law.tails[-1][:, None] + 0.0 * s
@@ -258,18 +240,14 @@ def _near_sums(s: Double, law: _Law) -> tuple[Double, Double]:
         if k > 0:
             rest *= square
             rest += law.tails[k][:, None]
-    cube = square * s
-    six = (1.0 + s + square) * (1.0 + cube)
-    return s * rate, law.tails[0][:, None] * six + cube * cube * (1.0 + s) * rest
+    return rate, law.tails[0][:, None], rest
 
 
 def _integrals(sums: list[_Sums], weights: Double) -> Double:
     """int N/sqrt(S), and int (N' - N S'/(2 S))/sqrt(S) for both slopes."""
-    base, *slopes = sums
-    scaled = weights / np.sqrt(base.stored)
-    half = 0.5 * base.rate / base.stored
-    changes = [((slope.rate - half * slope.stored) * scaled).sum(axis=1) for slope in slopes]
-    return np.stack(((base.rate * scaled).sum(axis=1), *changes))
+    law, by_radius, by_thickness = sums
+    terms = kernels.time_terms(*law, *by_radius, *by_thickness, weights)
+    return np.stack([term.sum(axis=1) for term in terms])
 
 
 class _Beyond(NamedTuple):
@@ -291,28 +269,27 @@ def _beyond(A: Double, gap: Double, eta: Double) -> _Beyond:
     pieces = columns(far, position), columns(far_by_thickness(far, which), position)
     law, deeper = (_more_axes(piece) for piece in pieces)
     # The outer nodes: 1 - q = gap u^2; the inner ones run over [q, 1], and over [near, 1].
-    u = np.concatenate((_NODES, [1.0]))
-    span = (gap[:, None] * u**2)[:, :, None]
-    x = 1.0 - span * np.concatenate(([1.0], _INNER_NODES))
+    u = np.concatenate((NODES, [1.0]))
+    nodes = np.concatenate(([1.0], INNER_NODES))
+    x = kernels.far_nodes(gap[:, None, None], u[:, None], nodes)
     rates = _rates(A[:, None, None] * x, law, deeper)
-    fourth = x[:, :, 1:] ** 4 * _INNER_WEIGHTS
+    fourth = kernels.work_weight(x[:, :, 1:], INNER_WEIGHTS)
     means = [(rate[:, :, 1:] * fourth).sum(axis=2) for rate in rates]
     sums = [
         _Sums(x[:, :-1, 0] * rate[:, :-1, 0], mean[:, :-1])
         for rate, mean in zip(rates, means, strict=True)
     ]
-    integrals = _integrals(sums, _WEIGHTS * np.sqrt(gap)[:, None])
+    integrals = _integrals(sums, WEIGHTS * np.sqrt(gap)[:, None])
     rises = np.stack([gap * mean[:, -1] for mean in means])
     value, slope = with_slope(A, pieces[0])
     lift_slope, _ = with_slope(A, pieces[1])
-    return _Beyond(rises, integrals, 2.0 * (1.0 + value) + slope, lift_slope)
+    return _Beyond(rises, integrals, relative_rise(value, slope), lift_slope)
 
 
 def _rates(A: Double, law: Columns, deeper: Columns) -> tuple[Double, Double, Double]:
     """V and its slopes by log A and by log eta."""
     value, slope, curve = with_slopes(A, law)
-    lift, rise = with_slope(A, deeper)
-    return 2.0 * (1.0 + value) + slope, 2.0 * slope + curve, 2.0 * lift + rise
+    return kernels.rates(value, slope, curve, *with_slope(A, deeper))
 
 
 def _more_axes(piece: Columns) -> Columns:

@@ -7,8 +7,10 @@ turning point and no contact time of its own. One impact at a time.
 
 With s = delta_0/delta_max, the linear motion's largest indentation delta_max, and u = 0 where the
 radicand vanishes, s = last (1 - u^2)^3, the integrals of (16) are of smooth functions of u.
+
+Arithmetic: sums over modes; Newton's iteration; the change of variable and the quadrature on
+shrinking parts of it.
 """
-{{ header }}
 
 from dataclasses import dataclass
 
@@ -16,9 +18,18 @@ import numpy as np
 from numpy.polynomial.legendre import leggauss, legint, legval, legvander
 from numpy.typing import ArrayLike
 
-from .arrays import Double, as_doubles, as_result, inside, quiet
-from .bessel import bessel_j0_zeros, bessel_j1_at_j0_zeros
-from .influence import K_j
+from generated.arrays import Double, as_doubles, as_result, inside, quiet
+from generated.bessel import bessel_j0_zeros, bessel_j1_at_j0_zeros
+from generated.influence import K_j
+from generated.motion_kernels import (
+    coefficients,
+    cosine_at_end,
+    end_of_radicand,
+    excess_at_turn,
+    radius_cubed,
+    turning_point,
+)
+from generated.perturbation_kernels import integrands, linear, shares
 
 _NODES = 24  # of Gauss' rule on each part
 _PARTS = 27  # [1/2, 1], [1/4, 1/2], ..., [0, 2^-26] of u: for a radicand that vanishes late
@@ -52,20 +63,19 @@ class PrintedMotion:
     @quiet
     def contact_time(self) -> float:
         """Contact time 2 t_c of the linear term, (15) [s]."""
-        return float(np.pi * np.sqrt(np.float64(self.m) / self.xi_2))
+        return float(turning_point(np.float64(self.m), self.v0, self.xi_2)[0])
 
     @property
     @quiet
     def max_indentation(self) -> float:
         """Largest indentation of the linear term, (15) [m]."""
-        return float(self.v0 * np.sqrt(np.float64(self.m) / self.xi_2))
+        return float(turning_point(np.float64(self.m), self.v0, self.xi_2)[1])
 
     @property
     @quiet
     def excess(self) -> float:
         """Radicand of (17), (18) at the linear motion's turning point, over -v0^2 [1]."""
-        m, v0, xi_2, xi_3 = np.array((self.m, self.v0, self.xi_2, self.xi_3))
-        return float({{ excess }})
+        return float(excess_at_turn(*np.array((self.m, self.v0, self.xi_2, self.xi_3))))
 
     @property
     def last(self) -> float:
@@ -76,8 +86,8 @@ class PrintedMotion:
         excess = self.excess
         y = min(1.0, excess**-0.25) if excess > 0.0 else np.nan
         for _ in range(_STEPS):
-            cube = y * y * y
-            step = (cube + excess * y * cube - 1.0) / (3.0 * y * y + 4.0 * excess * cube)
+            value, slope = end_of_radicand(y, excess)
+            step = value / slope
             y -= step
             if not step > 1e-16 * y:
                 break
@@ -92,8 +102,7 @@ class PrintedMotion:
     def share(self) -> float:
         """That time over the one at which the linear motion turns, t_c [1]."""
         s = self.last
-        cosine = np.sqrt(self.excess) * s ** (4 / 3)  # by the radicand, also where s is almost 1
-        return float(np.arctan2(s, cosine)) / (np.pi / 2)
+        return float(np.arctan2(s, cosine_at_end(self.excess, s))) / (np.pi / 2)
 
     @quiet
     def linear(self, t: ArrayLike) -> np.ndarray:
@@ -114,8 +123,7 @@ class PrintedMotion:
             delta_0 [m] in the shape of t.
         """
         kind, [t] = as_doubles(t)
-        m, v0, xi_2 = self.m, self.v0, np.float64(self.xi_2)
-        return as_result({{ delta_0 }}, kind)
+        return as_result(linear(t, *np.array((self.m, self.v0, self.xi_2))), kind)
 
     @quiet
     def corrected(self, t: ArrayLike) -> np.ndarray:
@@ -149,7 +157,9 @@ class PrintedMotion:
         nodes, weights = leggauss(_NODES)
         ends = np.append(0.5 ** np.arange(_PARTS), 0.0)
         middle, half = (ends[:-1] + ends[1:]) / 2, (ends[:-1] - ends[1:]) / 2
-        F, G = self._integrands(middle[:, None] + half[:, None] * nodes)
+        F, G = integrands(
+            middle[:, None] + half[:, None] * nodes, *np.array((self.excess, self.last))
+        )
         series = legvander(nodes, _NODES - 1) * weights[:, None] * (np.arange(_NODES) + 0.5)
 
         def integral(values: Double) -> tuple[Double, Double]:
@@ -165,15 +175,6 @@ class PrintedMotion:
         growth = begun[own] + legval(place, parts[:, own], tensor=False)
         total = start[own] + legval(place, shares[:, own], tensor=False)
         return -total * np.exp(-growth)
-
-    def _integrands(self, u: Double) -> tuple[Double, Double]:
-        """-F dt/du of (17), and -G dt/du of (18) over the largest indentation."""
-        excess, last = self.excess, self.last
-        x = (1.0 - u) * (1.0 + u)
-        s = last * x**3
-        lead = {{ lead }}
-        square = {{ square }}
-        return {{ F_step }}, {{ G_step }}
 
 
 @np.errstate(all="ignore")  # what leaves the doubles ends in NaN
@@ -221,12 +222,10 @@ def printed_motion(
     phi = zeros / b
     K = K_j(phi, h, b, R, J1)
     elastic = mu > 0 and 3 * lam > -2 * mu
-    lam, mu = (np.float64(x if elastic else np.nan) for x in (lam, mu))
-    ratio = np.cbrt({{ cube }})  # a/P^(1/3), by (7)
-    gamma_2 = np.sum({{ gamma_2 }})
-    gamma_3 = np.sum({{ gamma_3 }})
-    xi_2 = {{ xi_2 }}
-    xi_3 = {{ xi_3 }} if corrected else {{ xi_3_printed }}
-    numbers = m, v0, xi_2, xi_3
-    known = all(0 < x < np.inf for x in (*numbers, v0 * np.sqrt(m / xi_2)))
-    return PrintedMotion(*(float(x if known else np.nan) for x in numbers))
+    cubed = radius_cubed(R, *map(np.float64, (lam, mu) if elastic else (np.nan, np.nan)))
+    xi_2, derived, printed = coefficients(*map(np.sum, shares(phi, K, np.cbrt(cubed))))
+    motion = PrintedMotion(m, v0, float(xi_2), float(derived if corrected else printed))
+    known = (m, v0, motion.xi_2, motion.xi_3, motion.max_indentation)
+    if all(0 < x < np.inf for x in known):
+        return motion
+    return PrintedMotion(np.nan, np.nan, np.nan, np.nan)

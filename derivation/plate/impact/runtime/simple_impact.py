@@ -6,35 +6,39 @@ With A = a/h, eta = h/b and S = (R/2a) d delta/da the contact law keeps, for eve
 
 so that `hertz` (S = 1) and `leading` (S = 1 + 3/2 c_1 A) know their own errors: proven ones,
 but for rounding, which is counted. One scene at a time, in microseconds, without NumPy.
-"""
-{{ header }}
 
-from math import exp, expm1, inf, log, log1p, pi, sqrt
+Arithmetic: margins for rounding; intervals of logarithms added up; Newton's iteration and
+where it starts; ratios and products that tell whether numbers are ordinary.
+"""
+
+from bisect import bisect_right
+from math import expm1, inf, log, log1p
 from typing import NamedTuple
 
-# fmt: off
-# j_n and 1/(j_n J1(j_n)^2).
-_MODES = (
-{% for line in modes %}
-    ({{ line }}),
-{% endfor %}
+from generated.simple_impact_kernels import (
+    beside_hertz,
+    elasticities,
+    hertz_bounds,
+    hertz_peaks,
+    leading_bounds,
+    leading_time,
+    peaks,
+    share_step,
+    sphere,
+    steepness,
+    thick_plate,
+    thin_plate,
 )
-# Gauss-Legendre nodes u on [0, 1] as q = 1 - u^2, 6 g_5, 5 g_6, with weights times 8 q.
-_RULE = (
-{% for line in rule %}
-    ({{ line }}),
-{% endfor %}
+from generated.simple_impact_numbers import (
+    FADED,
+    MODES,
+    QUADRATURE,
+    ROOTS_CUBIC,
+    ROOTS_LINEAR,
+    THIN,
 )
-# fmt: on
-THIN = {{ thin }}.0
-"""1/eta beyond which c_1 and K_3 are the thin plate's closed forms."""
-_FADED = {{ faded }}.0  # T = 2 eta j_n of the modes that are left out for thicker plates
-_FADED_LINEAR, _FADED_CUBIC = {{ faded_linear }}, {{ faded_cubic }}  # what their weights add up to at most
-# The side wall's share of c_1, of K_3, and of K_3 + 5/2 c_3.
-_WALL, _WALL_REST, _WALL_CUBIC = {{ wall }}, {{ wall_rest }}, {{ wall_cubic }}
-_THIN_LINEAR, _THIN_CUBIC = {{ thin_linear }}, {{ thin_cubic }}
-_ROOTS_LINEAR, _ROOTS_CUBIC = {{ roots_linear }}, {{ roots_cubic }}  # over e^(-pi/eta)
-_HERTZ_TIME = {{ hertz_time }}  # contact time by speed over largest indentation
+
+_ZEROS = tuple(zero for zero, _ in MODES)
 _ORDINARY = 1e-100, 1e100  # numbers whose products and roots are rounded as counted
 _PLATES = 1e-50, 1e50
 _MARGIN = log(1.02)  # bounds are taken on radii up to 1.02 times the largest found
@@ -43,8 +47,6 @@ _SLACK = 1.0 + 1e-9  # for the rounding of the bounds themselves
 _CLOSE = 4e-15  # residual of the largest radius' equation
 _STEPS = 40
 
-QUADRATURE = {{ quadrature }}
-"""Relative error of Gauss' rule for the contact time of `leading`: proven."""
 ROUNDING = 4e-14
 """Counted: below 200 roundings of 2^-53 in the worst of the results, half of this number.
 
@@ -78,7 +80,7 @@ class Estimate(NamedTuple):
 
 
 class _Scene(NamedTuple):
-    """Hertz's largest contact radius, 3/4 of the force's factor, and the scene."""
+    """Hertz's largest contact radius, E*, and the scene."""
 
     radius: float
     modulus: float
@@ -92,33 +94,12 @@ def plate_of(eta: float) -> Plate:
     """c_1 and K_3 of a plate h/b = eta, 1e-50 <= eta <= 1e50."""
     v = 1.0 / eta
     if v > THIN:
-        return _thin_plate(v)
-    linear = cubic = 0.0
-    for zero, weight in _MODES:
-        T = 2.0 * eta * zero
-        if T > _FADED:
-            break
-        fade = exp(-2.0 * T)  # (sinh T)^2 = (1 - fade)^2/(4 fade)
-        excess = 0.5 * (1.0 - fade) + T + T * T
-        w = weight * 4.0 * fade * excess / ((1.0 - fade) ** 2 - 4.0 * fade * T * T)
-        linear += w
-        cubic += w * zero * zero
-    modes = 8.0 / (3.0 * pi) * linear
-    rest = 2.0 / (3.0 * pi) * cubic * eta**3 + _WALL_REST * eta**3
-    return Plate(
-        eta * (modes - _WALL),
-        eta * (8.0 / (3.0 * pi) * _FADED_LINEAR + 1e-13 * (modes + _WALL)),
-        rest * _SLACK + eta * _FADED_CUBIC / (6.0 * pi),
-    )
-
-
-def _thin_plate(v: float) -> Plate:
-    """The same for 1/eta = v > THIN."""
-    roots, logarithm = exp(-pi * v), log(v)
-    bend = 0.25 / pi * v * v + _THIN_LINEAR + 0.8 / pi * logarithm
-    rest = _THIN_CUBIC + 0.25 / pi * logarithm + _WALL_CUBIC / (v * v * v)
-    doubt = _ROOTS_LINEAR * roots + 1e-14 * bend
-    return Plate(bend, doubt, rest * _SLACK + _ROOTS_CUBIC * roots)
+        bend, rest, roots = thin_plate(v)
+        doubt = ROOTS_LINEAR * roots + 1e-14 * bend
+        return Plate(bend, doubt, rest * _SLACK + ROOTS_CUBIC * roots)
+    counted = MODES[: bisect_right(_ZEROS, 0.5 * FADED * v)]  # T = 2 eta j_n <= FADED
+    bend, size, rest, more_bend, more_rest = thick_plate(eta, counted)
+    return Plate(bend, more_bend + 1e-13 * size, rest * _SLACK + more_rest)
 
 
 def hertz(
@@ -147,13 +128,11 @@ def hertz(
     if scene is None:
         return None
     plate, top = plate_of(h / b), 1.02 * scene.radius / h
-    lift, drop = 1.5 * top * (plate.bend + plate.doubt), 1.5 * top * (plate.bend - plate.doubt)
-    # 3/2 c_1 x - K_3 x^3 is concave: least at one of the ends.
-    low = max(0.0, plate.rest * top * top * top - drop)
-    law = law_error(low, max(0.0, lift), 0.0, 0.0)
-    depth = scene.radius * (scene.radius / R)
-    time = _HERTZ_TIME * depth / v0
-    return _estimate(scene, scene.radius, depth, time, law, 0.0)
+    # Of the lower bound's loss, which is convex, the largest is at one of the ends.
+    low, up = hertz_bounds(plate.bend, plate.doubt, plate.rest, top)
+    law = law_error(max(0.0, low), max(0.0, up), 0.0, 0.0)
+    found = hertz_peaks(scene.radius, R, v0, scene.modulus)
+    return _estimate(scene, scene.radius, found, law, 0.0)
 
 
 def leading(
@@ -167,23 +146,19 @@ def leading(
     if scene is None:
         return None
     plate, over_h = plate_of(h / b), scene.radius / h
-    share = _share(1.25 * plate.bend * over_h)
+    share = _share(beside_hertz(plate.bend, over_h))
     A = share * over_h
     top = 1.02 * A
-    steep = 1.5 * plate.bend * top
+    steep = steepness(plate.bend, top)
     if not steep > -_DEEP:
         return None
     # What S may be off by, over S_1: grows with A.
-    doubt = 1.5 * plate.doubt * top / (1.0 + steep)
-    low = plate.rest * top * top * (top / (1.0 + steep)) + doubt
-    fall, rise = max(0.0, -steep) / (1.0 + steep), max(0.0, steep) / (1.0 + steep)
-    law = law_error(low, doubt, fall, rise)
-    a, bent, x = share * scene.radius, plate.bend * A, 1.5 * plate.bend * A
-    time = a * (a / R) / v0 * sum(
-        weight * (1.0 + x * q) * sqrt((6.0 + 5.0 * x) / (fifth + x * sixth))
-        for q, fifth, sixth, weight in _RULE
-    )
-    return _estimate(scene, a, a * (a / R) * (1.0 + bent), time, law, QUADRATURE)
+    doubt, low, elasticity = leading_bounds(plate.doubt, plate.rest, steep, top)
+    law = law_error(low + doubt, doubt, max(0.0, -elasticity), max(0.0, elasticity))
+    a = share * scene.radius
+    depth, force = peaks(a, R, scene.modulus, plate.bend * A)
+    time = leading_time(a, R, v0, steepness(plate.bend, A))
+    return _estimate(scene, a, (time, depth, force), law, QUADRATURE)
 
 
 def law_error(low: float, up: float, fall: float, rise: float) -> float:
@@ -216,11 +191,11 @@ def law_errors(
         return inf, inf, inf, inf
     # Logarithms of the true values over those by S_1 lie within these.
     loss, gain = -log1p(-low), log1p(up)
-    elasticity, depth = 5.0 - fall, 2.0 + rise
+    elasticity, depth, shorter, longer = elasticities(fall, rise)
     wider, narrower = (loss + energy) / elasticity, gain / elasticity
     if not wider < _MARGIN:
         return inf, inf, inf, inf
-    shorter, longer = 0.5 + fall + 0.5 * rise, max(0.0, rise - 0.5 + 0.5 * fall)
+    longer = max(0.0, longer)
     time = max(
         gain + 0.5 * loss + 0.5 * energy + max(longer * wider, shorter * narrower),
         loss + 0.5 * gain + max(shorter * wider, longer * narrower),
@@ -238,10 +213,8 @@ def _relative(logarithm: float) -> float:
 def _scene(
     R: float, m: float, v0: float, h: float, b: float, lam: float, mu: float
 ) -> _Scene | None:
-    """Hertz's largest radius, (15 m v0^2 R^2/(16 E*))^(1/5); None for extreme numbers."""
-    modulus = 4.0 * mu * (lam + mu) / (lam + 2.0 * mu)
-    energy = m * v0 * v0
-    work = 0.9375 * energy / modulus * R * R
+    """Hertz's largest radius; None for extreme numbers."""
+    modulus, energy, work = sphere(R, m, v0, lam, mu)
     low, high = _ORDINARY
     numbers = (R, m, v0, h, b, modulus, energy, energy / modulus, work)
     if not all(low < x < high for x in numbers) or not _PLATES[0] < h / b < _PLATES[1]:
@@ -257,21 +230,19 @@ def _share(y: float) -> float:
     """
     s = min(1.0, y ** (-1.0 / 6.0)) if y > 0.0 else 1.0
     for _ in range(_STEPS):
-        fourth = s * s * s * s
-        residual = fourth * s * (1.0 + y * s) - 1.0
-        if abs(residual) <= _CLOSE:
+        excess, slope = share_step(s, y)
+        if abs(excess) <= _CLOSE:
             return s
-        s -= residual / (fourth * (5.0 + 6.0 * y * s))
+        s -= excess / slope
         if not (s > 0.0 and 3.0 * y * s > -2.0):
             break
     return float("nan")
 
 
 def _estimate(
-    scene: _Scene, a: float, depth: float, time: float, law: float, quadrature: float
+    scene: _Scene, a: float, found: tuple[float, float, float], law: float, quadrature: float
 ) -> Estimate | None:
     """The results, if the contact is shown to stay within the plate and the sphere."""
     if not (law < inf and 1.02 * a < min(scene.b, scene.R)):
         return None
-    force = scene.modulus / 0.75 * a * a * (a / scene.R)
-    return Estimate(time, depth, force, a, law, quadrature, ROUNDING)
+    return Estimate(*found, a, law, quadrature, ROUNDING)

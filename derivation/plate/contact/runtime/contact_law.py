@@ -1,4 +1,3 @@
-{% import "macros.j2" as macros with context %}
 """Contact law of a sphere pressed into a plate: indentation, contact radius, force, stiffness.
 
 Hertz pressure over the contact radius a, the plate's edge as in the paper, A = a/h::
@@ -6,14 +5,18 @@ Hertz pressure over the contact radius a, the plate's edge as in the paper, A = 
     delta = (a^2/R) (1 + F(A)),   P = 16 mu (lam + mu)/(3 (lam + 2 mu)) a^3/R
 
 F is a polynomial per plate, see `contact_series`. All arguments broadcast.
+
+Arithmetic: A = a/h; where the iteration for the contact radius starts, its ends, and its steps;
+Lame's constants over a power of two, so that their sums stay in range.
 """
-{{ header }}
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .arrays import Double, as_doubles, as_result, inside, quiet
-from .contact_series import (
+from generated import contact_kernels as kernels
+from generated.arrays import Double, as_doubles, as_result, in_manifest, inside, quiet
+from generated.contact_points import cut, cut_index, flat, index_of
+from generated.contact_series import (
     ROUNDED,
     THICKEST,
     THINNEST,
@@ -27,26 +30,17 @@ from .contact_series import (
     sphere_on_plate,
     value_of,
 )
-from .ranges import Factors, product, root
 
 _STEPS = 60  # of Newton's iteration at most; it takes four to six
 _CLOSE = 1e-9  # a relative residual whose square is far below rounding
 
-{% macro plate_arguments() %}
-    R : array_like
-        sphere radius [m]; R > 0
-    h : array_like
-        half the plate's thickness [m]; h > 0
-    b : array_like
-        plate radius [m]; b > 0, 1e-90 <= h/b <= 1e90
-{% endmacro %}
-{% macro elastic_arguments() %}
-    lam : array_like
-        first Lame constant [Pa]; 3 lam > -2 mu
-    mu : array_like
-        second Lame constant (shear modulus) [Pa]; mu > 0
-{% endmacro %}
 
+@in_manifest(
+    r"\delta",
+    equation="6",
+    domain="a >= 0, a < b, a < R, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, "
+    "a <= 6 * h or h/b >= 1e-5",
+)
 @quiet
 def indentation(a: ArrayLike, R: ArrayLike, h: ArrayLike, b: ArrayLike) -> np.ndarray:
     """Indentation of the loaded face for a given contact radius.
@@ -58,26 +52,29 @@ def indentation(a: ArrayLike, R: ArrayLike, h: ArrayLike, b: ArrayLike) -> np.nd
     Parameters
     ----------
     a : array_like
-        contact radius [m]; a >= 0, a < b, a < R; beyond 6 h only for h/b >= 1e-5, slowly
-{{ plate_arguments() -}}
-{{ "" }}
+        Contact radius [m]; a >= 0, a < b, a < R; beyond 6 h only for h/b >= 1e-5, slowly.
+    R : array_like
+        Sphere radius [m]; R > 0.
+    h : array_like
+        Half the plate's thickness [m]; h > 0.
+    b : array_like
+        Plate radius [m]; b > 0, 1e-90 <= h/b <= 1e90.
+
     Returns
     -------
     float or ndarray
         delta [m] in the arguments' broadcast shape; NaN outside the domain.
-
-{{ macros.promise(notes["indentation"]) }}
     """
     kind, [a, R, h, b] = as_doubles(a, R, h, b)
     [R], [h] = inside([R], R > 0), inside([h], h > 0)
     plates, owner = _plates(h, b)
     shape = np.broadcast_shapes(a.shape, R.shape, owner.shape)
-    flat_a, flat_R, flat_h, end = (_flat(x, shape) for x in (a, R, h, np.minimum(b, R)))
-    index = _index(owner, shape)
+    flat_a, flat_R, flat_h, end = (flat(x, shape) for x in (a, R, h, np.minimum(b, R)))
+    index = index_of(owner, shape)
     single = sphere_on_plate(plates, h, R)
     result = np.empty(int(np.prod(shape)))
     for part in blocks_of(result.size):
-        radius, limit = flat_a[part], _cut(end, part)
+        radius, limit = flat_a[part], cut(end, part)
         most = radius.max()
         if not (radius.min() >= 0 and most < np.min(limit)):
             [radius] = inside([radius], radius >= 0, radius < limit)
@@ -85,12 +82,17 @@ def indentation(a: ArrayLike, R: ArrayLike, h: ArrayLike, b: ArrayLike) -> np.nd
         if single is not None:
             indent(radius, most, single, result[part])
             continue
-        value = correction(radius / _cut(flat_h, part), plates, _cut_index(index, part))
-        value += 1.0
-        result[part] = product((value, radius, radius), (_cut(flat_R, part),))
+        value = correction(radius / cut(flat_h, part), plates, cut_index(index, part))
+        result[part] = kernels.indentation_of(radius, cut(flat_R, part), value)
     return as_result(result.reshape(shape), kind)
 
 
+@in_manifest(
+    "a",
+    equation="6",
+    domain="delta >= 0, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, a < R, a <= b, "
+    "a <= 6 * h for the a that results",
+)
 @quiet
 def contact_radius(delta: ArrayLike, R: ArrayLike, h: ArrayLike, b: ArrayLike) -> np.ndarray:
     """Contact radius for a given indentation.
@@ -101,20 +103,29 @@ def contact_radius(delta: ArrayLike, R: ArrayLike, h: ArrayLike, b: ArrayLike) -
     Parameters
     ----------
     delta : array_like
-        indentation [m]; from 0 to its value at a = min(b, 6 h)
-{{ plate_arguments() -}}
-{{ "" }}
+        Indentation [m]; from 0 to its value at a = min(b, 6 h).
+    R : array_like
+        Sphere radius [m]; R > 0.
+    h : array_like
+        Half the plate's thickness [m]; h > 0.
+    b : array_like
+        Plate radius [m]; b > 0, 1e-90 <= h/b <= 1e90.
+
     Returns
     -------
     float or ndarray
         a [m] in the arguments' broadcast shape; NaN outside the domain.
-
-{{ macros.promise(notes["contact_radius"]) }}
     """
     kind, doubles = as_doubles(delta, R, h, b)
     return as_result(_contact(*doubles)[0], kind)
 
 
+@in_manifest(
+    "P",
+    equation="10",
+    domain="delta >= 0, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2 * mu, "
+    "mu > 0, a < R, a <= b, a <= 6 * h for the a that results",
+)
 @quiet
 def force(
     delta: ArrayLike, R: ArrayLike, h: ArrayLike, b: ArrayLike, lam: ArrayLike, mu: ArrayLike
@@ -124,25 +135,31 @@ def force(
     Parameters
     ----------
     delta : array_like
-        indentation [m]; from 0 to its value at a = min(b, 6 h)
-{{ plate_arguments() -}}
-{{ elastic_arguments() -}}
-{{ "" }}
+        Indentation [m]; from 0 to its value at a = min(b, 6 h).
+    R : array_like
+        Sphere radius [m]; R > 0.
+    h : array_like
+        Half the plate's thickness [m]; h > 0.
+    b : array_like
+        Plate radius [m]; b > 0, 1e-90 <= h/b <= 1e90.
+    lam : array_like
+        First Lame constant [Pa]; 3 lam > -2 mu.
+    mu : array_like
+        Second Lame constant (shear modulus) [Pa]; mu > 0.
+
     Returns
     -------
     float or ndarray
         P [N] in the arguments' broadcast shape; NaN outside the domain.
-
-{{ macros.promise(notes["force"]) }}
     """
     kind, doubles = as_doubles(delta, R, h, b, lam, mu)
     delta, R, h, b, lam, mu = doubles
     [lam, mu] = inside([lam, mu], *_elastic(lam, mu))
     a, share = _contact(delta, R, h, b)
-    # a^2/R = share^2 delta: so the errors of Hertz's radius count once, not three times.
-    return as_result(product((*_modulus(lam, mu), share, share, delta, a)), kind)
+    return as_result(kernels.force_of_share(share, delta, a, *_modulus(lam, mu)), kind)
 
 
+@in_manifest("P", equation="7", domain="a >= 0, a < R, R > 0, 3 * lam > -2 * mu, mu > 0")
 @quiet
 def force_of_radius(a: ArrayLike, R: ArrayLike, lam: ArrayLike, mu: ArrayLike) -> np.ndarray:
     """Contact force for a given contact radius.
@@ -154,23 +171,29 @@ def force_of_radius(a: ArrayLike, R: ArrayLike, lam: ArrayLike, mu: ArrayLike) -
     Parameters
     ----------
     a : array_like
-        contact radius [m]; a >= 0, a < R
+        Contact radius [m]; a >= 0, a < R.
     R : array_like
-        sphere radius [m]; R > 0
-{{ elastic_arguments() -}}
-{{ "" }}
+        Sphere radius [m]; R > 0.
+    lam : array_like
+        First Lame constant [Pa]; 3 lam > -2 mu.
+    mu : array_like
+        Second Lame constant (shear modulus) [Pa]; mu > 0.
+
     Returns
     -------
     float or ndarray
         P [N] in the arguments' broadcast shape; NaN outside the domain.
-
-{{ macros.promise(notes["force_of_radius"]) }}
     """
     kind, [a, R, lam, mu] = as_doubles(a, R, lam, mu)
     [a, R, lam, mu] = inside([a, R, lam, mu], a >= 0, a < R, R > 0, *_elastic(lam, mu))
-    return as_result(product((*_modulus(lam, mu), a, a, a), (R,)), kind)
+    return as_result(kernels.hertz_force(a, R, *_modulus(lam, mu)), kind)
 
 
+@in_manifest(
+    "a",
+    equation="7",
+    domain="P >= 0, R > 0, 3 * lam > -2 * mu, mu > 0, a < R for the a that results",
+)
 @quiet
 def radius_of_force(P: ArrayLike, R: ArrayLike, lam: ArrayLike, mu: ArrayLike) -> np.ndarray:
     """Contact radius for a given contact force.
@@ -182,24 +205,31 @@ def radius_of_force(P: ArrayLike, R: ArrayLike, lam: ArrayLike, mu: ArrayLike) -
     Parameters
     ----------
     P : array_like
-        contact force [N]; P >= 0, such that a < R
+        Contact force [N]; P >= 0, such that a < R.
     R : array_like
-        sphere radius [m]; R > 0
-{{ elastic_arguments() -}}
-{{ "" }}
+        Sphere radius [m]; R > 0.
+    lam : array_like
+        First Lame constant [Pa]; 3 lam > -2 mu.
+    mu : array_like
+        Second Lame constant (shear modulus) [Pa]; mu > 0.
+
     Returns
     -------
     float or ndarray
         a [m] in the arguments' broadcast shape; NaN outside the domain.
-
-{{ macros.promise(notes["radius_of_force"]) }}
     """
     kind, [P, R, lam, mu] = as_doubles(P, R, lam, mu)
     [P, R, lam, mu] = inside([P, R, lam, mu], P >= 0, R > 0, *_elastic(lam, mu))
-    a = root(3, (P, R), _modulus(lam, mu))
+    a = kernels.hertz_radius(P, R, *_modulus(lam, mu))
     return as_result(inside([a], a < R)[0], kind)
 
 
+@in_manifest(
+    r"\mathrm{d}P/\mathrm{d}\delta",
+    equation="10",
+    domain="a >= 0, a < b, a < R, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, "
+    "3 * lam > -2 * mu, mu > 0, a <= 6 * h or h/b >= 1e-5",
+)
 @quiet
 def stiffness(
     a: ArrayLike, R: ArrayLike, h: ArrayLike, b: ArrayLike, lam: ArrayLike, mu: ArrayLike
@@ -213,32 +243,39 @@ def stiffness(
     Parameters
     ----------
     a : array_like
-        contact radius [m]; a >= 0, a < b, a < R; beyond 6 h only for h/b >= 1e-5, slowly
-{{ plate_arguments() -}}
-{{ elastic_arguments() -}}
-{{ "" }}
+        Contact radius [m]; a >= 0, a < b, a < R; beyond 6 h only for h/b >= 1e-5, slowly.
+    R : array_like
+        Sphere radius [m]; R > 0.
+    h : array_like
+        Half the plate's thickness [m]; h > 0.
+    b : array_like
+        Plate radius [m]; b > 0, 1e-90 <= h/b <= 1e90.
+    lam : array_like
+        First Lame constant [Pa]; 3 lam > -2 mu.
+    mu : array_like
+        Second Lame constant (shear modulus) [Pa]; mu > 0.
+
     Returns
     -------
     float or ndarray
         dP/d delta [N/m] in the arguments' broadcast shape; NaN outside the domain.
-
-{{ macros.promise(notes["stiffness"]) }}
     """
     kind, [a, R, h, b, lam, mu] = as_doubles(a, R, h, b, lam, mu)
     [a, lam, mu] = inside([a, lam, mu], a >= 0, a < b, a < R, R > 0, *_elastic(lam, mu))
     [h] = inside([h], h > 0)
     plates, owner = _plates(h, b)
     shape = np.broadcast_shapes(a.shape, owner.shape)
-    flat_a, flat_h, index = _flat(a, shape), _flat(h, shape), _index(owner, shape)
+    flat_a, flat_h, index = flat(a, shape), flat(h, shape), index_of(owner, shape)
     result = np.empty(int(np.prod(shape)))
     for part in blocks_of(result.size):
-        A = flat_a[part] / _cut(flat_h, part)
-        value, slope = correction_with_slope(A, plates, _cut_index(index, part))
-        result[part] = 2.0 * (1.0 + value) + slope
+        A = flat_a[part] / cut(flat_h, part)
+        value, slope = correction_with_slope(A, plates, cut_index(index, part))
+        result[part] = kernels.relative_rise(value, slope)
     whole = np.broadcast_to(result.reshape(shape), np.broadcast_shapes(shape, R.shape))
-    return as_result(product((3.0, *_modulus(lam, mu), a), (whole,)), kind)
+    return as_result(kernels.contact_stiffness(a, whole, *_modulus(lam, mu)), kind)
 
 
+@in_manifest("p_0", equation="7", domain="a >= 0, a < R, R > 0, 3 * lam > -2 * mu, mu > 0")
 @quiet
 def max_pressure(a: ArrayLike, R: ArrayLike, lam: ArrayLike, mu: ArrayLike) -> np.ndarray:
     """Largest contact pressure, at the centre, as a positive number.
@@ -250,21 +287,22 @@ def max_pressure(a: ArrayLike, R: ArrayLike, lam: ArrayLike, mu: ArrayLike) -> n
     Parameters
     ----------
     a : array_like
-        contact radius [m]; a >= 0, a < R
+        Contact radius [m]; a >= 0, a < R.
     R : array_like
-        sphere radius [m]; R > 0
-{{ elastic_arguments() -}}
-{{ "" }}
+        Sphere radius [m]; R > 0.
+    lam : array_like
+        First Lame constant [Pa]; 3 lam > -2 mu.
+    mu : array_like
+        Second Lame constant (shear modulus) [Pa]; mu > 0.
+
     Returns
     -------
     float or ndarray
         p_0 [Pa] in the arguments' broadcast shape; NaN outside the domain.
-
-{{ macros.promise(notes["max_pressure"]) }}
     """
     kind, [a, R, lam, mu] = as_doubles(a, R, lam, mu)
     [a, R, lam, mu] = inside([a, R, lam, mu], a >= 0, a < R, R > 0, *_elastic(lam, mu))
-    return as_result(product((1.5 / np.pi, *_modulus(lam, mu), a), (R,)), kind)
+    return as_result(kernels.largest_pressure(a, R, *_modulus(lam, mu)), kind)
 
 
 def _contact(delta: Double, R: Double, h: Double, b: Double) -> tuple[Double, Double]:
@@ -273,14 +311,14 @@ def _contact(delta: Double, R: Double, h: Double, b: Double) -> tuple[Double, Do
     [delta, R], [h] = inside([delta + 0.0, R], delta >= 0, R > 0), inside([h], h > 0)
     plates, owner = _plates(h, b)
     shape = np.broadcast_shapes(delta.shape, R.shape, owner.shape)
-    index = _index(owner, shape)
-    eps = np.ravel(np.broadcast_to(root(2, (delta, R), (h, h)), shape))
+    index = index_of(owner, shape)
+    eps = np.ravel(np.broadcast_to(kernels.depth_ratio(delta, R, h), shape))
     limits = _limits(eps, plates, index)
     found = np.empty(eps.size)
     for part in blocks_of(eps.size):
-        found[part] = _invert(eps[part], plates, limits, _cut_index(index, part))
+        found[part] = _invert(eps[part], plates, limits, cut_index(index, part))
     share: Double = found.reshape(shape)
-    a = share * root(2, (delta, R))
+    a = kernels.radius_of_share(share, delta, R)
     a = np.where(a <= ROUNDED * b, np.minimum(a, b), np.nan)
     return inside([a], a < R)[0], share
 
@@ -297,10 +335,7 @@ def _invert(
     share = np.minimum(np.minimum(1.0 / np.cbrt(eps * linear), 1.0), most)
     for _ in range(_STEPS):
         value, slope = correction_with_slope(share * eps, plates, index)
-        value += 1.0
-        residual = (1.0 / (share * share) - value) / value
-        exponent = value / (2.0 * value + slope)
-        step = exponent * residual * (1.0 + 0.5 * (exponent - 1.0) * residual)
+        residual, step = kernels.newton_step(share, value, slope)
         share = np.minimum(share * np.clip(1.0 + step, 0.3, 3.0), most)
         if not (np.abs(residual) > _CLOSE).any():
             break
@@ -310,13 +345,15 @@ def _invert(
 def _limits(eps: Double, plates: Plates, index: np.ndarray | None) -> tuple[Double, Double]:
     """A sqrt(1 + F) of each plate at A = reach, and at its far end if any point needs that."""
     every = np.arange(plates.eta.size)
-    near = plates.reach * np.sqrt(1.0 + value_of(plates.reach, columns(plates.first, every)))
+    near = kernels.depth_ratio_at(
+        plates.reach, value_of(plates.reach, columns(plates.first, every))
+    )
     owner = np.zeros(eps.size, dtype=np.intp) if index is None else index
     needed = np.unique(owner[eps > near[owner]])
     limit = near.copy()
     if needed.size:
         end = plates.far[needed]
-        limit[needed] = end * np.sqrt(1.0 + correction(end, plates, needed))
+        limit[needed] = kernels.depth_ratio_at(end, correction(end, plates, needed))
     return near, limit
 
 
@@ -329,36 +366,14 @@ def _plates(h: Double, b: Double) -> tuple[Plates, np.ndarray]:
     return plates_of(eta.ravel()), np.arange(eta.size).reshape(eta.shape)
 
 
-def _index(owner: np.ndarray, shape: tuple[int, ...]) -> np.ndarray | None:
-    """Each point's plate; None if there is but one."""
-    return None if owner.size == 1 else np.ravel(np.broadcast_to(owner, shape))
-
-
-def _cut_index(index: np.ndarray | None, part: slice) -> np.ndarray | None:
-    return None if index is None else index[part]
-
-
-def _flat(x: Double, shape: tuple[int, ...]) -> Double:
-    """x broadcast and raveled; a single value stays one, of shape (1,)."""
-    if x.size == 1 and np.prod(shape) != 1:
-        return np.broadcast_to(x.reshape(1), (int(np.prod(shape)),))
-    return np.ravel(np.broadcast_to(x, shape))
-
-
-def _cut(x: Double, part: slice) -> Double | float:
-    """A part of a raveled array; a single value repeated comes as a float."""
-    return float(x[0]) if x.size and x.strides[0] == 0 else x[part]
-
-
 def _elastic(lam: Double, mu: Double) -> tuple[np.ndarray, np.ndarray]:
     first, second = _moderate(lam, mu)
     return 3.0 * first > -2.0 * second, mu > 0
 
 
-def _modulus(lam: Double, mu: Double) -> Factors:
+def _modulus(lam: Double, mu: Double) -> tuple[Double, Double]:
     """(4/3) E*, as factors."""
-    first, second = _moderate(lam, mu)
-    return 16.0 / 3.0, mu, (first + second) / (first + 2.0 * second)
+    return mu, kernels.modulus_over_mu(*_moderate(lam, mu))
 
 
 def _moderate(lam: Double, mu: Double) -> tuple[Double, Double]:

@@ -1,4 +1,3 @@
-{% import "macros.j2" as macros with context %}
 """Correction F of the contact law delta = (a^2/R) (1 + F) as polynomials, one set per plate.
 
 With A = a/h, eta = h/b, alpha = a/b = A eta < 1 and g = 3 (sin y - y cos y)/y^3::
@@ -7,26 +6,39 @@ With A = a/h, eta = h/b, alpha = a/b = A eta < 1 and g = 3 (sin y - y cos y)/y^3
     w_n = (G(2 eta j_n) - 1)/(j_n J1(j_n)^2)
 
 F/A is analytic in A^2, its nearest singularities at A = 4i and alpha = 2. Up to
-reach = min({{ reach }}, 1/eta) it is a polynomial in (A/reach)^2, up to A = {{ far_reach }} another one; beyond
-that the sum itself. The coefficients come from tables: for eta >= 1/{{ reach }} an exact
-linear map of {{ modes }} weights w_n, below it the thin plate's closed form and a remainder.
-"""
-{{ header }}
+reach = min(REACH, 1/eta) it is a polynomial in (A/reach)^2, up to A = FAR_REACH another one;
+beyond that the sum itself. The coefficients come from tables: for eta >= 1/REACH an exact linear
+map of the first weights w_n, below it the thin plate's closed form and a remainder.
 
+Arithmetic: Horner's rule, in place, as blocks of points stay in the cache; one sphere on one plate
+is a polynomial of a, its coefficients made once. Scaling of polynomials' variables to their ranges,
+and how many modes the direct sum needs.
+"""
+
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .arrays import Double, as_doubles, as_result, inside, quiet
-from .bessel import bessel_j0_zeros, bessel_j1_at_j0_zeros
-from .blocks import hertz_shape
-from .influence import G_minus_1, G_slope
+from generated import contact_kernels as kernels
+from generated.arrays import Double, as_doubles, as_result, in_manifest, inside, quiet
+from generated.bessel import bessel_j0_zeros, bessel_j1_at_j0_zeros
+from generated.contact_numbers import (
+    CELLS,
+    EDGE,
+    FAR_CELLS,
+    FAR_REACH,
+    MODES,
+    REACH,
+    SHORT,
+    SHORTENED,
+    THIN,
+    THIN_FAR,
+    WIDE_END,
+    WIDE_START,
+)
 
-REACH = {{ reach }}.0
-"""The first polynomial ends at A = REACH or alpha = 1, whichever comes first."""
-FAR_REACH = {{ far_reach }}.0
-"""The second polynomial ends at A = FAR_REACH or alpha = 1."""
 THINNEST, THICKEST = 1e-90, 1e90
 """Plates are computed for eta = h/b between these."""
 THINNEST_SUM = 1e-5
@@ -35,68 +47,15 @@ THINNEST_SUM = 1e-5
 ROUNDED = 1.0 + 2.0**-50
 """An end of a range still counts after a few roundings."""
 
-_SHORT = 1.0 / {{ short }}.0  # the short polynomial serves A <= reach _SHORT
 _BLOCK = 32768  # points worked on at a time, so that intermediates stay in the cache
 _ORDINARY = 1e-100, 1e100  # lengths whose products neither overflow nor underflow
 _USUAL = 1e-20, 1e20  # h/b with which that holds for the coefficients too
 _MODE_BLOCK = 4096
-_QUARTER_INVERSE_PI = 0.25 / np.pi
-_LOG_LINEAR, _LOG_CUBIC = 0.8 / np.pi, -0.1 / np.pi  # of ln(1/eta) in c1 and c3
-_CONSTANT, _CUBIC = {{ thin_constant }}, {{ thin_cubic }}
-_WIDE_START, _WIDE_END = {{ wide_start }}.0, {{ wide_end }}.0  # up to this 1/eta the second begins there
-_FAR_MIDDLE, _FAR_HALF = 0.5 * (FAR_REACH**2 + REACH**2), 0.5 * (FAR_REACH**2 - REACH**2)
+_THINNER = CELLS[-1][1]  # from this 1/eta on the closed form is all there is
 
-{% macro rows(lines) %}
-{% for row in lines %}
-    (
-{% for line in row %}
-        {{ line }}
-{% endfor %}
-    ),
-{% endfor %}
-{% endmacro %}
-{% macro row(lines) %}
-{% for line in lines %}
-    {{ line }}
-{% endfor %}
-{% endmacro %}
-# fmt: off
-# Thin plate, Phi/A: in powers of (A/{{ reach }})^2, and of (A^2 - _FAR_MIDDLE)/_FAR_HALF.
-_THIN = np.array((
-{{ row(thin) -}}
-))
-_THIN_FAR = np.array((
-{{ row(far_thin) -}}
-))
-# Edge, W/alpha in powers of alpha^2; then (8/(3 pi)) g(alpha j_n) for n = 1 ... {{ modes }}.
-_EDGE = np.array((
-{{ row(edge) -}}
-))
-_MODES = np.array((
-{{ rows(mode_rows) -}}
-))
-# What the powers left out add to the {{ short_terms }} coefficients of the short polynomial.
-_SHORTENED = np.array((
-{{ rows(short_rows) -}}
-))
-# Remainder of the thin plate's F/A for first <= 1/eta <= last: per power of
-# (1/eta - middle)/half a row in powers of (A/{{ reach }})^2.
-{% macro cell_rows(cells) %}
-{% for cell in cells %}
-    ({{ cell.first }}.0, {{ cell.last }}.0, np.array((
-{{ rows(cell.rows) -}}
-    ))),
-{% endfor %}
-{% endmacro %}
-_CELLS = (
-{{ cell_rows(cells) -}}
-)
-# Beyond A = {{ reach }}: F/A itself, in powers of t instead.
-_FAR_CELLS = (
-{{ cell_rows(far_cells) -}}
-)
-_THINNER = _CELLS[-1][1]  # from this 1/eta on the closed form is all there is
-# fmt: on
+
+Cells = tuple[tuple[float, float, Double], ...]
+"""Polynomials in 1/eta: for each its first and last 1/eta, and its rows."""
 
 
 class Piece(NamedTuple):
@@ -108,11 +67,11 @@ class Piece(NamedTuple):
 
 
 class Columns(NamedTuple):
-    """A piece at given points: for each an own plate (arrays) or one for all (floats)."""
+    """A piece at given points: for each an own plate (arrays) or one for all (scalars)."""
 
     coefficients: list[Double] | list[float]
-    middle: Double | float
-    inverse_half: Double | float
+    middle: Double
+    inverse_half: Double
 
 
 class Plates(NamedTuple):
@@ -129,8 +88,8 @@ class Single(NamedTuple):
     """One sphere on one plate: delta = a^2 (1/R + a S(t)/(h R)), t = (a scale)^2."""
 
     plates: Plates
-    h: float
-    inverse_R: float
+    h: Double
+    inverse_R: Double
     scale: float
     brief: float  # a up to which the short polynomial serves
     end: float  # a up to which the first polynomial serves
@@ -138,6 +97,7 @@ class Single(NamedTuple):
     first: list[float]
 
 
+@in_manifest("S_k", domain="eta >= 1e-90, eta <= 1e90")
 @quiet
 def plate_coefficients(eta: ArrayLike) -> np.ndarray:
     """Coefficients of the contact law of a plate.
@@ -145,21 +105,20 @@ def plate_coefficients(eta: ArrayLike) -> np.ndarray:
     Formula::
 
         delta = (a^2/R) (1 + F),  F = A sum_k S_k (A/reach)^(2k)
-        A = a/h, reach = min({{ reach }}, 1/eta)
+        A = a/h, reach = min(REACH, 1/eta), REACH as in `contact_numbers`
 
     S_k reach^(-2k) is the paper's zeta-regularised c_(2k+1) up to economisation.
 
     Parameters
     ----------
     eta : array_like
-        half-thickness over plate radius, h/b [1]; 1e-90 <= eta <= 1e90
+        Half-thickness over plate radius, h/b [1]; 1e-90 <= eta <= 1e90.
 
     Returns
     -------
     ndarray
-        S_0, S_1, ... [1] along a last axis of {{ terms }}; NaN outside the domain.
-
-{{ macros.promise(notes["plate_coefficients"]) }}
+        S_0, S_1, ... [1] along a last axis, as many as `contact_numbers.THIN` has; NaN outside
+        the domain.
     """
     kind, [eta] = as_doubles(eta)
     [eta] = inside([eta], eta >= THINNEST, eta <= THICKEST)
@@ -172,10 +131,10 @@ def plates_of(eta: Double) -> Plates:
     inverse = 1.0 / eta
     reach, coefficients = np.minimum(REACH, inverse), _first(eta)
     whole = np.zeros_like(eta)
-    count = _SHORTENED.shape[0]
+    count = SHORTENED.shape[0]
     brief = coefficients[:count].copy()
-    for power in range(_SHORTENED.shape[1]):
-        brief += _SHORTENED[:, power, None] * coefficients[count + power]
+    for power in range(SHORTENED.shape[1]):
+        brief += SHORTENED[:, power, None] * coefficients[count + power]
     first = Piece(coefficients, whole, reach * reach)
     short = Piece(brief, whole, first.half)
     return Plates(eta, reach, np.minimum(FAR_REACH, inverse), short, first)
@@ -183,148 +142,81 @@ def plates_of(eta: Double) -> Plates:
 
 def _first(eta: Double) -> Double:
     """Coefficients of F/A in powers of (A/reach)^2, of shape (terms, plates)."""
-    found = np.full((_THIN.size, eta.size), np.nan)
-    thick = eta >= 1.0 / REACH
-    chosen = np.flatnonzero(thick)
-    if chosen.size:
-        found[:, chosen] = _thick(eta[chosen])
-    chosen = np.flatnonzero(eta < 1.0 / REACH)
-    if chosen.size:
-        found[:, chosen] = _thin(1.0 / eta[chosen])
+    found = np.full((THIN.size, eta.size), np.nan)
+    for some, coefficients in ((eta >= 1.0 / REACH, _thick), (eta < 1.0 / REACH, _thin)):
+        if some.any():
+            found[:, some] = coefficients(eta[some])
     return found
 
 
 def _thick(eta: Double) -> Double:
     """The edge's part plus the first modes', reach = 1/eta."""
-    zeros, weights = _weights(eta, _MODES.shape[0])
-    total = np.repeat(_EDGE[:, None], eta.size, axis=1)
+    zeros, weights = _weights(eta, MODES.shape[0])
+    total = np.repeat(EDGE[:, None], eta.size, axis=1)
     for index in reversed(range(zeros.size)):
-        total += _MODES[index][:, None] * weights[..., index]
-    total *= eta
-    return total
+        total += MODES[index][:, None] * weights[..., index]
+    return total * eta
 
 
-def _thin(v: Double) -> Double:
-    """The closed form of the thin plate, v = 1/eta, and its remainder where that counts."""
-    total = np.repeat(_THIN[:, None], v.size, axis=1)
-    _tabulated(v, _CELLS, total)
-    linear, cubic = _bending(v)
+def _thin(eta: Double) -> Double:
+    """The closed form of the thin plate, and its remainder where that counts."""
+    v = 1.0 / eta
+    total = np.repeat(THIN[:, None], v.size, axis=1)
+    _tabulated(v, CELLS, total)
+    linear, cubic = kernels.thin_near(v)
     total[0] += linear
-    total[1] += REACH**2 * cubic
+    total[1] += cubic
     return total
 
 
-def _tabulated(v: Double, cells: tuple[tuple[float, float, Double], ...], total: Double) -> None:
+def _tabulated(v: Double, cells: Cells, total: Double) -> None:
     """Add the polynomials in v of the cells to the coefficients, of shape (terms, plates)."""
+    for chosen, tau, _, rows in in_cells(v, cells):
+        value = rows[-1] + 0.0 * tau
+        for row in rows[-2::-1]:
+            value *= tau
+            value += row
+        total[:, chosen] += value
+
+
+def in_cells(v: Double, cells: Cells) -> Iterator[tuple[np.ndarray, Double, float, Double]]:
+    """Which v are in a cell, where in [-1, 1] of it, half its width, its rows for such points."""
     for first, last, rows in cells:
         chosen = np.flatnonzero((v > first) & (v <= last))
         if chosen.size:
-            tau = (v[chosen] - 0.5 * (first + last)) / (0.5 * (last - first))
-            value = np.repeat(rows[-1][:, None], chosen.size, axis=1)
-            for row in rows[-2::-1]:
-                value *= tau
-                value += row[:, None]
-            total[:, chosen] += value
+            half = 0.5 * (last - first)
+            yield chosen, (v[chosen] - 0.5 * (first + last)) / half, half, rows[:, :, None]
 
 
 def _bending(v: Double) -> tuple[Double, Double]:
     """c1 and c3 of the thin plate, v = 1/eta."""
-    log = np.log(v)
-    return v * v * _QUARTER_INVERSE_PI + (_CONSTANT + _LOG_LINEAR * log), _CUBIC + _LOG_CUBIC * log
+    return kernels.thin_coefficients(v)
 
 
 def far_piece(eta: Double) -> Piece:
     """The second polynomial, from A = reach to min(FAR_REACH, 1/eta), of plates eta < 1/REACH."""
     v = 1.0 / eta
     middle, half = _far_span(v)
-    coefficients = np.zeros((_THIN_FAR.size, eta.size))
-    _tabulated(v, _FAR_CELLS, coefficients)
+    coefficients = np.zeros((THIN_FAR.size, eta.size))
+    _tabulated(v, FAR_CELLS, coefficients)
     chosen = np.flatnonzero(v > _THINNER)
-    linear, cubic = _bending(v[chosen])
-    coefficients[:, chosen] = _THIN_FAR[:, None]
-    coefficients[0, chosen] += linear + _FAR_MIDDLE * cubic
-    coefficients[1, chosen] += _FAR_HALF * cubic
+    constant, linear = kernels.thin_far(v[chosen])
+    coefficients[:, chosen] = THIN_FAR[:, None]
+    coefficients[0, chosen] += constant
+    coefficients[1, chosen] += linear
     return Piece(coefficients, middle, half)
 
 
 def _far_span(v: Double) -> tuple[Double, Double]:
     """Middle and half of the second polynomial's range of A^2, never narrow."""
-    low, top = np.where(v <= _WIDE_END, _WIDE_START, REACH) ** 2, np.minimum(FAR_REACH, v) ** 2
+    low, top = np.where(v <= WIDE_END, WIDE_START, REACH) ** 2, np.minimum(FAR_REACH, v) ** 2
     return 0.5 * (top + low), 0.5 * (top - low)
-
-
-def first_by_thickness(first: Piece, eta: Double) -> Double:
-    """Coefficients of the slope of F by log(eta) at fixed A, in the powers of the first piece."""
-    found = np.full(first.coefficients.shape, np.nan)
-    chosen = np.flatnonzero(eta >= 1.0 / REACH)
-    if chosen.size:
-        zeros, slopes = _weight_slopes(eta[chosen], _MODES.shape[0])
-        total = np.zeros((_MODES.shape[1], chosen.size))
-        for index in reversed(range(zeros.size)):
-            total += _MODES[index][:, None] * slopes[..., index]
-        total *= eta[chosen]
-        # reach is 1/eta: at fixed weights F is a function of alpha = A eta.
-        powers = 2.0 * np.arange(total.shape[0]) + 1.0
-        found[:, chosen] = total + powers[:, None] * first.coefficients[:, chosen]
-    chosen = np.flatnonzero(eta < 1.0 / REACH)
-    if chosen.size:
-        v = 1.0 / eta[chosen]
-        total = np.zeros((_THIN.size, chosen.size))
-        _tabulated_slope(v, _CELLS, total)
-        total[0] += 2.0 * _QUARTER_INVERSE_PI * v * v + _LOG_LINEAR
-        total[1] += REACH**2 * _LOG_CUBIC
-        found[:, chosen] = -total
-    return found
-
-
-def far_by_thickness(far: Piece, eta: Double) -> Piece:
-    """The slope of F by log(eta) at fixed A as a piece with the second polynomial's range."""
-    v = 1.0 / eta
-    total = np.zeros_like(far.coefficients)
-    _tabulated_slope(v, _FAR_CELLS, total)
-    # Up to FAR_REACH the range grows with v: v dt/dv = -v^2 (1 + t)/half.
-    order = np.arange(total.shape[0])[:, None]
-    inner = order * far.coefficients
-    inner[:-1] += inner[1:]
-    total -= np.where(v <= FAR_REACH, v * v / far.half, 0.0) * inner
-    chosen = np.flatnonzero(v > _THINNER)
-    total[0, chosen] = 2.0 * _QUARTER_INVERSE_PI * v[chosen] ** 2 + _LOG_LINEAR
-    total[0, chosen] += _FAR_MIDDLE * _LOG_CUBIC
-    total[1, chosen] = _FAR_HALF * _LOG_CUBIC
-    return Piece(-total, far.middle, far.half)
-
-
-def _tabulated_slope(
-    v: Double, cells: tuple[tuple[float, float, Double], ...], total: Double
-) -> None:
-    """Add v times the slopes by v of the cells' polynomials."""
-    for first, last, rows in cells:
-        chosen = np.flatnonzero((v > first) & (v <= last))
-        if chosen.size:
-            half = 0.5 * (last - first)
-            tau = (v[chosen] - 0.5 * (first + last)) / half
-            value = np.repeat(rows[-1][:, None], chosen.size, axis=1)
-            slope = np.zeros_like(value)
-            for row in rows[-2::-1]:
-                slope *= tau
-                slope += value
-                value *= tau
-                value += row[:, None]
-            total[:, chosen] += slope * (v[chosen] / half)
-
-
-def _weight_slopes(eta: Double, count: int) -> tuple[Double, Double]:
-    """j_n and the slopes of w_n by log(eta), modes along a last axis."""
-    zeros = bessel_j0_zeros(count)
-    norm = zeros * bessel_j1_at_j0_zeros(count) ** 2
-    return zeros, np.asarray(G_slope(2.0 * eta[..., None] * zeros) / norm)
 
 
 def _weights(eta: Double, count: int) -> tuple[Double, Double]:
     """j_n and w_n, the latter with the modes along a last axis."""
     zeros, slopes = bessel_j0_zeros(count), bessel_j1_at_j0_zeros(count)
-    weights = G_minus_1(2.0 * np.asarray(eta)[..., None] * zeros) / (zeros * slopes**2)
-    return zeros, np.asarray(weights)
+    return zeros, kernels.mode_weight(np.asarray(eta)[..., None], zeros, slopes)
 
 
 def direct(A: Double, eta: float) -> tuple[Double, Double]:
@@ -338,32 +230,29 @@ def direct(A: Double, eta: float) -> tuple[Double, Double]:
         h/b [1].
     """
     alpha = A * eta
-    edge = Columns(_EDGE.tolist(), 0.0, 1.0)
-    value, slope = with_slope(alpha, edge)
+    value, slope = with_slope(alpha, Columns(EDGE.tolist(), np.zeros(()), np.ones(())))
     # T = 2 eta j_n beyond 24, where w_n is below 1e-19 of the first.
     zeros, weights = _weights(np.asarray(eta), int(3.9 / eta) + 2)
     points = max(1, 65536 // min(zeros.size, _MODE_BLOCK))
-    factor = 8.0 / np.pi
     for begin in range(0, A.size, points):
         part = slice(begin, begin + points)
         near = alpha[part, None]
         total, rise = np.zeros(near.shape[0]), np.zeros(near.shape[0])
         for start in reversed(range(0, zeros.size, _MODE_BLOCK)):
             modes = slice(start, start + _MODE_BLOCK)
-            y = near * zeros[modes]
-            g = hertz_shape(y) * (np.minimum(y, {{ held }}) / y) ** 2  # (sin y - y cos y)/y^3
-            total += (weights[modes] * g).sum(axis=1)
-            rise += (weights[modes] * (np.sinc(y / np.pi) - 2.0 * g)).sum(axis=1)
-        value[part] += factor * alpha[part] * total
-        slope[part] += factor * alpha[part] * rise
+            terms = kernels.mode_terms(near * zeros[modes], weights[modes])
+            total += terms[0].sum(axis=1)
+            rise += terms[1].sum(axis=1)
+        shares = kernels.of_modes(alpha[part], total, rise)
+        value[part] += shares[0]
+        slope[part] += shares[1]
     return value, slope
 
 
 def columns(piece: Piece, index: np.ndarray | None) -> Columns:
     """The piece at points of the plates `index`; None for the only plate there is."""
     if index is None:
-        inverse = 1.0 / float(piece.half[0])
-        return Columns(piece.coefficients[:, 0].tolist(), float(piece.middle[0]), inverse)
+        return Columns(piece.coefficients[:, 0].tolist(), piece.middle[0], 1.0 / piece.half[0])
     gathered = [row.take(index) for row in piece.coefficients]
     return Columns(gathered, piece.middle.take(index), 1.0 / piece.half.take(index))
 
@@ -384,17 +273,19 @@ def value_of(A: Double, piece: Columns) -> Double:
 def with_slope(A: Double, piece: Columns) -> tuple[Double, Double]:
     """F and A F'(A)."""
     square = A * A
-    t = (square - piece.middle) * piece.inverse_half
-    value: Double = piece.coefficients[-1] + 0.0 * t
-    slope = np.zeros_like(t)
-    for coefficient in piece.coefficients[-2::-1]:
+    value, slope = horner(piece.coefficients, (square - piece.middle) * piece.inverse_half)
+    return kernels.with_slope_of(A, square, piece.inverse_half, value, slope)
+
+
+def horner(coefficients: list[Double] | list[float] | Double, t: Double) -> tuple[Double, Double]:
+    """A polynomial and its slope."""
+    value: Double = coefficients[-1] + 0.0 * t
+    slope = np.zeros_like(value)
+    for coefficient in coefficients[-2::-1]:
         slope *= t
         slope += value
         value *= t
         value += coefficient
-    slope *= 2.0 * A * (square * piece.inverse_half)
-    value *= A
-    slope += value
     return value, slope
 
 
@@ -411,21 +302,21 @@ def with_slopes(A: Double, piece: Columns) -> tuple[Double, Double, Double]:
         slope += value
         value *= t
         value += coefficient
-    step = 2.0 * square * piece.inverse_half
-    value, slope, curve = A * value, A * step * slope, 2.0 * A * step * step * curve
-    return value, value + slope, value + 4.0 * slope + curve
+    return kernels.with_slopes_of(A, square, piece.inverse_half, value, slope, curve)
 
 
 def sphere_on_plate(plates: Plates, h: Double, R: Double) -> Single | None:
     """The law of one sphere and one plate of ordinary lengths; None for any others."""
-    low, high = _ORDINARY
-    if plates.eta.size != 1 or R.size != 1 or not (low < R.item() < high and low < h.flat[0] < high):
+    if plates.eta.size != 1 or R.size != 1 or not _USUAL[0] < plates.eta[0] < _USUAL[1]:
         return None
-    if not _USUAL[0] < plates.eta[0] < _USUAL[1]:
+    if not all(_ORDINARY[0] < length < _ORDINARY[1] for length in (R.item(), h.flat[0])):
         return None
-    height, over, reach = float(h.flat[0]), 1.0 / R.item(), float(plates.reach[0])
-    short, first = ((p.coefficients[:, 0] * over / height).tolist() for p in plates[3:])
-    brief, end = reach * _SHORT * height, reach * ROUNDED * height
+    height, reach = h.ravel()[0], plates.reach[0]
+    both = np.concatenate((plates.short.coefficients, plates.first.coefficients))[:, 0]
+    over, scaled = kernels.depth_coefficients(both, R.ravel()[0], height)
+    count = plates.short.coefficients.shape[0]
+    short, first = scaled[:count].tolist(), scaled[count:].tolist()
+    brief, end = reach * SHORT * height, reach * ROUNDED * height
     return Single(plates, height, over, 1.0 / (height * reach), brief, end, short, first)
 
 
@@ -450,8 +341,8 @@ def indent(a: Double, most: float, law: Single, out: Double) -> None:
             part = np.empty(inner.size)
             indent(inner, inner.max(), law, part)
             out[near] = part
-        value = 1.0 + correction(beyond / law.h, law.plates, None)
-        out[~near] = value * beyond * (beyond * law.inverse_R)
+        value = correction(beyond / law.h, law.plates, None)
+        out[~near] = kernels.indentation_in_range(beyond, law.inverse_R, value)
 
 
 def _indent(a: Double, law: Single, coefficients: list[float], out: Double) -> None:
@@ -471,9 +362,8 @@ def _indent(a: Double, law: Single, coefficients: list[float], out: Double) -> N
 
 def correction(A: Double, plates: Plates, index: np.ndarray | None) -> Double:
     """F at points A >= 0 of shape (points,), alpha < 1, a block of them; NaN stays NaN."""
-    pick = slice(None) if index is None else index
-    reach = plates.reach[pick]
-    brief = reach * _SHORT >= A
+    reach = plates.reach[slice(None) if index is None else index]
+    brief = reach * SHORT >= A
     if brief.all():
         return value_of(A, columns(plates.short, index))
     found = value_of(A, columns(plates.first, index))

@@ -14,6 +14,7 @@ from mutants import of_expression
 
 from derivation.engine.emit.package import Routines, written
 from derivation.engine.emit.routine import (
+    QUIET_SCALARS,
     SCALARS,
     Choice,
     Let,
@@ -164,3 +165,15 @@ def test_single_numbers_are_printed_without_numpy() -> None:
     exec(text(made, SCALARS), room)
     assert room["growth"](4.0) == pytest.approx(16 * 5**0.5 * math.exp(-4))  # type: ignore[operator]
     assert math.isnan(room["growth"](1e200))  # type: ignore[operator]
+
+
+def test_single_numbers_outside_the_domain_are_nan_if_wanted() -> None:
+    made = growth(statements=(), results=(sp.sqrt(x + 1),), claims=(sp.sqrt(1 + x),))
+    loud, quiet = ({"sqrt": math.sqrt}, {"np": np})
+    exec(text(made, SCALARS), loud)
+    exec(text(made, QUIET_SCALARS), quiet)
+    assert quiet["growth"](3.0) == loud["growth"](3.0) == 2.0  # type: ignore[operator]
+    with pytest.raises(ValueError, match=r"domain|nonnegative"):
+        loud["growth"](-2.0)  # type: ignore[operator]
+    with np.errstate(invalid="ignore"):
+        assert np.isnan(quiet["growth"](-2.0))  # type: ignore[operator]

@@ -24,6 +24,7 @@ from derivation.engine.emit.kernels import (
 from derivation.engine.emit.printer import to_numpy
 from derivation.engine.emit.routine import ARRAYS, QUIET_SCALARS, Dialect, Routine
 from derivation.engine.emit.routine import text as routine_text
+from derivation.engine.emit.share import expect_reason
 from derivation.engine.emit.source import TEMPLATES, filled, format_files
 from derivation.engine.formula.record import Record
 from derivation.engine.rewrite.automatic import automatic
@@ -201,6 +202,7 @@ def shared(known: Mapping[str, Block]) -> tuple[Planned, ...]:
     """The modules that every package begins with."""
     return (
         Copy("arrays", RUNTIME / "arrays.py"),
+        Copy("polynomials", RUNTIME / "polynomials.py"),
         Copy("ranges", RUNTIME / "ranges.py"),
         Module("blocks", "blocks", {"functions": [block_text(b) for b in known.values()]}),
     )
@@ -231,6 +233,7 @@ def written(planned: Sequence[Planned]) -> dict[str, str]:
 
 
 def _copied(part: Copy) -> str:
+    expect_reason(part.name, part.file.read_text())
     told = sorted(part.budgets.items()), *sorted(part.notes.items())
     source = f"{part.file.read_text()}{''.join(map(str, told))}"
     return copies.copied(part.file, part.package, header(source), part.budgets, part.notes)

@@ -17,6 +17,8 @@ from derivation.engine.formula.proof import Proof, prove
 
 GUARDED = sp.Function("np.minimum")
 """A value held below a bound that it does not exceed where the branch counts."""
+RAISED = sp.Function("np.maximum")
+"""A value held above a bound that it is not below where the branch counts."""
 Facts = Mapping[sp.Basic, sp.Expr]
 """What symbols stand for, or are equal to on one side of a choice."""
 
@@ -33,6 +35,8 @@ class Let:
         The claim holds whatever this is, such as a common scale.
     means
         What it is exactly: a lemma, proved on its own and then used.
+    within
+        It has no line but is written where it is used, once, so that NumPy works in place.
     """
 
     symbol: sp.Symbol
@@ -40,6 +44,7 @@ class Let:
     comment: str = ""
     opaque: bool = False
     means: sp.Expr | None = None
+    within: bool = False
 
 
 @dataclass(frozen=True)
@@ -297,7 +302,8 @@ def _undone(
         if isinstance(s, Choice) and s.condition in taken:
             facts |= s.if_yes if taken[s.condition] else s.if_no
     label = ", ".join(f"{c if side else sp.Not(c)}" for c, side in taken.items())
-    yield label, value.replace(GUARDED, lambda v, _: v), facts
+    free = value.replace(GUARDED, lambda v, _: v).replace(RAISED, lambda v, _: v)
+    yield label, free, facts
 
 
 @dataclass(frozen=True)
@@ -330,9 +336,17 @@ def text(r: Routine, dialect: Dialect = ARRAYS) -> str:
     returns = dialect.number if len(r.results) == 1 else several
     lines = [f"def {r.name}({of}) -> {returns}:", f'    """{r.summary}"""']
     masks: dict[sp.Basic, str] = {}
+    written: dict[sp.Symbol, sp.Symbol] = {}
+
+    def write(expression: sp.Basic) -> str:
+        return dialect.write(expression.xreplace(written))
+
     for s in r.statements:
-        lines += (f"    {line}" for line in _lines(s, masks, dialect.write))
-    values = [dialect.write(v) for v in r.results]
+        if isinstance(s, Let) and s.within:
+            written[s.symbol] = sp.Symbol(f"({write(s.expression)})")
+        else:
+            lines += (f"    {line}" for line in _lines(s, masks, write))
+    values = [write(v) for v in r.results]
     if len(values) == 1 and dialect is ARRAYS:
         lines += [f"    value: Double = {values[0]}", "    return value"]
     else:

@@ -1,4 +1,8 @@
-"""Products and roots whose shares may leave the range of doubles though the whole does not."""
+"""Products and roots whose shares may leave the range of doubles though the whole does not.
+
+Arithmetic: products, quotients and roots of fractions, their exponents of 2 apart; sums that keep
+what rounding drops.
+"""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -68,6 +72,12 @@ def sum_closely(*parts: Double | float) -> Double:
         rest = rest + ((before - (total - share)) + (part - share))  # by Knuth, exactly
     result: Double = total + rest
     return result
+
+
+def moderate(first: Double, second: Double) -> tuple[Double, Double]:
+    """Both over the power of two above the larger, so that their sums stay in range."""
+    _, power = np.frexp(np.maximum(np.abs(first), np.abs(second)))
+    return np.ldexp(first, -power), np.ldexp(second, -power)
 
 
 def tail(v: Double) -> Double:

@@ -11,6 +11,7 @@ from derivation.plate.benchmark.interface import Call, Doubles, Method, Regime
 from derivation.plate.benchmark.laws import SeriesLaw
 from derivation.plate.benchmark.shipped import hertz_time, plate
 from generated import contact_law, contact_series
+from generated.contact_numbers import REACH
 from generated.impact import _parts, _solve, impact
 from generated.impact_shapes import time_rate
 from generated.perturbation import PrintedMotion, printed_motion
@@ -104,7 +105,7 @@ def scalar_force(regime: Regime) -> Callable[[float], float]:
     """
     plates = contact_series.plates_of(np.array([regime.eta]))
     pieces = [(plates.first, float(plates.reach[0]))]
-    if regime.eta < 1 / contact_series.REACH:
+    if regime.eta < 1 / REACH:
         pieces.append((contact_series.far_piece(plates.eta), float(plates.far[0])))
     rows = [
         (p.coefficients[::-1, 0].tolist(), float(p.middle[0]), 1 / float(p.half[0]), end)

@@ -25,7 +25,7 @@ from derivation.plate.derived import formulas
 from derivation.plate.edge.kernels import tables as edge_tables
 from derivation.plate.edge.theory.sums import slope_kernel
 from derivation.plate.edge_modes.kernels.numbers import series_terms as edge_mode_terms
-from derivation.plate.effects import kernels as effect_tables
+from derivation.plate.effects.kernels import numbers as effect_tables
 from derivation.plate.forms import SCALES
 from derivation.plate.impact.kernels import simple as simple_impact_tables
 from derivation.plate.paper import PAPER

@@ -45,7 +45,7 @@ def test_printed_forms_stand_beside(suite: Suite, truth: dict[str, Known]) -> No
 @pytest.mark.parametrize(
     ("module", "name", "kernels"),
     [
-        ("contact_series", "_CONSTANT", {"indentation", "stiffness", "contact_radius", "impact"}),
+        ("contact_kernels", "LINEAR", {"indentation", "stiffness", "contact_radius", "impact"}),
         ("contact_series", "REACH", {"indentation"}),
         ("bessel", "_INVERSE_ROOT_PI", {"bessel_j0"}),
         ("impact", "WEIGHTS", {"impact"}),

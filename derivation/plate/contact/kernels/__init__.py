@@ -1,1 +1,42 @@
-"""Which expressions become code, and the numbers that this code needs: the static contact."""
+"""What the contact law hands in for the generated package."""
+
+from pathlib import Path
+
+from derivation.engine.emit.package import Routines
+from derivation.plate.contact.kernels import law, moments, sensitivities, series
+from derivation.plate.contact.kernels.numbers import numbers
+from derivation.plate.modules import ComputedModule, RuntimeModule
+
+RUNTIME = Path(__file__).parents[1] / "runtime"
+
+
+def contact_kernels() -> Routines:
+    """Correction, indentation and force, printed from proven expressions."""
+    imports = {
+        "blocks": ("hertz_shape",),
+        "contact_numbers": ("CUBIC", "FAR_HALF", "FAR_MIDDLE", "LINEAR", "REACH"),
+        "influence": ("G_minus_1", "G_slope"),
+        "ranges": ("root", "times"),
+    }
+    made = (make() for part in (series, law) for make in part.ROUTINES)
+    title = "Contact law of a sphere on a plate: correction, indentation, force and their slopes."
+    return Routines("contact_kernels", title, tuple(made), imports)
+
+
+def sensitivity_kernels() -> Routines:
+    """What every parameter does to an impact, likewise."""
+    made = tuple(make() for make in sensitivities.ROUTINES)
+    return Routines("sensitivity_kernels", "Slopes of an impact by its parameters.", made, {})
+
+
+MODULES = (
+    *moments.MODULES,
+    ComputedModule("contact_numbers", numbers),
+    ComputedModule("contact_kernels", contact_kernels),
+    ComputedModule("sensitivity_kernels", sensitivity_kernels),
+    RuntimeModule("contact_series", RUNTIME / "contact_series.py"),
+    RuntimeModule("contact_points", RUNTIME / "contact_points.py"),
+    RuntimeModule("contact_law", RUNTIME / "contact_law.py"),
+    RuntimeModule("contact_thickness", RUNTIME / "contact_thickness.py"),
+    RuntimeModule("sensitivity", RUNTIME / "sensitivity.py"),
+)

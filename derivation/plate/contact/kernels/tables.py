@@ -19,19 +19,19 @@ Every table is the interpolation polynomial of an exact function at Chebyshev no
 rewritten in powers and rounded once, at the end.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from functools import cache
 from math import ceil
 
 import flint
-import sympy as sp
 from flint import arb as Ball
 
-from derivation.mathematics.bessel.kernels import bessel_zero, nearest_double, wrapped
-from derivation.plate.blocks import blocks
+from derivation.engine.formula.ball import enclose
+from derivation.mathematics.bessel.kernels import bessel_zero, nearest_double
 from derivation.plate.contact.kernels.moments import BITS, excess_nodes, finite_parts, kappas, sharp
+from derivation.plate.contact.kernels.series import constant
 from derivation.plate.contact.theory.thin_plate import plate_excess
-from derivation.plate.impact.theory.sensitivity import RESULTS, exponents
+from derivation.plate.vocabulary import M
 
 REACH = 3
 """The first polynomial ends at A = REACH or alpha = 1, whichever comes first."""
@@ -99,15 +99,20 @@ def thin_part(A: Ball) -> Ball:
     return sharp(2 * total / (3 * Ball.pi()))
 
 
+@cache
 def thin_constants() -> tuple[Ball, Ball]:
     """K1 and K3: c1 = v^2/(4 pi) + K1 + 4 ln(v)/(5 pi), c3 = K3 - ln(v)/(10 pi), v = 1/eta."""
     with flint.ctx.workprec(BITS):
-        second, third = finite_parts()[:2]
-        shift, pi = Ball.const_euler() - Ball(4).log(), Ball.pi()
-        return (
-            2 * (second + Ball(6) / 5 * shift) / (3 * pi),
-            -(third + 6 * shift) / (60 * pi),
-        )
+        known = dict(zip((M[2], M[3]), finite_parts(), strict=False))
+        linear, cubic = (enclose(constant(k), known) for k in (2, 3))
+        return sharp(linear), sharp(cubic)
+
+
+def thin_numbers() -> tuple[float, float]:
+    """Both, rounded."""
+    with flint.ctx.workprec(BITS):
+        linear, cubic = _round(thin_constants())
+        return linear, cubic
 
 
 @cache
@@ -293,64 +298,8 @@ def _in_thickness(rows: Sequence[Sequence[Ball]]) -> Rows:
     return tuple(_round(row) for row in zip(*powers, strict=True))
 
 
-def _text(rows: Rows) -> tuple[tuple[str, ...], ...]:
-    return tuple(wrapped(map(repr, row)) for row in rows)
-
-
-def _cell_text(
-    found: Mapping[str, Rows], name: str, cells: Sequence[tuple[int, int, int]]
-) -> list[dict[str, object]]:
-    return [
-        {"first": str(first), "last": str(last), "rows": _text(found[f"{name}_{index}"])}
-        for index, (first, last, _) in enumerate(cells)
-    ]
-
-
-def contact_context() -> dict[str, object]:
-    """Everything the templates of the generated contact law need, numbers already as text."""
-    found = tables()
-    with flint.ctx.workprec(BITS):
-        constant, cubic = (nearest_double(x) for x in thin_constants())
-    return {
-        "thin": _text(found["thin"])[0],
-        "far_thin": _text(found["far_thin"])[0],
-        "edge": _text(found["edge"])[0],
-        "mode_rows": _text(found["modes"]),
-        "short_rows": _text(found["short"]),
-        "cells": _cell_text(found, "cell", CELLS),
-        "far_cells": _cell_text(found, "far", FAR_CELLS),
-        "thin_constant": repr(constant),
-        "thin_cubic": repr(cubic),
-        "reach": str(REACH),
-        "wide_start": str(WIDE_START),
-        "wide_end": str(FAR_CELLS[0][1]),
-        "far_reach": str(FAR_REACH),
-        "terms": str(TERMS),
-        "short": str(SHORT),
-        "short_terms": str(SHORT_TERMS),
-        "far_terms": str(FAR_TERMS),
-        "modes": str(MODES),
-        "held": str(blocks()["hertz_shape"].near(sp.oo)),
-    }
-
-
 def gauss_legendre(count: int) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """Gauss-Legendre nodes and weights on [0, 1], correctly rounded."""
     with flint.ctx.workprec(BITS):
         pairs = [Ball.legendre_p_root(count, i, weight=True) for i in reversed(range(count))]
         return _round([(1 + x) / 2 for x, _ in pairs]), _round([w / 2 for _, w in pairs])
-
-
-def sensitivity_context() -> dict[str, object]:
-    """What the template of the generated sensitivities needs: every result's powers, as text."""
-    table = exponents()
-
-    def row(name: str) -> str:
-        return "(" + ", ".join(repr(float(x)) for x in table[name]) + ")"
-
-    return {
-        "results": tuple(RESULTS),
-        "laws": tuple(row(name) for name in RESULTS),
-        "energy": row("energy"),
-        "eta": row("eta"),
-    }

@@ -243,8 +243,7 @@ def _solve(
     plates, numbers = _plates(h, b)
     given = np.broadcast_arrays(R, m, v0, h, b, lam, mu)
     [R, m, v0, h, b, lam, mu] = inside([*given], ok)
-    factor, _, ratio = _modulus(lam, mu)
-    modulus: Double = np.multiply(factor, ratio)  # over mu
+    _, modulus = _modulus(lam, mu)  # over mu
     hertz, *factors = kernels.hertz_impact(R, m, v0, mu, modulus)
     over_h = np.minimum(np.ravel(hertz / h), 1e200)  # no contact is that wide
     owner = np.ravel(np.broadcast_to(numbers, ok.shape))

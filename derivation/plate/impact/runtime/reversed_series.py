@@ -76,8 +76,7 @@ def force_by_series(
     for power in reversed(range(terms)):
         coefficient = np.array([row[1][power] for row in rows] or [np.nan])[owner]
         value = value * eps + coefficient
-    factor, _, ratio = _modulus(lam, mu)
-    modulus: Double = np.multiply(factor, ratio)  # over mu
+    _, modulus = _modulus(lam, mu)  # over mu
     return as_result(kernels.force_of_bracket(delta, R, mu, modulus, value), kind)
 
 

@@ -1,0 +1,339 @@
+"""Contact law and its force as code computes them, proved to be those of the theory.
+
+With F the correction of the contact law and A = a/h::
+
+    delta = (a^2/R) (1 + F(A)),   P = C a^3/R
+
+The code knows F and A F'(A) as `F` and `slope`, and C over mu as `modulus`.
+"""
+
+import sympy as sp
+
+from derivation.engine.emit.routine import Facts, Let, Routine, Several, routine
+from derivation.engine.rewrite.form import TIMES
+from derivation.plate.contact.theory.hertz import contact_radius, pressure
+from derivation.plate.contact.theory.split import contact_split
+from derivation.plate.vocabulary import P, R, a, delta, eps, h, lam, mu, r
+
+F, S, slope, rise, share, whole = sp.symbols("F S slope rise share whole", positive=True)
+modulus, first, second, scale, A, inverse_R = sp.symbols(
+    "modulus first second scale A inverse_R", positive=True
+)
+square, ratio, radius, residual, exponent, flat = sp.symbols(
+    "square ratio radius residual exponent flat", positive=True
+)
+
+
+class Correction(sp.Function):
+    """F of A = a/h and of log(h/b)."""
+
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
+        """By either argument."""
+        kinds = {1: CorrectionSlope, 2: CorrectionByThickness}
+        return kinds[argindex](*self.args)
+
+
+class CorrectionSlope(sp.Function):
+    """F' of A."""
+
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
+        """By either argument."""
+        kinds = {1: CorrectionCurve, 2: CorrectionSlopeByThickness}
+        return kinds[argindex](*self.args)
+
+
+class CorrectionCurve(sp.Function):
+    """F'' of A."""
+
+
+class CorrectionByThickness(sp.Function):
+    """The slope of F by log(h/b) at fixed A."""
+
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
+        """By A."""
+        del argindex
+        return CorrectionSlopeByThickness(*self.args)
+
+
+class CorrectionSlopeByThickness(sp.Function):
+    """The slope of F' by log(h/b)."""
+
+
+log_eta = sp.Symbol("log_eta", real=True)
+CORRECTION = Correction(a / h, log_eta)
+FORCE = contact_radius().expression
+"""P by the contact radius."""
+DEPTH = contact_split()[0].expression * (1 + CORRECTION)
+"""The indentation by the contact radius."""
+MODULUS = FORCE * R / a**3 / mu
+"""(4/3) E* over mu."""
+LAW: Facts = {
+    modulus: MODULUS,
+    F: CORRECTION,
+    slope: a * sp.diff(CORRECTION, a),
+    rise: R / a * sp.diff(DEPTH, a),
+    share: a / sp.sqrt(R * DEPTH),
+    delta: DEPTH,
+    A: a / h,
+    inverse_R: 1 / R,
+}
+"""What the arguments stand for."""
+
+
+def reduce(expression: sp.Expr) -> sp.Expr:
+    """0 if and only if it vanishes."""
+    found = expression.replace(TIMES, lambda first, *powers: first * _powers(powers))
+    return sp.simplify(sp.powdenest(found, force=True))
+
+
+def _powers(powers: tuple[sp.Expr, ...]) -> sp.Expr:
+    pairs = zip(powers[::2], powers[1::2], strict=True)
+    return sp.Mul(*(base**power for base, power in pairs))
+
+
+def root(
+    symbol: sp.Symbol, degree: int, factors: tuple[sp.Expr, ...], *divisors: sp.Expr
+) -> Several:
+    """``symbol = root(degree, factors, divisors)``, which stays in the range of doubles."""
+    exact = (sp.Mul(*factors) / sp.Mul(*divisors)) ** sp.Rational(1, degree)
+    below = (sp.Tuple(*divisors),) if divisors else ()
+    return Several((symbol,), "root", (sp.Integer(degree), sp.Tuple(*factors), *below), (exact,))
+
+
+def modulus_over_mu() -> Routine:
+    """(4/3) E*/mu of both constants over any common factor."""
+    return routine(
+        "modulus_over_mu",
+        (first, second),
+        (),
+        (MODULUS.subs({lam: first, mu: second}),),
+        (MODULUS,),
+        "(4/3) E* over mu; `first` and `second` are lam and mu over any common factor.",
+        {first: lam / scale, second: mu / scale},
+        sp.cancel,
+    )
+
+
+def hertz_force() -> Routine:
+    """P of a contact radius."""
+    return routine(
+        "hertz_force",
+        (a, R, mu, modulus),
+        (),
+        (TIMES(modulus, mu, 1, a, 3, R, -1),),
+        (FORCE,),
+        "P, the contact force.",
+        LAW,
+        reduce,
+    )
+
+
+def hertz_radius() -> Routine:
+    """The contact radius of a force."""
+    return routine(
+        "hertz_radius",
+        (P, R, mu, modulus),
+        (root(radius, 3, (P, R), mu, modulus),),
+        (radius,),
+        (a,),
+        "a, the contact radius.",
+        {**LAW, P: FORCE},
+        reduce,
+    )
+
+
+def largest_pressure() -> Routine:
+    """p_0 of a contact radius."""
+    return routine(
+        "largest_pressure",
+        (a, R, mu, modulus),
+        (),
+        (TIMES(3 * modulus / (2 * sp.pi), mu, 1, a, 1, R, -1),),
+        (-pressure().expression.subs({r: 0, P: FORCE}),),
+        "p_0, the largest contact pressure.",
+        LAW,
+        reduce,
+    )
+
+
+def indentation() -> Routine:
+    """The indentation of a contact radius."""
+    return routine(
+        "indentation_of",
+        (a, R, F),
+        (Let(whole, 1 + F),),
+        (TIMES(whole, a, 2, R, -1),),
+        (DEPTH,),
+        "delta, the indentation.",
+        LAW,
+        reduce,
+    )
+
+
+def indentation_in_range() -> Routine:
+    """The same of lengths whose products stay in range."""
+    return routine(
+        "indentation_in_range",
+        (a, inverse_R, F),
+        (Let(whole, 1 + F), Let(flat, inverse_R * a)),
+        (whole * a * flat,),
+        (DEPTH,),
+        "delta of ordinary lengths.",
+        LAW,
+        reduce,
+    )
+
+
+def depth_coefficients() -> Routine:
+    """What a coefficient of F/A is in the indentation."""
+    hertz = DEPTH.subs(CORRECTION, 0)
+    return routine(
+        "depth_coefficients",
+        (S, R, h),
+        (Let(inverse_R, 1 / R),),
+        (inverse_R, S * inverse_R / h),
+        (hertz / a**2, (DEPTH - hertz) / a**3),
+        "What goes with a^2 in the indentation; and with a^3, by what goes with A in F.",
+        {S: CORRECTION * h / a},
+        reduce,
+    )
+
+
+def relative_rise() -> Routine:
+    """The slope of the indentation over half that of the half-space, times 2."""
+    return routine(
+        "relative_rise",
+        (F, slope),
+        (Let(whole, 1 + F),),
+        (2 * whole + slope,),
+        (R / a * sp.diff(DEPTH, a),),
+        "(R/a) d delta/da.",
+        LAW,
+        reduce,
+    )
+
+
+def indentation_slope() -> Routine:
+    """d delta/da."""
+    return routine(
+        "slope_of_indentation",
+        (a, R, F, slope),
+        (Let(ratio, a / R), Let(whole, 1 + F), Let(rise, 2 * whole + slope)),
+        (ratio * rise,),
+        (sp.diff(DEPTH, a),),
+        "d delta/da.",
+        LAW,
+        reduce,
+    )
+
+
+def stiffness() -> Routine:
+    """dP/d delta, by the slopes of both by the contact radius."""
+    return routine(
+        "contact_stiffness",
+        (a, rise, mu, modulus),
+        (),
+        (TIMES(3 * modulus, mu, 1, a, 1, rise, -1),),
+        (sp.diff(FORCE, a) / sp.diff(DEPTH, a),),
+        "dP/d delta, the contact stiffness; `rise` is (R/a) d delta/da.",
+        LAW,
+        reduce,
+    )
+
+
+def depth_ratio() -> Routine:
+    """sqrt(R delta)/h, Hertz's radius over the half-thickness."""
+    return routine(
+        "depth_ratio",
+        (delta, R, h),
+        (root(radius, 2, (delta, R), h, h),),
+        (radius,),
+        (sp.sqrt(R * DEPTH) / h,),
+        "sqrt(R delta)/h, what Hertz's radius would be over h.",
+        LAW,
+        reduce,
+    )
+
+
+def depth_ratio_at() -> Routine:
+    """The same of a contact radius."""
+    return routine(
+        "depth_ratio_at",
+        (A, F),
+        (Let(whole, 1 + F),),
+        (A * sp.sqrt(whole),),
+        (sp.sqrt(R * DEPTH) / h,),
+        "sqrt(R delta)/h by A and F.",
+        LAW,
+        reduce,
+    )
+
+
+def radius_of_share() -> Routine:
+    """The contact radius by what share it is of Hertz's."""
+    return routine(
+        "radius_of_share",
+        (share, delta, R),
+        (root(radius, 2, (delta, R)),),
+        (share * radius,),
+        (a,),
+        "a by what share it is of Hertz's radius sqrt(R delta).",
+        LAW,
+        reduce,
+    )
+
+
+def force_of_share() -> Routine:
+    """P by the indentation and that share: so the errors of Hertz's radius count once."""
+    return routine(
+        "force_of_share",
+        (share, delta, a, mu, modulus),
+        (),
+        (TIMES(modulus, mu, 1, share, 2, delta, 1, a, 1),),
+        (FORCE,),
+        "P by delta, a and a over Hertz's radius, whose errors count once, not three times.",
+        LAW,
+        reduce,
+    )
+
+
+def newton_step() -> Routine:
+    """How far a share of Hertz's radius is off, and what Halley's method adds to it."""
+    goal = (h * eps) ** 2 / (R * DEPTH) - 1
+    power = 1 / (a * sp.diff(sp.log(R * DEPTH), a))
+    step = sp.series((1 + residual) ** exponent - 1, residual, 0, 3).removeO()
+    bend = residual * (exponent / 2 - sp.Rational(1, 2))
+    return routine(
+        "newton_step",
+        (share, F, slope),
+        (
+            Let(whole, 1 + F),
+            Let(square, share**2),
+            Let(residual, (1 / square - whole) / whole),
+            Let(exponent, whole / (2 * whole + slope)),
+        ),
+        (residual, exponent * residual * (1 + bend)),
+        (goal, step.subs({residual: goal, exponent: power})),
+        "(R delta/h^2) over that at A, less 1, and by what share of itself A is to grow.",
+        {share: a / (h * eps), F: CORRECTION, slope: a * sp.diff(CORRECTION, a)},
+        sp.simplify,
+    )
+
+
+ROUTINES = (
+    modulus_over_mu,
+    hertz_force,
+    hertz_radius,
+    largest_pressure,
+    indentation,
+    indentation_in_range,
+    depth_coefficients,
+    relative_rise,
+    indentation_slope,
+    stiffness,
+    depth_ratio,
+    depth_ratio_at,
+    radius_of_share,
+    force_of_share,
+    newton_step,
+)

@@ -1,0 +1,361 @@
+"""What every parameter does to an impact, as code computes it, proved to be that of the theory.
+
+The contact time is an integral over q = 1 - u^2 of N/sqrt(S); N and S are sums over the powers n of
+the law, as V = (R/a) d delta/da and the work E are.
+"""
+
+from collections.abc import Mapping
+
+import sympy as sp
+
+from derivation.engine.emit.routine import Facts, Let, Routine, Statement, routine
+from derivation.plate.contact.kernels import law
+from derivation.plate.contact.kernels.law import CORRECTION, DEPTH, FORCE, log_eta
+from derivation.plate.impact.theory.impact import contact_time, geometric, orders
+from derivation.plate.impact.theory.sensitivity import modulus_slope, peaks, times, weighted
+from derivation.plate.vocabulary import D, D_eta, R, a, lam, mu, u_t
+
+energy, rate, lift, energy_slope, lift_slope = sp.symbols(
+    "energy rate lift energy_slope lift_slope", real=True
+)
+n, term, s, x, q, weight, powers = sp.symbols("n term s x q weight powers", positive=True)
+first, second, by_energy, by_eta = sp.symbols("first second by_energy by_eta", real=True)
+total, by_radius, by_thickness = sp.symbols("total by_radius by_thickness", positive=True)
+own, of_energy, of_eta = sp.symbols("own of_energy of_eta", real=True)
+
+# --- sums over the powers of the law
+
+
+def power_work() -> Routine:
+    """E of one power of A."""
+    return routine(
+        "power_work",
+        (n, term),
+        (),
+        (term * (n / (n + 3)),),
+        (sp.integrate(x**3 * sp.diff(term * x**n, x), (x, 0, 1)),),
+        "The work of a term that goes with the n-th power of A: int_0^1 x^3 d(term x^n).",
+        {},
+        sp.simplify,
+    )
+
+
+def power_slope() -> Routine:
+    """A F' of one power of A."""
+    return routine(
+        "power_slope",
+        (n, term),
+        (),
+        (term * (n - 2),),
+        (sp.diff(term * x ** (n - 2), x).subs(x, 1),),
+        "The slope by log A of a term of F that is one of delta with the n-th power of A.",
+        {},
+    )
+
+
+class Nodes:
+    """Where the inner integral's nodes lie, w = 1 - u from 0 to 1 - sqrt(1 - ratio)."""
+
+    node, ratio, root, share = sp.symbols("node ratio root share", positive=True)
+    last, w, rest, left, short, height = sp.symbols("last w rest left short height", positive=True)
+
+
+def near_nodes() -> Routine:
+    """q, 1 - q and s = q/ratio at the nodes, without cancellation."""
+    k = Nodes
+    u = 1 - (1 - k.root) * k.node
+    there, s_there = 1 - u**2, (1 - u**2) / (1 - k.root**2)
+    statements = (
+        Let(k.last, k.ratio / (1 + k.root)),
+        Let(k.w, k.last * k.node),
+        Let(k.rest, k.last * (1 - k.node)),
+        Let(q, k.w * (2 - k.w)),
+        Let(k.height, k.root + k.rest),
+        Let(k.left, k.height**2),
+        Let(k.short, k.rest * (k.root + k.height) / k.ratio, "1 - s"),
+    )
+    results = q, q / k.ratio, k.left, k.short * k.ratio**5 / k.left, k.last
+    share = (1 - s_there) * (1 - k.root**2) ** 5 / (1 - there)
+    return routine(
+        "near_nodes",
+        (k.node, k.ratio, k.root),
+        statements,
+        results,
+        (there, s_there, 1 - there, share, 1 - k.root),
+        "q, s = q/ratio, 1 - q, (1 - s) ratio^5/(1 - q), and where w ends; root^2 is 1 - ratio.",
+        {k.ratio: 1 - k.root**2},
+        sp.cancel,
+    )
+
+
+def work_weight() -> Routine:
+    """What of a node's weight makes the work of V."""
+    rise = R / a * sp.diff(DEPTH, a)
+    return routine(
+        "work_weight",
+        (x, weight),
+        (),
+        (weight * x**4,),
+        (weight * sp.cancel(R * a**3 * sp.diff(DEPTH, a) / rise),),
+        "What V is multiplied by in int x^3 d(x^2 (1 + F)).",
+        {x: a},
+    )
+
+
+def rates() -> Routine:
+    """V and its slopes by log A and by log eta."""
+    F, slope, curve, deeper = sp.symbols("F slope curve deeper", real=True)
+    rise = R / a * sp.diff(DEPTH, a)
+    grown = a * sp.diff(CORRECTION, a)
+    lifted = sp.diff(CORRECTION, log_eta)
+    meaning = {
+        F: CORRECTION,
+        slope: grown,
+        curve: a * sp.diff(grown, a),
+        lift: lifted,
+        deeper: a * sp.diff(lifted, a),
+    }
+    return routine(
+        "rates",
+        (F, slope, curve, lift, deeper),
+        (Let(law.whole, 1 + F),),
+        (2 * law.whole + slope, 2 * slope + curve, 2 * lift + deeper),
+        (rise, a * sp.diff(rise, a), sp.diff(rise, log_eta)),
+        "V = 2 (1 + F) + A F', and its slopes by log A and by log(h/b).",
+        meaning,
+        sp.simplify,
+    )
+
+
+# --- results
+
+
+def _weights(of: Mapping[int, sp.Expr], of_hertz: int) -> dict[int, sp.Expr]:
+    return {k: sp.Integer(of_hertz) if k == 2 else of[k] for k in orders()}
+
+
+LAW_WEIGHTS, ETA_WEIGHTS = _weights(D, 1), _weights(D_eta, 0)
+RADIUS_WEIGHTS = {k: (k - 2) * value for k, value in LAW_WEIGHTS.items()}
+
+
+def _work(k: int) -> sp.Rational:
+    return sp.Rational(k, k + 3)
+
+
+SUMS: Facts = {
+    energy: weighted(LAW_WEIGHTS, _work),
+    rate: weighted(LAW_WEIGHTS, sp.Integer),
+    lift: weighted(LAW_WEIGHTS, lambda _: sp.Integer(1)),
+    energy_slope: weighted(ETA_WEIGHTS, _work),
+    lift_slope: weighted(ETA_WEIGHTS, lambda _: sp.Integer(1)),
+}
+"""What the sums stand for."""
+
+
+def peak_growth() -> Routine:
+    """How the largest radius, indentation and force grow."""
+    by_radius = a * sp.diff(sp.log(FORCE), a)
+    growth = tuple(formula.expression for formula in peaks())
+    return routine(
+        "peak_growth",
+        (energy, rate, energy_slope, lift, lift_slope),
+        (Let(first, energy / rate), Let(second, -energy_slope / rate)),
+        (
+            first,
+            second,
+            energy / lift,
+            (lift_slope - energy_slope) / lift,
+            by_radius * first,
+            by_radius * second,
+        ),
+        (*growth, *(by_radius * value for value in growth[:2])),
+        "How A_m, delta_m and P_m grow with energy number and h/b: logarithmic slopes.",
+        SUMS,
+        sp.cancel,
+    )
+
+
+def whole_work() -> Routine:
+    """E up to A_m."""
+    near, within, rise = sp.symbols("near within rise", positive=True)
+    work = sp.integrate(x**3 * sp.diff(term * x**n, x), x)
+    return routine(
+        "whole_work",
+        (near, within, rise),
+        (),
+        (within * near**5 + rise,),
+        (sp.simplify(work.subs(x, 1)),),
+        "The work over A_m^5 by that over A_near^5 and what is added; near is A_near/A_m.",
+        {within: work.subs(x, near) / near**5, rise: work.subs(x, 1) - work.subs(x, near)},
+        sp.simplify,
+    )
+
+
+# --- the contact time
+
+
+def _time_parts(weights: Mapping[int, sp.Expr], at: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
+    """N and S."""
+    stored = weighted(weights, lambda k: _work(k) * geometric(k + 3, at))
+    return weighted(weights, lambda k: k * at ** (k - 1)), stored
+
+
+def _near_terms(name: str, hertz: int, summary: str) -> Routine:
+    """N and S at s = q/ratio by sums over the powers that begin with the third."""
+    k = Nodes
+    rest, square, cube, six, start, rise = sp.symbols("rest square cube six start rise")
+    every = _weights(D, hertz)
+    deeper = {j: weight for j, weight in every.items() if j > 2}
+    held = [_work(j) * weight * k.ratio ** (j - 2) for j, weight in deeper.items()]
+    at = q / k.ratio
+    further = [sp.Add(*held[i:]) * at ** (2 * i - 2) for i in range(1, len(held))]
+    nested = 1 + s * (1 + s * (1 + s * (1 + s)))
+    statements: tuple[Statement, ...] = (
+        Let(square, s**2),
+        Let(cube, square * s),
+        Let(six, (1 + s + square) * (1 + cube), "1 + s + ... + s^5"),
+        Let(start, first * six + hertz * sp.Rational(2, 5) * nested),
+    )
+    left = start + cube**2 * (1 + s) * rest
+    return routine(
+        name,
+        (q, s, k.left, k.share, rate, first, rest, rise),
+        statements,
+        (q * (s * rate + 2 * hertz), left * k.share + rise / k.left),
+        _time_parts(every, q),
+        summary,
+        {
+            rate: weighted(deeper, lambda j: j * k.ratio ** (j - 2) * at ** (j - 3)),
+            first: sp.Add(*held),
+            rest: sp.Add(*further),
+            rise: weighted(every, lambda j: _work(j) * (1 - k.ratio ** (j + 3))),
+            k.share: (1 - at) * k.ratio**5 / (1 - q),
+            k.left: 1 - q,
+            s: at,
+        },
+        sp.cancel,
+    )
+
+
+def near_terms() -> Routine:
+    """Of the law."""
+    what = "N and S by sums over the terms of F up to A_near, at s = A/A_near, and the work beyond."
+    return _near_terms("near_terms", 1, what)
+
+
+def near_slope_terms() -> Routine:
+    """Of its slopes, in which Hertz's term is not."""
+    return _near_terms("near_slope_terms", 0, "The same for a slope of F.")
+
+
+def far_nodes() -> Routine:
+    """Where the nodes beyond the first polynomial lie."""
+    gap, u = sp.symbols("gap u", positive=True)
+    return routine(
+        "far_nodes",
+        (gap, u, Nodes.node),
+        (),
+        (1 - gap * u**2 * Nodes.node,),
+        (1 - Nodes.node * (1 - q),),
+        "The node of [q, 1] counted from 1, where 1 - q = gap u^2.",
+        {gap: (1 - q) / u**2},
+        sp.expand,
+    )
+
+
+def time_terms() -> Routine:
+    """The integrand of the contact time and its slopes, a term of the quadrature each."""
+    names = sp.symbols("N S N_1 S_1 N_2 S_2", positive=True)
+    N, S, N_1, S_1, N_2, S_2 = names
+    scaled, half = sp.symbols("scaled half", positive=True)
+    values = [
+        value
+        for weights in (LAW_WEIGHTS, RADIUS_WEIGHTS, ETA_WEIGHTS)
+        for value in _time_parts(weights, 1 - u_t**2)
+    ]
+    return routine(
+        "time_terms",
+        (*names, weight),
+        (Let(scaled, weight / sp.sqrt(S)), Let(half, N / (2 * S))),
+        (N * scaled, (N_1 - half * S_1) * scaled, (N_2 - half * S_2) * scaled),
+        tuple(weight / 2 * part.expression for part in (contact_time()[0], *times())),
+        "Terms of int N/sqrt(S) and of its slopes by log A_m and log(h/b).",
+        dict(zip(names, values, strict=True)),
+    )
+
+
+class TimeIntegral(sp.Function):
+    """Integral of N/sqrt(S), of A_m and log(h/b)."""
+
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
+        """By log A_m, or by log(h/b)."""
+        return (by_radius / sp.exp(self.args[0]), by_thickness)[argindex - 1]
+
+
+def time_growth() -> Routine:
+    """How the contact time grows: it goes with a_m^2/sqrt(a_m^5) times the integral."""
+    log_A = sp.Symbol("log_A", real=True)
+    A = sp.exp(log_A)
+    time = sp.log(TimeIntegral(log_A, log_eta)) + sp.expand_log(sp.log(A**2 / sp.sqrt(A**5)))
+    value = time.subs(TimeIntegral(log_A, log_eta), total)
+    slopes = [by_radius / total, by_thickness / total]
+    by_log_A, by_log_eta = sp.diff(value, log_A) + slopes[0], sp.diff(value, log_eta) + slopes[1]
+    return routine(
+        "time_growth",
+        (total, by_radius, by_thickness, first, second),
+        (Let(rate, by_radius / total - sp.Rational(1, 2)),),
+        (rate * first, rate * second + by_thickness / total),
+        (by_log_A * first, by_log_A * second + by_log_eta),
+        "How the contact time grows with energy number and h/b, by how A_m does.",
+        {},
+        sp.simplify,
+    )
+
+
+def parameter_power() -> Routine:
+    """The power of a parameter, locally."""
+    log_p = sp.Symbol("log_p", real=True)
+    change = own * log_p + by_energy * (of_energy * log_p) + by_eta * (of_eta * log_p)
+    return routine(
+        "parameter_power",
+        (own, of_energy, of_eta, by_energy, by_eta),
+        (),
+        (own + by_energy * of_energy + by_eta * of_eta,),
+        (sp.diff(change, log_p),),
+        "Power of a parameter in a result: its own, and those by energy number and h/b.",
+        {},
+        sp.expand,
+    )
+
+
+def constants_powers() -> Routine:
+    """Of the modulus; quotients, so that products stay in range."""
+    by_lam = modulus_slope().expression
+    return routine(
+        "constants_powers",
+        (powers, lam, mu),
+        (Let(first, lam / (lam + mu)), Let(second, mu / (lam + 2 * mu)), Let(own, first * second)),
+        (powers * own, powers * (1 - own)),
+        (powers * by_lam, powers * (1 - by_lam)),
+        "Powers of lam and mu in a result by that of E*.",
+        {},
+        sp.cancel,
+    )
+
+
+ROUTINES = (
+    power_work,
+    power_slope,
+    near_nodes,
+    work_weight,
+    rates,
+    peak_growth,
+    whole_work,
+    near_terms,
+    near_slope_terms,
+    far_nodes,
+    time_terms,
+    time_growth,
+    parameter_power,
+    constants_powers,
+)

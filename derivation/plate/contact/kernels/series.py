@@ -1,0 +1,337 @@
+"""Correction F of the contact law as code computes it, proved to be that of the theory.
+
+Of a thin plate F = c1 A + c3 A^3 + Phi(A), v = 1/eta = b/h; of any plate it is a sum over modes.
+Where the code has a polynomial instead, F = A S(t) with t = (A^2 - middle)/half.
+"""
+
+import sympy as sp
+
+from derivation.engine.emit.routine import Facts, Let, Routine, Several, routine
+from derivation.plate.blocks import blocks
+from derivation.plate.contact.theory.split import reduced_split
+from derivation.plate.contact.theory.thin_law import sine_kernel
+from derivation.plate.contact.theory.thin_plate import thin_coefficient
+from derivation.plate.modes.theory.plate_factor import plate_factor_slope, plate_factors
+from derivation.plate.vocabulary import J1, T, alpha, eta, j_n
+
+v, log_v, linear, cubic, rest = sp.symbols("v log_v linear cubic rest", positive=True)
+REACH, MIDDLE, HALF = sp.symbols("REACH FAR_MIDDLE FAR_HALF", positive=True)
+LINEAR, CUBIC = sp.symbols("LINEAR CUBIC", real=True)
+A, square, middle, half, inverse_half = sp.symbols(
+    "A square middle half inverse_half", positive=True
+)
+F, S, slope, curve, step, order = sp.symbols("F S slope curve step order", real=True)
+y, weight, excess, total, rise, held, shape, ratio = sp.symbols(
+    "y weight excess total rise held shape ratio", positive=True
+)
+change, steep, first, second = sp.symbols("change steep first second", real=True)
+
+
+# --- the closed form of a thin plate
+
+
+def thin(k: int) -> sp.Expr:
+    """c_(2k-3), by v."""
+    found: sp.Expr = thin_coefficient(k).expression.subs(eta, 1 / v)
+    return found
+
+
+def constant(k: int) -> sp.Expr:
+    """What of that does not depend on v."""
+    return thin(k).subs(v, 1) - thin(k).diff(v, 2).limit(v, sp.oo) / 2
+
+
+THIN: Facts = {LINEAR: constant(2), CUBIC: constant(3)}
+"""What the constants stand for."""
+
+
+def _with_logarithm(expression: sp.Expr) -> sp.Expr:
+    return sp.expand(sp.expand_log(sp.expand(expression), force=True))
+
+
+def thin_coefficients() -> Routine:
+    """c1 and c3."""
+    found = _with_logarithm(thin(2)), _with_logarithm(thin(3))
+    shares = [part.coeff(sp.log(v)) for part in found]
+    grows = found[0].coeff(v**2)
+    return routine(
+        "thin_coefficients",
+        (v,),
+        (
+            Let(log_v, sp.log(v)),
+            Let(rest, LINEAR + shares[0] * log_v),
+        ),
+        (grows * v**2 + rest, CUBIC + shares[1] * log_v),
+        (thin(2), thin(3)),
+        "c1 and c3 of a thin plate.",
+        THIN,
+        _with_logarithm,
+    )
+
+
+def in_powers(center: sp.Expr, width: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
+    """What c1 and c3 add to S_0 and S_1, t = (A^2 - center)/width."""
+    t = sp.Symbol("t", real=True)
+    polynomial = sp.Poly(linear + cubic * (center + width * t), t)
+    return polynomial.coeff_monomial(1), polynomial.coeff_monomial(t)
+
+
+def thin_start(name: str, center: sp.Expr, width: sp.Expr) -> Routine:
+    """What they add to a polynomial."""
+    t = sp.Symbol("t", real=True)
+    law = sp.expand((thin(2) * A + thin(3) * A**3) / A).subs(A, sp.sqrt(center + width * t))
+    law = sp.Poly(sp.expand(law), t)
+    exact = thin(2), thin(3)
+    return routine(
+        name,
+        (v,),
+        (Several((linear, cubic), "thin_coefficients", (v,), exact),),
+        in_powers(center, width),
+        (law.coeff_monomial(1), law.coeff_monomial(t)),
+        "What c1 A + c3 A^3 adds to S_0 and S_1.",
+        THIN,
+        _with_logarithm,
+    )
+
+
+def thin_near() -> Routine:
+    """Of the first polynomial."""
+    return thin_start("thin_near", sp.Integer(0), REACH**2)
+
+
+def thin_far() -> Routine:
+    """Of the second."""
+    return thin_start("thin_far", MIDDLE, HALF)
+
+
+def linear_by_log() -> Routine:
+    """The slope of c1 by log v."""
+    found = sp.expand(v * sp.diff(thin(2), v))
+    return routine(
+        "linear_by_log",
+        (v,),
+        (),
+        (found,),
+        (-eta * sp.diff(thin_coefficient(2).expression, eta),),
+        "The slope of c1 by log v.",
+        {v: 1 / eta},
+        sp.simplify,
+    )
+
+
+def cubic_by_log() -> sp.Expr:
+    """That of c3, a number."""
+    return sp.simplify(v * sp.diff(thin(3), v))
+
+
+# --- modes
+
+SHARE = reduced_split()[1].expression
+"""A mode's share of F."""
+WEIGHT = plate_factors()[2].expression.subs(T, 2 * eta * j_n) / (j_n * J1**2)
+"""w_n."""
+
+
+def mode_weight() -> Routine:
+    """w_n."""
+    exact = plate_factors()[2].expression.subs(T, 2 * eta * j_n)
+    return routine(
+        "mode_weight",
+        (eta, j_n, J1),
+        (Several((excess,), "G_minus_1", (2 * eta * j_n,), (exact,)),),
+        (excess / (j_n * J1**2),),
+        (SHARE / (8 * alpha / sp.pi * sine_kernel(alpha * j_n)),),
+        "w_n, the weight of a mode.",
+        {},
+        sp.simplify,
+    )
+
+
+def weight_by_thickness() -> Routine:
+    """Its slope by log(eta)."""
+    exact = plate_factor_slope().expression.subs(T, 2 * eta * j_n)
+    return routine(
+        "weight_by_thickness",
+        (eta, j_n, J1),
+        (Several((excess,), "G_slope", (2 * eta * j_n,), (exact,)),),
+        (excess / (j_n * J1**2),),
+        (eta * sp.diff(WEIGHT, eta),),
+        "The slope of w_n by log(h/b).",
+        {},
+    )
+
+
+def mode_terms() -> Routine:
+    """What a mode adds to the sums for F and A F', up to a factor."""
+    block = blocks()["hertz_shape"]
+    return routine(
+        "mode_terms",
+        (y, weight),
+        (
+            Let(held, sp.Min(y, block.near(sp.oo)), opaque=True),
+            Several((shape,), "hertz_shape", (y,), ((sp.sin(y) / y - sp.cos(y)) / held**2,)),
+            Let(ratio, held / y),
+            Let(first, shape * ratio**2),
+        ),
+        (weight * first, weight * (sp.sinc(y) - 2 * first)),
+        (
+            weight * sine_kernel(y),
+            weight * sp.diff(y * sine_kernel(y), y),
+        ),
+        "What a mode adds to both sums, y = alpha j_n.",
+        {},
+        lambda e: sp.simplify(e.replace(sp.sinc, lambda x: sp.sin(x) / x)),
+    )
+
+
+def of_modes() -> Routine:
+    """Both sums as shares of F and A F'."""
+    kernel = sine_kernel(y)
+    sums = {total: kernel, rise: sp.diff(y * kernel, y)}
+    return routine(
+        "of_modes",
+        (alpha, total, rise),
+        (Let(ratio, 8 * alpha / sp.pi),),
+        (ratio * total, ratio * rise),
+        (SHARE, alpha * sp.diff(SHARE, alpha)),
+        "What the modes add to F and A F'.",
+        {name: WEIGHT * value.subs(y, alpha * j_n) for name, value in sums.items()},
+        sp.simplify,
+    )
+
+
+# --- polynomials
+
+
+class Series(sp.Function):
+    """S of t."""
+
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
+        """By t."""
+        del argindex
+        return SeriesSlope(self.args[0])
+
+
+class SeriesSlope(sp.Function):
+    """S' of t."""
+
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
+        """By t."""
+        del argindex
+        return 2 * SeriesCurve(self.args[0])
+
+
+class SeriesCurve(sp.Function):
+    """S''/2 of t."""
+
+
+PLACE = (A**2 - middle) / half
+"""t."""
+LAW = A * Series(PLACE)
+"""F."""
+POLYNOMIAL: Facts = {
+    S: Series(PLACE),
+    slope: SeriesSlope(PLACE),
+    curve: SeriesCurve(PLACE),
+    square: A**2,
+    inverse_half: 1 / half,
+}
+"""What Horner's rule gives."""
+
+
+def by_log_radius(expression: sp.Expr) -> sp.Expr:
+    """Derivative by log A."""
+    return A * sp.diff(expression, A)
+
+
+def polynomial_slope() -> Routine:
+    """F and A F'."""
+    return routine(
+        "with_slope_of",
+        (A, square, inverse_half, S, slope),
+        (Let(step, square * inverse_half), Let(F, A * S)),
+        (F, F + 2 * A * step * slope),
+        (LAW, by_log_radius(LAW)),
+        "F and A F' by S, S' and A^2.",
+        POLYNOMIAL,
+        sp.expand,
+    )
+
+
+def polynomial_slopes() -> Routine:
+    """F, A F' and A (A F')'."""
+    return routine(
+        "with_slopes_of",
+        (A, square, inverse_half, S, slope, curve),
+        (
+            Let(step, square * inverse_half),
+            Let(F, A * S),
+            Let(steep, A * step * slope),
+            Let(change, A * step * step * curve),
+        ),
+        (F, F + 2 * steep, F + 8 * steep + 8 * change),
+        (LAW, by_log_radius(LAW), by_log_radius(by_log_radius(LAW))),
+        "F, A F' and A (A F')' by S, S', S''/2 and A^2.",
+        POLYNOMIAL,
+        sp.expand,
+    )
+
+
+class Table(sp.Function):
+    """A coefficient at fixed (a/b)^2 over eta, of log(eta)."""
+
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
+        """By log(eta)."""
+        del argindex
+        return TableSlope(self.args[0])
+
+
+class TableSlope(sp.Function):
+    """The slope of that by log(eta)."""
+
+
+def thick_by_thickness() -> Routine:
+    """The slope of S_k by log(eta) where the powers are those of (A eta)^2."""
+    coefficient = eta**order * Table(sp.log(eta))
+    return routine(
+        "thick_by_thickness",
+        (order, S, eta, change),
+        (),
+        (eta * change + order * S,),
+        (eta * sp.diff(coefficient, eta) / eta ** (order - 1),),
+        "The slope of S_k by log(h/b) at fixed A, in powers of A eta; order is 2k + 1.",
+        {S: eta * Table(sp.log(eta)), change: TableSlope(sp.log(eta))},
+        sp.simplify,
+    )
+
+
+def range_by_thickness() -> Routine:
+    """How t moves with log v where the range of A^2 ends at v^2."""
+    start = sp.Symbol("start", positive=True)
+    place = PLACE.subs({middle: (v**2 + start**2) / 2, half: (v**2 - start**2) / 2})
+    return routine(
+        "range_by_thickness",
+        (v, half),
+        (),
+        (v * v / half,),
+        (sp.simplify(-v * sp.diff(place, v) / (1 + place)),),
+        "What times -(1 + t) is the slope of t by log v at fixed A, up to A = v.",
+        {half: (v**2 - start**2) / 2},
+        sp.simplify,
+    )
+
+
+ROUTINES = (
+    thin_coefficients,
+    thin_near,
+    thin_far,
+    linear_by_log,
+    mode_weight,
+    weight_by_thickness,
+    mode_terms,
+    of_modes,
+    polynomial_slope,
+    polynomial_slopes,
+    thick_by_thickness,
+    range_by_thickness,
+)

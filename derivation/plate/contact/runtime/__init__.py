@@ -1,0 +1,1 @@
+"""Algorithms of the contact law, copied into the generated package."""

@@ -1,0 +1,418 @@
+"""Correction F of the contact law delta = (a^2/R) (1 + F) as polynomials, one set per plate.
+
+With A = a/h, eta = h/b, alpha = a/b = A eta < 1 and g = 3 (sin y - y cos y)/y^3::
+
+    F   = W(alpha) + (8 alpha/(3 pi)) sum_n w_n g(alpha j_n)
+    w_n = (G(2 eta j_n) - 1)/(j_n J1(j_n)^2)
+
+F/A is analytic in A^2, its nearest singularities at A = 4i and alpha = 2. Up to
+reach = min(REACH, 1/eta) it is a polynomial in (A/reach)^2, up to A = FAR_REACH another one;
+beyond that the sum itself. The coefficients come from tables: for eta >= 1/REACH an exact linear
+map of the first weights w_n, below it the thin plate's closed form and a remainder.
+
+Arithmetic: Horner's rule, in place, as blocks of points stay in the cache; one sphere on one plate
+is a polynomial of a, its coefficients made once. Scaling of polynomials' variables to their ranges,
+and how many modes the direct sum needs.
+"""
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from generated import contact_kernels as kernels
+from generated.arrays import Double, as_doubles, as_result, in_manifest, inside, quiet
+from generated.bessel import bessel_j0_zeros, bessel_j1_at_j0_zeros
+from generated.contact_numbers import (
+    CELLS,
+    EDGE,
+    FAR_CELLS,
+    FAR_REACH,
+    MODES,
+    REACH,
+    SHORT,
+    SHORTENED,
+    THIN,
+    THIN_FAR,
+    WIDE_END,
+    WIDE_START,
+)
+
+THINNEST, THICKEST = 1e-90, 1e90
+"""Plates are computed for eta = h/b between these."""
+THINNEST_SUM = 1e-5
+"""Beyond A = FAR_REACH the direct sum takes 4/eta modes: eta is at least this."""
+
+ROUNDED = 1.0 + 2.0**-50
+"""An end of a range still counts after a few roundings."""
+
+_BLOCK = 32768  # points worked on at a time, so that intermediates stay in the cache
+_ORDINARY = 1e-100, 1e100  # lengths whose products neither overflow nor underflow
+_USUAL = 1e-20, 1e20  # h/b with which that holds for the coefficients too
+_MODE_BLOCK = 4096
+_THINNER = CELLS[-1][1]  # from this 1/eta on the closed form is all there is
+
+
+Cells = tuple[tuple[float, float, Double], ...]
+"""Polynomials in 1/eta: for each its first and last 1/eta, and its rows."""
+
+
+class Piece(NamedTuple):
+    """F = A (S_0 + S_1 t + ...), t = (A^2 - middle)/half, plates along the last axis."""
+
+    coefficients: Double
+    middle: Double
+    half: Double
+
+
+class Columns(NamedTuple):
+    """A piece at given points: for each an own plate (arrays) or one for all (scalars)."""
+
+    coefficients: list[Double] | list[float]
+    middle: Double
+    inverse_half: Double
+
+
+class Plates(NamedTuple):
+    """Polynomials of several plates; eta, reach and far, the ends in A, of shape (plates,)."""
+
+    eta: Double
+    reach: Double
+    far: Double
+    short: Piece
+    first: Piece
+
+
+class Single(NamedTuple):
+    """One sphere on one plate: delta = a^2 (1/R + a S(t)/(h R)), t = (a scale)^2."""
+
+    plates: Plates
+    h: Double
+    inverse_R: Double
+    scale: float
+    brief: float  # a up to which the short polynomial serves
+    end: float  # a up to which the first polynomial serves
+    short: list[float]  # coefficients over h R
+    first: list[float]
+
+
+@in_manifest("S_k", domain="eta >= 1e-90, eta <= 1e90")
+@quiet
+def plate_coefficients(eta: ArrayLike) -> np.ndarray:
+    """Coefficients of the contact law of a plate.
+
+    Formula::
+
+        delta = (a^2/R) (1 + F),  F = A sum_k S_k (A/reach)^(2k)
+        A = a/h, reach = min(REACH, 1/eta), REACH as in `contact_numbers`
+
+    S_k reach^(-2k) is the paper's zeta-regularised c_(2k+1) up to economisation.
+
+    Parameters
+    ----------
+    eta : array_like
+        Half-thickness over plate radius, h/b [1]; 1e-90 <= eta <= 1e90.
+
+    Returns
+    -------
+    ndarray
+        S_0, S_1, ... [1] along a last axis, as many as `contact_numbers.THIN` has; NaN outside
+        the domain.
+    """
+    kind, [eta] = as_doubles(eta)
+    [eta] = inside([eta], eta >= THINNEST, eta <= THICKEST)
+    rows = _first(np.ravel(eta))
+    return as_result(np.moveaxis(rows, 0, -1).reshape(*np.shape(eta), rows.shape[0]), kind)
+
+
+def plates_of(eta: Double) -> Plates:
+    """Polynomials of the plates h/b = eta, of shape (plates,)."""
+    inverse = 1.0 / eta
+    reach, coefficients = np.minimum(REACH, inverse), _first(eta)
+    whole = np.zeros_like(eta)
+    count = SHORTENED.shape[0]
+    brief = coefficients[:count].copy()
+    for power in range(SHORTENED.shape[1]):
+        brief += SHORTENED[:, power, None] * coefficients[count + power]
+    first = Piece(coefficients, whole, reach * reach)
+    short = Piece(brief, whole, first.half)
+    return Plates(eta, reach, np.minimum(FAR_REACH, inverse), short, first)
+
+
+def _first(eta: Double) -> Double:
+    """Coefficients of F/A in powers of (A/reach)^2, of shape (terms, plates)."""
+    found = np.full((THIN.size, eta.size), np.nan)
+    for some, coefficients in ((eta >= 1.0 / REACH, _thick), (eta < 1.0 / REACH, _thin)):
+        if some.any():
+            found[:, some] = coefficients(eta[some])
+    return found
+
+
+def _thick(eta: Double) -> Double:
+    """The edge's part plus the first modes', reach = 1/eta."""
+    zeros, weights = _weights(eta, MODES.shape[0])
+    total = np.repeat(EDGE[:, None], eta.size, axis=1)
+    for index in reversed(range(zeros.size)):
+        total += MODES[index][:, None] * weights[..., index]
+    return total * eta
+
+
+def _thin(eta: Double) -> Double:
+    """The closed form of the thin plate, and its remainder where that counts."""
+    v = 1.0 / eta
+    total = np.repeat(THIN[:, None], v.size, axis=1)
+    _tabulated(v, CELLS, total)
+    linear, cubic = kernels.thin_near(v)
+    total[0] += linear
+    total[1] += cubic
+    return total
+
+
+def _tabulated(v: Double, cells: Cells, total: Double) -> None:
+    """Add the polynomials in v of the cells to the coefficients, of shape (terms, plates)."""
+    for chosen, tau, _, rows in in_cells(v, cells):
+        value = rows[-1] + 0.0 * tau
+        for row in rows[-2::-1]:
+            value *= tau
+            value += row
+        total[:, chosen] += value
+
+
+def in_cells(v: Double, cells: Cells) -> Iterator[tuple[np.ndarray, Double, float, Double]]:
+    """Which v are in a cell, where in [-1, 1] of it, half its width, its rows for such points."""
+    for first, last, rows in cells:
+        chosen = np.flatnonzero((v > first) & (v <= last))
+        if chosen.size:
+            half = 0.5 * (last - first)
+            yield chosen, (v[chosen] - 0.5 * (first + last)) / half, half, rows[:, :, None]
+
+
+def _bending(v: Double) -> tuple[Double, Double]:
+    """c1 and c3 of the thin plate, v = 1/eta."""
+    return kernels.thin_coefficients(v)
+
+
+def far_piece(eta: Double) -> Piece:
+    """The second polynomial, from A = reach to min(FAR_REACH, 1/eta), of plates eta < 1/REACH."""
+    v = 1.0 / eta
+    middle, half = _far_span(v)
+    coefficients = np.zeros((THIN_FAR.size, eta.size))
+    _tabulated(v, FAR_CELLS, coefficients)
+    chosen = np.flatnonzero(v > _THINNER)
+    constant, linear = kernels.thin_far(v[chosen])
+    coefficients[:, chosen] = THIN_FAR[:, None]
+    coefficients[0, chosen] += constant
+    coefficients[1, chosen] += linear
+    return Piece(coefficients, middle, half)
+
+
+def _far_span(v: Double) -> tuple[Double, Double]:
+    """Middle and half of the second polynomial's range of A^2, never narrow."""
+    low, top = np.where(v <= WIDE_END, WIDE_START, REACH) ** 2, np.minimum(FAR_REACH, v) ** 2
+    return 0.5 * (top + low), 0.5 * (top - low)
+
+
+def _weights(eta: Double, count: int) -> tuple[Double, Double]:
+    """j_n and w_n, the latter with the modes along a last axis."""
+    zeros, slopes = bessel_j0_zeros(count), bessel_j1_at_j0_zeros(count)
+    return zeros, kernels.mode_weight(np.asarray(eta)[..., None], zeros, slopes)
+
+
+def direct(A: Double, eta: float) -> tuple[Double, Double]:
+    """F and A F' by the sum over the modes, one plate, alpha = A eta < 1.
+
+    Parameters
+    ----------
+    A
+        Contact radius over half-thickness [1], of shape (points,).
+    eta
+        h/b [1].
+    """
+    alpha = A * eta
+    value, slope = with_slope(alpha, Columns(EDGE.tolist(), np.zeros(()), np.ones(())))
+    # T = 2 eta j_n beyond 24, where w_n is below 1e-19 of the first.
+    zeros, weights = _weights(np.asarray(eta), int(3.9 / eta) + 2)
+    points = max(1, 65536 // min(zeros.size, _MODE_BLOCK))
+    for begin in range(0, A.size, points):
+        part = slice(begin, begin + points)
+        near = alpha[part, None]
+        total, rise = np.zeros(near.shape[0]), np.zeros(near.shape[0])
+        for start in reversed(range(0, zeros.size, _MODE_BLOCK)):
+            modes = slice(start, start + _MODE_BLOCK)
+            terms = kernels.mode_terms(near * zeros[modes], weights[modes])
+            total += terms[0].sum(axis=1)
+            rise += terms[1].sum(axis=1)
+        shares = kernels.of_modes(alpha[part], total, rise)
+        value[part] += shares[0]
+        slope[part] += shares[1]
+    return value, slope
+
+
+def columns(piece: Piece, index: np.ndarray | None) -> Columns:
+    """The piece at points of the plates `index`; None for the only plate there is."""
+    if index is None:
+        return Columns(piece.coefficients[:, 0].tolist(), piece.middle[0], 1.0 / piece.half[0])
+    gathered = [row.take(index) for row in piece.coefficients]
+    return Columns(gathered, piece.middle.take(index), 1.0 / piece.half.take(index))
+
+
+def value_of(A: Double, piece: Columns) -> Double:
+    """F = A S(t) of a piece about A = 0."""
+    t = A * A
+    t *= piece.inverse_half  # in place: the block stays in the cache
+    value: Double = piece.coefficients[-1] * t
+    value += piece.coefficients[-2]
+    for coefficient in piece.coefficients[-3::-1]:
+        value *= t
+        value += coefficient
+    value *= A
+    return value
+
+
+def with_slope(A: Double, piece: Columns) -> tuple[Double, Double]:
+    """F and A F'(A)."""
+    square = A * A
+    value, slope = horner(piece.coefficients, (square - piece.middle) * piece.inverse_half)
+    return kernels.with_slope_of(A, square, piece.inverse_half, value, slope)
+
+
+def horner(coefficients: list[Double] | list[float] | Double, t: Double) -> tuple[Double, Double]:
+    """A polynomial and its slope."""
+    value: Double = coefficients[-1] + 0.0 * t
+    slope = np.zeros_like(value)
+    for coefficient in coefficients[-2::-1]:
+        slope *= t
+        slope += value
+        value *= t
+        value += coefficient
+    return value, slope
+
+
+def with_slopes(A: Double, piece: Columns) -> tuple[Double, Double, Double]:
+    """F, A F'(A) and A (A F')'."""
+    square = A * A
+    t = (square - piece.middle) * piece.inverse_half
+    value: Double = piece.coefficients[-1] + 0.0 * t
+    slope, curve = np.zeros_like(t), np.zeros_like(t)
+    for coefficient in piece.coefficients[-2::-1]:
+        curve *= t
+        curve += slope
+        slope *= t
+        slope += value
+        value *= t
+        value += coefficient
+    return kernels.with_slopes_of(A, square, piece.inverse_half, value, slope, curve)
+
+
+def sphere_on_plate(plates: Plates, h: Double, R: Double) -> Single | None:
+    """The law of one sphere and one plate of ordinary lengths; None for any others."""
+    if plates.eta.size != 1 or R.size != 1 or not _USUAL[0] < plates.eta[0] < _USUAL[1]:
+        return None
+    if not all(_ORDINARY[0] < length < _ORDINARY[1] for length in (R.item(), h.flat[0])):
+        return None
+    height, reach = h.ravel()[0], plates.reach[0]
+    both = np.concatenate((plates.short.coefficients, plates.first.coefficients))[:, 0]
+    over, scaled = kernels.depth_coefficients(both, R.ravel()[0], height)
+    count = plates.short.coefficients.shape[0]
+    short, first = scaled[:count].tolist(), scaled[count:].tolist()
+    brief, end = reach * SHORT * height, reach * ROUNDED * height
+    return Single(plates, height, over, 1.0 / (height * reach), brief, end, short, first)
+
+
+def indent(a: Double, most: float, law: Single, out: Double) -> None:
+    """Indentation at radii a >= 0 of shape (points,), alpha < 1, a block of them; NaN stays NaN.
+
+    `most` is the largest of them, or NaN if there may be NaN among them.
+    """
+    if most <= law.brief:
+        _indent(a, law, law.short, out)
+    elif most <= law.end:
+        _indent(a, law, law.first, out)
+        chosen = np.flatnonzero(a <= law.brief)
+        if chosen.size:
+            part = np.empty(chosen.size)
+            _indent(a[chosen], law, law.short, part)
+            out[chosen] = part
+    else:
+        near = a <= law.end
+        inner, beyond = a[near], a[~near]
+        if inner.size:
+            part = np.empty(inner.size)
+            indent(inner, inner.max(), law, part)
+            out[near] = part
+        value = correction(beyond / law.h, law.plates, None)
+        out[~near] = kernels.indentation_in_range(beyond, law.inverse_R, value)
+
+
+def _indent(a: Double, law: Single, coefficients: list[float], out: Double) -> None:
+    """The polynomial in as few passes over memory as there are operations."""
+    t = a * law.scale
+    t *= t
+    np.multiply(t, coefficients[-1], out=out)
+    out += coefficients[-2]
+    for coefficient in coefficients[-3::-1]:
+        out *= t
+        out += coefficient
+    out *= a
+    out += law.inverse_R
+    out *= a
+    out *= a
+
+
+def correction(A: Double, plates: Plates, index: np.ndarray | None) -> Double:
+    """F at points A >= 0 of shape (points,), alpha < 1, a block of them; NaN stays NaN."""
+    reach = plates.reach[slice(None) if index is None else index]
+    brief = reach * SHORT >= A
+    if brief.all():
+        return value_of(A, columns(plates.short, index))
+    found = value_of(A, columns(plates.first, index))
+    chosen = np.flatnonzero(brief)
+    if chosen.size:
+        at = None if index is None else index[chosen]
+        found[chosen] = value_of(A[chosen], columns(plates.short, at))
+    near = reach * ROUNDED >= A
+    if not near.all():
+        for part, values, _ in _beyond(A, near, plates, index):
+            found[part] = values
+    return found
+
+
+def correction_with_slope(
+    A: Double, plates: Plates, index: np.ndarray | None
+) -> tuple[Double, Double]:
+    """F and A F' at points A >= 0 of shape (points,), alpha < 1, a block of them."""
+    reach = plates.reach[slice(None) if index is None else index]
+    near = reach * ROUNDED >= A
+    found, slopes = with_slope(A, columns(plates.first, index))
+    if not near.all():
+        for part, values, rises in _beyond(A, near, plates, index):
+            found[part], slopes[part] = values, rises
+    return found, slopes
+
+
+def _beyond(
+    A: Double, near: np.ndarray, plates: Plates, index: np.ndarray | None
+) -> list[tuple[np.ndarray, Double | float, Double | float]]:
+    """F and A F' where A > reach: which points, and the values there."""
+    outside = np.flatnonzero(~near)
+    owner = np.zeros(outside.size, dtype=np.intp) if index is None else index[outside]
+    within = ROUNDED * plates.far[owner] >= A[outside]
+    which, position = np.unique(owner[within], return_inverse=True)
+    found: list[tuple[np.ndarray, Double | float, Double | float]] = []
+    if which.size:
+        piece = columns(far_piece(plates.eta[which]), None if which.size == 1 else position)
+        found.append((outside[within], *with_slope(A[outside[within]], piece)))
+    rest, owner = outside[~within], owner[~within]
+    for plate in np.unique(owner):
+        mine, eta = rest[owner == plate], float(plates.eta[plate])
+        summable = (A[mine] * eta <= ROUNDED) & (eta >= THINNEST_SUM)
+        if summable.any():
+            found.append((mine[summable], *direct(A[mine[summable]], eta)))
+        found.append((mine[~summable], np.nan, np.nan))
+    return found
+
+
+def blocks_of(size: int) -> list[slice]:
+    """Slices of at most _BLOCK points."""
+    return [slice(start, start + _BLOCK) for start in range(0, size, _BLOCK)]

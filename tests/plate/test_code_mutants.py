@@ -6,7 +6,7 @@ from functools import cache
 from typing import Any
 
 import pytest
-from mutated_code import BEYOND_ALL, GUARDS, ORDER, SAME, SIZE, START, Case, named, survivors
+from mutated_code import BEYOND_ALL, GUARDS, ORDER, SAME, START, Case, named, survivors
 
 from derivation.plate import oracle as balls
 from derivation.plate.contact.oracle import balls as contact_balls

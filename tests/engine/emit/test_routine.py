@@ -14,6 +14,7 @@ from mutants import of_expression
 
 from derivation.engine.emit.package import Routines, written
 from derivation.engine.emit.routine import (
+    QUIET_SCALARS,
     SCALARS,
     Choice,
     Let,
@@ -173,3 +174,15 @@ def test_what_is_written_within_is_put_in_parentheses() -> None:
     assert "u" not in text(made).replace("Double", "").replace("value", "").split()
     value = 5.0 / 3 - 1
     assert run(made, 5.0) == pytest.approx(2 * value - np.sin(value) * value, rel=1e-15)
+
+
+def test_single_numbers_outside_the_domain_are_nan_if_wanted() -> None:
+    made = growth(statements=(), results=(sp.sqrt(x + 1),), claims=(sp.sqrt(1 + x),))
+    loud, quiet = ({"sqrt": math.sqrt}, {"np": np})
+    exec(text(made, SCALARS), loud)
+    exec(text(made, QUIET_SCALARS), quiet)
+    assert quiet["growth"](3.0) == loud["growth"](3.0) == 2.0  # type: ignore[operator]
+    with pytest.raises(ValueError, match=r"domain|nonnegative"):
+        loud["growth"](-2.0)  # type: ignore[operator]
+    with np.errstate(invalid="ignore"):
+        assert np.isnan(quiet["growth"](-2.0))  # type: ignore[operator]

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from mpmath import beta, mp, mpf
 from scipy.integrate import solve_ivp
 
+from derivation.plate.viscosity.theory import bounds, contact
 from derivation.scene import motion, viscous
 from derivation.scene.effect_selection import decide
 from derivation.scene.effects import BY_NAME, WHOLE_PLATE
@@ -316,3 +317,7 @@ def test_gate_keeps_its_word_either_side_of_its_threshold(edge: str, gravity: fl
         errors = [abs(x / y - 1) for x, y in zip(found.numbers, whole.numbers, strict=True)]
         assert max(errors) <= selected.error + 1e-11 <= rtol + 1e-11
     assert OUTPUTS[-1] == "restitution"
+
+
+def test_spiral_and_bounds_are_proved_symbolically() -> None:
+    assert contact.polar().method == bounds.bounds().proof.method == "symbolically"

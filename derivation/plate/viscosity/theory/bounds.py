@@ -30,6 +30,7 @@ import sympy as sp
 from derivation.engine.formula.proof import Proof, prove
 from derivation.plate.viscosity.theory.contact import (
     epsilon,
+    on_circle,
     phi,
     polar,
     spiral,
@@ -119,18 +120,18 @@ def _proof(
     radial, turning, force = spiral()
     sine, cosine = sp.sin(phi), sp.cos(phi)
     per_angle = radial / turning
+    share = epsilon * cosine**2 / (turning * least)
     return prove(
         "Bounds of the viscous spiral",
         r"What $\phi'/\Omega$ has over its least and lacks of its largest value are squares; over "
         "the first quarter it is 1 at least. The square of the force and that of its slope by "
         r"$\phi$ add up to that of its amplitude.",
         {
-            "least": turning - least - epsilon * (sine + cosine) ** 2 / 2,
-            "most": most - turning - epsilon * (sine - cosine) ** 2 / 2,
+            "least": on_circle(turning - least - epsilon * (sine + cosine) ** 2 / 2),
+            "most": on_circle(most - turning - epsilon * (sine - cosine) ** 2 / 2),
             "quarter": per_angle - radial - epsilon**2 * cosine**3 * sine / turning,
-            "half": per_angle - radial / least
-            - epsilon**2 * cosine**2 * (sine + cosine) ** 2 / 2 / (turning * least),
-            "largest force": amplitude**2 - force**2 - (cosine - epsilon * sine) ** 2,
+            "half": sp.together(per_angle - radial / least - (turning - least) * share),
+            "largest force": on_circle(amplitude**2 - force**2 - (cosine - epsilon * sine) ** 2),
             "at the turning point": till_turned - sp.pi / 4 * epsilon,
             "Lambda": whole - sp.pi / 2 * epsilon / (1 - epsilon / 2),
         },

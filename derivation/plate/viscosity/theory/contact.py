@@ -35,6 +35,11 @@ def spiral() -> tuple[sp.Expr, sp.Expr, sp.Expr]:
     return -epsilon * sp.cos(phi) ** 2, turning, sp.sin(phi) + epsilon * sp.cos(phi)
 
 
+def on_circle(x: sp.Expr) -> sp.Expr:
+    """In powers of the cosine alone, but for one sine."""
+    return sp.expand(sp.expand(x).subs(sp.sin(phi) ** 2, 1 - sp.cos(phi) ** 2))
+
+
 @cache
 def polar() -> Proof:
     """The motion in the plane of s and v, in polar coordinates."""
@@ -43,17 +48,17 @@ def polar() -> Proof:
     rate_v = -_Omega * _s - epsilon * _Omega * _v
     there = {_s: _rho * sp.sin(phi), _v: _rho * sp.cos(phi)}
 
-    def on_circle(x: sp.Expr) -> sp.Expr:
-        return sp.expand(sp.expand(x.subs(there)).subs(sp.sin(phi) ** 2, 1 - sp.cos(phi) ** 2))
+    def turned(x: sp.Expr) -> sp.Expr:
+        return on_circle(x.subs(there))
 
     radial, turning, force = spiral()
     return prove(
         "Viscous contact in polar coordinates",
         "s' = Omega v and v' = -Omega (s + epsilon v) with s = rho sin phi, v = rho cos phi.",
         {
-            "radius": on_circle((_s * rate_s + _v * rate_v) / _rho**2 - _Omega * radial),
-            "angle": on_circle((_v * rate_s - _s * rate_v) / _rho**2 - _Omega * turning),
-            "force": on_circle(-rate_v - _Omega * _rho * force),
+            "radius": turned((_s * rate_s + _v * rate_v) / _rho**2 - _Omega * radial),
+            "angle": turned((_v * rate_s - _s * rate_v) / _rho**2 - _Omega * turning),
+            "force": turned(-rate_v - _Omega * _rho * force),
         },
     )
 

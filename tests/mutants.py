@@ -126,11 +126,16 @@ def _formulas(tree: ast.Module) -> Iterator[_Place]:
     """Arithmetic of all functions and of module constants."""
 
     def walk(node: ast.AST, home: str, parent: ast.AST, exponent: bool) -> Iterator[_Place]:
-        if isinstance(node, ast.Subscript | ast.arguments | ast.ClassDef):
+        if isinstance(node, ast.Subscript | ast.arguments):
             return
         if isinstance(node, ast.AnnAssign):
             if node.value is not None:
                 yield from walk(node.value, home, node, False)
+            return
+        if isinstance(node, ast.ClassDef):
+            for method in node.body:
+                if isinstance(method, ast.FunctionDef):
+                    yield from walk(method, home, node, False)
             return
         if isinstance(node, ast.Call) and ast.unparse(node.func).split(".")[-1] in SKIPPED:
             return

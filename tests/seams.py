@@ -18,14 +18,14 @@ from derivation.plate.contact.kernels import moments as moment_tables
 from derivation.plate.contact.kernels import tables as contact_tables
 from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.edge.kernels import tables as edge_tables
-from derivation.plate.effects import kernels as effect_tables
+from derivation.plate.effects.kernels import numbers as effect_tables
 from derivation.plate.grids import seams
 from derivation.plate.impact.kernels import simple as simple_impact_tables
 from derivation.plate.impact.oracle import impact as contact_impact
 from derivation.plate.impact.oracle.printed_motion import last_share
 from derivation.plate.modes.kernels.forms import mode_forms
-from derivation.plate.pressure import kernels as pressure_tables
-from generated import contact_series, non_hertzian_pressure
+from derivation.plate.pressure.kernels import numbers as pressure_tables
+from generated import contact_series
 
 Point = Mapping[str, Fraction]
 Place = float | Fraction
@@ -113,7 +113,7 @@ def times() -> Iterable[Place]:
 
 
 def wall_shares() -> Iterable[Place]:
-    places = [non_hertzian_pressure._LOW / y for y in pressure_tables.wall_places()]
+    places = [pressure_tables.LOW / y for y in pressure_tables.wall_places()]
     places = [place for place in places if place < 0.9]
     return [places[0], places[-1]]
 

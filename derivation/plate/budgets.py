@@ -10,7 +10,7 @@ BUDGETS = Path(__file__).parent / "budgets.toml"
 
 
 def read_tables() -> dict[str, Any]:
-    """Read all tables; the subjects' own numbers and domains are added to those of the paper.
+    """Read all tables; the subjects' own budgets are added to those of the paper.
 
     Raises
     ------
@@ -23,7 +23,6 @@ def read_tables() -> dict[str, Any]:
         if twice := own["ulp"].keys() & found["ulp"].keys():
             raise ValueError(f"{file.parent.name}: a second budget for {', '.join(twice)}")
         found["ulp"] |= own["ulp"]
-        found["domain"] |= own.get("domain", {})
     return found
 
 
@@ -32,10 +31,10 @@ def read_budgets() -> dict[str, budgets.Budget]:
     return budgets.parse_budgets(read_tables())
 
 
-def read_domains() -> dict[str, str]:
-    """Domains of the functions whose modules have a template."""
-    domains: dict[str, str] = read_tables()["domain"]
-    return domains
+def read_printed_share() -> float:
+    """The part of the package's arithmetic that is printed at least [1], as committed."""
+    share: float = read_tables()["package"]["printed"]
+    return share
 
 
 def read_promises(table: str = "impact") -> dict[str, float]:

@@ -71,7 +71,7 @@ from derivation.plate.modes.theory.plate_factor import plate_factor_slope, plate
 from derivation.plate.modes.theory.stresses import modal_stresses
 from derivation.plate.pressure.theory.true_pressure import true_pressure
 from derivation.plate.subjects import handed_in
-from derivation.plate.viscosity.theory import viscosity
+from derivation.plate.viscosity.theory.bounds import viscosity
 from derivation.plate.vocabulary import Formula
 from derivation.plate.waves.theory.bending_branch import bending_branch
 from derivation.plate.waves.theory.closure import closure

@@ -10,6 +10,7 @@ from derivation.engine.errata.dimensions import dimension_note
 from derivation.engine.errata.errata import Errata
 from derivation.engine.errata.findings import Finding, Printed
 from derivation.engine.errata.variant import EXPONENT
+from derivation.engine.formula.notation import to_plain
 from derivation.engine.formula.proof import SYMBOLIC
 from derivation.engine.formula.record import Record
 from derivation.plate.contact.theory.divergence import DIVERGENT, tail
@@ -41,7 +42,8 @@ def diagnose_series(name: str, term: sp.Expr, formulas: Mapping[str, Record]) ->
         formula=formula,
         verdict=DIFFERENT,
         kind=DIVERGENT,
-        repair=f"the sum diverges, {found.says}: read {formula.meaning}, {formula.expression}",
+        repair=f"the sum diverges, {found.says}: read {to_plain(formula.meaning)}, "
+        f"{formula.expression}",
         repaired=formula.expression,
         edits=0,
         ratio=None,

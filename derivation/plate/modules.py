@@ -1,12 +1,13 @@
-"""A subject's modules of the generated package: printed from formulas, or with a template."""
+"""A subject's modules of the generated package: printed from formulas, or written by hand."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from derivation.engine.emit.copies import NO_NOTES
 from derivation.engine.emit.package import Numbers, Routines, Shape
+from derivation.mathematics.bessel.kernels import RUNTIME, bessel_numbers
 from derivation.plate.subjects import handed_in
 
 
@@ -32,39 +33,6 @@ class PrintedModule:
     title: str
     stated: Callable[[], Mapping[str, Shape]] = _none
     automatic: tuple[str, ...] = ()
-
-
-class FunctionRow(NamedTuple):
-    """What the manifest says of a function whose module has a template."""
-
-    name: str
-    arguments: tuple[str, ...]
-    unit: str
-    symbol: str
-    equation: str
-    meaning: str
-
-
-@dataclass(frozen=True, eq=False)
-class TemplateModule:
-    """A module with an algorithm: a template, `NAME.py.j2` in the subject's folder.
-
-    Parameters
-    ----------
-    name
-        Its name.
-    folder
-        The subject's folder.
-    context
-        What the template is filled with: numbers and printed expressions, as text.
-    functions
-        Its functions with an error budget. The template has their notes by name in `notes`.
-    """
-
-    name: str
-    folder: Path
-    context: Callable[[], Mapping[str, Any]]
-    functions: tuple[FunctionRow, ...] = ()
 
 
 def _no_notes() -> Mapping[str, Sequence[str]]:
@@ -95,7 +63,7 @@ class ComputedModule:
     make: Callable[[], Routines | Numbers]
 
 
-SubjectModule = PrintedModule | TemplateModule | RuntimeModule | ComputedModule
+SubjectModule = PrintedModule | RuntimeModule | ComputedModule
 
 
 def runtime_modules() -> tuple[RuntimeModule, ...]:
@@ -118,11 +86,14 @@ def printed_modules() -> tuple[PrintedModule, ...]:
     return tuple(module for module in _modules() if isinstance(module, PrintedModule))
 
 
-def template_modules() -> tuple[TemplateModule, ...]:
-    """Return the modules with a template of all subjects."""
-    return tuple(module for module in _modules() if isinstance(module, TemplateModule))
+MATHEMATICS: tuple[SubjectModule, ...] = (
+    ComputedModule("bessel_numbers", bessel_numbers),
+    RuntimeModule("bessel", RUNTIME / "bessel.py"),
+)
+"""Modules of what papers share."""
 
 
 def _modules() -> Iterator[SubjectModule]:
+    yield from MATHEMATICS
     for modules in handed_in("kernels", "MODULES"):
         yield from modules

@@ -1,7 +1,6 @@
 """The plate's package `generated`: proven formulas and their stable forms in, text out."""
 
 from collections.abc import Mapping
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -24,29 +23,25 @@ from derivation.engine.emit.package import (
     written,
 )
 from derivation.engine.emit.printer import to_numpy
+from derivation.engine.emit.share import expect_growth, shares
 from derivation.engine.formula.record import Record
 from derivation.engine.rewrite.form import Form
 from derivation.engine.rewrite.sections import sections
-from derivation.mathematics.bessel.kernels import bessel_context
 from derivation.plate.blocks import blocks
-from derivation.plate.budgets import read_budgets, read_promises
-from derivation.plate.contact.kernels.moments import moment_context
-from derivation.plate.contact.kernels.tables import impact_context
-from derivation.plate.impact.kernels.perturbation import perturbation_context
-from derivation.plate.impact.kernels.simple import simple_impact_context
-from derivation.plate.modes.kernels.modal_sums import MODAL_SUMS, STYLE, kernel_of_sum
+from derivation.plate.budgets import read_budgets, read_printed_share
+from derivation.plate.manifest_rows import hand_written_rows
+from derivation.plate.modes.kernels.modal_sums import STYLE, kernel_of_sum
+from derivation.plate.modes.kernels.shares import SHARES
 from derivation.plate.modules import (
     computed_modules,
     printed_modules,
     runtime_modules,
-    template_modules,
 )
-from derivation.plate.pressure.kernels import pressure_context
 from derivation.plate.printed.contact import PRINTED
-from derivation.plate.table_rows import contact_rows, notes_of, table_rows
 from derivation.plate.vocabulary import BY_NAME, arguments_of
 
 TEMPLATES = Path(__file__).parent / "templates"
+SUMMARY = "Contact of a rigid sphere with an elastic plate, in NumPy alone."
 CITATION = "Elastodynamic contact in plate-like bodies"
 TITLES = {
     "omega": "Integration constants C_k = A_j Omega_k of a mode, scaled by e^(phi h) and plain.",
@@ -59,10 +54,19 @@ TITLES = {
 
 
 def render(formulas: Mapping[str, Record], forms: tuple[Form, ...]) -> dict[str, str]:
-    """Files of the generated package by name; the same bytes for the same input."""
+    """Files of the generated package by name; the same bytes for the same input.
+
+    Raises
+    ------
+    ValueError
+        If less of its arithmetic is printed than before.
+    """
     kernels = kernel_rows(formulas, forms)
     planned = modules(kernels)
-    return written(planned)
+    files = written(planned)
+    sources = {name.removesuffix(".py"): text for name, text in files.items()}
+    expect_growth(shares(sources), read_printed_share())
+    return files
 
 
 def kernel_rows(
@@ -70,13 +74,13 @@ def kernel_rows(
 ) -> tuple[EmittedKernel, ...]:
     """Stage 1: a row for every stable form and every modal sum."""
     budgets = read_budgets()
-    shares = {f.name: f for f in forms if formulas[f.name].summed}
-    closed = (f for f in forms if f.name not in shares)
+    of_modes = {f.name: f for f in forms if formulas[f.name].summed}
+    closed = (f for f in forms if f.name not in of_modes)
     of_forms = tuple(kernel_of_form(f, formulas[f.name], budgets[f.name], STYLE) for f in closed)
     load = formulas["A_j"], formulas["Omega_1"]
     of_sums = tuple(
-        kernel_of_sum(formulas[name], *load, budgets[name], shares.get(name))
-        for name in (*shares, *MODAL_SUMS)
+        kernel_of_sum(formulas[name], *load, budgets[name], of_modes.get(name))
+        for name in (*of_modes, *SHARES)
     )
     return of_forms + of_sums
 
@@ -86,53 +90,40 @@ def modules(kernels: tuple[EmittedKernel, ...]) -> tuple[Planned, ...]:
     grouped = rows_by_module(kernels)
     known, budgets = blocks() | sections(), read_budgets()
 
-    def tables(name: str, context: Mapping[str, Any], folder: Path = TEMPLATES) -> Module:
-        notes = notes_of(name, budgets)
-        return Module(name, name, {**context, "notes": notes} if notes else context, folder)
-
+    listed, others = hand_written_rows(budgets)
     planned: list[Planned] = [
         *shared(known),
-        tables("bessel", bessel_context()),
-        tables("series_constants", moment_context()),
         own("as_printed", {"functions": printed_rows()}),
-        tables("reversed_series", {}),
-        tables("impact", {**impact_context(), "promises": read_promises()}),
-        *(tables(x.name, x.context(), x.folder) for x in template_modules()),
         *(x.make() for x in computed_modules()),
         *(Copy(x.name, x.file, "generated", budgets, x.notes()) for x in runtime_modules()),
-        own("simple_impact", simple_impact_context()),
-        own("perturbation", perturbation_context()),
-        own("non_hertzian_pressure", pressure_context() | read_promises("pressure")),
         own(
             "manifest",
             {
-                "rows": manifest_rows(kernels),
-                "contact": contact_rows(budgets),
+                "rows": [*map(kernel_row, kernels), *listed],
+                "contact": others,
                 "citation": CITATION,
             },
         ),
     ]
     planned += (
-        replace(module, template="modal_sum", folder=TEMPLATES)
+        own(module.name, {**module.context, "shares": [f"{name}_of_mode" for name in SHARES]})
         if module.name == "modal_sum"
         else module
         for module in kernel_modules(kernels, TITLES, known)
     )
     exported = {name: [k.name for k in group] for name, group in grouped.items()}
-    for row in table_rows(budgets):
-        exported.setdefault(str(row["module"]), []).append(str(row["name"]))
     # The module `impact` keeps its name: its function is reached through it.
-    for row in contact_rows(budgets):
-        if row["module"] != "impact":
-            exported.setdefault(str(row["module"]), []).append(str(row["name"]))
+    for row in (*listed, *(row for row in others if row["module"] != "impact")):
+        exported.setdefault(row["module"], []).append(row["name"])
     names = sorted(name for group in exported.values() for name in group)
-    planned.append(own("__init__", {"modules": exported, "all_names": names}, "init"))
+    package = {"summary": SUMMARY, "modules": exported, "all_names": names}
+    planned.append(Module("__init__", "package", package))
     return tuple(planned)
 
 
-def own(name: str, context: Mapping[str, Any], template: str = "") -> Module:
+def own(name: str, context: Mapping[str, Any]) -> Module:
     """A module with a template of the paper's."""
-    return Module(name, template or name, context, TEMPLATES)
+    return Module(name, name, context, TEMPLATES)
 
 
 def printed_rows() -> tuple[AsPrinted, ...]:
@@ -154,8 +145,3 @@ def printed_rows() -> tuple[AsPrinted, ...]:
             )
         )
     return tuple(rows)
-
-
-def manifest_rows(kernels: tuple[EmittedKernel, ...]) -> list[dict[str, Any]]:
-    """What the manifest says of each kernel, tables included."""
-    return [kernel_row(k) for k in kernels] + table_rows(read_budgets())

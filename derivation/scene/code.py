@@ -1,4 +1,4 @@
-"""What the code for one scene is made of: the law of its effects, constants folded, as plain data.
+"""What the code for one scene is made of: modules to copy, the numbers of its law, its head.
 
 Effects that have a closed form keep it. All others together become polynomials of the contact
 radius a on panels: p, the force over Hertz's at that radius, and F, by which the indentation over
@@ -9,7 +9,6 @@ Hertz's grows,
 Panels are halved until the last coefficients are rounding.
 """
 
-import hashlib
 import json
 import math
 import textwrap
@@ -20,6 +19,7 @@ import numpy as np
 from numpy.polynomial.chebyshev import cheb2poly, chebfit
 
 from derivation.scene import method_selection
+from derivation.scene.compose import WIDTH, summary
 from derivation.scene.edge_remainder import edge_remainder
 from derivation.scene.effect_selection import SelectedEffects
 from derivation.scene.effects import BY_NAME
@@ -29,6 +29,7 @@ from derivation.scene.law import ContactLaw
 from derivation.scene.limits import last_radius
 from derivation.scene.motion import Motion
 from derivation.scene.quadrature import NODES
+from derivation.scene.result import Result
 from derivation.scene.scene import Scene, SceneError
 from derivation.scene.viscous_law import bending_of
 
@@ -44,8 +45,11 @@ WRONG = {"force": 1e-10, "stiffness": 1e-6, "contact_radius": 1e-10, "impact": 1
 The law's own stiffness, the pressure solved for, is right to 1e-7 alone at a = 0.99 R."""
 STIFFEST = 2e-3
 """Least time scale, over the contact time, of an inner state that explicit steps follow [1]."""
-WIDTH = 94
-"""Of lines of text."""
+STIFF = (
+    "There is no `impact`: the contact is viscoelastic and bending is not, so that the contact has "
+    "an inner state, see `elastic_rate`, too stiff here for explicit steps; `platecontact "
+    "simulate` follows it."
+)
 _HALVINGS = 50
 
 
@@ -62,11 +66,17 @@ class PanelTable(NamedTuple):
 
 
 class Recipe(NamedTuple):
-    """The law of a scene, its impact, and what the template of its code takes."""
+    """The law of a scene, its impact, and what its code is made of.
+
+    `parts` are modules of `runtime`, `numbers` those of `runtime.data`, `head` the lines that say
+    what is in the code.
+    """
 
     law: ContactLaw
     motion: Motion
-    context: dict[str, Any]
+    parts: tuple[str, ...]
+    numbers: dict[str, object]
+    head: tuple[str, ...]
 
 
 def recipe(scene: Scene) -> Recipe:
@@ -79,36 +89,70 @@ def recipe(scene: Scene) -> Recipe:
     """
     _check_at_rest(scene)
     result = simulate(scene)
-    selected, law = result.effects, result.effects.law
+    law: ContactLaw = result.effects.law
     motion = method_selection.moved(law)
-    model = law.model
     compliance = _compliance(law, motion.max_contact_radius)
     end = end_of(law, motion.max_contact_radius)
-    kind = _kind(law)
-    notes = (*result.warnings, *([result.model_note] if result.model_note else []))
-    last = np.array([end])
-    context = {
-        "kind": kind,
+    table = tabulated(law, end) if _kind(law) == "table" else None
+    form = "bent_" if compliance else ""
+    stepped = not compliance or _slowness(law, motion, compliance) > STIFFEST
+    parts = (
+        *((f"{form}viscous_force", "elastic_force") if law.viscous else ("force",)),
+        "stiffness",
+        *(("inverse",) if table else ()),
+        *(_impact_parts(law, form) if stepped else ()),
+        *_law_parts(law, table),
+        "domain",
+    )
+    return Recipe(
+        law,
+        motion,
+        ("outcome", *parts) if stepped else parts,
+        _numbers(law, motion, end, table) | {"COMPLIANCE": compliance},
+        _head(scene, result, parts, stepped),
+    )
+
+
+def _law_parts(law: ContactLaw, table: PanelTable | None) -> tuple[str, ...]:
+    """Modules of the contact law."""
+    if table is None:
+        return (f"{_kind(law)}_law",)
+    return ("growth_law" if table.force is None else "pressure_law", "panels")
+
+
+def _impact_parts(law: ContactLaw, form: str) -> tuple[str, ...]:
+    """Modules of the impact: by steps, from energy, or in closed form."""
+    weight = "_in_gravity" if law.gravity else ""
+    if law.viscous:
+        return ("viscous_impact", f"{form}viscous_motion", f"acceleration{weight}", "steps")
+    if law.gravity or not law.hertzian:
+        return (f"energy_impact{weight}", "energy", f"acceleration{weight}")
+    return ("hertz_impact",)
+
+
+def _numbers(
+    law: ContactLaw, motion: Motion, end: float, table: PanelTable | None
+) -> dict[str, object]:
+    """The numbers of the law and of the impact."""
+    model, last = law.model, np.array([end])
+    numbers: dict[str, object] = {
         "R": model.R,
-        "modulus": law.modulus,
-        "bend": _bend(law) if kind == "bent" else 0.0,
-        "table": _shown(tabulated(law, end)) if kind == "table" else None,
-        "limit": end,
-        "max_indentation": float(law.indentation(last, law.at(last))[0]),
-        "mass": model.m,
-        "speed": model.v0,
-        "gravity": law.gravity,
-        "retardation_time": model.retardation_time if law.viscous else 0.0,
-        "compliance": compliance,
-        "with_impact": not compliance or _slowness(law, motion, compliance) > STIFFEST,
-        "largest_radius": motion.max_contact_radius,
-        "rise": motion.max_indentation / model.v0,
-        "quadrature": not law.viscous and (bool(law.gravity) or not law.hertzian),
-        "hertz_time": 0.8 * math.sqrt(math.pi) * math.gamma(0.4) / math.gamma(0.9),
-        "nodes": NODES[2] if law.spherical else NODES[1],
-        **_words(scene, selected, motion.max_indentation, notes),
+        "MODULUS": law.modulus,
+        "BEND": _bend(law) if _kind(law) == "bent" else 0.0,
+        "MASS": model.m,
+        "SPEED": model.v0,
+        "GRAVITY": law.gravity,
+        "RETARDATION_TIME": model.retardation_time,
+        "LIMIT": end,
+        "MAX_INDENTATION": float(law.indentation(last, law.at(last))[0]),
+        "LARGEST_RADIUS": motion.max_contact_radius,
+        "RISE": motion.max_indentation / model.v0,
+        "HERTZ_TIME": 0.8 * math.sqrt(math.pi) * math.gamma(0.4) / math.gamma(0.9),
+        "NODES": NODES[2] if law.spherical else NODES[1],
     }
-    return Recipe(law, motion, context)
+    if table is not None:
+        numbers |= {"ENDS": table.ends, "GROWTH": table.growth, "FORCE": table.force}
+    return numbers
 
 
 def _check_at_rest(scene: Scene) -> None:
@@ -220,35 +264,14 @@ def _powers(series: Array) -> Array:
     return powers
 
 
-def _shown(table: PanelTable) -> dict[str, Any]:
-    """Numbers as lines of Python."""
-    many = len(table.growth) > 1
-
-    def lines(rows: Array) -> list[str]:
-        found = []
-        for row in rows:
-            inner = textwrap.wrap(", ".join(repr(float(x)) for x in row) + ",", WIDTH - 4)
-            found += ["(", *(f"    {line}" for line in inner), "),"] if many else inner
-        return found
-
-    return {
-        "many": many,
-        "ends": [f"{float(end)!r}," for end in table.ends],
-        "growth": lines(table.growth),
-        "force": [] if table.force is None else lines(table.force),
-    }
-
-
-def _words(
-    scene: Scene, selected: SelectedEffects, deepest: float, notes: tuple[str, ...]
-) -> dict[str, Any]:
+def _head(scene: Scene, result: Result, parts: tuple[str, ...], stepped: bool) -> tuple[str, ...]:
     """The module's head: the scene, effects included and omitted, tolerance, what to know."""
-    data = scene.to_json()
+    selected = result.effects
     keys = [
         f"[{table}] " + ", ".join(f"{key} = {json.dumps(value)}" for key, value in keys.items())
-        for table, keys in data.items()
+        for table, keys in scene.to_json().items()
     ]
-    rows = [
+    included = [
         f"{row.name}: {BY_NAME[row.name].equation}; "
         f"{row.parameter} = {row.parameter_value:.3g}, {row.reason}"
         for row in selected.rows
@@ -261,22 +284,33 @@ def _words(
         for row in selected.rows
         if not row.included
     ]
-    promise = "No applicable effect is omitted, unless the scene disables it."
-    if selected.error:
-        promise = (
-            "The omitted effects, unless the scene disables them, change each result of this "
-            f"impact by at most {selected.error:.1e} (tolerance {selected.rtol:.3g}). This holds "
-            f"up to its largest indentation, {deepest:.6g} m; beyond, up to MAX_INDENTATION, the "
-            "effects stay the same."
-        )
-    return {
-        "scene": _wrapped(keys),
-        "included": _wrapped(rows),
-        "omitted": _wrapped(omitted),
-        "notes": _wrapped(notes),
-        "promise": textwrap.wrap(promise, WIDTH),
-        "hash": hashlib.sha256(json.dumps(data, sort_keys=True).encode()).hexdigest()[:16],
-    }
+    notes = (*result.warnings, *([result.model_note] if result.model_note else []))
+    title = f"Contact law{' and impact' if stepped else ''} of one scene"
+    title += ": a sphere striking a plate, in SI units; needs NumPy alone."
+    formula = next(summary(part) for part in parts if part.endswith("_law"))
+    return (
+        title,
+        *("", "Law::", "", f"    {formula}"),
+        *("", "Scene:", "", *_wrapped(keys)),
+        *("", "Included effects:", "", *_wrapped(included)),
+        *("", "Omitted effects:", "", *_wrapped(omitted)),
+        *("", *textwrap.wrap(_promise(selected, result), WIDTH)),
+        *(("", "To know:", "", *_wrapped(notes)) if notes else ()),
+        *(() if stepped else ("", *textwrap.wrap(STIFF, WIDTH))),
+    )
+
+
+def _promise(selected: SelectedEffects, result: Result) -> str:
+    """What the omitted effects may change."""
+    if not selected.error:
+        return "No applicable effect is omitted, unless the scene disables it."
+    deepest = result.max_indentation
+    return (
+        "The omitted effects, unless the scene disables them, change each result of this "
+        f"impact by at most {selected.error:.1e} (tolerance {selected.rtol:.3g}). This holds "
+        f"up to its largest indentation, {deepest:.6g} m; beyond, up to MAX_INDENTATION, the "
+        "effects stay the same."
+    )
 
 
 def _bound(bound: float) -> str:
@@ -309,7 +343,7 @@ def errors(of: Recipe, made: Mapping[str, Any]) -> dict[str, float]:
     """
     law = of.law
     small, even = np.geomspace(SMALL, 1.0, POINTS), np.linspace(0.01, 1.0, POINTS)
-    a = of.context["limit"] * np.unique(np.append(small, even))
+    a = made["LIMIT"] * np.unique(np.append(small, even))
     shape = law.at(a)
     delta = np.minimum(law.indentation(a, shape), made["MAX_INDENTATION"])  # to the last bit
     static = made["elastic_force" if "elastic_force" in made else "force"]

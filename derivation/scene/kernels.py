@@ -17,11 +17,8 @@ from generated.edge import (
     supported_edge_bound,
     supported_edge_slope,
 )
+from generated.effect_numbers import PRESSURE_WALL, WALL_CUBIC, WALL_GROWTH, WALL_LINEAR
 from generated.effects import (
-    PRESSURE_WALL,
-    WALL_CUBIC,
-    WALL_GROWTH,
-    WALL_LINEAR,
     Sphere,
     bending,
     bending_period,

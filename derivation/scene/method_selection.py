@@ -291,7 +291,7 @@ def _rounding(law: ContactLaw) -> float:
     """What tests hold the arithmetic to; that of the pressure and in time come on top."""
     rounding = kernels.ROUNDING
     if law.solved:
-        from generated.non_hertzian_pressure import ERROR
+        from generated.pressure_numbers import ERROR
 
         rounding += ERROR
     if law.viscous:

@@ -18,6 +18,7 @@ from derivation.plate.benchmark.speed import scenes
 from derivation.scene import SceneError, kernels, load, method_selection, read, simulate
 from derivation.scene.model import Model, model_of
 from generated import simple_impact
+from generated import simple_impact_numbers as numbers
 from generated.impact import impact
 from generated.sensitivity import impact_sensitivities
 
@@ -148,7 +149,7 @@ def test_quadrature_of_the_first_correction(x: float) -> None:
     fine = float(4 * np.sum(weights * q * (1 + x * q) * root))
     ours = sum(
         weight * (1 + x * q) * math.sqrt((6 + 5 * x) / (fifth + x * sixth))
-        for q, fifth, sixth, weight in simple_impact._RULE
+        for q, fifth, sixth, weight in numbers.RULE
     )
     assert ours == pytest.approx(fine, rel=1e-13)
 

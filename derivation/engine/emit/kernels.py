@@ -9,6 +9,7 @@ import sympy as sp
 
 from derivation.engine.emit.budgets import Budget
 from derivation.engine.emit.printer import to_numpy
+from derivation.engine.formula.notation import to_plain
 from derivation.engine.formula.record import Record
 from derivation.engine.formula.vocabulary import Argument, applicable
 from derivation.engine.rewrite.form import Branch, Form, Seam, Step
@@ -91,16 +92,6 @@ class EmittedKernel:
     seam: SeamText | None = None
 
     @property
-    def loaded(self) -> bool:
-        """Whether the sum's share needs the pressure coefficient."""
-        return self.modes and re.search(r"\bA\b", self.value) is not None
-
-    @property
-    def in_plane(self) -> bool:
-        """Whether the sum's share is made of both stresses in plane and the chord of J1."""
-        return self.modes and "chord" in self.value
-
-    @property
     def carried(self) -> tuple[str, ...]:
         """Of a value that does not depend on all arguments: the last it needs, then the idle."""
         code = set(re.findall(r"\w+", repr((self.value, self.steps, self.seam))))
@@ -148,13 +139,14 @@ def kernel(
     """Row of a function of the given arguments."""
     names = {x.name for x in arguments}
     where = conditions(arguments, formula.where, style)
+    meaning = to_plain(formula.meaning)
     total = "sum over j of " if modes else ""
     stated = formula.expression if formula.stated is None else formula.stated
     return EmittedKernel(
         name=formula.name,
         module=module,
-        summary=formula.meaning[0].upper() + formula.meaning[1:] + ".",
-        meaning=formula.meaning,
+        summary=meaning[0].upper() + meaning[1:] + ".",
+        meaning=meaning,
         symbol=formula.latex,
         latex=f"{formula.latex} = {formula.right_hand_side}",
         unit=formula.unit,

@@ -1,6 +1,8 @@
 """A paper's forms -> the modules of its generated package, and a module -> its source."""
 
 import hashlib
+import math
+import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib.metadata import version
@@ -20,8 +22,9 @@ from derivation.engine.emit.kernels import (
     seam_text,
 )
 from derivation.engine.emit.printer import to_numpy
-from derivation.engine.emit.routine import Routine
+from derivation.engine.emit.routine import ARRAYS, QUIET_SCALARS, Dialect, Routine
 from derivation.engine.emit.routine import text as routine_text
+from derivation.engine.emit.share import expect_reason
 from derivation.engine.emit.source import TEMPLATES, filled, format_files
 from derivation.engine.formula.record import Record
 from derivation.engine.rewrite.automatic import automatic
@@ -66,12 +69,15 @@ class Routines:
         Its functions, in order.
     imports
         Modules of the package, and the names that the functions need of them.
+    dialect
+        Whether they are of arrays or of single numbers.
     """
 
     name: str
     title: str
     routines: tuple[Routine, ...]
     imports: Mapping[str, tuple[str, ...]]
+    dialect: Dialect = ARRAYS
 
 
 @dataclass(frozen=True)
@@ -196,6 +202,7 @@ def shared(known: Mapping[str, Block]) -> tuple[Planned, ...]:
     """The modules that every package begins with."""
     return (
         Copy("arrays", RUNTIME / "arrays.py"),
+        Copy("polynomials", RUNTIME / "polynomials.py"),
         Copy("ranges", RUNTIME / "ranges.py"),
         Module("blocks", "blocks", {"functions": [block_text(b) for b in known.values()]}),
     )
@@ -226,6 +233,7 @@ def written(planned: Sequence[Planned]) -> dict[str, str]:
 
 
 def _copied(part: Copy) -> str:
+    expect_reason(part.name, part.file.read_text())
     told = sorted(part.budgets.items()), *sorted(part.notes.items())
     source = f"{part.file.read_text()}{''.join(map(str, told))}"
     return copies.copied(part.file, part.package, header(source), part.budgets, part.notes)
@@ -251,12 +259,26 @@ def _routines_text(part: Routines) -> str:
     given = {name for names in part.imports.values() for name in names}
     if missing := needed - given - {r.name for r in part.routines}:
         raise ValueError(f"{part.name}: expected modules for {', '.join(sorted(missing))}")
-    lines = ["import numpy as np", "", "from .arrays import Double"]
+    printed = [routine_text(r, part.dialect) for r in part.routines]
+    lines = _first_lines(printed, part.dialect)
     for module, names in sorted(part.imports.items()):
         used = sorted(needed & set(names))
         lines += [f"from .{module} import {', '.join(used)}"] if used else []
-    body = "\n\n\n".join(["\n".join(lines), *map(routine_text, part.routines)])
+    body = "\n\n\n".join(["\n".join(lines), *printed])
     return f'"""{part.title}"""\n{header(body)}\n\n{body}\n'
+
+
+def _first_lines(printed: Sequence[str], dialect: Dialect) -> list[str]:
+    """What the functions need besides the package."""
+    code = "\n".join(printed)
+    lines = ["from collections.abc import Sequence"] if dialect.rows in code else []
+    if dialect is ARRAYS:
+        return [*lines, "import numpy as np", "", "from .arrays import Double"]
+    if dialect is QUIET_SCALARS:
+        return [*lines, "import numpy as np", ""]
+    if functions := sorted(set(re.findall(r"(?<!\.)\b[a-z]+\b", code)) & set(vars(math))):
+        lines.append(f"from math import {', '.join(functions)}")
+    return [*lines, ""]
 
 
 def block_text(block: Block) -> dict[str, Any]:

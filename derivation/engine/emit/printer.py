@@ -12,6 +12,11 @@ from derivation.engine.rewrite.shape import decay
 SMALL_INTEGER = 1000
 """Largest denominator printed as a divisor; beyond, 1/n is folded into a double first."""
 
+LARGEST_PRODUCT = 6
+"""Largest power of a single number that is printed as a product."""
+POWERS_OF_TWO = (2, 4, 8, 16, 32, 64)
+"""Quotients by these are printed as exact factors: of single numbers a product is faster."""
+
 
 class _Printer(NumPyPrinter):
     """SymPy's NumPy printer, with quotients as written by hand and undefined functions as calls."""
@@ -101,9 +106,47 @@ def _split(product: sp.Expr) -> tuple[list[sp.Expr], list[sp.Expr]]:
     return above, below
 
 
+class _OfSingleNumbers(_Printer):
+    """The same with Python's own functions, which are much faster on single numbers."""
+
+    def _module_format(self, fqn: str, register: bool = True) -> str:
+        return super()._module_format(fqn, register).removeprefix("np.")
+
+    def _print_Integer(self, expr: sp.Integer) -> str:
+        return f"{expr}.0"
+
+    def _print_Mul(self, expr: sp.Mul) -> str:
+        coefficient, rest = expr.as_coeff_Mul()
+        if isinstance(coefficient, sp.Rational) and coefficient.q in POWERS_OF_TWO:
+            above, below = _split(rest)
+            text = self._product([sp.Float(coefficient), *above])
+            divisor = self._product(below)
+            text += f"/({divisor})" if len(below) > 1 else f"/{divisor}" if below else ""
+            return text
+        return super()._print_Mul(expr)
+
+    def _print_Rational(self, expr: sp.Rational) -> str:
+        if expr.q in POWERS_OF_TWO:
+            return repr(float(expr))
+        return f"{expr.p}.0/{expr.q}.0"
+
+    def _print_Pow(self, expr: sp.Pow, rational: bool = False) -> str:
+        if expr.exp.is_Integer and 1 < expr.exp <= LARGEST_PRODUCT:
+            # A power of a number that leaves the range would be an error, a product is infinite.
+            factor = self.parenthesize(expr.base, PRECEDENCE["Mul"], strict=False)
+            return f"({'*'.join([factor] * int(expr.exp))})"
+        return super()._print_Pow(expr, rational)
+
+
 _PRINTER = _Printer({"allow_unknown_functions": True})
+_SINGLE = _OfSingleNumbers({"allow_unknown_functions": True})
 
 
-def to_numpy(expression: sp.Expr) -> str:
+def to_numpy(expression: sp.Basic) -> str:
     """Source text of an expression, evaluated in the order printed."""
     return str(_PRINTER.doprint(expression))
+
+
+def to_math(expression: sp.Basic) -> str:
+    """The same of single numbers: exp, log, pi, sqrt and the like as Python's `math` has them."""
+    return str(_SINGLE.doprint(expression))

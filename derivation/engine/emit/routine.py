@@ -12,11 +12,13 @@ from dataclasses import dataclass, field
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from derivation.engine.emit.printer import to_numpy
+from derivation.engine.emit.printer import to_math, to_numpy
 from derivation.engine.formula.proof import Proof, prove
 
 GUARDED = sp.Function("np.minimum")
 """A value held below a bound that it does not exceed where the branch counts."""
+RAISED = sp.Function("np.maximum")
+"""A value held above a bound that it is not below where the branch counts."""
 Facts = Mapping[sp.Basic, sp.Expr]
 """What symbols stand for, or are equal to on one side of a choice."""
 
@@ -33,6 +35,8 @@ class Let:
         The claim holds whatever this is, such as a common scale.
     means
         What it is exactly: a lemma, proved on its own and then used.
+    within
+        It has no line but is written where it is used, once, so that NumPy works in place.
     """
 
     symbol: sp.Symbol
@@ -40,6 +44,7 @@ class Let:
     comment: str = ""
     opaque: bool = False
     means: sp.Expr | None = None
+    within: bool = False
 
 
 @dataclass(frozen=True)
@@ -102,7 +107,39 @@ class Choice:
             )
 
 
-Statement = Let | Several | Choice
+@dataclass(frozen=True)
+class Sums:
+    """``for items in rows:`` some steps, then ``symbol += term`` for each symbol.
+
+    A result may depend on the totals linearly, and is then proved for a single row.
+
+    Parameters
+    ----------
+    symbols, terms
+        The totals, and what a row adds to each.
+    rows
+        A table of the package, or an argument.
+    items
+        What a row holds.
+    steps
+        What is computed first of each row.
+    """
+
+    symbols: tuple[sp.Symbol, ...]
+    terms: tuple[sp.Expr, ...]
+    rows: sp.Symbol
+    items: tuple[sp.Symbol, ...]
+    steps: tuple[Let, ...] = ()
+
+    def of_one_row(self, value: sp.Expr) -> sp.Expr:
+        """A value with the totals of a single row."""
+        value = value.xreplace(dict(zip(self.symbols, self.terms, strict=True)))
+        for step in reversed(self.steps):
+            value = value.xreplace({step.symbol: step.expression})
+        return value
+
+
+Statement = Let | Several | Choice | Sums
 
 
 @dataclass(frozen=True)
@@ -137,6 +174,8 @@ class Routine:
 
 
 def _assigned(s: Statement) -> tuple[sp.Symbol, ...]:
+    if isinstance(s, Sums):
+        return (*s.symbols, *s.items, *(step.symbol for step in s.steps))
     return s.symbols if isinstance(s, Several) else (s.symbol,)
 
 
@@ -146,6 +185,8 @@ def _used(s: Statement) -> Iterator[sp.Basic]:
         yield s.expression
     elif isinstance(s, Several):
         yield from s.arguments
+    elif isinstance(s, Sums):
+        yield from (s.rows, *(step.expression for step in s.steps), *s.terms)
     else:
         yield from (s.condition, s.yes, s.no, *s.safe_yes.values(), *s.safe_no.values())
 
@@ -167,6 +208,21 @@ def _check_arguments(
     used = {x for e in expressions for x in e.free_symbols}
     if idle := [str(x) for x in arguments if x not in used]:
         raise ValueError(f"{name}: expected arguments that count, got {', '.join(idle)}")
+
+
+def _check_sums(name: str, statements: tuple[Statement, ...], results: tuple[sp.Expr, ...]) -> None:
+    """Refuse totals that results do not depend on linearly.
+
+    Raises
+    ------
+    ValueError
+        Naming the routine.
+    """
+    totals = {x for s in statements if isinstance(s, Sums) for x in s.symbols}
+    later = {x for s in statements for e in _used(s) for x in e.free_symbols}
+    slopes = (sp.diff(value, total) for value in results for total in totals)
+    if totals & later or any(slope.free_symbols & totals for slope in slopes):
+        raise ValueError(f"{name}: expected results that are linear in the totals")
 
 
 def routine(
@@ -199,6 +255,7 @@ def routine(
     """
     statements = tuple(statements)
     _check_arguments(name, arguments, statements, results)
+    _check_sums(name, statements, results)
     residuals = {}
     for k, s in enumerate(statements):
         if isinstance(s, Let) and s.means is not None:
@@ -229,6 +286,8 @@ def _undone(
             value = value if s.opaque else value.xreplace({s.symbol: exact})
         elif isinstance(s, Several):
             value = value.xreplace(dict(zip(s.symbols, s.meanings, strict=True)))
+        elif isinstance(s, Sums):
+            value = s.of_one_row(value)
         elif s.condition in taken:
             yes = taken[s.condition]
             if s.unclaimed == ("yes" if yes else "no"):
@@ -243,32 +302,72 @@ def _undone(
         if isinstance(s, Choice) and s.condition in taken:
             facts |= s.if_yes if taken[s.condition] else s.if_no
     label = ", ".join(f"{c if side else sp.Not(c)}" for c, side in taken.items())
-    yield label, value.replace(GUARDED, lambda v, _: v), facts
+    free = value.replace(GUARDED, lambda v, _: v).replace(RAISED, lambda v, _: v)
+    yield label, free, facts
 
 
-def text(r: Routine) -> str:
+@dataclass(frozen=True)
+class Dialect:
+    """How expressions are written, and the type of numbers."""
+
+    write: Callable[[sp.Basic], str]
+    number: str
+
+    @property
+    def rows(self) -> str:
+        """Type of a table."""
+        return f"Sequence[tuple[{self.number}, ...]]"
+
+
+ARRAYS = Dialect(to_numpy, "Double")
+"""NumPy's functions of arrays."""
+SCALARS = Dialect(to_math, "float")
+"""Python's functions of single numbers, which are much faster on these."""
+QUIET_SCALARS = Dialect(to_numpy, "float")
+"""NumPy's functions of single numbers: they give NaN where Python's raise an error."""
+
+
+def text(r: Routine, dialect: Dialect = ARRAYS) -> str:
     """Python source of the function."""
-    of = ", ".join(f"{a}: Double" for a in r.arguments)
-    several = f"tuple[{', '.join(['Double'] * len(r.results))}]"
-    returns = "Double" if len(r.results) == 1 else several
+    tables = {s.rows for s in r.statements if isinstance(s, Sums)}
+    types = (dialect.rows if a in tables else dialect.number for a in r.arguments)
+    of = ", ".join(f"{a}: {kind}" for a, kind in zip(r.arguments, types, strict=True))
+    several = f"tuple[{', '.join([dialect.number] * len(r.results))}]"
+    returns = dialect.number if len(r.results) == 1 else several
     lines = [f"def {r.name}({of}) -> {returns}:", f'    """{r.summary}"""']
     masks: dict[sp.Basic, str] = {}
+    written: dict[sp.Symbol, sp.Symbol] = {}
+
+    def write(expression: sp.Basic) -> str:
+        return dialect.write(expression.xreplace(written))
+
     for s in r.statements:
-        lines += (f"    {line}" for line in _lines(s, masks))
-    values = [to_numpy(v) for v in r.results]
-    if len(values) == 1:
+        if isinstance(s, Let) and s.within:
+            written[s.symbol] = sp.Symbol(f"({write(s.expression)})")
+        else:
+            lines += (f"    {line}" for line in _lines(s, masks, write))
+    values = [write(v) for v in r.results]
+    if len(values) == 1 and dialect is ARRAYS:
         lines += [f"    value: Double = {values[0]}", "    return value"]
     else:
         lines.append(f"    return {', '.join(values)}")
     return "\n".join(lines)
 
 
-def _lines(s: Statement, masks: dict[sp.Basic, str]) -> Iterator[str]:
+def _lines(
+    s: Statement, masks: dict[sp.Basic, str], write: Callable[[sp.Basic], str]
+) -> Iterator[str]:
     if isinstance(s, Let):
-        yield f"{s.symbol} = {to_numpy(s.expression)}" + (f"  # {s.comment}" if s.comment else "")
+        yield f"{s.symbol} = {write(s.expression)}" + (f"  # {s.comment}" if s.comment else "")
     elif isinstance(s, Several):
-        names, given = map(str, s.symbols), map(to_numpy, s.arguments)
+        names, given = map(str, s.symbols), map(write, s.arguments)
         yield f"{', '.join(names)} = {s.name}({', '.join(given)})"
+    elif isinstance(s, Sums):
+        yield f"{' = '.join(map(str, s.symbols))} = 0.0"
+        yield f"for {', '.join(map(str, s.items))} in {s.rows}:"
+        for step in s.steps:
+            yield from (f"    {line}" for line in _lines(step, masks, write))
+        yield from (f"    {x} += {write(e)}" for x, e in zip(s.symbols, s.terms, strict=True))
     else:
         yield from _chosen(s, masks)
 

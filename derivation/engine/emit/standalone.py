@@ -6,8 +6,9 @@ from importlib.metadata import version
 import numpy as np
 import sympy as sp
 
+from derivation.engine.emit.copies import function_text
 from derivation.engine.emit.kernels import lines, seam_text
-from derivation.engine.emit.package import Module, fill
+from derivation.engine.emit.package import RUNTIME, Module, fill
 from derivation.engine.emit.printer import to_numpy
 from derivation.engine.emit.source import format_files
 from derivation.engine.rewrite.form import Seam
@@ -46,6 +47,11 @@ def _compiled(source: str) -> Function:
 def _source(stable: Stable, low: float, high: float, statement: str) -> str:
     seam = seam_text(stable.value) if isinstance(stable.value, Seam) else None
     sides = (stable.value.below, stable.value.above) if isinstance(stable.value, Seam) else ()
+    powers = any(
+        part.has(POLYNOMIAL)
+        for side in sides
+        for part in (side.value, *(step.expression for step in side.steps))
+    )
     context = {
         "summary": f"A stable form by platecontact {version('platecontact')}.",
         "name": "f",
@@ -54,11 +60,7 @@ def _source(stable: Stable, low: float, high: float, statement: str) -> str:
         "low": repr(low),
         "high": repr(high),
         "statement": textwrap.wrap(statement, _WIDTH),
-        "polynomial": any(
-            part.has(POLYNOMIAL)
-            for side in sides
-            for part in (side.value, *(step.expression for step in side.steps))
-        ),
+        "polynomial": function_text(RUNTIME / "polynomials.py", "polynomial") if powers else "",
         "function": {
             "steps": lines(stable.steps),
             "seam": seam,

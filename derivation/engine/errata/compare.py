@@ -17,7 +17,7 @@ from derivation.engine.errata.repairs import Repair, repairs
 from derivation.engine.errata.sample import BITS, Values, monomial, sample
 from derivation.engine.errata.variant import EXPONENT, FACE, MISSING, STRAY, TWICE, VariantSearch
 from derivation.engine.formula.ball import enclosable
-from derivation.engine.formula.notation import to_latex, to_markdown
+from derivation.engine.formula.notation import to_latex, to_markdown, to_plain
 from derivation.engine.formula.parse import FormulaError
 from derivation.engine.formula.proof import SYMBOLIC, reduces_to_zero
 from derivation.engine.formula.record import Record
@@ -301,7 +301,8 @@ def _mistaken(
         if other.unit == derived.unit:
             faces = "face" in other.meaning and "face" in derived.meaning
             says = (
-                f"it is {other.name}, {other.meaning}; {derived.name}, {derived.meaning}, "
+                f"it is {other.name}, {to_plain(other.meaning)}; {derived.name}, "
+                f"{to_plain(derived.meaning)}, "
                 f"is {derived.expression}"
             )
             repair = Repair(FACE if faces else OTHER, says, derived.expression, 1)

@@ -6,7 +6,7 @@ import sympy as sp
 
 from derivation.engine.errata.compare import DIFFERENT, Diagnosis, diagnose
 from derivation.engine.errata.relations import Formulas, Relations
-from derivation.engine.formula.notation import to_latex, to_markdown
+from derivation.engine.formula.notation import to_latex, to_markdown, to_plain
 from derivation.engine.formula.record import Record
 
 CORRECT = "correct as published"
@@ -88,7 +88,7 @@ class Finding:
         return {
             "equation": self.printed.equation,
             "name": self.printed.name,
-            "says": self.printed.says,
+            "says": to_plain(self.printed.says),
             "printed": str(self.printed.expression),
             "printed_latex": f"{self.printed.symbol} = {self.printed.full or self.printed.latex}",
             "derived": str(diagnosis.derived),

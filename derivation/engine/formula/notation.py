@@ -1,11 +1,18 @@
-"""LaTeX of expressions in the paper's notation, and sentences as Markdown."""
+"""LaTeX of expressions in the paper's notation; sentences as Markdown and as plain text."""
 
 import re
+from collections.abc import Callable
 
 import sympy as sp
 from sympy.printing.latex import LatexPrinter
 
 from derivation.engine.formula.vocabulary import Vocabulary
+
+PLAIN = {
+    "le": "<=", "ge": ">=", "to": "->", "pm": "+-", "infty": "oo", "ldots": "...",
+    "varepsilon": "eps",
+}  # fmt: skip
+"""LaTeX's commands in plain text, but for those that are called the same there."""
 
 
 class PaperPrinter(LatexPrinter):
@@ -39,6 +46,33 @@ def to_latex(expression: sp.Basic, vocabulary: Vocabulary) -> str:
     return str(PaperPrinter(settings).doprint(expression))
 
 
+def mixed(text: str, words: Callable[[str], str], mathematics: Callable[[str], str]) -> str:
+    """A sentence whose mathematics stands between dollars, both turned into something else.
+
+    Raises
+    ------
+    ValueError
+        If a dollar has no partner.
+    """
+    pieces = text.split("$")
+    if len(pieces) % 2 == 0:
+        raise ValueError(f"expected dollars in pairs, got {text!r}")
+    return "".join((mathematics if n % 2 else words)(piece) for n, piece in enumerate(pieces))
+
+
 def to_markdown(text: str) -> str:
     """A sentence with its stars and underscores as they are, which would be emphasis."""
-    return re.sub(r"([*_])", r"\\\1", text)
+    return mixed(text, lambda words: re.sub(r"([*_])", r"\\\1", words), "${}$".format)
+
+
+def to_plain(text: str) -> str:
+    r"""A sentence for a terminal: `$\phi_j^{2/3} \le 1$` as `phi_j^(2/3) <= 1`."""
+    return mixed(text, str, _plain)
+
+
+def _plain(latex: str) -> str:
+    text = re.sub(r"\\operatorname\{(\w+)\}", r"\1", latex).replace("^*", "*")
+    text = re.sub(r"\\([A-Za-z]+)", lambda m: PLAIN.get(m[1], m[1]), text)
+    text = re.sub(r"\b([IJ])_([01])\b", r"\1\2", text)  # Bessel functions, as code calls them
+    text = re.sub(r"_\{(\w+)\}", r"_\1", text)
+    return text.translate({ord("{"): "(", ord("}"): ")"})

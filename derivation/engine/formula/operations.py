@@ -1,4 +1,4 @@
-"""The one table of operations: SymPy function -> value in balls, and its derivatives.
+"""The one table of operations: SymPy function -> value in balls, and derivatives by operand.
 
 Balls of an expression, its gradient and its correctly rounded doubles all follow from it.
 """

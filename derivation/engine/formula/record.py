@@ -6,7 +6,7 @@ from typing import ClassVar
 import sympy as sp
 
 from derivation.engine.formula.dimension import DimensionError, dimension, unit
-from derivation.engine.formula.notation import to_latex, to_markdown
+from derivation.engine.formula.notation import to_latex, to_markdown, to_plain
 from derivation.engine.formula.proof import Proof
 from derivation.engine.formula.vocabulary import Argument, Vocabulary, applicable
 
@@ -96,7 +96,7 @@ class Record:
         """Plain text under fixed keys."""
         return {
             "name": self.name,
-            "meaning": self.meaning,
+            "meaning": to_plain(self.meaning),
             "latex": f"{self.latex} = {self.right_hand_side}",
             "expression": str(self.expression),
             "summed": self.summed,
@@ -106,7 +106,7 @@ class Record:
             "sources": list(self.sources),
             "proof": {
                 "step": self.proof.step,
-                "argument": self.proof.argument,
+                "argument": to_plain(self.proof.argument),
                 "residuals": list(self.proof.residuals),
                 "method": self.proof.method,
             },

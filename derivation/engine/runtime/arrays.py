@@ -1,4 +1,7 @@
-"""Arguments in, result out: what every function of this package does with its arrays."""
+"""Arguments in, result out: what every function of this package does with its arrays.
+
+Arithmetic: the types of results, and whether a number is whole.
+"""
 
 from collections.abc import Callable
 from typing import TypeVar
@@ -18,7 +21,7 @@ so are shares of a value that are too small to count. An invalid operation is on
 
 
 def in_manifest(
-    symbol: str, equation: str = "", domain: str = ""
+    symbol: str, equation: str = "", domain: str = "", kernel: bool = False
 ) -> Callable[[Function], Function]:
     """What the manifest says of a function besides its docstring; it changes nothing.
 
@@ -30,8 +33,10 @@ def in_manifest(
         Number of its equation in the paper, if it has one.
     domain
         Conditions on its arguments, separated by commas; outside it gives NaN.
+    kernel
+        Whether it is listed with the printed formulas.
     """
-    del symbol, equation, domain
+    del symbol, equation, domain, kernel
     return lambda function: function
 
 
@@ -69,6 +74,19 @@ def refuse_masked(*arguments: ArrayLike) -> None:
         raise TypeError(
             "expected arrays without a mask, got a masked array; pass array.filled(numpy.nan)"
         )
+
+
+def whole(count: int, what: str) -> int:
+    """A number of some things as a plain integer.
+
+    Raises
+    ------
+    ValueError
+        If it is negative or not an integer.
+    """
+    if not count >= 0 or count != np.floor(count) or count == np.inf:
+        raise ValueError(f"expected a number of {what}, an integer >= 0, got {count!r}")
+    return int(count)
 
 
 def inside(arguments: list[Double], *conditions: NDArray[np.bool_]) -> list[Double]:

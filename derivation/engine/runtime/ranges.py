@@ -1,4 +1,8 @@
-"""Products and roots whose shares may leave the range of doubles though the whole does not."""
+"""Products and roots whose shares may leave the range of doubles though the whole does not.
+
+Arithmetic: products, quotients and roots of fractions, their exponents of 2 apart; sums that keep
+what rounding drops.
+"""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -70,6 +74,12 @@ def sum_closely(*parts: Double | float) -> Double:
     return result
 
 
+def moderate(first: Double, second: Double) -> tuple[Double, Double]:
+    """Both over the power of two above the larger, so that their sums stay in range."""
+    _, power = np.frexp(np.maximum(np.abs(first), np.abs(second)))
+    return np.ldexp(first, -power), np.ldexp(second, -power)
+
+
 def tail(v: Double) -> Double:
     """What e^(-min(v, ONCE)) lacks of e^(-v), which may underflow alone: as a factor."""
     if not (v > ONCE).any():
@@ -107,7 +117,9 @@ def root(degree: int, factors: Factors, divisors: Factors = ()) -> Double:
     return result
 
 
-def root_factors(degree: int, factors: Factors, divisors: Factors = ()) -> Factors:
+def root_factors(
+    degree: int, factors: Factors, divisors: Factors = ()
+) -> tuple[Double, Double, Double]:
     """That root as factors, which hold it where it leaves the range of doubles itself."""
     value, power = _root(degree, factors, divisors)
     half = np.clip(power // 2, -1000, 1000)

@@ -13,10 +13,13 @@ from fractions import Fraction
 from functools import cache
 from itertools import pairwise
 from math import ceil, factorial
+from pathlib import Path
 
 import flint
 import sympy as sp
 
+from derivation.engine.emit.package import Numbers
+from derivation.engine.emit.tables import Constant
 from derivation.engine.formula.ball import enclose, to_ball
 from derivation.mathematics.bessel.theory.functions import (
     SHIFTED,
@@ -47,6 +50,8 @@ SPACING = Fraction(17, 20)
 """Largest distance of neighbouring centres: more centres mean a lower degree."""
 LARGEST_PHASE = 2.0**50
 """Beyond it the multiple of pi/4 nearest to x is no longer an exact double."""
+RUNTIME = Path(__file__).parent / "runtime"
+"""Where the functions are written that need these tables."""
 _BITS = 320
 _NEWTON_STEPS = 12
 
@@ -283,21 +288,22 @@ def low_slopes() -> tuple[float, ...]:
         return tuple(nearest_double(zero.bessel_j(flint.arb(1))) for zero in zeros)
 
 
-def constants() -> dict[str, str]:
+def _multiples_of_pi() -> tuple[Constant, ...]:
     """The multiples and powers of pi the code needs, two of them with a second double."""
     with flint.ctx.workprec(_BITS):
         pi = flint.arb.pi()
         head, square = nearest_double(pi / 4), nearest_double(8 / pi**2)
-        numbers = {
-            "quarter_pi": head,
-            "quarter_pi_tail": nearest_double(pi / 4 - head),
-            "eight_over_pi2": square,
-            "eight_over_pi2_tail": nearest_double(8 / pi**2 - square),
-            "half_pi": nearest_double(pi / 2),
-            "inverse_pi": nearest_double(1 / pi),
-            "inverse_root_pi": nearest_double(1 / pi.sqrt()),
-        }
-    return {name: repr(value) for name, value in numbers.items()}
+        return (
+            Constant("QUARTER_PI", head, "pi/4."),
+            Constant("QUARTER_PI_TAIL", nearest_double(pi / 4 - head), "What that lacks of it."),
+            Constant("EIGHT_OVER_PI2", square, "8/pi^2."),
+            Constant(
+                "EIGHT_OVER_PI2_TAIL", nearest_double(8 / pi**2 - square), "What that lacks of it."
+            ),
+            Constant("HALF_PI", nearest_double(pi / 2), "pi/2."),
+            Constant("INVERSE_PI", nearest_double(1 / pi), "1/pi."),
+            Constant("INVERSE_ROOT_PI", nearest_double(1 / pi.sqrt()), "1/sqrt(pi)."),
+        )
 
 
 def wrapped(texts: Iterable[str], width: int = 90) -> tuple[str, ...]:
@@ -310,36 +316,51 @@ def wrapped(texts: Iterable[str], width: int = 90) -> tuple[str, ...]:
     return tuple(lines)
 
 
-def _numbers(values: Iterable[float]) -> tuple[str, ...]:
-    return wrapped(map(repr, values))
-
-
-def _rationals(coefficients: Iterable[sp.Rational]) -> tuple[str, ...]:
-    """Exact quotients of integers, which Python rounds correctly."""
-    return tuple(f"{a.p} / {a.q}" if a.q != 1 else f"{a.p}.0" for a in coefficients)
-
-
-def bessel_context() -> dict[str, object]:
-    """Everything the template of the generated module needs, numbers already as text."""
+def bessel_numbers() -> Numbers:
+    """The tables of J0, J1 and their zeros, each for J0 and J1 in turn where there are two."""
     table = taylor_table()
-    return {
-        "centres_high": _numbers(table.high),
-        "centres_low": _numbers(table.low),
-        "seams": _numbers(table.seams[:-1]),
-        "taylor": tuple(tuple(_numbers(row) for row in rows) for rows in table.rows),
-        "degree": str(len(table.rows[0][0]) - 1),
-        "cells": str(CELLS),
-        "asymptotic_start": repr(table.seams[-1]),
-        "largest_phase": repr(LARGEST_PHASE),
-        "modulus": tuple(_rationals(modulus_squared(n, TERMS).coefficients) for n in (0, 1)),
-        "shift": tuple(_rationals(phase_shift(n, TERMS).coefficients) for n in (0, 1)),
-        "zero_correction": tuple(
-            _rationals(zero_correction(n, TERMS).coefficients) for n in (0, 1)
+    both = (0, 1)
+    constants = (
+        *_multiples_of_pi(),
+        Constant("ASYMPTOTIC_START", table.seams[-1], "x from which on modulus and phase serve."),
+        Constant("LARGEST_PHASE", LARGEST_PHASE, "Up to here n in n pi/4 is an exact double."),
+        Constant(
+            "MODULUS",
+            tuple(modulus_squared(n, TERMS).coefficients for n in both),
+            "(pi x/2) (J_nu^2 + Y_nu^2) = p(x) in powers of 1/x^2.",
         ),
-        "slope_excess": _rationals(slope_squared(TERMS).coefficients[1:]),
-        "low_zeros": tuple(_numbers(low_zeros(n)) for n in (0, 1)),
-        "low_slopes": _numbers(low_slopes()),
-        "first_mcmahon": tuple(str(mcmahon_start(n)) for n in (0, 1)),
-        "quarters": tuple(f"{phase_at_zeros(n)[0]}.0" for n in (0, 1)),
-        **constants(),
-    }
+        Constant(
+            "SHIFT",
+            tuple(phase_shift(n, TERMS).coefficients for n in both),
+            "x s(x) in powers of 1/x^2.",
+        ),
+        Constant(
+            "ZERO_CORRECTION",
+            tuple(zero_correction(n, TERMS).coefficients for n in both),
+            "beta (j - beta) in powers of 1/beta^2; beta is (n - 1/4) pi, for J1 (n + 1/4) pi.",
+        ),
+        Constant(
+            "SLOPE_EXCESS",
+            slope_squared(TERMS).coefficients[1:],
+            "(pi beta/2) J1(j_n)^2 - 1 at the zeros of J0, the first power being 1/beta^2.",
+        ),
+        Constant(
+            "QUARTERS",
+            tuple(float(phase_at_zeros(n)[0]) for n in both),
+            "beta = (4 n + QUARTERS) pi/4.",
+        ),
+        Constant(
+            "FIRST_MCMAHON",
+            tuple(mcmahon_start(n) for n in both),
+            "Numbers of the zeros from which on McMahon's expansion serves.",
+        ),
+        Constant("LOW_ZEROS", tuple(low_zeros(n) for n in both), "The zeros before these."),
+        Constant("LOW_SLOPES", low_slopes(), "J1 at those of J0."),
+        Constant("CELLS", CELLS, "Every interval ends at a multiple of 1/CELLS."),
+        Constant("SEAMS", table.seams[:-1], "Where the intervals of Taylor's polynomials begin."),
+        Constant("CENTRE_HIGH", table.high, "Their centres, rounded to doubles."),
+        Constant("CENTRE_LOW", table.low, "What these lack of the centres."),
+        Constant("TAYLOR", table.rows, "Coefficients about each centre, constant term first."),
+    )
+    title = "Numbers of the Bessel functions: expansions, zeros, Taylor polynomials."
+    return Numbers("bessel_numbers", title, constants)

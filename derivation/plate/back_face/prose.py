@@ -2,6 +2,7 @@
 
 ABOUT = {
     "back face": "The tensile stress is evaluated where bending makes it largest: on the back "
-    "face, on the axis. For a thin plate the sum over the modes reduces to a function of a/h plus "
-    "a logarithm of b/h. The edge correction adds the stress of its bending and extension states.",
+    "face, on the axis. For a thin plate the sum over the modes reduces to a "
+    "function of $a/h$ plus a logarithm of $b/h$. The edge correction adds the "
+    "stress of its bending and extension states.",
 }

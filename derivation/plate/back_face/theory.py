@@ -96,7 +96,8 @@ def far_factor() -> Formula:
     on_axis = (S_rr - mu * g_j * phi**2).subs(z, -h)
     proof = prove(
         "Stress of the back face",
-        "The stresses of the loaded mode at z = -h; S_zz = 0 there, and Hooke's law gives g.",
+        "The stresses of the loaded mode at $z = -h$; $S_{zz} = 0$ there, and Hooke's law gives "
+        "$g$.",
         {
             "free face": loaded(S_zz.subs(z, -h)),
             "radial stress": loaded(S_rr.subs(z, -h)) + A_j * value.subs(T, 2 * phi * h),
@@ -132,13 +133,13 @@ def far_stress() -> tuple[Formula, ...]:
     share, force = _mode(), contact_radius().expression
     proof = prove(
         "Stress under the axis",
-        "A_j of Hertz's pressure, R in terms of the force P.",
+        "$A_j$ of Hertz's pressure, $R$ in terms of the force $P$.",
         {"stress": (stress - SCALE.subs(P, force) * share).subs(_REDUCED)},
     )
     sources = ("far_factor", "A_j", "P")
     rows = (
         ("far_stress", r"\sigma_{rr}(0, -h)", "largest tensile stress on the back face", "Pa"),
-        ("far_sum", "S", "the same over (1 + nu) P/(8 pi h^2)", "1"),
+        ("far_sum", "S", r"the same over $(1 + \nu) P/(8 \pi h^2)$", "1"),
     )
     return tuple(
         Formula(
@@ -175,7 +176,7 @@ def pole_at_zero() -> Proof:
     (solution,) = sp.solve(sp.expand(upper + lower - sum(poles)), total)
     return prove(
         "Sum over the zeros of J0, with a pole at 0",
-        "Quarter circles about 0; an odd f cancels on the imaginary axes.",
+        "Quarter circles about 0; an odd $f$ cancels on the imaginary axes.",
         {"sum": sp.expand(solution - integral / 2 - c * level / 2 - sp.pi * im)},
     )
 
@@ -210,8 +211,8 @@ def thin_far_face() -> tuple[Formula, Formula]:
     expected = finite / 2 + 3 * (sp.EulerGamma - sp.log(4 * eta))
     proof = prove(
         "Back face of a thin plate",
-        "F is odd, 6/T at 0; the real axis leaves the finite part, quarter circles the logarithm, "
-        "the poles inside their residues.",
+        "$F$ is odd, $6/T$ at 0; the real axis leaves the finite part, quarter circles the "
+        "logarithm, the poles inside their residues.",
         {
             "modes": _mode() - 2 * eta * f / (j_n * J1**2),
             "odd": weight.subs(T, -T) + weight,
@@ -229,11 +230,11 @@ def thin_far_face() -> tuple[Formula, Formula]:
     where = ("a_ratio * eta < 1",)
     return (
         Formula(
-            "far_sum_thin", r"S^{\mathrm{thin}}", "S of a thin plate", value, "1", "",
+            "far_sum_thin", r"S^{\mathrm{thin}}", "$S$ of a thin plate", value, "1", "",
             ("far_sum",), proof, where=where,
         ),
         Formula(
-            "far_sum_roots", r"S - S^{\mathrm{thin}}", "what S of a thin plate leaves out", roots,
+            "far_sum_roots", r"S - S^{\mathrm{thin}}", "what $S$ of a thin plate leaves out", roots,
             "1", "", ("far_sum", "far_sum_thin"), proof, where=where,
         ),
     )  # fmt: skip
@@ -297,14 +298,14 @@ def wide_far_face() -> Formula:
     )
     proof = prove(
         "Back face under a wide contact",
-        "Each power of B times g, its integral continued analytically (Watson's lemma on the "
-        "imaginary axis, where g decays); 6/T^2 alone is Kirchhoff's plate, exactly.",
+        "Each power of $B$ times $g$, its integral continued analytically (Watson's lemma on "
+        "the imaginary axis, where $g$ decays); $6/T^2$ alone is Kirchhoff's plate, exactly.",
         residuals,
     )
     return Formula(
         "far_sum_wide",
         r"S^{\mathrm{wide}}",
-        "S of a thin plate where a is much larger than h",
+        "$S$ of a thin plate where $a$ is much larger than $h$",
         3 * (constant - sp.log(alpha)) + series,
         "1",
         "",
@@ -330,7 +331,7 @@ def far_edge() -> Formula:
     hoop = [hooke(state.u, state.w).tt.subs(z, -h) for state in (stretching, bending)]
     proof = prove(
         "Edge's part of the back face's stress",
-        "Hooke's law of both states at z = -h, times the modes' mean motion of the edge.",
+        "Hooke's law of both states at $z = -h$, times the modes' mean motion of the edge.",
         {
             "stress": (stress - scale * value).subs(_REDUCED),
             **{f"hoop {i}": hoop[i] - uniform[i] for i in range(2)},
@@ -339,7 +340,7 @@ def far_edge() -> Formula:
     return Formula(
         "far_edge",
         r"S_e^{\mathrm{far}}",
-        "what the edge's mean motion takes from S",
+        "what the edge's mean motion takes from $S$",
         value,
         "1",
         "",
@@ -365,11 +366,11 @@ def far_clamp() -> Formula:
     stress = strain * below[0] - rotation * below[1]
     proof = prove(
         "Clamp's part of the back face's stress",
-        "Hooke's law of both states at z = -h, times what a clamp takes of turn and stretch.",
+        "Hooke's law of both states at $z = -h$, times what a clamp takes of turn and stretch.",
         {"stress": (stress - SCALE.subs(P, force) * value).subs(_REDUCED)},
     )
     return Formula(
-        "far_clamp", r"S_c^{\mathrm{far}}", "what a clamp takes from S", value, "1", "",
+        "far_clamp", r"S_c^{\mathrm{far}}", "what a clamp takes from $S$", value, "1", "",
         ("F_clamp", "far_sum"), proof,
     )  # fmt: skip
 

@@ -12,7 +12,8 @@ from derivation.plate.benchmark.laws import SeriesLaw
 from derivation.plate.benchmark.shipped import hertz_time, plate
 from generated import contact_law, contact_series
 from generated.contact_numbers import REACH
-from generated.impact import _kernel, _parts, _solve, impact
+from generated.impact import _parts, _solve, impact
+from generated.impact_shapes import time_rate
 from generated.perturbation import PrintedMotion, printed_motion
 from generated.ranges import product
 
@@ -86,7 +87,7 @@ def gauss(nodes: int) -> Method:
                 integral = np.empty_like(found.A)
                 for part in _parts(found.A.size):
                     at = np.broadcast_to(x, (found.A[part].size, nodes))
-                    integral[part] = (_kernel(at, found, part) * w).sum(axis=1)
+                    integral[part] = (time_rate(at, found, part) * w).sum(axis=1)
                 return product((2.0, *depth, integral), (v0,))
 
         return call

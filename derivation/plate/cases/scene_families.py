@@ -14,10 +14,9 @@ from derivation.plate.blocks import blocks
 from derivation.plate.cases.steel import LAM, MU
 from derivation.plate.edge.kernels import tables as edge_tables
 from derivation.plate.edge.theory.clamped import LEVEL
-from derivation.plate.effects import kernels as effect_tables
+from derivation.plate.effects.kernels import numbers as effect_tables
 from derivation.plate.grids import seams
-from derivation.plate.pressure import kernels as pressure_tables
-from generated.non_hertzian_pressure import _LOW
+from derivation.plate.pressure.kernels import numbers as pressure_tables
 
 EDGE, FAR = "seams of the edge", "seams of the far face"
 SPHERE, PRESSURE = "seams of the sphere", "seams of the true pressure"
@@ -174,10 +173,11 @@ def _pressure() -> Iterator[HardCase]:
         given = exactly(a=0.3, h=around(place), b=1.0, **same)
         why = f"h/b = {place:.4g}, beyond which the kernel takes a mode less"
         yield from _beside(PRESSURE, ("contact",), why, given)
-    places = [y for y in pressure_tables.wall_places() if _LOW / y < 0.9]
+    low = pressure_tables.LOW
+    places = [y for y in pressure_tables.wall_places() if low / y < 0.9]
     for y in (places[0], places[len(places) // 2], places[-1]):
-        given = exactly(a=around(_LOW / y), h=1.0, b=1.0, **same)
-        why = f"y a/b = {_LOW:g} at y = {y:.4g}, where sinh(x)/x ceases to be a power series"
+        given = exactly(a=around(low / y), h=1.0, b=1.0, **same)
+        why = f"y a/b = {low:g} at y = {y:.4g}, where sinh(x)/x ceases to be a power series"
         yield from _beside(PRESSURE, ("contact",), why, given)
     widest = float(pressure_tables.WIDEST_SHARE)
     why = f"a = {widest:g} b, the widest contact that is solved"

@@ -42,8 +42,8 @@ def bending() -> Formula:
     deflection = force * wide**2 / (8 * sp.pi * rigidity)
     proof = prove(
         "Bending",
-        "The leading term of c_1 A for h/b -> 0 is the deflection P b^2/(8 pi D) of a thin "
-        "plate, D = E* (2h)^3/12, over a^2/R.",
+        r"The leading term of $c_1 A$ for $h/b \to 0$ is the deflection $P b^2/(8 \pi D)$ of a "
+        "thin plate, $D = E^* (2h)^3/12$, over $a^2/R$.",
         {
             "deflection": share.subs({a_ratio: radius / half, eta: half / wide})
             - deflection * sphere / radius**2
@@ -52,7 +52,7 @@ def bending() -> Formula:
     return Formula(
         "F_bending",
         "F_B",
-        "bending's part of delta R/a^2",
+        r"bending's part of $\delta R/a^2$",
         share,
         "1",
         "6",
@@ -71,14 +71,15 @@ def shares() -> Formula:
     most = sp.Rational(3, 2) * (c_A[1] * a_ratio - bending().expression) - wall
     proof = prove(
         "Shares of the law's slope",
-        "S - 1 less bending, which is linear, and less the side wall, between "
-        "-(4/pi^2) (kappa_0 alpha + k_3 alpha^3) and 0 by sinh y <= y + (sinh 1 - 1) y^3 ...",
+        "$S - 1$ less bending, which is linear, and less the side wall, between "
+        r"$-(4/\pi^2) (\kappa_0 \alpha + k_3 \alpha^3)$ and 0 by "
+        r"$\sinh y \le y + (\sinh 1 - 1) y^3$ ...",
         {"side wall": sp.Rational(3, 2) * first.side * a_ratio - wall.subs(alpha, a_ratio * eta)},
     )
     return Formula(
         "S_thickness_most",
         r"S_H",
-        "what finite thickness adds to (R/2a) d delta/da at most",
+        r"what finite thickness adds to $(R/2a) d \delta/da$ at most",
         most,
         "1",
         "6",

@@ -72,7 +72,10 @@ _A_BY_INTEGRAL = Printed(
     symbol="A_j",
     latex=r"\frac{2 M_j}{b^2 J_1(b\phi_j)^2}",
     expression=2 * M_j / (b**2 * J1**2),
-    says="M_j stands for the integral; with the pressure of (7) it is p(0) times Sonine's integral",
+    says=(
+        "$M_j$ stands for the integral; with the pressure of (7) it is $p(0)$ times Sonine's "
+        "integral"
+    ),
     full=r"\frac{2 \int_0^a r p(r) J_0(\phi_j r) dr}{b^2 J_1(b\phi_j)^2}",
     where=((M_j, -3 * P / (2 * pi * a**2) * sonine),),
 )
@@ -169,7 +172,7 @@ _DELTA = Printed(
     symbol=r"\delta",
     latex="K_j A_j",
     expression=K_j * A_j,
-    says="K_j in its explicit printed form, A_j determined by expression (4)",
+    says="$K_j$ in its explicit printed form, $A_j$ determined by expression (4)",
     full=r"\sum_{j=1}^{\infty} K_j A_j",
     where=((K_j, _K_EXPRESSION),),
 )
@@ -182,7 +185,7 @@ _K_FACE = Printed(
     symbol="K_j",
     latex=_K_LATEX,
     expression=_K_EXPRESSION,
-    says="by using the explicit form of the transversal displacement in z=-h and r=0",
+    says="by using the explicit form of the transversal displacement in $z=-h$ and $r=0$",
 )
 
 _PRESSURE = Printed(

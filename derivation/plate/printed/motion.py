@@ -43,7 +43,7 @@ def _gamma(index: int) -> PrintedSeries:
         expression=(
             (-1) ** index * above / factorial(order) * (a / P**_THIRD) ** order * phi**order * K_j
         ),
-        says=f"k = {index} of the sum over all modes",
+        says=f"$k = {index}$ of the sum over all modes",
         full=(
             r"(-1)^k \frac{(2k-2)}{(2k-1)!} \left( \frac{a}{P^{\frac{1}{3}}} \right)^{2k-1}"
             r" \sum_{j=1}^{\infty} \phi_j^{2k-1} K_j"
@@ -57,7 +57,7 @@ _POWERS = PrintedPower(
     symbol=r"\mathrm{power\ of\ }\delta",
     latex=r"\frac{2k-1}{3}",
     expression=(2 * k - 1) / 3,
-    says="P is the sum over k >= 2 of xi_k delta to this power, for 0 < delta < b^2/R",
+    says=r"$P$ is the sum over $k \ge 2$ of $\xi_k \delta$ to this power, for $0 < \delta < b^2/R$",
     full=r"\frac{2k-1}{3} \quad\text{in}\quad P = \sum_{k=2}^{\infty} \xi_k"
     r" \delta^{\frac{2k-1}{3}}",
 )

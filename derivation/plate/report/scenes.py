@@ -15,10 +15,7 @@ HEADS = ("effect", "parameter", "value", "max. change", "status", "reason")
 def effects_context(scenes: Mapping[str, Scene]) -> dict[str, Any]:
     """What effects there are, and what each scene calls for."""
     return {
-        "effects": [
-            " & ".join([rf"\texttt{{{escape(e.name)}}}", prose(e.adds), source(e.source)])
-            for e in EFFECTS
-        ],
+        "effects": [" & ".join([code(e.name), prose(e.adds), source(e.source)]) for e in EFFECTS],
         "heads": HEADS,
         "scenes": [scene_context(name, scene) for name, scene in scenes.items()],
     }
@@ -28,16 +25,22 @@ def scene_context(name: str, scene: Scene) -> dict[str, Any]:
     """The effects table of a scene and the decision in a sentence."""
     found = explain(scene)
     rows = [
-        " & ".join([rf"\texttt{{{escape(effect)}}}", prose(parameter), *map(cell, (value, bound)),
-                    status, prose(reason)])
+        " & ".join(
+            [code(effect), code(parameter), *map(cell, (value, bound)), status, prose(reason)]
+        )
         for effect, parameter, value, bound, status, reason in found.effects.lines()
-    ]  # fmt: skip
+    ]
     return {
         "name": name,
         "rows": rows,
         "says": sentence(str(found)),
         "notes": list(found.notes),
     }
+
+
+def code(text: str) -> str:
+    """What is written as on the screen."""
+    return rf"\texttt{{{escape(text)}}}"
 
 
 def cell(text: str) -> str:
@@ -52,7 +55,7 @@ def sentence(text: str) -> str:
     """Words with effects' names in typewriter, and numbers as powers of ten."""
     head, stop, rest = text.partition(". ")
     label, _, names = head.partition(": ")
-    shown = ", ".join(rf"\texttt{{{escape(name)}}}" for name in names.split(", "))
+    shown = ", ".join(code(name) for name in names.split(", "))
     return f"{capital(label)}: {shown}{stop}{prose(rest)}"
 
 

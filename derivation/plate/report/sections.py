@@ -9,10 +9,10 @@ from typing import Any
 from derivation.engine.errata.findings import Finding
 from derivation.engine.formula.record import Record
 from derivation.engine.report import pieces
+from derivation.engine.report.arithmetic import arithmetic_context
 from derivation.engine.report.document import Text
 from derivation.engine.report.hard import hard_context
 from derivation.engine.report.latex import environment
-from derivation.engine.report.listings import listings_context
 from derivation.engine.report.numbers import number, rounded
 from derivation.engine.rewrite.account import ENDS
 from derivation.plate.contact.cases.grid import RATIOS, THICKNESSES
@@ -23,6 +23,7 @@ from derivation.plate.report.elastodynamics import elastodynamics_context
 from derivation.plate.report.figures import motion_context
 from derivation.plate.report.front import SUBTITLE, TITLE, front_context
 from derivation.plate.report.inertia import inertia_context
+from derivation.plate.report.listings import listings_context
 from derivation.plate.report.moving import moving_context
 from derivation.plate.report.prose import ABOUT, FACTOR, REFERENCES
 from derivation.plate.report.reproducibility import reproducibility_context
@@ -134,7 +135,10 @@ SECTIONS: dict[str, Callable[[Material], dict[str, Any]]] = {
     "law": lambda m: {"law": law_context(m.formulas)},
     "motion": lambda m: {"motion": motion_context(m.case)},
     "rewriting": _rewriting,
-    "code": lambda m: {"code": listings_context(m.sources, m.formulas)},
+    "code": lambda m: {
+        "code": listings_context(m.sources, m.formulas),
+        "arithmetic": arithmetic_context(m.sources),
+    },
     "accuracy": _accuracy,
     "hard": lambda m: {"hard": hard_context(m.measured["hard"])},
     "speed": _speed,

@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 from derivation.engine.emit.budgets import Budget
 from derivation.engine.emit.copies import copied, listed_functions
 from derivation.engine.emit.package import RUNTIME
-from derivation.engine.emit.share import operations, reason_of
 from derivation.engine.emit.tables import literal
 from derivation.engine.files import ROOT
 from derivation.plate.modules import runtime_files
@@ -98,16 +97,6 @@ def test_what_the_manifest_says_comes_from_the_function(tmp_path: Path) -> None:
         file.write_text(MODULE.replace(gone, gone.partition(" [")[0]))
         with pytest.raises(ValueError, match=message):
             listed_functions(file)
-
-
-def test_a_module_says_what_arithmetic_it_has() -> None:
-    assert reason_of(MODULE) == "one product."
-    with pytest.raises(ValueError, match="expected a paragraph"):
-        reason_of('"""A module."""\n')
-
-
-def test_operations_are_counted() -> None:
-    assert operations("y = -a * b + np.exp(c)\ny += 2\nz: int | None = -1\n") == 5
 
 
 NUMBERS = st.one_of(st.integers(-9, 9), st.floats(allow_nan=False, allow_infinity=False))

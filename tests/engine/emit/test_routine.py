@@ -1,5 +1,7 @@
 """Routines: what is printed is what was claimed, and nothing else can be printed."""
 
+import math
+from collections.abc import Sequence
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -11,7 +13,17 @@ from hypothesis import strategies as st
 from mutants import of_expression
 
 from derivation.engine.emit.package import Routines, written
-from derivation.engine.emit.routine import Choice, Let, Routine, Several, routine, text
+from derivation.engine.emit.routine import (
+    QUIET_SCALARS,
+    SCALARS,
+    Choice,
+    Let,
+    Routine,
+    Several,
+    Sums,
+    routine,
+    text,
+)
 from derivation.engine.formula.proof import ProofError
 
 x, y = sp.symbols("x y", positive=True)
@@ -124,3 +136,44 @@ def test_a_scale_that_does_not_cancel_is_refused() -> None:
     assert routine("ratio", (x, y), (scale,), (result,), (x / y,), "Ratio.", {}).proof
     with pytest.raises(ProofError):
         routine("ratio", (x, y), (scale,), (x / u / y,), (x / y,), "Ratio.", {})
+
+
+def mean(result: sp.Expr, claim: sp.Expr = 2 * x * y * t) -> Routine:
+    """2 x times the sum of y t over some rows."""
+    total, rows, step = sp.symbols("total rows step")
+    sums = Sums((total,), (step * t,), rows, (y, t), (Let(step, x * y),))
+    return routine("mean", (x, rows), (sums,), (result,), (claim,), "Sum.", {})
+
+
+def test_a_sum_over_rows_is_proved_for_one_row() -> None:
+    total = sp.Symbol("total")
+    made, room = mean(2 * total), {"exp": math.exp, "Sequence": Sequence}
+    exec(text(made, SCALARS), room)
+    assert room["mean"](1.5, ((1.0, 3.0), (2.0, 1.0))) == 15.0  # type: ignore[operator]
+    with pytest.raises(ProofError, match=r"mean\[0\]"):
+        mean(3 * total)
+    with pytest.raises(ValueError, match="linear in the totals"):
+        mean(total**2)
+
+
+def test_single_numbers_are_printed_without_numpy() -> None:
+    made = growth(
+        statements=(), results=(sp.sqrt(x + 1) * x**3 / 4 / sp.exp(x),),
+        claims=(sp.sqrt(1 + x) * x**3 * sp.exp(-x) / 4,),
+    )  # fmt: skip
+    room: dict[str, object] = {"sqrt": math.sqrt, "exp": math.exp}
+    exec(text(made, SCALARS), room)
+    assert room["growth"](4.0) == pytest.approx(16 * 5**0.5 * math.exp(-4))  # type: ignore[operator]
+    assert math.isnan(room["growth"](1e200))  # type: ignore[operator]
+
+
+def test_single_numbers_outside_the_domain_are_nan_if_wanted() -> None:
+    made = growth(statements=(), results=(sp.sqrt(x + 1),), claims=(sp.sqrt(1 + x),))
+    loud, quiet = ({"sqrt": math.sqrt}, {"np": np})
+    exec(text(made, SCALARS), loud)
+    exec(text(made, QUIET_SCALARS), quiet)
+    assert quiet["growth"](3.0) == loud["growth"](3.0) == 2.0  # type: ignore[operator]
+    with pytest.raises(ValueError, match=r"domain|nonnegative"):
+        loud["growth"](-2.0)  # type: ignore[operator]
+    with np.errstate(invalid="ignore"):
+        assert np.isnan(quiet["growth"](-2.0))  # type: ignore[operator]

@@ -99,7 +99,7 @@ def test_nothing_is_loaded_and_every_link_leads_somewhere(html: str, parsed: Par
 
 
 def test_no_latex_and_no_markup_is_left(parsed: Parsed) -> None:
-    assert re.findall(r"\\[A-Za-z]+|[{}]|\$|</?[a-z]", "".join(parsed.words)) == []
+    assert re.findall(r"\\[A-Za-z]+|[{}]|\$|</?[a-z]", " ".join(parsed.words)) == []
 
 
 def test_it_holds_what_the_latex_holds(text: Text, html: str, parsed: Parsed) -> None:

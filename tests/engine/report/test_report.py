@@ -9,7 +9,7 @@ import pytest
 import sympy as sp
 
 from derivation.engine import report_files
-from derivation.engine.formula.notation import to_latex
+from derivation.engine.formula.notation import to_latex, to_markdown, to_plain
 from derivation.engine.report.equations import (
     DEEPEST,
     LINE_WIDTH,
@@ -19,7 +19,6 @@ from derivation.engine.report.equations import (
     in_parts,
 )
 from derivation.engine.report.latex import escape, prose
-from derivation.engine.report.listings import source_of
 from derivation.engine.report.numbers import number
 from derivation.engine.report.pdf import TexError, compile_pdf, typeset
 from derivation.engine.report.spoken import spoken
@@ -29,6 +28,7 @@ from derivation.plate import vocabulary as symbols
 from derivation.plate.chain import LINKS
 from derivation.plate.paper import PAPER
 from derivation.plate.report.consequence import Consequences
+from derivation.plate.report.listings import source_of
 from derivation.plate.report.prose import REFERENCES
 from derivation.plate.vocabulary import PLATE, R, a, lam, mu, phi
 from derivation.scene.effects import EFFECTS
@@ -68,44 +68,51 @@ def test_escape(plain: str, latex: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("plain", "latex"),
+    ("written", "latex", "plain", "markdown"),
     [
-        ("to 6e300.", r"to $6\cdot10^{300}$."),
-        ("h = b = 1e+20 a", "$h$ = $b$ = $10^{20}$ a"),
-        ("1.5e-07 off", r"$1.5\cdot10^{-7}$ off"),
-        ("the root of c1, J0 and v0", "the root of $c_{1}$, $J_{0}$ and $v_{0}$"),
+        ("a and phi_j, 50 %", r"a and phi\_j, 50 \%", "a and phi_j, 50 %", r"a and phi\_j, 50 %"),
+        (r"$\phi_j h$ of a_b", r"$\phi_j h$ of a\_b", "phi_j h of a_b", r"$\phi_j h$ of a\_b"),
+        (r"$P^{2/3} \le 1$", r"$P^{2/3} \le 1$", "P^(2/3) <= 1", r"$P^{2/3} \le 1$"),
         (
-            "of (a/h)^3, P^(2/3) and (K/m)^(2/5)",
-            "of (a/$h$)$^{3}$, $P^{2/3}$ and ($K$/$m$)$^{2/5}$",
+            r"$\sigma_{zz}$, $J_0(\sqrt{m/2})$, $E^* \to \infty$",
+            r"$\sigma_{zz}$, $J_0(\sqrt{m/2})$, $E^* \to \infty$",
+            "sigma_zz, J0(sqrt(m/2)), E* -> oo",
+            r"$\sigma_{zz}$, $J_0(\sqrt{m/2})$, $E^* \to \infty$",
         ),
-        ("eps^2 of (a/h)^k, e^x", r"$\varepsilon^{2}$ of (a/$h$)$^{k}$, $e^{x}$"),
-        (
-            "E*/E_1*, (E* phi), sinh^2 T, a*b >= 0",
-            r"$E^*$/$E_{1}^*$, ($E^*$ $\phi$), $\sinh^{2}$ $T$, \texttt{a*\allowbreak{}b} $\ge$ 0",
-        ),
-        (
-            "a/R -> 0, h -> oo, int P d delta",
-            r"a/$R$ $\to$ 0, $h$ $\to$ $\infty$, $\int$ $P$ $d$ $\delta$",
-        ),
-        ("m/(8 That sqrt(D rho H))", r"$m$/(8 $\hat{T}$ $\sqrt{D \rho H}$)"),
-        ("P^((2k-1)/3) at a point", "$P^{(2k-1)/3}$ at a point"),
-        ("f_j(+-h)", r"$f_{j}$($\pm$$h$)"),
-        ("by more than 0.0e+00 of it", "by more than 0 of it"),
-        ("x1e5, 0x1p+3 and e^(-x)", r"x1e5, 0x1p+3 and $e^{-x}$"),
+        ("to 1.5e-07", r"to $1.5\cdot10^{-7}$", "to 1.5e-07", "to 1.5e-07"),
+        ("0x1p+3, 1e+20", "0x1p+3, $10^{20}$", "0x1p+3, 1e+20", "0x1p+3, 1e+20"),
+        ("0.0e+00 of it", "0 of it", "0.0e+00 of it", "0.0e+00 of it"),
     ],
-)
-def test_numbers_and_symbols_in_words(plain: str, latex: str) -> None:
-    assert prose(plain) == latex
+)  # fmt: skip
+def test_mathematics_is_what_stands_between_dollars(
+    written: str, latex: str, plain: str, markdown: str
+) -> None:
+    assert prose(written) == latex
+    assert to_plain(written) == plain
+    assert to_markdown(written) == markdown
+
+
+def test_a_dollar_without_a_partner_is_refused() -> None:
+    for turned in (prose, to_plain, to_markdown):
+        with pytest.raises(ValueError, match="expected dollars in pairs"):
+            turned("5 $")
+
+
+def test_sentences_of_the_chain_are_plain_on_a_screen(formulas) -> None:
+    """No dollar, no command and no brace is left of any."""
+    for formula in formulas.values():
+        for sentence in (formula.meaning, formula.proof.argument):
+            assert not re.search(r"[$\\{}]", to_plain(sentence)), sentence
 
 
 @pytest.mark.parametrize(
     ("plain", "latex"),
     [
-        ("per s(a phi), z = -h", r"per $s$(a $\phi$), $z$ = $-h$"),
+        (r"per $s(a \phi)$, z", r"per $s(a \phi)$, z"),
         ("the factor mu*(lam + mu)/(pi*R) of it", r"the factor ${}$ of it"),
-        ("read 2*a + sin(a*phi), not b", r"read ${}$, not $b$"),
+        ("read 2*a + sin(a*phi), not b", r"read ${}$, not b"),
         ("found [kg^2 m^-2]", "found [kg$^{2}$ m$^{-2}$]"),
-        ("where x*y is none", r"where \texttt{x*\allowbreak{}y} is none"),
+        ("where x*y is none", "where x*y is none"),
     ],
 )
 def test_formulas_typed_as_code_are_typeset(plain: str, latex: str) -> None:

@@ -25,7 +25,7 @@ from derivation.plate.derived import formulas
 from derivation.plate.edge.kernels import tables as edge_tables
 from derivation.plate.edge.theory.sums import slope_kernel
 from derivation.plate.edge_modes.kernels.numbers import series_terms as edge_mode_terms
-from derivation.plate.effects import kernels as effect_tables
+from derivation.plate.effects.kernels import numbers as effect_tables
 from derivation.plate.forms import SCALES
 from derivation.plate.impact.kernels import simple as simple_impact_tables
 from derivation.plate.paper import PAPER
@@ -164,4 +164,4 @@ def test_blurred_numbers_are_not_tabulated() -> None:
 def test_modes_of_simple_impacts_reach_their_tails_bound(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(simple_impact_tables, "zero_of_j0", lambda *_: arb(2.4))
     with pytest.raises(ArithmeticError, match="too few modes for the tail's bound"):
-        simple_impact_tables.simple_impact_context()
+        simple_impact_tables.numbers()

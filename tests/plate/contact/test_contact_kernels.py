@@ -1,31 +1,19 @@
-"""The generated contact law and impact, rendered afresh, against brute sums in ball arithmetic."""
+"""The generated contact law and impact against brute sums in ball arithmetic."""
 
-import importlib
 import itertools
-import shutil
-import sys
-from collections.abc import Iterator
 from functools import cache
-from pathlib import Path
-from types import ModuleType
 
 import flint
 import numpy as np
 import pytest
 from flint import arb
 
-import derivation
-from derivation.engine.emit.package import fill
-from derivation.engine.emit.source import format_files
-from derivation.plate.budgets import read_budgets, read_promises
 from derivation.plate.contact.kernels import tables
 from derivation.plate.contact.kernels.moments import finite_parts, kappas
-from derivation.plate.contact.kernels.tables import impact_context
-from derivation.plate.render import own
-from derivation.plate.table_rows import notes_of
+from generated import contact_law as law
+from generated import contact_series, impact, reversed_series
 
 BITS = 160
-PACKAGE = "contact_rendered"
 BUDGET = 2e-15
 """Of the law, relative to max(1 + F, |F|)."""
 LAM, MU = 6e10, 8e10
@@ -36,47 +24,6 @@ NEAR = (1e-8, 1e-3, 0.1, 0.4999999, 0.5000001, 1.0, 2.0, 2.9, 2.999999)
 RADII = (*NEAR, 3.000001, 3.2, 4.0, 5.0, 5.999)
 HERTZ_TIME = 2.9432751843247046
 """2 int_0^1 dx/sqrt(1 - x^(5/2)), from theory: twice 1.4716375921623523."""
-
-
-@pytest.fixture(scope="module")
-def rendered(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, ModuleType]]:
-    """The templates rendered into a copy of the generated package."""
-    folder = tmp_path_factory.mktemp("rendered")
-    shutil.copytree(Path(derivation.__file__).parents[1] / "generated", folder / PACKAGE)
-    (folder / PACKAGE / "__init__.py").write_text("")
-    contexts = {
-        "reversed_series": {},
-        "impact": {**impact_context(), "promises": read_promises()},
-    }
-    budgets = read_budgets()
-    source = {
-        f"{name}.py": fill(own(name, {**context, "notes": notes_of(name, budgets)}))
-        for name, context in contexts.items()
-    }
-    for name, text in format_files(source).items():
-        (folder / PACKAGE / name).write_text(text)
-    sys.path.insert(0, str(folder))
-    names = (*contexts, "contact_series", "contact_law")
-    yield {name: importlib.import_module(f"{PACKAGE}.{name}") for name in names}
-    sys.path.remove(str(folder))
-    for name in [name for name in sys.modules if name.split(".")[0] == PACKAGE]:
-        del sys.modules[name]
-
-
-@pytest.fixture(scope="module")
-def law(rendered: dict[str, ModuleType]) -> ModuleType:
-    return rendered["contact_law"]
-
-
-@pytest.fixture(scope="module")
-def collision(rendered: dict[str, ModuleType]) -> ModuleType:
-    return rendered["impact"]
-
-
-pytestmark = pytest.mark.usefixtures("no_warning")
-
-
-# Truth: modes summed one by one, the edge's integral by trapezoids in ln y.
 
 
 @cache
@@ -136,7 +83,7 @@ def radii(eta: float) -> list[float]:
     return [A for A in RADII if A * eta < 1] + [x / eta for x in (0.99, 0.5) if x / eta < 6]
 
 
-def law_error(law: ModuleType, eta: float, points: list[float]) -> float:
+def law_error(eta: float, points: list[float]) -> float:
     """Largest error of delta over (a^2/R) max(1 + F, |F|); h = 1."""
     b = 1 / eta
     eta = 1.0 / b
@@ -160,19 +107,19 @@ def test_the_tables_rest_on_the_right_integrals() -> None:
 
 
 @pytest.mark.parametrize("eta", ETAS)
-def test_law(law: ModuleType, eta: float) -> None:
-    assert law_error(law, eta, radii(eta)) < BUDGET
+def test_law(eta: float) -> None:
+    assert law_error(eta, radii(eta)) < BUDGET
 
 
-def test_law_of_a_very_thin_plate(law: ModuleType) -> None:
-    assert law_error(law, 1e-4, [1e-6, 0.3, 2.9, 5.5]) < BUDGET
+def test_law_of_a_very_thin_plate() -> None:
+    assert law_error(1e-4, [1e-6, 0.3, 2.9, 5.5]) < BUDGET
 
 
-def test_law_beyond_the_polynomials(law: ModuleType) -> None:
-    assert law_error(law, 0.02, [6.5, 12.0, 30.0, 49.0]) < BUDGET
+def test_law_beyond_the_polynomials() -> None:
+    assert law_error(0.02, [6.5, 12.0, 30.0, 49.0]) < BUDGET
 
 
-def test_stiffness(law: ModuleType) -> None:
+def test_stiffness() -> None:
     for eta in (0.03125, 0.125, 0.25, 0.5, 4.0):
         for A in radii(eta):
             with flint.ctx.workprec(BITS):
@@ -184,7 +131,7 @@ def test_stiffness(law: ModuleType) -> None:
 
 
 @pytest.mark.parametrize("eta", [*ETAS, 1e-4, 1e-6])
-def test_inversion_round_trip(law: ModuleType, eta: float) -> None:
+def test_inversion_round_trip(eta: float) -> None:
     random = np.random.default_rng(3)
     top = min(6.0, 0.9999999 / eta)
     A = np.concatenate((10 ** random.uniform(-12, np.log10(top), 300), [top]))
@@ -192,7 +139,7 @@ def test_inversion_round_trip(law: ModuleType, eta: float) -> None:
     assert np.abs(back / A - 1).max() < 2e-15
 
 
-def test_force_and_its_inverse(law: ModuleType) -> None:
+def test_force_and_its_inverse() -> None:
     a = np.geomspace(1e-9, 1e-3, 50)
     P = law.force_of_radius(a, 0.02, LAM, MU)
     assert np.abs(law.radius_of_force(P, 0.02, LAM, MU) / a - 1).max() < 1e-15
@@ -202,11 +149,9 @@ def test_force_and_its_inverse(law: ModuleType) -> None:
     assert np.allclose(law.max_pressure(a, 0.02, LAM, MU), 1.5 * mean, rtol=1e-14, atol=0)
 
 
-def test_reversed_series_within_its_radius_and_not_beyond(
-    law: ModuleType, rendered: dict[str, ModuleType]
-) -> None:
-    plate_coefficients = rendered["contact_series"].plate_coefficients
-    reversed_force = rendered["reversed_series"].force_by_series
+def test_reversed_series_within_its_radius_and_not_beyond() -> None:
+    plate_coefficients = contact_series.plate_coefficients
+    reversed_force = reversed_series.force_by_series
     for b in (5.0, 20.0, 1000.0, 1.5):
         c1 = float(plate_coefficients(1 / b)[0])
         limit = 2 / (3 * np.sqrt(3) * abs(c1))  # of c1 alone
@@ -221,9 +166,9 @@ def test_reversed_series_within_its_radius_and_not_beyond(
             assert np.isnan(found).tolist() == [False, True]
 
 
-def test_domain_and_types(law: ModuleType, rendered: dict[str, ModuleType]) -> None:
-    plate_coefficients = rendered["contact_series"].plate_coefficients
-    reversed_force = rendered["reversed_series"].force_by_series
+def test_domain_and_types() -> None:
+    plate_coefficients = contact_series.plate_coefficients
+    reversed_force = reversed_series.force_by_series
     assert np.isnan(law.indentation([-1.0, 2.0, np.nan, np.inf], 100.0, 0.1, 2.0)).all()
     assert np.isnan(law.indentation(0.1, [0.0, -1.0, 0.05], 0.1, 2.0)).all()
     assert np.isnan(law.indentation(0.1, 1.0, [0.0, -1.0, np.nan], [1.0, 1.0, 1.0])).all()
@@ -242,7 +187,7 @@ def test_domain_and_types(law: ModuleType, rendered: dict[str, ModuleType]) -> N
         reversed_force(1e-9, 1.0, 0.1, 1.0, LAM, MU, terms=0)
 
 
-def test_many_plates_are_as_one(law: ModuleType) -> None:
+def test_many_plates_are_as_one() -> None:
     eta = np.geomspace(1e-5, 50, 40)
     A = 0.7 * np.minimum(6, 1 / eta)
     together = law.indentation(A, 1e6, 1.0, 1 / eta)
@@ -285,25 +230,25 @@ def impact_truth(A: float, eta: float) -> tuple[arb, arb, arb]:
 @pytest.mark.parametrize(
     ("A", "eta"), [(1e-6, 0.5), (0.3, 0.5), (1.9, 0.5), (2.5, 0.125), (0.24, 4.0), (5.0, 0.125)]
 )
-def test_impact(collision: ModuleType, A: float, eta: float) -> None:
+def test_impact(A: float, eta: float) -> None:
     time, depth, energy = impact_truth(A, eta)
     # (4/3) E* = 1 for lam = 0: 16 mu/(3 * 2) = 1; R = 1e6 scales the energy by R^-2.
     R, v0, mu = 1e6, 1e-3, 0.375
     m = 2 * float(energy) / (R * v0) ** 2
-    found = collision.impact(R, m, v0, 1.0, 1 / eta, 0.0, mu)
+    found = impact.impact(R, m, v0, 1.0, 1 / eta, 0.0, mu)
     expected = (float(time) / R / v0, float(depth) / R, A**3 / R, A)
     errors = [abs(float(got) / want - 1) for got, want in zip(found, expected, strict=True)]
     assert max(errors) < 5e-15, errors
 
 
-def test_hertz_limit(collision: ModuleType) -> None:
-    found = collision.impact(0.01, 0.03, 1e-30, 5.0, 9.0, LAM, MU)
+def test_hertz_limit() -> None:
+    found = impact.impact(0.01, 0.03, 1e-30, 5.0, 9.0, LAM, MU)
     ratio = found.contact_time * 1e-30 / found.max_indentation
     assert abs(ratio / HERTZ_TIME - 1) < 1e-14
 
 
-def test_linear_spring_limit(collision: ModuleType) -> None:
-    found = collision.impact(1e3, 1e-9, 1e-3, 1e-8, 10.0, LAM, MU)  # c1 A is 2e17
+def test_linear_spring_limit() -> None:
+    found = impact.impact(1e3, 1e-9, 1e-3, 1e-8, 10.0, LAM, MU)  # c1 A is 2e17
     ratio = found.contact_time * 1e-3 / found.max_indentation
     assert abs(ratio / np.pi - 1) < 1e-14
 
@@ -318,11 +263,11 @@ SCENES = (
 
 
 @pytest.mark.parametrize("scene", SCENES)
-def test_energy_along_the_history(law: ModuleType, collision: ModuleType, scene) -> None:
+def test_energy_along_the_history(scene) -> None:
     R, m, v0, h, b, lam, mu = scene
-    found = collision.impact(*scene)
+    found = impact.impact(*scene)
     t = np.linspace(1e-6, 1 - 1e-6, 57) * found.contact_time
-    state = collision.history(t, *scene)
+    state = impact.history(t, *scene)
     x, weight = (0.5 * y for y in np.polynomial.legendre.leggauss(60))
     a = state.contact_radius[:, None] * (0.5 + x)
     force = law.force_of_radius(a, R, lam, mu)
@@ -336,38 +281,38 @@ def test_energy_along_the_history(law: ModuleType, collision: ModuleType, scene)
 
 
 @pytest.mark.parametrize("scene", SCENES)
-def test_history_moves_at_its_velocity(collision: ModuleType, scene) -> None:
-    found = collision.impact(*scene)
+def test_history_moves_at_its_velocity(scene) -> None:
+    found = impact.impact(*scene)
     t = np.linspace(0.1, 0.9, 25) * found.contact_time
     step = 1e-3 * found.contact_time
     ahead, behind, far_ahead, far_behind = (
-        collision.history(t + n * step, *scene).indentation for n in (1, -1, 2, -2)
+        impact.history(t + n * step, *scene).indentation for n in (1, -1, 2, -2)
     )
     rate = (8 * (ahead - behind) - (far_ahead - far_behind)) / (12 * step)
-    velocity = collision.history(t, *scene).velocity
+    velocity = impact.history(t, *scene).velocity
     assert np.abs(rate - velocity).max() < 1e-9 * scene[2]
-    mirrored = collision.history(found.contact_time - t, *scene)
+    mirrored = impact.history(found.contact_time - t, *scene)
     assert np.allclose(mirrored.velocity, -velocity, rtol=0, atol=1e-12 * scene[2])
-    middle = collision.history(0.5 * found.contact_time, *scene)
+    middle = impact.history(0.5 * found.contact_time, *scene)
     assert np.allclose(middle.indentation, found.max_indentation, rtol=1e-14, atol=0)
-    free = collision.history([-1.0, 0.0, 1e9], *scene)
+    free = impact.history([-1.0, 0.0, 1e9], *scene)
     assert (free.indentation == 0).all()
     assert free.velocity.tolist() == [scene[2], scene[2], -scene[2]]
 
 
-def test_units_do_not_matter(collision: ModuleType) -> None:
-    metres = collision.impact(0.02, 0.03, 2.0, 1e-3, 0.05, LAM, MU)
-    millimetres = collision.impact(20.0, 3e-5, 2000.0, 1.0, 50.0, LAM * 1e-6, MU * 1e-6)
+def test_units_do_not_matter() -> None:
+    metres = impact.impact(0.02, 0.03, 2.0, 1e-3, 0.05, LAM, MU)
+    millimetres = impact.impact(20.0, 3e-5, 2000.0, 1.0, 50.0, LAM * 1e-6, MU * 1e-6)
     factors = (1, 1e3, 1, 1e3)
     for one, other, factor in zip(metres, millimetres, factors, strict=True):
         assert abs(float(other) / float(one) / factor - 1) < 5e-15
 
 
-def test_scaling(law: ModuleType, collision: ModuleType) -> None:
+def test_scaling() -> None:
     base = np.array([0.02, 0.03, 2.0, 1e-3, 0.05])
-    one = collision.impact(*base, LAM, MU)
+    one = impact.impact(*base, LAM, MU)
     # All lengths times 8, masses times 8^3: times 8, lengths 8, forces 64.
-    two = collision.impact(*(base * [8, 512, 1, 8, 8]), LAM, MU)
+    two = impact.impact(*(base * [8, 512, 1, 8, 8]), LAM, MU)
     for small, large, factor in zip(one, two, (8, 8, 64, 8), strict=True):
         assert abs(float(large) / float(small) / factor - 1) < 1e-15
     small, large = (
@@ -377,18 +322,18 @@ def test_scaling(law: ModuleType, collision: ModuleType) -> None:
     assert abs(float(large) / float(small) / 8 - 1) < 1e-15
 
 
-def test_impact_domain_and_types(collision: ModuleType) -> None:
+def test_impact_domain_and_types() -> None:
     scene = SCENES[1]
     for index in (0, 1, 2, 3, 4, 6):
         bad = [*scene]
         bad[index] = np.array([0.0, -1.0, np.nan])
-        assert np.isnan(np.stack(collision.impact(*bad))).all()
-        assert np.isnan(np.stack(collision.history(1e-9, *bad))).all()
-    assert np.isnan(collision.impact(*scene[:2], 1e6, *scene[3:]).contact_time)
-    single = collision.impact(*(np.float32(x) for x in scene))
+        assert np.isnan(np.stack(impact.impact(*bad))).all()
+        assert np.isnan(np.stack(impact.history(1e-9, *bad))).all()
+    assert np.isnan(impact.impact(*scene[:2], 1e6, *scene[3:]).contact_time)
+    single = impact.impact(*(np.float32(x) for x in scene))
     assert all(x.dtype == np.float32 and x.shape == () for x in single)
-    grid = collision.impact(0.05, 0.03, [[1.0], [2.0]], [1e-3, 2e-3, 3e-3], 0.05, LAM, MU)
+    grid = impact.impact(0.05, 0.03, [[1.0], [2.0]], [1e-3, 2e-3, 3e-3], 0.05, LAM, MU)
     assert grid.contact_time.shape == (2, 3)
-    assert collision.impact(np.zeros(0), *scene[1:]).max_force.shape == (0,)
-    each = collision.history(np.linspace(0, 1e-4, 7), 0.05, 0.03, [[1.0], [2.0]], *scene[3:])
+    assert impact.impact(np.zeros(0), *scene[1:]).max_force.shape == (0,)
+    each = impact.history(np.linspace(0, 1e-4, 7), 0.05, 0.03, [[1.0], [2.0]], *scene[3:])
     assert each.force.shape == (2, 7)

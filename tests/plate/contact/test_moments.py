@@ -11,7 +11,7 @@ import sympy as sp
 from flint import arb
 
 import generated
-import generated.series_constants
+import generated.series_numbers
 from derivation.engine.formula.proof import ProofError
 from derivation.engine.formula.ulp import ulp_error
 from derivation.mathematics.bessel.theory.functions import phase_shift, power
@@ -273,7 +273,7 @@ def test_trapezoids_are_right_far_beyond_a_double() -> None:
 def test_generated_steps_are_those_of_the_theory() -> None:
     """The last ones are too small to be seen in any value."""
     expected = [float(a) for a in theory.kappa_steps(tables.TERMS)]
-    assert list(generated.series_constants._KAPPA_STEPS) == expected
+    assert list(generated.series_numbers.KAPPA_STEPS) == expected
 
 
 def test_a_table_that_does_not_reach_the_end_is_refused() -> None:
@@ -281,10 +281,10 @@ def test_a_table_that_does_not_reach_the_end_is_refused() -> None:
         tables._doubles(tables.kappas()[:50])
 
 
-def test_context_is_plain_text_and_repeatable() -> None:
-    first = tables.moment_context()
+def test_tables_are_repeatable() -> None:
+    first = tables.tables()
     tables.tables.cache_clear()
-    assert tables.moment_context() == first
+    assert tables.tables() == first
 
 
 @pytest.mark.parametrize("n", [17, 20, 31])

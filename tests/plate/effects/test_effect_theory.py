@@ -16,9 +16,8 @@ from derivation.scene import (
     kernels,
 )
 from derivation.scene.effects import BY_NAME
+from generated.effect_numbers import WALL_CUBIC, WALL_LINEAR
 from generated.effects import (
-    WALL_CUBIC,
-    WALL_LINEAR,
     bending,
     bending_period,
     echo_time,

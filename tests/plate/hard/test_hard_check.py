@@ -48,10 +48,10 @@ def test_printed_forms_stand_beside(suite: Suite, truth: dict[str, Known]) -> No
         ("contact_kernels", "LINEAR", {"indentation", "stiffness", "contact_radius", "impact"}),
         ("contact_series", "REACH", {"indentation"}),
         ("bessel", "_INVERSE_ROOT_PI", {"bessel_j0"}),
-        ("impact", "_WEIGHTS", {"impact"}),
+        ("impact", "WEIGHTS", {"impact"}),
         ("edge_kernels", "FIRST_THIRD", {"supported_edge", "supported_edge_slope"}),
         ("non_hertzian_pressure", "_WEIGHTS", {"contact"}),
-        ("simple_impact", "_THIN_LINEAR", {"plate_of"}),
+        ("simple_impact_kernels", "THIN_LINEAR", {"plate_of"}),
     ],
 )
 def test_a_tampered_constant_is_noticed(

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 import sympy as sp
 from given import EXAMPLES, changed
-from mpmath import besseljzero, j1, mp, mpf, quad, sinh
-from mpmath import pi as mp_pi
+from mpmath import mp, mpf, quad
+from printed_sums import truncated_gamma
 
 import derivation.checks.effects
 from derivation.cli import main
@@ -35,23 +35,6 @@ CASES = {
     "thick": (1.3, 72.2, 480.0, 1.0, 1.0, 0.36e9, 0.43e9),
 }
 Real = Callable[..., mpf]
-
-
-def truncated_gamma(k: int, modes: int, case: tuple[float, ...]) -> mpf:
-    """gamma_k of (10) from its definition, K_j by the plate factor G(T) and zeros of J0."""
-    R, _, _, h, b, lam, mu = map(mpf, case)
-    modulus = 4 * mu * (lam + mu) / (lam + 2 * mu)
-
-    def share(n: int) -> mpf:
-        j = besseljzero(0, n)
-        T = 2 * h * j / b
-        G = (sinh(2 * T) / 2 + T) / (sinh(T) ** 2 - T**2)
-        K = 8 * G / (mp_pi * R * b**2 * (j / b) ** 4 * j1(j) ** 2)
-        return (j / b) ** (2 * k - 1) * K
-
-    total = mp.fsum(share(n) for n in range(1, modes + 1))
-    scale = mpf((-1) ** k * (2 * k - 2)) / mp.factorial(2 * k - 1)
-    return scale * (3 * R / (4 * modulus)) ** (mpf(2 * k - 1) / 3) * total
 
 
 @pytest.mark.parametrize("modes", [1, 25])

@@ -12,6 +12,7 @@ from derivation.plate.contact.theory.thin_remainder import coefficient_remainder
 from derivation.plate.impact.kernels import simple as tables
 from derivation.plate.impact.theory import substitution
 from generated import simple_impact
+from generated import simple_impact_numbers as numbers
 
 
 def test_every_step_is_proved_without_numerics() -> None:
@@ -37,16 +38,16 @@ def test_generated_wall_bounds_are_the_integrals_rounded_up() -> None:
 
     rest = integrate.quad(lambda y: share(y, y), 1e-3, 60.0, epsabs=1e-13, limit=200)[0]
     cubic = integrate.quad(lambda y: share(y, y + y**3 / 6), 1e-2, 60.0, epsabs=1e-13, limit=200)[0]
-    assert rest < simple_impact._WALL_REST < 1.003 * rest
-    assert cubic < simple_impact._WALL_CUBIC < 1.003 * cubic
+    assert rest < numbers.WALL_REST < 1.003 * rest
+    assert cubic < numbers.WALL_CUBIC < 1.003 * cubic
 
 
 def test_generated_bounds_of_what_is_left_out_are_the_proven_ones_rounded_up() -> None:
     for proven, constant in (
-        (tables._roots(2), simple_impact._ROOTS_LINEAR),
-        (flint.arb(5) / 2 * tables._roots(3), simple_impact._ROOTS_CUBIC),
-        (tables._faded(0), simple_impact._FADED_LINEAR),
-        (tables._faded(2), simple_impact._FADED_CUBIC),
+        (tables._roots(2), numbers.ROOTS_LINEAR),
+        (flint.arb(5) / 2 * tables._roots(3), numbers.ROOTS_CUBIC),
+        (tables._faded(0), numbers.FADED_LINEAR),
+        (tables._faded(2), numbers.FADED_CUBIC),
     ):
         assert proven <= constant < 1.003 * proven
 

@@ -20,15 +20,8 @@ from derivation.plate.pressure.theory import true_pressure as theory
 from derivation.plate.vocabulary import a_ratio, c_A
 from derivation.plate.vocabulary import eta as eta_symbol
 from generated.contact_series import plates_of
-from generated.non_hertzian_pressure import (
-    ERROR,
-    THIN,
-    WIDEST,
-    WIDEST_SHARE,
-    contact,
-    plate,
-    pressure,
-)
+from generated.non_hertzian_pressure import contact, plate, pressure
+from generated.pressure_numbers import ERROR, THIN, WIDEST, WIDEST_SHARE
 
 R, E = 1e3, 7e10
 OPEN = 3.012493
@@ -44,7 +37,13 @@ pytestmark = pytest.mark.usefixtures("no_warning")
 def test_formulas_of_the_link_are_proved_symbolically() -> None:
     for formula in theory.true_pressure():
         assert formula.proof.method == "symbolically"
-    for proof in (theory.representation(), theory.profiles(), theory.motion_of_the_edge()):
+    for proof in (
+        theory.representation(),
+        theory.profiles(),
+        theory.motion_of_the_edge(),
+        theory.results().proof,
+        theory.substitution()[-1],
+    ):
         assert proof.method == "symbolically"
 
 

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from derivation.engine.emit.package import Routines
-from derivation.plate.contact.kernels import law, sensitivities, series
+from derivation.plate.contact.kernels import law, moments, sensitivities, series
 from derivation.plate.contact.kernels.numbers import numbers
 from derivation.plate.modules import ComputedModule, RuntimeModule
 
@@ -30,6 +30,7 @@ def sensitivity_kernels() -> Routines:
 
 
 MODULES = (
+    *moments.MODULES,
     ComputedModule("contact_numbers", numbers),
     ComputedModule("contact_kernels", contact_kernels),
     ComputedModule("sensitivity_kernels", sensitivity_kernels),

@@ -10,14 +10,18 @@ expansions of `theory.moments`, from where their bounds are below the tolerance.
 from collections.abc import Sequence
 from fractions import Fraction
 from functools import cache
+from pathlib import Path
 from sys import float_info
 
 import flint
+import numpy as np
 import sympy as sp
 from flint import arb as Ball
 
 from derivation.engine.cache import cached
-from derivation.mathematics.bessel.kernels import first_true, nearest_double, wrapped
+from derivation.engine.emit.package import Numbers
+from derivation.engine.emit.tables import Constant
+from derivation.mathematics.bessel.kernels import first_true, nearest_double
 from derivation.plate.contact.theory.moments import (
     finite_part_bound,
     finite_part_limit,
@@ -25,6 +29,7 @@ from derivation.plate.contact.theory.moments import (
     kappa_steps,
 )
 from derivation.plate.contact.theory.thin_plate import plate_excess
+from derivation.plate.modules import ComputedModule, RuntimeModule
 from derivation.plate.vocabulary import k
 
 TOLERANCE = Fraction(1, 2**60)
@@ -199,28 +204,43 @@ def tables() -> dict[str, tuple[float, ...]]:
     }
 
 
-def _limit_parts() -> dict[str, str]:
+def _limit_parts() -> tuple[sp.Rational, sp.Rational]:
     """Pole and residue of the ratio's limit 1 + residue/(k - pole)."""
     above = sp.cancel(finite_part_limit() - 1)
     (pole,) = sp.roots(sp.denom(above), k)
-    return {
-        "limit_pole": repr(float(pole)),
-        "limit_residue": repr(float(sp.cancel(above * (k - pole)))),
-    }
+    return pole, sp.cancel(above * (k - pole))
 
 
-def moment_context() -> dict[str, object]:
-    """Everything the template of the generated module needs, numbers already as text."""
-    found = tables()
-    return {
-        **{name: wrapped(map(repr, table)) for name, table in found.items()},
-        "last_kappa": str(len(found["kappa"]) - 1),
-        "last_finite_part": str(len(found["finite_part"]) + FIRST_K - 1),
-        "kappa_start": str(kappa_start()),
-        "finite_part_start": str(finite_part_start()),
-        "first_k": str(FIRST_K),
-        **_limit_parts(),
-        "kappa_steps": tuple(
-            f"{a.p} / {a.q}" if a.q != 1 else f"{a.p}.0" for a in kappa_steps(TERMS)
+def moment_numbers() -> Numbers:
+    """The tables, where the expansions begin, and their coefficients."""
+    found = {name: np.array(table) for name, table in tables().items()}
+    pole, residue = _limit_parts()
+    constants = (
+        Constant("FIRST_K", FIRST_K, "M_k is counted from here."),
+        Constant("KAPPA_START", kappa_start(), "n from which on kappa_n's expansion serves."),
+        Constant("FINITE_PART_START", finite_part_start(), "k from which on M_k's limit serves."),
+        Constant(
+            "KAPPA_STEPS",
+            kappa_steps(TERMS),
+            "Numerators of 1, 1/n, 1/(n (n-1)), ... in kappa_n's ratio.",
         ),
-    }
+        Constant("LIMIT_POLE", float(pole), "M_k's ratio tends to 1 + LIMIT_RESIDUE/(k - this)."),
+        Constant("LIMIT_RESIDUE", float(residue), "See LIMIT_POLE."),
+        Constant("KAPPA", found["kappa"], "kappa_n, from n = 0."),
+        Constant("KAPPA_RATIO", found["kappa_ratio"], "kappa_n 2^(n+1)/(pi n!), from n = 0."),
+        Constant("FINITE_PART", found["finite_part"], "M_k, from k = FIRST_K."),
+        Constant(
+            "FINITE_PART_RATIO",
+            found["finite_part_ratio"],
+            "M_k 2^(2k-3)/(2k-2)!, from k = FIRST_K.",
+        ),
+    )
+    title = "Constants of the contact law by whole index: tables and expansions."
+    return Numbers("series_numbers", title, constants)
+
+
+RUNTIME = Path(__file__).parents[1] / "runtime"
+MODULES = (
+    ComputedModule("series_numbers", moment_numbers),
+    RuntimeModule("series_constants", RUNTIME / "series_constants.py"),
+)

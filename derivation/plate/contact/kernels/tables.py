@@ -27,7 +27,7 @@ import flint
 from flint import arb as Ball
 
 from derivation.engine.formula.ball import enclose
-from derivation.mathematics.bessel.kernels import bessel_zero, nearest_double, wrapped
+from derivation.mathematics.bessel.kernels import bessel_zero, nearest_double
 from derivation.plate.contact.kernels.moments import BITS, excess_nodes, finite_parts, kappas, sharp
 from derivation.plate.contact.kernels.series import constant
 from derivation.plate.contact.theory.thin_plate import plate_excess
@@ -303,11 +303,3 @@ def gauss_legendre(count: int) -> tuple[tuple[float, ...], tuple[float, ...]]:
     with flint.ctx.workprec(BITS):
         pairs = [Ball.legendre_p_root(count, i, weight=True) for i in reversed(range(count))]
         return _round([(1 + x) / 2 for x, _ in pairs]), _round([w / 2 for _, w in pairs])
-
-
-def impact_context() -> dict[str, object]:
-    """What the template of the generated impact needs: the nodes of its quadratures."""
-    outer, inner = (gauss_legendre(count) for count in (IMPACT_NODES, INNER_NODES))
-    names = ("nodes", "weights", "inner_nodes", "inner_weights")
-    rules = (*outer, *inner)
-    return {name: wrapped(map(repr, rule)) for name, rule in zip(names, rules, strict=True)}

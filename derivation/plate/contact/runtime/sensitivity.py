@@ -34,7 +34,9 @@ from generated.contact_series import (
     with_slopes,
 )
 from generated.contact_thickness import far_by_thickness, first_by_thickness
-from generated.impact import _INNER_NODES, _INNER_WEIGHTS, _NODES, _WEIGHTS, _parts, _Scenes, _solve
+from generated.impact import _parts, _solve
+from generated.impact_numbers import INNER_NODES, INNER_WEIGHTS, NODES, WEIGHTS
+from generated.impact_shapes import Scenes
 
 __all__ = ["PARAMETERS", "RESULTS", "impact_sensitivities", "indentation_slope"]
 
@@ -188,7 +190,7 @@ def _orders(terms: Double) -> Double:
     return 2.0 * np.arange(terms.shape[0], dtype=np.float64)[:, None] + 3.0
 
 
-def _changes(found: _Scenes, part: slice, eta: Double, deeper: _Law) -> tuple[Double, Double]:
+def _changes(found: Scenes, part: slice, eta: Double, deeper: _Law) -> tuple[Double, Double]:
     """Logarithmic slopes of A_m^(-1/2) I, A^2 (1 + F), A^3 and A by Y and by eta."""
     terms = found.terms[:, part]
     wider = kernels.power_slope(_orders(terms), terms)
@@ -218,13 +220,13 @@ def _inner(laws: tuple[_Law, _Law, _Law], ratio: Double, gap: Double, rises: Dou
 
     q = w (2 - w) up to w = 1 - sqrt(gap), where gap = 1 - ratio; rises are the works beyond.
     """
-    q, s, left, share, last = kernels.near_nodes(_NODES, ratio[:, None], np.sqrt(gap)[:, None])
+    q, s, left, share, last = kernels.near_nodes(NODES, ratio[:, None], np.sqrt(gap)[:, None])
     found = []
     made = kernels.near_terms, kernels.near_slope_terms, kernels.near_slope_terms
     for law, rise, terms in zip(laws, rises, made, strict=True):
         sums = terms(q, s, left, share, *_near_sums(s, law), rise[:, None])
         found.append(_Sums(*sums))
-    return _integrals(found, _WEIGHTS * last)
+    return _integrals(found, WEIGHTS * last)
 
 
 def _near_sums(s: Double, law: _Law) -> tuple[Double, Double, Double]:
@@ -267,17 +269,17 @@ def _beyond(A: Double, gap: Double, eta: Double) -> _Beyond:
     pieces = columns(far, position), columns(far_by_thickness(far, which), position)
     law, deeper = (_more_axes(piece) for piece in pieces)
     # The outer nodes: 1 - q = gap u^2; the inner ones run over [q, 1], and over [near, 1].
-    u = np.concatenate((_NODES, [1.0]))
-    nodes = np.concatenate(([1.0], _INNER_NODES))
+    u = np.concatenate((NODES, [1.0]))
+    nodes = np.concatenate(([1.0], INNER_NODES))
     x = kernels.far_nodes(gap[:, None, None], u[:, None], nodes)
     rates = _rates(A[:, None, None] * x, law, deeper)
-    fourth = kernels.work_weight(x[:, :, 1:], _INNER_WEIGHTS)
+    fourth = kernels.work_weight(x[:, :, 1:], INNER_WEIGHTS)
     means = [(rate[:, :, 1:] * fourth).sum(axis=2) for rate in rates]
     sums = [
         _Sums(x[:, :-1, 0] * rate[:, :-1, 0], mean[:, :-1])
         for rate, mean in zip(rates, means, strict=True)
     ]
-    integrals = _integrals(sums, _WEIGHTS * np.sqrt(gap)[:, None])
+    integrals = _integrals(sums, WEIGHTS * np.sqrt(gap)[:, None])
     rises = np.stack([gap * mean[:, -1] for mean in means])
     value, slope = with_slope(A, pieces[0])
     lift_slope, _ = with_slope(A, pieces[1])

@@ -144,14 +144,14 @@ def influence_at_infinity() -> Formula:
     assert found.leading is not None, "K_j does not oscillate"
     proof = prove(
         "Influence at infinity",
-        "With J1(j_n)^2 = 2/(pi j_n) phi^3 K_j depends on phi h alone, and its limit for "
-        "phi h -> oo is the ratio of leading coefficients.",
+        r"With $J_1(j_n)^2 = 2/(\pi j_n) \phi^3 K_j$ depends on $\phi h$ alone, and its limit "
+        r"for $\phi h \to \infty$ is the ratio of leading coefficients.",
         {"limit": limit - found.leading, "exponent": found.exponent},
     )
     return Formula(
         "K_j_limit",
         r"\lim_{j\to\infty}\phi_j^3 K_j",
-        "what phi_j^3 K_j tends to for large j",
+        r"what $\phi_j^3 K_j$ tends to for large $j$",
         sp.factor(limit),
         "1/m^2",
         "10",
@@ -191,8 +191,8 @@ def truncated_gamma(k: int) -> Formula:
     partial = sp.expand(sp.summation(n**power, (n, 1, step)) / step ** (power + 1))
     proof = prove(
         f"Growth of gamma_{k}",
-        "The sum of n^p over n <= N is Faulhaber's polynomial; its leading coefficient is "
-        "1/(p + 1), and by Stolz's theorem lower terms do not change the leading one.",
+        r"The sum of $n^p$ over $n \le N$ is Faulhaber's polynomial; its leading coefficient is "
+        "$1/(p + 1)$, and by Stolz's theorem lower terms do not change the leading one.",
         {
             "power": power - (2 * k - 4),
             "Faulhaber": sp.limit(partial, step, sp.oo) - 1 / (power + 1),
@@ -202,7 +202,7 @@ def truncated_gamma(k: int) -> Formula:
     return Formula(
         f"gamma_{k}_truncated",
         rf"\gamma_{k}^{{(N)}}",
-        f"the paper's gamma_{k} cut after N modes, for large N",
+        rf"the paper's $\gamma_{k}$ cut after $N$ modes, for large $N$",
         sp.powsimp(total),
         f"m/{thirds('N', 2 * k - 1)}",
         "10",

@@ -27,13 +27,13 @@ def pressure() -> Formula:
     (solution,) = sp.solve(resultant - P, peak)
     proof = prove(
         "Hertz pressure",
-        "The resultant of the pressure over the contact disc is P.",
+        "The resultant of the pressure over the contact disc is $P$.",
         {"resultant": resultant.subs(peak, solution) - P},
     )
     return Formula(
         "p",
         "p(r)",
-        "Hertz pressure at r <= a",
+        r"Hertz pressure at $r \le a$",
         solution * sp.sqrt(1 - r**2 / a**2),
         "Pa",
         "7",
@@ -61,8 +61,8 @@ def sonine() -> Formula:
     series = sp.series(sp.sin(_y) - _y * sp.cos(_y), _y, 0, 10).removeO()
     proof = prove(
         "Sonine's integral",
-        "J0's power series integrated term by term: the ratio of every coefficient to that "
-        "of a^2 (sin y - y cos y)/y^3, y = a phi, is 1.",
+        "$J_0$'s power series integrated term by term: the ratio of every coefficient to that "
+        r"of $a^2 (\sin y - y \cos y)/y^3$, $y = a \phi$, is 1.",
         {"ratio of coefficients - 1": sp.simplify(ratio) - 1}
         | {
             f"closed coefficient of y^{2 * k}": closed.subs(_m, k) - series.coeff(_y, 2 * k + 3)
@@ -112,8 +112,8 @@ def contact_radius() -> Formula:
     moment = sp.integrate(_t * sp.sin(phi * _t), (_t, 0, a))
     proof = prove(
         "Hertz contact radius",
-        "The half-space's surface under the pressure is, for r <= a, a parabola of the "
-        "sphere's curvature 1/R, and sinks by a^2/R at the centre.",
+        r"The half-space's surface under the pressure is, for $r \le a$, a parabola of the "
+        "sphere's curvature $1/R$, and sinks by $a^2/R$ at the centre.",
         {
             "moment of the sine": moment - SINE_MINUS / phi**2,
             "curvature": curvature.subs(P, force),
@@ -146,7 +146,8 @@ def norm_of_bessel() -> Proof:
     product = r * (phi * j1 * i0 - k * j0 * i1) / (phi**2 - k**2)
     return prove(
         "Orthogonality",
-        "Both antiderivatives (Lommel) differentiate to r J0(phi r)^2 and r J0(phi r) J0(k r).",
+        r"Both antiderivatives (Lommel) differentiate to $r J_0(\phi r)^2$ and "
+        r"$r J_0(\phi r) J_0(k r)$.",
         {
             "norm": lower_bessel(sp.diff(square, r)) - r * j0**2,
             "orthogonality": lower_bessel(sp.diff(product, r)) - r * j0 * i0,
@@ -164,7 +165,7 @@ def pressure_coefficient() -> Formula:
     expression = sp.factor(moment / norm / SINE_MINUS) * SINE_MINUS
     proof = prove(
         "Pressure coefficients",
-        f"{orthogonality.argument} The moment of the pressure is Sonine's integral times p(0).",
+        f"{orthogonality.argument} The moment of the pressure is Sonine's integral times $p(0)$.",
         {"moment": expression * norm - moment},
     )
     return Formula(

@@ -26,7 +26,7 @@ def contact_law() -> tuple[Formula, ...]:
     share = -loaded(mode_shapes()[0].expression).subs(A_j, coefficient)
     proof = prove(
         "Contact law",
-        "K_j s(a phi_j) equals -f_j(+-h) with the constants of the face conditions and "
+        r"$K_j s(a \phi_j)$ equals $-f_j(\pm h)$ with the constants of the face conditions and "
         "the coefficients of Hertz pressure.",
         {
             "loaded face": faces["K_j"] * SINE_MINUS - share.subs(z, h),
@@ -37,7 +37,7 @@ def contact_law() -> tuple[Formula, ...]:
         Formula(
             "K_j",
             "K_j",
-            "indentation per s(a phi_j), loaded face z = +h",
+            r"indentation per $s(a \phi_j)$, loaded face $z = +h$",
             faces["K_j"],
             "m",
             "6",
@@ -47,7 +47,7 @@ def contact_law() -> tuple[Formula, ...]:
         Formula(
             "K_j_bottom",
             r"K_j^{-}",
-            "indentation per s(a phi_j), far face z = -h",
+            r"indentation per $s(a \phi_j)$, far face $z = -h$",
             faces["K_j_bottom"],
             "m",
             "6",

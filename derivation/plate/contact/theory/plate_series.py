@@ -92,7 +92,7 @@ def coefficient(k: int) -> Coefficient:
     wall = sp.series(wall_bracket(alpha), alpha, 0, 2 * k).removeO().coeff(alpha, 2 * k - 1)
     proof = prove(
         f"Coefficient c_{order}",
-        "Taylor's coefficients of both parts of the split; alpha = eta A.",
+        r"Taylor's coefficients of both parts of the split; $\alpha = \eta A$.",
         {
             "share": shares - factor * spread.subs(_y, alpha * j_n) * excess,
             "modes": factor / alpha * taylor * j_n ** (order - 1) * eta**order * excess - mode,
@@ -162,7 +162,7 @@ def series_formulas() -> tuple[Formula, ...]:
                 Formula(
                     f"c_{c.order}_{part}",
                     rf"c_{{{c.order}}}^{{\mathrm{{{part}}}}}",
-                    f"coefficient of (a/h)^{c.order} in delta R/a^2: {part}",
+                    rf"coefficient of $(a/h)^{c.order}$ in $\delta R/a^2$: {part}",
                     value,
                     "1",
                     "10",
@@ -180,15 +180,17 @@ def regular_gamma(k: int) -> Formula:
     order = 2 * k - 3
     value = (a / P ** sp.Rational(1, 3)) ** (2 * k - 1) * c_A[order] / (R * h**order)
     term = a**2 / R * c_A[order] * (a / h) ** order
+    power = sp.latex(P ** sp.Rational(2 * k - 1, 3), fold_frac_powers=True)
     proof = prove(
         f"gamma_{k}",
-        "gamma_k P^((2k-1)/3) is the term of the small-contact series; a/P^(1/3) is constant.",
+        r"$\gamma_k P^{(2k-1)/3}$ is the term of the small-contact series; $a/P^{1/3}$ is "
+        "constant.",
         {"term": sp.powsimp(value * P ** sp.Rational(2 * k - 1, 3), force=True) - term},
     )
     return Formula(
         f"gamma_{k}",
         rf"\gamma_{k}",
-        f"coefficient of {thirds('P', 2 * k - 1)} in the indentation, beside Hertz's term",
+        f"coefficient of ${power}$ in the indentation, beside Hertz's term",
         value,
         f"m/{thirds('N', 2 * k - 1)}",
         "10",
@@ -207,13 +209,13 @@ def small_contact() -> Formula:
     total = sp.Add(*(c_A[c.order] * x * eta ** (-c.order) * alpha**c.order for c in terms))
     proof = prove(
         "Small contact",
-        "Powers of alpha become powers of A = alpha/eta.",
+        r"Powers of $\alpha$ become powers of $A = \alpha/\eta$.",
         {"powers": total.subs(alpha, eta * a_ratio) / x + 1 - value},
     )
     return Formula(
         "delta_reduced",
         r"\delta R/a^2",
-        "indentation over that of the half-space, for a < 4 h and a < b",
+        "indentation over that of the half-space, for $a < 4 h$ and $a < b$",
         value,
         "1",
         "10",

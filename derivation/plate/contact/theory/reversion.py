@@ -86,11 +86,12 @@ def formal_coefficients(last: int = LAST_XI) -> tuple[Formula, ...]:
     )
     formulas = []
     for index, value in enumerate(inverse, start=2):
+        power = sp.latex(delta ** sp.Rational(2 * index - 1, 3), fold_frac_powers=True)
         formulas.append(
             Formula(
                 f"xi_{index}",
                 rf"\xi_{{{index}}}",
-                f"coefficient of {thirds('delta', 2 * index - 1)} in the formal force",
+                f"coefficient of ${power}$ in the formal force",
                 sp.factor(value) * first ** sp.Rational(-(2 * index - 1), 3),
                 f"N/{thirds('m', 2 * index - 1)}",
                 "10",
@@ -121,7 +122,8 @@ def force_composition(last: int = LAST_P) -> Proof:
     residuals = composition(plate_law(last), force_coefficients(last), 2, 1, 3)
     return prove(
         "Inversion of the contact law",
-        "A = (A^3)^(1/3) from the inverted series is put back into eps^2 = A^2 (1 + c_1 A + ...).",
+        "$A = (A^3)^{1/3}$ from the inverted series is put back into "
+        r"$\varepsilon^2 = A^2 (1 + c_1 A + \ldots)$.",
         residuals,
     )
 
@@ -134,7 +136,7 @@ def force_formulas(shown: int = 4) -> tuple[Formula, ...]:
         Formula(
             f"p_{n}",
             f"p_{n}",
-            f"coefficient of eps^{n} in P over Hertz's force",
+            rf"coefficient of $\varepsilon^{n}$ in $P$ over Hertz's force",
             sp.factor(value),
             "1",
             "10",
@@ -152,7 +154,7 @@ def _hertz_force(scale: sp.Expr) -> Formula:
     value = scale * sp.sqrt(R) * delta ** sp.Rational(3, 2)
     proof = prove(
         "Hertz's force",
-        "delta = a^2/R in the relation between force and contact radius.",
+        r"$\delta = a^2/R$ in the relation between force and contact radius.",
         {"force": sp.powdenest(value.subs(delta, a**2 / R), force=True) - scale * a**3 / R},
     )
     return Formula(
@@ -177,7 +179,8 @@ def exponent() -> Formula:
     power = sp.simplify(delta * sp.diff(term, delta) / term).subs(_N, k - 2)
     proof = prove(
         "Powers of the indentation",
-        "P is proportional to eps^(3 + n), n = k - 2, and eps to the root of delta.",
+        r"$P$ is proportional to $\varepsilon^{3 + n}$, $n = k - 2$, and $\varepsilon$ to the "
+        r"root of $\delta$.",
         {
             "first": power.subs(k, 2) - sp.Rational(3, 2),
             "step": sp.expand(power.subs(k, k + 1) - power) - sp.Rational(1, 2),
@@ -204,7 +207,7 @@ def radius_estimate() -> tuple[Formula, Formula]:
     value = 2 / (3 * sp.sqrt(3) * sp.Abs(c_A[1]))
     proof = prove(
         "Radius of the inverted series",
-        "The inverse is singular where the derivative of A^2 (1 + c_1 A) vanishes.",
+        "The inverse is singular where the derivative of $A^2 (1 + c_1 A)$ vanishes.",
         {
             "turning point": sp.diff(law, a_ratio).subs(a_ratio, turning),
             "radius": value**2 - squared,

@@ -231,8 +231,8 @@ def contact_split() -> tuple[Formula, ...]:
     half = 8 * b**2 / (sp.pi * R) * (a / b) ** 2 * sp.pi / 4 / 2
     proof = prove(
         "Split of the indentation",
-        "K_j = 8 G/(pi R b^2 phi^4 J1^2), G = 1 + (G - 1); the sum with G = 1 is the two "
-        "integrals of the sum identity, the first of which is Hertz's a^2/R.",
+        r"$K_j = 8 G/(\pi R b^2 \phi^4 J_1^2)$, $G = 1 + (G - 1)$; the sum with $G = 1$ is the "
+        "two integrals of the sum identity, the first of which is Hertz's $a^2/R$.",
         {
             "K_j": contact_law()[0].expression - flat * (1 + excess),
             "share": flat * SINE_MINUS - f.subs(x, b * phi) / (b * phi * J1**2),
@@ -278,7 +278,8 @@ def reduced_split() -> tuple[Formula, Formula]:
     scale = R / (alpha * b) ** 2
     proof = prove(
         "Reduced indentation",
-        "With alpha = a/b, eta = h/b, phi = j_n/b both parts over a^2/R depend on alpha and eta.",
+        r"With $\alpha = a/b$, $\eta = h/b$, $\phi = j_n/b$ both parts over $a^2/R$ depend on "
+        r"$\alpha$ and $\eta$.",
         {
             "side wall": _side_density().subs(reduced) * scale - wall,
             "thickness": thickness.subs(reduced) * scale - mode,
@@ -288,7 +289,7 @@ def reduced_split() -> tuple[Formula, Formula]:
         Formula(
             "F_wall",
             r"W(\alpha)",
-            "side wall's part of delta R/a^2 - 1",
+            r"side wall's part of $\delta R/a^2 - 1$",
             sp.Integral(wall * WALL, (_y, 0, sp.oo)),
             "1",
             "6",
@@ -298,7 +299,7 @@ def reduced_split() -> tuple[Formula, Formula]:
         Formula(
             "F_modes",
             r"F(\alpha, \eta) - W(\alpha)",
-            "thickness' part of delta R/a^2 - 1",
+            r"thickness' part of $\delta R/a^2 - 1$",
             mode,
             "1",
             "6",

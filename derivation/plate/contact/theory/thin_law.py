@@ -54,15 +54,16 @@ def universal_part() -> Formula:
     residuals["mean of cosines"] = sp.expand(mean - sine_kernel(_y))
     proof = prove(
         "Thin plate's universal part",
-        "The terms of M_k, k >= 4, are those of s(y)/y^3 beyond its first two; s(y)/y^3 is a "
-        "mean of cosines, so that each stage of its series is off by less than the next term.",
+        r"The terms of $M_k$, $k \ge 4$, are those of $s(y)/y^3$ beyond its first two; "
+        "$s(y)/y^3$ is a mean of cosines, so that each stage of its series is off by less than "
+        "the next term.",
         residuals,
     )
     factor = 2 * a_ratio / sp.pi * kernel
     return Formula(
         "Phi",
         r"\Phi(A)",
-        "part of delta R/a^2 - 1 that is the same for all thin plates",
+        r"part of $\delta R/a^2 - 1$ that is the same for all thin plates",
         sp.Integral(factor * plate_factors()[2].expression, (T, 0, sp.oo)),
         "1",
         "10",

@@ -84,8 +84,8 @@ def strip() -> Proof:
     # sigma_xz itself is linear in n z^2/2.
     return prove(
         "Strip in plane strain",
-        "Bending without traction on the faces; it thins by n times its curvature, the round "
-        "plate by n times the sum of both.",
+        "Bending without traction on the faces; it thins by $n$ times its curvature, the round "
+        "plate by $n$ times the sum of both.",
         {
             "faces": across,
             "shear": mu * xz,
@@ -177,12 +177,17 @@ def clamp_constants() -> tuple[Formula, Formula]:
     proof = strip()
     return (
         Formula(
-            "clamp_turn", r"\chi_c", "rotation of a clamped edge by its moment: psi = chi eta psi'",
+            "clamp_turn", r"\chi_c", (
+                r"rotation of a clamped edge by its moment: $\psi = \chi \eta \psi'$"
+            ),
             turn(), "1", "", ("edge_turn",), proof,
         ),
         Formula(
-            "clamp_level", "G_c", "deflection of a clamped edge's middle plane, over n h^2 and the "
-            "sum of curvatures", level(), "1", "", ("edge_turn",), proof,
+            "clamp_level", "G_c", (
+                "deflection of a clamped edge's middle plane, over $n h^2$ and the sum of "
+                "curvatures"
+            ),
+            level(), "1", "", ("edge_turn",), proof,
         ),
     )  # fmt: skip
 
@@ -198,18 +203,19 @@ def clamp_law() -> tuple[Formula, Formula]:
     steep = sp.Rational(3, 2) * front * _bracket(sp.Rational(2, 3), _s, _chi)
     proof = prove(
         "Clamp's part of the indentation",
-        "Bending, turned edge, shear and stretching; alpha^2 X_c is differentiated by alpha.",
+        r"Bending, turned edge, shear and stretching; $\alpha^2 X_c$ is differentiated by "
+        r"$\alpha$.",
         {"slope": sp.diff(alpha**2 * symbolic, alpha) / (2 * alpha) - steep},
     )
     sources = ("clamp_turn", "clamp_level", "P")
     return (
         Formula(
-            "F_clamp", r"X_c(\alpha, \eta)", "what a clamp takes from delta R/a^2", share, "1",
+            "F_clamp", r"X_c(\alpha, \eta)", r"what a clamp takes from $\delta R/a^2$", share, "1",
             "6", sources, proof,
         ),
         Formula(
             "S_clamp", r"\frac{R}{2a}\frac{\mathrm{d}}{\mathrm{d}a}\frac{a^2 X_c}{R}",
-            "what a clamp takes from (R/2a) d delta/da", slope, "1", "6", ("F_clamp",), proof,
+            r"what a clamp takes from $(R/2a) d \delta/da$", slope, "1", "6", ("F_clamp",), proof,
         ),
     )  # fmt: skip
 
@@ -234,8 +240,9 @@ def clamp_bound() -> Formula:
     floor = 1 - beta - 3 * (2 - beta) ** 2 / 28
     proof = prove(
         "Bound of the clamp's slope",
-        "The slope's bracket is linear in alpha^2; squares are completed. 1000/G is above 7000 "
-        "and 1000 n^2/chi above 5000 for -1/2 < n < 1, so that 0 < 1 - 2 G < 1 and chi >= 0.",
+        r"The slope's bracket is linear in $\alpha^2$; squares are completed. $1000/G$ is above "
+        r"7000 and $1000 n^2/\chi$ above 5000 for $-1/2 < n < 1$, so that $0 < 1 - 2 G < 1$ and "
+        r"$\chi \ge 0$.",
         {
             "above": left - third * (m + alpha**2 * (1 - _s)) - 2 * _chi * eta * alpha**2 * third,
             "square": (1 - _s) * (1 - beta - _s) + sp.Rational(4, 3) * _s**2
@@ -247,7 +254,7 @@ def clamp_bound() -> Formula:
     return Formula(
         "S_clamp_most",
         r"S_c",
-        "what a clamp takes from (R/2a) d delta/da at most, for every a up to this one",
+        r"what a clamp takes from $(R/2a) d \delta/da$ at most, for every $a$ up to this one",
         value,
         "1",
         "6",

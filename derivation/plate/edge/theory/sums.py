@@ -182,7 +182,7 @@ def thin_edge() -> tuple[Formula, ...]:
             {"mode": modes[name] - mode},
         )
         what = "what no mean motion of the edge takes from " + (
-            "delta R/a^2" if name == "F_edge" else "(R/2a) d delta/da"
+            r"$\delta R/a^2$" if name == "F_edge" else r"$(R/2a) d \delta/da$"
         )
         thin = Formula(
             f"{name}_thin",
@@ -197,7 +197,7 @@ def thin_edge() -> tuple[Formula, ...]:
         rest = Formula(
             f"{name}_roots",
             rf"{latex} - \left({latex}\right)^{{\mathrm{{thin}}}}",
-            f"{what}, less that of a thin plate, for every h/b",
+            f"{what}, less that of a thin plate, for every $h/b$",
             _assembled(*_roots(kernel)),
             "1",
             "6",
@@ -238,15 +238,20 @@ def alternating_sums() -> tuple[Formula, Formula]:
     half_plane()
     found = []
     for name, kernel, factor, what in (
-        ("edge_sum", indentation_kernel, "g", "g(alpha j)"),
-        ("edge_slope_sum", slope_kernel, r"\tfrac{3}{2} \mathrm{sinc}", "(3/2) sinc(alpha j)"),
+        ("edge_sum", indentation_kernel, "g", r"g(\alpha j)"),
+        (
+            "edge_slope_sum",
+            slope_kernel,
+            r"\tfrac{3}{2} \mathrm{sinc}",
+            r"(3/2) \operatorname{sinc}(\alpha j)",
+        ),
     ):
         at_zero = sp.limit(kernel(_y), _y, 0)
         turned = sp.simplify(kernel(sp.I * alpha * _y))
         value = (at_zero - turned / sp.besseli(0, _y)) / _y**2 / sp.pi
         proof = prove(
             "Alternating sum",
-            "The finite part of int dy/y^2 from 0 is 0; Q - T and H - 1 die like e^(-T).",
+            r"The finite part of $\int dy/y^2$ from 0 is 0; $Q - T$ and $H - 1$ die like $e^{-T}$.",
             {
                 "Q": bending_function() - T - T * (T - 1 + sp.exp(-T)) / (sp.sinh(T) - T),
                 "H": stretching_function() - 1 + (1 + T - sp.exp(-T)) / (sp.sinh(T) + T),
@@ -256,7 +261,7 @@ def alternating_sums() -> tuple[Formula, Formula]:
             Formula(
                 name,
                 rf"\sum {factor}(\alpha j_n)/(j_n^2 J_1(j_n))",
-                f"sum over the modes of {what}/(j^2 J1)",
+                f"sum over the modes of ${what}/(j^2 J_1)$",
                 sp.Integral(value, (_y, 0, sp.oo)),
                 "1",
                 "6",
@@ -290,9 +295,9 @@ def edge_bound() -> Formula:
     value = 3 * alpha / (2 * sp.pi) * (bracket + sp.Rational(8, 3) * RATIO**2 * s_2)
     proof = prove(
         "Bound of the edge's slope",
-        "(3 + T) (sinh T - T) - T (cosh T - 1) vanishes at 0 with two derivatives, and its third "
-        "is 3 cosh T - (3 - T) e^(-T) >= 0; Q - 3 has no negative power in its numerator; "
-        "e^(-T) <= 1 + T.",
+        r"$(3 + T) (\sinh T - T) - T (\cosh T - 1)$ vanishes at 0 with two derivatives, and its "
+        r"third is $3 \cosh T - (3 - T) e^{-T} \ge 0$; $Q - 3$ has no negative power in its "
+        r"numerator; $e^{-T} \le 1 + T$.",
         {
             "Q - 3 - T": (3 + T - bending_function()) * (sp.sinh(T) - T) - third,
             "third derivative": sp.diff(third, T, 3) - 3 * sp.cosh(T) + (3 - T) * sp.exp(-T),
@@ -317,8 +322,8 @@ def edge_bound() -> Formula:
     return Formula(
         "S_edge_most",
         r"S_e",
-        "what no mean motion of the edge takes from (R/2a) d delta/da at most, for every a up "
-        "to this one",
+        r"what no mean motion of the edge takes from $(R/2a) d \delta/da$ at most, for every $a$ "
+        "up to this one",
         value,
         "1",
         "6",

@@ -132,7 +132,7 @@ def edge_resultants() -> tuple[Formula, ...]:
     turn = J1 * (A_j / phi**2 - RATIO * moment) / (E * phi)
     proof = prove(
         "Resultants at the edge",
-        "Moment balance and Hooke's law against the mode's own g and stresses, integrated "
+        "Moment balance and Hooke's law against the mode's own $g$ and stresses, integrated "
         "through the thickness.",
         {
             "Hooke": g_j * phi**2 - (S_rr - RATIO * S_zz) / E,
@@ -147,8 +147,14 @@ def edge_resultants() -> tuple[Formula, ...]:
         },
     )
     rows = (
-        ("edge_stretch", r"\bar e", "mean of u/b at the edge", mean / (2 * h * b), "1"),
-        ("edge_turn", r"\bar k", "mean turn over b at the edge", turn * 3 / (2 * h**3 * b), "1/m"),
+        ("edge_stretch", r"\bar e", "mean of $u/b$ at the edge", mean / (2 * h * b), "1"),
+        (
+            "edge_turn",
+            r"\bar k",
+            ("mean turn over $b$ at the edge"),
+            turn * 3 / (2 * h**3 * b),
+            "1/m",
+        ),
         ("edge_force", r"\bar N", "radial force per length at the edge", -2 * mu / b * mean, "N/m"),
         ("edge_moment", r"\bar M", "moment per length at the edge", -2 * mu / b * turn, "N"),
     )
@@ -170,8 +176,8 @@ def support_ratio() -> Formula:
     in_nu = value.subs(lam, 2 * mu * nu / (1 - 2 * nu))
     proof = prove(
         "Simple support",
-        "With e and k of no mean motion times this ratio the states' force and moment cancel the "
-        "modes'.",
+        "With $e$ and $k$ of no mean motion times this ratio the states' force and moment "
+        "cancel the modes'.",
         {
             "force": force + value * mean * stretching.force,
             "moment": moment + value * turn * bending.moment,
@@ -181,7 +187,7 @@ def support_ratio() -> Formula:
     return Formula(
         "support_ratio",
         r"\chi",
-        "what a simple support adds over X, (1 - nu)/(1 + nu)",
+        r"what a simple support adds over $X$, $(1 - \nu)/(1 + \nu)$",
         value,
         "1",
         "6",
@@ -213,8 +219,8 @@ def edge_law() -> tuple[Formula, Formula]:
     reduced = {a: alpha * b, h: eta * b, phi: j_n / b}
     proof = prove(
         "Edge's part of the indentation",
-        "The states' w at the loaded face's centre less that at the rim, in a/b and h/b; "
-        "alpha^2 X is differentiated by alpha.",
+        "The states' $w$ at the loaded face's centre less that at the rim, in $a/b$ and $h/b$; "
+        r"$\alpha^2 X$ is differentiated by $\alpha$.",
         {
             "indentation": -depth.subs(reduced) * scale - share,
             "slope": sp.diff(alpha**2 * share, alpha) / (2 * alpha) - slope,
@@ -226,7 +232,7 @@ def edge_law() -> tuple[Formula, Formula]:
         Formula(
             "F_edge",
             r"X(\alpha, \eta)",
-            "what no mean motion of the edge takes from delta R/a^2",
+            r"what no mean motion of the edge takes from $\delta R/a^2$",
             share,
             "1",
             "6",
@@ -237,7 +243,7 @@ def edge_law() -> tuple[Formula, Formula]:
         Formula(
             "S_edge",
             r"\frac{R}{2a}\frac{\mathrm{d}}{\mathrm{d}a}\frac{a^2 X}{R}",
-            "what no mean motion of the edge takes from (R/2a) d delta/da",
+            r"what no mean motion of the edge takes from $(R/2a) d \delta/da$",
             slope,
             "1",
             "6",

@@ -24,8 +24,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from generated import edge_mode_kernels as kernels
-from generated.arrays import Double, quiet
-from generated.bessel import _whole, bessel_j0, bessel_j0_zeros, bessel_j1
+from generated.arrays import Double, quiet, whole
+from generated.bessel import bessel_j0, bessel_j0_zeros, bessel_j1
 from generated.edge_mode_numbers import NODES, WEIGHTS
 from generated.inertia import bending_frequency, bending_residue
 
@@ -197,7 +197,7 @@ def shares_less_one(waves: Waves, a: ArrayLike) -> np.ndarray:
 
 def _given(count: int, eta: float, nu: float) -> tuple[int, Double, Double]:
     """Arguments that are in their ranges."""
-    count = _whole(count, "modes")
+    count = whole(count, "modes")
     if not THINNEST <= eta <= THICKEST:
         raise ValueError(f"expected eta = h/b from {THINNEST:g} to {THICKEST:g}, got {eta!r}")
     if not -1.0 < nu < 0.5:

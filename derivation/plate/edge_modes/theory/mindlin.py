@@ -77,8 +77,8 @@ def shear_coefficient() -> Formula:
         raise ArithmeticError("Mindlin's branch is A0 to two orders: the docstring is wrong")
     proof = prove(
         "Shear coefficient",
-        "A0's power series, of link 27, in Mindlin's dispersion relation: k_s is what makes the "
-        "second order vanish; the first vanishes for any, the third for none.",
+        "A0's power series, of link 27, in Mindlin's dispersion relation: $k_s$ is what makes "
+        "the second order vanish; the first vanishes for any, the third for none.",
         {
             "first order": sp.cancel(powers[0].subs(known)),
             "second order": sp.cancel(powers[1].subs(known).subs(shear, 1 / value)),
@@ -150,8 +150,9 @@ def waves() -> tuple[Formula, ...]:
     stated = 1 + kap * shear / (eta * k_2) ** 2
     proof = prove(
         "Waves of Mindlin's plate",
-        "w and psi put into both balances, for any kap and k_s, kap in terms of k and k2; and "
-        "-k2^2 into the dispersion relation, which is quadratic in k^2.",
+        r"$w$ and $\psi$ put into both balances, for any $\kappa$ and $k_s$, $\kappa$ in terms "
+        "of $k$ and $k_2$; and $-k_2^2$ into the dispersion relation, which is quadratic in "
+        "$k^2$.",
         {
             "by partner": (k_n**2 - k_2**2 - kap / eta**2 * (shear + ROTARY)).subs(by_partner),
             "force": lower_bessel(force.doit()).subs(by_partner),
@@ -166,15 +167,15 @@ def waves() -> tuple[Formula, ...]:
     squared = sp.Symbol("k_2", positive=True)
     rows = (
         (
-            "partner_wave", "k_2", "wave number of a mode's evanescent part times b",
+            "partner_wave", "k_2", "wave number of a mode's evanescent part times $b$",
             sp.sqrt(partner.subs(known)), None, ("shear_coefficient",),
         ),
         (
-            "wave_rotation", "g_1", "rotation over slope, of the part J0",
+            "wave_rotation", "g_1", "rotation over slope, of the part $J_0$",
             g_1.subs(of_kap).subs(known), None, ("shear_coefficient",),
         ),
         (
-            "partner_rotation", "g_2", "rotation over slope, of the part I0",
+            "partner_rotation", "g_2", "rotation over slope, of the part $I_0$",
             stated.subs(known).subs(k_2, sp.sqrt(partner.subs(known))),
             1 + kap * slack() / (eta * squared) ** 2, ("partner_wave",),
         ),

@@ -99,9 +99,9 @@ def frequency_equations() -> tuple[Formula, Formula, Formula]:
     moment = lower_bessel(sp.diff(held, _r, 2) + nu * sp.diff(held, _r)).subs(_r, 1)
     proof = prove(
         "Modes of a held plate",
-        "w in nabla^4 w = k^4 w, and its deflection, slope and moment at the edge. Orthogonality: "
-        "the bracket is differentiated for any two functions; w'' = -nu w' makes nabla^2 w = "
-        "(1 - nu) w' at a supported edge, and a clamped one has no slopes.",
+        r"$w$ in $\nabla^4 w = k^4 w$, and its deflection, slope and moment at the edge. "
+        r"Orthogonality: the bracket is differentiated for any two functions; $w'' = -\nu w'$ "
+        r"makes $\nabla^2 w = (1 - \nu) w'$ at a supported edge, and a clamped one has no slopes.",
         {
             "plate": lower_bessel(laplacian(laplacian(SHAPE)) - k_n**4 * SHAPE),
             "deflection": held.subs(_r, 1),
@@ -114,7 +114,7 @@ def frequency_equations() -> tuple[Formula, Formula, Formula]:
         Formula(
             "held_part",
             "c",
-            "part of I0 in a held plate's mode J0(k r/b) - c I0(k r/b)",
+            "part of $I_0$ in a held plate's mode $J_0(k r/b) - c I_0(k r/b)$",
             PART,
             "1",
             "",
@@ -157,8 +157,9 @@ def norm() -> Formula:
     slope = 2 * k_n / (1 - nu) - I1 / I0
     proof = prove(
         "Norm of a held plate's mode",
-        "A primitive of w^2 r; the slope of (J1/J0 + I1/I0)/k by k is 2 N/(k J0^2), and it begins "
-        "with 1 at k = 0. The frequency equations take J1 out of N.",
+        "A primitive of $w^2 r$; the slope of $(J_1/J_0 + I_1/I_0)/k$ by $k$ is "
+        "$2 N/(k J_0^2)$, and it begins with 1 at $k = 0$. The frequency equations take $J_1$ "
+        "out of $N$.",
         {
             "primitive": lower_bessel(sp.diff(primitive, _r)) - _r * SHAPE**2,
             "closed": primitive.subs({_r: 1, _c: PART}) - NORM,
@@ -173,7 +174,7 @@ def norm() -> Formula:
     return Formula(
         "held_norm",
         "N",
-        "integral of the mode's square over the plate, over 2 pi b^2",
+        r"integral of the mode's square over the plate, over $2 \pi b^2$",
         NORM,
         "1",
         "",
@@ -204,8 +205,8 @@ def weight() -> tuple[Formula, ...]:
     near = _bracket(w_0 + w_2 * _r**2 + w_4 * _r**4, static_deflection(_A))
     proof = prove(
         "Weight of a held plate's mode",
-        "The deflection at rest: without load beside the axis, carrying P, held at the edge; the "
-        "bracket of it and a mode on the axis. On the paper's edge nu = 1.",
+        "The deflection at rest: without load beside the axis, carrying $P$, held at the edge; "
+        r"the bracket of it and a mode on the axis. On the paper's edge $\nu = 1$.",
         {
             "load": laplacian(laplacian(static_deflection(_A))),
             "force": 2 * sp.pi * _r * sp.diff(laplacian(static_deflection(_A)), _r) - 1,
@@ -226,7 +227,7 @@ def weight() -> tuple[Formula, ...]:
         Formula(
             "held_weight",
             "W_n",
-            "acceleration of the axis by a force there, in units of 1/(rho H b^2)",
+            r"acceleration of the axis by a force there, in units of $1/(\rho H b^2)$",
             WEIGHT,
             "1",
             "",
@@ -236,7 +237,7 @@ def weight() -> tuple[Formula, ...]:
         Formula(
             "clamped_compliance",
             r"\sum_n W_n/k_n^4",
-            "deflection of a clamped plate's axis by a force there, in units of P b^2/D",
+            "deflection of a clamped plate's axis by a force there, in units of $P b^2/D$",
             CLAMPED_COMPLIANCE,
             "1",
             "",
@@ -246,7 +247,7 @@ def weight() -> tuple[Formula, ...]:
         Formula(
             "supported_compliance",
             r"\sum_n W_n/k_n^4",
-            "deflection of a supported plate's axis by a force there, in units of P b^2/D",
+            "deflection of a supported plate's axis by a force there, in units of $P b^2/D$",
             SUPPORTED_COMPLIANCE,
             "1",
             "",
@@ -268,8 +269,8 @@ def share() -> Formula:
     value = (sp.sin(y) / y - PART * sp.sinh(y) / y) / (1 - PART)
     proof = prove(
         "Mean of a held plate's mode under a flat punch",
-        "I0's power series is J0's without signs, and so are the transforms sinh(y)/y and "
-        "sin(y)/y, power by power.",
+        r"$I_0$'s power series is $J_0$'s without signs, and so are the transforms $\sinh(y)/y$ "
+        r"and $\sin(y)/y$, power by power.",
         {
             "power": sp.combsimp(sp.gammasimp(bessel * moment * sp.factorial(2 * m + 1))) - 1,
             "small contact": sp.limit(value.subs(alpha, _r / k_n), _r, 0) - 1,

@@ -148,8 +148,9 @@ def edges() -> tuple[Formula, ...]:
     free = turn - CLAMP * eta * (bend - turn)
     proof = prove(
         "Edges of a plate that shears",
-        "Rotation and its slope at the edge; S/Gam by psi/M, whose slope it has the sign of; and "
-        "the limit of a thin plate, link 29's equations, where k2 = k and g1 = g2 = 1.",
+        r"Rotation and its slope at the edge; $S/\Gamma$ by $\psi/M$, whose slope it has the "
+        "sign of; and the limit of a thin plate, link 29's equations, where $k_2 = k$ and "
+        "$g_1 = g_2 = 1$.",
         {
             "deflection": DEFLECTION.subs({_r: 1, c: PART}),
             "rotation": psi.subs(_r, 1) - J0 * TURN,
@@ -166,7 +167,9 @@ def edges() -> tuple[Formula, ...]:
     )
     total = k_n**2 + k_2**2
     rows = (
-        ("wave_part", "c", "part of I0 in a held plate's mode J0(k r/b) - c I0(k_2 r/b)", PART,
+        ("wave_part", "c", (
+            "part of $I_0$ in a held plate's mode $J_0(k r/b) - c I_0(k_2 r/b)$"
+        ), PART,
          PART, ()),
         ("supported_wave", "F_s", "vanishes at the wave numbers of a simply supported plate",
          TURN - SUPPORTED * BEND, TURN - SUPPORTED * total, ("wave_part",)),
@@ -205,7 +208,8 @@ def norm() -> Formula:
     psi = rotation(g_1, g_2)
     proof = prove(
         "Norm of a held plate's wave",
-        "Primitives of w^2 r and psi^2 r, for any k, k2, g1, g2 and c; link 29's for eta -> 0.",
+        r"Primitives of $w^2 r$ and $\psi^2 r$, for any $k$, $k_2$, $g_1$, $g_2$ and $c$; link "
+        r"29's for $\eta \to 0$.",
         {
             "deflection": lower_bessel(sp.diff(deflected, _r)) - _r * DEFLECTION**2,
             "rotation": lower_bessel(sp.diff(turned, _r)) - _r * psi**2,
@@ -253,8 +257,9 @@ def face_ratio() -> Formula:
     mean_square, edge_square = sp.Rational(1, 3) / 2, sp.Rational(1, 2)
     proof = prove(
         "Loaded face over mean",
-        "A wave without shear on its faces, of kap = Y x^4, to the first power of x^2; the partner "
-        "has -k2^2 for k^2. The same from sigma_zz = 0: n_nu z^2/2 nabla^2 w, face less mean.",
+        r"A wave without shear on its faces, of $\kappa = Y x^4$, to the first power of $x^2$; "
+        r"the partner has $-k_2^2$ for $k^2$. The same from $\sigma_{zz} = 0$: "
+        r"$n_{\nu} z^2/2 \nabla^2 w$, face less mean.",
         {
             "series": sp.cancel(found - 1 + one * s),
             "plane stress": sp.cancel(one - one * 3 * (edge_square - mean_square)),
@@ -264,7 +269,9 @@ def face_ratio() -> Formula:
         },
     )  # fmt: skip
     return Formula(
-        "face_ratio", "t", "loaded face over mean deflection, of a mode's part I0 over its part J0",
+        "face_ratio", "t", (
+            "loaded face over mean deflection, of a mode's part $I_0$ over its part $J_0$"
+        ),
         in_k(FACE), "1", "", ("wave_f", "partner_wave"), proof, stated=FACE,
     )  # fmt: skip
 
@@ -277,15 +284,15 @@ def weight() -> Formula:
     soft = WEIGHT.subs(N, NORM).subs(c, 0).subs(J0, 0)
     proof = prove(
         "Weight of a held plate's wave",
-        "At J0 = 0 that of the paper's edge, whose residue is A0's; link 29's for eta -> 0. "
-        + energy.proof.argument,
+        "At $J_0 = 0$ that of the paper's edge, whose residue is A0's; link 29's for "
+        r"$\eta \to 0$. " + energy.proof.argument,
         {
             "paper's edge": sp.cancel(soft - 1 / (sp.pi * J1**2)),
             "thin": _thin(WEIGHT.subs(N, NORM).subs(c, PART)) - thin.WEIGHT,
         },
     )
     return Formula(
-        "wave_weight", "W_n", "acceleration of the axis by a force there, over r_0/b^2 of A0",
+        "wave_weight", "W_n", "acceleration of the axis by a force there, over $r_0/b^2$ of A0",
         in_k(WEIGHT.subs(N, NORM)), "1", "", ("wave_norm", "face_ratio", "bending_residue"), proof,
         stated=WEIGHT,
     )  # fmt: skip
@@ -298,7 +305,7 @@ def share() -> Formula:
     value = UNDER_PUNCH / (1 - c * t)
     proof = prove(
         "Mean of a held plate's wave under a flat punch",
-        "The transforms of link 29, of J0(k r) and of I0(k2 r) on the loaded face. "
+        "The transforms of link 29, of $J_0(k r)$ and of $I_0(k_2 r)$ on the loaded face. "
         + means.proof.argument,
         {
             "thin": _thin(value.subs(c, PART)) - means.expression,
@@ -328,9 +335,10 @@ def at_rest() -> tuple[Formula, Formula]:
     lift = 1 + BULGE / 3 * eta**2 * nabla
     proof = prove(
         "Held plates at rest",
-        "psi under a force on the paper's edge, and 2 A r, which bends evenly without shear and "
-        "lifts w by A (1 - r^2). On the face w is 1 + (n_nu/3) eta^2 nabla^2 times the mean; and "
-        "so, by reciprocity, is what a force there does.",
+        r"$\psi$ under a force on the paper's edge, and $2 A r$, which bends evenly without "
+        "shear and lifts $w$ by $A (1 - r^2)$. On the face $w$ is "
+        r"$1 + (n_{\nu}/3) \eta^2 \nabla^2$ times the mean; and so, by reciprocity, is what a "
+        "force there does.",
         {
             "load": sp.expand(sp.diff(bent, _r) + 1 / (2 * sp.pi * _r)),
             "paper's edge": bent.subs(_r, 1),
@@ -347,7 +355,7 @@ def at_rest() -> tuple[Formula, Formula]:
     found = tuple(
         Formula(
             name, r"\Delta", f"deflection at rest of {which} plate less that on the paper's edge, "
-            "by a force on the axis, in P b^2/D; first order of chi",
+            r"by a force on the axis, in $P b^2/D$; first order of $\chi$",
             value, "1", "", ("wave_weight",), proof,
         )
         for name, which, value in rows

@@ -1,61 +1,192 @@
-"""Formulas of the paper's own motion as its template needs them: from the records, proved.
+"""Formulas of the paper's own motion, proved.
 
 In units of the linear motion's rate and largest indentation, s = delta_0/delta_max, all of (15)
 to (18) depends on one number, excess = -(radicand of (17), (18) where that motion turns)/v0^2.
 The radicand vanishes at s = last; s = last x^3, x = 1 - u^2 makes the integrals of (16) smooth.
 """
 
-from functools import cache
-
 import sympy as sp
 
-from derivation.engine.emit.printer import to_numpy
-from derivation.engine.formula.proof import Proof, prove
+from derivation.engine.emit.package import Routines
+from derivation.engine.emit.routine import QUIET_SCALARS, Facts, Let, Routine, routine
 from derivation.plate.contact.theory.divergence import printed_term
 from derivation.plate.contact.theory.hertz import contact_radius
 from derivation.plate.contact.theory.law import contact_law
 from derivation.plate.contact.theory.reversion import formal_coefficients
-from derivation.plate.impact.theory.impact import geometric, linear_motion, linearisation
+from derivation.plate.impact.theory.impact import (
+    formal_speed_squared,
+    geometric,
+    linear_motion,
+    linearisation,
+)
 from derivation.plate.printed.motion import PRINTED_MOTION
-from derivation.plate.vocabulary import P, a, delta_0, m, t, v0, xi_k
+from derivation.plate.vocabulary import (
+    P,
+    R,
+    a,
+    delta,
+    delta_0,
+    gamma_k,
+    lam,
+    m,
+    mu,
+    phi,
+    t,
+    v0,
+    xi_k,
+)
 
-K, ratio = sp.symbols("K ratio", positive=True)
-excess, last, s, u, x = sp.symbols("excess last s u x", positive=True)
+K, ratio, over = sp.symbols("K ratio over", positive=True)
+excess, last, s, u, x, y = sp.symbols("excess last s u x y", positive=True)
 lead, square = sp.symbols("lead square", positive=True)
-
-LEAD = last**2 * geometric(6, x) + excess * last ** sp.Rational(8, 3) * geometric(8, x)
-"""The radicand over v0^2 u^2."""
-SQUARE = u**2 * lead + excess * s ** sp.Rational(8, 3)
-"""delta_0'^2 over v0^2."""
-STEP = 6 * last * x**2 * u
-"""-ds/du."""
-_force = s + sp.Rational(4, 3) * excess * s ** sp.Rational(5, 3)
-F_STEP = STEP / u * _force / sp.sqrt(lead * square)
-"""-F dt/du."""
-G_STEP = STEP * excess * s ** sp.Rational(8, 3) / (square + u * sp.sqrt(lead * square))
-"""-G dt/du over the linear motion's largest indentation."""
+MOTION = m, v0, xi_k[2]
+_p, _q = sp.symbols("p q", positive=True)
+PLACE: Facts = {
+    last: _p / (1 + _p),
+    u: sp.sqrt(1 - _q / (1 + _q)),
+    excess: (1 - (_p / (1 + _p)) ** 2) / (_p / (1 + _p)) ** sp.Rational(8, 3),
+}
+"""Any positive p, q are a point of the motion; 1 = last^2 + excess last^(8/3) gives the excess."""
 
 
-def perturbation_context() -> dict[str, str]:
-    """What the template of the paper's own motion needs, formulas as text."""
-    smooth_forms()
-    derived = {f.name: f.expression for f in formal_coefficients()}
-    printed = {p.name: p.expression for p in PRINTED_MOTION}
-    found = {
-        "cube": a**3 / contact_radius().expression,
-        "gamma_2": mode_share(2),
-        "gamma_3": mode_share(3),
-        "xi_2": derived["xi_2"],
-        "xi_3": derived["xi_3"],
-        "xi_3_printed": printed["xi_3"],
-        "delta_0": linear_motion().expression,
-        "excess": -linearisation()[2].expression / v0**2,
-        "lead": LEAD,
-        "square": SQUARE,
-        "F_step": F_STEP,
-        "G_step": G_STEP,
-    }
-    return {name: to_numpy(value) for name, value in found.items()}
+def _rate() -> sp.Expr:
+    """Angular frequency of the linear motion."""
+    (wave,) = linear_motion().expression.atoms(sp.sin)
+    return wave.args[0] / t
+
+
+def _peak() -> sp.Expr:
+    """Largest indentation of the linear motion."""
+    return linear_motion().expression.subs(sp.sin(_rate() * t), 1)
+
+
+def _number() -> sp.Expr:
+    """The radicand where the linear motion turns, over -v0^2."""
+    return -linearisation()[2].expression / v0**2
+
+
+def linear() -> Routine:
+    """(15)."""
+    return routine(
+        "linear",
+        (t, *MOTION),
+        (),
+        (linear_motion().expression,),
+        (linear_motion().expression,),
+        "Indentation by the linear term, (15).",
+        {},
+    )
+
+
+def turning_point() -> Routine:
+    """When and where the linear motion ends and turns."""
+    return routine(
+        "turning_point",
+        MOTION,
+        (Let(over, m / xi_k[2]),),
+        (sp.pi * sp.sqrt(over), v0 * sp.sqrt(over)),
+        (sp.pi / _rate(), _peak()),
+        "Contact time and largest indentation of the linear motion, (15).",
+        {},
+    )
+
+
+def excess_at_turn() -> Routine:
+    """The number that the correction depends on."""
+    return routine(
+        "excess_at_turn",
+        (*MOTION, xi_k[3]),
+        (),
+        (_number(),),
+        (_number(),),
+        "Radicand of (17), (18) at the linear motion's turning point, over -v0^2.",
+        {},
+    )
+
+
+def end_of_radicand() -> Routine:
+    """Newton's step for where the radicand vanishes."""
+    cube = sp.Symbol("cube", positive=True)
+    claim = -(formal_speed_squared() / v0**2).subs(delta, _peak() * y ** sp.Rational(3, 2))
+    return routine(
+        "end_of_radicand",
+        (y, excess),
+        (Let(cube, y**3),),
+        (cube + excess * y * cube - 1, 3 * y**2 + 4 * excess * cube),
+        (claim, sp.diff(claim, y)),
+        "The radicand over -v0^2 at s^2 = y^3, and how it grows with y.",
+        {excess: _number()},
+    )
+
+
+def cosine_at_end() -> Routine:
+    """The linear motion's velocity where the radicand vanishes."""
+    return routine(
+        "cosine_at_end",
+        (excess, last),
+        (),
+        (sp.sqrt(excess) * last ** sp.Rational(4, 3),),
+        (sp.sqrt(1 - PLACE[last] ** 2),),
+        "sqrt(1 - s^2) at s = last, by the radicand, also where s is almost 1.",
+        PLACE,
+    )
+
+
+def integrands() -> Routine:
+    """F dt and G dt of (17), (18) in smooth variables, with dt = d delta_0/delta_0'."""
+    F, G, _ = (formula.expression for formula in linearisation())
+    coefficient = xi_k[3] * PLACE[excess] / _number()
+    inner = PLACE[last] * (_q / (1 + _q)) ** 3
+
+    def of_theory(expression: sp.Expr) -> sp.Expr:
+        found: sp.Expr = expression.subs({xi_k[3]: coefficient, delta_0: inner * _peak()})
+        return found
+
+    path = -sp.diff(last * (1 - u**2) ** 3, u).subs(PLACE) * _peak()
+    path /= of_theory(sp.sqrt(v0**2 - xi_k[2] / m * delta_0**2))
+    power = excess * s ** sp.Rational(8, 3)
+    step = 6 * last * x**2
+    force = s + sp.Rational(4, 3) * excess * s ** sp.Rational(5, 3)
+    root = sp.Symbol("root", positive=True)
+    return routine(
+        "integrands",
+        (u, excess, last),
+        (
+            Let(x, (1 - u) * (1 + u)),
+            Let(s, last * x**3),
+            Let(
+                lead,
+                last**2 * geometric(6, x) + excess * last ** sp.Rational(8, 3) * geometric(8, x),
+                "the radicand over v0^2 u^2",
+            ),
+            Let(square, u**2 * lead + power, "(delta_0'/v0)^2"),
+            Let(root, sp.sqrt(lead * square)),
+        ),
+        (step * force / root, u * step * power / (square + u * root)),
+        (of_theory(F) * path, of_theory(G) * path / _peak()),
+        "-F dt/du of (17), and -G dt/du of (18) over the largest indentation.",
+        PLACE,
+    )
+
+
+def radius_cubed() -> Routine:
+    """a^3/P of (7)."""
+    value = a**3 / contact_radius().expression
+    return routine("radius_cubed", (R, lam, mu), (), (value,), (value,), "a^3/P by (7).", {})
+
+
+def shares() -> Routine:
+    """One mode's shares of gamma_2 and gamma_3 of (10)."""
+    values = tuple(mode_share(k) for k in (2, 3))
+    return routine(
+        "shares",
+        (phi, K, ratio),
+        (),
+        values,
+        tuple(printed_term(k) for k in (2, 3)),
+        "One mode's shares of gamma_2 and gamma_3 of (10), by K_j and a/P^(1/3).",
+        {K: contact_law()[0].expression, ratio: a / P ** sp.Rational(1, 3)},
+    )
 
 
 def mode_share(k: int) -> sp.Expr:
@@ -64,36 +195,41 @@ def mode_share(k: int) -> sp.Expr:
     return K * sp.powsimp(share.subs(a, ratio * P ** sp.Rational(1, 3)), force=True)
 
 
-@cache
-def smooth_forms() -> Proof:
-    """The forms in u from F and G of the theory, where the radicand vanishes at u = 0.
-
-    `last` and x are taken as p/(1 + p), so that any positive p, q are a point of the motion;
-    1 = last^2 + excess last^(8/3) gives the excess, and that xi_3.
-    """
-    F, G, at_turn = (formula.expression for formula in linearisation())
-    peak = linear_motion().expression.subs(sp.sin(t * sp.sqrt(xi_k[2]) / sp.sqrt(m)), 1)
-    p, q = sp.symbols("p q", positive=True)
-    end, cube_root = p / (1 + p), q / (1 + q)
-    number = (1 - end**2) / end ** sp.Rational(8, 3)
-    coefficient = xi_k[3] * number / (-at_turn / v0**2)
-    place = {last: end, x: cube_root, u: sp.sqrt(1 - cube_root), excess: number}
-    inner = end * cube_root**3
-
-    def of_theory(expression: sp.Expr) -> sp.Expr:
-        return expression.subs({xi_k[3]: coefficient, delta_0: inner * peak})
-
-    def of_ours(expression: sp.Expr) -> sp.Expr:
-        return expression.subs(square, SQUARE).subs(lead, LEAD).subs(s, inner).subs(place)
-
-    speed = sp.sqrt(v0**2 - xi_k[2] / m * delta_0**2)
-    path = of_ours(STEP) * peak / of_theory(speed)
-    return prove(
-        "Motion of (16) to (18) in smooth variables",
-        "F dt and G dt, with dt = d delta_0/delta_0', s = last x^3 and x = 1 - u^2.",
-        {
-            "step": STEP.subs(x, 1 - u**2) + sp.diff(last * (1 - u**2) ** 3, u),
-            "F": of_theory(F) * path - of_ours(F_STEP),
-            "G": of_theory(G) * path / peak - of_ours(G_STEP),
-        },
+def coefficients() -> Routine:
+    """xi_2 and both xi_3 of (10)."""
+    derived = {f.name: f.expression for f in formal_coefficients()}
+    printed = {p.name: p.expression for p in PRINTED_MOTION}
+    values = derived["xi_2"], derived["xi_3"], printed["xi_3"]
+    return routine(
+        "coefficients",
+        (gamma_k[2], gamma_k[3]),
+        (),
+        values,
+        values,
+        "xi_2, and xi_3 as derived and as printed, of (10).",
+        {},
     )
+
+
+ROUTINES = linear, integrands, shares
+OF_ONE_MOTION = (
+    turning_point,
+    excess_at_turn,
+    end_of_radicand,
+    cosine_at_end,
+    radius_cubed,
+    coefficients,
+)
+
+
+def perturbation_kernels() -> Routines:
+    """The paper's own motion, printed from proven expressions."""
+    title = "The paper's own motion, (10) and (14) to (18)."
+    return Routines("perturbation_kernels", title, tuple(make() for make in ROUTINES), {})
+
+
+def motion_kernels() -> Routines:
+    """Its numbers: of one motion at a time."""
+    title = "Numbers of the paper's own motion, (10) and (15) to (18)."
+    made = tuple(make() for make in OF_ONE_MOTION)
+    return Routines("motion_kernels", title, made, {}, QUIET_SCALARS)

@@ -8,21 +8,32 @@ less sums over roots with a proven bound. Every constant is a ball; bounds are r
 import math
 
 import flint
+import sympy as sp
 from flint import arb as Ball
 
+from derivation.engine.emit.package import Numbers
+from derivation.engine.emit.tables import Constant
 from derivation.engine.formula.ball import evaluate
-from derivation.mathematics.bessel.kernels import nearest_double, wrapped
+from derivation.mathematics.bessel.kernels import nearest_double
 from derivation.plate.contact.kernels.moments import BITS
 from derivation.plate.contact.kernels.tables import IMPACT_NODES, gauss_legendre, modes
-from derivation.plate.contact.theory.plate_series import coefficient, kappa_ball
+from derivation.plate.contact.theory.plate_series import kappa_ball
 from derivation.plate.contact.theory.split import zero_of_j0
 from derivation.plate.contact.theory.thin_law import thin_coefficient_ball
+from derivation.plate.impact.kernels.simple_laws import (
+    CUBIC,
+    ROW,
+    gauss,
+    wall_cubic,
+    wall_linear,
+)
 from derivation.plate.impact.theory.impact import hertz_time
 from derivation.plate.impact.theory.substitution import (
     roots_bound,
     time_quadrature_bound,
     wall_rest_ball,
 )
+from derivation.plate.vocabulary import u_t
 
 THIN = 6
 """1/eta from which on the roots' share, like e^(-pi/eta), is left out."""
@@ -30,39 +41,55 @@ FADED = 18
 """T = 2 eta j_n beyond which modes are left out, for 1/eta <= THIN."""
 
 
-def simple_impact_context() -> dict[str, object]:
-    """What the template of the generated simple impacts needs, numbers as text."""
+def numbers() -> Numbers:
+    """What the generated simple impacts need: modes, Gauss' rule, constants and bounds."""
     # T_n = 2 eta j_n > FADED for n beyond these, for every 1/eta <= THIN.
     count = math.ceil(FADED * THIN / (2 * math.pi) + 0.25)
     if not 2 * zero_of_j0(count, 64) > FADED * THIN:
         raise ArithmeticError("too few modes for the tail's bound")
     with flint.ctx.workprec(BITS):
-        wall, rest = _wall(), wall_rest_ball()
+        rest = wall_rest_ball()
+        bent = 1 / (4 * Ball.pi())
         thin = {k: thin_coefficient_ball(k, 1) for k in (2, 3)}
-        bending = 1 / (4 * Ball.pi())
-        cubic_wall = rest - 2 * kappa_ball(2) / (3 * Ball.pi() ** 2)
-        constants = {
-            "wall": nearest_double(wall),
-            "thin_linear": nearest_double(thin[2] - bending),
-            "thin_cubic": nearest_double(-Ball(5) / 2 * thin[3]),
-            "wall_rest": above(rest),
-            "wall_cubic": above(cubic_wall),
-            "roots_linear": above(_roots(2)),
-            "roots_cubic": above(Ball(5) / 2 * _roots(3)),
-            "faded_linear": above(_faded(0)),
-            "faded_cubic": above(_faded(2)),
-            "hertz_time": nearest_double(evaluate(hertz_time().expression, {})),
-            "quadrature": above(time_quadrature_bound(IMPACT_NODES)),
-        }
-        pairs = [(nearest_double(j), nearest_double(w)) for j, w in modes(count)]
+        pairs = tuple((nearest_double(j), nearest_double(w)) for j, w in modes(count))
+        cubic = rest - _cubic(_wall(wall_cubic, 2))
+        constants = (
+            Constant("MODES", pairs, "j_n and 1/(j_n J1(j_n)^2)."),
+            Constant("RULE", _rule(), "Gauss' rule: a/a_m, 6 g_5, 5 g_6, and its weights."),
+            Constant("THIN", float(THIN), "1/eta beyond which c_1 and K_3 are closed forms."),
+            Constant("FADED", float(FADED), "T = 2 eta j_n beyond which modes are left out."),
+            Constant("FADED_LINEAR", above(_faded(0)), "What these weigh at most."),
+            Constant("FADED_CUBIC", above(_faded(2)), "The same, times T^2."),
+            Constant("WALL", nearest_double(_wall(wall_linear, 0)), "Side wall's share of c_1."),
+            Constant("WALL_REST", above(rest), "Side wall's share of K_3, at most."),
+            Constant("WALL_CUBIC", above(cubic), "Its share of K_3 + 5/2 c_3, at most."),
+            Constant(
+                "THIN_LINEAR", nearest_double(thin[2] - bent), "c_1 at v = 1, less v^2/(4 pi)."
+            ),
+            Constant("THIN_CUBIC", nearest_double(-_cubic(thin[3])), "-5/2 c_3 at v = 1."),
+            Constant("ROOTS_LINEAR", above(_roots(2)), "Roots' share of c_1 over e^(-pi/eta)."),
+            Constant("ROOTS_CUBIC", above(_cubic(_roots(3))), "Roots' share of K_3, likewise."),
+            Constant(
+                "HERTZ_TIME",
+                nearest_double(evaluate(hertz_time().expression, {})),
+                "Contact time by speed over largest indentation.",
+            ),
+            Constant(
+                "QUADRATURE",
+                above(time_quadrature_bound(IMPACT_NODES)),
+                "Relative error of Gauss' rule for the contact time of `leading`: proven.",
+            ),
+        )
+    return Numbers("simple_impact_numbers", "Numbers of the impact by simple laws.", constants)
+
+
+def _rule() -> tuple[tuple[float, ...], ...]:
+    """The rows that `simple_laws` says."""
     nodes, weights = gauss_legendre(IMPACT_NODES)
-    rule = [_node(u, weight) for u, weight in zip(nodes, weights, strict=True)]
-    return {name: repr(value) for name, value in constants.items()} | {
-        "modes": [wrapped(map(repr, pair))[0] for pair in pairs],
-        "rule": [wrapped(map(repr, row))[0] for row in rule],
-        "thin": str(THIN),
-        "faded": str(FADED),
-    }
+    return tuple(
+        tuple(nearest_double(evaluate(part, {u_t: u, gauss: weight})) for part in ROW)
+        for u, weight in zip(nodes, weights, strict=True)
+    )
 
 
 def above(bound: Ball) -> float:
@@ -70,11 +97,15 @@ def above(bound: Ball) -> float:
     return float(f"{1.001 * float(bound.abs_upper()):.4g}")
 
 
-def _wall() -> Ball:
-    """What the side wall takes from c_1, over eta."""
-    share = coefficient(2).by_plate_radius[1]
-    (kappa_0,) = share.free_symbols
-    return evaluate(-share / kappa_0, {}) * kappa_ball(0)
+def _wall(share: sp.Expr, index: int) -> Ball:
+    """What the side wall takes from a coefficient, over the power of eta."""
+    (kappa_n,) = share.free_symbols
+    return evaluate(share / kappa_n, {}) * kappa_ball(index)
+
+
+def _cubic(coefficient: Ball) -> Ball:
+    """What a coefficient of A^3 in the law is in its slope."""
+    return coefficient * int(CUBIC.p) / int(CUBIC.q)
 
 
 def _roots(k: int) -> Ball:
@@ -95,12 +126,3 @@ def _faded(power: int) -> Ball:
     steps = [FADED + gap * n for n in range(60)]
     terms = [32 * T ** (2 + power) * (-2 * T).exp() for T in steps]
     return sum(terms, Ball(0)) + 2 * terms[-1]
-
-
-def _node(u: float, weight: float) -> tuple[float, ...]:
-    """q = 1 - u^2, 6 g_5, 5 g_6 and 8 q times the weight, g_n = 1 + ... + q^(n-1)."""
-    with flint.ctx.workprec(BITS):
-        q = 1 - Ball(u) ** 2
-        fifth = sum((q**n for n in range(5)), Ball(0))
-        row = q, 6 * fifth, 5 * (fifth + q**5), 8 * q * Ball(weight)
-        return tuple(nearest_double(x) for x in row)

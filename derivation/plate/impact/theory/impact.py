@@ -42,7 +42,7 @@ def motion() -> tuple[Formula, Formula]:
     acceleration = -force / m
     proof = prove(
         "Energy integral",
-        "delta'^2 is differentiated along the motion, and is v0^2 at delta = 0.",
+        r"$\delta'^2$ is differentiated along the motion, and is $v_0^2$ at $\delta = 0$.",
         {
             "along the motion": sp.diff(squared, delta) - 2 * acceleration,
             "start": squared.subs(delta, 0) - v0**2,
@@ -118,8 +118,8 @@ def contact_time(shown: int = SHOWN) -> tuple[Formula, ...]:
         Formula(
             "contact_integrand",
             r"\mathrm{d}I/\mathrm{d}u",
-            "q = 1 - u^2; half the contact time is sqrt(m/2) (a_m^2/R)/sqrt(C a_m^5) times its "
-            "integral",
+            r"$q = 1 - u^2$; half the contact time is $\sqrt{m/2} (a_m^2/R)/\sqrt{C a_m^5}$ "
+            "times its integral",
             integrand,
             "1",
             "13",
@@ -130,7 +130,7 @@ def contact_time(shown: int = SHOWN) -> tuple[Formula, ...]:
         Formula(
             "contact_work",
             r"\frac{m v_0^2}{2 C a_m^5}",
-            "energy of impact over C a_m^5, which determines a_m",
+            "energy of impact over $C a_m^5$, which determines $a_m$",
             work_of_contact(shown),
             "1",
             "13",
@@ -166,7 +166,8 @@ def prove_contact_time(shown: int, integrand: sp.Expr) -> Proof:
     by_u = (integrand**2).subs(u_t, sp.sqrt(1 - _q)) / (4 * (1 - _q))
     return prove(
         "Contact time",
-        "int P d delta by a; 1 - q^(n+3) = (1 - q)(1 + q + ... + q^(n+2)); q = 1 - u^2.",
+        r"$\int P d \delta$ by $a$; $1 - q^{n+3} = (1 - q)(1 + q + \ldots + q^{n+2})$; "
+        "$q = 1 - u^2$.",
         {
             "work": total - done.subs(_q, 1),
             "factor": sp.expand(total - done - C * _a_m**5 * (1 - _q) * left),
@@ -197,8 +198,8 @@ def hertz_time() -> Formula:
     direct = sp.sqrt(sp.Rational(2, 5)) * 4 * q / sp.sqrt(sp.Rational(2, 5) * geometric(5, q))
     proof = prove(
         "Hertz's contact time",
-        "The substitution x = s^(2/5) in Euler's Beta integral; x = q^2, q = 1 - u^2 in the "
-        "integral of the contact time with D_2 alone.",
+        "The substitution $x = s^{2/5}$ in Euler's Beta integral; $x = q^2$, $q = 1 - u^2$ in "
+        "the integral of the contact time with $D_2$ alone.",
         {
             "Beta": integrand - share * euler,
             "prefactor": ratio - sp.sqrt(work_of_contact(0)),
@@ -223,7 +224,7 @@ def linear_motion() -> Formula:
     value = v0 * sp.sqrt(m / xi_k[2]) * sp.sin(sp.sqrt(xi_k[2] / m) * t)
     proof = prove(
         "Linear motion",
-        "It solves m delta'' + xi_2 delta = 0 with delta(0) = 0 and delta'(0) = v0.",
+        r"It solves $m \delta'' + \xi_2 \delta = 0$ with $\delta(0) = 0$ and $\delta'(0) = v_0$.",
         {
             "equation": m * sp.diff(value, t, 2) + xi_k[2] * value,
             "place": value.subs(t, 0),
@@ -272,8 +273,8 @@ def linearisation() -> tuple[Formula, ...]:
     slope = sp.diff(solution, integral) * source * sp.exp(S) + sp.diff(solution, S) * rate
     proof = prove(
         "Linearisation",
-        "V(delta_0 + eta) - V_0(delta_0) is expanded to first order in eta; (16) is put into "
-        "eta' + F eta + G = 0; the radicand is taken where V_0 vanishes.",
+        r"$V(\delta_0 + \eta) - V_0(\delta_0)$ is expanded to first order in $\eta$; (16) is put "
+        r"into $\eta' + F \eta + G = 0$; the radicand is taken where $V_0$ vanishes.",
         {
             "F": F + sp.diff(V, delta_0),
             "G": G - (sp.sqrt(v0**2 - xi_k[2] / m * delta_0**2) - V),
@@ -318,7 +319,7 @@ def linearisation_about_hertz() -> tuple[Formula, Formula]:
     V, V_0 = (sp.sqrt(square.subs(x, sp.sqrt(delta_0))) for square in squares)
     proof = prove(
         "Linearisation about Hertz's motion",
-        "The velocities' squares by hand; F is minus the derivative of the perturbed one.",
+        "The velocities' squares by hand; $F$ is minus the derivative of the perturbed one.",
         {"F": F + sp.diff(V, delta_0), "G": G - V_0 + V},
     )
     sources = ("P_half", "p_1", "speed")

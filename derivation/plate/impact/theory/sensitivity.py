@@ -80,14 +80,14 @@ def energy_number() -> Formula:
     C = contact_radius().expression / a**3 / R
     proof = prove(
         "Energy number",
-        "C a_m^5 sum n D_n/(n + 3) = m v0^2/2 with a_m = h A_m.",
+        r"$C a_m^5 \sum n D_n/(n + 3) = m v_0^2/2$ with $a_m = h A_m$.",
         {"energy": C * (h * _A) ** 5 - _A**5 * m * v0**2 / 2 / value},
     )
     sources = ("contact_work", "P")
     return Formula(
         "energy_number",
         r"\mathcal{Y}",
-        "energy of impact over (4/3) E* h^5/R^2",
+        "energy of impact over $(4/3) E^* h^5/R^2$",
         sp.factor(value),
         "1",
         "13",
@@ -116,8 +116,8 @@ def law_slopes() -> tuple[Formula, ...]:
     side = -4 / sp.pi**2 * sp.sinh(alpha * _y) / _y
     proof = prove(
         "Slopes of the contact law",
-        "The series is differentiated by a; the split times alpha^2 by alpha, and at fixed alpha "
-        "by log(h/b).",
+        r"The series is differentiated by $a$; the split times $\alpha^2$ by $\alpha$, and at "
+        r"fixed $\alpha$ by $\log(h/b)$.",
         {
             "series": sp.diff(delta, a) - slope,
             "mode": sp.diff(alpha**2 * mode.expression, alpha) / (2 * alpha) - sinc,
@@ -133,7 +133,7 @@ def law_slopes() -> tuple[Formula, ...]:
         Formula(
             "delta_slope",
             r"\mathrm{d}\delta/\mathrm{d}a",
-            "indentation added per contact radius added, for a < 4 h and a < b",
+            "indentation added per contact radius added, for $a < 4 h$ and $a < b$",
             slope,
             "1",
             "6",
@@ -143,7 +143,7 @@ def law_slopes() -> tuple[Formula, ...]:
         Formula(
             "slope_modes",
             r"\frac{R}{2a}\frac{\mathrm{d}\delta_h}{\mathrm{d}a}",
-            "thickness' part of d delta/da over that of the half-space",
+            r"thickness' part of $d \delta/da$ over that of the half-space",
             sinc,
             "1",
             "6",
@@ -154,7 +154,7 @@ def law_slopes() -> tuple[Formula, ...]:
         Formula(
             "F_thickness",
             r"h\,\partial F/\partial h",
-            "what delta R/a^2 gains as log h grows, at fixed a and b",
+            r"what $\delta R/a^2$ gains as $\log h$ grows, at fixed $a$ and $b$",
             deeper,
             "1",
             "6",
@@ -232,7 +232,7 @@ def modulus_slope() -> Formula:
     value = lam * mu / ((lam + mu) * (lam + 2 * mu))
     proof = prove(
         "Slopes of the modulus",
-        "The logarithm of E* is differentiated; E* is homogeneous of degree 1.",
+        "The logarithm of $E^*$ is differentiated; $E^*$ is homogeneous of degree 1.",
         {
             "lam": lam * sp.diff(logarithm, lam) - value,
             "mu": mu * sp.diff(logarithm, mu) - (1 - value),
@@ -241,7 +241,7 @@ def modulus_slope() -> Formula:
     return Formula(
         "modulus_by_lam",
         r"\partial\log E^*/\partial\log\lambda",
-        "share of lam in the modulus; that of mu is the rest to 1",
+        r"share of $\lambda$ in the modulus; that of $\mu$ is the rest to 1",
         value,
         "1",
         "7",
@@ -289,8 +289,8 @@ def peaks() -> tuple[Formula, ...]:
     depth = (grown(lift) + 2 * lift) / lift
     proof = prove(
         "Peaks by energy and thickness",
-        "A^5 E is the energy number, A^2 (1 + F) the indentation: A moves so that the former "
-        "grows, or stays while eta grows.",
+        "$A^5 E$ is the energy number, $A^2 (1 + F)$ the indentation: $A$ moves so that the "
+        r"former grows, or stays while $\eta$ grows.",
         {
             "work": work - work_of_contact(),
             "by energy": energy_by_radius * by_energy - 1,
@@ -307,9 +307,9 @@ def peaks() -> tuple[Formula, ...]:
     )
     meanings = (
         "growth of the largest contact radius with the energy; the force's is three times this",
-        "growth of a_m/h with h/b at fixed energy number",
+        "growth of $a_m/h$ with $h/b$ at fixed energy number",
         "growth of the largest indentation with the energy",
-        "growth of delta R/h^2 with h/b at fixed energy number",
+        r"growth of $\delta R/h^2$ with $h/b$ at fixed energy number",
     )
     return tuple(
         Formula(name, latex, meaning, value, "1", "13", ("contact_work",), proof)
@@ -354,12 +354,13 @@ def times() -> tuple[Formula, ...]:
             proofs[f"{label} by {name}"] = sp.expand(moved - change)
     proof = prove(
         "Contact time by contact radius and thickness",
-        "Numerator and radicand at fixed u are differentiated by each D_n; the quotient's rule.",
+        "Numerator and radicand at fixed $u$ are differentiated by each $D_n$; the quotient's "
+        "rule.",
         proofs,
     )
     rows = (
-        ("time_by_radius", r"\partial_{\log A_m}", "log(a_m/h)"),
-        ("time_by_thickness", r"\partial_{\log\eta}", "log(h/b) at fixed a_m/h"),
+        ("time_by_radius", r"\partial_{\log A_m}", r"$\log(a_m/h)$"),
+        ("time_by_thickness", r"\partial_{\log\eta}", r"$\log(h/b)$ at fixed $a_m/h$"),
     )
     return tuple(
         Formula(

@@ -55,7 +55,7 @@ def slope_law() -> Formula:
     kernel = (wall.expression.function / WALL).subs(height, _y)
     proof = prove(
         "Slope of the law",
-        "F + alpha F'/2 of one mode and of the side wall's integrand.",
+        r"$F + \alpha F'/2$ of one mode and of the side wall's integrand.",
         {
             "modes": sloped(mode.expression) - 4 * alpha / sp.pi * sp.sin(y) / y * weight,
             "side wall": sp.expand((sloped(kernel) - density).rewrite(sp.exp)),
@@ -64,7 +64,7 @@ def slope_law() -> Formula:
     return Formula(
         "slope_wall",
         r"\frac{R}{2a}\frac{\mathrm{d}\delta_b}{\mathrm{d}a}",
-        "side wall's part of d delta/da over that of the half-space",
+        r"side wall's part of $d \delta/da$ over that of the half-space",
         sp.Integral(density * WALL.subs(height, _y), (_y, 0, sp.oo)),
         "1",
         "6",
@@ -84,10 +84,10 @@ def one_sided() -> Formula:
     rising = sp.diff(_y - sp.sin(_y), _y), sp.diff(sp.sin(_y) - _y + _y**3 / 6, _y)
     proof = prove(
         "The law's slope between two simple ones",
-        "y - sin y vanishes at 0 and rises; so do y^2/2 + cos y - 1, with that slope, and "
-        "sin y - y + y^3/6, with this one; each "
-        "power of alpha in sinh(alpha y) beyond the first is at most alpha^3; all w_n > 0, as "
-        "G > 1. The first powers add up to 3/2 c_1 A.",
+        r"$y - \sin y$ vanishes at 0 and rises; so do $y^2/2 + \cos y - 1$, with that slope, and "
+        r"$\sin y - y + y^3/6$, with this one; each power of $\alpha$ in $\sinh(\alpha y)$ "
+        r"beyond the first is at most $\alpha^3$; all $w_n > 0$, as $G > 1$. The first powers "
+        "add up to $3/2 c_1 A$.",
         {
             "sinc below 1": rising[0] - chord,
             "1 - cos y below y^2/2": sp.diff(_y**2 / 2 - chord, _y) - (_y - sp.sin(_y)),
@@ -103,7 +103,7 @@ def one_sided() -> Formula:
     return Formula(
         "S_most",
         r"S_1",
-        "what (R/2a) d delta/da is at most, for every a < b",
+        r"what $(R/2a) d \delta/da$ is at most, for every $a < b$",
         1 + sp.Rational(3, 2) * c_A[1] * a_ratio,
         "1",
         "6",

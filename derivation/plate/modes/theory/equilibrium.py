@@ -66,8 +66,8 @@ def equilibrium() -> tuple[Formula, Formula]:
     radial, axial = factor_of(balance_r, BESSEL_J1), factor_of(balance_z, BESSEL_J0)
     proof = prove(
         "Equilibrium of one mode",
-        "Hooke's law put into both equilibrium equations leaves nothing but "
-        "phi J1(phi r) times the first and J0(phi r) times the second ODE.",
+        r"Hooke's law put into both equilibrium equations leaves nothing but $\phi J_1(\phi r)$ "
+        r"times the first and $J_0(\phi r)$ times the second ODE.",
         {
             "radial balance": without_functions(balance_r - radial * BESSEL_J1),
             "axial balance": without_functions(balance_z - axial * BESSEL_J0),
@@ -77,7 +77,7 @@ def equilibrium() -> tuple[Formula, Formula]:
         Formula(
             "radial_ode",
             "0",
-            "radial equilibrium of mode j",
+            "radial equilibrium of mode $j$",
             sp.expand(radial / phi),
             "Pa",
             "2",
@@ -87,7 +87,7 @@ def equilibrium() -> tuple[Formula, Formula]:
         Formula(
             "axial_ode",
             "0",
-            "axial equilibrium of mode j",
+            "axial equilibrium of mode $j$",
             sp.expand(axial),
             "Pa/m",
             "2",

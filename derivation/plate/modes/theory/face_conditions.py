@@ -32,14 +32,14 @@ def omegas() -> tuple[Formula, ...]:
     loads = {c: A_j * omega for c, omega in zip(CONSTANTS, expressions, strict=True)}
     proof = prove(
         "Face conditions",
-        "C_k = A_j Omega_k put back into both stresses on both faces.",
+        r"$C_k = A_j \Omega_k$ put back into both stresses on both faces.",
         {where: traction.subs(loads) for where, traction in conditions.items()},
     )
     return tuple(
         Formula(
             f"Omega_{k}",
             rf"\Omega_{k}",
-            f"C_{k} per unit pressure coefficient",
+            f"$C_{k}$ per unit pressure coefficient",
             expression,
             "m/Pa" if k < 3 else "1/Pa",
             "5",
@@ -58,14 +58,14 @@ def scaled_omegas() -> tuple[Formula, ...]:
         scaled = sp.exp(phi * h) * omega.expression
         proof = prove(
             "Scaled constants",
-            "The product with e^(phi h), by definition.",
+            r"The product with $e^{\phi h}$, by definition.",
             {omega.name: scaled * sp.exp(-phi * h) - omega.expression},
         )
         results.append(
             Formula(
                 f"{omega.name}_scaled",
                 rf"e^{{\phi_j h}}{omega.latex}",
-                f"{omega.name} times e^(phi h)",
+                rf"$\{omega.name}$ times $e^{{\phi h}}$",
                 scaled,
                 omega.unit,
                 "5",

@@ -27,8 +27,8 @@ def influence_coefficients() -> tuple[Formula, Formula, Formula]:
     half = sp.factor(sp.limit(closed["top"].rewrite(sp.exp), h, sp.oo))
     proof = prove(
         "Influence coefficients",
-        "The closed forms equal f_j(+-h)/A_j with the constants of the face conditions; "
-        "the half-space's is 2/(E* phi).",
+        r"The closed forms equal $f_j(\pm h)/A_j$ with the constants of the face conditions; the "
+        r"half-space's is $2/(E^* \phi)$.",
         {face: closed[face] - faces[face] for face in faces}
         | {"half-space": half - 2 / (PLANE_STRAIN_MODULUS * phi)},
     )

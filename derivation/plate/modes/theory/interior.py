@@ -43,8 +43,8 @@ def interior_fields() -> tuple[Formula, ...]:
     radial, axial = force_balance(stress)
     proof = prove(
         "Interior fields",
-        "The stresses are Hooke's law of the displacements and balance without body force; "
-        "w and u/r + du/dr vanish on the edge, where J0(b phi) = 0.",
+        "The stresses are Hooke's law of the displacements and balance without body force; $w$ "
+        r"and $u/r + du/dr$ vanish on the edge, where $J_0(b \phi) = 0$.",
         {
             "sigma_rr": stress.rr - fields["sigma_rr"],
             "sigma_tt": stress.tt - fields["sigma_tt"],

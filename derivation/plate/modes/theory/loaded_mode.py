@@ -17,8 +17,8 @@ def loaded_mode() -> tuple[Formula, ...]:
     radial, axial = substitute(shapes["f_j"], shapes["g_j"])
     proof = prove(
         "Loaded mode",
-        "f_j and g_j under load satisfy both ODEs; their stresses leave both faces free of "
-        "shear, the far face free of pressure and the loaded one under A_j.",
+        "$f_j$ and $g_j$ under load satisfy both ODEs; their stresses leave both faces free of "
+        "shear, the far face free of pressure and the loaded one under $A_j$.",
         {
             "radial ODE": radial,
             "axial ODE": axial,
@@ -33,7 +33,7 @@ def loaded_mode() -> tuple[Formula, ...]:
         Formula(
             f"mode_{formula.name.strip('_j').removeprefix('S_')}",
             formula.latex,
-            f"{formula.meaning}, under A_j",
+            f"{formula.meaning}, under $A_j$",
             shapes[formula.name],
             formula.unit,
             formula.equation,

@@ -85,14 +85,14 @@ def mode_shapes() -> tuple[Formula, Formula]:
     radial, axial = substitute(shape_f, shape_g)
     proof = prove(
         "General solution",
-        "f_j and g_j put into both ODEs; their four functions are linearly independent.",
+        "$f_j$ and $g_j$ put into both ODEs; their four functions are linearly independent.",
         {"radial ODE": radial, "axial ODE": axial},
     )
     return (
         Formula(
             "f_j",
             "f_j(z)",
-            "deflection of mode j through the thickness",
+            "deflection of mode $j$ through the thickness",
             shape_f,
             "m",
             "2",
@@ -102,7 +102,7 @@ def mode_shapes() -> tuple[Formula, Formula]:
         Formula(
             "g_j",
             "g_j(z)",
-            "radial displacement of mode j through the thickness, over phi_j",
+            r"radial displacement of mode $j$ through the thickness, over $\phi_j$",
             by_constants(shape_g),
             "m^2",
             "2",

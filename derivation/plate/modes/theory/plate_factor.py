@@ -16,7 +16,7 @@ def plate_factors() -> tuple[Formula, ...]:
     G, G_m = ((face / half).subs(phi, T / (2 * h)) for face in (top, bottom))
     proof = prove(
         "Plate factors",
-        "The ratio of each influence coefficient to the half-space's depends on phi h alone.",
+        r"The ratio of each influence coefficient to the half-space's depends on $\phi h$ alone.",
         {
             "loaded face": G.subs(T, 2 * phi * h) * half - top,
             "far face": G_m.subs(T, 2 * phi * h) * half - bottom,
@@ -47,13 +47,13 @@ def plate_factor_slope() -> Formula:
     value = -2 * T**3 * sp.sinh(T) ** 2 / ((sp.sinh(T) - T) * (sp.sinh(T) + T)) ** 2
     proof = prove(
         "Slope of the plate factor",
-        "G is differentiated; what is left of the numerator is 4 T^2 sinh^2 T.",
+        r"$G$ is differentiated; what is left of the numerator is $4 T^2 \sinh^2 T$.",
         {"derivative": T * sp.diff(G, T) - value},
     )
     return Formula(
         "G_slope",
         r"T\,G'(T)",
-        "what the plate factor of the loaded face gains as log T grows",
+        r"what the plate factor of the loaded face gains as $\log T$ grows",
         value,
         "1",
         "6",

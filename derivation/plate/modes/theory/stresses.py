@@ -14,10 +14,10 @@ from derivation.plate.modes.theory.mode_shapes import by_constants, mode_shapes
 from derivation.plate.vocabulary import Formula, mu, phi, r
 
 _NAMES = {
-    "S_zz": ("S_{zz}(z)", "axial stress of mode j, factor of J0(phi r)"),
-    "S_rz": ("S_{rz}(z)", "shear stress of mode j, factor of J1(phi r)"),
-    "S_rr": ("S_{rr}(z)", "radial stress of mode j, factor of J0(phi r)"),
-    "S_tt": ("S_{tt}(z)", "hoop stress of mode j, factor of J0(phi r)"),
+    "S_zz": ("S_{zz}(z)", r"axial stress of mode $j$, factor of $J_0(\phi r)$"),
+    "S_rz": ("S_{rz}(z)", r"shear stress of mode $j$, factor of $J_1(\phi r)$"),
+    "S_rr": ("S_{rr}(z)", r"radial stress of mode $j$, factor of $J_0(\phi r)$"),
+    "S_tt": ("S_{tt}(z)", r"hoop stress of mode $j$, factor of $J_0(\phi r)$"),
 }
 
 

@@ -118,7 +118,8 @@ def estimates() -> Proof:
     force_rise = sp.diff(contact_radius().expression, a) * E / reduced_modulus()
     return prove(
         "Bound of what Hertz's pressure changes",
-        "Both parts of Theta, the integrals of the estimates, and each inequality as a product.",
+        r"Both parts of $\Theta$, the integrals of the estimates, and each inequality as a "
+        "product.",
         {
             "Theta, modes": modes + sp.Rational(15, 2) * third.mode,
             "Theta, side wall": side + sp.Rational(15, 2) * third.side,
@@ -175,6 +176,8 @@ def pressure_bound() -> tuple[Formula, Formula]:
         )
 
     return (
-        bound("pressure_slope_bound", r"|\Delta S|_{\max}", "the slope (R/2a) d delta/da", BELOW),
-        bound("pressure_depth_bound", r"|\Delta\delta|_{\max} R/a^2", "delta R/a^2", DEPTH),
+        bound(
+            "pressure_slope_bound", r"|\Delta S|_{\max}", r"the slope $(R/2a) d \delta/da$", BELOW
+        ),
+        bound("pressure_depth_bound", r"|\Delta\delta|_{\max} R/a^2", r"$\delta R/a^2$", DEPTH),
     )

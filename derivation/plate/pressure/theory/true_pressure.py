@@ -28,6 +28,7 @@ from derivation.plate.impact.theory.substitution import slope_law
 from derivation.plate.modes.theory.influence import influence_coefficients
 from derivation.plate.modes.theory.plate_factor import plate_factors
 from derivation.plate.pressure.theory.bound import pressure_bound
+from derivation.plate.pressure.theory.results import results, substitution
 from derivation.plate.vocabulary import (
     J1,
     Formula,
@@ -167,8 +168,9 @@ def kernel() -> tuple[Formula, Formula]:
     scaled = {eta: h / b, j_n: b * phi}
     proof = prove(
         "Kernel of the contact's integral equation",
-        "A mode's deflection under chi, by Abel's operator; with G = 1 the sum identity leaves "
-        "(2/pi) int cos(x t) cos(x s) dx, which is chi, and the side wall. S is differentiated.",
+        r"A mode's deflection under $\chi$, by Abel's operator; with $G = 1$ the sum identity "
+        r"leaves $(2/\pi) \int \cos(x t) \cos(x s) dx$, which is $\chi$, and the side wall. $S$ "
+        "is differentiated.",
         {
             "one mode": share - f.subs(_x, b * phi) / (b * phi * J1**2) * G,
             "thickness": f.subs(_x, b * phi) / (b * phi * J1**2) * (G - 1)
@@ -184,7 +186,7 @@ def kernel() -> tuple[Formula, Formula]:
         Formula(
             "k_modes",
             r"k_h(\alpha)",
-            "thickness' part of the contact's kernel, t + s and t - s over b for alpha",
+            r"thickness' part of the contact's kernel, $t + s$ and $t - s$ over $b$ for $\alpha$",
             mode,
             "1",
             "",
@@ -293,15 +295,15 @@ def at_given_force() -> tuple[Formula, Formula]:
     )
     proof = prove(
         "Law at given force with the true pressure",
-        "chi by powers of A solves the integral equation; with P its Hertz radius is a_H, "
-        "(a_H/a)^3 = (3/2) int chi. Both expansions are put in, up to A^4.",
+        r"$\chi$ by powers of $A$ solves the integral equation; with $P$ its Hertz radius is "
+        r"$a_H$, $(a_H/a)^3 = (3/2) \int \chi$. Both expansions are put in, up to $A^4$.",
         residuals,
     )
     return (
         Formula(
             "hertz_radius_ratio",
             r"a_{\mathrm{Hertz}}(P)/a",
-            "Hertz's contact radius of the force over the true one, up to (a/h)^4",
+            "Hertz's contact radius of the force over the true one, up to $(a/h)^4$",
             ratio,
             "1",
             "",
@@ -311,7 +313,7 @@ def at_given_force() -> tuple[Formula, Formula]:
         Formula(
             "delta_true",
             r"\delta R/a_{\mathrm{Hertz}}^2",
-            "reduced indentation at given force with the true pressure, up to (a/h)^4",
+            "reduced indentation at given force with the true pressure, up to $(a/h)^4$",
             law.subs(q, 1),
             "1",
             "",
@@ -330,4 +332,6 @@ def true_pressure() -> tuple[Formula, ...]:
     """The formulas of this link, what they rest on proved with them."""
     profiles()
     motion_of_the_edge()
+    results()
+    substitution()
     return (*kernel(), *at_given_force(), *pressure_bound())

@@ -121,7 +121,8 @@ def bending_zero() -> tuple[Formula, ...]:
     reduced = {w: q**2 / x_h**2, x_i: kap / x_h**2}
     proof = prove(
         "The lowest bending branch",
-        "B_a by its quotient; B_a differentiated, at its zero tanh p in terms of tanh q.",
+        r"$B_a$ by its quotient; $B_a$ differentiated, at its zero $\tanh p$ in terms of "
+        r"$\tanh q$.",
         {
             "quotient": in_sines(in_p_and_q(B_a - 2 * kap * sp.tanh(p) / p * (quotient() - 1))),
             "zero": sp.cancel(in_p_and_q(stiffness(at_zero, tanh_q))),
@@ -132,11 +133,13 @@ def bending_zero() -> tuple[Formula, ...]:
     )
     rows = (
         (
-            "bending_quotient", r"q_0(\kappa)", "first over second term of B_a, 1 on A0",
+            "bending_quotient", r"q_0(\kappa)", "first over second term of $B_a$, 1 on A0",
             quotient(), quotient(), "B_a_slow",
         ),
         (
-            "steepness", "s", "how fast that quotient falls on A0 as log kappa grows, times w",
+            "steepness", "s", (
+                r"how fast that quotient falls on A0 as $\log \kappa$ grows, times $w$"
+            ),
             steepness(*tanh), steep, "bending_quotient",
         ),
         (
@@ -172,7 +175,7 @@ def bending_share() -> Formula:
     value = p * q * (p + q) * B / (2 * x_h**3 * E * steep)
     proof = prove(
         "Share of the lowest branch at rest",
-        "The residue over kap, kap by the quotient, times B_a at rest; F by E.",
+        r"The residue over $\kappa$, $\kappa$ by the quotient, times $B_a$ at rest; $F$ by $E$.",
         {
             "B_a at rest": in_sines(both[0] - bent),
             "B_a over B_s": in_sines(both[0] / both[1] - unlike),
@@ -184,7 +187,9 @@ def bending_share() -> Formula:
     beta = sp.Symbol("beta", positive=True)
     stated = (value / (1 + beta)).subs(steep, sp.Symbol("s", positive=True))
     return Formula(
-        "bending_share", "s_0", "A0's share of the deflection at rest, beta being B_a/B_s there",
+        "bending_share", "s_0", (
+            r"A0's share of the deflection at rest, $\beta$ being $B_a/B_s$ there"
+        ),
         with_roots(value.subs(steep, steep_value) / (1 + unlike)), "1", "",
         (residue.name, "C_top"), proof, stated=stated,
     )  # fmt: skip
@@ -205,8 +210,8 @@ def rayleigh() -> tuple[Formula, Formula]:
     limit = plus * sp.sqrt(w) / (8 * (sp.Rational(1, 2) + w * (1 - 2 / plus)))
     proof = prove(
         "Rayleigh's wave",
-        "(2 - xi)^2 = 4 P Q squared, without its root xi = 0; the residue without what fades. "
-        + proof_of_residue.argument,
+        r"$(2 - \xi)^2 = 4 P Q$ squared, without its root $\xi = 0$; the residue without "
+        "what fades. " + proof_of_residue.argument,
         {
             "cubic": sp.expand((2 - xi_R) ** 4 - 16 * w * P**2 - xi_R * cubic),
             "residue": sp.cancel(share - limit),
@@ -214,7 +219,9 @@ def rayleigh() -> tuple[Formula, Formula]:
     )
     return (
         Formula(
-            "rayleigh_cubic", "0", "squared speed xi of short waves, over c_T^2", cubic, "1", "",
+            "rayleigh_cubic", "0", (
+                r"squared speed $\xi$ of short waves, over $c_T^2$"
+            ), cubic, "1", "",
             ("B_a",), proof,
         ),
         Formula(
@@ -306,7 +313,7 @@ def thin_plates() -> tuple[Formula, ...]:
     share = _share_at_rest(rows[1], rows[0])
     proof = prove(
         "Bending of thin plates",
-        "The power series put into B_a as printed and its slope; y_0 is Kirchhoff's plate.",
+        "The power series put into $B_a$ as printed and its slope; $y_0$ is Kirchhoff's plate.",
         {
             "frequency": _below(stiff.subs(slope, found), s),
             "residue": _below(1 + residue * change.subs(slope, found), s),
@@ -316,7 +323,7 @@ def thin_plates() -> tuple[Formula, ...]:
         },
     )
     lines = (
-        ("bending_kap_thin", r"\kappa_0", "(omega h/c_T)^2 of A0, thin plates", 4, rows[0]),
+        ("bending_kap_thin", r"\kappa_0", r"$(\omega h/c_T)^2$ of A0, thin plates", 4, rows[0]),
         ("residue_thin", r"\rho h\,r_0", "how A0 answers a load, thin plates", 0, rows[1]),
         ("share_thin", "s_0", "A0's share of the deflection at rest, thin plates", 0, share),
     )

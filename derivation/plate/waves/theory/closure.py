@@ -70,8 +70,8 @@ def growing_contact() -> Proof:
     hertz = pressure().expression
     return prove(
         "Growing contact",
-        "Flat punches of every radius up to a, P growing like a^3: their pressures add up to "
-        "Hertz's, what their transforms add up to is Sonine's integral.",
+        "Flat punches of every radius up to $a$, $P$ growing like $a^3$: their pressures add up "
+        "to Hertz's, what their transforms add up to is Sonine's integral.",
         {
             "pressure": spread + hertz,
             "felt": felt - FELT,
@@ -131,8 +131,8 @@ def conservation() -> Proof:
     leaked = sp.Add(*((_P - f) * v for f, v in zip(_felt, _rate, strict=True)))
     return prove(
         "Energy beside oscillators",
-        f"Generic P, D and s_j, {MODES} modes: the energy is differentiated along the motion, z' "
-        "taken from the closure. At rest q_j = c_j P_j.",
+        f"Generic $P$, $D$ and $s_j$, {MODES} modes: the energy is differentiated along the "
+        "motion, $z'$ taken from the closure. At rest $q_j = c_j P_j$.",
         {
             "kept": _plain(_loss(_share, stored, nothing, nothing)),
             "lag and endless plate": _plain(_loss(_share, stored, _A, _Y) + lost + taken),
@@ -181,8 +181,8 @@ def variational_law() -> Proof:
     stored = a**3 * depth - compliance * felt**2 / 2 - gap_energy
     return prove(
         "Variational law",
-        "The mean of r^2/(2R) under a flat punch; the mean of s, and of every power of a; the "
-        "work, for P = a^3.",
+        "The mean of $r^2/(2R)$ under a flat punch; the mean of $s$, and of every power of $a$; "
+        "the work, for $P = a^3$.",
         {
             "sphere": gap - a**2 / (3 * R),
             "half-space": gap + whole - a**2 / R,
@@ -213,7 +213,7 @@ def closure() -> tuple[Formula, ...]:
         Formula(
             "mode_share",
             "s_j",
-            "mean of J0 under a flat punch: a mode's weight in the gap",
+            "mean of $J_0$ under a flat punch: a mode's weight in the gap",
             SHARE,
             "1",
             "",

@@ -97,7 +97,8 @@ def wave_equations() -> tuple[Formula, Formula]:
     first, second = radial + inertia * g, axial + inertia * f
     proof = prove(
         "Waves of one mode",
-        "-rho d^2/dt^2 of cos(omega t) is rho omega^2, on the right of both balances of forces.",
+        r"$-\rho d^2/dt^2$ of $\cos(\omega t)$ is $\rho \omega^2$, on the right of both balances "
+        "of forces.",
         {
             "radial": without_functions(balance[0] + inertia * u - phi * first * BESSEL_J1),
             "axial": without_functions(balance[1] + inertia * w - second * BESSEL_J0),
@@ -105,9 +106,11 @@ def wave_equations() -> tuple[Formula, Formula]:
     )
     sources = ("radial_ode", "axial_ode")
     return (
-        Formula("radial_wave", "0", "radial motion of mode j", first, "Pa", "", sources[:1], proof),
         Formula(
-            "axial_wave", "0", "axial motion of mode j", second, "Pa/m", "", sources[1:], proof
+            "radial_wave", "0", ("radial motion of mode $j$"), first, "Pa", "", sources[:1], proof
+        ),
+        Formula(
+            "axial_wave", "0", "axial motion of mode $j$", second, "Pa/m", "", sources[1:], proof
         ),
     )
 
@@ -133,7 +136,7 @@ def wave_shapes() -> tuple[Formula, Formula]:
     ]
     proof = prove(
         "Solution of the waves",
-        "f and g put into both equations; four independent functions, as for link 2.",
+        "$f$ and $g$ put into both equations; four independent functions, as for link 2.",
         {"radial": residuals[0], "axial": residuals[1]},
     )
     sources = ("radial_wave", "axial_wave")
@@ -143,7 +146,7 @@ def wave_shapes() -> tuple[Formula, Formula]:
             shape_f, "m", "", sources, proof,
         ),
         Formula(
-            "wave_g", r"g(z)\vert_\omega", "its radial displacement over phi_j", shape_g,
+            "wave_g", r"g(z)\vert_\omega", r"its radial displacement over $\phi_j$", shape_g,
             "m^2", "", sources, proof,
         ),
     )  # fmt: skip
@@ -218,16 +221,17 @@ def dynamic_influence() -> tuple[Formula, ...]:
         residuals[f"{name} without cancellation"] = in_sines(in_p_and_q(form - value))
     proof = prove(
         "Dynamic influence coefficient",
-        "A_j/2 on both faces, alike and against each other: their sum leaves the far face free. "
-        "The tractions are solved for the constants, kappa and gamma in terms of p and q.",
+        "$A_j/2$ on both faces, alike and against each other: their sum leaves the far face "
+        r"free. The tractions are solved for the constants, $\kappa$ and $\gamma$ in terms of "
+        "$p$ and $q$.",
         residuals,
     )
     shapes, names = ("wave_f", "wave_g"), sp.symbols("B_a B_s")
     total = h / mu * sum(1 / with_roots(value) for value in printed)
-    slowly = "the same, without cancellation for kappa < x^2"
+    slowly = r"the same, without cancellation for $\kappa < x^2$"
     rows = (
-        ("B_a", "B_a", "stiffness in bending, over mu/h", "1", shapes, printed[0]),
-        ("B_s", "B_s", "stiffness in stretching, over mu/h", "1", shapes, printed[1]),
+        ("B_a", "B_a", r"stiffness in bending, over $\mu/h$", "1", shapes, printed[0]),
+        ("B_s", "B_s", r"stiffness in stretching, over $\mu/h$", "1", shapes, printed[1]),
         ("B_a_slow", "B_a", slowly, "1", ("B_a",), slow[0]),
         ("B_s_slow", "B_s", slowly, "1", ("B_s",), slow[1]),
     )
@@ -264,7 +268,7 @@ def static_limit() -> Proof:
     symmetric = (sp.cosh(T) - 1) / (sp.sinh(T) + T) * E / x_h
     return prove(
         "Load at rest",
-        "p and q tend to x, p - q to 0, shc of which to 1.",
+        "$p$ and $q$ tend to $x$, $p - q$ to 0, shc of which to 1.",
         {
             "bending": in_sines(1 / bent - mu * antisymmetric),
             "stretching": in_sines(1 / stretched - mu * symmetric),

@@ -43,7 +43,7 @@ def bending_waves() -> Proof:
     speed = sp.integrate(sp.sin(_s) / _s, (_s, 0, sp.oo)) * sp.simplify(density * _s)
     return prove(
         "Bending waves",
-        "J0(phi r) in the equation of motion; the response to a point force at rest before, "
+        r"$J_0(\phi r)$ in the equation of motion; the response to a point force at rest before, "
         "integrated over all wave numbers.",
         {
             "wave": sp.expand(_D * laplacian(laplacian(shape)) - rho * _H * omega**2 * shape),
@@ -70,8 +70,8 @@ def zener_number() -> Formula:
     squares = E * _H**3 / 12 * rho * _H
     proof = prove(
         "Zener's number",
-        "m (d + w)'' = -K d^(3/2) with w' = K d^(3/2)/I, I = 8 sqrt(D rho H), in units of T and "
-        "v0 T: the force's coefficient is 1, its rate's m/(T I).",
+        r"$m (d + w)'' = -K d^{3/2}$ with $w' = K d^{3/2}/I$, $I = 8 \sqrt{D \rho H}$, in units "
+        "of $T$ and $v_0 T$: the force's coefficient is 1, its rate's $m/(T I)$.",
         {
             "force": scaled(force * T / (m * v0)) - 1,
             "rate": scaled(force / (impedance * v0) * T / m) - 1 / impedance,
@@ -99,7 +99,7 @@ def plate_times() -> tuple[Formula, Formula]:
         Formula(
             "bending_period",
             "T_1",
-            "period of bending with n nodal circles, of the first for j_1",
+            "period of bending with $n$ nodal circles, of the first for $j_1$",
             2 * sp.pi / omega,
             "s",
             "",

@@ -1,0 +1,1 @@
+"""Bessel functions and their zeros in NumPy, copied into generated packages."""

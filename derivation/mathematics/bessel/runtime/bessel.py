@@ -1,0 +1,315 @@
+"""Bessel functions J0 and J1, their zeros, and J1 at the zeros of J0, in NumPy alone.
+
+Up to ASYMPTOTIC_START: Taylor polynomials. Every zero of J0 and of J1 is one of their centres,
+held as a sum of two doubles, so that the value keeps its digits right up to the zero. Beyond:
+modulus and phase,
+
+    J_nu(x) = sqrt(2 p(x) / (pi x)) sin(x +- pi/4 + s(x)),   + for J0, - for J1,
+
+p and s series in 1/x with exact rational coefficients; the multiple of pi/4
+taken off x is carried in two doubles.
+
+Arithmetic: polynomials of expansions whose coefficients are numbers computed beforehand, modulus
+and phase as above, products of doubles without rounding errors, one Newton step.
+"""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from generated.arrays import Double, in_manifest, quiet, refuse_masked, whole
+from generated.bessel_numbers import (
+    ASYMPTOTIC_START,
+    CELLS,
+    CENTRE_HIGH,
+    CENTRE_LOW,
+    EIGHT_OVER_PI2,
+    EIGHT_OVER_PI2_TAIL,
+    FIRST_MCMAHON,
+    HALF_PI,
+    INVERSE_PI,
+    INVERSE_ROOT_PI,
+    LARGEST_PHASE,
+    LOW_SLOPES,
+    LOW_ZEROS,
+    MODULUS,
+    QUARTER_PI,
+    QUARTER_PI_TAIL,
+    QUARTERS,
+    SEAMS,
+    SHIFT,
+    SLOPE_EXCESS,
+    TAYLOR,
+    ZERO_CORRECTION,
+)
+
+_BLOCK = 8192  # points worked on at a time, so that intermediates stay in the cache
+_SPLITTER = 134217729.0  # 2^27 + 1 halves a double's bits
+# By power, the highest first: each line then holds one coefficient of all centres.
+_TAYLOR = tuple(np.array(table).T[::-1].copy() for table in TAYLOR)
+_CELLS = np.arange(int(CELLS * ASYMPTOTIC_START)) / CELLS
+_CENTRE_OF_CELL = np.searchsorted(SEAMS, _CELLS, "right") - 1
+_HIGH, _LOW = np.array(CENTRE_HIGH), np.array(CENTRE_LOW)
+
+
+@in_manifest("J_0(x)", kernel=True)
+@quiet
+def bessel_j0(x: ArrayLike) -> np.ndarray:
+    """The Bessel function of the first kind of order 0.
+
+    Formula::
+
+        J_0(x) = (1/pi) int_0^pi cos(x sin t) dt
+
+    Parameters
+    ----------
+    x : array_like
+        argument [1], real and finite, of any shape
+
+    Returns
+    -------
+    float or ndarray
+        J_0(x) [1] in the shape of x; float32 for float32, else float64. NaN for NaN
+        and for the infinities.
+
+    Notes
+    -----
+    The condition number is |x J_1(x)/J_0(x)|.
+    """
+    return _evaluate(x, 0)
+
+
+@in_manifest("J_1(x)", kernel=True)
+@quiet
+def bessel_j1(x: ArrayLike) -> np.ndarray:
+    """The Bessel function of the first kind of order 1.
+
+    Formula::
+
+        J_1(x) = (1/pi) int_0^pi cos(t - x sin t) dt = -J_0'(x)
+
+    Parameters
+    ----------
+    x : array_like
+        argument [1], real and finite, of any shape
+
+    Returns
+    -------
+    float or ndarray
+        J_1(x) [1] in the shape of x; float32 for float32, else float64. NaN for NaN
+        and for the infinities.
+
+    Notes
+    -----
+    The condition number is |x J_0(x)/J_1(x) - 1|.
+    """
+    return _evaluate(x, 1)
+
+
+@in_manifest("j_n", domain="count >= 0", kernel=True)
+@quiet
+def bessel_j0_zeros(count: int) -> Double:
+    """The first positive zeros of J_0, ascending.
+
+    Formula, beyond the first ten (McMahon)::
+
+        j_n = beta + 1/(8 beta) - 31/(384 beta^3) + ...,   beta = (n - 1/4) pi
+
+    Parameters
+    ----------
+    count : int
+        how many, n = 1 ... count [1]; count >= 0
+
+    Returns
+    -------
+    ndarray
+        j_1 ... j_count [1], of shape (count,)
+
+    Raises
+    ------
+    ValueError
+        If the count is negative or not an integer.
+    """
+    return _zeros(count, 0)
+
+
+@in_manifest("j_{1,n}", domain="count >= 0", kernel=True)
+@quiet
+def bessel_j1_zeros(count: int) -> Double:
+    """The first positive zeros of J_1, ascending; x = 0, a zero too, is not among them.
+
+    Formula, beyond the first seven (McMahon)::
+
+        j_(1,n) = beta - 3/(8 beta) + 3/(128 beta^3) - ...,   beta = (n + 1/4) pi
+
+    Parameters
+    ----------
+    count : int
+        how many, n = 1 ... count [1]; count >= 0
+
+    Returns
+    -------
+    ndarray
+        j_(1,1) ... j_(1,count) [1], of shape (count,)
+
+    Raises
+    ------
+    ValueError
+        If the count is negative or not an integer.
+    """
+    return _zeros(count, 1)
+
+
+@in_manifest("J_1(j_n)", domain="count >= 0", kernel=True)
+@quiet
+def bessel_j1_at_j0_zeros(count: int) -> Double:
+    """Values of J_1 at the first positive zeros of J_0.
+
+    Formula, beyond the first ten::
+
+        J_1(j_n)^2 = 2/(pi beta) (1 - 7/(48 beta^4) + ...),   beta = (n - 1/4) pi
+
+    Parameters
+    ----------
+    count : int
+        how many, n = 1 ... count [1]; count >= 0
+
+    Returns
+    -------
+    ndarray
+        J_1(j_1) ... J_1(j_count) [1], of shape (count,); signs alternate, the first
+        is positive
+
+    Raises
+    ------
+    ValueError
+        If the count is negative or not an integer.
+    """
+    count = whole(count, "zeros")
+    m = _mcmahon_numbers(count, 0)
+    square = 1.0 / (QUARTER_PI * m) ** 2
+    excess = square * _polynomial(SLOPE_EXCESS, square)
+    slope = np.sqrt(EIGHT_OVER_PI2 * (1.0 + excess) / m)
+    # One Newton step for m J_1^2 = (8/pi^2) (1 + excess), its residual without rounding errors.
+    slope_squared, error = _product(slope, slope)
+    scaled, scaled_error = _product(m, slope_squared)
+    missing = (EIGHT_OVER_PI2 - scaled) - scaled_error - m * error
+    missing += EIGHT_OVER_PI2_TAIL + EIGHT_OVER_PI2 * excess
+    slope += slope * missing / (2.0 * EIGHT_OVER_PI2)
+    slope[FIRST_MCMAHON[0] % 2 :: 2] *= -1.0  # even numbers
+    return np.concatenate((LOW_SLOPES[:count], slope))
+
+
+def _evaluate(argument: ArrayLike, order: int) -> np.ndarray:
+    """J_order of an array of any shape: block by block, even or odd in the argument."""
+    refuse_masked(argument)
+    given = np.asarray(argument)
+    signed = given.astype(np.float64, casting="same_kind").ravel()
+    x = np.abs(signed)
+    result = np.empty_like(x)
+    for start in range(0, x.size, _BLOCK):
+        part = slice(start, start + _BLOCK)
+        result[part] = _block(x[part], order)
+    if order == 1:
+        result = np.where(np.signbit(signed), -result, result)
+    single = given.dtype.kind == "f" and given.dtype.itemsize <= 4
+    kind = np.float32 if single else np.float64
+    return result.astype(kind).reshape(given.shape)[()]
+
+
+def _block(x: Double, order: int) -> Double:
+    """J_order for x >= 0, each point by the method of its range."""
+    low = x < ASYMPTOTIC_START
+    if low.all():
+        return _taylor(x, order)
+    result = np.full_like(x, np.nan)
+    middle = (x >= ASYMPTOTIC_START) & (x <= LARGEST_PHASE)
+    high = (x > LARGEST_PHASE) & (x < np.inf)
+    for points, method in ((low, _taylor), (middle, _modulus_phase), (high, _far)):
+        chosen = np.flatnonzero(points)
+        if chosen.size == x.size:
+            return method(x, order)
+        if chosen.size:
+            result[chosen] = method(x[chosen], order)
+    return result
+
+
+def _taylor(x: Double, order: int) -> Double:
+    """Taylor polynomial about the centre nearest to x, 0 <= x < ASYMPTOTIC_START."""
+    centre = _CENTRE_OF_CELL.take((CELLS * x).astype(np.intp))
+    # The first difference is exact where it cancels; the second supplies the centre's tail.
+    t = (x - _HIGH.take(centre)) - _LOW.take(centre)
+    table = _TAYLOR[order]
+    value: Double = table[0].take(centre)
+    coefficient = np.empty_like(value)
+    for line in table[1:]:
+        value *= t
+        value += line.take(centre, out=coefficient, mode="clip")
+    return value
+
+
+def _modulus_phase(x: Double, order: int) -> Double:
+    """sqrt(2 p/(pi x)) sin(x +- pi/4 + s), ASYMPTOTIC_START <= x <= LARGEST_PHASE."""
+    quarter = 2.0 * order - 1.0  # J0 crosses zero near (4 k - 1) pi/4, J1 near (4 k + 1) pi/4
+    inverse = 1.0 / x
+    square = inverse * inverse
+    shift = inverse * _polynomial(SHIFT[order], square)
+    modulus = np.sqrt(_polynomial(MODULUS[order], square) / (HALF_PI * x))
+    half_turns = np.rint(x * INVERSE_PI - 0.25 * quarter)
+    product, rest = _times_quarter_pi(4.0 * half_turns + quarter)
+    phase = (x - product) + (shift - rest)
+    half = 0.5 * half_turns
+    sign = 1.0 - 4.0 * (half - np.floor(half))  # (-1)^half_turns
+    value: Double = sign * modulus * np.sin(phase)
+    return value
+
+
+def _far(x: Double, order: int) -> Double:
+    """(sin x +- cos x)/sqrt(pi x), x > LARGEST_PHASE, where p = 1 and s = 0 in double."""
+    wave = np.sin(x) + (1.0 - 2.0 * order) * np.cos(x)
+    value: Double = INVERSE_ROOT_PI * wave / np.sqrt(x)
+    return value
+
+
+def _zeros(count: int, order: int) -> Double:
+    """The first positive zeros of J_order: a table, then McMahon's expansion."""
+    count = whole(count, "zeros")
+    beta, rest = _times_quarter_pi(_mcmahon_numbers(count, order))
+    inverse = 1.0 / beta
+    rest += inverse * _polynomial(ZERO_CORRECTION[order], inverse * inverse)
+    return np.concatenate((LOW_ZEROS[order][:count], beta + rest))
+
+
+def _times_quarter_pi(n: Double) -> tuple[Double, Double]:
+    """n pi/4 as the sum of two doubles."""
+    product, error = _product(n, QUARTER_PI)
+    return product, error + n * QUARTER_PI_TAIL
+
+
+def _product(a: Double, b: Double | float) -> tuple[Double, Double]:
+    """a b as product + error, exactly (Dekker): halves of a double multiply without rounding."""
+    (a_upper, a_lower), (b_upper, b_lower) = _halves(a), _halves(b)
+    product = a * b
+    error = (a_upper * b_upper - product) + a_upper * b_lower
+    return product, (error + a_lower * b_upper) + a_lower * b_lower
+
+
+def _halves(a: Double | float) -> tuple[Double | float, Double | float]:
+    """Upper and lower half of the bits of a, which is their sum."""
+    widened = _SPLITTER * a
+    upper = widened - (widened - a)
+    return upper, a - upper
+
+
+def _mcmahon_numbers(count: int, order: int) -> Double:
+    """beta/(pi/4) for the zeros of J_order from the expansion's first number up to count."""
+    index = np.arange(FIRST_MCMAHON[order], count + 1, dtype=np.float64)
+    return 4.0 * index + QUARTERS[order]
+
+
+def _polynomial(coefficients: tuple[float, ...], variable: Double) -> Double:
+    """Horner's scheme, constant term first."""
+    value = np.full_like(variable, coefficients[-1])
+    for coefficient in coefficients[-2::-1]:
+        value *= variable
+        value += coefficient
+    return value

@@ -1,0 +1,28 @@
+"""What the effects hand in for the generated package."""
+
+from pathlib import Path
+
+from derivation.engine.emit.package import Routines
+from derivation.plate.effects.kernels.numbers import effect_numbers
+from derivation.plate.effects.kernels.printed import ROUTINES
+from derivation.plate.modules import ComputedModule, RuntimeModule
+
+RUNTIME = Path(__file__).parents[1] / "runtime"
+
+
+def effect_kernels() -> Routines:
+    """The effects' formulas, printed."""
+    imports = {
+        "blocks": ("polynomial",),
+        "effect_numbers": ("PERIOD", "ZENER"),
+        "ranges": ("moderate", "product", "root_factors"),
+    }
+    title = "Formulas of single effects, proved equal to what the theory derives."
+    return Routines("effect_kernels", title, tuple(make() for make in ROUTINES), imports)
+
+
+MODULES = (
+    ComputedModule("effect_numbers", effect_numbers),
+    ComputedModule("effect_kernels", effect_kernels),
+    RuntimeModule("effects", RUNTIME / "effects.py"),
+)

@@ -1,0 +1,116 @@
+"""The numbers of the effects: power series of the sphere's profile and of the side wall, bounds.
+
+With t = (a/R)^2 and L = (artanh sqrt(t) - sqrt(t))/t^(3/2) = 1/3 + t/5 + t^2/7 + ... the
+contact of link 21 is, over Hertz's at equal contact radius,
+
+    delta = 1 + t L,    P = (3/4) (1 + (1 + t) L),    S = (1 + t L + 1/(1 - t))/2.
+
+The side wall's part of delta is W = -(8/pi^2) sum kappa_(2k-4) (2k-2)/(2k-1)! alpha^(2k-3), and
+S has the power n of it 1 + n/2 times.
+"""
+
+from fractions import Fraction
+
+import flint
+import sympy as sp
+from flint import arb as Ball
+
+from derivation.engine.emit.package import Numbers
+from derivation.engine.emit.tables import Constant
+from derivation.engine.formula.ball import enclose
+from derivation.mathematics.bessel.kernels import nearest_double
+from derivation.plate.contact.kernels.moments import BITS, kappas
+from derivation.plate.contact.theory.plate_series import sine_coefficient
+from derivation.plate.contact.theory.split import zero_of_j0
+from derivation.plate.effects.theory import wall_growth_ball
+from derivation.plate.impact.kernels.simple import above
+from derivation.plate.impact.theory.substitution import wall_rest_ball
+from derivation.plate.pressure.theory.bound import WALL_EXTRA
+from derivation.plate.vocabulary import j_n, lam, mu
+from derivation.plate.waves.theory.plate_motion import plate_motion
+
+NEAR = Fraction(1, 4)
+"""t up to which L is a sum; from here on it is known to 4 roundings by what it stands for."""
+NEGLIGIBLE = 2.0**-56
+_a, _n = sp.symbols("a n", positive=True)
+_STEEPER = sp.simplify(sp.diff(_a ** (_n + 2), _a) / (2 * _a ** (_n + 1)))
+"""S over F of one power n: (R/2a) d delta/da of delta = a^2 F/R."""
+
+
+def effect_numbers() -> Numbers:
+    """The series, what bounds the side wall, and the factors of the plate's own motion."""
+    with flint.ctx.workprec(BITS):
+        depth, slope = wall_rows()
+        wall_linear = above(Ball(3) / 2 * depth[0])
+        rows = tuple(tuple(nearest_double(c) for c in row) for row in (depth, slope))
+        factors = tuple(_factor_double(name) for name in ("zener_number", "bending_period"))
+    return Numbers(
+        "effect_numbers",
+        "Numbers of the effects: power series, bounds of the side wall, factors.",
+        (
+            Constant("WALL_DEPTH", rows[0], "Of the side wall's -F/alpha in powers of alpha^2."),
+            Constant("WALL_SLOPE", rows[1], "Of the side wall's -S/alpha in powers of alpha^2."),
+            Constant("ZENER", factors[0], "Of Zener's number, all else but its factors 1."),
+            Constant("PERIOD", factors[1], "Of the bending period, likewise."),
+            Constant(
+                "WALL_LINEAR",
+                wall_linear,
+                "The side wall takes at most WALL_LINEAR alpha + WALL_CUBIC alpha^3 from S, "
+                "alpha = a/b < 1.",
+            ),
+            Constant("WALL_CUBIC", above(wall_rest_ball()), "See WALL_LINEAR."),
+            Constant(
+                "PRESSURE_WALL",
+                float(WALL_EXTRA),
+                "What the side wall adds, times (a/b)^3, to theta, which bounds what Hertz's "
+                "pressure changes.",
+            ),
+            Constant(
+                "WALL_GROWTH",
+                above(wall_growth_ball()),
+                "And (s^2 - 1) WALL_GROWTH alpha^3 more if the radius grows from a to s a, "
+                "s alpha < 1.",
+            ),
+        ),
+    )
+
+
+def factor(name: str) -> sp.Expr:
+    """The number in front of a formula of link 23: its value where every argument makes 1.
+
+    E* is 1 for lam = 0 and mu = 1/2; the first mode's j_1 belongs to the number.
+    """
+    formula = {f.name: f for f in plate_motion()}[name]
+    ones = {x.symbol: 1 for x in formula.arguments if x.symbol != j_n}
+    return formula.expression.subs(ones | {lam: 0, mu: sp.Rational(1, 2)})
+
+
+def _factor_double(name: str) -> float:
+    return nearest_double(enclose(factor(name), {j_n: zero_of_j0(1, BITS)}))
+
+
+def arc_coefficients() -> list[sp.Rational]:
+    """1/3, 1/5, ... as far as they count beside 1/3 at t = NEAR; what follows is less again."""
+    found: list[sp.Rational] = []
+    while True:
+        k = len(found)
+        if NEAR**k / (2 * k + 3) / (1 - NEAR) < Fraction(NEGLIGIBLE) / 3:
+            return found
+        found.append(sp.Rational(1, 2 * k + 3))
+
+
+def wall_rows() -> tuple[list[Ball], list[Ball]]:
+    """Coefficients of -W/alpha and of its part of -S/alpha in alpha^2, as far as they count.
+
+    At alpha = 1 neighbours are in the ratio 1/4 at most, so that what is left out is a third
+    of the last.
+    """
+    depth: list[Ball] = []
+    slope: list[Ball] = []
+    for index, kappa in enumerate(kappas()[::2]):
+        k = index + 2
+        depth.append(8 * kappa * enclose(abs(sine_coefficient(k)), {}) / Ball.pi() ** 2)
+        slope.append(depth[-1] * enclose(_STEEPER.subs(_n, 2 * k - 3), {}))
+        if float(slope[-1] / slope[0]) < NEGLIGIBLE:
+            return depth, slope
+    raise ArithmeticError("the side wall's series needs more of kappa_n")

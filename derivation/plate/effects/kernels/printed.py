@@ -1,0 +1,131 @@
+"""The effects' formulas as code computes them, each proved to be a formula of its link."""
+
+import sympy as sp
+
+from derivation.engine.emit.routine import (
+    GUARDED,
+    RAISED,
+    Choice,
+    Facts,
+    Let,
+    Routine,
+    Several,
+    routine,
+)
+from derivation.plate.contact.theory.curvature import spherical_contact
+from derivation.plate.effects.kernels.numbers import NEAR, arc_coefficients, factor
+from derivation.plate.effects.theory import bending
+from derivation.plate.factors import MODERATE, PRODUCT, YOUNG, multiplied, root
+from derivation.plate.modes.theory.influence import PLANE_STRAIN_MODULUS
+from derivation.plate.vocabulary import R, a, a_ratio, b, eta, h, lam, m, mu, rho, v0
+from derivation.plate.waves.theory.plate_motion import plate_motion
+
+ZENER, PERIOD = sp.symbols("ZENER PERIOD", positive=True)
+_FACTORS: Facts = {ZENER: factor("zener_number"), PERIOD: factor("bending_period")}
+a_over_R, square = sp.symbols("a_over_R square", positive=True)
+THREE_HALVES = sp.Float(1.5)
+
+
+def _by_contact_radius(expression: sp.Expr) -> sp.Expr:
+    """In a/R, the hyperbolic arc by logarithms."""
+    found = expression.subs(a, a_over_R * R).replace(sp.log, lambda x: sp.log(sp.cancel(x)))
+    found = found.replace(sp.atanh, lambda x: sp.log((1 + x) / (1 - x)) / 2)
+    return sp.cancel(found)
+
+
+ARC = (sp.atanh(a_over_R) - a_over_R) / a_over_R**3
+
+
+def sphere() -> Routine:
+    """Force, indentation and slope of a sphere over those of Hertz's paraboloid."""
+    arc, series, depth, whole = sp.symbols("arc series depth whole", positive=True)
+    far, steep = sp.symbols("far steep", positive=True)
+    delta, force = (formula.expression for formula in spherical_contact())
+    hertz = sp.Rational(4, 3) * PLANE_STRAIN_MODULUS * a**3 / R
+    near = sp.Rational(NEAR)
+    held, cube = GUARDED(square, near), RAISED(square * a_over_R, near ** sp.Rational(3, 2))
+    return routine(
+        "sphere_over_paraboloid",
+        (a_over_R,),
+        (
+            Let(square, a_over_R * a_over_R),
+            Several((series,), "polynomial", (held, *arc_coefficients()), (ARC,)),
+            Let(far, RAISED(a_over_R, sp.sqrt(near))),
+            Choice(arc, sp.Lt(square, near), series, (sp.atanh(far) - far) / cube),
+            Let(depth, 1 + square * arc),
+            Let(steep, depth + 1 / ((1 - a_over_R) * (1 + a_over_R)), within=True),
+            Let(whole, 1 + (1 + square) * arc, within=True),
+        ),
+        (
+            sp.Float(0.75) * whole,
+            depth,
+            steep / 2,
+        ),
+        (force / hertz, delta * R / a**2, R / (2 * a) * sp.diff(delta, a)),
+        "Force, indentation and its slope of a sphere over those of a paraboloid.",
+        {a_over_R: a / R},
+        _by_contact_radius,
+    )
+
+
+def bent_plate() -> Routine:
+    """Bending's part of F and of S; divided twice, since eta^2 may vanish where F does not."""
+    part, over, depth = sp.symbols("part over depth", positive=True)
+    share = bending().expression
+    return routine(
+        "bent_plate",
+        (a_ratio, eta),
+        (
+            Let(part, a_ratio / (4 * sp.pi), within=True),
+            Let(over, part / eta, within=True),
+            Let(depth, over / eta),
+        ),
+        (depth, THREE_HALVES * depth),
+        (share, share + a_ratio * sp.diff(share, a_ratio) / 2),
+        "Bending's part of F and of S.",
+        {},
+    )
+
+
+def zener() -> Routine:
+    """Zener's number."""
+    waves = root("waves", 5, (m, m, m, R, v0))
+    young = root("young", 5, YOUNG)
+    mass = root("mass", 2, (rho, *young.symbols))
+    value = PRODUCT(sp.Tuple(ZENER, *waves.symbols), sp.Tuple(h, h, *mass.symbols))
+    return _of_motion("zener_number", (R, m, v0, h, lam, mu, rho), (waves, young, mass), value)
+
+
+def first_period() -> Routine:
+    """The first bending period."""
+    slowness = root("slowness", 2, (rho,), *YOUNG)
+    value = PRODUCT(sp.Tuple(PERIOD, b, b, *slowness.symbols), sp.Tuple(h))
+    return _of_motion("bending_period", (h, b, lam, mu, rho), (slowness,), value)
+
+
+def echo() -> Routine:
+    """The time of two echoes."""
+    slowness = root("slowness", 2, (rho,), sp.Integer(4), lam / 4 + mu / 2)
+    value = PRODUCT(sp.Tuple(8, h, *slowness.symbols))
+    return _of_motion("echo_time", (h, lam, mu, rho), (slowness,), value)
+
+
+def _of_motion(
+    name: str, arguments: tuple[sp.Symbol, ...], roots: tuple[Several, ...], value: sp.Expr
+) -> Routine:
+    """A formula of link 23."""
+    formula = {f.name: f for f in plate_motion()}[name]
+    scaled = MODERATE if name != "echo_time" else ()
+    return routine(
+        f"{name}_of_factors",
+        arguments,
+        (*scaled, *roots),
+        (value,),
+        (formula.expression,),
+        f"{formula.meaning[0].upper()}{formula.meaning[1:]}.",
+        _FACTORS,
+        multiplied,
+    )
+
+
+ROUTINES = sphere, bent_plate, zener, first_period, echo

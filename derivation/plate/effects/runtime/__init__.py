@@ -1,0 +1,1 @@
+"""Public functions of the effects, copied into the generated package."""

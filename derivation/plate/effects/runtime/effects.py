@@ -1,0 +1,213 @@
+"""What single effects add to the contact law, apart from the others, and bounds of it.
+
+Depth and slope are a part of F and of S, where at equal force, a being Hertz's radius::
+
+    delta = (a^2/R) (1 + F),   d delta/da = (2a/R) S
+
+Arithmetic: the side wall's power series, whose coefficients are numbers computed beforehand.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from generated import effect_kernels as kernels
+from generated.arrays import as_doubles, as_result, in_manifest, inside, quiet
+from generated.blocks import polynomial
+from generated.effect_numbers import WALL_DEPTH, WALL_SLOPE
+
+
+class Sphere(NamedTuple):
+    """A sphere on a half-space over Hertz's paraboloid at equal contact radius [1]."""
+
+    force: np.ndarray
+    depth: np.ndarray
+    slope: np.ndarray
+
+
+class Share(NamedTuple):
+    """A part of F and of S [1]."""
+
+    depth: np.ndarray
+    slope: np.ndarray
+
+
+@in_manifest("", equation="7", domain="a_over_R >= 0, a_over_R < 1")
+@quiet
+def sphere_contact(a_over_R: ArrayLike) -> Sphere:
+    """Force, indentation and its slope of a sphere over those of a paraboloid.
+
+    Formula (Sneddon, 1965), x = a/R::
+
+        force = (3/4) [(1 + x^2)/2 log((1+x)/(1-x)) - x]/x^3
+        depth = log((1+x)/(1-x))/(2x),   slope = (depth + 1/(1 - x^2))/2
+
+    Parameters
+    ----------
+    a_over_R : array_like
+        contact radius over sphere radius, a/R [1]; 0 <= a/R < 1
+
+    Returns
+    -------
+    Sphere
+        P/((4/3) E* a^3/R), delta R/a^2 and (R/2a) d delta/da [1], a being the contact radius
+        itself, in the argument's shape; NaN outside the domain.
+    """
+    kind, [a_over_R] = as_doubles(a_over_R)
+    [a_over_R] = inside([a_over_R], a_over_R >= 0, a_over_R < 1)
+    values = kernels.sphere_over_paraboloid(a_over_R)
+    return Sphere(*(as_result(x, kind) for x in values))
+
+
+@in_manifest("W", equation="6", domain="alpha >= 0, alpha < 1")
+@quiet
+def side_wall(alpha: ArrayLike) -> Share:
+    """What the plate's finite radius adds, of Hertz's pressure and the paper's edge.
+
+    Formula::
+
+        F = -(8/pi^2) sum_(k>=2) kappa_(2k-4) (2k-2)/(2k-1)! alpha^(2k-3)
+
+    Parameters
+    ----------
+    alpha : array_like
+        contact radius over plate radius, a/b [1]; 0 <= a/b < 1
+
+    Returns
+    -------
+    Share
+        Its part of F and of S [1], below 0, in the argument's shape; NaN outside the domain.
+    """
+    kind, [alpha] = as_doubles(alpha)
+    [alpha] = inside([alpha], alpha >= 0, alpha < 1)
+    square = alpha * alpha
+    depth, slope = (-alpha * polynomial(square, *row) for row in (WALL_DEPTH, WALL_SLOPE))
+    return Share(as_result(depth, kind), as_result(slope, kind))
+
+
+@in_manifest("F_B", equation="6", domain="a_ratio >= 0, eta > 0")
+@quiet
+def bending(a_ratio: ArrayLike, eta: ArrayLike) -> Share:
+    """What the deflection of a thin plate adds, P b^2/(8 pi D), on the paper's edge.
+
+    Formula::
+
+        F = a_ratio/(4 pi eta^2),   S = (3/2) F
+
+    Parameters
+    ----------
+    a_ratio : array_like
+        contact radius over half-thickness, a/h [1]; a/h >= 0
+    eta : array_like
+        half-thickness over plate radius, h/b [1]; h/b > 0
+
+    Returns
+    -------
+    Share
+        Its part of F and of S [1], in the arguments' broadcast shape; NaN outside the domain.
+    """
+    kind, [a_ratio, eta] = as_doubles(a_ratio, eta)
+    [a_ratio, eta] = inside([a_ratio, eta], a_ratio >= 0, eta > 0)
+    return Share(*(as_result(x, kind) for x in kernels.bent_plate(a_ratio, eta)))
+
+
+@in_manifest(r"\lambda_Z", domain="R > 0, m > 0, v0 > 0, h > 0, 3 * lam > -2 * mu, mu > 0, rho > 0")
+@quiet
+def zener_number(
+    R: ArrayLike,
+    m: ArrayLike,
+    v0: ArrayLike,
+    h: ArrayLike,
+    lam: ArrayLike,
+    mu: ArrayLike,
+    rho: ArrayLike,
+) -> np.ndarray:
+    """Zener's number: how much of the impact the waves of an infinite plate carry away.
+
+    Formula (Zener, 1941), H = 2h and D = E* H^3/12::
+
+        zener_number = m/(8 T sqrt(D rho H)),   T^5 = m^2/(K^2 v0),   K = (4/3) E* sqrt(R)
+
+    Parameters
+    ----------
+    R, h : array_like
+        sphere radius and half the plate's thickness [m]; above 0
+    m : array_like
+        sphere mass [kg]; m > 0
+    v0 : array_like
+        speed of approach [m/s]; v0 > 0
+    lam, mu : array_like
+        Lame constants of the plate [Pa]; mu > 0, 3 lam > -2 mu
+    rho : array_like
+        density of the plate [kg/m^3]; rho > 0
+
+    Returns
+    -------
+    float or ndarray
+        The number [1] in the arguments' broadcast shape; NaN outside the domain.
+    """
+    kind, [R, m, v0, h, lam, mu, rho] = as_doubles(R, m, v0, h, lam, mu, rho)
+    [R, m, v0] = inside([R, m, v0], R > 0, m > 0, v0 > 0)
+    [h, lam, mu, rho] = inside([h, lam, mu, rho], h > 0, mu > 0, 3 * lam > -2 * mu, rho > 0)
+    return as_result(kernels.zener_number_of_factors(R, m, v0, h, lam, mu, rho), kind)
+
+
+@in_manifest("T_1", domain="h > 0, b > 0, 3 * lam > -2 * mu, mu > 0, rho > 0")
+@quiet
+def bending_period(
+    h: ArrayLike, b: ArrayLike, lam: ArrayLike, mu: ArrayLike, rho: ArrayLike
+) -> np.ndarray:
+    """First bending period of the plate on the paper's edge.
+
+    Formula, H = 2h and D = E* H^3/12::
+
+        bending_period = (2 pi b^2/j_1^2) sqrt(rho H/D)
+
+    Parameters
+    ----------
+    h, b : array_like
+        half the plate's thickness and its radius [m]; above 0
+    lam, mu : array_like
+        Lame constants of the plate [Pa]; mu > 0, 3 lam > -2 mu
+    rho : array_like
+        density of the plate [kg/m^3]; rho > 0
+
+    Returns
+    -------
+    float or ndarray
+        The period [s] in the arguments' broadcast shape; NaN outside the domain.
+    """
+    kind, [h, b, lam, mu, rho] = as_doubles(h, b, lam, mu, rho)
+    [h, b, lam, mu, rho] = inside(
+        [h, b, lam, mu, rho], h > 0, b > 0, mu > 0, 3 * lam > -2 * mu, rho > 0
+    )
+    return as_result(kernels.bending_period_of_factors(h, b, lam, mu, rho), kind)
+
+
+@in_manifest("T_e", domain="h > 0, 3 * lam > -2 * mu, mu > 0, rho > 0")
+@quiet
+def echo_time(h: ArrayLike, lam: ArrayLike, mu: ArrayLike, rho: ArrayLike) -> np.ndarray:
+    """Time of two echoes of a pressure wave through the thickness.
+
+    Formula, H = 2h::
+
+        echo_time = 4 H/sqrt((lam + 2 mu)/rho)
+
+    Parameters
+    ----------
+    h : array_like
+        half the plate's thickness [m]; above 0
+    lam, mu : array_like
+        Lame constants of the plate [Pa]; mu > 0, 3 lam > -2 mu
+    rho : array_like
+        density of the plate [kg/m^3]; rho > 0
+
+    Returns
+    -------
+    float or ndarray
+        The time [s] in the arguments' broadcast shape; NaN outside the domain.
+    """
+    kind, [h, lam, mu, rho] = as_doubles(h, lam, mu, rho)
+    [h, lam, mu, rho] = inside([h, lam, mu, rho], h > 0, mu > 0, 3 * lam > -2 * mu, rho > 0)
+    return as_result(kernels.echo_time_of_factors(h, lam, mu, rho), kind)

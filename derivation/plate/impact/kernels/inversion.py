@@ -1,0 +1,120 @@
+"""The force by the reversed series, proved: eps^2 = A^2 (1 + F), P = C sqrt(R) delta^(3/2) (..)."""
+
+import sympy as sp
+
+from derivation.engine.emit.package import Routines
+from derivation.engine.emit.routine import Let, Routine, Several, routine
+from derivation.engine.formula.proof import prove
+from derivation.engine.rewrite.form import TIMES
+from derivation.plate.contact.theory.hertz import contact_radius
+from derivation.plate.contact.theory.reversion import (
+    LAST_P,
+    force_coefficients,
+    force_formulas,
+    plate_law,
+    power_series,
+)
+from derivation.plate.contact.theory.split import contact_split
+from derivation.plate.vocabulary import R, a, a_ratio, delta, h, mu
+
+n, radius, modulus, bracket, circle = sp.symbols("n radius modulus bracket circle", positive=True)
+F, whole = sp.symbols("F whole", complex=True)
+MODULUS = contact_radius().expression * R / a**3 / mu
+"""(4/3) E* over mu."""
+
+
+def without_scaling(expression: sp.Expr) -> sp.Expr:
+    """Products that stay in the range of doubles as plain ones."""
+
+    def product(first: sp.Expr, *powers: sp.Expr) -> sp.Expr:
+        pairs = zip(powers[::2], powers[1::2], strict=True)
+        return first * sp.Mul(*(base**power for base, power in pairs))
+
+    return expression.replace(TIMES, product)
+
+
+def root(
+    symbol: sp.Symbol, degree: int, factors: tuple[sp.Expr, ...], *divisors: sp.Expr
+) -> Several:
+    """``symbol = root(degree, factors, divisors)``, which stays in the range of doubles."""
+    exact = (sp.Mul(*factors) / sp.Mul(*divisors)) ** sp.Rational(1, degree)
+    below = (sp.Tuple(*divisors),) if divisors else ()
+    return Several((symbol,), "root", (sp.Integer(degree), sp.Tuple(*factors), *below), (exact,))
+
+
+def eps_over() -> Routine:
+    """How far the series is used of how far it converges."""
+    eps = sp.Symbol("eps", positive=True)
+    return routine(
+        "eps_over",
+        (delta, R, h, radius),
+        (root(eps, 2, (delta, R), h, h),),
+        (eps / radius,),
+        (sp.sqrt(R * delta) / h / radius,),
+        "sqrt(R delta)/h over a radius of convergence.",
+        {},
+    )
+
+
+def size_of_eps() -> Routine:
+    """|eps| on a circle."""
+    depth = contact_split()[0].expression.subs(a, a_ratio * h) * (1 + F)
+    return routine(
+        "size_of_eps",
+        (circle, F),
+        (Let(whole, 1 + F),),
+        (circle * sp.sqrt(sp.Abs(whole)),),
+        (sp.sqrt(sp.Abs(R * depth)) / h,),
+        "|sqrt(R delta)/h| where |A| is that of a circle; F may be complex.",
+        {circle: a_ratio},
+    )
+
+
+def lagrange() -> Routine:
+    """By Lagrange's inversion."""
+    exponent, factor = -(n + 3) / 2, 3 / (n + 3)
+    prove(
+        "Coefficients of the reversed series",
+        "Power and factor of each n give the theory's p_n.",
+        {
+            f"p_{k}": factor.subs(n, k)
+            * power_series(plate_law(LAST_P), exponent.subs(n, k), k + 1)[k]
+            - p
+            for k, p in enumerate(force_coefficients())
+        },
+    )
+    return routine(
+        "lagrange",
+        (n,),
+        (),
+        (exponent, factor),
+        (exponent, factor),
+        "The power of 1 + F whose coefficient of A^n makes p_n, and by what factor.",
+        {},
+    )
+
+
+def force_of_bracket() -> Routine:
+    """Hertz's force times the bracket."""
+    hertz = {f.name: f.expression for f in force_formulas()}["P_half"]
+    length = sp.Symbol("length", positive=True)
+    return routine(
+        "force_of_bracket",
+        (delta, R, mu, modulus, bracket),
+        (root(length, 2, (R, delta)),),
+        (TIMES(modulus, mu, 1, length, 1, delta, 1, bracket, 1),),
+        (hertz * bracket,),
+        "Hertz's force times the bracket; `modulus` is (4/3) E*/mu.",
+        {modulus: MODULUS},
+        without_scaling,
+    )
+
+
+ROUTINES = eps_over, size_of_eps, lagrange, force_of_bracket
+
+
+def reversed_kernels() -> Routines:
+    """The reversed series, printed from proven expressions."""
+    title = "Force over indentation by the reversed series."
+    made = tuple(make() for make in ROUTINES)
+    return Routines("reversed_kernels", title, made, {"ranges": ("root", "times")})

@@ -1,0 +1,412 @@
+"""An impact by the contact law alone, proved.
+
+With D_n as in the theory, q = a/a_m and E the work over C a^5, the code knows of each contact
+
+    lift = 1 + F = sum D_n q^(n-2),   slope = A F' = sum (n - 2) D_n q^(n-2),
+    quotient = (1 - W(q)/W(1))/(1 - q),   W(q) = sum n D_n/(n + 3) q^(n+3).
+"""
+
+import sympy as sp
+
+from derivation.engine.emit.package import Routines
+from derivation.engine.emit.routine import Facts, Let, Routine, Several, routine
+from derivation.plate.contact.theory.hertz import contact_radius
+from derivation.plate.impact.kernels.inversion import MODULUS, root
+from derivation.plate.impact.theory.impact import (
+    contact_time,
+    geometric,
+    orders,
+    weight,
+    work_of_contact,
+)
+from derivation.plate.impact.theory.sensitivity import energy_number
+from derivation.plate.vocabulary import R, a, h, m, mu, u_t, v0
+
+q, s, A, A_h, near, share, ratio = sp.symbols("q s A A_h near share ratio", positive=True)
+lift, slope, quotient, whole, energy, rate = sp.symbols(
+    "lift slope quotient whole energy rate", positive=True
+)
+F, extra, by_first, square, inner, modulus = sp.symbols(
+    "F extra by_first square inner modulus", positive=True
+)
+added, goal, known, mean, left, short, rise = sp.symbols(
+    "added goal known mean left short rise", positive=True
+)
+
+
+NUMBERS = orders()
+"""The n of the D_n that the proofs carry."""
+
+
+def lifted(at: sp.Expr) -> sp.Expr:
+    """1 + F."""
+    return sp.Add(*(weight(n) * at ** (n - 2) for n in NUMBERS))
+
+
+def sloped(at: sp.Expr) -> sp.Expr:
+    """A F'."""
+    return at * sp.diff(lifted(s), s).subs(s, at)
+
+
+def work(at: sp.Expr) -> sp.Expr:
+    """The work up to q, over C a_m^5."""
+    return sp.integrate(sp.expand(s**3 * sp.diff(s**2 * lifted(s), s)), (s, 0, at))
+
+
+def _left(at: sp.Expr) -> sp.Expr:
+    """(W(1) - W(q))/(1 - q)."""
+    return sp.cancel((work(sp.Integer(1)) - work(at)) / (1 - at))
+
+
+WHOLE = work_of_contact()
+SHAPE: Facts = {
+    lift: lifted(q),
+    slope: sloped(q),
+    quotient: _left(q),
+    whole: lifted(sp.Integer(1)),
+    energy: WHOLE,
+}
+"""What the code knows of a point of an impact."""
+
+
+def shapes() -> Routine:
+    """The shapes of an impact."""
+    return routine(
+        "shapes",
+        (q, lift, slope, quotient, whole, energy),
+        (),
+        (lift / whole, q * (2 * lift + slope) / whole, quotient / energy),
+        (
+            lifted(q) / lifted(sp.Integer(1)),
+            sp.diff(q**2 * lifted(q), q) / lifted(sp.Integer(1)),
+            (1 - work(q) / work(sp.Integer(1))) / (1 - q),
+        ),
+        "(1 + F)/(1 + F_m), d(delta/delta_m)/dq and (1 - E/E_m)/(1 - q).",
+        SHAPE,
+    )
+
+
+def time_density() -> Routine:
+    """dt/dw."""
+    at = 1 - u_t**2
+    meaning: Facts = {
+        rate: sp.diff(s**2 * lifted(s), s).subs(s, at) / lifted(sp.Integer(1)),
+        quotient: _left(at) / WHOLE,
+    }
+    claim = sp.sqrt(WHOLE) / lifted(sp.Integer(1)) * contact_time()[0].expression
+    return routine(
+        "time_density",
+        (rate, quotient),
+        (),
+        (2 * rate / sp.sqrt(quotient),),
+        (claim,),
+        "dt/dw in units of delta_m/v0, w = 1 - sqrt(1 - q).",
+        meaning,
+    )
+
+
+def near_quotient() -> Routine:
+    """(E_near - E)/((1 - s) A_near^5) by the sums of the terms."""
+    first, rest, cube, fourth = sp.symbols("first rest cube fourth", positive=True)
+    shares = [sp.Rational(n, n + 3) * weight(n) for n in NUMBERS[1:]]
+    tails = [sp.Add(*shares[k:]) for k in range(len(shares))]
+    return routine(
+        "near_quotient",
+        (s, first, rest),
+        (
+            Let(square, s**2),
+            Let(cube, square * s),
+            Let(fourth, 1 + s * (1 + s * (1 + s * (1 + s)))),
+            Let(by_first, first * (fourth + cube * square)),
+        ),
+        (2 * fourth / 5 + by_first + cube**2 * (1 + s) * rest,),
+        (sp.Add(*(sp.Rational(n, n + 3) * weight(n) * geometric(n + 3, s) for n in NUMBERS)),),
+        "(E_near - E)/((1 - s) A_near^5) by the first of the tails, and the sum of all others.",
+        {
+            first: tails[0],
+            rest: sp.Add(*(t * s ** (2 * k) for k, t in enumerate(tails[1:]))),
+        },
+    )
+
+
+def work_share() -> Routine:
+    """A term's share in the work."""
+    n = sp.Symbol("n", positive=True)
+    claim = sp.integrate(s ** (n + 2), (s, 0, 1)) * n
+    return routine(
+        "work_share",
+        (n,),
+        (),
+        (n / (n + 3),),
+        (claim,),
+        "What D_n adds to the work, over D_n.",
+        {},
+    )
+
+
+def whole_work() -> Routine:
+    """E/A^5."""
+    return routine(
+        "whole_work",
+        (extra,),
+        (),
+        (extra + sp.Rational(2, 5),),
+        (WHOLE,),
+        "E/A^5 by what the plate adds to Hertz's.",
+        {extra: WHOLE - work_of_contact(0)},
+    )
+
+
+def share_of_work() -> Routine:
+    """Hertz's radius over that with the same work."""
+    return routine(
+        "share_of_work",
+        (extra,),
+        (),
+        ((1 + 5 * extra / 2) ** sp.Rational(-1, 5),),
+        ((work_of_contact(0) / WHOLE) ** sp.Rational(1, 5),),
+        "A over Hertz's radius, by what the plate adds to E/A^5 at A.",
+        {extra: WHOLE - work_of_contact(0)},
+    )
+
+
+def _in_radius(expression: sp.Expr, at: sp.Expr = A) -> sp.Expr:
+    """D_n as c_(n-2) A^(n-2), by the symbols of D_n at A = 1."""
+    return expression.subs({weight(n): weight(n) * at ** (n - 2) for n in NUMBERS[1:]})
+
+
+ENERGY = A**5 * _in_radius(WHOLE)
+"""The work up to A, over (4/3) E* h^5/R^2."""
+DENSITY = A * sp.diff(ENERGY, A) / A**5
+
+
+def deeper_step() -> Routine:
+    """Halley's step for the largest radius within the first polynomial."""
+    residual, exponent = sp.symbols("residual exponent", positive=True)
+    missing = work_of_contact(0) * A_h**5 / ENERGY - 1
+    power = ENERGY / (A * sp.diff(ENERGY, A))
+    step = sp.series((1 + residual) ** exponent - 1, residual, 0, 3).removeO()
+    plain = _in_radius(WHOLE) - work_of_contact(0)
+    return routine(
+        "deeper_step",
+        (share, extra, slope),
+        (
+            Let(whole, extra + sp.Rational(2, 5)),
+            Let(square, share**2),
+            Let(residual, 2 / (5 * (square * (square * share))) / whole - 1),
+            Let(exponent, whole / (5 * whole + slope)),
+            Let(inner, residual * (exponent - 1) / 2),
+        ),
+        (residual, exponent * residual * (1 + inner)),
+        (missing, step.subs({residual: missing, exponent: power})),
+        "The work over that at A, less 1, and by what share of itself A is to grow.",
+        {share: A / A_h, extra: plain, slope: A * sp.diff(plain, A)},
+    )
+
+
+def work_density() -> Routine:
+    """P d delta."""
+    return routine(
+        "work_density",
+        (q, F, slope),
+        (Let(square, q**2),),
+        (square**2 * (2 * (1 + F) + slope),),
+        (q**3 * sp.diff(q**2 * lifted(q), q),),
+        "P d delta/dq over C a_m^5.",
+        {F: lifted(q) - 1, slope: sloped(q)},
+        sp.expand,
+    )
+
+
+_E, _E_near = sp.symbols("E E_near", positive=True)
+_E_m = sp.Symbol("E_m", positive=True)
+
+
+def far_quotient() -> Routine:
+    """(E_m - E)/((1 - q) A^5) where the contact is yet within the first polynomial."""
+    return routine(
+        "far_quotient",
+        (quotient, short, left, ratio, rise),
+        (),
+        ((quotient * short * ratio**4 + rise) / left,),
+        ((_E_m - _E) / ((1 - q) * A**5),),
+        "(E_m - E)/((1 - q) A^5) by the same up to the first polynomial's end, q = ratio.",
+        {
+            quotient: (_E_near - _E) / ((1 - q / ratio) * (ratio * A) ** 5),
+            short: ratio - q,
+            left: 1 - q,
+            rise: (_E_m - _E_near) / A**5,
+        },
+    )
+
+
+def work_beyond() -> Routine:
+    """(E - E_near)/A^5 by the mean density."""
+    return routine(
+        "work_beyond",
+        (A, near, mean),
+        (),
+        ((A - near) / A * mean,),
+        ((_E - _E_near) / A**5,),
+        "(E - E_near)/A^5 by the mean of the work's density between A_near/A and 1.",
+        {mean: (_E - _E_near) / A**5 / (1 - near / A)},
+    )
+
+
+def far_work() -> Routine:
+    """E at A."""
+    return routine(
+        "far_work",
+        (known, A, rise),
+        (),
+        (known + A**5 * rise,),
+        (_E,),
+        "E by that at A_near, and by what it rises to A over A^5.",
+        {known: _E_near, rise: (_E - _E_near) / A**5},
+    )
+
+
+def far_step() -> Routine:
+    """Newton's step for the largest radius beyond the first polynomial."""
+    residual, fifth = sp.symbols("residual fifth", real=True)
+    claim = (goal - ENERGY) / A**5
+    plain = _in_radius(lifted(sp.Integer(1))) - 1
+    return routine(
+        "far_step",
+        (A, goal, known, rise, F, slope),
+        (Let(fifth, A**5), Let(residual, (goal - known) / fifth - rise)),
+        (fifth, residual, residual / (2 * (1 + F) + slope)),
+        (A**5, claim, claim / DENSITY),
+        "A^5, the work that is missing over it, and by what share of itself A is to grow.",
+        {rise: (ENERGY - known) / A**5, F: plain, slope: A * sp.diff(plain, A)},
+        sp.cancel,
+    )
+
+
+def far_whole() -> Routine:
+    """E/A^5 beyond the first polynomial."""
+    return routine(
+        "far_whole",
+        (inner, ratio, added),
+        (),
+        (inner * ratio**5 + added,),
+        (_E / A**5,),
+        "E/A^5 by that at A_near = ratio A, and what is added over A^5.",
+        {inner: _E_near / (ratio * A) ** 5, added: (_E - _E_near) / A**5},
+    )
+
+
+def state() -> Routine:
+    """Indentation, velocity and force over their largest values."""
+    root_left = sp.Symbol("v", positive=True)
+    return routine(
+        "state",
+        (q, root_left, lift, quotient),
+        (Let(square, q**2),),
+        (square * lift, root_left * sp.sqrt(quotient), square * q),
+        (
+            q**2 * lifted(q) / lifted(sp.Integer(1)),
+            sp.sqrt(1 - work(q) / work(sp.Integer(1))),
+            contact_radius().expression.subs(a, q * a) / contact_radius().expression,
+        ),
+        "Indentation, velocity and force over their largest values; v is sqrt(1 - q).",
+        {
+            root_left: sp.sqrt(1 - q),
+            lift: lifted(q) / lifted(sp.Integer(1)),
+            quotient: _left(q) / WHOLE,
+        },
+        lambda e: e.subs(q, 1 / (1 + s)),
+    )
+
+
+def peak_shares() -> Routine:
+    """Largest indentation and force over Hertz's."""
+    return routine(
+        "peak_shares",
+        (share, lift),
+        (),
+        (share**2 * lift, share**3),
+        (
+            (share * a) ** 2 / R * lift / (a**2 / R),
+            contact_radius().expression.subs(a, share * a) / contact_radius().expression,
+        ),
+        "Largest indentation and force over those by Hertz's law, by the share of its radius.",
+        {},
+    )
+
+
+def hertz_impact() -> Routine:
+    """Largest radius, indentation and force on a half-space, in the range of doubles."""
+    one, brought = sp.Integer(1), (sp.Rational(5, 4), m, v0, v0)
+    radius = sp.Symbol("radius", positive=True)
+    C = contact_radius().expression / a**3 / R
+    fifth = m * v0**2 / 2 / (C * work_of_contact(0))
+    largest = fifth ** sp.Rational(1, 5)
+    force = contact_radius().expression.subs(a, largest)
+
+    def factors(letter: str, above: tuple[sp.Expr, ...], below: tuple[sp.Expr, ...]) -> Several:
+        exact = (sp.Mul(*above) / sp.Mul(*below)) ** sp.Rational(1, 5)
+        names = sp.symbols(f"{letter}1:4", positive=True)
+        divisors = (sp.Tuple(*below),) if below else ()
+        given = (sp.Integer(5), sp.Tuple(*above), *divisors)
+        return Several(names, "root_factors", given, (exact, one, one))
+
+    depth = factors("depth", brought * 2, (mu, modulus, mu, modulus, R))
+    load = factors("load", (*brought * 3, R, mu, modulus, mu, modulus), ())
+    return routine(
+        "hertz_impact",
+        (R, m, v0, mu, modulus),
+        (root(radius, 5, (*brought, R, R), mu, modulus), depth, load),
+        (radius, *depth.symbols, *load.symbols),
+        (largest, largest**2 / R, one, one, force, one, one),
+        "Largest radius by Hertz's law; indentation and force as three factors each.",
+        {modulus: MODULUS},
+        lambda e: sp.powsimp(sp.powdenest(sp.expand_power_base(e, force=True), force=True)),
+    )
+
+
+def number_of_energy() -> Routine:
+    """The energy number in the range of doubles."""
+    number = sp.Symbol("number", positive=True)
+    above = sp.Rational(1, 2), m, v0, v0, R, R
+    below = mu, modulus, h, h, h, h, h
+    exact = sp.Mul(*above) / sp.Mul(*below)
+    given = sp.Tuple(*above), sp.Tuple(*below)
+    return routine(
+        "number_of_energy",
+        (R, m, v0, h, mu, modulus),
+        (Several((number,), "product", given, (exact,)),),
+        (number,),
+        (energy_number().expression,),
+        "The energy of impact over (4/3) E* h^5/R^2.",
+        {modulus: MODULUS},
+    )
+
+
+ROUTINES = (
+    shapes,
+    time_density,
+    near_quotient,
+    work_share,
+    whole_work,
+    share_of_work,
+    deeper_step,
+    work_density,
+    far_quotient,
+    work_beyond,
+    far_work,
+    far_step,
+    far_whole,
+    state,
+    peak_shares,
+    hertz_impact,
+    number_of_energy,
+)
+
+
+def impact_kernels() -> Routines:
+    """An impact by the contact law, printed from proven expressions."""
+    title = "An impact by the contact law: shapes over its course, and its extremes."
+    made = tuple(make() for make in ROUTINES)
+    imports = {"ranges": ("product", "root", "root_factors")}
+    return Routines("impact_kernels", title, made, imports)

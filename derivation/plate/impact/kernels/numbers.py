@@ -1,0 +1,46 @@
+"""The numbers that the generated code of the impact needs."""
+
+import numpy as np
+
+from derivation.engine.emit.package import Numbers
+from derivation.engine.emit.tables import Constant
+from derivation.plate.budgets import read_promises
+from derivation.plate.contact.kernels.tables import IMPACT_NODES, INNER_NODES, gauss_legendre
+
+
+def impact_numbers() -> Numbers:
+    """Gauss' rules, and the errors of a contact time as committed."""
+    (nodes, weights), (inner_nodes, inner_weights) = (
+        tuple(np.array(part) for part in gauss_legendre(count))
+        for count in (IMPACT_NODES, INNER_NODES)
+    )
+    stated = read_promises()
+    return Numbers(
+        "impact_numbers",
+        "Numbers of the impact: Gauss' rules on [0, 1], and how far results may be off.",
+        (
+            Constant("NODES", nodes, "Gauss-Legendre nodes of the integral over the impact."),
+            Constant("WEIGHTS", weights, "Their weights."),
+            Constant(
+                "INNER_NODES",
+                inner_nodes,
+                "Fewer nodes, for what lies beyond the first polynomial, and for coarse times.",
+            ),
+            Constant("INNER_WEIGHTS", inner_weights, "Their weights."),
+            Constant(
+                "COARSE_QUADRATURE",
+                stated["coarse_quadrature"],
+                "Relative error of a contact time by half the nodes: measured, not proved.",
+            ),
+            Constant(
+                "FULL_QUADRATURE",
+                stated["full_quadrature"],
+                "Relative error of a contact time by all nodes: measured, not proved.",
+            ),
+            Constant(
+                "ROUNDING",
+                stated["rounding"],
+                "Relative error of all results by rounding, also of the law's tables: measured.",
+            ),
+        ),
+    )

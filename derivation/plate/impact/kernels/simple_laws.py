@@ -1,0 +1,326 @@
+"""An impact by Hertz's law and by its first correction: formulas of single numbers, proved."""
+
+import sympy as sp
+
+from derivation.engine.emit.routine import Facts, Let, Routine, Sums, routine
+from derivation.plate.contact.theory.hertz import contact_radius
+from derivation.plate.contact.theory.plate_series import coefficient, small_contact
+from derivation.plate.contact.theory.thin_plate import thin_coefficient
+from derivation.plate.impact.theory.impact import (
+    contact_time,
+    geometric,
+    hertz_time,
+    work_of_contact,
+)
+from derivation.plate.impact.theory.sensitivity import (
+    energy_number,
+    energy_scale,
+    reduced_modulus,
+)
+from derivation.plate.impact.theory.substitution import exponents, one_sided
+from derivation.plate.modes.theory.plate_factor import plate_factors
+from derivation.plate.vocabulary import (
+    J1,
+    D,
+    E,
+    R,
+    T,
+    a,
+    a_ratio,
+    alpha,
+    c_A,
+    eta,
+    j_n,
+    lam,
+    m,
+    mu,
+    u_t,
+    v0,
+)
+
+WALL, WALL_REST, WALL_CUBIC = sp.symbols("WALL WALL_REST WALL_CUBIC", positive=True)
+THIN_LINEAR, THIN_CUBIC, HERTZ_TIME = sp.symbols("THIN_LINEAR THIN_CUBIC HERTZ_TIME", real=True)
+FADED_LINEAR, FADED_CUBIC = sp.symbols("FADED_LINEAR FADED_CUBIC", positive=True)
+RULE = sp.Symbol("RULE")
+gauss = sp.Symbol("w", positive=True)
+bend, doubt, steep, s, x, y = sp.symbols("bend doubt steep s x y", real=True)
+rest, v, over_h, A, modulus, depth = sp.symbols("rest v over_h A modulus depth", positive=True)
+fall, rise = sp.symbols("fall rise", nonnegative=True)
+
+
+def slope_share(power: int) -> sp.Rational:
+    """What c A^power of delta R/a^2 is in (R/2a) d delta/da, over c A^power."""
+    return sp.diff(A ** (power + 2), A) / (2 * A ** (power + 1))
+
+
+CUBIC = slope_share(3)
+wall_linear, wall_cubic = (-coefficient(k).by_plate_radius[1] for k in (2, 3))
+"""What the side wall takes from c_1 and from c_3, over the power of eta."""
+MEANING: Facts = {
+    WALL: wall_linear,
+    WALL_CUBIC: WALL_REST - CUBIC * wall_cubic,
+    THIN_LINEAR: (thin_coefficient(2).expression - eta**-2 / (4 * sp.pi)).subs(eta, 1),
+    THIN_CUBIC: -CUBIC * thin_coefficient(3).expression.subs(eta, 1),
+    HERTZ_TIME: hertz_time().expression,
+}
+"""What the numbers of the module are, but for bounds."""
+_q = 1 - u_t**2
+ROW = (_q, 6 * geometric(5, _q), 5 * geometric(6, _q), 8 * _q * gauss)
+"""A row of the rule: q = a/a_m at a node, sums of its powers, and 8 q times the weight."""
+
+
+def most(c_1: sp.Expr, radius: sp.Expr) -> sp.Expr:
+    """S_1 = 1 + 3/2 c_1 A."""
+    found: sp.Expr = one_sided().expression.subs({c_A[1]: c_1, a_ratio: radius})
+    return found
+
+
+def thick_plate() -> Routine:
+    """c_1 and K_3 by the modes."""
+    rows, zero, weight, fade, lack, share, linear, cubic = sp.symbols(
+        "modes zero weight fade lack share linear cubic", positive=True
+    )
+    height, square = sp.symbols("T square", positive=True)
+    sums = Sums(
+        (linear, cubic),
+        (share, share * zero**2),
+        rows,
+        (zero, weight),
+        (
+            Let(height, 2 * eta * zero),
+            Let(square, height**2),
+            Let(fade, sp.exp(-2 * height), "(sinh T)^2 = (1 - fade)^2/(4 fade)"),
+            Let(lack, 1 - fade),
+            Let(fade, 4 * fade),
+            Let(share, weight * fade * (lack / 2 + height + square) / (lack**2 - fade * square)),
+        ),
+    )
+    first, third = coefficient(2), coefficient(3)
+    at = 2 * eta * j_n
+    own = plate_factors()[2].expression.subs(T, at) / (j_n * J1**2)
+    return routine(
+        "thick_plate",
+        (eta, rows),
+        (sums,),
+        (
+            eta * (8 * linear / (3 * sp.pi) - WALL),
+            eta * (8 * linear / (3 * sp.pi) + WALL),
+            2 * cubic / (3 * sp.pi) * eta**3 + WALL_REST * eta**3,
+            8 * eta * FADED_LINEAR / (3 * sp.pi),
+            eta * FADED_CUBIC / (6 * sp.pi),
+        ),
+        (
+            first.mode + first.side,
+            first.mode - first.side,
+            -CUBIC * third.mode + WALL_REST * alpha**3 / a_ratio**3,
+            first.mode,
+            -CUBIC * third.mode,
+        ),
+        "c_1, the size of its parts, K_3; what modes that are not among j_n, 1/(j_n J1^2) add.",
+        {
+            **MEANING,
+            zero: j_n,
+            weight: 1 / (j_n * J1**2),
+            FADED_LINEAR: own,
+            FADED_CUBIC: own * at**2,
+        },
+        lambda e: e.subs(alpha, eta * a_ratio),
+    )
+
+
+def thin_plate() -> Routine:
+    """c_1 and K_3 without the roots' shares, which fade with the last result."""
+    logarithm = sp.Symbol("logarithm", real=True)
+    claim = -CUBIC * (thin_coefficient(3).expression - coefficient(3).side)
+    return routine(
+        "thin_plate",
+        (v,),
+        (Let(logarithm, sp.log(v)),),
+        (
+            v**2 / (4 * sp.pi) + (THIN_LINEAR + 4 * logarithm / (5 * sp.pi)),
+            THIN_CUBIC + logarithm / (4 * sp.pi) + WALL_CUBIC / v**3,
+            sp.exp(-sp.pi * v),
+        ),
+        (thin_coefficient(2).expression, claim + WALL_REST * eta**3, sp.exp(-sp.pi / eta)),
+        "c_1 and K_3 of a thin plate for 1/eta = v but for the roots' shares; how these fade.",
+        {**MEANING, v: 1 / eta},
+        lambda e: sp.expand(sp.expand_log(e, force=True)),
+    )
+
+
+def sphere() -> Routine:
+    """The modulus, and the fifth power of Hertz's largest radius."""
+    energy = sp.Symbol("energy", positive=True)
+    C = contact_radius().expression / a**3 / R
+    brought = energy_number().expression * energy_scale().subs(E, reduced_modulus())
+    return routine(
+        "sphere",
+        (R, m, v0, lam, mu),
+        (Let(modulus, 4 * mu * ((lam + mu) / (lam + 2 * mu))), Let(energy, m * v0**2)),
+        (modulus, energy, sp.Rational(15, 16) * (energy / modulus) * R**2),
+        (reduced_modulus(), 2 * brought, brought / (C * work_of_contact(0))),
+        "E*, twice the energy brought, and the fifth power of Hertz's largest radius.",
+        {},
+    )
+
+
+def hertz_bounds() -> Routine:
+    """How far S of a plate may be from 1."""
+    upper, lower = most(bend + doubt, A), most(bend - doubt, A) - rest * A**3
+    factor = sp.Symbol("factor", positive=True)
+    return routine(
+        "hertz_bounds",
+        (bend, doubt, rest, A),
+        (Let(factor, 3 * A / 2),),
+        (rest * A**3 - factor * (bend - doubt), factor * (bend + doubt)),
+        (1 - lower, upper - 1),
+        "How much S at A may be below 1, and above.",
+        {},
+    )
+
+
+def steepness() -> Routine:
+    """S_1 - 1."""
+    return routine(
+        "steepness",
+        (bend, A),
+        (),
+        (3 * bend * A / 2,),
+        (most(bend, A) - 1,),
+        "S_1 - 1 at A.",
+        {},
+    )
+
+
+def leading_bounds() -> Routine:
+    """How far S of a plate may be from S_1, over S_1; the elasticity of S_1."""
+    whole = sp.Symbol("whole", positive=True)
+    law = most(bend, A)
+    meaning: Facts = {steep: law - 1}
+    return routine(
+        "leading_bounds",
+        (doubt, rest, steep, A),
+        (Let(whole, 1 + steep),),
+        (3 * doubt * A / (2 * whole), rest * A**2 * (A / whole), steep / whole),
+        (most(bend + doubt, A) / law - 1, rest * A**3 / law, A * sp.diff(law, A) / law),
+        "What a doubt about c_1 and what K_3 A^3 are of S_1 at A, and d log S_1/d log A.",
+        meaning,
+    )
+
+
+def _work(c_1: sp.Expr) -> sp.Expr:
+    """The work up to A over that by Hertz's law."""
+    return sp.expand(work_of_contact(1) / work_of_contact(0)).subs(D[3], c_1)
+
+
+def beside_hertz() -> Routine:
+    """What c_1 adds to the work up to Hertz's largest radius."""
+    return routine(
+        "beside_hertz",
+        (bend, over_h),
+        (),
+        (5 * bend * over_h / 4,),
+        (_work(bend * over_h) - 1,),
+        "What the first correction adds to the work up to Hertz's largest A, over that.",
+        {},
+    )
+
+
+def share_step() -> Routine:
+    """Newton's step for the largest radius by the first correction."""
+    fourth, inner = sp.symbols("fourth inner", real=True)
+    work = s**5 * _work(s * sp.Symbol("z", real=True))
+    z = 4 * y / 5
+    claim = work.subs(sp.Symbol("z", real=True), z) - 1
+    return routine(
+        "share_step",
+        (s, y),
+        (Let(fourth, s**4), Let(inner, s * y)),
+        (fourth * s * (1 + inner) - 1, fourth * (5 + 6 * inner)),
+        (claim, sp.diff(claim, s)),
+        "Excess work up to s times Hertz's radius, and how it grows; y by `beside_hertz`.",
+        {},
+    )
+
+
+def leading_time() -> Routine:
+    """Contact time by the first correction."""
+    q, fifth, sixth, weight, total = sp.symbols("q fifth sixth weight total", positive=True)
+    whole = 6 + 5 * x
+    sums = Sums(
+        (total,),
+        (weight * (1 + x * q) * sp.sqrt(whole / (fifth + x * sixth)),),
+        RULE,
+        (q, fifth, sixth, weight),
+    )
+    integrand = contact_time(1)[0].expression
+    claim = 2 * (a**2 / R) / v0 * sp.sqrt(work_of_contact(1)) * gauss * integrand
+    row: Facts = dict(zip((q, fifth, sixth, weight), ROW, strict=True))
+    return routine(
+        "leading_time",
+        (a, R, v0, x),
+        (sums,),
+        (total * (a**2 / R) / v0,),
+        (claim,),
+        "Contact time by Gauss' rule; x is S_1 - 1 at the largest radius a.",
+        {**row, x: most(D[3] / a_ratio, a_ratio) - 1},
+    )
+
+
+def hertz_peaks() -> Routine:
+    """Results on a half-space."""
+    law = a**2 / R
+    return routine(
+        "hertz_peaks",
+        (a, R, v0, modulus),
+        (Let(depth, a**2 / R),),
+        (HERTZ_TIME * depth / v0, depth, 4 * modulus / 3 * a * depth),
+        (hertz_time().expression * law / v0, law, contact_radius().expression),
+        "Contact time, indentation and force on a half-space at the largest contact radius.",
+        {**MEANING, modulus: reduced_modulus()},
+    )
+
+
+def peaks() -> Routine:
+    """Indentation and force at a contact radius."""
+    bent = sp.Symbol("bent", real=True)
+    law = small_contact().expression.subs({c: 0 for n, c in c_A.items() if n > 1})
+    return routine(
+        "peaks",
+        (a, R, modulus, bent),
+        (),
+        (a**2 / R * (1 + bent), 4 * modulus / 3 * a**2 * (a / R)),
+        (a**2 / R * law, contact_radius().expression),
+        "Indentation and force at a contact radius; bent is c_1 A.",
+        {modulus: reduced_modulus(), bent: c_A[1] * a_ratio},
+    )
+
+
+def elasticities() -> Routine:
+    """The exponents of the lemma."""
+    found = exponents(fall, rise)
+    return routine(
+        "elasticities",
+        (fall, rise),
+        (),
+        tuple(found.values()),
+        tuple(exponents(fall, rise).values()),
+        "How fast work, indentation and contact time change with the largest radius.",
+        {},
+    )
+
+
+ROUTINES = (
+    thick_plate,
+    thin_plate,
+    sphere,
+    hertz_bounds,
+    steepness,
+    leading_bounds,
+    beside_hertz,
+    share_step,
+    leading_time,
+    hertz_peaks,
+    peaks,
+    elasticities,
+)

@@ -1,0 +1,1 @@
+"""Algorithms of the impact, copied into the generated package."""

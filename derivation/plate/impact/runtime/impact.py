@@ -1,0 +1,341 @@
+"""Impact of a sphere on a plate by the contact law alone: extremes and history, without stepping.
+
+With q = a/a_m, the contact radius over its largest value, and delta_m the largest
+indentation, energy conservation makes every time an integral of a smooth function::
+
+    t = (delta_m/v0) int 2 (d(delta/delta_m)/dq)/sqrt((1 - E(q)/E_m)/(1 - q)) dw,   q = w (2 - w)
+
+Arithmetic: Newton's and Halley's iterations with their first values; the quadrature's sums, twice
+for both halves of a contact; powers that scale the polynomials' terms; scaling of times and
+results; the change of variable q = w (2 - w).
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from generated import impact_kernels as kernels
+from generated.arrays import Double, as_doubles, as_result, in_manifest, inside, quiet
+from generated.contact_law import _elastic, _modulus, _plates
+from generated.contact_series import ROUNDED, Piece, Plates, columns, far_piece, with_slope
+from generated.impact_numbers import (
+    COARSE_QUADRATURE,
+    FULL_QUADRATURE,
+    INNER_NODES,
+    INNER_WEIGHTS,
+    NODES,
+    ROUNDING,
+    WEIGHTS,
+)
+from generated.impact_shapes import Beyond, Scenes, cut, mean_work, shapes, time_rate
+from generated.ranges import Factors, product
+
+__all__ = [
+    "COARSE_QUADRATURE",
+    "FULL_QUADRATURE",
+    "ROUNDING",
+    "History",
+    "Impact",
+    "history",
+    "impact",
+]
+_STEPS = 60  # of Newton's iteration at most; it takes four to six
+_CLOSE = 1e-9  # a relative residual whose square is far below rounding
+_SCENES = 512  # worked on at a time, so that intermediates stay in the cache
+
+
+class Impact(NamedTuple):
+    """Contact time [s], largest indentation [m], force [N] and contact radius [m]."""
+
+    contact_time: np.ndarray
+    max_indentation: np.ndarray
+    max_force: np.ndarray
+    max_contact_radius: np.ndarray
+
+
+class History(NamedTuple):
+    """Indentation [m], its rate [m/s], contact radius [m] and force [N] at given times."""
+
+    indentation: np.ndarray
+    velocity: np.ndarray
+    contact_radius: np.ndarray
+    force: np.ndarray
+
+
+@in_manifest(
+    "",
+    equation="13",
+    domain="m > 0, v0 > 0, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, "
+    "3 * lam > -2 * mu, mu > 0, a < R, a <= b, a <= 6 * h for the largest a",
+)
+@quiet
+def impact(
+    R: ArrayLike,
+    m: ArrayLike,
+    v0: ArrayLike,
+    h: ArrayLike,
+    b: ArrayLike,
+    lam: ArrayLike,
+    mu: ArrayLike,
+    *,
+    coarse: bool = False,
+) -> Impact:
+    """Contact time and extremes of an impact that conserves energy.
+
+    Formula::
+
+        (4/3) E* h^5/R^2 int_0^(A_m) A^3 d(A^2 (1 + F)) = m v0^2/2
+
+    Any consistent units will do (SI, or mm, t, s).
+
+    Parameters
+    ----------
+    R : array_like
+        sphere radius [m]; R > 0
+    m : array_like
+        sphere mass [kg]; m > 0
+    v0 : array_like
+        speed of approach [m/s]; v0 > 0
+    h : array_like
+        half the plate's thickness [m]; h > 0
+    b : array_like
+        plate radius [m]; b > 0, 1e-90 <= h/b <= 1e90
+    lam : array_like
+        first Lame constant [Pa]; 3 lam > -2 mu
+    mu : array_like
+        second Lame constant (shear modulus) [Pa]; mu > 0
+    coarse : bool
+        with half the nodes: the contact time's relative error is then up to
+        COARSE_QUADRATURE
+
+    Returns
+    -------
+    Impact
+        Contact time [s], largest indentation [m], force [N] and contact radius [m]: arrays in
+        the arguments' broadcast shape; NaN outside the domain and where the contact radius
+        would exceed R, b or 6 h.
+    """
+    kind, [R, m, v0, h, b, lam, mu] = as_doubles(R, m, v0, h, b, lam, mu)
+    found, radius, depth, load, _ = _solve(R, m, v0, h, b, lam, mu)
+    integral = np.empty_like(found.A)
+    nodes, weights = (INNER_NODES, INNER_WEIGHTS) if coarse else (NODES, WEIGHTS)
+    for part in _parts(found.A.size):
+        rate = time_rate(np.broadcast_to(nodes, (found.A[part].size, nodes.size)), found, part)
+        integral[part] = (rate * weights).sum(axis=1)
+    time = product((2.0, *depth, integral.reshape(radius.shape)), (v0,))
+    peaks = product(depth), product(load), radius
+    shape = np.shape(time)
+    return Impact(*(as_result(np.broadcast_to(x, shape), kind) for x in (time, *peaks)))
+
+
+@in_manifest(
+    "",
+    equation="13",
+    domain="m > 0, v0 > 0, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, "
+    "3 * lam > -2 * mu, mu > 0, a < R, a <= b, a <= 6 * h for the largest a",
+)
+@quiet
+def history(
+    t: ArrayLike,
+    R: ArrayLike,
+    m: ArrayLike,
+    v0: ArrayLike,
+    h: ArrayLike,
+    b: ArrayLike,
+    lam: ArrayLike,
+    mu: ArrayLike,
+) -> History:
+    """State at given times of an impact that begins at t = 0.
+
+    Each time is found by inverting t(q) with Newton's iteration; nothing is stepped.
+
+    Parameters
+    ----------
+    t : array_like
+        time since first contact [s]
+    R : array_like
+        sphere radius [m]; R > 0
+    m : array_like
+        sphere mass [kg]; m > 0
+    v0 : array_like
+        speed of approach [m/s]; v0 > 0
+    h : array_like
+        half the plate's thickness [m]; h > 0
+    b : array_like
+        plate radius [m]; b > 0, 1e-90 <= h/b <= 1e90
+    lam : array_like
+        first Lame constant [Pa]; 3 lam > -2 mu
+    mu : array_like
+        second Lame constant (shear modulus) [Pa]; mu > 0
+
+    Returns
+    -------
+    History
+        Indentation [m], its rate [m/s], contact radius [m] and force [N]: arrays in the
+        arguments' broadcast shape; NaN outside the domain. Before and after the contact the
+        sphere is free: velocity v0 and -v0, the rest 0.
+    """
+    kind, [t, R, m, v0, h, b, lam, mu] = as_doubles(t, R, m, v0, h, b, lam, mu)
+    found, radius, depth, load, ok = _solve(R, m, v0, h, b, lam, mu)
+    shape = np.broadcast_shapes(t.shape, ok.shape)
+    owner = np.ravel(np.broadcast_to(np.arange(ok.size).reshape(ok.shape), shape))
+    whole = np.empty(ok.size)
+    for part in _parts(ok.size):
+        nodes = np.broadcast_to(NODES, (found.A[part].size, NODES.size))
+        whole[part] = 2.0 * (time_rate(nodes, found, part) * WEIGHTS).sum(axis=1)
+    begun = np.where(t > 0, t, 1.0)
+    since = np.ravel(np.broadcast_to(np.where(t > 0, product((begun, v0), depth), t), shape))
+    left = whole[owner] - since
+    state = np.empty((4, since.size))
+    for part in _parts(since.size):
+        state[:, part] = _state(since[part], left[part], found, owner[part], whole)
+
+    def spread(*scales: Double | float) -> list[Double]:
+        return [np.ravel(np.broadcast_to(x, ok.shape))[owner] for x in scales]
+
+    values = (
+        product((state[0], *spread(*depth))),
+        state[1] * spread(v0)[0],
+        state[2] * spread(radius)[0],
+        product((state[3], *spread(*load))),
+    )
+    return History(*(as_result(value.reshape(shape), kind) for value in values))
+
+
+def _state(since: Double, left: Double, scenes: Scenes, owner: np.ndarray, whole: Double) -> Double:
+    """Indentation, velocity, contact radius and force over their largest values.
+
+    sqrt(t(w)) is inverted: t starts like w^2, and is smooth to w = 1.
+    """
+    nearest = np.minimum(since, left)
+    inside_contact = nearest > 0
+    half = 0.5 * whole[owner]
+    goal = np.sqrt(np.where(inside_contact, nearest, half))
+    w = np.minimum(goal / np.sqrt(half), 1.0)
+    for _ in range(_STEPS):
+        rate = time_rate(w[:, None] * NODES, scenes, owner)
+        time = np.sqrt(w * (rate * WEIGHTS).sum(axis=1))
+        residual = goal - time
+        slope = time_rate(w[:, None], scenes, owner)[:, 0]
+        w = np.clip(w + 2.0 * time * residual / slope, 0.1 * w, 1.0)
+        if not (np.abs(residual) > _CLOSE * goal).any():
+            break
+    lift, _, quotient = (shape[:, 0] for shape in shapes(w[:, None], scenes, owner))
+    q = np.where(inside_contact, w * (2.0 - w), 0.0)
+    depth, speed, load = kernels.state(q, 1.0 - w, lift, quotient)
+    sign = np.where(since < left, 1.0, -1.0)
+    state = np.stack((depth, sign * np.where(inside_contact, speed, 1.0), q, load))
+    return np.where(np.isnan(nearest), np.nan, state)
+
+
+def _solve(
+    R: Double, m: Double, v0: Double, h: Double, b: Double, lam: Double, mu: Double
+) -> tuple[Scenes, Double, Factors, Factors, np.ndarray]:
+    """The scenes, their largest radius, depth and force, and where they are within the domain.
+
+    Depth and force are products of those of Hertz's impact and shares of its radius, so that
+    the radius' own error does not count two and three times.
+    """
+    ok = (R > 0) & (m > 0) & (v0 > 0) & (h > 0) & (b > 0)
+    for condition in _elastic(lam, mu):
+        ok = ok & condition
+    plates, numbers = _plates(h, b)
+    given = np.broadcast_arrays(R, m, v0, h, b, lam, mu)
+    [R, m, v0, h, b, lam, mu] = inside([*given], ok)
+    _, modulus = _modulus(lam, mu)  # over mu
+    hertz, *factors = kernels.hertz_impact(R, m, v0, mu, modulus)
+    over_h = np.minimum(np.ravel(hertz / h), 1e200)  # no contact is that wide
+    owner = np.ravel(np.broadcast_to(numbers, ok.shape))
+    pieces = plates.first.coefficients
+    shares = kernels.work_share(np.arange(3.0, 2.0 * pieces.shape[0] + 3.0, 2.0))
+    energy = Piece(pieces * shares[:, None], plates.first.middle, plates.first.half)
+    share, far = np.empty(over_h.size), np.zeros(over_h.size, dtype=bool)
+    for part in _parts(over_h.size, 8):
+        share[part], far[part] = _deepest(over_h[part], energy, plates, owner[part])
+    near = np.where(far, plates.reach[owner], share * over_h)
+    terms, tails = _scaled(pieces[:, owner], near, plates.reach[owner], shares)
+    A, lift, whole = near.copy(), 1.0 + terms[::-1].sum(axis=0), kernels.whole_work(tails[0])
+    far_ones, slot = np.flatnonzero(far), np.full(over_h.size, -1)
+    slot[far_ones] = np.arange(far_ones.size)
+    number = np.ravel(kernels.number_of_energy(R, m, v0, h, mu, modulus))
+    whole[far_ones], lift[far_ones], A[far_ones], beyond = _far_deepest(
+        number[far_ones], near[far_ones], whole[far_ones], plates, owner[far_ones]
+    )
+    whole_share = np.where(far, A / over_h, share).reshape(ok.shape)
+    radius = whole_share * hertz
+    radius = np.where(radius <= ROUNDED * b, np.minimum(radius, b), np.nan)
+    [radius] = inside([radius], radius < R)
+    lift = np.where(np.isnan(radius.ravel()), np.nan, lift)
+    x = np.where(np.isnan(radius), np.nan, whole_share)
+    deep, loaded = kernels.peak_shares(x, lift.reshape(ok.shape))
+    found = Scenes(A, lift, whole, terms, tails, slot, beyond)
+    return found, radius, (*factors[:3], deep), (*factors[3:], loaded), ok
+
+
+def _scaled(pieces: Double, near: Double, reach: Double, shares: Double) -> tuple[Double, Double]:
+    """Terms and tails as of `Scenes`, from coefficients of powers of A/reach."""
+    terms = pieces * near
+    ratio = (near / reach) ** 2
+    power = ratio.copy()
+    for k in range(1, terms.shape[0]):
+        terms[k] *= power
+        power *= ratio
+    tails = terms * shares[:, None]
+    for k in range(terms.shape[0] - 2, -1, -1):
+        tails[k] += tails[k + 1]
+    return terms, tails
+
+
+def _deepest(
+    hertz: Double, energy: Piece, plates: Plates, owner: np.ndarray
+) -> tuple[Double, np.ndarray]:
+    """A_m over Hertz's from E(A) = 2 hertz^5/5, and where A_m is beyond the first polynomial."""
+    piece, end = columns(energy, owner), plates.reach[owner]
+    bending = np.maximum(np.asarray(piece.coefficients[0]), 0.0)
+    value, _ = with_slope(end, piece)
+    most = end / hertz
+    far = most < kernels.share_of_work(value)
+    # A thin plate's by 2 hertz^5/5 = bending A^6.
+    thin = (0.4 / bending / hertz) ** (1.0 / 6.0)
+    share = np.where(far, np.nan, np.minimum(np.minimum(thin, 1.0), most))
+    for _ in range(_STEPS):
+        residual, step = kernels.deeper_step(share, *with_slope(share * hertz, piece))
+        share = np.minimum(share * np.clip(1.0 + step, 0.3, 3.0), most)
+        if not (np.abs(residual) > _CLOSE).any():
+            break
+    return share, far
+
+
+def _far_deepest(
+    goal: Double, near: Double, inner: Double, plates: Plates, owner: np.ndarray
+) -> tuple[Double, Double, Double, Beyond]:
+    """E/A^5, 1 + F and A where E(A) = goal beyond the first polynomial, and what `Beyond` holds.
+
+    `inner` is E/A^5 at A = near, that polynomial's end.
+    """
+    which, position = np.unique(owner, return_inverse=True)
+    piece = columns(far_piece(plates.eta[which]), position)
+    single = cut(piece, ...)
+    end, known = plates.far[owner], inner * near**5
+
+    def rise(A: Double) -> Double:
+        """(E - E_near)/A^5."""
+        return kernels.work_beyond(A, near, mean_work((near / A)[:, None], A, single)[:, 0])
+
+    limit = kernels.far_work(known, end, rise(end)) * ROUNDED
+    [goal] = inside([goal], end > near, goal <= limit)
+    A = np.minimum(near * (goal / known) ** 0.2, end)
+    for _ in range(_STEPS):
+        fifth, residual, step = kernels.far_step(A, goal, known, rise(A), *with_slope(A, piece))
+        A = np.clip(A * (1.0 + step), near, end)
+        if not (np.abs(residual) > _CLOSE * goal / fifth).any():
+            break
+    added, ratio = rise(A), near / A
+    whole, lift = kernels.far_whole(inner, ratio, added), 1.0 + with_slope(A, piece)[0]
+    return whole, lift, A, Beyond(ratio, (A - near) / A, added, piece)
+
+
+def _parts(size: int, factor: int = 1) -> list[slice]:
+    step = _SCENES * factor
+    return [slice(start, start + step) for start in range(0, size, step)]

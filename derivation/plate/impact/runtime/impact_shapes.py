@@ -1,0 +1,120 @@
+"""The course of an impact in shares of its extremes: indentation, its rate, and the work left.
+
+With q = a/a_m, the contact radius over its largest value, and E the work. The quotient
+(1 - E/E_m)/(1 - q) is a polynomial, found by synthetic division; where the contact goes beyond
+the law's first polynomial, the work from there on is a quadrature.
+
+Arithmetic: Horner's rule; the change of variable q = w (2 - w); the quadrature's nodes and sum;
+which points are beyond the first polynomial, and by how much.
+"""
+
+from types import EllipsisType
+from typing import NamedTuple
+
+import numpy as np
+
+from generated import impact_kernels as kernels
+from generated.arrays import Double
+from generated.contact_series import Columns, with_slope
+from generated.impact_numbers import INNER_NODES, INNER_WEIGHTS
+
+
+class Scenes(NamedTuple):
+    """Impacts of shape (scenes,): lift 1 + F and energy E/A^5 at the largest A.
+
+    Up to A_near = A or reach, F = sum terms_k s^(2k + 1), s = A'/A_near, and tails are
+    the sums over l >= k of (2l + 3)/(2l + 6) terms_l, both of shape (terms, scenes).
+    """
+
+    A: Double
+    lift: Double
+    energy: Double
+    terms: Double
+    tails: Double
+    slot: np.ndarray  # among those beyond, -1 for the others
+    beyond: "Beyond"
+
+
+class Beyond(NamedTuple):
+    """Impacts that go beyond the first polynomial: what only these need."""
+
+    near: Double  # A_near/A
+    gap: Double  # 1 - A_near/A
+    rise: Double  # (E - E_near)/A^5
+    piece: Columns  # of the second polynomial
+
+
+def time_rate(w: Double, scenes: Scenes, pick: slice | np.ndarray) -> Double:
+    """dt/dw in units of delta_m/v0, w of shape (scenes, points)."""
+    _, rate, quotient = shapes(w, scenes, pick)
+    return kernels.time_density(rate, quotient)
+
+
+def shapes(w: Double, scenes: Scenes, pick: slice | np.ndarray) -> tuple[Double, Double, Double]:
+    """(1 + F)/(1 + F_m), d(delta/delta_m)/dq and (1 - E/E_m)/(1 - q), q = w (2 - w).
+
+    Of the shape of w, (scenes, points).
+    """
+    q = w * (2.0 - w)
+    lift, slope, quotient = _near_shapes(q, scenes.terms[:, pick], scenes.tails[:, pick])
+    slot = scenes.slot[pick]
+    far = np.flatnonzero(slot >= 0)
+    if far.size:
+        near = scenes.terms[:, pick][:, far], scenes.tails[:, pick][:, far]
+        found = _far_shapes(w[far], near, scenes.A[pick][far], scenes.beyond, slot[far])
+        lift[far], slope[far], quotient[far] = found
+    whole, energy = scenes.lift[pick, None], scenes.energy[pick, None]
+    return kernels.shapes(q, lift, slope, quotient, whole, energy)
+
+
+def _near_shapes(s: Double, terms: Double, tails: Double) -> tuple[Double, Double, Double]:
+    """1 + F, A F' and (E_near - E)/((1 - s) A_near^5) of the first polynomial."""
+    square = s * s
+    value, slope = terms[-1][:, None] + 0.0 * s, np.zeros_like(s)
+    rest = tails[-1][:, None] + 0.0 * s
+    for k in range(terms.shape[0] - 2, -1, -1):
+        slope *= square
+        slope += value
+        value *= square
+        value += terms[k][:, None]
+        if k > 0:
+            rest *= square
+            rest += tails[k][:, None]
+    slope *= 2.0 * square
+    slope += value
+    return 1.0 + s * value, s * slope, kernels.near_quotient(s, tails[0][:, None], rest)
+
+
+def _far_shapes(
+    w: Double, near: tuple[Double, Double], A: Double, beyond: Beyond, slot: np.ndarray
+) -> tuple[Double, Double, Double]:
+    """1 + F, A F' and (E_m - E)/((1 - q) A^5) of impacts beyond the first polynomial."""
+    ratio, gap, rise = (x[slot, None] for x in (beyond.near, beyond.gap, beyond.rise))
+    q, left = w * (2.0 - w), (1.0 - w) ** 2  # left is 1 - q
+    outside = left <= gap
+    lift, slope, quotient = _near_shapes(np.minimum(q / ratio, 1.0), *near)
+    short, safe = np.where(outside, 0.0, left - gap), np.where(outside, 1.0, left)
+    quotient = kernels.far_quotient(quotient, short, safe, ratio, rise)
+    piece = cut(beyond.piece, slot)
+    start = np.maximum(q, ratio)
+    value, fall = with_slope(A[:, None] * start, piece)
+    return (
+        np.where(outside, 1.0 + value, lift),
+        np.where(outside, fall, slope),
+        np.where(outside, mean_work(start, A, piece), quotient),
+    )
+
+
+def mean_work(q: Double, A: Double, piece: Columns) -> Double:
+    """(E_m - E)/((1 - q) A^5), the mean of the work's density over [q, 1], reach <= q A."""
+    x = q[..., None] + (1.0 - q[..., None]) * INNER_NODES
+    value, slope = with_slope(A[:, None, None] * x, cut(piece, ...))
+    mean: Double = (kernels.work_density(x, value, slope) * INNER_WEIGHTS).sum(axis=-1)
+    return mean
+
+
+def cut(piece: Columns, pick: np.ndarray | EllipsisType) -> Columns:
+    """A piece at some of its points, with one axis more."""
+    rows, *scale = piece
+    middle, inverse_half = (np.asarray(x)[pick, None] for x in scale)
+    return Columns([np.asarray(row)[pick, None] for row in rows], middle, inverse_half)

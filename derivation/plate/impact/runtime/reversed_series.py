@@ -1,0 +1,124 @@
+"""Force over indentation by the paper's reversed series, cut off: to show, not to compute with.
+
+Arithmetic: Horner's rule; powers of a power series by Euler's recurrence; the search for the
+best circle; scaling of coefficients by powers of a radius.
+"""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from generated import reversed_kernels as kernels
+from generated.arrays import Double, as_doubles, as_result, in_manifest, inside, quiet
+from generated.contact_law import _elastic, _modulus, _plates
+from generated.contact_series import Plates
+
+_CIRCLE = 128  # directions in which a radius of convergence is sought
+
+
+@in_manifest(
+    "P",
+    equation="10",
+    domain="delta >= 0, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2 * mu, mu > 0, "
+    "sqrt(R * delta)/h < radius of convergence",
+)
+@quiet
+def force_by_series(
+    delta: ArrayLike,
+    R: ArrayLike,
+    h: ArrayLike,
+    b: ArrayLike,
+    lam: ArrayLike,
+    mu: ArrayLike,
+    *,
+    terms: int = 12,
+) -> np.ndarray:
+    """Contact force by the truncated reversed series, NaN beyond its radius.
+
+    Formula (Lagrange's inversion)::
+
+        P = (4/3) E* sqrt(R) delta^(3/2) (1 + p_1 eps + p_2 eps^2 + ...),  eps = sqrt(R delta)/h
+        p_n = 3/(n + 3) [A^n] (1 + F)^(-(n + 3)/2)
+
+    Parameters
+    ----------
+    delta : array_like
+        indentation [m]; 0 <= delta, eps within the radius of convergence
+    R : array_like
+        sphere radius [m]; R > 0
+    h : array_like
+        half the plate's thickness [m]; h > 0
+    b : array_like
+        plate radius [m]; b > 0, 1e-90 <= h/b <= 1e90
+    lam : array_like
+        first Lame constant [Pa]; 3 lam > -2 mu
+    mu : array_like
+        second Lame constant (shear modulus) [Pa]; mu > 0
+    terms : int
+        Number of terms of the bracket, at least 1.
+
+    Returns
+    -------
+    float or ndarray
+        P [N] in the arguments' broadcast shape; NaN outside the domain and for eps
+        beyond the radius of convergence (a lower bound of it, by Rouche's theorem).
+    """
+    if terms < 1:
+        raise ValueError(f"expected at least one term, got terms={terms}")
+    kind, [delta, R, h, b, lam, mu] = as_doubles(delta, R, h, b, lam, mu)
+    [delta, R, lam, mu] = inside([delta, R, lam, mu], delta >= 0, R > 0, *_elastic(lam, mu))
+    [h] = inside([h], h > 0)
+    plates, owner = _plates(h, b)
+    rows = [_reversed(plates, plate, terms) for plate in range(plates.eta.size)]
+    radius = np.array([row[0] for row in rows] or [np.nan])[owner]
+    eps = kernels.eps_over(delta, R, h, radius)
+    [eps] = inside([eps], eps < 1)
+    value = np.zeros_like(eps)
+    for power in reversed(range(terms)):
+        coefficient = np.array([row[1][power] for row in rows] or [np.nan])[owner]
+        value = value * eps + coefficient
+    _, modulus = _modulus(lam, mu)  # over mu
+    return as_result(kernels.force_of_bracket(delta, R, mu, modulus, value), kind)
+
+
+def _reversed(plates: Plates, plate: int, terms: int) -> tuple[float, Double]:
+    """Radius of convergence r in eps, and p_n r^n for n < terms.
+
+    eps(A) = A sqrt(1 + F) takes each value below its least modulus on a circle
+    once within it, as long as 1 + F has no zero there: the best circle is sought.
+    """
+    reach = plates.reach[plate]
+    if not np.isfinite(reach):
+        return np.nan, np.full(terms, np.nan)
+    row = plates.first.coefficients[:, plate]
+    start = min(reach, 0.05 / max(abs(float(row[0])), 1e-300))
+    circles = reach * np.geomspace(start / reach, 1.0, 1 + int(400 * (1 - np.log10(start / reach))))
+    directions = np.exp(1j * np.linspace(0.0, np.pi, _CIRCLE + 1))  # the rest is conjugate
+    radius = scale = 0.0
+    for circle in circles:
+        A = circle * directions
+        t = (A / reach) ** 2
+        value = np.full_like(t, row[-1])
+        for coefficient in row[-2::-1]:
+            value = value * t + coefficient
+        least = float(np.min(kernels.size_of_eps(circle, A * value)))
+        if least < radius:
+            break
+        radius, scale = least, float(circle)
+    scaled = np.zeros(terms)  # 1 + F in powers of A/scale
+    scaled[0] = 1.0
+    for k in range(min(row.size, terms // 2)):
+        scaled[2 * k + 1] = row[k] * scale * (scale / reach) ** (2 * k)
+    ratio = radius / scale
+    exponents, factors = kernels.lagrange(np.arange(float(terms)))
+    powers = [_power(scaled, exponent)[n] for n, exponent in enumerate(exponents)]
+    return radius, np.array(powers) * factors * ratio ** np.arange(terms)
+
+
+def _power(series: Double, exponent: float) -> Double:
+    """A power of a power series 1 + ... (Euler's recurrence)."""
+    result = np.zeros_like(series)
+    result[0] = 1.0
+    for n in range(1, series.size):
+        k = np.arange(1, n + 1)
+        result[n] = ((exponent * k - (n - k)) * series[k] * result[n - k]).sum() / n
+    return result

@@ -1,0 +1,248 @@
+"""An impact by Hertz's law and by its first correction, with bounds of what these leave out.
+
+With A = a/h, eta = h/b and S = (R/2a) d delta/da the contact law keeps, for every a < b::
+
+    1 + 3/2 c_1 A - K_3 A^3 <= S <= 1 + 3/2 c_1 A
+
+so that `hertz` (S = 1) and `leading` (S = 1 + 3/2 c_1 A) know their own errors: proven ones,
+but for rounding, which is counted. One scene at a time, in microseconds, without NumPy.
+
+Arithmetic: margins for rounding; intervals of logarithms added up; Newton's iteration and
+where it starts; ratios and products that tell whether numbers are ordinary.
+"""
+
+from bisect import bisect_right
+from math import expm1, inf, log, log1p
+from typing import NamedTuple
+
+from generated.simple_impact_kernels import (
+    beside_hertz,
+    elasticities,
+    hertz_bounds,
+    hertz_peaks,
+    leading_bounds,
+    leading_time,
+    peaks,
+    share_step,
+    sphere,
+    steepness,
+    thick_plate,
+    thin_plate,
+)
+from generated.simple_impact_numbers import (
+    FADED,
+    MODES,
+    QUADRATURE,
+    ROOTS_CUBIC,
+    ROOTS_LINEAR,
+    THIN,
+)
+
+_ZEROS = tuple(zero for zero, _ in MODES)
+_ORDINARY = 1e-100, 1e100  # numbers whose products and roots are rounded as counted
+_PLATES = 1e-50, 1e50
+_MARGIN = log(1.02)  # bounds are taken on radii up to 1.02 times the largest found
+_DEEP = 0.5  # c_1 A > -1/3: the first correction, if negative, halves the slope at most
+_SLACK = 1.0 + 1e-9  # for the rounding of the bounds themselves
+_CLOSE = 4e-15  # residual of the largest radius' equation
+_STEPS = 40
+
+ROUNDING = 4e-14
+"""Counted: below 200 roundings of 2^-53 in the worst of the results, half of this number.
+
+The largest radius has 40 of them, 23 since 1/5 is no double; force takes three times as many,
+the contact time twice as many and those of its sum. The C library's powers, roots and
+logarithms are taken to be right to two units in the last place."""
+
+
+class Plate(NamedTuple):
+    """c_1, by how much it may be wrong, and a bound of K_3."""
+
+    bend: float
+    doubt: float
+    rest: float
+
+
+class Estimate(NamedTuple):
+    """Contact time, largest indentation, force and contact radius, and relative error bounds.
+
+    `law` is of what the law leaves out, `quadrature` of the integral over time, `rounding` of
+    the rest; each holds for all four results.
+    """
+
+    contact_time: float
+    max_indentation: float
+    max_force: float
+    max_contact_radius: float
+    law: float
+    quadrature: float
+    rounding: float
+
+
+class _Scene(NamedTuple):
+    """Hertz's largest contact radius, E*, and the scene."""
+
+    radius: float
+    modulus: float
+    R: float
+    v0: float
+    h: float
+    b: float
+
+
+def plate_of(eta: float) -> Plate:
+    """c_1 and K_3 of a plate h/b = eta, 1e-50 <= eta <= 1e50."""
+    v = 1.0 / eta
+    if v > THIN:
+        bend, rest, roots = thin_plate(v)
+        doubt = ROOTS_LINEAR * roots + 1e-14 * bend
+        return Plate(bend, doubt, rest * _SLACK + ROOTS_CUBIC * roots)
+    counted = MODES[: bisect_right(_ZEROS, 0.5 * FADED * v)]  # T = 2 eta j_n <= FADED
+    bend, size, rest, more_bend, more_rest = thick_plate(eta, counted)
+    return Plate(bend, more_bend + 1e-13 * size, rest * _SLACK + more_rest)
+
+
+def hertz(
+    R: float, m: float, v0: float, h: float, b: float, lam: float, mu: float
+) -> Estimate | None:
+    """An impact by Hertz's law, as if on a half-space, and a bound of its error.
+
+    Parameters
+    ----------
+    R, h, b : float
+        sphere radius, half the plate's thickness and its radius [m]; above 0
+    m : float
+        sphere mass [kg]; m > 0
+    v0 : float
+        speed of approach [m/s]; v0 > 0
+    lam, mu : float
+        Lame constants [Pa]; mu > 0, 3 lam > -2 mu
+
+    Returns
+    -------
+    Estimate or None
+        None where nothing is shown: beyond a = b or R, for numbers that are not ordinary, or
+        if the law's slope may vanish.
+    """
+    scene = _scene(R, m, v0, h, b, lam, mu)
+    if scene is None:
+        return None
+    plate, top = plate_of(h / b), 1.02 * scene.radius / h
+    # Of the lower bound's loss, which is convex, the largest is at one of the ends.
+    low, up = hertz_bounds(plate.bend, plate.doubt, plate.rest, top)
+    law = law_error(max(0.0, low), max(0.0, up), 0.0, 0.0)
+    found = hertz_peaks(scene.radius, R, v0, scene.modulus)
+    return _estimate(scene, scene.radius, found, law, 0.0)
+
+
+def leading(
+    R: float, m: float, v0: float, h: float, b: float, lam: float, mu: float
+) -> Estimate | None:
+    """An impact by delta = (a^2/R) (1 + c_1 a/h), and a bound of its error.
+
+    Parameters and result are those of `hertz`.
+    """
+    scene = _scene(R, m, v0, h, b, lam, mu)
+    if scene is None:
+        return None
+    plate, over_h = plate_of(h / b), scene.radius / h
+    share = _share(beside_hertz(plate.bend, over_h))
+    A = share * over_h
+    top = 1.02 * A
+    steep = steepness(plate.bend, top)
+    if not steep > -_DEEP:
+        return None
+    # What S may be off by, over S_1: grows with A.
+    doubt, low, elasticity = leading_bounds(plate.doubt, plate.rest, steep, top)
+    law = law_error(low + doubt, doubt, max(0.0, -elasticity), max(0.0, elasticity))
+    a = share * scene.radius
+    depth, force = peaks(a, R, scene.modulus, plate.bend * A)
+    time = leading_time(a, R, v0, steepness(plate.bend, A))
+    return _estimate(scene, a, (time, depth, force), law, QUADRATURE)
+
+
+def law_error(low: float, up: float, fall: float, rise: float) -> float:
+    """The largest of `law_errors`."""
+    return max(law_errors(low, up, fall, rise))
+
+
+def law_errors(
+    low: float, up: float, fall: float, rise: float, energy: float = 0.0
+) -> tuple[float, float, float, float]:
+    """Relative errors of the results if S is within 1 - low and 1 + up times S_1.
+
+    Parameters
+    ----------
+    low, up
+        not negative [1]; they hold up to 1.02 times the largest radius by S_1
+    fall, rise
+        d log S_1/d log a is between -fall and rise [1]
+    energy
+        logarithm of the factor by which the contact may take more energy than the sphere
+        brings, its own weight at work; not negative [1]
+
+    Returns
+    -------
+    tuple of float
+        Of contact time, largest indentation, force and contact radius; inf where nothing is
+        shown: if the radius may exceed that range.
+    """
+    if not (low < 1.0 and up < inf and fall < 2.0):
+        return inf, inf, inf, inf
+    # Logarithms of the true values over those by S_1 lie within these.
+    loss, gain = -log1p(-low), log1p(up)
+    elasticity, depth, shorter, longer = elasticities(fall, rise)
+    wider, narrower = (loss + energy) / elasticity, gain / elasticity
+    if not wider < _MARGIN:
+        return inf, inf, inf, inf
+    longer = max(0.0, longer)
+    time = max(
+        gain + 0.5 * loss + 0.5 * energy + max(longer * wider, shorter * narrower),
+        loss + 0.5 * gain + max(shorter * wider, longer * narrower),
+    )
+    deeper = max(gain + depth * wider, loss + depth * narrower)
+    radius = max(wider, narrower)
+    return _relative(time), _relative(deeper), _relative(3.0 * radius), _relative(radius)
+
+
+def _relative(logarithm: float) -> float:
+    """Relative error of a factor's logarithm."""
+    return expm1(logarithm) * _SLACK if logarithm < 700.0 else inf
+
+
+def _scene(
+    R: float, m: float, v0: float, h: float, b: float, lam: float, mu: float
+) -> _Scene | None:
+    """Hertz's largest radius; None for extreme numbers."""
+    modulus, energy, work = sphere(R, m, v0, lam, mu)
+    low, high = _ORDINARY
+    numbers = (R, m, v0, h, b, modulus, energy, energy / modulus, work)
+    if not all(low < x < high for x in numbers) or not _PLATES[0] < h / b < _PLATES[1]:
+        return None
+    return _Scene(work**0.2, modulus, R, v0, h, b)
+
+
+def _share(y: float) -> float:
+    """s > 0 of s^5 (1 + y s) = 1, the largest radius over Hertz's, by Newton's iteration.
+
+    From above for y > 0, where the left side is convex; for y < 0 the root is sought below
+    s = 2/(-3 y), up to where that holds too. NaN if there is none.
+    """
+    s = min(1.0, y ** (-1.0 / 6.0)) if y > 0.0 else 1.0
+    for _ in range(_STEPS):
+        excess, slope = share_step(s, y)
+        if abs(excess) <= _CLOSE:
+            return s
+        s -= excess / slope
+        if not (s > 0.0 and 3.0 * y * s > -2.0):
+            break
+    return float("nan")
+
+
+def _estimate(
+    scene: _Scene, a: float, found: tuple[float, float, float], law: float, quadrature: float
+) -> Estimate | None:
+    """The results, if the contact is shown to stay within the plate and the sphere."""
+    if not (law < inf and 1.02 * a < min(scene.b, scene.R)):
+        return None
+    return Estimate(*found, a, law, quadrature, ROUNDING)

@@ -1,0 +1,136 @@
+"""Numbers that the generated solution for the true pressure needs: its quadratures.
+
+With lengths in units of b the kernel is
+
+    k(x) = (4/pi) sum w_n cos(x j_n) - (4/pi^2) int_0^oo K0(y)/I0(y) cosh(x y) dy.
+
+For 1/eta up to THIN few modes count; beyond it the sum is the thin plate's integral
+(1/pi) int (G - 1) cos(A T/2) dT with its c_1 and c_3, up to e^(-4.2124/eta + 2.11 x/h) as in
+the contact law. Either way k is a sum of cosines, so that its matrices are products.
+"""
+
+import flint
+import numpy as np
+import sympy as sp
+from flint import arb as Ball
+
+from derivation.engine.emit.package import Numbers
+from derivation.engine.emit.tables import Constant
+from derivation.engine.formula.ball import enclose
+from derivation.mathematics.bessel.kernels import nearest_double
+from derivation.plate.budgets import read_promises
+from derivation.plate.contact.kernels.moments import BITS
+from derivation.plate.contact.theory.thin_plate import plate_excess
+from derivation.plate.pressure.theory.true_pressure import kernel, kernel_by_powers
+from derivation.plate.vocabulary import c_A
+
+NODES = 24
+"""Collocation points: the positive ones of a rule on (-a, a) exact up to the degree 95."""
+THIN = 16
+"""1/eta beyond which a plate is thin: e^(-4.2124 THIN + 2.11 * 2 WIDEST) is below 1e-16."""
+WIDEST = 7
+"""Largest a/h. In a thin plate the contact opens before that."""
+DIRECTIONS, LARGEST_T = 80, 24
+"""Gauss' nodes for a thin plate, where 4 T^2 e^(-2T), which is G - 1 there, is below 1e-17."""
+LOW = 1e-3
+"""Up to here sinh(x)/x is 1 + x^2/6, to 1e-14."""
+FADED = 23
+"""Modes count up to T = 2 eta j_n = FADED in plates that are not thin."""
+WIDEST_SHARE = 0.95
+"""Largest a/b: the kernel is singular where t + s = 2 b."""
+WALL_STEPS, WALL_FIRST, WALL_LAST = 5, -12, 30
+"""Trapezoids in u, this many to 1, of the side wall's integral, y = exp(u - e^(-u)).
+
+What is integrated goes like y^2 log y, and is below 1e-20 before the first; the last y is 400.
+"""
+
+
+def pressure_numbers() -> Numbers:
+    """Collocation, the thin plate's wave numbers, the side wall's places, limits."""
+    first, cubic = _powers()
+    with flint.ctx.workprec(3 * BITS):
+        nodes, waves, wall = (_doubles(pairs) for pairs in (_collocation(), _waves(), _wall()))
+        modes = nearest_double(_front(0))
+    return Numbers(
+        "pressure_numbers",
+        "Numbers of the true pressure: quadratures of its kernel, limits.",
+        (
+            Constant("THIN", float(THIN), "1/eta = b/h beyond which a plate is thin."),
+            Constant("WIDEST", float(WIDEST), "Largest a/h."),
+            Constant(
+                "WIDEST_SHARE", WIDEST_SHARE, "Largest a/b: the kernel is singular at the edge."
+            ),
+            Constant(
+                "ERROR",
+                read_promises("pressure")["error"],
+                "Tested limit of the relative error of every result, the pressure's over its mean.",
+            ),
+            Constant("FADED", float(FADED), "Modes count up to T = 2 eta j_n = FADED."),
+            Constant("LOW", LOW, "Up to here sinh(x)/x is 1 + x^2/6, to 1e-14."),
+            Constant("FIRST", first, "N(0, 0) over c_1/h."),
+            Constant("CUBIC", cubic, "What c_3 a^2/h^3 times x^2 + s^2 has in N."),
+            Constant(
+                "SQUARE", float(waves[1] @ waves[0] ** 2) / 2, "Of the waves' sum in x^2 + s^2."
+            ),
+            Constant("MODES", modes, "Of the modes' weights in the kernel."),
+            Constant("NODES", nodes[0], "Collocation: t/a."),
+            Constant("WEIGHTS", nodes[1], "And weights of int_0^1 of an even function."),
+            Constant("WAVES", waves[0], "Thin plate: w h = T/2."),
+            Constant("WAVE_WEIGHTS", waves[1], "And (G(T) - 1)/pi dT."),
+            Constant("WALL", wall[0], "Side wall: y."),
+            Constant("WALL_WEIGHTS", wall[1], "And (4/pi^2) K0/I0 e^(2y) dy."),
+        ),
+    )
+
+
+def _doubles(pairs: list[tuple[Ball, Ball]]) -> tuple[np.ndarray, np.ndarray]:
+    places, weights = (
+        np.array([nearest_double(x) for x in row]) for row in zip(*pairs, strict=True)
+    )
+    return places, weights
+
+
+def _powers() -> tuple[float, float]:
+    """What c_1 and c_3 are multiplied by in the kernel."""
+    parts = kernel_by_powers()
+    (x, *_) = sorted(parts[3].free_symbols - {c_A[3]}, key=str)
+    return float(parts[1] / c_A[1]), float(sp.diff(parts[3], x, 2) / 2 / c_A[3])
+
+
+def _front(part: int) -> Ball:
+    """The number in front of the kernel's modes, or of its side wall."""
+    expression = kernel()[part].expression
+    factors = expression.function.args if isinstance(expression, sp.Integral) else expression.args
+    return abs(enclose(sp.Mul(*(x for x in factors if x.is_number)), {}))
+
+
+def _collocation() -> list[tuple[Ball, Ball]]:
+    """x = t/a, rising, with the weights of int_0^1."""
+    pairs = [Ball.legendre_p_root(2 * NODES, i, weight=True) for i in reversed(range(NODES))]
+    return [(x, w) for x, w in pairs]
+
+
+def _waves() -> list[tuple[Ball, Ball]]:
+    """Wave numbers times h, T/2, and weights of the thin plate's integral, (G - 1)/pi in them."""
+    half = Ball(LARGEST_T) / 2
+    pairs = [Ball.legendre_p_root(DIRECTIONS, i, weight=True) for i in reversed(range(DIRECTIONS))]
+    places = [(half * (1 + x), half * w) for x, w in pairs]
+    return [(T / 2, w * plate_excess(T) / Ball.pi()) for T, w in places]
+
+
+def wall_places() -> list[float]:
+    """Places y of the side wall's integral, rising."""
+    with flint.ctx.workprec(3 * BITS):
+        return [nearest_double(y) for y, _ in _wall()]
+
+
+def _wall() -> list[tuple[Ball, Ball]]:
+    """Places y and weights of the side wall's integral, times e^(2y): (4/pi^2) K0/I0 in them."""
+    front, found = _front(1), []
+    for index in range(WALL_FIRST, WALL_LAST + 1):
+        u = Ball(index) / WALL_STEPS
+        fade = (-u).exp()
+        y = (u - fade).exp()
+        bessel = y.bessel_k(Ball(0)) / y.bessel_i(Ball(0)) * (2 * y).exp()
+        found.append((y, y * (1 + fade) / WALL_STEPS * bessel * front))
+    return found

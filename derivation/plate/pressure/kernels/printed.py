@@ -1,0 +1,216 @@
+"""Waves of the kernel and profile of the sphere, each proved to be that of link 20.
+
+The kernel is a sum of cosines, and cosines of imaginary arguments beside the wall. Code has
+1 - cos of them, and how fast that grows with x = t/a, over x.
+"""
+
+import sympy as sp
+
+from derivation.engine.emit.routine import RAISED, Choice, Let, Routine, routine
+from derivation.plate.pressure.theory import results as theory
+from derivation.plate.pressure.theory.true_pressure import kernel, profile
+from derivation.plate.vocabulary import R, a, alpha, r
+
+LOW = sp.Symbol("LOW", positive=True)
+phase, rise, x, y, c, unit = sp.symbols("phase rise x y c unit", positive=True)
+
+
+def _shape(of_wall: bool, turn: sp.Expr) -> sp.Expr:
+    """The kernel's cosine of a turn."""
+    expression = kernel()[of_wall].expression
+    (cosine,) = expression.atoms(sp.cosh if of_wall else sp.cos)
+    return cosine.subs(alpha, turn * alpha / cosine.args[0])
+
+
+def _by_exponentials(expression: sp.Expr) -> sp.Expr:
+    found = expression.replace(sp.sinc, lambda v: sp.sin(v) / v)
+    return sp.expand(found.rewrite(sp.exp))
+
+
+def wave() -> Routine:
+    """One wave of the kernel."""
+    turns = sp.Symbol("turns", positive=True)
+    risen = 1 - _shape(False, phase * x)
+    return routine(
+        "wave",
+        (x, phase),
+        (Let(turns, phase * x),),
+        (2 * sp.sin(turns / 2) ** 2, phase**2 * sp.sinc(turns)),
+        (risen, sp.diff(risen, x) / x),
+        "1 - cos(phase x), and its slope by x over x.",
+        {},
+        _by_exponentials,
+    )
+
+
+def wall_wave() -> Routine:
+    """One of the side wall's, over e^y, so that no exponent is positive."""
+    grown, faded, half, chord = sp.symbols("grown faded half chord", positive=True)
+    risen = sp.exp(-y) * (1 - _shape(True, rise * x))
+    above = sp.exp(grown - y) - sp.exp(-grown - y)
+    return routine(
+        "wall_wave",
+        (x, rise, y),
+        (
+            Let(grown, rise * x),
+            Let(faded, sp.exp(-y)),
+            Let(half, sp.exp((grown - y) / 2) - sp.exp(-(grown + y) / 2)),
+            Choice(
+                chord,
+                sp.Gt(grown, LOW),
+                above / (2 * RAISED(grown, LOW)),
+                faded * (1 + grown**2 / 6),
+                unclaimed="no",
+                reason="two terms of the power series, right to 1e-14 up to LOW",
+            ),
+        ),
+        (-(half**2) / 2, -(rise**2) * chord),
+        (risen, sp.diff(risen, x) / x),
+        "1 - cosh(rise x), and its slope by x over x, both over e^y.",
+        {},
+        _by_exponentials,
+    )
+
+
+def _profile(of_sphere: bool) -> sp.Expr:
+    """f R/a^2 of t = a x, c = a/R."""
+    shapes = profile()
+    (t,) = shapes[0].free_symbols - {R}
+    return shapes[of_sphere].subs(t, c * R * x) / (c**2 * R)
+
+
+def _by_logarithms(expression: sp.Expr) -> sp.Expr:
+    found = expression.replace(sp.log, lambda v: sp.log(sp.cancel(v)))
+    return found.replace(sp.atanh, lambda v: sp.log((1 + v) / (1 - v)) / 2)
+
+
+def paraboloid() -> Routine:
+    """The paraboloid's profile; `unit` is 1 in the shape of the results."""
+    exact = _profile(False)
+    return routine(
+        "paraboloid",
+        (x, unit),
+        (),
+        (x**2 * unit, 2 * unit),
+        (exact, sp.diff(exact, x) / x),
+        "f R/a^2 of a paraboloid, and its slope by x over x; `unit` is 1 in their shape.",
+        {unit: sp.Integer(1)},
+        sp.cancel,
+    )
+
+
+def sphere() -> Routine:
+    """The sphere's profile."""
+    angle, share = sp.symbols("angle share", positive=True)
+    exact = _profile(True)
+    return routine(
+        "sphere",
+        (x, c),
+        (Let(angle, c * x), Let(share, sp.atanh(angle) / angle)),
+        (x**2 * share, share + 1 / ((1 - angle) * (1 + angle))),
+        (exact, sp.diff(exact, x) / x),
+        "f R/a^2 of a sphere, and its slope by x over x; c = a/R.",
+        {},
+        _by_logarithms,
+    )
+
+
+modulus, plate_modulus, compliance = sp.symbols("modulus plate_modulus compliance", positive=True)
+first, per = sp.symbols("first per", positive=True)
+GIVEN = a, R, modulus, plate_modulus, compliance, first, per
+SOLVED = (
+    theory.force, theory.depth, theory.work, theory.flat, theory.edge, theory.bend, theory.centre,
+)  # fmt: skip
+MEANING = {
+    modulus: theory.E,
+    compliance: theory.support,
+    first: theory.N_0 * per * plate_modulus / theory.E,
+}
+"""`first` is the kernel's constant, lengths over `per`, for the plate's own modulus."""
+
+
+def contact_results() -> Routine:
+    """What a solution gives; products in an order in which no part leaves the range of doubles."""
+    ratio, deep, stiff, series = sp.symbols("ratio deep stiff series", positive=True)
+    pressed, peak, reach, share = sp.symbols("pressed peak reach share", positive=True)
+    found = theory.results()
+    return routine(
+        "contact_results",
+        (*GIVEN, *SOLVED),
+        (
+            Let(ratio, a / R),
+            Let(deep, a * ratio),
+            Let(stiff, 2 * modulus * a),
+            Let(reach, a / per),
+            Let(share, modulus / plate_modulus),
+            Let(series, first * reach * share + stiff * compliance),
+            Let(pressed, stiff * deep),
+            Let(peak, modulus * ratio / sp.pi),
+        ),
+        (
+            pressed * theory.force,
+            deep * (theory.depth + theory.force * series),
+            stiff / (1 / theory.flat + series),
+            ratio * theory.bend / theory.edge * (1 + theory.flat * series),
+            pressed * deep * (theory.work + theory.force**2 * series) / 2,
+            peak * theory.centre,
+            2 * peak * theory.force,
+        ),
+        found[:7],
+        "Force, indentation, stiffness, slope, energy, pressure at the centre and on the mean.",
+        MEANING,
+        sp.cancel,
+    )
+
+
+def pressure_unit() -> Routine:
+    """What the sums of -c'/x are in units of."""
+    unit = theory.results().centre_pressure / theory.centre
+    return _unit("pressure_unit", modulus / sp.pi * a / R, unit, "Unit of the pressure.")
+
+
+def chi_unit() -> Routine:
+    """What c is in units of."""
+    return _unit("chi_unit", modulus / sp.pi * a**2 / R, theory.results().chi, "Unit of chi.")
+
+
+def _unit(name: str, value: sp.Expr, exact: sp.Expr, summary: str) -> Routine:
+    ratio = sp.Symbol("ratio", positive=True)
+    by_ratio = value / a * R * ratio
+    start = (Let(ratio, a / R),)
+    return routine(name, (a, R, modulus), start, (by_ratio,), (exact,), summary, MEANING)
+
+
+def pressure_points() -> Routine:
+    """Where the pressure's integral is summed."""
+    within, node, gap = sp.symbols("within node gap", positive=True)
+    t, front, _ = theory.substitution()
+    (u,) = t.free_symbols - {a, r}
+    there = {r: within * a, u: node}
+
+    def squares(expression: sp.Expr) -> sp.Expr:
+        left, right = sp.Add.make_args(expression)
+        return sp.expand(left**2 - right**2)
+
+    return routine(
+        "pressure_points",
+        (within, node),
+        (Let(gap, (1 - within) * (1 + within)),),
+        (sp.sqrt(within**2 + gap * node**2), sp.sqrt(gap)),
+        tuple(value.subs(there) / a for value in (t, front)),
+        "t/a where the pressure at r/a is summed, and the front of that sum.",
+        {},
+        squares,
+    )
+
+
+ROUTINES = (
+    wave,
+    wall_wave,
+    paraboloid,
+    sphere,
+    contact_results,
+    chi_unit,
+    pressure_unit,
+    pressure_points,
+)

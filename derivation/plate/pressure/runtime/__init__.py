@@ -1,0 +1,1 @@
+"""Algorithms of the pressure, copied into the generated package."""

@@ -1,0 +1,333 @@
+"""Contact of a sphere and a plate with the pressure solved for, not assumed to be Hertz's.
+
+The pressure is q(r) = -int_r^a chi'(t)/sqrt(t^2 - r^2) dt, and chi solves::
+
+    chi(t) + int_0^a N(t, s) chi(s) ds = (E*/pi) (delta - f(t)),   chi(a) = 0
+    P = 2 pi int_0^a chi dt,   N(t, s) = [k((t + s)/b) + k((t - s)/b)]/(2 b)
+
+f = t^2/R for a paraboloid, t artanh(t/R) for an exact sphere. k is the slope of
+S = (R/2a) d delta/da of Hertz's pressure, so that b k(0) = (3/2) c_1 b/h comes from the
+polynomials of `contact_series`. It is a sum of cosines, and with C = 1 - cos::
+
+    N(t, s) - N(0, 0) = sum nu_i [C(w_i t) C(w_i s) - C(w_i t) - C(w_i s)]
+
+for a thick plate over its modes, w = j_n/b, and the side wall, w = i y/b with nu < 0; for a
+thin one over the nodes of an integral, with a multiple of t^2 + s^2 besides. N(0, 0), large
+in a thin plate, is split off: it adds N(0, 0) P/(2 E*) to the indentation. The t^2 + s^2 acts
+like more curvature of the sphere, so that a thin plate's pressure has a shape of a/h alone.
+
+Arithmetic: the equation's matrix from products of the kernel's waves, sums by Gauss' rule, and
+units: lengths over h or b.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from generated import pressure_kernels as kernels
+from generated.arrays import Double, as_doubles, inside, quiet
+from generated.contact_series import THICKEST, THINNEST, _bending, _weights, plates_of
+from generated.pressure_numbers import (
+    CUBIC,
+    FADED,
+    FIRST,
+    MODES,
+    NODES,
+    SQUARE,
+    THIN,
+    WALL,
+    WALL_WEIGHTS,
+    WAVE_WEIGHTS,
+    WAVES,
+    WEIGHTS,
+    WIDEST,
+    WIDEST_SHARE,
+)
+
+_POINTS = np.append(NODES, 1.0)
+_BLOCK = 8  # contacts worked on at a time, so that intermediates stay in the cache
+
+
+class Plate(NamedTuple):
+    """The kernel of a plate; lengths are in units of `unit`, h or b [m]."""
+
+    h: float
+    b: float
+    unit: float
+    first: float  # N(0, 0)
+    square: float  # of t^2 + s^2, beside the waves
+    waves: Double  # w_i of the cosines
+    wave_weights: Double
+    rises: Double  # y_i of the hyperbolic cosines
+    rise_weights: Double  # times e^(2 y_i)
+
+
+class Contact(NamedTuple):
+    """What a contact radius needs, all of the shape of the arguments; NaN outside the domain.
+
+    The contact is open, and everything NaN, where the pressure at the centre would be negative.
+    """
+
+    a: Double  # contact radius [m]
+    force: Double  # P [N]
+    indentation: Double  # delta [m]
+    stiffness: Double  # dP/d delta [N/m]
+    slope: Double  # d delta/da [1]
+    energy: Double  # int P d delta from no contact on [J]
+    centre_pressure: Double  # q(0) [Pa], positive
+    mean_pressure: Double  # P/(pi a^2) [Pa]
+    nodes: Double  # t [m], along a last axis
+    chi: Double  # chi(t) [N/m], along a last axis
+
+
+class _Waves(NamedTuple):
+    """At points t/a, of shape (contacts, points, waves): C = 1 - cos(w t), scaled by e^-y.
+
+    `bends` is the slope of C by x = t/a over x. `weights` hold signs and the factor a, `faded`
+    is what cos(0) is with that scaling: of shapes (contacts, waves) and (waves,).
+    """
+
+    rises: Double
+    bends: Double
+    weights: Double
+    faded: Double
+
+
+class _Solution(NamedTuple):
+    """In units of E* a^2/(pi R) for chi, of a^2/R for depths; of shape (contacts,) or more."""
+
+    chi: Double
+    force: Double  # int_0^1 chi dx
+    depth: Double  # delta without the part of N(0, 0)
+    work: Double  # int_0^1 chi (depth - f) dx
+    flat: Double  # int_0^1 psi dx of the flat punch
+    edge: Double  # psi at x = 1
+    bends: Double  # -chi'(x)/x at the nodes and at x = 1
+
+
+def plate(h: float, b: float) -> Plate:
+    """What a plate's contacts have in common.
+
+    Parameters
+    ----------
+    h : float
+        half the plate's thickness [m]; h > 0
+    b : float
+        plate radius [m]; b > 0, 1e-90 <= h/b <= 1e90
+
+    Returns
+    -------
+    Plate
+        For `contact`. Outside the domain its numbers are NaN.
+    """
+    _, [height, radius] = as_doubles(h, b)
+    h, b = float(height), float(radius)
+    if not (h > 0 and b > 0 and THINNEST <= h / b <= THICKEST):
+        none = np.zeros(0)
+        return Plate(np.nan, np.nan, np.nan, np.nan, np.nan, none, none, none, none)
+    eta = h / b
+    first = FIRST * float(plates_of(np.array([eta])).first.coefficients[0, 0])
+    if eta * THIN < 1.0:
+        _, cubic = _bending(np.array(1.0 / eta))
+        # k h = 3/2 c_1 + 15/2 c_3 A^2 + the integral of cos - 1 + (A T/2)^2/2.
+        square = CUBIC * float(cubic) + SQUARE
+        none = np.zeros(0)
+        return Plate(h, b, h, first, square, WAVES, WAVE_WEIGHTS, none, none)
+    count = int(FADED / (2.0 * np.pi * eta)) + 2
+    zeros, weights = _weights(np.asarray(eta), count)
+    modes = MODES * weights
+    return Plate(h, b, b, first / eta, 0.0, zeros, modes, WALL, WALL_WEIGHTS)
+
+
+@quiet
+def contact(
+    plate: Plate,
+    a: ArrayLike,
+    R: ArrayLike,
+    modulus: ArrayLike,
+    plate_modulus: ArrayLike | None = None,
+    *,
+    sphere: bool = False,
+    compliance: ArrayLike = 0.0,
+) -> Contact:
+    """Force, indentation, stiffness and pressure at given contact radii.
+
+    Formula::
+
+        (I + N) psi = 1,  (I + N) omega = f,  chi = (E*/pi) (delta psi - omega)
+        dP/d delta = 2 E* int_0^a psi dt,  U = pi int_0^a chi (delta - f) dt
+
+    Parameters
+    ----------
+    plate : Plate
+        of `plate`
+    a : array_like
+        contact radius [m]; 0 < a <= 0.95 b, a <= 7 h, a < R
+    R : array_like
+        sphere radius [m]; R > 0
+    modulus : array_like
+        E* of the contact [Pa], 1/E* summed over sphere and plate; > 0
+    plate_modulus : array_like, optional
+        E* of the plate alone [Pa], that of the contact if the sphere is rigid; >= modulus
+    sphere : bool
+        whether the profile is that of an exact sphere rather than its paraboloid; its half-space
+        is Sneddon's: delta = (a/2) ln((R+a)/(R-a)), P = E* [(a^2+R^2)/2 ln((R+a)/(R-a)) - a R]
+    compliance : array_like
+        what the support adds to the indentation per force [m/N]; negative if it is stiffer
+
+    Returns
+    -------
+    Contact
+        Its arrays have the arguments' broadcast shape. NaN outside the domain, and where the
+        contact would open at its centre, near a = 6 h in a thin plate.
+
+    Notes
+    -----
+    Relative errors are below `pressure_numbers.ERROR`, measured against an oracle from h/b = 1e-4
+    to 1e5: 1e-15 up to a = h, 7e-14 near a = 6 h, where next to nothing of the pressure is left
+    at the centre.
+    """
+    own = modulus if plate_modulus is None else plate_modulus
+    _, given = as_doubles(a, R, modulus, own, compliance)
+    a, R, modulus, own, compliance = (np.array(x) for x in np.broadcast_arrays(*given))
+    holds = (a > 0, a <= WIDEST_SHARE * plate.b, a <= WIDEST * plate.h, a < R)
+    elastic = (modulus > 0, own >= modulus, ~np.isnan(compliance))
+    a, R, modulus, own = inside([a, R, modulus, own], *holds, *elastic)
+    shape = a.shape
+    flat = [np.ravel(x) for x in (a, R, modulus / own)]
+    sizes: tuple[tuple[int, ...], ...] = ((NODES.size,), (), (), (), (), (), (_POINTS.size,))
+    inner = [np.empty((flat[0].size, *size)) for size in sizes]
+    for start in range(0, flat[0].size, _BLOCK):
+        part = slice(start, start + _BLOCK)
+        solution = _solve(plate, flat[0][part], flat[1][part], flat[2][part], sphere)
+        for values, found in zip(inner, solution, strict=True):
+            values[part] = found
+    solved = _Solution(*(x.reshape((*shape, *x.shape[1:])) for x in inner))
+    return _contact(plate, solved, (a, R, modulus, own, compliance))
+
+
+def _contact(plate: Plate, found: _Solution, given: tuple[Double, ...]) -> Contact:
+    """From units of the half-space to those of the arguments."""
+    a, R, modulus, own, compliance = given
+    centre = found.bends[..., :-1] @ WEIGHTS
+    edge, bend = found.edge, found.bends[..., -1]
+    values = kernels.contact_results(
+        a, R, modulus, own, compliance, np.asarray(plate.first), np.asarray(plate.unit),
+        found.force, found.depth, found.work, found.flat, edge, bend, centre,
+    )  # fmt: skip
+    chi = found.chi * kernels.chi_unit(a, R, modulus)[..., None]
+    closed = values[5] > 0
+    arrays = [np.where(closed, x, np.nan) for x in (a, *values)]
+    nodes = a[..., None] * NODES
+    wide = [np.where(closed[..., None], x, np.nan) for x in (nodes, chi)]
+    return Contact(*arrays, *wide)
+
+
+def _waves(plate: Plate, a: Double, x: Double, share: Double) -> _Waves:
+    """At points x = t/a of shape (contacts, points)."""
+    ratio = (a / plate.unit)[:, None]
+    points, phase, rise = x[:, :, None], ratio * plate.waves, ratio * plate.rises
+    waves = kernels.wave(points, phase[:, None, :])
+    walls = kernels.wall_wave(points, rise[:, None, :], plate.rises)
+    rises, bends = (np.concatenate(pair, axis=2) for pair in zip(waves, walls, strict=True))
+    faded = np.concatenate((np.ones(plate.waves.size), np.exp(-plate.rises)))
+    weights = np.concatenate((ratio * plate.wave_weights, -ratio * plate.rise_weights), axis=1)
+    return _Waves(rises, bends, weights * share[:, None], faded)
+
+
+def _solve(plate: Plate, a: Double, R: Double, share: Double, sphere: bool) -> _Solution:
+    """chi at the nodes by Nystroem's method; `share` is E* of the contact over the plate's."""
+    x = np.broadcast_to(_POINTS, (a.size, _POINTS.size))
+    waves = _waves(plate, a, x, share)
+    square = plate.square * (a / plate.unit) ** 3 * share
+    weighted = waves.rises * waves.weights[:, None, :]
+    alone = weighted @ waves.faded - square[:, None] * x**2
+    kernel = weighted @ np.swapaxes(waves.rises[:, :-1], 1, 2)
+    kernel -= alone[:, :, None] + alone[:, None, :-1]
+    kernel = np.where(np.isfinite(kernel), kernel, 0.0)
+    system = np.eye(NODES.size) + kernel[:, :-1] * WEIGHTS
+    profile, bend = _profile(x, (a / R)[:, None], sphere)
+    sides = np.stack((np.ones_like(profile), profile), axis=2)
+    inner = np.linalg.solve(system, sides[:, :-1])
+    ends = sides[:, -1] - (kernel[:, -1:] * WEIGHTS @ inner)[:, 0]
+    psi, omega = inner[:, :, 0], inner[:, :, 1]
+    depth = ends[:, 1] / ends[:, 0]
+    chi = depth[:, None] * psi - omega
+    force = chi @ WEIGHTS
+    work = (chi * (depth[:, None] - profile[:, :-1])) @ WEIGHTS
+    bends = bend - _bends(waves, _transform(waves, chi)) + 2.0 * (square * force)[:, None]
+    return _Solution(chi, force, depth, work, psi @ WEIGHTS, ends[:, 0], bends)
+
+
+def _profile(x: Double, c: Double, sphere: bool) -> tuple[Double, Double]:
+    """f R/a^2 and its slope by x over x, c = a/R."""
+    if sphere:
+        return kernels.sphere(x, c)
+    return kernels.paraboloid(x, np.ones_like(x * c))
+
+
+def _transform(waves: _Waves, chi: Double) -> Double:
+    """int_0^1 chi cos(w a x) dx, scaled as the waves are."""
+    weighted = (chi * WEIGHTS)[:, None, :]
+    near = waves.rises[:, : NODES.size]
+    whole: Double = weighted.sum(axis=2) * waves.faded - (weighted @ near)[:, 0]
+    return whole
+
+
+def _bends(waves: _Waves, transform: Double) -> Double:
+    """What the waves take off -chi'(x)/x."""
+    return np.asarray(waves.bends @ (waves.weights * transform)[:, :, None])[:, :, 0]
+
+
+@quiet
+def pressure(
+    r: ArrayLike,
+    plate: Plate,
+    a: float,
+    R: float,
+    modulus: float,
+    plate_modulus: float | None = None,
+    *,
+    sphere: bool = False,
+) -> np.ndarray:
+    """Contact pressure q(r) = -sigma_zz >= 0 of one contact.
+
+    Formula::
+
+        q(r) = sqrt(a^2 - r^2) int_0^1 -chi'(t)/t du,  t = sqrt(r^2 + (a^2 - r^2) u^2)
+
+    Parameters
+    ----------
+    r : array_like
+        distance from the axis [m]; 0 <= r <= a
+    plate, a, R, modulus, plate_modulus, sphere
+        as for `contact`, one of each
+
+    Returns
+    -------
+    float or ndarray
+        Pressure [Pa] in the shape of r; NaN outside the domain, and everywhere if the contact
+        would open.
+    """
+    whole = contact(plate, a, R, modulus, plate_modulus, sphere=sphere)
+    _, [r] = as_doubles(r)
+    [r] = inside([r], r >= 0, r <= float(whole.a))
+    if not whole.force > 0:
+        return np.full(r.shape, np.nan)[()]
+    own = modulus if plate_modulus is None else plate_modulus
+    radius, share = np.array([float(a)]), np.array([float(modulus) / float(own)])
+    points = np.broadcast_to(_POINTS, (1, _POINTS.size))
+    solution = _solve(plate, radius, np.array([float(R)]), share, sphere)
+    transform = _transform(_waves(plate, radius, points, share), solution.chi)
+    square = 2.0 * plate.square * (radius / plate.unit) ** 3 * share * solution.force
+    ratio = np.ravel(r) / float(a)
+    result = np.empty(ratio.size)
+    for start in range(0, ratio.size, _BLOCK):
+        part = slice(start, start + _BLOCK)
+        x, front = kernels.pressure_points(ratio[part, None], NODES)
+        waves = _waves(plate, radius, x.reshape(1, -1), share)
+        _, bend = _profile(x, np.asarray(a / R), sphere)
+        bends = bend - _bends(waves, transform).reshape(x.shape) + square
+        result[part] = front[:, 0] * (bends @ WEIGHTS)
+    return (kernels.pressure_unit(*map(np.asarray, (a, R, modulus))) * result.reshape(r.shape))[()]

@@ -1,0 +1,103 @@
+"""What a solution of the contact's integral equation gives, in units of the half-space.
+
+With x = t/a, chi = (E*/pi) (a^2/R) c(x) and f = (a^2/R) g(x). The constant N_0 of the kernel is a
+compliance in series with the rest, and so is that of the support: both are left out of the
+equation that c, and psi of the flat punch, solve. chi is elastic energy: I + N being symmetric,
+dU/da = P d delta/da for U = pi int chi (delta - f) dt.
+"""
+
+from functools import cache
+from typing import NamedTuple
+
+import sympy as sp
+
+from derivation.engine.formula.proof import Proof, prove
+from derivation.plate.vocabulary import R, a, r
+
+E, N_0, support = sp.symbols("E N_0 support", positive=True)
+force, depth, work, flat = sp.symbols("force depth work flat", positive=True)
+edge, bend, centre = sp.symbols("edge bend centre", positive=True)
+"""int c, delta R/a^2, int c (depth - g), int psi, psi(1), -c'(1), int -c'/x."""
+_t, _u, _x = sp.symbols("t u x", positive=True)
+_c, _g = sp.Function("c"), sp.Function("g")
+
+
+class Results(NamedTuple):
+    """Quantities of the contact, the unit of chi, and the proof that the solution gives these."""
+
+    force: sp.Expr
+    indentation: sp.Expr
+    stiffness: sp.Expr
+    slope: sp.Expr
+    energy: sp.Expr
+    centre_pressure: sp.Expr
+    mean_pressure: sp.Expr
+    chi: sp.Expr
+    proof: Proof
+
+
+@cache
+def results() -> Results:
+    """All of them by the numbers of the solution."""
+    series = a * N_0 + 2 * E * a * support
+    load = 2 * E * a**3 / R * force
+    found = (
+        load,
+        a**2 / R * (depth + series * force),
+        2 * E * a / (1 / flat + series),
+        a / R * bend / edge * (1 + flat * series),
+        E * a**5 / R**2 * (work + series * force**2),
+        E * a / (sp.pi * R) * centre,
+        load / (sp.pi * a**2),
+    )
+    return Results(*found, unit := E * a**2 / (sp.pi * R), _proof(*found, unit))
+
+
+def _proof(
+    load: sp.Expr, indentation: sp.Expr, stiffness: sp.Expr, slope: sp.Expr, energy: sp.Expr,
+    peak: sp.Expr, mean: sp.Expr, unit: sp.Expr,
+) -> Proof:  # fmt: skip
+    chi = unit * _c(_t / a)
+    # int psi of the whole kernel, and psi at the end, by the remainder's.
+    whole = a * flat / (1 + N_0 * a * flat)
+    last = edge * (1 - N_0 * whole)
+    end = sp.diff(chi, _t).subs(_t, a * _x).doit().subs({sp.diff(_c(_x), _x): -bend, _x: 1})
+    moved = -end / (E / sp.pi * last)
+    stored = sp.pi * chi * (a**2 / R * (depth - _g(_t / a)))
+    squares = (N_0 / (2 * E) + support) * load**2 / 2
+    return prove(
+        "Results of the contact's integral equation",
+        "Integrals over t are put in x = t/a; chi(a) = 0 is differentiated; compliances are added.",
+        {
+            "force": over_x(2 * sp.pi * chi) - load / force * _c(_x),
+            "indentation": a**2 / R * depth + (N_0 / (2 * E) + support) * load - indentation,
+            "stiffness": 1 / (2 * E * whole) + support - 1 / stiffness,
+            "slope": moved * (1 + support * 2 * E * whole) - slope,
+            "energy": over_x(stored) / (_c(_x) * (depth - _g(_x))) * work + squares - energy,
+            "centre": over_x(-sp.diff(chi, _t) / _t) * _x + peak / centre * sp.diff(_c(_x), _x),
+            "mean": mean * sp.pi * a**2 - load,
+        },
+    )
+
+
+def over_x(integrand: sp.Expr) -> sp.Expr:
+    """What is integrated over x from 0 to 1 instead of over t from 0 to a."""
+    return (a * integrand.subs(_t, a * _x)).doit()
+
+
+@cache
+def substitution() -> tuple[sp.Expr, sp.Expr, Proof]:
+    """t by u, and what is in front of the pressure's integral of -chi'/t over u."""
+    t = sp.sqrt(r**2 + (a**2 - r**2) * _u**2)
+    front = sp.sqrt(a**2 - r**2)
+    proof = prove(
+        "Points of the pressure's integral",
+        "q = -int_r^a chi'/sqrt(t^2 - r^2) dt, and dt/sqrt(t^2 - r^2) is the front times du/t.",
+        {
+            "measure": (sp.diff(t, _u) * t / (front * _u)) - front,
+            "root": t**2 - r**2 - (front * _u) ** 2,
+            "start": t.subs(_u, 0) - r,
+            "end": t.subs(_u, 1) - a,
+        },
+    )
+    return t, front, proof

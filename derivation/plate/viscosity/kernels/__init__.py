@@ -1,0 +1,40 @@
+"""What the viscosity hands in for the generated package."""
+
+from pathlib import Path
+
+import flint
+
+from derivation.engine.emit.package import Numbers, Routines
+from derivation.engine.emit.tables import Constant
+from derivation.mathematics.bessel.kernels import nearest_double
+from derivation.plate.contact.kernels.moments import BITS
+from derivation.plate.modules import ComputedModule, RuntimeModule
+from derivation.plate.viscosity.kernels.printed import ROUTINES
+from derivation.plate.viscosity.theory.contact import loss_ball
+
+RUNTIME = Path(__file__).parents[1] / "runtime"
+
+
+def viscosity_numbers() -> Numbers:
+    """The first coefficient of the restitution."""
+    with flint.ctx.workprec(BITS):
+        loss = nearest_double(loss_ball(40))
+    constant = Constant("LOSS", loss, "(4/5)^(2/5) B(3/5, 3/2), of the restitution.")
+    return Numbers("viscosity_numbers", "Number of the viscous contact.", (constant,))
+
+
+def viscosity_kernels() -> Routines:
+    """The viscous contact's formulas, printed."""
+    imports = {
+        "ranges": ("moderate", "product", "root_factors"),
+        "viscosity_numbers": ("LOSS",),
+    }
+    title = "Formulas of the viscous contact, proved equal to what the theory derives."
+    return Routines("viscosity_kernels", title, tuple(make() for make in ROUTINES), imports)
+
+
+MODULES = (
+    ComputedModule("viscosity_numbers", viscosity_numbers),
+    ComputedModule("viscosity_kernels", viscosity_kernels),
+    RuntimeModule("viscosity", RUNTIME / "viscosity.py"),
+)

@@ -1,0 +1,99 @@
+"""The viscous contact's formulas as code computes them, each proved to be one of its link."""
+
+import sympy as sp
+from sympy.codegen.cfunctions import expm1, log1p
+
+from derivation.engine.emit.routine import Let, Routine, routine
+from derivation.plate.factors import MODERATE, PRODUCT, YOUNG, multiplied, root
+from derivation.plate.viscosity.theory import bounds as theory
+from derivation.plate.viscosity.theory.contact import C_1, epsilon
+from derivation.plate.viscosity.theory.contact import viscous_number as number
+from derivation.plate.viscosity.theory.contact import weak_restitution as restitution
+from derivation.plate.vocabulary import R, lam, m, mu, v0, viscous_time, x_v
+
+LOSS = sp.Symbol("LOSS", positive=True)
+gone = sp.Symbol("gone", positive=True)
+STIFFNESS = sp.Rational(16, 3), *YOUNG[1:]
+"""(4/3) E* as factors."""
+
+
+def viscous_number() -> Routine:
+    """What a viscous contact takes of the speed, to leading order."""
+    rate = root("rate", 5, (*STIFFNESS, *STIFFNESS, R, v0), m, m)
+    return routine(
+        "viscous_number_of_factors",
+        (R, m, v0, lam, mu, viscous_time),
+        (*MODERATE, rate),
+        (PRODUCT(sp.Tuple(sp.Float(1.5), viscous_time, *rate.symbols)),),
+        (number().expression,),
+        "Viscous number.",
+        {},
+        lambda e: sp.nsimplify(multiplied(e)),
+    )
+
+
+def weak_restitution() -> Routine:
+    """Restitution of a weakly viscous contact."""
+    first = sp.Symbol("first", positive=True)
+    return routine(
+        "restitution_of_number",
+        (x_v,),
+        (Let(first, LOSS * x_v),),
+        (1 + first * (sp.Rational(3, 5) * first - 1),),
+        (restitution().expression,),
+        "Restitution of a weakly viscous contact, to second order.",
+        {LOSS: C_1},
+        sp.expand,
+    )
+
+
+def _by_logarithms(expression: sp.Expr) -> sp.Expr:
+    found = expression.replace(expm1, lambda x: sp.exp(x) - 1)
+    found = found.replace(log1p, lambda x: sp.log(1 + x))
+    return sp.simplify(sp.expand_log(found.replace(sp.log, lambda x: sp.log(sp.factor(x)))))
+
+
+def spiral_bounds() -> Routine:
+    """What holds along the spiral."""
+    quarter, loss, pull = sp.symbols("quarter loss pull", positive=True)
+    of, t = theory.bounds(), theory
+    return routine(
+        "spiral_bounds",
+        (epsilon, t.steepness, t.fall, t.rise, t.depth, t.radius, t.energy),
+        (
+            Let(quarter, sp.pi / 4 * epsilon),
+            Let(loss, 2 * quarter / (1 - epsilon / 2)),
+            Let(pull, log1p(epsilon * epsilon) / 2),
+        ),
+        (
+            t.rise * loss - log1p(-epsilon / 2),
+            t.fall * loss + log1p(epsilon / 2) - log1p(-t.steepness * epsilon / 2),
+            t.depth * quarter,
+            t.radius * quarter,
+            pull,
+            (1 + t.rise) * quarter,
+            -expm1(-2 * (loss + pull)) * t.energy,
+        ),
+        (of.longer, of.shorter, of.depth, of.radius, of.pull, of.weaker, of.gone),
+        "Logarithms of time, depth, radius and force, and the share of energy that may be lost.",
+        {},
+        _by_logarithms,
+    )
+
+
+def rebound_bounds() -> Routine:
+    """What holds of the end, from what is lost on the way."""
+    of, t = theory.bounds(), theory
+    return routine(
+        "rebound_bounds",
+        (gone, epsilon, t.steepness, t.energy),
+        (),
+        (-log1p(-gone) / 2, log1p((t.energy - 1) * t.steepness * epsilon) / 2),
+        (of.slower, of.faster),
+        "Logarithms of the restitution: by the energy lost, and by what the weight gives.",
+        {gone: of.gone},
+        _by_logarithms,
+    )
+
+
+ROUTINES = viscous_number, weak_restitution, spiral_bounds, rebound_bounds

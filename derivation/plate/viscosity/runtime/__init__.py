@@ -1,0 +1,1 @@
+"""The viscous contact in NumPy, copied into the generated package."""

@@ -1,0 +1,138 @@
+"""A viscous contact, P = P_e + A_v dP_e/dt: what it takes of the speed, and what it can change.
+
+Arithmetic: the restitution's bound widens that of the time.
+"""
+
+from math import inf
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from generated import viscosity_kernels as kernels
+from generated.arrays import as_doubles, as_result, in_manifest, inside, quiet
+
+
+class Course(NamedTuple):
+    """What a contact law without viscosity says of an impact, each at its largest on the way.
+
+    With z, P and U its indentation, force and energy, s = sqrt(2 U/m) and Omega = P/(m s):
+
+    Attributes
+    ----------
+    epsilon
+        A_v (dP/dz) s/P [1].
+    steepness
+        d log P/d log z over its value at the turning point [1].
+    fall, rise
+        d log Omega/d log s is between -fall and rise [1].
+    depth, radius
+        d log z/d log s, and the same of the contact radius [1].
+    energy
+        U over the energy that the sphere brings, 1 without weight [1].
+    """
+
+    epsilon: float
+    steepness: float
+    fall: float
+    rise: float
+    depth: float
+    radius: float
+    energy: float = 1.0
+
+
+@in_manifest("x", domain="R > 0, m > 0, v0 > 0, 3 * lam > -2 * mu, mu > 0, viscous_time > 0")
+@quiet
+def viscous_number(
+    R: ArrayLike,
+    m: ArrayLike,
+    v0: ArrayLike,
+    lam: ArrayLike,
+    mu: ArrayLike,
+    viscous_time: ArrayLike,
+) -> np.ndarray:
+    """Viscous number: what a viscous contact takes of the speed, to leading order.
+
+    Formula (Kuwabara and Kono, 1987; Schwager and Poeschel, 1998)::
+
+        x_v = (3/2) A_v (K/m)^(2/5) v0^(1/5),   K = (4/3) E* sqrt(R)
+
+    Parameters
+    ----------
+    R : array_like
+        sphere radius [m]; R > 0
+    m : array_like
+        sphere mass [kg]; m > 0
+    v0 : array_like
+        speed of approach [m/s]; v0 > 0
+    lam, mu : array_like
+        Lame constants of the plate [Pa]; mu > 0, 3 lam > -2 mu
+    viscous_time : array_like
+        retardation time of the viscoelastic contact [s]; viscous_time > 0
+
+    Returns
+    -------
+    float or ndarray
+        The number [1] in the arguments' broadcast shape; NaN outside the domain.
+    """
+    kind, [R, m, v0, lam, mu, viscous_time] = as_doubles(R, m, v0, lam, mu, viscous_time)
+    [R, m, v0] = inside([R, m, v0], R > 0, m > 0, v0 > 0)
+    [lam, mu, viscous_time] = inside(
+        [lam, mu, viscous_time], mu > 0, 3 * lam > -2 * mu, viscous_time > 0
+    )
+    return as_result(kernels.viscous_number_of_factors(R, m, v0, lam, mu, viscous_time), kind)
+
+
+@in_manifest("e", domain="x_v >= 0")
+@quiet
+def restitution_weak(x_v: ArrayLike) -> np.ndarray:
+    """Restitution of a weakly viscous contact, to second order.
+
+    Formula (Schwager and Poeschel, 1998; Ramirez et al., 1999)::
+
+        e = 1 - C_1 x_v + (3/5) C_1^2 x_v^2,   C_1 = (4/5)^(2/5) B(3/5, 3/2) = 1.1534
+
+    Parameters
+    ----------
+    x_v : array_like
+        viscous number x_v [1]; x_v >= 0
+
+    Returns
+    -------
+    float or ndarray
+        The coefficient of restitution [1], in the argument's shape; NaN outside the domain. What
+        follows is of order x^(5/2).
+    """
+    kind, [x_v] = as_doubles(x_v)
+    [x_v] = inside([x_v], x_v >= 0)
+    return as_result(kernels.restitution_of_number(x_v), kind)
+
+
+def viscous_logarithms(course: Course) -> tuple[float, float, float, float, float]:
+    """By what factors viscosity can change an impact at most.
+
+    Parameters
+    ----------
+    course
+        The impact without viscosity.
+
+    Returns
+    -------
+    tuple of float
+        The factors' logarithms, not negative [1]: of contact time, largest indentation, force
+        and contact radius, and of the restitution; inf where nothing is shown: for epsilon >= 1,
+        or if the weight may keep the sphere.
+    """
+    epsilon, steepness, fall, rise, depth, radius, energy = map(np.asarray, course)
+    if not (epsilon < 1.0 and steepness * epsilon < 2.0):
+        return inf, inf, inf, inf, inf
+    along = kernels.spiral_bounds(epsilon, steepness, fall, rise, depth, radius, energy)
+    *_, gone = along
+    if not gone < 1.0:
+        return inf, inf, inf, inf, inf  # the weight may keep the sphere
+    longer, shorter, shallower, narrower, pull, weaker, _ = map(float, along)
+    leaving = float(max(kernels.rebound_bounds(gone, epsilon, steepness, energy)))
+    time = max(longer, shorter)
+    if energy > 1.0:  # a slower sphere takes longer to rise against its weight
+        time += leaving
+    return time, shallower, max(pull, weaker), narrower, leaving

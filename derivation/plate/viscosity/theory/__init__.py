@@ -1,0 +1,1 @@
+"""Formulas, derived and proved: the viscous contact."""

@@ -1,0 +1,146 @@
+"""Link 24: a viscous contact, and how much of the speed it takes.
+
+Kuwabara and Kono (1987), Brilliantov et al. (1996): the indentation of the half-space lags the
+force, P = P_e + A_v dP_e/dt, A_v a retardation time, and the contact ends with P = 0, for it
+cannot pull. With the elastic energy U, s = sqrt(2 U/m), v = dz/dt, Omega = P_e/(m s) and
+epsilon(s) = A_v P_e'(z) s/P_e,
+
+    s = rho sin(phi),  v = rho cos(phi):   rho' = -epsilon Omega rho cos^2(phi),
+                                           phi' = Omega (1 + epsilon sin(phi) cos(phi)),
+                                           P = m Omega rho (sin(phi) + epsilon cos(phi)).
+
+The impact runs from phi = 0 over the turning point phi = pi/2 to tan(phi) = -epsilon. What it
+can change at most is in `bounds`.
+"""
+
+from functools import cache
+
+import flint
+import sympy as sp
+
+from derivation.engine.formula.ball import refine
+from derivation.engine.formula.proof import Proof, prove
+from derivation.plate.modes.theory.influence import PLANE_STRAIN_MODULUS
+from derivation.plate.vocabulary import Formula, R, m, v0, viscous_time, x_v
+
+_FIFTH = sp.Rational(1, 5)
+epsilon, phi = sp.symbols("epsilon phi", positive=True)
+_s, _v, _Omega, _rho = sp.symbols("s v Omega rho", positive=True)
+_K, _z = sp.symbols("K z", positive=True)
+
+
+def spiral() -> tuple[sp.Expr, sp.Expr, sp.Expr]:
+    """rho'/(Omega rho), phi'/Omega and P/(m Omega rho), in epsilon and phi."""
+    turning = 1 + epsilon * sp.sin(phi) * sp.cos(phi)
+    return -epsilon * sp.cos(phi) ** 2, turning, sp.sin(phi) + epsilon * sp.cos(phi)
+
+
+@cache
+def polar() -> Proof:
+    """The motion in the plane of s and v, in polar coordinates."""
+    # m s s' = P_e v, and m v' = -(P_e + A P_e' v) with A P_e' = epsilon P_e/s.
+    rate_s = _Omega * _v
+    rate_v = -_Omega * _s - epsilon * _Omega * _v
+    there = {_s: _rho * sp.sin(phi), _v: _rho * sp.cos(phi)}
+
+    def on_circle(x: sp.Expr) -> sp.Expr:
+        return sp.expand(sp.expand(x.subs(there)).subs(sp.sin(phi) ** 2, 1 - sp.cos(phi) ** 2))
+
+    radial, turning, force = spiral()
+    return prove(
+        "Viscous contact in polar coordinates",
+        "s' = Omega v and v' = -Omega (s + epsilon v) with s = rho sin phi, v = rho cos phi.",
+        {
+            "radius": on_circle((_s * rate_s + _v * rate_v) / _rho**2 - _Omega * radial),
+            "angle": on_circle((_v * rate_s - _s * rate_v) / _rho**2 - _Omega * turning),
+            "force": on_circle(-rate_v - _Omega * _rho * force),
+        },
+    )
+
+
+@cache
+def viscous_number() -> Formula:
+    """x, on which Hertz's impact depends alone: epsilon = (4/5)^(2/5) x at the turning point."""
+    polar()
+    # Hertz: P = K z^(3/2), U = (2/5) K z^(5/2).
+    speed = sp.sqrt(sp.Rational(4, 5) * _K * _z ** sp.Rational(5, 2) / m)
+    force = _K * _z ** sp.Rational(3, 2)
+    ratio = sp.powsimp(sp.diff(force, _z) * viscous_time * speed / force)
+    deepest = (sp.Rational(5, 4) * m * v0**2 / _K) ** sp.Rational(2, 5)
+    number = sp.Rational(3, 2) * viscous_time * (_K / m) ** sp.Rational(2, 5) * v0**_FIFTH
+    rise = sp.powsimp(ratio / speed**_FIFTH)
+
+    def plain(x: sp.Expr) -> sp.Expr:
+        return sp.powsimp(sp.expand_power_base(sp.powdenest(x, force=True), force=True))
+
+    proof = prove(
+        "Viscous number",
+        r"$\varepsilon$ of Hertz's law goes with $s^{1/5}$; at the turning point $s = v_0$.",
+        {
+            "rise": sp.diff(plain(rise), _z),
+            "turning point": plain(ratio.subs(_z, deepest))
+            / plain(sp.Rational(4, 5) ** sp.Rational(2, 5) * number)
+            - 1,
+        },
+    )
+    hertz = sp.Rational(4, 3) * PLANE_STRAIN_MODULUS
+    rate = hertz ** sp.Rational(2, 5) * (R * v0 / m**2) ** _FIFTH
+    return Formula(
+        "viscous_number",
+        "x_v",
+        "viscous number: what a viscous contact takes of the speed, to leading order",
+        sp.Rational(3, 2) * viscous_time * rate,
+        "1",
+        "",
+        ("C_half",),
+        proof,
+    )
+
+
+C_1 = sp.Rational(4, 5) ** sp.Rational(2, 5) * sp.beta(sp.Rational(3, 5), sp.Rational(3, 2))
+"""First coefficient of the restitution: (4/5)^(2/5) B(3/5, 3/2)."""
+
+
+@cache
+def weak_restitution() -> Formula:
+    """e to second order in x; the third term is of order x^(5/2), by the early end.
+
+    To first order -log e = int_0^pi epsilon cos^2 phi dphi with epsilon ~ sin^(1/5) phi. Run
+    backwards in time an impact at e v0 with -A_v ends at v0: e(x) e(-x e^(1/5)) = 1.
+    """
+    viscous_number()
+    c_1, c_2, x = sp.symbols("c_1 c_2 x", positive=True)
+    back = 1 + c_1 * x * (1 - c_1 * x) ** _FIFTH + c_2 * x**2
+    product = sp.series((1 - c_1 * x + c_2 * x**2) * back, x, 0, 3).removeO()
+    share = phi**_FIFTH * sp.sqrt(1 - phi**2)  # phi -> arcsin, both halves: twice
+    loss = 2 * sp.hyperexpand(sp.integrate(share, (phi, 0, 1)))
+    loss *= sp.Rational(4, 5) ** sp.Rational(2, 5)
+    proof = prove(
+        "Weakly viscous restitution",
+        "The loss along the elastic motion; the second term from the motion run backwards.",
+        {
+            "first": sp.gammasimp((loss - C_1).rewrite(sp.gamma)),
+            "second": product.coeff(x, 2).subs(c_2, sp.Rational(3, 5) * c_1**2),
+        },
+    )
+    return Formula(
+        "restitution_weak",
+        "e",
+        "restitution of a weakly viscous contact, to second order",
+        1 - C_1 * x_v + sp.Rational(3, 5) * C_1**2 * x_v**2,
+        "1",
+        "",
+        ("viscous_number",),
+        proof,
+    )
+
+
+def loss_ball(digits: int = 20) -> flint.arb:
+    """C_1 as a ball."""
+
+    def compute() -> flint.arb:
+        two, three = flint.arb(3) / 5, flint.arb(3) / 2
+        beta = two.gamma() * three.gamma() / (two + three).gamma()
+        return (flint.arb(4) / 5) ** (flint.arb(2) / 5) * beta
+
+    return refine(compute, digits, "the restitution's first coefficient")

@@ -1,0 +1,12 @@
+"""Where the law holds."""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from derivation.scene.runtime.data import MAX_INDENTATION
+
+
+def _inside(delta: ArrayLike) -> np.ndarray:
+    """Indentations from 0 on, NaN beyond the law."""
+    delta = np.maximum(np.asarray(delta, dtype=np.float64), 0.0)
+    return np.where(delta <= MAX_INDENTATION, delta, np.nan)

@@ -1,0 +1,16 @@
+"""Stiffness of the contact law."""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from derivation.scene.runtime.data import MAX_INDENTATION
+from derivation.scene.runtime.domain import _inside
+from derivation.scene.runtime.hertz_law import _law, contact_radius
+
+
+def stiffness(delta: ArrayLike) -> np.ndarray:
+    """Slope of the elastic force [N/m] at indentations [m]; 0 and NaN where the force is."""
+    delta = _inside(delta)
+    touching = np.where(delta > 0, delta, MAX_INDENTATION)
+    _, _, force_a, delta_a = _law(contact_radius(touching))
+    return np.where(delta > 0, force_a / delta_a, delta)[()]

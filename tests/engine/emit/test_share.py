@@ -1,0 +1,55 @@
+"""What is counted as arithmetic, and which of it counts as printed."""
+
+import pytest
+
+from derivation.engine.emit.share import (
+    expect_growth,
+    expect_reason,
+    operations,
+    printed_share,
+    shares,
+)
+from derivation.plate.budgets import read_printed_share
+from derivation.plate.paper import PAPER
+
+BY_HAND = '''"""A sum.
+
+Arithmetic: one product
+and one sum.
+
+More.
+"""
+
+def f(x):
+    return 2 * x + 1
+'''
+
+
+def test_operations_are_counted() -> None:
+    assert operations("y = -a * b + np.exp(c)\ny += 2\nz: int | None = -1\n") == 5
+    assert operations("third = -1 / 3\n") == 0, "a number"
+
+
+def test_what_is_written_by_hand_says_so() -> None:
+    found = shares({"by_hand": BY_HAND, "printed": "y = a * b\n", "none": "y = 1\n"})
+    assert [(part.module, part.operations, part.printed) for part in found] == [
+        ("by_hand", 2, False), ("printed", 1, True),
+    ]  # fmt: skip
+    assert found[0].reason == "one product and one sum."
+    assert printed_share(found) == 1 / 3
+    expect_growth(found, 1 / 3)
+    with pytest.raises(ValueError, match=r"at least 40\.0 % .*, got 33\.3 %"):
+        expect_growth(found, 0.4)
+
+
+def test_a_module_with_arithmetic_gives_a_reason() -> None:
+    expect_reason("sums", BY_HAND)
+    expect_reason("names", '"""No arithmetic."""\n')
+    with pytest.raises(ValueError, match=r"sums: expected a paragraph .* 'Arithmetic:'"):
+        expect_reason("sums", BY_HAND.replace("Arithmetic", "Sums"))
+
+
+def test_the_committed_share_is_that_of_the_package() -> None:
+    files = PAPER.package_folder.glob("*.py")
+    share = printed_share(shares({path.stem: path.read_text() for path in files}))
+    assert read_printed_share() <= share < read_printed_share() + 0.01, "raise the committed share"

@@ -8,6 +8,7 @@ from typing import NamedTuple
 from derivation.engine.emit.copies import NO_NOTES
 from derivation.engine.emit.package import Numbers, Routines, Shape
 from derivation.mathematics.bessel.kernels import RUNTIME, bessel_numbers
+from derivation.mathematics.bessel.routines import bessel_kernels
 from derivation.plate.subjects import handed_in
 
 
@@ -88,6 +89,7 @@ def printed_modules() -> tuple[PrintedModule, ...]:
 
 MATHEMATICS: tuple[SubjectModule, ...] = (
     ComputedModule("bessel_numbers", bessel_numbers),
+    ComputedModule("bessel_kernels", bessel_kernels),
     RuntimeModule("bessel", RUNTIME / "bessel.py"),
 )
 """Modules of what papers share."""

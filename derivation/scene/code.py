@@ -16,7 +16,7 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.polynomial.chebyshev import cheb2poly, chebfit
+from numpy.polynomial.chebyshev import cheb2poly
 
 from derivation.scene import method_selection
 from derivation.scene.compose import WIDTH, summary
@@ -236,14 +236,20 @@ def end_of(law: ContactLaw, a: float) -> float:
 
 def tabulated(law: ContactLaw, last: float) -> PanelTable:
     """Polynomials of the law on panels up to a contact radius [m]."""
-    nodes = -np.cos(np.pi * (np.arange(COEFFICIENTS) + 0.5) / COEFFICIENTS)
+    odd, step = np.arange(2 * COEFFICIENTS - 1, 0, -2), np.pi / (2 * COEFFICIENTS)
+    nodes = np.cos(step * odd)
+    # The polynomials are orthogonal over their nodes. Sums, unlike products of matrices, are the
+    # same to the last bit whatever library does linear algebra. Whole turns are left out.
+    turned = np.outer(np.arange(COEFFICIENTS), odd) % (4 * COEFFICIENTS)
+    basis = 2.0 / COEFFICIENTS * np.cos(step * turned)
+    basis[0] *= 0.5
     ends, rows, todo = [0.0], [], [(0.0, last)]
     while todo:
         low, high = todo.pop()
         a = low + (high - low) * (1.0 + nodes) / 2.0
         shape = law.at(a)
         values = np.array([(shape.depth - 1.0) / a, shape.force])
-        found = chebfit(nodes, values.T, COEFFICIENTS - 1)
+        found = np.sum(basis[:, :, None] * values.T, axis=1)
         tail = np.max(np.abs(found[-2:]), axis=0)
         off = max(tail[0] * a[-1] / shape.depth[-1], tail[1] / np.max(shape.force))
         if off > SETTLED and high - low > NARROWEST * last:

@@ -276,7 +276,7 @@ def _first_lines(printed: Sequence[str], dialect: Dialect) -> list[str]:
         return [*lines, "import numpy as np", "", "from .arrays import Double"]
     if dialect is QUIET_SCALARS:
         return [*lines, "import numpy as np", ""]
-    if functions := sorted(set(re.findall(r"(?<!\.)\b[a-z]+\b", code)) & set(vars(math))):
+    if functions := sorted(set(re.findall(r"(?<!\.)\b[a-z]+\w*\b", code)) & set(vars(math))):
         lines.append(f"from math import {', '.join(functions)}")
     return [*lines, ""]
 

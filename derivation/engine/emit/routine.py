@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
+from sympy.printing.precedence import PRECEDENCE
 
 from derivation.engine.emit.printer import to_math, to_numpy
 from derivation.engine.formula.proof import Proof, prove
@@ -306,6 +307,12 @@ def _undone(
     yield label, free, facts
 
 
+class _Written(sp.Symbol):
+    """Code in place of a symbol, put in parentheses wherever an operation follows."""
+
+    precedence = PRECEDENCE["Lambda"]
+
+
 @dataclass(frozen=True)
 class Dialect:
     """How expressions are written, and the type of numbers."""
@@ -343,7 +350,7 @@ def text(r: Routine, dialect: Dialect = ARRAYS) -> str:
 
     for s in r.statements:
         if isinstance(s, Let) and s.within:
-            written[s.symbol] = sp.Symbol(f"({write(s.expression)})")
+            written[s.symbol] = _Written(write(s.expression))
         else:
             lines += (f"    {line}" for line in _lines(s, masks, write))
     values = [write(v) for v in r.results]

@@ -48,15 +48,15 @@ def times_closely(value: Double, *powers: tuple[Double, int]) -> Double:
             if (mantissa == 0.5).all():  # powers of two: nothing is rounded
                 exponent = exponent - power
                 continue
-            halves = _halves(mantissa)
+            own = halves(mantissa)
             for _ in range(abs(power)):
                 if power > 0:
                     before, total = total, total * mantissa
                     rest = rest * mantissa
-                    rest = rest + _lost(_halves(before), halves, total)
+                    rest = rest + lost_by_halves(halves(before), own, total)
                 else:
                     before, total = total, total / mantissa
-                    rest = rest - _lost(_halves(total), halves, before)
+                    rest = rest - lost_by_halves(halves(total), own, before)
                     rest = rest / mantissa
         whole = total + rest
     result: Double = np.ldexp(np.where(np.isfinite(rest), whole, total), exponent)
@@ -91,11 +91,11 @@ def tail(v: Double) -> Double:
 def lost(a: Double, b: Double) -> Double:
     """The product of two numbers, itself of moderate size, less what it is rounded to."""
     with np.errstate(invalid="ignore"):  # infinities lose nothing that could be told
-        return _lost(_halves(a), _halves(b), a * b)
+        return lost_by_halves(halves(a), halves(b), a * b)
 
 
-def _lost(a: tuple[Double, Double], b: tuple[Double, Double], product: Double) -> Double:
-    """The same by Dekker, by halves; its own error is of no account."""
+def lost_by_halves(a: tuple[Double, Double], b: tuple[Double, Double], product: Double) -> Double:
+    """The same by the halves of both (Dekker); its own error is of no account."""
     (a_high, a_low), (b_high, b_low) = a, b
     missing: Double = a_high * b_high
     missing -= product
@@ -105,7 +105,7 @@ def _lost(a: tuple[Double, Double], b: tuple[Double, Double], product: Double) -
     return missing
 
 
-def _halves(x: Double) -> tuple[Double, Double]:
+def halves(x: Double) -> tuple[Double, Double]:
     """The upper and the lower half of a number's digits."""
     high: Double = (x.view(np.int64) & -(2**27)).view(np.float64)
     return high, x - high

@@ -167,6 +167,15 @@ def test_single_numbers_are_printed_without_numpy() -> None:
     assert math.isnan(room["growth"](1e200))  # type: ignore[operator]
 
 
+def test_what_is_written_within_is_put_in_parentheses() -> None:
+    """y = x/3 - 1 stays whole in a product, a difference and a function, and has no line."""
+    inner = Let(u, x / 3 - 1, within=True)
+    made = routine("inner", (x,), (inner,), (2 * u - sp.sin(u) * u,), (None,), "Inner.", {})
+    assert "u" not in text(made).replace("Double", "").replace("value", "").split()
+    value = 5.0 / 3 - 1
+    assert run(made, 5.0) == pytest.approx(2 * value - np.sin(value) * value, rel=1e-15)
+
+
 def test_single_numbers_outside_the_domain_are_nan_if_wanted() -> None:
     made = growth(statements=(), results=(sp.sqrt(x + 1),), claims=(sp.sqrt(1 + x),))
     loud, quiet = ({"sqrt": math.sqrt}, {"np": np})

@@ -9,13 +9,14 @@ modulus and phase,
 p and s series in 1/x with exact rational coefficients; the multiple of pi/4
 taken off x is carried in two doubles.
 
-Arithmetic: polynomials of expansions whose coefficients are numbers computed beforehand, modulus
-and phase as above, products of doubles without rounding errors, one Newton step.
+Arithmetic: polynomials of expansions whose coefficients are numbers computed beforehand, the
+multiple of pi/4 and its sign, beta as such a multiple, one Newton step in two doubles.
 """
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from generated import bessel_kernels as kernels
 from generated.arrays import Double, in_manifest, quiet, refuse_masked, whole
 from generated.bessel_numbers import (
     ASYMPTOTIC_START,
@@ -25,9 +26,7 @@ from generated.bessel_numbers import (
     EIGHT_OVER_PI2,
     EIGHT_OVER_PI2_TAIL,
     FIRST_MCMAHON,
-    HALF_PI,
     INVERSE_PI,
-    INVERSE_ROOT_PI,
     LARGEST_PHASE,
     LOW_SLOPES,
     LOW_ZEROS,
@@ -41,13 +40,14 @@ from generated.bessel_numbers import (
     TAYLOR,
     ZERO_CORRECTION,
 )
+from generated.ranges import halves, lost_by_halves
 
 _BLOCK = 8192  # points worked on at a time, so that intermediates stay in the cache
-_SPLITTER = 134217729.0  # 2^27 + 1 halves a double's bits
 # By power, the highest first: each line then holds one coefficient of all centres.
 _TAYLOR = tuple(np.array(table).T[::-1].copy() for table in TAYLOR)
 _CELLS = np.arange(int(CELLS * ASYMPTOTIC_START)) / CELLS
 _CENTRE_OF_CELL = np.searchsorted(SEAMS, _CELLS, "right") - 1
+_QUARTER_HALVES = halves(np.array(QUARTER_PI))
 _HIGH, _LOW = np.array(CENTRE_HIGH), np.array(CENTRE_LOW)
 
 
@@ -188,11 +188,13 @@ def bessel_j1_at_j0_zeros(count: int) -> Double:
     m = _mcmahon_numbers(count, 0)
     square = 1.0 / (QUARTER_PI * m) ** 2
     excess = square * _polynomial(SLOPE_EXCESS, square)
-    slope = np.sqrt(EIGHT_OVER_PI2 * (1.0 + excess) / m)
+    slope = kernels.slope(m, excess)
     # One Newton step for m J_1^2 = (8/pi^2) (1 + excess), its residual without rounding errors.
-    slope_squared, error = _product(slope, slope)
-    scaled, scaled_error = _product(m, slope_squared)
-    missing = (EIGHT_OVER_PI2 - scaled) - scaled_error - m * error
+    slope_squared, slope_halves = slope * slope, halves(slope)
+    scaled = m * slope_squared
+    missing = EIGHT_OVER_PI2 - scaled
+    missing -= lost_by_halves(halves(m), halves(slope_squared), scaled)
+    missing -= m * lost_by_halves(slope_halves, slope_halves, slope_squared)
     missing += EIGHT_OVER_PI2_TAIL + EIGHT_OVER_PI2 * excess
     slope += slope * missing / (2.0 * EIGHT_OVER_PI2)
     slope[FIRST_MCMAHON[0] % 2 :: 2] *= -1.0  # even numbers
@@ -253,21 +255,17 @@ def _modulus_phase(x: Double, order: int) -> Double:
     inverse = 1.0 / x
     square = inverse * inverse
     shift = inverse * _polynomial(SHIFT[order], square)
-    modulus = np.sqrt(_polynomial(MODULUS[order], square) / (HALF_PI * x))
+    modulus = _polynomial(MODULUS[order], square)
     half_turns = np.rint(x * INVERSE_PI - 0.25 * quarter)
-    product, rest = _times_quarter_pi(4.0 * half_turns + quarter)
-    phase = (x - product) + (shift - rest)
+    wave = kernels.wave(x, modulus, shift, *_times_quarter_pi(4.0 * half_turns + quarter))
     half = 0.5 * half_turns
-    sign = 1.0 - 4.0 * (half - np.floor(half))  # (-1)^half_turns
-    value: Double = sign * modulus * np.sin(phase)
-    return value
+    wave *= 1.0 - 4.0 * (half - np.floor(half))  # (-1)^half_turns
+    return wave
 
 
 def _far(x: Double, order: int) -> Double:
-    """(sin x +- cos x)/sqrt(pi x), x > LARGEST_PHASE, where p = 1 and s = 0 in double."""
-    wave = np.sin(x) + (1.0 - 2.0 * order) * np.cos(x)
-    value: Double = INVERSE_ROOT_PI * wave / np.sqrt(x)
-    return value
+    """J_order for x > LARGEST_PHASE, where p = 1 and s = 0 in double."""
+    return (kernels.far_0, kernels.far_1)[order](x)
 
 
 def _zeros(count: int, order: int) -> Double:
@@ -281,23 +279,8 @@ def _zeros(count: int, order: int) -> Double:
 
 def _times_quarter_pi(n: Double) -> tuple[Double, Double]:
     """n pi/4 as the sum of two doubles."""
-    product, error = _product(n, QUARTER_PI)
-    return product, error + n * QUARTER_PI_TAIL
-
-
-def _product(a: Double, b: Double | float) -> tuple[Double, Double]:
-    """a b as product + error, exactly (Dekker): halves of a double multiply without rounding."""
-    (a_upper, a_lower), (b_upper, b_lower) = _halves(a), _halves(b)
-    product = a * b
-    error = (a_upper * b_upper - product) + a_upper * b_lower
-    return product, (error + a_lower * b_upper) + a_lower * b_lower
-
-
-def _halves(a: Double | float) -> tuple[Double | float, Double | float]:
-    """Upper and lower half of the bits of a, which is their sum."""
-    widened = _SPLITTER * a
-    upper = widened - (widened - a)
-    return upper, a - upper
+    product = n * QUARTER_PI
+    return product, lost_by_halves(halves(n), _QUARTER_HALVES, product) + n * QUARTER_PI_TAIL
 
 
 def _mcmahon_numbers(count: int, order: int) -> Double:

@@ -20,6 +20,8 @@ from derivation.engine.formula.proof import BY_BALLS, Proof, ProofError, prove
 
 x, c = sp.symbols("x c", positive=True)
 nu = sp.Symbol("nu", nonnegative=True)
+P, SHIFT = sp.Symbol("p", positive=True), sp.Symbol("shift", real=True)
+"""Squared modulus and phase shift at x, see `modulus_squared` and `phase_shift`."""
 j = sp.Symbol("j", integer=True, nonnegative=True)
 k = sp.Symbol("k", integer=True, nonnegative=True)
 SHIFTED = sp.symbols("a_k-2 a_k-1 a_k a_k+1 a_k+2", real=True)
@@ -308,6 +310,11 @@ def power(a: Sequence[sp.Rational], exponent: sp.Rational, terms: int) -> Coeffi
     return tuple(b)
 
 
+def hankel(order: sp.Expr) -> sp.Expr:
+    """J_nu by its modulus and phase, with the constants of Hankel."""
+    return sp.sqrt(2 * P / (sp.pi * x)) * sp.cos(x - order * sp.pi / 2 - sp.pi / 4 + SHIFT)
+
+
 @cache
 def hankel_constants(terms: int = 12) -> Proof:
     """J_nu(x) = sqrt(2 p/(pi x)) cos(x - nu pi/2 - pi/4 + shift): the constants of Hankel.
@@ -332,11 +339,10 @@ def hankel_constants(terms: int = 12) -> Proof:
 
 def _contains(order: int, point: sp.Integer, terms: int) -> None:
     """Raise unless the ball of the truncated formula with its remainders contains J_nu."""
-    p = _widened(modulus_squared(order, terms), point, modulus_bound(order, terms, point))
-    shift = _widened(phase_shift(order, terms), point, phase_bound(order, terms, point))
+    square = _widened(modulus_squared(order, terms), point, modulus_bound(order, terms, point))
+    moved = _widened(phase_shift(order, terms), point, phase_bound(order, terms, point))
     argument = enclose(point, {})
-    theta = argument - flint.arb.pi() * (2 * order + 1) / 4 + shift
-    value = (2 * p / (flint.arb.pi() * argument)).sqrt() * theta.cos()
+    value = enclose(hankel(sp.Integer(order)), {x: argument, P: square, SHIFT: moved})
     if not value.overlaps(argument.bessel_j(flint.arb(order))):
         raise ProofError(f"Hankel's constants: J{order}({point}) is not {value}")
 

@@ -103,6 +103,11 @@ def zero_bound(order: int, terms: int, beta: sp.Rational) -> sp.Expr:
     return amplitude * at_t
 
 
+def slope_at_zero(beta: sp.Expr, square: sp.Expr) -> sp.Expr:
+    """|J1| at a zero of J0 by the value of `slope_squared`."""
+    return sp.sqrt(2 * square / (sp.pi * beta))
+
+
 @cache
 def slope_squared(terms: int) -> Expansion:
     """(pi beta/2) J1(j_n)^2 in powers of 1/beta^2, beta = (n - 1/4) pi.

@@ -67,7 +67,8 @@ def _proof(
     squares = (N_0 / (2 * E) + support) * load**2 / 2
     return prove(
         "Results of the contact's integral equation",
-        "Integrals over t are put in x = t/a; chi(a) = 0 is differentiated; compliances are added.",
+        r"Integrals over $t$ are put in $x = t/a$; $\chi(a) = 0$ is differentiated; compliances "
+        "are added.",
         {
             "force": over_x(2 * sp.pi * chi) - load / force * _c(_x),
             "indentation": a**2 / R * depth + (N_0 / (2 * E) + support) * load - indentation,
@@ -92,7 +93,8 @@ def substitution() -> tuple[sp.Expr, sp.Expr, Proof]:
     front = sp.sqrt(a**2 - r**2)
     proof = prove(
         "Points of the pressure's integral",
-        "q = -int_r^a chi'/sqrt(t^2 - r^2) dt, and dt/sqrt(t^2 - r^2) is the front times du/t.",
+        r"In $\int \chi'/\sqrt{t^2 - r^2} dt$ the measure $dt/\sqrt{t^2 - r^2}$ is the front times "
+        "$du/t$.",
         {
             "measure": (sp.diff(t, _u) * t / (front * _u)) - front,
             "root": t**2 - r**2 - (front * _u) ** 2,

@@ -5,11 +5,12 @@ from pathlib import Path
 import flint
 
 from derivation.engine.emit.package import Numbers, Routines
+from derivation.engine.emit.routine import SCALARS
 from derivation.engine.emit.tables import Constant
 from derivation.mathematics.bessel.kernels import nearest_double
 from derivation.plate.contact.kernels.moments import BITS
 from derivation.plate.modules import ComputedModule, RuntimeModule
-from derivation.plate.viscosity.kernels.printed import ROUTINES
+from derivation.plate.viscosity.kernels.printed import BOUNDS, ROUTINES
 from derivation.plate.viscosity.theory.contact import loss_ball
 
 RUNTIME = Path(__file__).parents[1] / "runtime"
@@ -33,8 +34,15 @@ def viscosity_kernels() -> Routines:
     return Routines("viscosity_kernels", title, tuple(make() for make in ROUTINES), imports)
 
 
+def viscosity_bounds() -> Routines:
+    """What viscosity can change at most, printed for single numbers."""
+    title = "Bounds of what a viscous contact changes, proved to be those of the theory."
+    return Routines("viscosity_bounds", title, tuple(make() for make in BOUNDS), {}, SCALARS)
+
+
 MODULES = (
     ComputedModule("viscosity_numbers", viscosity_numbers),
     ComputedModule("viscosity_kernels", viscosity_kernels),
+    ComputedModule("viscosity_bounds", viscosity_bounds),
     RuntimeModule("viscosity", RUNTIME / "viscosity.py"),
 )

@@ -39,11 +39,11 @@ def weak_restitution() -> Routine:
         "restitution_of_number",
         (x_v,),
         (Let(first, LOSS * x_v),),
-        (1 + first * (sp.Rational(3, 5) * first - 1),),
+        (1 + first * (sp.Float(0.6) * first - 1),),
         (restitution().expression,),
         "Restitution of a weakly viscous contact, to second order.",
         {LOSS: C_1},
-        sp.expand,
+        lambda e: sp.expand(sp.nsimplify(e)),
     )
 
 
@@ -55,7 +55,7 @@ def _by_logarithms(expression: sp.Expr) -> sp.Expr:
 
 def spiral_bounds() -> Routine:
     """What holds along the spiral."""
-    quarter, loss, pull = sp.symbols("quarter loss pull", positive=True)
+    quarter, loss, square, pull = sp.symbols("quarter loss square pull", positive=True)
     of, t = theory.bounds(), theory
     return routine(
         "spiral_bounds",
@@ -63,7 +63,8 @@ def spiral_bounds() -> Routine:
         (
             Let(quarter, sp.pi / 4 * epsilon),
             Let(loss, 2 * quarter / (1 - epsilon / 2)),
-            Let(pull, log1p(epsilon * epsilon) / 2),
+            Let(square, epsilon * epsilon),
+            Let(pull, log1p(square) / 2),
         ),
         (
             t.rise * loss - log1p(-epsilon / 2),
@@ -96,4 +97,5 @@ def rebound_bounds() -> Routine:
     )
 
 
-ROUTINES = viscous_number, weak_restitution, spiral_bounds, rebound_bounds
+ROUTINES = viscous_number, weak_restitution
+BOUNDS = spiral_bounds, rebound_bounds

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from generated import viscosity_kernels as kernels
 from generated.arrays import as_doubles, as_result, in_manifest, inside, quiet
+from generated.viscosity_bounds import rebound_bounds, spiral_bounds
 
 
 class Course(NamedTuple):
@@ -123,15 +124,13 @@ def viscous_logarithms(course: Course) -> tuple[float, float, float, float, floa
         and contact radius, and of the restitution; inf where nothing is shown: for epsilon >= 1,
         or if the weight may keep the sphere.
     """
-    epsilon, steepness, fall, rise, depth, radius, energy = map(np.asarray, course)
+    epsilon, steepness, *_, energy = course
     if not (epsilon < 1.0 and steepness * epsilon < 2.0):
         return inf, inf, inf, inf, inf
-    along = kernels.spiral_bounds(epsilon, steepness, fall, rise, depth, radius, energy)
-    *_, gone = along
+    longer, shorter, shallower, narrower, pull, weaker, gone = spiral_bounds(*course)
     if not gone < 1.0:
         return inf, inf, inf, inf, inf  # the weight may keep the sphere
-    longer, shorter, shallower, narrower, pull, weaker, _ = map(float, along)
-    leaving = float(max(kernels.rebound_bounds(gone, epsilon, steepness, energy)))
+    leaving = max(rebound_bounds(gone, epsilon, steepness, energy))
     time = max(longer, shorter)
     if energy > 1.0:  # a slower sphere takes longer to rise against its weight
         time += leaving

@@ -121,9 +121,9 @@ def _proof(
     per_angle = radial / turning
     return prove(
         "Bounds of the viscous spiral",
-        "What phi'/Omega has over its least and lacks of its largest value are squares; over the "
-        "first quarter it is 1 at least. The square of the force and that of its slope by phi add "
-        "up to that of its amplitude.",
+        r"What $\phi'/\Omega$ has over its least and lacks of its largest value are squares; over "
+        "the first quarter it is 1 at least. The square of the force and that of its slope by "
+        r"$\phi$ add up to that of its amplitude.",
         {
             "least": turning - least - epsilon * (sine + cosine) ** 2 / 2,
             "most": most - turning - epsilon * (sine - cosine) ** 2 / 2,

@@ -1,0 +1,81 @@
+"""J0 and J1 far out, J1 at the zeros of J0, as code computes them: proved to be Hankel's form."""
+
+import sympy as sp
+
+from derivation.engine.emit.package import Routines
+from derivation.engine.emit.routine import Let, Routine, routine
+from derivation.mathematics.bessel.theory.functions import SHIFT, P, hankel, nu, x
+from derivation.mathematics.bessel.theory.zeros import slope_at_zero
+
+HALF_PI, INVERSE_ROOT_PI, EIGHT_OVER_PI2 = sp.symbols(
+    "HALF_PI INVERSE_ROOT_PI EIGHT_OVER_PI2", positive=True
+)
+NUMBERS = {
+    HALF_PI: sp.pi / 2,
+    INVERSE_ROOT_PI: 1 / sp.sqrt(sp.pi),
+    EIGHT_OVER_PI2: 8 / sp.pi**2,
+}
+turned, rest = sp.symbols("turned rest", real=True)
+_turns = sp.Symbol("k", integer=True)
+
+
+def _by_sines(expression: sp.Expr) -> sp.Expr:
+    return sp.simplify(sp.expand_trig(expression.replace(sp.cos, lambda v: sp.cos(sp.expand(v)))))
+
+
+def wave() -> Routine:
+    """Modulus and phase, the phase less k pi, whose sign is left to the caller."""
+    ratio, near, small = sp.symbols("ratio near small", real=True)
+    half_turns = (4 * _turns + 2 * nu - 1) * sp.pi / 4
+    return routine(
+        "wave",
+        (x, P, SHIFT, turned, rest),
+        (
+            Let(ratio, P / (HALF_PI * x), within=True),
+            Let(near, x - turned, within=True),
+            Let(small, SHIFT - rest, within=True),
+        ),
+        (sp.sqrt(ratio) * sp.sin(near + small),),
+        ((-1) ** _turns * hankel(nu),),
+        "(-1)^k J where turned + rest is the multiple (4 k + 2 nu - 1) of pi/4.",
+        {turned: half_turns - rest, HALF_PI: sp.pi / 2},
+        _by_sines,
+    )
+
+
+def far(order: int) -> Routine:
+    """Where the modulus' series is 1 and the phase's shift 0."""
+    sign = 1 - 2 * order
+    return routine(
+        f"far_{order}",
+        (x,),
+        (),
+        (INVERSE_ROOT_PI * (sp.sin(x) + sign * sp.cos(x)) / sp.sqrt(x),),
+        (hankel(order).subs({P: 1, SHIFT: 0}),),
+        f"J{order} where 1/x is below the rounding of 1.",
+        NUMBERS,
+        _by_sines,
+    )
+
+
+def slope() -> Routine:
+    """J1 at a zero of J0, but for its sign."""
+    quarters, excess = sp.symbols("quarters excess", positive=True)
+    square = sp.Symbol("square", real=True)
+    return routine(
+        "slope",
+        (quarters, excess),
+        (Let(square, EIGHT_OVER_PI2 * (1 + excess) / quarters, within=True),),
+        (sp.sqrt(square),),
+        (slope_at_zero(quarters * sp.pi / 4, 1 + excess),),
+        "J1 at a zero of J0, beta = quarters pi/4, but for its sign.",
+        NUMBERS,
+        sp.simplify,
+    )
+
+
+def bessel_kernels() -> Routines:
+    """All of them, printed."""
+    title = "J0 and J1 far out, and J1 at the zeros of J0, proved to be Hankel's form."
+    made = wave(), far(0), far(1), slope()
+    return Routines("bessel_kernels", title, made, {"bessel_numbers": tuple(map(str, NUMBERS))})

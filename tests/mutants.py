@@ -73,6 +73,9 @@ def _changes(node: sp.Expr) -> Iterator[tuple[str, sp.Expr]]:
         yield "function", node.func(1 - node.args[0], node.args[1])
 
 
+Code = ast.expr | ast.AugAssign
+
+
 class CodeMutant(NamedTuple):
     """Where a module was changed, how, and the whole of it."""
 
@@ -111,7 +114,7 @@ def of_module(text: str) -> Iterator[CodeMutant]:
 
 class _Place(NamedTuple):
     home: str
-    node: ast.expr
+    node: Code
     parent: ast.AST
     exponent: bool
 
@@ -123,7 +126,11 @@ def _formulas(tree: ast.Module) -> Iterator[_Place]:
     """Arithmetic of all functions and of module constants."""
 
     def walk(node: ast.AST, home: str, parent: ast.AST, exponent: bool) -> Iterator[_Place]:
-        if isinstance(node, ast.Subscript | ast.arguments | ast.AnnAssign):
+        if isinstance(node, ast.Subscript | ast.arguments):
+            return
+        if isinstance(node, ast.AnnAssign):
+            if node.value is not None:
+                yield from walk(node.value, home, node, False)
             return
         if isinstance(node, ast.ClassDef):
             for method in node.body:
@@ -138,7 +145,7 @@ def _formulas(tree: ast.Module) -> Iterator[_Place]:
             home = node.name
         if isinstance(node, ast.Assign) and not home:
             home = ast.unparse(node.targets[0])
-        if isinstance(node, ast.BinOp | ast.UnaryOp | ast.Constant | ast.Call):
+        if isinstance(node, ast.BinOp | ast.UnaryOp | ast.Constant | ast.Call | ast.AugAssign):
             yield _Place(home, node, parent, exponent)
         power = isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow)
         for name, child in ast.iter_fields(node):
@@ -150,8 +157,10 @@ def _formulas(tree: ast.Module) -> Iterator[_Place]:
         yield from walk(statement, "", tree, False)
 
 
-def _rewritten(node: ast.expr, exponent: bool) -> Iterator[ast.expr]:
+def _rewritten(node: Code, exponent: bool) -> Iterator[Code]:
     match node:
+        case ast.AugAssign(op=op) if type(op) in OPERATORS:
+            yield ast.AugAssign(node.target, OPERATORS[type(op)], node.value)
         case ast.BinOp(op=op) if type(op) in OPERATORS:
             yield ast.BinOp(node.left, OPERATORS[type(op)], node.right)
         case ast.UnaryOp(op=ast.USub()):
@@ -164,7 +173,7 @@ def _rewritten(node: ast.expr, exponent: bool) -> Iterator[ast.expr]:
             yield ast.Call(ast.Attribute(of.value, CALLS[name], of.ctx), node.args, node.keywords)
 
 
-def _put(tree: ast.Module, old: ast.expr, new: ast.expr) -> ast.Module:
+def _put(tree: ast.Module, old: ast.AST, new: ast.AST) -> ast.Module:
     """A copy of the tree with one node replaced; what is not on the way to it is shared."""
 
     class Replace(ast.NodeTransformer):

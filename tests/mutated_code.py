@@ -5,7 +5,8 @@ import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
-from types import ModuleType
+from functools import cache
+from types import CodeType, ModuleType
 from typing import Any, Protocol
 from unittest.mock import patch
 
@@ -61,24 +62,30 @@ class Answer:
     ask: Callable[[ModuleType], Any]
     true: Any
     tolerance: float = TOLERANCE
+    least: float = 0.0
 
     def holds(self, module: ModuleType) -> bool:
         found = np.asarray(self.ask(module), dtype=float)
-        return close(found, np.asarray(self.true, dtype=float), self.tolerance)
+        return close(found, np.asarray(self.true, dtype=float), self.tolerance, self.least)
 
 
-def close(found: np.ndarray, true: np.ndarray, tolerance: float = TOLERANCE) -> bool:
+def close(
+    found: np.ndarray, true: np.ndarray, tolerance: float = TOLERANCE, least: float = 0.0
+) -> bool:
+    """Whether errors are within the tolerance of what is true, or of `least` if that is larger."""
     if found.shape != true.shape:
         return False
     with np.errstate(invalid="ignore"):
-        near = np.isfinite(true) & (np.abs(found - true) <= tolerance * np.abs(true))
+        allowed = tolerance * np.maximum(np.abs(true), least)
+        near = np.isfinite(true) & (np.abs(found - true) <= allowed)
     return bool((near | (found == true) | (np.isnan(found) & np.isnan(true))).all())
 
 
 def compiled(tree: ast.Module | str, name: str, users: Sequence[str] = ()) -> ModuleType:
     """A module of the package from changed text, beside the others as they are.
 
-    With users of it, the last of these, each made anew upon the one before.
+    With users of it, the last of these, each made anew upon those before, whose functions it has
+    too.
     """
     module = ModuleType(f"generated.{name}")
     module.__package__ = generated.__name__
@@ -88,8 +95,17 @@ def compiled(tree: ast.Module | str, name: str, users: Sequence[str] = ()) -> Mo
             stack.enter_context(patch.dict(sys.modules, {module.__name__: module}))
             short = module.__name__.removeprefix("generated.")
             stack.enter_context(patch.object(generated, short, module, create=True))
-            module = compiled(source(user), user)
+            before, module = module, ModuleType(f"generated.{user}")
+            module.__package__ = generated.__name__
+            exec(code(user), module.__dict__)
+            for key, value in vars(before).items():
+                vars(module).setdefault(key, value)
     return module
+
+
+@cache
+def code(name: str) -> CodeType:
+    return compile(source(name), name, "exec")
 
 
 def source(name: str) -> str:

@@ -1,9 +1,7 @@
 """Slope of the contact law and an impact's sensitivities: truth, limits, scaling, differences."""
 
-import json
 import math
 from fractions import Fraction
-from pathlib import Path
 
 import flint
 import numpy as np
@@ -12,6 +10,7 @@ import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mpmath import mp, mpf
+from sensitivity_table import LAM, MU, ROWS, scene_in, sensitivities_of
 
 from derivation.engine.formula.dimension import unit as dimension_of
 from derivation.engine.formula.proof import ProofError, prove
@@ -26,22 +25,15 @@ from derivation.plate.vocabulary import BY_NAME, T
 from generated import contact_law, impact
 from generated.sensitivity import PARAMETERS, RESULTS, impact_sensitivities, indentation_slope
 
-LAM, MU = 6e10, 8e10
 SCENE = (0.05, 0.03, 10.0, 0.001, 0.05, LAM, MU)
 ROOT = 0.5301974990742511
 """The double nearest to the h/b at which c_1 passes zero."""
 BELOW, ABOVE = 1 - 1e-9, 1 + 1e-9
-TRUTH = json.loads((Path(__file__).parent / "sensitivity_truth.json").read_text())
-"""What the oracle says, to 1e-20, of scenes on both sides of every switch; see its first line."""
 ULP_SLOPE = 8
 LIMIT = 2e-15
 
 
 pytestmark = pytest.mark.usefixtures("no_warning")
-
-
-def numbers(texts: list[str]) -> list[Fraction]:
-    return [Fraction(text) for text in texts]
 
 
 # --- theory
@@ -124,29 +116,18 @@ def test_slope_domain_and_types() -> None:
 # --- sensitivities against the oracle
 
 
-@pytest.mark.parametrize("row", TRUTH["rows"], ids=lambda r: f"{r['h_over_b']:.6g}-{r['a_over_h']}")
+@pytest.mark.parametrize("row", ROWS, ids=lambda r: f"{r['h_over_b']:.6g}-{r['a_over_h']}")
 def test_sensitivities_against_the_truth(row: dict) -> None:
-    scene = [float.fromhex(x) for x in row["scene"]]
-    got = impact_sensitivities(*scene)
-    speed, radius = numbers(row["v0"]), numbers(row["b"])
-    share = Fraction(LAM) * Fraction(MU) / (Fraction(LAM + MU) * Fraction(LAM + 2 * MU))
-    table = theory.exponents()
-    for index, name in enumerate(RESULTS):
-        # v0 stands in the energy number alone, b in h/b alone: the others follow exactly.
-        own, energy, eta = (
-            [Fraction(int(x.p), int(x.q)) for x in table[key]] for key in (name, "energy", "eta")
-        )
-        by_energy, by_eta = speed[index] / 2, -radius[index]
-        true = [o + by_energy * e + by_eta * q for o, e, q in zip(own, energy, eta, strict=True)]
-        true = [*true[:5], true[5] * share, true[5] * (1 - share)]
-        for parameter, value, expected in zip(PARAMETERS, got[index], true, strict=True):
+    got = impact_sensitivities(*scene_in(row))
+    for name, values, true in zip(RESULTS, got, sensitivities_of(row), strict=True):
+        for parameter, value, expected in zip(PARAMETERS, values, true, strict=True):
             error = abs(Fraction(float(value)) - expected)
             assert error < LIMIT * max(1, abs(expected)), (name, parameter, float(error))
 
 
 def test_the_table_is_what_the_oracle_says() -> None:
-    row = next(row for row in TRUTH["rows"] if row["h_over_b"] == 100.0)
-    scene = [float.fromhex(x) for x in row["scene"]]
+    row = next(row for row in ROWS if row["h_over_b"] == 100.0)
+    scene = scene_in(row)
     found = contact_sensitivity.sensitivities(scene, "v0")
     with flint.ctx.workprec(128):
         for ball, text in zip(found, row["v0"], strict=True):
@@ -154,8 +135,8 @@ def test_the_table_is_what_the_oracle_says() -> None:
 
 
 def test_more_digits_begin_with_those_of_the_table() -> None:
-    row = next(row for row in TRUTH["rows"] if row["h_over_b"] == 100.0)
-    scene = [float.fromhex(x) for x in row["scene"]]
+    row = next(row for row in ROWS if row["h_over_b"] == 100.0)
+    scene = scene_in(row)
     found = many_sensitivities.impact_sensitivities(scene, 40)
     by_speed = found[PARAMETERS.index("v0") :: len(PARAMETERS)]
     by_radius = found[PARAMETERS.index("b") :: len(PARAMETERS)]
@@ -169,8 +150,8 @@ def test_more_digits_begin_with_those_of_the_table() -> None:
 
 def test_rounding_is_what_the_parameters_change() -> None:
     """Differences of the generated code say what moving every parameter does, added up."""
-    row = next(row for row in TRUTH["rows"] if row["h_over_b"] == 100.0)
-    scene, step = [float.fromhex(x) for x in row["scene"]], 1e-4
+    row = next(row for row in ROWS if row["h_over_b"] == 100.0)
+    scene, step = scene_in(row), 1e-4
     total = np.zeros((len(RESULTS), len(PARAMETERS)))
     for index in range(len(PARAMETERS)):
         ends = [

@@ -34,6 +34,7 @@ MODULES = (
     ComputedModule("contact_numbers", numbers),
     ComputedModule("contact_kernels", contact_kernels),
     ComputedModule("sensitivity_kernels", sensitivity_kernels),
+    RuntimeModule("contact_cells", RUNTIME / "contact_cells.py"),
     RuntimeModule("contact_series", RUNTIME / "contact_series.py"),
     RuntimeModule("contact_points", RUNTIME / "contact_points.py"),
     RuntimeModule("contact_law", RUNTIME / "contact_law.py"),

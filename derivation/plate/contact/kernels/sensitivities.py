@@ -53,7 +53,7 @@ def power_slope() -> Routine:
     )
 
 
-class Nodes:
+class NearNodes:
     """Where the inner integral's nodes lie, w = 1 - u from 0 to 1 - sqrt(1 - ratio)."""
 
     node, ratio, root, share = sp.symbols("node ratio root share", positive=True)
@@ -62,7 +62,7 @@ class Nodes:
 
 def near_nodes() -> Routine:
     """q, 1 - q and s = q/ratio at the nodes, without cancellation."""
-    k = Nodes
+    k = NearNodes
     u = 1 - (1 - k.root) * k.node
     there, s_there = 1 - u**2, (1 - u**2) / (1 - k.root**2)
     statements = (
@@ -202,7 +202,7 @@ def _time_parts(weights: Mapping[int, sp.Expr], at: sp.Expr) -> tuple[sp.Expr, s
 
 def _near_terms(name: str, hertz: int, summary: str) -> Routine:
     """N and S at s = q/ratio by sums over the powers that begin with the third."""
-    k = Nodes
+    k = NearNodes
     rest, square, cube, six, start, rise = sp.symbols("rest square cube six start rise")
     every = _weights(D, hertz)
     deeper = {j: weight for j, weight in every.items() if j > 2}
@@ -253,10 +253,10 @@ def far_nodes() -> Routine:
     gap, u = sp.symbols("gap u", positive=True)
     return routine(
         "far_nodes",
-        (gap, u, Nodes.node),
+        (gap, u, NearNodes.node),
         (),
-        (1 - gap * u**2 * Nodes.node,),
-        (1 - Nodes.node * (1 - q),),
+        (1 - gap * u**2 * NearNodes.node,),
+        (1 - NearNodes.node * (1 - q),),
         "The node of [q, 1] counted from 1, where 1 - q = gap u^2.",
         {gap: (1 - q) / u**2},
         sp.expand,

@@ -15,7 +15,6 @@ is a polynomial of a, its coefficients made once. Scaling of polynomials' variab
 and how many modes the direct sum needs.
 """
 
-from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -24,6 +23,7 @@ from numpy.typing import ArrayLike
 from generated import contact_kernels as kernels
 from generated.arrays import Double, as_doubles, as_result, in_manifest, inside, quiet
 from generated.bessel import bessel_j0_zeros, bessel_j1_at_j0_zeros
+from generated.contact_cells import Cells, horner, in_cells
 from generated.contact_numbers import (
     CELLS,
     EDGE,
@@ -52,10 +52,6 @@ _ORDINARY = 1e-100, 1e100  # lengths whose products neither overflow nor underfl
 _USUAL = 1e-20, 1e20  # h/b with which that holds for the coefficients too
 _MODE_BLOCK = 4096
 _THINNER = CELLS[-1][1]  # from this 1/eta on the closed form is all there is
-
-
-Cells = tuple[tuple[float, float, Double], ...]
-"""Polynomials in 1/eta: for each its first and last 1/eta, and its rows."""
 
 
 class Piece(NamedTuple):
@@ -179,15 +175,6 @@ def _tabulated(v: Double, cells: Cells, total: Double) -> None:
         total[:, chosen] += value
 
 
-def in_cells(v: Double, cells: Cells) -> Iterator[tuple[np.ndarray, Double, float, Double]]:
-    """Which v are in a cell, where in [-1, 1] of it, half its width, its rows for such points."""
-    for first, last, rows in cells:
-        chosen = np.flatnonzero((v > first) & (v <= last))
-        if chosen.size:
-            half = 0.5 * (last - first)
-            yield chosen, (v[chosen] - 0.5 * (first + last)) / half, half, rows[:, :, None]
-
-
 def _bending(v: Double) -> tuple[Double, Double]:
     """c1 and c3 of the thin plate, v = 1/eta."""
     return kernels.thin_coefficients(v)
@@ -275,18 +262,6 @@ def with_slope(A: Double, piece: Columns) -> tuple[Double, Double]:
     square = A * A
     value, slope = horner(piece.coefficients, (square - piece.middle) * piece.inverse_half)
     return kernels.with_slope_of(A, square, piece.inverse_half, value, slope)
-
-
-def horner(coefficients: list[Double] | list[float] | Double, t: Double) -> tuple[Double, Double]:
-    """A polynomial and its slope."""
-    value: Double = coefficients[-1] + 0.0 * t
-    slope = np.zeros_like(value)
-    for coefficient in coefficients[-2::-1]:
-        slope *= t
-        slope += value
-        value *= t
-        value += coefficient
-    return value, slope
 
 
 def with_slopes(A: Double, piece: Columns) -> tuple[Double, Double, Double]:

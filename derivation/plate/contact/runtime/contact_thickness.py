@@ -10,6 +10,7 @@ import numpy as np
 from generated import contact_kernels as kernels
 from generated.arrays import Double
 from generated.bessel import bessel_j0_zeros, bessel_j1_at_j0_zeros
+from generated.contact_cells import Cells, horner, in_cells
 from generated.contact_numbers import (
     CELLS,
     FAR_BY_LOG,
@@ -20,7 +21,7 @@ from generated.contact_numbers import (
     REACH,
     THIN,
 )
-from generated.contact_series import Cells, Piece, horner, in_cells
+from generated.contact_series import Piece
 
 _THINNER = CELLS[-1][1]  # from this 1/eta on the closed form is all there is
 

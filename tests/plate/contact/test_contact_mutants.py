@@ -1,0 +1,254 @@
+"""The generated contact law with one thing wrong, in memory: the oracles notice it."""
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from functools import cache
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+import pytest
+from mutated_code import (
+    BEYOND_ALL,
+    GUARDS,
+    ORDER,
+    SAME,
+    SIZE,
+    START,
+    Answer,
+    Case,
+    Expected,
+    named,
+    survivors,
+)
+from sensitivity_table import ROWS, scene_in, sensitivities_of
+
+from derivation.plate.contact.oracle import balls as contact_balls
+from derivation.plate.contact.oracle import forces as contact_forces
+
+Point = tuple[float, ...]
+LAME = 0.36e9, 0.43e9
+
+
+def by_balls(
+    name: str, points: Sequence[Point], oracle: Callable[..., Any], outside: Sequence[Point] = ()
+) -> Case:
+    true = [float(oracle(*p, digits=18)) for p in points]
+    return Case(name, [*points, *outside], [*true, *(math.nan for _ in outside)])
+
+
+# a, R, h, b: thin, medium, thick, and on to the end of where the law holds, 6 h.
+PLATES: Sequence[Point] = [
+    (0.004, 0.13, 0.01, 1.0), (0.05, 0.9, 0.05, 0.3), (0.1, 0.3, 9.0, 1.0), (0.05, 0.13, 0.01, 1.0),
+    (0.041, 0.13, 0.01, 1.0), (0.0599, 0.13, 0.01, 1.0), (0.29, 0.9, 0.06, 0.3),
+    (0.041, 0.13, 0.01, 0.045), (0.0305, 0.13, 0.01, 0.08),
+]  # fmt: skip
+BEYOND: Sequence[Point] = [(0.2, 0.13, 0.05, 1.0), (0.2, 0.9, 0.05, 0.19), (-0.1, 0.9, 0.05, 1.0)]
+"""More than R, than b, and less than 0."""
+PAST: Sequence[Point] = [(0.0605, 0.13, 0.01, 0.08)]
+"""A contact beyond 6 h, which has an indentation and is no answer."""
+DEEP: Sequence[Point] = [(210.0, 0.13, 0.01, 1.0), (0.5, 0.3, 0.5, 0.2), (-0.1, 0.9, 0.05, 1.0)]
+SOLIDS: Sequence[Point] = [
+    (0.2, 1.3, *LAME), (0.1, 0.7, 2e9, 1e9), (0.3, 0.8, -0.5, 0.8), (0.3, 0.8, -1.8, 3.0),
+    (1e-3, 0.7, 0.1, 1.2e308),
+]  # fmt: skip
+NO_SOLIDS: Sequence[Point] = [(0.3, 0.8, -0.7, 1.0), (0.3, 0.8, 1.0, -1.0), (-0.3, 0.8, *LAME)]
+
+
+@cache
+def law_cases() -> list[Expected]:
+    depths, past = (
+        [(float(contact_balls.indentation(*p, digits=18)), *p[1:]) for p in points]
+        for points in (PLATES, PAST)
+    )
+    forces = [(float(contact_forces.force_of_radius(*p, digits=18)), *p[1:]) for p in SOLIDS]
+    return [
+        by_balls("indentation", PLATES, contact_balls.indentation, BEYOND),
+        by_balls("indentation", PLATES, contact_balls.indentation),
+        by_balls("contact_radius", depths, contact_balls.contact_radius, [*past, *DEEP]),
+        Case("contact_radius", [(-0.0, *p[1:]) for p in PLATES], [0.0] * len(PLATES)),
+        by_balls("force", [(*p, *LAME) for p in depths], contact_forces.force),
+        by_balls("stiffness", [(*p, *LAME) for p in PLATES], contact_balls.stiffness,
+                 [(*p, *LAME) for p in BEYOND]),
+        by_balls("force_of_radius", SOLIDS, contact_forces.force_of_radius, NO_SOLIDS),
+        by_balls("max_pressure", SOLIDS, contact_forces.max_pressure, NO_SOLIDS),
+        by_balls("radius_of_force", forces, contact_forces.radius_of_force, NO_SOLIDS),
+    ]  # fmt: skip
+
+
+ONE_PLATE = 0.9, 0.06, 0.3
+"""R, h, b."""
+NEAR, FURTHER, FAR = (0.004, 0.029), (0.031, 0.1, 0.17), (0.19, 0.25, 0.29)
+"""Radii that the short polynomial serves, the first one, and the second."""
+
+
+def on_one_plate(radii: Sequence[float]) -> Answer:
+    """One sphere and one plate for all radii have a law of their own."""
+    lengths = dict(zip("Rhb", ONE_PLATE, strict=True))
+    true = [truth(a, *ONE_PLATE) if 0 <= a < lengths["b"] else math.nan for a in radii]
+    return Answer(lambda module: module.indentation(np.array(radii), **lengths), true)
+
+
+def of_second(**several: Sequence[float]) -> Answer:
+    """The indentation for the second of several spheres or plates."""
+    lengths = dict(zip("Rhb", ONE_PLATE, strict=True)) | several
+    second = {key: value[1] for key, value in several.items()}
+    true = [truth(a, *(dict(zip("Rhb", ONE_PLATE, strict=True)) | second).values()) for a in NEAR]
+    radii = np.array(NEAR)[:, None]
+    return Answer(lambda module: module.indentation(radii, **lengths)[:, 1], true)
+
+
+def of_coefficients(points: Sequence[tuple[float, float]], true: Sequence[float]) -> Answer:
+    """The indentation over a^2/R by the coefficients that a user gets."""
+    A, eta = np.array(points).T
+
+    def lift(module: ModuleType) -> np.ndarray:
+        powers = module.plate_coefficients(eta)
+        share = (A / np.minimum(3, 1 / eta))[:, None] ** 2
+        return 1 + A * (powers * share ** np.arange(powers.shape[-1])).sum(axis=-1)
+
+    return Answer(lift, true)
+
+
+@cache
+def truth(a: float, R: float, h: float, b: float) -> float:
+    return float(contact_balls.indentation(a, R, h, b, digits=18))
+
+
+def series_cases() -> list[Expected]:
+    return [*law_cases(), *piece_cases(), *end_cases(), *sensitivity_cases()]
+
+
+@cache
+def piece_cases() -> list[Expected]:
+    """Every table of the law on both sides of its ends."""
+    radii = [NEAR, (*FURTHER, *NEAR), (*FAR, *NEAR, *FURTHER), FAR, (*NEAR, -0.1, 0.31, math.nan)]
+    R, h, _ = ONE_PLATE
+    plates = [(A, 50.0, 1.0, v) for v in (3.3, 5.0, 9.0, 20.0) for A in (0.4, 2.8, 3.2, 4.9, 6.5)
+              if v > A]  # fmt: skip
+    inner = [(A, 1 / v) for A, _, _, v in plates if A < 3]
+    return [
+        of_second(R=[R, 2 * R]),
+        of_second(h=[h, 0.05]),
+        *map(on_one_plate, radii),
+        by_balls("indentation", plates, contact_balls.indentation),
+        by_balls("stiffness", [(*p, *LAME) for p in plates], contact_balls.stiffness),
+        of_coefficients(inner, [truth(A, 1, 1, 1 / eta) / A**2 for A, eta in inner]),
+    ]
+
+
+@cache
+def end_cases() -> list[Expected]:
+    """Where the law ends, and where the short polynomial does."""
+    thinnest = 1.5e-90
+    bent = 1 + 0.5 / (4 * math.pi * thinnest**2)
+    """F of a thin plate, but for a share of eta^2 log(eta)."""
+    ends = [(0.5, thinnest), (0.5, 0.9e-90), (0.0, 1.1e90)]
+    wide, short = (6.0, 50.0, 1.0, 20.0), (0.498, 1.0, 1.0, 3.1)
+    further = [(4.0, 50.0, 1.0, 1e6), (3.2, 50.0, 1.0, 9.0)]
+    return [
+        of_coefficients(ends, [bent, math.nan, math.nan]),
+        Case("contact_radius", [(truth(*wide) * (1 + 7e-16), *wide[1:])], [wide[0]]),
+        by_balls("indentation", further, contact_balls.indentation),
+        Answer(lambda module: module.indentation(*short), truth(*short), tolerance=4e-15),
+        by_balls("indentation", [(6.5, 50.0, 1.0, 1 / 1.5e-5)], contact_balls.indentation),
+    ]
+
+
+@cache
+def sensitivity_cases() -> list[Expected]:
+    slopes = [float(contact_balls.slope(*p, 22)) for p in PLATES]
+    sure = [np.array(sensitivities_of(row), dtype=float) for row in ROWS]
+    nowhere = [(0.13, 1.0, 1e9, 0.1, 1.0, *LAME), (0.13, -1.0, 1.0, 0.1, 1.0, *LAME)]
+    true = np.stack([*sure, *[np.full((4, 7), math.nan)] * len(nowhere)], axis=-1)
+    scenes = np.array([*map(scene_in, ROWS), *nowhere])
+    return [
+        Case("indentation_slope", [*PLATES, *BEYOND], [*slopes, *([math.nan] * len(BEYOND))]),
+        Answer(lambda module: module.impact_sensitivities(*scenes.T), true, least=1.0),
+        Answer(lambda module: module.impact_sensitivities(*scenes[0]), sure[0], least=1.0),
+    ]
+
+
+STEPS = ["_STEPS: 60 -> 120 in _STEPS = 60", "_CLOSE: 1e-09 -> 2e-09 in _CLOSE = 1e-09"]
+CLIP = "np.clip(1.0 + step, 0.3, 3.0)"
+THIN = "1.0 / np.cbrt(eps * linear)"
+EQUIVALENT: Mapping[str, Mapping[str, Sequence[str]]] = {
+    "contact_law": {
+        ORDER: [*STEPS, f"_invert: 0.3 -> 0.6 in {CLIP}", f"_invert: 3.0 -> 6.0 in {CLIP}"],
+        START: [
+            "_invert: 0.0 -> 1 in np.maximum(plates.first.coefficients[0][pick], 0.0)",
+            f"_invert: 1.0 -> 2.0 in {THIN}",
+            f"_invert: 1.0 -> 2.0 in np.minimum({THIN}, 1.0)",
+        ],
+        GUARDS: [
+            "indentation: 0 -> 1 in radius.min() >= 0",  # the slow way to the same
+            "_contact: ROUNDED * b -> ROUNDED / b",
+            "_plates: 1.0 -> 2.0 in np.where(sound, b, 1.0)",
+        ],
+    },
+    "contact_points": {
+        SIZE: ["flat: 1 -> 2 in np.prod(shape) != 1", "cut: 0 -> 1 in x.strides[0] == 0"],
+    },
+    "contact_cells": {
+        SAME: ["horner: coefficients[-1] + 0.0 * t -> coefficients[-1] - 0.0 * t"],
+    },
+    "contact_series": {
+        SIZE: [
+            "_BLOCK: 32768 -> 65536 in _BLOCK = 32768",
+            "_MODE_BLOCK: 4096 -> 8192 in _MODE_BLOCK = 4096",
+            "direct: 1 -> 2 in max(1, 65536 // min(zeros.size, _MODE_BLOCK))",
+            "direct: 65536 -> 131072 in 65536 // min(zeros.size, _MODE_BLOCK)",
+        ],
+        GUARDS: [  # the slow way to the same; and both polynomials hold at their common end
+            *(
+                f"{name}: {low} -> 2{low[1:]} in ({ends})"
+                for name, ends in (("_ORDINARY", "1e-100, 1e+100"), ("_USUAL", "1e-20, 1e+20"))
+                for low in ends.split(", ")
+            ),
+            *(
+                f"{name}: reach * ROUNDED -> reach / ROUNDED"
+                for name in ("sphere_on_plate", "correction", "correction_with_slope")
+            ),
+        ],
+        BEYOND_ALL: [
+            "direct: int(3.9 / eta) + 2 -> int(3.9 / eta) - 2",
+            "direct: 3.9 -> 7.8 in 3.9 / eta",
+            "direct: 2 -> 4 in int(3.9 / eta) + 2",
+        ],
+        SAME: [
+            "_tabulated: rows[-1] + 0.0 * tau -> rows[-1] - 0.0 * tau",
+            "with_slopes: piece.coefficients[-1] + 0.0 * t -> piece.coefficients[-1] - 0.0 * t",
+            "with_slopes: 0.0 * t -> 0.0 / t",
+        ],
+    },
+    "sensitivity": {
+        SAME: [
+            (
+                f"_near_sums: {last}[-1][:, None] + 0.0 * s -> {last}[-1][:, None] - 0.0 * s"
+            ) for last in ("(2 * count + 1) * law.terms", "law.tails")
+        ] + 2 * ["_near_sums: 0.0 * s -> 0.0 / s"],
+    },
+}  # fmt: skip
+"""Mutants that change no result, by the reason; every other one must be noticed."""
+
+USERS: Mapping[str, Sequence[str]] = {
+    "contact_points": ["contact_law"],
+    "contact_cells": ["contact_series", "contact_law", "contact_thickness", "sensitivity"],
+    "contact_series": ["contact_law", "contact_thickness", "sensitivity"],
+    "contact_thickness": ["sensitivity"],
+}
+"""By whose functions too a module is judged."""
+CASES: Mapping[str, Callable[[], list[Expected]]] = {
+    "contact_law": law_cases,
+    "contact_points": law_cases,
+    "contact_cells": series_cases,
+    "contact_series": series_cases,
+    "contact_thickness": sensitivity_cases,
+    "sensitivity": sensitivity_cases,
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_every_mutant_is_noticed_or_changes_nothing(name: str) -> None:
+    found = [mutant.name for mutant in survivors(name, CASES[name](), USERS.get(name, ()))]
+    assert sorted(found) == named(EQUIVALENT.get(name, {}))

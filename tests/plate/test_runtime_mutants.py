@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from mpmath import mp, mpf
 from mutants import of_module
-from test_code_mutants import GUARDS, SAME, SIZE, compiled
+from mutated_code import GUARDS, SAME, SIZE, compiled
 
 from derivation.engine.files import ROOT
 from derivation.plate.contact.oracle import balls as contact_balls

@@ -25,9 +25,7 @@ q, s, A, A_h, near, share, ratio = sp.symbols("q s A A_h near share ratio", posi
 lift, slope, quotient, whole, energy, rate = sp.symbols(
     "lift slope quotient whole energy rate", positive=True
 )
-F, extra, by_first, square, inner, modulus = sp.symbols(
-    "F extra by_first square inner modulus", positive=True
-)
+F, extra, by_first, square, inner = sp.symbols("F extra by_first square inner", positive=True)
 added, goal, known, mean, left, short, rise = sp.symbols(
     "added goal known mean left short rise", positive=True
 )

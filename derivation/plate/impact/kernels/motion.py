@@ -9,9 +9,9 @@ With D_n as in the theory, q = a/a_m and E the work over C a^5, the code knows o
 import sympy as sp
 
 from derivation.engine.emit.package import Routines
-from derivation.engine.emit.routine import Facts, Let, Routine, Several, routine
+from derivation.engine.emit.routine import Facts, Let, Routine, routine
 from derivation.plate.contact.theory.hertz import contact_radius
-from derivation.plate.impact.kernels.inversion import MODULUS, root
+from derivation.plate.impact.kernels.extremes import hertz_impact, number_of_energy, peak_shares
 from derivation.plate.impact.theory.impact import (
     contact_time,
     geometric,
@@ -19,16 +19,13 @@ from derivation.plate.impact.theory.impact import (
     weight,
     work_of_contact,
 )
-from derivation.plate.impact.theory.sensitivity import energy_number
-from derivation.plate.vocabulary import R, a, h, m, mu, u_t, v0
+from derivation.plate.vocabulary import a, u_t
 
 q, s, A, A_h, near, share, ratio = sp.symbols("q s A A_h near share ratio", positive=True)
 lift, slope, quotient, whole, energy, rate = sp.symbols(
     "lift slope quotient whole energy rate", positive=True
 )
-F, extra, by_first, square, inner, modulus = sp.symbols(
-    "F extra by_first square inner modulus", positive=True
-)
+F, extra, by_first, square, inner = sp.symbols("F extra by_first square inner", positive=True)
 added, goal, known, mean, left, short, rise = sp.symbols(
     "added goal known mean left short rise", positive=True
 )
@@ -316,70 +313,6 @@ def state() -> Routine:
             quotient: _left(q) / WHOLE,
         },
         lambda e: e.subs(q, 1 / (1 + s)),
-    )
-
-
-def peak_shares() -> Routine:
-    """Largest indentation and force over Hertz's."""
-    return routine(
-        "peak_shares",
-        (share, lift),
-        (),
-        (share**2 * lift, share**3),
-        (
-            (share * a) ** 2 / R * lift / (a**2 / R),
-            contact_radius().expression.subs(a, share * a) / contact_radius().expression,
-        ),
-        "Largest indentation and force over those by Hertz's law, by the share of its radius.",
-        {},
-    )
-
-
-def hertz_impact() -> Routine:
-    """Largest radius, indentation and force on a half-space, in the range of doubles."""
-    one, brought = sp.Integer(1), (sp.Rational(5, 4), m, v0, v0)
-    radius = sp.Symbol("radius", positive=True)
-    C = contact_radius().expression / a**3 / R
-    fifth = m * v0**2 / 2 / (C * work_of_contact(0))
-    largest = fifth ** sp.Rational(1, 5)
-    force = contact_radius().expression.subs(a, largest)
-
-    def factors(letter: str, above: tuple[sp.Expr, ...], below: tuple[sp.Expr, ...]) -> Several:
-        exact = (sp.Mul(*above) / sp.Mul(*below)) ** sp.Rational(1, 5)
-        names = sp.symbols(f"{letter}1:4", positive=True)
-        divisors = (sp.Tuple(*below),) if below else ()
-        given = (sp.Integer(5), sp.Tuple(*above), *divisors)
-        return Several(names, "root_factors", given, (exact, one, one))
-
-    depth = factors("depth", brought * 2, (mu, modulus, mu, modulus, R))
-    load = factors("load", (*brought * 3, R, mu, modulus, mu, modulus), ())
-    return routine(
-        "hertz_impact",
-        (R, m, v0, mu, modulus),
-        (root(radius, 5, (*brought, R, R), mu, modulus), depth, load),
-        (radius, *depth.symbols, *load.symbols),
-        (largest, largest**2 / R, one, one, force, one, one),
-        "Largest radius by Hertz's law; indentation and force as three factors each.",
-        {modulus: MODULUS},
-        lambda e: sp.powsimp(sp.powdenest(sp.expand_power_base(e, force=True), force=True)),
-    )
-
-
-def number_of_energy() -> Routine:
-    """The energy number in the range of doubles."""
-    number = sp.Symbol("number", positive=True)
-    above = sp.Rational(1, 2), m, v0, v0, R, R
-    below = mu, modulus, h, h, h, h, h
-    exact = sp.Mul(*above) / sp.Mul(*below)
-    given = sp.Tuple(*above), sp.Tuple(*below)
-    return routine(
-        "number_of_energy",
-        (R, m, v0, h, mu, modulus),
-        (Several((number,), "product", given, (exact,)),),
-        (number,),
-        (energy_number().expression,),
-        "The energy of impact over (4/3) E* h^5/R^2.",
-        {modulus: MODULUS},
     )
 
 

@@ -1,0 +1,230 @@
+"""The paper's motion and series with one thing wrong, in memory: definitions notice it."""
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from functools import cache, partial
+from types import ModuleType
+
+import flint
+import numpy as np
+import pytest
+from flint import arb
+from mpmath import mp, mpf
+from mutated_code import (
+    BEYOND_ALL,
+    FINE,
+    GUARDS,
+    ORDER,
+    SAME,
+    START,
+    Answer,
+    Expected,
+    named,
+    survivors,
+)
+from printed_sums import truncated_gamma
+from reversed_terms import reversed_terms
+
+from derivation.plate.contact.oracle import balls as contact_balls
+from derivation.plate.impact.oracle import printed_motion as motion_balls
+from generated.perturbation import PrintedMotion
+
+Point = tuple[float, ...]
+LAME = 0.36e9, 0.43e9
+
+# --- the paper's own motion
+
+PAPER: Point = (0.13, 72.2, 1.0, 0.1, 1.0, *LAME)
+OTHERS: Sequence[Point] = [
+    (1.3, 0.5, 3.0, 0.02, 0.3, -0.5, 0.8), (1.3, 0.5, 3.0, 0.02, 0.3, -0.5e9, 0.8e9)
+]  # fmt: skip
+NO_MOTION: Sequence[Point] = [
+    (*PAPER[:5], 0.36e9, -1.0), (*PAPER[:5], -0.7e9, 1e9), (*PAPER[:5], -0.7, 1.0),
+    (PAPER[0], 0.0, *PAPER[2:]),
+]  # fmt: skip
+MOTIONS: Sequence[Point] = [(72.2, 1.0, 3e7, 4e8), (0.5, 3.0, 2e5, 8e3), (2.0, 0.01, 30.0, 5e5)]
+"""m, v0, xi_2, xi_3: from a small correction to one that counts more than the linear term."""
+
+
+@cache
+def motion_cases() -> list[Expected]:
+    known = [(scene, kind) for scene in (PAPER, *OTHERS) for kind in (False, True)]
+    found = [Answer(partial(coefficients, motion=x), by_sums(*x)) for x in known]
+    nothing = [math.nan] * 4
+    found += [Answer(partial(coefficients, motion=(x, True)), nothing) for x in NO_MOTION]
+    return [*found, *map(by_motion, MOTIONS), *map(at_the_end, MOTIONS)]
+
+
+def coefficients(module: ModuleType, motion: tuple[Point, bool]) -> Point:
+    scene, corrected = motion
+    found = module.printed_motion(*scene, 12, corrected=corrected)
+    return found.m, found.v0, found.xi_2, found.xi_3
+
+
+def by_sums(scene: Point, corrected: bool) -> list[float]:
+    with mp.workdps(30):
+        gamma_2, gamma_3 = (truncated_gamma(k, 12, scene) for k in (2, 3))
+        power = mpf(8) / 3 if corrected else 3
+        return [scene[1], scene[2], float(1 / gamma_2), float(-gamma_3 / gamma_2**power)]
+
+
+def by_motion(numbers: Point) -> Answer:
+    """All that is said of a motion: its ends, (15), and (16) on the way and outside."""
+    m, v0, xi_2, xi_3 = map(mpf, numbers)
+    shares = (0.01, 0.11, 0.5, 0.93)
+    with mp.workdps(30):
+        rate, excess = mp.sqrt(xi_2 / m), 3 * xi_3 / 4 * (v0 * mp.sqrt(m / xi_2)) ** (mpf(8) / 3)
+        excess /= m * v0**2
+        last = mp.findroot(
+            lambda s: s**2 + excess * s ** (mpf(8) / 3) - 1, (1e-9, 1), solver="anderson"
+        )
+        breaks = float(mp.asin(last) / rate)
+        times = [share * breaks for share in shares]
+        linear = [float(v0 / rate * mp.sin(rate * t)) for t in times]
+        ends = [mp.pi / rate, v0 / rate, excess, last, breaks, 2 * mp.asin(last) / mp.pi]
+    whole = [float(motion_balls.corrected(t, *numbers, digits=16)) for t in times]
+    outside = [-1e-3 * breaks, 1.001 * breaks]
+
+    def ask(module: ModuleType) -> list[float]:
+        motion = module.PrintedMotion(*numbers)
+        names = "contact_time", "max_indentation", "excess", "last", "breaks_at", "share"
+        return [
+            *(getattr(motion, name) for name in names),
+            *motion.linear(np.array(times)),
+            float(motion.linear(times[1])),
+            *motion.corrected(np.array([*times, *outside])),
+            float(motion.corrected(times[1])),
+        ]
+
+    true = [*ends, *linear, linear[1], *whole, math.nan, math.nan, whole[1]]
+    return Answer(ask, [float(x) for x in true])
+
+
+def at_the_end(motion: Point) -> Answer:
+    """Where the radicand vanishes: what (16) tends to, like a square root."""
+    end = PrintedMotion(*motion).breaks_at  # which `by_motion` tests
+    true = float(motion_balls.corrected(end * (1 - 1e-10), *motion, digits=12))
+
+    def ask(module: ModuleType) -> float:
+        found = module.PrintedMotion(*motion)
+        return float(found.corrected(found.breaks_at))
+
+    return Answer(ask, true, 1e-4)
+
+
+# --- the reversed series
+
+TERMS = 6
+SERIES: Sequence[Point] = [
+    (1e4, 1.0, 20.0, 6e10, 8e10), (0.7, 1.0, 1.5, -2e10, 8e10), (1e4, 1.0, 4.0, 6e10, 8e10)
+]  # fmt: skip
+"""R, h, b, lam, mu."""
+
+
+@cache
+def reversed_cases() -> list[Expected]:
+    """Within the radius of convergence, and on both sides of it."""
+    points, true = [], []
+    for R, h, b, lam, mu in SERIES:
+        radius = convergence(h, b)
+        for share in (0.3, 0.05, 0.8, 0.996, 1.004):
+            delta = (share * radius * h) ** 2 / R
+            points.append((delta, R, h, b, lam, mu))
+            true.append(force_of_series(*points[-1]) if share < 1 else math.nan)
+    bad = [
+        (-points[0][0], *points[0][1:]),
+        (*points[0][:4], -0.7, 1.0),
+        (*points[0][:2], -1.0, *points[0][3:]),
+    ]
+    arguments = [np.array(column) for column in zip(*points, *bad, strict=True)]
+    whole = [*true, *([math.nan] * len(bad))]
+    one = force_of_series(*points[0], 1)
+    return [
+        Answer(partial(by_series, arguments=arguments), whole),
+        Answer(partial(by_series, arguments=points[0], terms=1), one),
+    ]
+
+
+def by_series(
+    module: ModuleType, arguments: Sequence[np.ndarray | float], terms: int = TERMS
+) -> np.ndarray:
+    found: np.ndarray = module.force_by_series(*arguments, terms=terms)
+    return found
+
+
+def force_of_series(
+    delta: float, R: float, h: float, b: float, lam: float, mu: float, terms: int = TERMS
+) -> float:
+    with flint.ctx.workprec(200):
+        stiff = 16 * arb(mu) * (arb(lam) + mu) / (arb(lam) + 2 * arb(mu)) / 3
+        a = (arb(R) * arb(delta)).sqrt()
+        bracket = sum((p * (a / h) ** n for n, p in enumerate(reversed_terms(h, b, terms))), arb(0))
+        return float(stiff * a * arb(delta) * bracket)
+
+
+def convergence(h: float, b: float) -> float:
+    """The largest of the least |eps| on circles on which A, and so the series of F, is small."""
+    reach = min(3.0, b / h)
+    orders = range(1, 34, 2)
+    series = [float(contact_balls.coefficient(n, h, b, 25)) for n in orders]
+    directions = np.exp(1j * np.linspace(0.0, np.pi, 401))
+    least = []
+    for circle in np.geomspace(1e-3, 1.0, 2000) * reach:
+        A = circle * directions
+        F = sum(c * A**n for c, n in zip(series, orders, strict=True))
+        least.append(np.abs(A * np.sqrt(1 + F)).min())
+        if least[-1] < 0.9 * max(least):
+            break
+    return float(max(least))
+
+
+# --- what changes nothing
+
+CIRCLES = "400 * (1 - np.log10(start / reach))"
+EQUIVALENT: Mapping[str, Mapping[str, Sequence[str]]] = {
+    "perturbation": {
+        FINE: ["_NODES: 24 -> 48 in _NODES = 24", "_PARTS: 27 -> 54 in _PARTS = 27"],
+        ORDER: [
+            "_STEPS: 60 -> 120 in _STEPS = 60",
+            "last: 1e-16 * y -> 1e-16 / y",
+            "last: 1e-16 -> 2e-16 in 1e-16 * y",
+        ],
+        BEYOND_ALL: ["_eta: 0.0 -> 1 in np.append(0.5 ** np.arange(_PARTS), 0.0)"],
+        START: ["last: 1.0 -> 2.0 in min(1.0, excess ** (-0.25))"],
+        GUARDS: [*(["_eta: 1 -> 2 in _PARTS - 1"] * 2), "_eta: _PARTS - 1 -> _PARTS + 1"],
+    },
+    "reversed_series": {
+        FINE: [
+            "_CIRCLE: 128 -> 256 in _CIRCLE = 128",
+            "_reversed: 1 -> 2 in _CIRCLE + 1",
+            "_reversed: _CIRCLE + 1 -> _CIRCLE - 1",
+            f"_reversed: 1 -> 2 in 1 + int({CIRCLES})",
+            "_reversed: 1 -> 2 in 1 - np.log10(start / reach)",
+            f"_reversed: {CIRCLES} -> {CIRCLES.replace('*', '/')}",
+            f"_reversed: 400 -> 800 in {CIRCLES}",
+            *(["_reversed: start / reach -> start * reach"] * 2),
+        ],
+        START: [
+            "_reversed: 0.05 -> 0.1 in 0.05 / max(abs(float(row[0])), 1e-300)",
+            "_reversed: 1e-300 -> 2e-300 in max(abs(float(row[0])), 1e-300)",
+        ],
+        SAME: [
+            "_reversed: 1.0 -> 2.0 in scaled[0] = 1.0",  # it is taken as 1
+            "_reversed: circle * directions -> circle / directions",
+            # Of an even number of terms that is F at -A, which is on the same circle.
+            "_reversed: value * t + coefficient -> value * t - coefficient",
+        ],
+    },
+}
+"""Mutants that change no result, by the reason; every other one must be noticed."""
+
+CASES: Mapping[str, Callable[[], Sequence[Expected]]] = {
+    "perturbation": motion_cases,
+    "reversed_series": reversed_cases,
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_every_mutant_is_noticed_or_changes_nothing(name: str) -> None:
+    found = [mutant.name for mutant in survivors(name, CASES[name]())]
+    assert sorted(found) == named(EQUIVALENT[name])

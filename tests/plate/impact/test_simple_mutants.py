@@ -1,0 +1,220 @@
+"""Impacts by simple laws with one thing wrong, in memory: the theory notices it."""
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from itertools import product
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+import pytest
+from mpmath import mp, mpf
+from mutated_code import (
+    GUARDS,
+    MARGIN,
+    ORDER,
+    PROMISES,
+    START,
+    Answer,
+    Expected,
+    named,
+    survivors,
+)
+from printed_sums import plate_factor
+
+from derivation.plate.contact.oracle import balls as contact_balls
+from derivation.plate.impact.kernels import simple as tables
+from derivation.plate.impact.theory.substitution import exponents
+from generated import simple_impact_numbers as numbers
+
+Point = tuple[float, ...]
+LAME = 0.36e9, 0.43e9
+
+# --- simple laws
+
+
+@dataclass(frozen=True)
+class Bounded:
+    """A bound that a module states: above what it is of, and hardly above what is proved."""
+
+    ask: Callable[[ModuleType], Any]
+    true: Any
+    above: float
+
+    def holds(self, module: ModuleType) -> bool:
+        found, true = np.asarray(self.ask(module), dtype=float), np.asarray(self.true, dtype=float)
+        same = (found == true) | ((found >= true) & (found <= true * (1 + self.above)))
+        return found.shape == true.shape and bool(same.all())
+
+
+ETAS = (0.17, 0.3, 1.0, 5.0, 1 / 6.5, 1 / 13, 1 / 40)
+"""h/b: by modes, and by the closed forms."""
+SIMPLE: Sequence[Point] = [
+    (1.0, 2.0, 3e-4, 0.6, 2.0, 3.6e4, 4.3e4), (1.0, 2.0, 0.05, 0.6, 2.0, 3.6e4, 4.3e4),
+    (0.9, 2.0, 0.02, 0.5, 0.5, -0.5e4, 0.8e4), (30.0, 0.5, 1e-3, 0.02, 0.8, 3.6e4, 4.3e4),
+    (0.01, 2.0, 0.1, 0.6, 2.0, 3.6e4, 4.3e4),
+]  # fmt: skip
+"""The last wide for its sphere."""
+NO_ESTIMATE: Sequence[Point] = [
+    (1.0, 2.0, 1e3, 0.3, 1.0, 3.6e4, 4.3e4), (1e-3, 2.0, 0.05, 0.3, 1.0, 3.6e4, 4.3e4),
+    (1.0, 1e-101, 0.05, 0.3, 1.0, 3.6e4, 4.3e4), (1.0, 2.0, 0.05, 0.3, 1e51, 3.6e4, 4.3e4),
+    (1.0, 2.0, 0.05, 0.3, 1e-51, 3.6e4, 4.3e4), (1.0, 1e101, 0.05, 0.3, 1.0, 3.6e4, 4.3e4),
+    (0.01, 2.0, 0.24, 0.6, 2.0, 3.6e4, 4.3e4),
+]  # fmt: skip
+
+
+@cache
+def simple_cases() -> list[Expected]:
+    found: list[Expected] = []
+    for eta in ETAS:
+        c_1, K_3 = plate(eta)
+        found += [
+            Answer(lambda x, eta=eta: x.plate_of(eta).bend, c_1, 1e-8 if eta > 1 / 7 else 1e-12),
+            Bounded(lambda x, eta=eta: x.plate_of(eta).rest, K_3, 1.9e-9 if eta > 0.2 else 1.5e-7),
+            Bounded(lambda x, eta=eta, c=c_1: x.plate_of(eta).doubt - abs(x.plate_of(eta).bend - c)
+                    >= 0, True, 0.0),
+        ]  # fmt: skip
+    for sizes in product((0.0, 0.01, 0.03), (0.0, 0.02), (0.0, 0.3), (0.0, 0.7, 2.0), (0.0, 0.004)):
+        true = [float(x) for x in lemma(*sizes)]
+        found.append(Bounded(lambda x, sizes=sizes: x.law_errors(*sizes), true, 1.5e-9))
+    endless = [
+        (1.0, 0.0, 0.0, 0.0),
+        (0.01, 0.0, 2.0, 0.0),
+        (0.1, 0.0, 0.0, 0.0),
+        (0.01, 1e999, 0.0, 0.0),
+    ]
+    found += [Answer(lambda x, s=s: x.law_errors(*s), [math.inf] * 4) for s in endless]
+    wide = [math.inf, math.inf, *map(float, lemma(0.01, 1e306, 0.0, 0.0)[2:])]
+    found.append(Bounded(lambda x: x.law_errors(0.01, 1e306, 0.0, 0.0), wide, 1.5e-9))
+    for scene in SIMPLE:
+        for name in ("hertz", "leading"):
+            results, law = simple(scene, name == "leading")
+            found += [
+                Answer(
+                    lambda x, n=name, s=scene: [*getattr(x, n)(*s)[:4], getattr(x, n)(*s)[5]],
+                    results,
+                ),
+                Bounded(lambda x, n=name, s=scene: getattr(x, n)(*s).law, law, 1e-6),
+            ]
+    return [*found, Answer(nowhere, [True] * 2 * len(NO_ESTIMATE))]
+
+
+def nowhere(module: ModuleType) -> list[bool]:
+    return [run(*x) is None for x in NO_ESTIMATE for run in (module.hertz, module.leading)]
+
+
+@cache
+def plate(eta: float) -> tuple[float, float]:
+    """c_1 by its ball, and K_3 as the theory of the substitution has it."""
+    c_1, c_3 = (contact_balls.coefficient(n, eta, 1.0, 25) for n in (1, 3))
+    if eta < 1 / tables.THIN:
+        return float(c_1), float(-5 * c_3 / 2) + numbers.WALL_CUBIC * eta**3
+    with mp.workdps(25):
+        total, n = mpf(0), 1
+        while 2 * eta * (j := mp.besseljzero(0, n)) < 35:
+            total += (plate_factor(2 * eta * j) - 1) / (j * mp.j1(j) ** 2) * j**2
+            n += 1
+        return float(c_1), float((2 * total / (3 * mp.pi) + numbers.WALL_REST) * mpf(eta) ** 3)
+
+
+def lemma(low: Any, up: Any, fall: Any, rise: Any, energy: Any = 0) -> list[mpf]:
+    """Bounds of time, indentation, force and radius as the theory says the lemma, in products."""
+    with mp.workdps(25):
+        least, most, fall, rise, more = (
+            1 - mpf(low),
+            1 + mpf(up),
+            mpf(fall),
+            mpf(rise),
+            mp.exp(energy),
+        )
+        found = exponents(fall, rise)
+        wide, narrow = (more / least) ** (1 / found["energy"]), most ** (1 / found["energy"])
+        if wide >= mpf("1.02"):
+            return [mp.inf] * 4
+        longer, shorter = max(found["longer"], 0), found["shorter"]
+        later = most * mp.sqrt(more / least) * max(wide**longer, narrow**shorter)
+        sooner = mp.sqrt(most) / least * max(wide**shorter, narrow**longer)
+        deep = max(most * wide ** found["depth"], narrow ** found["depth"] / least)
+        return [max(later, sooner) - 1, deep - 1, max(wide, narrow) ** 3 - 1, max(wide, narrow) - 1]
+
+
+def simple(scene: Point, corrected: bool) -> tuple[list[float], float]:
+    """Results by delta = a^2/R (1 + c_1 a/h) or by Hertz's law, and how far that may be off."""
+    c_1, K_3 = plate(scene[3] / scene[4])
+    with mp.workdps(25):
+        R, m, v0, h, _, lam, mu = map(mpf, scene)
+        c, E = mpf(c_1 if corrected else 0) / h, 4 * mu * (lam + mu) / (lam + 2 * mu)
+        work = lambda a: 4 * E / (3 * R**2) * (2 * a**5 / 5 + c * a**6 / 2)  # noqa: E731
+        start = (15 * m * v0**2 * R**2 / (16 * E)) ** mpf("0.2")
+        a = mp.findroot(lambda x: work(x) / work(start) - m * v0**2 / 2 / work(start), start)
+        rate = lambda x: (2 * x + 3 * c * x**2) / R  # noqa: E731
+
+        def step(u: mpf) -> mpf:
+            x = a * (1 - u**2)
+            return rate(x) * 2 * a * u / mp.sqrt(v0**2 * (1 - work(x) / work(a)))
+
+        time = 2 * mp.quad(step, [0, 0.5, 1], method="gauss-legendre")
+        top = mpf("1.02") * a / h
+        if corrected:
+            steep = 3 * c_1 * top / 2
+            law = lemma(K_3 * top**3 / (1 + steep), 0, max(0, -steep / (1 + steep)),
+                        max(0, steep / (1 + steep)))  # fmt: skip
+        else:
+            most = 3 * c_1 * top / 2
+            law = lemma(max(0, K_3 * top**3 - most), max(0, most), 0, 0)
+        depth, load = a**2 / R * (1 + c * a), 4 * E * a**3 / (3 * R)
+        quadrature = numbers.QUADRATURE if corrected else 0
+        return [float(x) for x in (time, depth, load, a, quadrature)], float(max(law))
+
+
+# --- what changes nothing
+
+ORDINARY = "which numbers are ordinary, to a factor"
+EQUIVALENT: Mapping[str, Mapping[str, Sequence[str]]] = {
+    "simple_impact": {
+        PROMISES: ["ROUNDING: 4e-14 -> 8e-14 in ROUNDING = 4e-14"],
+        ORDER: ["_CLOSE: 4e-15 -> 8e-15 in _CLOSE = 4e-15", "_STEPS: 40 -> 80 in _STEPS = 40"],
+        START: [
+            "_share: -1.0 -> 1.0",
+            "_share: 0.0 -> 1 in y > 0.0",
+            "_share: 1.0 -> 2.0 in -1.0",
+            "_share: 1.0 -> 2.0 in min(1.0, y ** (-1.0 / 6.0))",
+            "_share: 1.0 -> 2.0 in min(1.0, y ** (-1.0 / 6.0)) if y > 0.0 else 1.0",
+            "_share: 6.0 -> 12.0 in -1.0 / 6.0",
+        ],
+        GUARDS: [
+            "_DEEP: 0.5 -> 1.0 in _DEEP = 0.5",
+            "_share: 2.0 -> 4.0 in -2.0",
+            "_share: 3.0 * y * s -> 3.0 * y / s",
+            "_share: 3.0 -> 6.0 in 3.0 * y",
+        ],
+        ORDINARY: [
+            "_ORDINARY: 1e+100 -> 2e+100 in (1e-100, 1e+100)",
+            "_ORDINARY: 1e-100 -> 2e-100 in (1e-100, 1e+100)",
+            "_PLATES: 1e+50 -> 2e+50 in (1e-50, 1e+50)",
+            "_PLATES: 1e-50 -> 2e-50 in (1e-50, 1e+50)",
+            "_scene: energy / modulus -> energy * modulus",
+            "_scene: h / b -> h * b",
+        ],
+        MARGIN: [
+            "plate_of: 1e-13 * size -> 1e-13 / size",
+            "plate_of: 1e-13 -> 2e-13 in 1e-13 * size",
+            "plate_of: 1e-14 -> 2e-14 in 1e-14 * bend",
+            "plate_of: more_bend + 1e-13 * size -> more_bend - 1e-13 * size",
+            "plate_of: rest * _SLACK + more_rest -> rest * _SLACK - more_rest",
+        ],
+    },
+}
+"""Mutants that change no result, by the reason; every other one must be noticed."""
+
+CASES: Mapping[str, Callable[[], Sequence[Expected]]] = {
+    "simple_impact": simple_cases,
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_every_mutant_is_noticed_or_changes_nothing(name: str) -> None:
+    found = [mutant.name for mutant in survivors(name, CASES[name]())]
+    assert sorted(found) == named(EQUIVALENT[name])

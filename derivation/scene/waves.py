@@ -234,7 +234,8 @@ def _motion(law: ContactLaw, history: ImpactHistory) -> DynamicImpact:
         largest[Z], max(touching.before.displacement for touching in history.contacts)
     )
     energies = problem.energies(last)
-    lost, leak = (sum(_sum(piece, row) for piece in pieces) for row in (LOST, LEAK))
+    lost = sum(_sum(piece, LOST) for piece in pieces) if problem.retardation_time else 0.0
+    leak = sum(_sum(piece, LEAK) for piece in pieces) if problem.contact.pointwise else 0.0
     energy_balance = EnergyBalance(
         initial_kinetic=0.5 * energy,
         gravity_work=energy * problem.weight * last.displacement,
@@ -310,7 +311,7 @@ def _touch(problem: DynamicProblem, touching: contact_sequence.Touching) -> Cont
         problem.T * touching.start,
         problem.T * touching.end,
         problem.m * problem.v0 * (before.velocity - after.velocity + problem.weight * lasted),
-        problem.force * max(piece.element.largest(P) for piece in touching.pieces),
+        problem.force * _largest(touching.pieces, P),
         -before.separation_speed,
     )
 

@@ -402,9 +402,11 @@ def chebyshev(s: Array, degree: int) -> Array:
 def _knots(degree: int) -> tuple[Array, Array, Array]:
     """Chebyshev's points on [0, 1], coefficients from values there, and int_0^1 t^2 f(x t) dt."""
     n = 2 * degree
-    x = (1.0 - np.cos(np.pi * (np.arange(n) + 0.5) / n)) / 2.0
-    # The polynomials are orthogonal over the points, their squares n/2 but for the first one's.
-    analysis = chebyshev(2.0 * x - 1.0, degree).T * (2.0 / n)
+    odd = np.arange(2 * n - 1, 0, -2)
+    x = (1.0 + np.cos(np.pi / (2 * n) * odd)) / 2.0
+    # The polynomials, cos(k angle), are orthogonal over the points; whole turns are left out.
+    turned = np.outer(np.arange(degree + 1), odd) % (4 * n)
+    analysis = (2.0 / n) * np.cos(np.pi / (2 * n) * turned)
     analysis[0] *= 0.5
     t, weights = gauss(degree + 8)
     mean = [(weights * t * t) @ chebyshev(2.0 * place * t - 1.0, degree) for place in x]

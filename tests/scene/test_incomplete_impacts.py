@@ -39,6 +39,22 @@ inertia = true
 [inertia]
 modes = 8
 """
+PHONE = """
+[sphere]
+radius = 0.0158
+mass = 0.13
+[plate]
+radius = 0.05
+thickness = 0.00055
+material = "glass"
+edge = "clamped"
+[impact]
+speed = 6.0
+[effects]
+inertia = true
+[inertia]
+modes = 24
+"""
 
 
 @pytest.mark.parametrize(
@@ -81,6 +97,30 @@ def test_an_incomplete_impact_is_shown_as_one(
     assert data["restitution"] is None
     assert data["accuracy"]["bound"] is None
     assert data["max_force"] > 0.0
+
+
+def test_contacts_before_a_late_refusal_are_handed_over(capsys: Any, tmp_path: Path) -> None:
+    """The glass of a phone under a ball of 130 g: in a later contact it bends round the ball."""
+    file = tmp_path / "phone.toml"
+    file.write_text(PHONE)
+    assert main(["simulate", str(file), "--json", "-"]) == 1
+    data = json.loads(capsys.readouterr().out)
+    dynamics, contacts = data["dynamics"], data["dynamics"]["contacts"]
+    assert not dynamics["complete"]
+    assert "curved more sharply than the sphere" in dynamics["end_reason"]
+    assert data["restitution"] is None
+    assert data["accuracy"]["bound"] is None
+    assert len(contacts) > 1
+    assert data["max_force"] == max(touch["peak_force"] for touch in contacts)
+    assert data["contact_time"] == contacts[0]["end"]
+    # What was followed is an impact up to there: energy and momentum are kept.
+    balance = dynamics["energy_balance"]
+    assert abs(balance["residual"]) <= 1e-10
+    speed = math.sqrt(2.0 * balance["rebound_kinetic"] / 0.13)
+    impulse = sum(touch["impulse"] for touch in contacts)
+    assert impulse == pytest.approx(0.13 * (6.0 - speed), rel=1e-8)
+    assert main(["simulate", str(file)]) == 1
+    assert "INCOMPLETE" in " ".join(capsys.readouterr().out.split())
 
 
 def test_the_error_reaches_another_process_whole() -> None:

@@ -60,12 +60,18 @@ class Outcome:
         Relative tolerance of the run [1]; None if none was given.
     scene
         The scene.
+    seconds
+        Processor time that the run took [s]; NaN if its process ended without saying so.
+    memory
+        Most memory that its process has had up to then, by all its runs [bytes].
     """
 
     kind: Kind
     message: str
     rtol: float | None
     scene: Scene
+    seconds: float = math.nan
+    memory: float = math.nan
 
     @property
     def group(self) -> str:
@@ -166,6 +172,20 @@ def cells(found: Sequence[Outcome]) -> list[tuple[str, ...]]:
     return rows
 
 
+def cost(found: Sequence[Outcome]) -> str:
+    """Processor time of the runs and memory of their processes in a sentence."""
+    seconds = sorted(o.seconds for o in found if not math.isnan(o.seconds))
+    if not seconds:
+        return "Processor time and memory of the runs are not known."
+    median, most = (seconds[int(part * (len(seconds) - 1))] for part in (0.5, 0.95))
+    memory = max(o.memory for o in found if not math.isnan(o.seconds))
+    return (
+        f"Processor time of a run: median {median:.2g} s, 95 % below {most:.2g} s, at most "
+        f"{seconds[-1]:.2g} s, in all {sum(seconds):.3g} s; memory of a process at most "
+        f"{memory / 1e9:.2g} GB."
+    )
+
+
 def failures(found: Sequence[Outcome]) -> list[str]:
     """Of every group that did not finish one message and its scene as TOML in one line."""
     firsts: dict[tuple[str, str, bool], Outcome] = {}
@@ -199,6 +219,8 @@ def as_data(found: Sequence[Outcome], seed: int) -> dict[str, Any]:
             "remedied": outcome.remedied,
             "rtol": outcome.rtol,
             "scene": outcome.scene,
+            "seconds": None if math.isnan(outcome.seconds) else outcome.seconds,
+            "memory": None if math.isnan(outcome.memory) else outcome.memory,
         }
         for outcome in found
     ]

@@ -4,6 +4,7 @@ import json
 import math
 import os
 import signal
+import sys
 import traceback
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -11,6 +12,7 @@ from contextlib import contextmanager
 from multiprocessing import get_context
 from multiprocessing.connection import Connection
 from queue import SimpleQueue
+from time import process_time
 from typing import Any
 
 import numpy as np
@@ -49,7 +51,7 @@ def check_scenes(
     """
     chosen = scenes(count, seed) if drawn is None else drawn
     jobs = list(chosen)
-    many = min(os.cpu_count() or 1, len(jobs))
+    many = min(processors(), len(jobs))
     free: SimpleQueue[Worker] = SimpleQueue()
     workers = [Worker() for _ in range(many)]
     for worker in workers:
@@ -78,6 +80,12 @@ def check_scenes(
     return tuple(found)
 
 
+def processors() -> int:
+    """How many processors this process may use."""
+    may = getattr(os, "sched_getaffinity", None)
+    return len(may(0)) if may else os.cpu_count() or 1
+
+
 class Worker:
     """A process that simulates one scene after the other, and is replaced if one takes too long."""
 
@@ -100,8 +108,8 @@ class Worker:
                 self.ready = self.pipe.recv() == READY
             self.pipe.send((scene, rtol, limit))
             if self.pipe.poll(PATIENCE * limit):
-                kind, message = self.pipe.recv()
-                return Outcome(kind, message, rtol, scene)
+                kind, message, seconds, memory = self.pipe.recv()
+                return Outcome(kind, message, rtol, scene, seconds, memory)
             said: tuple[Kind, str] = "overrun", overrun(limit)
         except (EOFError, OSError):
             said = ("traceback", "the process ended by itself")
@@ -125,7 +133,19 @@ def serve(pipe: Connection) -> None:
             scene, rtol, limit = pipe.recv()
         except EOFError:
             return
-        pipe.send(run(scene, rtol, limit))
+        begun = process_time()
+        kind, message = run(scene, rtol, limit)
+        pipe.send((kind, message, process_time() - begun, peak_memory()))
+
+
+def peak_memory() -> float:
+    """Most memory that this process has had [bytes]; NaN where the system does not tell."""
+    try:
+        from resource import RUSAGE_SELF, getrusage
+    except ImportError:
+        return math.nan
+    unit = 1 if sys.platform == "darwin" else 1024
+    return float(getrusage(RUSAGE_SELF).ru_maxrss * unit)
 
 
 def overrun(limit: float) -> str:

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from derivation.commands.options import SEED, Seed, update_option
-from derivation.engine.console import Json, counted, listing, put_json, table
+from derivation.engine.console import Json, counted, listing, put, put_json, table
 
 Number = Annotated[
     int, typer.Option("-n", "--number", metavar="N", min=1, help="Number of random scenes.")
@@ -99,13 +99,14 @@ def scenes(number: Number, seed: Seed = SEED, json: Json = None) -> None:
 
     Example: platecontact check scenes -n 20 --seed 5
     """
-    from derivation.checks.realistic_scenes import COLUMNS, as_data, cells, failures, passed
+    from derivation.checks.realistic_scenes import COLUMNS, as_data, cells, cost, failures, passed
     from derivation.checks.scenes import check_scenes
 
     with counted("check") as tell:
         found = check_scenes(number, seed, tell)
     if put_json(lambda: as_data(found, seed), json):
         table(f"Runs of {number} realistic scenes, seed {seed}", COLUMNS, cells(found))
+        put(f"{cost(found)}\n")
         listing("One of each that did not finish", failures(found))
     raise typer.Exit(0 if passed(found) else 1)
 

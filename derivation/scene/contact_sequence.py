@@ -23,8 +23,8 @@ from derivation.scene.time_element import (
     onset,
 )
 
-FIRST, LONGEST, SHORTEST, MOST = 0.05, 0.25, 1e-13, 20000
-"""First, largest and least length of an element in x, and how many are tried."""
+FIRST, LONGEST, SHORTEST = 0.05, 0.25, 1e-13
+"""First, largest and least length of an element in x."""
 TOLERANCE = 1e-11
 """An element's last coefficients over the largest there are."""
 PHASE = 0.45
@@ -37,9 +37,9 @@ OWN = 1e3
 """How much less exact the radius may be beside the largest of its element."""
 ROUGH = 1e2
 """How much less exact the force of a viscoelastic contact may be."""
-CONTACTS, ELEMENTS, WORK = 100, 20_000, 2.5e7
-"""How many contacts of an impact are followed, with how many elements in all, and with how much
-work: elements weighted by the time that each takes."""
+CONTACTS, ELEMENTS, WORK = 100, 20_000, 3e7
+"""How many contacts of an impact are followed, how many elements are tried in all, with how much
+work: elements and looks in flight weighted by the time that each takes."""
 TOLD = 50
 """Elements after which the simulation reports its progress."""
 SHARP = 0.05
@@ -54,6 +54,7 @@ class Touching(NamedTuple):
     """A contact: when it began and ended, in units of the problem, its elements and states.
 
     `radius` is that at its beginning, not 0 where the face has not recovered from the last one.
+    `tried` counts its elements, those too that were tried and made shorter.
     """
 
     start: float
@@ -62,6 +63,7 @@ class Touching(NamedTuple):
     pieces: tuple[TimeElement, ...]
     before: ImpactState
     after: ImpactState
+    tried: int
 
 
 @dataclass(frozen=True)
@@ -74,12 +76,15 @@ class ImpactHistory:
         Why the simulation ends.
     remedy
         What to change so that it ends when the sphere has separated for good; empty if it does.
+    work
+        What it took, in the units of `WORK`; if it is incomplete at most this.
     """
 
     problem: DynamicProblem
     contacts: tuple[Touching, ...]
     reason: str
     remedy: str = ""
+    work: float = 0.0
 
     @property
     def complete(self) -> bool:
@@ -87,13 +92,23 @@ class ImpactHistory:
         return not self.remedy
 
 
-def impact_history(problem: DynamicProblem, n: int, tolerance: float = TOLERANCE) -> ImpactHistory:
+def impact_history(
+    problem: DynamicProblem,
+    n: int,
+    tolerance: float = TOLERANCE,
+    work: float = WORK,
+    first: Touching | None = None,
+) -> ImpactHistory:
     """Simulate an impact from the first contact on, by elements of n nodes.
 
     Parameters
     ----------
     tolerance
         Of an element's last coefficients over the largest there are [1].
+    work
+        What it may take.
+    first
+        The first contact, if it is known.
 
     Returns
     -------
@@ -108,35 +123,55 @@ def impact_history(problem: DynamicProblem, n: int, tolerance: float = TOLERANCE
     t, radius, state, found = 0.0, 0.0, problem.begin(), list[Touching]()
     # A sphere that would come back only by its weight has left: what follows is another impact.
     weightless = replace(problem, weight=0.0)
+    weight, tried, used = weight_of(problem), 0, 0.0
     while True:
-        left = steps_of(problem) - sum(len(touching.pieces) for touching in found)
+        most = min(ELEMENTS, tried + steps_of(problem, work - used))
         try:
-            touching = contact(problem, n, state, t, radius, tolerance, left)
+            touching = first or contact(problem, n, state, t, radius, tolerance, tried, most)
+            first = None
             found.append(touching)
-            wait, radius = meeting(weightless, touching.after, touching.pieces[-1].radius)
+            tried, used = tried + touching.tried, used + touching.tried * weight
+            after, last = touching.after, touching.pieces[-1].radius
+            wait, radius, looks = meeting(weightless, after, last, work - used)
+            used += looks
             if problem.weight and wait < math.inf:
-                wait, radius = meeting(problem, touching.after, touching.pieces[-1].radius)
+                wait, radius, looks = meeting(problem, after, last, work - used)
+                used += looks
             if wait == math.inf or touching.end + wait > problem.heard:
-                return ImpactHistory(problem, tuple(found), LEFT)
+                return ImpactHistory(problem, tuple(found), LEFT, work=used)
             _check_count(problem, found, touching.end + wait)
         except IncompleteError as end:
             if not found:
                 raise
-            return ImpactHistory(problem, tuple(found), end.why, end.remedy)
-        t, state = touching.end + wait, problem.flown(touching.after, wait)
+            return ImpactHistory(problem, tuple(found), end.why, end.remedy, work)
+        t, state = touching.end + wait, problem.flown(after, wait)
         if not radius:
             state = state._replace(approach=0.0)
 
 
-def steps_of(problem: DynamicProblem) -> int:
-    """Elements that an impact may take: fewer, the more oscillators each has."""
-    return int(min(ELEMENTS, WORK / weight_of(problem)))
+def steps_of(problem: DynamicProblem, work: float = WORK) -> int:
+    """Elements that may be tried: fewer, the more oscillators each has."""
+    return int(min(ELEMENTS, max(work, 0.0) / weight_of(problem)))
 
 
 def weight_of(problem: DynamicProblem) -> float:
     """Time that an element takes, in units of which about two million pass in a second."""
-    modes = problem.contact.modes
-    return 2000.0 + modes.omega.size + 16.0 * modes.phi.size
+    modes, degree = problem.contact.modes, len(problem.contact.table) - 1
+    return 2000.0 + modes.omega.size + (8.0 + 0.25 * degree) * modes.phi.size
+
+
+def expected_work(problem: DynamicProblem, n: int, coarse: ImpactHistory) -> float:
+    """Work of an impact whose contacts last as long as those of a run with fewer modes.
+
+    There are more elements where `PHASE` limits them, and as many elsewhere.
+    """
+    lasted = sum(touching.end - touching.start for touching in coarse.contacts)
+    more, fewer = (
+        lasted * float(np.max(some.omega, initial=0.0)) / PHASE
+        for some in (problem, coarse.problem)
+    )
+    others = sum(touching.tried for touching in coarse.contacts) - fewer / n
+    return (more / n + max(0.0, others)) * weight_of(problem)
 
 
 def _check_count(problem: DynamicProblem, found: list[Touching], t: float) -> None:
@@ -157,6 +192,7 @@ def contact(
     start: float,
     radius: float,
     tolerance: float = TOLERANCE,
+    tried: int = 0,
     most: int = ELEMENTS,
 ) -> Touching:
     """A contact, element by element, until the force is gone.
@@ -167,8 +203,8 @@ def contact(
         At its beginning: above 0 where the face has not recovered from the contact before.
     tolerance
         As `impact_history` takes it.
-    most
-        Elements at most.
+    tried, most
+        Elements that contacts before it tried, and how many may be tried in all.
 
     Raises
     ------
@@ -180,9 +216,7 @@ def contact(
     origin = start - x**ONSET
     # Before a quantity has grown, what counts is how large it will be.
     scale = np.full((LOST, 1), 0.1)
-    for step in range(MOST):
-        if len(found) >= most:
-            raise _endless(problem, origin + x**ONSET)
+    for step in range(tried, most):
         if step % TOLD == TOLD - 1:
             now, count = problem.T * (origin + x**ONSET), problem.omega.size
             tell(f"{now:.3g} s after first contact, {count} oscillators")
@@ -212,7 +246,8 @@ def contact(
         if float(np.sum(rows[P])) <= 0.0:  # a viscoelastic contact separates before it is flat
             last = _let_go(problem, n, made, state, radius)
             ended = origin + (last.element.x + last.element.length) ** ONSET
-            return Touching(start, ended, first, (*found, last), begin, last.end)
+            pieces = (*found, last)
+            return Touching(start, ended, first, pieces, begin, last.end, step + 1 - tried)
         found.append(made)
         _check_weight(problem, x + length)
         x, state, radius, scale = x + length, made.end, made.radius, largest
@@ -220,7 +255,10 @@ def contact(
         left = _left(state)
         if left < CLOSED * x**ONSET and not problem.retardation_time:
             more, after = _released(problem, made, left)
-            return Touching(start, start + x**ONSET + more, first, tuple(found), begin, after)
+            ended = start + x**ONSET + more
+            return Touching(start, ended, first, tuple(found), begin, after, step + 1 - tried)
+    else:
+        raise _endless(problem, origin + x**ONSET, most)
     raise _lost(problem, state, radius, problem.T * (origin + x**ONSET))
 
 
@@ -236,11 +274,11 @@ def _begun(begin: ImpactState, radius: float) -> float:
     return min(1.0, float((begin.approach / -begin.separation_speed) ** (1.0 / ONSET)))
 
 
-def _endless(problem: DynamicProblem, t: float) -> IncompleteError:
+def _endless(problem: DynamicProblem, t: float, most: int) -> IncompleteError:
     """A simulation that takes too many steps."""
     return IncompleteError(
         f"the sphere was still in contact {problem.T * t:.6g} s after the first contact, when the "
-        f"limit of {steps_of(problem)} time steps was reached",
+        f"limit of {most} time steps was reached",
         "give fewer inertia.modes or a larger accuracy.rtol, or set effects.inertia = false",
     )
 

@@ -17,11 +17,15 @@ FAST = 0.1
 """Share of the gap that the amplitudes of fast oscillators may add up to, to be passed over."""
 RECOVERED = 20.0
 """Time over A_v after which a face counts as recovered: its depth has fallen to 2e-6."""
+LOOK, LOOKS = 0.06, 200.0
+"""Work of a look at an oscillator, and of a block of looks beside that."""
 _HALVINGS = 80
 
 
-def meeting(problem: DynamicProblem, after: ImpactState, radius: float) -> tuple[float, float]:
-    """When sphere and plate meet again after a release, and the radius of the face then.
+def meeting(
+    problem: DynamicProblem, after: ImpactState, radius: float, most: float = math.inf
+) -> tuple[float, float, float]:
+    """When sphere and plate meet again after a release, the radius of the face then, and the work.
 
     The time is infinite if they never do. A viscoelastic contact ends at a radius above 0; the
     face then recovers.
@@ -29,7 +33,8 @@ def meeting(problem: DynamicProblem, after: ImpactState, radius: float) -> tuple
     Raises
     ------
     IncompleteError
-        If this is not found out within `BLOCKS` blocks of looks.
+        If this is not found out within `BLOCKS` blocks of looks, or with so much work at most
+        beyond the first.
     """
     omega, state, begin = problem.omega, after, 0.0
     reach = float(np.sum(np.hypot(state.q, state.q_dot / omega)))
@@ -37,7 +42,11 @@ def meeting(problem: DynamicProblem, after: ImpactState, radius: float) -> tuple
     t = STEP / float(np.max(omega)) * np.arange(block + 1)
     turn = np.outer(t, omega)
     sin, cos, versed = np.sin(turn), np.cos(turn), 2.0 * np.sin(turn / 2.0) ** 2
+    work, each = 0.0, LOOKS + LOOK * turn.size
     for _ in range(BLOCKS * (BLOCK // block)):
+        if work and work + each > most:
+            break
+        work += each
         clear = _clear(problem, state)
         begin, state = begin + clear, problem.flown(state, clear)
         bent = sin * (state.q_dot / omega) - versed * state.q
@@ -53,10 +62,10 @@ def meeting(problem: DynamicProblem, after: ImpactState, radius: float) -> tuple
                 high = _where(lambda t: problem.flown(after, t).separation_speed < 0.0, low, high)
             if _into(problem, after, high, radius) >= 0.0:
                 met = _where(lambda t: _into(problem, after, t, radius) < 0.0, low, high)
-                return met, float(_recovered(problem, np.array([met]), radius)[0])
+                return met, float(_recovered(problem, np.array([met]), radius)[0]), work
         begin, state = begin + float(t[-1]), problem.flown(state, float(t[-1]))
         if -state.displacement > reach and state.velocity <= 0.0:
-            return math.inf, 0.0
+            return math.inf, 0.0, work
     raise IncompleteError(
         f"sphere and plate moved side by side without contact for {problem.T * begin:.6g} s, the "
         "limit",

@@ -22,11 +22,13 @@ from numpy.typing import NDArray
 
 from derivation.scene.collocation import NEWTON, ONSET, Element, newton_step, radau, settled
 from derivation.scene.effects.effect import Array
-from derivation.scene.modal import ContactTables, sinc_less_one
+from derivation.scene.modal import ContactTables, sine_less_one
 
 A, V, Z, P, W, E, LOST, LEAK = range(8)
 """Rows of an element: radius, velocity, displacement, force, the plate's deflection and energy, and
 per x the energy lost in the contact and by the pointwise coupling."""
+PART = 2048
+"""Oscillators that are computed at once, so that their values at the nodes stay in the cache."""
 
 
 class ImpactState(NamedTuple):
@@ -96,6 +98,11 @@ class DynamicProblem:
         return self.contact.modes.inverse_modal_mass * self.m
 
     @cached_property
+    def parts(self) -> tuple[slice, ...]:
+        """The oscillators, so many at once."""
+        return tuple(slice(k, k + PART) for k in range(0, self.omega.size, PART))
+
+    @cached_property
     def by_speed(self) -> NDArray[np.intp]:
         """Order of the oscillators, the slowest first."""
         return np.argsort(self.omega, kind="stable")
@@ -112,13 +119,14 @@ class DynamicProblem:
     def flown(self, state: ImpactState, t: float) -> ImpactState:
         """A state after free flight."""
         turn = self.omega * t
-        bent = state.q_dot * t * sinc_less_one(turn) - 2.0 * state.q * np.sin(turn / 2.0) ** 2
+        sin = np.sin(turn)
+        bent = state.q_dot * t * sine_less_one(sin, turn) - 2.0 * state.q * np.sin(turn / 2.0) ** 2
         fallen = 0.5 * self.weight * t * t
         return ImpactState(
             state.displacement + state.velocity * t + fallen,
             state.velocity + self.weight * t,
             state.q + state.q_dot * t + bent,
-            state.q_dot * np.cos(turn) - state.q * self.omega * np.sin(turn),
+            state.q_dot * np.cos(turn) - state.q * self.omega * sin,
             state.approach - state.separation_speed * t + (fallen - float(np.sum(bent))),
         )
 
@@ -179,10 +187,14 @@ def nodes_of(problem: DynamicProblem, n: int, x: float, length: float, start: Im
     xs = x + length * rule.x
     t, rate = xs**ONSET, ONSET * xs ** (ONSET - 1)
     since = t - x**ONSET
-    turn = np.outer(since, problem.omega)
-    cos, sin = np.cos(turn), np.sin(turn)
-    free = start.q_dot * since[:, None] * sinc_less_one(turn)
-    free -= 2.0 * start.q * np.sin(turn / 2.0) ** 2
+    cos, sin, free = np.empty((3, n, problem.omega.size))
+    for part in problem.parts:
+        half = np.multiply.outer(since, 0.5 * problem.omega[part])
+        s, c = np.sin(half), np.cos(half)
+        versed, sine = 2.0 * s * s, 2.0 * s * c
+        cos[:, part], sin[:, part] = 1.0 - versed, sine
+        late = sine_less_one(sine, 2.0 * half)
+        free[:, part] = late * start.q_dot[part] * since[:, None] - versed * start.q[part]
     by_x = length * rule.integral
     by_t = by_x * rate
     even = modes.by_shape(start.q) + since[:, None] * modes.by_shape(start.q_dot)
@@ -277,36 +289,60 @@ def _system(problem: DynamicProblem, nodes: Nodes, at: Values) -> Array:
     return found + by_load(at.load_y) if problem.retardation_time else found
 
 
-def _swing(nodes: Nodes, driven: Array) -> tuple[Array, Array]:
-    """Deflections times M omega and velocities times M of the modes of mass M under a force."""
-    cosine = nodes.by_t @ (nodes.cos * driven)
-    sine = nodes.by_t @ (nodes.sin * driven)
-    return nodes.sin * cosine - nodes.cos * sine, nodes.cos * cosine + nodes.sin * sine
+class Driven(NamedTuple):
+    """The oscillators under a force: deflections and velocities at the end of an element.
+
+    At its nodes their energy and, where they are asked for, the velocities of each shape; else 0.
+    """
+
+    q: Array
+    q_dot: Array
+    energy: Array
+    rates: Array
+
+
+def _driven(
+    problem: DynamicProblem, nodes: Nodes, start: ImpactState, felt: Array, by_shape: bool
+) -> Driven:
+    """The oscillators under the forces of each shape."""
+    modes, (end, end_rate) = problem.contact.modes, np.empty((2, problem.omega.size))
+    energy, rates = np.zeros(nodes.t.size), np.empty(nodes.cos.shape if by_shape else (1, 0))
+    for part in problem.parts:
+        inverse_mass, omega = problem.inverse_modal_mass[part], problem.omega[part]
+        cos, sin, force = nodes.cos[:, part], nodes.sin[:, part], felt[:, modes.shape[part]]
+        cosine, sine = nodes.by_t @ (cos * force), nodes.by_t @ (sin * force)
+        q = start.q[part] + nodes.since[:, None] * start.q_dot[part] + nodes.free[:, part]
+        q += inverse_mass / omega * (sin * cosine - cos * sine)
+        rate = start.q_dot[part] * cos - start.q[part] * omega * sin
+        rate += inverse_mass * (cos * cosine + sin * sine)
+        energy += np.sum((rate**2 + (omega * q) ** 2) / (2.0 * inverse_mass), axis=1)
+        end[part], end_rate[part] = q[-1], rate[-1]
+        if by_shape:
+            rates[:, part] = rate
+    return Driven(end, end_rate, energy, modes.by_shape(rates) if by_shape else rates)
 
 
 def _piece(
     problem: DynamicProblem, nodes: Nodes, at: Values, start: ImpactState, x: float, length: float
 ) -> TimeElement:
     """The element as polynomials, and its end."""
-    modes, force, rate = problem.contact.modes, at.force, nodes.rate
-    swing, turned = _swing(nodes, at.felt[:, modes.shape])
-    inverse_mass, omega = problem.inverse_modal_mass, problem.omega
-    q = start.q + nodes.since[:, None] * start.q_dot + nodes.free
-    q += inverse_mass / omega * swing
-    moving = start.q_dot * nodes.cos - start.q * omega * nodes.sin + inverse_mass * turned
-    plate = np.sum((moving**2 + (omega * q) ** 2) / (2.0 * inverse_mass), axis=1)
-    by_shape = modes.by_shape(moving)
+    force, (viscous, pointwise) = at.force, (problem.retardation_time, problem.contact.pointwise)
+    driven = _driven(problem, nodes, start, at.felt, bool(viscous or pointwise))
     lost, leak = np.zeros_like(force), np.zeros_like(force)
-    if problem.retardation_time:
+    if viscous:
         felt = at.load_y[:, 1:] / at.load_y[:, :1]
-        lost = at.load_y[:, 0] * at.y * (at.v - np.sum(felt * by_shape, axis=1)) * rate
-    if problem.contact.pointwise:
-        leak = np.sum((force[:, None] - at.felt) * by_shape, axis=1) * rate
+        closing = at.v - np.sum(felt * driven.rates, axis=1)
+        lost = at.load_y[:, 0] * at.y * closing * nodes.rate
+    if pointwise:
+        leak = np.sum((force[:, None] - at.felt) * driven.rates, axis=1) * nodes.rate
     rule = radau(nodes.x.size)
-    values = np.array([at.a, at.v, at.z, force, np.sum(at.q, axis=1), plate, lost, leak])
+    values = np.array([at.a, at.v, at.z, force, np.sum(at.q, axis=1), driven.energy, lost, leak])
     made = Element(x, length, values @ rule.analysis.T, rule.analysis @ at.y)
-    end = ImpactState(float(at.z[-1]), float(at.v[-1]), q[-1], moving[-1], float(at.approach[-1]))
-    return TimeElement(made, end, float(at.a[-1]), at.felt[-1])
+    end = ImpactState(
+        float(at.z[-1]), float(at.v[-1]), driven.q, driven.q_dot, float(at.approach[-1])
+    )
+    # A row of its own: a view of the last would keep all rows of the nodes in memory.
+    return TimeElement(made, end, float(at.a[-1]), at.felt[-1].copy())
 
 
 def oscillating(

@@ -9,7 +9,7 @@ its edge while the sphere is in contact.
 
 import math
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -57,11 +57,20 @@ NONE: Results = (0.0, 0.0, 0.0, 0.0, 0.0)
 UNKNOWN: Results = (math.inf, math.inf, math.inf, math.inf, math.inf)
 INTEGRATION, ROUNDING = 1e-10, 2e-12
 """What tests hold elements and arithmetic to, beside the change with the modes [1]."""
+WORK = 5e7
+"""Work of all runs of an impact, as `contact_sequence` counts that of one."""
 
 
 def goal(rtol: float | None) -> float:
     """How much the modes left out may change, of a tolerance of everything [1]."""
     return LOOSE if rtol is None else SHARE * rtol
+
+
+@dataclass
+class Budget:
+    """Work that the runs of an impact may still take together."""
+
+    left: float
 
 
 @lru_cache(maxsize=4)
@@ -86,10 +95,11 @@ def impact(
         If an impact on a plate that does not deflect exceeds the law's range, or the first contact
         cannot be followed to its end. If a later one cannot, the impact is incomplete.
     """
-    quick = motion.impact(law.half_space)
+    quick, budget = motion.impact(law.half_space), Budget(WORK)
+    rough: DynamicImpact | None = None
     if law.model.inertia.branches == "auto" and not law.viscous:
-        law = branching(law, "all" if _branches_matter(law, quick, goal, outputs) else "A0")
-    found, first = _converged(law, quick, goal, outputs), law.model.b
+        law, rough = _branched(law, goal, outputs, budget)
+    found, first = _converged(law, quick, goal, outputs, budget, rough), law.model.b
     while law.model.inertia.infinite_plate and _edge_heard(found):
         if law.model.b > WIDEST * first:
             raise SceneError(
@@ -97,21 +107,35 @@ def impact(
                 f"{found.inertia.total_time:.6g} s; give a thicker plate or a lighter sphere"
             )
         law = replace(law, model=replace(law.model, b=2.0 * law.model.b))
-        found = _converged(law, quick, goal, outputs)
+        found = _converged(law, quick, goal, outputs, budget)
     return found
 
 
-def _branches_matter(law: ContactLaw, quick: Motion, goal: float, outputs: tuple[str, ...]) -> bool:
-    """Whether the branches beyond the first may change more than a tolerance has room for.
+def _branched(
+    law: ContactLaw, goal: float, outputs: tuple[str, ...], budget: Budget
+) -> tuple[ContactLaw, DynamicImpact | None]:
+    """The law with all branches if those beyond the first may change more than the goal leaves.
 
-    A rough run tells; besides them the tolerance covers the modes, which take up the goal. They
-    cannot be taken where the contact is so short that there would be too many.
+    A rough run tells, of the first branch alone, which is returned too if it is enough. What its
+    first contact says is less than the whole says. Besides the branches the tolerance covers the
+    modes, which take up the goal. Branches cannot be taken where the contact is so short that
+    there would be too many.
     """
-    every = branching(law, "all")
+    every, lowest, room = branching(law, "all"), branching(law, "A0"), goal / SHARE - goal
     if not followed(every, 2 * affordable(every)):
-        return False
-    rough = _run(branching(law, "A0"), count_of(law), quick, STAGES[0])
-    return rough.inertia.complete and rough.inertia.left(outputs)[1] > goal / SHARE - goal
+        return lowest, None
+    problem = problem_of(lowest, count_of(law))
+    most = contact_sequence.steps_of(problem)
+    first = contact_sequence.contact(problem, STAGES[0], problem.begin(), 0.0, 0.0, most=most)
+    if _motion(lowest, ImpactHistory(problem, (first,), "")).inertia.left(outputs)[1] > room:
+        budget.left -= first.tried * contact_sequence.weight_of(problem)
+        return every, None
+    history = contact_sequence.impact_history(problem, STAGES[0], first=first)
+    budget.left -= history.work
+    rough = _motion(lowest, history)
+    if rough.inertia.complete and rough.inertia.left(outputs)[1] > room:
+        return every, None
+    return lowest, rough
 
 
 def _edge_heard(found: DynamicImpact) -> bool:
@@ -121,18 +145,26 @@ def _edge_heard(found: DynamicImpact) -> bool:
 
 
 def _converged(
-    law: ContactLaw, quick: Motion, goal: float, outputs: tuple[str, ...]
+    law: ContactLaw,
+    quick: Motion,
+    goal: float,
+    outputs: tuple[str, ...],
+    budget: Budget,
+    known: DynamicImpact | None = None,
 ) -> DynamicImpact:
-    """The impact with as many modes as it takes, or as can be afforded."""
+    """The impact with as many modes as it takes, or as can be afforded.
+
+    The run with the fewest may be known.
+    """
     count = affordable(law)
     check_followed(law, 2 * count)
-    rough = _run(law, count, quick, STAGES[0])
+    rough = known or _run(law, count, quick, STAGES[0], budget)
     if not rough.inertia.complete:  # and no finer run would be
         return rough
     best: DynamicImpact | None = None
     while True:
         try:
-            found = _run(law, 2 * count, quick, STAGES[1])
+            found = _run(law, 2 * count, quick, STAGES[1], budget, rough.impact_history)
         except SceneError:
             if best is None:
                 raise
@@ -144,7 +176,7 @@ def _converged(
         # Where omitted branches are worth more than modes could mend, a tenth is small enough.
         enough = goal if beyond <= goal / SHARE else max(goal, 0.1 * beyond)
         if law.model.inertia.modes:
-            return _of_chosen_modes(best, law, count, quick)
+            return _of_chosen_modes(best, law, count, quick, budget)
         near = change <= LAST * enough
         if change <= enough or too_dear(law, count, _work(best.impact_history), near):
             return best
@@ -161,10 +193,36 @@ def problem_of(law: ContactLaw, count: int) -> DynamicProblem:
     return _problem(law, plate_of(law, count), motion.impact(law.half_space))
 
 
-def _run(law: ContactLaw, count: int, quick: Motion, n: int) -> DynamicImpact:
-    """The impact with so many bending modes by elements of n nodes."""
-    return _motion(
-        law, contact_sequence.impact_history(_problem(law, plate_of(law, count), quick), n)
+def _run(
+    law: ContactLaw,
+    count: int,
+    quick: Motion,
+    n: int,
+    budget: Budget,
+    coarse: ImpactHistory | None = None,
+) -> DynamicImpact:
+    """The impact with so many bending modes by elements of n nodes.
+
+    If with the contacts of a coarser run it would exceed its work, it is not begun, and those are
+    all that is known.
+    """
+    problem = _problem(law, plate_of(law, count), quick)
+    work = min(contact_sequence.WORK, budget.left)
+    if coarse and contact_sequence.expected_work(problem, n, coarse) > work:
+        return _motion(law, _unchecked(coarse, problem, count))
+    history = contact_sequence.impact_history(problem, n, work=work)
+    budget.left -= history.work
+    return _motion(law, history)
+
+
+def _unchecked(coarse: ImpactHistory, problem: DynamicProblem, count: int) -> ImpactHistory:
+    """A run that none with more modes can check: it counts as incomplete."""
+    return replace(
+        coarse,
+        reason=f"the error of {coarse.problem.omega.size} modes is not known: the "
+        f"{problem.omega.size} by which it is estimated exceed the limit of work",
+        remedy=f"write inertia.modes = {count // 2} and give no tolerance, or set "
+        "effects.inertia = false",
     )
 
 
@@ -177,7 +235,7 @@ def _judged(rough: DynamicImpact, found: DynamicImpact) -> DynamicImpact:
 
 
 def _of_chosen_modes(
-    found: DynamicImpact, law: ContactLaw, count: int, quick: Motion
+    found: DynamicImpact, law: ContactLaw, count: int, quick: Motion, budget: Budget
 ) -> DynamicImpact:
     """A run with as many modes as the scene says, and what its error estimate is worth.
 
@@ -188,7 +246,7 @@ def _of_chosen_modes(
         return found
     if not fast(law, count):
         return _unjudged(found)
-    coarse = _run(law, max(1, count // 4), quick, STAGES[0])
+    coarse = _run(law, max(1, count // 4), quick, STAGES[0], budget)
     if not coarse.inertia.complete:
         return _unjudged(found)
     further = _judged(coarse, found).inertia.mode_convergence
@@ -234,7 +292,8 @@ def _motion(law: ContactLaw, history: ImpactHistory) -> DynamicImpact:
         largest[Z], max(touching.before.displacement for touching in history.contacts)
     )
     energies = problem.energies(last)
-    lost, leak = (sum(_sum(piece, row) for piece in pieces) for row in (LOST, LEAK))
+    lost = sum(_sum(piece, LOST) for piece in pieces) if problem.retardation_time else 0.0
+    leak = sum(_sum(piece, LEAK) for piece in pieces) if problem.contact.pointwise else 0.0
     energy_balance = EnergyBalance(
         initial_kinetic=0.5 * energy,
         gravity_work=energy * problem.weight * last.displacement,
@@ -310,7 +369,7 @@ def _touch(problem: DynamicProblem, touching: contact_sequence.Touching) -> Cont
         problem.T * touching.start,
         problem.T * touching.end,
         problem.m * problem.v0 * (before.velocity - after.velocity + problem.weight * lasted),
-        problem.force * max(piece.element.largest(P) for piece in touching.pieces),
+        problem.force * _largest(touching.pieces, P),
         -before.separation_speed,
     )
 

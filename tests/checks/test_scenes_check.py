@@ -12,6 +12,7 @@ from derivation.checks.realistic_scenes import (
     Kind,
     Outcome,
     cells,
+    cost,
     failures,
     one_line,
     passed,
@@ -121,6 +122,9 @@ def test_worker_processes_run_the_scenes() -> None:
     assert [o.kind for o in found] == ["finished", "refused", "refused"]
     assert [o.rtol for o in found] == [1e-3, 1e-3, None]
     assert all(o.remedied for o in found)
+    assert all(0.0 < o.seconds < 60.0 for o in found)
+    assert all(1e6 < o.memory < 2e9 for o in found)
+    assert f"{max(o.seconds for o in found):.2g} s, in all" in cost(found)
 
 
 def test_the_command(monkeypatch: pytest.MonkeyPatch, capsys: Captured) -> None:

@@ -1,8 +1,11 @@
 """Impacts whose contacts are followed in part: what was found is kept, and shown as incomplete."""
 
 import json
+import math
 import pickle
 import re
+import time
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +13,7 @@ import pytest
 
 from derivation.cli import main
 from derivation.scene import contact_sequence, flight, waves
+from derivation.scene.contact_sequence import ImpactHistory
 from derivation.scene.effects import WHOLE_PLATE
 from derivation.scene.law import ContactLaw
 from derivation.scene.model import InertiaSettings, Model
@@ -19,6 +23,7 @@ BALL = Model(
     R=0.02, m=0.25, v0=1.0, h=0.005, b=0.15, lam=40e9, mu=27e9, density=2700.0,
     inertia=InertiaSettings(modes=8),
 )  # fmt: skip
+EFFECTS = WHOLE_PLATE | {"hertz", "inertia"}
 SCENE = """
 [sphere]
 radius = 0.02
@@ -34,6 +39,22 @@ inertia = true
 [inertia]
 modes = 8
 """
+PHONE = """
+[sphere]
+radius = 0.0158
+mass = 0.13
+[plate]
+radius = 0.05
+thickness = 0.00055
+material = "glass"
+edge = "clamped"
+[impact]
+speed = 6.0
+[effects]
+inertia = true
+[inertia]
+modes = 24
+"""
 
 
 @pytest.mark.parametrize(
@@ -47,11 +68,11 @@ modes = 8
 def test_contacts_before_one_that_does_not_end_are_kept(
     name: str, value: int, says: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    problem = waves.problem_of(ContactLaw(BALL, WHOLE_PLATE | {"hertz", "inertia"}), 8)
+    problem = waves.problem_of(ContactLaw(BALL, EFFECTS), 8)
     whole = contact_sequence.impact_history(problem, 10)
     assert whole.complete
     assert len(whole.contacts) == 2
-    limit = value or len(whole.contacts[0].pieces) + (1 if name == "ELEMENTS" else 0)
+    limit = value or whole.contacts[0].tried + (1 if name == "ELEMENTS" else 0)
     module = flight if name == "BLOCKS" else contact_sequence
     monkeypatch.setattr(module, name, limit if name == "ELEMENTS" else value)
     part = contact_sequence.impact_history(problem, 10)
@@ -78,6 +99,99 @@ def test_an_incomplete_impact_is_shown_as_one(
     assert data["max_force"] > 0.0
 
 
+def test_contacts_before_a_late_refusal_are_handed_over(capsys: Any, tmp_path: Path) -> None:
+    """The glass of a phone under a ball of 130 g: in a later contact it bends round the ball."""
+    file = tmp_path / "phone.toml"
+    file.write_text(PHONE)
+    assert main(["simulate", str(file), "--json", "-"]) == 1
+    data = json.loads(capsys.readouterr().out)
+    dynamics, contacts = data["dynamics"], data["dynamics"]["contacts"]
+    assert not dynamics["complete"]
+    assert "curved more sharply than the sphere" in dynamics["end_reason"]
+    assert data["restitution"] is None
+    assert data["accuracy"]["bound"] is None
+    assert len(contacts) > 1
+    assert data["max_force"] == max(touch["peak_force"] for touch in contacts)
+    assert data["contact_time"] == contacts[0]["end"]
+    # What was followed is an impact up to there: energy and momentum are kept.
+    balance = dynamics["energy_balance"]
+    assert abs(balance["residual"]) <= 1e-10
+    speed = math.sqrt(2.0 * balance["rebound_kinetic"] / 0.13)
+    impulse = sum(touch["impulse"] for touch in contacts)
+    assert impulse == pytest.approx(0.13 * (6.0 - speed), rel=1e-8)
+    assert main(["simulate", str(file)]) == 1
+    assert "INCOMPLETE" in " ".join(capsys.readouterr().out.split())
+
+
 def test_the_error_reaches_another_process_whole() -> None:
     told = pickle.loads(pickle.dumps(IncompleteError("it ends", "mend it")))
     assert str(told) == "effects.inertia: it ends; mend it"
+
+
+def test_a_flight_without_end_keeps_to_its_work() -> None:
+    problem = waves.problem_of(ContactLaw(BALL, EFFECTS), 8)
+    above = problem.begin()._replace(velocity=0.0, approach=-1.0)
+    leaving = above._replace(velocity=-1.0, displacement=-1.0)
+    _, _, one = flight.meeting(problem, leaving, 0.0)
+    assert one > 0.0
+    started = time.process_time()
+    with pytest.raises(IncompleteError, match="side by side"):
+        flight.meeting(problem, above, 0.0, 3.0 * one)
+    assert time.process_time() - started < 1.0
+
+
+def test_a_run_beyond_its_work_is_not_begun(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The coarser run, whose error nobody knows, is handed over as incomplete."""
+    law = ContactLaw(replace(BALL, inertia=InertiaSettings(branches="A0")), EFFECTS)
+    waves.impact.cache_clear()
+    begun: list[ImpactHistory] = []
+    follow = contact_sequence.impact_history
+
+    def noted(*args: Any, **options: Any) -> ImpactHistory:
+        begun.append(follow(*args, **options))
+        return begun[-1]
+
+    monkeypatch.setattr(contact_sequence, "impact_history", noted)
+    whole = waves.impact(law)
+    assert whole.inertia.complete
+    assert len(begun) > 1
+    used = [history.work for history in begun]
+    begun.clear()
+    waves.impact.cache_clear()
+    monkeypatch.setattr(contact_sequence, "WORK", 1.1 * used[0])
+    part = waves.impact(law)
+    waves.impact.cache_clear()
+    assert [history.work for history in begun] == used[:1]
+    assert not part.inertia.complete
+    assert math.isnan(part.restitution)
+    assert part.contact_time == pytest.approx(whole.contact_time, rel=0.05)
+    assert "limit of work" in part.inertia.end_reason
+    # What it says makes it run.
+    given = re.search(r"inertia.modes = (\d+)", part.inertia.remedy)
+    assert given
+    fewer = replace(BALL, inertia=InertiaSettings(modes=int(given[1]), branches="A0"))
+    assert waves.impact(replace(law, model=fewer)).inertia.complete
+    waves.impact.cache_clear()
+
+
+def test_all_runs_of_an_impact_share_its_work(monkeypatch: pytest.MonkeyPatch) -> None:
+    law = ContactLaw(replace(BALL, inertia=InertiaSettings()), EFFECTS)
+    used: list[float] = []
+    follow = contact_sequence.impact_history
+
+    def noted(*args: Any, **options: Any) -> ImpactHistory:
+        used.append(follow(*args, **options).work)
+        return follow(*args, **options)
+
+    monkeypatch.setattr(contact_sequence, "impact_history", noted)
+    waves.impact.cache_clear()
+    best = waves.impact(law, 1e-9)
+    whole = sum(used)
+    used.clear()
+    waves.impact.cache_clear()
+    monkeypatch.setattr(waves, "WORK", 0.9 * whole)
+    found = waves.impact(law, 1e-9)
+    waves.impact.cache_clear()
+    assert sum(used) <= 0.9 * whole
+    assert found.inertia.complete
+    assert found.inertia.modes < best.inertia.modes

@@ -1,6 +1,7 @@
 """A plate that moves: its limits, its conservation laws, and what its oscillators converge to."""
 
 import math
+import tracemalloc
 from dataclasses import replace
 from itertools import pairwise
 from typing import Any
@@ -202,3 +203,32 @@ def test_energy_and_momentum_are_kept(
     impulse = sum(touch.impulse for touch in contacts)
     given_up = model.v0 * (1.0 + found.restitution) + fallen
     assert impulse == pytest.approx(model.m * given_up, rel=1e-10)
+
+
+# --- what it takes
+
+
+def test_an_element_keeps_the_state_at_its_end_alone() -> None:
+    modes = free_modes(BALL, 400)
+    tracemalloc.start()
+    try:
+        found = course(BALL, modes)
+        kept, _ = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    elements = sum(len(touching.pieces) for touching in found.contacts)
+    state = 2 * 400 * 8
+    assert kept < 3 * elements * state + 2e6
+
+
+def test_tables_of_a_wide_contact_are_exact_and_small() -> None:
+    tracemalloc.start()
+    try:
+        x, analysis, mean = modal._knots(200)
+        _, peak = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert peak < 2e7
+    for power in (0, 1, 7, 40):
+        expected = x**power / (power + 3.0)  # int_0^1 t^2 (x t)^power dt
+        assert mean @ (analysis @ x**power) == pytest.approx(expected, abs=1e-14)

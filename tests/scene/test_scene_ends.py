@@ -265,7 +265,6 @@ def law(effects: frozenset[str] = MOVING, **changes: Any) -> ContactLaw:
 @pytest.mark.parametrize(
     ("name", "value", "says"),
     [
-        ("MOST", 3, "no solution that can be found; give less extreme"),
         ("SHORTEST", 10.0, "the contact at 0 s has no solution"),
         ("ELEMENTS", 4, "still in contact .* limit of 4 time steps"),
     ],

@@ -421,6 +421,16 @@ EQUIVALENT: Mapping[str, Mapping[str, Sequence[str]]] = {
             "_modulus_phase: 0.25 * quarter -> 0.25 / quarter",
             "_modulus_phase: 0.25 -> 0.5 in 0.25 * quarter",
         ],
+        SAME: [  # a sign
+            (
+                "_modulus_phase: wave *= 1.0 - 4.0 * (half - np.floor(half)) -> "
+                "wave /= 1.0 - 4.0 * (half - np.floor(half))"
+            ),
+            (
+                "bessel_j1_at_j0_zeros: slope[FIRST_MCMAHON[0] % 2::2] *= -1.0 -> "
+                "slope[FIRST_MCMAHON[0] % 2::2] /= -1.0"
+            ),
+        ],
     },
     "series_constants": {
         MORE: ["kappa_ratio: 2 -> 4 in len(KAPPA_STEPS) - 2"],

@@ -47,7 +47,7 @@ def test_printed_forms_stand_beside(suite: Suite, truth: dict[str, Known]) -> No
     [
         ("contact_kernels", "LINEAR", {"indentation", "stiffness", "contact_radius", "impact"}),
         ("contact_series", "REACH", {"indentation"}),
-        ("bessel", "INVERSE_ROOT_PI", {"bessel_j0"}),
+        ("bessel_kernels", "INVERSE_ROOT_PI", {"bessel_j0"}),
         ("impact", "WEIGHTS", {"impact"}),
         ("edge_kernels", "FIRST_THIRD", {"supported_edge", "supported_edge_slope"}),
         ("non_hertzian_pressure", "WEIGHTS", {"contact"}),

@@ -3,50 +3,19 @@
 import math
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache
-from types import ModuleType
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import pytest
 from mpmath import mp, mpf
 from mutated_code import GUARDS, SAME, SIZE, named, survivors
+from sharp import Sharp, expected
 
 from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.contact.oracle import moments
-from derivation.plate.pressure import oracle as pressure_balls
 from generated.bessel_numbers import ASYMPTOTIC_START, LARGEST_PHASE
 
 NAN = math.nan
-
-
-class Sharp(NamedTuple):
-    """What a function gives: values of the type and shape here, within so many of their ULP."""
-
-    call: Callable[[ModuleType], Any]
-    true: np.ndarray
-    ulp: float
-
-    def holds(self, module: ModuleType) -> bool:
-        found = np.asarray(self.call(module))
-        if found.shape != self.true.shape or found.dtype != self.true.dtype:
-            return False
-        with np.errstate(all="ignore"):
-            close = np.abs(found - self.true) <= self.ulp * np.spacing(np.abs(self.true))
-        return bool((close | (found == self.true) | (np.isnan(found) & np.isnan(self.true))).all())
-
-
-def expected(
-    name: str, points: Sequence[tuple[float, ...]], true: Sequence[Any], ulp: float
-) -> list[Sharp]:
-    """All points at once, in single precision too, and every one as a scalar."""
-    values = np.array([[float(x) for x in np.atleast_1d(row)] for row in true])
-    values = values[:, 0] if values.shape[1] == 1 else values.T
-    columns = [np.array(column, dtype=float) for column in zip(*points, strict=True)]
-    found = [Sharp(lambda m: getattr(m, name)(*columns), values, ulp)]
-    for index, point in enumerate(points):
-        one = np.float64(values[..., index])
-        found.append(Sharp(lambda m, point=point: getattr(m, name)(*point), one, ulp))
-    return found
 
 
 # --- Bessel functions
@@ -272,147 +241,8 @@ def logarithms(course: tuple[float, ...]) -> Sharp:
     )
 
 
-# --- solved pressure
-
-SOLVED = (
-    # a/h, b/h, R/h, share of E*, sphere
-    (0.5, 2.0, 0.8, 0.75, True),
-    (3.0, 10.0, 50.0, 1.0, False),
-    (0.9, 1.2, 2.0, 0.6, False),
-    (5.0, 8.5, 90.0, 1.0, False),
-    (2.0, 40.0, 3.0, 0.75, True),
-    (5.5, 300.0, 90.0, 1.0, False),
-)
-E, H = 7e10, 0.125
-PLACES = 0.25, 0.9375
-
-
-def pressure_cases() -> list[Sharp]:
-    found = []
-    for numbers in SOLVED:
-        for compliance in (0.0, 2e-10):
-            found.append(solved(*numbers, compliance))
-        found.append(distribution(*numbers))
-    found += [work(*numbers) for numbers in SOLVED[1:3]]
-    return [*found, *refused(), in_other_units(0.5)]
-
-
-@cache
-def state(a: float, v: float, R: float, share: float, sphere: bool) -> pressure_balls.PressureState:
-    places = () if sphere else PLACES
-    return pressure_balls.solve(
-        pressure_balls.case(a, 1.0, v, R if sphere else 0, share, places), 18
-    )
-
-
-def solved(a: float, v: float, R: float, share: float, sphere: bool, compliance: float) -> Sharp:
-    """Force, indentation, stiffness, slope, both pressures, and the nodes' sum of chi."""
-    true, own = state(a, v, R, share, sphere), share * E
-    width, radius = a * H, R * H
-    force = own * width**3 / radius * float(true.force)
-    stiffness = own * width * float(true.stiffness)
-    nodes, weights = (x[len(x) // 2 :] for x in np.polynomial.legendre.leggauss(48))
-    values = [
-        force,
-        width**2 / radius * float(true.depth) + compliance * force,
-        1 / (1 / stiffness + compliance),
-        width / radius * float(true.slope) * (1 + compliance * stiffness),
-        own * width / radius * float(true.centre),
-        force / (math.pi * width**2),
-        width,
-        force,
-        width * nodes[0],
-    ]
-
-    def call(m: ModuleType) -> list[float]:
-        radii = np.full(9, width)  # more than are worked on at a time
-        every = m.contact(
-            m.plate(H, v * H), radii, radius, own, E, sphere=sphere, compliance=compliance
-        )
-        got = [x[-1] for x in every]
-        carried = 2 * np.pi * width * weights @ got[9]
-        return [*got[1:5], *got[6:8], got[0], carried, got[8][0]]
-
-    return Sharp(call, np.array(values), 4000.0)
-
-
-def distribution(a: float, v: float, R: float, share: float, sphere: bool) -> Sharp:
-    """The pressure's distribution: against the oracle, or that it carries the force."""
-    true, own = state(a, v, R, share, sphere), share * E
-    width, radius = a * H, R * H
-    nodes, weights = np.polynomial.legendre.leggauss(40)
-    u, w = (1 + nodes) / 2, weights / 2
-
-    def call(m: ModuleType) -> list[float]:
-        of = m.plate(H, v * H)
-        r = np.append(width * np.sqrt((1 - u) * (1 + u)), [PLACES[0] * width, PLACES[1] * width])
-        q = m.pressure(r, of, width, radius, own, E, sphere=sphere)
-        ends = m.pressure([-0.1 * width, 1.01 * width], of, width, radius, own, E, sphere=sphere)
-        alone = m.pressure(width, of, width, radius, own, E, sphere=sphere)
-        carried = 2 * np.pi * width**2 * (q[:40] * u) @ w
-        return [carried, *([] if sphere else q[40:]), *ends, alone]
-
-    force = own * width**3 / radius * float(true.force)
-    places = [own * width / radius * float(x) for x in true.pressures]
-    return Sharp(call, np.array([force, *places, NAN, NAN, 0.0]), 4000.0)
-
-
-def work(a: float, v: float, R: float, share: float, sphere: bool) -> Sharp:
-    """dU = P d delta along a."""
-    width, radius = a * H, R * H
-    nodes, weights = np.polynomial.legendre.leggauss(30)
-
-    def call(m: ModuleType) -> float:
-        of, kept = m.plate(H, v * H), {"sphere": sphere, "compliance": 2e-10}
-        path = m.contact(of, width * (1 + nodes) / 2, radius, share * E, E, **kept)
-        end = m.contact(of, width, radius, share * E, E, **kept)
-        return float(width * (path.force * path.slope) @ weights / 2 / end.energy)
-
-    return Sharp(call, np.asarray(1.0), 1e6)
-
-
-def in_other_units(unit: float) -> Sharp:
-    """Force and pressure go with E*, however small it is."""
-
-    def call(m: ModuleType) -> list[float]:
-        of = m.plate(H, 2 * H)
-        one, other = (
-            (float(m.contact(of, 0.1, 1.0, x).force), float(m.pressure(0.05, of, 0.1, 1.0, x)))
-            for x in (1.0, unit)
-        )
-        return [small / large for small, large in zip(other, one, strict=True)]
-
-    return Sharp(call, np.full(2, unit), 2.0)
-
-
-def refused() -> list[Sharp]:
-    """Where there is no contact, or no plate."""
-    within = 0.1, 1.0, 50.0, 1.0, 1.0
-    outside = [
-        (0.0, *within[1:]), (-0.1, *within[1:]), (0.951, *within[1:]), (0.1, 1.0, 0.1, 1.0, 1.0),
-        (0.1, 1.0, 50.0, 0.0, 1.0), (0.1, 1.0, 50.0, 1.0, 0.9), (7.01, 1e3, 50.0, 1.0, 1.0),
-        (6.5, 1e3, 50.0, 1.0, 1.0),
-    ]  # fmt: skip
-
-    def force(m: ModuleType, a: float, b: float, R: float, modulus: float, own: float) -> float:
-        return float(m.contact(m.plate(1.0, b), a, R, modulus, own).force)
-
-    found = [Sharp(lambda m, p=point: force(m, *p), np.asarray(NAN), 0.0) for point in outside]
-    none = np.array([NAN, NAN, 0.0, 0.0])
-    sizes = (0.0, 1.0), (1.0, 0.0), (-1.0, -2.0), (1e-91, 1.0), (1e91, 1.0), (1e-60, 1e60)
-    for size in (*sizes, (1e60, 1e-60)):
-        found.append(Sharp(lambda m, size=size: numbers_of(m.plate(*size)), none, 0.0))
-    thin = Sharp(lambda m: float(m.plate(1.0, 100.0).rises.size), np.asarray(0.0), 0.0)
-    return [*found, thin]
-
-
-def numbers_of(plate: Any) -> list[float]:
-    return [plate.h, plate.first, plate.waves.size, plate.rises.size]
-
-
 MORE = "more terms or fewer, which are below rounding"
 TURNS = "whichever multiple of pi is taken off, its sine has the digits"
-OPEN = "a contact opens before it is as wide"
 
 EQUIVALENT: Mapping[str, Mapping[str, Sequence[str]]] = {
     "bessel": {
@@ -438,16 +268,6 @@ EQUIVALENT: Mapping[str, Mapping[str, Sequence[str]]] = {
     },
     "effects": {},
     "viscosity": {},
-    "non_hertzian_pressure": {
-        SIZE: ["_BLOCK: 8 -> 16 in _BLOCK = 8"],
-        MORE: [
-            "plate: 2.0 * np.pi -> 2.0 / np.pi",
-            "plate: 2 -> 4 in int(FADED / (2.0 * np.pi * eta)) + 2",
-        ],
-        OPEN: ["contact: WIDEST * plate.h -> WIDEST / plate.h"],
-        GUARDS: ["_solve: 0.0 -> 1 in np.where(np.isfinite(kernel), kernel, 0.0)"],
-        SAME: ["_profile: x * c -> x / c"],
-    },
 }
 """Mutants that change no result, by the reason; every other one must be noticed."""
 
@@ -456,7 +276,6 @@ CASES: Mapping[str, Callable[[], list[Sharp]]] = {
     "series_constants": series_cases,
     "effects": effect_cases,
     "viscosity": viscosity_cases,
-    "non_hertzian_pressure": pressure_cases,
 }
 
 

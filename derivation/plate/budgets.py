@@ -1,6 +1,7 @@
 """The budgets of the plate's functions: of the whole paper, and of single subjects."""
 
 import tomllib
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -40,3 +41,11 @@ def read_printed_share() -> float:
 def read_promises(table: str = "impact") -> dict[str, float]:
     """Relative errors, of the impact or of another table, measured, not proven, as committed."""
     return budgets.read_promises(BUDGETS, table)
+
+
+def counted(sources: Mapping[str, str]) -> dict[str, str]:
+    """The modules that the printed share is of, by name.
+
+    The one that repeats the paper's formulas, misprints included, is not among them.
+    """
+    return {name: text for name, text in sources.items() if name != "as_printed"}

@@ -28,7 +28,7 @@ from derivation.engine.formula.record import Record
 from derivation.engine.rewrite.form import Form
 from derivation.engine.rewrite.sections import sections
 from derivation.plate.blocks import blocks
-from derivation.plate.budgets import read_budgets, read_printed_share
+from derivation.plate.budgets import counted, read_budgets, read_printed_share
 from derivation.plate.manifest_rows import hand_written_rows
 from derivation.plate.modes.kernels.modal_sums import STYLE, kernel_of_sum
 from derivation.plate.modes.kernels.shares import SHARES
@@ -65,7 +65,7 @@ def render(formulas: Mapping[str, Record], forms: tuple[Form, ...]) -> dict[str,
     planned = modules(kernels)
     files = written(planned)
     sources = {name.removesuffix(".py"): text for name, text in files.items()}
-    expect_growth(shares(sources), read_printed_share())
+    expect_growth(shares(counted(sources)), read_printed_share())
     return files
 
 

@@ -15,6 +15,7 @@ from derivation.engine.report.hard import hard_context
 from derivation.engine.report.latex import environment
 from derivation.engine.report.numbers import number, rounded
 from derivation.engine.rewrite.account import ENDS
+from derivation.plate.budgets import counted
 from derivation.plate.contact.cases.grid import RATIOS, THICKNESSES
 from derivation.plate.report import content
 from derivation.plate.report.accuracy import accuracy_context
@@ -137,7 +138,7 @@ SECTIONS: dict[str, Callable[[Material], dict[str, Any]]] = {
     "rewriting": _rewriting,
     "code": lambda m: {
         "code": listings_context(m.sources, m.formulas),
-        "arithmetic": arithmetic_context(m.sources),
+        "arithmetic": arithmetic_context(counted(m.sources)),
     },
     "accuracy": _accuracy,
     "hard": lambda m: {"hard": hard_context(m.measured["hard"])},

@@ -19,7 +19,7 @@ MODES, MANY = 6000, 30_000
 """Most bending modes, and most oscillators of all branches, of the run that counts."""
 WORK = 1.4e6
 """Work of a course beyond which its modes are not doubled once more: that may take minutes."""
-LAST, FURTHER, ALL_BRANCHES = 8.0, 4.5, 12.0
+LAST, FURTHER, ALL_BRANCHES = 8.0, 4.5, 9.0
 """Where the change with the modes is no more than this times what is small enough, once more may
 do: limits of modes and work are so much higher, and that of oscillators of all branches."""
 

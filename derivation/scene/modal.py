@@ -25,11 +25,11 @@ from numpy.polynomial.chebyshev import chebder
 from numpy.typing import NDArray
 
 from derivation.scene import kernels
+from derivation.scene.chebyshev import chebyshev, knots
 from derivation.scene.effects.edge import CLAMPED, SUPPORTED
 from derivation.scene.effects.effect import Array
 from derivation.scene.law import ContactLaw
 from derivation.scene.model import Model
-from derivation.scene.quadrature import gauss
 from derivation.scene.scene import SceneError
 
 if TYPE_CHECKING:
@@ -342,7 +342,7 @@ class ContactTables:
 def contact_of(law: ContactLaw, plate: ModalPlate, top: float, pointwise: bool) -> ContactTables:
     """Tables of a law on the paper's edge with a plate's modes, up to a contact radius [m]."""
     # sin(a phi) asks for a polynomial of a degree beyond half of a phi.
-    x, analysis, mean = _knots(max(DEGREE, int(16 + RESOLVED * top * float(plate.less.phi[-1]))))
+    x, analysis, mean = knots(max(DEGREE, int(16 + RESOLVED * top * float(plate.less.phi[-1]))))
     a = top * x
     shape = law.at(a)
     slope = 2.0 * (a / law.model.R) * shape.slope
@@ -379,35 +379,3 @@ def sine_less_one(sine: Array, y: Array) -> Array:
     z = y[small] ** 2
     found[small] = -z / 6.0 * (1.0 - z / 20.0 * (1.0 - z / 42.0 * (1.0 - z / 72.0)))
     return found
-
-
-def chebyshev(s: Array, degree: int) -> Array:
-    """Chebyshev's polynomials up to a degree at places of [-1, 1], along a last axis.
-
-    Twice as many at a time: 2 T_m T_k = T_(m+k) + T_(m-k).
-    """
-    found = np.empty((degree + 1, *s.shape))
-    found[0] = 1.0
-    found[1:2] = s
-    known = 1
-    while known < degree:
-        more = min(known, degree - known)
-        found[known + 1 :][:more] = 2.0 * found[known] * found[1 : more + 1]
-        found[known + 1 :][:more] -= found[known - more : known][::-1]
-        known += more
-    return np.moveaxis(found, 0, -1)
-
-
-@lru_cache(maxsize=8)
-def _knots(degree: int) -> tuple[Array, Array, Array]:
-    """Chebyshev's points on [0, 1], coefficients from values there, and int_0^1 t^2 f(x t) dt."""
-    n = 2 * degree
-    odd = np.arange(2 * n - 1, 0, -2)
-    x = (1.0 + np.cos(np.pi / (2 * n) * odd)) / 2.0
-    # The polynomials, cos(k angle), are orthogonal over the points; whole turns are left out.
-    turned = np.outer(np.arange(degree + 1), odd) % (4 * n)
-    analysis = (2.0 / n) * np.cos(np.pi / (2 * n) * turned)
-    analysis[0] *= 0.5
-    t, weights = gauss(degree + 8)
-    mean = [(weights * t * t) @ chebyshev(2.0 * place * t - 1.0, degree) for place in x]
-    return x, analysis, np.array(mean)

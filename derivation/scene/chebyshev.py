@@ -1,0 +1,40 @@
+"""Chebyshev's polynomials on [0, 1]: values, coefficients from them, and weighted means."""
+
+from functools import lru_cache
+
+import numpy as np
+
+from derivation.scene.effects.effect import Array
+from derivation.scene.quadrature import gauss
+
+
+def chebyshev(s: Array, degree: int) -> Array:
+    """Chebyshev's polynomials up to a degree at places of [-1, 1], along a last axis.
+
+    Twice as many at a time: 2 T_m T_k = T_(m+k) + T_(m-k).
+    """
+    found = np.empty((degree + 1, *s.shape))
+    found[0] = 1.0
+    found[1:2] = s
+    known = 1
+    while known < degree:
+        more = min(known, degree - known)
+        found[known + 1 :][:more] = 2.0 * found[known] * found[1 : more + 1]
+        found[known + 1 :][:more] -= found[known - more : known][::-1]
+        known += more
+    return np.moveaxis(found, 0, -1)
+
+
+@lru_cache(maxsize=8)
+def knots(degree: int) -> tuple[Array, Array, Array]:
+    """Chebyshev's points on [0, 1], coefficients from values there, and int_0^1 t^2 f(x t) dt."""
+    n = 2 * degree
+    odd = np.arange(2 * n - 1, 0, -2)
+    x = (1.0 + np.cos(np.pi / (2 * n) * odd)) / 2.0
+    # The polynomials, cos(k angle), are orthogonal over the points; whole turns are left out.
+    turned = np.outer(np.arange(degree + 1), odd) % (4 * n)
+    analysis = (2.0 / n) * np.cos(np.pi / (2 * n) * turned)
+    analysis[0] *= 0.5
+    t, weights = gauss(degree + 8)
+    mean = [(weights * t * t) @ chebyshev(2.0 * place * t - 1.0, degree) for place in x]
+    return x, analysis, np.array(mean)

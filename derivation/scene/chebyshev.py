@@ -1,4 +1,4 @@
-"""Chebyshev's polynomials on whole arrays, and what a table in them takes from its points."""
+"""Chebyshev's polynomials on [0, 1]: values, coefficients from them, and weighted means."""
 
 from functools import lru_cache
 

@@ -37,7 +37,7 @@ OWN = 1e3
 """How much less exact the radius may be beside the largest of its element."""
 ROUGH = 1e2
 """How much less exact the force of a viscoelastic contact may be."""
-CONTACTS, ELEMENTS, WORK = 100, 20_000, 3.6e7
+CONTACTS, ELEMENTS, WORK = 100, 20_000, 3e7
 """How many contacts of an impact are followed, how many elements are tried in all, with how much
 work: elements and looks in flight weighted by the time that each takes."""
 TOLD = 50

@@ -19,9 +19,9 @@ MODES, MANY = 6000, 30_000
 """Most bending modes, and most oscillators of all branches, of the run that counts."""
 WORK = 1.4e6
 """Work of a course beyond which its modes are not doubled once more: that may take minutes."""
-LAST, FURTHER, ALL_BRANCHES = 8.0, 4.5, 12.0
+LAST, FURTHER = 8.0, 4.5
 """Where the change with the modes is no more than this times what is small enough, once more may
-do: limits of modes and work are so much higher, and that of oscillators of all branches."""
+do, and all three limits are so much higher."""
 
 
 def branching(law: ContactLaw, branches: str) -> ContactLaw:
@@ -124,6 +124,6 @@ def too_dear(law: ContactLaw, count: int, work: float, near: bool) -> bool:
     near
         Whether twice as many may be the last.
     """
-    more, all_branches = (FURTHER, ALL_BRANCHES) if near else (1.0, 1.0)
-    many = oscillators(law, 2 * count) > all_branches * MANY or 2 * count > more * MODES
+    more = FURTHER if near else 1.0
+    many = oscillators(law, 2 * count) > more * MANY or 2 * count > more * MODES
     return many or work > more * WORK

@@ -57,7 +57,7 @@ NONE: Results = (0.0, 0.0, 0.0, 0.0, 0.0)
 UNKNOWN: Results = (math.inf, math.inf, math.inf, math.inf, math.inf)
 INTEGRATION, ROUNDING = 1e-10, 2e-12
 """What tests hold elements and arithmetic to, beside the change with the modes [1]."""
-WORK = 4.5e7
+WORK = 4e7
 """Work of all runs of an impact, as `contact_sequence` counts that of one."""
 
 

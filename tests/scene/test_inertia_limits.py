@@ -13,7 +13,15 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 from scipy.special import j1, jn_zeros
 
-from derivation.scene import SceneError, contact_sequence, modal, mode_count, motion, waves
+from derivation.scene import (
+    SceneError,
+    chebyshev,
+    contact_sequence,
+    modal,
+    mode_count,
+    motion,
+    waves,
+)
 from derivation.scene.effects import WHOLE_PLATE
 from derivation.scene.law import ContactLaw
 from derivation.scene.limits import zener_number
@@ -224,7 +232,7 @@ def test_an_element_keeps_the_state_at_its_end_alone() -> None:
 def test_tables_of_a_wide_contact_are_exact_and_small() -> None:
     tracemalloc.start()
     try:
-        x, analysis, mean = modal._knots(200)
+        x, analysis, mean = chebyshev.knots(200)
         _, peak = tracemalloc.get_traced_memory()
     finally:
         tracemalloc.stop()

@@ -6,8 +6,7 @@ Hertz pressure over the contact radius a, the plate's edge as in the paper, A = 
 
 F is a polynomial per plate, see `contact_series`. All arguments broadcast.
 
-Arithmetic: A = a/h; where the iteration for the contact radius starts, its ends, and its steps;
-Lame's constants over a power of two, so that their sums stay in range.
+Arithmetic: A = a/h; where the iteration for the contact radius starts, its ends, and its steps.
 """
 
 import numpy as np
@@ -30,6 +29,7 @@ from generated.contact_series import (
     sphere_on_plate,
     value_of,
 )
+from generated.ranges import moderate
 
 _STEPS = 60  # of Newton's iteration at most; it takes four to six
 _CLOSE = 1e-9  # a relative residual whose square is far below rounding
@@ -367,16 +367,10 @@ def _plates(h: Double, b: Double) -> tuple[Plates, np.ndarray]:
 
 
 def _elastic(lam: Double, mu: Double) -> tuple[np.ndarray, np.ndarray]:
-    first, second = _moderate(lam, mu)
+    first, second = moderate(lam, mu)
     return 3.0 * first > -2.0 * second, mu > 0
 
 
 def _modulus(lam: Double, mu: Double) -> tuple[Double, Double]:
     """(4/3) E*, as factors."""
-    return mu, kernels.modulus_over_mu(*_moderate(lam, mu))
-
-
-def _moderate(lam: Double, mu: Double) -> tuple[Double, Double]:
-    """Both over the power of two above the larger, so that sums stay in range."""
-    _, power = np.frexp(np.maximum(np.abs(lam), np.abs(mu)))
-    return np.ldexp(lam, -power), np.ldexp(mu, -power)
+    return mu, kernels.modulus_over_mu(*moderate(lam, mu))

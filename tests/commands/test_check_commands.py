@@ -238,7 +238,7 @@ def test_truths_are_kept_as_they_come(monkeypatch: Patch, tmp_path: Path, capsys
     path, sought = tmp_path / "bounds.json", list[Any]()
     monkeypatch.setattr(pipeline, "MEASURED_BOUNDS", path)
     monkeypatch.setattr(pipeline, "KEPT_EVERY", 2)
-    truths = {true.point: true for true in known}
+    truths = {bounds.scene(number): true for number, true in enumerate(known)}
 
     def truth(point: Any) -> Any:
         if len(sought) == 4:
@@ -252,7 +252,7 @@ def test_truths_are_kept_as_they_come(monkeypatch: Patch, tmp_path: Path, capsys
     assert pipeline.committed_truths() == known[:4]
     sought[:] = [None]
     assert main(["check", "error-bounds", "-n", "7", "--update"]) == 0
-    assert sought == [None, *(true.point for true in known[4:])]
+    assert sought == [None, *map(bounds.scene, range(4, 7))]
     assert pipeline.committed_truths() == known
     whole = rows_of(path)
     assert sum(row["runs"] for row in whole) == 7 * len(bounds.TOLERANCES)

@@ -165,7 +165,7 @@ def test_what_is_no_paper_is_refused(folder: Path, tmp_path: Path) -> None:
         "derive", "--paper", str(tmp_path), home=tmp_path, status=2
     )
     assert "expected an empty folder" in run("new", str(folder), home=tmp_path, status=2)
-    assert "No such option: --paper" in run(
+    assert "expected a paper with hard cases, got none" in run(
         "check", "hard-cases", "--paper", str(folder), home=tmp_path, status=2
     )
     for text, says in (

@@ -236,7 +236,7 @@ def test_oscillators_beyond_the_limit_are_not_added(monkeypatch: pytest.MonkeyPa
 
 def test_code_that_errs_is_not_given_out() -> None:
     recipe = code.recipe(given.scene())
-    law, limit = recipe.law, recipe.context["limit"]
+    law, limit = recipe.law, float(recipe.numbers["LIMIT"])
     a = np.linspace(0.0, limit, 4001)[1:]
     table = law.indentation(a, law.at(a))
 
@@ -244,6 +244,7 @@ def test_code_that_errs_is_not_given_out() -> None:
         return np.interp(delta, table, a)
 
     made = {
+        "LIMIT": limit,
         "MAX_INDENTATION": math.inf,
         "contact_radius": inverse,
         "force": lambda delta: law.force(inverse(delta), law.at(inverse(delta))),

@@ -211,9 +211,7 @@ def test_report_names_what_is_not_split_with_the_reason_and_what_is_with_its_rem
         row | {"family": "d", "errors": {"unsplit": None}},
         row | {"family": "e", "errors": None},
     ]
-    assert list(reasons({"rows": rows}, "unsplit")) == [
-        r"no long $J_{0}$ here: a\_b (thin, thick)."
-    ]
+    assert list(reasons({"rows": rows}, "unsplit")) == [r"no long J0 here: a\_b (thin, thick)."]
     assert list(reasons({"rows": rows}, "remark")) == []
     rows[3]["errors"]["remark"] = "an estimate"
     assert list(reasons({"rows": rows}, "remark")) == ["an estimate: d (thin)."]

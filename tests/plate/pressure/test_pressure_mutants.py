@@ -75,7 +75,7 @@ def solved(a: float, v: float, R: float, share: float, sphere: bool, compliance:
         carried = 2 * np.pi * width * weights @ got[9]
         return [*got[1:5], *got[6:8], got[0], carried, got[8][0]]
 
-    return Sharp(call, np.array(values), 4000.0)
+    return Sharp(call, np.array(values), 20000.0)
 
 
 def distribution(a: float, v: float, R: float, share: float, sphere: bool) -> Sharp:
@@ -96,7 +96,7 @@ def distribution(a: float, v: float, R: float, share: float, sphere: bool) -> Sh
 
     force = own * width**3 / radius * float(true.force)
     places = [own * width / radius * float(x) for x in true.pressures]
-    return Sharp(call, np.array([force, *places, NAN, NAN, 0.0]), 4000.0)
+    return Sharp(call, np.array([force, *places, NAN, NAN, 0.0]), 20000.0)
 
 
 def work(a: float, v: float, R: float, share: float, sphere: bool) -> Sharp:

@@ -9,6 +9,8 @@ For 1/eta up to THIN few modes count; beyond it the sum is the thin plate's inte
 the contact law. Either way k is a sum of cosines, so that its matrices are products.
 """
 
+import math
+
 import flint
 import numpy as np
 import sympy as sp
@@ -51,6 +53,7 @@ def pressure_numbers() -> Numbers:
     with flint.ctx.workprec(3 * BITS):
         nodes, waves, wall = (_doubles(pairs) for pairs in (_collocation(), _waves(), _wall()))
         modes = nearest_double(_front(0))
+    square = math.fsum((waves[1] * waves[0] ** 2).tolist()) / 2
     return Numbers(
         "pressure_numbers",
         "Numbers of the true pressure: quadratures of its kernel, limits.",
@@ -69,9 +72,7 @@ def pressure_numbers() -> Numbers:
             Constant("LOW", LOW, "Up to here sinh(x)/x is 1 + x^2/6, to 1e-14."),
             Constant("FIRST", first, "N(0, 0) over c_1/h."),
             Constant("CUBIC", cubic, "What c_3 a^2/h^3 times x^2 + s^2 has in N."),
-            Constant(
-                "SQUARE", float(waves[1] @ waves[0] ** 2) / 2, "Of the waves' sum in x^2 + s^2."
-            ),
+            Constant("SQUARE", square, "Of the waves' sum in x^2 + s^2."),
             Constant("MODES", modes, "Of the modes' weights in the kernel."),
             Constant("NODES", nodes[0], "Collocation: t/a."),
             Constant("WEIGHTS", nodes[1], "And weights of int_0^1 of an even function."),

@@ -15,6 +15,7 @@ from typer.main import get_command
 
 from derivation.commands import check as check_command
 from derivation.commands import formulas as formula_commands
+from derivation.commands import materials as material_commands
 from derivation.commands import paper as paper_commands
 from derivation.commands import scenes as scene_commands
 from derivation.commands.command import Command
@@ -201,6 +202,7 @@ command()(scene_commands.simulate)
 command()(scene_commands.explain)
 command("map")(scene_commands.map_)
 command()(scene_commands.indent)
+command()(material_commands.materials)
 command()(scene_commands.schema)
 
 

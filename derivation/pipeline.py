@@ -1,6 +1,5 @@
 """What is measured of the plate beyond the stages of `derivation.engine.build`, and kept."""
 
-import json
 import keyword
 import os
 from collections.abc import Callable, Sequence
@@ -10,19 +9,20 @@ from typing import Any
 
 import sympy as sp
 
-from derivation.checks import bounds
+from derivation.engine.activity import Tell, quiet
 from derivation.engine.bounded import bounded
 from derivation.engine.emit.standalone import standalone
 from derivation.engine.files import PACKAGE, expect_writable, measurements, write_file
 from derivation.engine.formula.parse import FUNCTIONS, FormulaError, parse
 from derivation.engine.formula.size import terms_when_expanded
 from derivation.engine.formula.vocabulary import NOTHING
-from derivation.engine.measure.check import Progress
 from derivation.engine.measure.judge import Errors
-from derivation.engine.measure.record import plain, provenance
-from derivation.engine.measure.search import Search, Tell, search
+from derivation.engine.measure.record import provenance
+from derivation.engine.measure.result import CheckResult, all_kept
+from derivation.engine.measure.search import Search, search
+from derivation.engine.measure.search import Tell as SearchTell
 from derivation.engine.measure.search_record import Book, seconds_of
-from derivation.engine.outputs import expect_recordable, folder_for, recorded_in
+from derivation.engine.outputs import folder_for, plain, recorded_in, sorted_json
 from derivation.engine.rewrite.stabilise import Stable, stabilise
 from derivation.engine.rewrite.tested import Tested
 from derivation.plate.benchmark import run as accuracy_run
@@ -30,14 +30,13 @@ from derivation.plate.benchmark import speed
 from derivation.plate.contact.cases.check import KERNELS, LIMIT, ContactRow
 from derivation.plate.contact.cases.check import check as measure_contact
 from derivation.plate.contact.cases.truth import DIGITS
-from derivation.plate.impact.oracle import many_costs, many_digits
+from derivation.plate.impact.oracle import many_digits
 from derivation.plate.judge import PACKAGE as GENERATED
 from derivation.plate.paper import PAPER
 from derivation.plate.search.targets import recorded, targets
 from derivation.scene.effects import BY_NAME, EFFECTS, WHOLE_PLATE
 from derivation.scene.impact import selected_effects, simulate
-from derivation.scene.method_selection import solve
-from derivation.scene.model import NUMBERS, Model, model_of
+from derivation.scene.model import NUMBERS, model_of
 from derivation.scene.result import Result
 from derivation.scene.scene import Scene, SceneError, load, read
 from generated import contact_law, impact
@@ -46,16 +45,13 @@ MAX_TERMS = 5000
 """Terms that a formula to rewrite may have when expanded."""
 REWRITE_SECONDS = 30
 """Processor time [s] that rewriting a formula may take."""
-KEPT_EVERY = 20
-"""Truths of random scenes after which they are written."""
 MEASURED_CONTACT = measurements() / "contact.json"
 MEASURED_SPEED = measurements() / "speed.json"
-MEASURED_BOUNDS = measurements() / "bounds.json"
 MEASURED_ACCURACY = measurements() / "accuracy.json"
 EXAMPLE = PACKAGE / "scene" / "examples" / "paper.toml"
 
 
-def check_contact(update: bool = False, tell: Progress | None = None) -> tuple[ContactRow, ...]:
+def check_contact(tell: Tell = quiet) -> CheckResult:
     """Measure the contact law, its inversion and the impact against both oracles: minutes.
 
     Raises
@@ -63,36 +59,24 @@ def check_contact(update: bool = False, tell: Progress | None = None) -> tuple[C
     derivation.engine.oracle.agreement.OracleError
         If the two oracles contradict each other.
     """
-    if update:
-        expect_recordable(MEASURED_CONTACT)
     kernels: dict[str, Callable[..., Any]] = {
         name: impact.impact if name == "impact" else getattr(contact_law, name) for name in KERNELS
     }
     rows = measure_contact(kernels, processes=os.cpu_count() or 1, tell=tell)
-    if update:
-        text = json.dumps(contact_data(rows), indent=1, sort_keys=True) + "\n"
-        write_file(MEASURED_CONTACT, text)
-    return rows
-
-
-def contact_table(rows: tuple[ContactRow, ...]) -> tuple[tuple[str, ...], list[tuple[Any, ...]]]:
-    """Columns and cells of the contact law's errors."""
-    columns = (
-        "kernel",
-        "#points",
-        "#digits shared",
-        "#max",
-        "#max ULP",
-        "#used",
-        "#budget",
-        "kept",
-    )
     cells = [
         (r.kernel, r.points, r.digits, f"{r.max_error:.2g}", f"{r.double.max_ulp:.3g}",
          f"{r.double.ratio:.2f}", f"{r.budget:g}", r.passed)
         for r in rows
     ]  # fmt: skip
-    return columns, cells
+    return CheckResult(
+        "Errors of the contact law",
+        ("kernel", "#points", "#digits shared", "#max", "#max ULP", "#used", "#budget", "kept"),
+        cells,
+        lambda: contact_data(rows),
+        all(row.passed for row in rows),
+        listings=[("Worst arguments", [f"{r.kernel}: {' '.join(r.worst)}" for r in rows])],
+        budgeted=rows,
+    )
 
 
 def contact_data(rows: tuple[ContactRow, ...]) -> dict[str, Any]:
@@ -111,51 +95,14 @@ def _short(errors: Errors) -> dict[str, Any]:
     return {name: getattr(errors, name) for name in kept} | {"worst": worst}
 
 
-def check_speed(update: bool = False, tell: Progress | None = None) -> list[speed.SpeedTiming]:
+def check_speed(tell: Tell = quiet) -> CheckResult:
     """Measure the speed of contact law, impact and cold starts on this machine."""
-    if update:
-        expect_recordable(MEASURED_SPEED)
     examples = sorted(EXAMPLE.parent.glob("*.toml"))
     solved = [path for path in examples if selected_effects(load(path))[1].law.solved]
     timings = speed.measure(examples, solved, tell)
-    if update:
-        text = json.dumps(speed.as_data(timings), indent=1, sort_keys=True) + "\n"
-        write_file(MEASURED_SPEED, text)
-    return timings
-
-
-def check_bounds(
-    count: int, update: bool = False, tell: Progress | None = None
-) -> tuple[bounds.BoundRow, ...]:
-    """Hold the bounds that `simulate` states to the first `count` random scenes.
-
-    Truths that are committed are taken as they are; others are sought, about a second each,
-    and if asked kept every few, so that a run that was stopped goes on where it was.
-    """
-    if update:
-        expect_recordable(MEASURED_BOUNDS)
-    known = committed_truths()
-    found: list[bounds.SceneTruth] = []
-    for true in bounds.truths(count, known, tell=tell):
-        found.append(true)
-        if update and len(found) > len(known) and len(found) % KEPT_EVERY == 0:
-            write_file(MEASURED_BOUNDS, bounds.to_json(found, ()))
-    rows = bounds.judge(found, _chosen)
-    if update:
-        write_file(MEASURED_BOUNDS, bounds.to_json(found + known[count:], rows))
-    return rows
-
-
-def committed_truths() -> list[bounds.SceneTruth]:
-    """The random scenes' truths that are committed."""
-    return bounds.from_json(MEASURED_BOUNDS.read_text()) if MEASURED_BOUNDS.is_file() else []
-
-
-def _chosen(point: bounds.Point, rtol: float) -> tuple[Sequence[float], str, float]:
-    """An impact as `simulate` computes it: results, method and bound."""
-    R, m, v0, h, b, lam, mu = point
-    values, accuracy = solve(Model(R, m, v0, h, b, lam, mu), rtol)
-    return values[:4], accuracy.method, accuracy.bound
+    columns = ("what", "#measured", "#promise", "kept")
+    cells = [(t.name, f"{t.value:.3g} {t.unit}", f"{t.limit:g}", t.kept) for t in timings]
+    return CheckResult("Speed", columns, cells, lambda: speed.as_data(timings), all_kept(timings))
 
 
 def accuracy(
@@ -163,7 +110,7 @@ def accuracy(
     quick: bool = False,
     scene: Path | None = None,
     out: Path | None = None,
-    tell: Progress | None = None,
+    tell: Tell = quiet,
     update: bool = False,
 ) -> tuple[dict[str, Any], Path | None]:
     """Measure the run time that each accuracy takes, and write it to a file if asked.
@@ -202,7 +149,7 @@ def accuracy(
         regime = accuracy_run.scene_regime(**dict(zip(NUMBERS, case.numbers, strict=True)))
     data = accuracy_run.measure(methods, quick, regime, tell)
     if path is not None:
-        write_file(path, json.dumps(data, indent=1, sort_keys=True, allow_nan=False) + "\n")
+        write_file(path, sorted_json(data))
     return data, path
 
 
@@ -235,7 +182,7 @@ def search_worse(
     seed: int = 1,
     kernels: Sequence[str] = (),
     out: Path | None = None,
-    tell: Tell | None = None,
+    tell: SearchTell | None = None,
 ) -> tuple[Search, Book]:
     """Look for larger errors for some time, and write each new worst case to a file.
 
@@ -301,12 +248,12 @@ def _needed(scene: Scene) -> list[str]:
 
 def time_of_reference(known: Result, digits: int) -> str:
     """How long `reference` is going to take, about."""
-    seconds = many_costs.expected_seconds(_motion(known), known.max_contact_radius, digits)
+    seconds = many_digits.expected_seconds(_motion(known), known.max_contact_radius, digits)
     long = f"{seconds / 60:.0f} min" if seconds > 90 else f"{seconds:.0f} s"
     return f"about {long} on an idle machine"
 
 
-def reference(known: Result, digits: int, tell: Progress) -> many_digits.ImpactReference:
+def reference(known: Result, digits: int, tell: Tell) -> many_digits.ImpactReference:
     """Contact law and impact of a scene to many digits by both oracles.
 
     Raises
@@ -322,6 +269,6 @@ def reference(known: Result, digits: int, tell: Progress) -> many_digits.ImpactR
         ) from None
 
 
-def _motion(known: Result) -> many_costs.Motion:
+def _motion(known: Result) -> many_digits.Motion:
     m = known.model
     return m.R, m.m, m.v0, m.h, m.b, m.lam, m.mu

@@ -15,8 +15,9 @@ EXAMPLES = Path(derivation.scene.__file__).parent / "examples"
 PAPER = EXAMPLES / "paper.toml"
 AT_REST = {"inertia": False}
 """What a scene wants whose plate follows at rest."""
-ALL = frozenset(name for name, effect in BY_NAME.items() if effect.selectable) - AT_REST.keys()
-"""Every effect of a law at rest; the plate of `model` is simply supported."""
+_MORE = "inertia", "damping", "plasticity"
+ALL = frozenset(name for name, e in BY_NAME.items() if e.selectable and name not in _MORE)
+"""Every effect of a law at rest that does not yield; the plate of `model` is simply supported."""
 
 
 def model(**changes: Any) -> Model:

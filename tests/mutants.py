@@ -77,9 +77,10 @@ Code = ast.expr | ast.AugAssign
 
 
 class CodeMutant(NamedTuple):
-    """Where a module was changed, how, and the whole of it."""
+    """The function or constant that was changed, how, and the whole module."""
 
-    name: str
+    home: str
+    change: str
     tree: ast.Module
 
 
@@ -109,7 +110,7 @@ def of_module(text: str) -> Iterator[CodeMutant]:
         inside = f" in {ast.unparse(place.parent)}" if isinstance(place.node, ast.Constant) else ""
         for new in _rewritten(place.node, place.exponent):
             changed = _put(tree, place.node, new)
-            yield CodeMutant(f"{place.home}: {original} -> {ast.unparse(new)}{inside}", changed)
+            yield CodeMutant(place.home, f"{original} -> {ast.unparse(new)}{inside}", changed)
 
 
 class _Place(NamedTuple):

@@ -2,16 +2,16 @@
 
 import ast
 import sys
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 from types import CodeType, ModuleType
 from typing import Any, Protocol
 from unittest.mock import patch
 
 import numpy as np
-from mutants import CodeMutant, of_module
+from mutants import of_module
 
 import generated
 from derivation.engine.files import ROOT
@@ -20,14 +20,20 @@ TOLERANCE = 1e-12
 """Some thousand units in the last place: what is noticed is no rounding."""
 
 GUARDS = "kept out of sight: what it gives is not used, or another guard says the same"
-START = "where the iteration starts, or whether it does from an end that is safe"
-ORDER = "how fast the iteration converges, not to what"
+START = "where an iteration starts, or how fast it converges: no slower than is said"
 SIZE = "how many are worked on at a time"
 FINE = "how finely something is resolved that is smooth"
 BEYOND_ALL = "beyond it nothing changes in double precision"
-PROMISES = "a promise about the module, not used in it"
-MARGIN = "how far a bound is above what rounding takes"
-SAME = "the same number"
+MARGIN = "how far a bound is above what rounding takes, or a promise not used in the module"
+SAME = "the same number in another way"
+
+May = Mapping[str, tuple[int, str]]
+"""How many mutants of a function or constant may pass at most, and why."""
+ANYWHERE: May = {
+    "_STEPS": (1, "replaced by how many steps are said to be enough"),
+    "_CLOSE": (1, START),
+    **dict.fromkeys(("_BLOCK", "_MODE_BLOCK", "_SCENES"), (1, SIZE)),
+}
 
 
 class Expected(Protocol):
@@ -112,29 +118,50 @@ def source(name: str) -> str:
     return (ROOT / "generated" / f"{name}.py").read_text()
 
 
-def survivors(
-    name: str, cases: Sequence[Expected], users: Sequence[str] = ()
-) -> Iterator[CodeMutant]:
-    """The mutants of a module that no case notices."""
-    text = source(name)
-    assert all(case.holds(compiled(text, name, users)) for case in cases)
-    for mutant in of_module(text):
-        if survives(mutant, name, cases, users):
-            yield mutant
+@dataclass(frozen=True)
+class Judged:
+    """How the mutants of a module are judged.
+
+    Parameters
+    ----------
+    cases
+        What notices them.
+    may_pass
+        What changes no result; every other mutant is noticed.
+    users
+        Modules upon it, by whose functions too it is judged.
+    steps
+        How many of its iterations are said to be enough.
+    """
+
+    cases: Callable[[], Sequence[Expected]]
+    may_pass: May = field(default_factory=dict)
+    users: Sequence[str] = ()
+    steps: int | None = None
 
 
-def survives(
-    mutant: CodeMutant, name: str, cases: Sequence[Expected], users: Sequence[str] = ()
-) -> bool:
-    """Whether it passes; one that raises an error does not."""
+def passes(tree: ast.Module | str, name: str, judged: Judged, cases: Sequence[Expected]) -> bool:
+    """Whether no case notices a module; one that raises an error is noticed."""
     with np.errstate(all="ignore"):
         try:
-            module = compiled(mutant.tree, name, users)
+            module = compiled(tree, name, judged.users)
+            if judged.steps is not None:
+                vars(module)["_STEPS"] = judged.steps
             return all(case.holds(module) for case in cases)
         except (ArithmeticError, LookupError, TypeError, ValueError, NameError, AttributeError):
             return False
 
 
-def named(equivalent: Mapping[str, Sequence[str]]) -> list[str]:
-    """The names of mutants that change nothing, whatever the reason."""
-    return sorted(mutant for those in equivalent.values() for mutant in those)
+def unnoticed(name: str, judged: Judged) -> dict[str, list[str]]:
+    """By function or constant, the mutants that pass where more of them do than may."""
+    text, cases = source(name), judged.cases()
+    assert passes(text, name, judged, cases)
+    found: dict[str, list[str]] = {}
+    homes = set()
+    for mutant in of_module(text):
+        homes.add(mutant.home)
+        if passes(mutant.tree, name, judged, cases):
+            found.setdefault(mutant.home, []).append(mutant.change)
+    assert judged.may_pass.keys() <= homes, "a name that the module does not have"
+    most = {home: count for home, (count, _) in (ANYWHERE | judged.may_pass).items()}
+    return {home: those for home, those in found.items() if len(those) > most.get(home, 0)}

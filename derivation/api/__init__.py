@@ -3,13 +3,15 @@
     >>> import platecontact as pc
     >>> pc.formula("G").unit
     '1'
-    >>> scene = pc.read({
-    ...     "sphere": {"radius": 0.01, "material": "steel"},
-    ...     "plate": {"radius": 0.3, "thickness": 0.05, "material": "glass"},
-    ...     "impact": {"speed": 1.0},
-    ... })
+    >>> scene = pc.Scene(
+    ...     sphere=pc.Sphere(radius=0.01, material="steel"),
+    ...     plate=pc.Plate(radius=0.3, thickness=0.05, material="glass"),
+    ...     impact=pc.Impact(speed=1.0),
+    ... )
     >>> print(f"{pc.simulate(scene).contact_time:.3g} s")
     9.26e-05 s
+
+`load` reads the same from a scene file, `read` from tables of keys.
 
 All quantities are in SI units. Each name is loaded when it is first used: a simulation starts
 without SymPy.
@@ -21,8 +23,17 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from derivation import diagnose, formula
     from derivation.scene import (
+        Accuracy,
+        Effects,
+        Impact,
+        Inertia,
+        Material,
+        Measured,
+        Plate,
+        Result,
         Scene,
         SceneError,
+        Sphere,
         explain,
         indent,
         load,
@@ -35,8 +46,17 @@ if TYPE_CHECKING:
     from .formulary import formulas, misprints, rewrite
 
 __all__ = [
+    "Accuracy",
+    "Effects",
+    "Impact",
+    "Inertia",
+    "Material",
+    "Measured",
+    "Plate",
+    "Result",
     "Scene",
     "SceneError",
+    "Sphere",
     "diagnose",
     "explain",
     "formula",

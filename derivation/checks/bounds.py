@@ -9,27 +9,34 @@ import json
 import math
 import random
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import flint
 
-from derivation.checks.random_scenes import Tell, spreading
-from derivation.engine.measure.record import plain
+from derivation.checks.random_scenes import spreading
+from derivation.engine.activity import Tell, quiet
+from derivation.engine.files import measurements, write_file
+from derivation.engine.measure.result import CheckResult, all_kept
+from derivation.engine.outputs import expect_recordable, json_by_line, plain_rows
 from derivation.plate.impact.oracle import impact as contact_impact
+from derivation.scene.method_selection import solve
+from derivation.scene.model import Model
 from generated.contact_law import force_of_radius, indentation
 
+MEASURED = measurements() / "bounds.json"
+KEPT_EVERY = 20
+"""Truths after which they are written."""
 DIGITS = 50
 """Of a truth; a bound is never below 4e-14."""
 SEED = 1
 TOLERANCES = tuple(10.0**-n for n in range(2, 14))
+COLUMNS = ("method", "#runs", "#worst error/bound", "#error", "#bound", "of")
 QUANTITIES = ("contact_time", "max_indentation", "max_force", "max_contact_radius")
 _WRITTEN = DIGITS + 3
 
 Point = tuple[float, ...]
 """R, m, v0, h, b, lam and mu of an impact."""
-Solve = Callable[[Point, float], tuple[Sequence[float], str, float]]
-"""Results, method and bound of an impact at a tolerance."""
 ORACLE: Callable[..., tuple[flint.arb, ...]] = contact_impact.impact
 
 
@@ -73,6 +80,31 @@ class BoundRow:
         return self.ratio <= 1.0
 
 
+def check_bounds(count: int, update: bool = False, tell: Tell = quiet) -> CheckResult:
+    """Test the bounds that `simulate` states on the first `count` random scenes.
+
+    Truths that are committed are taken as they are; others are sought, about a second each,
+    and if asked kept every few, so that a run that was stopped goes on where it was.
+    """
+    if update:
+        expect_recordable(MEASURED)
+    known = committed_truths()
+    found: list[SceneTruth] = []
+    for true in truths(count, known, tell=tell):
+        found.append(true)
+        if update and len(found) > len(known) and len(found) % KEPT_EVERY == 0:
+            write_file(MEASURED, to_json(found, ()))
+    rows = judge(found)
+    if update:
+        write_file(MEASURED, to_json(found + known[count:], rows))
+    cells = [
+        (r.method, r.runs, f"{r.ratio:.3f}", f"{r.error:.2g}", f"{r.bound:.2g}", r.quantity)
+        for r in rows
+    ]
+    title = f"Stated bounds in {count} scenes"
+    return CheckResult(title, COLUMNS, cells, lambda: plain_rows(rows), all_kept(rows))
+
+
 def scene(number: int, seed: int = SEED) -> Point:
     """The scene of a number: h/b from 1e-4 to 100, a_m from 1e-8 of the law's range up."""
     generator = random.Random(f"bounds {seed} {number}")
@@ -95,7 +127,7 @@ def truth(point: Point) -> SceneTruth:
 
 
 def truths(
-    count: int, known: Sequence[SceneTruth] = (), seed: int = SEED, tell: Tell | None = None
+    count: int, known: Sequence[SceneTruth] = (), seed: int = SEED, tell: Tell = quiet
 ) -> Iterator[SceneTruth]:
     """The first `count` scenes' truths, one by one; those already known are not sought again.
 
@@ -110,8 +142,7 @@ def truths(
         if _written(point) in found:
             yield found[_written(point)]
             continue
-        if tell is not None:
-            tell("oracle", number + 1, count)
+        tell("oracle", number + 1, count)
         yield truth(point)
 
 
@@ -134,8 +165,15 @@ def errors(values: Iterable[float], true: SceneTruth) -> tuple[float, ...]:
         )
 
 
+def simulated(point: Point, rtol: float) -> tuple[Sequence[float], str, float]:
+    """An impact as `simulate` computes it at a tolerance: results, method and bound."""
+    R, m, v0, h, b, lam, mu = point
+    values, accuracy = solve(Model(R, m, v0, h, b, lam, mu), rtol)
+    return values[:4], accuracy.method, accuracy.bound
+
+
 def judge(
-    known: Sequence[SceneTruth], solve: Solve, tolerances: Sequence[float] = TOLERANCES
+    known: Sequence[SceneTruth], tolerances: Sequence[float] = TOLERANCES
 ) -> tuple[BoundRow, ...]:
     """Every scene at every tolerance, gathered by method in order of first use.
 
@@ -147,7 +185,7 @@ def judge(
     worst: dict[str, BoundRow] = {}
     for rtol in tolerances:
         for true in known:
-            values, method, bound = solve(true.point, rtol)
+            values, method, bound = simulated(true.point, rtol)
             if not bound <= rtol:
                 raise ValueError(f"{method} states {bound} for {rtol} at {true.point}")
             found = errors(values, true)
@@ -164,19 +202,16 @@ def judge(
 
 def to_json(known: Sequence[SceneTruth], rows: Sequence[BoundRow]) -> str:
     """Truths and rows as JSON, one to a line."""
-    head = {"digits": DIGITS, "seed": SEED, "python-flint": flint.__version__}
-    parts = [f'"{name}": {json.dumps(value)}' for name, value in head.items()]
-    listed: tuple[tuple[str, Sequence[BoundRow] | Sequence[SceneTruth]], ...]
-    listed = ("rows", rows), ("truths", known)
-    for name, items in listed:
-        body = ",\n ".join(json.dumps(plain(asdict(item))) for item in items)
-        parts.append(f'"{name}": [\n {body}\n]')
-    return "{" + ",\n".join(parts) + "}\n"
+    data = {"digits": DIGITS, "seed": SEED, "python-flint": flint.__version__}
+    listed = {"rows": plain_rows(rows), "truths": plain_rows(known)}
+    return json_by_line(data | listed, *listed)
 
 
-def from_json(text: str) -> list[SceneTruth]:
-    """The truths of a file, none if they are of other digits."""
-    data: dict[str, Any] = json.loads(text)
+def committed_truths() -> list[SceneTruth]:
+    """The committed truths, none if they are of other digits."""
+    if not MEASURED.is_file():
+        return []
+    data: dict[str, Any] = json.loads(MEASURED.read_text())
     if data["digits"] != DIGITS:
         return []
     return [SceneTruth(tuple(t["point"]), tuple(t["values"])) for t in data["truths"]]

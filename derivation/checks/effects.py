@@ -1,12 +1,20 @@
-"""Test the effect selection on random scenes: omitted effects against every applicable effect."""
+"""Whether leaving effects out is honest: random scenes at several tolerances, against all effects.
 
+Scenes are drawn one by one from a seed and their number, log-uniform over materials, sizes and
+speeds. "Everything" is the same scene with every effect that applies.
+"""
+
+import random
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
-from derivation.checks import effects_judged as effects
-from derivation.checks.random_scenes import Scene, Tell
-from derivation.engine.files import measurements, write_file
-from derivation.engine.outputs import expect_recordable
+from derivation.checks.random_scenes import Scene, largest_change, spreading
+from derivation.engine.activity import Tell, quiet
+from derivation.engine.files import measurements
+from derivation.engine.measure.result import CheckResult, all_kept
+from derivation.engine.outputs import json_by_line, plain_rows
 from derivation.scene.effects import EFFECTS
 from derivation.scene.impact import selected_effects
 from derivation.scene.law import ContactLaw
@@ -15,22 +23,141 @@ from derivation.scene.model import model_of
 from derivation.scene.scene import SceneError, read
 
 MEASURED: Path = measurements() / "effects.json"
+SEED = 1
+TOLERANCES = (1e-2, 1e-4, 1e-6, 1e-9)
+COLUMNS = (
+    "#rtol", "#scenes", "#worst error/rtol", "#error/bound", "of", "#effects in", "#that apply",
+    "#refused",
+)  # fmt: skip
 
 
-def check_effects(
-    count: int, update: bool = False, tell: Tell | None = None
-) -> tuple[effects.EffectCheckRow, ...]:
-    """Random scenes at several tolerances against everything on; keep the rows if asked."""
-    if update:
-        expect_recordable(MEASURED)
-    rows = effects.judge(count, gated, everything, tell=tell)
-    if update:
-        write_file(MEASURED, effects.to_json(rows, count))
-    return rows
+@dataclass(frozen=True)
+class EffectCheckRow:
+    """How the bounds held at one tolerance.
+
+    Parameters
+    ----------
+    rtol
+        The tolerance.
+    scenes
+        How many were within the models' range.
+    ratio
+        Largest difference from everything over the tolerance.
+    tightest
+        Largest difference over the bound stated.
+    included
+        Effects taken in, on average, beside the one that always is.
+    applicable
+        Effects that applied, on average, beside it.
+    quantity, number
+        Of which result the largest ratio was, and in which scene.
+    refused
+        How many scenes were told that the tolerance is out of reach.
+    """
+
+    rtol: float
+    scenes: int
+    ratio: float
+    tightest: float
+    included: float
+    applicable: float
+    quantity: str
+    number: int
+    refused: int
+
+    @property
+    def kept(self) -> bool:
+        """Whether no difference was above its tolerance or its bound."""
+        return self.ratio <= 1.0 and self.tightest <= 1.0
+
+
+def check_effects(count: int, tell: Tell = quiet) -> CheckResult:
+    """Random scenes at several tolerances against everything on."""
+    rows = judge(count, tell=tell)
+    cells = [
+        (f"{r.rtol:g}", r.scenes, f"{r.ratio:.3f}", f"{r.tightest:.3f}", r.quantity,
+         f"{r.included:.2f}", f"{r.applicable:.2f}", r.refused)
+        for r in rows
+    ]  # fmt: skip
+    return CheckResult(
+        f"Effects in {count} scenes",
+        COLUMNS,
+        cells,
+        lambda: plain_rows(rows),
+        all_kept(rows),
+        recorded=lambda: json_by_line(
+            {"drawn": count, "seed": SEED, "rows": plain_rows(rows)}, "rows"
+        ),
+    )
+
+
+def scene(number: int, seed: int = SEED) -> dict[str, dict[str, Any]]:
+    """The scene of a number: pebbles to boulders on panes, plates and blocks."""
+    generator = random.Random(f"effects {seed} {number}")
+    spread = spreading(generator)
+    b = spread(1e-2, 10.0)
+    plate: dict[str, Any] = {
+        "radius": b,
+        "half_thickness": b * spread(1e-3, 10.0),
+        "youngs_modulus": spread(1e7, 1e12),
+        "poissons_ratio": generator.uniform(-0.5, 0.49),
+        "edge": generator.choice(["paper", "simply-supported", "clamped"]),
+    }
+    sphere: dict[str, Any] = {"radius": b * spread(1e-2, 10.0), "density": spread(500.0, 2e4)}
+    if generator.random() < 0.6:
+        sphere["material"] = generator.choice(["steel", "glass", "aluminium", "concrete", "PMMA"])
+    impact: dict[str, Any] = {"speed": spread(1e-3, 50.0)}
+    if generator.random() < 0.5:
+        impact["gravity"] = 9.81
+    if generator.random() < 0.3:
+        # From nothing to much beside a fall through the sphere's own radius.
+        plate["retardation_time"] = sphere["radius"] / impact["speed"] * spread(1e-12, 1e-1)
+    still = {"inertia": False}  # what that is worth is another check
+    return {"sphere": sphere, "plate": plate, "impact": impact, "effects": still}
+
+
+def judge(count: int, seed: int = SEED, tell: Tell = quiet) -> tuple[EffectCheckRow, ...]:
+    """Every scene at every tolerance, the rows by tolerance."""
+    found: dict[float, list[EffectCheckRow]] = {rtol: [] for rtol in TOLERANCES}
+    refused = dict.fromkeys(TOLERANCES, 0)
+    for number in range(count):
+        tell("scene", number + 1, count)
+        data = scene(number, seed)
+        whole = everything(data)
+        if whole is None:
+            continue
+        true, applicable = whole
+        for rtol in TOLERANCES:
+            solved = gated(data, rtol)
+            if solved is None:
+                refused[rtol] += 1
+                continue
+            values, effects, bound = solved
+            error, name = largest_change(values, true)
+            more = len(effects) - 1, len(applicable) - 1
+            found[rtol].append(
+                EffectCheckRow(rtol, 1, error / rtol, error / bound, *more, name, number, 0)
+            )
+    return tuple(_together(rows, refused[rtol]) for rtol, rows in found.items())
+
+
+def _together(rows: Sequence[EffectCheckRow], refused: int) -> EffectCheckRow:
+    """One row of those of single scenes."""
+    return replace(
+        max(rows, key=lambda row: (row.ratio, row.tightest, row.quantity, row.number)),
+        scenes=len(rows),
+        tightest=max(row.tightest for row in rows),
+        included=sum(row.included for row in rows) / len(rows),
+        applicable=sum(row.applicable for row in rows) / len(rows),
+        refused=refused,
+    )
 
 
 def gated(data: Scene, rtol: float) -> tuple[Sequence[float], Sequence[str], float] | None:
-    """A scene as `simulate` computes it at a tolerance; model errors stand apart."""
+    """A scene as `simulate` computes it at a tolerance: results, effects included and bound.
+
+    Model errors stand apart. None if it is refused.
+    """
     _, selected = selected_effects(read(data), rtol)
     try:
         values, accuracy = solve_selected(selected, rtol)
@@ -40,7 +167,7 @@ def gated(data: Scene, rtol: float) -> tuple[Sequence[float], Sequence[str], flo
 
 
 def everything(data: Scene) -> tuple[Sequence[float], Sequence[str]] | None:
-    """The same scene with every effect that applies, on a plate at rest.
+    """The same scene with every effect that applies, on a plate at rest: results and effects.
 
     None beyond the range of the models.
     """

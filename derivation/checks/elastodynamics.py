@@ -6,8 +6,11 @@ from pathlib import Path
 from typing import Any
 
 from derivation.checks.finite_elements import record
-from derivation.checks.finite_elements.record import MEASURED, RESULTS, Tell
+from derivation.checks.finite_elements.record import MEASURED, RESULTS
+from derivation.engine.activity import Tell, quiet
 from derivation.engine.files import expect_writable, write_file
+from derivation.engine.measure.result import CheckResult, all_kept
+from derivation.engine.outputs import plain_rows
 from derivation.scene.impact import simulate
 from derivation.scene.scene import OUTPUTS, SceneError, read
 
@@ -63,7 +66,7 @@ class Compared:
 
 
 def compare(
-    path: Path = MEASURED, *, save: bool = False, tell: Tell | None = None
+    path: Path = MEASURED, *, save: bool = False, tell: Tell = quiet
 ) -> tuple[Compared, ...]:
     """Simulate every recorded case anew, without solving elements; keep the results if asked.
 
@@ -82,12 +85,24 @@ def compare(
         expect_writable(path)
     rows = []
     for number, row in enumerate(data["impacts"]):
-        if tell is not None:
-            tell(row["name"], number + 1, len(data["impacts"]))
+        tell(row["name"], number + 1, len(data["impacts"]))
         rows.append(row | {"program": simulated(row)})
     if save:
         write_file(path, record.to_json(data | {"impacts": rows}))
     return tuple(compared(row) for row in rows)
+
+
+def result(found: Sequence[Compared]) -> CheckResult:
+    """Return the cases as a table, and those that are rejected."""
+    refused = [f"{case.name}: {case.refused}" for case in found if case.refused]
+    return CheckResult(
+        "Impacts against finite elements",
+        COLUMNS,
+        [cells(case) for case in found],
+        lambda: plain_rows(found),
+        all_kept(found),
+        listings=[(f"{len(refused)} rejected", refused)],
+    )
 
 
 def simulated(row: Mapping[str, Any]) -> dict[str, Any]:

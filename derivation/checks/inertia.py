@@ -1,16 +1,18 @@
 """Holds plates that move to random scenes: bounds against twice the modes and all branches."""
 
+import itertools
 import math
+from collections import Counter
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from derivation.checks import inertia_judged as inertia
-from derivation.checks.inertia_judged import InertiaFound, InertiaJudged
-from derivation.checks.random_scenes import Scene, Tell
-from derivation.engine.files import measurements, write_file
-from derivation.engine.outputs import expect_recordable
+from derivation.checks.inertia_judged import InertiaJudged, InertiaRow
+from derivation.checks.random_scenes import Scene, largest_change
+from derivation.engine.activity import Tell, quiet
+from derivation.engine.files import measurements
 from derivation.scene import motion, waves
 from derivation.scene.effect_selection import decide
 from derivation.scene.effects import EFFECTS
@@ -40,19 +42,24 @@ MET, TIGHT = 3.0, 1e-4
 """A tolerance that can be met, over what branches may be worth at rest; and at least [1]."""
 
 
-def check_inertia(
-    count: int,
-    seed: int = inertia.SEED,
-    update: bool = False,
-    tell: Tell | None = None,
-) -> InertiaJudged:
-    """Random scenes with a plate that may move against more modes; keep the rows if asked."""
-    if update:
-        expect_recordable(MEASURED)
-    found = inertia.judge(count, solve, pass_over, seed, tell)
-    if update:
-        write_file(MEASURED, inertia.to_json(found, seed))
-    return found
+def judge(count: int, seed: int = inertia.SEED, tell: Tell = quiet) -> InertiaJudged:
+    """So many scenes that are neither passed over nor refused."""
+    passed_over, refused, rows = Counter[str](), Counter[str](), list[InertiaRow]()
+    for number in itertools.count():
+        data, place = inertia.scene(number, seed)
+        reason = pass_over(data)
+        if reason:
+            passed_over[reason] += 1
+            continue
+        tell("scene", len(rows) + 1, count)
+        found = solve(number, data, place)
+        if isinstance(found, str):
+            refused[found] += 1
+            continue
+        rows.append(found)
+        if len(rows) == count:
+            break
+    return InertiaJudged(number + 1, passed_over, refused, tuple(rows))
 
 
 def pass_over(data: Scene) -> str:
@@ -89,8 +96,16 @@ def placed(data: Scene, place: float) -> tuple[Scene, float]:
     return data, min(least * math.pow(10.0, 2.0 * place - 1.0), max(least, 0.9 * min(price, ANY)))
 
 
-def solve(data: Scene, place: float) -> InertiaFound | str:
-    """A scene as `simulate` computes it, and the truth; or the key that a message begins with."""
+def solve(number: int, data: Scene, place: float) -> InertiaRow | str:
+    """A scene as `simulate` computes it against the truth; or the key that a message begins with.
+
+    Parameters
+    ----------
+    number, data
+        The scene.
+    place
+        Places its tolerance, see `placed`.
+    """
     try:
         data, rtol = placed(data, place)
         _, selected = selected_effects(read(data), rtol)
@@ -100,29 +115,23 @@ def solve(data: Scene, place: float) -> InertiaFound | str:
         model = bending(selected.law.model)
         modes = _modes(used or _moving(model, rtol))
         many = replace(model, inertia=InertiaSettings(modes=2 * modes, branches="all"))
-        if oscillators(many) > OSCILLATORS:
+        if oscillators_of(many) > OSCILLATORS:
             return f"truth: more than {OSCILLATORS} oscillators"
         truth = _moving(many, rtol)
-    except SceneError as error:
-        return str(error).partition(":")[0]
+    except SceneError as refused:
+        return str(refused).partition(":")[0]
     still = at_rest(model)
     assert still is not None  # such scenes are passed over
     price = next(row.bound for row in selected.rows if row.name == "inertia")
     total = used.inertia.total_time if used is not None else values[0]
-    return InertiaFound(
-        rtol,
-        known,
-        values,
-        truth.numbers,
-        accuracy.bound,
-        total,
-        truth.inertia.total_time,
-        still.numbers,
-        price,
-        len(truth.inertia.contacts),
-        _modes(truth),
-        truth.inertia.modes,
-    )
+    error, quantity = largest_change(values, truth.numbers)
+    alone, worth = largest_change(still.numbers, truth.numbers)
+    lasted = abs(total / truth.inertia.total_time - 1.0)
+    contacts, oscillators = len(truth.inertia.contacts), truth.inertia.modes
+    return InertiaRow(
+        number, rtol, known, accuracy.bound, error, quantity, lasted, price, alone, worth,
+        contacts, _modes(truth), oscillators,
+    )  # fmt: skip
 
 
 def bending(model: Model) -> Model:
@@ -143,7 +152,7 @@ def present(model: Model) -> frozenset[str]:
     return frozenset(e.name for e in EFFECTS if e.selectable and not e.not_applicable_reason(model))
 
 
-def oscillators(model: Model) -> int:
+def oscillators_of(model: Model) -> int:
     """About how many oscillators the modes of all branches are, by Weyl's law.
 
     Across the thickness stand (2/pi) sqrt(Omega^2 - x^2) shear waves and as many of pressure with

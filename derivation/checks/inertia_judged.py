@@ -1,66 +1,25 @@
-"""Whether a plate that moves is what its bounds say: random scenes against a richer model.
+"""Random scenes of plates with inertia, and how the stated bounds held in them.
 
 Scenes are drawn one by one from a seed and their number, log-uniform over shapes, stiffnesses,
-densities and speeds. The caller places tolerances on both sides of the selection threshold. The
-truth is the same scene with every effect, twice the modes and all branches, solved by the caller
-too, so that this file knows no scene.
+densities and speeds. The truth is the same scene with every effect, twice the modes and all
+branches.
 """
 
-import json
-import math
 import random
-from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
-from derivation.checks.random_scenes import OUTPUTS, Scene, Tell, spreading
-from derivation.engine.measure.record import plain
+from derivation.checks.random_scenes import spreading
+from derivation.engine.measure.result import CheckResult, all_kept
+from derivation.engine.outputs import json_by_line, plain_rows
 
 SEED = 1
 
 
 @dataclass(frozen=True)
-class InertiaFound:
-    """A scene's outcome, if it is not refused.
-
-    Parameters
-    ----------
-    rtol
-        The tolerance asked for [1].
-    included
-        Whether the selection included inertia.
-    values, truth
-        The results, and those of the richer model.
-    bound
-        What the results may be off by, as stated [1].
-    total_time, true_total_time
-        From the first contact to the last release [s]; of a plate at rest its contact time.
-    still
-        The results of every effect on a plate at rest.
-    price
-        What leaving inertia out may change, as stated [1].
-    contacts, modes, oscillators
-        Of the truth: contacts, wave numbers and oscillators.
-    """
-
-    rtol: float
-    included: bool
-    values: Sequence[float]
-    truth: Sequence[float]
-    bound: float
-    total_time: float
-    true_total_time: float
-    still: Sequence[float]
-    price: float
-    contacts: int
-    modes: int
-    oscillators: int
-
-
-@dataclass(frozen=True)
 class InertiaRow:
-    """How the bounds held in a scene.
+    """How the bounds held in a scene that is not refused.
 
     Parameters
     ----------
@@ -71,11 +30,12 @@ class InertiaRow:
     bound, error, quantity
         Stated bound, largest difference from the truth, and of which result [1].
     total_time
-        That of the time to the last release [1].
+        Difference of the time from the first contact to the last release [1]; of a plate at rest
+        that is its contact time.
     price, alone, worth
         What leaving inertia out may change, as stated, does change, and in which result [1].
     contacts, modes, oscillators
-        Of the truth.
+        Of the truth: contacts, wave numbers and oscillators.
     """
 
     number: int
@@ -147,13 +107,6 @@ class Side:
         return max(self.ratio, self.tightest, self.price) <= 1.0
 
 
-Solve = Callable[[Scene, float], InertiaFound | str]
-"""A scene with a number in [0, 1) that places its tolerance, or how the message that refuses it
-begins."""
-PassOver = Callable[[Scene], str]
-"""Why a scene is not looked at; empty if it is."""
-
-
 def scene(number: int, seed: int = SEED) -> tuple[dict[str, dict[str, Any]], float]:
     """The scene of a number: grains to boulders on panes, plates and blocks; and a number in
     [0, 1) that places its tolerance.
@@ -181,33 +134,6 @@ def scene(number: int, seed: int = SEED) -> tuple[dict[str, dict[str, Any]], flo
     return tables | asked, generator.random()
 
 
-def judge(
-    count: int,
-    solve: Solve,
-    pass_over: PassOver,
-    seed: int = SEED,
-    tell: Tell | None = None,
-) -> InertiaJudged:
-    """So many scenes that are neither passed over nor refused."""
-    passed_over, refused, rows = Counter[str](), Counter[str](), list[InertiaRow]()
-    number = 0
-    while len(rows) < count:
-        data, place = scene(number, seed)
-        number += 1
-        reason = pass_over(data)
-        if reason:
-            passed_over[reason] += 1
-            continue
-        if tell is not None:
-            tell("scene", len(rows) + 1, count)
-        found = solve(data, place)
-        if isinstance(found, str):
-            refused[found] += 1
-        else:
-            rows.append(_row(number - 1, found))
-    return InertiaJudged(number, passed_over, refused, tuple(rows))
-
-
 def sides(rows: Sequence[InertiaRow]) -> tuple[Side, ...]:
     """Both sides of the threshold, those there are."""
     parted = ([row for row in rows if row.included is side] for side in (True, False))
@@ -227,23 +153,6 @@ def _side(rows: Sequence[InertiaRow]) -> Side:
     )
 
 
-def _row(number: int, found: InertiaFound) -> InertiaRow:
-    error, quantity = _worst(found.values, found.truth)
-    alone, worth = _worst(found.still, found.truth)
-    total = abs(found.total_time / found.true_total_time - 1.0)
-    return InertiaRow(
-        number, found.rtol, found.included, found.bound, error, quantity, total,
-        found.price, alone, worth, found.contacts, found.modes, found.oscillators,
-    )  # fmt: skip
-
-
-def _worst(values: Sequence[float], truth: Sequence[float]) -> tuple[float, str]:
-    """Largest relative difference, and of which result."""
-    errors = [abs(value / x - 1.0) for value, x in zip(values, truth, strict=True)]
-    errors = [error if math.isfinite(error) else math.inf for error in errors]
-    return max(errors), OUTPUTS[errors.index(max(errors))]
-
-
 COLUMNS = (
     "inertia", "#scenes", "#worst error/rtol", "worst result", "#error/bound",
     "#change/bound if omitted",
@@ -251,33 +160,36 @@ COLUMNS = (
 """Heads of the table of sides; the price is what leaving inertia out may change."""
 
 
-def cells(judged: InertiaJudged) -> list[tuple[str, ...]]:
-    """A line of the table for each side."""
-    return [
-        ("included" if side.included else "omitted", str(side.scenes), f"{side.ratio:.3f}",
-         side.quantity, f"{side.tightest:.3f}", f"{side.price:.3f}")
-        for side in sides(judged.rows)
-    ]  # fmt: skip
-
-
 def as_data(judged: InertiaJudged, seed: int) -> dict[str, Any]:
     """What was judged as plain data, infinite prices as null."""
-    rows = [asdict(row) for row in judged.rows]
+    rows = plain_rows(judged.rows)
     for row in rows:
-        row["price"] = row["price"] if math.isfinite(row["price"]) else None
+        row["price"] = None if isinstance(row["price"], str) else row["price"]
     return {
         "drawn": judged.drawn,
         "seed": seed,
         "passed_over": dict(sorted(judged.passed_over.items())),
         "refused": dict(sorted(judged.refused.items())),
-        "sides": plain([asdict(side) for side in sides(judged.rows)]),
-        "rows": plain(rows),
+        "sides": plain_rows(sides(judged.rows)),
+        "rows": rows,
     }
 
 
-def to_json(judged: InertiaJudged, seed: int) -> str:
-    """The same as JSON, a row to a line."""
-    data = as_data(judged, seed)
-    lines = [f"{json.dumps(key)}: {json.dumps(data[key])}" for key in data if key != "rows"]
-    rows = ",\n ".join(json.dumps(row) for row in data["rows"])
-    return "{" + ",\n".join(lines) + f',\n"rows": [\n {rows}\n]}}\n'
+def result(judged: InertiaJudged, seed: int) -> CheckResult:
+    """A line of the table for each side, and why other scenes do not count."""
+    cells = [
+        ("included" if side.included else "omitted", side.scenes, f"{side.ratio:.3f}",
+         side.quantity, f"{side.tightest:.3f}", f"{side.price:.3f}")
+        for side in sides(judged.rows)
+    ]  # fmt: skip
+    reasons = {"refused": judged.refused, "passed over": judged.passed_over}
+    others = [f"{n} {what}: {why}" for what, by in reasons.items() for why, n in by.items()]
+    return CheckResult(
+        f"Inertia in {len(judged.rows)} of {judged.drawn} scenes drawn",
+        COLUMNS,
+        cells,
+        lambda: as_data(judged, seed),
+        all_kept(sides(judged.rows)),
+        listings=[("The others", others)],
+        recorded=lambda: json_by_line(as_data(judged, seed), "rows"),
+    )

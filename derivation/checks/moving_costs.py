@@ -5,7 +5,6 @@ every method. Integrators take the same oscillators and are held to the finest e
 branches to the most of them; a tolerance to the tightest one.
 """
 
-import json
 import os
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
@@ -17,10 +16,11 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.optimize import minimize_scalar
 
+from derivation.engine.activity import Tell, quiet
 from derivation.engine.files import measurements, write_file
 from derivation.engine.measure.clock import Candidate, interleaved
 from derivation.engine.measure.record import provenance
-from derivation.engine.outputs import recorded_in
+from derivation.engine.outputs import recorded_in, sorted_json
 from derivation.plate.benchmark.speed import machine
 from derivation.plate.judge import PACKAGE
 from derivation.scene import contact_sequence, waves
@@ -55,7 +55,6 @@ LOOKS = 200
 CLOSE = 1e-8
 """How closely the time of the largest force is found, on which the force itself hardly depends."""
 Numbers = tuple[float, ...]
-Tell = Callable[[str, int, int], None]
 
 
 class CostOutcome(NamedTuple):
@@ -112,18 +111,16 @@ FIRST = ("contact_time", "max_force", "restitution")
 """Of the first contact; restitution is by the speed after it."""
 
 
-def measure(tell: Tell | None = None) -> dict[str, Any]:
+def measure(tell: Tell = quiet) -> dict[str, Any]:
     """Every row, timed in turns, with the scene, the machine and its load."""
     trials = [*integrators(), *modes(), *branches(), *tolerances()]
     before, rows = os.getloadavg()[0], list[tuple[Trial, CostOutcome, dict[str, float]]]()
     for number, trial in enumerate(trials, start=1):
-        if tell is not None:
-            tell(f"{trial.study}: {trial.method}", number, len(trials) + 1)
+        tell(f"{trial.study}: {trial.method}", number, len(trials) + 1)
         found = trial.call()
         pairs = zip(trial.names, found.numbers, trial.truth(), strict=True)
         rows.append((trial, found, {n: abs(x / true - 1.0) for n, x, true in pairs}))
-    if tell is not None:
-        tell("times", len(trials) + 1, len(trials) + 1)
+    tell("times", len(trials) + 1, len(trials) + 1)
     nothing = np.zeros(1)
     candidates = [Candidate(_timed(trial), nothing, 1) for trial in trials]
     timings, spread = interleaved(candidates, ROUNDS)
@@ -145,13 +142,13 @@ def measure(tell: Tell | None = None) -> dict[str, Any]:
 
 
 def record(
-    out: Path | None = None, tell: Tell | None = None, committed: bool = False
+    out: Path | None = None, tell: Tell = quiet, committed: bool = False
 ) -> tuple[dict[str, Any], Path | None]:
     """Measure, and write the result to a file or, if asked, as the committed measurement."""
     path = recorded_in(MEASURED, committed, out)
     data = measure(tell)
     if path is not None:
-        write_file(path, json.dumps(data, indent=1, sort_keys=True, allow_nan=False) + "\n")
+        write_file(path, sorted_json(data))
     return data, path
 
 

@@ -13,6 +13,7 @@ from random import Random
 from typing import Any, Literal
 
 from derivation.checks.random_scenes import Scene, spreading
+from derivation.engine.measure.result import CheckResult
 
 SEED = 1
 RTOL = 1e-3
@@ -226,3 +227,16 @@ def as_data(found: Sequence[Outcome], seed: int) -> dict[str, Any]:
     ]
     stopped = [{"rtol": rtol, "fraction": part} for rtol, part in refused(found).items()]
     return {"seed": seed, "passed": passed(found), "refused": stopped, "runs": rows}
+
+
+def result(found: Sequence[Outcome], count: int, seed: int) -> CheckResult:
+    """The table of the outcomes, and one of each kind that did not finish."""
+    return CheckResult(
+        f"Runs of {count} realistic scenes, seed {seed}",
+        COLUMNS,
+        cells(found),
+        lambda: as_data(found, seed),
+        passed(found),
+        note=cost(found),
+        listings=[("One of each that did not finish", failures(found))],
+    )

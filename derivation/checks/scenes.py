@@ -17,8 +17,9 @@ from typing import Any
 
 import numpy as np
 
-from derivation.checks.random_scenes import Scene, Tell
+from derivation.checks.random_scenes import Scene
 from derivation.checks.realistic_scenes import RTOL, SEED, Kind, Outcome, scenes
+from derivation.engine.activity import Tell, quiet
 from derivation.scene.impact import simulate
 from derivation.scene.scene import IncompleteError, SceneError, read
 
@@ -34,7 +35,7 @@ READY = "ready"
 def check_scenes(
     count: int,
     seed: int = SEED,
-    tell: Tell | None = None,
+    tell: Tell = quiet,
     limit: float = LIMIT,
     drawn: Sequence[Scene] | None = None,
 ) -> tuple[Outcome, ...]:
@@ -71,8 +72,7 @@ def check_scenes(
     try:
         for number, outcomes in enumerate(pool.map(run, jobs), 1):
             found.extend(outcomes)
-            if tell is not None:
-                tell(outcomes[0].kind, number, len(jobs))
+            tell(outcomes[0].kind, number, len(jobs))
     finally:
         pool.shutdown(wait=False, cancel_futures=True)
         for worker in workers:

@@ -5,10 +5,11 @@ from typing import Annotated, Any
 
 import typer
 
-from derivation.commands import check_functions, check_scenes, suggested
+from derivation.commands import check_functions, check_scenes
 from derivation.commands.command import Command, Group
 from derivation.commands.options import PaperFolder, Suggest, chosen
-from derivation.engine.console import Json, counted, listing, put_json, table
+from derivation.commands.shown import shown
+from derivation.engine.console import Json
 
 SUBCOMMANDS: dict[str, Callable[..., None]] = {
     "contact-law": check_functions.contact_law,
@@ -77,14 +78,11 @@ def check(
     if context.invoked_subcommand is not None:
         return
     from derivation.engine import build
-    from derivation.engine.measure.record import COLUMNS, as_data, cells, passed, worst
+    from derivation.engine.measure.record import result
 
     own = chosen(paper)
-    with counted("check") as tell:
-        rows = build.check(own, digits, update, tell)
-    target, tighter = own.package().target, suggested.as_data(rows, suggest_budgets)
-    if put_json(lambda: as_data(rows, digits, target) | tighter, json):
-        table(f"Errors against {digits} digits", COLUMNS, [cells(row) for row in rows])
-        listing("Worst arguments", [worst(row) for row in rows if row.passed is not None])
-        suggested.show(rows, suggest_budgets)
-    raise typer.Exit(0 if passed(rows) else 1)
+    shown(
+        lambda tell: result(build.check(own, digits, update, tell), digits, own.package().target),
+        json,
+        suggest_budgets,
+    )

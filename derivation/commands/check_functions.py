@@ -5,7 +5,6 @@ from typing import Annotated
 
 import typer
 
-from derivation.commands import suggested
 from derivation.commands.options import (
     SEED,
     PaperFolder,
@@ -14,12 +13,12 @@ from derivation.commands.options import (
     chosen,
     update_option,
 )
+from derivation.commands.shown import shown
 from derivation.engine.console import (
     INTERRUPTED,
     NOTES,
     Json,
     clocked,
-    counted,
     listing,
     put_json,
     table,
@@ -39,15 +38,8 @@ def contact_law(
     """
     from derivation import pipeline
 
-    with counted("check") as tell:
-        rows = pipeline.check_contact(update, tell)
-    tighter = suggested.as_data(rows, suggest_budgets)
-    if put_json(lambda: pipeline.contact_data(rows) | tighter, json):
-        columns, cells = pipeline.contact_table(rows)
-        table("Errors of the contact law", columns, cells)
-        listing("Worst arguments", [f"{r.kernel}: {' '.join(r.worst)}" for r in rows])
-        suggested.show(rows, suggest_budgets)
-    raise typer.Exit(0 if all(r.passed for r in rows) else 1)
+    record = pipeline.MEASURED_CONTACT if update else None
+    shown(pipeline.check_contact, json, suggest_budgets, record)
 
 
 def hard_cases(
@@ -69,19 +61,10 @@ def hard_cases(
     Example: platecontact check hard-cases --json hard.json
     """
     from derivation.engine import build
-    from derivation.engine.measure.hard import COLUMNS, as_data, cells
+    from derivation.engine.measure.hard import result
 
     own = chosen(paper)
-    with counted("check") as tell:
-        rows = build.check_hard(own, update, tell)
-    failed = [row for row in rows if not row.kept]
-    if put_json(lambda: as_data(rows, own.package().target), json):
-        table("Hard cases, errors in ULP", COLUMNS, [cells(row) for row in rows])
-        listing(
-            f"{len(rows)} cases, {len(failed)} failed",
-            [f"{row.case.key}: {row.problem}" for row in failed],
-        )
-    raise typer.Exit(1 if failed else 0)
+    shown(lambda tell: result(build.check_hard(own, update, tell), own.package().target), json)
 
 
 def search(
@@ -127,11 +110,5 @@ def timing(update: Annotated[bool, update_option("speed")] = False, json: Json =
     Example: platecontact check timing --json timing.json
     """
     from derivation import pipeline
-    from derivation.plate.benchmark.speed import as_data
 
-    with counted("check") as tell:
-        timings = pipeline.check_speed(update, tell)
-    if put_json(lambda: as_data(timings), json):
-        cells = [(t.name, f"{t.value:.3g} {t.unit}", f"{t.limit:g}", t.kept) for t in timings]
-        table("Speed", ("what", "#measured", "#promise", "kept"), cells)
-    raise typer.Exit(0 if all(t.kept for t in timings) else 1)
+    shown(pipeline.check_speed, json, record=pipeline.MEASURED_SPEED if update else None)

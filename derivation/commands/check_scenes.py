@@ -1,12 +1,12 @@
 """The subcommands of `platecontact check` on simulated scenes."""
 
-from dataclasses import asdict
 from typing import Annotated
 
 import typer
 
 from derivation.commands.options import SEED, Seed, update_option
-from derivation.engine.console import Json, counted, listing, put, put_json, table
+from derivation.commands.shown import shown
+from derivation.engine.console import Json
 
 Number = Annotated[
     int, typer.Option("-n", "--number", metavar="N", min=1, help="Number of random scenes.")
@@ -23,19 +23,9 @@ def error_bounds(
 
     Example: platecontact check error-bounds -n 200
     """
-    from derivation import pipeline
-    from derivation.engine.measure.record import plain
+    from derivation.checks.bounds import check_bounds
 
-    with counted("check") as tell:
-        rows = pipeline.check_bounds(number, update, tell)
-    if put_json(lambda: plain([asdict(row) for row in rows]), json):
-        cells = [
-            (r.method, r.runs, f"{r.ratio:.3f}", f"{r.error:.2g}", f"{r.bound:.2g}", r.quantity)
-            for r in rows
-        ]
-        heads = ("method", "#runs", "#worst error/bound", "#error", "#bound", "of")
-        table(f"Stated bounds in {number} scenes", heads, cells)
-    raise typer.Exit(0 if all(row.kept for row in rows) else 1)
+    shown(lambda tell: check_bounds(number, update, tell), json)
 
 
 def effects(
@@ -48,21 +38,10 @@ def effects(
 
     Example: platecontact check effects -n 300
     """
-    from derivation.checks.effects import check_effects
-    from derivation.engine.measure.record import plain
+    from derivation.checks import effects as check
 
-    with counted("check") as tell:
-        rows = check_effects(number, update, tell)
-    if put_json(lambda: plain([asdict(row) for row in rows]), json):
-        cells = [
-            (f"{r.rtol:g}", r.scenes, f"{r.ratio:.3f}", f"{r.tightest:.3f}", r.quantity,
-             f"{r.included:.2f}", f"{r.applicable:.2f}", r.refused)
-            for r in rows
-        ]  # fmt: skip
-        heads = ("#rtol", "#scenes", "#worst error/rtol", "#error/bound", "of", "#effects in",
-                 "#that apply", "#refused")  # fmt: skip
-        table(f"Effects in {number} scenes", heads, cells)
-    raise typer.Exit(0 if all(row.kept for row in rows) else 1)
+    record = check.MEASURED if update else None
+    shown(lambda tell: check.check_effects(number, tell), json, record=record)
 
 
 def inertia(
@@ -78,17 +57,11 @@ def inertia(
 
     Example: platecontact check inertia -n 50 --seed 3
     """
-    from derivation.checks.inertia import check_inertia
-    from derivation.checks.inertia_judged import COLUMNS, as_data, cells, sides
+    from derivation.checks.inertia import MEASURED, judge
+    from derivation.checks.inertia_judged import result
 
-    with counted("check") as tell:
-        found = check_inertia(number, seed, update, tell)
-    if put_json(lambda: as_data(found, seed), json):
-        table(f"Inertia in {number} of {found.drawn} scenes drawn", COLUMNS, cells(found))
-        reasons = {"refused": found.refused, "passed over": found.passed_over}
-        lines = [f"{n} {what}: {why}" for what, by in reasons.items() for why, n in by.items()]
-        listing("The others", lines)
-    raise typer.Exit(0 if all(side.kept for side in sides(found.rows)) else 1)
+    record = MEASURED if update else None
+    shown(lambda tell: result(judge(number, seed, tell), seed), json, record=record)
 
 
 def scenes(number: Number, seed: Seed = SEED, json: Json = None) -> None:
@@ -99,16 +72,10 @@ def scenes(number: Number, seed: Seed = SEED, json: Json = None) -> None:
 
     Example: platecontact check scenes -n 20 --seed 5
     """
-    from derivation.checks.realistic_scenes import COLUMNS, as_data, cells, cost, failures, passed
+    from derivation.checks.realistic_scenes import result
     from derivation.checks.scenes import check_scenes
 
-    with counted("check") as tell:
-        found = check_scenes(number, seed, tell)
-    if put_json(lambda: as_data(found, seed), json):
-        table(f"Runs of {number} realistic scenes, seed {seed}", COLUMNS, cells(found))
-        put(f"{cost(found)}\n")
-        listing("One of each that did not finish", failures(found))
-    raise typer.Exit(0 if passed(found) else 1)
+    shown(lambda tell: result(check_scenes(number, seed, tell), number, seed), json)
 
 
 def finite_elements(
@@ -129,13 +96,6 @@ def finite_elements(
 
     Example: platecontact check finite-elements
     """
-    from derivation.checks.elastodynamics import COLUMNS, cells, compare
-    from derivation.engine.measure.record import plain
+    from derivation.checks.elastodynamics import compare, result
 
-    with counted("check") as tell:
-        cases = compare(save=update, tell=tell)
-    if put_json(lambda: plain([asdict(case) for case in cases]), json):
-        table("Impacts against finite elements", COLUMNS, [cells(case) for case in cases])
-        refused = [f"{case.name}: {case.refused}" for case in cases if case.refused]
-        listing(f"{len(refused)} rejected", refused)
-    raise typer.Exit(0 if all(case.kept for case in cases) else 1)
+    shown(lambda tell: result(compare(save=update, tell=tell)), json)

@@ -30,7 +30,7 @@ def rewrite(
     """
     from derivation import pipeline
     from derivation.engine import build
-    from derivation.engine.measure.record import plain
+    from derivation.engine.outputs import plain
 
     if formula:
         alone(paper, "--update and --json (and no formula)", formula)

@@ -16,11 +16,12 @@ from derivation.engine.console import (
     json_text,
     put_json,
     stage,
-    table,
     warn,
     watched,
 )
 from derivation.engine.files import expect_writable, real, write_file, write_files
+from derivation.engine.printable import one_line
+from derivation.engine.text import paragraph
 
 if TYPE_CHECKING:
     from derivation.scene.result import Result
@@ -49,18 +50,29 @@ def simulate(
         str | None,
         typer.Option(metavar="TABLE.KEY=A:B:N", help="Simulate for N values from A to B."),
     ] = None,
+    details: Annotated[
+        bool, typer.Option("--details", help="Print the tables of effects and contacts too.")
+    ] = False,
+    quiet: Annotated[
+        bool,
+        typer.Option("--quiet", help="Print name, value and SI unit alone, and no warnings."),
+    ] = False,
 ) -> None:
     """Simulate the impact of a scene file.
 
     Example: platecontact simulate scene.toml --plot impact.pdf --csv impact.csv
 
+    Prints the results with the digits that hold, their accuracy and the effects included.
+
     With --sweep plate.thickness=1e-3:1e-2:50 the table, --csv and --json have a row per value.
     """
+    _check_kind_of_answer(details, quiet, sweep is not None)
     if sweep is not None:
         _sweep(scene, sweep, json, plot or animate, csv, rtol)
         return
     from derivation.scene import SceneError, load
     from derivation.scene import simulate as run
+    from derivation.scene.answer import plain
 
     check_outputs(scene, json, plot, csv, animate)
     with watched("simulate"):
@@ -71,14 +83,26 @@ def simulate(
         files[csv] = result.history().to_csv()
     drawings, problems = _drawings(result, plot, animate)
     files.update(drawings)
-    free = _write(files, json, result.to_json)
-    warn(result.warnings)
-    if free:
-        _show(scene, result)
+    if _write(files, json, result.to_json):
+        OUT.say(plain(result) if quiet else result.details() if details else str(result))
+    if quiet:
+        warn([result.incomplete_note] if result.incomplete_note else [])
+    else:
+        warn(result.warnings)
     if problems:
         raise SceneError("; ".join(problems))
     if not result.complete:
         raise typer.Exit(1)
+
+
+def _check_kind_of_answer(details: bool, quiet: bool, sweep: bool) -> None:
+    """Refuse options that exclude each other."""
+    given = {"--details": details, "--quiet": quiet, "--sweep": sweep}
+    names = [name for name, wanted in given.items() if wanted]
+    if len(names) > 1:
+        from derivation.scene import SceneError
+
+        raise SceneError(f"{names[0]} cannot be combined with {names[1]}; remove one of them")
 
 
 def _drawings(
@@ -105,30 +129,6 @@ def _drawings(
     return made, problems
 
 
-def _show(scene: Path, result: "Result") -> None:
-    """Accuracy first, then tables and notes of a simulation."""
-    from derivation.scene.effect_selection import HEADS
-
-    told = (result.incomplete_note, str(result.accuracy), result.model_note, result.disabled_note)
-    for note in filter(None, told):
-        OUT.say(note)
-    table(f"Impact of {scene.name}", ("quantity", "#value", "unit"), result.rows())
-    if result.strength_note:
-        OUT.say(result.strength_note)
-    table("Effects", HEADS, result.effects.lines())
-    if result.dynamics is not None:
-        from derivation.scene import wave_motion
-
-        table("Contacts", wave_motion.HEADS, result.dynamics.lines())
-        for note in result.dynamics.notes():
-            OUT.say(note)
-    if result.comparison:
-        from derivation.scene import comparison
-
-        table(result.comparison.title, comparison.HEADS, result.comparison.lines())
-        OUT.say(result.comparison.note)
-
-
 def _write(files: dict[Path, str | bytes], json: str | None, make: Callable[[], Any]) -> bool:
     """Write files and result, all or none, before anything is shown; as `put_json` else."""
     if json and json != "-":
@@ -148,7 +148,6 @@ def _sweep(
     """Simulate once per value of a key."""
     from derivation.scene import SceneError, load
     from derivation.scene import sweep as sweeps
-    from derivation.scene.result import UNITS
 
     if plot is not None:
         raise SceneError("--plot, --animate: expected none of a sweep; leave it out, or --sweep")
@@ -166,16 +165,9 @@ def _sweep(
     files: dict[Path, str | bytes] = {}
     if csv is not None:
         files[csv] = sweeps.to_csv(sweep, rows)
-    free = _write(files, json, lambda: [asdict(row) for row in rows])
+    if _write(files, json, lambda: [asdict(row) for row in rows]) and csv is None:
+        OUT.say(f"Sweep of {one_line(scene.name)} over {key}\n\n{sweeps.to_text(sweep, rows)}")
     warn([f"at {key} = {row.value:.6g}: {row.remark}" for row in rows if row.remark])
-    if free and csv is None:
-        heads = (f"#{key}", *(f"#{n} [{u}]" for n, u in UNITS.items()))
-        cells = [
-            [f"{row.value:.6g}"]
-            + [f"{row.results[name]:.6g}" if row.results else "n/a" for name in UNITS]
-            for row in rows
-        ]
-        table(f"Sweep of {scene.name}", heads, cells)
 
 
 def explain(
@@ -191,15 +183,13 @@ def explain(
     """
     from derivation.scene import explain as run
     from derivation.scene import load
-    from derivation.scene.explanation import COLUMNS
 
     check_outputs(scene, json)
     found = run(load(scene), rtol)
     if put_json(found.to_json, json):
-        table(f"Effects in {scene.name}", COLUMNS, found.lines())
-        OUT.say(str(found))
+        OUT.say(f"Effects in {one_line(scene.name)}\n\n{found.details()}")
         for note in found.notes:
-            NOTES.say(note)
+            NOTES.say(paragraph(note, 0))
 
 
 def map_(
@@ -253,18 +243,9 @@ def indent(
     given = {"contact_radius": contact_radius, "force": force, "indentation": indentation}
     chosen = {name: _numbers(name, texts, more) for name, texts in given.items() if texts}
     contacts = run(loaded, **chosen)
-    free = put_json(lambda: [contact.to_json() for contact in contacts], json)
+    if put_json(lambda: [contact.to_json() for contact in contacts], json):
+        OUT.say(f"Static contact in {one_line(scene.name)}\n\n{contacts}")
     warn([text for contact in contacts for text in contact.warnings])
-    if free:
-        columns = ("#radius [m]", "#indentation [m]", "#force [N]", "#stiffness [N/m]")
-        rows = [
-            [
-                f"{value:.6g}"
-                for value in (c.contact_radius, c.indentation, c.force, c.stiffness, c.max_pressure)
-            ]
-            for c in contacts
-        ]
-        table(f"Contact in {scene.name}", (*columns, "#max. pressure [Pa]"), rows)
 
 
 def schema(

@@ -3,7 +3,13 @@
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
+Tell = Callable[[str, int, int], None]
+"""Is told of a part of the work, its number, and how many parts there are."""
 _listeners: list[Callable[[str], None]] = []
+
+
+def quiet(*_: object) -> None:
+    """Tell nobody."""
 
 
 def tell(text: str) -> None:

@@ -13,18 +13,25 @@ import json
 import sys
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from derivation.engine import package
+from derivation.engine.activity import Tell, quiet
 from derivation.engine.emit.freshness import Freshness
 from derivation.engine.errata.findings import Finding
 from derivation.engine.errata.text import TextDiagnosis, diagnosed
 from derivation.engine.files import write_file
 from derivation.engine.formula.chain import Found
 from derivation.engine.formula.record import Record
-from derivation.engine.outputs import expect_recordable, folder_for, writable_folder
+from derivation.engine.outputs import (
+    expect_recordable,
+    folder_for,
+    plain_rows,
+    sorted_json,
+    writable_folder,
+)
 from derivation.engine.paper import Paper
 from derivation.engine.rewrite.form import Form
 
@@ -33,8 +40,7 @@ if TYPE_CHECKING:
     from derivation.engine.measure.hard import HardRow
     from derivation.engine.rewrite.account import Account
 
-Progress = Callable[[str, int, int], None]
-Timed = Callable[[str], AbstractContextManager[Progress]]
+Timed = Callable[[str], AbstractContextManager[Tell]]
 """From a stage's name, shows that it runs and how long it took; gives what is told its parts."""
 
 
@@ -123,7 +129,7 @@ def misprints(paper: Paper) -> tuple[Finding, ...]:
 
 
 def check(
-    paper: Paper, digits: int = 50, update: bool = False, tell: Progress | None = None
+    paper: Paper, digits: int = 50, update: bool = False, tell: Tell = quiet
 ) -> "tuple[Row, ...]":
     """Stage 5: compare the generated functions with both references; keep the result if asked.
 
@@ -150,9 +156,7 @@ def check(
     return rows
 
 
-def check_hard(
-    paper: Paper, update: bool = False, tell: Progress | None = None
-) -> "tuple[HardRow, ...]":
+def check_hard(paper: Paper, update: bool = False, tell: Tell = quiet) -> "tuple[HardRow, ...]":
     """Stage 5 at the hard cases: compare generated and printed forms with recorded references.
 
     With `update` these are found anew where they follow from something else now, which takes
@@ -211,11 +215,8 @@ def diagnose(
     return diagnosed(paper.chain, relations, name, text, latex=latex, at=at, digits=digits)
 
 
-def account(
-    paper: Paper, update: bool = False, tell: Progress | None = None
-) -> "tuple[Account, ...]":
+def account(paper: Paper, update: bool = False, tell: Tell = quiet) -> "tuple[Account, ...]":
     """What the rules did to each formula, without and with each of them; keep it if asked."""
-    from derivation.engine.measure.record import plain
     from derivation.engine.rewrite.account import accounts
 
     if update:
@@ -223,8 +224,7 @@ def account(
     own = paper.package()
     found = accounts(formulas(paper), own.rewritten, own.scales, tell)
     if update:
-        data = {"rows": plain([asdict(account) for account in found])}
-        write_file(paper.rewritten, json.dumps(data, indent=1, sort_keys=True) + "\n")
+        write_file(paper.rewritten, sorted_json({"rows": plain_rows(found)}))
     return found
 
 

@@ -23,8 +23,10 @@ from rich.progress import (
 from rich.table import Table
 from rich.text import Text
 
+from derivation.engine.activity import Tell
 from derivation.engine.files import expect_writable, write_file
 from derivation.engine.printable import in_json, one_line, printable
+from derivation.engine.text import paragraph
 
 
 class UnreadError(Exception):
@@ -41,8 +43,8 @@ class Screen(Console):
 
     def say(self, text: str) -> None:
         """Show a text as it is, unbroken, so that it can be copied."""
-        plain = Text(printable(text))
-        self.print(plain, markup=False, highlight=False, soft_wrap=True)
+        known = printable(text).encode(self.encoding, "backslashreplace").decode(self.encoding)
+        self.print(Text(known), markup=False, highlight=False, soft_wrap=True)
 
     def on_broken_pipe(self) -> None:
         """Stop quietly if results are not read; remarks that are not read stop nothing."""
@@ -74,7 +76,7 @@ INTERRUPTED = 130
 UNREAD = 141
 """What a shell sees of a program that writes to a pipe that nobody reads: 128 + SIGPIPE."""
 MOST = 20
-"""Lines of warnings that are shown."""
+"""Warnings that are shown."""
 
 
 @contextmanager
@@ -87,7 +89,7 @@ def stage(name: str) -> Iterator[None]:
 
 
 @contextmanager
-def counted(name: str) -> Iterator[Callable[[str, int, int], None]]:
+def counted(name: str) -> Iterator[Tell]:
     """Show a bar and a clock for work in parts; yields what wants to be told each part."""
     start = time.perf_counter()
     part = TextColumn("{task.description}", markup=False)
@@ -166,7 +168,7 @@ def warn(warnings: Sequence[str]) -> None:
     """Show each warning once, apart from the results; of very many the first."""
     found = list(dict.fromkeys(warnings))
     for text in found[:MOST]:
-        NOTES.say(f"warning: {text}")
+        NOTES.say(paragraph(f"warning: {text}"))
     if len(found) > MOST:
         NOTES.say(f"warning: ... and {len(found) - MOST:,} more")
 

@@ -1,6 +1,11 @@
-"""Where results are written: the place that is named, or the project's own in a checkout."""
+"""Where results are written, a place that is named or the project's own in a checkout; and how."""
 
+import json
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
 from derivation.engine.files import ROOT, expect_folder, expect_writable, in_checkout
 
@@ -68,6 +73,39 @@ def expect_recordable(path: Path) -> None:
             "--update: expected a checkout, got an installed copy; keep the result by --json FILE"
         )
     expect_writable(path)
+
+
+def plain(value: Any) -> Any:
+    """Data as JSON holds it, which has no infinities and no NaN: they become text."""
+    if isinstance(value, dict):
+        return {key: plain(part) for key, part in value.items()}
+    if isinstance(value, list | tuple):
+        return [plain(part) for part in value]
+    if isinstance(value, float) and not math.isfinite(value):
+        return repr(value)
+    return value
+
+
+def plain_rows(rows: Iterable[Any]) -> list[dict[str, Any]]:
+    """Rows as plain data, field by field."""
+    return [plain(asdict(row)) for row in rows]
+
+
+def sorted_json(data: Any) -> str:
+    """Plain data as JSON, byte for byte the same for the same data."""
+    return json.dumps(data, indent=1, sort_keys=True, allow_nan=False) + "\n"
+
+
+def json_by_line(data: Mapping[str, Any], *lists: str) -> str:
+    """Plain data as JSON, an entry to a line; of the lists that are named, a row to a line."""
+    lines = []
+    for key, value in data.items():
+        text = json.dumps(value, allow_nan=False)
+        if key in lists:
+            rows = ",\n ".join(json.dumps(row, allow_nan=False) for row in value)
+            text = f"[\n {rows}\n]"
+        lines.append(f"{json.dumps(key)}: {text}")
+    return "{" + ",\n".join(lines) + "}\n"
 
 
 def _installed(path: Path) -> bool:

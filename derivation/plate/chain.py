@@ -35,6 +35,8 @@ and from the contact law to the motion:
 28 closure          a contact beside a plate of oscillators that neither loses nor makes energy
 29 held modes       bending modes of a plate that is clamped or simply supported
 30 held waves       the same of a plate with a thickness: Mindlin's edge, the branch A0
+31 plasticity       a contact that yields: limited pressure, elastic unloading, the dent
+32 damping          modes that lose energy: response, free motion, energy taken
 """
 
 from collections.abc import Callable, Iterator

@@ -30,6 +30,8 @@ SUBJECTS = (
     "viscosity",
     "waves",
     "edge_modes",
+    "plasticity",
+    "damping",
 )
 
 

@@ -18,9 +18,11 @@ eta, alpha, a_ratio, j_n, eps, m, v0, t, delta, delta_0, N, k, u_t, rho = sp.sym
     "eta alpha a_ratio j_n eps m v0 t delta delta_0 N k u_t rho", positive=True
 )
 viscous_time, x_v = sp.symbols("viscous_time x_v", positive=True)
+yield_stress, xi_y = sp.symbols("yield_stress xi_y", positive=True)
 omega, x_h, kap, gam, xi_R = sp.symbols("omega x_h kap gam xi_R", positive=True)
 q_j, q_rate, nu = sp.symbols("q_j q_rate nu", real=True)
 k_n = sp.Symbol("k_n", positive=True)
+zeta = sp.Symbol("zeta", nonnegative=True)
 E = sp.Symbol("E", positive=True)
 kappa = {n: sp.Symbol(f"kappa_{n}", positive=True) for n in range(0, 10, 2)}
 """kappa_n, the integral of y^n K0(y)/I0(y) over y > 0, by n."""
@@ -89,6 +91,14 @@ ARGUMENTS = (
         ("viscous_time > 0",),
     ),
     Argument(x_v, "1", "x_v", "viscous number", ("x_v >= 0",)),
+    Argument(yield_stress, "Pa", "Y", "smaller yield stress of the two", ("yield_stress > 0",)),
+    Argument(
+        xi_y,
+        "1",
+        r"\xi",
+        "Hertz's radius of the largest force over the yield radius",
+        ("xi_y >= 1",),
+    ),
     Argument(omega, "1/s", r"\omega", "angular frequency", ("omega > 0",)),
     Argument(x_h, "1", "x", "wave number times half-thickness, phi h", ("x_h > 0",)),
     Argument(kap, "1", r"\kappa", "(omega h/c_T)^2, c_T^2 = mu/rho", ("kap >= 0",)),
@@ -96,6 +106,7 @@ ARGUMENTS = (
     Argument(xi_R, "1", r"\xi", "(c_R/c_T)^2 of Rayleigh's wave", ("xi_R > 0", "xi_R < 1")),
     Argument(q_j, "m", "q_j", "deflection of the axis by a mode of the plate", ()),
     Argument(q_rate, "m/s", r"\dot q_j", "velocity of the axis by a mode of the plate", ()),
+    Argument(zeta, "1", r"\zeta", "damping ratio of a mode", ("zeta >= 0", "zeta < 1")),
     Argument(t, "s", "t", "time since first contact", ("t >= 0",)),
     Argument(k_n, "1", "k_n", "wave number of a held plate's mode times b", ("k_n > 0",)),
     Argument(nu, "1", r"\nu", "Poisson's ratio of the plate", ("nu > -1", "nu < 0.5")),
@@ -175,11 +186,14 @@ _VALUES = {
     "v0": "1",
     "t": "1e-3",
     "viscous_time": "1e-4",
+    "yield_stress": "1e7",
+    "xi_y": "2",
     "omega": "1000",
     "kap": "0.01",
     "xi_R": "0.85",
     "q_j": "1e-5",
     "q_rate": "0.1",
+    "zeta": "0.01",
     "nu": "0.25",
     "delta": "1e-4",
     "delta_0": "1e-4",

@@ -2,7 +2,8 @@
 
 Read in this order:
 
-1. `scene`: reads and validates the scene file.
+1. `scene`: reads and validates the scene file; `bodies` are its tables of sphere, plate and
+   materials, `materials` the named ones.
 2. `model`: turns the scene into the numbers the kernels take.
 3. `effects`: one file each, which answers every question about the effect; `law` asks those that
    are included, and no other file knows an effect by its name.
@@ -16,8 +17,8 @@ Read in this order:
    (`wave_motion`).
 7. `impact`, `indentation`: simulate an impact, compute a static contact.
 8. `sweep`: one simulation per value of a key.
-9. `result`: the results as JSON, CSV and a notebook table; `plot` draws them, `comparison`
-   compares the paper's motion with them.
+9. `result`: the results, `answer` puts them in words; `export` hands them to pandas and xarray,
+   `plot` draws them, `comparison` compares the paper's motion with them.
 10. `code`: what a module with the law and the impact of one scene is made of.
 
 What cannot be computed raises a `SceneError`; no function returns None or NaN instead. A value that
@@ -39,11 +40,49 @@ if TYPE_CHECKING:
     from derivation.scene.explanation import explain
     from derivation.scene.impact import simulate
     from derivation.scene.indentation import indent
-    from derivation.scene.scene import Scene, SceneError, load, read, schema
+    from derivation.scene.result import Result
+    from derivation.scene.scene import (
+        Accuracy,
+        Effects,
+        Impact,
+        Inertia,
+        Material,
+        Measured,
+        Plate,
+        Scene,
+        SceneError,
+        Sphere,
+        load,
+        read,
+        schema,
+    )
 
-__all__ = ["Scene", "SceneError", "explain", "indent", "load", "read", "schema", "simulate"]
+__all__ = [
+    "Accuracy",
+    "Effects",
+    "Impact",
+    "Inertia",
+    "Material",
+    "Measured",
+    "Plate",
+    "Result",
+    "Scene",
+    "SceneError",
+    "Sphere",
+    "explain",
+    "indent",
+    "load",
+    "read",
+    "schema",
+    "simulate",
+]
 
-HOMES = {"explain": "explanation", "simulate": "impact", "indent": "indentation"}
+HOMES = {
+    "Result": "result",
+    "explain": "explanation",
+    "simulate": "impact",
+    "indent": "indentation",
+}
 """Where a public name lives, if not in `scene`."""
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from derivation.scene.effects.effect import Array
-from derivation.scene.plot import BLUE, BROWN, frame, scaled
+from derivation.scene.plot import BLUE, BROWN, frame, scaled, title
 from derivation.scene.result import Result
 from derivation.scene.scene import SceneError
 from derivation.scene.time_element import Z
@@ -44,24 +44,29 @@ def render(result: Result, suffix: str) -> bytes:
         result.dynamics.profiles(times, np.abs(r)),
         result.dynamics.rows(times)[Z],
     )
-    t, t_label = scaled(times, "time", "s")
+    t, t_label = scaled(times, "time $t$", "s")
     both, w_label = scaled(
-        np.vstack((profiles, displacement[:, None] * np.ones_like(r))), "displacement", "m"
+        np.vstack((profiles, displacement[:, None] * np.ones_like(r))),
+        "displacement $z$, $w$",
+        "m",
     )
     profiles, displacement = both[:FRAMES], both[FRAMES:, 0]
-    x, x_label = scaled(r, "distance from the axis", "m")
+    x, x_label = scaled(r, "distance from the axis $r$", "m")
     made = Figure(figsize=(7.0, 3.5), layout="constrained")
     axes = made.subplots()
     frame(axes, x_label, w_label)
     axes.set_ylim(*_limits(profiles, displacement))
-    (plate,) = axes.plot(x, profiles[0], color=BROWN, linewidth=2.0)
+    made.suptitle(title(result), fontsize=9)
+    (plate,) = axes.plot(x, profiles[0], color=BROWN, linewidth=2.0, label="plate, $w(r, t)$")
     (sphere,) = axes.plot([0.0], [displacement[0]], "v", color=BLUE, markersize=12.0)
+    sphere.set_label("lowest point of the sphere, $z(t)$")
+    axes.legend(loc="lower right", fontsize=8, frameon=False)
     unit = t_label[t_label.index("[") + 1 : -1]
 
     def draw(k: int) -> list[object]:
         plate.set_ydata(profiles[k])
         sphere.set_ydata([displacement[k]])
-        axes.set_title(f"{t[k]:.3g} {unit}; the sphere's lowest point and the plate's deflection")
+        axes.set_title(f"$t$ = {t[k]:.3g} {unit}", fontsize=10)
         return [plate, sphere]
 
     movie = FuncAnimation(made, draw, frames=FRAMES, interval=1000.0 / PER_SECOND)  # type: ignore[arg-type]
@@ -75,7 +80,7 @@ def render(result: Result, suffix: str) -> bytes:
 
 
 def _limits(profiles: Array, displacement: Array) -> tuple[float, float]:
-    """Way downwards, with some room."""
+    """Ends of the axis, which points downwards, with some room."""
     low, high = min(profiles.min(), displacement.min()), max(profiles.max(), displacement.max())
     room = 0.1 * (high - low)
     return float(high + room), float(low - 3.0 * room)

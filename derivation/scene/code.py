@@ -156,14 +156,20 @@ def _numbers(
 
 
 def _check_at_rest(scene: Scene) -> None:
-    """Refuse a plate that moves: its force depends on all that went before.
+    """Refuse a plate that moves and a contact that yields: the force depends on what went before.
 
     Raises
     ------
     SceneError
-        If the scene calls for inertia.
+        If the scene calls for inertia or plasticity.
     """
-    if selected_effects(scene)[1].law.dynamic:
+    law = selected_effects(scene)[1].law
+    if law.plastic:
+        raise SceneError(
+            "effects.plasticity: expected false for the code of a scene, whose contact is elastic, "
+            "got a contact that yields; write effects.plasticity = false"
+        )
+    if law.dynamic:
         raise SceneError(
             "effects.inertia: expected false for the code of a scene, whose plate follows at rest, "
             "got a plate that moves; write effects.inertia = false"
@@ -198,7 +204,7 @@ def _compliance(law: ContactLaw, a: float) -> float:
         raise SceneError(
             "plate.edge: expected the paper's edge for the code of a viscous scene with bending, "
             f"as the deflection on a {law.model.edge} edge, which is elastic, is not proportional "
-            "to the force; write effects.edge = false, or leave out plate.retardation_time"
+            "to the force; write effects.edge = false, or leave out retardation_time"
         )
     return float(bent.at(law.force(np.array([a]), law.at(np.array([a]))))[1][0])
 

@@ -5,6 +5,7 @@ from dataclasses import asdict, dataclass
 from html import escape
 from typing import Any
 
+from derivation.engine.text import aligned, paragraph
 from derivation.scene.html import html_table
 from derivation.scene.model import Model
 from generated.perturbation import PrintedMotion, printed_motion
@@ -14,6 +15,12 @@ HEADS = (
     "#valid until [s]", "#t/t_c",
 )  # fmt: skip
 """Heads of the table."""
+QUANTITIES = (
+    "contact time [s]", "its difference", "max indentation [m]", "its difference",
+    "valid until [s]", "valid until t/t_c",
+)  # fmt: skip
+MOTIONS = "quantity", "#linear term (15)", "#as published", "#corrected"
+"""Lines and heads of the table on a screen."""
 MODES = 100
 """Number of modes in the paper's sums: they diverge, and the paper gives no truncation."""
 
@@ -79,7 +86,7 @@ class Comparison:
     @property
     def title(self) -> str:
         """What the table shows."""
-        return f"The paper's own motion, its sums truncated after {self.modes} modes"
+        return f"The paper's own motion, (15) to (18), its sums truncated after {self.modes} modes"
 
     @property
     def note(self) -> str:
@@ -93,6 +100,13 @@ class Comparison:
     def lines(self) -> list[tuple[str, ...]]:
         """A line for each motion, to be read by people."""
         return [motion.cells() for motion in self.motions]
+
+    def to_text(self) -> str:
+        """The motions side by side for a screen, a line for each quantity."""
+        _, *columns = zip(*self.lines(), strict=True)
+        rows = [[name, *cells] for name, cells in zip(QUANTITIES, columns, strict=True)]
+        table = aligned(MOTIONS, rows)
+        return f"{paragraph(self.title, 0)}\n\n{table}\n\n{paragraph(self.note, 0)}"
 
     def to_json(self) -> dict[str, Any]:
         """The comparison under fixed keys."""

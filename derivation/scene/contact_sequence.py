@@ -22,6 +22,8 @@ from derivation.scene.time_element import (
     element,
     onset,
 )
+from derivation.scene.yield_events import next_branch
+from derivation.scene.yielding import Yielding
 
 FIRST, LONGEST, SHORTEST = 0.05, 0.25, 1e-13
 """First, largest and least length of an element in x."""
@@ -54,7 +56,8 @@ class Touching(NamedTuple):
     """A contact: when it began and ended, in units of the problem, its elements and states.
 
     `radius` is that at its beginning, not 0 where the face has not recovered from the last one.
-    `tried` counts its elements, those too that were tried and made shorter.
+    `tried` counts its elements, those too that were tried and made shorter. `yielding` is the
+    branch of a contact that yields at its end.
     """
 
     start: float
@@ -64,6 +67,7 @@ class Touching(NamedTuple):
     before: ImpactState
     after: ImpactState
     tried: int
+    yielding: Yielding | None = None
 
 
 @dataclass(frozen=True)
@@ -121,8 +125,6 @@ def impact_history(
         If the first contact is not followed to its end.
     """
     t, radius, state, found = 0.0, 0.0, problem.begin(), list[Touching]()
-    # A sphere that would come back only by its weight has left: what follows is another impact.
-    weightless = replace(problem, weight=0.0)
     weight, tried, used = weight_of(problem), 0, 0.0
     while True:
         most = min(ELEMENTS, tried + steps_of(problem, work - used))
@@ -132,6 +134,9 @@ def impact_history(
             found.append(touching)
             tried, used = tried + touching.tried, used + touching.tried * weight
             after, last = touching.after, touching.pieces[-1].radius
+            problem = replace(problem, yielding=touching.yielding)
+            # A sphere that would come back only by its weight has left: that is another impact.
+            weightless = replace(problem, weight=0.0)
             wait, radius, looks = meeting(weightless, after, last, work - used)
             used += looks
             if problem.weight and wait < math.inf:
@@ -247,16 +252,21 @@ def contact(
             last = _let_go(problem, n, made, state, radius)
             ended = origin + (last.element.x + last.element.length) ** ONSET
             pieces = (*found, last)
-            return Touching(start, ended, first, pieces, begin, last.end, step + 1 - tried)
+            tries = step + 1 - tried
+            return Touching(start, ended, first, pieces, begin, last.end, tries, problem.yielding)
+        if problem.yielding is not None:
+            made, problem = next_branch(problem, n, made, state, radius)
         found.append(made)
-        _check_weight(problem, x + length)
-        x, state, radius, scale = x + length, made.end, made.radius, largest
+        x = made.element.x + made.element.length
+        _check_weight(problem, x)
+        state, radius, scale = made.end, made.radius, largest
         length = min(LONGEST, length * min(2.0, change))
         left = _left(state)
         if left < CLOSED * x**ONSET and not problem.retardation_time:
             more, after = _released(problem, made, left)
             ended = start + x**ONSET + more
-            return Touching(start, ended, first, tuple(found), begin, after, step + 1 - tried)
+            tries, pieces = step + 1 - tried, tuple(found)
+            return Touching(start, ended, first, pieces, begin, after, tries, problem.yielding)
     else:
         raise _endless(problem, origin + x**ONSET, most)
     raise _lost(problem, state, radius, problem.T * (origin + x**ONSET))
@@ -296,7 +306,7 @@ def _lost(
         )
         remedy = "give a lower speed, a lighter sphere or less weight"
     for a in (radius, 1.2 * radius):  # where it is, and where it would go
-        at = problem.contact.at(problem.a * np.array([min(a, beyond)]))
+        at = problem.at(problem.a * np.array([min(a, beyond)]))
         bent = at.less_a[0] @ problem.contact.modes.by_shape(state.q)
         own = at.depth_a[0] / problem.depth
         if a > 0.0 and not own + bent > SHARP * own:

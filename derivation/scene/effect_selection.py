@@ -7,10 +7,11 @@ the tolerance, so that a looser tolerance never includes more effects.
 """
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from derivation.engine.text import aligned, paragraph
 from derivation.scene.effects import BY_NAME, EFFECTS
 from derivation.scene.effects.effect import NO_BOUND, Effect
 from derivation.scene.html import html_table
@@ -108,9 +109,40 @@ class SelectedEffects:
         """Whether the scene has another edge than the paper's and switches its effect off."""
         return any(BY_NAME[name].other_edge for name in self.forced_out)
 
+    @property
+    def included(self) -> tuple[str, ...]:
+        """Names of the effects included, in the order of the table."""
+        return tuple(row.name for row in self.rows if row.included)
+
+    @property
+    def summary(self) -> str:
+        """The effects included, and what the omitted ones may change."""
+        omitted = any(row.bound and not (row.included or row.disabled) for row in self.rows)
+        others = f"; the omitted ones change the results by at most {self.error:.1e}"
+        return ", ".join(self.included) + (others if omitted else "")
+
     def lines(self) -> list[tuple[str, str, str, str, str, str]]:
         """The rows as they are shown, under `HEADS`."""
         return [row.cells() for row in self.rows]
+
+    def to_text(self, run_times: Mapping[str, str] | None = None) -> str:
+        """The effects table for a screen, with parameters and reasons in lines below it.
+
+        Parameters
+        ----------
+        run_times
+            Run times by effect, as they are shown; without them the table has none.
+        """
+        heads = ["effect", "#parameter value", "#change if omitted", "status"]
+        cells = [[name, *known] for name, _, *known, _ in self.lines()]
+        if run_times is not None:
+            heads.append("#run time")
+            cells = [[*row, run_times.get(row[0], "n/a")] for row in cells]
+        parameters = _grouped((row.name, row.parameter) for row in self.rows)
+        reasons = _grouped((row.name, row.reason) for row in self.rows)
+        return "\n".join(
+            [aligned(heads, cells), "", "Parameters:", *parameters, "", "Reasons:", *reasons]
+        )
 
     def to_html(self) -> str:
         """The effects table for a notebook."""
@@ -210,8 +242,10 @@ def select(
         If the scene includes an effect and disables a part of it, or disables a part of one that
         it must not omit.
     """
+    without = {e.name: f"effects.{e.within} = false" for e in EFFECTS if _disabled(e, wanted)}
     asked = {e.name for e in EFFECTS if not e.selectable and wanted.get(e.name) is True}
     reasons = {e.name: "" if e.name in asked else e.not_applicable_reason(model) for e in EFFECTS}
+    reasons = {name: reason or without.get(name, "") for name, reason in reasons.items()}
     blocked = _blocked(wanted)
     present = [effect for effect in EFFECTS if not reasons[effect.name]]
     choice = {effect.name: wanted.get(effect.name, "auto") for effect in present}
@@ -247,6 +281,12 @@ def select(
     return Selection(state, error, sizes, choice, reasons, required, blocked)
 
 
+def _disabled(effect: Effect, wanted: Mapping[str, Any]) -> bool:
+    """Whether a scene disables what an effect is a part of, and does not ask for the effect."""
+    parted = bool(effect.within) and wanted.get(effect.within) is False
+    return parted and wanted.get(effect.name) is not True
+
+
 def _blocked(wanted: Mapping[str, Any]) -> Mapping[str, str]:
     """Effects that cannot be included, each with a part of it that the scene disables.
 
@@ -267,6 +307,14 @@ def _blocked(wanted: Mapping[str, Any]) -> Mapping[str, str]:
         if without:
             found[name] = without[0]
     return found
+
+
+def _grouped(told: Iterable[tuple[str, str]]) -> list[str]:
+    """Paragraphs that say the same of several effects at once."""
+    names: dict[str, list[str]] = {}
+    for name, text in told:
+        names.setdefault(text, []).append(name)
+    return [paragraph(f"  {', '.join(found)}: {text}", 4) for text, found in names.items()]
 
 
 def _row(

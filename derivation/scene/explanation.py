@@ -8,13 +8,15 @@ from typing import Any
 
 import numpy as np
 
-from derivation.scene.effect_selection import HEADS, SelectedEffects
+from derivation.engine.text import paragraph
+from derivation.scene.effect_selection import SelectedEffects
 from derivation.scene.effects import BY_NAME, EFFECTS
 from derivation.scene.effects.effect import NO_BOUND, Effect
 from derivation.scene.impact import selected_effects
 from derivation.scene.law import ContactLaw
 from derivation.scene.limits import ZENER_LIMIT, zener_number
 from derivation.scene.quadrature import NODES, rule
+from derivation.scene.quantity import prefixed
 from derivation.scene.scene import OUTPUTS, Scene
 
 
@@ -37,19 +39,17 @@ class Explanation:
     evaluation_times: dict[str, float]
     notes: tuple[str, ...]
 
-    def lines(self) -> list[tuple[str, ...]]:
-        """The effects table with the evaluation time of each effect, to be read by people."""
-        shown = (
-            f"{1e6 * self.evaluation_times[line[0]]:.0f} us"
-            if line[0] in self.evaluation_times
-            else "n/a"
-            for line in self.effects.lines()
-        )
-        return [(*line, time) for line, time in zip(self.effects.lines(), shown, strict=True)]
+    def details(self) -> str:
+        """The decision, then the effects table with the run time of each effect."""
+        times = {
+            name: " ".join(prefixed(seconds, "s", RUN_TIME_DIGITS))
+            for name, seconds in self.evaluation_times.items()
+        }
+        return f"{paragraph(str(self), 0)}\n\n{self.effects.to_text(times)}"
 
     def __str__(self) -> str:
         """The decision in a sentence."""
-        effects = ", ".join(row.name for row in self.effects.rows if row.included)
+        effects = ", ".join(self.effects.included)
         of = "each result"
         if self.effects.outputs != OUTPUTS:
             of = "each of " + ", ".join(name.replace("_", " ") for name in self.effects.outputs)
@@ -69,7 +69,7 @@ class Explanation:
     def to_json(self) -> dict[str, Any]:
         """Decision and table under fixed keys; evaluation times differ from run to run."""
         return {
-            "included": [row.name for row in self.effects.rows if row.included],
+            "included": list(self.effects.included),
             "rtol": self.effects.rtol,
             "bound": self.effects.error if np.isfinite(self.effects.error) else None,
             "effects": [row.to_json() for row in self.effects.rows],
@@ -87,8 +87,8 @@ def _change(bound: float) -> str:
     return f"changes the results by at most {bound:.1e}" if bound < NO_BOUND else "no bound"
 
 
-COLUMNS = (*HEADS, "evaluation time")
-"""Heads of the table."""
+RUN_TIME_DIGITS = 2
+"""Significant digits of a run time that are shown."""
 REPEATS, SHORT = 3, 1e-3
 """How often a term is timed, of which the least counts, unless once takes longer [s]."""
 

@@ -6,6 +6,7 @@ from collections.abc import Callable
 import numpy as np
 
 from derivation.scene.effects.effect import Array
+from derivation.scene.oscillators import FreeMotion
 from derivation.scene.scene import IncompleteError
 from derivation.scene.time_element import DynamicProblem, ImpactState
 
@@ -40,19 +41,19 @@ def meeting(
     reach = float(np.sum(np.hypot(state.q, state.q_dot / omega)))
     block = max(2, min(BLOCK, AT_ONCE // omega.size))
     t = STEP / float(np.max(omega)) * np.arange(block + 1)
-    turn = np.outer(t, omega)
-    sin, cos, versed = np.sin(turn), np.cos(turn), 2.0 * np.sin(turn / 2.0) ** 2
-    work, each = 0.0, LOOKS + LOOK * turn.size
+    free = FreeMotion(np.outer(t, omega), problem.damping_ratio)
+    work, each = 0.0, LOOKS + LOOK * free.phase.size
     for _ in range(BLOCKS * (BLOCK // block)):
         if work and work + each > most:
             break
         work += each
         clear = _clear(problem, state)
         begin, state = begin + clear, problem.flown(state, clear)
-        bent = sin * (state.q_dot / omega) - versed * state.q
+        bent = free.sin * (state.q_dot / omega) - free.by_q * state.q
         into = state.approach + state.velocity * t + 0.5 * problem.weight * t * t
         into -= np.sum(bent, axis=1)
-        opening = cos @ state.q_dot - sin @ (state.q * omega) - state.velocity - problem.weight * t
+        opening = free.cos @ state.q_dot - free.sin @ (state.q * omega) - state.velocity
+        opening -= problem.weight * t
         if problem.retardation_time:
             into -= _pressed(problem, np.add(begin, t), radius, np.add(state.q, bent))
         turned = (opening[:-1] < 0.0) & (opening[1:] > 0.0)  # they come closest in between
@@ -78,7 +79,7 @@ def _clear(problem: DynamicProblem, state: ImpactState) -> float:
     """A time for which sphere and plate certainly stay apart, by looks at the slow oscillators.
 
     The fast ones, whose amplitudes add up to a part of the gap, cannot close it. What a
-    viscoelastic face is still pressed in only widens the gap.
+    viscoelastic face is still pressed in only widens the gap. Damping only reduces amplitudes.
     """
     order, gap = problem.by_speed, -state.approach
     omega, q, rate = (x[order] for x in (problem.omega, state.q, state.q_dot))
@@ -88,8 +89,8 @@ def _clear(problem: DynamicProblem, state: ImpactState) -> float:
         return 0.0
     omega, q, rate = omega[:slow], q[:slow], rate[:slow]
     t = STEP / float(omega[-1]) * np.arange(max(2, min(BLOCK, AT_ONCE // slow)) + 1)
-    turn = np.outer(t, omega)
-    bent = np.sin(turn) @ (rate / omega) - 2.0 * np.sin(turn / 2.0) ** 2 @ q
+    free = FreeMotion(np.outer(t, omega), problem.damping_ratio)
+    bent = free.sin @ (rate / omega) - free.by_q @ q
     into = state.approach + state.velocity * t + 0.5 * problem.weight * t * t - bent
     # The fast ones may go from one end of their swing to the other.
     near = np.flatnonzero(into + 2.0 * float(beyond[slow]) >= 0.0)
@@ -106,7 +107,7 @@ def _into(problem: DynamicProblem, after: ImpactState, t: float, radius: float) 
 
 def _pressed(problem: DynamicProblem, t: Array, radius: float, q: Array) -> Array:
     """How deep the face of a viscoelastic contact is still pressed in."""
-    at = problem.contact.at(problem.a * _recovered(problem, t, radius))
+    at = problem.at(problem.a * _recovered(problem, t, radius))
     moved = np.sum(at.less * problem.contact.modes.by_shape(q), axis=1)
     return at.depth / problem.depth + np.asarray(moved, dtype=np.float64)
 

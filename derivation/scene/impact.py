@@ -1,5 +1,6 @@
 """Simulates an impact: from the scene to contact time, indentation, force and their history."""
 
+import math
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
@@ -8,6 +9,7 @@ from derivation.scene.effect_selection import SelectedEffects, decide
 from derivation.scene.limits import (
     check_radius,
     contact_warnings,
+    hollow_warnings,
     local_indentation,
     motion_warnings,
     neglects_inertia,
@@ -64,17 +66,19 @@ def simulate(
     law, model = selected.law, selected.law.model
     check_radius(law, a, "impact.speed", "lower the speed")
     motion = dynamic_impact(selected, rtol) if law.dynamic else None
-    pressure = law.max_pressure(a)
+    pressure = min(law.max_pressure(a), law.pressure_limit)
     model_error = _model_error(selected, a, motion)
     share = 1.0 - float(local_indentation(law, a)) / delta
     deflection = motion.largest_deflection(law) if motion is not None else None
+    weaker = "sphere" if model.yield_stress < model.plate_yield_stress else "plate"
     warnings = (
+        *hollow_warnings(model),
         *warnings_at(law, a, delta, deflection),
         *motion_warnings(model, contact_time, share, motion is not None),
-        *pressure_warnings(pressure, scene.plate.yield_stress, law.viscous),
+        *pressure_warnings(pressure, _known(model.yield_stress), law.viscous, weaker),
     )
     neglected = neglects_inertia(model, contact_time, share, motion is not None)
-    strength, yield_stress = scene.plate.tensile_strength, scene.plate.yield_stress
+    strength, yield_stress = scene.plate.tensile_strength, _known(model.plate_yield_stress)
     if strength is not None or yield_stress is not None:
         stress = law.max_tensile_stress(a, force, not selected.edge_disabled)
         warnings += stress_warnings(stress, strength, yield_stress)
@@ -86,6 +90,11 @@ def simulate(
         inertia_neglected=neglected,
     )  # fmt: skip
     return result if times is None else result.at(times)
+
+
+def _known(stress: float) -> float | None:
+    """A yield stress [Pa], None if it is not known."""
+    return stress if math.isfinite(stress) else None
 
 
 def _model_error(selected: SelectedEffects, a: float, motion: "DynamicImpact | None") -> float:

@@ -9,10 +9,11 @@ import math
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from html import escape
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from derivation.engine.text import aligned
 from derivation.scene.effects import EFFECTS
 from derivation.scene.html import html_table
 from derivation.scene.law import ContactLaw, Shape
@@ -25,8 +26,13 @@ from derivation.scene.limits import (
 from derivation.scene.messages import shown
 from derivation.scene.model import model_of
 from derivation.scene.scene import Scene, SceneError
+from derivation.scene.yielding import yielding_of
 
 UNITS = {"contact_radius": "m", "force": "N", "indentation": "m"}
+HEADS = (
+    "#radius [m]", "#indentation [m]", "#force [N]", "#stiffness [N/m]", "#max. pressure [Pa]",
+)  # fmt: skip
+"""Heads of the table of contacts."""
 _STEPS, _CLOSE = 60, 4e-16
 Values = float | Iterable[float]
 
@@ -66,12 +72,18 @@ class StaticContacts(tuple[StaticContact, ...]):
 
     __slots__ = ()
 
+    def rows(self) -> list[list[str]]:
+        """The contacts as they are shown, under `HEADS`, in SI."""
+        return [[f"{x:.6g}" for x in list(asdict(c).values())[: len(HEADS)]] for c in self]
+
+    def __str__(self) -> str:
+        """Table for a screen."""
+        return aligned(HEADS, self.rows())
+
     def _repr_html_(self) -> str:
         """Table for a notebook, warnings below it."""
-        heads = ("radius [m]", "indentation [m]", "force [N]", "stiffness [N/m]", "pressure [Pa]")
-        rows = ([f"{x:.6g}" for x in list(asdict(c).values())[: len(heads)]] for c in self)
         texts = dict.fromkeys(text for contact in self for text in contact.warnings)
-        return html_table(heads, rows) + "".join(
+        return html_table(HEADS, self.rows()) + "".join(
             f"<p><b>Warning:</b> {escape(text)}</p>" for text in texts
         )
 
@@ -153,18 +165,56 @@ def _numbers(name: str, values: Values) -> list[float]:
 
 def _contact(law: ContactLaw, name: str, value: float) -> StaticContact:
     model = law.model
-    a = value if name == "contact_radius" else _radius(law, name, value)
+    given = name == "contact_radius" and not law.plastic
+    a = value if given else _radius(law, name, value)
     check_radius(law, a, f"{name} = {value:.6g} {UNITS[name]}", f"give a smaller {name}")
-    radius = np.array([a])
-    shape = law.at(radius)
-    delta, P, slope = (
-        float(of(radius, shape)[0]) for of in (law.indentation, law.force, law.stiffness)
-    )
-    pressure = law.max_pressure(a)
-    check_numbers(model, a, delta, P, slope, pressure)
+    at = _loaded(law, a)
+    pressure = min(law.max_pressure(a), law.pressure_limit)
+    check_numbers(model, *at, pressure)
     # What was given is returned as it was given, not after a trip through its inverse.
-    delta, P = (value if name == "indentation" else delta, value if name == "force" else P)
-    return StaticContact(a, delta, P, slope, pressure, warnings_at(law, a, delta))
+    found = {"contact_radius": at.radius, "indentation": at.depth, "force": at.force} | {
+        name: value
+    }
+    return StaticContact(
+        **found,
+        stiffness=at.stiffness,
+        max_pressure=pressure,
+        warnings=warnings_at(law, at.radius, at.depth),
+    )
+
+
+class _Loaded(NamedTuple):
+    """Contact radius [m], force [N], indentation [m] and stiffness [N/m] of a contact.
+
+    And the slopes of the first three by the radius of the elastic law.
+    """
+
+    radius: float
+    force: float
+    depth: float
+    stiffness: float
+    radius_a: float
+    force_a: float
+    depth_a: float
+
+
+def _loaded(law: ContactLaw, a: float) -> _Loaded:
+    """The contact pressed in to a radius [m] of the elastic law; one that yields is wider."""
+    radii = np.array([a])
+    shape: Shape = law.at(radii)
+    stiffness, depth_a = law.stiffness(radii, shape), 2.0 * shape.slope * (radii / law.model.R)
+    force, depth = law.force(radii, shape), law.indentation(radii, shape)
+    force_a, radius, radius_a = stiffness * depth_a, radii, np.ones(1)
+    branch = yielding_of(law)
+    if branch is not None and a > branch.end:
+        branch = branch.begun()
+        more, more_a = branch.added(force, force_a)
+        depth, depth_a, radius = depth + more, depth_a + more_a, branch.widened(radii, force)
+        # The force grows by the limit of the pressure times the area.
+        radius_a = force_a * law.model.R / (4.0 * branch.modulus * branch.onset * radius)
+        stiffness = force_a / depth_a
+    numbers = radius, force, depth, stiffness, radius_a, force_a, depth_a
+    return _Loaded(*(float(number[0]) for number in numbers))
 
 
 def _radius(law: ContactLaw, name: str, value: float) -> float:
@@ -182,9 +232,10 @@ def _radius(law: ContactLaw, name: str, value: float) -> float:
             f"{name}: expected less than {largest:.6g} {UNITS[name]}, where the contact radius "
             f"reaches {law.limit_in_words}, got {value:.6g} {UNITS[name]}; give a smaller {name}"
         )
-    a = min(math.sqrt(R) * math.sqrt(value), last)
+    a = value if name == "contact_radius" else math.sqrt(R) * math.sqrt(value)
     if name == "force":
-        a = min(math.cbrt(0.75 * (value / law.modulus) * R), last)
+        a = math.cbrt(0.75 * (value / law.modulus) * R)
+    a = min(a, last)
     for _ in range(_STEPS):
         found, slope = _with_slope(law, name, a)
         check_numbers(law.model, found, slope)
@@ -196,12 +247,11 @@ def _radius(law: ContactLaw, name: str, value: float) -> float:
 
 
 def _with_slope(law: ContactLaw, name: str, a: float) -> tuple[float, float]:
-    """Force [N] or indentation [m] at a radius [m], and its elasticity d log/d log a [1]."""
-    radius = np.array([a])
-    shape: Shape = law.at(radius)
-    delta, P = (float(of(radius, shape)[0]) for of in (law.indentation, law.force))
-    slope = float(shape.slope[0])
-    if name == "indentation":
-        return delta, 2.0 * slope / float(shape.depth[0])
-    stiffness = float(law.stiffness(radius, shape)[0])
-    return P, stiffness * 2.0 * slope * a * (a / law.model.R) / P
+    """A quantity at a radius [m] of the elastic law, and its elasticity d log/d log a [1]."""
+    at = _loaded(law, a)
+    value, slope = {
+        "indentation": (at.depth, at.depth_a),
+        "force": (at.force, at.force_a),
+        "contact_radius": (at.radius, at.radius_a),
+    }[name]
+    return value, slope * a / value

@@ -28,9 +28,11 @@ from generated.effects import (
     zener_number,
 )
 from generated.impact import COARSE_QUADRATURE, FULL_QUADRATURE, ROUNDING, history, impact
+from generated.plasticity_numbers import YIELD_LIMIT
 from generated.sensitivity import indentation_slope
 from generated.simple_impact import Estimate, Plate, hertz, law_errors, leading, plate_of
 from generated.viscosity import Course, viscous_logarithms, viscous_number
+from generated.viscous_bodies import retardation_of_two
 
 __all__ = [
     "COARSE_QUADRATURE",
@@ -40,6 +42,7 @@ __all__ = [
     "WALL_CUBIC",
     "WALL_GROWTH",
     "WALL_LINEAR",
+    "YIELD_LIMIT",
     "Course",
     "Estimate",
     "Plate",
@@ -64,6 +67,7 @@ __all__ = [
     "max_pressure",
     "plate_of",
     "radius_of_force",
+    "retardation_of_two",
     "side_wall",
     "sphere_contact",
     "stiffness",

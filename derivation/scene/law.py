@@ -81,7 +81,9 @@ class ContactLaw:
     def half_space(self) -> "ContactLaw":
         """The law of an elastic contact on a half-space: no plate deflects or moves."""
         return self.only(
-            lambda e: not (isinstance(e, PlateEffect) or e.solved or e.viscous or e.dynamic)
+            lambda e: (
+                not (isinstance(e, PlateEffect) or e.solved or e.viscous or e.plastic or e.dynamic)
+            )
         )
 
     @property
@@ -120,9 +122,20 @@ class ContactLaw:
         return any(effect.viscous for effect in self.chosen)
 
     @cached_property
+    def plastic(self) -> bool:
+        """Whether the contact yields."""
+        return any(effect.plastic for effect in self.chosen)
+
+    @cached_property
     def dynamic(self) -> bool:
         """Whether the plate has inertia."""
         return any(effect.dynamic for effect in self.chosen)
+
+    @cached_property
+    def damping_ratio(self) -> float:
+        """Damping ratio of the plate's modes [1]: half of the loss factor, as at resonance."""
+        damped = any(effect.damps for effect in self.chosen)
+        return 0.5 * self.model.loss_factor if damped else 0.0
 
     @cached_property
     def softness(self) -> float:
@@ -198,6 +211,11 @@ class ContactLaw:
         x, weights = gauss(NODES[2])
         mean = float(np.sum(weights * self._sphere(x * a).slope))
         return 2.0 / np.pi * self.modulus * (a / self.model.R) * mean
+
+    @property
+    def pressure_limit(self) -> float:
+        """Largest pressure [Pa] of a contact that yields; infinite if it does not."""
+        return kernels.YIELD_LIMIT * self.model.yield_stress if self.plastic else math.inf
 
     def pressure(self, r: Array, a: float) -> Array:
         """Contact pressure [Pa] at distances r [m] from the axis, 0 <= r <= a.

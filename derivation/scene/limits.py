@@ -25,14 +25,14 @@ QUASI_STATIC_PERIODS = 10.0
 """Contact time over the first bending period from which the plate follows without inertia."""
 SHARE_LIMIT = 0.01
 """Share of the plate's deflection in the indentation below which its inertia is no matter."""
-YIELD_LIMIT = 1.6
-"""Pressure over yield stress at which a metal begins to yield below the contact."""
+SOLID_LIMIT = 1 / 3
+"""Mass of a sphere over that of a solid one of its material below which it may be hollow."""
 GRAZING = 1e-3
 """Approach speed over the impact speed, or force over the largest, below which a contact grazes."""
 SMALL_CORRECTION = 0.3
 """Relative correction above which its leading term is no estimate any more."""
 Values = TypeVar("Values", float, Array)
-DOUBT = 1e-3
+MARGIN = 1e-3
 """Relative error that quadratures may make in the fastest speed, where a law is steep."""
 POINTS = 192
 """Gauss points of the energy up to the law's limit, close to which a sphere's slope is steep."""
@@ -69,16 +69,16 @@ def refuse(law: ContactLaw) -> NoReturn:
     SceneError
         Of what is too large for the law, or for doubles.
     """
-    check_energy(law, DOUBT)
+    check_energy(law, MARGIN)
     raise _no_number(law.model)
 
 
-def check_energy(law: ContactLaw, doubt: float = 0.0) -> None:
+def check_energy(law: ContactLaw, margin: float = 0.0) -> None:
     """Refuse an impact that presses the sphere in beyond the law's range.
 
     Parameters
     ----------
-    doubt
+    margin
         Share of the speed [1] by which quadratures may differ on what is too fast.
 
     Raises
@@ -96,7 +96,7 @@ def check_energy(law: ContactLaw, doubt: float = 0.0) -> None:
         raise _too_heavy(law) if weight else _no_energy(law)
     capacity -= weight
     fastest = math.sqrt(2) * math.sqrt(max(capacity, 0.0)) / math.sqrt(model.m)
-    if model.v0 >= fastest * (1.0 - doubt):
+    if model.v0 >= fastest * (1.0 - margin):
         fastest = min(fastest, model.v0)
         raise SceneError(
             f"impact.speed: expected less than {fastest:.6g} m/s, where the contact radius "
@@ -272,21 +272,33 @@ def motion_warnings(
     return tuple(found)
 
 
+def hollow_warnings(model: Model) -> tuple[str, ...]:
+    """Whether the sphere is far too light to be solid, if its material's density is known."""
+    solid = 4 / 3 * math.pi * model.R * model.R * model.R * model.solid_density
+    if model.m >= SOLID_LIMIT * solid:
+        return ()
+    text = (
+        f"the sphere's mass is {model.m / solid:.2g} of that of a solid one of its material, "
+        f"{solid:.4g} kg: if it is hollow it bends like a shell, which the model leaves out"
+    )
+    return (text,)
+
+
 def pressure_warnings(
-    pressure: float, yield_stress: float | None, viscous: bool = False
+    pressure: float, yield_stress: float | None, viscous: bool = False, body: str = "plate"
 ) -> tuple[str, ...]:
-    """Whether the plate yields below the contact, if its yield stress [Pa] is given."""
+    """Whether the body that yields first does below the contact, if its yield stress is known."""
     if yield_stress is not None and viscous:
         text = (
-            "whether the plate yields is not judged: the largest pressure is that of the elastic "
+            f"whether the {body} yields is not judged: the largest pressure is that of the elastic "
             "part, beside which a viscous contact has more while it grows"
         )
         return (text,)
-    if yield_stress is None or pressure <= YIELD_LIMIT * yield_stress:
+    if yield_stress is None or pressure <= kernels.YIELD_LIMIT * yield_stress:
         return ()
     text = (
         f"largest pressure over yield stress = {pressure / yield_stress:.3g} exceeds "
-        f"{YIELD_LIMIT}: the plate yields below the contact, and takes energy"
+        f"{kernels.YIELD_LIMIT}: the {body} yields below the contact, and takes energy"
     )
     return (text,)
 

@@ -24,13 +24,20 @@ from derivation.scene.result import Result
 from derivation.scene.scene import SceneError
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-THICKNESSES = np.geomspace(1e-3, 10.0, 17)
-"""h/b of the map."""
-RADII = np.geomspace(1e-3, 6.0, 17)
+THICKNESSES = np.geomspace(1e-3, 10.0, 25)
+"""h/b of the map; a line may lie anywhere between two of them."""
+RADII = np.geomspace(1e-3, 6.0, 25)
 """a/h of the map."""
 COLOURS = ("#1f4e79", "#b35806", "#1b7837", "#762a83", "#b2182b", "#01665e", "#e7298a")
+CHOICES = {"auto": "", True: " (true in the scene)", False: " (disabled in the scene)"}
+"""What is said of an effect by its switch in the scene."""
+OUTSIDE = "0.88"
+"""Grey of places where there is no such scene."""
+TICKS = 9.0
+"""Distance of the ticks on a line in points."""
 MOST, SIDE = 100.0, 1.001
 """Largest ratio that is drawn, and the least on the side of the line where an effect counts."""
 
@@ -54,12 +61,12 @@ class Grid:
 
 
 def drawn(result: Result) -> list[str]:
-    """Effects that the map has lines of: of a static contact, as others depend on the speed."""
+    """Effects that the map shows: those that the selection may include or omit."""
     model = result.model
     return [
         e.name
         for e in EFFECTS
-        if e.static and not (e.always_included or e.not_applicable_reason(model))
+        if e.selectable and not (e.always_included or e.not_applicable_reason(model))
     ]
 
 
@@ -119,36 +126,62 @@ def _ratio(found: Selection, name: str, rtol: float) -> float:
     return max(ratio, SIDE) if name in found.included else min(ratio, 1.0 / SIDE)
 
 
+def lines(found: Grid) -> dict[tuple[str, ...], Array]:
+    """The ratio of one effect of each group that is included at the same places."""
+    groups: dict[bytes, list[str]] = {}
+    for name, ratio in found.ratios.items():
+        groups.setdefault((ratio > 1.0).tobytes(), []).append(name)
+    return {tuple(names): found.ratios[names[0]] for names in groups.values()}
+
+
 def figure(result: Result, rtol: float) -> "Figure":
     """The map of a scene as a Matplotlib figure, its largest contact marked."""
     from matplotlib.figure import Figure
+    from matplotlib.patches import Patch
 
     place = result.model.eta, result.max_contact_radius / result.model.h
     found, wanted = grid(result, rtol), result.scene.effects.model_dump()
-    made = Figure(figsize=(7.5, 6.0), layout="constrained")
+    made = Figure(figsize=(7.5, 6.5), layout="constrained")
     axes = made.subplots()
-    for colour, (name, ratio) in zip(COLOURS, found.ratios.items(), strict=False):
-        chosen = "" if wanted[name] == "auto" else f" ({str(wanted[name]).lower()} in the scene)"
-        known = ratio[np.isfinite(ratio)]
-        if not known.size or known.min() > 1.0 or known.max() < 1.0:
-            everywhere = "everywhere" if known.size and known.min() > 1.0 else "nowhere"
-            axes.plot([], [], color=colour, label=f"{name}{chosen}: {everywhere}")
+    axes.set(facecolor=OUTSIDE, xscale="log", yscale="log")
+    known = np.isfinite(np.array([*found.ratios.values()])).any(axis=0)
+    axes.contourf(found.thicknesses, found.radii, np.where(known, 0.0, np.nan), colors=["white"])
+    colours = iter(COLOURS)
+    for names, ratio in lines(found).items():
+        label = ", ".join(name + CHOICES[wanted[name]] for name in names)
+        sure = ratio[np.isfinite(ratio)]
+        if not sure.size or sure.min() > 1.0 or sure.max() < 1.0:
+            where = "everywhere" if sure.size and sure.min() > 1.0 else "nowhere"
+            axes.plot([], [], linestyle="none", label=f"{where}: {label}")
             continue
-        values = np.log(np.maximum(ratio, 1.0 / MOST))
-        coordinates = found.thicknesses, found.radii, values
-        axes.contour(*coordinates, levels=[0.0], colors=[colour])
-        axes.contourf(*coordinates, levels=[0.0, np.inf], colors=[colour], alpha=0.1)
-        axes.plot([], [], color=colour, label=f"{name}{chosen}")
+        _line(axes, found, ratio, next(colours), label)
     axes.plot(*place, marker="*", markersize=14, color="black", linestyle="none", label="the scene")
-    axes.set(xscale="log", yscale="log", xlabel="h/b", ylabel="a/h")
+    axes.set(xlabel="half-thickness / plate radius, $h/b$ [1]")
+    axes.set(ylabel="largest contact radius / half-thickness, $a/h$ [1]")
     axes.set_xlim(min(THICKNESSES[0], place[0] / 2), max(THICKNESSES[-1], place[0] * 2))
     axes.set_ylim(found.radii[0], max(found.radii[-1], place[1] * 2))
     axes.set_title(
-        f"Shaded: the effect is included; omitting it could change a result by over {rtol:g}",
-        fontsize=9,
+        "An effect matters on the shaded side of its line, to which the ticks point:\n"
+        f"omitting it there may change a result by more than {rtol:g}",
+        fontsize=10,
     )
-    made.legend(loc="outside lower center", ncols=4, fontsize=8, frameon=False)
+    handles, _ = axes.get_legend_handles_labels()
+    handles.append(Patch(facecolor=OUTSIDE, label="no contact within the range of the contact law"))
+    made.legend(handles=handles, loc="outside lower center", fontsize=8, frameon=False)
     return made
+
+
+def _line(axes: "Axes", found: Grid, ratio: Array, colour: str, label: str) -> None:
+    """The line at which an effect begins to count, with ticks and a tint on that side."""
+    from matplotlib.patheffects import withTickedStroke
+
+    values = np.log(np.maximum(ratio, 1.0 / MOST))
+    coordinates = found.thicknesses, found.radii, values
+    axes.contourf(*coordinates, levels=[0.0, np.inf], colors=[colour], alpha=0.12)
+    line = axes.contour(*coordinates, levels=[0.0], colors=[colour])
+    # Matplotlib has the larger values on the left of a line.
+    line.set_path_effects([withTickedStroke(spacing=TICKS, angle=90.0, length=0.8)])
+    axes.plot([], [], color=colour, label=label)
 
 
 def render(result: Result, rtol: float, suffix: str) -> bytes:

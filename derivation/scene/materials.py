@@ -1,26 +1,62 @@
-"""Named materials: their constants, and where these come from."""
+"""Named materials: their constants with sources, and how names are found."""
 
+import tomllib
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from derivation.scene.messages import nearest, shown
 
 
 @dataclass(frozen=True)
-class Material:
+class KnownMaterial:
     """An isotropic elastic material.
 
     Attributes
     ----------
+    name
+        Its name in the catalogue, or in the scene that defines it.
+    youngs_modulus, poissons_ratio
+        Young's modulus [Pa] and Poisson's ratio [1].
     lam, mu
         Lame constants [Pa].
     density
         Density [kg/m^3]; None if the source gives none.
+    yield_stress
+        Yield stress [Pa]; None if the source gives none.
+    retardation_time
+        Retardation time of the material [s]; None if it is elastic.
     source
         Where the numbers stand.
+    also
+        Other names.
     """
 
+    name: str
+    youngs_modulus: float
+    poissons_ratio: float
     lam: float
     mu: float
-    density: float | None
-    source: str
+    density: float | None = None
+    yield_stress: float | None = None
+    retardation_time: float | None = None
+    source: str = ""
+    also: tuple[str, ...] = ()
+
+    def to_json(self) -> dict[str, Any]:
+        """What the source gives, in SI."""
+        found = {
+            "name": self.name,
+            "youngs_modulus": self.youngs_modulus,
+            "poissons_ratio": self.poissons_ratio,
+            "density": self.density,
+            "yield_stress": self.yield_stress,
+            "retardation_time": self.retardation_time,
+            "source": self.source,
+            "also": list(self.also),
+        }
+        return {key: value for key, value in found.items() if value is not None}
 
 
 def lame_constants(E: float, nu: float) -> tuple[float, float]:
@@ -34,20 +70,73 @@ def plane_strain_modulus(lam: float, mu: float) -> float:
     return 4.0 * mu * ((lam + mu) / (lam + 2.0 * mu))
 
 
-MATERIALS = {
-    "steel": Material(
-        *lame_constants(210e9, 0.3), 7850.0, "EN 1993-1-1:2005, 3.2.6; EN 1991-1-1:2002, A.4"
-    ),
-    "glass": Material(
-        *lame_constants(70e9, 0.2), 2500.0, "soda lime silicate glass, EN 572-1:2012, table 1"
-    ),
-    "aluminium": Material(*lame_constants(70e9, 0.3), 2700.0, "EN 1999-1-1:2007, 3.2.5"),
-    "concrete": Material(
-        *lame_constants(33e9, 0.2), 2400.0, "C30/37, EN 1992-1-1:2004, 3.1.3; EN 1991-1-1, A.1"
-    ),
-    "PMMA": Material(
-        *lame_constants(3.3e9, 0.37), 1190.0, "cast sheet, data sheet of PLEXIGLAS GS (Roehm)"
-    ),
-    "paper": Material(0.36e9, 0.43e9, None, "the paper's plate, its section 4"),
-}
-"""By the name a scene gives."""
+def material_of(name: str, keys: Mapping[str, Any]) -> KnownMaterial:
+    """A material from its table, which gives E and nu or, in the catalogue, Lame constants."""
+    if "lame_mu" in keys:
+        lam, mu = keys["lame_lambda"], keys["lame_mu"]
+        E, nu = mu * (3 * lam + 2 * mu) / (lam + mu), lam / (2 * (lam + mu))
+    else:
+        E, nu = keys["youngs_modulus"], keys["poissons_ratio"]
+        lam, mu = lame_constants(E, nu)
+    rest = ("density", "yield_stress", "retardation_time")
+    known = {key: keys.get(key) for key in rest}
+    also = tuple(keys.get("also", ()))
+    return KnownMaterial(name, E, nu, lam, mu, **known, source=keys.get("source") or "", also=also)
+
+
+def _catalogue() -> dict[str, KnownMaterial]:
+    with Path(__file__).with_suffix(".toml").open("rb") as stream:
+        return {name: material_of(name, keys) for name, keys in tomllib.load(stream).items()}
+
+
+MATERIALS = _catalogue()
+"""By the name that lists show."""
+
+
+def plain(name: str) -> str:
+    """A name without what does not tell names apart: case, spaces, hyphens and underscores."""
+    return name.casefold().translate({ord(c): None for c in " -_"})
+
+
+_BY_PLAIN = {plain(name): m for m in MATERIALS.values() for name in (m.name, *m.also)}
+
+HOLLOW = {
+    plain(name)
+    for name in (
+        "tennis ball", "table tennis ball", "ping-pong ball", "squash ball", "football",
+        "soccer ball", "basketball", "volleyball", "handball", "rugby ball", "water polo ball",
+        "beach ball", "balloon",
+    )
+}  # fmt: skip
+"""Balls that are shells filled with air."""
+
+
+def find(name: str, own: Mapping[str, KnownMaterial] | None = None) -> KnownMaterial | None:
+    """The material of a name: one of the scene's own first, then one of the catalogue.
+
+    Parameters
+    ----------
+    name
+        Its name, without regard to case, spaces, hyphens and underscores.
+    own
+        Materials that a scene defines, by name.
+    """
+    of_scene = {plain(known): material for known, material in (own or {}).items()}
+    return of_scene.get(plain(name)) or _BY_PLAIN.get(plain(name))
+
+
+def unknown(name: str, own: Iterable[str] = ()) -> str:
+    """What to say of a name that is no material's: the nearest one, or that the ball is hollow."""
+    if plain(name) in HOLLOW:
+        return (
+            f"expected the material of a solid sphere, got {shown(name)}, which is hollow: a shell "
+            "bends in contact, which this model does not include"
+        )
+    names = {key: material.name for key, material in _BY_PLAIN.items()}
+    names |= {plain(known): known for known in own}
+    near = nearest(plain(name), names)
+    meant = f"did you mean {names[near]}? " if near else ""
+    return (
+        f"expected the name of a material, got {shown(name)}; {meant}`platecontact materials` "
+        "lists them, and a table [materials.NAME] defines one"
+    )

@@ -16,13 +16,17 @@ MOST, LONG = 20, 40
 """Problems that are listed, and letters of a key that are shown."""
 ELSEWHERE_LIKE = 0.8
 """How alike, of 1, a key of another table has to be in order to be meant."""
+TABLE_LIKE = 0.9
+"""How alike a name has to be to a table's in order to be no key of another table."""
 WANTED = '"auto", true or false'
 EXPECTED = {
-    "material": "the name of a material (steel, glass, aluminium, concrete, PMMA or paper)",
+    "material": "the name of a material (`platecontact materials` lists them)",
+    "source": "a text",
     "edge": '"paper", "simply-supported" or "clamped"',
     "outputs": "a list of contact_time, max_indentation, max_force, max_contact_radius and "
     "restitution",
     "lame_lambda": "a finite number",
+    "loss_factor": "a number from 0 to below 2, where damping is critical",
     "poissons_ratio": "a number above -1 and below 0.5",
     "rtol": "a number from 1e-13 to 1",
     "compare_paper_motion": 'true or false (it is never "auto")',
@@ -30,8 +34,23 @@ EXPECTED = {
     "branches": '"A0" or "all"',
     "coupling": '"variational" or "pointwise"',
     "extent": '"finite" or "infinite"',
+    "restitution": "a number above 0 and below 1",
+    "solve_for": '"yield_stress" or "retardation_time"',
+    "target": '"block" or "plate"',
 }
 """What a key is to hold, if not a positive number."""
+
+OWN_MATERIALS = "materials"
+"""The table of tables that define materials."""
+_SOLID = (
+    "the sphere is solid: a hollow one bends like a shell, which this model does not include; "
+    "remove it"
+)
+UNKNOWN = {
+    ("sphere", key): _SOLID
+    for key in ("thickness", "wall_thickness", "shell_thickness", "wall", "hollow", "inner_radius")
+}
+"""Why a table has no such key."""
 
 ELSEWHERE = {
     "rtol": "; for more digits than doubles hold run "
@@ -78,6 +97,11 @@ def explain(kind: str, place: tuple[int | str, ...], value: Any, fields: Fields)
     if kind == "string_unicode" and len(place) < 2:
         where = name or "scene"
         return f"{where}: expected a name of whole characters, got {shown(value)}; rename it"
+    if place == (OWN_MATERIALS,):
+        return (
+            f"{name}: expected tables [{name}.NAME], got {shown(value)}; write [{name}.NAME], "
+            "below it the material's constants"
+        )
     if len(place) == 1:
         example = _line(name, next(iter(fields[name].items())))
         if kind == "missing":
@@ -145,14 +169,18 @@ def choice_problem(
 def _unknown(place: tuple[int | str, ...], fields: Fields) -> str:
     name = _named(place)
     key = str(place[-1])
+    if place in UNKNOWN:
+        return f"{name}: unknown key: {UNKNOWN[place]}"
     homes = [f"[{table}]" for table, keys in fields.items() if key in keys]
     if len(place) == 1:
-        known, said = list(fields), f"{name}: unknown table, expected {', '.join(fields)}"
+        known = [*(table for table in fields if "." not in table), OWN_MATERIALS]
+        said = f"{name}: unknown table, expected {', '.join(known)}"
     else:
         table = str(place[0])
         known = list(fields[table])
         said = f"{name}: unknown key, expected in [{table}] one of {', '.join(known)}"
-    if homes:
+    table_meant = len(place) == 1 and nearest(key, known, TABLE_LIKE)
+    if homes and not table_meant:
         return f"{said}; move it to {' or '.join(homes)}"
     near = nearest(key, known)
     if near:

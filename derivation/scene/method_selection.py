@@ -32,11 +32,12 @@ METHODS = {
     "full": "the law of every effect included",
 }
 """From the cheapest to the dearest."""
-PROVED, ROUNDING_ANALYSIS, TESTED, ESTIMATED = (
+BASES = PROVED, ROUNDING_ANALYSIS, TESTED, ESTIMATED = (
     "proved", "rounding_analysis", "tested", "estimated",
 )  # fmt: skip
-"""What a bound rests on: a proof; the number of operations times their rounding; an error budget
-that the test suite enforces; an estimate without guarantee, as of omitted modes and branches."""
+"""What a bound rests on, the strongest first: a proof; the number of operations times their
+rounding; an error budget that the test suite enforces; an estimate without guarantee, as of
+omitted modes and branches."""
 
 
 @dataclass(frozen=True)
@@ -112,6 +113,18 @@ class AchievedAccuracy:
         if self.outputs == OUTPUTS:
             return ""
         return " of " + ", ".join(name.replace("_", " ") for name in self.outputs)
+
+    @property
+    def basis(self) -> str:
+        """What the bound as a whole rests on: the weakest basis of its parts."""
+        return max((part.basis for part in self.parts.values() if part.bound), key=BASES.index)
+
+    @property
+    def summary(self) -> str:
+        """The bound in a few words."""
+        if not math.isfinite(self.bound):
+            return "no error bound is known"
+        return f"relative error{self._of} at most {_above(self.bound)} ({self.basis})"
 
     def __str__(self) -> str:
         """Method and bound in a sentence."""
@@ -227,7 +240,7 @@ def _basis(selected: SelectedEffects) -> str:
 
 def _composed(law: ContactLaw) -> tuple[Results, AchievedAccuracy]:
     """The results on a plate at rest by a law of any effects, and their bounds."""
-    if law.hertzian and not (law.viscous or law.gravity):
+    if law.hertzian and not (law.viscous or law.plastic or law.gravity):
         closed = _half_space(law)
         if closed is not None:
             return closed
@@ -280,6 +293,10 @@ def moved(law: ContactLaw) -> motion.Motion:
         If it exceeds the law's range, or the sphere stays on the plate.
     """
     with np.errstate(all="ignore"):
+        if law.plastic:
+            from derivation.scene import plastic
+
+            return plastic.impact(law)
         if not law.viscous:
             return motion.impact(law)
         from derivation.scene import viscous
@@ -298,6 +315,10 @@ def _rounding(law: ContactLaw) -> float:
         from derivation.scene.viscous import ROUNDING
 
         rounding += ROUNDING
+    if law.plastic:
+        from derivation.scene.plastic import ROUNDING as STEPS
+
+        rounding += STEPS
     return rounding
 
 

@@ -342,7 +342,8 @@ class ContactTables:
 def contact_of(law: ContactLaw, plate: ModalPlate, top: float, pointwise: bool) -> ContactTables:
     """Tables of a law on the paper's edge with a plate's modes, up to a contact radius [m]."""
     # sin(a phi) asks for a polynomial of a degree beyond half of a phi.
-    x, analysis, mean = knots(max(DEGREE, int(16 + RESOLVED * top * float(plate.less.phi[-1]))))
+    fastest = float(np.max(plate.less.phi, initial=0.0))
+    x, analysis, mean = knots(max(DEGREE, int(16 + RESOLVED * top * fastest)))
     a = top * x
     shape = law.at(a)
     slope = 2.0 * (a / law.model.R) * shape.slope

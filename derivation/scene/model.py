@@ -3,8 +3,11 @@
 import math
 from dataclasses import dataclass, replace
 
-from derivation.scene.materials import MATERIALS, lame_constants, plane_strain_modulus
-from derivation.scene.scene import Plate, Scene, SceneError, Sphere
+from derivation.scene import kernels
+from derivation.scene.bodies import Sphere
+from derivation.scene.body_materials import Body, body_of, own_materials
+from derivation.scene.materials import plane_strain_modulus
+from derivation.scene.scene import Scene, SceneError
 
 NUMBERS = ("R", "m", "v0", "h", "b", "lam", "mu")
 HERTZ_TIME, TIME_BY_ZENER = 3.3, 5.0
@@ -53,7 +56,16 @@ class Model:
     density
         Of the plate [kg/m^3]; 0 if it is not known.
     retardation_time
-        Retardation time A_v of the viscoelastic contact [s].
+        Retardation time A_v of the viscoelastic contact [s], the mean of both bodies' weighted
+        with their compliances.
+    yield_stress
+        The smaller of the bodies' yield stresses [Pa]; infinite if none is known.
+    plate_yield_stress
+        That of the plate [Pa].
+    solid_density
+        Density of the sphere's material [kg/m^3], whatever its mass; 0 if it is not known.
+    loss_factor
+        Loss factor of the plate [1].
     edge
         How the plate's edge is held.
     inertia
@@ -71,6 +83,10 @@ class Model:
     gravity: float = 0.0
     density: float = 0.0
     retardation_time: float = 0.0
+    yield_stress: float = math.inf
+    plate_yield_stress: float = math.inf
+    solid_density: float = 0.0
+    loss_factor: float = 0.0
     edge: str = "paper"
     inertia: InertiaSettings = InertiaSettings()
 
@@ -135,24 +151,36 @@ def model_of(scene: Scene) -> Model:
     Raises
     ------
     SceneError
-        If what follows from the scene, such as the mass, is no double above zero.
+        If what follows from the scene, such as the mass, is no double above zero, or no value
+        gives its measured restitution.
     """
-    lam, mu = _lame_constants(scene.plate)
+    if scene.measured is not None:
+        from derivation.scene.measured import fitted
+
+        scene = fitted(scene)
+    own = own_materials(scene.materials)
+    sphere, plate = body_of(scene.sphere, own), body_of(scene.plate, own)
     model = Model(
         R=scene.sphere.radius,
-        m=_mass(scene.sphere),
+        m=_mass(scene.sphere, sphere.density),
         v0=scene.impact.speed,
         h=scene.plate.half_thickness or (scene.plate.thickness or 0.0) / 2,
         b=scene.plate.radius,
-        lam=lam,
-        mu=mu,
-        sphere_modulus=_sphere_modulus(scene.sphere),
+        lam=plate.lam,
+        mu=plate.mu,
+        sphere_modulus=_modulus(sphere),
         gravity=scene.impact.gravity or 0.0,
-        density=_density(scene.plate),
-        retardation_time=scene.plate.retardation_time or 0.0,
+        density=plate.density,
+        yield_stress=min(sphere.yield_stress, plate.yield_stress),
+        plate_yield_stress=plate.yield_stress,
+        solid_density=sphere.solid_density,
+        loss_factor=scene.plate.loss_factor or 0.0,
         edge=scene.plate.edge,
         inertia=_inertia(scene),
     )
+    times = plate.retardation_time, sphere.retardation_time
+    if any(times):
+        model = replace(model, retardation_time=kernels.retardation_of_two(*times, model.softness))
     if model.inertia.infinite_plate and model.density:
         model = replace(model, b=_unbounded(model), edge="paper")
     for name, value in zip(NUMBERS, model.numbers, strict=True):
@@ -161,7 +189,7 @@ def model_of(scene: Scene) -> Model:
                 f"scene: expected numbers a double can hold, got {name} = {value}, "
                 "computed from the scene; give less extreme numbers"
             )
-    if not 3 * lam > -2 * mu:
+    if not 3 * plate.lam > -2 * plate.mu:
         raise SceneError(
             "plate.poissons_ratio: expected a ratio above -1 by more than rounding, "
             f"got {scene.plate.poissons_ratio!r}; give the Lame constants instead"
@@ -188,35 +216,13 @@ def _inertia(scene: Scene) -> InertiaSettings:
     return InertiaSettings(modes, wanted.branches, pointwise, infinite)
 
 
-def _mass(sphere: Sphere) -> float:
+def _mass(sphere: Sphere, density: float) -> float:
     if sphere.mass is not None:
         return sphere.mass
-    R, density = sphere.radius, sphere.density
-    if density is None and sphere.material is not None:
-        density = MATERIALS[sphere.material].density
-    return 4 / 3 * math.pi * (R * R * R) * (density or 0.0)
+    R = sphere.radius
+    return 4 / 3 * math.pi * (R * R * R) * density
 
 
-def _sphere_modulus(sphere: Sphere) -> float:
-    """E/(1 - nu^2) [Pa] of the sphere's material, infinite without one."""
-    if sphere.material is None:
-        return math.inf
-    material = MATERIALS[sphere.material]
-    return plane_strain_modulus(material.lam, material.mu)
-
-
-def _density(plate: Plate) -> float:
-    """As given, or its material's; 0 if neither is known."""
-    if plate.density is None and plate.material is not None:
-        return MATERIALS[plate.material].density or 0.0
-    return plate.density or 0.0
-
-
-def _lame_constants(plate: Plate) -> tuple[float, float]:
-    """First and second Lame constant [Pa], as given or from Young's modulus and Poisson's ratio."""
-    if plate.material is not None:
-        material = MATERIALS[plate.material]
-        return material.lam, material.mu
-    if plate.lame_lambda is not None and plate.lame_mu is not None:
-        return plate.lame_lambda, plate.lame_mu
-    return lame_constants(plate.youngs_modulus or 0.0, plate.poissons_ratio or 0.0)
+def _modulus(body: Body) -> float:
+    """E/(1 - nu^2) of a body [Pa], infinite if it is rigid."""
+    return plane_strain_modulus(body.lam, body.mu) if math.isfinite(body.mu) else math.inf

@@ -11,7 +11,7 @@ its weight then that in time alone.
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss, legint, legval, legvander
@@ -49,6 +49,10 @@ class EnergyBalance:
         In the plate's vibration, or radiated into an infinite plate.
     coupling_loss
         Spurious loss of the pointwise coupling; 0 for the variational one.
+    plastic_loss
+        Dissipated where the contact yields.
+    damping_loss
+        Dissipated by the plate's damping up to the last separation.
     """
 
     initial_kinetic: float
@@ -58,12 +62,30 @@ class EnergyBalance:
     unrecovered_elastic: float
     plate: float = 0.0
     coupling_loss: float = 0.0
+    plastic_loss: float = 0.0
+    damping_loss: float = 0.0
+
+    def in_words(self) -> str:
+        """Where the energy went, in percent of the initial kinetic energy."""
+        parts = {
+            "sphere": self.rebound_kinetic,
+            "plate vibration": self.plate,
+            "damping of the plate": self.damping_loss,
+            "viscoelastic contact": self.viscous_loss + self.unrecovered_elastic,
+            "plastic deformation": self.plastic_loss,
+            "lost by the pointwise coupling": self.coupling_loss,
+        }
+        return ", ".join(
+            f"{100 * energy / self.initial_kinetic:.3g} % {name}"
+            for name, energy in parts.items()
+            if energy
+        )
 
     @property
     def residual(self) -> float:
         """Energy-balance error over the initial kinetic energy [1]."""
         final = self.rebound_kinetic + self.viscous_loss + self.unrecovered_elastic
-        final += self.plate + self.coupling_loss
+        final += self.plate + self.coupling_loss + self.plastic_loss + self.damping_loss
         return (self.initial_kinetic + self.gravity_work - final) / self.initial_kinetic
 
 
@@ -78,9 +100,11 @@ class Motion:
     quadrature
         Relative change of the results at half the nodes [1].
     restitution
-        Speed after over speed before [1]; 1 without viscosity.
+        Speed after over speed before [1]; 1 of an elastic contact.
     energy_balance
-        Energy balance, of a viscoelastic contact.
+        Energy balance, of a contact that dissipates.
+    dent
+        Depth of the dent that a contact which yields leaves [m].
     """
 
     contact_time: float
@@ -90,6 +114,7 @@ class Motion:
     quadrature: float
     restitution: float = 1.0
     energy_balance: EnergyBalance | None = None
+    dent: float = field(default=0.0, kw_only=True)
 
     @property
     def numbers(self) -> tuple[float, float, float, float, float]:

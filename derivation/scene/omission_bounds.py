@@ -99,7 +99,15 @@ def _samples(law: ContactLaw, radii: Array, shape: Shape) -> LawSamples:
 
 
 def bound_of(state: LargestContact, effect: Effect, stretch: float = 1.0) -> Bound:
-    """An effect's bound in the state's context, whose radii the sphere's elasticity may stretch."""
+    """An effect's bound in the state's context, whose radii the sphere's elasticity may stretch.
+
+    That of damping, which acts over the whole contact, is taken on a quasi-static plate.
+    """
+    if effect.damps and state.law.dynamic:
+        state = state_of(state.law.only(lambda e: not (e.dynamic or e.damps)))
+        if math.isnan(state.a):
+            none = np.zeros_like(state.context.radii)
+            return Bound(none, none, results=5 * (math.inf,))
     with np.errstate(all="ignore"):
         found = effect.bound(state.law.model, state.context.stretched(stretch))
     if not effect.bounded(state.law):
@@ -155,11 +163,23 @@ def _worst(state: LargestContact, bound: Bound, outputs: Sequence[str]) -> float
     kept = sum(bound_of(state, e).results[-1] for e in state.law.chosen if e.viscous)
     logarithms = np.log1p([*found, 0.0]) + wider * np.array(results)
     logarithms[-1] += (wider - 1.0) * kept
+    if state.law.plastic:
+        logarithms[-1] += _plastic_share(state) * math.log1p(max(found))
     # Link 18 speaks of Hertz's radius of the force, with which the contact's own may grow faster.
     logarithms[3] += (state.growth - 1.0) * math.log1p(found[3]) + state.growth * radius
     with np.errstate(over="ignore"):  # no bound, as good as
         errors = dict(zip(OUTPUTS, np.expm1(logarithms), strict=True))
     return float(max(errors[name] for name in outputs))
+
+
+def _plastic_share(state: LargestContact) -> float:
+    """How much of a change of the force the restitution of a contact that yields follows, at most.
+
+    The work that it takes goes with the force's square at most, and e^2 is what is left of all.
+    """
+    [effect] = [effect for effect in state.law.chosen if effect.plastic]
+    restitution = math.exp(-bound_of(state, effect).results[-1])
+    return 1.0 / max(restitution, 1e-3) ** 2
 
 
 def size_of(state: LargestContact, effect: Effect, outputs: Sequence[str]) -> float:
@@ -178,7 +198,7 @@ def price_of(state: LargestContact, effect: Effect, outputs: Sequence[str]) -> f
     if effect.always_included or math.isnan(state.a):
         return math.inf
     if effect.dynamic:
-        state = state_of(state.law.only(lambda e: not e.dynamic))
+        state = state_of(state.law.only(lambda e: not (e.dynamic or e.damps)))
         return error_of(state, [effect], outputs)
     bound = bound_of(state, effect)
     return _worst(state, bound._replace(low=bound.up, up=bound.low), outputs)

@@ -1,13 +1,13 @@
-"""Draws an impact: its course, force against indentation, and the largest contact's pressure."""
+"""Draws an impact: time histories, force against indentation, the largest contact's pressure."""
 
 import io
-import math
 from collections.abc import Collection
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from derivation.scene.quantity import common_prefix
 from derivation.scene.result import Array, Result
 from derivation.scene.scene import SceneError
 
@@ -21,8 +21,9 @@ METADATA: dict[str, dict[str, None]] = {
     ".svg": {"Date": None},
 }
 """Per suffix what is left out of the file, so that equal results give equal files."""
+TITLE_DIGITS = 4
+"""Most significant digits of the numbers in a title."""
 BLUE, BROWN = "#1f4e79", "#b5651d"
-PREFIXES = {-9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 
 
 def check_suffix(
@@ -71,13 +72,13 @@ def figure(result: Result) -> "Figure":
 
         return wave_plot.figure(result)
     history = result.history()
-    time, t_label = scaled(history.time, "time", "s")
-    indentation, d_label = scaled(history.indentation, "indentation", "m")
-    velocity, v_label = scaled(history.velocity, "velocity", "m/s")
-    force, f_label = scaled(history.force, "contact force", "N")
+    time, t_label = scaled(history.time, "time $t$", "s")
+    indentation, d_label = scaled(history.indentation, r"indentation $\delta$", "m")
+    velocity, v_label = scaled(history.velocity, "sphere velocity $v$", "m/s")
+    force, f_label = scaled(history.force, "contact force $P$", "N")
     profile = result.pressures()
-    distance, r_label = scaled(profile.distance, "distance from the axis", "m")
-    (pressure, hertz), p_label = scaled(np.array(profile[1:]), "largest pressure", "Pa")
+    distance, r_label = scaled(profile.distance, "distance from the axis $r$", "m")
+    (pressure, hertz), p_label = scaled(np.array(profile[1:]), "contact pressure $p$", "Pa")
     made = Figure(figsize=(8.0, 9.0), layout="constrained")
     panels = (
         (time, indentation, t_label, d_label),
@@ -94,8 +95,36 @@ def figure(result: Result) -> "Figure":
         drawn["p"].lines[0],
         *drawn["p"].plot(distance, hertz, color=BROWN, linewidth=1.2, linestyle="--"),
     ]
-    drawn["p"].legend(lines, ["this contact", "Hertz, at the same force"], frameon=False)
+    drawn["p"].legend(lines, ["this contact", "Hertz's, at the same force"], frameon=False)
+    titles = {
+        "z": "Indentation",
+        "v": "Velocity",
+        "P": "Contact force",
+        "law": "Force against indentation",
+        "p": "Pressure at the largest contact radius",
+    }
+    for name, text in titles.items():
+        drawn[name].set_title(text, fontsize=10)
+    made.suptitle(title(result), fontsize=11)
     return made
+
+
+def title(result: Result) -> str:
+    """What is drawn: speed and sizes; first of all, whether the impact is incomplete."""
+    model = result.model
+    quantities = (model.v0, "m/s"), (model.R, "m"), (2 * model.h, "m"), (model.b, "m")
+    speed, radius, thickness, plate = (_exact(value, unit) for value, unit in quantities)
+    state = "" if result.complete else "INCOMPLETE: "
+    return (
+        f"{state}Impact at {speed}: sphere of radius {radius}, plate of thickness {thickness} "
+        f"and radius {plate}"
+    )
+
+
+def _exact(value: float, unit: str) -> str:
+    """A value of the scene in a handy multiple of its unit."""
+    multiples, multiple = common_prefix(np.array([value]), unit)
+    return f"{multiples[0]:.{TITLE_DIGITS}g} {multiple}"
 
 
 def frame(axes: "Axes", x_label: str, y_label: str) -> None:
@@ -115,7 +144,7 @@ def scaled(values: Array, name: str, unit: str) -> tuple[Array, str]:
     values
         Values in the unit.
     name
-        What they are.
+        What they are, with their symbol.
     unit
         SI unit without prefix.
 
@@ -124,12 +153,11 @@ def scaled(values: Array, name: str, unit: str) -> tuple[Array, str]:
     SceneError
         If a value is not finite.
     """
-    largest = float(np.max(np.abs(values)))
-    if not math.isfinite(largest):
+    if not np.isfinite(values).all():
+        quantity = name.partition(" $")[0]
         raise SceneError(
-            f"plot: expected finite values of the {name}, got NaN or infinity; run it without "
+            f"plot: expected finite values of the {quantity}, got NaN or infinity; run it without "
             "--plot and --animate, and check the scene for extreme numbers"
         )
-    order = 3 * math.floor(math.log10(largest) / 3) if largest > 0 else 0
-    order = min(max(order, min(PREFIXES)), max(PREFIXES))
-    return values / 10.0**order, f"{name} [{PREFIXES[order]}{unit}]"
+    multiples, multiple = common_prefix(values, unit)
+    return multiples, f"{name} [{multiple}]"

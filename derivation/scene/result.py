@@ -1,16 +1,15 @@
-"""What a simulation returns: numbers in SI, their history, JSON, CSV and a notebook table."""
+"""What a simulation returns: numbers in SI, their history, and JSON; `answer` puts it in words."""
 
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from html import escape
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
-from derivation.scene import kernels
+from derivation.scene import answer, kernels, measured
 from derivation.scene.effect_selection import SelectedEffects
 from derivation.scene.effects.effect import NO_BOUND
 from derivation.scene.history import POINTS, DynamicHistory, History, Pressures
@@ -19,7 +18,12 @@ from derivation.scene.model import Model
 from derivation.scene.scene import Scene, SceneError
 
 if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+    from matplotlib.figure import Figure
+
     from derivation.scene.comparison import Comparison
+    from derivation.scene.motion import EnergyBalance
     from derivation.scene.wave_motion import DynamicImpact
 
 Array = NDArray[np.float64]
@@ -124,11 +128,13 @@ class Result:
         """
         law, a = self.effects.law, self.max_contact_radius
         force = float(law.force(np.array([a]), law.at(np.array([a])))[0])
+        if law.plastic:
+            force = self.max_force
         hertz = float(law.hertz_radius(np.array(force)))
         # Closer towards the edge, where the pressure ends like a root.
         r = max(a, hertz) * np.sin(np.linspace(0.0, np.pi / 2, points))
         inside = np.minimum(r, a)
-        own = np.where(r < a, law.pressure(inside, a), 0.0)
+        own = np.where(r < a, np.minimum(law.pressure(inside, a), law.pressure_limit), 0.0)
         peak = 1.5 * force / (np.pi * hertz * hertz)
         return Pressures(r, own, peak * np.sqrt(np.maximum(1.0 - (r / hertz) ** 2, 0.0)))
 
@@ -147,6 +153,27 @@ class Result:
         if not self.effects.law.dynamic:
             return None
         return dynamic_impact(self.effects, self.accuracy.rtol)
+
+    @cached_property
+    def dent(self) -> float:
+        """Depth of the dent that remains where the contact yields [m]; 0 of an elastic one."""
+        law = self.effects.law
+        if not law.plastic:
+            return 0.0
+        return self.dynamics.dent if self.dynamics is not None else moved(law).dent
+
+    @cached_property
+    def energy_balance(self) -> "EnergyBalance | None":
+        """Where the sphere's energy went; None of an elastic contact on a quasi-static plate."""
+        law = self.effects.law
+        if self.dynamics is not None:
+            return self.dynamics.energy_balance
+        return moved(law).energy_balance if law.viscous or law.plastic else None
+
+    @property
+    def measured_note(self) -> str:
+        """The value that a measured restitution tells, in a sentence; empty without one."""
+        return measured.in_words(self.scene) if self.scene.measured else ""
 
     @property
     def total_time(self) -> float:
@@ -228,6 +255,10 @@ class Result:
         found = {name: getattr(self, name) for name in UNITS}
         # JSON has no NaN: what is not known of an incomplete impact is null.
         numbers = {name: x if math.isfinite(x) else None for name, x in found.items()}
+        if self.effects.law.plastic:
+            numbers["dent"] = self.dent
+        if self.scene.measured is not None:
+            numbers[self.scene.measured.solve_for] = measured.solved(self.scene)
         beside = {"paper_motion": self.comparison.to_json()} if self.comparison else {}
         if self.dynamics is not None:
             beside["dynamics"] = self.dynamics.to_json()
@@ -242,6 +273,34 @@ class Result:
             }
             | beside
         )
+
+    def plot(self) -> "Figure":
+        """Return the impact as a Matplotlib figure: history, contact law and pressure."""
+        from derivation.scene.plot import figure
+
+        return figure(self)
+
+    def to_pandas(self, n: int | None = None) -> "pd.DataFrame":
+        """Return the history as a DataFrame over time, with `n` times if given.
+
+        Examples
+        --------
+        >>> import platecontact as pc
+        >>> sphere, impact = pc.Sphere(radius=0.01, material="steel"), pc.Impact(speed=1.0)
+        >>> plate = pc.Plate(radius=0.3, thickness=0.05, material="glass")
+        >>> frame = pc.simulate(pc.Scene(sphere=sphere, plate=plate, impact=impact)).to_pandas()
+        >>> print(f"{frame['force'].idxmax():.2g} s, force in {frame.attrs['units']['force']}")
+        4.6e-05 s, force in N
+        """
+        from derivation.scene.export import data_frame
+
+        return data_frame(self, n)
+
+    def to_xarray(self, n: int | None = None) -> "xr.Dataset":
+        """Return results and history, with `n` times if given, as a Dataset with units."""
+        from derivation.scene.export import data_set
+
+        return data_set(self, n)
 
     @property
     def model_note(self) -> str:
@@ -295,32 +354,33 @@ class Result:
             return FEWEST_DIGITS
         return min(MOST_DIGITS, max(FEWEST_DIGITS, math.ceil(-math.log10(max(error, 1e-300)))))
 
+    def numbers(self) -> list[tuple[str, float, str]]:
+        """Name, value and SI unit of each result; with plate inertia the total time too."""
+        found = [(name, float(getattr(self, name)), unit) for name, unit in UNITS.items()]
+        if self.dynamics is not None:
+            found.insert(1, ("total_time", self.total_time, "s"))
+        if self.effects.law.plastic:
+            found.append(("dent", self.dent, "m"))
+        return found
+
     def rows(self) -> list[tuple[str, str, str]]:
-        """Quantity, value to the digits that the bound supports, and unit."""
-        found = [
-            (name.replace("_", " "), _shown(getattr(self, name), self.digits), unit)
-            for name, unit in UNITS.items()
+        """Name, value with the digits that hold, and SI unit of each result, as text."""
+        return [
+            (name.replace("_", " "), _shown(value, self.digits), unit)
+            for name, value, unit in self.numbers()
         ]
-        if self.dynamics is None:
-            return found
-        (_, first, unit), *others = found
-        total = ("total time", _shown(self.total_time, self.digits), unit)
-        return [("contact time (first contact)", first, unit), total, *others]
+
+    def __str__(self) -> str:
+        """The short answer, as the command line prints it."""
+        return answer.short(self)
+
+    def details(self) -> str:
+        """The long answer: also the parts of the error bound, the effects table, the contacts."""
+        return answer.details(self)
 
     def _repr_html_(self) -> str:
-        """Table for a notebook."""
-        cells = (
-            f"<tr><td>{name}</td><td style='text-align:right'>{value}</td><td>{unit}</td></tr>"
-            for name, value, unit in self.rows()
-        )
-        told = (self.incomplete_note, str(self.accuracy), self.model_note, self.disabled_note)
-        notes = "".join(f"<p>{escape(text)}</p>" for text in told if text)
-        notes += f"<p>{escape(self.strength_note)}</p>"
-        notes += "".join(f"<p><b>Warning:</b> {escape(text)}</p>" for text in self.warnings)
-        beside = self.comparison.to_html() if self.comparison else ""
-        if self.dynamics is not None:
-            beside += self.dynamics.to_html()
-        return f"<table>{''.join(cells)}</table>{notes}{self.effects.to_html()}{beside}"
+        """The answer for a notebook."""
+        return answer.html(self)
 
 
 def _shown(value: float, digits: int) -> str:

@@ -1,25 +1,35 @@
 """Reads a scene file: what is allowed in it, and one clear message for whatever is wrong."""
 
-import sys
 import tomllib
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
-from typing import Annotated, Any, Literal, TypeGuard
+from typing import TYPE_CHECKING, Annotated, Any, Literal, cast
 
 from pydantic import Field, ValidationError
 
 from derivation.engine.files import read_file
 from derivation.engine.printable import one_line
 from derivation.scene import old_names
+from derivation.scene.bodies import Material as Material
+from derivation.scene.bodies import Plate as Plate
+from derivation.scene.bodies import Positive
+from derivation.scene.bodies import Sphere as Sphere
+from derivation.scene.body_materials import material_problems
+from derivation.scene.errors import IncompleteError as IncompleteError
+from derivation.scene.errors import SceneError as SceneError
 from derivation.scene.html import html_table
-from derivation.scene.materials import MATERIALS
-from derivation.scene.messages import explain, listed, shown
-from derivation.scene.table import CONFLICT, Table
+from derivation.scene.messages import OWN_MATERIALS, shown
+from derivation.scene.table import (
+    Problem,
+    Problems,
+    Table,
+    found_by,
+    in_words,
+    plain_keys,
+    problems,
+)
 
-Positive = Annotated[float, Field(gt=0)]
-MaterialName = Literal["steel", "glass", "aluminium", "concrete", "PMMA", "paper"]
-Edge = Literal["paper", "simply-supported", "clamped"]
 Output = Literal[
     "contact_time", "max_indentation", "max_force", "max_contact_radius", "restitution"
 ]
@@ -33,136 +43,44 @@ TIGHTEST = 1e-13
 """Smallest relative tolerance: doubles promise no more."""
 
 
-class SceneError(ValueError):
-    """A scene that cannot be computed: the one way in which `scene` fails.
-
-    The message gives the key, what was expected, the value, and the remedy.
-    """
-
-
-class IncompleteError(SceneError):
-    """An impact with plate inertia that could not be followed to its end: why, and the remedy."""
-
-    def __init__(self, why: str, remedy: str) -> None:
-        super().__init__(why, remedy)  # as pickle makes it anew
-        self.why, self.remedy = why, remedy
-
-    def __str__(self) -> str:
-        return f"effects.inertia: {self.why}; {self.remedy}"
-
-
-class Sphere(Table):
-    """The sphere that strikes: rigid, unless its material is given."""
-
-    choices = ((("mass",), ("density",)),)
-    stand_in = "material"
-    radius: Positive = Field(description="sphere radius [m]", examples=[0.13])
-    mass: Positive | None = Field(None, description="sphere mass [kg]", examples=[72.0])
-    density: Positive | None = Field(None, description="sphere density [kg/m^3]", examples=[7850.0])
-    material: MaterialName | None = Field(
-        None, description="sphere material, which makes it elastic", examples=["steel"]
-    )
-
-    @classmethod
-    def conflicts(cls, given: Mapping[str, Any]) -> list[str]:
-        """Also a material without density where it is to give the mass."""
-        problems = super().conflicts(given)
-        name = given.get("material")
-        known = MATERIALS.get(name) if isinstance(name, str) else None
-        alone = given.get("mass") is None and given.get("density") is None
-        if known and known.density is None and alone:
-            problems.append(
-                f"sphere.material: expected a material of known density, got {shown(name)}; "
-                "add for instance `mass = 72` to [sphere]"
-            )
-        return problems
-
-
-class Plate(Table):
-    """The elastic plate that is struck in its middle."""
-
-    choices = (
-        (("half_thickness",), ("thickness",)),
-        (("lame_lambda", "lame_mu"), ("youngs_modulus", "poissons_ratio"), ("material",)),
-    )
-    radius: Positive = Field(description="plate radius [m]", examples=[1.0])
-    half_thickness: Positive | None = Field(
-        None, description="half of the plate's thickness [m]", examples=[0.1]
-    )
-    thickness: Positive | None = Field(
-        None, description="full thickness of the plate [m]", examples=[0.2]
-    )
-    lame_lambda: float | None = Field(
-        None, description="first Lame constant [Pa]", examples=[0.36e9]
-    )
-    lame_mu: Positive | None = Field(
-        None, description="second Lame constant (shear modulus) [Pa]", examples=[0.43e9]
-    )
-    youngs_modulus: Positive | None = Field(
-        None, description="Young's modulus [Pa]", examples=[1.056e9]
-    )
-    poissons_ratio: Annotated[float, Field(gt=-1, lt=0.5)] | None = Field(
-        None, description="Poisson's ratio [1]", examples=[0.228]
-    )
-    material: MaterialName | None = Field(None, description="plate material", examples=["glass"])
-    edge: Edge = Field(
-        "paper",
-        description="how the plate's edge is held; paper: the paper's edge, elastically restrained",
-        examples=["clamped"],
-    )
-    density: Positive | None = Field(None, description="plate density [kg/m^3]", examples=[2500.0])
-    retardation_time: Positive | None = Field(
-        None, description="retardation time A_v of a viscoelastic contact [s]", examples=[1e-4]
-    )
-    yield_stress: Positive | None = Field(
-        None, description="yield stress of the plate [Pa]", examples=[235e6]
-    )
-    tensile_strength: Positive | None = Field(
-        None, description="tensile strength of the plate [Pa]", examples=[45e6]
-    )
-
-    @classmethod
-    def conflicts(cls, given: Mapping[str, Any]) -> list[str]:
-        """Also what makes the material unstable: no bulk modulus above zero."""
-        problems = super().conflicts(given)
-        lam, mu = given.get("lame_lambda"), given.get("lame_mu")
-        if is_number(lam) and is_number(mu) and mu > 0 and 3 * lam + 2 * mu <= 0:
-            problems.append(
-                "plate.lame_lambda: expected 3 lame_lambda + 2 lame_mu above zero "
-                f"(a positive bulk modulus), got lame_lambda = {shown(lam)} and "
-                f"lame_mu = {shown(mu)}; raise lame_lambda above {-2 * mu / 3:.6g}"
-            )
-        return problems
-
-
 class Impact(Table):
     """How the sphere arrives."""
 
     speed: Positive = Field(description="impact speed [m/s]", examples=[1.0])
     gravity: Annotated[float, Field(ge=0)] | None = Field(
-        None, description="acceleration that presses the sphere on [m/s^2]", examples=[9.81]
+        default=None, description="acceleration that presses the sphere on [m/s^2]", examples=[9.81]
     )
 
 
 class Effects(Table):
     """Which effects are included: "auto" selects by the tolerance; and what to compare."""
 
-    sphere_elasticity: Wanted = Field("auto", description="elastic sphere", examples=[False])
+    sphere_elasticity: Wanted = Field(
+        default="auto", description="elastic sphere", examples=[False]
+    )
     spherical_profile: Wanted = Field(
-        "auto", description="profile of a sphere, not a paraboloid", examples=[False]
+        default="auto", description="profile of a sphere, not a paraboloid", examples=[False]
     )
-    bending: Wanted = Field("auto", description="the plate's deflection", examples=[True])
-    finite_thickness: Wanted = Field("auto", description="shear, compression", examples=[True])
-    finite_radius: Wanted = Field("auto", description="the plate's finite radius", examples=[True])
-    edge: Wanted = Field("auto", description="the plate's support", examples=[True])
+    bending: Wanted = Field(default="auto", description="the plate's deflection", examples=[True])
+    finite_thickness: Wanted = Field(
+        default="auto", description="shear, compression", examples=[True]
+    )
+    finite_radius: Wanted = Field(
+        default="auto", description="the plate's finite radius", examples=[True]
+    )
+    edge: Wanted = Field(default="auto", description="the plate's support", examples=[True])
     non_hertzian_pressure: Wanted = Field(
-        "auto", description="contact pressure from the integral equation", examples=[False]
+        default="auto", description="contact pressure from the integral equation", examples=[False]
     )
-    viscosity: Wanted = Field("auto", description="viscous contact", examples=[True])
-    gravity: Wanted = Field("auto", description="weight during contact", examples=[False])
-    inertia: Wanted = Field("auto", description="the plate's own motion", examples=[False])
+    plasticity: Wanted = Field(default="auto", description="yielding contact", examples=[True])
+    viscosity: Wanted = Field(default="auto", description="viscous contact", examples=[True])
+    gravity: Wanted = Field(default="auto", description="weight during contact", examples=[False])
+    inertia: Wanted = Field(default="auto", description="the plate's own motion", examples=[False])
+    damping: Wanted = Field(
+        default="auto", description="damping of the plate's modes", examples=[True]
+    )
     compare_paper_motion: bool = Field(
-        False,
+        default=False,
         description="the paper's perturbation motion beside the result, which it does not change",
         examples=[True],
     )
@@ -175,7 +93,7 @@ class Accuracy(Table):
         description="relative tolerance of the results [1]", examples=[1e-6]
     )
     outputs: tuple[Output, ...] = Field(
-        OUTPUTS,
+        default=OUTPUTS,
         description="results it applies to",
         examples=[["max_force"]],
         min_length=1,
@@ -187,31 +105,91 @@ class Inertia(Table):
     """How the plate's inertia is computed, where it is."""
 
     modes: Literal["auto"] | Annotated[int, Field(ge=2, le=6000)] = Field(
-        "auto",
+        default="auto",
         description="number of dynamic bending modes; higher modes respond quasi-statically",
         examples=[40],
     )
     branches: Literal["auto", "A0", "all"] = Field(
-        "auto",
+        default="auto",
         description="wave branches of the plate: the lowest (A0), all, or all where the tolerance "
         "needs them",
         examples=["all"],
     )
     coupling: Literal["variational", "pointwise"] = Field(
-        "variational",
+        default="variational",
         description="definition of the indentation: the weighted mean of the gap, which conserves "
         "energy, or its value at the axis",
         examples=["pointwise"],
     )
     extent: Literal["finite", "infinite"] = Field(
-        "finite",
+        default="finite",
         description="a plate with its edge, or one so large that no wave returns from the edge",
         examples=["infinite"],
     )
 
 
+class Measured(Table):
+    """A measured restitution, which tells the yield stress or retardation time of the plate."""
+
+    restitution: Annotated[float, Field(gt=0, lt=1)] = Field(
+        description="measured rebound speed over impact speed [1]", examples=[0.6]
+    )
+    solve_for: Literal["yield_stress", "retardation_time"] = Field(
+        description="the plate's quantity that it tells", examples=["yield_stress"]
+    )
+    target: Literal["block", "plate"] = Field(
+        default="block",
+        description="what was struck: a thick block of the plate's material, or the plate",
+        examples=["plate"],
+    )
+    tested_at: Positive | None = Field(
+        default=None, description="impact speed of the measurement [m/s]", examples=[1.0]
+    )
+
+
 class Scene(Table):
-    """A sphere striking a plate."""
+    """A sphere striking a plate.
+
+    Tables may also be plain mappings, as a scene file holds them.
+
+    Raises
+    ------
+    SceneError
+        With one message that lists everything that is wrong.
+
+    Examples
+    --------
+    >>> import platecontact as pc
+    >>> scene = pc.Scene(
+    ...     sphere=pc.Sphere(radius=0.01, material="steel"),
+    ...     plate=pc.Plate(radius=0.3, thickness=0.05, material="glass"),
+    ...     impact={"speed": 1.0},
+    ... )
+    >>> print(f"{pc.simulate(scene).restitution:.2f}")
+    0.97
+    """
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            *,
+            sphere: Sphere | Mapping[str, Any],
+            plate: Plate | Mapping[str, Any],
+            impact: Impact | Mapping[str, Any],
+            effects: Effects | Mapping[str, Any] | None = None,
+            inertia: Inertia | Mapping[str, Any] | None = None,
+            accuracy: Accuracy | Mapping[str, Any] | None = None,
+            measured: Measured | Mapping[str, Any] | None = None,
+            materials: Mapping[str, Material | Mapping[str, Any]] | None = None,
+        ) -> None: ...
+
+    else:
+
+        def __init__(self, /, **tables: Any) -> None:
+            _scene(tables, "scene", self)
+
+        __init__.__pydantic_base_init__ = True  # a file is read without it
 
     sphere: Sphere = Field(description="the sphere that strikes")
     plate: Plate = Field(description="the elastic plate that is struck in its middle")
@@ -220,23 +198,41 @@ class Scene(Table):
         default_factory=lambda: Effects.model_validate({}),
         description="which effects are computed",
     )
-    inertia: Inertia | None = Field(None, description="how the plate's inertia is computed")
-    accuracy: Accuracy | None = Field(None, description="how exact the result is to be")
+    inertia: Inertia | None = Field(default=None, description="how the plate's inertia is computed")
+    accuracy: Accuracy | None = Field(default=None, description="how exact the result is to be")
+    measured: Measured | None = Field(
+        default=None, description="a measured restitution that tells a quantity of the plate"
+    )
+    materials: dict[str, Material] = Field(
+        default_factory=dict,
+        description="materials of your own by name; one takes precedence over a named material "
+        "of the same name",
+    )
 
     @classmethod
-    def conflicts(cls, given: Mapping[str, Any]) -> list[str]:  # noqa: ARG003
-        """Nothing: each table has looked at its own keys."""
-        return []
-
-    def to_json(self) -> dict[str, dict[str, Any]]:
-        """The scene as it was given."""
-        return self.model_dump(mode="json", exclude_none=True, exclude_unset=True)
+    def conflicts(cls, given: Mapping[str, Any]) -> list[str]:
+        """What is wrong with materials and measurement; the rest each table has looked at."""
+        return [*material_problems(given), *_solved_twice(given)]
 
     def _repr_html_(self) -> str:
         """The keys given, for a notebook."""
-        given = self.to_json().items()
-        rows = ((table, key, value) for table, keys in given for key, value in keys.items())
+        given = self.to_json()
+        own = given.pop(OWN_MATERIALS, {})
+        given |= {f"{OWN_MATERIALS}.{name}": keys for name, keys in own.items()}
+        rows = ((table, key, value) for table, keys in given.items() for key, value in keys.items())
         return html_table(("table", "key", "value in SI"), rows)
+
+
+def _solved_twice(given: Mapping[str, Any]) -> list[str]:
+    """A quantity of the plate that is given and is to be found from a measurement."""
+    measured, plate = given.get("measured"), given.get("plate")
+    if not isinstance(measured, Mapping) or not isinstance(plate, Mapping):
+        return []
+    key = measured.get("solve_for")
+    if not isinstance(key, str) or plate.get(key) is None:
+        return []
+    expected = f"expected a quantity that is not given, got {key}, which [plate] gives"
+    return [f"measured.solve_for: {expected}; remove plate.{key}, or [measured]"]
 
 
 TABLES: dict[str, type[Table]] = {
@@ -246,6 +242,7 @@ TABLES: dict[str, type[Table]] = {
     "effects": Effects,
     "inertia": Inertia,
     "accuracy": Accuracy,
+    "measured": Measured,
 }
 
 
@@ -256,7 +253,7 @@ def load(path: str | Path) -> Scene:
     ----------
     path
         TOML file with the tables ``sphere``, ``plate`` and ``impact``, in SI units, and if
-        wanted ``accuracy``.
+        wanted ``accuracy``, ``effects``, ``inertia``, ``measured`` and ``materials``.
 
     Raises
     ------
@@ -310,21 +307,34 @@ def read(data: Mapping[str, Any], source: str = "scene") -> Scene:
     return _scene(data, source)
 
 
-def _scene(data: Mapping[str, Any], source: str) -> Scene:
-    """Make a scene, with a notice for each old name."""
-    tables, notices, twice = old_names.renewed(data)
+def _scene(data: Mapping[str, Any], source: str, scene: Scene | None = None) -> Scene:
+    """Make a scene, or fill one, with a notice for each old name."""
+    tables, notices, twice = old_names.renewed(_plain(data))
     for notice in notices:
         old_names.tell(notice)
-    problems: list[Callable[[], str]] = [partial(str, text) for text in twice]
+    found: Problems = [partial(str, text) for text in twice]
     try:
-        scene = Scene.model_validate(tables)
+        made = Scene.__pydantic_validator__.validate_python(tables, self_instance=scene)
     except ValidationError as error:
-        problems += _problems(error, tables)
+        found += _problems(error, tables)
     else:
-        if not problems:
-            return scene
-    said = problems[0]() if len(problems) == 1 else listed(problems)
-    raise SceneError(f"{source}: {said}")
+        if not found:
+            return cast(Scene, made)
+    raise SceneError(f"{source}: {in_words(found)}")
+
+
+def _plain(data: Mapping[str, Any]) -> dict[str, Any]:
+    """Tables as a scene file would hold them."""
+    found = dict[str, Any]()
+    for name, table in data.items():
+        keys = table.to_json() if isinstance(table, Table) else table
+        if name == OWN_MATERIALS and isinstance(keys, Mapping):
+            found[name] = _plain(keys)
+        elif isinstance(keys, Mapping):
+            found[name] = plain_keys(keys)
+        elif keys is not None:
+            found[name] = keys
+    return found
 
 
 def schema() -> dict[str, Any]:
@@ -333,25 +343,18 @@ def schema() -> dict[str, Any]:
     return dialect | Scene.model_json_schema()
 
 
-def _problems(error: ValidationError, data: Mapping[str, Any]) -> list[Callable[[], str]]:
-    """What is wrong, each still to be put into words."""
-    fields = {name: table.model_fields for name, table in TABLES.items()}
-    found: dict[object, Callable[[], str]] = {}
-    for item in error.errors(include_url=False):
-        if item["type"] != CONFLICT:
-            # Each alternative that a key has complains by itself.
-            place, value = item["loc"], item["input"]
-            told = partial(explain, item["type"], place, value, fields)
-            found.setdefault((place[:2], shown(value)), told)
-    # Pydantic looks at keys together only if each is right; the user wants to hear all at once.
-    for name, table in TABLES.items():
-        if isinstance(data.get(name), Mapping):
-            found |= {text: partial(str, text) for text in table.conflicts(data[name])}
-    return list(found.values())
+def _problems(error: ValidationError, data: Mapping[str, Any]) -> Problems:
+    """What is wrong with a scene, each still to be put into words."""
+    own = data.get(OWN_MATERIALS)
+    names = own if isinstance(own, Mapping) else ()
+    known = TABLES | {f"{OWN_MATERIALS}.{name}": Material for name in names}
+    found = problems(map(_by_table, found_by(error)), data, known)
+    return found + [partial(str, text) for text in Scene.conflicts(data)]
 
 
-def is_number(value: Any) -> TypeGuard[float]:
-    """Whether a value is a number a double can hold."""
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
-        return False
-    return abs(value) < sys.float_info.max
+def _by_table(problem: Problem) -> Problem:
+    """The same with a material as a table of its own."""
+    place = problem.place
+    if len(place) > 1 and place[0] == OWN_MATERIALS:
+        place = (f"{OWN_MATERIALS}.{place[1]}", *place[2:])
+    return problem._replace(place=place)

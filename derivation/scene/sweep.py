@@ -4,7 +4,7 @@ import csv
 import io
 import signal
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
@@ -14,17 +14,32 @@ from multiprocessing import get_context
 
 import numpy as np
 
+from derivation.engine.activity import Tell, quiet
+from derivation.engine.text import aligned, paragraph
 from derivation.scene.impact import simulate
-from derivation.scene.messages import nearest
+from derivation.scene.messages import OWN_MATERIALS, nearest
 from derivation.scene.old_names import new_key
+from derivation.scene.quantity import common_prefix
 from derivation.scene.result import UNITS
-from derivation.scene.scene import TABLES, Scene, SceneError, is_number, read
+from derivation.scene.scene import TABLES, Material, Scene, SceneError, read
+from derivation.scene.table import Table, is_number
 
 MOST = 100_000
 """Largest number of values of a sweep."""
 LONG = 3.0
 """Seconds of work from which other processes are worth their start."""
-Tell = Callable[[str, int, int], None]
+MOST_DIGITS = 4
+"""Largest number of significant digits of a table on a screen."""
+SYMBOLS = {
+    "contact_time": "t_c",
+    "max_indentation": "δ",
+    "max_force": "P",
+    "max_contact_radius": "a",
+    "restitution": "e",
+    "max_pressure": "p",
+    "max_tensile_stress": "σ",
+}
+"""Symbols of the results, for a table on a screen."""
 
 
 @dataclass(frozen=True)
@@ -58,16 +73,21 @@ class SweepRow:
         Names of the effects included.
     remark
         Warnings, or why the scene was refused.
+    digits
+        Number of significant digits of the results that hold; 0 without results.
     """
 
     value: float
     results: dict[str, float]
     effects: tuple[str, ...]
     remark: str
+    digits: int = 0
 
 
 def parse(text: str) -> Sweep:
     """A sweep from `table.key=first:last:count`, values evenly spaced, both ends included.
+
+    A key of a scene's own material is `materials.NAME.key`.
 
     Raises
     ------
@@ -76,10 +96,11 @@ def parse(text: str) -> Sweep:
     """
     place, _, span = text.partition("=")
     place = new_key(place.strip())
-    table, _, key = place.partition(".")
+    table, _, key = place.rpartition(".")
     parts = span.split(":")
     example = "write for instance plate.thickness=1e-3:1e-2:50"
-    field = TABLES[table].model_fields.get(key) if table in TABLES else None
+    known = _table(table)
+    field = known.model_fields.get(key) if known else None
     numbers = [x for x in (field.examples if field else None) or [] if is_number(x)]
     if not numbers:
         near = nearest(place, _swept())
@@ -98,6 +119,11 @@ def parse(text: str) -> Sweep:
     return Sweep(table, key, tuple(np.linspace(first, last, count).tolist()))
 
 
+def _table(name: str) -> type[Table] | None:
+    """The table of a name, `materials.NAME` among them."""
+    return Material if name.startswith(f"{OWN_MATERIALS}.") else TABLES.get(name)
+
+
 def _swept() -> list[str]:
     """Every key that holds a number, with its table."""
     return [
@@ -112,7 +138,7 @@ def run(
     scene: Scene,
     sweep: Sweep,
     rtol: float | None = None,
-    tell: Tell | None = None,
+    tell: Tell = quiet,
     workers: int = 1,
 ) -> tuple[SweepRow, ...]:
     """Simulate the scene once per value; a scene that is refused is a row that says why.
@@ -129,8 +155,7 @@ def run(
     """
     found, rows = _rows(scene, sweep, rtol, workers), list[SweepRow]()
     for number in range(1, len(sweep.values) + 1):
-        if tell is not None:
-            tell(f"{sweep.table}.{sweep.key}", number, len(sweep.values))
+        tell(f"{sweep.table}.{sweep.key}", number, len(sweep.values))
         rows.append(next(found))
     return tuple(rows)
 
@@ -176,33 +201,36 @@ def _leave_interrupts() -> None:
 
 
 def _row(scene: Scene, sweep: Sweep, rtol: float | None, value: float) -> SweepRow:
-    data = {name: dict(keys) for name, keys in scene.to_json().items()}
-    given = data.setdefault(sweep.table, {})
-    for other in _instead(sweep):
+    data = scene.to_json()
+    given = data
+    for name in sweep.table.split(".", 1):
+        given = given.setdefault(name, {})
+    table = _table(sweep.table)
+    assert table is not None
+    for other in _instead(table, sweep.key):
         given.pop(other, None)
-    [example, *_] = TABLES[sweep.table].model_fields[sweep.key].examples or [value]
+    [example, *_] = table.model_fields[sweep.key].examples or [value]
     given[sweep.key] = int(value) if isinstance(example, int) and value.is_integer() else value
     try:
         found = simulate(read(data), rtol=rtol)
     except SceneError as error:
         return SweepRow(value, {}, (), f"refused: {error}")
     results = {name: getattr(found, name) for name in UNITS}
-    included = tuple(row.name for row in found.effects.rows if row.included)
+    included = found.effects.included
     if not found.complete:  # there is no restitution: an empty row with the reason
         return SweepRow(value, {}, included, found.incomplete_note)
-    return SweepRow(value, results, included, "; ".join(found.warnings))
+    return SweepRow(value, results, included, "; ".join(found.warnings), found.digits)
 
 
-def _instead(sweep: Sweep) -> set[str]:
+def _instead(table: type[Table], key: str) -> set[str]:
     """Keys that the swept one stands in for: half_thickness for thickness, mass for density."""
-    choices = TABLES[sweep.table].choices
     return {
-        key
-        for groups in choices
-        if any(sweep.key in group for group in groups)
+        other
+        for groups in table.choices
+        if any(key in group for group in groups)
         for group in groups
-        if sweep.key not in group
-        for key in group
+        if key not in group
+        for other in group
     }
 
 
@@ -215,3 +243,22 @@ def to_csv(sweep: Sweep, rows: Sequence[SweepRow]) -> str:
         numbers = (repr(row.results[name]) if row.results else "" for name in UNITS)
         writer.writerow([repr(row.value), *numbers, " ".join(row.effects), row.remark])
     return text.getvalue()
+
+
+def to_text(sweep: Sweep, rows: Sequence[SweepRow]) -> str:
+    """The rows as a table for a screen: each result in one multiple of its unit."""
+    known = [row for row in rows if row.results]
+    fewest = min((row.digits for row in known), default=MOST_DIGITS)
+    heads, columns = [f"#{sweep.key}"], [[f"{row.value:.6g}" for row in rows]]
+    for name, unit in UNITS.items():
+        values, multiple = np.array([row.results[name] for row in known]), unit
+        if unit != "1":
+            values, multiple = common_prefix(values, unit, fewest)
+        heads.append(f"#{SYMBOLS[name]} [{multiple}]")
+        cells = (
+            f"{value:#.{min(row.digits, MOST_DIGITS)}g}".removesuffix(".")
+            for row, value in zip(known, values, strict=True)
+        )
+        columns.append([next(cells) if row.results else "n/a" for row in rows])
+    legend = ", ".join(f"{SYMBOLS[name]} {name.replace('_', ' ')}" for name in UNITS)
+    return f"{aligned(heads, list(zip(*columns, strict=True)))}\n\n{paragraph(legend, 0)}"

@@ -17,16 +17,17 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
-from numpy.polynomial.legendre import legvander
 from numpy.typing import NDArray
 
 from derivation.scene.collocation import NEWTON, ONSET, Element, newton_step, radau, settled
 from derivation.scene.effects.effect import Array
-from derivation.scene.modal import ContactTables, sine_less_one
+from derivation.scene.modal import ContactSamples, ContactTables
+from derivation.scene.oscillators import FreeMotion, Response, response_at
+from derivation.scene.yielding import Yielding
 
-A, V, Z, P, W, E, LOST, LEAK = range(8)
+A, V, Z, P, W, E, LOST, LEAK, DAMPED = range(9)
 """Rows of an element: radius, velocity, displacement, force, the plate's deflection and energy, and
-per x the energy lost in the contact and by the pointwise coupling."""
+per x the energy lost in the contact, by the pointwise coupling and by the plate's damping."""
 PART = 2048
 """Oscillators that are computed at once, so that their values at the nodes stay in the cache."""
 
@@ -66,6 +67,10 @@ class DynamicProblem:
         A_v over T.
     heard
         Time from which waves may return from the edge of a plate that is to have none.
+    damping_ratio
+        Damping ratio of every mode [1].
+    yielding
+        The contact that yields, on the branch on which it is; None of an elastic one.
     """
 
     contact: ContactTables
@@ -76,6 +81,8 @@ class DynamicProblem:
     weight: float = 0.0
     retardation_time: float = 0.0
     heard: float = math.inf
+    damping_ratio: float = 0.0
+    yielding: Yielding | None = None
 
     @property
     def force(self) -> float:
@@ -107,6 +114,14 @@ class DynamicProblem:
         """Order of the oscillators, the slowest first."""
         return np.argsort(self.omega, kind="stable")
 
+    def at(self, a: Array) -> ContactSamples:
+        """The contact at radii [m], and what yielding adds to its depth."""
+        found = self.contact.at(a)
+        if self.yielding is None:
+            return found
+        depth, depth_a = self.yielding.added(found.force, found.force_a)
+        return found._replace(depth=found.depth + depth, depth_a=found.depth_a + depth_a)
+
     def begin(self) -> ImpactState:
         """Everything at the moment of first contact."""
         none = np.zeros_like(self.omega)
@@ -116,17 +131,26 @@ class DynamicProblem:
         """Of each oscillator, over m v0^2."""
         return (state.q_dot**2 + (self.omega * state.q) ** 2) / (2.0 * self.inverse_modal_mass)
 
+    def flight_loss(self, state: ImpactState, t: float) -> float:
+        """Energy that damping takes in free flight, over m v0^2."""
+        if not self.damping_ratio:
+            return 0.0
+        from generated.damping_kernels import free_loss
+
+        swing, phase = self.omega * state.q, self.omega * t
+        lost = free_loss(phase, np.asarray(self.damping_ratio), swing, state.q_dot)
+        return float(np.sum(lost / self.inverse_modal_mass))
+
     def flown(self, state: ImpactState, t: float) -> ImpactState:
         """A state after free flight."""
-        turn = self.omega * t
-        sin = np.sin(turn)
-        bent = state.q_dot * t * sine_less_one(sin, turn) - 2.0 * state.q * np.sin(turn / 2.0) ** 2
+        free = FreeMotion(self.omega * t, self.damping_ratio)
+        bent = state.q_dot * t * free.by_rate - state.q * free.by_q
         fallen = 0.5 * self.weight * t * t
         return ImpactState(
             state.displacement + state.velocity * t + fallen,
             state.velocity + self.weight * t,
             state.q + state.q_dot * t + bent,
-            state.q_dot * np.cos(turn) - state.q * self.omega * sin,
+            state.q_dot * free.cos - state.q * self.omega * free.sin,
             state.approach - state.separation_speed * t + (fallen - float(np.sum(bent))),
         )
 
@@ -135,9 +159,9 @@ class Nodes(NamedTuple):
     """An element's nodes, with what does not depend on its radii.
 
     x, times since the contact and since the element began, dt/dx; integrals from the element's
-    start to each node over x and t; sines of the oscillators and their free motion; and of each
-    shape the response to a force at the nodes, the sum of its oscillators' free motion, and what
-    of it is even in time: position and velocity at the start.
+    start to each node over x and t; what makes up the response of the oscillators, and their free
+    motion; and of each shape the response to a force at the nodes, the sum of its oscillators'
+    free motion, and what of it is even in time: position and velocity at the start.
     """
 
     x: Array
@@ -146,8 +170,7 @@ class Nodes(NamedTuple):
     rate: Array
     by_x: Array
     by_t: Array
-    cos: Array
-    sin: Array
+    parts: Response
     free: Array
     response: Array
     moved: Array
@@ -173,12 +196,16 @@ class Values(NamedTuple):
 
 
 class TimeElement(NamedTuple):
-    """An element with its end: state, radius, and the force that drives each shape there."""
+    """An element with its end: state, radius, and the force that drives each shape there.
+
+    `yielding` is the branch that a contact which yields was on.
+    """
 
     element: Element
     end: ImpactState
     radius: float
     felt: Array
+    yielding: Yielding | None
 
 
 def nodes_of(problem: DynamicProblem, n: int, x: float, length: float, start: ImpactState) -> Nodes:
@@ -187,34 +214,38 @@ def nodes_of(problem: DynamicProblem, n: int, x: float, length: float, start: Im
     xs = x + length * rule.x
     t, rate = xs**ONSET, ONSET * xs ** (ONSET - 1)
     since = t - x**ONSET
-    cos, sin, free = np.empty((3, n, problem.omega.size))
+    parts = Response.empty((n, problem.omega.size), problem.damping_ratio)
+    free = np.empty((n, problem.omega.size))
     for part in problem.parts:
-        half = np.multiply.outer(since, 0.5 * problem.omega[part])
-        s, c = np.sin(half), np.cos(half)
-        versed, sine = 2.0 * s * s, 2.0 * s * c
-        cos[:, part], sin[:, part] = 1.0 - versed, sine
-        late = sine_less_one(sine, 2.0 * half)
-        free[:, part] = late * start.q_dot[part] * since[:, None] - versed * start.q[part]
+        by_q, by_rate = response_at(since, problem.omega[part], problem.damping_ratio, parts, part)
+        free[:, part] = by_rate * start.q_dot[part] * since[:, None] - by_q * start.q[part]
     by_x = length * rule.integral
     by_t = by_x * rate
     even = modes.by_shape(start.q) + since[:, None] * modes.by_shape(start.q_dot)
-    response = _response(problem, cos, sin) * by_t
+    response = _response(problem, parts) * by_t
     moved = modes.by_shape(free)
-    return Nodes(xs, t, since, rate, by_x, by_t, cos, sin, free, response, moved, even)
+    return Nodes(xs, t, since, rate, by_x, by_t, parts, free, response, moved, even)
 
 
-def _response(problem: DynamicProblem, cos: Array, sin: Array) -> Array:
-    """sum sin(omega (t_i - t_k))/(M omega) per shape, shape (shapes, nodes, nodes)."""
-    modes = problem.contact.modes
-    strong = sin * (problem.inverse_modal_mass / problem.omega)
-    if modes.first.size == modes.omega.size:
-        one = strong.T[:, :, None] * cos.T[:, None, :]
+def _response(problem: DynamicProblem, parts: Response) -> Array:
+    """sum g(t_i - t_k)/M per shape, g the response to an impulse, shape (shapes, nodes, nodes)."""
+    one = _products(problem, parts.moved_sin, parts.drive_cos)
+    if not problem.damping_ratio:  # a sine of differences, odd
         return np.asarray(one - one.transpose(0, 2, 1), dtype=np.float64)
+    other = _products(problem, parts.moved_cos, parts.drive_sin)
+    return np.asarray(one - other, dtype=np.float64)
+
+
+def _products(problem: DynamicProblem, moved: Array, drive: Array) -> Array:
+    """Sums over the oscillators of each shape, of one node's value by another's."""
+    modes = problem.contact.modes
+    strong = moved * (problem.inverse_modal_mass / problem.omega)
+    if modes.first.size == modes.omega.size:
+        return np.asarray(strong.T[:, :, None] * drive.T[:, None, :], dtype=np.float64)
     ends = (*modes.first[1:].tolist(), modes.omega.size)
-    found = np.empty((modes.first.size, sin.shape[0], sin.shape[0]))
+    found = np.empty((modes.first.size, moved.shape[0], moved.shape[0]))
     for shape, (begin, end) in enumerate(zip(modes.first.tolist(), ends, strict=True)):
-        one = strong[:, begin:end] @ cos[:, begin:end].T
-        found[shape] = one - one.T
+        found[shape] = strong[:, begin:end] @ drive[:, begin:end].T
     return found
 
 
@@ -223,7 +254,7 @@ def values_at(
 ) -> Values:
     """Forces, depths and deflections at the nodes, for a slope da/dx there."""
     a = radius + nodes.by_x @ y
-    at = problem.contact.at(problem.a * a)
+    at = problem.at(problem.a * a)
     felt = np.column_stack((at.force, at.felt)) / problem.force
     felt_a = np.column_stack((at.force_a, at.felt_a)) * (problem.a / problem.force)
     # The pressure keeps its shape: the retarded part drives each shape in the same proportion.
@@ -292,12 +323,14 @@ def _system(problem: DynamicProblem, nodes: Nodes, at: Values) -> Array:
 class Driven(NamedTuple):
     """The oscillators under a force: deflections and velocities at the end of an element.
 
-    At its nodes their energy and, where they are asked for, the velocities of each shape; else 0.
+    At its nodes their energy, the power that damping takes and, where they are asked for, the
+    velocities of each shape; else 0.
     """
 
     q: Array
     q_dot: Array
     energy: Array
+    damped: Array
     rates: Array
 
 
@@ -306,20 +339,26 @@ def _driven(
 ) -> Driven:
     """The oscillators under the forces of each shape."""
     modes, (end, end_rate) = problem.contact.modes, np.empty((2, problem.omega.size))
-    energy, rates = np.zeros(nodes.t.size), np.empty(nodes.cos.shape if by_shape else (1, 0))
+    energy, damped = np.zeros((2, nodes.t.size))
+    rates = np.empty(nodes.free.shape if by_shape else (1, 0))
     for part in problem.parts:
         inverse_mass, omega = problem.inverse_modal_mass[part], problem.omega[part]
-        cos, sin, force = nodes.cos[:, part], nodes.sin[:, part], felt[:, modes.shape[part]]
-        cosine, sine = nodes.by_t @ (cos * force), nodes.by_t @ (sin * force)
+        of, force = nodes.parts.of(part), felt[:, modes.shape[part]]
+        cosine, sine = nodes.by_t @ (of.drive_cos * force), nodes.by_t @ (of.drive_sin * force)
         q = start.q[part] + nodes.since[:, None] * start.q_dot[part] + nodes.free[:, part]
-        q += inverse_mass / omega * (sin * cosine - cos * sine)
-        rate = start.q_dot[part] * cos - start.q[part] * omega * sin
-        rate += inverse_mass * (cos * cosine + sin * sine)
+        q += inverse_mass / omega * (of.moved_sin * cosine - of.moved_cos * sine)
+        rate = start.q_dot[part] * of.rate_cos - start.q[part] * omega * of.moved_sin
+        rate += inverse_mass * (of.rate_cos * cosine + of.rate_sin * sine)
         energy += np.sum((rate**2 + (omega * q) ** 2) / (2.0 * inverse_mass), axis=1)
+        if problem.damping_ratio:
+            from generated.damping_kernels import power_lost
+
+            taken = power_lost(omega, np.asarray(problem.damping_ratio), rate)
+            damped += np.sum(taken / inverse_mass, axis=1)
         end[part], end_rate[part] = q[-1], rate[-1]
         if by_shape:
             rates[:, part] = rate
-    return Driven(end, end_rate, energy, modes.by_shape(rates) if by_shape else rates)
+    return Driven(end, end_rate, energy, damped, modes.by_shape(rates) if by_shape else rates)
 
 
 def _piece(
@@ -336,24 +375,14 @@ def _piece(
     if pointwise:
         leak = np.sum((force[:, None] - at.felt) * driven.rates, axis=1) * nodes.rate
     rule = radau(nodes.x.size)
-    values = np.array([at.a, at.v, at.z, force, np.sum(at.q, axis=1), driven.energy, lost, leak])
+    rows = at.a, at.v, at.z, force, np.sum(at.q, axis=1), driven.energy, lost, leak
+    values = np.array([*rows, driven.damped * nodes.rate])
     made = Element(x, length, values @ rule.analysis.T, rule.analysis @ at.y)
     end = ImpactState(
         float(at.z[-1]), float(at.v[-1]), driven.q, driven.q_dot, float(at.approach[-1])
     )
     # A row of its own: a view of the last would keep all rows of the nodes in memory.
-    return TimeElement(made, end, float(at.a[-1]), at.felt[-1].copy())
-
-
-def oscillating(
-    problem: DynamicProblem, found: Element, start: ImpactState, radius: float, x: float
-) -> Array:
-    """Deflection of each shape at a place of an element."""
-    n = found.slope.size
-    nodes = nodes_of(problem, n, found.x, found.length, start)
-    q = values_at(problem, nodes, start, radius, found.slope_at(nodes.x)).q
-    s = 2.0 * (x - found.x) / found.length - 1.0
-    return np.asarray(legvander([s], n - 1)[0] @ (radau(n).analysis @ q), dtype=np.float64)
+    return TimeElement(made, end, float(at.a[-1]), at.felt[-1].copy(), problem.yielding)
 
 
 def onset(problem: DynamicProblem, n: int, length: float, meeting: float) -> Array:
@@ -362,7 +391,7 @@ def onset(problem: DynamicProblem, n: int, length: float, meeting: float) -> Arr
     goal = meeting * (length * rule.x) ** ONSET
     a = np.sqrt(goal * problem.depth * problem.contact.R) / problem.a
     for _ in range(NEWTON):  # depth grows faster than a^2: the iteration comes down
-        at = problem.contact.at(problem.a * a)
+        at = problem.at(problem.a * a)
         move = (at.depth / problem.depth - goal) / (at.depth_a * (problem.a / problem.depth))
         a = np.maximum(a - move, 0.5 * a)
         if np.max(np.abs(move) / a) < 1e-3:

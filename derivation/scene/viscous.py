@@ -194,7 +194,7 @@ def elements(problem: ViscousProblem, n: int) -> tuple[Element, ...]:
         if start.velocity < 0.0 < end.velocity:
             raise SceneError(
                 "plate.retardation_time: the sphere does not rebound because its weight holds it "
-                "on the plate; reduce plate.retardation_time or increase impact.speed"
+                "on the plate; reduce retardation_time (plate, sphere) or increase impact.speed"
             )
         x, start, scale = x + length, end, largest
         length = min(LONGEST, length * min(2.0, change))

@@ -7,9 +7,10 @@ from html import escape
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.polynomial.legendre import legvander
 
 from derivation.scene import contact_sequence
-from derivation.scene.collocation import ONSET
+from derivation.scene.collocation import ONSET, Element, radau
 from derivation.scene.contact_sequence import ImpactHistory
 from derivation.scene.effects.effect import Array, Results
 from derivation.scene.html import html_table
@@ -17,7 +18,19 @@ from derivation.scene.law import ContactLaw
 from derivation.scene.limits import local_indentation
 from derivation.scene.motion import EnergyBalance, Motion
 from derivation.scene.scene import OUTPUTS
-from derivation.scene.time_element import LEAK, A, DynamicProblem, E, P, V, W, Z, oscillating
+from derivation.scene.time_element import (
+    DAMPED,
+    A,
+    DynamicProblem,
+    E,
+    ImpactState,
+    P,
+    V,
+    W,
+    Z,
+    nodes_of,
+    values_at,
+)
 
 IRREGULAR = 2.0
 """What modes left out may change, over what half of those there are did."""
@@ -170,19 +183,8 @@ class DynamicImpact(Motion):
     def notes(self) -> tuple[str, ...]:
         """The energy balance and the end of the simulation in sentences."""
         balance, inertia = self.energy_balance, self.inertia
-        parts = {
-            "sphere": balance.rebound_kinetic,
-            "plate": balance.plate,
-            "viscoelastic contact": balance.viscous_loss + balance.unrecovered_elastic,
-            "lost by the pointwise coupling": balance.coupling_loss,
-        }
-        told = ", ".join(
-            f"{100 * energy / balance.initial_kinetic:.3g} % {name}"
-            for name, energy in parts.items()
-            if energy
-        )
         energies = (
-            f"Final energy: {told} (of the initial kinetic energy); "
+            f"Final energy: {balance.in_words()} (of the initial kinetic energy); "
             f"energy-balance error {abs(balance.residual):.1e}."
         )
         if not inertia.complete:
@@ -212,16 +214,16 @@ class DynamicImpact(Motion):
     def rows(self, times: Array) -> Array:
         """Everything at times [s], in SI: the rows of `time_element`, energies in J."""
         problem, t = self.impact_history.problem, np.asarray(times, dtype=np.float64)
-        found = np.zeros((LEAK + 1, t.size))
+        found = np.zeros((DAMPED + 1, t.size))
         starts = np.array([touching.start for touching in self.impact_history.contacts])
         place = np.maximum(np.searchsorted(starts, t / problem.T, side="right") - 1, 0)
         for index in np.unique(place):
             here = place == index
-            found[:, here] = _rows(
+            found[:, here] = rows_of(
                 problem, self.impact_history.contacts[index], t[here] / problem.T
             )
         energy = problem.m * problem.v0**2
-        units = np.ones(LEAK + 1)
+        units = np.ones(DAMPED + 1)
         units[[A, V, Z, P, W, E]] = (
             problem.a, problem.v0, problem.depth, problem.force, problem.depth, energy
         )  # fmt: skip
@@ -252,9 +254,20 @@ def deflections(history: ImpactHistory, t: float) -> Array:
     return oscillating(problem, pieces[index].element, before, radius, x)
 
 
-def _rows(problem: DynamicProblem, touching: contact_sequence.Touching, t: Array) -> Array:
-    """The rows in a contact and in the flight after it."""
-    found = np.zeros((LEAK + 1, t.size))
+def oscillating(
+    problem: DynamicProblem, found: Element, start: ImpactState, radius: float, x: float
+) -> Array:
+    """Deflection of each shape at a place of an element."""
+    n = found.slope.size
+    nodes = nodes_of(problem, n, found.x, found.length, start)
+    q = values_at(problem, nodes, start, radius, found.slope_at(nodes.x)).q
+    s = 2.0 * (x - found.x) / found.length - 1.0
+    return np.asarray(legvander([s], n - 1)[0] @ (radau(n).analysis @ q), dtype=np.float64)
+
+
+def rows_of(problem: DynamicProblem, touching: contact_sequence.Touching, t: Array) -> Array:
+    """The rows in a contact and in the flight after it, at times in units of the problem."""
+    found = np.zeros((DAMPED + 1, t.size))
     pieces, inside = touching.pieces, t <= touching.end
     starts = np.array([piece.element.x for piece in pieces])
     since = np.maximum(t - touching.start, 0.0) + starts[0] ** ONSET
@@ -264,6 +277,10 @@ def _rows(problem: DynamicProblem, touching: contact_sequence.Touching, t: Array
     for index in np.unique(place[inside]):
         here = inside & (place == index)
         found[:, here] = pieces[index].element.at(np.minimum(x[here], last))
+        branch = pieces[index].yielding
+        if branch is not None:
+            a = problem.a * np.maximum(found[A, here], 0.0)
+            found[A, here] = branch.widened(a, problem.contact.at(a).force) / problem.a
     for k in np.flatnonzero(~inside):
         state = problem.flown(touching.after, float(t[k]) - touching.end)
         found[[V, Z, W, E], k] = (

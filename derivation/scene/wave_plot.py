@@ -7,7 +7,7 @@ import numpy as np
 
 from derivation.scene.effects.effect import Array
 from derivation.scene.limits import zener_number
-from derivation.scene.plot import BLUE, BROWN, frame, scaled
+from derivation.scene.plot import BLUE, BROWN, frame, scaled, title
 from derivation.scene.result import Result
 from derivation.scene.time_element import E, P, V, W, Z
 
@@ -19,7 +19,14 @@ POINTS = 1201
 """Number of times that are drawn."""
 NUMBERS = np.geomspace(1e-3, 10.0, 25)
 """Zener's numbers of the drawn curve."""
-NODES = 14
+TITLES = {
+    "z": "Displacement, positive into the plate",
+    "P": "Contact force",
+    "v": "Velocity",
+    "energy": "Where the energy is",
+    "e": "Restitution compared with an infinite plate",
+}
+"""Titles of the drawings."""
 GREEN = "#5a8f5a"
 
 
@@ -31,25 +38,30 @@ def figure(result: Result) -> "Figure":
     assert dynamics is not None
     times = np.linspace(0.0, result.total_time, POINTS)
     rows = dynamics.rows(times)
-    t, label = scaled(times, "time", "s")
+    t, label = scaled(times, "time $t$", "s")
     made = Figure(figsize=(8.0, 9.5), layout="constrained")
     drawn = made.subplot_mosaic([["z", "z"], ["P", "v"], ["energy", "e"]])
-    (way, face), w_label = scaled(rows[[Z, W]], "displacement", "m")
-    drawn["z"].plot(t, way, color=BLUE, linewidth=1.5, label="sphere")
-    drawn["z"].plot(t, face, color=BROWN, linewidth=1.2, label="plate at the axis")
-    drawn["z"].legend(frameon=False)
-    force, f_label = scaled(rows[P], "contact force", "N")
+    (sphere, face), w_label = scaled(rows[[Z, W]], "displacement $z$, $w$", "m")
+    drawn["z"].plot(t, sphere, color=BLUE, linewidth=1.5, label="sphere, $z$")
+    drawn["z"].plot(t, face, color=BROWN, linewidth=1.2, label="plate at the axis, $w$")
+    force, f_label = scaled(rows[P], "contact force $P$", "N")
     drawn["P"].plot(t, force, color=BLUE, linewidth=1.5)
-    velocity, v_label = scaled(rows[V], "sphere's velocity", "m/s")
+    velocity, v_label = scaled(rows[V], "sphere velocity $v$", "m/s")
     drawn["v"].plot(t, velocity, color=BLUE, linewidth=1.5)
     _energies(drawn["energy"], result, t, rows)
     _restitution(drawn["e"], result)
-    for name, y_label in (("z", w_label), ("P", f_label), ("v", v_label), ("energy", "")):
-        frame(drawn[name], label, y_label or "energy / initial kinetic energy")
+    e_label = "energy / initial kinetic energy [1]"
+    for name, y_label in (("z", w_label), ("P", f_label), ("v", v_label), ("energy", e_label)):
+        frame(drawn[name], label, y_label)
         for touch in dynamics.inertia.contacts:
             begin, end = np.array([touch.start, touch.end]) * (t[-1] / times[-1])
             drawn[name].axvspan(begin, end, color="0.9", zorder=0, linewidth=0)
+    drawn["z"].patches[0].set_label("in contact")
+    drawn["z"].legend(frameon=False)
     drawn["z"].invert_yaxis()
+    for name, text in TITLES.items():
+        drawn[name].set_title(text, fontsize=10)
+    made.suptitle(title(result), fontsize=11)
     return made
 
 
@@ -67,14 +79,14 @@ def _energies(axes: "Axes", result: Result, t: Array, rows: Array) -> None:
 
 
 def _restitution(axes: "Axes", result: Result) -> None:
-    """The impact beside Zener's curve."""
+    """The impact and Zener's curve."""
     curve = [zener_restitution(number) for number in NUMBERS]
-    axes.semilogx(NUMBERS, curve, color="0.4", linewidth=1.2, label="infinite plate (Zener)")
+    axes.semilogx(NUMBERS, curve, color="0.4", linewidth=1.2, label="infinite plate (Zener, 1941)")
     number = zener_number(result.model)
     axes.plot([number], [result.restitution], "o", color=BROWN, label="this impact")
-    frame(axes, "Zener's number", "restitution")
+    frame(axes, r"Zener's number $\lambda$ [1]", "coefficient of restitution $e$ [1]")
     axes.set_ylim(0.0, 1.05)
-    axes.legend(frameon=False)
+    axes.legend(loc="lower left", fontsize=8, frameon=False)
 
 
 @lru_cache(maxsize=64)

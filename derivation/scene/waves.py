@@ -14,8 +14,9 @@ from functools import lru_cache
 
 import numpy as np
 
-from derivation.scene import contact_sequence, motion
+from derivation.scene import contact_sequence
 from derivation.scene.contact_sequence import ImpactHistory
+from derivation.scene.dynamic_energy import balance_of
 from derivation.scene.effects.effect import Results
 from derivation.scene.effects.inertia import WIDER, higher_branch_error, weight_share
 from derivation.scene.law import ContactLaw
@@ -31,20 +32,10 @@ from derivation.scene.mode_count import (
     too_dear,
 )
 from derivation.scene.model import Model
-from derivation.scene.motion import EnergyBalance, Motion
-from derivation.scene.quadrature import NODES, gauss
 from derivation.scene.scene import OUTPUTS, SceneError
-from derivation.scene.time_element import (
-    LEAK,
-    LOST,
-    A,
-    DynamicProblem,
-    ImpactState,
-    P,
-    TimeElement,
-    Z,
-)
+from derivation.scene.time_element import A, DynamicProblem, P, TimeElement, Z
 from derivation.scene.wave_motion import ContactInterval, DynamicImpact, InertiaDetails
+from derivation.scene.yielding import units_of, yielding_of
 
 STAGES = 14, 16
 """Nodes of an element, of the run that checks and of the one that counts."""
@@ -95,11 +86,11 @@ def impact(
         If an impact on a plate that does not deflect exceeds the law's range, or the first contact
         cannot be followed to its end. If a later one cannot, the impact is incomplete.
     """
-    quick, budget = motion.impact(law.half_space), Budget(WORK)
+    budget = Budget(WORK)
     rough: DynamicImpact | None = None
     if law.model.inertia.branches == "auto" and not law.viscous:
         law, rough = _branched(law, goal, outputs, budget)
-    found, first = _converged(law, quick, goal, outputs, budget, rough), law.model.b
+    found, first = _converged(law, goal, outputs, budget, rough), law.model.b
     while law.model.inertia.infinite_plate and _edge_heard(found):
         if law.model.b > WIDEST * first:
             raise SceneError(
@@ -107,7 +98,7 @@ def impact(
                 f"{found.inertia.total_time:.6g} s; give a thicker plate or a lighter sphere"
             )
         law = replace(law, model=replace(law.model, b=2.0 * law.model.b))
-        found = _converged(law, quick, goal, outputs, budget)
+        found = _converged(law, goal, outputs, budget)
     return found
 
 
@@ -146,7 +137,6 @@ def _edge_heard(found: DynamicImpact) -> bool:
 
 def _converged(
     law: ContactLaw,
-    quick: Motion,
     goal: float,
     outputs: tuple[str, ...],
     budget: Budget,
@@ -158,13 +148,13 @@ def _converged(
     """
     count = affordable(law)
     check_followed(law, 2 * count)
-    rough = known or _run(law, count, quick, STAGES[0], budget)
+    rough = known or _run(law, count, STAGES[0], budget)
     if not rough.inertia.complete:  # and no finer run would be
         return rough
     best: DynamicImpact | None = None
     while True:
         try:
-            found = _run(law, 2 * count, quick, STAGES[1], budget, rough.impact_history)
+            found = _run(law, 2 * count, STAGES[1], budget, rough.impact_history)
         except SceneError:
             if best is None:
                 raise
@@ -176,7 +166,7 @@ def _converged(
         # Where omitted branches are worth more than modes could mend, a tenth is small enough.
         enough = goal if beyond <= goal / SHARE else max(goal, 0.1 * beyond)
         if law.model.inertia.modes:
-            return _of_chosen_modes(best, law, count, quick, budget)
+            return _of_chosen_modes(best, law, count, budget)
         near = change <= LAST * enough
         if change <= enough or too_dear(law, count, _work(best.impact_history), near):
             return best
@@ -190,13 +180,12 @@ def _work(history: ImpactHistory) -> float:
 
 def problem_of(law: ContactLaw, count: int) -> DynamicProblem:
     """An impact with so many bending modes, to be followed by `contact_sequence`."""
-    return _problem(law, plate_of(law, count), motion.impact(law.half_space))
+    return _problem(law, plate_of(law, count))
 
 
 def _run(
     law: ContactLaw,
     count: int,
-    quick: Motion,
     n: int,
     budget: Budget,
     coarse: ImpactHistory | None = None,
@@ -206,7 +195,7 @@ def _run(
     If with the contacts of a coarser run it would exceed its work, it is not begun, and those are
     all that is known.
     """
-    problem = _problem(law, plate_of(law, count), quick)
+    problem = _problem(law, plate_of(law, count))
     work = min(contact_sequence.WORK, budget.left)
     if coarse and contact_sequence.expected_work(problem, n, coarse) > work:
         return _motion(law, _unchecked(coarse, problem, count))
@@ -235,7 +224,7 @@ def _judged(rough: DynamicImpact, found: DynamicImpact) -> DynamicImpact:
 
 
 def _of_chosen_modes(
-    found: DynamicImpact, law: ContactLaw, count: int, quick: Motion, budget: Budget
+    found: DynamicImpact, law: ContactLaw, count: int, budget: Budget
 ) -> DynamicImpact:
     """A run with as many modes as the scene says, and what its error estimate is worth.
 
@@ -246,7 +235,7 @@ def _of_chosen_modes(
         return found
     if not fast(law, count):
         return _unjudged(found)
-    coarse = _run(law, max(1, count // 4), quick, STAGES[0], budget)
+    coarse = _run(law, max(1, count // 4), STAGES[0], budget)
     if not coarse.inertia.complete:
         return _unjudged(found)
     further = _judged(coarse, found).inertia.mode_convergence
@@ -260,15 +249,18 @@ def _unjudged(found: DynamicImpact) -> DynamicImpact:
     return replace(found, inertia=replace(found.inertia, mode_convergence=UNKNOWN))
 
 
-def _problem(law: ContactLaw, plate: ModalPlate, quick: Motion) -> DynamicProblem:
+def _problem(law: ContactLaw, plate: ModalPlate) -> DynamicProblem:
     """The scene in units of the impact on a plate that does not deflect."""
-    model, (a, T) = law.model, (quick.max_contact_radius, quick.contact_time)
+    model, (a, T) = law.model, units_of(law)
     rest = law.only(lambda e: e.static and not e.other_edge)
     contact = contact_of(rest, plate, min(WIDER * a, law.limit), model.inertia.pointwise)
     retardation = model.retardation_time / T if law.viscous else 0.0
     heard = echo_time(model) / T if model.inertia.infinite_plate else math.inf
     weight = law.gravity * (T / model.v0)
-    return DynamicProblem(contact, a, T, model.m, model.v0, weight, retardation, heard)
+    units = a, T, model.m, model.v0
+    return DynamicProblem(
+        contact, *units, weight, retardation, heard, law.damping_ratio, yielding_of(law)
+    )
 
 
 def echo_time(model: Model) -> float:
@@ -291,19 +283,9 @@ def _motion(law: ContactLaw, history: ImpactHistory) -> DynamicImpact:
     displacement = max(
         largest[Z], max(touching.before.displacement for touching in history.contacts)
     )
-    energies = problem.energies(last)
-    lost = sum(_sum(piece, LOST) for piece in pieces) if problem.retardation_time else 0.0
-    leak = sum(_sum(piece, LEAK) for piece in pieces) if problem.contact.pointwise else 0.0
-    energy_balance = EnergyBalance(
-        initial_kinetic=0.5 * energy,
-        gravity_work=energy * problem.weight * last.displacement,
-        rebound_kinetic=0.5 * energy * last.velocity**2,
-        viscous_loss=energy * lost,
-        unrecovered_elastic=energy
-        * sum(_given_up(problem, touching) for touching in history.contacts),
-        plate=energy * float(np.sum(energies)),
-        coupling_loss=energy * leak,
-    )
+    energies, widest = problem.energies(last), problem.a * largest[A]
+    if problem.yielding:
+        widest /= problem.yielding.flattening
     first, total = history.contacts[0], history.contacts[-1].end
     inertia = InertiaDetails(
         tuple(_touch(problem, touching) for touching in history.contacts),
@@ -313,19 +295,20 @@ def _motion(law: ContactLaw, history: ImpactHistory) -> DynamicImpact:
         problem.omega.size,
         tuple((energy * energies).tolist()),
         NONE if history.complete else UNKNOWN,
-        _branches(law, problem.a * largest[A], problem.depth * displacement, problem.T * first.end),
+        _branches(law, widest, problem.depth * displacement, problem.T * first.end),
     )
     return DynamicImpact(
         problem.T * first.end,
         problem.depth * displacement,
         problem.force * largest[P],
-        problem.a * largest[A],
+        widest,
         0.0,
         -last.velocity if history.complete else math.nan,
-        energy_balance=energy_balance,
+        energy_balance=balance_of(history),
         impact_history=history,
         inertia=inertia,
         law=law,
+        dent=problem.yielding.dent if problem.yielding else 0.0,
     )
 
 
@@ -340,25 +323,6 @@ def _branches(law: ContactLaw, a: float, displacement: float, T: float) -> Resul
     heavier = 1.0 + weight_share(model, displacement)
     time, depth, force, radius, speed = higher_branch_error(model, a, T)
     return heavier * time, depth, heavier * force, heavier * radius, heavier * speed
-
-
-def _given_up(problem: DynamicProblem, touching: contact_sequence.Touching) -> float:
-    """Energy over m v0^2 in a viscoelastic contact at its end, less that at its beginning."""
-    if not problem.retardation_time:
-        return 0.0
-    begun = _stored(problem, touching.radius, touching.before) if touching.radius else 0.0
-    return _stored(problem, touching.pieces[-1].radius, touching.after) - begun
-
-
-def _stored(problem: DynamicProblem, radius: float, state: ImpactState) -> float:
-    """Energy over m v0^2 in a contact: int P dD + sum q_j (P s_j - P_j)."""
-    nodes, weights = gauss(NODES[1])
-    at = problem.contact.at(problem.a * radius * nodes)
-    rest = problem.a * radius * float(weights @ (at.force * at.depth_a))
-    end = problem.contact.at(problem.a * np.array([radius]))
-    q = problem.contact.modes.by_shape(state.q)
-    more = float((end.force * (1.0 + end.less[0]) - end.felt[0]) @ q)
-    return rest / (problem.force * problem.depth) + more / problem.force
 
 
 def _touch(problem: DynamicProblem, touching: contact_sequence.Touching) -> ContactInterval:
@@ -386,10 +350,3 @@ def _largest(pieces: Sequence[TimeElement], row: int) -> float:
             break
         found = max(found, piece.element.largest(row))
     return found
-
-
-def _sum(piece: TimeElement, row: int) -> float:
-    """Integral over an element of a row that is a rate by x, by Gauss' rule."""
-    nodes, weights = gauss(piece.element.slope.size)
-    values = piece.element.at(piece.element.x + piece.element.length * nodes)[row]
-    return piece.element.length * float(weights @ values)

@@ -10,8 +10,8 @@ import pytest
 
 from derivation.checks import inertia as inertia_check
 from derivation.checks import inertia_judged as measure
-from derivation.checks.inertia_judged import InertiaFound
-from derivation.checks.random_scenes import Scene
+from derivation.checks.inertia_judged import InertiaRow
+from derivation.checks.random_scenes import Scene, largest_change
 from derivation.cli import main
 from derivation.engine.files import measurements
 from derivation.scene import limits, waves
@@ -80,22 +80,28 @@ NUMBERS, OUT = (1, 5, 9, 16, 17, 44, 76), (5, 17, 76)
 def test_bounds_hold_in_random_scenes(number: int) -> None:
     data, place = measure.scene(number)
     assert inertia_check.pass_over(data) == ""
-    found = inertia_check.solve(data, place)
-    assert isinstance(found, InertiaFound)
-    row = measure._row(number, found)
+    row = inertia_check.solve(number, data, place)
+    assert isinstance(row, InertiaRow)
     assert row.included is (number not in OUT)
     assert row.error <= min(row.bound, row.rtol)
     assert row.alone <= row.price
 
 
-def test_a_bound_that_does_not_hold_is_noticed() -> None:
-    def solve(data: Scene, place: float) -> InertiaFound | str:  # noqa: ARG001
-        exact = [1.0] * 5
-        return InertiaFound(
-            1e-2, True, [1.0, 1.0, 1.02, 1.0, 1.0], exact, 1e-3, 1.0, 1.0, exact, 1e-3, 1, 4, 8
-        )
+EXACT = InertiaRow(0, 1e-2, True, 1e-3, 0.0, "max_force", 0.0, 1e-3, 0.0, "max_force", 1, 4, 8)
 
-    found = measure.judge(3, solve, lambda _: "")
+
+def test_the_largest_change_is_found_and_named() -> None:
+    exact = [2.0] * 5
+    assert largest_change([2.0, 2.0, 2.04, 1.99, 2.0], exact) == (pytest.approx(0.02), "max_force")
+    assert largest_change([2.0, math.nan, 2.04, 1.99, 2.0], exact) == (math.inf, "max_indentation")
+
+
+def test_a_bound_that_does_not_hold_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(
+        inertia_check, "solve", lambda number, *_: replace(EXACT, number=number, error=0.02)
+    )
+    monkeypatch.setattr(inertia_check, "pass_over", lambda _: "")
+    found = inertia_check.judge(3)
     (side,) = measure.sides(found.rows)
     assert not side.kept
     assert side.quantity == "max_force"
@@ -103,15 +109,17 @@ def test_a_bound_that_does_not_hold_is_noticed() -> None:
     assert found.drawn == 3
 
 
-def test_what_is_refused_or_passed_over_is_counted() -> None:
-    turns = iter(["", "too dear", "", ""])
-    row = InertiaFound(1e-2, True, [1.0] * 5, [1.0] * 5, 1e-3, 1.0, 1.0, [1.0] * 5, 1e-3, 1, 4, 8)
-    solved = iter(["rtol", "rtol", row])
-    found = measure.judge(1, lambda *_: next(solved), lambda _: next(turns))
+def test_what_is_refused_or_passed_over_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
+    turns, solved = iter(["", "too dear", "", ""]), iter(["rtol", "rtol"])
+    monkeypatch.setattr(
+        inertia_check, "solve", lambda number, *_: next(solved, replace(EXACT, number=number))
+    )
+    monkeypatch.setattr(inertia_check, "pass_over", lambda _: next(turns))
+    found = inertia_check.judge(1)
     assert found.refused == {"rtol": 2}
     assert found.passed_over == {"too dear": 1}
     assert [row.number for row in found.rows] == [3]
-    assert json.loads(measure.to_json(found, 1))["drawn"] == 4
+    assert measure.as_data(found, 1)["drawn"] == 4
 
 
 def test_the_oscillators_of_all_branches_are_as_many_as_weyl_says() -> None:
@@ -122,7 +130,7 @@ def test_the_oscillators_of_all_branches_are_as_many_as_weyl_says() -> None:
         model = replace(SLOW, h=eta * SLOW.b, edge="paper",
                         inertia=InertiaSettings(modes=modes, branches="all"))  # fmt: skip
         true = free_modes(model, modes).omega.size
-        assert inertia_check.oscillators(model) == pytest.approx(true, rel=0.15)
+        assert inertia_check.oscillators_of(model) == pytest.approx(true, rel=0.15)
 
 
 def test_the_committed_scenes_keep_their_bounds() -> None:
@@ -138,10 +146,10 @@ def test_the_committed_scenes_keep_their_bounds() -> None:
 def test_the_command_shows_both_sides(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def solve(data: Scene, place: float) -> InertiaFound | str:
+    def solve(number: int, data: Scene, place: float) -> InertiaRow | str:
         known = data["inertia"]["branches"] == "A0"
-        return InertiaFound(
-            place, known, [1.0] * 5, [1.0] * 5, place, 1.0, 1.0, [1.0] * 5, math.inf, 1, 4, 8
+        return replace(
+            EXACT, number=number, rtol=place, included=known, bound=place, price=math.inf
         )
 
     monkeypatch.setattr(inertia_check, "solve", solve)
@@ -187,10 +195,10 @@ def test_scenes_are_passed_over_for_what_they_are() -> None:
 def test_scenes_out_of_reach_are_refused_by_name(monkeypatch: pytest.MonkeyPatch) -> None:
     """A truth of too many oscillators; an impact beyond the law's range."""
     data, place = measure.scene(9)
-    found = inertia_check.solve(data, place)
-    assert isinstance(found, InertiaFound)
+    found = inertia_check.solve(9, data, place)
+    assert isinstance(found, InertiaRow)
     monkeypatch.setattr(inertia_check, "OSCILLATORS", found.oscillators // 2)
-    assert inertia_check.solve(data, place) == (
+    assert inertia_check.solve(9, data, place) == (
         f"truth: more than {found.oscillators // 2} oscillators"
     )
 
@@ -198,4 +206,4 @@ def test_scenes_out_of_reach_are_refused_by_name(monkeypatch: pytest.MonkeyPatch
         limits.refuse(replace(law, model=replace(law.model, v0=1e9)))
 
     monkeypatch.setattr(inertia_check.waves, "impact", beyond)
-    assert inertia_check.solve(data, place) == "impact.speed"
+    assert inertia_check.solve(9, data, place) == "impact.speed"

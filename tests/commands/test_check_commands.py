@@ -15,8 +15,8 @@ from derivation import pipeline
 from derivation.checks import bounds
 from derivation.checks import effects as effects_check
 from derivation.checks import inertia as inertia_check
-from derivation.checks.effects_judged import TOLERANCES
-from derivation.checks.inertia_judged import InertiaFound
+from derivation.checks.effects import TOLERANCES
+from derivation.checks.inertia_judged import InertiaRow
 from derivation.cli import main
 from derivation.engine import build
 from derivation.engine.measure import check as measure
@@ -234,10 +234,10 @@ def test_a_hard_case_that_stands_there_twice_is_refused(monkeypatch: Patch) -> N
 
 def test_truths_are_kept_as_they_come(monkeypatch: Patch, tmp_path: Path, capsys: Captured) -> None:
     """Those on record are not sought again, nor lost by a look at fewer, nor by a stop."""
-    known = pipeline.committed_truths()[:7]
+    known = bounds.committed_truths()[:7]
     path, sought = tmp_path / "bounds.json", list[Any]()
-    monkeypatch.setattr(pipeline, "MEASURED_BOUNDS", path)
-    monkeypatch.setattr(pipeline, "KEPT_EVERY", 2)
+    monkeypatch.setattr(bounds, "MEASURED", path)
+    monkeypatch.setattr(bounds, "KEPT_EVERY", 2)
     truths = {bounds.scene(number): true for number, true in enumerate(known)}
 
     def truth(point: Any) -> Any:
@@ -249,28 +249,28 @@ def test_truths_are_kept_as_they_come(monkeypatch: Patch, tmp_path: Path, capsys
     monkeypatch.setattr(bounds, "truth", truth)
     assert main(["check", "error-bounds", "-n", "7", "--update"]) == 2
     assert "interrupted" in capsys.readouterr().err
-    assert pipeline.committed_truths() == known[:4]
+    assert bounds.committed_truths() == known[:4]
     sought[:] = [None]
     assert main(["check", "error-bounds", "-n", "7", "--update"]) == 0
     assert sought == [None, *map(bounds.scene, range(4, 7))]
-    assert pipeline.committed_truths() == known
+    assert bounds.committed_truths() == known
     whole = rows_of(path)
     assert sum(row["runs"] for row in whole) == 7 * len(bounds.TOLERANCES)
     assert main(["check", "error-bounds", "-n", "2", "--update"]) == 0
-    assert pipeline.committed_truths() == known
+    assert bounds.committed_truths() == known
     assert sum(row["runs"] for row in rows_of(path)) == 2 * len(bounds.TOLERANCES)
     shown = capsys.readouterr().out
     assert "Stated bounds in 7 scenes" in shown
     assert all(row["method"] in shown for row in whole)
     data = json.loads(path.read_text()) | {"digits": bounds.DIGITS + 1}
     path.write_text(json.dumps(data))
-    assert pipeline.committed_truths() == []  # of other digits
+    assert bounds.committed_truths() == []  # of other digits
 
 
 def test_a_result_that_is_no_number_is_json_all_the_same(
     monkeypatch: Patch, capsys: Captured
 ) -> None:
-    monkeypatch.setattr(pipeline, "_chosen", lambda _, rtol: ([math.nan] * 4, "hertz", rtol))
+    monkeypatch.setattr(bounds, "simulated", lambda _, rtol: ([math.nan] * 4, "hertz", rtol))
     assert main(["check", "error-bounds", "-n", "1", "--json", "-"]) == 1
     [row] = json.loads(capsys.readouterr().out, parse_constant=pytest.fail)
     assert (row["ratio"], row["error"]) == ("inf", "inf")
@@ -320,8 +320,7 @@ def test_effects_are_shown_and_recorded(
 
 def test_scenes_that_are_passed_over_are_listed(monkeypatch: Patch, capsys: Captured) -> None:
     passed, solved = iter(["too heavy", "", ""]), iter(["rtol"])
-    ones = [1.0] * 5
-    row = InertiaFound(1e-2, True, ones, ones, 1e-3, 1.0, 1.0, ones, 1e-3, 1, 4, 8)
+    row = InertiaRow(2, 1e-2, True, 1e-3, 0.0, "max_force", 0.0, 1e-3, 0.0, "max_force", 1, 4, 8)
     monkeypatch.setattr(inertia_check, "pass_over", lambda _: next(passed))
     monkeypatch.setattr(inertia_check, "solve", lambda *_: next(solved, row))
     assert main(["check", "inertia", "-n", "1"]) == 0
@@ -329,7 +328,7 @@ def test_scenes_that_are_passed_over_are_listed(monkeypatch: Patch, capsys: Capt
     assert "Inertia in 1 of 3 scenes drawn" in shown
     assert "1 refused: rtol" in shown
     assert "1 passed over: too heavy" in shown
-    broken = dataclasses.replace(row, values=[1.0, 1.0, 1.02, 1.0, 1.0])
+    broken = dataclasses.replace(row, error=0.02)
     monkeypatch.setattr(inertia_check, "pass_over", lambda _: "")
     monkeypatch.setattr(inertia_check, "solve", lambda *_: broken)
     assert main(["check", "inertia", "-n", "1", "--json", "-"]) == 1

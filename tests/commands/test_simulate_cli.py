@@ -15,6 +15,7 @@ from given import PAPER
 
 from derivation.cli import main
 from derivation.scene import load, schema, simulate
+from derivation.scene.answer import quantities
 from derivation.scene.plot import figure, render, scaled
 
 START = {b"\x89PNG": ".png", b"%PDF": ".pdf", b"<?xml": ".svg"}
@@ -36,12 +37,13 @@ def scene(tmp_path: Path) -> Path:
     return path
 
 
-def test_simulate_shows_a_table(scene: Path, capsys: Captured) -> None:
+def test_simulate_shows_the_answer(scene: Path, capsys: Captured) -> None:
     assert main(["simulate", str(scene)]) == 0
     shown = capsys.readouterr()
     result = simulate(load(scene))
-    for name, value, _ in result.rows():
-        assert re.search(rf"{name}\W+{re.escape(value)}\W", shown.out)
+    assert shown.out == f"{result}\n"
+    for name, value, unit in quantities(result):
+        assert re.search(rf"^{name} +{re.escape(value)} ?{unit}$", shown.out, re.M)
     assert shown.err == ""
 
 
@@ -89,13 +91,13 @@ def test_plot_shows_what_was_computed() -> None:
     axes = figure(result).axes
     labels = [(panel.get_xlabel(), panel.get_ylabel()) for panel in axes]
     assert [(x.split(" [")[0], y.split(" [")[0]) for x, y in labels] == [
-        ("time", "indentation"),
-        ("time", "velocity"),
-        ("time", "contact force"),
-        ("indentation", "contact force"),
-        ("distance from the axis", "largest pressure"),
+        ("time $t$", r"indentation $\delta$"),
+        ("time $t$", "sphere velocity $v$"),
+        ("time $t$", "contact force $P$"),
+        (r"indentation $\delta$", "contact force $P$"),
+        ("distance from the axis $r$", "contact pressure $p$"),
     ]
-    assert labels[0] == ("time [ms]", "indentation [mm]")
+    assert labels[0] == ("time $t$ [ms]", r"indentation $\delta$ [mm]")
     x, y = axes[3].lines[0].get_data()
     np.testing.assert_allclose(np.max(x), 1e3 * result.max_indentation, rtol=1e-4)
     np.testing.assert_allclose(np.max(y), 1e-3 * result.max_force, rtol=1e-4)

@@ -8,7 +8,7 @@ from generated.reversed_series import force_by_series
 
 
 def test_complex_arguments_are_refused() -> None:
-    with pytest.raises(TypeError, match="expected real numbers or arrays of them, got complex128"):
+    with pytest.raises(TypeError, match=r"real numbers .*complex128"):
         G(np.array([1.0 + 0.0j]))
 
 

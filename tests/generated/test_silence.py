@@ -35,7 +35,7 @@ EXAMPLE = {
     "lam": 0.36e9, "mu": 0.43e9, "P": 1000.0, "A_j": -1e6, "J1": 0.52, "x": 1.3, "n": 7.0,
     "k": 4.0, "delta": 1e-6, "m": 0.2, "v0": 1.5, "t": 1e-4, "eta": 0.1,
     "a_over_R": 0.03, "a_ratio": 0.4, "alpha": 0.04, "rho": 2500.0,
-    "viscous_time": 1e-5, "x_v": 0.2, "kap": 0.7, "nu": -0.6,
+    "yield_stress": 1e7, "xi_y": 1.7, "viscous_time": 1e-5, "x_v": 0.2, "kap": 0.7, "nu": -0.6,
 }  # fmt: skip
 Values = Mapping[str, Any]
 
@@ -107,7 +107,7 @@ def test_whole_numbers_are_numbers() -> None:
         "r": 1, "z": 1, "phi": 1, "h": 1, "T": 2, "b": 9, "R": 8, "a": 2, "lam": 3, "mu": 2,
         "P": 5, "A_j": -4, "J1": 1, "x": 3, "n": 7, "k": 4, "delta": 1, "m": 2, "v0": 1, "t": 1,
         "eta": 1, "a_over_R": 0, "a_ratio": 2, "alpha": 0, "rho": 2500,
-        "viscous_time": 1, "x_v": 2, "kap": 2, "nu": 0,
+        "yield_stress": 1, "xi_y": 2, "viscous_time": 1, "x_v": 2, "kap": 2, "nu": 0,
     }  # fmt: skip
     for name in POINTWISE:
         if name == "force_by_series":  # its radius is smaller
@@ -135,6 +135,8 @@ def shapes() -> list[dict[str, float]]:
         values["v0"] = math.sqrt(0.5 * values["P"] * values["delta"] / values["m"])
         values["viscous_time"] = values["delta"] / values["v0"] / 10 ** (i % 7)
         values["x_v"] = 10.0 ** (1 - i % 9)
+        values["yield_stress"] = values["P"] / values["a"] ** 2 / 10.0 ** (i % 5)
+        values["xi_y"] = 1.0 + 10.0 ** (i % 15 - 10)
         values["x"], values["kap"] = 10.0 ** (i % 11 - 8), 10.0 ** (i % 13 - 9)
         values["nu"] = values["lam"] / (2 * (values["lam"] + values["mu"]))
         values["t"] = (i % 9) / 3 * values["delta"] / values["v0"]
@@ -164,6 +166,7 @@ UNITS = {
     "a": (1, 0, 0), "R": (1, 0, 0), "h": (1, 0, 0), "b": (1, 0, 0), "delta": (1, 0, 0),
     "lam": (0, 1, 0), "mu": (0, 1, 0), "P": (2, 1, 0), "m": (1, 1, 2), "v0": (1, 0, -1),
     "t": (0, 0, 1), "viscous_time": (0, 0, 1), "x_v": (0, 0, 0), "eta": (0, 0, 0),
+    "yield_stress": (0, 1, 0), "xi_y": (0, 0, 0),
 }  # fmt: skip
 """Powers of length, stress and time by argument."""
 RESULTS = {
@@ -311,3 +314,10 @@ def test_tables_of_no_length_are_empty_and_others_refused(name: str) -> None:
     for count in (-1, 1.5, math.nan, math.inf):
         with pytest.raises(ValueError, match=r"number of (zeros|modes)"):
             table(count, *others)
+
+
+@pytest.mark.parametrize("name", ["impact", "history", "impact_sensitivities"])
+def test_an_impact_beyond_the_edge_of_a_thick_plate_is_silent(name: str) -> None:
+    """At b = 2 h the range of the law's second polynomial would have no width."""
+    given = EXAMPLE | {"h": 0.1, "b": 0.2, "R": 2.0, "m": 3e4, "v0": 1.6, "t": 1e-3}
+    assert np.isnan(function(name)(*(given[key] for key in ROWS[name]["arguments"]))).all()

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from given import PAPER
 
-from derivation import pipeline
 from derivation.checks import bounds
 from derivation.cli import main
 from derivation.plate import budgets
@@ -36,38 +35,41 @@ def paper(**changes: float) -> Model:
 
 
 def test_bounds_hold_in_a_hundred_scenes() -> None:
-    known = pipeline.committed_truths()
+    known = bounds.committed_truths()
     assert len(known) >= 100
     chosen = known[:: len(known) // 100][:100]
-    rows = bounds.judge(chosen, pipeline._chosen)
+    rows = bounds.judge(chosen)
     assert {row.method for row in rows} == set(method_selection.METHODS)
     assert [row for row in rows if not row.kept] == []
     assert {row.method: row.ratio > 0.1 for row in rows}["leading"]  # and are no mere caution
 
 
 def test_committed_rows_are_those_of_all_truths() -> None:
-    data = json.loads(pipeline.MEASURED_BOUNDS.read_text())
+    data = json.loads(bounds.MEASURED.read_text())
     assert sum(row["runs"] for row in data["rows"]) == len(data["truths"]) * len(bounds.TOLERANCES)
     assert all(row["ratio"] <= 1 for row in data["rows"])
 
 
 def test_committed_truths_are_the_seeds_scenes() -> None:
-    known = pipeline.committed_truths()
+    known = bounds.committed_truths()
     for number in (0, 1, 17, len(known) - 1):
         np.testing.assert_allclose(bounds.scene(number), known[number].point, rtol=1e-12)
 
 
-def test_a_bound_that_does_not_hold_is_noticed() -> None:
-    [true] = pipeline.committed_truths()[:1]
+def test_a_bound_that_does_not_hold_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+    [true] = bounds.committed_truths()[:1]
     exact = [float(text) for text in true.values]
     off = [exact[0], exact[1], 1.01 * exact[2], exact[3]]
-    [row] = bounds.judge([true], lambda _, rtol: (off, "hertz", rtol / 2), [1e-3])
+    monkeypatch.setattr(bounds, "simulated", lambda _, rtol: (off, "hertz", rtol / 2))
+    [row] = bounds.judge([true], [1e-3])
     assert (row.kept, row.quantity) == (False, "max_force")
     assert row.ratio == pytest.approx(20, rel=1e-3)
-    [row] = bounds.judge([true], lambda _, rtol: ([math.nan] * 4, "hertz", rtol), [1e-3])
+    monkeypatch.setattr(bounds, "simulated", lambda _, rtol: ([math.nan] * 4, "hertz", rtol))
+    [row] = bounds.judge([true], [1e-3])
     assert not row.kept
+    monkeypatch.setattr(bounds, "simulated", lambda *_: (exact, "hertz", 2e-3))
     with pytest.raises(ValueError, match="states"):
-        bounds.judge([true], lambda *_: (exact, "hertz", 2e-3), [1e-3])
+        bounds.judge([true], [1e-3])
 
 
 def test_no_error_is_below_the_truths_own_radius() -> None:
@@ -79,7 +81,7 @@ def test_no_error_is_below_the_truths_own_radius() -> None:
     assert exact < 1.001 * 10.0**-bounds.DIGITS
 
 
-def test_truths_are_sought_once(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_truths_are_sought_once(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     asked: list[bounds.Point] = []
 
     def oracle(point: bounds.Point) -> bounds.SceneTruth:
@@ -88,7 +90,9 @@ def test_truths_are_sought_once(monkeypatch: pytest.MonkeyPatch) -> None:
 
     monkeypatch.setattr(bounds, "truth", oracle)
     first = list(bounds.truths(3))
-    again = bounds.from_json(bounds.to_json(first, ()))
+    monkeypatch.setattr(bounds, "MEASURED", tmp_path / "bounds.json")
+    bounds.MEASURED.write_text(bounds.to_json(first, ()))
+    again = bounds.committed_truths()
     assert list(bounds.truths(4, again))[:3] == first == again
     assert asked == [bounds.scene(number) for number in range(4)]
 
@@ -99,13 +103,13 @@ def test_the_laws_slope_lies_between_the_bounds(eta: float) -> None:
 
     plate = simple_impact.plate_of(eta)
     c_1 = float(contact_balls.coefficient(1, eta, 1.0, 20))
-    assert abs(c_1 - plate.bend) <= plate.doubt + 1e-15 * abs(c_1)
+    assert abs(c_1 - plate.bend) <= plate.bend_error + 1e-15 * abs(c_1)
     for a in (1e-4, 0.1, 0.5, 0.97):
         A = min(a, 5.9 * eta) / eta
         S = float(contact_balls.slope(A * eta, 1.0, eta, 1.0, 20)) / (2 * A * eta)
         most = 1 + 1.5 * plate.bend * A
-        assert most - plate.rest * A**3 - 1.5 * plate.doubt * A <= S * (1 + 1e-12)
-        assert most + 1.5 * plate.doubt * A >= S * (1 - 1e-12)
+        assert most - plate.rest * A**3 - 1.5 * plate.bend_error * A <= S * (1 + 1e-12)
+        assert most + 1.5 * plate.bend_error * A >= S * (1 - 1e-12)
 
 
 @pytest.mark.parametrize("factor", [0.93, 0.99, 1.01, 1.5])
@@ -156,7 +160,7 @@ def test_quadrature_of_the_first_correction(x: float) -> None:
 
 def test_measured_rounding_covers_the_budget_with_its_conditioning() -> None:
     """8 ULP of `impact` plus half the sum of the arguments' condition numbers."""
-    points = np.array([true.point for true in pipeline.committed_truths()])
+    points = np.array([true.point for true in bounds.committed_truths()])
     slopes = impact_sensitivities(*points.T)
     ulp = budgets.read_budgets()["impact"].ulp + 0.5 * np.abs(slopes).sum(axis=1)
     assert np.isfinite(ulp).all()
@@ -179,7 +183,7 @@ def methods(model: Model) -> list[str]:
 
 
 def test_a_smaller_tolerance_never_takes_a_cheaper_method() -> None:
-    models = [Model(*true.point) for true in pipeline.committed_truths()[:40]]
+    models = [Model(*true.point) for true in bounds.committed_truths()[:40]]
     for model in [paper(), *models]:
         ranks = [COST[name] for name in methods(model)]
         assert ranks == sorted(ranks, reverse=True)
@@ -258,8 +262,9 @@ def test_a_scene_too_fast_is_refused_at_every_tolerance() -> None:
 
 
 def test_method_bound_and_parts_in_every_output(tmp_path: Path, capsys: Captured) -> None:
-    assert main(["simulate", str(PAPER), "--rtol", "1e-3", "--json", f"{tmp_path}/r.json"]) == 0
-    said = capsys.readouterr().out
+    wanted = ["simulate", str(PAPER), "--rtol", "1e-3", "--json", f"{tmp_path}/r.json"]
+    assert main([*wanted, "--details"]) == 0
+    said = " ".join(capsys.readouterr().out.split())
     data = json.loads((tmp_path / "r.json").read_text())["accuracy"]
     assert data["method"] == "leading"
     assert data["rtol"] == 1e-3
@@ -300,5 +305,5 @@ def test_check_bounds_command(capsys: Captured, monkeypatch: pytest.MonkeyPatch)
     assert main(["check", "error-bounds", "-n", "3", "--json", "-"]) == 0
     rows = json.loads(capsys.readouterr().out)
     assert sum(row["runs"] for row in rows) == 3 * len(bounds.TOLERANCES)
-    monkeypatch.setattr(pipeline, "_chosen", lambda _, rtol: ([1.0] * 4, "hertz", rtol))
+    monkeypatch.setattr(bounds, "simulated", lambda _, rtol: ([1.0] * 4, "hertz", rtol))
     assert main(["check", "error-bounds", "-n", "1"]) == 1

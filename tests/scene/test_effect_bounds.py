@@ -115,7 +115,7 @@ def test_prices_hold_under_the_true_pressure(name: str) -> None:
         h=0.16332349537168003, lam=-167666559.7545434, mu=390994467.72373784,
         sphere_modulus=1e10, gravity=0.05,
     )  # fmt: skip
-    wanted = {effect.name: effect.name != name for effect in EFFECTS} | AT_REST
+    wanted = {other: other != name for other in ALL} | AT_REST
     selected = decide(m, AT_REST | wanted, 1.0)
     bound = {row.name: row.bound for row in selected.rows}[name]
     assert 0.2 < apart(impact(m, ALL - {name}), impact(m, ALL)) / bound <= 1

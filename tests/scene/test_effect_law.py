@@ -5,13 +5,13 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given import ALL, AT_REST, model, scene
+from given import ALL, model, scene
 from scipy.integrate import solve_ivp
 
 import derivation.checks.effects
 import derivation.scene
 from derivation.scene import indent, kernels, motion, simulate
-from derivation.scene.effects import BY_NAME, WHOLE_PLATE
+from derivation.scene.effects import WHOLE_PLATE
 from derivation.scene.law import ContactLaw
 from derivation.scene.model import model_of
 from generated import contact_law
@@ -180,7 +180,7 @@ def test_peak_of_a_slow_sphere_under_its_weight(bent: bool, factor: float) -> No
 
 
 def test_history_keeps_the_energy_with_every_effect() -> None:
-    wanted = dict.fromkeys(BY_NAME.keys() - {"hertz"} - AT_REST.keys(), True)
+    wanted = dict.fromkeys(ALL - {"hertz"}, True)
     result = simulate(scene(effects=wanted))
     history, law = result.history(301), result.effects.law
     m = result.model

@@ -9,10 +9,8 @@ from pathlib import Path
 import pytest
 from given import ALL, AT_REST, EXAMPLES, model, random_models, scene
 
-import derivation.checks.effects
-import derivation.scene
 from derivation import pipeline
-from derivation.checks import effects_judged as measure
+from derivation.checks import effects as measure
 from derivation.cli import main
 from derivation.scene import SceneError, effect_selection, explain, load, motion, read, simulate
 from derivation.scene.effect_selection import OUTPUTS, decide
@@ -24,17 +22,17 @@ Captured = pytest.CaptureFixture[str]
 
 
 def test_bounds_hold_in_random_scenes() -> None:
-    rows = measure.judge(25, derivation.checks.effects.gated, derivation.checks.effects.everything)
+    rows = measure.judge(25)
     assert [row for row in rows if not row.kept] == []
     assert max(row.tightest for row in rows) > 0.5  # and are no mere caution
     included = [row.included for row in rows]
     assert included == sorted(included)
 
 
-def test_a_bound_that_does_not_hold_is_noticed() -> None:
-    rows = measure.judge(
-        3, lambda *_: ([1.0, 1.0, 1.02, 1.0], ["hertz"], 1e-3), lambda _: ([1.0] * 4, ["hertz"])
-    )
+def test_a_bound_that_does_not_hold_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(measure, "gated", lambda *_: ([1.0, 1.0, 1.02, 1.0], ["hertz"], 1e-3))
+    monkeypatch.setattr(measure, "everything", lambda _: ([1.0] * 4, ["hertz"]))
+    rows = measure.judge(3)
     assert not any(row.kept for row in rows)
     assert rows[0].quantity == "max_force"
 
@@ -65,8 +63,8 @@ def test_both_sides_of_a_threshold() -> None:
 def test_weight_under_the_true_pressure_moves_the_radius_within_the_bound() -> None:
     """There the contact radius grows up to 3.5 times as fast as Hertz's radius of the force."""
     data = measure.scene(226)
-    whole = derivation.checks.effects.everything(data)
-    values, effects, bound = derivation.checks.effects.gated(data, 1e-2)
+    whole = measure.everything(data)
+    values, effects, bound = measure.gated(data, 1e-2)
     assert whole is not None
     assert "gravity" not in effects
     assert "non_hertzian_pressure" in effects

@@ -19,7 +19,6 @@ from derivation.scene import (
     contact_sequence,
     modal,
     mode_count,
-    motion,
     waves,
 )
 from derivation.scene.effects import WHOLE_PLATE
@@ -115,8 +114,7 @@ def course(
     model: Model, modes: Modes, n: int = 16, tolerance: float = contact_sequence.TOLERANCE
 ) -> contact_sequence.ImpactHistory:
     law = ContactLaw(model, REST | {"inertia"})
-    quick = motion.impact(ContactLaw(model, frozenset({"hertz"})))
-    problem = waves._problem(law, ModalPlate(modes, modes, None), quick)
+    problem = waves._problem(law, ModalPlate(modes, modes, None))
     return contact_sequence.impact_history(problem, n, tolerance)
 
 

@@ -4,15 +4,14 @@ from itertools import pairwise
 from typing import Any
 
 import pytest
-from given import EXAMPLES
+from given import ALL, EXAMPLES
 
 from derivation.scene import SceneError, load, read, simulate
-from derivation.scene.effects import BY_NAME
 from derivation.scene.result import Result
 from derivation.scene.scene import OUTPUTS
 
 PAD = load(EXAMPLES / "pad.toml").to_json()
-EFFECTS = dict.fromkeys(BY_NAME, True) | {"non_hertzian_pressure": False}
+EFFECTS = dict.fromkeys(ALL | {"inertia"}, True) | {"non_hertzian_pressure": False}
 del EFFECTS["hertz"], EFFECTS["edge"]
 
 

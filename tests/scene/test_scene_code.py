@@ -17,7 +17,7 @@ import pytest
 from given import AT_REST, EXAMPLES, PAPER, changed
 from scipy.integrate import solve_ivp
 
-from derivation.checks.effects_judged import scene as random_scene
+from derivation.checks.effects import scene as random_scene
 from derivation.cli import main
 from derivation.engine.files import ROOT
 from derivation.scene import SceneError, indent, load, read, simulate
@@ -84,11 +84,11 @@ def scene_of(case: str) -> Any:
         number, rtol = RANDOM[case]
         data = random_scene(number) | {"accuracy": {"rtol": rtol}}
     elif case in VISCOUS:
-        tables = PAD.keys() | VISCOUS[case].keys()
-        data = {t: {**PAD.get(t, {}), **VISCOUS[case].get(t, {})} for t in tables}
+        data = PAD | {t: PAD.get(t, {}) | keys for t, keys in VISCOUS[case].items()}
     else:
         data = load(EXAMPLES / f"{case}.toml").to_json()
-    return read(data | {"effects": {**data.get("effects", {}), **AT_REST}})
+    still = AT_REST | ({"plasticity": False} if case == "ball_drop" else {})
+    return read(data | {"effects": data.get("effects", {}) | still})
 
 
 @cache
@@ -322,10 +322,10 @@ def test_holds_no_code_of_effects_that_are_out(case: str) -> None:
     assert private <= {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
 
 
-def test_hertz_alone_is_short_and_has_no_loop() -> None:
+def test_hertz_alone_is_a_dozen_lines() -> None:
     tree = ast.parse(code_of("block"))
     functions = [node for node in tree.body if isinstance(node, ast.FunctionDef)]
-    assert sum(len(function.body) - 1 for function in functions) < 16
+    assert sum(len(function.body) - 1 for function in functions) <= 12
     assert not any(isinstance(node, ast.For | ast.While) for node in ast.walk(tree))
 
 

@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 from pathlib import Path
 from typing import Any
 
@@ -14,10 +15,10 @@ from derivation.engine.console import json_text
 from derivation.scene import SceneError, animation, read, simulate
 from derivation.scene import plot as plots
 from derivation.scene.effects import WHOLE_PLATE
+from derivation.scene.kernels import YIELD_LIMIT
 from derivation.scene.law import ContactLaw
 from derivation.scene.limits import (
     STRETCH_LIMIT,
-    YIELD_LIMIT,
     check_energy,
     local_indentation,
     stress_warnings,
@@ -78,7 +79,7 @@ def test_the_deflection_of_a_plate_with_inertia_is_that_of_its_course() -> None:
 def test_plates_with_inertia_keep_every_warning() -> None:
     fast = {"impact": {"speed": 6.0}}
     for effects in ({"inertia": False}, {"inertia": True}):
-        result = simulate(scene(**fast, effects=effects))
+        result = simulate(scene(**fast, effects=effects | {"plasticity": False}))
         said = " ".join(result.warnings)
         assert f"exceeds {STRETCH_LIMIT}" in said
         assert f"exceeds {YIELD_LIMIT}" in said
@@ -100,9 +101,9 @@ def test_the_largest_deflection_is_warned_of_at_whatever_time_it_is() -> None:
 def test_tension_is_compared_with_what_is_given() -> None:
     assert stress_warnings(3e8, None, None) == stress_warnings(1e8, 2e8, 2e8) == ()
     [failure] = stress_warnings(3e8, 2e8, 4e8)
-    assert failure.startswith("the largest tensile stress on the back face is 1.5 times the str")
+    assert re.search("back face .* 1.5 times .*strength", failure)
     [yielding] = stress_warnings(3e8, None, 2e8)
-    assert "1.5 times the yield stress: the plate is predicted to yield in bending" in yielding
+    assert re.search("1.5 times the yield stress: .* bending", yielding)
 
 
 # --- drawings

@@ -23,8 +23,9 @@ MODES = 8
 
 def course(model: Model, n: int = 16, modes: int = MODES) -> contact_sequence.ImpactHistory:
     law = ContactLaw(model, EFFECTS | ({"gravity"} if model.gravity else frozenset()))
-    quick = motion.impact(ContactLaw(model, frozenset({"hertz"})))
-    problem = waves._problem(law, plate_of(law, modes), quick)
+    if model.loss_factor:
+        law = replace(law, effects=law.effects | {"damping"})
+    problem = waves._problem(law, plate_of(law, modes))
     return contact_sequence.impact_history(problem, n)
 
 
@@ -67,6 +68,7 @@ def integrated(model: Model, end: float) -> tuple[float, float, float]:
         opened = v - float(np.sum(np.sinc(y / np.pi) * u))
         grown = model.R * opened / (slope(a, q) if a else 1.0)
         pushed = modes.inverse_modal_mass * P * felt(y) - modes.omega**2 * q
+        pushed -= model.loss_factor * modes.omega * u
         return 2.0 * s * np.concatenate(([v, model.gravity - P / model.m, grown], u, pushed))
 
     def released(s: float, state: np.ndarray) -> float:  # noqa: ARG001
@@ -97,8 +99,10 @@ def integrated(model: Model, end: float) -> tuple[float, float, float]:
         {"h": 0.01},
         {"h": 0.01, "v0": 0.02, "gravity": 9.81},
         {"h": 0.02, "inertia": InertiaSettings(branches="all")},
+        {"h": 0.01, "loss_factor": 0.1},
+        {"h": 0.02, "loss_factor": 1.5, "inertia": InertiaSettings(branches="all")},
     ],
-    ids=["thick", "thin", "heavy", "every branch"],
+    ids=["thick", "thin", "heavy", "every branch", "damped", "damped strongly"],
 )
 def test_an_independent_integrator_agrees(changes: dict[str, Any]) -> None:
     model = replace(BALL, **changes)

@@ -4,7 +4,7 @@ import ast
 import hashlib
 import json
 import platform
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -21,7 +21,9 @@ from derivation.checks.finite_elements.impact import (
 )
 from derivation.checks.finite_elements.mesh import Grading, graded, resting
 from derivation.checks.finite_elements.plate import Plate, System
+from derivation.engine.activity import Tell, quiet
 from derivation.engine.files import measurements, write_file
+from derivation.engine.outputs import json_by_line
 
 MEASURED: Path = measurements() / "elastodynamics.json"
 RESULTS = (
@@ -37,8 +39,6 @@ LEAST = {"contact_time": 1e-4, "total_time": 1e-4, "max_force": 1e-4}
 """Least error estimates, of results that single nodes touch [1]; of others `LEAST_ERROR`."""
 LEAST_ERROR = 2e-5
 FREQUENCIES = 4
-Tell = Callable[[str, int, int], None]
-"""Shows what is done next, its number and how many there are."""
 
 
 @dataclass(frozen=True)
@@ -143,7 +143,7 @@ def plate_inputs(plate: Plate) -> dict[str, Any]:
     }
 
 
-def computed(path: Path = MEASURED, tell: Tell | None = None) -> dict[str, Any]:
+def computed(path: Path = MEASURED, tell: Tell = quiet) -> dict[str, Any]:
     """Compute what is missing from a record, which is written after each case; returns it."""
     record = read(path)
     version = source_hash()
@@ -159,8 +159,7 @@ def computed(path: Path = MEASURED, tell: Tell | None = None) -> dict[str, Any]:
         else:
             (impacts if isinstance(item, ElementCase) else plates).append(row)
     for number, item in enumerate(todo):
-        if tell is not None:
-            tell(item.name if isinstance(item, ElementCase) else "plate", number + 1, len(todo))
+        tell(item.name if isinstance(item, ElementCase) else "plate", number + 1, len(todo))
         if isinstance(item, ElementCase):
             impacts.append(impact_row(item) | {"source": version})
         else:
@@ -192,7 +191,9 @@ def header() -> dict[str, Any]:
     }
     return {
         "provenance": provenance,
-        "settings": {name: asdict(setting) for name, setting in settings.items()},
+        "settings": {
+            name: dict(sorted(asdict(setting).items())) for name, setting in settings.items()
+        },
     }
 
 
@@ -207,14 +208,7 @@ def read(path: Path = MEASURED) -> dict[str, Any]:
 
 def to_json(record: Mapping[str, Any]) -> str:
     """Return a record as JSON, a row to a line."""
-    parts = []
-    for key, value in record.items():
-        if key in ("impacts", "plates"):
-            rows = ",\n ".join(json.dumps(row, allow_nan=False) for row in value)
-            parts.append(f"{json.dumps(key)}: [\n {rows}\n]")
-        else:
-            parts.append(f"{json.dumps(key)}: {json.dumps(value, sort_keys=True)}")
-    return "{" + ",\n".join(parts) + "}\n"
+    return json_by_line(record, "impacts", "plates")
 
 
 def source_hash() -> str:

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
+from derivation.engine.activity import Tell, quiet
 from derivation.engine.formula.ulp import DOUBLE, SINGLE, Format, overflows
 from derivation.engine.measure.judge import Errors, Truth, measured
 from derivation.engine.measure.kernels import Kernel, generated_kernels, printed_kernels
@@ -10,9 +11,6 @@ from derivation.engine.measure.point import Point, to_single
 from derivation.engine.measure.suite import Suite
 from derivation.engine.oracle.agreement import Routes
 from derivation.engine.oracle.oracle import Balls
-
-Progress = Callable[[str, int, int], None]
-"""Called with a kernel's name, its number and how many there are, before it is measured."""
 
 AGREEMENTS = 2
 """Points per kernel at which the second oracle is asked too."""
@@ -91,7 +89,7 @@ def check(
     by: Judge,
     digits: int = 50,
     kernels: Sequence[Kernel] | None = None,
-    progress: Progress | None = None,
+    progress: Tell = quiet,
 ) -> tuple[Row, ...]:
     """Measure kernels against the truth.
 
@@ -125,8 +123,7 @@ def check(
     known: dict[str, list[Truth]] = {}
     rows = []
     for number, kernel in enumerate(chosen, start=1):
-        if progress is not None:
-            progress(kernel.name, number, len(chosen))
+        progress(kernel.name, number, len(chosen))
         points = by.grid(kernel.name, kernel.arguments, kernel.modes)
         if kernel.name not in known:
             known[kernel.name] = truths(by.routes.balls, kernel.name, points, digits)

@@ -14,6 +14,7 @@ from derivation.engine.measure.case import HardCase, handed_over
 from derivation.engine.measure.judge import judge, largest
 from derivation.engine.measure.kernels import Kernel, Stating
 from derivation.engine.measure.record import provenance
+from derivation.engine.measure.result import CheckResult
 from derivation.engine.measure.suite import Known, Suite, known_of
 from derivation.engine.oracle.reference import DIGITS, Reference, restored
 
@@ -170,6 +171,19 @@ def cells(row: HardRow) -> tuple[str, ...]:
 def as_data(rows: Sequence[HardRow], package: str) -> dict[str, Any]:
     """Rows and provenance as plain data; infinities as text."""
     return {"provenance": provenance(DIGITS, package), "cases": [_plain(row) for row in rows]}
+
+
+def result(rows: Sequence[HardRow], package: str) -> CheckResult:
+    """The cases as a table, and those that failed."""
+    failed = [f"{row.case.key}: {row.problem}" for row in rows if not row.kept]
+    return CheckResult(
+        "Hard cases, errors in ULP",
+        COLUMNS,
+        [cells(row) for row in rows],
+        lambda: as_data(rows, package),
+        not failed,
+        listings=[(f"{len(rows)} cases, {len(failed)} failed", failed)],
+    )
 
 
 def to_json(rows: Sequence[HardRow], package: str) -> str:

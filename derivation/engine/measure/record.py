@@ -2,11 +2,8 @@
 
 import hashlib
 import importlib
-import json
-import math
 import platform
 from collections.abc import Sequence
-from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +13,8 @@ import numpy as np
 import sympy as sp
 
 from derivation.engine.measure.check import Row
+from derivation.engine.measure.result import CheckResult
+from derivation.engine.outputs import plain_rows, sorted_json
 
 COLUMNS = (
     "kernel",
@@ -52,9 +51,17 @@ def worst(row: Row) -> str:
     return f"{row.kernel}: {arguments}{modes}"
 
 
-def passed(rows: Sequence[Row]) -> bool:
-    """Whether every promise is kept. Formulas as printed promise nothing."""
-    return all(row.passed is not False for row in rows)
+def result(rows: Sequence[Row], digits: int, package: str) -> CheckResult:
+    """The rows as a table with the worst arguments. Formulas as printed promise nothing."""
+    return CheckResult(
+        f"Errors against {digits} digits",
+        COLUMNS,
+        [cells(row) for row in rows],
+        lambda: as_data(rows, digits, package),
+        all(row.passed is not False for row in rows),
+        listings=[("Worst arguments", [worst(row) for row in rows if row.passed is not None])],
+        budgeted=rows,
+    )
 
 
 def provenance(digits: int, package: str) -> dict[str, str | int]:
@@ -87,23 +94,10 @@ def as_data(rows: Sequence[Row], digits: int, package: str) -> dict[str, Any]:
     """Rows and provenance as plain data; infinities as the text "inf"."""
     return {
         "provenance": provenance(digits, package),
-        "rows": [plain(asdict(row)) for row in rows],
+        "rows": plain_rows(rows),
     }
-
-
-def plain(value: Any) -> Any:
-    """Data as JSON holds it, which has no infinities and no NaN: they become text."""
-    if isinstance(value, dict):
-        return {key: plain(part) for key, part in value.items()}
-    if isinstance(value, list | tuple):
-        return [plain(part) for part in value]
-    if isinstance(value, float) and not math.isfinite(value):
-        return repr(value)
-    return value
 
 
 def to_json(rows: Sequence[Row], digits: int, package: str) -> str:
     """The rows as JSON text, byte for byte the same for the same measurement."""
-    return (
-        json.dumps(as_data(rows, digits, package), indent=1, sort_keys=True, allow_nan=False) + "\n"
-    )
+    return sorted_json(as_data(rows, digits, package))

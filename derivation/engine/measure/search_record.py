@@ -9,9 +9,9 @@ from typing import Any
 from derivation.engine.files import write_file
 from derivation.engine.measure.case import HardCase, read_cases
 from derivation.engine.measure.point import Point
-from derivation.engine.measure.record import plain
 from derivation.engine.measure.search import Found, Search, weigh
 from derivation.engine.measure.target import Target
+from derivation.engine.outputs import plain
 
 COLUMNS = ("kernel", "#evaluations", "#ratio", "#ULP", "#allowed", "new")
 """Headings of the table, all of the worst point: its ratio is error over allowance."""

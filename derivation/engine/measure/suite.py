@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 import flint
 from flint import arb
 
+from derivation.engine.activity import Tell, quiet
 from derivation.engine.files import write_file
 from derivation.engine.formula.ball import to_ball
 from derivation.engine.measure.case import HardCase
@@ -195,7 +196,7 @@ def known_of(data: Mapping[str, Any]) -> dict[str, Known]:
 
 
 def find_references(
-    suite: Suite, recorded: Path, part: Path, tell: Callable[[str, int, int], None] | None = None
+    suite: Suite, recorded: Path, part: Path, tell: Tell = quiet
 ) -> dict[str, Known]:
     """The truth of every case by its key, from the original expressions: minutes.
 
@@ -224,8 +225,7 @@ def find_references(
             if time.monotonic() - saved > SAVED_EVERY:
                 _save(part, found)
                 saved = time.monotonic()
-            if tell is not None:
-                tell(case.kernel, number, len(suite.cases))
+            tell(case.kernel, number, len(suite.cases))
     finally:
         _save(part, found)
     return found

@@ -1,8 +1,9 @@
 """What the rules did to each formula of a paper: the rewrite report."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from derivation.engine.activity import Tell, quiet
 from derivation.engine.formula.record import Record
 from derivation.engine.rewrite.automatic import dimensionless
 from derivation.engine.rewrite.scales import Scales
@@ -38,7 +39,7 @@ def accounts(
     formulas: Mapping[str, Record],
     names: Sequence[str],
     scales: Scales,
-    tell: Callable[[str, int, int], None] | None = None,
+    tell: Tell = quiet,
 ) -> tuple[Account, ...]:
     """Every formula of the names, whose forms the rules find.
 
@@ -55,8 +56,7 @@ def accounts(
     """
     found = []
     for number, name in enumerate(names, start=1):
-        if tell is not None:
-            tell(name, number, len(names))
+        tell(name, number, len(names))
         reduced = dimensionless(formulas[name].expression, scales)
         scale = reduced.scale
         stable = stabilise(reduced.expression, scale.variable, ENDS)

@@ -2,6 +2,7 @@
 
 import sympy as sp
 
+from derivation.engine.emit.named import Claims, named
 from derivation.engine.emit.package import Routines
 from derivation.engine.emit.routine import Let, Routine, routine
 from derivation.mathematics.bessel.theory.functions import SHIFT, P, hankel, nu, x
@@ -23,12 +24,12 @@ def _by_sines(expression: sp.Expr) -> sp.Expr:
     return sp.simplify(sp.expand_trig(expression.replace(sp.cos, lambda v: sp.cos(sp.expand(v)))))
 
 
-def wave() -> Routine:
-    """Modulus and phase, the phase less k pi, whose sign is left to the caller."""
+@named
+def wave() -> Claims:
+    """(-1)^k J where turned + rest is the multiple (4 k + 2 nu - 1) of pi/4."""
     ratio, near, small = sp.symbols("ratio near small", real=True)
     half_turns = (4 * _turns + 2 * nu - 1) * sp.pi / 4
-    return routine(
-        "wave",
+    return Claims(
         (x, P, SHIFT, turned, rest),
         (
             Let(ratio, P / (HALF_PI * x), within=True),
@@ -37,7 +38,6 @@ def wave() -> Routine:
         ),
         (sp.sqrt(ratio) * sp.sin(near + small),),
         ((-1) ** _turns * hankel(nu),),
-        "(-1)^k J where turned + rest is the multiple (4 k + 2 nu - 1) of pi/4.",
         {turned: half_turns - rest, HALF_PI: sp.pi / 2},
         _by_sines,
     )
@@ -58,17 +58,16 @@ def far(order: int) -> Routine:
     )
 
 
-def slope() -> Routine:
-    """J1 at a zero of J0, but for its sign."""
+@named
+def slope() -> Claims:
+    """J1 at a zero of J0, beta = quarters pi/4, but for its sign."""
     quarters, excess = sp.symbols("quarters excess", positive=True)
     square = sp.Symbol("square", real=True)
-    return routine(
-        "slope",
+    return Claims(
         (quarters, excess),
         (Let(square, EIGHT_OVER_PI2 * (1 + excess) / quarters, within=True),),
         (sp.sqrt(square),),
         (slope_at_zero(quarters * sp.pi / 4, 1 + excess),),
-        "J1 at a zero of J0, beta = quarters pi/4, but for its sign.",
         NUMBERS,
         sp.simplify,
     )

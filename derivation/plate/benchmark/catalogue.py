@@ -7,7 +7,7 @@ from derivation.plate.benchmark import inversion, laws, motion, polynomials, shi
 from derivation.plate.benchmark.arithmetic import HAS_LONG, LONG, SINGLE, BallArithmetic, Mpmath
 from derivation.plate.benchmark.interface import PAPER, Method, Regime
 from derivation.plate.benchmark.shipped import hertz
-from derivation.plate.impact.oracle import many_costs
+from derivation.plate.impact.oracle import ball_law
 
 SIMPLEST = (
     "Hertz", "production", "Newton (production)", "Gauss-Legendre", "thin-plate closed form",
@@ -82,7 +82,7 @@ def _deepest_laws() -> list[Method]:
         split = sums.split(5000, 0.2 * DEEPEST, ar, quick=False)
         dear = f"nodes, weights and zeros of J0 to {DEEPEST} digits take minutes, a point seconds"
         found.append(refused(split, dear))
-    hours = many_costs.integrals_seconds(DEEPEST) / 3600
+    hours = ball_law.integrals_seconds(DEEPEST) / 3600
     oracle = shipped.oracle("law", DEEPEST, quick=False)
     return [*found, refused(oracle, f"{DEEPEST} digits take about {hours:.0f} hours")]
 

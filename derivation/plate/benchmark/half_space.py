@@ -151,7 +151,7 @@ PROGRAMS: Mapping[str, tuple[str, str, str, Mapping[str, tuple[Callable[..., Any
     ),
     "tamaas": (
         "tamaas", "peak pressure at a force",
-        "an edge, a free far face, one contact alone: it is periodic; motion",
+        "an edge, a free back face, a single contact: it is periodic; motion",
         {f"{n} x {n}, a = 0.1 of the period": (tamaas, (n,)) for n in (64, 128, 256)},
     ),
 }  # fmt: skip

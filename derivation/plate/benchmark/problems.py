@@ -12,8 +12,8 @@ from derivation.engine.formula.ball import LOG2_10
 from derivation.plate.benchmark.interface import PAPER, Doubles, Regime, Task, deepest
 from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.contact.oracle.balls import ratio_of
+from derivation.plate.impact.oracle import ball_law
 from derivation.plate.impact.oracle import impact as contact_impact
-from derivation.plate.impact.oracle import many_digits
 from generated.contact_law import indentation
 
 SEED = 7
@@ -85,11 +85,9 @@ def _law(regime: Regime, quick: bool) -> Problem:
 def _many_digits(radii: Doubles, regime: Regime) -> tuple[arb, ...]:
     """Indentations to MANY_DIGITS."""
     r, reach = regime, float(radii.max()) / regime.b
-    law = many_digits.law_of(
-        ratio_of(r.h, r.b), reach * (1 + 1e-9), MANY_DIGITS, lambda *_: None
-    )  # fmt: skip
+    law = ball_law.law_of(ratio_of(r.h, r.b), reach * (1 + 1e-9), MANY_DIGITS)
     return tuple(
-        many_digits.pressed(float(a), r.R, r.b, r.lam, r.mu, law, MANY_DIGITS)[0] for a in radii
+        ball_law.pressed(float(a), r.R, r.b, r.lam, r.mu, law, MANY_DIGITS)[0] for a in radii
     )
 
 

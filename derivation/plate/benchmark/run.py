@@ -1,12 +1,14 @@
 """The whole measurement: panels, winners, scaling, headline and other tools, as plain data."""
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Any
 
+from derivation.engine.activity import Tell, quiet
 from derivation.engine.measure.clock import CONTENDED, FULL, QUICK, SEED, Session
-from derivation.engine.measure.record import plain, provenance
+from derivation.engine.measure.record import provenance
+from derivation.engine.outputs import plain
 from derivation.plate.benchmark import scaling
 from derivation.plate.benchmark.catalogue import methods
 from derivation.plate.benchmark.headline import headline
@@ -18,8 +20,6 @@ from derivation.plate.benchmark.rows import BenchmarkRow
 from derivation.plate.benchmark.speed import machine
 from derivation.plate.benchmark.tools import tools
 from derivation.plate.judge import PACKAGE
-
-Tell = Callable[[str, int, int], None]
 
 
 def scene_regime(
@@ -53,7 +53,7 @@ def regimes(scene: Regime | None) -> tuple[Regime, ...]:
 
 def measure(
     names: Sequence[str] = (), quick: bool = False, scene: Regime | None = None,
-    tell: Tell | None = None,
+    tell: Tell = quiet,
 ) -> dict[str, Any]:  # fmt: skip
     """Measure everything, or the methods named; seconds when quick, else minutes.
 
@@ -115,10 +115,9 @@ def _session(session: Session) -> dict[str, Any]:
 class _Told:
     """Counts the parts of the work and tells whoever wants to know."""
 
-    def __init__(self, tell: Tell | None, total: int) -> None:
+    def __init__(self, tell: Tell, total: int) -> None:
         self.tell, self.total, self.number = tell, total, 0
 
     def __call__(self, part: str) -> None:
         self.number += 1
-        if self.tell is not None:
-            self.tell(part, self.number, self.total)
+        self.tell(part, self.number, self.total)

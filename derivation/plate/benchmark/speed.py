@@ -18,6 +18,7 @@ from typing import Any
 
 import numpy as np
 
+from derivation.engine.activity import Tell, quiet
 from derivation.plate.modes.naive import FIELDS, naive_field
 from generated import (
     G,
@@ -224,7 +225,7 @@ def hertz_alone(scene: Path, limit: float) -> SpeedTiming:
 def measure(
     examples: Sequence[Path],
     solved: Collection[Path] = (),
-    tell: Callable[[str, int, int], None] | None = None,
+    tell: Tell = quiet,
 ) -> list[SpeedTiming]:
     """Every comparison, one after the other.
 
@@ -254,8 +255,7 @@ def measure(
     planned += tuple((name, partial(stable_over_naive, name)) for name in NAIVE)
     found = []
     for number, (name, timing) in enumerate(planned, start=1):
-        if tell is not None:
-            tell(name, number, len(planned))
+        tell(name, number, len(planned))
         found.append(timing())
     return found
 

@@ -39,7 +39,9 @@ def others() -> tuple[Kernel, ...]:
             "impact_sensitivities", "sensitivity", _SCENE, _sensitivities,
             read_budgets()["impact_sensitivities"].ulp,
         ),
-        Stating("plate_of", "simple_impact", ("eta",), _each(_bend), 0.0, stated=_each(_doubt)),
+        Stating(
+            "plate_of", "simple_impact", ("eta",), _each(_bend), 0.0, stated=_each(_bend_error)
+        ),
     ]  # fmt: skip
     found += (*_of_waves(), *_of_held_waves())
     for name in ("hertz", "leading"):
@@ -91,8 +93,8 @@ def _bend(eta: float) -> float:
     return simple_impact.plate_of(eta).bend
 
 
-def _doubt(eta: float) -> float:
-    return simple_impact.plate_of(eta).doubt
+def _bend_error(eta: float) -> float:
+    return simple_impact.plate_of(eta).bend_error
 
 
 def _of_waves() -> list[Kernel]:

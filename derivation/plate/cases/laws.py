@@ -15,15 +15,16 @@ from derivation.plate import vocabulary as symbols
 from derivation.plate.back_face import oracle as back_face_balls
 from derivation.plate.contact.cases.truth import tolerance
 from derivation.plate.contact.oracle import balls as contact_balls
+from derivation.plate.contact.oracle import forces as contact_forces
 from derivation.plate.contact.theory import curvature
 from derivation.plate.edge.oracle import clamped as clamp_balls
 from derivation.plate.edge.oracle import supported as edge_balls
 from derivation.plate.edge.theory import clamped as clamp
 from derivation.plate.edge.theory import sums as edge_sums
 from derivation.plate.impact.oracle import impact as contact_impact
-from derivation.plate.impact.oracle import many_digits, many_sensitivities, state_rounding
 from derivation.plate.impact.oracle import printed_motion as printed_motion_balls
 from derivation.plate.impact.oracle import quantities as contact_quantities
+from derivation.plate.impact.oracle import sensitivity, state_rounding
 from derivation.plate.pressure import oracle as pressure_balls
 from derivation.plate.subjects import handed_in
 
@@ -221,23 +222,21 @@ def _mean(given: Given, _: Sequence[arb]) -> tuple[arb, ...]:
 def _impact(given: tuple[Any, ...], digits: int) -> tuple[arb, ...]:
     """Kept, since several kernels are held to the same impact."""
     R, m, v0, h, b, lam, mu = given
-    law = many_digits.law_for(given, digits)
-    return tuple(contact_impact.impact(R, m, v0, h, b, lam, mu, digits, law))
+    return tuple(contact_impact.impact(R, m, v0, h, b, lam, mu, digits))
 
 
 def _state(given: Given, digits: int) -> tuple[arb, ...]:
     """By the law's power series, which many times are found quickly with."""
     t, *motion = given
     R, m, v0, h, b, lam, mu = motion
-    law = many_digits.law_for(motion, digits)
-    return contact_quantities.state(t, R, m, v0, h, b, lam, mu, digits, law)
+    return contact_quantities.state(t, R, m, v0, h, b, lam, mu, digits)
 
 
 _ESTIMATE = HardLaw(
     lambda given, digits: _impact(tuple(given), digits),
     conditioned=False,
     results=4,
-    oracle=(many_digits.__name__,),
+    oracle=(contact_impact.__name__,),
 )
 """A simple law states its own error: of the impact by the law that holds."""
 
@@ -266,28 +265,28 @@ LAWS: Mapping[str, HardLaw] = {
     "indentation_slope": _one(contact_balls.slope),
     "contact_radius": _one(contact_balls.contact_radius, _of_sum("contact_radius")),
     "stiffness": _one(contact_balls.stiffness, _of_sum("stiffness")),
-    "force": _one(contact_quantities.force, _of_radius),
-    "force_of_radius": _one(contact_quantities.force_of_radius),
-    "radius_of_force": _one(contact_quantities.radius_of_force),
-    "max_pressure": _one(contact_quantities.max_pressure),
+    "force": _one(contact_forces.force, _of_radius),
+    "force_of_radius": _one(contact_forces.force_of_radius),
+    "radius_of_force": _one(contact_forces.radius_of_force),
+    "max_pressure": _one(contact_forces.max_pressure),
     "force_by_series": HardLaw(_series, scale=_of_series, oracle=(contact_quantities.__name__,)),
     "impact": HardLaw(
         lambda given, digits: _impact(tuple(given), digits),
         results=4,
-        oracle=(many_digits.__name__,),
+        oracle=(contact_impact.__name__,),
     ),
     "history": HardLaw(
         _state,
         slopes=partial(state_rounding.rounding, _state),
         results=4,
-        oracle=(many_digits.__name__, contact_quantities.__name__),
+        oracle=(contact_quantities.__name__,),
     ),
     "impact_sensitivities": HardLaw(
-        many_sensitivities.impact_sensitivities,
+        sensitivity.impact_sensitivities,
         _at_least_one,
-        slopes=many_sensitivities.rounding,
+        slopes=sensitivity.rounding,
         results=28,
-        oracle=(many_sensitivities.__name__,),
+        oracle=(sensitivity.__name__,),
     ),
     "supported_edge": _supported_edge("indentation"),
     "clamped_edge": _clamped_edge("indentation"),

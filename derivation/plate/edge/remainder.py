@@ -19,7 +19,6 @@ measures anew, with SciPy, in minutes.
 
 import dataclasses
 import itertools
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -29,6 +28,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from derivation.engine.files import measurements, write_file
+from derivation.engine.outputs import sorted_json
 from generated.bessel import bessel_j0_zeros, bessel_j1_at_j0_zeros
 from generated.contact_law import indentation
 from generated.edge import clamped_edge, supported_edge
@@ -283,7 +283,7 @@ def text() -> str:
     provenance = {"numpy": np.__version__, "scipy": scipy.__version__, "modes": MODES}
     meshes = [dataclasses.asdict(mesh) for mesh in MESHES]
     record = {"meshes": meshes, "provenance": provenance, "rows": rows()}
-    return json.dumps(record, indent=1, sort_keys=True, allow_nan=False) + "\n"
+    return sorted_json(record)
 
 
 if __name__ == "__main__":

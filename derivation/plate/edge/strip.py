@@ -21,12 +21,12 @@ Elements, mesh and its grading are those of `remainder`.
 """
 
 import dataclasses
-import json
 from collections.abc import Sequence
 
 import numpy as np
 
 from derivation.engine.files import measurements, write_file
+from derivation.engine.outputs import sorted_json
 from derivation.plate.edge.remainder import Double, RemainderMesh, heights, lobatto
 
 LENGTH = 6.0
@@ -140,7 +140,7 @@ def text() -> str:
         "provenance": {"numpy": np.__version__, "scipy": scipy.__version__},
         "rows": rows(),
     }
-    return json.dumps(record, indent=1, sort_keys=True, allow_nan=False) + "\n"
+    return sorted_json(record)
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@ ABOUT = {
     "no moment. Green's identity makes them orthogonal, and makes "
     "$(J_1/J_0 + I_1/I_0)/k$ grow from one zero of $J_0$ to the next, so that "
     "there is one mode between neighbouring ones. $W_n$ says how a force on the "
-    "axis moves it: the sum of $W_n/k_n^4$ is the deflection at rest.",
+    "axis moves it: the sum of $W_n/k_n^4$ is the static deflection.",
     "held waves": "A plate with a thickness keeps the frequency and residue of A0 at its wave "
     "number; its edge is Mindlin's, whose shear coefficient makes his lower "
     "branch follow A0 to one more order. A mode is $J_0(k r/b) - c I_0(k_2 r/b)$, "

@@ -20,7 +20,7 @@ from typing import NamedTuple
 from mpmath import mp, mpf
 
 from derivation.engine.oracle.agreement import RouteError
-from derivation.plate.contact.oracle.modes import excess, mode
+from derivation.plate.contact.route.modes import excess, mode
 from derivation.plate.contact.route.moments import wall_moments
 
 WIDEST = 0.5

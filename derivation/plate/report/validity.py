@@ -7,7 +7,7 @@ from derivation.engine.formula.record import Record
 from derivation.engine.report.equations import body
 from derivation.engine.report.numbers import rounded
 from derivation.plate.report.prose import FACTOR
-from derivation.scene import edge_remainder, limits
+from derivation.scene import edge_remainder, kernels, limits
 from derivation.scene.effects import edge, non_hertzian_pressure, spherical_profile
 from derivation.scene.effects.effect import PLATES
 
@@ -51,7 +51,7 @@ def limit_rows() -> list[str]:
         (r"$a/R$", f"{limits.CURVATURE_LIMIT:g}", "warned without \\texttt{spherical\\_profile}",
          "the sphere is no paraboloid any more"),
         (r"$w/H$", f"{limits.STRETCH_LIMIT:g}", "warned", "the plate's middle surface stretches"),
-        (r"$p_0$ over yield stress", f"{limits.YIELD_LIMIT:g}", "warned",
+        (r"$p_0$ over yield stress", f"{kernels.YIELD_LIMIT:g}", "warned",
          "a metal yields below the contact"),
         ("Zener's number", f"{limits.ZENER_LIMIT:g}", "warned without \\texttt{inertia}",
          "waves carry off 1\\,\\% of the speed"),

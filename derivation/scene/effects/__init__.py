@@ -4,6 +4,7 @@ Read `effect` first, the base of all. The order below is that of the effects tab
 """
 
 from derivation.scene.effects.bending import Bending
+from derivation.scene.effects.damping import Damping
 from derivation.scene.effects.edge import Edge
 from derivation.scene.effects.effect import Effect
 from derivation.scene.effects.finite_radius import FiniteRadius
@@ -12,6 +13,7 @@ from derivation.scene.effects.gravity import Gravity
 from derivation.scene.effects.hertz import Hertz
 from derivation.scene.effects.inertia import PlateInertia
 from derivation.scene.effects.non_hertzian_pressure import NonHertzianPressure
+from derivation.scene.effects.plasticity import Plasticity
 from derivation.scene.effects.sphere_elasticity import SphereElasticity
 from derivation.scene.effects.spherical_profile import SphericalProfile
 from derivation.scene.effects.viscosity import Viscosity
@@ -25,9 +27,11 @@ EFFECTS: tuple[Effect, ...] = (
     FiniteRadius(),
     Edge(),
     NonHertzianPressure(),
+    Plasticity(),
     Viscosity(),
     Gravity(),
     PlateInertia(),
+    Damping(),
 )
 """Every effect there is, in the order of the effects table."""
 

@@ -146,8 +146,14 @@ class Effect:
         Whether the pressure is solved for, so that the law is not a sum of the effects' parts.
     viscous
         Whether the contact is viscoelastic.
+    plastic
+        Whether the contact yields.
     dynamic
         Whether the plate has inertia.
+    damps
+        Whether the plate's modes are damped.
+    within
+        Name of an effect that it is a part of: if the scene disables that, it does not apply.
     """
 
     name: ClassVar[str]
@@ -167,7 +173,10 @@ class Effect:
     other_edge: ClassVar[bool] = False
     solved: ClassVar[bool] = False
     viscous: ClassVar[bool] = False
+    plastic: ClassVar[bool] = False
     dynamic: ClassVar[bool] = False
+    damps: ClassVar[bool] = False
+    within: ClassVar[str] = ""
 
     def not_applicable_reason(self, model: Model) -> str:  # noqa: ARG002
         """Return why the effect does not apply to a scene; empty if it does."""
@@ -249,7 +258,7 @@ class PlateEffect(Effect):
 
 
 def plate_of(model: Model) -> kernels.Plate:
-    """c_1, its doubt and K_3 of the plate; infinite where h/b is out of their range."""
+    """c_1, its error bound and K_3 of the plate; infinite where h/b is out of their range."""
     low, high = PLATES
     if not low < model.eta < high:
         return kernels.Plate(np.inf, np.inf, np.inf)

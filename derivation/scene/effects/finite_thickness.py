@@ -39,10 +39,10 @@ class FiniteThickness(PlateEffect):
         a = context.radii
         plate, A, alpha = plate_of(model), a / model.h, a / model.b
         linear = 1.5 * plate.bend * A - kernels.bending(A, model.eta).slope
-        doubt = 1.5 * plate.doubt * A
+        wrong = 1.5 * plate.bend_error * A
         wall = kernels.WALL_LINEAR * alpha + kernels.WALL_CUBIC * alpha**3
-        up = np.maximum(linear + doubt + wall, 0.0)
-        low = np.maximum(plate.rest * A**3 + doubt - linear, 0.0)
+        up = np.maximum(linear + wrong + wall, 0.0)
+        low = np.maximum(plate.rest * A**3 + wrong - linear, 0.0)
         # Of either sign in between: no less than at any smaller radius.
         return Bound(np.maximum.accumulate(low), np.maximum.accumulate(up))
 

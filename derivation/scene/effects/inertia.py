@@ -1,6 +1,7 @@
 """Inertia: the plate vibrates, takes energy from the sphere, and may return some of it."""
 
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -83,7 +84,7 @@ class PlateInertia(Effect):
         heavier = 1.0 + weight_share(model, context.depth)
         T = SLOWEST * context.depth / (model.v0 * math.sqrt(heavier))
         a, force = float(context.radii[-1]), float(context.samples.force[-1])
-        off = force / context.depth * _off_rest(model, a, T)
+        off = force / context.depth * off_rest(model, a, T, late)
         more = higher_branch_error(model, a, T) if model.density else 5 * (0.0,)
         none = none_of(context.radii)
         logs = [factor * off + part for factor, part in zip(SENSITIVITY, more, strict=True)]
@@ -170,13 +171,19 @@ def _rise(model: Model) -> float:
     return _alone(model) / math.pow(max(1.0, RISE_BY_ZENER * number), 2.0 / 3.0)
 
 
-def _off_rest(model: Model, a: float, T: float) -> float:
-    """Return the deviation from the quasi-static response to a unit force [m/N], of all modes.
+def off_rest(model: Model, a: float, T: float, deviation: Callable[[Array, float], Array]) -> float:
+    """Return a deviation from the quasi-static response to a unit force [m/N], of all modes.
 
     Wave numbers are (n - 1/4) pi/b and frequencies those of a thin plate, held below Rayleigh's
-    waves: neither a zero of J_0 nor a root of the branch is computed. A mode follows a force as
-    fast as it turns: P'' is of the order of P/T^2 by Hertz's law, and P/(T T_rise) of a plate that
-    bends, whose force begins as if suddenly. That it begins as t^(3/2) makes a fast mode ring.
+    waves: neither a zero of J_0 nor a root of the branch is computed.
+
+    Parameters
+    ----------
+    a, T
+        Contact radius [m] and time [s].
+    deviation
+        That of a mode over its static deflection, by omega T and the share of T in which the force
+        rises.
     """
     rise = min(T, _rise(model)) / T if model.density else 1.0
     first = np.arange(1.0, COUNTED + 1.0)
@@ -186,22 +193,31 @@ def _off_rest(model: Model, a: float, T: float) -> float:
     n = np.exp(steps)
     weights = np.full(NODES_BEYOND, steps[1] - steps[0])
     weights[[0, -1]] /= 2.0
-    one, rest = (_mode(model, a, T, rise, k) for k in (first, n))
-    return float(np.sum(one) + np.sum(weights * n * rest))
+
+    def of_mode(n: Array) -> Array:
+        """The same of modes by their number."""
+        j = (n - 0.25) * math.pi
+        x, y = j * model.eta, j * (a / model.b)
+        # Kirchhoff's plate, and no faster than a wave on a face.
+        thin = x * x * math.sqrt(2.0 / (3.0 * (1.0 - model.poissons_ratio)))
+        root = thin / np.sqrt(1.0 + (thin / x) ** 2)  # omega h/c_T
+        at_rest = model.h / model.mu * (0.5 / root**2) * j / (2.0 * model.b * model.b)
+        felt = np.minimum(1.0, CONTACT_DECAY / (y * y))
+        if not model.density:
+            return np.asarray(at_rest * felt * MAX_DYNAMIC_FACTOR)
+        phase = root * (model.shear_speed * T / model.h)
+        return np.asarray(at_rest * felt * deviation(phase, rise))
+
+    return float(np.sum(of_mode(first)) + np.sum(weights * n * of_mode(n)))
 
 
-def _mode(model: Model, a: float, T: float, rise: float, n: Array) -> Array:
-    """The same of modes by their number; the force rises in a part of T."""
-    j = (n - 0.25) * math.pi
-    x, y = j * model.eta, j * (a / model.b)
-    # Kirchhoff's plate, and no faster than a wave on a face.
-    thin = x * x * math.sqrt(2.0 / (3.0 * (1.0 - model.poissons_ratio)))
-    root = thin / np.sqrt(1.0 + (thin / x) ** 2)  # omega h/c_T
-    at_rest = model.h / model.mu * (0.5 / root**2) * j / (2.0 * model.b * model.b)
-    felt = np.minimum(1.0, CONTACT_DECAY / (y * y))
-    if not model.density:
-        return at_rest * felt * MAX_DYNAMIC_FACTOR
-    phase = root * (model.shear_speed * T / model.h)
-    late = np.minimum(SMOOTH_FORCE / (phase * phase * rise), STEP_FORCE / phase)
-    late = np.maximum(late, HERTZ_ONSET * rise / (phase * rise) ** 1.5)
-    return np.asarray(at_rest * felt * np.minimum(MAX_DYNAMIC_FACTOR, late))
+def late(phase: Array, rise: float) -> Array:
+    """Return a mode's deviation from its quasi-static response over its static deflection.
+
+    A mode follows a force as fast as it turns: P'' is of the order of P/T^2 by Hertz's law, and
+    P/(T T_rise) of a plate that bends, whose force begins as if suddenly. That it begins as
+    t^(3/2) makes a fast mode ring.
+    """
+    slow = np.minimum(SMOOTH_FORCE / (phase * phase * rise), STEP_FORCE / phase)
+    slow = np.maximum(slow, HERTZ_ONSET * rise / (phase * rise) ** 1.5)
+    return np.asarray(np.minimum(MAX_DYNAMIC_FACTOR, slow))

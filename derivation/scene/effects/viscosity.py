@@ -28,8 +28,8 @@ class Viscosity(Effect):
     viscous = True
 
     def not_applicable_reason(self, model: Model) -> str:
-        """A plate without a time is not viscous."""
-        return "" if model.retardation_time else "no plate.retardation_time"
+        """Bodies without a time are not viscous."""
+        return "" if model.retardation_time else "no retardation_time of plate or sphere"
 
     def value(self, model: Model, a: float) -> float:  # noqa: ARG002
         """Viscous number of Hertz's contact."""

@@ -14,5 +14,4 @@ def contact_radius(delta: ArrayLike) -> np.ndarray:
 
 def _law(a: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Force [N], indentation [m], and their slopes by the contact radius, at radii [m]."""
-    stiffness = 4.0 / 3.0 * MODULUS / R
-    return stiffness * a**3, a * a / R, 3.0 * stiffness * a * a, 2.0 * a / R
+    return 4.0 / 3.0 * MODULUS / R * a**3, a * a / R, 4.0 * MODULUS / R * a * a, 2.0 * a / R

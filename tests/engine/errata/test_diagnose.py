@@ -271,9 +271,8 @@ def test_kind_of_slip_is_named(kind: str) -> None:
 
 def test_stray_factor_is_named_by_dimension_alone() -> None:
     stray = chain()["Omega_4"].expression / phi
-    assert dimension_note(stray, "1/Pa", PLATE) == (
-        "[1/Pa] expected, [m/Pa] found: a factor of [m] too much"
-    )
+    note = dimension_note(stray, "1/Pa", PLATE) or ""
+    assert all(unit in note for unit in ("[1/Pa]", "[m/Pa]", "[m] too much"))
     assert dimension_note(chain()["Omega_4"].expression, "1/Pa", PLATE) is None
 
 

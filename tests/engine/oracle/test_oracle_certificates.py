@@ -18,19 +18,18 @@ from derivation.plate import oracle as balls
 from derivation.plate.back_face import oracle as far_face_balls
 from derivation.plate.back_face import route as far_face_routes
 from derivation.plate.contact.oracle import balls as contact_balls
-from derivation.plate.contact.oracle import modes as contact_modes
+from derivation.plate.contact.oracle import forces as contact_forces
 from derivation.plate.contact.oracle import points as contact_points
 from derivation.plate.contact.oracle import sums as contact_sums
 from derivation.plate.contact.oracle import wall as contact_wall
 from derivation.plate.contact.route import residue_law
-from derivation.plate.contact.route import sums as contact_routes
 from derivation.plate.edge.oracle import supported as edge_balls
 from derivation.plate.edge.route import supported as edge_routes
 from derivation.plate.edge_modes.oracle import modes as held_balls
 from derivation.plate.edge_modes.route import modes as held_routes
 from derivation.plate.impact.oracle import impact as contact_impact
-from derivation.plate.impact.oracle import many_costs, state_rounding
 from derivation.plate.impact.oracle import quantities as contact_quantities
+from derivation.plate.impact.oracle import state_rounding
 from derivation.plate.modes.route import routes
 from derivation.plate.pressure import oracle as pressure_balls
 from derivation.plate.pressure import route as pressure_routes
@@ -141,14 +140,14 @@ def test_roots_are_enclosed_or_not_given() -> None:
 
 def test_roots_of_the_other_oracle_too() -> None:
     with mp.workdps(30):
-        found = contact_routes._root(lambda x: (x, mpf(1)), mpf("0.25"), mpf("0.1"))
+        found = residue_law._root(lambda x, _: (x, mpf(1)), mpf("0.25"), mpf("0.1"), 24)
         assert abs(found - mpf("0.25")) < mpf(10) ** -28
         with pytest.raises(RouteError, match="no root found near"):
-            contact_routes._root(lambda x: (x, mpf("0.4")), mpf("0.25"), mpf("0.1"))
+            residue_law._root(lambda x, _: (x, mpf("0.4")), mpf("0.25"), mpf("0.1"), 24)
         with pytest.raises(RouteError, match=r"no root found near 0\.25"):
-            contact_routes._root(lambda x: (1 / x, mpf(-1)), mpf(4), mpf("0.1"))
+            residue_law._root(lambda x, _: (1 / x, mpf(-1)), mpf(4), mpf("0.1"), 24)
     with pytest.raises(ValueError, match="would reach the edge of the plate"):
-        contact_routes.contact_radius(1.0, 1.0, 0.1, 0.2, 20)
+        residue_law.contact_radius(1.0, 1.0, 0.1, 0.2, 20)
 
 
 def test_a_slope_that_may_vanish_bounds_nothing() -> None:
@@ -203,7 +202,7 @@ def test_the_reversed_series_approaches_the_force(terms: int) -> None:
     R, h, b, lam, mu = 0.13, 0.1, 1.0, 0.36e9, 0.43e9
     errors = []
     for delta in (1e-6, 1e-5):
-        exact = contact_quantities.force(delta, R, h, b, lam, mu, 16)
+        exact = contact_forces.force(delta, R, h, b, lam, mu, 16)
         found, ratio = contact_quantities.truncated_series(delta, R, h, b, lam, mu, 16, terms)
         with flint.ctx.workprec(200):
             errors.append(float(abs(found / exact - 1)))
@@ -213,9 +212,9 @@ def test_the_reversed_series_approaches_the_force(terms: int) -> None:
 
 def test_a_radius_and_its_force_invert_each_other() -> None:
     a, R, lam, mu = 0.01, 0.13, 0.36e9, 0.43e9
-    force = contact_quantities.force_of_radius(a, R, lam, mu, 40)
-    back = contact_quantities.radius_of_force(contact_quantities.fraction(force), R, lam, mu, 40)
-    pressure = contact_quantities.max_pressure(a, R, lam, mu, 40)
+    force = contact_forces.force_of_radius(a, R, lam, mu, 40)
+    back = contact_forces.radius_of_force(contact_quantities.fraction(force), R, lam, mu, 40)
+    pressure = contact_forces.max_pressure(a, R, lam, mu, 40)
     with flint.ctx.workprec(160):
         assert abs(back / arb(a) - 1) < 1e-38
         # Hertz: 3/2 of the mean pressure.
@@ -252,17 +251,6 @@ def test_histories_stay_below_the_largest_radius() -> None:
 
 
 # --- oracle 2
-
-
-def test_the_phases_series_serves_far_out_only(monkeypatch: pytest.MonkeyPatch) -> None:
-    with mp.workdps(30):
-        with pytest.raises(RouteError, match=r"does not reach 30 digits at 1\.0"):
-            contact_modes._phase(mpf(1))
-        found = contact_modes._continued_zero(mpf(40))[0]
-        assert abs(found - mp.besseljzero(0, 40)) < mpf(10) ** -26
-        monkeypatch.setattr(contact_modes, "precisions", lambda dps: [dps])
-        with pytest.raises(RouteError, match=r"no zero of J0 continued to n = 40\.0"):
-            contact_modes._continued_zero(mpf(40))
 
 
 def test_samples_on_a_circle_next_to_a_pole() -> None:
@@ -324,16 +312,6 @@ def test_resolutions_of_a_contact_that_differ(monkeypatch: pytest.MonkeyPatch) -
         pressure_routes.solve(Fraction(1), Fraction(1, 4), digits=20)
 
 
-def test_the_law_by_residues_ends_at_the_edge() -> None:
-    with pytest.raises(ValueError, match=r"0 < a/b < 1, got 1\.0"):
-        residue_law.law(0.1, 1.0, 1.0, 30)
-    unlike: Any = SimpleNamespace(
-        work=lambda q: q**5, slope=lambda _: mpf(2), known=SimpleNamespace(reach=mpf(1))
-    )
-    with pytest.raises(RouteError, match="no largest contact radius found"):
-        residue_law._largest(unlike, mpf("0.5"))  # its slope is 5: the steps overshoot
-
-
 def test_quadrature_that_does_not_converge() -> None:
     with mp.workdps(40):
         value = routes._integral(mp.exp, [mpf(0), mpf(1)], "tanh-sinh")
@@ -349,15 +327,3 @@ def test_a_route_without_a_number_has_no_value(
     lost = replace(routes.ORACLE, routes={"G": lambda _: mpf(answer)})
     with pytest.raises(RouteError, match=r"G at \{'T': 1\.0\}: no two results agree to 50 digits"):
         lost.value("G", {"T": 1.0})
-
-
-def test_many_digits_of_a_deep_contact_cost_what_the_cheaper_way_does() -> None:
-    """Oracle 2 goes by residues or sums: a/h = 200 takes as many powers as sums are cheaper."""
-    R, m, v0, h, b, lam, mu = 0.1, 3.0, 1.0, 0.001, 0.5, 2e9, 3e9
-    motion, radius, digits = (R, m, v0, h, b, lam, mu), 0.2, 150
-    eta, reach = h / b, radius / b
-    said = many_costs.expected_seconds(motion, radius, digits)
-    first = many_costs.first_seconds(eta, reach, digits)
-    assert many_costs.second_digits(eta, reach, digits) == 100
-    assert said == 1 + first + many_costs.sums_seconds(100)
-    assert said < 1 + first + many_costs.residues_seconds(eta, reach, digits)

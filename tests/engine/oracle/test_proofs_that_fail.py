@@ -1,6 +1,7 @@
 """Proofs, bounds and printers that are given something false, and refuse it."""
 
 import math
+import re
 from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
@@ -114,9 +115,9 @@ def test_tails_are_named_by_their_power(power: int, says: str) -> None:
 
 def test_validity_follows_from_a_sign(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(impact, "truncated_gamma", lambda _: SimpleNamespace(expression=-sp.pi))
-    assert impact.validity().startswith("xi_3 is positive, so the radicand of (17) and (18)")
+    assert re.search(r"xi_3 is positive.* \(17\) and \(18\)", impact.validity())
     monkeypatch.setattr(impact, "truncated_gamma", lambda _: SimpleNamespace(expression=sp.pi))
-    assert "stays positive up to the linear motion's turning point" in impact.validity()
+    assert "stays positive" in impact.validity()
 
 
 @pytest.mark.parametrize("law", [(-3.1, 4.9), (2.4, -0.8, -2.5)])

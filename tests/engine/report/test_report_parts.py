@@ -59,5 +59,5 @@ def test_a_panel_in_which_nothing_was_timed_is_empty() -> None:
 def test_a_symbol_without_a_value_is_named() -> None:
     point = {a: 0.5}
     assert evaluated(sp.sqrt(a), point) == pytest.approx(0.5**0.5, rel=1e-15)
-    with pytest.raises(ValueError, match="expected a value of R in the paper's case, got none"):
+    with pytest.raises(ValueError, match="value of R"):
         evaluated(a / R, point)

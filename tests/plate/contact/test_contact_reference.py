@@ -14,18 +14,18 @@ from flint import arb
 from mpmath import mp, mpf
 
 from derivation.engine.formula.ulp import DOUBLE, SINGLE
-from derivation.engine.oracle.agreement import OracleError, RouteError
+from derivation.engine.oracle.agreement import OracleError
 from derivation.pipeline import MEASURED_CONTACT
 from derivation.plate.contact.cases import check as contact
 from derivation.plate.contact.cases import grid as contact_grid
 from derivation.plate.contact.cases import judge as contact_judge
 from derivation.plate.contact.cases import truth as contact_truth
 from derivation.plate.contact.oracle import balls as contact_balls
+from derivation.plate.contact.oracle import forces as contact_forces
 from derivation.plate.contact.oracle.sums import plate_excess
-from derivation.plate.contact.route import sums as contact_routes
+from derivation.plate.contact.route import residue_law as contact_routes
 from derivation.plate.impact.oracle import agreement as contact_agreement
 from derivation.plate.impact.oracle import impact as contact_impact
-from derivation.plate.impact.oracle import many_digits
 from derivation.plate.impact.oracle import quantities as contact_quantities
 from generated import contact_law
 
@@ -156,20 +156,19 @@ def test_history_ends_at_half_the_contact_time() -> None:
 def test_states_about_the_turning_point_keep_the_energy_and_meet() -> None:
     """By a series next to it, by Newton's iteration farther off: the rate goes with the time."""
     case = (0.01, 0.03, 1.0, 0.1, 1.0, 1.2e11, 8e10)
-    law = many_digits.law_for(case, 60)
-    whole = contact_impact.impact(*case, digits=60, law=law).contact_time
+    whole = contact_impact.impact(*case, digits=60).contact_time
     shares = (-4e-13, -5e-14, 2e-16, 5e-14, 4e-13)
     times = [float(whole) / 2 * (1 + 2 * share) for share in shares]
     rates = []
     for t in times:
-        depth, speed, radius, load = contact_quantities.state(t, *case, digits=40, law=law)
+        depth, speed, radius, load = contact_quantities.state(t, *case, digits=40)
         R, m, v0, h, b, lam, mu = case
         with flint.ctx.workprec(300):
             at = contact_quantities.fraction(radius)
             stored = contact_impact.stored_energy(at, R, h, b, lam, mu, 45)
             assert abs(2 * stored / (arb(m) * arb(v0) ** 2) + (speed / arb(v0)) ** 2 - 1) < 1e-38
             assert abs(contact_balls.indentation(at, R, h, b, 45) / depth - 1) < 1e-38
-            assert abs(contact_quantities.force_of_radius(at, R, lam, mu) / load - 1) < 1e-38
+            assert abs(contact_forces.force_of_radius(at, R, lam, mu) / load - 1) < 1e-38
             rates.append(speed / (whole / 2 - arb(t)))
     with flint.ctx.workprec(300):
         # What the iteration knows of the rate there, it knows by the energy that is left.
@@ -179,10 +178,9 @@ def test_states_about_the_turning_point_keep_the_energy_and_meet() -> None:
 
 def test_states_of_a_grazing_contact_fly_freely() -> None:
     case = (0.01, 0.03, 1.0, 0.1, 1.0, 1.2e11, 8e10)
-    law = many_digits.law_for(case, 40)
-    whole = contact_impact.impact(*case, digits=40, law=law).contact_time
+    whole = contact_impact.impact(*case, digits=40).contact_time
     for t in (1e-20, math.nextafter(float(whole), 0.0) * (1 - 1e-15)):
-        depth, speed, radius, _ = contact_quantities.state(t, *case, digits=30, law=law)
+        depth, speed, radius, _ = contact_quantities.state(t, *case, digits=30)
         with flint.ctx.workprec(200):
             left = min(arb(t), whole - arb(t), key=float)
             assert abs(depth / left - 1) < 1e-9
@@ -199,8 +197,6 @@ def test_edge_of_the_plate_is_refused() -> None:
         contact_balls.coefficient(2, 0.5, 1.0)
     with pytest.raises(ValueError, match="a/b < 1"):
         contact_routes.indentation(1.0, 2.0, 0.5, 1.0)
-    with pytest.raises(RouteError, match="digits"):
-        contact_routes.indentation(0.1, 2.0, 0.5, 1.0, digits=100)
 
 
 # --- both oracles
@@ -264,14 +260,6 @@ def test_an_error_in_either_oracle_of_impacts_is_caught(
     monkeypatch.setattr(oracle, part, wrong)
     with pytest.raises(OracleError, match="against"):
         contact_agreement.agree("impact", (2.0, 1.0, 0.01, 3.0, 1.0, 0.0, 0.5), 22)
-
-
-def test_a_route_that_contradicts_itself_gives_no_answer(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Twelve nodes to an interval against 24."""
-    _, good = contact_routes.SETTINGS[24]
-    monkeypatch.setitem(contact_routes.SETTINGS, 24, (good._replace(level=3), good))
-    with pytest.raises(RouteError, match="differ"):
-        contact_routes.indentation(0.3, 2.0, 0.02, 1.0, 22)
 
 
 def test_energy_is_what_the_impact_brings() -> None:

@@ -101,7 +101,7 @@ def test_a_reference_is_of_the_modules_its_oracle_is_made_of(
     suite: Suite, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Words about the code do not count; the code of those imported does."""
-    place = hard_origin._file("derivation.plate.impact.oracle.quantities")
+    place = hard_origin._file("derivation.plate.contact.oracle.forces")
     before = {name: suite.origin(name) for name in ("indentation", "force", "bessel_j0")}
     assert len(set(before.values())) == 3
 
@@ -148,10 +148,11 @@ def test_command_shows_every_case(capsys: pytest.CaptureFixture[str]) -> None:
     status = main(["check", "hard-cases", "--json", "-"])
     shown, known = json.loads(capsys.readouterr().out), json.loads(PAPER.hard.read_text())
     assert status == (0 if all(row["kept"] for row in shown["cases"]) else 1)
+    # Where matrices are multiplied or equations solved, rounding follows the library for linear
+    # algebra, and of several results another one may be the nearest to what is allowed.
     for row in (*shown["cases"], *known["cases"]):
-        # Where equations are solved, rounding follows the library for linear algebra, and of
-        # several results another one may be the nearest to what is allowed.
-        del row["error"], row["allowed"]
+        if row["kernel"] in ("pressure", "contact", "supported_waves"):
+            del row["error"], row["allowed"]
     assert shown == known
 
 

@@ -13,16 +13,15 @@ from mpmath import mp, mpf
 
 from derivation.cli import main
 from derivation.engine.formula.ball import PrecisionError
-from derivation.engine.oracle.agreement import to_ball
+from derivation.engine.oracle.agreement import RouteError, to_ball
 from derivation.plate.contact.oracle import points as contact_points
 from derivation.plate.contact.oracle import sums as contact_sums
 from derivation.plate.contact.oracle import wall as contact_wall
 from derivation.plate.contact.oracle.balls import ratio_of
 from derivation.plate.contact.route import residue_law
 from derivation.plate.contact.route import residues as residue_routes
-from derivation.plate.contact.route import sums as contact_routes
+from derivation.plate.impact.oracle import ball_law, many_digits
 from derivation.plate.impact.oracle import impact as contact_impact
-from derivation.plate.impact.oracle import many_costs, many_digits
 
 PLATES = [
     pytest.param(0.02, 0.03, 30, id="thin"),
@@ -53,32 +52,22 @@ DEPTHS = [
     (0.1, 0.3, 120),
     (0.1, 0.58, 60),
     (5.0, 0.9, 60),
+    (30.0, 0.9, 60),
     (1e-3, 2e-4, 30),
     (1e-3, 4e-3, 50),
 ]
 
 
-@pytest.mark.parametrize("way", ["sums", "residues"])
 @pytest.mark.parametrize(("eta", "alpha", "digits"), DEPTHS)
-def test_the_second_oracle_lies_in_the_ball(
-    eta: float, alpha: float, digits: int, way: str
-) -> None:
+def test_the_second_oracle_lies_in_the_ball(eta: float, alpha: float, digits: int) -> None:
     """As balls: the second oracle's number, blurred by what it is asked to be exact to."""
     R, lam, mu = 2.0, 0.36e9, 0.43e9
-    law = many_digits.law_of(ratio_of(eta, 1.0), alpha, digits, lambda *_: None)
-    balls = many_digits.pressed(alpha, R, 1.0, lam, mu, law, digits + 3)
-    if way == "sums":
-        how = contact_routes.setting(digits)
-        others = (
-            contact_routes.indentation(alpha, R, eta, 1.0, digits, how),
-            contact_routes.stiffness(alpha, R, eta, 1.0, lam, mu, digits, how),
-        )
-    else:
-        of = residue_law.law(eta, 1.0, alpha, digits)
-        others = (
-            residue_law.indentation(alpha, R, of, digits),
-            residue_law.stiffness(alpha, R, lam, mu, of, digits),
-        )
+    law = ball_law.law_of(ratio_of(eta, 1.0), alpha, digits)
+    balls = ball_law.pressed(alpha, R, 1.0, lam, mu, law, digits + 3)
+    others = (
+        residue_law.indentation(alpha, R, eta, 1.0, digits),
+        residue_law.stiffness(alpha, R, eta, 1.0, lam, mu, digits),
+    )
     for ball, other in zip(balls, others, strict=True):
         with flint.ctx.workprec(bits_of(digits) + 64):
             assert ball.overlaps(to_ball(other) * arb(1, arb(10) ** -digits))
@@ -97,12 +86,12 @@ def test_both_oracles_of_an_impact(h: float, v0: float, digits: int) -> None:
     assert min(quantity.shared for quantity in found.quantities) > digits
 
 
-def test_no_digit_depends_on_the_scale_of_the_powers() -> None:
+def test_no_digit_depends_on_the_scale_of_the_powers(monkeypatch: pytest.MonkeyPatch) -> None:
     """Half as many digits again, and another reach: what is left out is below the digits asked."""
-    R, lam, mu, digits = 2.0, 0.36e9, 0.43e9, 40
-    motion = (R, 72.0, 1.0, lam, mu)
-    near, far = residue_law.law(0.1, 1.0, 0.04, digits), residue_law.law(0.1, 1.0, 0.09, 60)
-    found = residue_law.impact(*motion, near, digits), residue_law.impact(*motion, far, 60)
+    motion, digits = (2.0, 72.0, 1.0, 0.1, 1.0, 0.36e9, 0.43e9), 40
+    near = residue_law.impact(*motion, digits)
+    monkeypatch.setattr(residue_law, "SHALLOW", 0.9)
+    found = near, residue_law.impact(*motion, 60)
     with mp.workdps(80):
         for one, other in zip(*found, strict=True):
             assert 0 < abs(one / other - 1) < mpf(10) ** -digits
@@ -111,7 +100,7 @@ def test_no_digit_depends_on_the_scale_of_the_powers() -> None:
 def test_roots_and_bessel_functions_of_the_residues() -> None:
     with mp.workdps(60):
         for n in (1, 2, 40):
-            T = residue_routes._root(n)
+            T = residue_routes._root(n, mp.prec)
             assert abs(mp.sinh(T) - (-1) ** n * T) < mpf(10) ** -55 * abs(T)
             assert mp.pi * n < T.imag < mp.pi * (n + 0.5)
         for w in (mp.mpc(0.3, -0.2), mp.mpc(12, -3), mp.mpc(40, -5)):
@@ -271,10 +260,8 @@ def test_scenes_are_refused_as_simulate_does(tmp_path: Path, capsys: Captured) -
 def test_oracles_that_differ_are_status_1(
     monkeypatch: pytest.MonkeyPatch, capsys: Captured
 ) -> None:
-    right = contact_routes.hertz_stiffness
-    monkeypatch.setattr(
-        contact_routes, "hertz_stiffness", lambda *a: right(*a) * (1 + mpf(10) ** -12)
-    )
+    right = residue_law.hertz_stiffness
+    monkeypatch.setattr(residue_law, "hertz_stiffness", lambda *a: right(*a) * (1 + mpf(10) ** -12))
     assert main(["reference", str(PAPER), "--digits", "15"]) == 1
     assert "asked for 15 digits, repeats 12" in capsys.readouterr().out
 
@@ -327,24 +314,15 @@ def test_ctrl_c_ends_it_cleanly(monkeypatch: pytest.MonkeyPatch, capsys: Capture
 
 def test_estimates_grow_with_the_digits() -> None:
     motion = (0.13, 72.0, 1.0, 0.1, 1.0, 0.36e9, 0.43e9)
-    seconds = [many_costs.expected_seconds(motion, 0.0134, n) for n in (30, 100, 300, 1000)]
+    seconds = [many_digits.expected_seconds(motion, 0.0134, n) for n in (30, 100, 300, 1000)]
     assert seconds == sorted(seconds)
     assert seconds[0] < 10
-    assert not many_costs.by_series(1e-3, 0.1, 30)
+    assert not ball_law.by_series(1e-3, 0.1, 30)
     assert seconds[-1] < 600
-    assert many_costs.second_digits(0.1, 0.5, 1000) == 1000
-    assert many_costs.second_digits(1e-3, 0.1, 1000) == 100
     with pytest.raises(ValueError, match="digits"):
         many_digits.reference(motion, 0, lambda *_: None)
 
 
-def test_a_contact_too_deep_for_powers_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The sums over modes take over, for as many digits as they serve: here made to be few."""
-    monkeypatch.setattr(many_costs, "SECOND_DEEP", 12)
-    monkeypatch.setattr(many_costs, "PATIENCE", 0.0)
-    monkeypatch.setattr(many_costs, "first_seconds", lambda *_: 0.0)
-    motion = (0.5, 0.01, 0.1, 0.01, 1.0, 0.36e9, 0.43e9)
-    found = many_digits.reference(motion, 20, lambda *_: None)
-    assert found.agrees
-    assert {quantity.compared for quantity in found.quantities} == {12}
-    assert any("asked for 12 digits" in line for line in found.lines())
+def test_a_contact_too_deep_for_powers_is_refused() -> None:
+    with pytest.raises(RouteError, match="contacts up to a = 96 h, got 97 h"):
+        residue_law.indentation(0.97, 2.0, 0.01, 1.0)

@@ -259,9 +259,7 @@ def test_the_fast_ways_are_taken_with_it(monkeypatch: pytest.MonkeyPatch) -> Non
 
 @pytest.mark.parametrize("wanted", ["auto", 1, "true"])
 def test_what_the_key_takes(wanted: object) -> None:
-    with pytest.raises(
-        SceneError, match=r'compare_paper_motion: expected true or false \(it is never "a'
-    ):
+    with pytest.raises(SceneError, match=r"compare_paper_motion: expected .*true.*false"):
         read(compared(compare_paper_motion=wanted))
 
 

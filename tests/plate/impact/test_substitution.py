@@ -93,7 +93,7 @@ def test_an_ellipse_with_a_root_inside_is_refused() -> None:
 
 def test_thin_and_thick_plates_meet() -> None:
     below, above = (simple_impact.plate_of(1 / (tables.THIN + x)) for x in (1e-9, -1e-9))
-    assert below.bend == pytest.approx(above.bend, abs=below.doubt + above.doubt + 1e-8)
+    assert below.bend == pytest.approx(above.bend, abs=below.bend_error + above.bend_error + 1e-8)
     assert below.rest == pytest.approx(above.rest, rel=1e-6)
 
 

@@ -8,11 +8,12 @@ from typing import Any
 
 import numpy as np
 
+from derivation.engine.activity import Tell, quiet
 from derivation.engine.formula.ulp import SINGLE
 from derivation.engine.measure.judge import Errors
 from derivation.plate.contact.cases.grid import PAPERS_IMPACT, ContactShape, Point, arguments, grid
 from derivation.plate.contact.cases.judge import judge, results
-from derivation.plate.contact.cases.truth import DIGITS, ContactTruth, Job, Tell, relative, truths
+from derivation.plate.contact.cases.truth import DIGITS, ContactTruth, Job, relative, truths
 
 LIMIT = 2e-15
 """Relative error that a kernel keeps besides its budget."""
@@ -96,7 +97,7 @@ def check(
     kernels: Mapping[str, Callable[..., Any]],
     points: Mapping[str, Sequence[Point]] | None = None,
     processes: int = 1,
-    tell: Tell | None = None,
+    tell: Tell = quiet,
 ) -> tuple[ContactRow, ...]:
     """Hold kernels to the truth, which is what both oracles agree on, asked point by point.
 

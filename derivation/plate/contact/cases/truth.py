@@ -2,12 +2,13 @@
 
 import math
 import multiprocessing
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
 
 import flint
 
+from derivation.engine.activity import Tell, quiet
 from derivation.plate.contact.cases.grid import ContactShape, Point, arguments
 from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.impact.oracle.agreement import agree
@@ -18,7 +19,6 @@ DIGITS = 24
 _WRITTEN = 50
 """Digits with which a ball is passed on between processes."""
 
-Tell = Callable[[str, int, int], None]
 Job = tuple[str, ContactShape | Point]
 
 
@@ -92,7 +92,7 @@ def bending(point: Point, radius: float) -> float:
     return float(contact_balls.coefficient(1, h, b, 12)) * (radius / h)
 
 
-def truths(jobs: Sequence[Job], processes: int = 1, tell: Tell | None = None) -> list[ContactTruth]:
+def truths(jobs: Sequence[Job], processes: int = 1, tell: Tell = quiet) -> list[ContactTruth]:
     """Answers in the order of the questions.
 
     Parameters
@@ -108,7 +108,7 @@ def truths(jobs: Sequence[Job], processes: int = 1, tell: Tell | None = None) ->
         found = []
         for done, job in enumerate(jobs, start=1):
             found.append(truth(job))
-            _report(tell, job[0], done, len(jobs))
+            tell(job[0], done, len(jobs))
         return found
     # Fresh processes, since a copy of one with threads may hang.
     pool = ProcessPoolExecutor(processes, multiprocessing.get_context("spawn"))
@@ -116,15 +116,10 @@ def truths(jobs: Sequence[Job], processes: int = 1, tell: Tell | None = None) ->
         futures: dict[Future[ContactTruth], str] = {pool.submit(truth, job): job[0] for job in jobs}
         for done, future in enumerate(as_completed(futures), start=1):
             future.result()
-            _report(tell, futures[future], done, len(jobs))
+            tell(futures[future], done, len(jobs))
         return [future.result() for future in futures]
     finally:
         pool.shutdown(cancel_futures=True)
-
-
-def _report(tell: Tell | None, name: str, done: int, total: int) -> None:
-    if tell is not None:
-        tell(name, done, total)
 
 
 def relative(value: float, true: str, scale: float) -> float:

@@ -9,6 +9,7 @@ The code knows F and A F'(A) as `F` and `slope`, and C over mu as `modulus`.
 
 import sympy as sp
 
+from derivation.engine.emit.named import Claims, named
 from derivation.engine.emit.routine import Facts, Let, Routine, Several, routine
 from derivation.engine.rewrite.form import TIMES
 from derivation.plate.contact.theory.hertz import contact_radius, pressure
@@ -100,57 +101,48 @@ def root(
     return Several((symbol,), "root", (sp.Integer(degree), sp.Tuple(*factors), *below), (exact,))
 
 
-def modulus_over_mu() -> Routine:
-    """(4/3) E*/mu of both constants over any common factor."""
-    return routine(
-        "modulus_over_mu",
+@named
+def modulus_over_mu() -> Claims:
+    """(4/3) E* over mu; `first` and `second` are lam and mu over any common factor."""
+    return Claims(
         (first, second),
         (),
         (MODULUS.subs({lam: first, mu: second}),),
         (MODULUS,),
-        "(4/3) E* over mu; `first` and `second` are lam and mu over any common factor.",
         {first: lam / scale, second: mu / scale},
         sp.cancel,
     )
 
 
-def hertz_force() -> Routine:
-    """P of a contact radius."""
-    return routine(
-        "hertz_force",
-        (a, R, mu, modulus),
-        (),
-        (TIMES(modulus, mu, 1, a, 3, R, -1),),
-        (FORCE,),
-        "P, the contact force.",
-        LAW,
-        reduce,
+@named
+def hertz_force() -> Claims:
+    """P, the contact force."""
+    return Claims(
+        (a, R, mu, modulus), (), (TIMES(modulus, mu, 1, a, 3, R, -1),), (FORCE,), LAW, reduce
     )
 
 
-def hertz_radius() -> Routine:
-    """The contact radius of a force."""
-    return routine(
-        "hertz_radius",
+@named
+def hertz_radius() -> Claims:
+    """a, the contact radius."""
+    return Claims(
         (P, R, mu, modulus),
         (root(radius, 3, (P, R), mu, modulus),),
         (radius,),
         (a,),
-        "a, the contact radius.",
         {**LAW, P: FORCE},
         reduce,
     )
 
 
-def largest_pressure() -> Routine:
-    """p_0 of a contact radius."""
-    return routine(
-        "largest_pressure",
+@named
+def largest_pressure() -> Claims:
+    """p_0, the largest contact pressure."""
+    return Claims(
         (a, R, mu, modulus),
         (),
         (TIMES(3 * modulus / (2 * sp.pi), mu, 1, a, 1, R, -1),),
         (-pressure().expression.subs({r: 0, P: FORCE}),),
-        "p_0, the largest contact pressure.",
         LAW,
         reduce,
     )
@@ -170,44 +162,41 @@ def indentation() -> Routine:
     )
 
 
-def indentation_in_range() -> Routine:
-    """The same of lengths whose products stay in range."""
-    return routine(
-        "indentation_in_range",
+@named
+def indentation_in_range() -> Claims:
+    """delta of ordinary lengths."""
+    return Claims(
         (a, inverse_R, F),
         (Let(whole, 1 + F), Let(flat, inverse_R * a)),
         (whole * a * flat,),
         (DEPTH,),
-        "delta of ordinary lengths.",
         LAW,
         reduce,
     )
 
 
-def depth_coefficients() -> Routine:
-    """What a coefficient of F/A is in the indentation."""
+@named
+def depth_coefficients() -> Claims:
+    """What goes with a^2 in the indentation; and with a^3, by what goes with A in F."""
     hertz = DEPTH.subs(CORRECTION, 0)
-    return routine(
-        "depth_coefficients",
+    return Claims(
         (S, R, h),
         (Let(inverse_R, 1 / R),),
         (inverse_R, S * inverse_R / h),
         (hertz / a**2, (DEPTH - hertz) / a**3),
-        "What goes with a^2 in the indentation; and with a^3, by what goes with A in F.",
         {S: CORRECTION * h / a},
         reduce,
     )
 
 
-def relative_rise() -> Routine:
-    """The slope of the indentation over half that of the half-space, times 2."""
-    return routine(
-        "relative_rise",
+@named
+def relative_rise() -> Claims:
+    """(R/a) d delta/da."""
+    return Claims(
         (F, slope),
         (Let(whole, 1 + F),),
         (2 * whole + slope,),
         (R / a * sp.diff(DEPTH, a),),
-        "(R/a) d delta/da.",
         LAW,
         reduce,
     )
@@ -241,70 +230,56 @@ def stiffness() -> Routine:
     )
 
 
-def depth_ratio() -> Routine:
-    """sqrt(R delta)/h, Hertz's radius over the half-thickness."""
-    return routine(
-        "depth_ratio",
+@named
+def depth_ratio() -> Claims:
+    """sqrt(R delta)/h, what Hertz's radius would be over h."""
+    return Claims(
         (delta, R, h),
         (root(radius, 2, (delta, R), h, h),),
         (radius,),
         (sp.sqrt(R * DEPTH) / h,),
-        "sqrt(R delta)/h, what Hertz's radius would be over h.",
         LAW,
         reduce,
     )
 
 
-def depth_ratio_at() -> Routine:
-    """The same of a contact radius."""
-    return routine(
-        "depth_ratio_at",
-        (A, F),
-        (Let(whole, 1 + F),),
-        (A * sp.sqrt(whole),),
-        (sp.sqrt(R * DEPTH) / h,),
-        "sqrt(R delta)/h by A and F.",
-        LAW,
-        reduce,
+@named
+def depth_ratio_at() -> Claims:
+    """sqrt(R delta)/h by A and F."""
+    return Claims(
+        (A, F), (Let(whole, 1 + F),), (A * sp.sqrt(whole),), (sp.sqrt(R * DEPTH) / h,), LAW, reduce
     )
 
 
-def radius_of_share() -> Routine:
-    """The contact radius by what share it is of Hertz's."""
-    return routine(
-        "radius_of_share",
-        (share, delta, R),
-        (root(radius, 2, (delta, R)),),
-        (share * radius,),
-        (a,),
-        "a by what share it is of Hertz's radius sqrt(R delta).",
-        LAW,
-        reduce,
+@named
+def radius_of_share() -> Claims:
+    """a by what share it is of Hertz's radius sqrt(R delta)."""
+    return Claims(
+        (share, delta, R), (root(radius, 2, (delta, R)),), (share * radius,), (a,), LAW, reduce
     )
 
 
-def force_of_share() -> Routine:
-    """P by the indentation and that share: so the errors of Hertz's radius count once."""
-    return routine(
-        "force_of_share",
+@named
+def force_of_share() -> Claims:
+    """P by delta, a and a over Hertz's radius, whose errors count once, not three times."""
+    return Claims(
         (share, delta, a, mu, modulus),
         (),
         (TIMES(modulus, mu, 1, share, 2, delta, 1, a, 1),),
         (FORCE,),
-        "P by delta, a and a over Hertz's radius, whose errors count once, not three times.",
         LAW,
         reduce,
     )
 
 
-def newton_step() -> Routine:
-    """How far a share of Hertz's radius is off, and what Halley's method adds to it."""
+@named
+def newton_step() -> Claims:
+    """(R delta/h^2) over that at A, less 1, and by what share of itself A is to grow."""
     goal = (h * eps) ** 2 / (R * DEPTH) - 1
     power = 1 / (a * sp.diff(sp.log(R * DEPTH), a))
     step = sp.series((1 + residual) ** exponent - 1, residual, 0, 3).removeO()
     bend = residual * (exponent / 2 - sp.Rational(1, 2))
-    return routine(
-        "newton_step",
+    return Claims(
         (share, F, slope),
         (
             Let(whole, 1 + F),
@@ -314,7 +289,6 @@ def newton_step() -> Routine:
         ),
         (residual, exponent * residual * (1 + bend)),
         (goal, step.subs({residual: goal, exponent: power})),
-        "(R delta/h^2) over that at A, less 1, and by what share of itself A is to grow.",
         {share: a / (h * eps), F: CORRECTION, slope: a * sp.diff(CORRECTION, a)},
         sp.simplify,
     )

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 
 import sympy as sp
 
+from derivation.engine.emit.named import Claims, named
 from derivation.engine.emit.routine import Facts, Let, Routine, Statement, routine
 from derivation.plate.contact.kernels import law
 from derivation.plate.contact.kernels.law import CORRECTION, DEPTH, FORCE, log_eta
@@ -26,30 +27,24 @@ own, of_energy, of_eta = sp.symbols("own of_energy of_eta", real=True)
 # --- sums over the powers of the law
 
 
-def power_work() -> Routine:
-    """E of one power of A."""
-    return routine(
-        "power_work",
+@named
+def power_work() -> Claims:
+    """The work of a term that goes with the n-th power of A: int_0^1 x^3 d(term x^n)."""
+    return Claims(
         (n, term),
         (),
         (term * (n / (n + 3)),),
         (sp.integrate(x**3 * sp.diff(term * x**n, x), (x, 0, 1)),),
-        "The work of a term that goes with the n-th power of A: int_0^1 x^3 d(term x^n).",
         {},
         sp.simplify,
     )
 
 
-def power_slope() -> Routine:
-    """A F' of one power of A."""
-    return routine(
-        "power_slope",
-        (n, term),
-        (),
-        (term * (n - 2),),
-        (sp.diff(term * x ** (n - 2), x).subs(x, 1),),
-        "The slope by log A of a term of F that is one of delta with the n-th power of A.",
-        {},
+@named
+def power_slope() -> Claims:
+    """The slope by log A of a term of F that is one of delta with the n-th power of A."""
+    return Claims(
+        (n, term), (), (term * (n - 2),), (sp.diff(term * x ** (n - 2), x).subs(x, 1),), {}
     )
 
 
@@ -60,8 +55,9 @@ class NearNodes:
     last, w, rest, left, short, height = sp.symbols("last w rest left short height", positive=True)
 
 
-def near_nodes() -> Routine:
-    """q, 1 - q and s = q/ratio at the nodes, without cancellation."""
+@named
+def near_nodes() -> Claims:
+    """q, s = q/ratio, 1 - q, (1 - s) ratio^5/(1 - q), and where w ends; root^2 is 1 - ratio."""
     k = NearNodes
     u = 1 - (1 - k.root) * k.node
     there, s_there = 1 - u**2, (1 - u**2) / (1 - k.root**2)
@@ -76,34 +72,32 @@ def near_nodes() -> Routine:
     )
     results = q, q / k.ratio, k.left, k.short * k.ratio**5 / k.left, k.last
     share = (1 - s_there) * (1 - k.root**2) ** 5 / (1 - there)
-    return routine(
-        "near_nodes",
+    return Claims(
         (k.node, k.ratio, k.root),
         statements,
         results,
         (there, s_there, 1 - there, share, 1 - k.root),
-        "q, s = q/ratio, 1 - q, (1 - s) ratio^5/(1 - q), and where w ends; root^2 is 1 - ratio.",
         {k.ratio: 1 - k.root**2},
         sp.cancel,
     )
 
 
-def work_weight() -> Routine:
-    """What of a node's weight makes the work of V."""
+@named
+def work_weight() -> Claims:
+    """What V is multiplied by in int x^3 d(x^2 (1 + F))."""
     rise = R / a * sp.diff(DEPTH, a)
-    return routine(
-        "work_weight",
+    return Claims(
         (x, weight),
         (),
         (weight * x**4,),
         (weight * sp.cancel(R * a**3 * sp.diff(DEPTH, a) / rise),),
-        "What V is multiplied by in int x^3 d(x^2 (1 + F)).",
         {x: a},
     )
 
 
-def rates() -> Routine:
-    """V and its slopes by log A and by log eta."""
+@named
+def rates() -> Claims:
+    """V = 2 (1 + F) + A F', and its slopes by log A and by log(h/b)."""
     F, slope, curve, deeper = sp.symbols("F slope curve deeper", real=True)
     rise = R / a * sp.diff(DEPTH, a)
     grown = a * sp.diff(CORRECTION, a)
@@ -115,13 +109,11 @@ def rates() -> Routine:
         lift: lifted,
         deeper: a * sp.diff(lifted, a),
     }
-    return routine(
-        "rates",
+    return Claims(
         (F, slope, curve, lift, deeper),
         (Let(law.whole, 1 + F),),
         (2 * law.whole + slope, 2 * slope + curve, 2 * lift + deeper),
         (rise, a * sp.diff(rise, a), sp.diff(rise, log_eta)),
-        "V = 2 (1 + F) + A F', and its slopes by log A and by log(h/b).",
         meaning,
         sp.simplify,
     )
@@ -152,12 +144,12 @@ SUMS: Facts = {
 """What the sums stand for."""
 
 
-def peak_growth() -> Routine:
-    """How the largest radius, indentation and force grow."""
+@named
+def peak_growth() -> Claims:
+    """How A_m, delta_m and P_m grow with energy number and h/b: logarithmic slopes."""
     by_radius = a * sp.diff(sp.log(FORCE), a)
     growth = tuple(formula.expression for formula in peaks())
-    return routine(
-        "peak_growth",
+    return Claims(
         (energy, rate, energy_slope, lift, lift_slope),
         (Let(first, energy / rate), Let(second, -energy_slope / rate)),
         (
@@ -169,23 +161,21 @@ def peak_growth() -> Routine:
             by_radius * second,
         ),
         (*growth, *(by_radius * value for value in growth[:2])),
-        "How A_m, delta_m and P_m grow with energy number and h/b: logarithmic slopes.",
         SUMS,
         sp.cancel,
     )
 
 
-def whole_work() -> Routine:
-    """E up to A_m."""
+@named
+def whole_work() -> Claims:
+    """The work over A_m^5 by that over A_near^5 and what is added; near is A_near/A_m."""
     near, within, rise = sp.symbols("near within rise", positive=True)
     work = sp.integrate(x**3 * sp.diff(term * x**n, x), x)
-    return routine(
-        "whole_work",
+    return Claims(
         (near, within, rise),
         (),
         (within * near**5 + rise,),
         (sp.simplify(work.subs(x, 1)),),
-        "The work over A_m^5 by that over A_near^5 and what is added; near is A_near/A_m.",
         {within: work.subs(x, near) / near**5, rise: work.subs(x, 1) - work.subs(x, near)},
         sp.simplify,
     )
@@ -248,23 +238,23 @@ def near_slope_terms() -> Routine:
     return _near_terms("near_slope_terms", 0, "The same for a slope of F.")
 
 
-def far_nodes() -> Routine:
-    """Where the nodes beyond the first polynomial lie."""
+@named
+def far_nodes() -> Claims:
+    """The node of [q, 1] counted from 1, where 1 - q = gap u^2."""
     gap, u = sp.symbols("gap u", positive=True)
-    return routine(
-        "far_nodes",
+    return Claims(
         (gap, u, NearNodes.node),
         (),
         (1 - gap * u**2 * NearNodes.node,),
         (1 - NearNodes.node * (1 - q),),
-        "The node of [q, 1] counted from 1, where 1 - q = gap u^2.",
         {gap: (1 - q) / u**2},
         sp.expand,
     )
 
 
-def time_terms() -> Routine:
-    """The integrand of the contact time and its slopes, a term of the quadrature each."""
+@named
+def time_terms() -> Claims:
+    """Terms of int N/sqrt(S) and of its slopes by log A_m and log(h/b)."""
     names = sp.symbols("N S N_1 S_1 N_2 S_2", positive=True)
     N, S, N_1, S_1, N_2, S_2 = names
     scaled, half = sp.symbols("scaled half", positive=True)
@@ -273,13 +263,11 @@ def time_terms() -> Routine:
         for weights in (LAW_WEIGHTS, RADIUS_WEIGHTS, ETA_WEIGHTS)
         for value in _time_parts(weights, 1 - u_t**2)
     ]
-    return routine(
-        "time_terms",
+    return Claims(
         (*names, weight),
         (Let(scaled, weight / sp.sqrt(S)), Let(half, N / (2 * S))),
         (N * scaled, (N_1 - half * S_1) * scaled, (N_2 - half * S_2) * scaled),
         tuple(weight / 2 * part.expression for part in (contact_time()[0], *times())),
-        "Terms of int N/sqrt(S) and of its slopes by log A_m and log(h/b).",
         dict(zip(names, values, strict=True)),
     )
 
@@ -292,52 +280,49 @@ class TimeIntegral(sp.Function):
         return (by_radius / sp.exp(self.args[0]), by_thickness)[argindex - 1]
 
 
-def time_growth() -> Routine:
-    """How the contact time grows: it goes with a_m^2/sqrt(a_m^5) times the integral."""
+@named
+def time_growth() -> Claims:
+    """How the contact time grows with energy number and h/b, by how A_m does."""
     log_A = sp.Symbol("log_A", real=True)
     A = sp.exp(log_A)
     time = sp.log(TimeIntegral(log_A, log_eta)) + sp.expand_log(sp.log(A**2 / sp.sqrt(A**5)))
     value = time.subs(TimeIntegral(log_A, log_eta), total)
     slopes = [by_radius / total, by_thickness / total]
     by_log_A, by_log_eta = sp.diff(value, log_A) + slopes[0], sp.diff(value, log_eta) + slopes[1]
-    return routine(
-        "time_growth",
+    return Claims(
         (total, by_radius, by_thickness, first, second),
         (Let(rate, by_radius / total - sp.Rational(1, 2)),),
         (rate * first, rate * second + by_thickness / total),
         (by_log_A * first, by_log_A * second + by_log_eta),
-        "How the contact time grows with energy number and h/b, by how A_m does.",
         {},
         sp.simplify,
     )
 
 
-def parameter_power() -> Routine:
-    """The power of a parameter, locally."""
+@named
+def parameter_power() -> Claims:
+    """Power of a parameter in a result: its own, and those by energy number and h/b."""
     log_p = sp.Symbol("log_p", real=True)
     change = own * log_p + by_energy * (of_energy * log_p) + by_eta * (of_eta * log_p)
-    return routine(
-        "parameter_power",
+    return Claims(
         (own, of_energy, of_eta, by_energy, by_eta),
         (),
         (own + by_energy * of_energy + by_eta * of_eta,),
         (sp.diff(change, log_p),),
-        "Power of a parameter in a result: its own, and those by energy number and h/b.",
         {},
         sp.expand,
     )
 
 
-def constants_powers() -> Routine:
-    """Of the modulus; quotients, so that products stay in range."""
+@named
+def constants_powers() -> Claims:
+    """Powers of lam and mu in a result by that of E*."""
     by_lam = modulus_slope().expression
-    return routine(
-        "constants_powers",
+    return Claims(
         (powers, lam, mu),
         (Let(first, lam / (lam + mu)), Let(second, mu / (lam + 2 * mu)), Let(own, first * second)),
         (powers * own, powers * (1 - own)),
         (powers * by_lam, powers * (1 - by_lam)),
-        "Powers of lam and mu in a result by that of E*.",
         {},
         sp.cancel,
     )

@@ -6,6 +6,7 @@ Where the code has a polynomial instead, F = A S(t) with t = (A^2 - middle)/half
 
 import sympy as sp
 
+from derivation.engine.emit.named import Claims, named
 from derivation.engine.emit.routine import Facts, Let, Routine, Several, routine
 from derivation.plate.blocks import blocks
 from derivation.plate.contact.theory.split import reduced_split
@@ -49,13 +50,13 @@ def _with_logarithm(expression: sp.Expr) -> sp.Expr:
     return sp.expand(sp.expand_log(sp.expand(expression), force=True))
 
 
-def thin_coefficients() -> Routine:
-    """c1 and c3."""
+@named
+def thin_coefficients() -> Claims:
+    """c1 and c3 of a thin plate."""
     found = _with_logarithm(thin(2)), _with_logarithm(thin(3))
     shares = [part.coeff(sp.log(v)) for part in found]
     grows = found[0].coeff(v**2)
-    return routine(
-        "thin_coefficients",
+    return Claims(
         (v,),
         (
             Let(log_v, sp.log(v)),
@@ -63,7 +64,6 @@ def thin_coefficients() -> Routine:
         ),
         (grows * v**2 + rest, CUBIC + shares[1] * log_v),
         (thin(2), thin(3)),
-        "c1 and c3 of a thin plate.",
         THIN,
         _with_logarithm,
     )
@@ -104,16 +104,15 @@ def thin_far() -> Routine:
     return thin_start("thin_far", MIDDLE, HALF)
 
 
-def linear_by_log() -> Routine:
+@named
+def linear_by_log() -> Claims:
     """The slope of c1 by log v."""
     found = sp.expand(v * sp.diff(thin(2), v))
-    return routine(
-        "linear_by_log",
+    return Claims(
         (v,),
         (),
         (found,),
         (-eta * sp.diff(thin_coefficient(2).expression, eta),),
-        "The slope of c1 by log v.",
         {v: 1 / eta},
         sp.simplify,
     )
@@ -132,40 +131,38 @@ WEIGHT = plate_factors()[2].expression.subs(T, 2 * eta * j_n) / (j_n * J1**2)
 """w_n."""
 
 
-def mode_weight() -> Routine:
-    """w_n."""
+@named
+def mode_weight() -> Claims:
+    """w_n, the weight of a mode."""
     exact = plate_factors()[2].expression.subs(T, 2 * eta * j_n)
-    return routine(
-        "mode_weight",
+    return Claims(
         (eta, j_n, J1),
         (Several((excess,), "G_minus_1", (2 * eta * j_n,), (exact,)),),
         (excess / (j_n * J1**2),),
         (SHARE / (8 * alpha / sp.pi * sine_kernel(alpha * j_n)),),
-        "w_n, the weight of a mode.",
         {},
         sp.simplify,
     )
 
 
-def weight_by_thickness() -> Routine:
-    """Its slope by log(eta)."""
+@named
+def weight_by_thickness() -> Claims:
+    """The slope of w_n by log(h/b)."""
     exact = plate_factor_slope().expression.subs(T, 2 * eta * j_n)
-    return routine(
-        "weight_by_thickness",
+    return Claims(
         (eta, j_n, J1),
         (Several((excess,), "G_slope", (2 * eta * j_n,), (exact,)),),
         (excess / (j_n * J1**2),),
         (eta * sp.diff(WEIGHT, eta),),
-        "The slope of w_n by log(h/b).",
         {},
     )
 
 
-def mode_terms() -> Routine:
-    """What a mode adds to the sums for F and A F', up to a factor."""
+@named
+def mode_terms() -> Claims:
+    """What a mode adds to both sums, y = alpha j_n."""
     block = blocks()["hertz_shape"]
-    return routine(
-        "mode_terms",
+    return Claims(
         (y, weight),
         (
             Let(held, sp.Min(y, block.near(sp.oo)), opaque=True),
@@ -178,23 +175,21 @@ def mode_terms() -> Routine:
             weight * sine_kernel(y),
             weight * sp.diff(y * sine_kernel(y), y),
         ),
-        "What a mode adds to both sums, y = alpha j_n.",
         {},
         lambda e: sp.simplify(e.replace(sp.sinc, lambda x: sp.sin(x) / x)),
     )
 
 
-def of_modes() -> Routine:
-    """Both sums as shares of F and A F'."""
+@named
+def of_modes() -> Claims:
+    """What the modes add to F and A F'."""
     kernel = sine_kernel(y)
     sums = {total: kernel, rise: sp.diff(y * kernel, y)}
-    return routine(
-        "of_modes",
+    return Claims(
         (alpha, total, rise),
         (Let(ratio, 8 * alpha / sp.pi),),
         (ratio * total, ratio * rise),
         (SHARE, alpha * sp.diff(SHARE, alpha)),
-        "What the modes add to F and A F'.",
         {name: WEIGHT * value.subs(y, alpha * j_n) for name, value in sums.items()},
         sp.simplify,
     )
@@ -290,32 +285,30 @@ class TableSlope(sp.Function):
     """The slope of that by log(eta)."""
 
 
-def thick_by_thickness() -> Routine:
-    """The slope of S_k by log(eta) where the powers are those of (A eta)^2."""
+@named
+def thick_by_thickness() -> Claims:
+    """The slope of S_k by log(h/b) at fixed A, in powers of A eta; order is 2k + 1."""
     coefficient = eta**order * Table(sp.log(eta))
-    return routine(
-        "thick_by_thickness",
+    return Claims(
         (order, S, eta, change),
         (),
         (eta * change + order * S,),
         (eta * sp.diff(coefficient, eta) / eta ** (order - 1),),
-        "The slope of S_k by log(h/b) at fixed A, in powers of A eta; order is 2k + 1.",
         {S: eta * Table(sp.log(eta)), change: TableSlope(sp.log(eta))},
         sp.simplify,
     )
 
 
-def range_by_thickness() -> Routine:
-    """How t moves with log v where the range of A^2 ends at v^2."""
+@named
+def range_by_thickness() -> Claims:
+    """What times -(1 + t) is the slope of t by log v at fixed A, up to A = v."""
     start = sp.Symbol("start", positive=True)
     place = PLACE.subs({middle: (v**2 + start**2) / 2, half: (v**2 - start**2) / 2})
-    return routine(
-        "range_by_thickness",
+    return Claims(
         (v, half),
         (),
         (v * v / half,),
         (sp.simplify(-v * sp.diff(place, v) / (1 + place)),),
-        "What times -(1 + t) is the slope of t by log v at fixed A, up to A = v.",
         {half: (v**2 - start**2) / 2},
         sp.simplify,
     )

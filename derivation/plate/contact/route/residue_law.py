@@ -1,43 +1,56 @@
-"""Oracle 2 to many digits: law and impact from the power series of `residues`.
+"""Oracle 2 of contact law and impact to any number of digits, by the power series of `residues`.
 
 The impact's time is an integral of an even function of u, a = a_m (1 - u^2), over
 [-1, 1], where Fejer's first rule serves: its nodes are cosines, and its weights take no more
-than sums of them. All that is summed is in fixed-point numbers.
+than sums of them. All that is summed is in fixed-point numbers. Everything is evaluated once:
+what it is compared with is certified.
 """
 
 import cmath
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
 from mpmath import mp, mpf
 
 from derivation.engine.oracle.agreement import RouteError
-from derivation.plate.contact.route import sums as contact_routes
 from derivation.plate.contact.route.residues import ResidueSeries, Scaled, fixed, floating, series
-from derivation.plate.contact.route.sums import RouteImpact
 
 ELLIPSE = 1.8
 """Axes' sum of an ellipse about [-1, 1] that the integrand is analytic in: in a stiff
 half-space 2.02 and in a plate that bends alone 1.93, by where 1 - q^5 and 1 - q^6 vanish."""
 
+SHALLOW, DEEPEST = 1.5, 96.0
+"""a/h that the first series of a plate serves up to, and the last, each of twice the other's:
+the work goes with the 2.5th power of it."""
+
+EDGE = mpf("0.9999")
+"""Largest a/b that is looked for."""
+
 _EXTRA = 30
 """Digits that arguments are worked out with beyond those asked for."""
 
+_FEW = 25
+"""Series are made for multiples of so many digits, and roots looked for with so many first."""
+
 _STEPS = 60
+
+
+class RouteImpact(NamedTuple):
+    """What an impact comes to."""
+
+    contact_time: mpf
+    max_indentation: mpf
+    max_force: mpf
+    max_contact_radius: mpf
 
 
 class ResidueLaw(NamedTuple):
     """A plate's law up to some contact radius, its argument q = a/(reach b)."""
 
     known: ResidueSeries
-    h: float
-    b: float
-
-    def ratio(self, a: float) -> mpf:
-        """q of a contact radius [m]."""
-        return mpf(a) / mpf(self.b) / self.known.reach
+    eta: mpf
 
     def depth(self, q: mpf) -> mpf:
         """delta R/a^2."""
@@ -67,72 +80,165 @@ def _horner(terms: Sequence[int], x: int, bits: int) -> int:
     return total
 
 
-def law(h: float, b: float, reach: float, digits: int) -> ResidueLaw:
-    """The law of a plate.
-
-    Parameters
-    ----------
-    h, b
-        Half-thickness and radius [m].
-    reach
-        Largest a/b [1] to serve, below 1: only a scale, on which no digit depends.
-    digits
-        Digits asked for.
-
-    Raises
-    ------
-    ValueError
-        Unless 0 < reach < 1.
-    """
-    if not 0 < reach < 1:
-        raise ValueError(f"the law has meaning for 0 < a/b < 1, got {reach}")
-    with mp.workdps(digits + _EXTRA):
-        return ResidueLaw(series(mpf(h) / mpf(b), mpf(reach), digits), h, b)
-
-
-def indentation(a: float, R: float, of: ResidueLaw, digits: int) -> mpf:
-    """Indentation [m] at a contact radius [m]."""
-    with mp.workdps(digits + _EXTRA):
-        return mpf(a) ** 2 / mpf(R) * of.depth(of.ratio(a))
-
-
-def stiffness(a: float, R: float, lam: float, mu: float, of: ResidueLaw, digits: int) -> mpf:
-    """dP/d delta [N/m] at a contact radius [m]: (dP/da)/(d delta/da)."""
-    with mp.workdps(digits + _EXTRA):
-        steep = 3 * contact_routes.hertz_stiffness(mpf(R), lam, mu) * mpf(a) ** 2
-        return steep / (2 * mpf(a) / mpf(R) * of.slope(of.ratio(a)))
-
-
-def impact(
-    R: float, m: float, v0: float, lam: float, mu: float, of: ResidueLaw, digits: int
-) -> RouteImpact:
-    """The conservative impact of a sphere of mass m [kg] at speed v0 [m/s].
+def depth_served(depth: float) -> float:
+    """Largest a/h that the series for contacts of a/h = depth serves.
 
     Raises
     ------
     RouteError
-        If no largest contact radius is found.
+        If that is more than DEEPEST.
     """
+    # At a root just within a series' reach the law is asked for beside it too.
+    served: float = SHALLOW * 2 ** max(0, math.ceil(math.log2(depth / SHALLOW) - 1e-6))
+    if served > DEEPEST:
+        raise RouteError(f"this route serves contacts up to a = {DEEPEST:g} h, got {depth:.4g} h")
+    return served
+
+
+def seconds(eta: float, reach: float, digits: int) -> float:
+    """About how long the law up to a/b = reach and an impact take [s]: powers, and the poles."""
+    powers = 30 * (digits / 1000) ** 3 * (1 + (depth_served(reach / eta) / 2.5) ** 2.5)
+    return float(powers + 100 * eta * (digits / 1000) ** 2.2)
+
+
+def _law(h: float, b: float, x: mpf, digits: int) -> tuple[ResidueLaw, mpf]:
+    """The law of a plate for contacts up to a/b = x at least, and q there."""
+    digits = _FEW * math.ceil(digits / _FEW)
     with mp.workdps(digits + _EXTRA):
-        stiff, reach = contact_routes.hertz_stiffness(mpf(R), lam, mu), of.known.reach * mpf(of.b)
-        unit = 2 * stiff * reach**5 / mpf(R)
-        largest = _largest(of, mpf(m) * mpf(v0) ** 2 / 2 / unit)
-        radius = largest * reach
-        time = 2 * radius**2 / mpf(R) * mp.sqrt(mpf(m) / (2 * unit)) * _quarter(of, largest, digits)
-        deepest = radius**2 / mpf(R) * of.depth(largest)
-        return RouteImpact(2 * time, deepest, stiff * radius**3, radius)
+        eta = mpf(h) / mpf(b)
+        reach = min(mpf(1), eta * depth_served(float(x / eta)))
+        return ResidueLaw(series(eta, reach, digits), eta), x / reach
 
 
-def _largest(of: ResidueLaw, target: mpf) -> mpf:
-    """q at which the work reaches a value: Newton's iteration in logarithms."""
-    q, close = mpf(1), mpf(10) ** (-mp.dps // 2 - 4)
-    for _ in range(_STEPS):
-        work = of.work(q)
-        step = mp.log(target / work) * work / (q**5 * of.slope(q))
-        q *= mp.exp(step)
-        if abs(step) < close:
-            return q
-    raise RouteError(f"no largest contact radius found near {mp.nstr(q * of.known.reach)} b")
+def _ratio(a: float, b: float) -> mpf:
+    if not 0 < a < b:
+        raise ValueError(f"the law has meaning for 0 < a/b < 1, got {mp.nstr(mpf(a) / mpf(b))}")
+    return mpf(a) / mpf(b)
+
+
+def indentation(a: float, R: float, h: float, b: float, digits: int = 40) -> mpf:
+    """Indentation [m] at a contact radius [m]."""
+    with mp.workdps(digits + _EXTRA):
+        law, q = _law(h, b, _ratio(a, b), digits)
+        return mpf(a) ** 2 / mpf(R) * law.depth(q)
+
+
+def slope(a: float, R: float, h: float, b: float, digits: int = 40) -> mpf:
+    """d delta/da [1] at a contact radius [m]."""
+    with mp.workdps(digits + _EXTRA):
+        law, q = _law(h, b, _ratio(a, b), digits)
+        return 2 * mpf(a) / mpf(R) * law.slope(q)
+
+
+def hertz_stiffness(R: mpf, lam: float, mu: float) -> mpf:
+    """P/a^3 = 4 E*/(3 R)."""
+    first, second = mpf(lam), mpf(mu)
+    return 16 * second * (first + second) / (first + 2 * second) / (3 * R)
+
+
+def stiffness(
+    a: float, R: float, h: float, b: float, lam: float, mu: float, digits: int = 40
+) -> mpf:
+    """dP/d delta [N/m] at a contact radius [m]: (dP/da)/(d delta/da)."""
+    with mp.workdps(digits + _EXTRA):
+        return 3 * hertz_stiffness(mpf(R), lam, mu) * mpf(a) ** 2 / slope(a, R, h, b, digits)
+
+
+def contact_radius(delta: float, R: float, h: float, b: float, digits: int = 40) -> mpf:
+    """Contact radius [m] at an indentation [m]."""
+
+    def function(x: mpf, digits: int) -> tuple[mpf, mpf]:
+        law, q = _law(h, b, x, digits)
+        depth = law.depth(q)
+        return x**2 * depth, 2 * law.slope(q) / depth
+
+    with mp.workdps(digits + _EXTRA):
+        target = mpf(delta) * mpf(R) / mpf(b) ** 2
+        # Hertz's, or that of a bent plate, x^3/(4 pi eta^3) = target, if it is smaller.
+        start = min(mp.sqrt(target), mp.cbrt(4 * mp.pi * target) * mpf(h) / mpf(b))
+        return mpf(b) * _root(function, target, start, digits)
+
+
+def force_of_radius(a: float, R: float, lam: float, mu: float, digits: int = 40) -> mpf:
+    """The force [N] of a contact radius [m]."""
+    with mp.workdps(digits + _EXTRA):
+        return hertz_stiffness(mpf(R), lam, mu) * mpf(a) ** 3
+
+
+def radius_of_force(P: float, R: float, lam: float, mu: float, digits: int = 40) -> mpf:
+    """The contact radius [m] of a force [N]."""
+    with mp.workdps(digits + _EXTRA):
+        return mp.cbrt(mpf(P) / hertz_stiffness(mpf(R), lam, mu))
+
+
+def max_pressure(a: float, R: float, lam: float, mu: float, digits: int = 40) -> mpf:
+    """p_0 = 3 P/(2 pi a^2) [Pa]."""
+    with mp.workdps(digits + _EXTRA):
+        return 3 * force_of_radius(a, R, lam, mu, digits) / (2 * mp.pi * mpf(a) ** 2)
+
+
+def force(
+    delta: float, R: float, h: float, b: float, lam: float, mu: float, digits: int = 40
+) -> mpf:
+    """The force [N] at an indentation [m]."""
+    with mp.workdps(digits + _EXTRA):
+        return force_of_radius(contact_radius(delta, R, h, b, digits), R, lam, mu, digits)
+
+
+def impact(
+    R: float, m: float, v0: float, h: float, b: float, lam: float, mu: float, digits: int = 30
+) -> RouteImpact:
+    """The conservative impact of a sphere of mass m [kg] at speed v0 [m/s]."""
+
+    def function(x: mpf, digits: int) -> tuple[mpf, mpf]:
+        law, q = _law(h, b, x, digits)
+        work = law.work(q)
+        return (x / q) ** 5 * work, q**5 * law.slope(q) / work
+
+    with mp.workdps(digits + _EXTRA):
+        stiff = hertz_stiffness(mpf(R), lam, mu)
+        unit = 2 * stiff * mpf(b) ** 5 / mpf(R)
+        target = mpf(m) * mpf(v0) ** 2 / 2 / unit
+        # Hertz's x^5/5, or a bent plate's x^6/(16 pi eta^3), if it leads less far.
+        bent = mp.root(16 * mp.pi * target * (mpf(h) / mpf(b)) ** 3, 6)
+        x = _root(function, target, min(mp.root(5 * target, 5), bent), digits)
+        law, largest = _law(h, b, x, digits)
+        radius, unit = x * mpf(b), unit * (x / largest) ** 5
+        depth, time = radius**2 / mpf(R), mp.sqrt(mpf(m) / (2 * unit))
+        time *= 4 * depth * _quarter(law, largest, digits)
+        return RouteImpact(time, depth * law.depth(largest), stiff * radius**3, radius)
+
+
+def _root(
+    function: Callable[[mpf, int], tuple[mpf, mpf]], target: mpf, start: mpf, digits: int
+) -> mpf:
+    """x in (0, 1) where an increasing function reaches its target: Newton in logarithms.
+
+    The function gives its value and d log value/d log x to so many digits: few at first. Values
+    beside the root, a relative 10^-(digits + 4) away, must enclose the target.
+
+    Raises
+    ------
+    ValueError
+        If the target lies beyond the edge of the plate.
+    RouteError
+        If no root is found.
+    """
+    x = min(start, mpf(1) / 2)
+    for shown in (min(_FEW, digits), digits):
+        for _ in range(_STEPS):
+            value, steepness = function(x, shown)
+            step = mp.log(target / value) / steepness
+            proposed = x * mp.exp(step)
+            if proposed > EDGE and not function(EDGE, shown)[0] > target:
+                raise ValueError("the contact would reach the edge of the plate")
+            x = min(proposed, (x + EDGE) / 2)
+            if abs(step) < mpf(10) ** (-shown // 2 - 4):
+                break
+    margin = x * mpf(10) ** (-digits - 4)
+    if not function(x - margin, digits)[0] < target < function(x + margin, digits)[0]:
+        raise RouteError(f"no root found near {mp.nstr(x)}")
+    return x
 
 
 def _quarter(of: ResidueLaw, largest: mpf, digits: int) -> mpf:
@@ -152,7 +258,7 @@ def _quarter(of: ResidueLaw, largest: mpf, digits: int) -> mpf:
 
 def _ellipse(of: ResidueLaw, largest: mpf) -> float:
     """Axes' sum of an ellipse for deep contacts too: the law is singular at a = +-4 i h."""
-    square = complex(1, -4 * of.h / (of.b * float(largest * of.known.reach)))
+    square = complex(1, -4 * float(of.eta / (largest * of.known.reach)))
     u = cmath.sqrt(square)
     half = (abs(u - 1) + abs(u + 1)) / 2
     return min(ELLIPSE, half + math.sqrt(half * half - 1))

@@ -14,22 +14,29 @@ of so many digits are left that Python's integers do: all numbers are fixed-poin
 Nothing is proved of what is left out: results are compared with certified ones.
 """
 
+import cmath
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache, lru_cache
+from itertools import repeat
 from typing import NamedTuple
 
 from mpmath import mp, mpc, mpf
 
 from derivation.engine.formula.ball import LOG2_10
 
-PLATES = 8
+PLATES = 256
 """Series kept."""
 
 STRIP = 1.0
 """Half-width of the strip that sets the step of the trapezoids, unless the contact is deep:
 T = 1 + y keeps off the poles of G, of which arg (T_1 - 1) = 1.28 is the lowest."""
+
+FIRST_ZERO = 2.4
+"""Somewhat below that of J0. Where G - 1 is nothing at T = 2 eta FIRST_ZERO, the plate is a
+half-space in depth: the side wall alone is left, N_j = (-1)^(j+1) 2/pi (2 eta)^(2j+1) kappa_(2j)
+of link 12."""
 
 _SPARE = 64
 """Bits beyond the digits asked for: what sums of thousands of terms take, and more."""
@@ -71,10 +78,14 @@ def series(eta: mpf, reach: mpf, digits: int) -> ResidueSeries:
     with mp.workprec(bits + _SPARE):
         half = reach / eta / 2
         factor = 4 / mp.pi * half
-        places = list(_axis(bits, A)), list(_roots(bits, eta, float(reach)))
-        real = _powers(places[0], half, bits)
-        poles = _powers(places[1], half, bits)
-        near = _near(bits, half, eta)
+        roots: list[_Place] = []
+        near: Iterator[int] = repeat(0)
+        if 4 * FIRST_ZERO * eta > bits * math.log(2):
+            axis = list(_wall(bits, eta))
+        else:
+            axis, roots = list(_axis(bits, A)), list(_roots(bits, eta, float(reach)))
+            near = _near(bits, half, eta)
+        real, poles = (_powers(places, half, bits) for places in (axis, roots))
         terms: Scaled = []
         while True:
             parts = next(real), next(poles), next(near)
@@ -106,21 +117,34 @@ class _Place(NamedTuple):
     weight: mpf | mpc
 
 
+def _wall(bits: int, eta: mpf) -> Iterator[_Place]:
+    """-2/pi int_0^oo K0/I0 dy as a sum over the places T = 2 i eta y."""
+    need = bits * math.log(2)
+    for y, w in _nodes(2 * math.pi * STRIP / need, need, need + 2 * math.log(need)):
+        with mp.workprec(bits + math.ceil(y / math.log(2)) + _SPARE):
+            yield _Place(mpc(0, 2 * eta * y), -4 * eta / mp.pi * w * _bessel_quotient(y).real)
+
+
 def _axis(bits: int, A: float) -> Iterator[_Place]:
     """int_1^oo (G - 1) dT as a sum; in a strip where e^(A Im T/2) stays below e^(2 Re T)."""
     need = bits * math.log(2)
     step = 2 * math.pi * min(STRIP, 0.9 * math.atan(4 / A)) / need
     deep = max(0, math.ceil((A / 2 - 2) * need / 2 / math.log(2)))
-    first, last = -math.log(need), math.log(need / 2 + 2 * math.log(need))
     with mp.workprec(bits + deep + _SPARE):
-        ratio, rising = mp.exp(-mpf(step)), mp.exp(mpf(step))
-        start = math.floor(first / step)
-        up = mp.exp(start * mpf(step))
-        down = 1 / up
-        for _ in range(start, math.ceil(last / step) + 1):
-            y = up * mp.exp(-down)
-            yield _Place(1 + y, step * y * (1 + down) * _excess(1 + y))
-            up, down = up * rising, down * ratio
+        for y, w in _nodes(step, need, need / 2 + 2 * math.log(need)):
+            yield _Place(1 + y, w * _excess(1 + y))
+
+
+def _nodes(step: float, need: float, end: float) -> Iterator[tuple[mpf, mpf]]:
+    """Trapezoids in t of an integral over y = exp(t - e^(-t)), from y = e^-need on."""
+    ratio, rising = mp.exp(-mpf(step)), mp.exp(mpf(step))
+    start = math.floor(-math.log(need) / step)
+    up = mp.exp(start * mpf(step))
+    down = 1 / up
+    for _ in range(start, math.ceil(math.log(end) / step) + 1):
+        y = up * mp.exp(-down)
+        yield y, step * y * (1 + down)
+        up, down = up * rising, down * ratio
 
 
 def _excess(T: mpf) -> mpf:
@@ -133,25 +157,30 @@ def _excess(T: mpf) -> mpf:
 def _roots(bits: int, eta: mpf, reach: float) -> Iterator[_Place]:
     """T_n and 2 pi g_n H/J0, while e^(-Im T (2 - reach)/(2 eta)) is above 2^-bits."""
     highest = bits * math.log(2) * 2 * float(eta) / (2 - reach)
-    for n in range(1, math.ceil(highest / math.pi) + 1):
+    for n in range(1, math.floor(highest / math.pi) + 1):
         swell = math.ceil(reach / float(eta) * (n + 1) * math.pi / 2 / math.log(2))
         with mp.workprec(bits + swell + _SPARE):
-            T = _root(n)
+            T = _root(n, mp.prec)
             residue = (1 + mp.sqrt(1 + T * T)) ** 2 / (2 * T * T)
             # H/J0 at z is 2/(pi i) K0/I0 at -iz.
             yield _Place(T, 4 * residue * mpc(0, -1) * _bessel_quotient(mpc(0, -1) * T / (2 * eta)))
 
 
-def _root(n: int) -> mpc:
+@cache
+def _root(n: int, bits: int) -> mpc:
     """The root of T - asinh T = i pi n with a positive real part, by Newton's iteration."""
-    T = mpc(math.log(2 * math.pi * (n + 0.5)), math.pi * (n + 0.5))
-    precisions = [mp.prec]
-    while precisions[-1] > 60:
-        precisions.append(precisions[-1] // 2 + 8)
-    for prec in [53, 53, *reversed(precisions)]:
+    T = complex(math.log(2 * math.pi * (n + 0.5)), math.pi * (n + 0.5))
+    for _ in range(4):
+        T -= (T - cmath.asinh(T) - 1j * math.pi * n) / (1 - 1 / cmath.sqrt(1 + T * T))
+    steps = [bits]
+    while steps[-1] > 90:
+        steps.append(steps[-1] // 2 + 8)
+    found = mpc(T)
+    for prec in reversed(steps):
         with mp.workprec(prec):
-            T -= (T - mp.asinh(T) - mpc(0, n) * mp.pi) / (1 - 1 / mp.sqrt(1 + T * T))
-    return T
+            slope = 1 - 1 / mp.sqrt(1 + found * found)
+            found -= (found - mp.asinh(found) - mpc(0, n) * mp.pi) / slope
+    return found
 
 
 def _bessel_quotient(w: mpc) -> mpc:

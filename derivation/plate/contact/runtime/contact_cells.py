@@ -24,9 +24,9 @@ def in_cells(v: Double, cells: Cells) -> Iterator[tuple[np.ndarray, Double, floa
 
 def horner(coefficients: list[Double] | list[float] | Double, t: Double) -> tuple[Double, Double]:
     """A polynomial and its slope, in place, as blocks of points stay in the cache."""
-    value: Double = coefficients[-1] + 0.0 * t
-    slope = np.zeros_like(value)
-    for coefficient in coefficients[-2::-1]:
+    value: Double = coefficients[-1] * t + coefficients[-2]
+    slope = np.full_like(value, coefficients[-1])
+    for coefficient in coefficients[-3::-1]:
         slope *= t
         slope += value
         value *= t

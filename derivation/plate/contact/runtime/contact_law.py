@@ -361,7 +361,7 @@ def _plates(h: Double, b: Double) -> tuple[Plates, np.ndarray]:
     """Polynomials of each plate of the broadcast h and b, and the plate's number in that shape."""
     h, b = np.broadcast_arrays(h, b)
     sound = (h > 0) & (b > 0)
-    eta = np.where(sound, h, np.nan) / np.where(sound, b, 1.0)
+    eta = np.where(sound, h, np.nan) / b
     [eta] = inside([eta], eta >= THINNEST, eta <= THICKEST)
     return plates_of(eta.ravel()), np.arange(eta.size).reshape(eta.shape)
 

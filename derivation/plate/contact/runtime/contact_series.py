@@ -168,8 +168,8 @@ def _thin(eta: Double) -> Double:
 def _tabulated(v: Double, cells: Cells, total: Double) -> None:
     """Add the polynomials in v of the cells to the coefficients, of shape (terms, plates)."""
     for chosen, tau, _, rows in in_cells(v, cells):
-        value = rows[-1] + 0.0 * tau
-        for row in rows[-2::-1]:
+        value = rows[-1] * tau + rows[-2]
+        for row in rows[-3::-1]:
             value *= tau
             value += row
         total[:, chosen] += value
@@ -183,6 +183,7 @@ def _bending(v: Double) -> tuple[Double, Double]:
 def far_piece(eta: Double) -> Piece:
     """The second polynomial, from A = reach to min(FAR_REACH, 1/eta), of plates eta < 1/REACH."""
     v = 1.0 / eta
+    [v] = inside([v], v > REACH)
     middle, half = _far_span(v)
     coefficients = np.zeros((THIN_FAR.size, eta.size))
     _tabulated(v, FAR_CELLS, coefficients)
@@ -268,7 +269,7 @@ def with_slopes(A: Double, piece: Columns) -> tuple[Double, Double, Double]:
     """F, A F'(A) and A (A F')'."""
     square = A * A
     t = (square - piece.middle) * piece.inverse_half
-    value: Double = piece.coefficients[-1] + 0.0 * t
+    value = np.full_like(t, piece.coefficients[-1])
     slope, curve = np.zeros_like(t), np.zeros_like(t)
     for coefficient in piece.coefficients[-2::-1]:
         curve *= t

@@ -16,6 +16,7 @@ from functools import partial
 import sympy as sp
 from sympy.codegen.cfunctions import expm1
 
+from derivation.engine.emit.named import Claims, named
 from derivation.engine.emit.routine import GUARDED, Choice, Facts, Let, Routine, Several, routine
 from derivation.engine.rewrite.form import undo
 from derivation.engine.rewrite.series import taylor_section
@@ -162,8 +163,9 @@ def _sides(mode: sp.Symbol) -> tuple[sp.Basic, Facts, Facts]:
     return sp.Lt(T, SEAM), {near: size}, {near: SEAM}
 
 
-def later_modes() -> Routine:
-    """What a mode but the first adds to both sums, less what the tables have of it."""
+@named
+def later_modes() -> Claims:
+    """k (T - Q)/(j^3 J1) and k (H - 1)/(j^2 J1) of modes, `share` being k."""
     s, statements = _of_T()
     fading, gone, lower, upper, square, series = s.values()
     weight, above = sp.symbols("weight above", real=True)
@@ -173,8 +175,7 @@ def later_modes() -> Routine:
     kernel = sp.Symbol("k", real=True)
     mode = kernel / (j_n**2 * J1)
     size = {T: 2 * eta * j_n}
-    return routine(
-        "later_modes",
+    return Claims(
         (eta, j, J1, share),
         (
             Let(T, 2 * eta * j),
@@ -184,14 +185,14 @@ def later_modes() -> Routine:
         ),
         (weight * above / j, -2 * weight * fading * (T - gone) / upper),
         (mode * (T - Q).subs(size) / j_n, mode * (H - 1).subs(size)),
-        "k (T - Q)/(j^3 J1) and k (H - 1)/(j^2 J1) of modes, `share` being k.",
         {j: j_n, share: kernel},
         in_ratio,
     )
 
 
-def all_modes() -> Routine:
-    """Both sums of the first mode, the tables, and the sums of what fades."""
+@named
+def all_modes() -> Claims:
+    """sum k (1 + 3 n - n Q)/(j^3 J1) and sum k H/(j^2 J1)."""
     s, statements = _of_T()
     fading, gone, lower, upper, square, series = s.values()
     names = "FIRST_THIRD FIRST_SQUARE rest_third rest_square fading_third fading_square below"
@@ -222,8 +223,7 @@ def all_modes() -> Routine:
         fading_square: square_of_2 * (H_2 - 1),
     }
     bracket = third * share * below + (3 * rest_third - 2 * eta * rest_square) + fading_third
-    return routine(
-        "all_modes",
+    return Claims(
         (eta, n, j, share, plain, rest_third, rest_square, fading_third, fading_square),
         (
             Let(T, 2 * eta * j),
@@ -237,7 +237,6 @@ def all_modes() -> Routine:
             sum(cube * (1 + 3 * RATIO - RATIO * f) for cube, f in ((cube_1, Q_1), (cube_2, Q_2))),
             square_of_1 * H_1 + square_of_2 * H_2,
         ),
-        "sum k (1 + 3 n - n Q)/(j^3 J1) and sum k H/(j^2 J1).",
         meaning,
         in_ratio,
     )

@@ -8,7 +8,8 @@ k vanishes at nu = -1, all terms are positive for k < j_1 of
 
 import sympy as sp
 
-from derivation.engine.emit.routine import Let, Routine, Several, routine
+from derivation.engine.emit.named import Claims, named
+from derivation.engine.emit.routine import Let, Several
 from derivation.engine.formula.proof import lower_bessel
 from derivation.plate.edge_modes.kernels.states import (
     NAMES,
@@ -39,25 +40,19 @@ PART = j0 / scaled * sp.exp(-k_2)
 _NORM = theory.NORM.subs(mindlin.c, theory.PART)
 
 
-def first_part() -> Routine:
-    """Of I0 in the first mode of a support."""
-    return routine(
-        "first_part",
-        (j0, scaled, k_2),
-        (),
-        (PART,),
-        (theory.PART,),
-        "c, of I0 e^(-k2).",
-        {j0: theory.J0, scaled: FADED},
-    )
+@named
+def first_part() -> Claims:
+    """c, of I0 e^(-k2)."""
+    return Claims((j0, scaled, k_2), (), (PART,), (theory.PART,), {j0: theory.J0, scaled: FADED})
 
 
 def _weight_of(kinetic: sp.Expr) -> sp.Expr:
     return theory.WEIGHT.subs({theory.N: kinetic, theory.t: theory.FACE, mindlin.c: theory.PART})
 
 
-def weight() -> Routine:
-    """Of a mode whose J0 may be near 0, by J1 and q."""
+@named
+def weight() -> Claims:
+    """c, t and W."""
     total, of_w, of_psi = sp.symbols("total of_w of_psi", real=True)
     square = 1 + (q**2 - left * (k * mean / 2) ** 2) / 2 - 2 * (q / k + left * mean / 2) / total
     turning = (
@@ -68,8 +63,7 @@ def weight() -> Routine:
     norm = of_w + turn * of_psi
     value = ((1 - c * t) / j0) ** 2 * (1 + turn * bent**2) / (2 * sp.pi * norm)
     at_mode = {theory.J1: q * theory.J0}
-    return routine(
-        "weight",
+    return Claims(
         (k, eta, nu, left, bent, turned, mean, less, scaled, k_2, q, j1),
         (
             Let(j0, j1 / q),
@@ -82,13 +76,13 @@ def weight() -> Routine:
         ),
         (c, t, value),
         (theory.PART, theory.FACE, _weight_of(_NORM).subs(at_mode)),
-        "c, t and W.",
         {**NAMES, j1: q * theory.J0, scaled: FADED},
     )
 
 
-def energy() -> Routine:
-    """What the first mode of a support has of kinetic energy at a distance from the axis."""
+@named
+def energy() -> Claims:
+    """(w^2 + (eta^2/3) psi^2) r."""
     w, psi = sp.symbols("w psi", real=True)
     turning = mindlin.rotation(theory.g_1, theory.g_2)
     stated = (mindlin.DEFLECTION**2 + eta**2 / 3 * turning**2) * r
@@ -96,8 +90,7 @@ def energy() -> Routine:
     means = [2 * f / z for f, z in (
         (sp.besselj(1, k_n * r), k_n * r), (sp.besseli(1, k_2 * r), k_2 * r)
     )]  # fmt: skip
-    return routine(
-        "energy",
+    return Claims(
         (k, eta, r, c, left, bent, turned),
         (
             Let(y, -(k**2)),
@@ -111,18 +104,17 @@ def energy() -> Routine:
         ),
         ((w**2 + eta**2 / 3 * psi**2) * r,),
         (stated.subs(mindlin.c, theory.PART),),
-        "(w^2 + (eta^2/3) psi^2) r.",
         NAMES,
         lower_bessel,
     )
 
 
-def first_weight() -> Routine:
-    """Of the first mode of a support."""
+@named
+def first_weight() -> Claims:
+    """t and W of the first mode of a support."""
     bulge, axis = sp.symbols("bulge axis", real=True)
     less_one = (theory.J0 - 1) / -(k_n**2), (theory.I0 - 1) / k_2**2
-    return routine(
-        "first_weight",
+    return Claims(
         (k, eta, nu, left, bent, c, kinetic),
         (
             Let(partner, k**2 * left, "k2^2"),
@@ -136,7 +128,6 @@ def first_weight() -> Routine:
         ),
         (1 + bulge, axis**2 * (1 + turn * bent**2) / (2 * sp.pi * kinetic)),
         (theory.FACE, _weight_of(theory.N)),
-        "t and W of the first mode of a support.",
         {**NAMES, kinetic: theory.N},
     )
 

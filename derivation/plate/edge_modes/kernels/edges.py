@@ -14,7 +14,8 @@ where all terms but the last are positive for k < j_1.
 
 import sympy as sp
 
-from derivation.engine.emit.routine import Let, Routine, Several, routine
+from derivation.engine.emit.named import Claims, named
+from derivation.engine.emit.routine import Let, Several
 from derivation.engine.formula.proof import lower_bessel
 from derivation.plate.edge_modes.kernels.states import (
     NAMES,
@@ -62,14 +63,14 @@ def _between(expression: sp.Expr) -> sp.Expr:
     return by_wave_number(in_xi(expression))
 
 
-def edge() -> Routine:
-    """Of all modes but the first of a support."""
+@named
+def edge() -> Claims:
+    """q, J1 - q J0 that vanishes at a mode, and its slope by k."""
     value = k * (beta * (1 + left) - turned * mean / 2) / bent
     steep_q = slope_of(value, {mean: (less - mean**2 / 4) * square})
     stated = condition(beta)
     (root,) = sp.solve(stated, theory.J1)
-    return routine(
-        "edge",
+    return Claims(
         (k, nu, beta, xi, left, bent, turned, mean, less, j0, j1),
         (
             Let(q, value),
@@ -79,7 +80,6 @@ def edge() -> Routine:
         ),
         (q, excess, j0 - j1 / k + q * j1 - slope * j0),
         (in_xi(root / theory.J0), in_xi(stated), _between(stated)),
-        "q, J1 - q J0 that vanishes at a mode, and its slope by k.",
         of_xi(),
         _plain,
     )
@@ -103,8 +103,9 @@ def _curls(partner: sp.Symbol) -> tuple[Several, Several]:
     )
 
 
-def first_edge() -> Routine:
-    """Of the first mode of a support."""
+@named
+def first_edge() -> Claims:
+    """What vanishes at the first mode of a support, and its slope by k."""
     partner = sp.Symbol("partner", real=True)
     bracket = turned * curl_2 / i0 + (ROTARY * xi * k**2 / 8 - goal) * (1 + left)
     value = bent * curl + j0 * bracket
@@ -115,8 +116,7 @@ def first_edge() -> Routine:
         j0: -j1,
     }
     stated = condition(theory.SUPPORTED) * 2 * theory.g_1 / k_n
-    return routine(
-        "first_edge",
+    return Claims(
         (k, nu, goal, xi, left, bent, turned, mean, j0, j1),
         (
             Let(partner, k**2 * left, "k2^2"),
@@ -127,25 +127,17 @@ def first_edge() -> Routine:
         ),
         (excess, slope_of(value, others)),
         (in_xi(stated), _between(stated)),
-        "What vanishes at the first mode of a support, and its slope by k.",
         {**of_xi(), goal: 2 * theory.SUPPORTED - 1},
         _plain,
     )
 
 
-def first_power() -> Routine:
-    """Where Newton's method begins: by the lowest power of k, where 3 n xi = x^2."""
+@named
+def first_power() -> Claims:
+    """k^4 of the first mode of a support, near nu = -1."""
     u = sp.Symbol("u", positive=True)
     lowest = 2 * curl_powers(2)[1] * u + eta**2 / 12 * u - 2 * goal
-    return routine(
-        "first_power",
-        (eta, goal),
-        (),
-        (sp.solve(lowest, u)[0],),
-        (_lowest_power(),),
-        "k^4 of the first mode of a support, near nu = -1.",
-        {},
-    )
+    return Claims((eta, goal), (), (sp.solve(lowest, u)[0],), (_lowest_power(),), {})
 
 
 def curl_powers(count: int) -> tuple[sp.Rational, ...]:
@@ -180,45 +172,42 @@ def _lowest_power() -> sp.Expr:
     return sp.solve(value * u - goal, u)[0]
 
 
-def support() -> Routine:
-    """Both numbers of a support."""
-    return routine(
-        "support",
+@named
+def support() -> Claims:
+    """goal, and beta of a simple support."""
+    return Claims(
         (nu,),
         (),
         ((1 + nu) / (1 - nu), theory.SUPPORTED),
         (2 * theory.SUPPORTED - 1, theory.SUPPORTED),
-        "goal, and beta of a simple support.",
         {},
     )
 
 
-def clamp() -> Routine:
-    """How a clamp turns."""
+@named
+def clamp() -> Claims:
+    """beta of a clamp."""
     chi = sp.Symbol("chi", real=True)
-    return routine(
-        "clamp",
+    return Claims(
         (eta, nu),
         (Let(chi, theory.CLAMP, "measured"),),
         (theory.CLAMPED.subs(theory.CLAMP, chi),),
         (theory.CLAMPED,),
-        "beta of a clamp.",
         {},
     )
 
 
-def moved() -> Routine:
-    """Both Bessel functions beside a rounded wave number."""
+@named
+def moved() -> Claims:
+    """J0 and J1 at the root that k rounded lacks so much of."""
     exact = tuple(sp.besselj(order, k_n) for order in (0, 1))
     known = {exact[0]: j0, exact[1]: j1, k_n: k}
     slopes = [lower_bessel(sp.diff(f, k_n)) for f in exact]
-    return routine(
-        "moved",
+    return Claims(
         (k, lacking, j0, j1),
         (),
         tuple(f + lacking * s.subs(known) for f, s in zip((j0, j1), slopes, strict=True)),
         tuple(f + lacking * sp.diff(f, k_n) for f in exact),
-        "J0 and J1 at the root that k rounded lacks so much of.",
         {s: NAMES[s] for s in (k, j0, j1)},
         lower_bessel,
     )

@@ -4,6 +4,7 @@ from functools import partial
 
 import sympy as sp
 
+from derivation.engine.emit.named import Claims, named
 from derivation.engine.emit.routine import GUARDED, Choice, Facts, Let, Routine, Several, routine
 from derivation.engine.formula.proof import lower_bessel
 from derivation.plate.edge_modes.kernels.states import c, j0, k, t
@@ -34,8 +35,9 @@ _AT_INFINITY = (
 _FADED_ANYWHERE = Choice(far, BEYOND, sp.exp(inverse * logarithm) * sp.sqrt(scale), scaled)
 
 
-def modified() -> Routine:
-    """M, L and I0 e^(-y)."""
+@named
+def modified() -> Claims:
+    """2 I1/(y I0), I2/(y^2 I0) and I0 e^(-y), y >= 0."""
     ratio, fourth, second = sp.symbols("ratio fourth second", real=True)
     I0, I1, I2 = (sp.besseli(order, y) for order in range(3))
     exact = I1 / y * sp.exp(-y), 3 * I2 / y**2 * sp.exp(-y)
@@ -48,22 +50,20 @@ def modified() -> Routine:
         Choice(less, BEYOND, (1 - above) * inverse**2, fourth / (3 * scaled)),
         _FADED_ANYWHERE,
     )
-    return routine(
-        "modified",
+    return Claims(
         (y,),
         statements,
         (mean, less, far),
         (2 * I1 / (y * I0), I2 / (y**2 * I0), FADED),
-        "2 I1/(y I0), I2/(y^2 I0) and I0 e^(-y), y >= 0.",
         {},
         _reduce,
     )
 
 
-def faded() -> Routine:
-    """The last one alone."""
-    return routine(
-        "faded",
+@named
+def faded() -> Claims:
+    """I0 e^(-y), y >= 0."""
+    return Claims(
         (y,),
         (
             Several((scaled,), "turn_mean", (GUARDED(y, START),), (FADED,)),
@@ -72,7 +72,6 @@ def faded() -> Routine:
         ),
         (far,),
         (FADED,),
-        "I0 e^(-y), y >= 0.",
         {},
         _reduce,
     )

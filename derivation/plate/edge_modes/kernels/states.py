@@ -6,7 +6,8 @@ plates. With M = 2 I1/(k2 I0) and L = (1 - M)/k2^2 = I2/(k2^2 I0) nothing does w
 
 import sympy as sp
 
-from derivation.engine.emit.routine import Choice, Facts, Let, Routine, routine
+from derivation.engine.emit.named import Claims, named
+from derivation.engine.emit.routine import Choice, Facts, Let
 from derivation.plate.edge_modes.theory import mindlin
 from derivation.plate.edge_modes.theory import waves as theory
 from derivation.plate.edge_modes.theory.mindlin import k_2, shear, slack
@@ -84,13 +85,13 @@ def changes() -> tuple[Let, Let]:
     )  # fmt: skip
 
 
-def wave() -> Routine:
-    """What a mode's wave number and frequency make of its partner and of both rotations."""
+@named
+def wave() -> Claims:
+    """xi, k2^2/k^2, g1, g2 k2^2/k^2 and k2."""
     held = sp.Symbol("held", real=True)
     beyond = "beyond the cut-off there are no modes"
     partner, first, second = (formula.expression for formula in mindlin.waves())
-    return routine(
-        "wave",
+    return Claims(
         (k, eta, nu, root),
         (
             Let(xi, (root / (k * eta)) ** 2, "kap/x^2"),
@@ -99,17 +100,16 @@ def wave() -> Routine:
         ),
         (xi, left, bent, turned, k * sp.sqrt(held)),
         (kap / (k_n * eta) ** 2, partner**2 / k_n**2, first, second * partner**2 / k_n**2, partner),
-        "xi, k2^2/k^2, g1, g2 k2^2/k^2 and k2.",
         {k: k_n, root: sp.sqrt(kap)},
     )
 
 
-def to_cutoff() -> Routine:
-    """A step of Newton's method towards k2 = 0."""
+@named
+def to_cutoff() -> Claims:
+    """A step of Newton's in log x, for k2 = 0."""
     plain = parts()[left]
     claim = x_h * (1 - plain / (xi * sp.diff(plain, xi) * branch_rate()))
-    return routine(
-        "to_cutoff",
+    return Claims(
         (x, nu, root),
         (
             Let(xi, (root / x) ** 2),
@@ -118,23 +118,21 @@ def to_cutoff() -> Routine:
         ),
         (x * (1 + left / ((1 - left) * rate)),),
         (claim.subs(xi, kap / x_h**2),),
-        "A step of Newton's in log x, for k2 = 0.",
         {x: x_h, root: sp.sqrt(kap)},
     )
 
 
-def cutoff_of_mindlin() -> Routine:
-    """Where Newton's method begins: where k2 vanishes on Mindlin's own branch."""
+@named
+def cutoff_of_mindlin() -> Claims:
+    """x at which k2 vanishes on Mindlin's branch."""
     (there,) = sp.solve(mindlin.left(), xi)
     (square_there,) = sp.solve(mindlin.dispersion(x_h).subs(xi, there), x_h**2)
     exact = square_there.subs(shear, slack())
-    return routine(
-        "cutoff_of_mindlin",
+    return Claims(
         (nu,),
         (Let(square, sp.factor(exact), "of x", means=exact),),
         (sp.sqrt(square),),
         (sp.sqrt(exact),),
-        "x at which k2 vanishes on Mindlin's branch.",
         {},
     )
 

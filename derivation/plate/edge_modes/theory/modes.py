@@ -205,7 +205,7 @@ def weight() -> tuple[Formula, ...]:
     near = _bracket(w_0 + w_2 * _r**2 + w_4 * _r**4, static_deflection(_A))
     proof = prove(
         "Weight of a held plate's mode",
-        "The deflection at rest: without load beside the axis, carrying $P$, held at the edge; "
+        "The static deflection: no load away from the axis, carrying $P$, held at the edge; "
         r"the bracket of it and a mode on the axis. On the paper's edge $\nu = 1$.",
         {
             "load": laplacian(laplacian(static_deflection(_A))),

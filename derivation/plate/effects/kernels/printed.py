@@ -2,6 +2,7 @@
 
 import sympy as sp
 
+from derivation.engine.emit.named import Claims, named
 from derivation.engine.emit.routine import (
     GUARDED,
     RAISED,
@@ -68,12 +69,12 @@ def sphere() -> Routine:
     )
 
 
-def bent_plate() -> Routine:
-    """Bending's part of F and of S; divided twice, since eta^2 may vanish where F does not."""
+@named
+def bent_plate() -> Claims:
+    """Bending's part of F and of S."""
     part, over, depth = sp.symbols("part over depth", positive=True)
     share = bending().expression
-    return routine(
-        "bent_plate",
+    return Claims(
         (a_ratio, eta),
         (
             Let(part, a_ratio / (4 * sp.pi), within=True),
@@ -82,7 +83,6 @@ def bent_plate() -> Routine:
         ),
         (depth, THREE_HALVES * depth),
         (share, share + a_ratio * sp.diff(share, a_ratio) / 2),
-        "Bending's part of F and of S.",
         {},
     )
 

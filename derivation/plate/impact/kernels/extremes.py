@@ -2,7 +2,8 @@
 
 import sympy as sp
 
-from derivation.engine.emit.routine import Routine, Several, routine
+from derivation.engine.emit.named import Claims, named
+from derivation.engine.emit.routine import Several
 from derivation.plate.contact.theory.hertz import contact_radius
 from derivation.plate.impact.kernels.inversion import MODULUS, root
 from derivation.plate.impact.theory.impact import work_of_contact
@@ -12,10 +13,10 @@ from derivation.plate.vocabulary import R, a, h, m, mu, v0
 share, lift, modulus = sp.symbols("share lift modulus", positive=True)
 
 
-def peak_shares() -> Routine:
-    """Largest indentation and force over Hertz's."""
-    return routine(
-        "peak_shares",
+@named
+def peak_shares() -> Claims:
+    """Largest indentation and force over those by Hertz's law, by the share of its radius."""
+    return Claims(
         (share, lift),
         (),
         (share**2 * lift, share**3),
@@ -23,13 +24,13 @@ def peak_shares() -> Routine:
             (share * a) ** 2 / R * lift / (a**2 / R),
             contact_radius().expression.subs(a, share * a) / contact_radius().expression,
         ),
-        "Largest indentation and force over those by Hertz's law, by the share of its radius.",
         {},
     )
 
 
-def hertz_impact() -> Routine:
-    """Largest radius, indentation and force on a half-space, in the range of doubles."""
+@named
+def hertz_impact() -> Claims:
+    """Largest radius by Hertz's law; indentation and force as three factors each."""
     one, brought = sp.Integer(1), (sp.Rational(5, 4), m, v0, v0)
     radius = sp.Symbol("radius", positive=True)
     C = contact_radius().expression / a**3 / R
@@ -46,31 +47,28 @@ def hertz_impact() -> Routine:
 
     depth = factors("depth", brought * 2, (mu, modulus, mu, modulus, R))
     load = factors("load", (*brought * 3, R, mu, modulus, mu, modulus), ())
-    return routine(
-        "hertz_impact",
+    return Claims(
         (R, m, v0, mu, modulus),
         (root(radius, 5, (*brought, R, R), mu, modulus), depth, load),
         (radius, *depth.symbols, *load.symbols),
         (largest, largest**2 / R, one, one, force, one, one),
-        "Largest radius by Hertz's law; indentation and force as three factors each.",
         {modulus: MODULUS},
         lambda e: sp.powsimp(sp.powdenest(sp.expand_power_base(e, force=True), force=True)),
     )
 
 
-def number_of_energy() -> Routine:
-    """The energy number in the range of doubles."""
+@named
+def number_of_energy() -> Claims:
+    """The energy of impact over (4/3) E* h^5/R^2."""
     number = sp.Symbol("number", positive=True)
     above = sp.Rational(1, 2), m, v0, v0, R, R
     below = mu, modulus, h, h, h, h, h
     exact = sp.Mul(*above) / sp.Mul(*below)
     given = sp.Tuple(*above), sp.Tuple(*below)
-    return routine(
-        "number_of_energy",
+    return Claims(
         (R, m, v0, h, mu, modulus),
         (Several((number,), "product", given, (exact,)),),
         (number,),
         (energy_number().expression,),
-        "The energy of impact over (4/3) E* h^5/R^2.",
         {modulus: MODULUS},
     )

@@ -2,8 +2,9 @@
 
 import sympy as sp
 
+from derivation.engine.emit.named import Claims, named
 from derivation.engine.emit.package import Routines
-from derivation.engine.emit.routine import Let, Routine, Several, routine
+from derivation.engine.emit.routine import Let, Several
 from derivation.engine.formula.proof import prove
 from derivation.engine.rewrite.form import TIMES
 from derivation.plate.contact.theory.hertz import contact_radius
@@ -42,36 +43,35 @@ def root(
     return Several((symbol,), "root", (sp.Integer(degree), sp.Tuple(*factors), *below), (exact,))
 
 
-def eps_over() -> Routine:
-    """How far the series is used of how far it converges."""
+@named
+def eps_over() -> Claims:
+    """sqrt(R delta)/h over a radius of convergence."""
     eps = sp.Symbol("eps", positive=True)
-    return routine(
-        "eps_over",
+    return Claims(
         (delta, R, h, radius),
         (root(eps, 2, (delta, R), h, h),),
         (eps / radius,),
         (sp.sqrt(R * delta) / h / radius,),
-        "sqrt(R delta)/h over a radius of convergence.",
         {},
     )
 
 
-def size_of_eps() -> Routine:
-    """|eps| on a circle."""
+@named
+def size_of_eps() -> Claims:
+    """|sqrt(R delta)/h| where |A| is that of a circle; F may be complex."""
     depth = contact_split()[0].expression.subs(a, a_ratio * h) * (1 + F)
-    return routine(
-        "size_of_eps",
+    return Claims(
         (circle, F),
         (Let(whole, 1 + F),),
         (circle * sp.sqrt(sp.Abs(whole)),),
         (sp.sqrt(sp.Abs(R * depth)) / h,),
-        "|sqrt(R delta)/h| where |A| is that of a circle; F may be complex.",
         {circle: a_ratio},
     )
 
 
-def lagrange() -> Routine:
-    """By Lagrange's inversion."""
+@named
+def lagrange() -> Claims:
+    """The power of 1 + F whose coefficient of A^n makes p_n, and by what factor."""
     exponent, factor = -(n + 3) / 2, 3 / (n + 3)
     prove(
         "Coefficients of the reversed series",
@@ -83,28 +83,19 @@ def lagrange() -> Routine:
             for k, p in enumerate(force_coefficients())
         },
     )
-    return routine(
-        "lagrange",
-        (n,),
-        (),
-        (exponent, factor),
-        (exponent, factor),
-        "The power of 1 + F whose coefficient of A^n makes p_n, and by what factor.",
-        {},
-    )
+    return Claims((n,), (), (exponent, factor), (exponent, factor), {})
 
 
-def force_of_bracket() -> Routine:
-    """Hertz's force times the bracket."""
+@named
+def force_of_bracket() -> Claims:
+    """Hertz's force times the bracket; `modulus` is (4/3) E*/mu."""
     hertz = {f.name: f.expression for f in force_formulas()}["P_half"]
     length = sp.Symbol("length", positive=True)
-    return routine(
-        "force_of_bracket",
+    return Claims(
         (delta, R, mu, modulus, bracket),
         (root(length, 2, (R, delta)),),
         (TIMES(modulus, mu, 1, length, 1, delta, 1, bracket, 1),),
         (hertz * bracket,),
-        "Hertz's force times the bracket; `modulus` is (4/3) E*/mu.",
         {modulus: MODULUS},
         without_scaling,
     )

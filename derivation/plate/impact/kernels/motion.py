@@ -8,8 +8,9 @@ With D_n as in the theory, q = a/a_m and E the work over C a^5, the code knows o
 
 import sympy as sp
 
+from derivation.engine.emit.named import Claims, named
 from derivation.engine.emit.package import Routines
-from derivation.engine.emit.routine import Facts, Let, Routine, routine
+from derivation.engine.emit.routine import Facts, Let
 from derivation.plate.contact.theory.hertz import contact_radius
 from derivation.plate.impact.kernels.extremes import hertz_impact, number_of_energy, peak_shares
 from derivation.plate.impact.theory.impact import (
@@ -66,10 +67,10 @@ SHAPE: Facts = {
 """What the code knows of a point of an impact."""
 
 
-def shapes() -> Routine:
-    """The shapes of an impact."""
-    return routine(
-        "shapes",
+@named
+def shapes() -> Claims:
+    """(1 + F)/(1 + F_m), d(delta/delta_m)/dq and (1 - E/E_m)/(1 - q)."""
+    return Claims(
         (q, lift, slope, quotient, whole, energy),
         (),
         (lift / whole, q * (2 * lift + slope) / whole, quotient / energy),
@@ -78,37 +79,29 @@ def shapes() -> Routine:
             sp.diff(q**2 * lifted(q), q) / lifted(sp.Integer(1)),
             (1 - work(q) / work(sp.Integer(1))) / (1 - q),
         ),
-        "(1 + F)/(1 + F_m), d(delta/delta_m)/dq and (1 - E/E_m)/(1 - q).",
         SHAPE,
     )
 
 
-def time_density() -> Routine:
-    """dt/dw."""
+@named
+def time_density() -> Claims:
+    """dt/dw in units of delta_m/v0, w = 1 - sqrt(1 - q)."""
     at = 1 - u_t**2
     meaning: Facts = {
         rate: sp.diff(s**2 * lifted(s), s).subs(s, at) / lifted(sp.Integer(1)),
         quotient: _left(at) / WHOLE,
     }
     claim = sp.sqrt(WHOLE) / lifted(sp.Integer(1)) * contact_time()[0].expression
-    return routine(
-        "time_density",
-        (rate, quotient),
-        (),
-        (2 * rate / sp.sqrt(quotient),),
-        (claim,),
-        "dt/dw in units of delta_m/v0, w = 1 - sqrt(1 - q).",
-        meaning,
-    )
+    return Claims((rate, quotient), (), (2 * rate / sp.sqrt(quotient),), (claim,), meaning)
 
 
-def near_quotient() -> Routine:
-    """(E_near - E)/((1 - s) A_near^5) by the sums of the terms."""
+@named
+def near_quotient() -> Claims:
+    """(E_near - E)/((1 - s) A_near^5) by the first of the tails, and the sum of all others."""
     first, rest, cube, fourth = sp.symbols("first rest cube fourth", positive=True)
     shares = [sp.Rational(n, n + 3) * weight(n) for n in NUMBERS[1:]]
     tails = [sp.Add(*shares[k:]) for k in range(len(shares))]
-    return routine(
-        "near_quotient",
+    return Claims(
         (s, first, rest),
         (
             Let(square, s**2),
@@ -118,7 +111,6 @@ def near_quotient() -> Routine:
         ),
         (2 * fourth / 5 + by_first + cube**2 * (1 + s) * rest,),
         (sp.Add(*(sp.Rational(n, n + 3) * weight(n) * geometric(n + 3, s) for n in NUMBERS)),),
-        "(E_near - E)/((1 - s) A_near^5) by the first of the tails, and the sum of all others.",
         {
             first: tails[0],
             rest: sp.Add(*(t * s ** (2 * k) for k, t in enumerate(tails[1:]))),
@@ -126,43 +118,30 @@ def near_quotient() -> Routine:
     )
 
 
-def work_share() -> Routine:
-    """A term's share in the work."""
+@named
+def work_share() -> Claims:
+    """What D_n adds to the work, over D_n."""
     n = sp.Symbol("n", positive=True)
     claim = sp.integrate(s ** (n + 2), (s, 0, 1)) * n
-    return routine(
-        "work_share",
-        (n,),
-        (),
-        (n / (n + 3),),
-        (claim,),
-        "What D_n adds to the work, over D_n.",
-        {},
+    return Claims((n,), (), (n / (n + 3),), (claim,), {})
+
+
+@named
+def whole_work() -> Claims:
+    """E/A^5 by what the plate adds to Hertz's."""
+    return Claims(
+        (extra,), (), (extra + sp.Rational(2, 5),), (WHOLE,), {extra: WHOLE - work_of_contact(0)}
     )
 
 
-def whole_work() -> Routine:
-    """E/A^5."""
-    return routine(
-        "whole_work",
-        (extra,),
-        (),
-        (extra + sp.Rational(2, 5),),
-        (WHOLE,),
-        "E/A^5 by what the plate adds to Hertz's.",
-        {extra: WHOLE - work_of_contact(0)},
-    )
-
-
-def share_of_work() -> Routine:
-    """Hertz's radius over that with the same work."""
-    return routine(
-        "share_of_work",
+@named
+def share_of_work() -> Claims:
+    """A over Hertz's radius, by what the plate adds to E/A^5 at A."""
+    return Claims(
         (extra,),
         (),
         ((1 + 5 * extra / 2) ** sp.Rational(-1, 5),),
         ((work_of_contact(0) / WHOLE) ** sp.Rational(1, 5),),
-        "A over Hertz's radius, by what the plate adds to E/A^5 at A.",
         {extra: WHOLE - work_of_contact(0)},
     )
 
@@ -177,15 +156,15 @@ ENERGY = A**5 * _in_radius(WHOLE)
 DENSITY = A * sp.diff(ENERGY, A) / A**5
 
 
-def deeper_step() -> Routine:
-    """Halley's step for the largest radius within the first polynomial."""
+@named
+def deeper_step() -> Claims:
+    """The work over that at A, less 1, and by what share of itself A is to grow."""
     residual, exponent = sp.symbols("residual exponent", positive=True)
     missing = work_of_contact(0) * A_h**5 / ENERGY - 1
     power = ENERGY / (A * sp.diff(ENERGY, A))
     step = sp.series((1 + residual) ** exponent - 1, residual, 0, 3).removeO()
     plain = _in_radius(WHOLE) - work_of_contact(0)
-    return routine(
-        "deeper_step",
+    return Claims(
         (share, extra, slope),
         (
             Let(whole, extra + sp.Rational(2, 5)),
@@ -196,20 +175,18 @@ def deeper_step() -> Routine:
         ),
         (residual, exponent * residual * (1 + inner)),
         (missing, step.subs({residual: missing, exponent: power})),
-        "The work over that at A, less 1, and by what share of itself A is to grow.",
         {share: A / A_h, extra: plain, slope: A * sp.diff(plain, A)},
     )
 
 
-def work_density() -> Routine:
-    """P d delta."""
-    return routine(
-        "work_density",
+@named
+def work_density() -> Claims:
+    """P d delta/dq over C a_m^5."""
+    return Claims(
         (q, F, slope),
         (Let(square, q**2),),
         (square**2 * (2 * (1 + F) + slope),),
         (q**3 * sp.diff(q**2 * lifted(q), q),),
-        "P d delta/dq over C a_m^5.",
         {F: lifted(q) - 1, slope: sloped(q)},
         sp.expand,
     )
@@ -219,15 +196,14 @@ _E, _E_near = sp.symbols("E E_near", positive=True)
 _E_m = sp.Symbol("E_m", positive=True)
 
 
-def far_quotient() -> Routine:
-    """(E_m - E)/((1 - q) A^5) where the contact is yet within the first polynomial."""
-    return routine(
-        "far_quotient",
+@named
+def far_quotient() -> Claims:
+    """(E_m - E)/((1 - q) A^5) by the same up to the first polynomial's end, q = ratio."""
+    return Claims(
         (quotient, short, left, ratio, rise),
         (),
         ((quotient * short * ratio**4 + rise) / left,),
         ((_E_m - _E) / ((1 - q) * A**5),),
-        "(E_m - E)/((1 - q) A^5) by the same up to the first polynomial's end, q = ratio.",
         {
             quotient: (_E_near - _E) / ((1 - q / ratio) * (ratio * A) ** 5),
             short: ratio - q,
@@ -237,67 +213,63 @@ def far_quotient() -> Routine:
     )
 
 
-def work_beyond() -> Routine:
-    """(E - E_near)/A^5 by the mean density."""
-    return routine(
-        "work_beyond",
+@named
+def work_beyond() -> Claims:
+    """(E - E_near)/A^5 by the mean of the work's density between A_near/A and 1."""
+    return Claims(
         (A, near, mean),
         (),
         ((A - near) / A * mean,),
         ((_E - _E_near) / A**5,),
-        "(E - E_near)/A^5 by the mean of the work's density between A_near/A and 1.",
         {mean: (_E - _E_near) / A**5 / (1 - near / A)},
     )
 
 
-def far_work() -> Routine:
-    """E at A."""
-    return routine(
-        "far_work",
+@named
+def far_work() -> Claims:
+    """E by that at A_near, and by what it rises to A over A^5."""
+    return Claims(
         (known, A, rise),
         (),
         (known + A**5 * rise,),
         (_E,),
-        "E by that at A_near, and by what it rises to A over A^5.",
         {known: _E_near, rise: (_E - _E_near) / A**5},
     )
 
 
-def far_step() -> Routine:
-    """Newton's step for the largest radius beyond the first polynomial."""
+@named
+def far_step() -> Claims:
+    """A^5, the work that is missing over it, and by what share of itself A is to grow."""
     residual, fifth = sp.symbols("residual fifth", real=True)
     claim = (goal - ENERGY) / A**5
     plain = _in_radius(lifted(sp.Integer(1))) - 1
-    return routine(
-        "far_step",
+    return Claims(
         (A, goal, known, rise, F, slope),
         (Let(fifth, A**5), Let(residual, (goal - known) / fifth - rise)),
         (fifth, residual, residual / (2 * (1 + F) + slope)),
         (A**5, claim, claim / DENSITY),
-        "A^5, the work that is missing over it, and by what share of itself A is to grow.",
         {rise: (ENERGY - known) / A**5, F: plain, slope: A * sp.diff(plain, A)},
         sp.cancel,
     )
 
 
-def far_whole() -> Routine:
-    """E/A^5 beyond the first polynomial."""
-    return routine(
-        "far_whole",
+@named
+def far_whole() -> Claims:
+    """E/A^5 by that at A_near = ratio A, and what is added over A^5."""
+    return Claims(
         (inner, ratio, added),
         (),
         (inner * ratio**5 + added,),
         (_E / A**5,),
-        "E/A^5 by that at A_near = ratio A, and what is added over A^5.",
         {inner: _E_near / (ratio * A) ** 5, added: (_E - _E_near) / A**5},
     )
 
 
-def state() -> Routine:
-    """Indentation, velocity and force over their largest values."""
+@named
+def state() -> Claims:
+    """Indentation, velocity and force over their largest values; v is sqrt(1 - q)."""
     root_left = sp.Symbol("v", positive=True)
-    return routine(
-        "state",
+    return Claims(
         (q, root_left, lift, quotient),
         (Let(square, q**2),),
         (square * lift, root_left * sp.sqrt(quotient), square * q),
@@ -306,7 +278,6 @@ def state() -> Routine:
             sp.sqrt(1 - work(q) / work(sp.Integer(1))),
             contact_radius().expression.subs(a, q * a) / contact_radius().expression,
         ),
-        "Indentation, velocity and force over their largest values; v is sqrt(1 - q).",
         {
             root_left: sp.sqrt(1 - q),
             lift: lifted(q) / lifted(sp.Integer(1)),

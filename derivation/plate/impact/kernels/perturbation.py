@@ -7,8 +7,9 @@ The radicand vanishes at s = last; s = last x^3, x = 1 - u^2 makes the integrals
 
 import sympy as sp
 
+from derivation.engine.emit.named import Claims, named
 from derivation.engine.emit.package import Routines
-from derivation.engine.emit.routine import QUIET_SCALARS, Facts, Let, Routine, routine
+from derivation.engine.emit.routine import QUIET_SCALARS, Facts, Let
 from derivation.plate.contact.theory.divergence import printed_term
 from derivation.plate.contact.theory.hertz import contact_radius
 from derivation.plate.contact.theory.law import contact_law
@@ -65,75 +66,61 @@ def _number() -> sp.Expr:
     return -linearisation()[2].expression / v0**2
 
 
-def linear() -> Routine:
-    """(15)."""
-    return routine(
-        "linear",
-        (t, *MOTION),
-        (),
-        (linear_motion().expression,),
-        (linear_motion().expression,),
-        "Indentation by the linear term, (15).",
-        {},
+@named
+def linear() -> Claims:
+    """Indentation by the linear term, (15)."""
+    return Claims(
+        (t, *MOTION), (), (linear_motion().expression,), (linear_motion().expression,), {}
     )
 
 
-def turning_point() -> Routine:
-    """When and where the linear motion ends and turns."""
-    return routine(
-        "turning_point",
+@named
+def turning_point() -> Claims:
+    """Contact time and largest indentation of the linear motion, (15)."""
+    return Claims(
         MOTION,
         (Let(over, m / xi_k[2]),),
         (sp.pi * sp.sqrt(over), v0 * sp.sqrt(over)),
         (sp.pi / _rate(), _peak()),
-        "Contact time and largest indentation of the linear motion, (15).",
         {},
     )
 
 
-def excess_at_turn() -> Routine:
-    """The number that the correction depends on."""
-    return routine(
-        "excess_at_turn",
-        (*MOTION, xi_k[3]),
-        (),
-        (_number(),),
-        (_number(),),
-        "Radicand of (17), (18) at the linear motion's turning point, over -v0^2.",
-        {},
-    )
+@named
+def excess_at_turn() -> Claims:
+    """Radicand of (17), (18) at the linear motion's turning point, over -v0^2."""
+    return Claims((*MOTION, xi_k[3]), (), (_number(),), (_number(),), {})
 
 
-def end_of_radicand() -> Routine:
-    """Newton's step for where the radicand vanishes."""
+@named
+def end_of_radicand() -> Claims:
+    """The radicand over -v0^2 at s^2 = y^3, and how it grows with y."""
     cube = sp.Symbol("cube", positive=True)
     claim = -(formal_speed_squared() / v0**2).subs(delta, _peak() * y ** sp.Rational(3, 2))
-    return routine(
-        "end_of_radicand",
+    return Claims(
         (y, excess),
         (Let(cube, y**3),),
         (cube + excess * y * cube - 1, 3 * y**2 + 4 * excess * cube),
         (claim, sp.diff(claim, y)),
-        "The radicand over -v0^2 at s^2 = y^3, and how it grows with y.",
         {excess: _number()},
     )
 
 
-def cosine_at_end() -> Routine:
-    """The linear motion's velocity where the radicand vanishes."""
-    return routine(
-        "cosine_at_end",
+@named
+def cosine_at_end() -> Claims:
+    """sqrt(1 - s^2) at s = last, by the radicand, also where s is almost 1."""
+    return Claims(
         (excess, last),
         (),
         (sp.sqrt(excess) * last ** sp.Rational(4, 3),),
         (sp.sqrt(1 - PLACE[last] ** 2),),
-        "sqrt(1 - s^2) at s = last, by the radicand, also where s is almost 1.",
         PLACE,
     )
 
 
-def integrands() -> Routine:
-    """F dt and G dt of (17), (18) in smooth variables, with dt = d delta_0/delta_0'."""
+@named
+def integrands() -> Claims:
+    """-F dt/du of (17), and -G dt/du of (18) over the largest indentation."""
     F, G, _ = (formula.expression for formula in linearisation())
     coefficient = xi_k[3] * PLACE[excess] / _number()
     inner = PLACE[last] * (_q / (1 + _q)) ** 3
@@ -148,8 +135,7 @@ def integrands() -> Routine:
     step = 6 * last * x**2
     force = s + sp.Rational(4, 3) * excess * s ** sp.Rational(5, 3)
     root = sp.Symbol("root", positive=True)
-    return routine(
-        "integrands",
+    return Claims(
         (u, excess, last),
         (
             Let(x, (1 - u) * (1 + u)),
@@ -164,27 +150,26 @@ def integrands() -> Routine:
         ),
         (step * force / root, u * step * power / (square + u * root)),
         (of_theory(F) * path, of_theory(G) * path / _peak()),
-        "-F dt/du of (17), and -G dt/du of (18) over the largest indentation.",
         PLACE,
     )
 
 
-def radius_cubed() -> Routine:
-    """a^3/P of (7)."""
+@named
+def radius_cubed() -> Claims:
+    """a^3/P by (7)."""
     value = a**3 / contact_radius().expression
-    return routine("radius_cubed", (R, lam, mu), (), (value,), (value,), "a^3/P by (7).", {})
+    return Claims((R, lam, mu), (), (value,), (value,), {})
 
 
-def shares() -> Routine:
-    """One mode's shares of gamma_2 and gamma_3 of (10)."""
+@named
+def shares() -> Claims:
+    """One mode's shares of gamma_2 and gamma_3 of (10), by K_j and a/P^(1/3)."""
     values = tuple(mode_share(k) for k in (2, 3))
-    return routine(
-        "shares",
+    return Claims(
         (phi, K, ratio),
         (),
         values,
         tuple(printed_term(k) for k in (2, 3)),
-        "One mode's shares of gamma_2 and gamma_3 of (10), by K_j and a/P^(1/3).",
         {K: contact_law()[0].expression, ratio: a / P ** sp.Rational(1, 3)},
     )
 
@@ -195,20 +180,13 @@ def mode_share(k: int) -> sp.Expr:
     return K * sp.powsimp(share.subs(a, ratio * P ** sp.Rational(1, 3)), force=True)
 
 
-def coefficients() -> Routine:
-    """xi_2 and both xi_3 of (10)."""
+@named
+def coefficients() -> Claims:
+    """xi_2, and xi_3 as derived and as printed, of (10)."""
     derived = {f.name: f.expression for f in formal_coefficients()}
     printed = {p.name: p.expression for p in PRINTED_MOTION}
     values = derived["xi_2"], derived["xi_3"], printed["xi_3"]
-    return routine(
-        "coefficients",
-        (gamma_k[2], gamma_k[3]),
-        (),
-        values,
-        values,
-        "xi_2, and xi_3 as derived and as printed, of (10).",
-        {},
-    )
+    return Claims((gamma_k[2], gamma_k[3]), (), values, values, {})
 
 
 ROUTINES = linear, integrands, shares

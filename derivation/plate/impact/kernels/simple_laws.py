@@ -2,7 +2,8 @@
 
 import sympy as sp
 
-from derivation.engine.emit.routine import Facts, Let, Routine, Sums, routine
+from derivation.engine.emit.named import Claims, named
+from derivation.engine.emit.routine import Facts, Let, Sums
 from derivation.plate.contact.theory.hertz import contact_radius
 from derivation.plate.contact.theory.plate_series import coefficient, small_contact
 from derivation.plate.contact.theory.thin_plate import thin_coefficient
@@ -43,7 +44,7 @@ THIN_LINEAR, THIN_CUBIC, HERTZ_TIME = sp.symbols("THIN_LINEAR THIN_CUBIC HERTZ_T
 FADED_LINEAR, FADED_CUBIC = sp.symbols("FADED_LINEAR FADED_CUBIC", positive=True)
 RULE = sp.Symbol("RULE")
 gauss = sp.Symbol("w", positive=True)
-bend, doubt, steep, s, x, y = sp.symbols("bend doubt steep s x y", real=True)
+bend, bend_error, steep, s, x, y = sp.symbols("bend bend_error steep s x y", real=True)
 rest, v, over_h, A, modulus, depth = sp.symbols("rest v over_h A modulus depth", positive=True)
 fall, rise = sp.symbols("fall rise", nonnegative=True)
 
@@ -75,8 +76,9 @@ def most(c_1: sp.Expr, radius: sp.Expr) -> sp.Expr:
     return found
 
 
-def thick_plate() -> Routine:
-    """c_1 and K_3 by the modes."""
+@named
+def thick_plate() -> Claims:
+    """c_1, the size of its parts, K_3; what modes that are not among j_n, 1/(j_n J1^2) add."""
     rows, zero, weight, fade, lack, share, linear, cubic = sp.symbols(
         "modes zero weight fade lack share linear cubic", positive=True
     )
@@ -98,8 +100,7 @@ def thick_plate() -> Routine:
     first, third = coefficient(2), coefficient(3)
     at = 2 * eta * j_n
     own = plate_factors()[2].expression.subs(T, at) / (j_n * J1**2)
-    return routine(
-        "thick_plate",
+    return Claims(
         (eta, rows),
         (sums,),
         (
@@ -116,7 +117,6 @@ def thick_plate() -> Routine:
             first.mode,
             -CUBIC * third.mode,
         ),
-        "c_1, the size of its parts, K_3; what modes that are not among j_n, 1/(j_n J1^2) add.",
         {
             **MEANING,
             zero: j_n,
@@ -128,12 +128,12 @@ def thick_plate() -> Routine:
     )
 
 
-def thin_plate() -> Routine:
-    """c_1 and K_3 without the roots' shares, which fade with the last result."""
+@named
+def thin_plate() -> Claims:
+    """c_1 and K_3 of a thin plate for 1/eta = v but for the roots' shares; how these fade."""
     logarithm = sp.Symbol("logarithm", real=True)
     claim = -CUBIC * (thin_coefficient(3).expression - coefficient(3).side)
-    return routine(
-        "thin_plate",
+    return Claims(
         (v,),
         (Let(logarithm, sp.log(v)),),
         (
@@ -142,68 +142,57 @@ def thin_plate() -> Routine:
             sp.exp(-sp.pi * v),
         ),
         (thin_coefficient(2).expression, claim + WALL_REST * eta**3, sp.exp(-sp.pi / eta)),
-        "c_1 and K_3 of a thin plate for 1/eta = v but for the roots' shares; how these fade.",
         {**MEANING, v: 1 / eta},
         lambda e: sp.expand(sp.expand_log(e, force=True)),
     )
 
 
-def sphere() -> Routine:
-    """The modulus, and the fifth power of Hertz's largest radius."""
+@named
+def sphere() -> Claims:
+    """E*, twice the energy brought, and the fifth power of Hertz's largest radius."""
     energy = sp.Symbol("energy", positive=True)
     C = contact_radius().expression / a**3 / R
     brought = energy_number().expression * energy_scale().subs(E, reduced_modulus())
-    return routine(
-        "sphere",
+    return Claims(
         (R, m, v0, lam, mu),
         (Let(modulus, 4 * mu * ((lam + mu) / (lam + 2 * mu))), Let(energy, m * v0**2)),
         (modulus, energy, sp.Rational(15, 16) * (energy / modulus) * R**2),
         (reduced_modulus(), 2 * brought, brought / (C * work_of_contact(0))),
-        "E*, twice the energy brought, and the fifth power of Hertz's largest radius.",
         {},
     )
 
 
-def hertz_bounds() -> Routine:
-    """How far S of a plate may be from 1."""
-    upper, lower = most(bend + doubt, A), most(bend - doubt, A) - rest * A**3
+@named
+def hertz_bounds() -> Claims:
+    """How much S at A may be below 1, and above."""
+    upper, lower = most(bend + bend_error, A), most(bend - bend_error, A) - rest * A**3
     factor = sp.Symbol("factor", positive=True)
-    return routine(
-        "hertz_bounds",
-        (bend, doubt, rest, A),
+    return Claims(
+        (bend, bend_error, rest, A),
         (Let(factor, 3 * A / 2),),
-        (rest * A**3 - factor * (bend - doubt), factor * (bend + doubt)),
+        (rest * A**3 - factor * (bend - bend_error), factor * (bend + bend_error)),
         (1 - lower, upper - 1),
-        "How much S at A may be below 1, and above.",
         {},
     )
 
 
-def steepness() -> Routine:
-    """S_1 - 1."""
-    return routine(
-        "steepness",
-        (bend, A),
-        (),
-        (3 * bend * A / 2,),
-        (most(bend, A) - 1,),
-        "S_1 - 1 at A.",
-        {},
-    )
+@named
+def steepness() -> Claims:
+    """S_1 - 1 at A."""
+    return Claims((bend, A), (), (3 * bend * A / 2,), (most(bend, A) - 1,), {})
 
 
-def leading_bounds() -> Routine:
-    """How far S of a plate may be from S_1, over S_1; the elasticity of S_1."""
+@named
+def leading_bounds() -> Claims:
+    """Over S_1 at A: what an error of c_1 changes, and K_3 A^3; and d log S_1/d log A."""
     whole = sp.Symbol("whole", positive=True)
     law = most(bend, A)
     meaning: Facts = {steep: law - 1}
-    return routine(
-        "leading_bounds",
-        (doubt, rest, steep, A),
+    return Claims(
+        (bend_error, rest, steep, A),
         (Let(whole, 1 + steep),),
-        (3 * doubt * A / (2 * whole), rest * A**2 * (A / whole), steep / whole),
-        (most(bend + doubt, A) / law - 1, rest * A**3 / law, A * sp.diff(law, A) / law),
-        "What a doubt about c_1 and what K_3 A^3 are of S_1 at A, and d log S_1/d log A.",
+        (3 * bend_error * A / (2 * whole), rest * A**2 * (A / whole), steep / whole),
+        (most(bend + bend_error, A) / law - 1, rest * A**3 / law, A * sp.diff(law, A) / law),
         meaning,
     )
 
@@ -213,38 +202,31 @@ def _work(c_1: sp.Expr) -> sp.Expr:
     return sp.expand(work_of_contact(1) / work_of_contact(0)).subs(D[3], c_1)
 
 
-def beside_hertz() -> Routine:
-    """What c_1 adds to the work up to Hertz's largest radius."""
-    return routine(
-        "beside_hertz",
-        (bend, over_h),
-        (),
-        (5 * bend * over_h / 4,),
-        (_work(bend * over_h) - 1,),
-        "What the first correction adds to the work up to Hertz's largest A, over that.",
-        {},
-    )
+@named
+def beside_hertz() -> Claims:
+    """What the first correction adds to the work up to Hertz's largest A, over that."""
+    return Claims((bend, over_h), (), (5 * bend * over_h / 4,), (_work(bend * over_h) - 1,), {})
 
 
-def share_step() -> Routine:
-    """Newton's step for the largest radius by the first correction."""
+@named
+def share_step() -> Claims:
+    """Excess work up to s times Hertz's radius, and how it grows; y by `beside_hertz`."""
     fourth, inner = sp.symbols("fourth inner", real=True)
     work = s**5 * _work(s * sp.Symbol("z", real=True))
     z = 4 * y / 5
     claim = work.subs(sp.Symbol("z", real=True), z) - 1
-    return routine(
-        "share_step",
+    return Claims(
         (s, y),
         (Let(fourth, s**4), Let(inner, s * y)),
         (fourth * s * (1 + inner) - 1, fourth * (5 + 6 * inner)),
         (claim, sp.diff(claim, s)),
-        "Excess work up to s times Hertz's radius, and how it grows; y by `beside_hertz`.",
         {},
     )
 
 
-def leading_time() -> Routine:
-    """Contact time by the first correction."""
+@named
+def leading_time() -> Claims:
+    """Contact time by Gauss' rule; x is S_1 - 1 at the largest radius a."""
     q, fifth, sixth, weight, total = sp.symbols("q fifth sixth weight total", positive=True)
     whole = 6 + 5 * x
     sums = Sums(
@@ -256,57 +238,48 @@ def leading_time() -> Routine:
     integrand = contact_time(1)[0].expression
     claim = 2 * (a**2 / R) / v0 * sp.sqrt(work_of_contact(1)) * gauss * integrand
     row: Facts = dict(zip((q, fifth, sixth, weight), ROW, strict=True))
-    return routine(
-        "leading_time",
+    return Claims(
         (a, R, v0, x),
         (sums,),
         (total * (a**2 / R) / v0,),
         (claim,),
-        "Contact time by Gauss' rule; x is S_1 - 1 at the largest radius a.",
         {**row, x: most(D[3] / a_ratio, a_ratio) - 1},
     )
 
 
-def hertz_peaks() -> Routine:
-    """Results on a half-space."""
+@named
+def hertz_peaks() -> Claims:
+    """Contact time, indentation and force on a half-space at the largest contact radius."""
     law = a**2 / R
-    return routine(
-        "hertz_peaks",
+    return Claims(
         (a, R, v0, modulus),
         (Let(depth, a**2 / R),),
         (HERTZ_TIME * depth / v0, depth, 4 * modulus / 3 * a * depth),
         (hertz_time().expression * law / v0, law, contact_radius().expression),
-        "Contact time, indentation and force on a half-space at the largest contact radius.",
         {**MEANING, modulus: reduced_modulus()},
     )
 
 
-def peaks() -> Routine:
-    """Indentation and force at a contact radius."""
+@named
+def peaks() -> Claims:
+    """Indentation and force at a contact radius; bent is c_1 A."""
     bent = sp.Symbol("bent", real=True)
     law = small_contact().expression.subs({c: 0 for n, c in c_A.items() if n > 1})
-    return routine(
-        "peaks",
+    return Claims(
         (a, R, modulus, bent),
         (),
         (a**2 / R * (1 + bent), 4 * modulus / 3 * a**2 * (a / R)),
         (a**2 / R * law, contact_radius().expression),
-        "Indentation and force at a contact radius; bent is c_1 A.",
         {modulus: reduced_modulus(), bent: c_A[1] * a_ratio},
     )
 
 
-def elasticities() -> Routine:
-    """The exponents of the lemma."""
+@named
+def elasticities() -> Claims:
+    """How fast work, indentation and contact time change with the largest radius."""
     found = exponents(fall, rise)
-    return routine(
-        "elasticities",
-        (fall, rise),
-        (),
-        tuple(found.values()),
-        tuple(exponents(fall, rise).values()),
-        "How fast work, indentation and contact time change with the largest radius.",
-        {},
+    return Claims(
+        (fall, rise), (), tuple(found.values()), tuple(exponents(fall, rise).values()), {}
     )
 
 

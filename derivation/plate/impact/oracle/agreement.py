@@ -10,7 +10,7 @@ from flint import arb
 from derivation.engine.oracle.agreement import OracleError, to_ball
 from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.contact.oracle import forces as contact_forces
-from derivation.plate.contact.route import sums as contact_routes
+from derivation.plate.contact.route import residue_law
 from derivation.plate.impact.oracle import impact as contact_impact
 
 SPARE = 2
@@ -40,18 +40,8 @@ FIRST: Mapping[str, Callable[..., Any]] = {
 }
 """Oracle 1, in ball arithmetic."""
 
-SECOND: Mapping[str, Callable[..., Any]] = {
-    "indentation": contact_routes.indentation,
-    "slope": contact_routes.slope,
-    "stiffness": contact_routes.stiffness,
-    "contact_radius": contact_routes.contact_radius,
-    "force": contact_forces.second_force,
-    "force_of_radius": contact_forces.second_force_of_radius,
-    "radius_of_force": contact_forces.second_radius_of_force,
-    "max_pressure": contact_forces.second_max_pressure,
-    "impact": contact_routes.impact,
-}
-"""Oracle 2, by sums over modes."""
+SECOND: dict[str, Callable[..., Any]] = {name: getattr(residue_law, name) for name in FIRST}
+"""Oracle 2, by residues."""
 
 
 def agree(name: str, arguments: Sequence[float], digits: int = 40) -> Agreement:

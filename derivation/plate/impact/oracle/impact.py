@@ -5,22 +5,28 @@ With the notation of `contact.oracle.balls` and P = 4 E* a^3/(3 R),
     int P d delta = (8 E*/(15 R^2)) a^5 (1 + 20 alpha/pi L[work]),
 
 which gives the largest contact radius a_m. For the time, d delta/da is taken for
-a polynomial on [0, a_m] with a proven error, an interpolant of the law in integrals or
-the law's power series; the rest is exact in that polynomial, and the root's singularity
-at a_m is taken away by a = a_m (1 - u^2).
+a polynomial on [0, a_m] with a proven error, see `ball_law`; the rest is exact in that
+polynomial, and the root's singularity at a_m is taken away by a = a_m (1 - u^2).
 """
 
 import math
 from collections.abc import Callable, Sequence
-from fractions import Fraction
-from typing import NamedTuple, Protocol
+from functools import lru_cache
+from typing import NamedTuple
 
 import flint
 from flint import acb, arb
 
 from derivation.engine.formula.ball import Exact, PrecisionError, to_ball
 from derivation.plate.contact.oracle.balls import modulus, ratio_of, ratio_where, settle
-from derivation.plate.contact.oracle.sums import excess, excess_bound, hankel_bound
+from derivation.plate.contact.oracle.sums import excess
+from derivation.plate.impact.oracle.ball_law import BallLaw, Integrals, law_of
+
+_MARGIN = 1 + 2.0**-30
+"""The law is made for contacts larger than the largest by this factor."""
+
+_MOTIONS = 256
+"""Largest contacts kept."""
 
 _PIECES = (16, 256)
 """Of [0, 1], to show that the slope is positive: few, and more if they do not suffice."""
@@ -35,42 +41,6 @@ class ImpactBalls(NamedTuple):
     max_contact_radius: arb
 
 
-class BallLaw(Protocol):
-    """What a plate adds to Hertz's law up to a/b = `reach`, at the precision now set."""
-
-    @property
-    def reach(self) -> arb:
-        """Largest a/b [1] served."""
-
-    def excess(self, name: str, alpha: arb) -> arb:
-        """See `contact.oracle.sums.excess`; alpha = a/b [1]."""
-
-    def slope(self, alpha: arb) -> tuple[flint.arb_poly, arb]:
-        """Exact coefficients of p(t), and a bound of p's error on [0, 1].
-
-        (R/2a) d delta/da = 1 + q p(q^2) at a = q alpha b.
-        """
-
-
-class Integrals(NamedTuple):
-    """The law of a plate of h/b = eta by the integrals of `sums`, whatever the contact."""
-
-    eta: Fraction
-
-    @property
-    def reach(self) -> arb:
-        """The plate's edge."""
-        return arb(1)
-
-    def excess(self, name: str, alpha: arb) -> arb:
-        """See `contact.oracle.sums.excess`."""
-        return excess(name, alpha, self.eta)
-
-    def slope(self, alpha: arb) -> tuple[flint.arb_poly, arb]:
-        """See `Law.slope`."""
-        return _slope_polynomial(alpha, self.eta)
-
-
 class Course(NamedTuple):
     """An impact's polynomials in q = a/a_m, exact ones, and what they may be wrong by.
 
@@ -83,70 +53,6 @@ class Course(NamedTuple):
     scale: arb
     doubt: arb
     radius: arb
-
-
-def _size(alpha: float, eta: float) -> tuple[float, float]:
-    """rho of an ellipse for L[sinc] in q, foci +-1, and half the largest rate it allows.
-
-    With half-axes A, B: |Im(alpha z)| <= alpha (sqrt(A^2 + 4 B^2) y + B) on the ray, to
-    stay below 1.8 y + ..., and <= alpha B x on the axis, to stay below 3.2 eta x.
-    """
-    low, high = 1.0, 1e3
-    for _ in range(60):
-        rho = (low + high) / 2
-        A, B = (rho + 1 / rho) / 2, (rho - 1 / rho) / 2
-        fits = alpha * math.hypot(A, 2 * B) < 1.8 and alpha * B < 3.2 * eta
-        low, high = (rho, high) if fits else (low, rho)
-    return low, alpha * (low - 1 / low) / 2
-
-
-def _ellipse_bound(alpha: arb, eta: arb, rate: arb) -> arb:
-    """|4 alpha/pi L[sinc]| on that ellipse.
-
-    On the axis for T <= 3 the exponential is below e^4.8 < 122 and the excess at
-    most 180 * 13/T^6; for T >= 3 it is below 4.9 e^(-2T) (1 + T + T^2), which against
-    e^(1.6 T) leaves an integral below 159. On the ray |H/J0| <= 3 e^(-2y) for |z| >= 4,
-    y >= 1; before y = 2 balls bound it, e^4 making up for e^(-2y).
-    """
-    pieces = (arb((2 * k + 1) * arb(1) / 200, arb(1) / 200) for k in range(200))
-    near = arb(3)
-    for y in pieces:
-        near = near.max(hankel_bound(acb(1 + 2 * y, y)) * arb(4).exp())
-    side = rate.exp() / 2
-    axis = (122 * 468 / (2 * eta) ** 6 + 159 / (2 * eta)) / 2
-    ray = arb(5).sqrt() / 2 * near * rate.exp() * 5 * (1 + excess_bound(2 * eta))
-    return (4 * alpha / arb.pi() * (side + axis + ray)).abs_upper()
-
-
-def _slope_polynomial(alpha: arb, eta: Fraction) -> tuple[flint.arb_poly, arb]:
-    """Exact coefficients of p(t), where S(q) = 1 + q p(q^2) on [0, 1], and a bound of p's error.
-
-    L[sinc] is even in alpha, hence analytic in t = q^2 inside an ellipse of
-    parameter rho^2, foci 0 and 1. Interpolation in n + 1 Chebyshev nodes misses at
-    most 4 M rho^(-2n)/(rho^2 - 1), and errors of the values (taken at their
-    midpoints) count (2/pi) log(n + 1) + 1 times (Trefethen, ATAP, 8.2 and 15.2).
-    """
-    bits = flint.ctx.prec
-    root, rate = _size(float(alpha), float(eta))
-    rho = arb(root) ** 2
-    bound = _ellipse_bound(alpha, to_ball(eta), arb(rate) * (1 + arb(2) ** -40))
-    n = 2 + math.ceil((bits * math.log(2) + max(0.0, float(bound.log()))) / float(rho.log()))
-    count, error = n + 1, 4 * bound * rho**-n / (rho - 1)
-    xs = [arb.cos_pi_fmpq(flint.fmpq(2 * i + 1, 2 * count)) for i in range(count)]
-    values = [excess("sinc", alpha * ((1 + x) / 2).sqrt(), eta) / ((1 + x) / 2).sqrt() for x in xs]
-    widest = max((value.rad() for value in values), key=float)
-    error += widest * (2 / arb.pi() * arb(count).log() + 1)
-    with flint.ctx.workprec(bits + 4 * count + 64):
-        polynomial = flint.arb_poly([0])
-        before, now = flint.arb_poly([1]), flint.arb_poly([-1, 2])
-        for k in range(count):
-            cosines = (
-                arb.cos_pi_fmpq(flint.fmpq(k * (2 * i + 1), 2 * count)) for i in range(count)
-            )
-            share = sum((v.mid() * c for v, c in zip(values, cosines, strict=True)), arb(0))
-            polynomial += before * (share * (2 if k else 1) / count)
-            before, now = now, flint.arb_poly([-2, 4]) * now - before
-        return polynomial, error.abs_upper()
 
 
 def _spread(polynomial: flint.arb_poly) -> flint.arb_poly:
@@ -219,14 +125,14 @@ def impact(
 ) -> ImpactBalls:  # fmt: skip
     """The conservative impact of a sphere of mass m at speed v0.
 
-    `law` gives the plate's law at so many bits; without it integrals serve.
+    `law` gives the plate's law at so many bits, without it that of `law_for`.
 
     Raises
     ------
     ValueError
         If the contact reaches the plate's edge before the sphere has stopped.
     """
-    chosen = law or (lambda _: Integrals(ratio_of(h, b)))
+    chosen = law or law_for((R, m, v0, h, b, lam, mu), digits)
 
     def compute(bits: int) -> ImpactBalls:
         return _impact(R, m, v0, h, b, lam, mu, (), chosen(bits))[0]
@@ -250,18 +156,29 @@ def stored_energy(
 def history(
     radii: Sequence[Exact],
     R: Exact, m: Exact, v0: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact,
-    digits: int = 40, law: Callable[[int], BallLaw] | None = None,
+    digits: int = 40,
 ) -> tuple[arb, ...]:  # fmt: skip
-    """Times since first touch at which the growing contact reaches the given radii.
-
-    `law` is as for `impact`.
-    """
-    chosen = law or (lambda _: Integrals(ratio_of(h, b)))
+    """Times since first touch at which the growing contact reaches the given radii."""
+    chosen = law_for((R, m, v0, h, b, lam, mu), digits)
 
     def compute(bits: int) -> tuple[arb, ...]:
         return _impact(R, m, v0, h, b, lam, mu, radii, chosen(bits))[1]
 
     return settle(compute, digits, "history")
+
+
+def law_for(motion: Sequence[Exact], digits: int) -> Callable[[int], BallLaw]:
+    """The law at so many bits, up to the largest contact of an impact of exact numbers."""
+    return law_of(ratio_of(motion[3], motion[4]), reach_of(tuple(motion)), digits)
+
+
+@lru_cache(maxsize=_MOTIONS)
+def reach_of(motion: tuple[Exact, ...]) -> float:
+    """Somewhat above the largest a/b of an impact, and below 1."""
+    R, m, v0, h, b, lam, mu = motion
+    with flint.ctx.workprec(64):
+        largest = largest_ratio(R, m, v0, h, b, lam, mu, Integrals(ratio_of(h, b)))
+    return min(float(largest.upper()) * _MARGIN, math.nextafter(1.0, 0.0))
 
 
 def largest_ratio(

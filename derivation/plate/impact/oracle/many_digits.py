@@ -1,39 +1,27 @@
 """Contact law and conservative impact to many digits: oracle 1's balls, repeated by oracle 2.
 
-Oracle 1 takes the law as a power series (`contact.oracle.points`), or in integrals
-(`contact.oracle.sums`) where a contact is too deep or a plate too thin for that. Oracle 2 is
-`residue_law`, or `contact.route.sums` where a contact is so deep that the former's powers would
-take too long. Either is evaluated once: what it is compared with is certified. Arguments are
-doubles, taken exactly.
+Oracle 1 takes the law as `ball_law` has it, oracle 2 is `contact.route.residue_law`. Arguments
+are doubles, taken exactly.
 """
 
 import math
-from collections.abc import Callable, Iterator, Sequence
-from fractions import Fraction
+from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 import flint
 from flint import arb
 from mpmath import mpf
 
-from derivation.engine.formula.ball import to_ball
 from derivation.engine.oracle.agreement import to_ball as exactly
-from derivation.plate.contact.oracle import points as contact_points
-from derivation.plate.contact.oracle.balls import modulus, ratio_of, settle
+from derivation.plate.contact.oracle.balls import ratio_of
 from derivation.plate.contact.route import residue_law
-from derivation.plate.contact.route import sums as contact_routes
+from derivation.plate.impact.oracle import ball_law
 from derivation.plate.impact.oracle import impact as contact_impact
-from derivation.plate.impact.oracle.impact import BallLaw, Integrals
-from derivation.plate.impact.oracle.many_costs import (
-    INPUTS,
-    Motion,
-    by_residues,
-    by_series,
-    second_digits,
-)
 
-Tell = Callable[[str, int, int], None]
-"""Wants to be told what is being done, which part of it, and of how many."""
+Motion = tuple[float, float, float, float, float, float, float]
+"""R [m], m [kg], v0 [m/s], h [m], b [m], lam [Pa], mu [Pa]."""
+
+INPUTS = ("R", "m", "v0", "h", "b", "lam", "mu")
 
 SHARES = (0.25, 0.5, 1.0)
 """At which parts of the largest contact radius the law is given."""
@@ -52,9 +40,6 @@ MOST = 1000
 
 _SPARE = 3
 """Digits computed beyond those shown, so that rounding to the latter is what the radius is."""
-
-_MARGIN = 1 + 2.0**-30
-"""The law is made for contacts larger than the largest by this factor."""
 
 
 class Quantity(NamedTuple):
@@ -170,7 +155,7 @@ class ImpactReference(NamedTuple):
         return found
 
 
-def reference(motion: Motion, digits: int, tell: Tell) -> ImpactReference:
+def reference(motion: Motion, digits: int, tell: ball_law.Tell) -> ImpactReference:
     """Law and impact by both oracles.
 
     Parameters
@@ -195,106 +180,39 @@ def reference(motion: Motion, digits: int, tell: Tell) -> ImpactReference:
         raise ValueError(f"expected 1 to {MOST} digits, got {digits}")
     R, _, _, h, b, lam, mu = motion
     tell("largest contact radius", 1, 1)
-    reach = _reach(motion)
-    law, wanted = law_of(ratio_of(h, b), reach, digits, tell), digits + _SPARE
+    law = ball_law.law_of(ratio_of(h, b), contact_impact.reach_of(motion), digits, tell)
+    wanted = digits + _SPARE
     found = contact_impact.impact(*motion, wanted, law)
     radii = [float(found.max_contact_radius) * share for share in SHARES]
-    balls = [pressed(a, R, b, lam, mu, law, wanted) for a in radii]
-    second = _second(motion, reach, digits)
+    balls = [ball_law.pressed(a, R, b, lam, mu, law, wanted) for a in radii]
     laws: list[Pressed] = []
     for a, both in zip(radii, balls, strict=True):
         tell("oracle 2: law", len(laws) + 1, len(radii))
-        again = _beside(("indentation", "stiffness"), both, second.law(a), second.digits)
-        laws.append(Pressed(a, again))
+        again = (
+            residue_law.indentation(a, R, h, b, digits),
+            residue_law.stiffness(a, R, h, b, lam, mu, digits),
+        )
+        laws.append(Pressed(a, _beside(("indentation", "stiffness"), both, again, digits)))
     tell("oracle 2: impact", 1, 1)
-    moved = _beside(found._fields, found, second.impact(), second.digits)
+    moved = _beside(found._fields, found, residue_law.impact(*motion, digits), digits)
     return ImpactReference(motion, digits, moved, tuple(laws))
 
 
-class _Second(NamedTuple):
-    """Oracle 2 to so many digits: indentation and stiffness at a contact radius, the impact."""
-
-    digits: int
-    law: Callable[[float], Sequence[mpf]]
-    impact: Callable[[], Sequence[mpf]]
-
-
-def _second(motion: Motion, reach: float, digits: int) -> _Second:
-    R, m, v0, h, b, lam, mu = motion
-    asked = second_digits(h / b, reach, digits)
-    if by_residues(h / b, reach, digits):
-        of = residue_law.law(h, b, reach, asked)
-        return _Second(
-            asked,
-            lambda a: (
-                residue_law.indentation(a, R, of, asked),
-                residue_law.stiffness(a, R, lam, mu, of, asked),
-            ),
-            lambda: residue_law.impact(R, m, v0, lam, mu, of, asked),
-        )
-    how = contact_routes.setting(asked)
-    return _Second(
-        asked,
-        lambda a: (
-            contact_routes.indentation(a, R, h, b, asked, how),
-            contact_routes.stiffness(a, R, h, b, lam, mu, asked, how),
-        ),
-        lambda: contact_routes.impact(*motion, asked, how),
-    )
-
-
-def law_for(motion: Sequence[Any], digits: int) -> Callable[[int], BallLaw]:
-    """Oracle 1's law at so many bits, up to the largest contact of an impact of exact numbers."""
-    return law_of(ratio_of(motion[3], motion[4]), _reach(motion), digits, lambda *_: None)
-
-
-def _reach(motion: Sequence[Any]) -> float:
-    """Somewhat above the largest a/b of an impact, and below 1."""
-    R, m, v0, h, b, lam, mu = motion
-    with flint.ctx.workprec(64):
-        law = Integrals(ratio_of(h, b))
-        largest = contact_impact.largest_ratio(R, m, v0, h, b, lam, mu, law)
-    return min(float(largest.upper()) * _MARGIN, math.nextafter(1.0, 0.0))
-
-
-def law_of(eta: Fraction, reach: float, digits: int, tell: Tell) -> Callable[[int], BallLaw]:
-    """Oracle 1's law at so many bits: a power series where that is possible and quicker.
+def expected_seconds(motion: Motion, radius: float, digits: int) -> float:
+    """About how long `reference` takes [s] on one idle core, both oracles together.
 
     Parameters
     ----------
-    eta
-        h/b [1].
-    reach
-        Largest a/b [1] asked for.
+    motion
+        The scene in numbers.
+    radius
+        Largest contact radius [m], which a double tells well enough.
     digits
-        Digits, which decide what is quicker.
-    tell
-        Told of every zero of J0.
+        Digits asked for.
     """
-    if not by_series(float(eta), reach, digits):
-        tell("oracle 1: integrals", 1, 1)
-        return lambda _: Integrals(eta)
-
-    def law(bits: int) -> BallLaw:
-        contact_points.prepare(eta, reach, bits, lambda k, n: tell("oracle 1: zeros of J0", k, n))
-        tell("oracle 1: power series", 1, 1)
-        return contact_points.series(eta, reach, bits)
-
-    return law
-
-
-def pressed(
-    a: float, R: float, b: float, lam: float, mu: float, law: Callable[[int], BallLaw], digits: int
-) -> tuple[arb, ...]:
-    """Indentation [m] and stiffness [N/m] at a contact radius [m]."""
-    alpha = ratio_of(a, b)
-
-    def compute(bits: int) -> tuple[arb, arb]:
-        known, x = law(bits), to_ball(alpha)
-        delta = to_ball(a) ** 2 / to_ball(R) * (1 + known.excess("hertz", x))
-        return delta, 2 * modulus(lam, mu) * to_ball(a) / (1 + known.excess("sinc", x))
-
-    return settle(compute, digits, f"the law at {a}")
+    h, b = motion[3:5]
+    first = ball_law.first_seconds(h / b, radius / b, digits)
+    return 1 + first + residue_law.seconds(h / b, radius / b, digits)
 
 
 def _beside(

@@ -1,6 +1,6 @@
-"""Oracle 1 of what follows from the contact law: forces, the reversed series, the motion."""
+"""Oracle 1 of what follows from the contact law: the reversed series, the motion."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 
 import flint
@@ -8,7 +8,7 @@ from flint import arb
 
 from derivation.engine.formula.ball import Exact, PrecisionError, to_ball
 from derivation.plate.contact.oracle import balls as contact_balls
-from derivation.plate.contact.oracle.balls import modulus, settle
+from derivation.plate.contact.oracle.balls import modulus
 from derivation.plate.impact.oracle import impact as contact_impact
 
 _GRID, _STEPS = 8, 12
@@ -18,36 +18,6 @@ _NEXT = 13
 
 Motion = tuple[Exact, Exact, Exact, Exact, Exact, Exact, Exact]
 """R, m, v0, h, b, lam, mu of an impact."""
-
-
-def force_of_radius(a: Exact, R: Exact, lam: Exact, mu: Exact, digits: int = 50) -> arb:
-    """P = (4/3) E* a^3/R."""
-    return settle(
-        lambda _: (4 * modulus(lam, mu) * to_ball(a) ** 3 / (3 * to_ball(R)),), digits, "P"
-    )[0]
-
-
-def radius_of_force(P: Exact, R: Exact, lam: Exact, mu: Exact, digits: int = 50) -> arb:
-    """a = (3 P R/(4 E*))^(1/3)."""
-    return settle(
-        lambda _: ((3 * to_ball(P) * to_ball(R) / (4 * modulus(lam, mu))).root(3),), digits, "a"
-    )[0]
-
-
-def max_pressure(a: Exact, R: Exact, lam: Exact, mu: Exact, digits: int = 50) -> arb:
-    """3 P/(2 pi a^2) = 2 E* a/(pi R)."""
-    return settle(
-        lambda _: (2 * modulus(lam, mu) * to_ball(a) / (arb.pi() * to_ball(R)),), digits, "p_0"
-    )[0]
-
-
-def force(
-    delta: Exact, R: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact, digits: int = 50
-) -> arb:
-    """Force at an indentation, by way of the contact radius."""
-    a = contact_balls.contact_radius(delta, R, h, b, digits + 2)
-    with flint.ctx.workprec(4 * digits + 64):
-        return 4 * modulus(lam, mu) * a**3 / (3 * to_ball(R))
 
 
 def truncated_series(
@@ -83,11 +53,11 @@ def power(series: Sequence[arb], exponent: arb) -> list[arb]:
 
 def state(
     t: Exact, R: Exact, m: Exact, v0: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact,
-    digits: int = 40, law: Callable[[int], contact_impact.BallLaw] | None = None,
+    digits: int = 40,
 ) -> tuple[arb, arb, arb, arb]:  # fmt: skip
     """Indentation, its rate, contact radius and force at a time since the first touch.
 
-    `law` is as for `impact.impact`. The contact radius is found by Newton's iteration on
+    The contact radius is found by Newton's iteration on
     the times that it is reached at, certified by a time on either side; the rate follows from
     the energy. Next to the turning point a power series serves, see `_turned`.
 
@@ -97,19 +67,19 @@ def state(
         If the ends do not enclose the time.
     """
     motion: Motion = (R, m, v0, h, b, lam, mu)
-    course = contact_impact.impact(*motion, digits + 8, law)
+    course = contact_impact.impact(*motion, digits + 8)
     with flint.ctx.workprec(8 * digits + 64):
         if abs(to_ball(t) / course.contact_time - 0.5) < arb(10) ** -_NEXT:
-            return _turned(t, contact_impact.impact(*motion, digits + 2 * _NEXT, law), motion)
+            return _turned(t, contact_impact.impact(*motion, digits + 2 * _NEXT), motion)
         left = course.contact_time - to_ball(t)
         if t <= 0 or left <= 0:
             return arb(0), to_ball(v0) * (1 if t <= 0 else -1), arb(0), arb(0)
         falling = bool(left < to_ball(t))
         goal = left if falling else to_ball(t)
-    a = _start(goal, course, motion, law)
+    a = _start(goal, course, motion)
     for step in range(_STEPS):
         shown = min(digits + 8, _LEAST * 2**step)
-        (reached,) = contact_impact.history([a], *motion, shown, law)
+        (reached,) = contact_impact.history([a], *motion, shown)
         with flint.ctx.workprec(8 * digits + 64):
             rate = _speed(a, motion, shown) / contact_balls.slope(a, R, h, b, shown)
             change = (goal - reached) * rate
@@ -119,7 +89,7 @@ def state(
     with flint.ctx.workprec(8 * digits + 64):
         width = to_ball(a) * arb(10) ** -(digits + 1)
         low, high = fraction(to_ball(a) - width), fraction(to_ball(a) + width)
-        before, after = contact_impact.history([low, high], *motion, digits + 6, law)
+        before, after = contact_impact.history([low, high], *motion, digits + 6)
         if not (before < goal < after):
             raise PrecisionError(f"the state at {t} is not enclosed by {low} and {high}")
         speeds = (_speed(end, motion, digits + 6) for end in (low, high))
@@ -157,17 +127,14 @@ def _turned(
     return course.max_indentation - sunk, speed, radius, load
 
 
-def _start(
-    goal: arb, course: contact_impact.ImpactBalls, motion: Motion,
-    law: Callable[[int], contact_impact.BallLaw] | None,
-) -> Fraction:  # fmt: skip
+def _start(goal: arb, course: contact_impact.ImpactBalls, motion: Motion) -> Fraction:
     """Contact radius a_m (1 - u^2) near a time, u interpolated between times of a grid.
 
     In the first panel it is a root of the time, as in free flight.
     """
     largest, grid = fraction(course.max_contact_radius), range(1, _GRID)
     radii = [largest * (1 - (1 - Fraction(k, _GRID)) ** 2) for k in grid]
-    times = [float(time) for time in contact_impact.history(radii, *motion, _LEAST, law)]
+    times = [float(time) for time in contact_impact.history(radii, *motion, _LEAST)]
     if float(goal) <= times[0]:
         return radii[0] * fraction((goal / times[0]).sqrt())
     ends = [*times, float(course.contact_time) / 2]

@@ -1,34 +1,37 @@
-"""Oracle 1 of an impact's sensitivities: symmetric differences of balls, at many digits.
+"""Oracle 1 of an impact's sensitivities, and what rounding a scene does to them.
 
-Differences with the step 2^-22 and with twice that, of results known to 30 digits, err by
-the square of the step; Richardson's extrapolation leaves its fourth power, some 1e-25.
-What it takes off, 1e-12 or so, times the square of the step, and 1e-20 at least, is put
-on as the radius: an estimate with a margin of thousands, not a proof.
+Every result is a product of powers of the scene's numbers times f(Y, eta), Y being the energy
+number and eta = h/b, so that its sensitivity to x is own_x + e_x f_Y + q_x f_eta, with the
+theory's exponents and logarithmic derivatives of f. These are differences by v0, of which Y goes
+with the square, and by b, which stands in eta alone. Richardson's extrapolation of two steps
+leaves the fourth power of the step; what it takes off, with a margin, is put on as the radius:
+an estimate, not a proof.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
+from functools import cache
+from typing import Any, NamedTuple
 
 import flint
 from flint import arb
 
-from derivation.engine.formula.ball import Exact, to_ball
-from derivation.plate.contact.oracle.balls import ratio_of
-from derivation.plate.contact.oracle.sums import excess
-from derivation.plate.impact.oracle.impact import impact
+from derivation.engine.formula.ball import to_ball
+from derivation.plate.impact.oracle import impact as contact_impact
+from derivation.plate.impact.theory.sensitivity import RESULTS, exponents
 
-STEP = Fraction(1, 2**22)
-DIGITS = 30
-_BITS = 128
-_FLOOR = 1e-20
-PARAMETERS = ("R", "m", "v0", "h", "b", "lam", "mu")
+_SPARE = 5
+_SPEED, _RADIUS = 2, 4
+"""Places of v0 and b among a scene's numbers."""
+_STEP, _STEP_DIGITS = Fraction(1, 2**20), 30
+"""Of second differences, which are asked for to a few digits."""
 
 
 def logarithmic(
     results: Callable[[Fraction], Sequence[arb]],
-    step: Fraction = STEP,
-    bits: int = _BITS,
-    floor: float = _FLOOR,
+    step: Fraction,
+    bits: int,
+    floor: float,
 ) -> tuple[arb, ...]:
     """d log(result)/d log(parameter) of results as functions of the parameter's factor, near 1.
 
@@ -57,48 +60,110 @@ def logarithmic(
         )
 
 
-def sensitivities(scene: Sequence[Exact], parameter: str, digits: int = DIGITS) -> tuple[arb, ...]:
-    """Of contact time, largest indentation, force and contact radius to one parameter.
+class _Shares(NamedTuple):
+    """d log E*/d log lam and d log E*/d log mu, and lam times the former's slope by lam."""
+
+    lam: Fraction
+    mu: Fraction
+    bend: Fraction
+
+
+def impact_sensitivities(scene: Sequence[Any], digits: int) -> tuple[arb, ...]:
+    """Logarithmic derivatives of four results by seven parameters, row by row.
+
+    The step of the differences goes with the digits: extrapolated, they err by its fourth power.
 
     Parameters
     ----------
     scene
-        R, m, v0, h, b, lam, mu.
-    parameter
-        One of these names.
+        R, m, v0, h, b, lam, mu: exact numbers.
+    digits
+        Digits after the point.
     """
-    index = PARAMETERS.index(parameter)
+    bits = 8 * digits + 64
+    by_speed, by_radius = (_by(scene, place, digits, bits) for place in (_SPEED, _RADIUS))
+    shares, found = _shares(scene), list[arb]()
+    with flint.ctx.workprec(bits):
+        for rows, speed, radius in zip(_exponents(), by_speed, by_radius, strict=True):
+            *lengths, modulus = (own + e * speed / 2 - q * radius for own, e, q in rows)
+            found += [*lengths, modulus * to_ball(shares.lam), modulus * to_ball(shares.mu)]
+    return tuple(found)
+
+
+def rounding(scene: Sequence[Any], values: Sequence[arb]) -> list[arb]:
+    """Of each of `impact_sensitivities`, here `values`, the sum of |x d/dx| over the scene."""
+    shares, found = _shares(scene), list[arb]()
+    lam, mu, bend = map(to_ball, shares)
+    with flint.ctx.workprec(4 * _STEP_DIGITS):
+        for number, (rows, (YY, Y_eta, eta_eta)) in enumerate(
+            zip(_exponents(), _curvatures(_coarsely(scene)), strict=True)
+        ):
+            changes = [
+                [e * (x * YY + y * Y_eta) + q * (x * Y_eta + y * eta_eta) for _, x, y in rows]
+                for _, e, q in rows
+            ]
+            # E* is the last: what lam and mu do, they do by it.
+            spread = [[*row[:-1], row[-1] * lam, row[-1] * mu] for row in changes]
+            modulus = sum(values[7 * number + 5 : 7 * number + 7], arb(0))
+            own = [*[arb(0)] * 5, modulus * bend, -modulus * bend]
+            whole = spread.pop()
+            spread += [[x * lam + y for x, y in zip(whole, own, strict=True)]]
+            spread += [[x * mu - y for x, y in zip(whole, own, strict=True)]]
+            found += [sum(map(abs, row), arb(0)) for row in spread]
+    return found
+
+
+def _shares(scene: Sequence[Any]) -> _Shares:
+    lam, mu = map(Fraction, scene[5:])
+    share = lam * mu / ((lam + mu) * (lam + 2 * mu))
+    return _Shares(share, 1 - share, share * (1 - lam / (lam + mu) - lam / (lam + 2 * mu)))
+
+
+def _exponents() -> Iterator[list[tuple[arb, ...]]]:
+    """Of every result, for R, m, v0, h, b and E*: its own, that of Y and that of eta."""
+    table = exponents()
+    for name in RESULTS:
+        rows = zip(table[name], table["energy"], table["eta"], strict=True)
+        yield [tuple(to_ball(Fraction(int(x.p), int(x.q))) for x in row) for row in rows]
+
+
+def _results(scene: Sequence[Any], speed: Fraction, radius: Fraction, digits: int) -> Any:
+    """The impact with v0 and b times these factors."""
+    moved = [Fraction(x) for x in scene]
+    moved[_SPEED] *= speed
+    moved[_RADIUS] *= radius
+    R, m, v0, h, b, lam, mu = moved
+    return contact_impact.impact(R, m, v0, h, b, lam, mu, digits)
+
+
+def _by(scene: Sequence[Any], place: int, digits: int, bits: int) -> tuple[arb, ...]:
+    """Of every result by v0 or b."""
+    halvings = digits + 3 * _SPARE
+    wanted, one = digits + halvings // 3 + _SPARE, Fraction(1)
 
     def results(factor: Fraction) -> Sequence[arb]:
-        moved = [Fraction(x) * (factor if i == index else 1) for i, x in enumerate(scene)]
-        R, m, v0, h, b, lam, mu = moved
-        return tuple(impact(R, m, v0, h, b, lam, mu, digits))
+        pair = (factor, one) if place == _SPEED else (one, factor)
+        return tuple(_results(scene, *pair, wanted))
 
-    return logarithmic(results)
-
-
-def peaks_by_energy(a: Exact, h: Exact, b: Exact) -> tuple[arb, arb]:
-    """Of indentation and contact radius to the energy, at a largest radius: exact, no differences.
-
-    d E = P d delta: the radius follows from (2/5) (1 + work)/(2 (1 + sinc)) in terms of the
-    sums of `contact.oracle.sums`.
-    """
-    with flint.ctx.workprec(_BITS):
-        eta, alpha = ratio_of(h, b), to_ball(ratio_of(a, b))
-        work, slope, depth = (1 + excess(name, alpha, eta) for name in ("work", "sinc", "hertz"))
-        return 2 * work / (5 * depth), work / (5 * slope)
+    return logarithmic(results, Fraction(1, 2**halvings), bits, 10.0**-digits)
 
 
-def peaks_by_thickness(a: Exact, h: Exact, b: Exact) -> tuple[arb, arb]:
-    """Of delta R/h^2 and a/h to h/b at a fixed energy number, at a largest radius."""
-    ratio = ratio_of(a, h)
+def _coarsely(scene: Sequence[Any]) -> tuple[float, ...]:
+    """The scene to ten digits, which are enough for allowances: neighbours have them in common."""
+    return tuple(float(f"{float(x):.10g}") for x in scene)
 
-    def results(factor: Fraction) -> tuple[arb, arb]:
-        eta = ratio_of(h, b) * factor
-        alpha = to_ball(ratio * eta)
-        return 1 + excess("hertz", alpha, eta), 1 + excess("work", alpha, eta)
 
-    with flint.ctx.workprec(_BITS):
-        depth, work = logarithmic(results)
-        by_energy, radius = peaks_by_energy(a, h, b)
-        return depth - work * by_energy, -work * radius
+@cache
+def _curvatures(scene: tuple[float, ...]) -> list[tuple[arb, arb, arb]]:
+    """Of every result the second derivatives of log f by Y twice, by Y and eta, by eta twice."""
+    steps = (1 / (1 + _STEP), Fraction(1), 1 + _STEP)  # logarithms at equal distances
+    grid = [[_results(scene, v, b, _STEP_DIGITS) for b in steps] for v in steps]
+    found = []
+    for number in range(len(RESULTS)):
+        f = [[of[number].log() for of in row] for row in grid]
+        square = to_ball(_STEP) ** 2
+        by_speed = (f[2][1] - 2 * f[1][1] + f[0][1]) / square
+        by_radius = (f[1][2] - 2 * f[1][1] + f[1][0]) / square
+        mixed = (f[2][2] - f[2][0] - f[0][2] + f[0][0]) / (4 * square)
+        found.append((by_speed / 4, -mixed / 2, by_radius))
+    return found

@@ -184,8 +184,7 @@ def history(
     for part in _parts(ok.size):
         nodes = np.broadcast_to(NODES, (found.A[part].size, NODES.size))
         whole[part] = 2.0 * (time_rate(nodes, found, part) * WEIGHTS).sum(axis=1)
-    begun = np.where(t > 0, t, 1.0)
-    since = np.ravel(np.broadcast_to(np.where(t > 0, product((begun, v0), depth), t), shape))
+    since = np.ravel(np.broadcast_to(np.where(t > 0, product((t, v0), depth), t), shape))
     left = whole[owner] - since
     state = np.empty((4, since.size))
     for part in _parts(since.size):
@@ -212,7 +211,7 @@ def _state(since: Double, left: Double, scenes: Scenes, owner: np.ndarray, whole
     inside_contact = nearest > 0
     half = 0.5 * whole[owner]
     goal = np.sqrt(np.where(inside_contact, nearest, half))
-    w = np.minimum(goal / np.sqrt(half), 1.0)
+    w = goal / np.sqrt(half)
     for _ in range(_STEPS):
         rate = time_rate(w[:, None] * NODES, scenes, owner)
         time = np.sqrt(w * (rate * WEIGHTS).sum(axis=1))

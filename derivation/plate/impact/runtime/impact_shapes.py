@@ -70,8 +70,8 @@ def shapes(w: Double, scenes: Scenes, pick: slice | np.ndarray) -> tuple[Double,
 def _near_shapes(s: Double, terms: Double, tails: Double) -> tuple[Double, Double, Double]:
     """1 + F, A F' and (E_near - E)/((1 - s) A_near^5) of the first polynomial."""
     square = s * s
-    value, slope = terms[-1][:, None] + 0.0 * s, np.zeros_like(s)
-    rest = tails[-1][:, None] + 0.0 * s
+    value, slope = np.full_like(s, terms[-1][:, None]), np.zeros_like(s)
+    rest = np.full_like(s, tails[-1][:, None])
     for k in range(terms.shape[0] - 2, -1, -1):
         slope *= square
         slope += value
@@ -92,9 +92,9 @@ def _far_shapes(
     ratio, gap, rise = (x[slot, None] for x in (beyond.near, beyond.gap, beyond.rise))
     q, left = w * (2.0 - w), (1.0 - w) ** 2  # left is 1 - q
     outside = left <= gap
-    lift, slope, quotient = _near_shapes(np.minimum(q / ratio, 1.0), *near)
-    short, safe = np.where(outside, 0.0, left - gap), np.where(outside, 1.0, left)
-    quotient = kernels.far_quotient(quotient, short, safe, ratio, rise)
+    lift, slope, quotient = _near_shapes(q / ratio, *near)
+    safe = np.where(outside, 1.0, left)
+    quotient = kernels.far_quotient(quotient, left - gap, safe, ratio, rise)
     piece = cut(beyond.piece, slot)
     start = np.maximum(q, ratio)
     value, fall = with_slope(A[:, None] * start, piece)

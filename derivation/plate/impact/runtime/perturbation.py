@@ -170,7 +170,7 @@ class PrintedMotion:
         begun, parts = integral(F)
         start, shares = integral(G * np.exp(begun[:, None] + legval(nodes, parts)))
         _, power = np.frexp(u)
-        own = np.where(u > 0.0, np.clip(-power, 0, _PARTS - 1), _PARTS - 1)
+        own = np.where(u > 0.0, np.maximum(-power, 0), _PARTS - 1)
         place = (u - middle[own]) / half[own]
         growth = begun[own] + legval(place, parts[:, own], tensor=False)
         total = start[own] + legval(place, shares[:, own], tensor=False)

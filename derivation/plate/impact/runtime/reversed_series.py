@@ -12,7 +12,7 @@ from generated.arrays import Double, as_doubles, as_result, in_manifest, inside,
 from generated.contact_law import _elastic, _modulus, _plates
 from generated.contact_series import Plates
 
-_CIRCLE = 128  # directions in which a radius of convergence is sought
+_CIRCLE = 129  # directions in which a radius of convergence is sought
 
 
 @in_manifest(
@@ -92,20 +92,16 @@ def _reversed(plates: Plates, plate: int, terms: int) -> tuple[float, Double]:
     row = plates.first.coefficients[:, plate]
     start = min(reach, 0.05 / max(abs(float(row[0])), 1e-300))
     circles = reach * np.geomspace(start / reach, 1.0, 1 + int(400 * (1 - np.log10(start / reach))))
-    directions = np.exp(1j * np.linspace(0.0, np.pi, _CIRCLE + 1))  # the rest is conjugate
+    directions = np.exp(1j * np.linspace(0.0, np.pi, _CIRCLE))  # the rest is conjugate
     radius = scale = 0.0
     for circle in circles:
         A = circle * directions
-        t = (A / reach) ** 2
-        value = np.full_like(t, row[-1])
-        for coefficient in row[-2::-1]:
-            value = value * t + coefficient
+        value = np.polyval(row[::-1], (A / reach) ** 2)
         least = float(np.min(kernels.size_of_eps(circle, A * value)))
         if least < radius:
             break
         radius, scale = least, float(circle)
-    scaled = np.zeros(terms)  # 1 + F in powers of A/scale
-    scaled[0] = 1.0
+    scaled = np.zeros(terms)  # F in powers of A/scale
     for k in range(min(row.size, terms // 2)):
         scaled[2 * k + 1] = row[k] * scale * (scale / reach) ** (2 * k)
     ratio = radius / scale
@@ -115,7 +111,7 @@ def _reversed(plates: Plates, plate: int, terms: int) -> tuple[float, Double]:
 
 
 def _power(series: Double, exponent: float) -> Double:
-    """A power of a power series 1 + ... (Euler's recurrence)."""
+    """A power of 1 + a power series without constant term (Euler's recurrence)."""
     result = np.zeros_like(series)
     result[0] = 1.0
     for n in range(1, series.size):

@@ -56,10 +56,10 @@ logarithms are taken to be right to two units in the last place."""
 
 
 class Plate(NamedTuple):
-    """c_1, by how much it may be wrong, and a bound of K_3."""
+    """c_1, a bound of its error, and a bound of K_3."""
 
     bend: float
-    doubt: float
+    bend_error: float
     rest: float
 
 
@@ -95,8 +95,8 @@ def plate_of(eta: float) -> Plate:
     v = 1.0 / eta
     if v > THIN:
         bend, rest, roots = thin_plate(v)
-        doubt = ROOTS_LINEAR * roots + 1e-14 * bend
-        return Plate(bend, doubt, rest * _SLACK + ROOTS_CUBIC * roots)
+        bend_error = ROOTS_LINEAR * roots + 1e-14 * bend
+        return Plate(bend, bend_error, rest * _SLACK + ROOTS_CUBIC * roots)
     counted = MODES[: bisect_right(_ZEROS, 0.5 * FADED * v)]  # T = 2 eta j_n <= FADED
     bend, size, rest, more_bend, more_rest = thick_plate(eta, counted)
     return Plate(bend, more_bend + 1e-13 * size, rest * _SLACK + more_rest)
@@ -129,7 +129,7 @@ def hertz(
         return None
     plate, top = plate_of(h / b), 1.02 * scene.radius / h
     # Of the lower bound's loss, which is convex, the largest is at one of the ends.
-    low, up = hertz_bounds(plate.bend, plate.doubt, plate.rest, top)
+    low, up = hertz_bounds(plate.bend, plate.bend_error, plate.rest, top)
     law = law_error(max(0.0, low), max(0.0, up), 0.0, 0.0)
     found = hertz_peaks(scene.radius, R, v0, scene.modulus)
     return _estimate(scene, scene.radius, found, law, 0.0)
@@ -153,8 +153,8 @@ def leading(
     if not steep > -_DEEP:
         return None
     # What S may be off by, over S_1: grows with A.
-    doubt, low, elasticity = leading_bounds(plate.doubt, plate.rest, steep, top)
-    law = law_error(low + doubt, doubt, max(0.0, -elasticity), max(0.0, elasticity))
+    wrong, low, elasticity = leading_bounds(plate.bend_error, plate.rest, steep, top)
+    law = law_error(low + wrong, wrong, max(0.0, -elasticity), max(0.0, elasticity))
     a = share * scene.radius
     depth, force = peaks(a, R, scene.modulus, plate.bend * A)
     time = leading_time(a, R, v0, steepness(plate.bend, A))

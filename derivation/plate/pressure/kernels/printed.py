@@ -6,6 +6,7 @@ The kernel is a sum of cosines, and cosines of imaginary arguments beside the wa
 
 import sympy as sp
 
+from derivation.engine.emit.named import Claims, named
 from derivation.engine.emit.routine import RAISED, Choice, Let, Routine, routine
 from derivation.plate.pressure.theory import results as theory
 from derivation.plate.pressure.theory.true_pressure import kernel, profile
@@ -27,29 +28,28 @@ def _by_exponentials(expression: sp.Expr) -> sp.Expr:
     return sp.expand(found.rewrite(sp.exp))
 
 
-def wave() -> Routine:
-    """One wave of the kernel."""
+@named
+def wave() -> Claims:
+    """1 - cos(phase x), and its slope by x over x."""
     turns = sp.Symbol("turns", positive=True)
     risen = 1 - _shape(False, phase * x)
-    return routine(
-        "wave",
+    return Claims(
         (x, phase),
         (Let(turns, phase * x),),
         (2 * sp.sin(turns / 2) ** 2, phase**2 * sp.sinc(turns)),
         (risen, sp.diff(risen, x) / x),
-        "1 - cos(phase x), and its slope by x over x.",
         {},
         _by_exponentials,
     )
 
 
-def wall_wave() -> Routine:
-    """One of the side wall's, over e^y, so that no exponent is positive."""
+@named
+def wall_wave() -> Claims:
+    """1 - cosh(rise x), and its slope by x over x, both over e^y."""
     grown, faded, half, chord = sp.symbols("grown faded half chord", positive=True)
     risen = sp.exp(-y) * (1 - _shape(True, rise * x))
     above = sp.exp(grown - y) - sp.exp(-grown - y)
-    return routine(
-        "wall_wave",
+    return Claims(
         (x, rise, y),
         (
             Let(grown, rise * x),
@@ -66,7 +66,6 @@ def wall_wave() -> Routine:
         ),
         (-(half**2) / 2, -(rise**2) * chord),
         (risen, sp.diff(risen, x) / x),
-        "1 - cosh(rise x), and its slope by x over x, both over e^y.",
         {},
         _by_exponentials,
     )
@@ -84,32 +83,30 @@ def _by_logarithms(expression: sp.Expr) -> sp.Expr:
     return found.replace(sp.atanh, lambda v: sp.log((1 + v) / (1 - v)) / 2)
 
 
-def paraboloid() -> Routine:
-    """The paraboloid's profile; `unit` is 1 in the shape of the results."""
+@named
+def paraboloid() -> Claims:
+    """f R/a^2 of a paraboloid, and its slope by x over x; `unit` is 1 in their shape."""
     exact = _profile(False)
-    return routine(
-        "paraboloid",
+    return Claims(
         (x, unit),
         (),
         (x**2 * unit, 2 * unit),
         (exact, sp.diff(exact, x) / x),
-        "f R/a^2 of a paraboloid, and its slope by x over x; `unit` is 1 in their shape.",
         {unit: sp.Integer(1)},
         sp.cancel,
     )
 
 
-def sphere() -> Routine:
-    """The sphere's profile."""
+@named
+def sphere() -> Claims:
+    """f R/a^2 of a sphere, and its slope by x over x; c = a/R."""
     angle, share = sp.symbols("angle share", positive=True)
     exact = _profile(True)
-    return routine(
-        "sphere",
+    return Claims(
         (x, c),
         (Let(angle, c * x), Let(share, sp.atanh(angle) / angle)),
         (x**2 * share, share + 1 / ((1 - angle) * (1 + angle))),
         (exact, sp.diff(exact, x) / x),
-        "f R/a^2 of a sphere, and its slope by x over x; c = a/R.",
         {},
         _by_logarithms,
     )
@@ -129,13 +126,13 @@ MEANING = {
 """`first` is the kernel's constant, lengths over `per`, for the plate's own modulus."""
 
 
-def contact_results() -> Routine:
-    """What a solution gives; products in an order in which no part leaves the range of doubles."""
+@named
+def contact_results() -> Claims:
+    """Force, indentation, stiffness, slope, energy, pressure at the centre and on the mean."""
     ratio, deep, stiff, series = sp.symbols("ratio deep stiff series", positive=True)
     pressed, peak, reach, share = sp.symbols("pressed peak reach share", positive=True)
     found = theory.results()
-    return routine(
-        "contact_results",
+    return Claims(
         (*GIVEN, *SOLVED),
         (
             Let(ratio, a / R),
@@ -157,7 +154,6 @@ def contact_results() -> Routine:
             2 * peak * theory.force,
         ),
         found[:7],
-        "Force, indentation, stiffness, slope, energy, pressure at the centre and on the mean.",
         MEANING,
         sp.cancel,
     )
@@ -181,8 +177,9 @@ def _unit(name: str, value: sp.Expr, exact: sp.Expr, summary: str) -> Routine:
     return routine(name, (a, R, modulus), start, (by_ratio,), (exact,), summary, MEANING)
 
 
-def pressure_points() -> Routine:
-    """Where the pressure's integral is summed."""
+@named
+def pressure_points() -> Claims:
+    """t/a where the pressure at r/a is summed, and the front of that sum."""
     within, node, gap = sp.symbols("within node gap", positive=True)
     t, front, _ = theory.substitution()
     (u,) = t.free_symbols - {a, r}
@@ -192,13 +189,11 @@ def pressure_points() -> Routine:
         left, right = sp.Add.make_args(expression)
         return sp.expand(left**2 - right**2)
 
-    return routine(
-        "pressure_points",
+    return Claims(
         (within, node),
         (Let(gap, (1 - within) * (1 + within)),),
         (sp.sqrt(within**2 + gap * node**2), sp.sqrt(gap)),
         tuple(value.subs(there) / a for value in (t, front)),
-        "t/a where the pressure at r/a is summed, and the front of that sum.",
         {},
         squares,
     )

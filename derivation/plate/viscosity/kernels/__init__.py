@@ -10,7 +10,7 @@ from derivation.engine.emit.tables import Constant
 from derivation.mathematics.bessel.kernels import nearest_double
 from derivation.plate.contact.kernels.moments import BITS
 from derivation.plate.modules import ComputedModule, RuntimeModule
-from derivation.plate.viscosity.kernels.printed import BOUNDS, ROUTINES
+from derivation.plate.viscosity.kernels.printed import BODIES, BOUNDS, ROUTINES
 from derivation.plate.viscosity.theory.contact import loss_ball
 
 RUNTIME = Path(__file__).parents[1] / "runtime"
@@ -40,9 +40,16 @@ def viscosity_bounds() -> Routines:
     return Routines("viscosity_bounds", title, tuple(make() for make in BOUNDS), {}, SCALARS)
 
 
+def viscous_bodies() -> Routines:
+    """What a contact takes from the viscosity of each body, printed for single numbers."""
+    title = "Viscosity of a contact by that of its bodies, proved to be that of the theory."
+    return Routines("viscous_bodies", title, tuple(make() for make in BODIES), {}, SCALARS)
+
+
 MODULES = (
     ComputedModule("viscosity_numbers", viscosity_numbers),
     ComputedModule("viscosity_kernels", viscosity_kernels),
     ComputedModule("viscosity_bounds", viscosity_bounds),
+    ComputedModule("viscous_bodies", viscous_bodies),
     RuntimeModule("viscosity", RUNTIME / "viscosity.py"),
 )

@@ -3,12 +3,19 @@
 import sympy as sp
 from sympy.codegen.cfunctions import expm1, log1p
 
+from derivation.engine.emit.named import Claims, named
 from derivation.engine.emit.routine import Let, Routine, routine
 from derivation.plate.factors import MODERATE, PRODUCT, YOUNG, multiplied, root
 from derivation.plate.viscosity.theory import bounds as theory
 from derivation.plate.viscosity.theory.contact import C_1, epsilon
 from derivation.plate.viscosity.theory.contact import viscous_number as number
 from derivation.plate.viscosity.theory.contact import weak_restitution as restitution
+from derivation.plate.viscosity.theory.two_bodies import (
+    contact_time,
+    plate_time,
+    softness,
+    sphere_time,
+)
 from derivation.plate.vocabulary import R, lam, m, mu, v0, viscous_time, x_v
 
 LOSS = sp.Symbol("LOSS", positive=True)
@@ -53,12 +60,12 @@ def _by_logarithms(expression: sp.Expr) -> sp.Expr:
     return sp.simplify(sp.expand_log(found.replace(sp.log, lambda x: sp.log(sp.factor(x)))))
 
 
-def spiral_bounds() -> Routine:
-    """What holds along the spiral."""
+@named
+def spiral_bounds() -> Claims:
+    """Logarithms of time, depth, radius and force, and the share of energy that may be lost."""
     quarter, loss, square, pull = sp.symbols("quarter loss square pull", positive=True)
     of, t = theory.bounds(), theory
-    return routine(
-        "spiral_bounds",
+    return Claims(
         (epsilon, t.steepness, t.fall, t.rise, t.depth, t.radius, t.energy),
         (
             Let(quarter, sp.pi / 4 * epsilon),
@@ -76,26 +83,39 @@ def spiral_bounds() -> Routine:
             -expm1(-2 * (loss + pull)) * t.energy,
         ),
         (of.longer, of.shorter, of.depth, of.radius, of.pull, of.weaker, of.gone),
-        "Logarithms of time, depth, radius and force, and the share of energy that may be lost.",
         {},
         _by_logarithms,
     )
 
 
-def rebound_bounds() -> Routine:
-    """What holds of the end, from what is lost on the way."""
+@named
+def rebound_bounds() -> Claims:
+    """Logarithms of the restitution: by the energy lost, and by what the weight gives."""
     of, t = theory.bounds(), theory
-    return routine(
-        "rebound_bounds",
+    return Claims(
         (gone, epsilon, t.steepness, t.energy),
         (),
         (-log1p(-gone) / 2, log1p((t.energy - 1) * t.steepness * epsilon) / 2),
         (of.slower, of.faster),
-        "Logarithms of the restitution: by the energy lost, and by what the weight gives.",
         {gone: of.gone},
         _by_logarithms,
     )
 
 
+def retardation_of_two() -> Routine:
+    """The retardation time of a contact by those of its bodies."""
+    return routine(
+        "retardation_of_two",
+        (plate_time, sphere_time, softness),
+        (),
+        ((plate_time + softness * sphere_time) / (1 + softness),),
+        (contact_time().expression,),
+        "Retardation time of a contact, the mean of its bodies' by their compliances.",
+        {},
+        sp.simplify,
+    )
+
+
 ROUTINES = viscous_number, weak_restitution
 BOUNDS = spiral_bounds, rebound_bounds
+BODIES = (retardation_of_two,)

@@ -8,6 +8,7 @@ from functools import partial
 import sympy as sp
 from sympy.codegen.cfunctions import expm1
 
+from derivation.engine.emit.named import Claims, named
 from derivation.engine.emit.routine import Facts, Let, Routine, Several, routine
 from derivation.plate.vocabulary import gam, kap, x_h
 from derivation.plate.waves.kernels.any_frequency import reduce_exponentials, scaled_shc
@@ -39,8 +40,9 @@ WAVE: Facts = {
 }
 
 
-def shallow() -> Routine:
-    """The quotient of both terms less 1, and how steeply it falls: F as a power series."""
+@named
+def shallow() -> Claims:
+    """First over second term of Ba, less 1, and how steeply that falls."""
     fall, growth, F, change, ratio, other = sp.symbols("fall growth F change ratio other")
     rates = gam / P, 1 / Q
     in_squares = square * S * S, square * d * d, fall, growth
@@ -68,20 +70,19 @@ def shallow() -> Routine:
         Let(ratio, 8 * left * rest * F / (slope * shc(own_p) * sp.cosh(own_q))),
         Let(other, gam * turned / (P * P) + square * (sp.tanh(own_q) / own_q)),
     )
-    return routine(
-        "shallow",
+    return Claims(
         (x, gam, rest, slope, xi, left, P, Q),
         statements,
         (ratio - 1, 1 - left * (change / F + xi * other / 2)),
         (quotient() - 1, steepness_anywhere()),
-        "First over second term of Ba, less 1, and how steeply that falls.",
         WAVE,
         reduce,
     )
 
 
-def deep_steepness() -> Routine:
-    """The steepness at the zero alone, with what fades split off."""
+@named
+def deep_steepness() -> Claims:
+    """How steeply the quotient falls, right where it is 1 alone."""
     plus, faded_p, faded_q, less, fading = sp.symbols("plus faded_p faded_q less fading")
     lost = fading_q / (1 + fading_q) ** 2 - fading_p / (1 + fading_p) ** 2
     statements = (
@@ -104,13 +105,11 @@ def deep_steepness() -> Routine:
             - 8 * left * left / plus * less / sp.tanh(own_p) ** 2 / xi,
         ),
     )
-    return routine(
-        "deep_steepness",
+    return Claims(
         (x, gam, xi, left, P, Q),
         statements,
         (sp.Rational(1, 2) + (left * (1 - 2 / plus) + fading / xi),),
         (steepness(sp.tanh(p), sp.tanh(q)),),
-        "How steeply the quotient falls, right where it is 1 alone.",
         WAVE,
         reduce_exponentials,
     )
@@ -158,8 +157,9 @@ def residue(is_shallow: bool) -> Routine:
     )
 
 
-def deep_excess() -> Routine:
-    """The quotient less 1 where E and tanh p are nearly 1, by what they lack."""
+@named
+def deep_excess() -> Claims:
+    """First over second term of Ba, less 1, by both of short waves and their difference."""
     first, second, difference, excess, lack = sp.symbols("first second difference excess lack")
     E = (sp.sinh(p + q) - (p + q) * shc(p - q)) / (sp.cosh(p + q) + sp.cosh(p - q))
     short = 2 * q / x_h, kap * (p + q) / (2 * (1 - gam) * x_h**3)
@@ -169,13 +169,11 @@ def deep_excess() -> Routine:
         Let(lack, 2 * fading_p / (1 + fading_p), "of tanh p", means=1 - sp.tanh(p)),
     )
     above = difference + first * excess + second * lack
-    return routine(
-        "deep_excess",
+    return Claims(
         (x, P, first, second, difference, excess),
         statements,
         (above / (second * (1 - lack)),),
         (quotient() - 1,),
-        "First over second term of Ba, less 1, by both of short waves and their difference.",
         {**WAVE, **meaning},
         reduce_exponentials,
     )

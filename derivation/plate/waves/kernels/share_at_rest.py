@@ -2,6 +2,7 @@
 
 import sympy as sp
 
+from derivation.engine.emit.named import Claims, named
 from derivation.engine.emit.routine import GUARDED, Let, Routine, Several, routine
 from derivation.plate.vocabulary import gam, kap, x_h
 from derivation.plate.waves.kernels.any_frequency import reduce_exponentials
@@ -50,8 +51,9 @@ def ratio_at_rest() -> Routine:
     )
 
 
-def share_beyond() -> Routine:
-    """The share for x >= 1, by E - 1 and 4 P Q."""
+@named
+def share_beyond() -> Claims:
+    """Share of A0 at rest for x >= 1; `excess` is E - 1, `product` is 4 P Q."""
     scaled = 2 * sp.exp(-TWO) * (sp.sinh(TWO) - TWO) / 2**3
     statements = (
         Let(T, 2 * x),
@@ -59,13 +61,11 @@ def share_beyond() -> Routine:
         Let(upper, 4 * Q * steep * (1 + excess) * (1 + sp.exp(-T)) ** 2),
     )
     E = (sp.sinh(p + q) - (p + q) * shc(p - q)) / (sp.cosh(p + q) + sp.cosh(p - q))
-    return routine(
-        "share_beyond",
+    return Claims(
         (x, left, Q, steep, unlike, excess, product),
         statements,
         (product * (product + 4 * left) * lower / (upper * (1 + unlike)),),
         (_share(),),
-        "Share of A0 at rest for x >= 1; `excess` is E - 1, `product` is 4 P Q.",
         {**WAVE, excess: E - 1, product: 4 * p * q / x_h**2},
         reduce_exponentials,
     )
@@ -85,8 +85,9 @@ def product_at_zero() -> Routine:
     )
 
 
-def share_near_one() -> Routine:
-    """The share of small x as 1 less what is small."""
+@named
+def share_near_one() -> Claims:
+    """Share of A0 at rest for small x, as 1 less what is small."""
     near, F, less, first, second = sp.symbols("near F less first second")
     steeper, below = sp.symbols("steeper below")
     F_at_rest = (shc(TWO) - 1) / TWO**2
@@ -111,13 +112,11 @@ def share_near_one() -> Routine:
         Let(steeper, steep - 1),
         Let(below, steeper + unlike + steeper * unlike),
     )
-    return routine(
-        "share_near_one",
+    return Claims(
         (x, gam, rest, xi, P, Q, steep, unlike),
         statements,
         (1 - (below - first - second - first * second) / (1 + below),),
         (_share(),),
-        "Share of A0 at rest for small x, as 1 less what is small.",
         WAVE,
         in_p_and_q,
     )

@@ -1,0 +1,53 @@
+"""The command that shows named materials and where their numbers come from."""
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from derivation.engine.console import OUT, Json, put_json, table
+
+if TYPE_CHECKING:
+    from derivation.scene.materials import KnownMaterial
+
+COLUMNS = ("name", "#E [GPa]", "#nu", "#density [kg/m^3]", "#yield [MPa]", "source")
+
+
+def materials(
+    name: Annotated[
+        str | None, typer.Argument(metavar="NAME", help="Show this material alone.")
+    ] = None,
+    json: Json = None,
+) -> None:
+    """List named materials with their sources.
+
+    Names are matched without regard to case, spaces and hyphens.
+
+    Example: platecontact materials "bearing steel"
+    """
+    from derivation.scene import SceneError
+    from derivation.scene.materials import MATERIALS, find, unknown
+
+    if name is None:
+        if put_json(lambda: [material.to_json() for material in MATERIALS.values()], json):
+            table("Named materials", COLUMNS, [_cells(each) for each in MATERIALS.values()])
+            OUT.say("A table [materials.NAME] of a scene file defines another one.")
+        return
+    found = find(name)
+    if found is None:
+        raise SceneError(f"materials: {unknown(name)}")
+    if put_json(found.to_json, json):
+        rows = zip((head.lstrip("#") for head in COLUMNS), _cells(found), strict=True)
+        others = ("other names", ", ".join(found.also) or "none")
+        table(found.name, ("quantity", "value"), [*rows, others])
+
+
+def _cells(material: "KnownMaterial") -> tuple[str, ...]:
+    """One line of the table; a value that the source does not give is n/a."""
+    stress, density = material.yield_stress, material.density
+    shown = (
+        f"{material.youngs_modulus / 1e9:.6g}",
+        f"{material.poissons_ratio:.6g}",
+        "n/a" if density is None else f"{density:.6g}",
+        "n/a" if stress is None else f"{stress / 1e6:.6g}",
+    )
+    return material.name, *shown, material.source

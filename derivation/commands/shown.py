@@ -1,0 +1,46 @@
+"""Runs a check and shows what it found: progress, JSON, tables, tighter budgets, exit status."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, NoReturn
+
+import typer
+
+from derivation.engine.activity import Tell
+from derivation.engine.console import OUT, counted, listing, put, put_json, table
+from derivation.engine.files import write_file
+from derivation.engine.outputs import expect_recordable
+
+if TYPE_CHECKING:
+    from derivation.engine.measure.result import CheckResult
+
+
+def shown(
+    measure: Callable[[Tell], "CheckResult"],
+    json: str | None,
+    suggest_budgets: bool = False,
+    record: Path | None = None,
+) -> NoReturn:
+    """Measure, keep the result in the record if one is named, show it, exit with 1 if it failed."""
+    if record:
+        expect_recordable(record)
+    with counted("check") as tell:
+        found = measure(tell)
+    if record:
+        write_file(record, found.record())
+    budgets = []
+    if suggest_budgets:
+        from derivation.engine.measure.suggest import suggestions
+
+        budgets = suggestions(found.budgeted)
+    tighter = {"suggested_budgets": {budget.name: budget.ulp for budget in budgets}}
+    if put_json(lambda: found.data() | tighter if suggest_budgets else found.data(), json):
+        table(found.title, found.columns, found.cells)
+        if found.note:
+            put(f"{found.note}\n")
+        for title, lines in found.listings:
+            listing(title, lines)
+        if suggest_budgets:
+            lines = ["[ulp]", *map(str, budgets)] if budgets else ["# no budget can be tighter"]
+            OUT.say("\n".join(lines))
+    raise typer.Exit(0 if found.passed else 1)

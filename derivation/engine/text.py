@@ -1,0 +1,38 @@
+"""Plain text for a screen of 80 columns: paragraphs, and tables whose cells are not broken."""
+
+from collections.abc import Sequence
+from textwrap import wrap
+
+from derivation.engine.printable import printable
+
+WIDTH = 80
+"""Columns of a screen."""
+
+
+def paragraph(text: str, indent: int = 2) -> str:
+    """Break a text between words; lines after the first one are indented."""
+    lines = wrap(printable(text), WIDTH, subsequent_indent=" " * indent, break_on_hyphens=False)
+    return "\n".join(lines)
+
+
+def aligned(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """Return a table; columns whose head starts with `#` are numbers, set flush right.
+
+    Parameters
+    ----------
+    heads
+        A head for each column.
+    rows
+        The cells, as many in each row as there are heads.
+    """
+    numbers = [head.startswith("#") for head in heads]
+    lines = [[head.lstrip("#") for head in heads], *([*map(printable, row)] for row in rows)]
+    widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
+    lines.insert(1, ["-" * width for width in widths])
+    return "\n".join(
+        "  ".join(
+            cell.rjust(width) if number else cell.ljust(width)
+            for cell, width, number in zip(line, widths, numbers, strict=True)
+        ).rstrip()
+        for line in lines
+    )

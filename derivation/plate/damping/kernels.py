@@ -1,0 +1,179 @@
+"""What damping hands in for the generated package: motions and losses without cancellation.
+
+`phase` is omega t, of the undamped oscillator.
+"""
+
+import sympy as sp
+from sympy.codegen.cfunctions import expm1
+
+from derivation.engine.emit.package import Routines
+from derivation.engine.emit.routine import (
+    GUARDED,
+    RAISED,
+    Choice,
+    Facts,
+    Let,
+    Routine,
+    Several,
+    routine,
+)
+from derivation.plate.damping.theory import POWER, ROOT, free_motion, in_turns, separated
+from derivation.plate.modules import ComputedModule
+from derivation.plate.vocabulary import omega, q_j, q_rate, t, zeta
+
+phase, root, turn, spent, decay = sp.symbols("phase root turn spent decay", positive=True)
+half, sine, cosine, growth, double = sp.symbols("half sine cosine growth double", positive=True)
+swing, speed = sp.symbols("swing speed", real=True)
+TURNED, SPENT = sp.Rational(1, 2), sp.Rational(1, 8)
+"""Where series end: beyond, what they stand for is known to some roundings."""
+MEANING: Facts = {phase: omega * t}
+BEGIN = (
+    Let(root, sp.sqrt((1 - zeta) * (1 + zeta)), means=ROOT),
+    Let(turn, root * phase),
+    Let(spent, zeta * phase),
+)
+
+
+def _series(
+    function: sp.Expr, variable: sp.Symbol, begin: int, step: int, end: int
+) -> list[sp.Expr]:
+    """Coefficients of a function's power series."""
+    found = sp.series(function, variable, 0, end).removeO()
+    return [found.coeff(variable, power) for power in range(begin, end, step)]
+
+
+def _reduced(expression: sp.Expr) -> sp.Expr:
+    """Half angles and shifted exponentials as whole ones."""
+    found = expression.replace(expm1, lambda x: sp.exp(x) - 1)
+    found = found.replace(
+        lambda e: e.is_Pow and e.exp.is_Rational and e.exp.q == 2,
+        lambda e: sp.expand(e.base) ** e.exp,
+    )
+    angle = omega * ROOT * t
+    found = found.subs(sp.sin(angle / 2) ** 2, (1 - sp.cos(angle)) / 2)
+    return in_turns(found)
+
+
+def free() -> Routine:
+    """The motion from a displacement and from a velocity on, less the uniform motion."""
+    late, later, gone, less = sp.symbols("late later gone less", positive=True)
+    y = sp.Symbol("y", positive=True)
+    of_turn = _series(1 - sp.sin(y) / y, y, 2, 2, 18)
+    of_spent = _series(1 - (1 + y) * sp.exp(-y), y, 2, 1, 13)
+    moved = free_motion()
+    square = turn * turn
+    return routine(
+        "free_motion",
+        (phase, zeta),
+        (
+            *BEGIN,
+            Let(decay, sp.exp(-spent)),
+            Let(half, sp.sin(turn / 2)),
+            Let(sine, sp.sin(turn)),
+            Several(
+                (later,),
+                "polynomial",
+                (GUARDED(square, TURNED**2), *of_turn),
+                ((1 - sp.sin(turn) / turn) / square,),
+            ),
+            Choice(late, sp.Lt(turn, TURNED), square * later, 1 - sine / RAISED(turn, TURNED)),
+            Several(
+                (less,),
+                "polynomial",
+                (GUARDED(spent, SPENT), *of_spent),
+                ((1 - (1 + spent) * sp.exp(-spent)) / spent**2,),
+            ),
+            Choice(gone, sp.Lt(spent, SPENT), spent * spent * less, -expm1(-spent) - spent * decay),
+        ),
+        (
+            -(decay * (2 * half**2 + spent * late) + gone),
+            expm1(-spent) - decay * late,
+            -decay * sine / root,
+            decay * (1 - 2 * half**2 - zeta / root * sine),
+        ),
+        (
+            sp.diff(moved.q, q_j) - 1,
+            sp.diff(moved.q, q_rate) / t - 1,
+            sp.diff(moved.rate, q_j) / omega,
+            sp.diff(moved.rate, q_rate),
+        ),
+        "Free motion: q less q_0 over q_0 and over t q_0', and q' over omega q_0 and over q_0'.",
+        MEANING,
+        _reduced,
+    )
+
+
+def response() -> Routine:
+    """The factors of Duhamel's integral."""
+    of = separated()
+    return routine(
+        "response",
+        (phase, zeta),
+        (
+            *BEGIN,
+            Let(decay, sp.exp(-spent)),
+            Let(growth, sp.exp(spent)),
+            Let(cosine, sp.cos(turn)),
+            Let(sine, sp.sin(turn)),
+        ),
+        (
+            decay * sine / root,
+            decay * cosine / root,
+            decay * (cosine - zeta / root * sine),
+            decay * (sine + zeta / root * cosine),
+            growth * cosine,
+            growth * sine,
+        ),
+        (*of.moved, *of.rate, *of.drive),
+        "Factors of omega g(t - s), a difference, and of g'(t - s), a sum: of t, of t, and of s.",
+        MEANING,
+        _reduced,
+    )
+
+
+def loss() -> Routine:
+    """What a free motion loses."""
+    B, even, odd, fading = sp.symbols("B even odd fading")
+    return routine(
+        "free_loss",
+        (phase, zeta, swing, speed),
+        (
+            *BEGIN,
+            Let(B, (swing + zeta * speed) / root),
+            Let(even, (speed - B) * (speed + B)),
+            Let(odd, 2 * speed * B),
+            Let(fading, sp.exp(-2 * spent)),
+            Let(half, sp.sin(turn)),
+            Let(cosine, expm1(-2 * spent) - 2 * fading * half**2),
+            Let(sine, fading * sp.sin(2 * turn)),
+            Let(
+                double,
+                root * (even * sine + odd * cosine) - zeta * (even * cosine - odd * sine),
+            ),
+        ),
+        (zeta / 2 * double - (speed * speed + B * B) / 2 * expm1(-2 * spent),),
+        (free_motion().lost.subs(q_j, swing / omega).subs(q_rate, speed),),
+        "Energy per mass that a free motion loses, begun with swing = omega q_0 and speed = q_0'.",
+        MEANING,
+        _reduced,
+    )
+
+
+def power() -> Routine:
+    """What a moving oscillator loses in a time."""
+    taken = (2 * zeta * omega * q_rate * q_rate,)
+    summary = "Energy per mass and time that an oscillator loses."
+    return routine("power_lost", (omega, zeta, q_rate), (), taken, (POWER,), summary, {})
+
+
+ROUTINES = free, response, power, loss
+
+
+def damping_kernels() -> Routines:
+    """The damped oscillator, printed."""
+    title = "Damped oscillators: free motion, response to a force and energy lost."
+    made = tuple(make() for make in ROUTINES)
+    return Routines("damping_kernels", title, made, {"blocks": ("polynomial",)})
+
+
+MODULES = (ComputedModule("damping_kernels", damping_kernels),)

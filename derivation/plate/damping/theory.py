@@ -1,0 +1,193 @@
+"""Link 32: modes of a plate with structural damping, exact for each mode.
+
+A plate of loss factor eta_l = 2 zeta (Cremer, Heckl and Petersson, Structure-Borne Sound, 3rd
+ed. 2005, ch. 4) loses 2 pi eta_l of a mode's largest potential energy in each cycle. Equivalent
+viscous damping at the mode's own frequency keeps this at resonance and is causal, as a complex
+modulus in the time domain is not:
+
+    q'' + 2 zeta omega q' + omega^2 q = omega^2 c P.
+
+With w = omega sqrt(1 - zeta^2), q and q' being what they are at t = 0, the response to a unit
+impulse and the free motion are
+
+    g(t) = exp(-zeta omega t) sin(w t)/w,
+    q(t) = exp(-zeta omega t) [q cos(w t) + (q' + zeta omega q) sin(w t)/w],
+
+and by Duhamel's integral a force adds omega^2 c int_0^t g(t - s) P(s) ds. The damping takes
+2 zeta omega q'^2 of the oscillator's (q'^2 + omega^2 q^2)/2; what it takes of a free motion has a
+closed form. A cycle leaves exp(-2 pi zeta/sqrt(1 - zeta^2)) of the amplitude (logarithmic
+decrement).
+"""
+
+from functools import cache
+from typing import NamedTuple
+
+import sympy as sp
+
+from derivation.engine.formula.proof import Proof, prove
+from derivation.plate.vocabulary import Formula, omega, q_j, q_rate, t, zeta
+
+ROOT = sp.sqrt(1 - zeta**2)
+"""Angular frequency of the damped oscillator over that of the undamped one."""
+POWER = 2 * zeta * omega * q_rate**2
+"""What damping takes per modal mass and time."""
+DECAY, COS, SIN = sp.symbols("decay cosine sine", positive=True)
+_root, _since, _push = sp.symbols("root since push", positive=True)
+
+
+class FreeMotion(NamedTuple):
+    """Displacement and velocity of a damped oscillator, and the energy lost per mass [m^2/s^2]."""
+
+    q: sp.Expr
+    rate: sp.Expr
+    lost: sp.Expr
+
+
+def impulse_response() -> sp.Expr:
+    """Displacement after a unit change of the velocity."""
+    return sp.exp(-zeta * omega * t) * sp.sin(omega * ROOT * t) / (omega * ROOT)
+
+
+@cache
+def free_motion() -> FreeMotion:
+    """Motion from a displacement and a velocity on, without force."""
+    g = impulse_response()
+    q = q_j * (sp.diff(g, t) + 2 * zeta * omega * g) + q_rate * g
+    x = omega * q_j
+    # q' is the real part of C exp((-zeta + i root) omega t), whose square is integrated.
+    B = (x + zeta * q_rate) / ROOT
+    even, odd = q_rate**2 - B**2, 2 * q_rate * B
+    fading = sp.exp(-2 * zeta * omega * t)
+    cosine = fading * sp.cos(2 * omega * ROOT * t) - 1
+    sine = fading * sp.sin(2 * omega * ROOT * t)
+    turned = ROOT * (even * sine + odd * cosine) - zeta * (even * cosine - odd * sine)
+    lost = (q_rate**2 + B**2) / 2 * (1 - fading) + zeta / 2 * turned
+    return FreeMotion(q, sp.diff(q, t), lost)
+
+
+def in_turns(expression: sp.Expr) -> sp.Expr:
+    """A polynomial in exp(-zeta omega t) and the sine and cosine of w t; 0 if it vanishes."""
+    found = sp.expand_trig(expression.subs(ROOT, _root))
+    found = sp.expand(found, power_exp=False)
+    phase = omega * _root * t
+    found = found.replace(sp.exp, lambda x: DECAY ** sp.cancel(-x / (zeta * omega * t)))
+    found = sp.expand(found.subs({sp.cos(phase): COS, sp.sin(phase): SIN}))
+    found = sp.expand(sp.numer(sp.together(found)))
+    found = sp.expand(found.subs(zeta**2, 1 - _root**2))
+    for square, value in ((COS, 1 - SIN**2), (zeta, 1 - _root**2)):
+        found = sp.rem(sp.Poly(found, square), sp.Poly(square**2 - value, square)).as_expr()
+    return sp.expand(found)
+
+
+def _equation(q: sp.Expr) -> sp.Expr:
+    """The left side of the oscillator's equation."""
+    return sp.diff(q, t, 2) + 2 * zeta * omega * sp.diff(q, t) + omega**2 * q
+
+
+class Separated(NamedTuple):
+    """omega g(t - s) as a difference and g'(t - s) as a sum of two products, of t and of s.
+
+    The response of all times to a force at all times is then a product of matrices. The factors
+    of s grow, and stay small if t counts from a time shortly before.
+    """
+
+    moved: tuple[sp.Expr, sp.Expr]
+    rate: tuple[sp.Expr, sp.Expr]
+    drive: tuple[sp.Expr, sp.Expr]
+
+
+@cache
+def separated() -> Separated:
+    """The factors: of displacement, of velocity, and of the force."""
+    phase, decay = omega * ROOT * t, sp.exp(-zeta * omega * t)
+    cosine, sine, ratio = decay * sp.cos(phase), decay * sp.sin(phase), zeta / ROOT
+    found = Separated(
+        (sine / ROOT, cosine / ROOT),
+        (cosine - ratio * sine, sine + ratio * cosine),
+        (sp.cos(phase) / decay, sp.sin(phase) / decay),
+    )
+    g, since = impulse_response(), {t: t - _since}
+    first, second = (part.subs(t, _since) for part in found.drive)
+    moved = found.moved[0] * first - found.moved[1] * second - omega * g.subs(since)
+    rate = found.rate[0] * first + found.rate[1] * second - sp.diff(g, t).subs(since)
+    prove(
+        "Separated response",
+        "Both, written out in $t$ and $s$.",
+        {
+            "displacement": sp.expand(sp.expand_trig(moved).rewrite(sp.exp)),
+            "velocity": sp.expand(sp.expand_trig(rate).rewrite(sp.exp)),
+        },
+    )
+    return found
+
+
+@cache
+def oscillator() -> Proof:
+    """The free motion and the response to an impulse, put into the equation."""
+    g, free = impulse_response(), free_motion()
+    start = {t: 0}
+    # d/dt of int_0^t g(t - s) P(s) ds is g(0) P(t) + int g'(t - s) P(s) ds.
+    return prove(
+        "Damped oscillator",
+        "Both are put into the equation and taken at $t = 0$. Duhamel's integral solves it, as "
+        "its second derivative is $g'(0) P$ and the integral over $g''$.",
+        {
+            "impulse": in_turns(_equation(g)),
+            "from rest": g.subs(start),
+            "unit velocity": sp.diff(g, t).subs(start) - 1,
+            "free": in_turns(_equation(free.q)),
+            "displacement": sp.expand(free.q.subs(start) - q_j),
+            "velocity": sp.simplify(free.rate.subs(start) - q_rate),
+            "undamped": sp.simplify(g.subs(zeta, 0) - sp.sin(omega * t) / omega),
+        },
+    )
+
+
+@cache
+def dissipation() -> Proof:
+    """The energy that the damping takes, of any motion and of a free one."""
+    free, q = free_motion(), sp.Function("q")(t)
+    rate = sp.diff(q, t)
+    energy = (rate**2 + omega**2 * q**2) / 2
+    driven = _push - 2 * zeta * omega * rate - omega**2 * q
+    flow = sp.diff(energy, t).subs(sp.diff(q, t, 2), driven)
+    kept = (free.rate**2 + omega**2 * free.q**2) / 2
+    at_first = (q_rate**2 + omega**2 * q_j**2) / 2
+    cycle = 2 * sp.pi / (omega * ROOT)
+    left = free.q.subs(t, cycle) / q_j
+    return prove(
+        "Energy taken by damping",
+        "The energy's rate with the oscillator's equation. Of a free motion what is taken grows "
+        "by $2 \\zeta \\omega q'^2$ and is what the energy has lost. After a cycle the motion "
+        "is the same, smaller by the decrement.",
+        {
+            "rate": sp.expand(flow - _push * rate + POWER.subs(q_rate, rate)),
+            "growth": in_turns(sp.diff(free.lost, t) - POWER.subs(q_rate, free.rate)),
+            "start": sp.simplify(free.lost.subs(t, 0)),
+            "balance": in_turns(at_first - kept - free.lost),
+            "decrement": sp.simplify(left - sp.exp(-2 * sp.pi * zeta / ROOT)),
+        },
+    )
+
+
+def damping() -> tuple[Formula, ...]:
+    """The formulas of the link."""
+    motion, energy, free = oscillator(), dissipation(), free_motion()
+    separated()
+    return (
+        Formula(
+            "damped_response", "g(t)", "displacement of a damped mode by a unit impulse",
+            impulse_response(), "s", "", (), motion,
+        ),
+        Formula(
+            "damped_motion", "q_j(t)", "free motion of a damped mode", free.q, "m", "",
+            ("damped_response",), motion,
+        ),
+        Formula(
+            "damped_loss", "D_j(t)", "energy per modal mass that damping takes of a free mode",
+            free.lost, "m^2/s^2", "", ("damped_motion",), energy,
+        ),
+    )  # fmt: skip
+
+
+LINKS = (("damping", damping),)

@@ -1,0 +1,111 @@
+"""The yielding contact's formulas as code computes them, each proved to be one of its link."""
+
+import sympy as sp
+
+from derivation.engine.emit.routine import Let, Routine, routine
+from derivation.plate.factors import MODERATE, PRODUCT, YOUNG, multiplied, root
+from derivation.plate.plasticity.theory import contact as theory
+from derivation.plate.vocabulary import R, lam, m, mu, xi_y, yield_stress
+
+beyond, cube, ratio, cubed = sp.symbols("beyond cube ratio cubed", positive=True)
+THREE = sp.Integer(3)
+SHARE, DOUBLED = YOUNG[2], 2 * cube + 1
+BEYOND = Let(beyond, xi_y - 1)
+CUBE = Let(cube, xi_y * xi_y * xi_y)
+RATIO = Let(ratio, xi_y * sp.sqrt(THREE / DOUBLED))
+
+
+def yield_radius() -> Routine:
+    """Contact radius at the onset of yield."""
+    return routine(
+        "yield_radius_of_factors",
+        (R, lam, mu, yield_stress),
+        MODERATE,
+        (PRODUCT(sp.Tuple(sp.pi / 5, R, yield_stress), sp.Tuple(mu, SHARE)),),
+        (theory.yield_radius().expression,),
+        "Contact radius at which Hertz's largest pressure is 1.6 Y.",
+        {},
+        multiplied,
+    )
+
+
+def yield_speed() -> Routine:
+    """Impact speed at the onset of yield."""
+    above = (sp.Rational(64, 75) * sp.pi, yield_stress, R, R, R)
+    rate = root("rate", 2, above, m)
+    strain = sp.pi / 5, yield_stress, sp.pi / 5, yield_stress
+    return routine(
+        "yield_speed_of_factors",
+        (R, m, lam, mu, yield_stress),
+        (*MODERATE, rate),
+        (PRODUCT(sp.Tuple(*strain, *rate.symbols), sp.Tuple(mu, SHARE, mu, SHARE)),),
+        (theory.yield_speed().expression,),
+        "Impact speed at which a half-space begins to yield.",
+        {},
+        multiplied,
+    )
+
+
+def loading() -> Routine:
+    """Plastic indentation on loading, and its slope."""
+    extra = theory.plastic_indentation().expression
+    return routine(
+        "loaded",
+        (xi_y,),
+        (BEYOND,),
+        (beyond * beyond * (2 * xi_y + 1) / 3, 2 * xi_y * beyond),
+        (extra, sp.diff(extra, xi_y)),
+        "Plastic indentation on loading over a_y^2/R, and its slope by xi.",
+        {},
+    )
+
+
+def unloading() -> Routine:
+    """How flat a contact has become, and its dent."""
+    cubic = beyond * (xi_y * xi_y + xi_y + 1)
+    squared = sp.Symbol("squared", positive=True)
+    return routine(
+        "unloaded",
+        (xi_y,),
+        (BEYOND, CUBE, RATIO, Let(squared, (cubic / DOUBLED) ** 2), Let(cubed, ratio**3)),
+        (ratio, squared * (8 * cube + 1) / (3 * (1 + cubed))),
+        (theory.flattening().expression, theory.dent().expression),
+        "Of a contact unloaded from xi: Hertz's radius over its own, and the dent over a_y^2/R.",
+        {},
+        _by_roots,
+    )
+
+
+def work() -> Routine:
+    """Plastic work, and the restitution of a half-space."""
+    quintic = sp.Symbol("quintic", positive=True)
+    brought = ((((5 * xi_y + 4) * xi_y + 3) * xi_y + 2) * xi_y + 1) / 6
+    return routine(
+        "worked",
+        (xi_y,),
+        (
+            BEYOND,
+            CUBE,
+            RATIO,
+            Let(quintic, cube * xi_y * xi_y),
+            Let(cubed, quintic * (2 * xi_y + 1) / (DOUBLED * (1 + ratio))),
+        ),
+        (
+            beyond * beyond * (brought + cubed),
+            sp.sqrt(6 * ratio * quintic / (5 * quintic * xi_y + 1)),
+        ),
+        (theory.plastic_work().expression, theory.plastic_restitution().expression),
+        "Plastic work over Hertz's energy at the onset of yield, and restitution on a half-space.",
+        {},
+        _by_roots,
+    )
+
+
+def _by_roots(expression: sp.Expr) -> sp.Expr:
+    """With one symbol for the root of 2 xi^3 + 1, of which everything else is rational."""
+    whole = sp.Symbol("whole", positive=True)
+    found = sp.powdenest(expression.subs(xi_y, sp.cbrt((whole**4 - 1) / 2)), force=True)
+    return sp.simplify(found)
+
+
+ROUTINES = yield_radius, yield_speed, loading, unloading, work

@@ -1,0 +1,1 @@
+"""Algorithms of the yielding contact, copied into the generated package."""

@@ -1,0 +1,228 @@
+"""Link 31: a contact that yields, with its pressure limited to 1.6 Y, and the dent that remains.
+
+Johnson (1985), Thornton (1997): Hertz's pressure reaches p_y = 1.6 Y, Y the smaller yield stress of
+the two bodies, at the contact radius a_y. From there on it is cut off at p_y, while the
+indentation stays a^2/R. With the radius a_H = a_y xi at which Hertz's law has the same force,
+
+    P = (4/3) E* a_H^3/R,   a^2 = a_y^2 (2 xi^3 + 1)/3   on loading, xi >= 1.
+
+Unloading from xi is elastic: Hertz's law with the flattened radius R_p = R P_e/P, where P_e is
+Hertz's force at the same contact radius. So a_H/a stays c, R_p = R/c^3, and the indentation is
+delta_p + c a_H^2/R until the force has gone. All lengths below are over a_y^2/R.
+"""
+
+from functools import cache
+from typing import NamedTuple
+
+import sympy as sp
+
+from derivation.engine.formula.proof import prove
+from derivation.plate.contact.theory.hertz import contact_radius, pressure
+from derivation.plate.modes.theory.influence import PLANE_STRAIN_MODULUS
+from derivation.plate.vocabulary import Formula, P, R, a, m, r, xi_y, yield_stress
+
+ONSET = sp.Rational(8, 5)
+"""Largest contact pressure over the yield stress where a contact begins to yield (Johnson 1985,
+section 6.1, von Mises, Poisson's ratio 0.3)."""
+_s, _modulus, _a_y, _top = sp.symbols("s modulus a_y top", positive=True)
+_NEEDED = ("p", "P")
+
+
+class Loading(NamedTuple):
+    """On loading beyond the onset, over their values there: contact radius squared and force."""
+
+    area: sp.Expr
+    force: sp.Expr
+
+
+def _hertz() -> tuple[sp.Expr, sp.Expr]:
+    """Hertz's force, and his largest pressure, at a contact radius."""
+    force = contact_radius().expression
+    return force, -pressure().expression.subs(r, 0).subs(P, force)
+
+
+@cache
+def yield_radius() -> Formula:
+    """a_y, at which Hertz's largest pressure is 1.6 Y."""
+    _, peak = _hertz()
+    (radius,) = sp.solve(peak - ONSET * yield_stress, a)
+    proof = prove(
+        "Onset of yield",
+        "Hertz's largest pressure is $1.6 Y$ at this contact radius.",
+        {"pressure": sp.simplify(peak.subs(a, radius) - ONSET * yield_stress)},
+    )
+    return Formula(
+        "yield_radius", "a_y", "contact radius at which a contact begins to yield",
+        radius, "m", "", _NEEDED, proof,
+    )  # fmt: skip
+
+
+@cache
+def loading() -> Loading:
+    """The force of the limited pressure: Hertz's pressure less what is above p_y.
+
+    It is above within r^2 < a^2 - a_y^2, as the square of Hertz's pressure falls like r^2.
+    """
+    limit = sp.Symbol("p_y", positive=True)
+    inner = sp.sqrt(a**2 - _a_y**2)
+    slope = limit / _a_y  # p = slope sqrt(a^2 - r^2) in a growing contact
+    whole = 2 * sp.pi * slope * a**3 / 3
+    # int sqrt(a^2 - r^2) r dr from 0 to r^2 = a^2 - a_y^2
+    above = 2 * sp.pi * (slope * (a**3 - _a_y**3) / 3 - limit * inner**2 / 2)
+    force = sp.expand((whole - above) / whole.subs(a, _a_y))
+    (area,) = sp.solve(force.subs(a, sp.sqrt(_s)) - xi_y**3, _s)
+    hertz, peak = _hertz()
+    prove(
+        "Force of a limited pressure",
+        "Beyond the onset the force grows with the area of the contact, by $p_y$; where it is "
+        "Hertz's at the radius $a_H$ it is $\\xi^3$ times that at the onset.",
+        {
+            "antiderivative": sp.diff(-((a**2 - r**2) ** sp.Rational(3, 2)) / 3, r)
+            - r * sp.sqrt(a**2 - r**2),
+            "Hertz": sp.simplify(whole.subs(limit, slope * _a_y) - hertz.subs(
+                R, sp.solve(peak.subs(a, _a_y) - limit, R)[0])),
+            "growth": sp.diff(force * whole.subs(a, _a_y), a) - 2 * sp.pi * a * limit,
+            "onset": force.subs(a, _a_y) - 1,
+        },
+    )  # fmt: skip
+    return Loading(sp.simplify(area / _a_y**2), force)
+
+
+@cache
+def plastic_indentation() -> Formula:
+    """What yielding adds to the indentation at a force, on loading: (a^2 - a_H^2)/R."""
+    extra = loading().area - xi_y**2
+    proof = prove(
+        "Indentation of a yielding contact",
+        "The indentation is $a^2/R$, with the larger radius of the limited pressure; at the onset "
+        "value and slope are Hertz's.",
+        {
+            "onset": extra.subs(xi_y, 1),
+            "slope at the onset": sp.diff(extra, xi_y).subs(xi_y, 1),
+        },
+    )
+    return Formula(
+        "plastic_indentation", r"\Delta", "plastic indentation on loading over a_y^2/R",
+        extra, "1", "", ("yield_radius",), proof,
+    )  # fmt: skip
+
+
+@cache
+def flattening() -> Formula:
+    """c = a_H/a where unloading begins; the flattened radius is R/c^3."""
+    ratio = xi_y / sp.sqrt(loading().area)
+    hertz, _ = _hertz()
+    top = sp.sqrt(loading().area) * _a_y
+    equivalent = hertz.subs(a, top)
+    unloaded = hertz.subs(R, R * equivalent / hertz.subs(a, xi_y * _a_y))
+    proof = prove(
+        "Flattened radius",
+        "Thornton's radius $R_p = R P_e/P$ makes force and contact radius those at which "
+        "unloading begins.",
+        {
+            "radius": sp.simplify((equivalent / hertz.subs(a, xi_y * _a_y)) - ratio**-3),
+            "force": sp.simplify(unloaded.subs(a, top) / hertz.subs(a, xi_y * _a_y) - 1),
+            "same on the whole way": sp.simplify(unloaded / hertz.subs({a: ratio * a}) - 1),
+        },
+    )
+    return Formula(
+        "flattening", "c", "Hertz's radius of the force over the contact radius, on unloading",
+        ratio, "1", "", ("plastic_indentation",), proof,
+    )  # fmt: skip
+
+
+@cache
+def dent() -> Formula:
+    """The indentation that remains, (a^2/R) (1 - c^3) of where unloading begins."""
+    ratio, area = flattening().expression, loading().area
+    depth = area * (1 - ratio**3)
+    proof = prove(
+        "Dent",
+        "Where unloading begins the indentation is that of loading.",
+        {"continuous": sp.simplify(depth + ratio * xi_y**2 - area)},
+    )
+    return Formula(
+        "dent", r"\delta_p", "indentation that remains over a_y^2/R", depth, "1", "",
+        ("flattening",), proof,
+    )  # fmt: skip
+
+
+@cache
+def plastic_work() -> Formula:
+    """Energy that a contact dissipates up to xi and back, over Hertz's energy at the onset."""
+    extra, ratio = plastic_indentation().expression, flattening().expression
+    # P over that at the onset is xi^3; Hertz's energy there is int xi^3 d(xi^2) = 2/5.
+    brought = sp.integrate(_top**3 * sp.diff(extra, xi_y).subs(xi_y, _top), (_top, 1, xi_y))
+    elastic = sp.integrate(2 * _top**4, (_top, 0, xi_y))
+    work = sp.expand((brought + elastic) / sp.Rational(2, 5)) - ratio * xi_y**5
+    returned = sp.integrate(
+        _top**3 * sp.diff(ratio * _top**2, _top), (_top, 0, xi_y)
+    ) / sp.Rational(2, 5)
+    proof = prove(
+        "Plastic work",
+        "What the contact takes on loading less what it returns on unloading.",
+        {
+            "returned": sp.simplify(returned - ratio * xi_y**5),
+            "onset": sp.simplify(work.subs(xi_y, 1)),
+        },
+    )
+    return Formula(
+        "plastic_work", "W_p", "plastic work over Hertz's energy at the onset of yield",
+        work, "1", "", ("dent",), proof,
+    )  # fmt: skip
+
+
+@cache
+def yield_speed() -> Formula:
+    """Impact speed on a half-space above which the contact yields."""
+    force, _ = _hertz()
+    energy = sp.integrate(force * sp.diff(a**2 / R, a), (a, 0, _a_y))
+    speed = sp.sqrt(2 * energy.subs(_a_y, yield_radius().expression) / m)
+    limit = ONSET * yield_stress
+    thornton = (sp.pi * limit / (2 * PLANE_STRAIN_MODULUS)) ** 2 * sp.sqrt(
+        8 * sp.pi * limit * R**3 / (15 * m)
+    )
+    proof = prove(
+        "Yield speed",
+        "The energy of Hertz's contact at the onset; Thornton (1997) writes the same.",
+        {"Thornton": sp.simplify((thornton / speed) ** 2 - 1)},
+    )
+    return Formula(
+        "yield_speed", "v_y", "impact speed above which a contact on a half-space yields",
+        sp.powdenest(sp.simplify(speed), force=True), "m/s", "", ("yield_radius",), proof,
+    )  # fmt: skip
+
+
+@cache
+def plastic_restitution() -> Formula:
+    """e of a half-space, by xi of the largest force: Thornton's formula in other words."""
+    work, ratio = plastic_work().expression, flattening().expression
+    whole = work + ratio * xi_y**5
+    square = ratio * xi_y**5 / whole
+    slow = 1 / sp.sqrt(whole)  # v_y/v0
+    part = slow / (slow + 2 * sp.sqrt(sp.Rational(6, 5) - slow**2 / 5))
+    thornton = sp.Rational(6, 5) * sp.sqrt(3) * (1 - slow**2 / 6) * sp.sqrt(part)
+    ends = sp.limit(square / slow ** sp.Rational(1, 2), xi_y, sp.oo)
+    proof = prove(
+        "Restitution of a yielding contact",
+        "The energy returned over that brought; equal to Thornton's (1997) formula in $v_y/v_0$, "
+        "which falls like $1.185 (v_y/v_0)^{1/4}$ in the end.",
+        {
+            "Thornton": sp.simplify((thornton / square) ** 4 - 1),
+            "fast": sp.simplify(
+                ends - sp.Rational(6, 5) * sp.sqrt(3) / sp.sqrt(2 * sp.sqrt(sp.Rational(6, 5)))
+            ),
+        },
+    )
+    return Formula(
+        "plastic_restitution", "e", "restitution of a yielding contact on a half-space",
+        sp.sqrt(square), "1", "", ("plastic_work",), proof,
+    )  # fmt: skip
+
+
+def yielding() -> tuple[Formula, ...]:
+    """The formulas of the link."""
+    return (
+        yield_radius(), yield_speed(), plastic_indentation(), flattening(), dent(),
+        plastic_work(), plastic_restitution(),
+    )  # fmt: skip

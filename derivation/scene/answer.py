@@ -1,0 +1,103 @@
+"""The answer of a simulation as text: the short one, its details, and that of a notebook."""
+
+from collections.abc import Iterator
+from html import escape
+from typing import TYPE_CHECKING
+
+from derivation.engine.text import aligned, paragraph
+from derivation.scene.quantity import prefixed
+
+if TYPE_CHECKING:
+    from derivation.scene.result import Result
+    from derivation.scene.wave_motion import DynamicImpact
+
+CONTACT_HEADS = "#start [s]", "#end [s]", "#impulse [N s]", "#peak force [N]", "#speed ratio"
+"""Heads of the table of contacts, which fits a screen."""
+
+
+def quantities(result: "Result") -> list[tuple[str, str, str]]:
+    """Quantity, value with the digits that hold, and unit with an SI prefix."""
+    found = result.numbers()
+    contacts = len(result.dynamics.inertia.contacts) if result.dynamics is not None else 1
+    if contacts == 1:  # the total time says nothing new
+        found = [row for row in found if row[0] != "total_time"]
+    return [
+        (_named(name, contacts), *prefixed(value, unit, result.digits))
+        for name, value, unit in found
+    ]
+
+
+def _named(name: str, contacts: int) -> str:
+    """A quantity as people call it."""
+    if name == "contact_time" and contacts > 1:
+        return f"contact time (first of {contacts})"
+    return name.replace("_", " ")
+
+
+def plain(result: "Result") -> str:
+    """Name, value with the digits that hold, and SI unit of each result, one on a line."""
+    lines = (f"{name.replace(' ', '_')} {value} {unit}" for name, value, unit in result.rows())
+    return "\n".join(lines)
+
+
+def short(result: "Result") -> str:
+    """The results, how accurate they are, and which effects they include."""
+    rows = quantities(result)
+    names, values = (max(len(row[column]) for row in rows) for column in (0, 1))
+    table = (f"{name:{names}}  {value:>{values}} {unit}".rstrip() for name, value, unit in rows)
+    blocks = ["\n".join(table), "\n".join(map(paragraph, _remarks(result)))]
+    if result.incomplete_note:
+        blocks.insert(0, paragraph(result.incomplete_note))
+    if result.comparison:
+        blocks.append(result.comparison.to_text())
+    return "\n\n".join(blocks)
+
+
+def _remarks(result: "Result") -> Iterator[str]:
+    """Accuracy, effects, and what the scene asks for besides."""
+    model = f", model error up to {100 * result.model_error:.2g} %" if result.model_error else ""
+    yield f"Accuracy: {result.accuracy.summary}{model}"
+    yield f"Effects: {result.effects.summary}"
+    if result.energy_balance is not None and result.complete:
+        yield f"Energy: {result.energy_balance.in_words()}"
+    if result.measured_note:
+        yield f"Measured: {result.measured_note}"
+    if result.disabled_note:
+        yield result.disabled_note
+    if result.strength_note:
+        yield f"Strength: {result.strength_note}"
+
+
+def details(result: "Result") -> str:
+    """The short answer, then method and bound, the effects table, and the contacts."""
+    told = [str(result.accuracy), result.model_note]
+    blocks = [short(result), "\n".join(paragraph(text) for text in told if text)]
+    blocks.append(f"Effects\n\n{result.effects.to_text()}")
+    if result.dynamics is not None:
+        blocks.append(_contacts(result.dynamics))
+    return "\n\n".join(blocks)
+
+
+def _contacts(dynamics: "DynamicImpact") -> str:
+    """Every contact, the energies and the end of the impact."""
+    title = "Contacts (speed ratio: approach speed / impact speed)"
+    notes = "\n".join(map(paragraph, dynamics.notes()))
+    return f"{title}\n\n{aligned(CONTACT_HEADS, dynamics.lines())}\n\n{notes}"
+
+
+def html(result: "Result") -> str:
+    """The same for a notebook: answer, accuracy, effects, warnings; details are folded."""
+    cells = (
+        f"<tr><td>{name}</td><td style='text-align:right'>{value}</td><td>{unit}</td></tr>"
+        for name, value, unit in quantities(result)
+    )
+    incomplete = f"<p><b>{escape(result.incomplete_note)}</b></p>" if result.incomplete_note else ""
+    remarks = "".join(f"<p>{escape(text)}</p>" for text in _remarks(result))
+    paper = result.comparison.to_html() if result.comparison else ""
+    warnings = "".join(f"<p><b>Warning:</b> {escape(text)}</p>" for text in result.warnings)
+    told = (str(result.accuracy), result.model_note)
+    more = "".join(f"<p>{escape(text)}</p>" for text in told if text) + result.effects.to_html()
+    if result.dynamics is not None:
+        more += result.dynamics.to_html()
+    folded = f"<details><summary>Details</summary>{more}</details>"
+    return f"{incomplete}<table>{''.join(cells)}</table>{remarks}{paper}{warnings}{folded}"

@@ -1,0 +1,109 @@
+"""What sphere and plate are made of: the values that a table gives itself, else its material's."""
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any, NamedTuple
+
+from derivation.scene.bodies import Material, Plate, Sphere
+from derivation.scene.materials import (
+    KnownMaterial,
+    find,
+    lame_constants,
+    material_of,
+    plain,
+    unknown,
+)
+from derivation.scene.messages import OWN_MATERIALS, shown
+
+
+class Body(NamedTuple):
+    """What a body is made of.
+
+    Attributes
+    ----------
+    lam, mu
+        Lame constants [Pa]; infinite if it is rigid.
+    density
+        Density [kg/m^3]; 0 if it is not known.
+    retardation_time
+        Retardation time [s]; 0 if it is elastic.
+    yield_stress
+        Yield stress [Pa]; infinite if none is known.
+    solid_density
+        Density of its material [kg/m^3], whatever the table says; 0 without a material.
+    """
+
+    lam: float
+    mu: float
+    density: float
+    retardation_time: float
+    yield_stress: float
+    solid_density: float
+
+
+def own_materials(tables: Mapping[str, Material]) -> dict[str, KnownMaterial]:
+    """The materials that a scene defines."""
+    return {name: material_of(name, table.model_dump()) for name, table in tables.items()}
+
+
+def body_of(table: Sphere | Plate, own: Mapping[str, KnownMaterial]) -> Body:
+    """What a body of a valid scene is made of."""
+    material = find(table.material, own) if table.material is not None else None
+    return Body(
+        *_lame_constants(table, material),
+        table.density or (material and material.density) or 0.0,
+        table.retardation_time or (material and material.retardation_time) or 0.0,
+        table.yield_stress or (material and material.yield_stress) or math.inf,
+        (material and material.density) or 0.0,
+    )
+
+
+def _lame_constants(table: Sphere | Plate, material: KnownMaterial | None) -> tuple[float, float]:
+    """First and second Lame constant [Pa], as given or from Young's modulus and Poisson's ratio."""
+    if material is not None:
+        return material.lam, material.mu
+    if isinstance(table, Plate) and table.lame_lambda is not None and table.lame_mu is not None:
+        return table.lame_lambda, table.lame_mu
+    if table.youngs_modulus is None or table.poissons_ratio is None:
+        return math.inf, math.inf
+    return lame_constants(table.youngs_modulus, table.poissons_ratio)
+
+
+def material_problems(tables: Mapping[str, Any]) -> list[str]:
+    """What is wrong with the materials of a scene, whose tables need not be right."""
+    given = tables.get(OWN_MATERIALS)
+    own = [str(name) for name in given] if isinstance(given, Mapping) else []
+    problems = list(_names_alike(own))
+    for table in ("sphere", "plate"):
+        keys = tables.get(table)
+        name = keys.get("material") if isinstance(keys, Mapping) else None
+        if not isinstance(name, str) or plain(name) in map(plain, own):
+            continue
+        material = find(name)
+        if material is None:
+            problems.append(f"{table}.material: {unknown(name, own)}")
+        elif table == "sphere" and material.density is None and _massless(tables[table]):
+            problems.append(
+                f"sphere.material: expected a material of known density, got {shown(name)}; "
+                "add for instance `mass = 72` to [sphere]"
+            )
+    return problems
+
+
+def _massless(sphere: Mapping[str, Any]) -> bool:
+    """Whether a sphere has neither mass nor density of its own."""
+    return sphere.get("mass") is None and sphere.get("density") is None
+
+
+def _names_alike(own: Iterable[str]) -> Iterator[str]:
+    """Names of own materials that are empty, or no different from one another."""
+    first = dict[str, str]()
+    for name in own:
+        if not plain(name):
+            yield f"{OWN_MATERIALS}: expected a name with letters or digits, got {shown(name)}"
+        elif plain(name) in first:
+            yield (
+                f"{OWN_MATERIALS}: expected names that differ in more than case, spaces and "
+                f"hyphens, got {shown(first[plain(name)])} and {shown(name)}; rename one"
+            )
+        first.setdefault(plain(name), name)

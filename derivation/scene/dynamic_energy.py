@@ -1,0 +1,88 @@
+"""Energy balance of an impact on a plate with inertia: each part integrated by itself."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from derivation.scene.collocation import ONSET
+from derivation.scene.contact_sequence import ImpactHistory, Touching
+from derivation.scene.motion import EnergyBalance
+from derivation.scene.quadrature import NODES, gauss
+from derivation.scene.time_element import (
+    DAMPED,
+    LEAK,
+    LOST,
+    DynamicProblem,
+    ImpactState,
+    TimeElement,
+)
+
+
+def balance_of(history: ImpactHistory) -> EnergyBalance:
+    """Return the energy balance up to the last separation [J]."""
+    problem, last = history.problem, history.contacts[-1].after
+    energy = problem.m * problem.v0**2
+    pieces = [piece for touching in history.contacts for piece in touching.pieces]
+    lost = sum(_sum(piece, LOST) for piece in pieces) if problem.retardation_time else 0.0
+    leak = sum(_sum(piece, LEAK) for piece in pieces) if problem.contact.pointwise else 0.0
+    return EnergyBalance(
+        initial_kinetic=0.5 * energy,
+        gravity_work=energy * problem.weight * last.displacement,
+        rebound_kinetic=0.5 * energy * last.velocity**2,
+        viscous_loss=energy * lost,
+        unrecovered_elastic=energy
+        * sum(_given_up(problem, touching) for touching in history.contacts),
+        plate=energy * float(np.sum(problem.energies(last))),
+        coupling_loss=energy * leak,
+        damping_loss=energy * _damping_loss(history),
+        plastic_loss=problem.yielding.work if problem.yielding else 0.0,
+    )
+
+
+def _damping_loss(history: ImpactHistory) -> float:
+    """Energy over m v0^2 that the plate's damping takes, up to the last separation.
+
+    In contact its power is integrated; in flight, and in the last moment of a contact that is
+    taken in one step, the modes move freely.
+    """
+    problem, found = history.problem, 0.0
+    if not problem.damping_ratio:
+        return 0.0
+    ends = [touching.start for touching in history.contacts[1:]]
+    for touching, until in zip(history.contacts, [*ends, history.contacts[-1].end], strict=True):
+        last, first = touching.pieces[-1], touching.pieces[0].element
+        followed = (last.element.x + last.element.length) ** ONSET - first.x**ONSET
+        found += sum(_sum(piece, DAMPED) for piece in touching.pieces)
+        found += problem.flight_loss(last.end, touching.end - touching.start - followed)
+        found += problem.flight_loss(touching.after, until - touching.end)
+    return found
+
+
+def _given_up(problem: DynamicProblem, touching: Touching) -> float:
+    """Energy over m v0^2 in a viscoelastic contact at its end, less that at its beginning."""
+    if not problem.retardation_time:
+        return 0.0
+    begun = 0.0
+    if touching.radius:
+        before = replace(problem, yielding=touching.pieces[0].yielding)
+        begun = _stored(before, touching.radius, touching.before)
+    after = replace(problem, yielding=touching.yielding)
+    return _stored(after, touching.pieces[-1].radius, touching.after) - begun
+
+
+def _stored(problem: DynamicProblem, radius: float, state: ImpactState) -> float:
+    """Energy over m v0^2 in a contact: int P dD + sum q_j (P s_j - P_j)."""
+    nodes, weights = gauss(NODES[1])
+    at = problem.at(problem.a * radius * nodes)
+    rest = problem.a * radius * float(weights @ (at.force * at.depth_a))
+    end = problem.contact.at(problem.a * np.array([radius]))
+    q = problem.contact.modes.by_shape(state.q)
+    more = float((end.force * (1.0 + end.less[0]) - end.felt[0]) @ q)
+    return rest / (problem.force * problem.depth) + more / problem.force
+
+
+def _sum(piece: TimeElement, row: int) -> float:
+    """Integral over an element of a row that is a rate by x, by Gauss' rule."""
+    nodes, weights = gauss(piece.element.slope.size)
+    values = piece.element.at(piece.element.x + piece.element.length * nodes)[row]
+    return piece.element.length * float(weights @ values)

@@ -1,0 +1,85 @@
+"""Damping: the plate's modes lose energy, so that echoes are weaker and vibration dies away."""
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from derivation.scene.effects.effect import NO_BOUND, Array, Bound, BoundContext, Effect, none_of
+from derivation.scene.effects.inertia import (
+    SENSITIVITY,
+    SLOWEST,
+    PlateInertia,
+    late,
+    off_rest,
+    weight_share,
+)
+from derivation.scene.model import Model
+
+if TYPE_CHECKING:
+    from derivation.scene.law import ContactLaw
+
+VARIATION = 2.0
+"""Total variation of a force that rises and falls once, over its peak."""
+TURNING = 27.0
+"""Bound on the response to the rate of such a force, over its peak, times omega T: 2 from an
+oscillator, 4 from the variation of the rate, 3.4 from the largest rate of Hertz's contact."""
+
+
+class Damping(Effect):
+    """Equivalent viscous damping of each mode at its own frequency."""
+
+    name = "damping"
+    adds = "damping of the plate's modes"
+    equation = "q_j'' + eta_l omega_j q_j' + omega_j^2 q_j = omega_j^2 c_j P_j"
+    parameter = "loss factor eta_l, twice the damping ratio"
+    source = "Cremer, Heckl and Petersson 2005; link 32"
+    contains = PlateInertia.contains | {"inertia"}
+    requires = PlateInertia.requires | {"inertia"}
+    within = "inertia"
+    static = False
+    damps = True
+
+    def not_applicable_reason(self, model: Model) -> str:
+        """A plate without a loss factor is not damped, one without density does not vibrate."""
+        if not model.loss_factor:
+            return "no plate.loss_factor"
+        return "" if model.density else "no plate.density: damping acts on a plate with inertia"
+
+    def value(self, model: Model, a: float) -> float:  # noqa: ARG002
+        """The loss factor itself."""
+        return model.loss_factor
+
+    def bound(self, model: Model, context: BoundContext) -> Bound:
+        """What damping changes in each mode, over the indentation; none if inertia has no bound.
+
+        Where the plate's motion decides when the sphere rebounds and how often, no bound is known.
+        With q of the damped mode, omitting the damping adds the response to 2 zeta omega q', which
+        is at most 2 zeta times the variation of q. This is bounded in two parts: of the
+        quasi-static c P, and of the ringing, which also cannot change by more than twice itself.
+        Random scenes use 6 % of the bound at most.
+        """
+        assert context.samples is not None
+        none = none_of(context.radii)
+        heavier = 1.0 + weight_share(model, context.depth)
+        T = SLOWEST * context.depth / (model.v0 * math.sqrt(heavier))
+        a, force = float(context.radii[-1]), float(context.samples.force[-1])
+        most = max(PlateInertia().bound(model, context).results)
+        if not most < NO_BOUND:
+            return Bound(none, none, results=5 * (math.inf,))
+
+        def changed(phase: Array, rise: float) -> Array:
+            steady = np.minimum(VARIATION, np.minimum(phase * phase, TURNING / (phase * rise)))
+            ringing = late(phase, rise)
+            return model.loss_factor * steady + np.minimum(
+                2.0 * ringing, model.loss_factor * ringing * phase
+            )
+
+        off = force / context.depth * off_rest(model, a, T, changed)
+        logs = [factor * off for factor in SENSITIVITY]
+        logs[0], logs[4] = heavier * logs[0], heavier * logs[4]
+        return Bound(none, none, results=(logs[0], logs[1], logs[2], logs[3], logs[4]))
+
+    def proved(self, law: "ContactLaw") -> bool:  # noqa: ARG002
+        """Return False: tested on random scenes."""
+        return False

@@ -1,0 +1,104 @@
+"""Oscillators of a plate, damped or not: their free motion and their response to a force.
+
+With the damping ratio zeta, root^2 = 1 - zeta^2 and c, s the cosine and sine of root omega t,
+
+    free motion          q(t) = q_0 + t q_0' + t q_0' by_rate - q_0 by_q,
+                         q'(t) = q_0' cos - omega q_0 sin,
+    impulse at time u    omega q(t) = moved_sin(t) drive_cos(u) - moved_cos(t) drive_sin(u),
+                         q'(t) = rate_cos(t) drive_cos(u) + rate_sin(t) drive_sin(u).
+
+Without damping all of these are c and s, of which each is computed once. With damping they are
+those of `generated.damping_kernels`.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple, Self
+
+import numpy as np
+
+from derivation.scene.effects.effect import Array
+from derivation.scene.modal import sine_less_one
+
+
+@dataclass(frozen=True)
+class FreeMotion:
+    """Free motion by phases omega t, see above; no part loses digits at small phases.
+
+    Each part is computed when it is first asked for.
+    """
+
+    phase: Array
+    damping_ratio: float
+
+    @cached_property
+    def by_q(self) -> Array:
+        """1 - q/q_0 of a displacement."""
+        if self.damping_ratio:
+            return -self._damped[0]
+        return np.asarray(2.0 * np.sin(self.phase / 2.0) ** 2, dtype=np.float64)
+
+    @cached_property
+    def by_rate(self) -> Array:
+        """q/(t q_0') - 1 of a velocity."""
+        if self.damping_ratio:
+            return self._damped[1]
+        return sine_less_one(self.sin, self.phase)
+
+    @cached_property
+    def sin(self) -> Array:
+        """omega q/q_0' of a velocity, and -q'/(omega q_0) of a displacement."""
+        return -self._damped[2] if self.damping_ratio else np.sin(self.phase)
+
+    @cached_property
+    def cos(self) -> Array:
+        """q'/q_0' of a velocity."""
+        return self._damped[3] if self.damping_ratio else np.cos(self.phase)
+
+    @cached_property
+    def _damped(self) -> tuple[Array, Array, Array, Array]:
+        from generated.damping_kernels import free_motion
+
+        return free_motion(self.phase, np.asarray(self.damping_ratio))
+
+
+class Response(NamedTuple):
+    """What makes up the response to an impulse, see above, shape (times, oscillators)."""
+
+    moved_sin: Array
+    moved_cos: Array
+    rate_cos: Array
+    rate_sin: Array
+    drive_cos: Array
+    drive_sin: Array
+
+    @classmethod
+    def empty(cls, shape: tuple[int, int], damping_ratio: float) -> Self:
+        """Room for values; without damping for one cosine and one sine."""
+        if not damping_ratio:
+            cos, sin = np.empty((2, *shape))
+            return cls(sin, cos, cos, sin, cos, sin)
+        return cls(*np.empty((6, *shape)))
+
+    def of(self, part: slice) -> Self:
+        """The same of some oscillators."""
+        return type(self)(*(values[:, part] for values in self))
+
+
+def response_at(
+    since: Array, omega: Array, damping_ratio: float, response: Response, part: slice
+) -> tuple[Array, Array]:
+    """Fill in the response of some oscillators at times; return `by_q` and `by_rate` there."""
+    if damping_ratio:
+        from generated.damping_kernels import response as damped
+
+        phase = np.multiply.outer(since, omega)
+        for row, values in zip(response, damped(phase, np.asarray(damping_ratio)), strict=True):
+            row[:, part] = values
+        free = FreeMotion(phase, damping_ratio)
+        return free.by_q, free.by_rate
+    half = np.multiply.outer(since, 0.5 * omega)
+    s, c = np.sin(half), np.cos(half)
+    versed, sine = 2.0 * s * s, 2.0 * s * c
+    response.drive_cos[:, part], response.drive_sin[:, part] = 1.0 - versed, sine
+    return versed, sine_less_one(sine, 2.0 * half)

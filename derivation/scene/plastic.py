@@ -1,0 +1,104 @@
+"""Impact on a contact that yields and a plate that follows quasi-statically.
+
+The time elements of `contact_sequence` follow it, beside a plate without oscillators: all of its
+deflection is in the law.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from derivation.scene import contact_sequence, wave_motion
+from derivation.scene.contact_sequence import Touching
+from derivation.scene.effects.effect import Array
+from derivation.scene.effects.inertia import WIDER
+from derivation.scene.law import ContactLaw
+from derivation.scene.modal import ModalPlate, Modes, contact_of
+from derivation.scene.motion import EnergyBalance, Motion
+from derivation.scene.scene import SceneError
+from derivation.scene.time_element import A, DynamicProblem, P, V, Z
+from derivation.scene.yielding import units_of, yielding_of
+
+STAGES = 14, 16
+"""Nodes of an element, of the run that checks and of the one that counts."""
+ROUNDING = 2e-12
+"""What tests hold the results to, beside the change with the nodes [1]."""
+
+
+@dataclass(frozen=True)
+class PlasticMotion(Motion):
+    """An impact on a contact that yields, with its time elements."""
+
+    problem: DynamicProblem | None = None
+    touching: Touching | None = None
+
+    def history(self, law: ContactLaw, times: Array) -> tuple[Array, Array, Array, Array]:  # noqa: ARG002
+        """Indentation [m], velocity [m/s], contact radius [m] and force [N] at times [s]."""
+        problem, touching = self.problem, self.touching
+        assert problem is not None
+        assert touching is not None
+        inside = np.minimum(times / problem.T, touching.end)
+        rows = wave_motion.rows_of(problem, touching, inside)
+        depth, velocity = problem.depth * rows[Z], problem.v0 * rows[V]
+        return depth, velocity, problem.a * rows[A], problem.force * rows[P]
+
+
+def impact(law: ContactLaw) -> PlasticMotion:
+    """The impact by a law with plasticity.
+
+    Raises
+    ------
+    SceneError
+        If it exceeds the law's range, or the sphere does not separate again.
+    """
+    if law.viscous:
+        raise SceneError(
+            "effects.plasticity: expected a contact that yields or is viscoelastic, got both "
+            "beside a quasi-static plate; set effects.plasticity or effects.viscosity = false, or "
+            "give plate.density and set effects.inertia = true"
+        )
+    problem = _problem(law)
+    rough, found = (_motion(problem, n) for n in STAGES)
+    pairs = zip(found.numbers, rough.numbers, strict=True)
+    return replace(found, quadrature=max(abs(new / old - 1.0) for new, old in pairs))
+
+
+def _problem(law: ContactLaw) -> DynamicProblem:
+    """The scene in units of an impact on a plate that does not deflect."""
+    model, (a, T) = law.model, units_of(law)
+    none, no_index = np.zeros(0), np.zeros(0, dtype=np.intp)
+    still = Modes(none, none, none, no_index)
+    contact = contact_of(law, ModalPlate(still, still, None), min(WIDER * a, law.limit), False)
+    weight = law.gravity * (T / model.v0)
+    return DynamicProblem(contact, a, T, model.m, model.v0, weight, yielding=yielding_of(law))
+
+
+def _motion(problem: DynamicProblem, n: int) -> PlasticMotion:
+    """The results by elements of n nodes."""
+    touching = contact_sequence.contact(problem, n, problem.begin(), 0.0, 0.0)
+    after, branch = touching.after, touching.yielding
+    assert branch is not None
+    depth, force, radius = (
+        max(piece.element.largest(row) for piece in touching.pieces) for row in (Z, P, A)
+    )
+    energy = problem.m * problem.v0 * problem.v0
+    balance = EnergyBalance(
+        initial_kinetic=0.5 * energy,
+        gravity_work=energy * problem.weight * after.displacement,
+        rebound_kinetic=0.5 * energy * after.velocity**2,
+        viscous_loss=0.0,
+        unrecovered_elastic=0.0,
+        plastic_loss=branch.work,
+    )
+    return PlasticMotion(
+        problem.T * touching.end,
+        problem.depth * depth,
+        problem.force * force,
+        problem.a * radius / branch.flattening,
+        0.0,
+        -after.velocity,
+        balance,
+        problem,
+        touching,
+        dent=branch.dent,
+    )

@@ -1,0 +1,74 @@
+"""Quantities to be read by people: SI prefixes, and no digit that does not hold."""
+
+import math
+from decimal import Decimal
+
+import numpy as np
+
+from derivation.scene.effects.effect import Array
+
+PREFIXES = {-9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
+"""SI prefixes by their powers of ten."""
+IN_FRONT = 3
+"""Most digits in front of the decimal point."""
+
+
+def prefixed(value: float, unit: str, digits: int) -> tuple[str, str]:
+    """Return a value to some significant digits, and its unit with an SI prefix.
+
+    The prefix leaves at most three digits in front of the decimal point, all of them significant:
+    0.37 kN to two digits, 374 N to three. A value beyond all prefixes has a power of ten.
+
+    Parameters
+    ----------
+    value
+        Value in the unit.
+    unit
+        SI unit without prefix; "1" of a ratio, which has none.
+    digits
+        Number of significant digits.
+
+    Examples
+    --------
+    >>> prefixed(9.6155e-05, "s", 3)
+    ('96.2', 'µs')
+    >>> prefixed(374.6, "N", 2)
+    ('0.37', 'kN')
+    """
+    if not math.isfinite(value):
+        return "unknown", ""
+    rounded = Decimal(f"{value:.{digits - 1}e}")
+    if unit == "1":
+        return f"{value:#.{digits}g}".removesuffix("."), ""
+    if not value:
+        return "0", unit
+    order = _order(rounded.adjusted(), digits)
+    if order not in PREFIXES:
+        return f"{rounded:e}", unit
+    return f"{rounded.scaleb(-order):f}", PREFIXES[order] + unit
+
+
+def common_prefix(values: Array, unit: str, digits: int = IN_FRONT) -> tuple[Array, str]:
+    """Return values in one multiple of their unit, which suits the largest, and the multiple.
+
+    Parameters
+    ----------
+    values
+        Finite values in the unit.
+    unit
+        SI unit without prefix.
+    digits
+        Number of significant digits.
+    """
+    largest = float(np.max(np.abs(values), initial=0.0))
+    order = _order(math.floor(math.log10(largest)), digits) if largest > 0 else 0
+    order = min(max(order, min(PREFIXES)), max(PREFIXES))
+    return values / 10.0**order, PREFIXES[order] + unit
+
+
+def _order(exponent: int, digits: int) -> int:
+    """The prefix's power of ten for a number with the given one.
+
+    More digits in front of the point than are significant would be zeros that do not hold.
+    """
+    return 3 * math.ceil((exponent + 1 - min(digits, IN_FRONT)) / 3)

@@ -1,0 +1,115 @@
+"""Where generated code compares numbers, hard cases come close to the switch from both sides."""
+
+import importlib
+import pkgutil
+from collections import Counter
+from collections.abc import Mapping
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+import pytest
+from switches import Watch, watched
+
+import generated
+from derivation.engine.measure.case import handed_over
+from derivation.engine.measure.suite import Suite
+
+CLOSE = 1e-6
+"""Relative distance to the switch: of what is compared, which may be the result of a sum."""
+
+GUARD = "a guard against what is outside the domain, or what no input reaches"
+LOOP = "keeps an iteration within its bracket"
+ELSEWHERE = "its own tests have both sides, the hard cases do not"
+MAY_STAY: Mapping[str, tuple[int, str]] = {
+    "back_face._evaluated": (1, GUARD),
+    "contact_law._contact": (1, GUARD),
+    "contact_law._plates": (2, GUARD),
+    "contact_law.indentation": (2, GUARD),
+    "contact_series._beyond": (1, GUARD),
+    "contact_series.correction": (1, "of one sphere only the hard cases have both sides"),
+    "edge_modes._below_cutoff": (3, LOOP),
+    "edge_modes._solved": (3, LOOP),
+    "edge_modes._within": (2, GUARD),
+    "edge_modes.supported_waves": (1, "a count of no modes"),
+    "impact._solve": (4, GUARD),
+    "non_hertzian_pressure._contact": (1, ELSEWHERE),
+    "non_hertzian_pressure.contact": (5, GUARD),
+    "non_hertzian_pressure.plate": (4, GUARD),
+    "non_hertzian_pressure.pressure": (1, GUARD),
+    "perturbation._eta": (1, ELSEWHERE),
+    "perturbation.last": (1, GUARD),
+    "perturbation.printed_motion": (4, GUARD),
+    "plate_waves._between": (3, LOOP),
+    "series_constants._representable": (1, "a constant grows faster from index to index"),
+    "series_constants.finite_part_ratio": (1, "whether an index is whole"),
+    "series_constants.kappa_ratio": (1, "whether an index is whole"),
+    "simple_impact._estimate": (2, GUARD),
+    "simple_impact._relative": (1, GUARD),
+    "simple_impact._scene": (4, GUARD),
+    "simple_impact._share": (1, LOOP),
+    "simple_impact.law_errors": (4, GUARD),
+    "simple_impact.leading": (1, GUARD),
+    "viscosity.viscous_logarithms": (4, ELSEWHERE),
+}
+"""How many comparisons of a function may stay on one side, or far from the switch, and why."""
+
+
+def modules() -> list[ModuleType]:
+    """The generated package but for its table of contents."""
+    names = (found.name for found in pkgutil.iter_modules(generated.__path__))
+    return [importlib.import_module(f"generated.{x}") for x in names if x != "manifest"]
+
+
+@pytest.fixture(scope="module")
+def seen(suite: Suite) -> Watch:
+    """What all comparisons do in the hard cases."""
+    with watched({m: Path(str(m.__file__)).read_text() for m in modules()}) as watch:
+        for case in suite.cases:
+            kernel = suite.kernels[case.kernel]
+            modes = {} if case.modes is None else {"modes": case.modes}
+            with np.errstate(all="ignore"):
+                if kernel.by_count:
+                    kernel.call(int(case.numbers["count"][0]))
+                else:
+                    kernel.call(*handed_over(case, kernel.arguments), **modes)
+    return watch
+
+
+def test_every_switch_has_cases_close_to_both_sides(seen: Watch) -> None:
+    """A new one in the code needs hard cases, as described in CONTRIBUTING.md."""
+    far = seen.beyond(CLOSE)
+    count = Counter(place.home for place in far)
+    most = {home: limit for home, (limit, _) in MAY_STAY.items()}
+    assert {p: x for p, x in far.items() if count[p.home] > most.get(p.home, 0)} == {}
+
+
+CODE = """
+import numpy as np
+def kinked(x):
+    return np.where(x < 2.0, x, 2.0) + steep(x)
+def steep(x):
+    return x if x < 3.0 else 0.0
+"""
+
+
+@pytest.mark.parametrize(
+    ("points", "far"),
+    [
+        ([1.0, 4.0], ["kinked", "steep"]),
+        ([2.0, np.nextafter(2.0, 1.0), 1.0], ["steep"]),
+        ([2.0, np.nextafter(2.0, 3.0), 3.0, np.nextafter(3.0, 0.0)], ["kinked"]),
+        ([2.0, np.nextafter(2.0, 1.0), 3.0, np.nextafter(3.0, 0.0)], []),
+        ([np.nan, 2.0, 3.0, np.nextafter(3.0, 0.0)], ["kinked"]),
+    ],
+)
+def test_a_switch_without_cases_on_both_sides_is_noticed(
+    points: list[float], far: list[str]
+) -> None:
+    module = ModuleType("kinks")
+    module.__file__ = "kinks.py"
+    exec(compile(CODE, "kinks.py", "exec"), vars(module))
+    plain = [module.kinked(x) for x in points]
+    with watched({module: CODE}) as watch:
+        assert np.array_equal([module.kinked(x) for x in points], plain, equal_nan=True)
+    assert [place.home for place in watch.beyond(CLOSE)] == [f"kinks.{name}" for name in far]

@@ -1,0 +1,327 @@
+"""A contact that yields: against Thornton's closed form, two other integrators, and its limits."""
+
+import itertools
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.integrate import quad, solve_ivp
+from scipy.optimize import brentq, minimize_scalar
+
+from derivation.scene import indent, read, simulate
+from derivation.scene.collocation import ONSET
+from derivation.scene.contact_sequence import contact
+from derivation.scene.effects import BY_NAME, WHOLE_PLATE
+from derivation.scene.law import ContactLaw
+from derivation.scene.method_selection import moved
+from derivation.scene.model import Model
+from derivation.scene.scene import OUTPUTS, SceneError
+from derivation.scene.time_element import DynamicProblem, P
+from derivation.scene.waves import problem_of
+from derivation.scene.yielding import yielding_of
+from generated.plasticity import plastic_restitution, yield_radius, yield_speed
+
+BALL = Model(R=0.005, m=4.1e-3, v0=1.0, h=0.5, b=1.0, lam=121.15e9, mu=80.77e9, yield_stress=500e6)
+HALF_SPACE = frozenset({"hertz", "plasticity"})
+DROP = {
+    "sphere": {"radius": 0.025, "material": "steel"},
+    "plate": {
+        "radius": 0.2, "thickness": 0.02, "material": "aluminium", "edge": "clamped",
+        "yield_stress": 240e6,
+    },
+    "impact": {"speed": 1.98},
+}  # fmt: skip
+
+
+def thornton(ratio: float) -> float:
+    """Restitution by v_y/v0 (Thornton 1997, equation 20)."""
+    part = ratio / (ratio + 2.0 * math.sqrt(1.2 - 0.2 * ratio**2))
+    return math.sqrt(1.2 * math.sqrt(3.0) * (1.0 - ratio**2 / 6.0)) * part**0.25
+
+
+def at_speeds(ratio: float) -> Model:
+    """The ball at a multiple of the speed at which it begins to yield."""
+    speed = float(yield_speed(BALL.R, BALL.m, BALL.lam, BALL.mu, BALL.yield_stress))
+    return replace(BALL, v0=ratio * speed)
+
+
+def drop(effects: dict[str, object] | None = None, **plate: object) -> dict[str, object]:
+    """The ball drop on another plate."""
+    return DROP | {"plate": DROP["plate"] | plate, "effects": effects or {}}
+
+
+def test_onset_is_where_shear_under_a_ball_reaches_its_limit() -> None:
+    # On the axis of Hertz's contact, for Poisson's ratio 0.3: Johnson (1985), equation 3.45.
+    def difference(z: float) -> float:
+        radial = -1.3 * (1.0 - z * math.atan(1.0 / z)) + 0.5 / (1.0 + z * z)
+        return -abs(radial + 1.0 / (1.0 + z * z))
+
+    largest = -float(minimize_scalar(difference, bounds=(0.1, 2.0)).fun)
+    a = float(yield_radius(1.0, 1.5e11, 1e11, 1e8))
+    modulus = 4e11 * (1.5e11 + 1e11) / (1.5e11 + 2e11)
+    peak = 2.0 * modulus * a / math.pi
+    assert peak * largest == pytest.approx(1e8, rel=1e-2)
+
+
+@given(st.floats(0.0, 3.0))
+def test_half_space_returns_thorntons_restitution(power: float) -> None:
+    ratio = 10.0**power
+    xi = ((6.0 * ratio**2 - 1.0) / 5.0) ** (1.0 / 6.0)
+    assert float(plastic_restitution(xi)) == pytest.approx(thornton(1.0 / ratio), rel=1e-14)
+
+
+@pytest.mark.parametrize("ratio", [1.001, 1.7, 6.0, 100.0])
+def test_time_elements_return_thorntons_restitution(ratio: float) -> None:
+    found = moved(ContactLaw(at_speeds(ratio), HALF_SPACE))
+    assert found.restitution == pytest.approx(thornton(1.0 / ratio), rel=1e-12)
+    assert found.energy_balance is not None
+    assert abs(found.energy_balance.residual) < 1e-13
+
+
+def test_slow_impact_is_hertzs() -> None:
+    model = at_speeds(0.9)
+    found = moved(ContactLaw(model, HALF_SPACE))
+    elastic = moved(ContactLaw(replace(model, yield_stress=1e20), HALF_SPACE))
+    assert found.numbers == elastic.numbers
+    assert found.restitution == pytest.approx(1.0, abs=1e-14)
+    assert found.dent == 0.0
+
+
+def test_fast_impacts_of_steel_on_steel_follow_the_fourth_root() -> None:
+    # Johnson (1985), section 11.5: e goes with v^(-1/4) where the contact is fully plastic.
+    speeds = np.geomspace(1.0, 100.0, 5)
+    found = [moved(ContactLaw(replace(BALL, v0=v), HALF_SPACE)).restitution
+             for v in speeds.tolist()]  # fmt: skip
+    slopes = np.diff(np.log(found)) / np.diff(np.log(speeds))
+    assert np.all(np.abs(slopes + 0.25) < 0.002)
+    assert abs(slopes[-1] + 0.25) < abs(slopes[0] + 0.25)
+
+
+@pytest.mark.parametrize("gravity", [0.0, 9.81])
+def test_plate_that_bends_agrees_with_energy_and_quadrature(gravity: float) -> None:
+    effects = WHOLE_PLATE | HALF_SPACE | ({"gravity"} if gravity else set())
+    model = Model(
+        R=0.02, m=0.26, v0=0.5, h=0.005, b=0.1, lam=52e9, mu=26e9, yield_stress=3e8,
+        gravity=gravity,
+    )  # fmt: skip
+    law = ContactLaw(model, frozenset(effects))
+    found = moved(law)
+    onset = float(yield_radius(model.R, model.lam, model.mu, model.yield_stress))
+
+    def elastic(u: float) -> tuple[float, float]:
+        a = np.array([u])
+        shape = law.at(a)
+        return float(law.force(a, shape)[0]), float(law.indentation(a, shape)[0])
+
+    def loaded(u: float) -> float:
+        wide = max(0.0, (2.0 * u**3 / onset + onset**2) / 3.0 - u * u) if u > onset else 0.0
+        return elastic(u)[1] + wide / model.R
+
+    def work(depth: object, top: float) -> float:
+        # int P d delta = P delta - int delta dP, and dP = 3 P du/u.
+        def lost(u: float) -> float:
+            return float(depth(u)) * 3.0 * elastic(u)[0] / u  # type: ignore[operator]
+
+        parts = [0.0, min(onset, top), top]
+        taken = sum(quad(lost, *ends, epsabs=0, epsrel=1e-11)[0]
+                    for ends in itertools.pairwise(parts))  # fmt: skip
+        return elastic(top)[0] * float(depth(top)) - taken  # type: ignore[operator]
+
+    def lacking(u: float) -> float:
+        weight = model.m * gravity * loaded(u)
+        return work(loaded, u) - 0.5 * model.m * model.v0**2 - weight
+
+    top = float(brentq(lacking, onset, 0.02, xtol=1e-16, rtol=1e-14))
+    wide = math.sqrt((2.0 * top**3 / onset + onset**2) / 3.0)
+    flat = top / wide
+    dent = wide**2 / model.R * (1.0 - flat**3)
+
+    def unloaded(u: float) -> float:
+        return elastic(u)[1] - (1.0 - flat) * u * u / model.R
+
+    back = work(unloaded, top) - model.m * gravity * unloaded(top)
+    assert found.max_force == pytest.approx(elastic(top)[0], rel=1e-9)
+    assert found.max_indentation == pytest.approx(loaded(top), rel=1e-9)
+    assert found.max_contact_radius == pytest.approx(wide, rel=1e-9)
+    assert found.restitution == pytest.approx(math.sqrt(2.0 * back / model.m) / model.v0, rel=1e-9)
+    assert found.dent == pytest.approx(dent, rel=1e-9)
+
+
+class Marched:
+    """A first contact on a moving plate by a Runge-Kutta method, the dent found step by step."""
+
+    def __init__(self, problem: DynamicProblem, onset: float) -> None:
+        self.problem, self.onset, self.top = problem, onset, onset
+        self.y = np.concatenate(([0.0, 1.0], np.zeros(2 * problem.omega.size)))
+
+    def added(self, a: float) -> float:
+        """Indentation times R that yielding adds."""
+        onset, top = self.onset, self.top
+        if a > top:
+            return (2.0 * a**3 / onset + onset**2) / 3.0 - a * a
+        wide = math.sqrt((2.0 * top**3 / onset + onset**2) / 3.0)
+        return wide**2 * (1.0 - (top / wide) ** 3) - (1.0 - top / wide) * a * a
+
+    def radius(self, y: np.ndarray) -> float:
+        """Radius at which the depth is the sphere's displacement."""
+        problem, shapes = self.problem, self.problem.contact.modes
+        q = shapes.by_shape(np.split(y[2:], 2)[0])
+
+        def lacking(a: float) -> float:
+            at = problem.contact.at(np.array([a]))
+            depth = (float(at.depth[0]) + self.added(a) / problem.contact.R) / problem.depth
+            return depth + float((1.0 + at.less[0]) @ q) - float(y[0])
+
+        return float(brentq(lacking, 1e-9, 0.99 * problem.contact.top, xtol=1e-16))
+
+    def rate(self, _: float, y: np.ndarray) -> np.ndarray:
+        problem, (q, q_dot) = self.problem, np.split(y[2:], 2)
+        at = problem.contact.at(np.array([self.radius(y) if y[0] > 0.0 else 1e-9]))
+        felt = at.felt[0][problem.contact.modes.shape] / problem.force
+        pull = problem.inverse_modal_mass * felt - problem.omega**2 * q
+        return np.concatenate(([y[1], -float(at.force[0]) / problem.force], q_dot, pull))
+
+    def step(self, t: float, dt: float) -> float:
+        """The force after a step [N]."""
+        made = solve_ivp(self.rate, (t, t + dt), self.y, rtol=1e-9, atol=1e-12)
+        self.y = made.y[:, -1]
+        a = self.radius(self.y)
+        self.top = max(self.top, a)
+        return float(self.problem.contact.at(np.array([a])).force[0])
+
+
+def test_moving_plate_agrees_with_another_integrator() -> None:
+    model = Model(
+        R=0.01, m=0.02, v0=1.0, h=0.002, b=0.1, lam=52e9, mu=26e9, density=2700.0,
+        yield_stress=2e8,
+    )  # fmt: skip
+    law = ContactLaw(model, WHOLE_PLATE | HALF_SPACE | {"inertia", "edge"})
+    problem, branch = problem_of(law, 4), yielding_of(law)
+    assert branch is not None
+    with np.errstate(all="ignore"):
+        pieces = contact(problem, 16, problem.begin(), 0.0, 0.0).pieces
+    end = (pieces[-1].element.x + pieces[-1].element.length) ** ONSET
+    times = np.arange(0.0, 0.9 * end, 2e-3)
+    marched = Marched(problem, branch.onset)
+    steps = itertools.pairwise(times.tolist())
+    expected = np.array([marched.step(t, later - t) for t, later in steps])
+    x = times[1:] ** (1.0 / ONSET)
+    place = np.searchsorted([piece.element.x for piece in pieces], x, side="right") - 1
+    found = [
+        problem.force * float(pieces[k].element.at(np.array([one]))[P, 0])
+        for k, one in zip(place, x, strict=True)
+    ]
+    # The largest radius is known to a step: its square, to first order.
+    assert marched.top > 1.5 * branch.onset
+    assert np.max(np.abs(found - expected)) < 2e-4 * max(found)
+
+
+def test_balance_closes_over_several_contacts() -> None:
+    result = simulate(read(drop()))
+    assert result.dynamics is not None
+    balance = result.dynamics.energy_balance
+    assert len(result.dynamics.inertia.contacts) > 1
+    assert abs(balance.residual) < 1e-11
+    assert balance.plastic_loss > 0.3 * balance.initial_kinetic
+    assert result.dent > 0.0
+    assert result.max_pressure == 1.6 * 240e6
+
+
+def test_hard_plate_returns_the_elastic_results() -> None:
+    elastic = simulate(read(drop({"plasticity": False})))
+    for stress in (3e9, 1e12):
+        hard = simulate(read(drop({"plasticity": True}, yield_stress=stress)))
+        for name in OUTPUTS:
+            assert getattr(hard, name) == pytest.approx(getattr(elastic, name), rel=1e-10)
+
+
+def test_plates_agree_before_the_echo() -> None:
+    # A contact that ends before a wave returns from the edge cannot know how that is held.
+    found = [
+        simulate(read({
+            "sphere": {"radius": 0.005, "material": "steel"},
+            "plate": {"radius": 1.0, "thickness": 0.02, "material": "steel",
+                      "yield_stress": 4e8, "edge": edge},
+            "impact": {"speed": 2.0},
+        }))
+        for edge in ("paper", "clamped", "simply-supported")
+    ]  # fmt: skip
+    for other in found[1:]:
+        assert other.restitution == pytest.approx(found[0].restitution, rel=2e-4)
+        assert other.dent == pytest.approx(found[0].dent, rel=2e-4)
+
+
+def test_viscous_contact_that_yields_closes_its_balance_on_a_moving_plate() -> None:
+    result = simulate(read(drop(retardation_time=2e-6)))
+    assert result.dynamics is not None
+    balance = result.dynamics.energy_balance
+    assert balance.plastic_loss > 0.0
+    assert balance.viscous_loss > 0.0
+    assert abs(balance.residual) < 1e-9
+
+
+def test_selection_leaves_plasticity_out_only_below_the_onset() -> None:
+    fast = simulate(read(drop({"inertia": False})))
+    slow = simulate(read(drop({"inertia": False}) | {"impact": {"speed": 1e-4}}))
+    assert "plasticity" in fast.effects.law.effects
+    assert "plasticity" not in slow.effects.law.effects
+    [row] = [row for row in slow.effects.rows if row.name == "plasticity"]
+    assert row.bound == 0.0
+    assert row.parameter_value < 1.0
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_stated_bounds_hold_with_plasticity(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    R = 10 ** rng.uniform(-3, -1.3)
+    h = R * 10 ** rng.uniform(-0.5, 1.5)
+    E = 10 ** rng.uniform(9, 11.3)
+    scene = {
+        "sphere": {"radius": R, "material": "steel"},
+        "plate": {
+            "radius": h * 10 ** rng.uniform(0.5, 1.5), "thickness": h, "youngs_modulus": E,
+            "poissons_ratio": rng.uniform(0, 0.45), "yield_stress": E * 10 ** rng.uniform(-3.3, -2),
+        },
+        "impact": {"speed": 10 ** rng.uniform(-2, 0.5)},
+        "effects": {"inertia": False},
+    }  # fmt: skip
+    loose, tight = (simulate(read(scene), rtol=rtol) for rtol in (0.05, 1e-9))
+    assert "plasticity" in tight.effects.law.effects
+    allowed = loose.accuracy.bound + tight.accuracy.bound
+    for name in OUTPUTS:
+        assert abs(getattr(loose, name) / getattr(tight, name) - 1.0) <= allowed
+
+
+def test_static_contact_on_loading() -> None:
+    scene = read(drop())
+    [small] = indent(scene, force=1.0)
+    [elastic] = indent(read(drop({"plasticity": False})), force=1.0)
+    assert small == elastic
+    [large] = indent(scene, force=5000.0)
+    [again] = indent(scene, indentation=large.indentation)
+    [once] = indent(scene, contact_radius=large.contact_radius)
+    for other in (again, once):
+        assert other.force == pytest.approx(5000.0, rel=1e-13)
+    step = 1e-4
+    [more] = indent(scene, indentation=large.indentation * (1 + step))
+    [less] = indent(scene, indentation=large.indentation * (1 - step))
+    slope = (more.force - less.force) / (2 * step * large.indentation)
+    assert large.stiffness == pytest.approx(slope, rel=1e-7)
+    # The mean pressure grows towards the limit, and cannot pass it.
+    mean = 5000.0 / (math.pi * large.contact_radius**2)
+    assert 2 / 3 * large.max_pressure < mean < large.max_pressure == 1.6 * 240e6
+
+
+def test_viscous_contact_that_yields_is_refused_beside_a_plate_without_inertia() -> None:
+    with pytest.raises(SceneError, match="got both"):
+        simulate(read(drop({"inertia": False}, retardation_time=2e-6)))
+
+
+def test_parameter_is_the_pressure_over_its_limit() -> None:
+    law = ContactLaw(BALL, frozenset({"hertz"}))
+    a = 1e-4
+    found = BY_NAME["plasticity"].value(BALL, a)
+    assert found == pytest.approx(law.max_pressure(a) / (1.6 * BALL.yield_stress), rel=1e-14)

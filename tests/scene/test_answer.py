@@ -1,0 +1,277 @@
+"""The answer of a simulation: short, first, in prefixed SI units, and never wider than a screen."""
+
+import math
+import os
+import re
+import subprocess
+import sys
+import tomllib
+from collections.abc import Callable
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+from given import EXAMPLES, PAPER
+from hypothesis import given
+from hypothesis import strategies as st
+
+from derivation.cli import main
+from derivation.engine.files import ROOT
+from derivation.engine.text import WIDTH, aligned, paragraph
+from derivation.scene import contact_sequence, explain, indent, load, read, simulate, sweep, waves
+from derivation.scene.answer import quantities
+from derivation.scene.quantity import IN_FRONT, PREFIXES, common_prefix, prefixed
+from derivation.scene.result import Result
+
+Captured = pytest.CaptureFixture[str]
+POWERS = {prefix: 10.0**power for power, prefix in PREFIXES.items()}
+LINES = 25
+"""Most lines of an answer with its warnings."""
+every_example = pytest.mark.parametrize(
+    "example", sorted(EXAMPLES.glob("*.toml")), ids=lambda path: path.stem
+)
+REPEATED = """
+[sphere]
+radius = 0.02
+material = "steel"
+[plate]
+radius = 0.2
+thickness = 0.01
+material = "aluminium"
+[impact]
+speed = 1.0
+[effects]
+inertia = true
+[inertia]
+modes = 8
+"""
+"""A sphere that touches the plate twice."""
+
+
+@lru_cache
+def result_of(example: Path) -> Result:
+    return simulate(load(example))
+
+
+def value_of(text: str, unit: str, plain: str) -> float:
+    """A number with a prefixed unit in the unit without prefix."""
+    return float(text) * POWERS[unit.removesuffix(plain)]
+
+
+# --- values
+
+
+@given(
+    st.floats(1e-12, 1e12) | st.floats(-1e12, -1e-12),
+    st.integers(2, 12),
+)
+def test_a_value_keeps_its_digits_under_a_prefix(value: float, digits: int) -> None:
+    text, unit = prefixed(value, "Pa", digits)
+    assert value_of(text, unit, "Pa") == pytest.approx(float(f"{value:.{digits - 1}e}"), rel=1e-14)
+    if "e" not in text:
+        whole = text.lstrip("-").partition(".")[0]
+        assert len(whole) <= min(digits, IN_FRONT)
+        shown = text.lstrip("-").replace(".", "").lstrip("0")
+        assert len(shown) == digits
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "digits", "shown"),
+    [
+        (9.9996e2, "N", 4, ("1.000", "kN")),
+        (374.6, "N", 2, ("0.37", "kN")),
+        (374.6, "N", 3, ("375", "N")),
+        (96.3e-6, "s", 3, ("96.3", "µs")),
+        (1e-30, "m", 3, ("1.00e-30", "m")),
+        (0.0, "Pa", 3, ("0", "Pa")),
+        (0.32149, "1", 3, ("0.321", "")),
+        (math.nan, "1", 2, ("unknown", "")),
+    ],
+)
+def test_values_at_the_ends(value: float, unit: str, digits: int, shown: tuple[str, str]) -> None:
+    assert prefixed(value, unit, digits) == shown
+
+
+@given(st.lists(st.floats(1e-9, 1e11), min_size=1), st.integers(2, 12))
+def test_values_in_a_column_share_a_prefix(values: list[float], digits: int) -> None:
+    multiples, unit = common_prefix(np.array(values), "m", digits)
+    for value, multiple in zip(values, multiples, strict=True):
+        assert multiple * POWERS[unit.removesuffix("m")] == pytest.approx(value, rel=1e-14)
+    assert multiples.max() < 10.0 ** min(digits, IN_FRONT) * (1.0 + 1e-14)
+
+
+# --- the answer
+
+
+@every_example
+def test_the_answer_is_short_and_fits_a_screen(example: Path) -> None:
+    result = result_of(example)
+    lines = str(result).splitlines()
+    lines += [line for text in result.warnings for line in paragraph(text).splitlines()]
+    assert len(lines) <= LINES
+    assert max(map(len, lines)) <= WIDTH
+    for line in (*result.details().splitlines(), *explain(load(example)).details().splitlines()):
+        assert len(line) <= WIDTH
+
+
+@every_example
+def test_the_answer_has_the_results_with_the_digits_that_hold(example: Path) -> None:
+    result = result_of(example)
+    shown = dict(line.split("  ", 1) for line in str(result).split("\n\n")[0].splitlines())
+    for name, value, unit in result.numbers():
+        label = next((key for key in shown if key.startswith(name.replace("_", " "))), None)
+        if name == "total_time" and label is None:
+            assert value == result.contact_time
+            continue
+        assert label is not None
+        text, _, multiple = shown[label].strip().partition(" ")
+        found = value_of(text, multiple, unit) if multiple else float(text)
+        assert found == pytest.approx(value, rel=0.5001 * 10.0 ** (1 - result.digits))
+
+
+@every_example
+def test_the_answer_names_accuracy_and_effects(example: Path) -> None:
+    result = result_of(example)
+    said = " ".join(str(result).split())
+    assert result.accuracy.summary in said
+    assert result.effects.summary in said
+    bound = float(re.search(r"at most (\S+)", result.accuracy.summary)[1])  # type: ignore[index]
+    assert result.accuracy.bound <= bound <= 1.1 * result.accuracy.bound
+    assert ("model error" in said) == bool(result.model_error)
+    for row in result.effects.rows:
+        assert not row.disabled or row.name in said
+    assert set(result.effects.included) == {r.name for r in result.effects.rows if r.included}
+
+
+@every_example
+def test_a_notebook_shows_the_answer_first_and_folds_details(example: Path) -> None:
+    result = result_of(example)
+    page = result._repr_html_()
+    marks = ["<table>", "Accuracy: ", "Effects: "]
+    marks += ["<b>Warning:</b>"] if result.warnings else []
+    marks += ["<details>", "max. change if omitted"]
+    places = [page.index(mark) for mark in marks]
+    assert places == sorted(places)
+    assert page.endswith("</details>")
+
+
+# --- the commands
+
+
+def shown(*arguments: str, **places: str) -> str:
+    """What a command writes to a pipe."""
+    run = subprocess.run(
+        [sys.executable, "-m", "derivation.cli", *arguments], capture_output=True, text=True,
+        check=True, env={**os.environ, "PYTHONPATH": str(ROOT), **places},
+    )  # fmt: skip
+    return run.stdout
+
+
+@pytest.mark.parametrize("option", [[], ["--details"]])
+def test_the_answer_does_not_depend_on_the_width_of_the_screen(option: list[str]) -> None:
+    wanted = ["simulate", str(PAPER), *option]
+    narrow, *others = (shown(*wanted, COLUMNS=columns) for columns in ("80", "100", "200"))
+    assert others == [narrow, narrow]
+    assert narrow == (result_of(PAPER).details() if option else str(result_of(PAPER))) + "\n"
+
+
+def test_a_screen_without_greek_letters_stops_nothing() -> None:
+    wanted = ["simulate", str(PAPER), "--sweep", "impact.speed=0.5:1:2"]
+    assert "t_c contact time" in shown(*wanted, PYTHONIOENCODING="ascii")
+
+
+def test_quiet_is_name_value_and_unit_alone(tmp_path: Path, capsys: Captured) -> None:
+    file = tmp_path / "thin.toml"
+    file.write_text(PAPER.read_text().replace("half_thickness = 0.1", "half_thickness = 0.01"))
+    result = result_of(file)
+    assert result.warnings
+    assert main(["simulate", str(file), "--quiet"]) == 0
+    printed = capsys.readouterr()
+    assert printed.err == ""
+    words = [line.split(" ") for line in printed.out.splitlines()]
+    for (name, text, unit), (wanted, value, si) in zip(words, result.numbers(), strict=True):
+        assert (name, unit) == (wanted, si)
+        assert float(text) == pytest.approx(value, rel=10.0 ** (1 - result.digits))
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        ["--details", "--quiet"],
+        ["--quiet", "--sweep", "impact.speed=1:2:2"],
+        ["--details", "--sweep", "impact.speed=1:2:2"],
+    ],
+)
+def test_options_that_exclude_each_other(options: list[str], capsys: Captured) -> None:
+    assert main(["simulate", str(PAPER), *options]) == 2
+    said = capsys.readouterr().err
+    assert "cannot be combined with" in said
+    assert all(option in said for option in options if option.startswith("--"))
+
+
+def test_an_incomplete_impact_says_so_first(
+    monkeypatch: pytest.MonkeyPatch, capsys: Captured, tmp_path: Path
+) -> None:
+    file = tmp_path / "scene.toml"
+    file.write_text(REPEATED)
+    waves.impact.cache_clear()
+    monkeypatch.setattr(contact_sequence, "CONTACTS", 1)
+    try:
+        result = simulate(load(file))
+        assert not result.complete
+        assert str(result).startswith("INCOMPLETE: ")
+        assert result.details().startswith("INCOMPLETE: ")
+        assert result._repr_html_().startswith("<p><b>INCOMPLETE: ")
+        assert re.search(r"^restitution +unknown$", str(result), re.M)
+        assert "no error bound is known" in str(result)
+        assert main(["simulate", str(file)]) == 1
+        assert capsys.readouterr().out.startswith("INCOMPLETE: ")
+        assert main(["simulate", str(file), "--quiet"]) == 1
+        assert "INCOMPLETE: " in capsys.readouterr().err
+    finally:
+        waves.impact.cache_clear()
+
+
+def test_several_contacts_are_counted(tmp_path: Path) -> None:
+    file = tmp_path / "scene.toml"
+    file.write_text(REPEATED)
+    result = simulate(load(file))
+    assert result.dynamics is not None
+    contacts = len(result.dynamics.inertia.contacts)
+    assert contacts == 2
+    labels = [name for name, _, _ in quantities(result)]
+    assert labels[:2] == ["contact time (first of 2)", "total time"]
+    assert "contact time" in [name for name, _, _ in quantities(result_of(PAPER))]
+
+
+def tables() -> dict[str, Callable[[], str]]:
+    """Tables of several rows, with numbers as wide as they come."""
+    pane = load(EXAMPLES / "glass_pane.toml")
+    span = sweep.parse("plate.half_thickness=0.1:0.2:3")
+    compared = PAPER.read_text().replace("[effects]", "[effects]\ncompare_paper_motion = true")
+    return {
+        "indent": lambda: str(indent(pane, force=[1.23456e-7, 12.3456, 123456.0])),
+        "sweep": lambda: sweep.to_text(span, sweep.run(load(PAPER), span)),
+        "comparison": lambda: str(_simulated(compared)),
+    }
+
+
+def _simulated(text: str) -> Result:
+    return simulate(read(tomllib.loads(text)))
+
+
+@pytest.mark.parametrize("name", ["indent", "sweep", "comparison"])
+def test_tables_fit_a_screen(name: str) -> None:
+    assert all(len(line) <= WIDTH for line in tables()[name]().splitlines())
+
+
+def test_a_table_breaks_no_cell() -> None:
+    rows = [["a b", "1"], ["a long cell of many words", "-12.5"]]
+    lines = aligned(["name", "#value [m]"], rows).splitlines()
+    assert lines == [
+        "name                       value [m]",
+        "-------------------------  ---------",
+        "a b                                1",
+        "a long cell of many words      -12.5",
+    ]

@@ -1,0 +1,237 @@
+"""Impacts on a damped plate: limits, causality, energy, refusals, and what omitting it changes."""
+
+import math
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.interpolate import CubicSpline
+
+from derivation.scene import SceneError, explain, indent, read, simulate
+from derivation.scene.result import Result
+from derivation.scene.scene import OUTPUTS
+from derivation.scene.wave_motion import deflections
+
+GLASS = {
+    "sphere": {"radius": 0.01, "density": 7850.0},
+    "plate": {
+        "radius": 0.1,
+        "thickness": 0.006,
+        "youngs_modulus": 70e9,
+        "poissons_ratio": 0.22,
+        "density": 2500.0,
+    },
+    "impact": {"speed": 1.0},
+    "effects": {"non_hertzian_pressure": False, "spherical_profile": False},
+    "inertia": {"branches": "A0", "modes": 16},
+}
+MEMBRANE = {"radius": 0.05, "thickness": 0.001}
+
+
+def scene(loss_factor: float | None, **changes: dict[str, Any]) -> dict[str, Any]:
+    tables = {name: keys | changes.get(name, {}) for name, keys in GLASS.items()}
+    if loss_factor is not None:
+        tables["plate"]["loss_factor"] = loss_factor
+    return tables
+
+
+def struck(loss_factor: float | None, **changes: dict[str, Any]) -> Result:
+    return simulate(read(scene(loss_factor, **changes)))
+
+
+def values(found: Result) -> np.ndarray:
+    return np.array([getattr(found, name) for name in OUTPUTS])
+
+
+# --- limits
+
+
+def test_no_loss_factor_and_zero_are_the_same_plate() -> None:
+    assert values(struck(None)).tolist() == values(struck(0.0)).tolist()
+
+
+@pytest.mark.parametrize("plate", [{}, {"edge": "clamped"}, MEMBRANE])
+def test_the_undamped_plate_is_the_limit_to_first_order(plate: dict[str, Any]) -> None:
+    modes = {"modes": 8}
+    elastic = values(struck(None, plate=plate, inertia=modes))
+    first, second, third = (
+        (values(struck(eta, plate=plate, inertia=modes)) / elastic - 1) / eta
+        for eta in (1e-7, 1e-6, 2e-6)
+    )
+    assert np.all(np.isfinite(first))
+    # The slope is the same from afar, but for what is of second order.
+    assert 2 * second - third == pytest.approx(first, rel=1e-3, abs=1e-3)
+
+
+def test_the_energy_lost_is_that_of_perturbation_theory() -> None:
+    """To first order 2 zeta omega q'^2 over the modal mass, of the undamped motion."""
+    eta, wide = 1e-6, {"radius": 0.15}
+    elastic = struck(None, plate=wide)
+    assert elastic.dynamics is not None
+    history, balance = elastic.dynamics.impact_history, elastic.dynamics.energy_balance
+    problem, [touching] = history.problem, history.contacts
+    # Closer where the contact begins, whose force is a power of time.
+    t = touching.end * np.linspace(0.0, 1.0, 2001) ** 2
+    q = CubicSpline(t, [deflections(history, float(x)) for x in t])
+    rate = q(t, 1)
+    power = CubicSpline(t, (rate**2 / problem.inverse_modal_mass) @ problem.omega)
+    lost = eta * float(power.integrate(0.0, touching.end)) * 2 * balance.initial_kinetic
+    damped = struck(eta, plate=wide).dynamics
+    assert damped is not None
+    assert damped.energy_balance.damping_loss == pytest.approx(lost, rel=1e-4)
+
+
+def test_static_contacts_are_not_damped() -> None:
+    compliance = [indent(read(scene(eta)), force=10.0)[0].indentation for eta in (None, 0.5)]
+    assert compliance[0] == compliance[1]
+
+
+# --- causality
+
+
+def test_before_the_first_echo_only_the_local_damping_counts() -> None:
+    """The contact has ended before a wave returns from the edge of these plates.
+
+    Equal ratios for all modes act on the paper's edge as a local damping (of the curvature's rate).
+    On held edges they act at a distance too, by well below 1 % of what damping changes.
+    """
+
+    def wide(eta: float | None, edge: str, b: float) -> np.ndarray:
+        settings = {"modes": int(240 * b)}
+        return values(struck(eta, plate={"radius": b, "edge": edge}, inertia=settings))
+
+    elastic, damped = (wide(eta, "paper", 0.25) for eta in (None, 0.2))
+    assert wide(0.2, "paper", 0.35) == pytest.approx(damped, rel=1e-4)
+    effect = np.abs(damped / elastic - 1)
+    assert effect[0] > 0.02 < 0.1 < effect[-1]
+    for edge in ("simply-supported", "clamped"):
+        apart = np.abs(wide(0.2, edge, 0.25) / damped - 1)
+        assert np.all(apart < 5e-3 * effect + 1e-5)
+
+
+def test_a_plate_without_edge_is_one_whose_edge_is_far() -> None:
+    wide = struck(0.2, plate={"radius": 0.25}, inertia={"modes": 60})
+    endless = struck(0.2, inertia={"modes": "auto", "extent": "infinite"})
+    assert values(endless) == pytest.approx(values(wide), rel=1e-3)
+
+
+# --- energy
+
+EVERYWHERE: dict[str, dict[str, Any]] = {
+    "plate": {},
+    "clamped": {"plate": {"edge": "clamped"}},
+    "simply supported": {"plate": {"edge": "simply-supported"}},
+    "every branch": {"inertia": {"branches": "all"}},
+    "pointwise": {"inertia": {"coupling": "pointwise"}},
+    "viscoelastic": {"plate": {"retardation_time": 3e-6}},
+    "viscoelastic, several contacts": {
+        "plate": MEMBRANE | {"retardation_time": 3e-6},
+        "inertia": {"modes": 8},
+    },
+    "heavy": {"impact": {"speed": 0.05, "gravity": 9.81}},
+    "several contacts": {"plate": MEMBRANE, "inertia": {"modes": 8}},
+}
+
+
+@pytest.mark.parametrize("name", EVERYWHERE)
+@pytest.mark.parametrize("eta", [0.01, 1.0])
+def test_energy_is_accounted_for(name: str, eta: float) -> None:
+    """What damping takes is an integral of its own, so that the residual tells."""
+    found = struck(eta, **EVERYWHERE[name])
+    assert found.complete
+    assert found.dynamics is not None
+    balance = found.dynamics.energy_balance
+    assert abs(balance.residual) < 1e-10
+    assert balance.damping_loss > 1e-4 * eta * balance.initial_kinetic
+    assert found.dynamics.to_json()["energy_balance"]["damping_loss"] == balance.damping_loss
+    assert "damping of the plate" in found.dynamics.notes()[0]
+
+
+def test_a_plate_in_flight_only_loses_energy() -> None:
+    found = struck(0.05, plate=MEMBRANE, inertia={"modes": 8})
+    assert found.dynamics is not None
+    contacts = found.dynamics.inertia.contacts
+    assert len(contacts) > 1
+    for one, other in pairwise(contacts):
+        energy = found.dynamics.rows(np.linspace(one.end, other.start, 50)[1:-1])[5]
+        assert np.all(np.diff(energy) < 0)
+
+
+def test_more_damping_leaves_less_in_the_plate() -> None:
+    left = [struck(eta).dynamics for eta in (None, 0.01, 0.1, 1.0)]
+    energies = [found.energy_balance.plate for found in left if found is not None]
+    assert all(later < earlier for earlier, later in pairwise(energies))
+
+
+# --- what a scene may say
+
+
+def row(tables: dict[str, Any]) -> Any:
+    return {row.name: row for row in explain(read(tables)).effects.rows}["damping"]
+
+
+@pytest.mark.parametrize("value", [-0.01, 2.0, 3.0])
+def test_a_loss_factor_is_below_critical_damping(value: float) -> None:
+    with pytest.raises(SceneError, match=r"plate\.loss_factor: .* from 0 to below 2, where"):
+        read(scene(value))
+
+
+def test_where_damping_does_not_apply_the_table_says_why() -> None:
+    assert row(scene(None)).reason == "no plate.loss_factor"
+    still = {"inertia": False}
+    assert row(scene(0.1, effects=still)).reason == "effects.inertia = false"
+    light = scene(0.1, effects=still)
+    del light["plate"]["density"]
+    assert row(light).reason.startswith("no plate.density")
+    with pytest.raises(SceneError, match=r"effects\.damping: expected effects\.inertia"):
+        explain(read(scene(0.1, effects=still | {"damping": True})))
+
+
+def test_damping_is_included_where_it_matters_and_can_be_disabled() -> None:
+    assert row(scene(0.1)).included
+    out = row(scene(0.1, effects={"damping": False}))
+    assert out.disabled
+    elastic = values(struck(None))
+    assert values(struck(0.1, effects={"damping": False})).tolist() == elastic.tolist()
+    asked = explain(read(scene(0.1, effects={"damping": True})))
+    assert {"inertia", "damping"} <= asked.effects.law.effects
+
+
+# --- the bound
+
+
+NEARLY_STATIC = [
+    {"plate": {"radius": 0.02}, "impact": {"speed": 0.05}},
+    {"plate": {"radius": 0.03, "thickness": 0.01}, "impact": {"speed": 0.3}},
+    {"plate": {"radius": 0.02, "thickness": 0.008}, "sphere": {"density": 2e5}},
+    {"plate": {"radius": 0.03, "edge": "clamped"}, "sphere": {"density": 5e5}},
+    {"plate": {"radius": 0.02}, "impact": {"speed": 0.02, "gravity": 9.81}},
+]
+
+
+@pytest.mark.parametrize("changes", NEARLY_STATIC)
+@pytest.mark.parametrize("eta", [1e-3, 1.0])
+def test_what_omitting_it_changes_is_within_its_bound(
+    changes: dict[str, dict[str, Any]], eta: float
+) -> None:
+    effects = {"inertia": True, "damping": True}
+    whole = struck(eta, **changes, effects=effects)
+    rest = struck(eta, **changes, effects=effects | {"damping": False})
+    for found in (whole, rest):
+        bound = {row.name: row.bound for row in found.effects.rows}["damping"]
+        assert np.max(np.abs(values(rest) / values(whole) - 1)) <= bound < math.inf
+
+
+def test_no_bound_is_stated_where_inertia_has_none() -> None:
+    assert math.isinf(row(scene(1e-3, plate=MEMBRANE)).bound)
+
+
+def test_it_is_omitted_where_the_plate_is_nearly_at_rest() -> None:
+    """Its bound then enters the stated error."""
+    tables = scene(1e-4, plate={"radius": 0.02}, impact={"speed": 0.001}, sphere={"density": 1e6})
+    del tables["inertia"]
+    found = explain(read(tables), rtol=0.5)
+    assert not row(tables | {"accuracy": {"rtol": 0.5}}).included
+    bound = {row.name: row.bound for row in found.effects.rows}["damping"]
+    assert 0 < bound <= found.effects.error

@@ -1,0 +1,285 @@
+"""Materials of sphere and plate: the catalogue, a scene's own, and what a contact takes of both."""
+
+import json
+import math
+import time
+from collections.abc import Mapping
+from typing import Any
+
+import jsonschema
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from derivation.cli import main
+from derivation.scene import SceneError, read, schema, simulate, sweep
+from derivation.scene.materials import MATERIALS, find, plain
+from derivation.scene.model import Model, model_of
+from generated.viscous_bodies import retardation_of_two
+
+Tables = dict[str, dict[str, Any]]
+RUBBER = {"youngs_modulus": 4e6, "poissons_ratio": 0.45, "density": 1150.0}
+OWN = {"my ice": {"youngs_modulus": 9e9, "poissons_ratio": 0.3, "density": 900.0}}
+
+
+def tables(sphere: Mapping[str, Any], plate: Mapping[str, Any], **others: Any) -> Tables:
+    base: Tables = {
+        "sphere": {"radius": 0.01} | dict(sphere),
+        "plate": {"radius": 0.2, "thickness": 0.05} | dict(plate),
+        "impact": {"speed": 1.0},
+    }
+    return base | others
+
+
+def model(sphere: Mapping[str, Any], plate: Mapping[str, Any], **others: Any) -> Model:
+    return model_of(read(tables(sphere, plate, **others)))
+
+
+def test_every_material_is_possible_and_has_a_source() -> None:
+    names = [plain(name) for m in MATERIALS.values() for name in (m.name, *m.also)]
+    assert len(names) == len(set(names))
+    for material in MATERIALS.values():
+        assert material.youngs_modulus > 0
+        assert -1 < material.poissons_ratio < 0.5
+        assert len(material.source) > 20
+        if material.name != "paper":
+            assert material.density is not None
+            # Speed of longitudinal waves in a thin bar: 36 m/s in rubber, 9.8 km/s in alumina.
+            assert 30 < math.sqrt(material.youngs_modulus / material.density) < 1.1e4
+
+
+@pytest.mark.parametrize(
+    ("name", "shear"),
+    [
+        ("Gorilla Glass 3", 28.5e9), ("Gorilla Glass 5", 31.7e9), ("fused silica", 31.4e9),
+        ("ice", 3.52e9), ("brass", 37.3e9), ("copper", 48.3e9), ("titanium", 42.7e9),
+    ],
+)  # fmt: skip
+def test_shear_moduli_are_those_the_sources_state_too(name: str, shear: float) -> None:
+    material = find(name)
+    assert material is not None
+    assert material.mu == pytest.approx(shear, rel=0.02)
+
+
+@pytest.mark.parametrize("name", ["Bearing-Steel", "100cr6", "AISI 52100", "bearing_steel"])
+def test_names_are_matched_without_case_spaces_and_hyphens(name: str) -> None:
+    assert find(name) is MATERIALS["bearing steel"]
+
+
+def test_constants_are_as_good_as_a_name() -> None:
+    named = model({"material": "steel"}, {"material": "glass"})
+    steel = {"youngs_modulus": 210e9, "poissons_ratio": 0.3, "density": 7850}
+    glass = {"youngs_modulus": 70e9, "poissons_ratio": 0.2, "density": 2500}
+    given = model(steel, glass)
+    own = model({"material": "a"}, {"material": "b"}, materials={"a": steel, "b": glass})
+    assert given == Model(**(vars(named) | {"solid_density": 0.0}))
+    assert own == named
+
+
+def test_values_of_a_table_replace_those_of_its_material() -> None:
+    keys = {"density": 1000.0, "yield_stress": 1e8, "retardation_time": 1e-6}
+    found = model({"material": "steel"} | keys, {"material": "steel S355"} | keys)
+    assert found.density == 1000.0
+    assert found.yield_stress == found.plate_yield_stress == 1e8
+    assert found.retardation_time == 1e-6
+    assert found.m == pytest.approx(1000 * math.pi * 0.02**3 / 6, rel=1e-14)
+    assert model({"material": "steel"}, {"material": "S355"}).yield_stress == 355e6
+    assert model({"material": "steel"}, {"material": "steel"}).yield_stress == math.inf
+
+
+def test_a_scene_s_own_material_comes_before_the_catalogue() -> None:
+    found = model({"material": "ice"}, {"material": "ICE"}, materials={"Ice": OWN["my ice"]})
+    assert found.density == 900.0
+    assert found.softness == 1.0
+
+
+STEEL = {"material": "steel"}
+BAD: list[tuple[Tables, str]] = [
+    (tables({"material": "stel"}, STEEL), "sphere.material|name of a material|did you mean steel?"),
+    (tables({"material": "my-ise"}, STEEL, materials=OWN), "did you mean my ice?"),
+    (tables({"material": "tennis ball"}, STEEL), "solid sphere|hollow: a shell bends"),
+    (tables(STEEL, {"material": 3}), "plate.material: expected the name of a material|got 3"),
+    (tables({"material": "paper"}, STEEL), "sphere.material|known density|mass = 72"),
+    (tables({"density": 1, "youngs_modulus": 1e9}, STEEL), "add sphere.poissons_ratio"),
+    (tables(STEEL | {"youngs_modulus": 1e9, "poissons_ratio": 0.3}, STEEL), "got both"),
+    (tables({"youngs_modulus": 1e9, "poissons_ratio": 0.3}, STEEL), "or sphere.density"),
+    (tables({"mass": 1, "retardation_time": 1.0}, STEEL), "sphere.retardation_time|a rigid one"),
+    (tables({"mass": 1, "yield_stress": 1.0}, STEEL), "sphere.yield_stress|a rigid one"),
+    (tables(STEEL | {"wall_thickness": 1e-3}, STEEL), "wall_thickness: unknown key: the sphere is"),
+    (tables(STEEL | {"thickness": 1e-3}, STEEL), "sphere.thickness: unknown key: the sphere is"),
+    (tables(STEEL, STEEL, materials=3), "materials: expected tables [materials.NAME], got 3"),  # type: ignore[arg-type]
+    (tables(STEEL, STEEL, materials={"a": 3}), "materials.a: expected a table [materials.a]"),
+    (tables(STEEL, STEEL, materials={"a": {}}), "3 problems|materials.a.density|got nothing"),
+    (
+        tables(STEEL, STEEL, materials={"a": RUBBER | {"densty": 1.0}}),
+        "materials.a.densty: unknown key|did you mean density?",
+    ),
+    (
+        tables(STEEL, STEEL, materials={"a": RUBBER | {"poissons_ratio": 0.5}}),
+        "materials.a.poissons_ratio: expected a number above -1 and below 0.5|got 0.5",
+    ),
+    (tables(STEEL, STEEL, materials={"a-b": RUBBER, "A B": RUBBER}), "names that differ|rename"),
+    (tables(STEEL, STEEL, materials={" ": RUBBER}), "a name with letters or digits"),
+    (tables(STEEL, STEEL, material={"a": RUBBER}), "unknown table|did you mean materials?"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("scene", "says"), BAD)
+def test_a_bad_material_is_one_clear_message(scene: Tables, says: str) -> None:
+    with pytest.raises(SceneError) as caught:
+        read(scene)
+    for words in says.split("|"):
+        assert words in str(caught.value)
+
+
+def test_an_unused_material_is_accepted_and_a_scene_is_read_as_written() -> None:
+    scene = read(tables(STEEL, STEEL, materials=OWN))
+    assert read(scene.to_json()) == scene
+    assert scene.to_json()["materials"] == OWN
+    assert "materials.my ice" in scene._repr_html_()
+
+
+def test_a_light_sphere_is_said_to_be_hollow_maybe() -> None:
+    solid = 7850 * math.pi * 0.02**3 / 6
+    for share, warned in ((0.32, True), (0.34, False), (2.0, False)):
+        found = simulate(read(tables({"material": "steel", "mass": share * solid}, STEEL)))
+        assert any("bends like a shell" in text for text in found.warnings) == warned
+
+
+def test_the_body_that_yields_first_is_named() -> None:
+    weak, strong = {"material": "steel", "yield_stress": 1e8}, {"material": "S355"}
+    for sphere, plate, body in ((weak, strong, "sphere"), (strong, weak, "plate")):
+        scene = read(tables(sphere, plate, effects={"plasticity": False}))
+        [text] = [t for t in simulate(scene).warnings if "yields" in t]
+        assert f"the {body} yields below the contact" in text
+
+
+TIME = st.floats(1e-9, 1e-1)
+SOFTNESS = st.floats(1e-6, 1e6)
+
+
+@given(TIME, TIME, SOFTNESS)
+def test_the_contact_s_time_lies_between_the_bodies_and_knows_no_order(
+    plate: float, sphere: float, softness: float
+) -> None:
+    found = retardation_of_two(plate, sphere, softness)
+    low, high = sorted((plate, sphere))
+    assert low * (1 - 1e-15) <= found <= high * (1 + 1e-15)
+    assert found == pytest.approx(retardation_of_two(sphere, plate, 1 / softness), rel=1e-14)
+    assert retardation_of_two(plate, sphere, 0.0) == plate
+
+
+@given(TIME, TIME, SOFTNESS)
+def test_two_bodies_in_series_have_that_time_to_first_order(
+    plate: float, sphere: float, softness: float
+) -> None:
+    """Their complex stiffness at a frequency w: what differs falls with w^2."""
+    mean = retardation_of_two(plate, sphere, softness)
+    for w in (1e-2 / max(plate, sphere), 1e-3 / max(plate, sphere)):
+        series = (1 + softness) / (1 / (1 + 1j * w * plate) + softness / (1 + 1j * w * sphere))
+        assert abs(series - (1 + 1j * w * mean)) <= (w * (plate - sphere)) ** 2 + 1e-15
+
+
+def test_it_does_not_matter_which_of_two_equal_bodies_is_viscous() -> None:
+    steel, lossy = {"material": "steel"}, {"material": "steel", "retardation_time": 1e-6}
+    one, other, both = (
+        simulate(read(tables(s, p, effects={"inertia": False})), rtol=1e-3)
+        for s, p in ((steel, lossy), (lossy, steel), (lossy, lossy))
+    )
+    assert one.restitution == other.restitution
+    assert both.restitution < one.restitution < 1.0
+    # To first order the loss of two viscous bodies is twice that of one.
+    assert math.log(both.restitution) == pytest.approx(2 * math.log(one.restitution), rel=0.05)
+
+
+SCENES: dict[str, Tables] = {
+    "hail of 25 mm on a bonnet, 20 m/s": tables(
+        {"radius": 0.0125, "material": "ice"},
+        {"radius": 0.3, "thickness": 0.0008, "material": "steel"},
+        impact={"speed": 20.0},
+    ),
+    "glass marble on an alumina tile": tables(
+        {"radius": 0.008, "material": "glass"},
+        {"radius": 0.15, "thickness": 0.01, "material": "alumina"},
+    ),
+    "bearing ball on a steel plate": tables(
+        {"radius": 0.005, "material": "bearing steel"},
+        {"radius": 0.1, "thickness": 0.02, "material": "steel S355"},
+    ),
+    "impact-echo on concrete": tables(
+        {"radius": 0.004, "material": "bearing steel"},
+        {"radius": 1.0, "thickness": 0.2, "material": "concrete"},
+        impact={"speed": 2.0},
+    ),
+    "steel on PMMA": tables(
+        {"material": "steel"}, {"radius": 0.15, "thickness": 0.01, "material": "PMMA"}
+    ),
+    "130 g of steel on phone glass": tables(
+        {"radius": 0.0158, "mass": 0.13, "material": "steel"},
+        {"radius": 0.01, "thickness": 0.0007, "material": "phone glass",
+         "edge": "simply-supported"},
+    ),
+    # Mass and radius: the Rules of Golf. The modulus gives, by Hertz's law, the half millisecond
+    # of contact of a drive (Cochran and Stobbs, The Search for the Perfect Swing, 1968).
+    "golf ball on a titanium face, 15 m/s": tables(
+        {"radius": 0.02134, "mass": 0.04593, "youngs_modulus": 97e6, "poissons_ratio": 0.45},
+        {"radius": 0.04, "thickness": 0.003, "material": "Ti-6Al-4V", "edge": "clamped"},
+        impact={"speed": 15.0},
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_what_engineers_bring_runs_at_one_percent(name: str) -> None:
+    tolerance = 0.02 if "echo" in name else 0.01
+    found = simulate(read(SCENES[name]), rtol=tolerance)
+    assert found.complete
+    assert 0 < found.restitution <= 1.0
+    assert found.accuracy.bound <= tolerance
+
+
+def test_a_drive_is_refused_at_once_with_what_to_do() -> None:
+    """At 45 m/s a golf ball flattens to more than half of its radius."""
+    drive = SCENES["golf ball on a titanium face, 15 m/s"] | {"impact": {"speed": 45.0}}
+    start = time.process_time()
+    with pytest.raises(SceneError, match="give a lower speed"):
+        simulate(read(drive), rtol=0.01)
+    assert time.process_time() - start < 1.0
+
+
+def test_keys_of_materials_are_swept() -> None:
+    scene = read(tables({"material": "steel"}, {"material": "PMMA"}))
+    rows = sweep.run(scene, sweep.parse("sphere.retardation_time=1e-6:1e-5:2"), rtol=0.02)
+    assert all(row.results for row in rows)
+    scene = read(tables({"material": "my ice"}, STEEL, materials=OWN))
+    rows = sweep.run(scene, sweep.parse("materials.my ice.density=900:1800:2"), rtol=0.02)
+    light, heavy = (row.results["max_force"] for row in rows)
+    assert light < heavy
+    with pytest.raises(SceneError, match="expected a number of the scene file"):
+        sweep.parse("materials.my ice.source=1:2:2")
+
+
+def test_schema_holds_what_is_read_and_refused() -> None:
+    validator = jsonschema.Draft202012Validator(schema())
+    for scene in SCENES.values():
+        validator.validate(scene)
+    validator.validate(tables(STEEL, STEEL, materials=OWN))
+    for sphere in (
+        {"material": "steel", "youngs_modulus": 1e9, "poissons_ratio": 0.3},
+        {"mass": 1.0, "youngs_modulus": 1e9},
+        {"mass": 1.0, "density": 1.0},
+        {},
+    ):
+        assert not validator.is_valid(tables(sphere, STEEL))
+
+
+def test_the_command_lists_and_shows_materials(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["materials", "--json", "-"]) == 0
+    listed = json.loads(capsys.readouterr().out)
+    assert [row["name"] for row in listed] == list(MATERIALS)
+    assert main(["materials", "hail"]) == 0
+    assert "Gammon" in capsys.readouterr().out
+    assert main(["materials"]) == 0
+    assert "zirconia" in capsys.readouterr().out
+    assert main(["materials", "irn"]) == 2
+    assert "expected the name of a material" in capsys.readouterr().err

@@ -1,0 +1,84 @@
+"""A measured restitution: the value that it tells gives it back."""
+
+import math
+from typing import Any
+
+import pytest
+
+from derivation.scene import SceneError, read, simulate
+from derivation.scene.measured import fitted, in_words, solved
+from derivation.scene.viscous import impact as viscous_impact
+from generated.plasticity import plastic_restitution, yield_radius
+
+BLOCK: dict[str, Any] = {
+    "sphere": {"radius": 0.01, "density": 7850.0},
+    "plate": {
+        "radius": 0.2, "thickness": 0.02, "youngs_modulus": 70e9, "poissons_ratio": 0.3,
+        "density": 2700.0,
+    },
+    "impact": {"speed": 2.0},
+}  # fmt: skip
+
+
+def measured(**keys: object) -> Any:
+    """The scene with a measurement."""
+    return read(BLOCK | {"measured": keys})
+
+
+def test_yield_stress_of_a_block_is_thorntons() -> None:
+    wanted = {"restitution": 0.6, "solve_for": "yield_stress"}
+    stress = solved(read(BLOCK | {"measured": wanted, "effects": {"spherical_profile": False}}))
+    modulus, mass = 70e9 / 0.91, 4 / 3 * math.pi * 0.01**3 * 7850.0
+    lam, mu = 70e9 * 0.3 / (1.3 * 0.4), 70e9 / 2.6
+    onset = float(yield_radius(0.01, lam, mu, stress))
+    energy = 8 / 15 * modulus * onset**5 / 0.01**2
+    xi = ((6.0 * 0.5 * mass * 2.0**2 / energy - 1.0) / 5.0) ** (1.0 / 6.0)
+    assert float(plastic_restitution(xi)) == pytest.approx(0.6, rel=1e-7)
+
+
+@pytest.mark.parametrize("goal", [0.15, 0.97])
+def test_retardation_time_gives_the_restitution_back(goal: float) -> None:
+    time = solved(measured(restitution=goal, solve_for="retardation_time", tested_at=0.5))
+    still = dict.fromkeys(("bending", "finite_thickness", "finite_radius", "edge"), False)
+    block = BLOCK["plate"] | {"radius": 100.0, "thickness": 200.0, "retardation_time": time}
+    found = simulate(
+        read(BLOCK | {
+            "plate": block, "impact": {"speed": 0.5},
+            "effects": still | {"inertia": False, "viscosity": True},
+            "accuracy": {"rtol": 1e-8},
+        })
+    )  # fmt: skip
+    assert found.restitution == pytest.approx(goal, rel=1e-6)
+    assert viscous_impact(found.effects.law).restitution == found.restitution
+
+
+def test_plate_itself_is_what_was_struck() -> None:
+    scene = measured(restitution=0.2, solve_for="yield_stress", target="plate")
+    result = simulate(scene)
+    assert result.restitution == pytest.approx(0.2, abs=2e-4)
+    assert "plate.yield_stress" in in_words(scene)
+    assert result.to_json()["yield_stress"] == solved(scene)
+    assert result.energy_balance is not None
+    assert result.energy_balance.plate > 0.0
+    assert result.energy_balance.plastic_loss > 0.0
+
+
+def test_more_than_waves_leave_is_refused() -> None:
+    with pytest.raises(SceneError, match=r"measured\.restitution: expected less than 0\.\d+"):
+        simulate(measured(restitution=0.99, solve_for="yield_stress", target="plate"))
+
+
+def test_a_value_is_given_once() -> None:
+    plate = BLOCK["plate"] | {"yield_stress": 1e8}
+    with pytest.raises(SceneError, match=r"measured\.solve_for: .*remove plate\.yield_stress"):
+        read(
+            BLOCK | {"plate": plate, "measured": {"restitution": 0.5, "solve_for": "yield_stress"}}
+        )
+
+
+def test_everything_else_is_kept() -> None:
+    scene = fitted(measured(restitution=0.6, solve_for="yield_stress"))
+    assert scene.measured is None
+    kept = scene.to_json()
+    del kept["plate"]["yield_stress"]
+    assert kept == read(BLOCK).to_json()

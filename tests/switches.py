@@ -1,0 +1,152 @@
+"""Which sides of their comparisons modules take, and how close to the switch: counted as they run.
+
+Functions keep their identity, so that it does not matter who holds them: only what they execute
+is replaced, by the same code with every comparison counted.
+"""
+
+import ast
+import gc
+import math
+import operator
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass, field
+from itertools import pairwise
+from types import CodeType, FunctionType, ModuleType
+from typing import Any, NamedTuple
+from unittest.mock import patch
+
+import numpy as np
+
+COUNTER = "_counted_comparison"
+OPERATORS: Mapping[type[ast.cmpop], Any] = {
+    ast.Lt: operator.lt, ast.LtE: operator.le, ast.Gt: operator.gt, ast.GtE: operator.ge,
+    ast.Eq: operator.eq, ast.NotEq: operator.ne,
+}  # fmt: skip
+
+
+class Place(NamedTuple):
+    """A comparison: module and function, and the how manyth it is there."""
+
+    home: str
+    number: int
+
+
+@dataclass
+class Sides:
+    """The relative distance of a comparison's operands, the least on either side; inf for none."""
+
+    true: float = math.inf
+    false: float = math.inf
+
+    def count(self, left: Any, right: Any, outcome: Any) -> None:
+        """Whole numbers that follow each other are close, as all are to 0; NaN is on no side.
+
+        So are all counts and names.
+        """
+        left, right, outcome = np.broadcast_arrays(left, right, outcome)
+        if left.dtype.kind not in "f" and right.dtype.kind not in "f":
+            left = right = np.zeros(left.shape)
+        with np.errstate(all="ignore"):
+            apart = np.abs(np.subtract(left, right, dtype=float))
+            whole = (left == np.rint(left)) & (right == np.rint(right)) & (apart <= 1)
+            gap = apart / np.maximum(np.abs(left), np.abs(right))
+            gap = np.where(whole | (left == 0) | (right == 0) | (left == right), 0.0, gap)
+        gap[np.isnan(left) | np.isnan(right)] = np.inf
+        gap[np.isnan(gap)] = 1.0  # infinities
+        self.true = min(self.true, gap[outcome].min(initial=np.inf))
+        self.false = min(self.false, gap[~outcome].min(initial=np.inf))
+
+
+@dataclass
+class Watch:
+    """What the comparisons of modules have done."""
+
+    sides: dict[Place, Sides] = field(default_factory=dict)
+
+    def beyond(self, reach: float) -> dict[Place, Sides]:
+        """The comparisons that have not come this close to both sides of the switch."""
+        return {
+            place: sides
+            for place, sides in self.sides.items()
+            if not max(sides.true, sides.false) <= reach
+        }
+
+
+@contextmanager
+def watched(texts: Mapping[ModuleType, str]) -> Iterator[Watch]:
+    """Count the comparisons of numbers in functions of modules with these texts.
+
+    Left out are conditions of `inside`, beyond which values are NaN, what refuses arguments,
+    what ends a loop, and tests for presence.
+    """
+    watch, found = Watch(), {}
+    with ExitStack() as stack:
+        for module, text in texts.items():
+            counting = _Counting(module.__name__.rpartition(".")[2], watch)
+            tree = ast.fix_missing_locations(counting.visit(ast.parse(text)))
+            file = str(module.__file__)
+            for code in _codes(compile(tree, file, "exec")):
+                found[file, code.co_qualname, code.co_firstlineno] = code
+            stack.enter_context(patch.object(module, COUNTER, counting.compared, create=True))
+        for function in [x for x in gc.get_objects() if isinstance(x, FunctionType)]:
+            old = function.__code__
+            new = found.get((old.co_filename, old.co_qualname, old.co_firstlineno))
+            if new is not None:
+                stack.callback(setattr, function, "__code__", old)
+                function.__code__ = new
+        yield watch
+
+
+def _codes(code: CodeType) -> Iterator[CodeType]:
+    yield code
+    for part in code.co_consts:
+        if isinstance(part, CodeType):
+            yield from _codes(part)
+
+
+class _Counting(ast.NodeTransformer):
+    """A module's comparisons, each turned into a call that counts it."""
+
+    def __init__(self, module: str, watch: Watch) -> None:
+        self.home, self.watch = module, watch
+        self.kinds: dict[Place, Any] = {}
+
+    def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
+        outer, self.home = self.home, f"{self.home}.{node.name}"
+        found = self.generic_visit(node)
+        self.home = outer
+        return found
+
+    def visit_If(self, node: ast.If) -> ast.AST:
+        if len(node.body) == 1 and isinstance(node.body[0], ast.Raise | ast.Break):
+            return node
+        return self.generic_visit(node)
+
+    def visit_Call(self, node: ast.Call) -> ast.AST:
+        if isinstance(node.func, ast.Name) and node.func.id == "inside":
+            return node
+        return self.generic_visit(node)
+
+    def visit_Compare(self, node: ast.Compare) -> ast.AST:
+        self.generic_visit(node)
+        if not all(type(op) in OPERATORS for op in node.ops):
+            return node
+        number = sum(place.home == self.home for place in self.kinds)
+        for index, op in enumerate(node.ops):
+            self.kinds[Place(self.home, number + index)] = OPERATORS[type(op)]
+            self.watch.sides[Place(self.home, number + index)] = Sides()
+        at = [ast.Constant(self.home), ast.Constant(number)]
+        call = ast.Call(ast.Name(COUNTER, ast.Load()), [*at, node.left, *node.comparators], [])
+        return ast.copy_location(call, node)
+
+    def compared(self, home: str, number: int, *operands: Any) -> Any:
+        """The outcome of a comparison, each pair of a chained one counted by itself."""
+        outcome: Any = True
+        for index, (left, right) in enumerate(pairwise(operands)):
+            place = Place(home, number + index)
+            outcome = self.kinds[place](left, right)
+            self.watch.sides[place].count(left, right, outcome)
+            if index + 2 < len(operands) and not outcome:
+                break
+        return outcome

@@ -14,10 +14,10 @@ from derivation.scene.model import Model
 EXAMPLES = Path(derivation.scene.__file__).parent / "examples"
 PAPER = EXAMPLES / "paper.toml"
 AT_REST = {"inertia": False}
-"""What a scene wants whose plate follows at rest."""
+"""Effects of a scene whose plate is quasi-static."""
 _MORE = "inertia", "damping", "plasticity"
 ALL = frozenset(name for name, e in BY_NAME.items() if e.selectable and name not in _MORE)
-"""Every effect of a law at rest that does not yield; the plate of `model` is simply supported."""
+"""Every effect of a quasi-static law that does not yield; the plate of `model` is simply supported."""
 
 
 def model(**changes: Any) -> Model:

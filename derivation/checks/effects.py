@@ -46,9 +46,9 @@ class EffectCheckRow:
     tightest
         Largest difference over the bound stated.
     included
-        Effects taken in, on average, beside the one that always is.
+        Effects included, on average, besides Hertz's contact.
     applicable
-        Effects that applied, on average, beside it.
+        Effects that applied, on average, besides it.
     quantity, number
         Of which result the largest ratio was, and in which scene.
     refused
@@ -167,7 +167,7 @@ def gated(data: Scene, rtol: float) -> tuple[Sequence[float], Sequence[str], flo
 
 
 def everything(data: Scene) -> tuple[Sequence[float], Sequence[str]] | None:
-    """The same scene with every effect that applies, on a plate at rest: results and effects.
+    """The same scene with every effect that applies, on a quasi-static plate: results and effects.
 
     None beyond the range of the models.
     """

@@ -39,7 +39,7 @@ OSCILLATORS = 1200
 ANY, MUCH = 1.0, 0.3
 """A tolerance that leaves inertia out whatever it changes; a change too large to be left out."""
 MET, TIGHT = 3.0, 1e-4
-"""A tolerance that can be met, over what branches may be worth at rest; and at least [1]."""
+"""A tolerance that can be met, over what branches may contribute statically; and at least [1]."""
 
 
 def judge(count: int, seed: int = inertia.SEED, tell: Tell = quiet) -> InertiaJudged:
@@ -69,7 +69,7 @@ def pass_over(data: Scene) -> str:
         return f"Zener's number above {HEAVIEST:g}"
     still = at_rest(model)
     if still is None:
-        return "no impact on the plate at rest"
+        return "no impact on the quasi-static plate"
     if weight_share(model, still.max_indentation) > FALLEN:
         return f"work of the weight over the energy brought above {FALLEN:g}"
     most = MODES[data["inertia"]["branches"]]

@@ -112,7 +112,7 @@ class Worker:
                 return Outcome(kind, message, rtol, scene, seconds, memory)
             said: tuple[Kind, str] = "overrun", overrun(limit)
         except (EOFError, OSError):
-            said = ("traceback", "the process ended by itself")
+            said = ("traceback", "the process ended without a result")
         self.stop()
         self.start()
         return Outcome(*said, rtol, scene)

@@ -87,7 +87,7 @@ def recipe(scene: Scene) -> Recipe:
     SceneError
         As `simulate` does, and where no force follows from indentation and rate.
     """
-    _check_at_rest(scene)
+    _check_quasi_static(scene)
     result = simulate(scene)
     law: ContactLaw = result.effects.law
     motion = method_selection.moved(law)
@@ -155,8 +155,8 @@ def _numbers(
     return numbers
 
 
-def _check_at_rest(scene: Scene) -> None:
-    """Refuse a plate that moves and a contact that yields: the force depends on what went before.
+def _check_quasi_static(scene: Scene) -> None:
+    """Refuse plate inertia and yielding contacts, whose force depends on the motion so far.
 
     Raises
     ------
@@ -171,8 +171,8 @@ def _check_at_rest(scene: Scene) -> None:
         )
     if law.dynamic:
         raise SceneError(
-            "effects.inertia: expected false for the code of a scene, whose plate follows at rest, "
-            "got a plate that moves; write effects.inertia = false"
+            "effects.inertia: expected false for the code of a scene, whose plate is quasi-static, "
+            "got a plate with inertia; write effects.inertia = false"
         )
 
 

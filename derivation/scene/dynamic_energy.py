@@ -1,4 +1,4 @@
-"""Energy balance of an impact on a plate with inertia: each part integrated by itself."""
+"""Energy balance of an impact on a plate with inertia: each part is integrated."""
 
 from dataclasses import replace
 
@@ -42,8 +42,8 @@ def balance_of(history: ImpactHistory) -> EnergyBalance:
 def _damping_loss(history: ImpactHistory) -> float:
     """Energy over m v0^2 that the plate's damping takes, up to the last separation.
 
-    In contact its power is integrated; in flight, and in the last moment of a contact that is
-    taken in one step, the modes move freely.
+    In contact its power is integrated; in flight, and after the last time element of a contact, the
+    modes vibrate freely.
     """
     problem, found = history.problem, 0.0
     if not problem.damping_ratio:

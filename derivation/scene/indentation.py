@@ -1,6 +1,6 @@
 """Presses the sphere into the plate by a given contact radius, force or indentation.
 
-Every effect that applies to a contact at rest is in, unless the scene says false: at rest
+Every effect that applies to a static contact is included, unless the scene says false: there
 none of them costs time worth saving. Force and indentation are turned into radii by Newton's
 iteration in logarithms.
 """
@@ -39,7 +39,7 @@ Values = float | Iterable[float]
 
 @dataclass(frozen=True)
 class StaticContact:
-    """The sphere at rest in the plate.
+    """A static contact of sphere and plate.
 
     Attributes
     ----------
@@ -95,7 +95,7 @@ def indent(
     force: Values | None = None,
     indentation: Values | None = None,
 ) -> StaticContacts:
-    """Press the sphere in, at rest; exactly one of the three is to be given.
+    """Press the sphere in statically; exactly one of the three is to be given.
 
     Parameters
     ----------

@@ -184,7 +184,7 @@ def solve_selected(
     if law.of_paper:
         found, accuracy = solve(law.model, rest)
     elif law.dynamic:
-        found, accuracy = _on_moving_plate(selected, rtol)
+        found, accuracy = _with_inertia(selected, rtol)
     else:
         found, accuracy = _composed(law)
     accuracy = replace(
@@ -239,7 +239,7 @@ def _basis(selected: SelectedEffects) -> str:
 
 
 def _composed(law: ContactLaw) -> tuple[Results, AchievedAccuracy]:
-    """The results on a plate at rest by a law of any effects, and their bounds."""
+    """The results on a quasi-static plate by a law of any effects, and their bounds."""
     if law.hertzian and not (law.viscous or law.plastic or law.gravity):
         closed = _half_space(law)
         if closed is not None:
@@ -254,7 +254,7 @@ def _composed(law: ContactLaw) -> tuple[Results, AchievedAccuracy]:
     )
 
 
-def _on_moving_plate(
+def _with_inertia(
     selected: SelectedEffects, rtol: float | None
 ) -> tuple[Results, AchievedAccuracy]:
     """The results with inertia, and their bounds."""

@@ -145,7 +145,7 @@ def problems(
     fields = {name: dict(table.model_fields) for name, table in tables.items()}
     told: dict[object, Callable[[], str]] = {}
     for kind, place, value in found:
-        # Each alternative that a key has complains by itself.
+        # Every type that a key may have gives a message of its own; the first is enough.
         told.setdefault((place[:2], shown(value)), partial(explain, kind, place, value, fields))
     # Pydantic looks at keys together only if each is right; the user wants to hear all at once.
     for name, table in tables.items():

@@ -172,7 +172,7 @@ def changed(**tables: dict[str, Any]) -> dict[str, Any]:
 
 
 def test_scenes_are_passed_over_for_what_they_are() -> None:
-    """By hand: the work 2 g delta over v^2, delta by the impact itself, no less than at rest."""
+    """By hand: the work 2 g delta over v^2, delta by the impact itself, no less than on a quasi-static plate."""
     assert inertia_check.pass_over(changed()) == ""
     slow = changed(impact={"speed": 1e-3, "gravity": 9.81})
     assert "weight over the energy brought above 100" in inertia_check.pass_over(slow)
@@ -187,7 +187,7 @@ def test_scenes_are_passed_over_for_what_they_are() -> None:
     assert numbers[0] / numbers[1] == pytest.approx(1e4**0.6, rel=1e-9)
     assert numbers[1] < 5.0 < numbers[0]
     fast = changed(impact={"speed": 1e6})
-    assert inertia_check.pass_over(fast) == "no impact on the plate at rest"
+    assert inertia_check.pass_over(fast) == "no impact on the quasi-static plate"
     assert inertia_check.at_rest(model_of(read(fast))) is None
     assert inertia_check.pass_over(measure.scene(2)[0]) == "too many modes"
 

@@ -23,7 +23,7 @@ TINY = 1e-12
 
 
 def applicable(m: Model) -> frozenset[str]:
-    """Effects of a plate at rest."""
+    """Effects of a quasi-static plate."""
     return frozenset(name for name in ALL if not BY_NAME[name].not_applicable_reason(m))
 
 

@@ -79,7 +79,7 @@ assert not {"sympy", "flint", "mpmath", "scipy"} & set(sys.modules)
 
 @cache
 def scene_of(case: str) -> Any:
-    """A scene whose plate is at rest."""
+    """A scene whose plate is quasi-static."""
     if case in RANDOM:
         number, rtol = RANDOM[case]
         data = random_scene(number) | {"accuracy": {"rtol": rtol}}
@@ -104,7 +104,7 @@ def names_of(case: str) -> dict[str, Any]:
 
 
 def static_of(case: str) -> Callable[..., Any]:
-    """The force of a contact at rest."""
+    """The relaxed force of a contact."""
     names = names_of(case)
     found: Callable[..., Any] = names.get("elastic_force", names["force"])
     return found

@@ -1,4 +1,4 @@
-"""Impacts and contacts at rest: results, history, units, extremes, refusals, examples."""
+"""Impacts and static contacts: results, history, units, extremes, refusals, examples."""
 
 import json
 import math

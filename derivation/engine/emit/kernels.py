@@ -196,7 +196,7 @@ def lines(steps: tuple[Step, ...]) -> tuple[Line, ...]:
 def seam_text(seam: Seam, *, whole: bool = False) -> SeamText:
     """A seam as text: the branch above guards itself against points below.
 
-    The one below is given those alone, by itself or, in a whole function, by that.
+    The one below is given those alone, on its own or, in a whole function, by that.
     """
     name = str(seam.variable)
     clamped = {seam.variable: f"np.maximum({name}, {float(seam.at)})"}

@@ -27,7 +27,7 @@ SLOPE_BITS = 20
 
 @dataclass(frozen=True)
 class Terms:
-    """What a term of a summed formula supplies by itself.
+    """What a term of a summed formula supplies.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The README's picture: a blow on a pane, at rest and in motion; what digits of the law cost."""
+"""The README's picture: an impact on a pane, quasi-static and with inertia; what digits of the law cost."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -33,11 +33,11 @@ def overview(pane: Scene, data: Mapping[str, Any]) -> Figure:
 
 
 def _draw_force(ax: Any, pane: Scene) -> None:
-    """Of a half-space, of a pane at rest, and of the pane as it is."""
+    """Of a half-space, of a quasi-static pane, and of the pane with inertia."""
     stiff = dict.fromkeys(("bending", "finite_thickness", "finite_radius", "edge"), False)
     for label, effects in (
         ("half-space (Hertz)", stiff | {"inertia": False}),
-        ("pane at rest", {"inertia": False}),
+        ("quasi-static pane", {"inertia": False}),
         ("pane that moves", {}),
     ):
         scene = read({**pane.to_json(), "effects": effects})

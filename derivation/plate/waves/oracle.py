@@ -115,7 +115,7 @@ def residue(x: Exact, nu: Exact, kind: str = KINDS[0], index: int = 0, digits: i
 
 
 def share(x: Exact, nu: Exact, digits: int = 30) -> arb:
-    """A0's share of the deflection at rest, C = 2 G(2 x)/(E* phi) by link 7."""
+    """A0's share of the static deflection, C = 2 G(2 x)/(E* phi) by link 7."""
 
     def compute() -> arb:
         kap = _zero(KINDS[0], x, nu, 0, _finer(x, digits))

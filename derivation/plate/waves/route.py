@@ -52,7 +52,7 @@ def residue(x: float, nu: float, digits: int = 30) -> mpf:
 
 
 def share(x: float, nu: float, digits: int = 30) -> mpf:
-    """A0's share of the deflection at rest: of a frequency so low that it does not matter."""
+    """A0's share of the static deflection: of a frequency so low that it does not matter."""
     with mp.workdps(3 * digits):
         kap, answer = zero(x, nu, digits), residue(x, nu, digits)
         return answer / kap / sum(influence(x, float(kap) * 10.0 ** -(digits + 2), nu, digits))

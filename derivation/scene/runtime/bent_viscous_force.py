@@ -33,7 +33,7 @@ def force(delta: ArrayLike, elastic: ArrayLike) -> np.ndarray:
 
 
 def elastic_rate(delta: ArrayLike, elastic: ArrayLike) -> np.ndarray:
-    """Rate [m/s] of the inner state: the indentation at which a contact at rest has P_e.
+    """Rate [m/s] of the inner state: the indentation at which a relaxed contact has the force P_e.
 
     Bending follows the force at once, the contact indentation lags it (retardation time A_v)::
 

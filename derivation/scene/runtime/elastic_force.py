@@ -1,4 +1,4 @@
-"""Force of a viscoelastic contact that is at rest."""
+"""Relaxed force of a viscoelastic contact."""
 
 import numpy as np
 from numpy.typing import ArrayLike

@@ -78,7 +78,7 @@ def spherical_contact() -> tuple[Formula, Formula]:
             "geometric series": atanh_slope - 1 / (1 - _x**2),
             "argument of the logarithm": inner,
             "force": sp.diff(force, a) - 2 * PLANE_STRAIN_MODULUS * a * sp.diff(depth, a),
-            "at rest": force.subs(a, 0),
+            "point of contact": force.subs(a, 0),
             "Hertz indentation": sp.limit(depth * R / a**2, a, 0) - 1,
             "Hertz force": sp.limit(force * R / a**3, a, 0)
             - PLANE_STRAIN_MODULUS * sp.Rational(4, 3),

@@ -21,11 +21,11 @@ first: the n-th clamped mode lies between j_n and j_(n+1), the n-th supported on
 and j_n (j_0 = 0), and there is no other.
 
 A force P on the axis gives q'' + omega^2 q = W P/(rho H b^2) for the deflection q of the axis,
-W = w(0)^2/(2 pi N), w(0) = 1 - c. For v the deflection by the same force at rest, the bracket
+W = w(0)^2/(2 pi N), w(0) = 1 - c. For v the static deflection by the same force, the bracket
 tends to w(0)/(2 pi) on the axis, so that v has the component w(0)/(2 pi k^4 N) on w. Green's
 function being continuous and positive, its expansion converges to it (Mercer), and
 
-    sum W_n/k_n^4 = D/(P b^2) times the deflection at rest:  1/(16 pi) clamped,
+    sum W_n/k_n^4 = D/(P b^2) times the static deflection:  1/(16 pi) clamped,
     (3 + nu)/((1 + nu) 16 pi) simply supported, 1/(8 pi) on the paper's edge.
 
 Under a flat punch of radius a the mean of w is sh(k a) - c shc(k a), sh y = sin(y)/y and

@@ -320,7 +320,7 @@ def share() -> Formula:
 
 @cache
 def at_rest() -> tuple[Formula, Formula]:
-    """By how much a plate held differs at rest from the paper's, on the axis."""
+    """By how much a held plate differs under a static load from the paper's, on the axis."""
     A = sp.Symbol("A", real=True)
     # In units of P b^2/D: (psi' + psi/r)' = -1/(2 pi r), and psi' + psi = 0 at the edge.
     paper = (_r / 4 - _r * sp.log(_r) / 2) / (2 * sp.pi)
@@ -334,7 +334,7 @@ def at_rest() -> tuple[Formula, Formula]:
     nabla = thin.laplacian(1 - _r**2)
     lift = 1 + BULGE / 3 * eta**2 * nabla
     proof = prove(
-        "Held plates at rest",
+        "Held plates under a static load",
         r"$\psi$ under a force on the paper's edge, and $2 A r$, which bends evenly without "
         "shear and lifts $w$ by $A (1 - r^2)$. On the face $w$ is "
         r"$1 + (n_{\nu}/3) \eta^2 \nabla^2$ times the mean; and so, by reciprocity, is what a "
@@ -354,7 +354,7 @@ def at_rest() -> tuple[Formula, Formula]:
     )
     found = tuple(
         Formula(
-            name, r"\Delta", f"deflection at rest of {which} plate less that on the paper's edge, "
+            name, r"\Delta", f"static deflection of {which} plate less that on the paper's edge, "
             r"by a force on the axis, in $P b^2/D$; first order of $\chi$",
             value, "1", "", ("wave_weight",), proof,
         )

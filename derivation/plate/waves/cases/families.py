@@ -104,7 +104,7 @@ _NO_RATIOS = (0.5, -1.0, math.inf, -math.inf, math.nan)
 def _refused(
     group: str, kernel: str, name: str, places: tuple[float, ...], **same: float
 ) -> Iterator[HardCase]:
-    """Outside the domain in an argument: all places in one array, and one by itself."""
+    """Outside the domain in an argument: all places in one array, and one alone."""
     cause = f"Values of {name} outside the domain."
     for given, form in ((places, "array"), (places[0], "scalar")):
         yield HardCase(group, kernel, cause, exactly(**{name: given}, **same), form, expect="nan")
@@ -113,7 +113,7 @@ def _refused(
 def _influence() -> Iterator[HardCase]:
     x = (1e-40, 1e-8, 0.3, 1.0, 2.0, 300.0, 1e40)
     for nu in (_METAL, _LAST, _FIRST):
-        loads = {"at rest": 0.0, "of a subnormal number": 5e-324}
+        loads = {"static": 0.0, "of a subnormal number": 5e-324}
         for what, load in loads.items():
             cause = f"A load that is {what}, at nu = {nu:.17g}."
             yield HardCase(HARD_WAVES, INFLUENCE, cause, exactly(x=x, kap=load, nu=nu), "array")

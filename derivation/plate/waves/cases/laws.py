@@ -13,7 +13,7 @@ from derivation.plate.waves import oracle as inertia_balls
 
 _STEP, _DIGITS = Fraction(1, 2**40), 30
 _AT_REST = Fraction(1, 2**60)
-"""For the condition of a load at rest, whose frequency does nothing."""
+"""For the condition of a static load, whose frequency has no effect."""
 
 
 def differences(values: Values, *places: int) -> Callable[[Given, Sequence[arb]], Sequence[arb]]:

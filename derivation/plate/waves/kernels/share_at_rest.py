@@ -1,4 +1,4 @@
-"""A0's share of the deflection under a load at rest: (rho h r/kap) over mu C/h."""
+"""A0's share of the deflection under a static load: (rho h r/kap) over mu C/h."""
 
 import sympy as sp
 
@@ -23,7 +23,7 @@ def _at_rest(expression: sp.Expr) -> sp.Expr:
 
 
 def _share() -> sp.Expr:
-    """The derived share by its steepness and B_a/B_s at rest."""
+    """The derived share by its steepness and static B_a/B_s."""
     names = {"s": steep, "beta": unlike}
     stated: sp.Expr = bending_share().stated
     return stated.subs({k: names[k.name] for k in stated.free_symbols if k.name in names})
@@ -53,7 +53,7 @@ def ratio_at_rest() -> Routine:
 
 @named
 def share_beyond() -> Claims:
-    """Share of A0 at rest for x >= 1; `excess` is E - 1, `product` is 4 P Q."""
+    """Static share of A0 for x >= 1; `excess` is E - 1, `product` is 4 P Q."""
     scaled = 2 * sp.exp(-TWO) * (sp.sinh(TWO) - TWO) / 2**3
     statements = (
         Let(T, 2 * x),
@@ -87,7 +87,7 @@ def product_at_zero() -> Routine:
 
 @named
 def share_near_one() -> Claims:
-    """Share of A0 at rest for small x, as 1 less what is small."""
+    """Static share of A0 for small x, as 1 less what is small."""
     near, F, less, first, second = sp.symbols("near F less first second")
     steeper, below = sp.symbols("steeper below")
     F_at_rest = (shc(TWO) - 1) / TWO**2

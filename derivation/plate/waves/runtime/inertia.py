@@ -127,7 +127,7 @@ def bending_residue(x: ArrayLike, nu: ArrayLike) -> np.ndarray:
 @in_manifest("s_0", domain="x >= 1e-90, x <= 1e90, nu > -1, nu < 0.5")
 @quiet
 def bending_share(x: ArrayLike, nu: ArrayLike) -> np.ndarray:
-    """Share of A0 in the deflection of the loaded face under a load at rest.
+    """Share of A0 in the deflection of the loaded face under a static load.
 
     Formula::
 
@@ -280,7 +280,7 @@ def dynamic_influence(x: ArrayLike, kap: ArrayLike, nu: ArrayLike) -> tuple[np.n
     x : array_like
         Wave number times half-thickness, phi h [1].
     kap : array_like
-        (omega h/c_T)^2 [1]; 0 is a load at rest.
+        (omega h/c_T)^2 [1]; 0 is a static load.
     nu : array_like
         Poisson's ratio [1].
 

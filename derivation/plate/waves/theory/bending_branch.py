@@ -157,7 +157,7 @@ def bending_zero() -> tuple[Formula, ...]:
 
 @cache
 def bending_share() -> Formula:
-    """A0's part of the deflection under a load at rest."""
+    """A0's part of the deflection under a static load."""
     static_limit()
     residue = bending_zero()[2]
     T_x, steep = 2 * x_h, sp.Symbol("steep", positive=True)
@@ -174,10 +174,10 @@ def bending_share() -> Formula:
     B = (sp.sinh(T_x) - T_x) / (sp.cosh(T_x) + 1)
     value = p * q * (p + q) * B / (2 * x_h**3 * E * steep)
     proof = prove(
-        "Share of the lowest branch at rest",
-        r"The residue over $\kappa$, $\kappa$ by the quotient, times $B_a$ at rest; $F$ by $E$.",
+        "Static share of the lowest branch",
+        r"The residue over $\kappa$, $\kappa$ by the quotient, times the static $B_a$; $F$ by $E$.",
         {
-            "B_a at rest": in_sines(both[0] - bent),
+            "static B_a": in_sines(both[0] - bent),
             "B_a over B_s": in_sines(both[0] / both[1] - unlike),
             "share": in_sines(answer / load * bent - plain),
             "E": in_sines(plain - value),
@@ -188,7 +188,7 @@ def bending_share() -> Formula:
     stated = (value / (1 + beta)).subs(steep, sp.Symbol("s", positive=True))
     return Formula(
         "bending_share", "s_0", (
-            r"A0's share of the deflection at rest, $\beta$ being $B_a/B_s$ there"
+            r"A0's share of the static deflection, $\beta$ being $B_a/B_s$ there"
         ),
         with_roots(value.subs(steep, steep_value) / (1 + unlike)), "1", "",
         (residue.name, "C_top"), proof, stated=stated,
@@ -296,7 +296,7 @@ def _coefficients(value: PolyElement, order: int) -> tuple[sp.Expr, ...]:
 
 @cache
 def thin_plates() -> tuple[Formula, ...]:
-    """kap_0, rho h r and A0's share of the deflection under a load at rest, for x -> 0."""
+    """kap_0, rho h r and A0's share of the deflection under a static load, for x -> 0."""
     bending_zero()
     s, slope = sp.symbols("s Y", positive=True)
     rows = thin_powers(ORDER)
@@ -325,7 +325,7 @@ def thin_plates() -> tuple[Formula, ...]:
     lines = (
         ("bending_kap_thin", r"\kappa_0", r"$(\omega h/c_T)^2$ of A0, thin plates", 4, rows[0]),
         ("residue_thin", r"\rho h\,r_0", "how A0 answers a load, thin plates", 0, rows[1]),
-        ("share_thin", "s_0", "A0's share of the deflection at rest, thin plates", 0, share),
+        ("share_thin", "s_0", "A0's share of the static deflection, thin plates", 0, share),
     )
     return tuple(
         Formula(
@@ -343,7 +343,7 @@ def _below(value: sp.Expr, s: sp.Symbol) -> sp.Expr:
 
 
 def _share_at_rest(residue: tuple[sp.Expr, ...], slope: tuple[sp.Expr, ...]) -> list[sp.Expr]:
-    """(rho h r/kap)/(mu C/h) by powers of x^2; C = 2 G/(E* phi) at rest.
+    """(rho h r/kap)/(mu C/h) by powers of x^2; C = 2 G/(E* phi) of a static load.
 
     With T = 2 x and G = above/below, x^3 G = (above/T)/(below/T^4)/8.
     """

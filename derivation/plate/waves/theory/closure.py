@@ -12,7 +12,7 @@ c_j of each mode at the axis, the sphere's way z and its weight m g
     m z'' = m g - P,   q_j'' + omega_j^2 q_j = omega_j^2 c_j P_j,   z = D + sum s_j q_j,
     D = delta - sum c_j P_j s_j,
 
-so that oscillators at rest leave z = delta(a), and
+so that static oscillators leave z = delta(a), and
 
     m z'^2/2 - m g z + E_c + sum (q_j'^2 + omega_j^2 q_j^2)/(2 omega_j^2 c_j),
     E_c = int P dD + sum q_j (P s_j - P_j)
@@ -156,8 +156,8 @@ def _at_rest() -> dict[str, sp.Expr]:
     )
     work = _along(stored, {a: sp.Integer(1)}) - _along(depth, {a: sp.Integer(1)}) * _P
     return {
-        "depth at rest": sp.expand(depth.subs(_D, own) - law),
-        "energy at rest": _plain(work),
+        "static depth": sp.expand(depth.subs(_D, own) - law),
+        "static energy": _plain(work),
     }
 
 

@@ -267,7 +267,7 @@ def static_limit() -> Proof:
     antisymmetric = (sp.cosh(T) + 1) / (sp.sinh(T) - T) * E / x_h
     symmetric = (sp.cosh(T) - 1) / (sp.sinh(T) + T) * E / x_h
     return prove(
-        "Load at rest",
+        "Static load",
         "$p$ and $q$ tend to $x$, $p - q$ to 0, shc of which to 1.",
         {
             "bending": in_sines(1 / bent - mu * antisymmetric),

@@ -43,7 +43,7 @@ def bending_waves() -> Proof:
     speed = sp.integrate(sp.sin(_s) / _s, (_s, 0, sp.oo)) * sp.simplify(density * _s)
     return prove(
         "Bending waves",
-        r"$J_0(\phi r)$ in the equation of motion; the response to a point force at rest before, "
+        r"$J_0(\phi r)$ in the equation of motion; the response to a point force, "
         "integrated over all wave numbers.",
         {
             "wave": sp.expand(_D * laplacian(laplacian(shape)) - rho * _H * omega**2 * shape),

@@ -17,7 +17,7 @@ AT_REST = {"inertia": False}
 """Effects of a scene whose plate is quasi-static."""
 _MORE = "inertia", "damping", "plasticity"
 ALL = frozenset(name for name, e in BY_NAME.items() if e.selectable and name not in _MORE)
-"""Every effect of a quasi-static law that does not yield; the plate of `model` is simply supported."""
+"""Every effect of a quasi-static, elastic law; the plate of `model` is simply supported."""
 
 
 def model(**changes: Any) -> Model:

@@ -30,8 +30,8 @@ class InertiaRow:
     bound, error, quantity
         Stated bound, largest difference from the truth, and of which result [1].
     total_time
-        Difference of the time from the first contact to the last release [1]; of a quasi-static plate
-        that is its contact time.
+        Difference of the time from the first contact to the last release [1]; of a quasi-static
+        plate that is its contact time.
     price, alone, worth
         What leaving inertia out may change, as stated, does change, and in which result [1].
     contacts, modes, oscillators

@@ -1,5 +1,6 @@
 """Collocation on an element of a contact in x = (t/T)^(1/6): nodes, Newton's step, polynomials."""
 
+import math
 from functools import cache
 from typing import NamedTuple
 
@@ -12,7 +13,7 @@ ONSET = 6
 """t = T x^6: a half-space's onset goes by t^(1/2), a bent plate's by t^(1/3)."""
 NEWTON = 30
 """Steps of Newton's iteration at most."""
-_CLOSE, _NEARLY = 1e-15, 1e-12
+_CLOSE, _NEARLY, _NEXT = 1e-15, 1e-12, 1e-14
 _HALVINGS, _REAL = 60, 1e-9
 
 
@@ -68,6 +69,21 @@ def newton_step(
 def settled(size: float, before: float) -> bool:
     """Whether steps of the radii are rounding: tiny, or small and no longer falling."""
     return size <= _CLOSE or (size <= _NEARLY and size > 0.1 * before)
+
+
+def converged(size: float, before: float, order: int) -> bool:
+    """Whether the step after one of this size would be rounding.
+
+    Parameters
+    ----------
+    size, before
+        Sizes of the last step and of the one before it, infinite if there was none.
+    order
+        Order of convergence: 2 of Newton's iteration, 1 where its slope is approximate.
+    """
+    if settled(size, before):
+        return True
+    return size < before < math.inf and size * (size / before) ** order <= _NEXT
 
 
 class Element(NamedTuple):

@@ -82,6 +82,8 @@ class ImpactHistory:
         What to change so that it ends when the sphere has separated for good; empty if it does.
     work
         What it took, in the units of `WORK`; if it is incomplete at most this.
+    tolerance
+        Tolerance of its elements [1].
     """
 
     problem: DynamicProblem
@@ -89,6 +91,7 @@ class ImpactHistory:
     reason: str
     remedy: str = ""
     work: float = 0.0
+    tolerance: float = TOLERANCE
 
     @property
     def complete(self) -> bool:
@@ -143,12 +146,12 @@ def impact_history(
                 wait, radius, looks = meeting(problem, after, last, work - used)
                 used += looks
             if wait == math.inf or touching.end + wait > problem.heard:
-                return ImpactHistory(problem, tuple(found), LEFT, work=used)
+                return ImpactHistory(problem, tuple(found), LEFT, "", used, tolerance)
             _check_count(problem, found, touching.end + wait)
         except IncompleteError as end:
             if not found:
                 raise
-            return ImpactHistory(problem, tuple(found), end.why, end.remedy, work)
+            return ImpactHistory(problem, tuple(found), end.why, end.remedy, work, tolerance)
         t, state = touching.end + wait, problem.flown(after, wait)
         if not radius:
             state = state._replace(approach=0.0)
@@ -168,7 +171,8 @@ def weight_of(problem: DynamicProblem) -> float:
 def expected_work(problem: DynamicProblem, n: int, coarse: ImpactHistory) -> float:
     """Work of an impact whose contacts last as long as those of a run with fewer modes.
 
-    There are more elements where `PHASE` limits them, and as many elsewhere.
+    There are more elements where `PHASE` limits them; elsewhere their length grows with the
+    n-th root of the tolerance.
     """
     lasted = sum(touching.end - touching.start for touching in coarse.contacts)
     more, fewer = (
@@ -176,6 +180,7 @@ def expected_work(problem: DynamicProblem, n: int, coarse: ImpactHistory) -> flo
         for some in (problem, coarse.problem)
     )
     others = sum(touching.tried for touching in coarse.contacts) - fewer / n
+    others *= (coarse.tolerance / TOLERANCE) ** (1.0 / n)
     return (more / n + max(0.0, others)) * weight_of(problem)
 
 

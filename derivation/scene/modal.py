@@ -81,6 +81,13 @@ class Modes:
         ends = np.append(self.first[1:], self.omega.size)
         return np.repeat(np.arange(self.first.size), ends - self.first)
 
+    @cached_property
+    def groups(self) -> tuple[tuple[Indices, Indices], ...]:
+        """Shapes that have equally many oscillators, and these, shape (shapes, oscillators)."""
+        counts = np.bincount(self.shape, minlength=self.first.size)
+        alike = [np.flatnonzero(counts == count) for count in np.unique(counts)]
+        return tuple((some, self.first[some, None] + np.arange(counts[some[0]])) for some in alike)
+
     def by_shape(self, values: Array) -> Array:
         """Sums over the oscillators of each shape, along the last axis."""
         if self.first.size == self.omega.size:

@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from derivation.scene.collocation import NEWTON, ONSET, Element, newton_step, radau, settled
+from derivation.scene.collocation import NEWTON, ONSET, Element, converged, newton_step, radau
 from derivation.scene.effects.effect import Array
 from derivation.scene.modal import ContactSamples, ContactTables
 from derivation.scene.oscillators import FreeMotion, Response, response_at
@@ -240,12 +240,10 @@ def _products(problem: DynamicProblem, moved: Array, drive: Array) -> Array:
     """Sums over the oscillators of each shape, of one node's value by another's."""
     modes = problem.contact.modes
     strong = moved * (problem.inverse_modal_mass / problem.omega)
-    if modes.first.size == modes.omega.size:
-        return np.asarray(strong.T[:, :, None] * drive.T[:, None, :], dtype=np.float64)
-    ends = (*modes.first[1:].tolist(), modes.omega.size)
     found = np.empty((modes.first.size, moved.shape[0], moved.shape[0]))
-    for shape, (begin, end) in enumerate(zip(modes.first.tolist(), ends, strict=True)):
-        found[shape] = strong[:, begin:end] @ drive[:, begin:end].T
+    for shapes, oscillators in modes.groups:
+        one, other = strong.T[oscillators], drive.T[oscillators]
+        found[shapes] = one.transpose(0, 2, 1) @ other
     return found
 
 
@@ -264,7 +262,7 @@ def values_at(
     slowed = nodes.by_t @ force
     fallen = 0.5 * problem.weight * nodes.since**2 - nodes.by_t @ slowed
     # Uniform motion is taken apart: sphere and plate may part far slower than they move.
-    bent = nodes.moved + np.einsum("jik,kj->ij", nodes.response, driven)
+    bent = nodes.moved + (nodes.response @ driven.T[:, :, None])[:, :, 0].T
     q = nodes.even + bent
     return Values(
         a,
@@ -293,18 +291,20 @@ def element(
     y: Array,
 ) -> TimeElement | None:
     """An element, by Newton's iteration from a guess of da/dx; None if it does not converge."""
-    nodes, size = nodes_of(problem, n, x, length, start), math.inf
+    nodes, size, last = nodes_of(problem, n, x, length, start), math.inf, False
+    order = 1 if problem.retardation_time else 2
     for _ in range(NEWTON):
         at = values_at(problem, nodes, start, radius, y)
         if not np.all(at.a > 0.0):
             return None
+        if last:
+            return _piece(problem, nodes, at, start, x, length)
         system = _system(problem, nodes, at) / nodes.t[:, None]
         step = newton_step(system, (at.approach - at.depth) / nodes.t, nodes.by_x, at.a)
         if step is None:
             return None
         y, before, size = y + step[0], size, step[1]
-        if settled(size, before):
-            return _piece(problem, nodes, at, start, x, length)
+        last = converged(size, before, order)
     return None
 
 
@@ -313,8 +313,9 @@ def _system(problem: DynamicProblem, nodes: Nodes, at: Values) -> Array:
     by_force = nodes.by_t @ nodes.by_t
 
     def by_load(load: Array) -> Array:
-        moved = np.einsum("ij,jik,kj->ik", at.share, nodes.response, load[:, 1:])
-        return np.asarray(by_force * load[:, 0] + moved, dtype=np.float64)
+        driven = nodes.response * load[:, 1:].T[:, None, :]
+        moved = at.share[:, None, :] @ driven.transpose(1, 0, 2)
+        return np.asarray(by_force * load[:, 0] + moved[:, 0], dtype=np.float64)
 
     found = (np.diag(at.depth_a) + by_load(at.load_a)) @ nodes.by_x
     return found + by_load(at.load_y) if problem.retardation_time else found

@@ -15,7 +15,7 @@ from functools import lru_cache
 import numpy as np
 
 from derivation.scene import contact_sequence
-from derivation.scene.contact_sequence import ImpactHistory
+from derivation.scene.contact_sequence import ImpactHistory, expected_work
 from derivation.scene.dynamic_energy import balance_of
 from derivation.scene.effects.effect import Results
 from derivation.scene.effects.inertia import WIDER, higher_branch_error, weight_share
@@ -55,6 +55,11 @@ WORK = 4e7
 def goal(rtol: float | None) -> float:
     """How much the modes left out may change, of a tolerance of everything [1]."""
     return LOOSE if rtol is None else SHARE * rtol
+
+
+def rough_tolerance(goal: float) -> float:
+    """Tolerance of the time elements in a run that only tells what more modes change [1]."""
+    return min(1e-8, max(contact_sequence.TOLERANCE, 1e-3 * goal))
 
 
 @dataclass
@@ -115,13 +120,13 @@ def _branched(
     every, lowest, room = branching(law, "all"), branching(law, "A0"), goal / SHARE - goal
     if not followed(every, 2 * affordable(every)):
         return lowest, None
-    problem = problem_of(lowest, count_of(law))
-    most = contact_sequence.steps_of(problem)
-    first = contact_sequence.contact(problem, STAGES[0], problem.begin(), 0.0, 0.0, most=most)
+    problem, close = problem_of(lowest, count_of(law)), rough_tolerance(goal)
+    most, begin = contact_sequence.steps_of(problem), problem.begin()
+    first = contact_sequence.contact(problem, STAGES[0], begin, 0.0, 0.0, close, most=most)
     if _motion(lowest, ImpactHistory(problem, (first,), "")).inertia.left(outputs)[1] > room:
         budget.left -= first.tried * contact_sequence.weight_of(problem)
         return every, None
-    history = contact_sequence.impact_history(problem, STAGES[0], first=first)
+    history = contact_sequence.impact_history(problem, STAGES[0], close, first=first)
     budget.left -= history.work
     rough = _motion(lowest, history)
     if rough.inertia.complete and rough.inertia.left(outputs)[1] > room:
@@ -148,7 +153,7 @@ def _converged(
     """
     count = affordable(law)
     check_followed(law, 2 * count)
-    rough = known or _run(law, count, STAGES[0], budget)
+    rough = known or _run(law, count, STAGES[0], budget, tolerance=rough_tolerance(goal))
     if not rough.inertia.complete:  # and no finer run would be
         return rough
     best: DynamicImpact | None = None
@@ -189,28 +194,32 @@ def _run(
     n: int,
     budget: Budget,
     coarse: ImpactHistory | None = None,
+    tolerance: float = contact_sequence.TOLERANCE,
 ) -> DynamicImpact:
-    """The impact with so many bending modes by elements of n nodes.
+    """The impact with so many bending modes by elements of n nodes and a tolerance.
 
     If with the contacts of a coarser run it would exceed its work, it is not begun, and those are
     all that is known.
     """
     problem = _problem(law, plate_of(law, count))
     work = min(contact_sequence.WORK, budget.left)
-    if coarse and contact_sequence.expected_work(problem, n, coarse) > work:
-        return _motion(law, _unchecked(coarse, problem, count))
-    history = contact_sequence.impact_history(problem, n, work=work)
+    if coarse and expected_work(problem, n, coarse) > work:
+        fewer = count // 2
+        while fewer > 1 and expected_work(problem_of(law, fewer), n, coarse) > work:
+            fewer //= 2
+        return _motion(law, _unchecked(coarse, problem, fewer))
+    history = contact_sequence.impact_history(problem, n, tolerance, work)
     budget.left -= history.work
     return _motion(law, history)
 
 
-def _unchecked(coarse: ImpactHistory, problem: DynamicProblem, count: int) -> ImpactHistory:
-    """A run that none with more modes can check: it counts as incomplete."""
+def _unchecked(coarse: ImpactHistory, problem: DynamicProblem, fewer: int) -> ImpactHistory:
+    """A run that none with more modes can check, which fewer modes would meet: it is incomplete."""
     return replace(
         coarse,
         reason=f"the error of {coarse.problem.omega.size} modes is not known: the "
         f"{problem.omega.size} by which it is estimated exceed the limit of work",
-        remedy=f"write inertia.modes = {count // 2} and give no tolerance, or set "
+        remedy=f"write inertia.modes = {fewer} and give no tolerance, or set "
         "effects.inertia = false",
     )
 
@@ -235,7 +244,7 @@ def _of_chosen_modes(
         return found
     if not fast(law, count):
         return _unjudged(found)
-    coarse = _run(law, max(1, count // 4), STAGES[0], budget)
+    coarse = _run(law, max(1, count // 4), STAGES[0], budget, tolerance=rough_tolerance(LOOSE))
     if not coarse.inertia.complete:
         return _unjudged(found)
     further = _judged(coarse, found).inertia.mode_convergence

@@ -172,7 +172,7 @@ def changed(**tables: dict[str, Any]) -> dict[str, Any]:
 
 
 def test_scenes_are_passed_over_for_what_they_are() -> None:
-    """By hand: the work 2 g delta over v^2, delta by the impact itself, no less than on a quasi-static plate."""
+    """By hand: the work 2 g delta over v^2, delta of the impact, at least the quasi-static one."""
     assert inertia_check.pass_over(changed()) == ""
     slow = changed(impact={"speed": 1e-3, "gravity": 9.81})
     assert "weight over the energy brought above 100" in inertia_check.pass_over(slow)

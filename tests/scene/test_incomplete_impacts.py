@@ -158,7 +158,7 @@ def test_a_run_beyond_its_work_is_not_begun(monkeypatch: pytest.MonkeyPatch) -> 
     used = [history.work for history in begun]
     begun.clear()
     waves.impact.cache_clear()
-    monkeypatch.setattr(contact_sequence, "WORK", 1.1 * used[0])
+    monkeypatch.setattr(contact_sequence, "WORK", 0.8 * used[1])
     part = waves.impact(law)
     waves.impact.cache_clear()
     assert [history.work for history in begun] == used[:1]

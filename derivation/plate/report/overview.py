@@ -1,4 +1,4 @@
-"""The README's picture: an impact on a pane, quasi-static and with inertia; what digits of the law cost."""
+"""The README's picture: an impact on a pane, and what digits of the law cost."""
 
 from collections.abc import Mapping
 from typing import Any

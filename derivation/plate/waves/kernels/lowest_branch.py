@@ -1,4 +1,4 @@
-"""The lowest branch A0: the equation it solves, how it answers a load, its share of the static deflection.
+"""The lowest branch A0: the equation it solves, how it responds to a load, its static share.
 
 With S = P + Q, P = p/x, Q = q/x, xi = kap/x^2 and `left` = 1 - xi = Q^2.
 """

@@ -180,7 +180,7 @@ def expected_work(problem: DynamicProblem, n: int, coarse: ImpactHistory) -> flo
         for some in (problem, coarse.problem)
     )
     others = sum(touching.tried for touching in coarse.contacts) - fewer / n
-    others *= (coarse.tolerance / TOLERANCE) ** (1.0 / n)
+    others *= math.pow(coarse.tolerance / TOLERANCE, 1.0 / n)
     return (more / n + max(0.0, others)) * weight_of(problem)
 
 

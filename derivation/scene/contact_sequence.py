@@ -225,7 +225,7 @@ def contact(
     x, length, state, first = _begun(begin, radius), FIRST, begin, radius
     origin = start - x**ONSET
     # Before a quantity has grown, what counts is how large it will be.
-    scale = np.full((LOST, 1), 0.1)
+    scale, known = np.full((LOST, 1), 0.1), None
     for step in range(tried, most):
         if step % TOLD == TOLD - 1:
             now, count = problem.T * (origin + x**ONSET), problem.omega.size
@@ -248,8 +248,8 @@ def contact(
         # A force that depends on the rate of the radius is as rough as that; it is only integrated.
         if problem.retardation_time:
             unit[P] *= ROUGH
-        error = float(np.max(np.abs(rows[:, -2:]) / unit))
-        change = 0.9 * (tolerance / max(error, 1e-300)) ** (1.0 / n)
+        error = max(float(np.max(np.abs(rows[:, -2:]) / unit)), 1e-300)
+        change = 0.9 * math.pow(tolerance / error, 1.0 / n)
         if error > tolerance:
             length *= min(0.8, max(0.1, change))
             continue
@@ -265,6 +265,9 @@ def contact(
         x = made.element.x + made.element.length
         _check_weight(problem, x)
         state, radius, scale = made.end, made.radius, largest
+        if known is not None:  # what has changed from the last element to this goes on
+            change *= min(1.0, length / known[0] * math.pow(known[1] / error, 1.0 / n))
+        known = length, error
         length = min(LONGEST, length * min(2.0, change))
         left = _left(state)
         if left < CLOSED * x**ONSET and not problem.retardation_time:

@@ -3,6 +3,7 @@
 from functools import lru_cache
 
 import numpy as np
+from numpy.polynomial.chebyshev import chebder
 
 from derivation.scene.effects.effect import Array
 from derivation.scene.quadrature import gauss
@@ -23,6 +24,17 @@ def chebyshev(s: Array, degree: int) -> Array:
         found[known + 1 :][:more] -= found[known - more : known][::-1]
         known += more
     return np.moveaxis(found, 0, -1)
+
+
+def by_growth(table: Array) -> Array:
+    """Coefficients of x df/dx on [0, 1] from those of f, a column each: x is (1 + T_1)/2."""
+    slopes = np.zeros_like(table)
+    slopes[:-1] = 2.0 * chebder(table)
+    found = 0.5 * slopes
+    found[1:] += 0.25 * slopes[:-1]
+    found[:-1] += 0.25 * slopes[1:]
+    found[1] += 0.25 * slopes[0]
+    return found
 
 
 @lru_cache(maxsize=8)

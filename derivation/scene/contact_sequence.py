@@ -7,7 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 from derivation.engine.activity import tell
-from derivation.scene.collocation import ONSET, radau
+from derivation.scene.collocation import NEWTON, ONSET, radau
+from derivation.scene.effects.effect import Array
 from derivation.scene.effects.inertia import WIDER
 from derivation.scene.flight import meeting
 from derivation.scene.scene import IncompleteError
@@ -20,7 +21,6 @@ from derivation.scene.time_element import (
     TimeElement,
     V,
     element,
-    onset,
 )
 from derivation.scene.yield_events import next_branch
 from derivation.scene.yielding import Yielding
@@ -236,7 +236,7 @@ def contact(
         if found:
             guess = found[-1].element.slope_at(x + length * radau(n).x)
         else:
-            guess = np.zeros(n) if first else onset(problem, n, length, -begin.separation_speed)
+            guess = np.zeros(n) if first else _onset(problem, n, length, -begin.separation_speed)
         made = element(problem, n, x, length, state, radius, guess)
         if made is None:
             length *= 0.5
@@ -290,6 +290,20 @@ def _begun(begin: ImpactState, radius: float) -> float:
     if not radius or begin.separation_speed >= 0.0:
         return 1.0 if radius else 0.0
     return min(1.0, float((begin.approach / -begin.separation_speed) ** (1.0 / ONSET)))
+
+
+def _onset(problem: DynamicProblem, n: int, length: float, meeting: float) -> Array:
+    """da/dx where a contact begins: the depth grows at the speed at which they meet."""
+    rule = radau(n)
+    goal = meeting * (length * rule.x) ** ONSET
+    a = np.sqrt(goal * problem.depth * problem.contact.R) / problem.a
+    for _ in range(NEWTON):  # depth grows faster than a^2: the iteration comes down
+        at = problem.at(problem.a * a)
+        move = (at.depth / problem.depth - goal) / (at.depth_a * (problem.a / problem.depth))
+        a = np.maximum(a - move, 0.5 * a)
+        if np.max(np.abs(move) / a) < 1e-3:
+            break
+    return np.asarray(np.linalg.solve(length * rule.integral, a), dtype=np.float64)
 
 
 def _endless(problem: DynamicProblem, t: float, most: int) -> IncompleteError:

@@ -21,11 +21,10 @@ from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from numpy.polynomial.chebyshev import chebder
 from numpy.typing import NDArray
 
 from derivation.scene import kernels
-from derivation.scene.chebyshev import chebyshev, knots
+from derivation.scene.chebyshev import by_growth, chebyshev, knots
 from derivation.scene.effects.edge import CLAMPED, SUPPORTED
 from derivation.scene.effects.effect import Array
 from derivation.scene.law import ContactLaw
@@ -133,18 +132,31 @@ class ModalPlate(NamedTuple):
 
 
 class ContactSamples(NamedTuple):
-    """The contact at radii: force [N], quasi-static depth [m], slopes by the radius, and of each
-    shape the force that drives it [N], its share in the depth less 1, and their slopes.
+    """The contact at radii: contact force and the forces that drive the shapes [N], in columns,
+    quasi-static depth [m], of each shape its share in the depth less 1, and slopes by the radius.
     """
 
-    force: Array
+    forces: Array
+    forces_a: Array
     depth: Array
-    felt: Array
-    less: Array
-    force_a: Array
     depth_a: Array
-    felt_a: Array
+    less: Array
     less_a: Array
+
+    @property
+    def force(self) -> Array:
+        """Contact force [N]."""
+        return self.forces[:, 0]
+
+    @property
+    def force_a(self) -> Array:
+        """Slope of the contact force by the radius [N/m]."""
+        return self.forces_a[:, 0]
+
+    @property
+    def felt(self) -> Array:
+        """The forces that drive the shapes [N]."""
+        return self.forces[:, 1:]
 
 
 def plate_of(law: ContactLaw, count: int) -> ModalPlate:
@@ -315,7 +327,11 @@ def _edge_compliance(law: ContactLaw) -> float:
 
 @dataclass(frozen=True)
 class ContactTables:
-    """Tables of a law with oscillators, up to a contact radius [m]."""
+    """Tables of a law with oscillators, up to a contact radius [m].
+
+    In x, the radius over the largest, they hold Chebyshev's coefficients of the forces over x^3, of
+    depth and shares over x^2, and of the slopes of both over x^2 and x.
+    """
 
     modes: Modes
     R: float
@@ -327,22 +343,12 @@ class ContactTables:
         """The contact at radii [m]; NaN beyond the top."""
         x = np.where(a <= self.top, a / self.top, np.nan)
         found = chebyshev(2.0 * x - 1.0, self.table.shape[0] - 1) @ self.table
-        x, half = x[:, None], found.shape[1] // 2
-        count = half // 2
-        cubes, squares = found[:, :count], found[:, count:half]
-        cube_x, square_x = found[:, half : half + count], found[:, half + count :]
-        cube_a = (3.0 * cubes + x * cube_x) * (x * x / self.top)
-        square_a = (2.0 * squares + x * square_x) * (x / self.top)
-        cubes, squares = cubes * x**3, squares * x**2
+        x, count = x[:, None], found.shape[1] // 4
+        powers = x**3, x**2, x * x / self.top, x / self.top
+        parts = (found[:, k * count : (k + 1) * count] * powers[k] for k in range(4))
+        forces, squares, forces_a, squares_a = parts
         return ContactSamples(
-            cubes[:, 0],
-            squares[:, 0],
-            cubes[:, 1:],
-            squares[:, 1:],
-            cube_a[:, 0],
-            square_a[:, 0],
-            cube_a[:, 1:],
-            square_a[:, 1:],
+            forces, forces_a, squares[:, 0], squares_a[:, 0], squares[:, 1:], squares_a[:, 1:]
         )
 
 
@@ -374,9 +380,11 @@ def contact_of(law: ContactLaw, plate: ModalPlate, top: float, pointwise: bool) 
         rest += moved(plate.more)
     values = np.column_stack((force / x**3, felt, rest, less / x[:, None] ** 2))
     table = analysis @ values
-    slopes = np.zeros_like(table)
-    slopes[:-1] = 2.0 * chebder(table)
-    whole = np.concatenate((table, slopes), axis=1)
+    growths = by_growth(table)
+    count = table.shape[1] // 2
+    growths[:, :count] += 3.0 * table[:, :count]  # d(x^3 f)/dx = x^2 (3 f + x f')
+    growths[:, count:] += 2.0 * table[:, count:]
+    whole = np.concatenate((table, growths), axis=1)
     return ContactTables(plate.modes, law.model.R, top, whole, pointwise)
 
 

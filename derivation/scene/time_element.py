@@ -189,7 +189,7 @@ class Values(NamedTuple):
     force: Array
     felt: Array
     load_a: Array
-    load_y: Array
+    load_y: Array | None
     depth: Array
     depth_a: Array
     share: Array
@@ -253,11 +253,17 @@ def values_at(
     """Forces, depths and deflections at the nodes, for a slope da/dx there."""
     a = radius + nodes.by_x @ y
     at = problem.at(problem.a * a)
-    felt = np.column_stack((at.force, at.felt)) / problem.force
-    felt_a = np.column_stack((at.force_a, at.felt_a)) * (problem.a / problem.force)
-    # The pressure keeps its shape: the retarded part drives each shape in the same proportion.
-    load_y = (problem.retardation_time / nodes.rate * felt_a[:, 0] / felt[:, 0])[:, None] * felt
-    load = felt + load_y * y[:, None]
+    load, load_a, load_y = (
+        at.forces / problem.force,
+        at.forces_a * (problem.a / problem.force),
+        None,
+    )
+    if problem.retardation_time:
+        # The pressure keeps its shape: the retarded part drives each shape in the same proportion.
+        share = problem.retardation_time / nodes.rate * load_a[:, 0] / load[:, 0]
+        load_y = share[:, None] * load
+        load = load + load_y * y[:, None]
+        load_a = load_a + 2.0 * load_y * (y / a)[:, None]  # d2P/da2 is nearly (2/a) dP/da
     force, driven = load[:, 0], load[:, 1:]
     slowed = nodes.by_t @ force
     fallen = 0.5 * problem.weight * nodes.since**2 - nodes.by_t @ slowed
@@ -273,7 +279,7 @@ def values_at(
         start.approach - start.separation_speed * nodes.since + (fallen - np.sum(bent, axis=1)),
         force,
         driven,
-        felt_a + 2.0 * load_y * (y / a)[:, None],  # d2P/da2 is nearly (2/a) dP/da
+        load_a,
         load_y,
         at.depth / problem.depth + np.sum(at.less * q, axis=1),
         (at.depth_a / problem.depth + np.sum(at.less_a * q, axis=1)) * problem.a,
@@ -299,7 +305,7 @@ def element(
             return None
         if last:
             return _piece(problem, nodes, at, start, x, length)
-        system = _system(problem, nodes, at) / nodes.t[:, None]
+        system = _system(nodes, at) / nodes.t[:, None]
         step = newton_step(system, (at.approach - at.depth) / nodes.t, nodes.by_x, at.a)
         if step is None:
             return None
@@ -308,7 +314,7 @@ def element(
     return None
 
 
-def _system(problem: DynamicProblem, nodes: Nodes, at: Values) -> Array:
+def _system(nodes: Nodes, at: Values) -> Array:
     """Slope of depth less displacement by da/dx at the nodes."""
     by_force = nodes.by_t @ nodes.by_t
 
@@ -318,7 +324,7 @@ def _system(problem: DynamicProblem, nodes: Nodes, at: Values) -> Array:
         return np.asarray(by_force * load[:, 0] + moved[:, 0], dtype=np.float64)
 
     found = (np.diag(at.depth_a) + by_load(at.load_a)) @ nodes.by_x
-    return found + by_load(at.load_y) if problem.retardation_time else found
+    return found if at.load_y is None else found + by_load(at.load_y)
 
 
 class Driven(NamedTuple):
@@ -366,10 +372,10 @@ def _piece(
     problem: DynamicProblem, nodes: Nodes, at: Values, start: ImpactState, x: float, length: float
 ) -> TimeElement:
     """The element as polynomials, and its end."""
-    force, (viscous, pointwise) = at.force, (problem.retardation_time, problem.contact.pointwise)
-    driven = _driven(problem, nodes, start, at.felt, bool(viscous or pointwise))
+    force, viscous, pointwise = at.force, at.load_y is not None, problem.contact.pointwise
+    driven = _driven(problem, nodes, start, at.felt, viscous or pointwise)
     lost, leak = np.zeros_like(force), np.zeros_like(force)
-    if viscous:
+    if at.load_y is not None:
         felt = at.load_y[:, 1:] / at.load_y[:, :1]
         closing = at.v - np.sum(felt * driven.rates, axis=1)
         lost = at.load_y[:, 0] * at.y * closing * nodes.rate
@@ -384,17 +390,3 @@ def _piece(
     )
     # A row of its own: a view of the last would keep all rows of the nodes in memory.
     return TimeElement(made, end, float(at.a[-1]), at.felt[-1].copy(), problem.yielding)
-
-
-def onset(problem: DynamicProblem, n: int, length: float, meeting: float) -> Array:
-    """da/dx where a contact begins: the depth grows at the speed at which they meet."""
-    rule = radau(n)
-    goal = meeting * (length * rule.x) ** ONSET
-    a = np.sqrt(goal * problem.depth * problem.contact.R) / problem.a
-    for _ in range(NEWTON):  # depth grows faster than a^2: the iteration comes down
-        at = problem.at(problem.a * a)
-        move = (at.depth / problem.depth - goal) / (at.depth_a * (problem.a / problem.depth))
-        a = np.maximum(a - move, 0.5 * a)
-        if np.max(np.abs(move) / a) < 1e-3:
-            break
-    return np.asarray(np.linalg.solve(length * rule.integral, a), dtype=np.float64)

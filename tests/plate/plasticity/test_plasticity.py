@@ -18,7 +18,7 @@ from derivation.scene.effects import BY_NAME, WHOLE_PLATE
 from derivation.scene.law import ContactLaw
 from derivation.scene.method_selection import moved
 from derivation.scene.model import Model
-from derivation.scene.scene import OUTPUTS, SceneError
+from derivation.scene.scene import OUTPUTS
 from derivation.scene.time_element import DynamicProblem, P
 from derivation.scene.waves import problem_of
 from derivation.scene.yielding import yielding_of
@@ -313,11 +313,6 @@ def test_static_contact_on_loading() -> None:
     # The mean pressure grows towards the limit, and cannot pass it.
     mean = 5000.0 / (math.pi * large.contact_radius**2)
     assert 2 / 3 * large.max_pressure < mean < large.max_pressure == 1.6 * 240e6
-
-
-def test_viscous_contact_that_yields_is_refused_beside_a_plate_without_inertia() -> None:
-    with pytest.raises(SceneError, match="got both"):
-        simulate(read(drop({"inertia": False}, retardation_time=2e-6)))
 
 
 def test_parameter_is_the_pressure_over_its_limit() -> None:

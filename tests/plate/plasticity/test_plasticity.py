@@ -295,6 +295,30 @@ def test_stated_bounds_hold_with_plasticity(seed: int) -> None:
         assert abs(getattr(loose, name) / getattr(tight, name) - 1.0) <= allowed
 
 
+@pytest.mark.parametrize("ratio", [1.15, 1.3])
+def test_bounds_hold_on_plates_that_move(ratio: float) -> None:
+    """With a yield stress at which Hertz's pressure is so many times the limit."""
+    scene = drop({"non_hertzian_pressure": False}, edge="paper", thickness=0.05)
+    elastic = simulate(read(scene | {"effects": scene["effects"] | {"plasticity": False}}),
+                       rtol=0.02)  # fmt: skip
+    [row] = [row for row in elastic.effects.rows if row.name == "plasticity"]
+    stress = 240e6 * row.parameter_value / ratio
+    scene |= {"plate": scene["plate"] | {"yield_stress": stress}}
+    found = [
+        simulate(read(scene | {"effects": scene["effects"] | wanted}), rtol=rtol)
+        for wanted, rtol in (({"plasticity": False}, 0.02), ({}, 0.5), ({"plasticity": True}, 0.02))
+    ]
+    without, loose, tight = found
+    [row] = [row for row in without.effects.rows if row.name == "plasticity"]
+    bounds = loose.accuracy.bound, row.bound + without.accuracy.bound
+    for other, bound in zip((loose, without), bounds, strict=True):
+        for name in OUTPUTS:
+            change = abs(getattr(other, name) / getattr(tight, name) - 1.0)
+            assert change <= bound + tight.accuracy.bound
+    assert math.isfinite(row.bound)
+    assert tight.dent > 0.0
+
+
 def test_static_contact_on_loading() -> None:
     scene = read(drop())
     [small] = indent(scene, force=1.0)

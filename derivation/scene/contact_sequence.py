@@ -253,14 +253,15 @@ def contact(
         if error > tolerance:
             length *= min(0.8, max(0.1, change))
             continue
-        if float(np.sum(rows[P])) <= 0.0:  # a viscoelastic contact separates before it is flat
+        if problem.yielding is not None:
+            made, problem = next_branch(problem, n, made, state, radius)
+        # A viscoelastic contact separates before it is flat.
+        if float(np.sum(made.element.rows[P])) <= 0.0:
             last = _let_go(problem, n, made, state, radius)
             ended = origin + (last.element.x + last.element.length) ** ONSET
             pieces = (*found, last)
             tries = step + 1 - tried
             return Touching(start, ended, first, pieces, begin, last.end, tries, problem.yielding)
-        if problem.yielding is not None:
-            made, problem = next_branch(problem, n, made, state, radius)
         found.append(made)
         x = made.element.x + made.element.length
         _check_weight(problem, x)

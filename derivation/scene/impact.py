@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from derivation.scene.edge_remainder import edge_remainder
 from derivation.scene.effect_selection import SelectedEffects, decide
+from derivation.scene.law import ContactLaw
 from derivation.scene.limits import (
     check_radius,
     contact_warnings,
@@ -22,6 +23,7 @@ from derivation.scene.model import model_of
 from derivation.scene.model_error import inertia_error
 from derivation.scene.result import Result
 from derivation.scene.scene import OUTPUTS, TIGHTEST, Scene
+from derivation.scene.yield_warnings import impact_warnings
 
 if TYPE_CHECKING:
     from derivation.scene.wave_motion import DynamicImpact
@@ -70,12 +72,11 @@ def simulate(
     model_error = _model_error(selected, a, motion)
     share = 1.0 - float(local_indentation(law, a)) / delta
     deflection = motion.largest_deflection(law) if motion is not None else None
-    weaker = "sphere" if model.yield_stress < model.plate_yield_stress else "plate"
     warnings = (
         *hollow_warnings(model),
         *warnings_at(law, a, delta, deflection),
         *motion_warnings(model, contact_time, share, motion is not None),
-        *pressure_warnings(pressure, _known(model.yield_stress), law.viscous, weaker),
+        *_yield_warnings(law, a, pressure),
     )
     neglected = neglects_inertia(model, contact_time, share, motion is not None)
     strength, yield_stress = scene.plate.tensile_strength, _known(model.plate_yield_stress)
@@ -90,6 +91,15 @@ def simulate(
         inertia_neglected=neglected,
     )  # fmt: skip
     return result if times is None else result.at(times)
+
+
+def _yield_warnings(law: ContactLaw, a: float, pressure: float) -> tuple[str, ...]:
+    """Whether a body yields that the law takes for elastic, or far beyond what the law covers."""
+    if law.plastic:
+        return impact_warnings(law, a)
+    model = law.model
+    weaker = "sphere" if model.yield_stress < model.plate_yield_stress else "plate"
+    return pressure_warnings(pressure, _known(model.yield_stress), law.viscous, weaker)
 
 
 def _known(stress: float) -> float | None:

@@ -26,6 +26,7 @@ from derivation.scene.limits import (
 from derivation.scene.messages import shown
 from derivation.scene.model import model_of
 from derivation.scene.scene import Scene, SceneError
+from derivation.scene.yield_warnings import static_warnings
 from derivation.scene.yielding import yielding_of
 
 UNITS = {"contact_radius": "m", "force": "N", "indentation": "m"}
@@ -179,7 +180,7 @@ def _contact(law: ContactLaw, name: str, value: float) -> StaticContact:
         **found,
         stiffness=at.stiffness,
         max_pressure=pressure,
-        warnings=warnings_at(law, at.radius, at.depth),
+        warnings=(*warnings_at(law, at.radius, at.depth), *static_warnings(law, at.radius)),
     )
 
 
@@ -210,8 +211,7 @@ def _loaded(law: ContactLaw, a: float) -> _Loaded:
         branch = branch.begun()
         more, more_a = branch.added(force, force_a)
         depth, depth_a, radius = depth + more, depth_a + more_a, branch.widened(radii, force)
-        # The force grows by the limit of the pressure times the area.
-        radius_a = force_a * law.model.R / (4.0 * branch.modulus * branch.onset * radius)
+        radius_a = force_a * branch.widening(radius)
         stiffness = force_a / depth_a
     numbers = radius, force, depth, stiffness, radius_a, force_a, depth_a
     return _Loaded(*(float(number[0]) for number in numbers))

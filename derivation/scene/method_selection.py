@@ -293,15 +293,15 @@ def moved(law: ContactLaw) -> motion.Motion:
         If it exceeds the law's range, or the sphere stays on the plate.
     """
     with np.errstate(all="ignore"):
+        if law.viscous:
+            from derivation.scene import viscous
+
+            return viscous.impact(law)
         if law.plastic:
             from derivation.scene import plastic
 
             return plastic.impact(law)
-        if not law.viscous:
-            return motion.impact(law)
-        from derivation.scene import viscous
-
-        return viscous.impact(law)
+        return motion.impact(law)
 
 
 def _rounding(law: ContactLaw) -> float:

@@ -15,7 +15,6 @@ from derivation.scene.effects.inertia import WIDER
 from derivation.scene.law import ContactLaw
 from derivation.scene.modal import ModalPlate, Modes, contact_of
 from derivation.scene.motion import EnergyBalance, Motion
-from derivation.scene.scene import SceneError
 from derivation.scene.time_element import A, DynamicProblem, P, V, Z
 from derivation.scene.yielding import units_of, yielding_of
 
@@ -51,12 +50,6 @@ def impact(law: ContactLaw) -> PlasticMotion:
     SceneError
         If it exceeds the law's range, or the sphere does not separate again.
     """
-    if law.viscous:
-        raise SceneError(
-            "effects.plasticity: expected a contact that yields or is viscoelastic, got both "
-            "beside a quasi-static plate; set effects.plasticity or effects.viscosity = false, or "
-            "give plate.density and set effects.inertia = true"
-        )
     problem = _problem(law)
     rough, found = (_motion(problem, n) for n in STAGES)
     pairs = zip(found.numbers, rough.numbers, strict=True)

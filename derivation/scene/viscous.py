@@ -6,9 +6,11 @@ bending:
 
     m z'' = m g - P,   P = P_e + A_v dP_e/dt,   z = delta_e + w(P) - w(P_e)
 
-until P falls to zero: there is no tension. In x = (t/T)^(1/6), T the time without viscosity,
-the onset is analytic. On each of a row of elements da/dx is a polynomial through Radau's nodes,
-found by Newton's iteration; elements are as long as their last coefficients are rounding.
+until P falls to zero: there is no tension. A contact that yields adds the depth of its branch to
+delta_e; depths are counted from the dent that was there when the branch began. In x = (t/T)^(1/6),
+T the time without viscosity, the onset is analytic. On each of a row of elements da/dx is a
+polynomial through Radau's nodes, found by Newton's iteration; elements are as long as their last
+coefficients are rounding.
 """
 
 import math
@@ -24,7 +26,15 @@ from derivation.scene.effects.effect import Array
 from derivation.scene.law import ContactLaw
 from derivation.scene.motion import EnergyBalance, Motion
 from derivation.scene.scene import SceneError
-from derivation.scene.viscous_law import Curve, ElasticBending, bending_of, curve_of
+from derivation.scene.viscous_law import (
+    Curve,
+    CurvePoints,
+    ElasticBending,
+    bending_of,
+    curve_of,
+)
+from derivation.scene.yield_events import branch_after, cut
+from derivation.scene.yielding import Yielding, yielding_of
 
 STAGES = 9, 12
 """Nodes of an element, of the run that checks and of the one that counts."""
@@ -72,12 +82,15 @@ class ViscousProblem:
     a, T
         Units of radius [m] and time [s]; those of velocity, depth and force are v0, v0 T and
         m v0/T.
+    yielding
+        The contact that yields, on the branch on which it is; None of one that does not.
     """
 
     curve: Curve
     bending: ElasticBending
     a: float
     T: float
+    yielding: Yielding | None = None
 
     @property
     def law(self) -> ContactLaw:
@@ -99,9 +112,22 @@ class ViscousProblem:
         """What presses the sphere on, in units of v0/T."""
         return self.law.gravity * (self.T / self.law.model.v0)
 
+    @property
+    def dent(self) -> float:
+        """Depth from which depths are counted, in units of the problem."""
+        return self.yielding.dent / self.depth if self.yielding else 0.0
+
+    def at(self, a: Array) -> CurvePoints:
+        """The law at radii [m], and what yielding adds to its depth."""
+        found = self.curve.at(a)
+        if self.yielding is None:
+            return found
+        depth, depth_a = self.yielding.added(found.force, found.force_a)
+        return found._replace(depth=found.depth + depth, depth_a=found.depth_a + depth_a)
+
     def states(self, x: Array, a: Array, y: Array) -> States:
         """Forces and depths at radii a that grow with x by y."""
-        found = self.curve.at(self.a * a)
+        found = self.at(self.a * a)
         delay = self.law.model.retardation_time / self.T / (ONSET * x ** (ONSET - 1))
         force_a = found.force_a * (self.a / self.force)
         elastic, P_y = found.force / self.force, delay * force_a
@@ -152,12 +178,16 @@ def element(
             break
     else:
         return None
-    rows = np.array([a, v, z, at.P, at.lost]) @ rule.analysis.T
+    rows = np.array([a, v, z + problem.dent, at.P, at.lost]) @ rule.analysis.T
     found = Element(x, length, rows, rule.analysis @ y)
     return found, Point(float(a[-1]), float(v[-1]), float(z[-1]))
 
 
-def elements(problem: ViscousProblem, n: int) -> tuple[Element, ...]:
+Piece = tuple[Element, Yielding | None]
+"""An element, and the branch that a contact which yields was on."""
+
+
+def elements(problem: ViscousProblem, n: int) -> tuple[Piece, ...]:
     """The impact, element by element, until the force is gone.
 
     Raises
@@ -165,7 +195,7 @@ def elements(problem: ViscousProblem, n: int) -> tuple[Element, ...]:
     SceneError
         If it does not end, or no element is short enough.
     """
-    found: list[Element] = []
+    found: list[Piece] = []
     x, length, start = 0.0, FIRST, Point(0.0, 1.0, 0.0)
     # Before a quantity has grown, what counts is how large it will be.
     scale, last = np.full((5, 1), 0.1), None
@@ -188,7 +218,10 @@ def elements(problem: ViscousProblem, n: int) -> tuple[Element, ...]:
         if error > TOLERANCE:
             length *= min(0.8, max(0.1, change))
             continue
-        found.append(last)
+        piece = problem.yielding
+        if piece is not None:
+            last, end, problem = _next_branch(problem, n, (last, end), start)
+        found.append((last, piece))
         if float(np.sum(last.rows[P])) <= 0.0:
             return tuple(found)
         if start.velocity < 0.0 < end.velocity:
@@ -196,12 +229,32 @@ def elements(problem: ViscousProblem, n: int) -> tuple[Element, ...]:
                 "plate.retardation_time: the sphere does not rebound because its weight holds it "
                 "on the plate; reduce retardation_time (plate, sphere) or increase impact.speed"
             )
-        x, start, scale = x + length, end, largest
+        x, start, scale = last.x + last.length, end, largest
         length = min(LONGEST, length * min(2.0, change))
     raise SceneError(
         "plate.retardation_time: expected a contact that can be followed to its end, got one that "
         f"cannot at {problem.T * x**ONSET:.6g} s; give a shorter time"
     )
+
+
+def _next_branch(
+    problem: ViscousProblem, n: int, made: tuple[Element, Point], start: Point
+) -> tuple[Element, Point, ViscousProblem]:
+    """The element and the state after it, cut at its first event, and the problem from there on."""
+    branch, x = problem.yielding, made[0].x
+    assert branch is not None
+
+    def shorter(length: float, guess: Array) -> tuple[Element, Point] | None:
+        return element(problem, n, x, length, start, guess)
+
+    found = cut(branch, problem.a, made, lambda made: made[0], shorter)
+    if found is None:
+        return *made, problem
+    last, end = found
+    a = problem.a * end.radius
+    after = branch_after(branch, a, float(problem.curve.at(np.array([a])).force[0]))
+    sunk = (after.dent - branch.dent) / problem.depth
+    return last, end._replace(depth=end.depth - sunk), replace(problem, yielding=after)
 
 
 def _onset(problem: ViscousProblem, rule: Radau, length: float) -> Array:
@@ -229,18 +282,23 @@ class ViscousMotion(Motion):
     """An impact on a viscoelastic contact, with its time elements."""
 
     problem: ViscousProblem | None = None
-    elements: tuple[Element, ...] = ()
+    pieces: tuple[Piece, ...] = ()
 
     def history(self, law: ContactLaw, times: Array) -> tuple[Array, Array, Array, Array]:  # noqa: ARG002
         """Indentation [m], velocity [m/s], contact radius [m] and force [N] at times [s]."""
         problem = self.problem
         assert problem is not None
         x = (np.minimum(times, self.contact_time) / problem.T) ** (1.0 / ONSET)
-        starts = [element.x for element in self.elements]
+        starts = [element.x for element, _ in self.pieces]
         place = np.searchsorted(starts, x, side="right") - 1
         rows = np.empty((LOST + 1, x.size))
         for index in np.unique(place):
-            rows[:, place == index] = self.elements[index].at(x[place == index])
+            found, branch = self.pieces[index]
+            part = found.at(x[place == index])
+            if branch is not None:
+                a = problem.a * np.maximum(part[A], 0.0)
+                part[A] = branch.widened(a, problem.curve.at(a).force) / problem.a
+            rows[:, place == index] = part
         velocity, force = problem.law.model.v0 * rows[V], problem.force * np.maximum(rows[P], 0.0)
         return problem.depth * rows[Z], velocity, problem.a * rows[A], force
 
@@ -254,19 +312,31 @@ def impact(law: ContactLaw) -> ViscousMotion:
         If it exceeds the law's range, the sphere does not separate again, or the time history
         cannot be resolved.
     """
-    calm = motion.impact(law.only(lambda e: not e.viscous))
+    calm = _calm(law.only(lambda e: not e.viscous))
     a, T = calm.max_contact_radius, calm.contact_time
-    problem = ViscousProblem(curve_of(law, a), bending_of(law, a), a, T)
+    problem = ViscousProblem(curve_of(law, a), bending_of(law, a), a, T, yielding_of(law))
     rough, found = (_motion(problem, elements(problem, n)) for n in STAGES)
     pairs = zip(found.numbers, rough.numbers, strict=True)
     return replace(found, quadrature=max(abs(new / old - 1.0) for new, old in pairs))
 
 
-def _motion(problem: ViscousProblem, elements: tuple[Element, ...]) -> ViscousMotion:
+def _calm(law: ContactLaw) -> Motion:
+    """The impact without viscosity. If it yields its radius is larger than the elastic law's."""
+    if not law.plastic:
+        return motion.impact(law)
+    from derivation.scene import plastic
+
+    return plastic.impact(law)
+
+
+def _motion(problem: ViscousProblem, pieces: tuple[Piece, ...]) -> ViscousMotion:
     """The results of an impact."""
+    elements = tuple(element for element, _ in pieces)
+    problem = replace(problem, yielding=pieces[-1][1])
     last = elements[-1].end(P)
     a, v, z, _, _ = elements[-1].at(np.array([last]))[:, 0]
     depth, force, radius = (max(element.largest(row) for element in elements) for row in (Z, P, A))
+    branch = problem.yielding
     energy = problem.law.model.m * problem.law.model.v0 * problem.law.model.v0
     energy_balance = EnergyBalance(
         initial_kinetic=0.5 * energy,
@@ -274,17 +344,19 @@ def _motion(problem: ViscousProblem, elements: tuple[Element, ...]) -> ViscousMo
         rebound_kinetic=0.5 * energy * float(v) ** 2,
         viscous_loss=energy * sum(_lost(element, last) for element in elements),
         unrecovered_elastic=_left(problem, problem.a * float(a)),
+        plastic_loss=branch.work if branch else 0.0,
     )
     return ViscousMotion(
         problem.T * last**ONSET,
         problem.depth * depth,
         problem.force * force,
-        problem.a * radius,
+        problem.a * radius / (branch.flattening if branch else 1.0),
         0.0,
         -float(v),
         energy_balance,
-        problem,
-        elements,
+        problem=problem,
+        pieces=pieces,
+        dent=branch.dent if branch else 0.0,
     )
 
 
@@ -299,6 +371,6 @@ def _lost(element: Element, last: float) -> float:
 def _left(problem: ViscousProblem, a: float) -> float:
     """Energy [J] that the viscoelastic part holds at a radius [m]: int P_e d(delta_e - w)."""
     nodes, weights = leggauss(48)
-    found = problem.curve.at(a * (1.0 + nodes) / 2.0)
+    found = problem.at(a * (1.0 + nodes) / 2.0)
     slope = found.depth_a - problem.bending.at(found.force)[1] * found.force_a
     return a / 2.0 * float(weights @ (found.force * slope))

@@ -1,12 +1,18 @@
 """Where a contact begins or ceases to yield: time elements end there, another branch follows."""
 
+from collections.abc import Callable
 from dataclasses import replace
+from typing import TypeVar
 
 import numpy as np
 from numpy.polynomial.legendre import legder, legroots, legval
 
 from derivation.scene.collocation import Element, radau
+from derivation.scene.effects.effect import Array
 from derivation.scene.time_element import A, DynamicProblem, ImpactState, TimeElement, element
+from derivation.scene.yielding import Yielding
+
+Made = TypeVar("Made")
 
 _TRIES, _CLOSE = 6, 1e-13
 """How often an element is made anew to end at an event, and how near it ends, over its length."""
@@ -18,44 +24,77 @@ its end one is looked for when it has been cut, in its variable on [-1, 1]."""
 def next_branch(
     problem: DynamicProblem, n: int, made: TimeElement, start: ImpactState, radius: float
 ) -> tuple[TimeElement, DynamicProblem]:
-    """The element, cut at its first event, and the problem on the branch after it.
+    """The element, cut at its first event, and the problem on the branch after it."""
+    branch, x = problem.yielding, made.element.x
+    assert branch is not None
+
+    def shorter(length: float, guess: Array) -> TimeElement | None:
+        return element(problem, n, x, length, start, radius, guess)
+
+    found = cut(branch, problem.a, made, lambda made: made.element, shorter)
+    if found is None:
+        return made, problem
+    a = problem.a * found.radius
+    after = branch_after(branch, a, float(problem.contact.at(np.array([a])).force[0]))
+    sunk = (after.dent - branch.dent) / problem.depth
+    end = found.end._replace(approach=found.end.approach - sunk)
+    return found._replace(end=end), replace(problem, yielding=after)
+
+
+def cut(
+    branch: Yielding,
+    unit: float,
+    made: Made,
+    element_of: Callable[[Made], Element],
+    shorter: Callable[[float, Array], Made | None],
+) -> Made | None:
+    """What an element was made into, made anew so that it ends at its first event.
 
     A contact that does not yield begins to where its radius exceeds the end of its branch; one
     that yields ceases to where its radius is largest.
+
+    Parameters
+    ----------
+    unit
+        Unit of the radii [m].
+    element_of
+        The element of what is made.
+    shorter
+        Makes it anew, of a length, from a guess of the slope at its nodes.
+
+    Returns
+    -------
+    Made or None
+        None if there is no event.
     """
-    place = _event(problem, made.element, 1.0)
+    first = element_of(made)
+    place, nodes = _event(branch, unit, first, 1.0), radau(first.slope.size).x
     if place is None:
-        return made, problem
-    x = made.element.x
+        return None
     for _ in range(_TRIES):
-        guess = made.element.slope_at(x + (place - x) * radau(n).x)
-        cut = element(problem, n, x, place - x, start, radius, guess)
-        if cut is None:
+        guess = element_of(made).slope_at(first.x + (place - first.x) * nodes)
+        remade = shorter(place - first.x, guess)
+        if remade is None:
             break
-        made = cut
-        again = _event(problem, made.element, _BEYOND)
-        if again is None or abs(again - place) <= _CLOSE * made.element.length:
+        made = remade
+        again = _event(branch, unit, element_of(made), _BEYOND)
+        if again is None or abs(again - place) <= _CLOSE * element_of(made).length:
             break
         place = again
-    branch = problem.yielding
-    assert branch is not None
-    if not branch.loading:
-        return made, replace(problem, yielding=branch.begun())
-    a = problem.a * made.radius
-    turned = branch.turned(a, float(problem.contact.at(np.array([a])).force[0]))
-    sunk = (turned.dent - branch.dent) / problem.depth
-    end = made.end._replace(approach=made.end.approach - sunk)
-    return made._replace(end=end), replace(problem, yielding=turned)
+    return made
 
 
-def _event(problem: DynamicProblem, found: Element, last: float) -> float | None:
+def branch_after(branch: Yielding, a: float, force: float) -> Yielding:
+    """The branch after an event at a radius of the law [m] and its force [N]."""
+    return branch.turned(a, force) if branch.loading else branch.begun()
+
+
+def _event(branch: Yielding, unit: float, found: Element, last: float) -> float | None:
     """Where the first event of an element is, looked for up to `last` on its [-1, 1]."""
-    branch = problem.yielding
-    assert branch is not None
     # What grows through zero at an event: -da/dx, or the radius less that at the branch's end.
     rising = -found.slope if branch.loading else found.rows[A].copy()
     if not branch.loading:
-        rising[0] -= branch.end / problem.a
+        rising[0] -= branch.end / unit
     if float(np.sum(np.abs(rising[1:]))) < -float(rising[0]):  # below zero on [-1, 1]
         return None
     roots = legroots(rising)

@@ -16,7 +16,15 @@ from derivation.scene import motion
 from derivation.scene.effects.effect import Array
 from derivation.scene.effects.inertia import SLOWEST
 from derivation.scene.law import ContactLaw
-from generated.plasticity_kernels import loaded, unloaded, worked
+from generated.plasticity_kernels import (
+    hertz_energy,
+    hertz_radius,
+    loaded,
+    reached,
+    unloaded,
+    widening,
+    worked,
+)
 
 _HALVINGS = 80
 
@@ -71,12 +79,11 @@ class Yielding:
     @property
     def onset_energy(self) -> float:
         """Energy of Hertz's contact at the onset [J]."""
-        depth = self.onset * (self.onset / self.R)
-        return 8.0 / 15.0 * self.modulus * self.onset * depth * depth
+        return float(hertz_energy(*_arrays(self.onset, self.R, self.modulus)))
 
     def hertz_radius(self, force: Array) -> Array:
         """Hertz's radius of a force [m]."""
-        return np.asarray(np.cbrt(0.75 * (force / self.modulus) * self.R), dtype=np.float64)
+        return hertz_radius(force, *_arrays(self.R, self.modulus))
 
     def added(self, force: Array, force_a: Array) -> Added:
         """What is added at elastic forces [N], given their slope by the law's radius [N/m]."""
@@ -96,6 +103,10 @@ class Yielding:
         ratio = self.hertz_radius(force) / self.onset
         return a / np.asarray(unloaded(ratio)[0], dtype=np.float64)
 
+    def widening(self, radius: Array) -> Array:
+        """Growth of the contact radius [m] with the force on loading [m/N], at such radii."""
+        return widening(radius, *_arrays(self.onset, self.R, self.modulus))
+
     def begun(self) -> "Yielding":
         """The same where it begins to yield (further)."""
         return replace(self, loading=True)
@@ -110,12 +121,17 @@ def yielding_of(law: ContactLaw) -> Yielding | None:
     """The contact of a law before it yields; None if it does not."""
     if not law.plastic:
         return None
+    onset = onset_of(law)
+    return Yielding(onset, law.model.R, law.modulus, _end(law, onset))
+
+
+def onset_of(law: ContactLaw) -> float:
+    """Hertz's radius [m] of the force at which the contact of a law begins to yield."""
     from generated.plasticity import yield_radius
 
     model = law.model
-    onset = float(yield_radius(model.R, model.lam, model.mu, model.yield_stress))
-    onset *= 1.0 + law.softness
-    return Yielding(onset, model.R, law.modulus, _end(law, onset))
+    rigid = float(yield_radius(model.R, model.lam, model.mu, model.yield_stress))
+    return rigid * (1.0 + law.softness)
 
 
 @lru_cache(maxsize=4)
@@ -127,10 +143,9 @@ def units_of(law: ContactLaw) -> tuple[float, float]:
     branch, model = yielding_of(law), law.model
     if branch is not None:
         energy = 0.5 * model.m * model.v0 * model.v0
-        # Hertz's energy is what it takes to begin with; then it grows like (5 xi^6 + 1)/6.
         share = energy / branch.onset_energy
         if share > 1.0:
-            u = branch.onset * ((6.0 * share - 1.0) / 5.0) ** (1.0 / 6.0)
+            u = branch.onset * float(reached(np.array(share)))
             widest = u / float(unloaded(np.array(u / branch.onset))[0])
             return u, SLOWEST * widest * (widest / model.R) / model.v0
     elastic = motion.impact(law.half_space)
@@ -148,3 +163,8 @@ def _end(law: ContactLaw, onset: float) -> float:
         below = float(law.hertz_radius(law.force(a, law.at(a)))[0]) < onset
         low, high = (middle, high) if below else (low, middle)
     return high
+
+
+def _arrays(*numbers: float) -> tuple[Array, ...]:
+    """Numbers as kernels take them."""
+    return tuple(np.array(number) for number in numbers)

@@ -34,12 +34,12 @@ class Plasticity(Effect):
 
     def bound(self, model: Model, context: BoundContext) -> Bound:
         """On loading S is xi, on unloading c, in a half-space; an elastic plate helps."""
-        from generated.plasticity_kernels import unloaded, worked
+        from generated.plasticity_kernels import hertz_modulus, unloaded, worked
 
         assert context.samples is not None
         # The radii are Hertz's of the forces by the law's modulus, which they thus tell.
         last = context.radii[-1]
-        modulus = 0.75 * context.samples.force[-1] / last**2 * (model.R / last)
+        modulus = hertz_modulus(context.samples.force[-1], np.array(model.R), last)
         onset = _onset(model) * (model.modulus / modulus)
         ratio = np.minimum(context.radii / onset, _LARGEST)
         largest = np.maximum(ratio[-1], 1.0)

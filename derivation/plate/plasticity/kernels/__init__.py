@@ -5,25 +5,32 @@ from pathlib import Path
 from derivation.engine.emit.package import Numbers, Routines
 from derivation.engine.emit.tables import Constant
 from derivation.plate.modules import ComputedModule, RuntimeModule
-from derivation.plate.plasticity.kernels.printed import ROUTINES
+from derivation.plate.plasticity.kernels import fully_plastic, hertz, printed
 from derivation.plate.plasticity.theory.contact import ONSET
+from derivation.plate.plasticity.theory.fully_plastic import FULLY_PLASTIC
 
 RUNTIME = Path(__file__).parents[1] / "runtime"
 
 
 def plasticity_numbers() -> Numbers:
-    """The limit of the pressure."""
+    """The limit of the pressure, and what it may rise to beyond the model."""
     limit = Constant(
         "YIELD_LIMIT", float(ONSET), "Largest contact pressure over the smaller yield stress."
     )
-    return Numbers("plasticity_numbers", "Number of the yielding contact.", (limit,))
+    risen = Constant(
+        "FULLY_PLASTIC",
+        float(FULLY_PLASTIC),
+        "Mean pressure of a fully plastic contact over the yield stress.",
+    )
+    return Numbers("plasticity_numbers", "Numbers of the yielding contact.", (limit, risen))
 
 
 def plasticity_kernels() -> Routines:
     """The yielding contact's formulas, printed."""
     imports = {"ranges": ("moderate", "product", "root_factors")}
     title = "Formulas of the yielding contact, proved equal to what the theory derives."
-    return Routines("plasticity_kernels", title, tuple(make() for make in ROUTINES), imports)
+    made = (*printed.ROUTINES, *hertz.ROUTINES, *fully_plastic.ROUTINES)
+    return Routines("plasticity_kernels", title, tuple(make() for make in made), imports)
 
 
 MODULES = (

@@ -1,0 +1,52 @@
+"""What a fully plastic contact changes, as code computes it: the model error of link 31."""
+
+import sympy as sp
+
+from derivation.engine.emit.routine import Choice, Let, Routine, routine
+from derivation.plate.plasticity.theory import fully_plastic as theory
+from derivation.plate.plasticity.theory.fully_plastic import pressure, steep, wide
+
+grown, top = sp.symbols("grown top", positive=True)
+
+
+def risen() -> Routine:
+    """Mean pressure over that of link 31, and s, of an indentation a^2/(s R)."""
+    mean, risen_pressure = theory.mean_pressure(), theory.risen_pressure()
+    steepness = theory.steepness()
+    return routine(
+        "risen",
+        (wide,),
+        (
+            Let(grown, risen_pressure),
+            Choice(
+                top,
+                grown < theory.FULLY_PLASTIC,
+                grown,
+                theory.FULLY_PLASTIC,
+                unclaimed="no",
+                reason="the contact is fully plastic, and its pressure rises no further",
+            ),
+        ),
+        (top / mean, steepness.subs(pressure, top)),
+        (risen_pressure / mean, steepness.subs(pressure, risen_pressure)),
+        "Mean pressure as the plastic zone grows over that of link 31, and a^2/(R delta).",
+        {},
+        sp.simplify,
+    )
+
+
+def beyond() -> Routine:
+    """What they change in an impact."""
+    changed = theory.beyond()
+    return routine(
+        "beyond",
+        (pressure, steep),
+        (),
+        (changed.force, changed.restitution),
+        (changed.force, changed.restitution),
+        "Force and restitution of an impact on a half-space, over those by link 31.",
+        {},
+    )
+
+
+ROUTINES = risen, beyond

@@ -43,7 +43,12 @@ class Body(NamedTuple):
 
 def own_materials(tables: Mapping[str, Material]) -> dict[str, KnownMaterial]:
     """The materials that a scene defines."""
-    return {name: material_of(name, table.model_dump()) for name, table in tables.items()}
+    return {name: material_of(name, dict(table)) for name, table in tables.items()}
+
+
+def first_given(*values: Any) -> Any:
+    """The first value that is not None."""
+    return next(value for value in values if value is not None)
 
 
 def body_of(table: Sphere | Plate, own: Mapping[str, KnownMaterial]) -> Body:
@@ -51,10 +56,10 @@ def body_of(table: Sphere | Plate, own: Mapping[str, KnownMaterial]) -> Body:
     material = find(table.material, own) if table.material is not None else None
     return Body(
         *_lame_constants(table, material),
-        table.density or (material and material.density) or 0.0,
-        table.retardation_time or (material and material.retardation_time) or 0.0,
-        table.yield_stress or (material and material.yield_stress) or math.inf,
-        (material and material.density) or 0.0,
+        first_given(table.density, material and material.density, 0.0),
+        first_given(table.retardation_time, material and material.retardation_time, 0.0),
+        first_given(table.yield_stress, material and material.yield_stress, math.inf),
+        first_given(material and material.density, 0.0),
     )
 
 

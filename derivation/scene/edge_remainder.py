@@ -30,6 +30,12 @@ def _table() -> dict[tuple[Any, ...], float]:
     }
 
 
+@cache
+def _axes() -> tuple[list[float], ...]:
+    """The points of each axis of the table."""
+    return tuple(sorted({key[1 + i] for key in _table()}) for i in range(len(_KEYS)))
+
+
 def edge_remainder(model: Model, a: float) -> float:
     """Largest share of the indentation that the edge's model may be off by at a radius [m].
 
@@ -44,7 +50,7 @@ def edge_remainder(model: Model, a: float) -> float:
     kind = "supported" if model.edge == SUPPORTED else "clamped"
     nu = model.lam / (2.0 * (model.lam + model.mu))
     place = {"h_over_b": model.eta, "nu": nu, "a_over_b": a / model.b}
-    axes = [sorted({key[1 + i] for key in _table()}) for i in range(len(_KEYS))]
+    axes = _axes()
     for name, axis in zip(_KEYS, axes, strict=True):
         if name != "nu" and place[name] > axis[-1]:
             raise SceneError(

@@ -1,10 +1,4 @@
-"""Effect selection: the effects that a scene requires, by bounds on the change if omitted.
-
-Starting from the effects that are always included, the effect with the largest bound is included
-until the bound on all omitted effects together is within the tolerance. As S_1 grows with each
-included effect and radii shrink, bounds are evaluated anew each time. The order does not depend on
-the tolerance, so that a looser tolerance never includes more effects.
-"""
+"""Effects table: the effects that a scene requires, as `selection` finds them, and the reasons."""
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
@@ -17,8 +11,9 @@ from derivation.scene.effects.effect import NO_BOUND, Effect
 from derivation.scene.html import html_table
 from derivation.scene.law import ContactLaw
 from derivation.scene.model import Model
-from derivation.scene.omission_bounds import LargestContact, error_of, price_of, size_of, state_of
-from derivation.scene.scene import OUTPUTS, SceneError
+from derivation.scene.omission_bounds import error_of, price_of
+from derivation.scene.scene import OUTPUTS
+from derivation.scene.selection import Selection, select
 
 HEADS = (
     "effect", "parameter", "parameter value", "max. change if omitted", "status", "reason",
@@ -151,43 +146,6 @@ class SelectedEffects:
     _repr_html_ = to_html
 
 
-@dataclass(frozen=True)
-class Selection:
-    """Which effects are included, before anything is said about them.
-
-    Attributes
-    ----------
-    state
-        The law of the effects included, at its largest radius.
-    error
-        Bound on what the effects omitted by the selection change together [1].
-    sizes
-        Of every effect that applies, how much it matters: where it was included how much it
-        did then, else what omitting it alone changes at most [1].
-    choice
-        "auto", True or False of every effect that applies.
-    reasons
-        Why an effect does not apply; empty if it does.
-    required
-        Of effects included only because another one needs them, the name of that one.
-    blocked
-        Of effects that cannot be included, the part of them that the scene disables.
-    """
-
-    state: LargestContact
-    error: float
-    sizes: Mapping[str, float]
-    choice: Mapping[str, Any]
-    reasons: Mapping[str, str]
-    required: Mapping[str, str]
-    blocked: Mapping[str, str]
-
-    @property
-    def included(self) -> frozenset[str]:
-        """Names of the effects included."""
-        return self.state.law.effects
-
-
 def decide(
     model: Model,
     wanted: Mapping[str, Any],
@@ -222,93 +180,6 @@ def decide(
     return SelectedEffects(law, rtol, found.error, tuple(rows), tuple(outputs))
 
 
-def select(
-    model: Model, wanted: Mapping[str, Any], rtol: float, outputs: Sequence[str] = OUTPUTS
-) -> Selection:
-    """Include effects until the tolerance is met.
-
-    Parameters
-    ----------
-    wanted
-        "auto", True or False by effect; "auto" if left out.
-    rtol
-        What the effects left out may change at most, relative [1].
-    outputs
-        The results it applies to.
-
-    Raises
-    ------
-    SceneError
-        If the scene includes an effect and disables a part of it, or disables a part of one that
-        it must not omit.
-    """
-    without = {e.name: f"effects.{e.within} = false" for e in EFFECTS if _disabled(e, wanted)}
-    asked = {e.name for e in EFFECTS if not e.selectable and wanted.get(e.name) is True}
-    reasons = {e.name: "" if e.name in asked else e.not_applicable_reason(model) for e in EFFECTS}
-    reasons = {name: reason or without.get(name, "") for name, reason in reasons.items()}
-    blocked = _blocked(wanted)
-    present = [effect for effect in EFFECTS if not reasons[effect.name]]
-    choice = {effect.name: wanted.get(effect.name, "auto") for effect in present}
-    present = [effect for effect in present if effect.selectable]
-    free = {effect.name for effect in present if choice[effect.name] is not False}
-    # What comes in with an effect costs nothing there; of pressure the bounds are Hertz's.
-    along = {effect.name: effect.contains & free for effect in EFFECTS}
-    included = {e.name for e in present if e.always_included or choice[e.name] is True}
-    required: dict[str, str] = {}
-    for name in sorted(included):
-        required |= dict.fromkeys(along[name] - included, name)
-        included |= along[name]
-    open_ = [e for e in present if e.name not in included and choice[e.name] is not False]
-    sizes: dict[str, float] = {}
-    while True:
-        state = state_of(ContactLaw(model, frozenset(included)))
-        error = error_of(state, open_, outputs)
-        candidates = [effect for effect in open_ if effect.name not in blocked]
-        # With plate inertia, half of the tolerance is left to omitted modes and branches.
-        if error <= (0.5 * rtol if state.law.dynamic else rtol) or not candidates:
-            break
-        sizes |= {effect.name: size_of(state, effect, outputs) for effect in candidates}
-        worst = max(candidates, key=lambda effect: sizes[effect.name])
-        required |= dict.fromkeys(along[worst.name] - included, worst.name)
-        included |= {worst.name} | along[worst.name]
-        open_ = [effect for effect in open_ if effect.name not in included]
-    for effect in open_:
-        if effect.name in blocked:
-            part = blocked[effect.name]
-            effect.check_omitted(part, error_of(state, [effect], outputs), rtol)
-    left = (effect for effect in present if effect.name not in included)
-    sizes |= {effect.name: error_of(state, [effect], outputs) for effect in left}
-    return Selection(state, error, sizes, choice, reasons, required, blocked)
-
-
-def _disabled(effect: Effect, wanted: Mapping[str, Any]) -> bool:
-    """Whether a scene disables what an effect is a part of, and does not ask for the effect."""
-    parted = bool(effect.within) and wanted.get(effect.within) is False
-    return parted and wanted.get(effect.name) is not True
-
-
-def _blocked(wanted: Mapping[str, Any]) -> Mapping[str, str]:
-    """Effects that cannot be included, each with a part of it that the scene disables.
-
-    Raises
-    ------
-    SceneError
-        If the scene asks for one of them.
-    """
-    found = dict[str, str]()
-    for effect in EFFECTS:
-        name = effect.name
-        without = sorted(part for part in effect.requires if wanted.get(part) is False)
-        if without and wanted.get(name) is True:
-            raise SceneError(
-                f"effects.{name}: expected effects.{without[0]} to be included with it, got "
-                f"effects.{without[0]} = false; leave out effects.{without[0]} or effects.{name}"
-            )
-        if without:
-            found[name] = without[0]
-    return found
-
-
 def _grouped(told: Iterable[tuple[str, str]]) -> list[str]:
     """Paragraphs that say the same of several effects at once."""
     names: dict[str, list[str]] = {}
@@ -326,7 +197,7 @@ def _row(
     """The effect's line, at the largest radius of the law decided on."""
     state, choice, reasons, error = found.state, found.choice, found.reasons, found.error
     model, name = state.law.model, effect.name
-    radius = state.law.limit if math.isnan(state.a) else state.a
+    radius = state.law.limit if math.isnan(state.a) else float(state.a)
     included = name in state.law.effects or not effect.selectable
     if reasons[name]:
         return EffectRow(name, effect.adds, effect.parameter, math.nan, 0.0, False, reasons[name])
@@ -337,6 +208,8 @@ def _row(
     elif choice[name] != "auto":
         worst = max(outputs, key=lambda output: error_of(state, [effect], [output]))
         why = _forced(bool(choice[name]), bound, worst)
+    elif name in found.cheaper:
+        why = "not required, but the whole plate is cheaper to compute than a part of it"
     elif name in found.required:
         why = f"required by {found.required[name]}"
     elif name in found.blocked:

@@ -72,17 +72,12 @@ def simulate(
     model_error = _model_error(selected, a, motion)
     share = 1.0 - float(local_indentation(law, a)) / delta
     deflection = motion.largest_deflection(law) if motion is not None else None
-    warnings = (
-        *hollow_warnings(model),
-        *warnings_at(law, a, delta, deflection),
-        *motion_warnings(model, contact_time, share, motion is not None),
-        *_yield_warnings(law, a, pressure),
-    )
     neglected = neglects_inertia(model, contact_time, share, motion is not None)
     strength, yield_stress = scene.plate.tensile_strength, _known(model.plate_yield_stress)
+    stress = math.nan
     if strength is not None or yield_stress is not None:
         stress = law.max_tensile_stress(a, force, not selected.edge_disabled)
-        warnings += stress_warnings(stress, strength, yield_stress)
+    warnings = warnings_of(law, contact_time, delta, a, pressure, stress, strength, deflection)
     if motion is not None:
         speeds = [touch.relative_approach_speed for touch in motion.inertia.contacts]
         warnings += contact_warnings(speeds, motion.least)
@@ -91,6 +86,38 @@ def simulate(
         inertia_neglected=neglected,
     )  # fmt: skip
     return result if times is None else result.at(times)
+
+
+def warnings_of(
+    law: ContactLaw,
+    contact_time: float,
+    delta: float,
+    a: float,
+    pressure: float,
+    stress: float,
+    strength: float | None,
+    deflection: float | None = None,
+) -> tuple[str, ...]:
+    """What to know about an impact, but for its contacts one by one.
+
+    Parameters
+    ----------
+    contact_time, delta, a, pressure
+        Contact time [s], and largest indentation [m], contact radius [m] and pressure [Pa].
+    stress, strength
+        Largest tensile stress on the back face and the plate's strength [Pa], if it is given.
+    deflection
+        Largest deflection of the plate [m], if its motion was computed.
+    """
+    model, moves = law.model, deflection is not None
+    share = 1.0 - float(local_indentation(law, a)) / delta
+    return (
+        *hollow_warnings(model),
+        *warnings_at(law, a, delta, deflection),
+        *motion_warnings(model, contact_time, share, moves),
+        *_yield_warnings(law, a, pressure),
+        *stress_warnings(stress, strength, _known(model.plate_yield_stress)),
+    )
 
 
 def _yield_warnings(law: ContactLaw, a: float, pressure: float) -> tuple[str, ...]:
@@ -136,6 +163,16 @@ def selected_effects(
     if scene.accuracy is not None:
         outputs = scene.accuracy.outputs
         rtol = scene.accuracy.rtol if rtol is None else rtol
-    share = DEFAULT if rtol is None else max(check_rtol(rtol) - TIGHTEST, 0.0)
-    wanted = scene.effects.model_dump()
+    wanted, share = scene.effects.model_dump(), selection_tolerance(rtol)
     return rtol, decide(model_of(scene), wanted, share, outputs, default=rtol is None)
+
+
+def selection_tolerance(rtol: float | None) -> float:
+    """What the effects omitted may change, of a tolerance, or if none is given [1].
+
+    Raises
+    ------
+    SceneError
+        If the tolerance is not between 1e-13 and 1.
+    """
+    return DEFAULT if rtol is None else max(check_rtol(rtol) - TIGHTEST, 0.0)

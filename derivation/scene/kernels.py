@@ -1,6 +1,10 @@
 """The only door to the generated package: the kernels a scene needs."""
 
+import numpy as np
+
+from generated.arrays import Double as Array
 from generated.back_face import clamped_far_stress, far_stress, supported_far_stress
+from generated.contact_kernels import slope_of_indentation
 from generated.contact_law import (
     contact_radius,
     force_of_radius,
@@ -8,6 +12,16 @@ from generated.contact_law import (
     max_pressure,
     radius_of_force,
     stiffness,
+)
+from generated.contact_series import (
+    THICKEST,
+    THINNEST,
+    Piece,
+    Plates,
+    columns,
+    correction_with_slope,
+    plates_of,
+    with_slope,
 )
 from generated.edge import (
     clamped_edge,
@@ -28,11 +42,59 @@ from generated.effects import (
     zener_number,
 )
 from generated.impact import COARSE_QUADRATURE, FULL_QUADRATURE, ROUNDING, history, impact
+from generated.impact_shapes import cut
 from generated.plasticity_numbers import YIELD_LIMIT
 from generated.sensitivity import indentation_slope
 from generated.simple_impact import Estimate, Plate, hertz, law_errors, leading, plate_of
 from generated.viscosity import Course, viscous_logarithms, viscous_number
 from generated.viscous_bodies import retardation_of_two
+
+Numbers = float | Array
+"""A number of one scene, or those of many as a column."""
+
+
+def contact_plates(h: Numbers, b: Numbers) -> Plates:
+    """The contact law's polynomials of one plate or of many; NaN where h/b is out of range."""
+    eta = np.ravel(np.asarray(h / b))
+    return plates_of(np.where((eta >= THINNEST) & (eta <= THICKEST), eta, np.nan))
+
+
+def plates_at(plates: Plates, index: Array) -> Plates:
+    """Some of many plates, by their numbers."""
+    short, first = (Piece(*(x[..., index] for x in piece)) for piece in plates[3:])
+    eta, reach, far = (x[index] for x in plates[:3])
+    return Plates(eta, reach, far, short, first)
+
+
+def plate_share(plates: Plates, a: Array, h: Numbers, b: Numbers) -> tuple[Array, Array]:
+    """F and S - 1 of the contact law, of one plate or of a row of radii for each of many.
+
+    Parameters
+    ----------
+    plates
+        `plates_of` h/b.
+    a
+        Contact radii [m], of shape (points,), or (plates, points).
+    h, b
+        Half-thickness and radius of the plate [m], or of the plates in shape (plates, 1).
+
+    Returns
+    -------
+    tuple of ndarray
+        F and S - 1 [1] in the shape of a; NaN outside 0 <= a < b.
+    """
+    A = np.where((a >= 0.0) & (a < b), a, np.nan) / h
+    first = columns(plates.first, None if A.ndim == 1 else np.arange(plates.eta.size))
+    value, slope = with_slope(A, first if A.ndim == 1 else cut(first, ...))
+    reach = plates.reach if A.ndim == 1 else plates.reach[:, None]
+    beyond = reach < A
+    if beyond.any():
+        owner = np.arange(plates.eta.size)[:, None] if A.ndim > 1 else np.zeros(1, dtype=np.intp)
+        index = np.broadcast_to(owner, A.shape)[beyond]
+        value[beyond], slope[beyond] = correction_with_slope(A[beyond], plates, index)
+    one = np.ones(1)
+    return value, slope_of_indentation(one, 2.0 * one, value, slope) - 1.0
+
 
 __all__ = [
     "COARSE_QUADRATURE",
@@ -45,7 +107,9 @@ __all__ = [
     "YIELD_LIMIT",
     "Course",
     "Estimate",
+    "Numbers",
     "Plate",
+    "Plates",
     "Sphere",
     "bending",
     "bending_period",
@@ -53,6 +117,7 @@ __all__ = [
     "clamped_edge_bound",
     "clamped_edge_slope",
     "clamped_far_stress",
+    "contact_plates",
     "contact_radius",
     "echo_time",
     "far_stress",
@@ -66,6 +131,8 @@ __all__ = [
     "leading",
     "max_pressure",
     "plate_of",
+    "plate_share",
+    "plates_at",
     "radius_of_force",
     "retardation_of_two",
     "side_wall",

@@ -14,7 +14,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -72,6 +72,10 @@ class ContactLaw:
     def plate_effects(self) -> tuple[PlateEffect, ...]:
         """Those that add to the plate's deflection."""
         return tuple(effect for effect in self.chosen if isinstance(effect, PlateEffect))
+
+    def take(self, index: Any) -> "ContactLaw":
+        """The law of some of many scenes, as `Model.take` takes them."""
+        return replace(self, model=self.model.take(index))
 
     def only(self, wanted: Callable[[Effect], bool]) -> "ContactLaw":
         """The law of those of its effects for which a condition holds."""
@@ -154,7 +158,10 @@ class ContactLaw:
         Where the pressure is solved for, contact may be lost at the centre before that.
         """
         plate, sphere, thickness = self._reach
-        low, high = 0.0, min(plate * self.model.b, sphere * self.model.R, thickness * self.model.h)
+        model = self.model
+        widest = np.minimum(plate * model.b, sphere * model.R)
+        low: float = 0.0
+        high: float = np.minimum(widest, thickness * model.h)
         if not self.solved:
             return high
         if np.isfinite(self._contact(np.array([high])).force[0]):
@@ -208,9 +215,14 @@ class ContactLaw:
         """
         if self.solved:
             return float(self._contact(np.array([a])).centre_pressure[0])
+        return float(self.centre_pressure(np.array([a]))[0])
+
+    def centre_pressure(self, a: Array) -> Array:
+        """The same where it is not solved for, at one radius [m] or a column of them."""
         x, weights = gauss(NODES[2])
-        mean = float(np.sum(weights * self._sphere(x * a).slope))
-        return 2.0 / np.pi * self.modulus * (a / self.model.R) * mean
+        mean = np.sum(weights * self._sphere(x * a).slope, axis=-1, keepdims=True)
+        found: Array = 2.0 / np.pi * self.modulus * (a / self.model.R) * mean
+        return found
 
     @property
     def pressure_limit(self) -> float:
@@ -243,14 +255,22 @@ class ContactLaw:
         Of the whole plate, whatever effects are in the law; on the paper's edge unless `held`,
         or where contact or plate are wider or thicker than the support's model reaches.
         """
+        return float(self.tensile_stresses(np.array([a]), np.array([force]), held)[0])
+
+    def tensile_stresses(self, a: Array, force: Array, held: bool = True) -> Array:
+        """The same at one radius [m] and force [N], or at columns of them."""
         of = {
             edge.SUPPORTED: kernels.supported_far_stress,
             edge.CLAMPED: kernels.clamped_far_stress,
         }
         model = self.model
-        reached = a <= edge.MAX_A_OVER_B * model.b and model.eta <= THICK
-        stress = of.get(model.edge if held and reached else "", kernels.far_stress)
-        return float(stress(force, a, model.h, model.b, model.lam, model.mu))
+        plate = model.h, model.b, model.lam, model.mu
+        stress = of.get(model.edge if held else "", kernels.far_stress)
+        reached = (a <= edge.MAX_A_OVER_B * model.b) & (model.eta <= THICK)
+        if reached.all() or stress is kernels.far_stress:
+            return np.asarray(stress(force, a, *plate))
+        on_edge = stress(force, np.where(reached, a, np.nan), *plate)
+        return np.where(reached, on_edge, kernels.far_stress(force, a, *plate))
 
     def hertz_radius(self, force: Array) -> Array:
         """Radius [m] at which Hertz's law has a force [N]."""
@@ -311,18 +331,19 @@ class ContactLaw:
             return kernels.sphere_contact(a / self.model.R)
         return kernels.Sphere(*(np.ones_like(a),) * 3)
 
-    def cancellation(self, a: float) -> float:
-        """Rounding error of the slope [1] at a radius [m] where an effect's part is a difference.
+    def cancellation(self, a: Array) -> Array:
+        """Rounding error of the slope [1] where an effect's part is a difference.
+
+        At one radius [m], or at a column of them.
 
         Unless the whole plate is in the law, that part is the whole plate's less that of effects
         that are not, which may be much larger.
         """
         differs = any(effect.difference for effect in self.plate_effects)
         if not differs or self.effects >= WHOLE_PLATE:
-            return 0.0
-        radii = np.array([a])
-        whole, slope = plate_contribution(self.model, radii), self.at(radii).additive
-        return float(CANCELLED * np.abs(whole.slope[0]) / slope[0])
+            return np.zeros_like(a)
+        whole, slope = plate_contribution(self.model, a), self.at(a).additive
+        return np.asarray(CANCELLED * np.abs(whole.slope) / slope)
 
     def deflection(self, a: Array) -> Contribution:
         """The plate's parts of F and S at Hertz's radii [m], of a rigid sphere."""

@@ -2,7 +2,7 @@
 
 Sphere, materials, edge and tolerance are the scene's; thickness and speed vary, the speed such
 that a quasi-static plate has the contact radius. On every such scene the effects are selected
-as for the scene itself (`effect_selection.select`), so that map and `explain` cannot disagree.
+as for the scene itself (`selection.select`), so that map and `explain` cannot disagree.
 """
 
 import io
@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from derivation.scene.effect_selection import Selection, select
 from derivation.scene.effects import EFFECTS, PAPER
 from derivation.scene.effects.effect import Array
 from derivation.scene.law import ContactLaw
@@ -22,6 +21,7 @@ from derivation.scene.motion import largest_radius
 from derivation.scene.plot import METADATA
 from derivation.scene.result import Result
 from derivation.scene.scene import SceneError
+from derivation.scene.selection import Selection, select
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -250,8 +250,13 @@ def _composed(law: ContactLaw) -> tuple[Results, AchievedAccuracy]:
         None,
         law=Part(0.0, PROVED),
         quadrature=Part(found.quadrature, TESTED),
-        rounding=Part(_rounding(law) + law.cancellation(found.max_contact_radius), TESTED),
+        rounding=Part(rounding_of(law) + _cancellation(law, found.max_contact_radius), TESTED),
     )
+
+
+def _cancellation(law: ContactLaw, a: float) -> float:
+    """Rounding error of the slope at a contact radius [m] [1]."""
+    return float(law.cancellation(np.array([a]))[0])
 
 
 def _with_inertia(
@@ -266,7 +271,7 @@ def _with_inertia(
         None,
         law=Part(math.fsum(found.inertia.left(selected.outputs)), ESTIMATED),
         quadrature=Part(waves.INTEGRATION, TESTED),
-        rounding=Part(_rounding(law), TESTED),
+        rounding=Part(rounding_of(law), TESTED),
     )
 
 
@@ -304,7 +309,7 @@ def moved(law: ContactLaw) -> motion.Motion:
         return motion.impact(law)
 
 
-def _rounding(law: ContactLaw) -> float:
+def rounding_of(law: ContactLaw) -> float:
     """What tests hold the arithmetic to; that of the pressure and in time come on top."""
     rounding = kernels.ROUNDING
     if law.solved:

@@ -1,11 +1,15 @@
 """Turns a scene into the numbers the kernels take, and into dimensionless ones."""
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
 
 from derivation.scene import kernels
 from derivation.scene.bodies import Sphere
-from derivation.scene.body_materials import Body, body_of, own_materials
+from derivation.scene.body_materials import Body, body_of, first_given, own_materials
 from derivation.scene.materials import plane_strain_modulus
 from derivation.scene.scene import Scene, SceneError
 
@@ -40,6 +44,9 @@ class InertiaSettings:
 @dataclass(frozen=True)
 class Model:
     """A scene in the quantities of the paper.
+
+    Of many scenes at once every number may be a column, an array of shape (n, 1): `derived_rows`
+    makes such models. Effects and contact law take them as they take single numbers.
 
     Attributes
     ----------
@@ -90,6 +97,25 @@ class Model:
     edge: str = "paper"
     inertia: InertiaSettings = InertiaSettings()
 
+    @cached_property
+    def plates(self) -> kernels.Plates:
+        """The contact law's polynomials of the plate, or of all plates."""
+        return kernels.contact_plates(self.h, self.b)
+
+    def take(self, index: Any) -> "Model":
+        """Some of many scenes, by their numbers; a single one by its number as a plain int."""
+        columns = {
+            field.name: value[index].item() if isinstance(index, int) else value[index]
+            for field in fields(self)
+            if isinstance(value := getattr(self, field.name), np.ndarray)
+        }
+        found = replace(self, **columns)
+        if "plates" in vars(self) and not isinstance(index, int):  # known, and so kept
+            many = self.plates.eta.size > 1
+            known = kernels.plates_at(self.plates, index) if many else self.plates
+            vars(found)["plates"] = known
+        return found
+
     @property
     def poissons_ratio(self) -> float:
         """Poisson's ratio of the plate [1]."""
@@ -103,7 +129,8 @@ class Model:
     @property
     def shear_speed(self) -> float:
         """Speed of shear waves in the plate [m/s]."""
-        return math.sqrt(self.mu / self.density)
+        found: float = np.sqrt(self.mu / self.density)
+        return found
 
     @property
     def softness(self) -> float:
@@ -158,29 +185,7 @@ def model_of(scene: Scene) -> Model:
         from derivation.scene.measured import fitted
 
         scene = fitted(scene)
-    own = own_materials(scene.materials)
-    sphere, plate = body_of(scene.sphere, own), body_of(scene.plate, own)
-    model = Model(
-        R=scene.sphere.radius,
-        m=_mass(scene.sphere, sphere.density),
-        v0=scene.impact.speed,
-        h=scene.plate.half_thickness or (scene.plate.thickness or 0.0) / 2,
-        b=scene.plate.radius,
-        lam=plate.lam,
-        mu=plate.mu,
-        sphere_modulus=_modulus(sphere),
-        gravity=scene.impact.gravity or 0.0,
-        density=plate.density,
-        yield_stress=min(sphere.yield_stress, plate.yield_stress),
-        plate_yield_stress=plate.yield_stress,
-        solid_density=sphere.solid_density,
-        loss_factor=scene.plate.loss_factor or 0.0,
-        edge=scene.plate.edge,
-        inertia=_inertia(scene),
-    )
-    times = plate.retardation_time, sphere.retardation_time
-    if any(times):
-        model = replace(model, retardation_time=kernels.retardation_of_two(*times, model.softness))
+    model = numbers_of(scene)
     if model.inertia.infinite_plate and model.density:
         model = replace(model, b=_unbounded(model), edge="paper")
     for name, value in zip(NUMBERS, model.numbers, strict=True):
@@ -189,12 +194,47 @@ def model_of(scene: Scene) -> Model:
                 f"scene: expected numbers a double can hold, got {name} = {value}, "
                 "computed from the scene; give less extreme numbers"
             )
-    if not 3 * plate.lam > -2 * plate.mu:
+    if not 3 * model.lam > -2 * model.mu:
         raise SceneError(
             "plate.poissons_ratio: expected a ratio above -1 by more than rounding, "
             f"got {scene.plate.poissons_ratio!r}; give the Lame constants instead"
         )
     return model
+
+
+def numbers_of(scene: Scene) -> Model:
+    """The numbers of a scene as they are, or columns of those of a scene of columns."""
+    own = own_materials(scene.materials)
+    sphere, plate = body_of(scene.sphere, own), body_of(scene.plate, own)
+    half, full = scene.plate.half_thickness, scene.plate.thickness
+    model = Model(
+        R=scene.sphere.radius,
+        m=_mass(scene.sphere, sphere.density),
+        v0=scene.impact.speed,
+        h=half if half is not None else first_given(full, 0.0) / 2,
+        b=scene.plate.radius,
+        lam=plate.lam,
+        mu=plate.mu,
+        sphere_modulus=_modulus(sphere),
+        gravity=first_given(scene.impact.gravity, 0.0),
+        density=plate.density,
+        yield_stress=_lesser(sphere.yield_stress, plate.yield_stress),
+        plate_yield_stress=plate.yield_stress,
+        solid_density=sphere.solid_density,
+        loss_factor=first_given(scene.plate.loss_factor, 0.0),
+        edge=scene.plate.edge,
+        inertia=_inertia(scene),
+    )
+    times = plate.retardation_time, sphere.retardation_time
+    if any(np.any(time) for time in times):
+        model = replace(model, retardation_time=kernels.retardation_of_two(*times, model.softness))
+    return model
+
+
+def _lesser(one: float, other: float) -> float:
+    """The lesser of two numbers, or of two columns row by row."""
+    found = np.minimum(one, other)
+    return float(found) if np.ndim(found) == 0 else found
 
 
 def _unbounded(model: Model) -> float:
@@ -225,4 +265,4 @@ def _mass(sphere: Sphere, density: float) -> float:
 
 def _modulus(body: Body) -> float:
     """E/(1 - nu^2) of a body [Pa], infinite if it is rigid."""
-    return plane_strain_modulus(body.lam, body.mu) if math.isfinite(body.mu) else math.inf
+    return plane_strain_modulus(body.lam, body.mu) if np.all(np.isfinite(body.mu)) else math.inf

@@ -16,7 +16,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.polynomial.legendre import leggauss, legint, legval, legvander
 
-from derivation.scene.effects.effect import Array
+from derivation.scene.effects.effect import Array, Numbers
 from derivation.scene.law import ContactLaw, Shape
 from derivation.scene.limits import check_numbers, refuse
 from derivation.scene.quadrature import MORE_TIMES, NODES, Rule, rule
@@ -146,31 +146,50 @@ def largest_radius(
     SceneError
         If it is beyond the law's range.
     """
-    model, x = law.model, rule(n).x
-    goal = math.log(3.0 / 16.0) + math.log(model.m) - float(np.log(law.modulus))
-    goal += 2.0 * (math.log(model.v0) + math.log(model.R))
-    if not math.isfinite(goal):
+    [a] = largest_radii(law, n, None if start == math.inf else np.array([start]), close).tolist()
+    if math.isnan(a):
         raise _beyond(law)
-    limit = law.limit
-    a = min(_start(law, goal) if start == math.inf else start, limit)
+    return float(a)
+
+
+def largest_radii(
+    law: ContactLaw, n: int = NODES[0], start: Array | None = None, close: float = _CLOSE
+) -> Array:
+    """The same of one scene, or of many as a column; NaN where it is beyond the law's range.
+
+    Each scene's iteration ends by itself, so that a radius does not depend on the other scenes.
+    """
+    model = law.model
+    goal = math.log(3.0 / 16.0) + np.log(model.m) - np.log(law.modulus)
+    goal = np.atleast_1d(goal + 2.0 * (np.log(model.v0) + np.log(model.R)))
+    a = np.minimum(_start(law, goal) if start is None else start, law.limit)
+    a = np.where(np.isfinite(goal), a, np.nan)
+    found, left, limit = a.copy(), np.arange(len(a)), law.limit
     for _ in range(_STEPS):
-        shape = law.at(np.append(x, 1.0) * a)
-        power = shape.force * shape.slope
-        mean = float(np.sum(rule(n).weights * x**4 * power[:-1]))
-        depth = 2.0 * law.gravity * a * (a / model.R) / model.v0 / model.v0
-        share = 1.0 + depth * float(shape.depth[-1])
-        if not (mean > 0.0 and share < math.inf):
-            raise _beyond(law)
-        steep = float(power[-1]) / mean - depth * 2.0 * float(shape.slope[-1]) / share
-        step = (goal + math.log(share) - math.log(mean) - 5.0 * math.log(a)) / steep
-        if not steep > 0.0 or (a >= limit and step > 0.0):
-            raise _beyond(law)
-        a = min(a * math.exp(max(-1.0, min(1.0, step))), limit)
-        if abs(step) <= close:
+        a, step = _step(law, goal, a, rule(n))
+        found[left] = a
+        moving = np.abs(step[..., 0]) > close
+        if not moving.any():
             break
-    if not a < limit:
-        raise _beyond(law)
-    return a
+        if a.ndim > 1 and not moving.all():
+            law, goal, a, left = law.take(moving), goal[moving], a[moving], left[moving]
+    return np.where(found < limit, found, np.nan)
+
+
+def _step(law: ContactLaw, goal: Array, a: Array, known: Rule) -> tuple[Array, Array]:
+    """A step of Newton's iteration: the next radius, NaN if there is none, and the step taken."""
+    model, limit = law.model, law.limit
+    shape = law.at(np.append(known.x, 1.0) * a)
+    power = shape.force * shape.slope
+    weights = known.weights * known.x**4
+    mean = np.sum(weights * power[..., :-1], axis=-1, keepdims=True)
+    depth = 2.0 * law.gravity * a * (a / model.R) / model.v0 / model.v0
+    share = 1.0 + depth * shape.depth[..., -1:]
+    steep = power[..., -1:] / mean - depth * 2.0 * shape.slope[..., -1:] / share
+    step = (goal + np.log(share) - np.log(mean) - 5.0 * np.log(a)) / steep
+    after = np.minimum(a * np.exp(np.clip(step, -1.0, 1.0)), limit)
+    sound = (mean > 0.0) & (share < np.inf) & (steep > 0.0) & ~((a >= limit) & (step > 0.0))
+    return np.where(sound, after, np.nan), np.where(sound, step, np.nan)
 
 
 def _beyond(law: ContactLaw) -> SceneError:
@@ -181,15 +200,15 @@ def _beyond(law: ContactLaw) -> SceneError:
     )
 
 
-def _start(law: ContactLaw, goal: float) -> float:
+def _start(law: ContactLaw, goal: Array) -> Array:
     """A radius [m] near the largest, from the logarithm of E over K: whichever law is stiffer."""
     model = law.model
     found = 0.2 * (goal + math.log(5.0))
     if law.bends:
         # 3/2 a/h/(4 pi eta^2) instead of 1, with a^6/6 instead of a^5/5.
-        steep = math.log(16.0 * math.pi) + math.log(model.h) + 2.0 * math.log(model.eta)
-        found = min(found, (goal + steep) / 6.0)
-    return math.exp(min(max(found, -700.0), 700.0))
+        steep = math.log(16.0 * math.pi) + np.log(model.h) + 2.0 * np.log(model.eta)
+        found = np.minimum(found, (goal + steep) / 6.0)
+    return np.exp(np.clip(found, -700.0, 700.0))
 
 
 def impact(law: ContactLaw) -> Motion:
@@ -222,26 +241,32 @@ def impact(law: ContactLaw) -> Motion:
 
 def _results(law: ContactLaw, a: float, n: int, times: int) -> Motion:
     """The results at a largest radius [m] by n nodes, and others in time."""
+    time, depth, force = (number.item() for number in results_at(law, np.array([a]), n, times))
+    return Motion(time, depth, force, a, 0.0)
+
+
+def results_at(law: ContactLaw, a: Array, n: int, times: int) -> tuple[Array, Array, Array]:
+    """Contact time, largest indentation and force at a largest radius [m], or a column of them."""
     known = rule(n, times)
     shape = law.at(np.append(known.x, 1.0) * a)
-    last = Shape(*(x[-1:] for x in shape))
+    last = Shape(*(x[..., -1:] for x in shape))
     rate, _ = _course(law, a, shape, known)
-    time = 8.0 * a * (a / law.model.R) / law.model.v0 * float(np.sum(known.u_weights * rate))
-    top = np.array([a])
-    deepest, strongest = law.indentation(top, last), law.force(top, last)
-    return Motion(time, float(deepest[0]), float(strongest[0]), a, 0.0)
+    mean = np.sum(known.u_weights * rate, axis=-1, keepdims=True)
+    time = 8.0 * a * (a / law.model.R) / law.model.v0 * mean
+    return time, law.indentation(a, last), law.force(a, last)
 
 
-def _course(law: ContactLaw, a: float, shape: Shape, known: Rule) -> tuple[Array, Array]:
+def _course(law: ContactLaw, a: Numbers, shape: Shape, known: Rule) -> tuple[Array, Array]:
     """q S/sqrt(r) and sqrt(r) at the nodes in time."""
     model = law.model
-    power, slope = shape.force[:-1] * shape.slope[:-1], shape.slope[:-1]
-    stored = known.work @ power / float(np.sum(known.weights * known.x**4 * power))
+    slope, sunk = shape.slope[..., :-1], shape.depth[..., -1:]
+    power = shape.force[..., :-1] * slope
+    whole = np.sum(known.weights * known.x**4 * power, axis=-1, keepdims=True)
     share = 2.0 * law.gravity * a * (a / model.R) / model.v0 / model.v0
-    sunk = float(shape.depth[-1])
-    ratio = (1.0 + share * sunk) * stored - 2.0 * share * (known.path @ slope)
+    ratio = (1.0 + share * sunk) * (power @ known.work.T / whole)
+    ratio = ratio - 2.0 * share * (slope @ known.path.T)
     q, root = 1.0 - known.u * known.u, np.sqrt(ratio)
-    return q * (known.at_times @ slope) / root, root
+    return q * (slope @ known.at_times.T) / root, root
 
 
 def _history(law: ContactLaw, motion: Motion, times: Array) -> tuple[Array, Array, Array, Array]:

@@ -6,23 +6,27 @@ up to 1.02 times the largest; link 18 says what this does to the results.
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from functools import reduce
+from operator import add
+from typing import Any
 
 import numpy as np
 
-from derivation.scene import kernels
 from derivation.scene.effects.effect import (
     Array,
     Bound,
     BoundContext,
+    Changes,
     Effect,
     LawSamples,
+    Numbers,
     PlateEffect,
-    Results,
 )
 from derivation.scene.effects.inertia import WIDER
 from derivation.scene.law import ContactLaw, Shape
-from derivation.scene.motion import largest_radius
+from derivation.scene.law_errors import law_errors
+from derivation.scene.motion import largest_radii
 from derivation.scene.quadrature import NODES, rule, stored
 from derivation.scene.scene import OUTPUTS, SceneError
 
@@ -39,16 +43,18 @@ class LargestContact:
     """A law at its largest radius [m]: S_1 at the radii of `context`, and elasticities of S_1.
 
     `growth` is the largest elasticity of the contact radius by Hertz's radius of the force, at
-    least 1. `a` is NaN if the impact exceeds the law's range.
+    least 1. `a` is NaN if the impact exceeds the law's range. Of many scenes, numbers are columns.
     """
 
     law: ContactLaw
-    a: float
+    a: Numbers
     context: BoundContext
     slope: Array
-    fall: float
-    rise: float
-    growth: float
+    fall: Array
+    rise: Array
+    growth: Array
+    bounds: dict[tuple[str, bool], Bound] = field(default_factory=dict, compare=False)
+    """Bounds of effects known so far, by name and whether radii are stretched."""
 
 
 def state_of(law: ContactLaw, top: float = TOP) -> LargestContact:
@@ -59,35 +65,59 @@ def state_of(law: ContactLaw, top: float = TOP) -> LargestContact:
     """
     if law.dynamic:
         stiff = law.only(lambda e: not (isinstance(e, PlateEffect) or e.dynamic))
-        return replace(state_of(stiff, WIDER), law=law)
+        return replace(state_of(stiff, WIDER), law=law, bounds={})
     nodes = rule(NODES[0])
     with np.errstate(all="ignore"):
         try:
-            a = largest_radius(law, close=NEAR)
-            top = min(top * a, law.limit)
+            a = largest_radii(law, close=NEAR)
         except SceneError:  # with more effects there may be an impact
-            a, top = math.nan, law.limit
-        radii = np.append(nodes.x, 1.0) * top
+            a = np.array([np.nan])
+        # Beyond the law's range there may be an impact with more effects.
+        upper = np.where(np.isnan(a), law.limit, np.minimum(top * a, law.limit))
+        radii = np.append(nodes.x, 1.0) * upper
         shape = law.at(radii)
         # Once more without the end, where a sphere's slope may be steep: of the polynomial.
-        inner, last = (Shape(*(x[part] for x in shape)) for part in (slice(-1), slice(-1, None)))
-        elasticity = nodes.x * (nodes.derivative @ inner.additive) / inner.additive
-        equal = np.concatenate(([0.0], radii * np.cbrt(shape.force)))
+        inner = Shape(*(x[..., :-1] for x in shape))
+        elasticity = nodes.x * (inner.additive @ nodes.derivative.T) / inner.additive
+        equal = _begun(0.0, radii * np.cbrt(shape.force))
         samples = _samples(law, radii, shape)
-    fall, rise = max(0.0, -float(np.min(elasticity))), max(0.0, float(np.max(elasticity)))
+    fall, rise = np.maximum(0.0, -_least(elasticity)), np.maximum(0.0, _most(elasticity))
     # P goes with the cube of Hertz's radius, and dP = 2 E* a_H d delta/S.
     swelling = inner.slope / (inner.additive * np.cbrt(inner.force) ** 2)
-    growth = 1.0 + MARGIN * max(0.0, float(np.max(1.0 / swelling)) - 1.0)
-    context = BoundContext(equal, a * (a / law.model.R) * float(last.depth[0]), samples)
-    slope = np.concatenate(([1.0], shape.additive))
-    return LargestContact(law, a, context, slope, MARGIN * fall, MARGIN * rise, growth)
+    growth = 1.0 + MARGIN * np.maximum(0.0, _most(1.0 / swelling) - 1.0)
+    depth = a * (a / law.model.R) * shape.depth[..., -1:]
+    context = BoundContext(equal, _number(depth), samples)
+    slope = _begun(1.0, shape.additive)
+    return LargestContact(law, _number(a), context, slope, MARGIN * fall, MARGIN * rise, growth)
+
+
+def _begun(first: float, values: Array) -> Array:
+    """Values with one more in front, of each scene."""
+    start = np.full((*values.shape[:-1], 1), first)
+    return np.concatenate((start, values), axis=-1)
+
+
+def _number(x: Array) -> Numbers:
+    """A number of one scene as a float, those of many as the column they are."""
+    return float(x.item()) if x.ndim == 1 else x
+
+
+def _most(values: Array) -> Array:
+    """The largest of each scene."""
+    return np.asarray(np.max(values, axis=-1, keepdims=True))
+
+
+def _least(values: Array) -> Array:
+    """The smallest of each scene."""
+    return np.asarray(np.min(values, axis=-1, keepdims=True))
 
 
 def _samples(law: ContactLaw, radii: Array, shape: Shape) -> LawSamples:
     """Force, indentation, stiffness and energy at the nodes and the largest radius."""
-    nodes, top = rule(NODES[0]), radii[-1]
-    power = (shape.force * shape.slope)[:-1]
-    share = np.append(stored(NODES[0]) @ power, np.sum(nodes.weights * nodes.x**4 * power))
+    nodes, top = rule(NODES[0]), radii[..., -1:]
+    power = (shape.force * shape.slope)[..., :-1]
+    whole = np.sum(nodes.weights * nodes.x**4 * power, axis=-1, keepdims=True)
+    share = np.concatenate((power @ stored(NODES[0]).T, whole), axis=-1)
     unit = law.force(top, Shape(*np.ones(4))) * law.indentation(top, Shape(*np.ones(4)))
     return LawSamples(
         law.force(radii, shape),
@@ -98,18 +128,30 @@ def _samples(law: ContactLaw, radii: Array, shape: Shape) -> LawSamples:
     )
 
 
-def bound_of(state: LargestContact, effect: Effect, stretch: float = 1.0) -> Bound:
-    """An effect's bound in the state's context, whose radii the sphere's elasticity may stretch.
+def bound_of(state: LargestContact, effect: Effect, stretch: Numbers | None = None) -> Bound:
+    """An effect's bound in the state's context, whose radii the sphere's elasticity may stretch."""
+    key = effect.name, stretch is not None
+    if key not in state.bounds:
+        with np.errstate(all="ignore"):
+            state.bounds[key] = _bound(state, effect, 1.0 if stretch is None else stretch)
+    return state.bounds[key]
 
-    That of damping, which acts over the whole contact, is taken on a quasi-static plate.
+
+def _bound(state: LargestContact, effect: Effect, stretch: Numbers) -> Bound:
+    """The same, computed. That of damping, which acts over the whole contact, is taken on a
+    quasi-static plate.
     """
     if effect.damps and state.law.dynamic:
         state = state_of(state.law.only(lambda e: not (e.dynamic or e.damps)))
-        if math.isnan(state.a):
+        if np.all(np.isnan(state.a)):
             none = np.zeros_like(state.context.radii)
             return Bound(none, none, results=5 * (math.inf,))
-    with np.errstate(all="ignore"):
-        found = effect.bound(state.law.model, state.context.stretched(stretch))
+    context, model = state.context.stretched(stretch), state.law.model
+    if effect.takes_rows or context.radii.ndim == 1:
+        found = effect.bound(model, context)
+    else:
+        rows = range(len(context.radii))
+        found = _together([effect.bound(model.take(i), context.row(i)) for i in rows])
     if not effect.bounded(state.law):
         return found._replace(up=found.up + math.inf)
     if isinstance(effect, PlateEffect):
@@ -118,58 +160,91 @@ def bound_of(state: LargestContact, effect: Effect, stretch: float = 1.0) -> Bou
     return found
 
 
+def _together(bounds: Sequence[Bound]) -> Bound:
+    """Bounds of single scenes as those of many."""
+    low, up = (np.array([bound[i] for bound in bounds]) for i in (0, 1))
+    energy = _column(bound.energy for bound in bounds)
+    radius = _column(bound.radius for bound in bounds)
+    time, depth, force, width, speed = (
+        _column(bound.results[i] for bound in bounds) for i in range(len(OUTPUTS))
+    )
+    return Bound(low, up, energy, radius, (time, depth, force, width, speed))
+
+
+def _column(numbers: Iterable[Numbers]) -> Array:
+    """Single numbers as a column."""
+    return np.array([np.asarray(number).item() for number in numbers])[:, None]
+
+
 def error_of(state: LargestContact, effects: Sequence[Effect], outputs: Sequence[str]) -> float:
-    """What leaving effects out changes together at most, the worst of the outputs."""
+    """What leaving effects out of one scene changes together at most, the worst of the outputs."""
+    return float(errors_of(state, effects, outputs).item())
+
+
+def errors_of(state: LargestContact, effects: Sequence[Effect], outputs: Sequence[str]) -> Array:
+    """The same of one scene, or of many as a column."""
     if not effects:
-        return 0.0
-    if math.isnan(state.a):
-        return math.inf
-    elastic = [e for e in effects if e.softness(state.law.model)]
-    stretch = math.exp(bound_of(state, elastic[0]).radius) if elastic else 1.0
-    bounds = [bound_of(state, e, 1.0 if e in elastic else stretch) for e in effects]
-    together = Bound(
-        low=np.sum([bound.low for bound in bounds], axis=0),
+        return np.zeros_like(state.growth)
+    lost = np.isnan(state.a)
+    if lost.all():
+        return np.full_like(state.growth, np.inf)
+    elastic = [e for e in effects if np.any(e.softness(state.law.model))]
+    stretch = np.exp(bound_of(state, elastic[0]).radius) if elastic else None
+    bounds = [bound_of(state, e, None if e in elastic else stretch) for e in effects]
+    up = 1.0 + bounds[0].up
+    for bound in bounds[1:]:
         # The half-space's effects multiply; a product is above the sum where they only add.
-        up=np.prod([1.0 + bound.up for bound in bounds], axis=0) - 1.0,
-        energy=sum(bound.energy for bound in bounds),
-        radius=sum(bound.radius for bound in bounds),
+        up = up * (1.0 + bound.up)
+    together = Bound(
+        low=_sum(bound.low for bound in bounds),
+        up=up - 1.0,
+        energy=_sum(bound.energy for bound in bounds),
+        radius=_sum(bound.radius for bound in bounds),
         results=_sums(bound.results for bound in bounds),
     )
-    return _worst(state, together, outputs)
+    return np.where(lost, np.inf, _worst(state, together, outputs))
 
 
-def _sums(rows: Iterable[Results]) -> Results:
+def _sum(numbers: Iterable[Numbers]) -> Any:
+    """The sum, of whatever shape each has."""
+    return reduce(add, numbers)
+
+
+def _sums(rows: Iterable[Changes]) -> Changes:
     """Sums of the rows' columns."""
-    time, depth, force, radius, speed = (math.fsum(column) for column in zip(*rows, strict=True))
+    time, depth, force, radius, speed = map(_sum, zip(*rows, strict=True))
     return time, depth, force, radius, speed
 
 
-def _worst(state: LargestContact, bound: Bound, outputs: Sequence[str]) -> float:
+def _worst(state: LargestContact, bound: Bound, outputs: Sequence[str]) -> Array:
     """The worst of the outputs' errors by link 18, and by what changes results besides."""
     low, up, energy, radius, results = bound
-    if not (np.all(np.isfinite(low)) and np.all(np.isfinite(up)) and state.slope.min() > 0.0):
-        return math.inf
-    below, above = float(np.max(low / state.slope)), float(np.max(up / state.slope))
-    if energy:
-        # The weight works along the whole law's indentation, not along this one's.
-        free = kernels.law_errors(below, above, state.fall, state.rise)[1]
-        share = -math.expm1(-energy) * (1.0 + free)
-        energy = -math.log1p(-share) if share < 1.0 else math.inf
-    found = kernels.law_errors(below, above, state.fall, state.rise, energy)
-    if not math.isfinite(found[0]):
-        return math.inf
-    # The bound of a viscous contact, taken of this law, is widened for that of everything.
-    wider = (1.0 + max(found)) ** 2
-    kept = sum(bound_of(state, e).results[-1] for e in state.law.chosen if e.viscous)
-    logarithms = np.log1p([*found, 0.0]) + wider * np.array(results)
-    logarithms[-1] += (wider - 1.0) * kept
-    if state.law.plastic:
-        logarithms[-1] += _plastic_share(state) * math.log1p(max(found))
-    # Link 18 speaks of Hertz's radius of the force, with which the contact's own may grow faster.
-    logarithms[3] += (state.growth - 1.0) * math.log1p(found[3]) + state.growth * radius
-    with np.errstate(over="ignore"):  # no bound, as good as
-        errors = dict(zip(OUTPUTS, np.expm1(logarithms), strict=True))
-    return float(max(errors[name] for name in outputs))
+    with np.errstate(all="ignore"):  # no bound, as good as
+        known = np.isfinite(low).all(axis=-1, keepdims=True)
+        known &= np.isfinite(up).all(axis=-1, keepdims=True) & (_least(state.slope) > 0.0)
+        below, above = (_most(np.where(known, x / state.slope, 0.0)) for x in (low, up))
+        if np.any(energy):
+            # The weight works along the whole law's indentation, not along this one's.
+            free = law_errors(below, above, state.fall, state.rise)[1]
+            share = -np.expm1(-np.asarray(energy)) * (1.0 + free)
+            energy = np.where(share < 1.0, -np.log1p(-np.minimum(share, 1.0)), np.inf)
+        found = law_errors(below, above, state.fall, state.rise, energy)
+        largest = np.maximum.reduce(found)
+        # The bound of a viscous contact, taken of this law, is widened for that of everything.
+        wider = (1.0 + largest) ** 2
+        others = (*found, np.zeros_like(largest))
+        logs = [np.log1p(x) + wider * y for x, y in zip(others, results, strict=True)]
+        kept = [bound_of(state, e).results[-1] for e in state.law.chosen if e.viscous]
+        if kept:
+            logs[-1] = logs[-1] + (wider - 1.0) * _sum(kept)
+        if state.law.plastic:
+            logs[-1] = logs[-1] + _plastic_share(state) * np.log1p(largest)
+        # Link 18 speaks of Hertz's radius of the force, with which the contact's own may grow
+        # faster.
+        logs[3] = logs[3] + (state.growth - 1.0) * np.log1p(found[3]) + state.growth * radius
+        errors = [np.expm1(log) for name, log in zip(OUTPUTS, logs, strict=True) if name in outputs]
+        worst = np.maximum.reduce(errors) + 0.0 * largest
+        return np.where(known & np.isfinite(found[0]) & ~np.isnan(worst), worst, np.inf)
 
 
 def _plastic_share(state: LargestContact) -> float:
@@ -183,22 +258,33 @@ def _plastic_share(state: LargestContact) -> float:
 
 
 def size_of(state: LargestContact, effect: Effect, outputs: Sequence[str]) -> float:
-    """By how much an effect alone matters: its error, or where none is shown its share of S."""
-    error = error_of(state, [effect], outputs)
-    if math.isfinite(error):
+    """By how much an effect of one scene matters alone.
+
+    That is its error, or where none is shown its share of S.
+    """
+    return float(sizes_of(state, effect, outputs).item())
+
+
+def sizes_of(state: LargestContact, effect: Effect, outputs: Sequence[str]) -> Array:
+    """The same of one scene, or of many as a column."""
+    error = errors_of(state, [effect], outputs)
+    if np.isfinite(error).all():
         return error
     bound = bound_of(state, effect)
-    share = np.maximum(bound.low, bound.up) / np.abs(state.slope)
-    most = float(np.max(share, where=np.isfinite(share), initial=0.0))
-    return 10.0 + most + bound.energy + bound.results[-1]
+    with np.errstate(all="ignore"):
+        share = np.maximum(bound.low, bound.up) / np.abs(state.slope)
+    most = _most(np.where(np.isfinite(share), share, 0.0))
+    return np.where(
+        np.isfinite(error), error, 10.0 + np.maximum(most, 0.0) + bound.energy + bound.results[-1]
+    )
 
 
 def price_of(state: LargestContact, effect: Effect, outputs: Sequence[str]) -> float:
     """What leaving out an effect that is in would change: the law with it lies beside S_1."""
-    if effect.always_included or math.isnan(state.a):
+    if effect.always_included or np.isnan(state.a):
         return math.inf
     if effect.dynamic:
         state = state_of(state.law.only(lambda e: not (e.dynamic or e.damps)))
         return error_of(state, [effect], outputs)
     bound = bound_of(state, effect)
-    return _worst(state, bound._replace(low=bound.up, up=bound.low), outputs)
+    return float(_worst(state, bound._replace(low=bound.up, up=bound.low), outputs).item())

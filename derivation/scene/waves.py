@@ -329,8 +329,8 @@ def _branches(law: ContactLaw, a: float, displacement: float, T: float) -> Resul
     model = law.model
     if model.inertia.branches == "all":
         return NONE
-    heavier = 1.0 + weight_share(model, displacement)
-    time, depth, force, radius, speed = higher_branch_error(model, a, T)
+    heavier = float(1.0 + weight_share(model, displacement))
+    time, depth, force, radius, speed = map(float, higher_branch_error(model, a, T))
     return heavier * time, depth, heavier * force, heavier * radius, heavier * speed
 
 

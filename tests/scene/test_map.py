@@ -12,9 +12,9 @@ from given import EXAMPLES
 from derivation.cli import main
 from derivation.scene import Scene, load, read, simulate
 from derivation.scene import map as map_
-from derivation.scene.effect_selection import select
 from derivation.scene.impact import selected_effects
 from derivation.scene.result import Result
+from derivation.scene.selection import select
 
 
 @pytest.fixture

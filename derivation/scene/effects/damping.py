@@ -5,7 +5,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from derivation.scene.effects.effect import NO_BOUND, Array, Bound, BoundContext, Effect, none_of
+from derivation.scene.effects.effect import (
+    NO_BOUND,
+    Array,
+    Bound,
+    BoundContext,
+    Effect,
+    Numbers,
+    none_of,
+)
 from derivation.scene.effects.inertia import (
     SENSITIVITY,
     SLOWEST,
@@ -39,6 +47,7 @@ class Damping(Effect):
     within = "inertia"
     static = False
     damps = True
+    takes_rows = False
 
     def not_applicable_reason(self, model: Model) -> str:
         """A plate without a loss factor is not damped, one without density does not vibrate."""
@@ -68,7 +77,7 @@ class Damping(Effect):
         if not most < NO_BOUND:
             return Bound(none, none, results=5 * (math.inf,))
 
-        def changed(phase: Array, rise: float) -> Array:
+        def changed(phase: Array, rise: Numbers) -> Array:
             steady = np.minimum(VARIATION, np.minimum(phase * phase, TURNING / (phase * rise)))
             ringing = late(phase, rise)
             return model.loss_factor * steady + np.minimum(

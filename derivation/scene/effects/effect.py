@@ -11,6 +11,7 @@ modulus E* of the law, a^3 = 3 P R/(4 E*),
 
 import math
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 import numpy as np
@@ -27,6 +28,7 @@ PLATES = 1e-50, 1e50
 NO_BOUND = 10.0
 """A bound from here on is so far above what it bounds that it is shown as no bound."""
 Array = NDArray[np.float64]
+Numbers = kernels.Numbers
 
 
 class Contribution(NamedTuple):
@@ -51,7 +53,7 @@ class LawSamples(NamedTuple):
 
 @dataclass(frozen=True)
 class BoundContext:
-    """Where a bound is evaluated.
+    """Where a bound is evaluated; of many scenes a row of radii for each, and columns of numbers.
 
     Attributes
     ----------
@@ -64,16 +66,23 @@ class BoundContext:
     """
 
     radii: Array
-    depth: float = 0.0
+    depth: Numbers = 0.0
     samples: LawSamples | None = None
 
-    def stretched(self, factor: float) -> "BoundContext":
+    def row(self, index: int) -> "BoundContext":
+        """That of one of many scenes."""
+        samples = self.samples and LawSamples(*(x[index] for x in self.samples))
+        return BoundContext(self.radii[index], np.asarray(self.depth)[index].item(), samples)
+
+    def stretched(self, factor: Numbers) -> "BoundContext":
         """The same with all radii larger."""
         return replace(self, radii=self.radii * factor)
 
 
 Results = tuple[float, float, float, float, float]
 """A number for each of the outputs."""
+Changes = tuple[Numbers, Numbers, Numbers, Numbers, Numbers]
+"""The same of one scene or of many."""
 
 
 class Bound(NamedTuple):
@@ -94,9 +103,9 @@ class Bound(NamedTuple):
 
     low: Array
     up: Array
-    energy: float = 0.0
-    radius: float = 0.0
-    results: Results = (0.0, 0.0, 0.0, 0.0, 0.0)
+    energy: Numbers = 0.0
+    radius: Numbers = 0.0
+    results: Changes = (0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 class Reach(NamedTuple):
@@ -152,6 +161,8 @@ class Effect:
         Whether the plate has inertia.
     damps
         Whether the plate's modes are damped.
+    takes_rows
+        Whether its bound takes many scenes at once; if not, it is asked of one after the other.
     within
         Name of an effect that it is a part of: if the scene disables that, it does not apply.
     """
@@ -176,6 +187,7 @@ class Effect:
     plastic: ClassVar[bool] = False
     dynamic: ClassVar[bool] = False
     damps: ClassVar[bool] = False
+    takes_rows: ClassVar[bool] = True
     within: ClassVar[str] = ""
 
     def not_applicable_reason(self, model: Model) -> str:  # noqa: ARG002
@@ -259,10 +271,19 @@ class PlateEffect(Effect):
 
 def plate_of(model: Model) -> kernels.Plate:
     """c_1, its error bound and K_3 of the plate; infinite where h/b is out of their range."""
+    if not isinstance(model.eta, np.ndarray):
+        return _plate_of(model.eta)
+    eta, rows = np.unique(model.eta, return_inverse=True)
+    found = np.array([_plate_of(x) for x in eta.tolist()])[rows.reshape(model.eta.shape)]
+    return kernels.Plate(found[..., 0], found[..., 1], found[..., 2])
+
+
+@lru_cache(maxsize=8192)
+def _plate_of(eta: float) -> kernels.Plate:
     low, high = PLATES
-    if not low < model.eta < high:
+    if not low < eta < high:
         return kernels.Plate(np.inf, np.inf, np.inf)
-    return kernels.plate_of(model.eta)
+    return kernels.plate_of(eta)
 
 
 def none_of(a: Array) -> Array:

@@ -44,7 +44,7 @@ class FiniteThickness(PlateEffect):
         up = np.maximum(linear + wrong + wall, 0.0)
         low = np.maximum(plate.rest * A**3 + wrong - linear, 0.0)
         # Of either sign in between: no less than at any smaller radius.
-        return Bound(np.maximum.accumulate(low), np.maximum.accumulate(up))
+        return Bound(np.maximum.accumulate(low, axis=-1), np.maximum.accumulate(up, axis=-1))
 
     def contribution(self, model: Model, a: Array) -> Contribution:
         """What the whole plate adds, less its other parts."""
@@ -58,8 +58,4 @@ class FiniteThickness(PlateEffect):
 
 def plate_contribution(model: Model, a: Array) -> Contribution:
     """Bending, finite thickness and side wall in one: the contact law less the half-space's."""
-    wide = 4.0 * float(np.max(a))  # the sphere's radius plays no part
-    a = np.maximum(a, 1e-30 * wide)  # nothing at a = 0, and nothing here
-    depth = kernels.indentation(a, wide, model.h, model.b) * (wide / a / a) - 1.0
-    slope = kernels.indentation_slope(a, wide, model.h, model.b) * (wide / a / 2.0) - 1.0
-    return Contribution(depth, slope)
+    return Contribution(*kernels.plate_share(model.plates, a, model.h, model.b))

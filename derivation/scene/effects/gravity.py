@@ -1,6 +1,6 @@
 """Gravity: the sphere's weight during the contact."""
 
-import math
+import numpy as np
 
 from derivation.scene.effects.effect import Bound, BoundContext, Effect, none_of
 from derivation.scene.model import Model
@@ -32,6 +32,6 @@ class Gravity(Effect):
     def bound(self, model: Model, context: BoundContext) -> Bound:
         """-log(1 - e), e the work of the weight over the largest indentation over the energy."""
         share = 2.0 * model.gravity * context.depth / model.v0 / model.v0
-        energy = -math.log1p(-share) if share < 1.0 else math.inf
+        energy = -np.log1p(-np.minimum(share, 1.0))
         none = none_of(context.radii)
         return Bound(none, none, energy=energy)

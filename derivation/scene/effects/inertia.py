@@ -12,8 +12,9 @@ from derivation.scene.effects.effect import (
     Array,
     Bound,
     BoundContext,
+    Changes,
     Effect,
-    Results,
+    Numbers,
     none_of,
 )
 from derivation.scene.effects.finite_thickness import WHOLE_PLATE
@@ -72,20 +73,21 @@ class PlateInertia(Effect):
 
     def value(self, model: Model, a: float) -> float:  # noqa: ARG002
         """Zener's number; none without a density."""
-        if not model.density:
+        if not np.all(model.density):
             return math.nan
         R, m, v0, h, _, lam, mu = model.numbers
-        number = float(kernels.zener_number(R, m, v0, h, lam, mu, model.density))
-        return number / math.pow(1.0 + model.softness, 0.4)
+        number = kernels.zener_number(R, m, v0, h, lam, mu, model.density)
+        found: float = number / np.power(1.0 + model.softness, 0.4)
+        return found
 
     def bound(self, model: Model, context: BoundContext) -> Bound:
         """Deviation of the modes from their quasi-static response over the indentation; tested."""
         assert context.samples is not None
         heavier = 1.0 + weight_share(model, context.depth)
-        T = SLOWEST * context.depth / (model.v0 * math.sqrt(heavier))
-        a, force = float(context.radii[-1]), float(context.samples.force[-1])
+        T = SLOWEST * context.depth / (model.v0 * np.sqrt(heavier))
+        a, force = context.radii[..., -1:], context.samples.force[..., -1:]
         off = force / context.depth * off_rest(model, a, T, late)
-        more = higher_branch_error(model, a, T) if model.density else 5 * (0.0,)
+        more = higher_branch_error(model, a, T) if np.all(model.density) else 5 * (0.0,)
         none = none_of(context.radii)
         logs = [factor * off + part for factor, part in zip(SENSITIVITY, more, strict=True)]
         logs[0], logs[4] = heavier * logs[0], heavier * logs[4]
@@ -123,7 +125,7 @@ class PlateInertia(Effect):
         )
 
 
-def weight_share(model: Model, depth: float) -> float:
+def weight_share(model: Model, depth: Numbers) -> Numbers:
     """Work of the weight over the initial kinetic energy [1], at a largest indentation [m].
 
     A sphere is accelerated by its weight during contact. The plate takes a fraction of the kinetic
@@ -132,7 +134,7 @@ def weight_share(model: Model, depth: float) -> float:
     return 2.0 * model.gravity * depth / model.v0 / model.v0
 
 
-def higher_branch_error(model: Model, a: float, T: float) -> Results:
+def higher_branch_error(model: Model, a: Numbers, T: Numbers) -> Changes:
     """Return the change of each result by the branches beyond the first [1]: fitted, tested.
 
     Parameters
@@ -144,34 +146,39 @@ def higher_branch_error(model: Model, a: float, T: float) -> Results:
         thickness rings by that, all the less the slower it is.
     """
     transit, number = 2.0 * model.h / model.shear_speed, PlateInertia().value(model, 0.0)
-    wide, echo = a / (2.0 * model.h), transit / math.sqrt(T * min(T, _alone(model)))
+    wide, echo = a / (2.0 * model.h), transit / np.sqrt(T * np.minimum(T, _alone(model)))
     # Less is lost where echoes return many times in a contact.
-    radiated = wide * echo * min(1.0, 2.0 * echo)
-    whole = math.pow(transit / T, 1.5) * math.sqrt(max(1.0, number))
-    ring = wide * wide * max(whole, math.pow(transit / min(T, _rise(model)), 3.0))
+    radiated = wide * echo * np.minimum(1.0, 2.0 * echo)
+    whole = np.power(transit / T, 1.5) * np.sqrt(np.maximum(1.0, number))
+    sudden = transit / np.minimum(T, _rise(model))
+    ring = wide * wide * np.maximum(whole, sudden * sudden * sudden)
     time, depth, force, radius, speed = (
         one * radiated + two * ring for one, two in zip(RADIATION, THICKNESS_RINGING, strict=True)
     )
     return time, depth, force, radius, speed
 
 
-def _alone(model: Model) -> float:
+def _alone(model: Model) -> Numbers:
     """Contact time [s] were it not for the bending."""
-    stiffness = 4.0 / 3.0 * model.modulus / (1.0 + model.softness) * math.sqrt(model.R)
-    return HERTZ_TIME * math.pow(model.m / stiffness, 0.4) / math.pow(model.v0, 0.2)
+    stiffness = 4.0 / 3.0 * model.modulus / (1.0 + model.softness) * np.sqrt(model.R)
+    found: Numbers = HERTZ_TIME * np.power(model.m / stiffness, 0.4) / np.power(model.v0, 0.2)
+    return found
 
 
-def _rise(model: Model) -> float:
+def _rise(model: Model) -> Numbers:
     """Time in which the force comes and goes [s]: Hertz's, shorter where the plate gives way.
 
     It yields as fast as the sphere comes on where lambda P = v0, P^(2/3) by then being v0 t: after
     lambda^(-2/3) of That, whenever the sphere may leave.
     """
     number = PlateInertia().value(model, 0.0)
-    return _alone(model) / math.pow(max(1.0, RISE_BY_ZENER * number), 2.0 / 3.0)
+    found: Numbers = _alone(model) / np.cbrt(np.maximum(1.0, RISE_BY_ZENER * number)) ** 2
+    return found
 
 
-def off_rest(model: Model, a: float, T: float, deviation: Callable[[Array, float], Array]) -> float:
+def off_rest(
+    model: Model, a: Numbers, T: Numbers, deviation: Callable[[Array, Numbers], Array]
+) -> Array:
     """Return a deviation from the quasi-static response to a unit force [m/N], of all modes.
 
     Wave numbers are (n - 1/4) pi/b and frequencies those of a thin plate, held below Rayleigh's
@@ -185,13 +192,13 @@ def off_rest(model: Model, a: float, T: float, deviation: Callable[[Array, float
         That of a mode over its static deflection, by omega T and the share of T in which the force
         rises.
     """
-    rise = min(T, _rise(model)) / T if model.density else 1.0
+    moves = np.all(model.density)
+    rise = np.minimum(T, _rise(model)) / T if moves else 1.0
     first = np.arange(1.0, COUNTED + 1.0)
     last = COUNTED + 0.5
-    beyond = max(CONTACT_END * model.b / (math.pi * a), 2.0 * last)
-    steps = np.linspace(math.log(last), math.log(beyond), NODES_BEYOND)
-    n = np.exp(steps)
-    weights = np.full(NODES_BEYOND, steps[1] - steps[0])
+    span = np.log(np.maximum(CONTACT_END * model.b / (math.pi * a), 2.0 * last) / last)
+    n = last * np.exp(span * np.linspace(0.0, 1.0, NODES_BEYOND))
+    weights = np.full(NODES_BEYOND, 1.0 / (NODES_BEYOND - 1.0))
     weights[[0, -1]] /= 2.0
 
     def of_mode(n: Array) -> Array:
@@ -199,19 +206,20 @@ def off_rest(model: Model, a: float, T: float, deviation: Callable[[Array, float
         j = (n - 0.25) * math.pi
         x, y = j * model.eta, j * (a / model.b)
         # Kirchhoff's plate, and no faster than a wave on a face.
-        thin = x * x * math.sqrt(2.0 / (3.0 * (1.0 - model.poissons_ratio)))
+        thin = x * x * np.sqrt(2.0 / (3.0 * (1.0 - model.poissons_ratio)))
         root = thin / np.sqrt(1.0 + (thin / x) ** 2)  # omega h/c_T
         at_rest = model.h / model.mu * (0.5 / root**2) * j / (2.0 * model.b * model.b)
         felt = np.minimum(1.0, CONTACT_DECAY / (y * y))
-        if not model.density:
+        if not moves:
             return np.asarray(at_rest * felt * MAX_DYNAMIC_FACTOR)
         phase = root * (model.shear_speed * T / model.h)
         return np.asarray(at_rest * felt * deviation(phase, rise))
 
-    return float(np.sum(of_mode(first)) + np.sum(weights * n * of_mode(n)))
+    counted = np.sum(of_mode(first), axis=-1, keepdims=True)
+    return np.asarray(counted + span * np.sum(weights * n * of_mode(n), axis=-1, keepdims=True))
 
 
-def late(phase: Array, rise: float) -> Array:
+def late(phase: Array, rise: Numbers) -> Array:
     """Return a mode's deviation from its quasi-static response over its static deflection.
 
     A mode follows a force as fast as it turns: P'' is of the order of P/T^2 by Hertz's law, and
@@ -219,5 +227,6 @@ def late(phase: Array, rise: float) -> Array:
     t^(3/2) makes a fast mode ring.
     """
     slow = np.minimum(SMOOTH_FORCE / (phase * phase * rise), STEP_FORCE / phase)
-    slow = np.maximum(slow, HERTZ_ONSET * rise / (phase * rise) ** 1.5)
+    onset = phase * rise
+    slow = np.maximum(slow, HERTZ_ONSET * rise / (onset * np.sqrt(onset)))
     return np.asarray(np.minimum(MAX_DYNAMIC_FACTOR, slow))

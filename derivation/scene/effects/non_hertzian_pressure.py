@@ -53,8 +53,9 @@ class NonHertzianPressure(Effect):
         theta = np.where(rho < 1, cubic * (a / model.h) ** 3 * steeper, np.inf)
         known = (theta <= BOUND_THETA) & (a <= BOUND_A_OVER_B * model.b)
         low, up = (np.where(known, c * theta, np.inf) for c in (5.0 / 3.0, 2.0 / 3.0))
-        radius = -np.log1p(-theta[-1]) / 3.0 if known[-1] else np.inf
-        return Bound(low, up, radius=float(radius))
+        last = np.where(known, theta, np.nan)[..., -1:]
+        radius = np.where(np.isnan(last), np.inf, -np.log1p(-last) / 3.0)
+        return Bound(low, up, radius=radius)
 
     def proved(self, law: "ContactLaw") -> bool:
         """Of a paraboloid."""

@@ -23,6 +23,7 @@ class Plasticity(Effect):
     source = "Johnson 1985; Thornton 1997; link 31"
     hertzian = True
     plastic = True
+    takes_rows = False
 
     def not_applicable_reason(self, model: Model) -> str:
         """Without a yield stress nothing yields."""

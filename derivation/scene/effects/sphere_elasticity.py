@@ -39,4 +39,4 @@ class SphereElasticity(Effect):
         sound = np.exp(log) * alpha < 1.0
         up = np.where(sound, growth * (1.0 + cubic), np.inf)
         low = np.where(sound, growth * np.maximum(cubic - 1.0, 0.0), np.inf)
-        return Bound(low, up, radius=float(log))
+        return Bound(low, up, radius=log)

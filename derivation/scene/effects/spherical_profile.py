@@ -36,7 +36,7 @@ class SphericalProfile(Effect):
         rho = a / model.R
         ratio = np.cbrt(kernels.sphere_contact(np.where(rho < 1, rho, np.nan)).force)
         up = np.where(np.isfinite(ratio), ratio - 1.0, np.inf)
-        return Bound(np.zeros_like(a), up, radius=float(np.log1p(up[-1])))
+        return Bound(np.zeros_like(a), up, radius=np.log1p(up[..., -1:]))
 
     def bounded(self, law: "ContactLaw") -> bool:
         """Under Hertz's pressure alone."""

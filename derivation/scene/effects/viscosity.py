@@ -26,6 +26,7 @@ class Viscosity(Effect):
     static = False
     hertzian = True
     viscous = True
+    takes_rows = False
 
     def not_applicable_reason(self, model: Model) -> str:
         """Bodies without a time are not viscous."""

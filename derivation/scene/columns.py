@@ -1,0 +1,141 @@
+"""Columns of scenes: one scene with columns of numbers in it, and each row as a scene by itself."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from typing import Any, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic.fields import FieldInfo
+
+from derivation.scene.effects.effect import Array
+from derivation.scene.messages import OWN_MATERIALS
+from derivation.scene.model import NUMBERS, Model, numbers_of
+from derivation.scene.scene import TABLES, Material, Scene, SceneError
+from derivation.scene.table import Table
+
+Columns = Mapping[str, Array]
+"""Numbers in SI by key, `table.key` or `materials.NAME.key`: one array each, of equal lengths."""
+_BODIES = ("sphere", "plate", "impact", OWN_MATERIALS)
+"""Tables whose keys are numbers of the model."""
+
+
+def table_of(place: str) -> type[Table]:
+    """The table of a key.
+
+    Raises
+    ------
+    SceneError
+        If there is no such key.
+    """
+    name, _, key = place.rpartition(".")
+    table = Material if name.startswith(f"{OWN_MATERIALS}.") else TABLES.get(name)
+    if table is None or key not in table.model_fields:
+        raise SceneError(
+            f"columns: expected keys of a scene file, got {place!r:.60}; write for instance "
+            "plate.thickness"
+        )
+    return table
+
+
+def row_of(scene: Scene, columns: Columns, row: int) -> dict[str, Any]:
+    """The tables of one row's scene, as a scene file would hold them.
+
+    A key given in a column takes the place of those that it stands in for, such as
+    half_thickness for thickness.
+    """
+    data = scene.to_json()
+    for place, values in columns.items():
+        name, _, key = place.rpartition(".")
+        table, given = table_of(place), data
+        for part in name.split(".", 1):
+            given = given.setdefault(part, {})
+        for other in _instead(table, key):
+            given.pop(other, None)
+        value = float(values[row])
+        [example, *_] = table.model_fields[key].examples or [value]
+        given[key] = int(value) if isinstance(example, int) and value.is_integer() else value
+    return data
+
+
+def _instead(table: type[Table], key: str) -> set[str]:
+    """Keys that a key stands in for: half_thickness for thickness, mass for density."""
+    return {
+        other
+        for groups in table.choices
+        if any(key in group for group in groups)
+        for group in groups
+        if key not in group
+        for other in group
+    }
+
+
+def of_bodies(columns: Columns) -> bool:
+    """Whether the columns are numbers of the bodies and of the impact alone."""
+    return all(place.split(".", 1)[0] in _BODIES for place in columns)
+
+
+def allowed(columns: Columns) -> NDArray[np.bool_]:
+    """Which rows have only numbers that their keys allow one by one."""
+    found = np.ones(len(next(iter(columns.values()))), dtype=bool)
+    for place, values in columns.items():
+        field = table_of(place).model_fields[place.rpartition(".")[2]]
+        found &= np.isfinite(values)
+        for limit in _limits(field):
+            found &= _within(values, limit)
+    return found
+
+
+def _limits(field: FieldInfo) -> Iterable[Any]:
+    """The limits that pydantic sets a key."""
+    yield from field.metadata
+    for kind in get_args(field.annotation):
+        for known in getattr(kind, "__metadata__", ()):
+            yield from known.metadata if isinstance(known, FieldInfo) else ()
+
+
+def _within(values: Array, limit: Any) -> NDArray[np.bool_]:
+    """Which values keep a limit."""
+    compared = {"gt": np.greater, "ge": np.greater_equal, "lt": np.less, "le": np.less_equal}
+    found = np.ones(values.shape, dtype=bool)
+    for name, holds in compared.items():
+        if hasattr(limit, name):
+            found &= holds(values, getattr(limit, name))
+    return found
+
+
+def models_of(scene: Scene, columns: Columns) -> tuple[Model, NDArray[np.bool_]]:
+    """The numbers of all rows as columns, and which rows are shown to be sound.
+
+    Parameters
+    ----------
+    scene
+        The scene of one of the rows: the keys that are given are those of all.
+    columns
+        Columns of the bodies' numbers, each allowed by itself.
+    """
+    given: dict[str, dict[str, Any]] = {}
+    for place, values in columns.items():
+        name, _, key = place.rpartition(".")
+        given.setdefault(name, {})[key] = values[:, None]
+    own = dict(scene.materials)
+    tables: dict[str, Any] = {}
+    for name, keys in given.items():
+        first, _, material = name.partition(".")
+        if material:
+            own[material] = own[material].model_copy(update=keys)
+        else:
+            tables[first] = getattr(scene, first).model_copy(update=keys)
+    with np.errstate(all="ignore"):
+        model = numbers_of(scene.model_copy(update=tables | {OWN_MATERIALS: own}))
+        sound = 3.0 * np.asarray(model.lam) > -2.0 * np.asarray(model.mu)
+        for name, number in zip(NUMBERS, model.numbers, strict=True):
+            sound = sound & np.isfinite(number) & ((np.asarray(number) > 0.0) | (name == "lam"))
+    rows = next(iter(columns.values())).shape[0]
+    return _spread(model, rows), np.broadcast_to(sound, (rows, 1))[:, 0]
+
+
+def _spread(model: Model, rows: int) -> Model:
+    """The model with columns for those numbers without which no row is known."""
+    R, m, v0 = (np.array(np.broadcast_to(x, (rows, 1))) for x in (model.R, model.m, model.v0))
+    return replace(model, R=R, m=m, v0=v0)  # type: ignore[arg-type]

@@ -1,0 +1,58 @@
+"""Errors of the results by link 18, of many laws at once: `kernels.law_errors` in arrays."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from derivation.scene.effects.effect import Array
+from generated.simple_impact_kernels import elasticities
+
+WIDER = np.log(1.02)
+"""Logarithm of how much wider than by S_1 the contact may become: bounds are taken up to there."""
+SLACK = 1.0 + 1e-9
+"""For the rounding of the bounds themselves."""
+
+
+def law_errors(
+    low: Array, up: Array, fall: Array, rise: Array, energy: Array | float = 0.0
+) -> tuple[Array, Array, Array, Array]:
+    """Relative errors of the results if S is within 1 - low and 1 + up times S_1.
+
+    Parameters
+    ----------
+    low, up
+        Not negative [1]; they hold up to 1.02 times the largest radius by S_1.
+    fall, rise
+        d log S_1/d log a is between -fall and rise [1].
+    energy
+        Logarithm of the factor by which the contact may take more energy than the sphere brings;
+        not negative [1].
+
+    Returns
+    -------
+    tuple of ndarray
+        Of contact time, largest indentation, force and contact radius; infinite where nothing is
+        shown.
+    """
+    known = (low < 1.0) & (up < np.inf) & (fall < 2.0)
+    loss, gain = -np.log1p(-np.where(known, low, 0.0)), np.log1p(np.where(known, up, 0.0))
+    elasticity, depth, shorter, longer = elasticities(fall, rise)  # type: ignore[arg-type]
+    wider, narrower = (loss + energy) / elasticity, gain / elasticity
+    known = known & np.less(wider, WIDER)
+    longer = np.maximum(0.0, longer)
+    time = np.maximum(
+        gain + 0.5 * loss + 0.5 * energy + np.maximum(longer * wider, shorter * narrower),
+        loss + 0.5 * gain + np.maximum(shorter * wider, longer * narrower),
+    )
+    deeper = np.maximum(gain + depth * wider, loss + depth * narrower)
+    radius = np.maximum(wider, narrower)
+    return (
+        _relative(time, known),
+        _relative(deeper, known),
+        _relative(3.0 * radius, known),
+        _relative(radius, known),
+    )
+
+
+def _relative(logarithm: Array, known: NDArray[np.bool_]) -> Array:
+    """Relative error of a factor's logarithm."""
+    return np.where(known & (logarithm < 700.0), np.expm1(logarithm) * SLACK, np.inf)

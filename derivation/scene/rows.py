@@ -1,0 +1,242 @@
+"""Many scenes at once: columns in, columns of results out; static impacts in arrays.
+
+Rows that array arithmetic cannot show to be sound, rows with a solution of their own (a pressure
+that is solved for, a viscoelastic or yielding contact, plate inertia) and rows that are refused
+are simulated one by one. So each row is what `simulate` returns for its scene: effects, status and
+reason are the same, numbers differ by rounding.
+"""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from derivation.scene.columns import Columns, allowed, models_of, of_bodies, row_of, table_of
+from derivation.scene.edge_remainder import edge_remainder
+from derivation.scene.effects import EFFECTS
+from derivation.scene.effects.effect import Array
+from derivation.scene.impact import selection_tolerance, simulate
+from derivation.scene.result import UNITS
+from derivation.scene.rows_selection import Group, selected
+from derivation.scene.rows_warnings import warnings_of_rows
+from derivation.scene.scene import OUTPUTS, Scene, SceneError, read
+from derivation.scene.static_rows import impacts_of
+
+BLOCK = 4096
+"""Rows worked on at a time, so that memory is bounded."""
+ROUNDING = 1e-14
+"""Distance of a bound from the tolerance within which rounding could decide; one scene does."""
+STRENGTH = "plate.tensile_strength"
+"""The key of a number that only warnings look at."""
+TRIED = 8
+"""Rows that are read in search of one that is sound."""
+
+
+@dataclass(frozen=True)
+class Rows:
+    """Results of many scenes: a column each.
+
+    Attributes
+    ----------
+    results
+        By the names of `UNITS` (contact_time ... max_tensile_stress), in SI; NaN where there is
+        none.
+    bound
+        Bound of the relative error of each row [1]; NaN where there is none.
+    model_error
+        Largest relative error of the model itself [1], as of `Result`; NaN where there is none.
+    status
+        "finished", "incomplete" or "refused".
+    reason
+        Why a row is refused or incomplete; else its warnings, joined by "; ", if there are any.
+    effects
+        Names of the effects included, joined by spaces; empty if the row is refused.
+    """
+
+    results: dict[str, NDArray[np.float64]]
+    bound: NDArray[np.float64]
+    model_error: NDArray[np.float64]
+    status: NDArray[np.str_]
+    reason: NDArray[np.object_]
+    effects: NDArray[np.object_]
+
+
+def solve(
+    scene: Scene, columns: Mapping[str, NDArray[np.float64]], rtol: float | None = None
+) -> Rows:
+    """Simulate the scenes of many rows.
+
+    Parameters
+    ----------
+    scene
+        Everything that the columns do not give.
+    columns
+        Numbers in SI by key, `table.key` or `materials.NAME.key`: arrays of the same length, with
+        a row for each scene. A key replaces those that it stands in for, such as half_thickness
+        thickness.
+    rtol
+        As `simulate` takes it.
+
+    Returns
+    -------
+    Rows
+        What `simulate` returns for the scene of each row.
+
+    Raises
+    ------
+    SceneError
+        If a key is none of a scene file, or the columns differ in length.
+    """
+    given = {place: np.asarray(values, dtype=np.float64) for place, values in columns.items()}
+    lengths = {values.shape for values in given.values()}
+    if len(lengths) != 1 or any(len(shape) != 1 for shape in lengths):
+        raise SceneError(
+            "columns: expected one or more arrays of the same length, got shapes "
+            f"{sorted(lengths)}; give each key one number for each row"
+        )
+    for place in given:
+        table_of(place)
+    [(count,)] = lengths
+    found = _empty(count)
+    for start in range(0, count, BLOCK):
+        part = {place: values[start : start + BLOCK] for place, values in given.items()}
+        _Block(scene, part, rtol, found, start).run()
+    return found
+
+
+def _empty(count: int) -> Rows:
+    """Rows of which nothing is known."""
+    results = {name: np.full(count, np.nan) for name in UNITS}
+    bound, model_error = np.full(count, np.nan), np.full(count, np.nan)
+    status = np.full(count, "refused", dtype="<U10")
+    reason, effects = np.full(count, "", dtype=object), np.full(count, "", dtype=object)
+    return Rows(results, bound, model_error, status, reason, effects)
+
+
+@dataclass(frozen=True)
+class _Block:
+    """Some of the rows, and where their results belong."""
+
+    scene: Scene
+    columns: Columns
+    rtol: float | None
+    found: Rows
+    start: int
+
+    def run(self) -> None:
+        """Simulate the rows: in arrays those that can be, one by one the others."""
+        count = len(next(iter(self.columns.values())))
+        left = np.ones(count, dtype=bool)
+        for rows in self._in_arrays():
+            left[rows] = False
+        for row in np.flatnonzero(left).tolist():
+            self._one(row)
+
+    def _one(self, row: int) -> None:
+        """Simulate a row by itself."""
+        found, place = self.found, self.start + row
+        try:
+            result = simulate(read(row_of(self.scene, self.columns, row)), rtol=self.rtol)
+            included = " ".join(result.effects.included)
+            numbers = {name: float(getattr(result, name)) for name in UNITS}
+        except SceneError as error:
+            found.reason[place] = str(error)
+            return
+        found.effects[place] = included
+        if not result.complete:
+            found.status[place] = "incomplete"
+            found.reason[place] = result.incomplete_note
+            return
+        found.status[place] = "finished"
+        found.reason[place] = "; ".join(result.warnings)
+        found.bound[place], found.model_error[place] = result.accuracy.bound, result.model_error
+        for name, number in numbers.items():
+            found.results[name][place] = number
+
+    def _in_arrays(self) -> Iterable[NDArray[np.intp]]:
+        """Simulate rows in arrays, and yield which those were."""
+        if self.scene.measured is not None or not of_bodies(self.columns):
+            return
+        rows = np.flatnonzero(allowed(self.columns))
+        scene = self._readable(rows[:TRIED].tolist())
+        if scene is None:
+            return
+        columns = {place: values[rows] for place, values in self.columns.items()}
+        model, sound = models_of(scene, columns)
+        accuracy, rtol = scene.accuracy, self.rtol
+        if rtol is None and accuracy is not None:
+            rtol = accuracy.rtol
+        outputs = accuracy.outputs if accuracy is not None else OUTPUTS
+        try:
+            share = selection_tolerance(rtol)
+        except SceneError:
+            return
+        rows, model = rows[sound], model.take(sound)
+        if not len(rows) or (model.inertia.infinite_plate and np.any(model.density)):
+            return
+        wanted = scene.effects.model_dump()
+        for group in selected(model, wanted, np.full(len(rows), share), outputs):
+            yield rows[self._static(group, rows[group.rows], scene, rtol)]
+
+    def _readable(self, rows: list[int]) -> Scene | None:
+        """The first of some rows that is a scene, of which all have the same keys."""
+        for row in rows:
+            try:
+                return read(row_of(self.scene, self.columns, row))
+            except SceneError:
+                continue
+        return None
+
+    def _static(
+        self, group: Group, rows: NDArray[np.intp], scene: Scene, rtol: float | None
+    ) -> NDArray[np.intp]:
+        """Impacts on quasi-static plates; which of the group's rows are known then."""
+        law, error = group.law, group.error
+        rest = None if rtol is None else (rtol - error) / (1.0 + error)
+        found = impacts_of(law, len(rows), rest)
+        parts = (error, found.law, found.quadrature, found.rounding)
+        bound = np.expm1(sum(np.log1p(part) for part in parts))
+        a, P = found.max_contact_radius[:, None], found.max_force[:, None]
+        with np.errstate(all="ignore"):
+            numbers = {
+                "contact_time": found.contact_time,
+                "max_indentation": found.max_indentation,
+                "max_force": found.max_force,
+                "max_contact_radius": found.max_contact_radius,
+                "restitution": np.ones(len(rows)),
+                "max_pressure": law.centre_pressure(a)[:, 0],
+                "max_tensile_stress": law.tensile_stresses(a, P, group.held)[:, 0],
+            }
+            known = np.all([np.isfinite(x) & (x > 0.0) for x in list(numbers.values())[:4]], axis=0)
+            known &= np.broadcast_to(a < law.limit, a.shape)[:, 0]
+        if rtol is not None:  # others are refused, or nearly so
+            known &= bound <= rtol - ROUNDING
+        model_error = _model_errors(group, a, known)
+        known &= np.isfinite(model_error)
+        which = np.flatnonzero(known)
+        strength: Array | float | None = scene.plate.tensile_strength
+        if STRENGTH in self.columns:
+            strength = self.columns[STRENGTH][rows]
+        reasons = warnings_of_rows(law, numbers, strength, which)
+        places = self.start + rows[which]
+        for name, values in numbers.items():
+            self.found.results[name][places] = values[which]
+        self.found.bound[places], self.found.model_error[places] = bound[which], model_error[which]
+        self.found.status[places], self.found.reason[places] = "finished", reasons
+        included = " ".join(effect.name for effect in EFFECTS if effect.name in law.effects)
+        self.found.effects[places] = included
+        return group.rows[which]
+
+
+def _model_errors(group: Group, a: Array, known: NDArray[np.bool_]) -> Array:
+    """The model error of each row [1]; NaN where it is not known or refused."""
+    if not group.law.other_edge:
+        return np.zeros(len(a))
+    found = np.full(len(a), np.nan)
+    for row in np.flatnonzero(known).tolist():
+        try:
+            found[row] = edge_remainder(group.law.model.take(row), float(a[row, 0]))
+        except SceneError:
+            continue
+    return found

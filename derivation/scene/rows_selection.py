@@ -1,0 +1,170 @@
+"""Selection of effects for many scenes at once: the steps of `selection`, in groups of rows.
+
+Rows begin with the same effects. In each step, bounds are computed for all rows with the same
+effects; each row takes in its own largest one, and rows part by what they then include.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from derivation.scene.effects.effect import Array, Effect
+from derivation.scene.law import ContactLaw
+from derivation.scene.model import Model
+from derivation.scene.omission_bounds import LargestContact, errors_of, sizes_of, state_of
+from derivation.scene.scene import SceneError
+from derivation.scene.selection import Candidates, candidates_of, cheaper_with
+
+NEAR = 1e-9
+"""Relative distance from a tolerance within which rounding could decide, and one scene does."""
+Rows = NDArray[np.intp]
+
+
+@dataclass(frozen=True)
+class Group:
+    """Rows with the same effects.
+
+    Attributes
+    ----------
+    rows
+        Their numbers.
+    law
+        Their law, with columns of numbers.
+    held
+        Whether the plate is on the scene's edge, for its back face.
+    error
+        Bound on what the effects omitted by the selection change together [1], of each row.
+    """
+
+    rows: Rows
+    law: ContactLaw
+    held: bool
+    error: Array
+
+
+def selected(
+    model: Model, wanted: Mapping[str, Any], rtol: Array, outputs: Sequence[str]
+) -> list[Group]:
+    """Groups of rows by the effects that are included; rows in none are for `simulate`.
+
+    These are rows whose law has a solution of its own, which are refused, or where rounding might
+    decide.
+
+    Parameters
+    ----------
+    model
+        Numbers of the rows, as columns.
+    wanted
+        "auto", True or False by effect.
+    rtol
+        What the effects omitted may change at most, of each row [1].
+    outputs
+        The results it applies to.
+    """
+    found: list[Group] = []
+    for rows in _alike(model, len(rtol)):
+        part = model.take(rows)
+        try:
+            given = candidates_of(part.take(0), wanted)
+        except SceneError:
+            continue
+        waiting = {given.included: [np.arange(len(rows))]}
+        while waiting:
+            included, parts = waiting.popitem()
+            own = np.sort(np.concatenate(parts))
+            group, others = _step(given, part, included, own, rtol[rows], outputs)
+            if group is not None:
+                found.append(Group(rows[group.rows], group.law, group.held, group.error))
+            for names, more in others.items():
+                waiting.setdefault(names, []).append(more)
+    return found
+
+
+def _alike(model: Model, count: int) -> list[Rows]:
+    """Rows for which the same effects apply: the same numbers are zero or infinite."""
+    marks = [np.zeros((count, 1), dtype=bool)]
+    for field in fields(model):
+        value = getattr(model, field.name)
+        if isinstance(value, np.ndarray):
+            marks += [value == 0.0, np.isfinite(value)]
+    _, kinds = np.unique(np.hstack(marks), axis=0, return_inverse=True)
+    kinds = kinds.ravel()
+    return [np.flatnonzero(kinds == kind) for kind in range(kinds.max() + 1)]
+
+
+def _own_solution(law: ContactLaw) -> bool:
+    """Whether a law's impact is computed by a method of its own, one scene after the other."""
+    return law.solved or law.viscous or law.plastic or law.dynamic
+
+
+def _step(
+    given: Candidates,
+    model: Model,
+    included: frozenset[str],
+    rows: Rows,
+    rtol: Array,
+    outputs: Sequence[str],
+) -> tuple[Group | None, dict[frozenset[str], Rows]]:
+    """The rows that are done, and what the others include next."""
+    law = ContactLaw(model.take(rows), included)
+    if _own_solution(law):
+        return None, {}
+    open_, state = given.left(included), state_of(law)
+    error, limit = errors_of(state, open_, outputs)[:, 0], rtol[rows]
+    candidates = [effect for effect in open_ if effect.name not in given.blocked]
+    near = np.abs(error - limit) <= NEAR * limit
+    done = (error <= limit) if candidates else np.ones(len(rows), dtype=bool)
+    others = _next(given, state, candidates, included, ~done & ~near, rows, outputs)
+    kept = done & ~near
+    for effect in open_:
+        if effect.name in given.blocked:  # refused, as `check_omitted` may say
+            kept &= errors_of(state, [effect], outputs)[:, 0] <= limit
+    if not kept.any():
+        return None, others
+    law, error, rows = law.take(kept), error[kept], rows[kept]
+    cheaper = cheaper_with(law, candidates)
+    if cheaper:
+        law, error = _cheaper(given, law, cheaper, outputs)
+        kept = error < limit[kept] * (1.0 - NEAR)
+        law, error, rows = law.take(kept), error[kept], rows[kept]
+    disabled = (e for e in given.present if given.choice[e.name] is False)
+    held = not any(effect.other_edge for effect in disabled)
+    return Group(rows, law, held, error) if len(rows) else None, others
+
+
+def _next(
+    given: Candidates,
+    state: LargestContact,
+    candidates: Sequence[Effect],
+    included: frozenset[str],
+    going_on: NDArray[np.bool_],
+    rows: Rows,
+    outputs: Sequence[str],
+) -> dict[frozenset[str], Rows]:
+    """The rows that go on, by what they include next."""
+    if not going_on.any():
+        return {}
+    sizes = np.hstack([sizes_of(state, effect, outputs) for effect in candidates])
+    worst = np.argmax(sizes, axis=1)
+    second = np.sort(sizes, axis=1)[:, -2:]
+    if len(candidates) > 1:  # rounding might decide which is larger
+        going_on &= second[:, 1] - second[:, 0] > NEAR * second[:, 1]
+    found: dict[frozenset[str], Rows] = {}
+    for number, effect in enumerate(candidates):
+        mine = rows[going_on & (worst == number)]
+        if len(mine):
+            names = included | {effect.name} | given.along[effect.name]
+            found[names] = np.concatenate((found.get(names, mine[:0]), mine))
+    return found
+
+
+def _cheaper(
+    given: Candidates, law: ContactLaw, more: frozenset[str], outputs: Sequence[str]
+) -> tuple[ContactLaw, Array]:
+    """The law with effects that make it cheaper, and what is then omitted."""
+    wider = ContactLaw(law.model, law.effects | more)
+    error = errors_of(state_of(wider), given.left(wider.effects), outputs)[:, 0]
+    return wider, error

@@ -236,7 +236,8 @@ def _worst(state: LargestContact, bound: Bound, outputs: Sequence[str]) -> Array
         logs = [np.log1p(x) + wider * y for x, y in zip(others, results, strict=True)]
         kept = [bound_of(state, e).results[-1] for e in state.law.chosen if e.viscous]
         if kept:
-            logs[-1] = logs[-1] + (wider - 1.0) * _sum(kept)
+            # What does not change the law does not change that bound, be it none at all.
+            logs[-1] = logs[-1] + np.where(wider > 1.0, (wider - 1.0) * _sum(kept), 0.0)
         if state.law.plastic:
             logs[-1] = logs[-1] + _plastic_share(state) * np.log1p(largest)
         # Link 18 speaks of Hertz's radius of the force, with which the contact's own may grow

@@ -321,7 +321,7 @@ def _branches(law: ContactLaw, a: float, displacement: float, T: float) -> Resul
     if model.inertia.branches == "all":
         return NONE
     heavier = 1.0 + weight_share(model, displacement)
-    time, depth, force, radius, speed = higher_branch_error(model, a, T)
+    time, depth, force, radius, speed = higher_branch_error(model, a, T, 2.0 * law.damping_ratio)
     return heavier * time, depth, heavier * force, heavier * radius, heavier * speed
 
 

@@ -132,7 +132,7 @@ def weight_share(model: Model, depth: float) -> float:
     return 2.0 * model.gravity * depth / model.v0 / model.v0
 
 
-def higher_branch_error(model: Model, a: float, T: float) -> Results:
+def higher_branch_error(model: Model, a: float, T: float, loss_factor: float = 0.0) -> Results:
     """Return the change of each result by the branches beyond the first [1]: fitted, tested.
 
     Parameters
@@ -142,11 +142,13 @@ def higher_branch_error(model: Model, a: float, T: float) -> Results:
         suddenly as another: P'' is of the order of P/(T T_alone). One that gives way makes the
         force come and go in a part of that time, by lambda^(-2/3); if the contact goes on, the
         thickness rings by that, all the less the slower it is.
+    loss_factor
+        Loss factor of the plate's modes [1]: of what returns it takes a part, at most all.
     """
     transit, number = 2.0 * model.h / model.shear_speed, PlateInertia().value(model, 0.0)
     wide, echo = a / (2.0 * model.h), transit / math.sqrt(T * min(T, _alone(model)))
     # Less is lost where echoes return many times in a contact.
-    radiated = wide * echo * min(1.0, 2.0 * echo)
+    radiated = wide * echo * min(1.0, 2.0 * echo + loss_factor)
     whole = math.pow(transit / T, 1.5) * math.sqrt(max(1.0, number))
     ring = wide * wide * max(whole, math.pow(transit / min(T, _rise(model)), 3.0))
     time, depth, force, radius, speed = (

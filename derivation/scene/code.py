@@ -166,8 +166,12 @@ def _check_quasi_static(scene: Scene) -> None:
     law = selected_effects(scene)[1].law
     if law.plastic:
         raise SceneError(
-            "effects.plasticity: expected false for the code of a scene, whose contact is elastic, "
-            "got a contact that yields; write effects.plasticity = false"
+            "effects.plasticity: expected false for the code of a scene, whose force follows from "
+            "indentation and rate alone, got a contact that yields, whose force depends on the "
+            "largest force before; `platecontact simulate --csv` gives its impact and "
+            "`platecontact indent` its loading, or write effects.plasticity = false and add to the "
+            "code's indentation what generated.plasticity gives: plastic_indentation on loading, "
+            "flattening and dent on unloading"
         )
     if law.dynamic:
         raise SceneError(

@@ -330,7 +330,8 @@ def _branches(law: ContactLaw, a: float, displacement: float, T: float) -> Resul
     if model.inertia.branches == "all":
         return NONE
     heavier = float(1.0 + weight_share(model, displacement))
-    time, depth, force, radius, speed = map(float, higher_branch_error(model, a, T))
+    changed = higher_branch_error(model, a, T, 2.0 * law.damping_ratio)
+    time, depth, force, radius, speed = map(float, changed)
     return heavier * time, depth, heavier * force, heavier * radius, heavier * speed
 
 

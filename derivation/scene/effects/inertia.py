@@ -134,7 +134,7 @@ def weight_share(model: Model, depth: Numbers) -> Numbers:
     return 2.0 * model.gravity * depth / model.v0 / model.v0
 
 
-def higher_branch_error(model: Model, a: Numbers, T: Numbers) -> Changes:
+def higher_branch_error(model: Model, a: Numbers, T: Numbers, loss_factor: float = 0.0) -> Changes:
     """Return the change of each result by the branches beyond the first [1]: fitted, tested.
 
     Parameters
@@ -144,11 +144,13 @@ def higher_branch_error(model: Model, a: Numbers, T: Numbers) -> Changes:
         suddenly as another: P'' is of the order of P/(T T_alone). One that gives way makes the
         force come and go in a part of that time, by lambda^(-2/3); if the contact goes on, the
         thickness rings by that, all the less the slower it is.
+    loss_factor
+        Loss factor of the plate's modes [1]: of what returns it takes a part, at most all.
     """
     transit, number = 2.0 * model.h / model.shear_speed, PlateInertia().value(model, 0.0)
     wide, echo = a / (2.0 * model.h), transit / np.sqrt(T * np.minimum(T, _alone(model)))
     # Less is lost where echoes return many times in a contact.
-    radiated = wide * echo * np.minimum(1.0, 2.0 * echo)
+    radiated = wide * echo * np.minimum(1.0, 2.0 * echo + loss_factor)
     whole = np.power(transit / T, 1.5) * np.sqrt(np.maximum(1.0, number))
     sudden = transit / np.minimum(T, _rise(model))
     ring = wide * wide * np.maximum(whole, sudden * sudden * sudden)

@@ -164,19 +164,28 @@ def sensitivity_cases() -> list[Expected]:
     ]
 
 
+LAW = ["plate_arrays", "plate_points", "prepared_plate", "contact_law"]
+"""Modules from the polynomials to the law, each upon those before."""
 JUDGED = {
-    "contact_law": Judged(
+    "contact_law": Judged(law_cases),
+    "contact_domain": Judged(
         law_cases,
-        {"_invert": (5, START), "indentation": (1, "the slow way to the same")},
-        steps=6,
+        dict.fromkeys(("_repeats", "_MANY", "_SAMPLE"), (5, "the slow way to the same")),
+        users=LAW,
     ),
+    "plate_arrays": Judged(
+        law_cases,
+        {"_invert": (5, START), "_indentations": (1, "the slow way to the same")},
+        users=LAW[1:],
+    ),
+    "plate_points": Judged(law_cases, {"_invert": (5, START)}, users=LAW[2:]),
     "contact_points": Judged(
         law_cases,
         dict.fromkeys(("flat", "cut"), (1, "the slow way to the same")),
-        users=["contact_law"],
+        users=LAW,
     ),
     "contact_cells": Judged(
-        series_cases, users=["contact_series", "contact_law", "contact_thickness", "sensitivity"]
+        series_cases, users=["contact_series", *LAW, "contact_thickness", "sensitivity"]
     ),
     "contact_series": Judged(
         series_cases,
@@ -188,7 +197,7 @@ JUDGED = {
             ),
             "direct": (5, f"{BEYOND_ALL}; and {SIZE}"),
         },
-        users=["contact_law", "contact_thickness", "sensitivity"],
+        users=[*LAW, "contact_thickness", "sensitivity"],
     ),
     "contact_thickness": Judged(sensitivity_cases, users=["sensitivity"]),
     "sensitivity": Judged(sensitivity_cases, {"_near_sums": (4, "a zero of the right shape")}),

@@ -87,14 +87,11 @@ def test_every_layout_is_every_point_alone(name: str) -> None:
 
 def test_points_outside_the_domain_are_nan_in_silence() -> None:
     plate = prepare(0.1, 1.0)
-    bad: list[tuple[Any, Any]] = [
-        (-1e-3, 0.9), (math.nan, 0.9), (math.inf, 0.9), (0.004, 0.0), (0.004, -1.0), (1.5, 9.0),
-        (0.95, 0.9), (0.004, math.nan),
-    ]  # fmt: skip
     with np.errstate(all="raise"):
-        for x, R in bad:
-            assert all(math.isnan(call(x, R)) for call in calls(plate).values() if x != 0.004)
-            assert math.isnan(plate.indentation(x, R))
+        for x, R in ((-1e-3, 0.9), (math.nan, 0.9), (math.inf, 0.9), (0.004, 0.0), (0.004, -1.0)):
+            assert all(math.isnan(call(x, R)) for call in calls(plate).values())
+        for a, R in ((1.5, 9.0), (0.95, 0.9), (0.004, math.nan)):
+            assert math.isnan(plate.indentation(a, R))
         assert math.isnan(plate.force(1e-4, 0.9, -1.0, 1.0))
         assert math.isnan(plate.stiffness(0.004, 0.9, 1.0, -1.0))
         for h, b in ((0.0, 1.0), (-0.1, 1.0), (0.1, 0.0), (0.1, math.inf), (1e-95, 1.0)):
@@ -108,8 +105,6 @@ def test_numbers_too_large_for_plain_arithmetic_keep_their_digits() -> None:
     large = number(prepare(h * unit, b * unit).indentation(a * unit, R * unit))
     assert large / unit == pytest.approx(small, rel=CLOSE)
     assert prepare(h * unit, b * unit).points is None
-    with pytest.raises(TypeError):
-        prepare(h, b).indentation(10**400, R)
 
 
 def test_types_are_those_of_all_that_was_given() -> None:

@@ -28,10 +28,8 @@ from generated.contact_series import (
     value_of,
 )
 
-STEPS = 60
-"""Of Newton's iteration at most; it takes four to six."""
-CLOSE = 1e-9
-"""A relative residual whose square is far below rounding."""
+_STEPS = 60  # of Newton's iteration at most; it takes four to six
+_CLOSE = 1e-9  # a relative residual whose square is far below rounding
 _APART = 512  # points of a plate from which on it is worked on alone
 
 
@@ -190,11 +188,11 @@ def _invert(eps: Double, some: PlateArrays, limits: Double, index: np.ndarray | 
     [eps] = inside([eps], eps <= ROUNDED * limit)
     most = np.where(eps <= near, plates.reach[pick], plates.far[pick]) / eps
     share = np.minimum(np.minimum(1.0 / np.cbrt(eps * linear), 1.0), most)
-    for _ in range(STEPS):
+    for _ in range(_STEPS):
         value, slope = correction_with_slope(share * eps, plates, index)
         residual, step = kernels.newton_step(share, value, slope)
         share = np.minimum(share * np.clip(1.0 + step, 0.3, 3.0), most)
-        if not (np.abs(residual) > CLOSE).any():
+        if not (np.abs(residual) > _CLOSE).any():
             break
     return share
 

@@ -13,8 +13,10 @@ from typing import NamedTuple
 from generated import contact_point_kernels as kernels
 from generated.contact_numbers import SHORT
 from generated.contact_series import ROUNDED, Piece, far_piece
-from generated.plate_arrays import CLOSE, STEPS, PlateArrays
+from generated.plate_arrays import PlateArrays
 
+_STEPS = 60  # of Newton's iteration at most; it takes four to six
+_CLOSE = 1e-9  # a relative residual whose square is far below rounding
 _ORDINARY = 1e-60, 1e60  # numbers whose products neither overflow nor underflow
 _USUAL = 1e-20, 1e20  # h/b with which that holds for the coefficients too
 
@@ -136,12 +138,12 @@ def _invert(plate: PlatePoints, eps: float) -> float:
     most = (plate.reach if eps <= plate.near_ratio else plate.far) / eps
     thin = 1.0 / cbrt(eps * plate.linear) if plate.linear > 0.0 else 1.0
     share = min(thin, 1.0, most)
-    for _ in range(STEPS):
+    for _ in range(_STEPS):
         A = share * eps
         value, slope = _with_slope(A, _piece_at(plate, A))
         residual, step = kernels.newton_step(share, value, slope)
         share = min(share * min(max(1.0 + step, 0.3), 3.0), most)
-        if abs(residual) <= CLOSE:
+        if abs(residual) <= _CLOSE:
             break
     return share
 

@@ -181,7 +181,7 @@ def _row(
     errors = [max(_error(name, way, true) for way in ways) for true in found]
     where = max(range(len(found)), key=lambda i: errors[i])
     finite = [error if math.isfinite(error) else 1e300 for error in errors]
-    double = max((judge(way, found, budget) for way in ways), key=lambda errors: errors.ratio)
+    double = max((judge(way, found, budget) for way in ways), key=_used)
     single = judge(call, rounded, budget, SINGLE) if rounded else None
     kept = errors[where] <= LIMIT and double.kept() and (single is None or single.kept(SINGLE))
     cases = [_case(t, e) for t, e in zip(found, errors, strict=True)] if name == "impact" else []
@@ -198,6 +198,11 @@ def _row(
         kept,
         tuple(sorted(cases, key=lambda case: case.c1_A)),
     )
+
+
+def _used(errors: Errors) -> float:
+    """How much of what is allowed an error takes at most."""
+    return math.inf if errors.ratio is None else errors.ratio
 
 
 def _of_arrays(call: Callable[..., Any]) -> Callable[..., Any]:

@@ -26,7 +26,7 @@ from derivation.engine.outputs import folder_for, plain, recorded_in, sorted_jso
 from derivation.engine.rewrite.stabilise import Stable, stabilise
 from derivation.engine.rewrite.tested import Tested
 from derivation.plate.benchmark import run as accuracy_run
-from derivation.plate.benchmark import speed
+from derivation.plate.benchmark import speed, user_calls
 from derivation.plate.contact.cases.check import KERNELS, LIMIT, ContactRow
 from derivation.plate.contact.cases.check import check as measure_contact
 from derivation.plate.contact.cases.truth import DIGITS
@@ -99,7 +99,7 @@ def check_speed(tell: Tell = quiet) -> CheckResult:
     """Measure the speed of contact law, impact and cold starts on this machine."""
     examples = sorted(EXAMPLE.parent.glob("*.toml"))
     solved = [path for path in examples if selected_effects(load(path))[1].law.solved]
-    timings = speed.measure(examples, solved, tell)
+    timings = speed.measure(examples, solved, tell, user_calls.planned())
     columns = ("what", "#measured", "#promise", "kept")
     cells = [(t.name, f"{t.value:.3g} {t.unit}", f"{t.limit:g}", t.kept) for t in timings]
     return CheckResult("Speed", columns, cells, lambda: speed.as_data(timings), all_kept(timings))

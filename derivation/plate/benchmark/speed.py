@@ -226,6 +226,7 @@ def measure(
     examples: Sequence[Path],
     solved: Collection[Path] = (),
     tell: Tell = quiet,
+    further: Sequence[tuple[str, Callable[[], SpeedTiming]]] = (),
 ) -> list[SpeedTiming]:
     """Every comparison, one after the other.
 
@@ -237,6 +238,8 @@ def measure(
         Those among them for which the pressure is solved for.
     tell
         Called before each with its name, number and how many there are.
+    further
+        More comparisons, each with its name.
     """
     planned: tuple[tuple[str, Callable[[], SpeedTiming]], ...] = (
         ("small contacts", lambda: law_over_exp(0.3, 6.0)),
@@ -253,6 +256,7 @@ def measure(
         if scene.name == "block.toml":
             planned += (("Hertz alone", partial(hertz_alone, scene, 1.2)),)
     planned += tuple((name, partial(stable_over_naive, name)) for name in NAIVE)
+    planned += tuple(further)
     found = []
     for number, (name, timing) in enumerate(planned, start=1):
         tell(name, number, len(planned))

@@ -16,7 +16,7 @@ SHOWN = {
     "Omega_3": "omega",
 }
 """Short functions of one formula each, and the module of `generated` that holds them."""
-LAW = {"force": "contact_law", "_contact": "contact_law"}
+LAW = {"_forces": "plate_arrays", "_contact": "plate_arrays"}
 """What no formula states: the inverse law, which solves for the contact radius."""
 
 

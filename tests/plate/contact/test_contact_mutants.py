@@ -93,6 +93,47 @@ def of_second(**several: Sequence[float]) -> Answer:
     return Answer(lambda module: module.indentation(radii, **lengths)[:, 1], true)
 
 
+@cache
+def layout_cases() -> list[Expected]:
+    """Plates along an axis of their own with many points each, and plates repeated."""
+    R, h, b = 0.9, np.array([0.06, 0.05]), np.array([0.3])
+    few = [*NEAR, *FURTHER]
+    radii = np.resize(few, 606)
+    true = np.resize([[truth(a, R, float(half), 0.3) for half in h] for a in few], (606, 2))
+    return [
+        *law_cases(),
+        Answer(lambda module: module.indentation(radii[:, None], R, h, b), true),
+        Answer(lambda module: module.indentation(radii, R, h[:, None], b), true.T),
+        Answer(lambda module: module.indentation(radii[:500, None], R, h, b), true[:500]),
+        Answer(lambda module: module.indentation(radii, R, np.resize(h, 606), b),
+               np.where(np.arange(606) % 2, true[:, 1], true[:, 0])),
+    ]  # fmt: skip
+
+
+@cache
+def plain_cases() -> list[Expected]:
+    """The law at one point after the other, in plain numbers."""
+    depths = [(truth(*p), *p[1:]) for p in PLATES]
+    bad = [(0.004, 0.13, 0.1, 1.0, -0.7e9, 1e9), (0.004, 0.13, 0.1, 1.0, 1e9, -1e9)]
+    solid = -0.5e9, 0.8e9
+    return [
+        *law_cases(),
+        alone("indentation", PLATES, contact_balls.indentation, BEYOND),
+        alone("contact_radius", depths, contact_balls.contact_radius, DEEP),
+        alone("force", [(*p, *solid) for p in depths], contact_forces.force, bad),
+        alone("stiffness", [(*p, *solid) for p in PLATES], contact_balls.stiffness,
+              [*bad, *((*p, *solid) for p in BEYOND)]),
+    ]  # fmt: skip
+
+
+def alone(
+    name: str, points: Sequence[Point], oracle: Callable[..., Any], outside: Sequence[Point]
+) -> Answer:
+    """The results of one call after the other."""
+    true = [*(float(oracle(*p, digits=18)) for p in points), *(math.nan for _ in outside)]
+    return Answer(lambda m: [getattr(m, name)(*p) for p in (*points, *outside)], true)
+
+
 def of_coefficients(points: Sequence[tuple[float, float]], true: Sequence[float]) -> Answer:
     """The indentation over a^2/R by the coefficients that a user gets."""
     A, eta = np.array(points).T
@@ -164,31 +205,56 @@ def sensitivity_cases() -> list[Expected]:
     ]
 
 
+SLOW = "the slow way to the same"
+LAW = ["plate_arrays", "plate_points", "prepared_plate", "contact_law"]
+"""Modules from the polynomials to the law, each upon those before."""
 JUDGED = {
-    "contact_law": Judged(
-        law_cases,
-        {"_invert": (5, START), "indentation": (1, "the slow way to the same")},
-        steps=6,
+    "contact_law": Judged(law_cases),
+    "contact_domain": Judged(
+        layout_cases, dict.fromkeys(("_MANY", "_SAMPLE"), (1, SLOW)), users=LAW
+    ),
+    "plate_arrays": Judged(
+        layout_cases,
+        {
+            "_invert": (5, START),
+            "_indentations": (1, SLOW),
+            "_APART": (1, SLOW),
+            "_plate_by_plate": (2, SLOW),
+            "_forces": (1, "the sign of zero, of which other tests tell"),
+        },
+        users=LAW[1:],
+    ),
+    "plate_points": Judged(
+        plain_cases,
+        {
+            "_invert": (8, START),
+            "plate_points": (1, START),
+            "_modulus": (3, SLOW),
+            "_ORDINARY": (2, SLOW),
+            "_USUAL": (2, SLOW),
+            **dict.fromkeys(
+                ("_piece_at", "indentation"), (1, "both polynomials hold at their common end")
+            ),
+        },
+        users=LAW[2:],
     ),
     "contact_points": Judged(
-        law_cases,
-        dict.fromkeys(("flat", "cut"), (1, "the slow way to the same")),
-        users=["contact_law"],
+        layout_cases, {"flat": (1, SLOW), "cut": (1, SLOW), "pieces": (2, SLOW)}, users=LAW
     ),
     "contact_cells": Judged(
-        series_cases, users=["contact_series", "contact_law", "contact_thickness", "sensitivity"]
+        series_cases, users=["contact_series", *LAW, "contact_thickness", "sensitivity"]
     ),
     "contact_series": Judged(
         series_cases,
         {
-            **dict.fromkeys(("_ORDINARY", "_USUAL"), (2, "the slow way to the same")),
+            **dict.fromkeys(("_ORDINARY", "_USUAL"), (2, SLOW)),
             **dict.fromkeys(
                 ("sphere_on_plate", "correction", "correction_with_slope"),
                 (1, "both polynomials hold at their common end"),
             ),
             "direct": (5, f"{BEYOND_ALL}; and {SIZE}"),
         },
-        users=["contact_law", "contact_thickness", "sensitivity"],
+        users=[*LAW, "contact_thickness", "sensitivity"],
     ),
     "contact_thickness": Judged(sensitivity_cases, users=["sensitivity"]),
     "sensitivity": Judged(sensitivity_cases, {"_near_sums": (4, "a zero of the right shape")}),

@@ -9,7 +9,8 @@ import pytest
 from given import scene
 
 from derivation.scene import indent, indentation
-from generated import contact_law, impact, perturbation
+from generated import contact_law, impact, perturbation, plate_arrays, plate_points
+from generated.prepared_plate import prepare
 
 PLATE = (1.0, 0.36e9, 0.43e9)
 """b, lam, mu."""
@@ -19,6 +20,12 @@ DEPTHS, SPEEDS = np.geomspace(1e-12, 2e-3, 150)[:, None], np.geomspace(1e-6, 30.
 
 def radius() -> Any:
     return contact_law.contact_radius(DEPTHS, 0.13, HALF, 1.0)
+
+
+def radius_alone() -> Any:
+    """Of plain numbers."""
+    plate = prepare(0.1, 1.0)
+    return np.array([plate.contact_radius(float(depth), 0.13) for depth in DEPTHS[:, 0]])
 
 
 def largest() -> Any:
@@ -53,7 +60,8 @@ def indented() -> Any:
 @pytest.mark.parametrize(
     ("module", "results", "needed"),
     [
-        (contact_law, radius, 6),
+        (plate_arrays, radius, 6),
+        (plate_points, radius_alone, 6),
         (impact, largest, 6),
         (impact, wide, 6),
         (impact, course, 6),

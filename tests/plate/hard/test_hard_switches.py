@@ -3,16 +3,18 @@
 import importlib
 import pkgutil
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 import numpy as np
 import pytest
 from switches import Watch, watched
 
 import generated
-from derivation.engine.measure.case import handed_over
+from derivation.engine.measure.case import HardCase, handed_over
+from derivation.engine.measure.kernels import Kernel
 from derivation.engine.measure.suite import Suite
 
 CLOSE = 1e-6
@@ -21,11 +23,13 @@ CLOSE = 1e-6
 GUARD = "a guard against what is outside the domain, or what no input reaches"
 LOOP = "keeps an iteration within its bracket"
 ELSEWHERE = "its own tests have both sides, the hard cases do not"
+SIZES = "sizes of arrays, of which `test_prepared_plate` and `test_impact_batches` have both sides"
+ARRAY = "beyond it a plain number is computed as an array is"
 MAY_STAY: Mapping[str, tuple[int, str]] = {
     "back_face._evaluated": (1, GUARD),
-    "contact_law._contact": (1, GUARD),
-    "contact_law._plates": (2, GUARD),
-    "contact_law.indentation": (2, GUARD),
+    "contact_domain._repeats": (2, SIZES),
+    "contact_domain.plates_of_lengths": (2, GUARD),
+    "contact_points.pieces": (3, SIZES),
     "contact_series._beyond": (1, GUARD),
     "contact_series.correction": (1, "of one sphere only the hard cases have both sides"),
     "edge_modes._below_cutoff": (3, LOOP),
@@ -40,6 +44,15 @@ MAY_STAY: Mapping[str, tuple[int, str]] = {
     "perturbation._eta": (1, ELSEWHERE),
     "perturbation.last": (1, GUARD),
     "perturbation.printed_motion": (4, GUARD),
+    "plate_arrays._at": (1, SIZES),
+    "plate_arrays._contact": (1, GUARD),
+    "plate_arrays._indentations": (2, GUARD),
+    "plate_arrays._plate_by_plate": (2, SIZES),
+    "plate_points._contact": (3, ARRAY),
+    "plate_points._modulus": (4, ARRAY),
+    "plate_points._ordinary": (4, ARRAY),
+    "plate_points.indentation": (1, ARRAY),
+    "plate_points.stiffness": (1, ARRAY),
     "plate_waves._between": (3, LOOP),
     "series_constants._representable": (1, "a constant grows faster from index to index"),
     "series_constants.finite_part_ratio": (1, "whether an index is whole"),
@@ -72,8 +85,19 @@ def seen(suite: Suite) -> Watch:
                 if kernel.by_count:
                     kernel.call(int(case.numbers["count"][0]))
                 else:
-                    kernel.call(*handed_over(case, kernel.arguments), **modes)
+                    for arguments in ways(case, kernel):
+                        kernel.call(*arguments, **modes)
     return watch
+
+
+def ways(case: HardCase, kernel: Kernel) -> Iterator[list[Any]]:
+    """A case's arguments as they are; of the contact law as plain numbers and as arrays too."""
+    arguments = handed_over(case, kernel.arguments)
+    yield arguments
+    if kernel.module == "contact_law":
+        columns = [np.ravel(x) for x in np.broadcast_arrays(*arguments)]
+        yield columns
+        yield from ([float(x) for x in point] for point in zip(*columns, strict=True))
 
 
 def test_every_switch_has_cases_close_to_both_sides(seen: Watch) -> None:

@@ -77,10 +77,16 @@ JUDGED = {
             "_deepest": (6, START),
             "_far_deepest": (1, START),
             "_solve": (3, f"{SIZE}; and {GUARDS}"),
+            **dict.fromkeys(("_BATCH", "rise"), (1, SIZE)),
         },
         steps=6,
     ),
-    "impact_shapes": Judged(impact_cases, {"_far_shapes": (1, GUARDS)}, users=["impact"], steps=6),
+    "impact_shapes": Judged(
+        impact_cases,
+        {"_far_shapes": (1, GUARDS), "_POINTS": (1, SIZE)},
+        users=["impact"],
+        steps=6,
+    ),
     "impact_kernels": Judged(
         impact_cases, {"deeper_step": (6, START)}, users=["impact_shapes", "impact"], steps=6
     ),

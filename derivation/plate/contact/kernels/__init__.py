@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from derivation.engine.emit.package import Routines
+from derivation.engine.emit.routine import SCALARS
 from derivation.plate.contact.kernels import law, moments, sensitivities, series
 from derivation.plate.contact.kernels.numbers import numbers
 from derivation.plate.modules import ComputedModule, RuntimeModule
@@ -23,6 +24,13 @@ def contact_kernels() -> Routines:
     return Routines("contact_kernels", title, tuple(made), imports)
 
 
+def contact_point_kernels() -> Routines:
+    """The same expressions of single numbers."""
+    made = (series.polynomial_slope(), *(make() for make in law.POINT_ROUTINES))
+    title = "Contact law of a sphere on a plate: formulas of single, ordinary numbers."
+    return Routines("contact_point_kernels", title, made, {}, SCALARS)
+
+
 def sensitivity_kernels() -> Routines:
     """What every parameter does to an impact, likewise."""
     made = tuple(make() for make in sensitivities.ROUTINES)
@@ -33,10 +41,15 @@ MODULES = (
     *moments.MODULES,
     ComputedModule("contact_numbers", numbers),
     ComputedModule("contact_kernels", contact_kernels),
+    ComputedModule("contact_point_kernels", contact_point_kernels),
     ComputedModule("sensitivity_kernels", sensitivity_kernels),
     RuntimeModule("contact_cells", RUNTIME / "contact_cells.py"),
     RuntimeModule("contact_series", RUNTIME / "contact_series.py"),
     RuntimeModule("contact_points", RUNTIME / "contact_points.py"),
+    RuntimeModule("contact_domain", RUNTIME / "contact_domain.py"),
+    RuntimeModule("plate_arrays", RUNTIME / "plate_arrays.py"),
+    RuntimeModule("plate_points", RUNTIME / "plate_points.py"),
+    RuntimeModule("prepared_plate", RUNTIME / "prepared_plate.py"),
     RuntimeModule("contact_law", RUNTIME / "contact_law.py"),
     RuntimeModule("contact_thickness", RUNTIME / "contact_thickness.py"),
     RuntimeModule("sensitivity", RUNTIME / "sensitivity.py"),

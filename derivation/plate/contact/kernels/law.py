@@ -273,6 +273,46 @@ def force_of_share() -> Claims:
 
 
 @named
+def depth_ratio_in_range() -> Claims:
+    """sqrt(R delta)/h of ordinary lengths."""
+    return Claims(
+        (delta, R, h), (), (sp.sqrt(R * delta) / h,), (sp.sqrt(R * DEPTH) / h,), LAW, reduce
+    )
+
+
+@named
+def radius_in_range() -> Claims:
+    """a by what share it is of Hertz's radius, of ordinary lengths."""
+    return Claims((share, delta, R), (), (share * sp.sqrt(R * delta),), (a,), LAW, reduce)
+
+
+@named
+def force_in_range() -> Claims:
+    """P by delta, a and a over Hertz's radius, of ordinary numbers."""
+    return Claims(
+        (share, delta, a, mu, modulus),
+        (),
+        (mu * modulus * share**2 * delta * a,),
+        (FORCE,),
+        LAW,
+        reduce,
+    )
+
+
+@named
+def stiffness_in_range() -> Claims:
+    """dP/d delta of ordinary numbers; `rise` is (R/a) d delta/da."""
+    return Claims(
+        (a, rise, mu, modulus),
+        (),
+        (3 * mu * modulus * a / rise,),
+        (sp.diff(FORCE, a) / sp.diff(DEPTH, a),),
+        LAW,
+        reduce,
+    )
+
+
+@named
 def newton_step() -> Claims:
     """(R delta/h^2) over that at A, less 1, and by what share of itself A is to grow."""
     goal = (h * eps) ** 2 / (R * DEPTH) - 1
@@ -311,3 +351,16 @@ ROUTINES = (
     force_of_share,
     newton_step,
 )
+"""Of arrays."""
+POINT_ROUTINES = (
+    modulus_over_mu,
+    indentation_in_range,
+    relative_rise,
+    depth_ratio_at,
+    depth_ratio_in_range,
+    radius_in_range,
+    force_in_range,
+    stiffness_in_range,
+    newton_step,
+)
+"""Of single numbers, which are ordinary ones."""

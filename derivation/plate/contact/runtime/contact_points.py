@@ -29,3 +29,15 @@ def cut(x: Double, part: slice) -> Double:
     """A part of a raveled array; a single value repeated comes as a scalar."""
     found: Double = x[0] if x.size and x.strides[0] == 0 else x[part]
     return found
+
+
+def pieces(arguments: list[Double], shape: tuple[int, ...], part: slice) -> list[Double]:
+    """Parts of arguments broadcast to a shape and raveled; as they are if the part is the whole.
+
+    Single values stay single, and no argument is broadcast as a whole.
+    """
+    if part.start == 0 and part.stop >= np.prod(shape):
+        return arguments
+    return [
+        x.reshape(()) if x.size == 1 else np.broadcast_to(x, shape).flat[part] for x in arguments
+    ]

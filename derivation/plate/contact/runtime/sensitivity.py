@@ -20,8 +20,8 @@ from numpy.typing import ArrayLike
 
 from generated import sensitivity_kernels as kernels
 from generated.arrays import Double, as_doubles, as_result, in_manifest, inside, quiet
+from generated.contact_domain import plates_of_lengths
 from generated.contact_kernels import relative_rise, slope_of_indentation
-from generated.contact_law import _plates
 from generated.contact_numbers import ENERGY, ETA, PARAMETERS, POWERS, RESULTS
 from generated.contact_points import cut, cut_index, flat, index_of
 from generated.contact_series import (
@@ -90,7 +90,7 @@ def indentation_slope(a: ArrayLike, R: ArrayLike, h: ArrayLike, b: ArrayLike) ->
     """
     kind, [a, R, h, b] = as_doubles(a, R, h, b)
     [a, R], [h] = inside([a, R], a >= 0, a < b, a < R, R > 0), inside([h], h > 0)
-    plates, owner = _plates(h, b)
+    plates, owner = plates_of_lengths(h, b)
     shape = np.broadcast_shapes(a.shape, R.shape, owner.shape)
     flat_a, flat_R, flat_h = (flat(x, shape) for x in (a, R, h))
     index = index_of(owner, shape)
@@ -149,7 +149,7 @@ def impact_sensitivities(
     """
     kind, [R, m, v0, h, b, lam, mu] = as_doubles(R, m, v0, h, b, lam, mu)
     found, radius, _, _, ok = _solve(R, m, v0, h, b, lam, mu)
-    plates, numbers = _plates(h, b)
+    plates, numbers = plates_of_lengths(h, b)
     owner = np.ravel(np.broadcast_to(numbers, ok.shape))
     by_energy, by_eta = np.empty((4, owner.size)), np.empty((4, owner.size))
     slopes = first_by_thickness(plates.first, plates.eta)

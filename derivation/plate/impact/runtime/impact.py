@@ -17,7 +17,8 @@ from numpy.typing import ArrayLike
 
 from generated import impact_kernels as kernels
 from generated.arrays import Double, as_doubles, as_result, in_manifest, inside, quiet
-from generated.contact_law import _elastic, _modulus, _plates
+from generated.contact_domain import elastic, modulus_factors, plates_of_lengths
+from generated.contact_points import pieces
 from generated.contact_series import ROUNDED, Piece, Plates, columns, far_piece, with_slope
 from generated.impact_numbers import (
     COARSE_QUADRATURE,
@@ -43,6 +44,7 @@ __all__ = [
 _STEPS = 60  # of Newton's iteration at most; it takes four to six
 _CLOSE = 1e-9  # a relative residual whose square is far below rounding
 _SCENES = 512  # worked on at a time, so that intermediates stay in the cache
+_BATCH = 32 * _SCENES  # solved at a time, so that memory does not grow with what is kept of each
 
 
 class Impact(NamedTuple):
@@ -116,17 +118,12 @@ def impact(
         the arguments' broadcast shape; NaN outside the domain and where the contact radius
         would exceed R, b or 6 h.
     """
-    kind, [R, m, v0, h, b, lam, mu] = as_doubles(R, m, v0, h, b, lam, mu)
-    found, radius, depth, load, _ = _solve(R, m, v0, h, b, lam, mu)
-    integral = np.empty_like(found.A)
-    nodes, weights = (INNER_NODES, INNER_WEIGHTS) if coarse else (NODES, WEIGHTS)
-    for part in _parts(found.A.size):
-        rate = time_rate(np.broadcast_to(nodes, (found.A[part].size, nodes.size)), found, part)
-        integral[part] = (rate * weights).sum(axis=1)
-    time = product((2.0, *depth, integral.reshape(radius.shape)), (v0,))
-    peaks = product(depth), product(load), radius
-    shape = np.shape(time)
-    return Impact(*(as_result(np.broadcast_to(x, shape), kind) for x in (time, *peaks)))
+    kind, given = as_doubles(R, m, v0, h, b, lam, mu)
+    shape = np.broadcast_shapes(*(x.shape for x in given))
+    results = np.empty((4, int(np.prod(shape))))
+    for part in _parts(results.shape[1], _BATCH // _SCENES):
+        results[:, part] = _results(pieces(given, shape, part), coarse)
+    return Impact(*(as_result(row.reshape(shape), kind) for row in results))
 
 
 @in_manifest(
@@ -202,6 +199,19 @@ def history(
     return History(*(as_result(value.reshape(shape), kind) for value in values))
 
 
+def _results(given: list[Double], coarse: bool) -> Double:
+    """Contact time, largest indentation, force and radius of a batch, as rows."""
+    found, radius, depth, load, _ = _solve(*given)
+    integral = np.empty_like(found.A)
+    nodes, weights = (INNER_NODES, INNER_WEIGHTS) if coarse else (NODES, WEIGHTS)
+    for part in _parts(found.A.size):
+        rate = time_rate(np.broadcast_to(nodes, (found.A[part].size, nodes.size)), found, part)
+        integral[part] = (rate * weights).sum(axis=1)
+    time = product((2.0, *depth, integral.reshape(radius.shape)), (given[2],))
+    several = np.broadcast_arrays(time, product(depth), product(load), radius)
+    return np.stack([np.ravel(x) for x in several])
+
+
 def _state(since: Double, left: Double, scenes: Scenes, owner: np.ndarray, whole: Double) -> Double:
     """Indentation, velocity, contact radius and force over their largest values.
 
@@ -237,12 +247,12 @@ def _solve(
     the radius' own error does not count two and three times.
     """
     ok = (R > 0) & (m > 0) & (v0 > 0) & (h > 0) & (b > 0)
-    for condition in _elastic(lam, mu):
+    for condition in elastic(lam, mu):
         ok = ok & condition
-    plates, numbers = _plates(h, b)
+    plates, numbers = plates_of_lengths(h, b)
     given = np.broadcast_arrays(R, m, v0, h, b, lam, mu)
     [R, m, v0, h, b, lam, mu] = inside([*given], ok)
-    _, modulus = _modulus(lam, mu)  # over mu
+    _, modulus = modulus_factors(lam, mu)  # over mu
     hertz, *factors = kernels.hertz_impact(R, m, v0, mu, modulus)
     over_h = np.minimum(np.ravel(hertz / h), 1e200)  # no contact is that wide
     owner = np.ravel(np.broadcast_to(numbers, ok.shape))
@@ -315,12 +325,15 @@ def _far_deepest(
     """
     which, position = np.unique(owner, return_inverse=True)
     piece = columns(far_piece(plates.eta[which]), position)
-    single = cut(piece, ...)
     end, known = plates.far[owner], inner * near**5
 
     def rise(A: Double) -> Double:
         """(E - E_near)/A^5."""
-        return kernels.work_beyond(A, near, mean_work((near / A)[:, None], A, single)[:, 0])
+        found = np.empty_like(A)
+        for part in _parts(A.size, 2):
+            mean = mean_work((near[part] / A[part])[:, None], A[part], cut(piece, part))[:, 0]
+            found[part] = kernels.work_beyond(A[part], near[part], mean)
+        return found
 
     limit = kernels.far_work(known, end, rise(end)) * ROUNDED
     [goal] = inside([goal], end > near, goal <= limit)

@@ -18,6 +18,8 @@ from generated.arrays import Double
 from generated.contact_series import Columns, with_slope
 from generated.impact_numbers import INNER_NODES, INNER_WEIGHTS
 
+_POINTS = 1024  # beyond the first polynomial, so that their quadratures stay in the cache
+
 
 class Scenes(NamedTuple):
     """Impacts of shape (scenes,): lift 1 + F and energy E/A^5 at the largest A.
@@ -95,14 +97,15 @@ def _far_shapes(
     lift, slope, quotient = _near_shapes(q / ratio, *near)
     safe = np.where(outside, 1.0, left)
     quotient = kernels.far_quotient(quotient, left - gap, safe, ratio, rise)
-    piece = cut(beyond.piece, slot)
-    start = np.maximum(q, ratio)
-    value, fall = with_slope(A[:, None] * start, piece)
-    return (
-        np.where(outside, 1.0 + value, lift),
-        np.where(outside, fall, slope),
-        np.where(outside, mean_work(start, A, piece), quotient),
-    )
+    rows, places = np.nonzero(outside)
+    for start in range(0, rows.size, _POINTS):
+        row, place = rows[start : start + _POINTS], places[start : start + _POINTS]
+        piece = cut(beyond.piece, slot[row])
+        x = np.maximum(q[row, place], ratio[row, 0])[:, None]
+        value, fall = with_slope(A[row, None] * x, piece)
+        lift[row, place], slope[row, place] = 1.0 + value[:, 0], fall[:, 0]
+        quotient[row, place] = mean_work(x, A[row], piece)[:, 0]
+    return lift, slope, quotient
 
 
 def mean_work(q: Double, A: Double, piece: Columns) -> Double:
@@ -113,7 +116,7 @@ def mean_work(q: Double, A: Double, piece: Columns) -> Double:
     return mean
 
 
-def cut(piece: Columns, pick: np.ndarray | EllipsisType) -> Columns:
+def cut(piece: Columns, pick: np.ndarray | slice | EllipsisType) -> Columns:
     """A piece at some of its points, with one axis more."""
     rows, *scale = piece
     middle, inverse_half = (np.asarray(x)[pick, None] for x in scale)

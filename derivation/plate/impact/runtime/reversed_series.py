@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from generated import reversed_kernels as kernels
 from generated.arrays import Double, as_doubles, as_result, in_manifest, inside, quiet
-from generated.contact_law import _elastic, _modulus, _plates
+from generated.contact_domain import elastic, modulus_factors, plates_of_lengths
 from generated.contact_series import Plates
 
 _CIRCLE = 129  # directions in which a radius of convergence is sought
@@ -65,9 +65,9 @@ def force_by_series(
     if terms < 1:
         raise ValueError(f"expected at least one term, got terms={terms}")
     kind, [delta, R, h, b, lam, mu] = as_doubles(delta, R, h, b, lam, mu)
-    [delta, R, lam, mu] = inside([delta, R, lam, mu], delta >= 0, R > 0, *_elastic(lam, mu))
+    [delta, R, lam, mu] = inside([delta, R, lam, mu], delta >= 0, R > 0, *elastic(lam, mu))
     [h] = inside([h], h > 0)
-    plates, owner = _plates(h, b)
+    plates, owner = plates_of_lengths(h, b)
     rows = [_reversed(plates, plate, terms) for plate in range(plates.eta.size)]
     radius = np.array([row[0] for row in rows] or [np.nan])[owner]
     eps = kernels.eps_over(delta, R, h, radius)
@@ -76,7 +76,7 @@ def force_by_series(
     for power in reversed(range(terms)):
         coefficient = np.array([row[1][power] for row in rows] or [np.nan])[owner]
         value = value * eps + coefficient
-    _, modulus = _modulus(lam, mu)  # over mu
+    _, modulus = modulus_factors(lam, mu)  # over mu
     return as_result(kernels.force_of_bracket(delta, R, mu, modulus, value), kind)
 
 

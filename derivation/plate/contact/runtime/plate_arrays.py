@@ -1,0 +1,209 @@
+"""Contact law of arrays of points on prepared plates.
+
+Points are worked on in blocks. Where every plate has many points along axes of their own, one
+plate is worked on after the other; else each point gathers the coefficients of its plate.
+
+Arithmetic: A = a/h; where the iteration for the contact radius starts, its ends, and its steps.
+"""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from generated import contact_kernels as kernels
+from generated.arrays import Double, inside
+from generated.contact_domain import modulus_factors
+from generated.contact_points import cut, cut_index, flat, index_of
+from generated.contact_series import (
+    ROUNDED,
+    Piece,
+    Plates,
+    blocks_of,
+    columns,
+    correction,
+    correction_with_slope,
+    indent,
+    sphere_on_plate,
+    value_of,
+)
+
+_STEPS = 60  # of Newton's iteration at most; it takes four to six
+_CLOSE = 1e-9  # a relative residual whose square is far below rounding
+_APART = 512  # points of a plate from which on it is worked on alone
+
+
+class PlateArrays(NamedTuple):
+    """Plates of the broadcast lengths h and b, NaN outside the domain.
+
+    Attributes
+    ----------
+    h, b
+        Half-thickness and radius [m], of any shapes.
+    plates
+        Polynomials of the plates that differ.
+    owner
+        Which of them each is, in the broadcast shape of h and b.
+    near
+        Of each of them sqrt(R delta)/h [1] at the end of the first polynomial.
+    """
+
+    h: Double
+    b: Double
+    plates: Plates
+    owner: np.ndarray
+    near: Double
+
+
+def plate_arrays(h: Double, b: Double, plates: Plates, owner: np.ndarray) -> PlateArrays:
+    """The plates with what only their polynomials decide."""
+    [h] = inside([h], h > 0)
+    every = np.arange(plates.eta.size)
+    value = value_of(plates.reach, columns(plates.first, every))
+    return PlateArrays(h, b, plates, owner, kernels.depth_ratio_at(plates.reach, value))
+
+
+def indentations(some: PlateArrays, a: Double, R: Double) -> Double:
+    """Indentation [m] of contact radii [m]; NaN outside the domain."""
+    [R] = inside([R], R > 0)
+    return _plate_by_plate(_indentations, some, a, R)
+
+
+def radii(some: PlateArrays, delta: Double, R: Double) -> Double:
+    """Contact radius [m] of indentations [m]; NaN outside the domain."""
+    return _plate_by_plate(lambda *given: _contact(*given)[0], some, delta, R)
+
+
+def forces(some: PlateArrays, delta: Double, R: Double, lam: Double, mu: Double) -> Double:
+    """Force [N] of indentations [m]; NaN outside the domain, Lame's constants being inside."""
+    return _plate_by_plate(_forces, some, delta, R, lam, mu)
+
+
+def stiffnesses(some: PlateArrays, a: Double, R: Double, lam: Double, mu: Double) -> Double:
+    """Stiffness [N/m] of contact radii [m]; NaN outside the domain, constants being inside."""
+    [a] = inside([a], a >= 0, a < some.b, a < R, R > 0)
+    rise = _plate_by_plate(_rises, some, a)
+    return kernels.contact_stiffness(a, rise, *modulus_factors(lam, mu))
+
+
+def _plate_by_plate(
+    function: Callable[..., Double], some: PlateArrays, *arguments: Double
+) -> Double:
+    """The function of plates that have axes of their own, each with many points, one by one."""
+    owner = some.owner
+    shape = np.broadcast_shapes(owner.shape, *(x.shape for x in arguments))
+    count = int(np.prod(shape))
+    if owner.size == 1 or owner.size != some.plates.eta.size or count < _APART * owner.size:
+        return function(some, *arguments)
+    found = np.empty(shape)
+    for place in np.ndindex(owner.shape):
+        where = (
+            ...,
+            *(i if n > 1 else slice(None) for i, n in zip(place, owner.shape, strict=True)),
+        )
+        h, b, *rest = (_at(x, place, owner.shape) for x in (some.h, some.b, *arguments))
+        found[where] = function(_one_of(some, int(owner[place]), h, b), *rest)
+    return found
+
+
+def _at(x: Double, place: tuple[int, ...], lengths: tuple[int, ...]) -> Double:
+    """What of an argument belongs to a plate: along the axes on which plates differ, its own."""
+    whole = x.reshape((1,) * (len(place) - x.ndim) + x.shape)
+    sizes = whole.shape[whole.ndim - len(place) :]
+    own = (min(i, size - 1) for i, size in zip(place, sizes, strict=True))
+    where = (i if n > 1 else slice(None) for i, n in zip(own, lengths, strict=True))
+    found: Double = whole[(..., *where)]
+    return found
+
+
+def _one_of(some: PlateArrays, number: int, h: Double, b: Double) -> PlateArrays:
+    """One of the plates."""
+    pick = slice(number, number + 1)
+    eta, reach, far, short, first = some.plates
+    pieces = (Piece(x.coefficients[:, pick], x.middle[pick], x.half[pick]) for x in (short, first))
+    plates = Plates(eta[pick], reach[pick], far[pick], *pieces)
+    return PlateArrays(h, b, plates, np.zeros((1,) * h.ndim, dtype=np.intp), some.near[pick])
+
+
+def _indentations(some: PlateArrays, a: Double, R: Double) -> Double:
+    shape = np.broadcast_shapes(a.shape, R.shape, some.owner.shape)
+    flat_a, flat_R, flat_h, end = (flat(x, shape) for x in (a, R, some.h, np.minimum(some.b, R)))
+    index = index_of(some.owner, shape)
+    single = sphere_on_plate(some.plates, some.h, R)
+    result = np.empty(int(np.prod(shape)))
+    for part in blocks_of(result.size):
+        radius, limit = flat_a[part], cut(end, part)
+        most = radius.max()
+        if not (radius.min() >= 0 and most < np.min(limit)):
+            [radius] = inside([radius], radius >= 0, radius < limit)
+            most = np.nan
+        if single is not None:
+            indent(radius, most, single, result[part])
+            continue
+        value = correction(radius / cut(flat_h, part), some.plates, cut_index(index, part))
+        result[part] = kernels.indentation_of(radius, cut(flat_R, part), value)
+    return result.reshape(shape)
+
+
+def _rises(some: PlateArrays, a: Double) -> Double:
+    """(R/a) d delta/da."""
+    shape = np.broadcast_shapes(a.shape, some.owner.shape)
+    flat_a, flat_h, index = flat(a, shape), flat(some.h, shape), index_of(some.owner, shape)
+    result = np.empty(int(np.prod(shape)))
+    for part in blocks_of(result.size):
+        A = flat_a[part] / cut(flat_h, part)
+        value, slope = correction_with_slope(A, some.plates, cut_index(index, part))
+        result[part] = kernels.relative_rise(value, slope)
+    return result.reshape(shape)
+
+
+def _forces(some: PlateArrays, delta: Double, R: Double, lam: Double, mu: Double) -> Double:
+    a, share = _contact(some, delta, R)
+    return kernels.force_of_share(share, delta + 0.0, a, *modulus_factors(lam, mu))
+
+
+def _contact(some: PlateArrays, delta: Double, R: Double) -> tuple[Double, Double]:
+    """Contact radius, and what share it is of Hertz's radius sqrt(R delta)."""
+    # -0 becomes 0, of which roots and quotients have no sign.
+    [delta, R] = inside([delta + 0.0, R], delta >= 0, R > 0)
+    shape = np.broadcast_shapes(delta.shape, R.shape, some.owner.shape)
+    index = index_of(some.owner, shape)
+    eps = np.ravel(np.broadcast_to(kernels.depth_ratio(delta, R, some.h), shape))
+    limit = _limits(eps, some, index)
+    found = np.empty(eps.size)
+    for part in blocks_of(eps.size):
+        found[part] = _invert(eps[part], some, limit, cut_index(index, part))
+    share: Double = found.reshape(shape)
+    a = kernels.radius_of_share(share, delta, R)
+    a = np.where(a <= ROUNDED * some.b, np.minimum(a, some.b), np.nan)
+    return inside([a], a < R)[0], share
+
+
+def _invert(eps: Double, some: PlateArrays, limits: Double, index: np.ndarray | None) -> Double:
+    """A/eps where A sqrt(1 + F) is eps; NaN where that is beyond `limits`."""
+    plates = some.plates
+    pick: slice | np.ndarray = slice(None) if index is None else index
+    near, limit = some.near[pick], limits[pick]
+    linear = np.maximum(plates.first.coefficients[0][pick], 0.0)
+    [eps] = inside([eps], eps <= ROUNDED * limit)
+    most = np.where(eps <= near, plates.reach[pick], plates.far[pick]) / eps
+    share = np.minimum(np.minimum(1.0 / np.cbrt(eps * linear), 1.0), most)
+    for _ in range(_STEPS):
+        value, slope = correction_with_slope(share * eps, plates, index)
+        residual, step = kernels.newton_step(share, value, slope)
+        share = np.minimum(share * np.clip(1.0 + step, 0.3, 3.0), most)
+        if not (np.abs(residual) > _CLOSE).any():
+            break
+    return share
+
+
+def _limits(eps: Double, some: PlateArrays, index: np.ndarray | None) -> Double:
+    """A sqrt(1 + F) of each plate at its far end if any point needs that, else at A = reach."""
+    plates, near = some.plates, some.near
+    owner = np.zeros(eps.size, dtype=np.intp) if index is None else index
+    needed = np.unique(owner[eps > near[owner]])
+    limit = near.copy()
+    if needed.size:
+        end = plates.far[needed]
+        limit[needed] = kernels.depth_ratio_at(end, correction(end, plates, needed))
+    return limit

@@ -1,0 +1,191 @@
+"""Contact law of a single point on a single plate, in plain numbers without NumPy's overhead.
+
+The same polynomials and the same iteration as for arrays, for numbers whose products neither
+overflow nor underflow. A result is None where a point is none of these, or outside the domain:
+it is then worked on as an array of one point.
+
+Arithmetic: Horner's rule; A = a/h; where the iteration starts, its ends, and its steps.
+"""
+
+from math import cbrt
+from typing import NamedTuple
+
+from generated import contact_point_kernels as kernels
+from generated.contact_numbers import SHORT
+from generated.contact_series import ROUNDED, Piece, far_piece
+from generated.plate_arrays import PlateArrays
+
+_STEPS = 60  # of Newton's iteration at most; it takes four to six
+_CLOSE = 1e-9  # a relative residual whose square is far below rounding
+_ORDINARY = 1e-60, 1e60  # numbers whose products neither overflow nor underflow
+_USUAL = 1e-20, 1e20  # h/b with which that holds for the coefficients too
+
+
+class PointPiece(NamedTuple):
+    """F = A (S_0 + S_1 t + ...), t = (A^2 - middle) inverse_half, the highest power first."""
+
+    coefficients: tuple[float, ...]
+    middle: float
+    inverse_half: float
+
+
+class PlatePoints(NamedTuple):
+    """A plate whose law is computed in plain numbers.
+
+    Attributes
+    ----------
+    h, b
+        Half-thickness and radius [m].
+    brief, reach, far
+        Largest A = a/h [1] of the three polynomials.
+    near_ratio, far_ratio
+        sqrt(R delta)/h [1] at the ends of the second and the third.
+    linear
+        Of F for small A, at least 0 [1].
+    short, first, beyond
+        The polynomials; the third is the second in a plate that ends before it does.
+    """
+
+    h: float
+    b: float
+    brief: float
+    reach: float
+    far: float
+    near_ratio: float
+    far_ratio: float
+    linear: float
+    short: PointPiece
+    first: PointPiece
+    beyond: PointPiece
+
+
+def plate_points(some: PlateArrays) -> PlatePoints | None:
+    """The only plate there is, if it is of ordinary lengths."""
+    if some.h.ndim or some.b.ndim:
+        return None
+    h, b, plates = some.h.item(), some.b.item(), some.plates
+    eta, reach, far = plates.eta.item(), plates.reach.item(), plates.far.item()
+    if not (_USUAL[0] < eta < _USUAL[1] and _ordinary(h, b)):
+        return None
+    first = _piece(plates.first)
+    beyond = _piece(far_piece(plates.eta)) if far > reach else first
+    value, _ = _with_slope(far, beyond)
+    far_ratio = kernels.depth_ratio_at(far, value)
+    linear = max(first.coefficients[-1], 0.0)
+    pieces = _piece(plates.short), first, beyond
+    ends = reach * SHORT, reach, far
+    return PlatePoints(h, b, *ends, some.near.item(), far_ratio, linear, *pieces)
+
+
+def indentation(plate: PlatePoints, a: float, R: float) -> float | None:
+    """Indentation [m] of a contact radius [m]."""
+    if not (_ordinary(a, R) and a < plate.b and a < R):
+        return None
+    A = a / plate.h
+    if plate.brief >= A:
+        value = _value(A, plate.short)
+    elif plate.reach * ROUNDED >= A:
+        value = _value(A, plate.first)
+    elif plate.far >= A:
+        value = _value(A, plate.beyond)
+    else:
+        return None
+    return kernels.indentation_in_range(a, 1.0 / R, value)
+
+
+def contact_radius(plate: PlatePoints, delta: float, R: float) -> float | None:
+    """Contact radius [m] of an indentation [m]."""
+    found = _contact(plate, delta, R)
+    return None if found is None else found[0]
+
+
+def force(plate: PlatePoints, delta: float, R: float, lam: float, mu: float) -> float | None:
+    """Force [N] of an indentation [m]."""
+    modulus = _modulus(lam, mu)
+    found = None if modulus is None else _contact(plate, delta, R)
+    if modulus is None or found is None:
+        return None
+    a, share = found
+    return kernels.force_in_range(share, delta, a, mu, modulus)
+
+
+def stiffness(plate: PlatePoints, a: float, R: float, lam: float, mu: float) -> float | None:
+    """Stiffness [N/m] of a contact radius [m]."""
+    modulus = _modulus(lam, mu)
+    if modulus is None or not (_ordinary(a, R) and a < plate.b and a < R):
+        return None
+    A = a / plate.h
+    if not plate.far >= A:
+        return None
+    rise = kernels.relative_rise(*_with_slope(A, _piece_at(plate, A)))
+    return kernels.stiffness_in_range(a, rise, mu, modulus)
+
+
+def _contact(plate: PlatePoints, delta: float, R: float) -> tuple[float, float] | None:
+    """Contact radius, and what share it is of Hertz's radius."""
+    if not _ordinary(delta, R):
+        return None
+    eps = kernels.depth_ratio_in_range(delta, R, plate.h)
+    if not eps <= plate.far_ratio:
+        return None
+    share = _invert(plate, eps)
+    a = kernels.radius_in_range(share, delta, R)
+    return (a, share) if a < plate.b and a < R else None
+
+
+def _invert(plate: PlatePoints, eps: float) -> float:
+    """A/eps where A sqrt(1 + F) is eps."""
+    most = (plate.reach if eps <= plate.near_ratio else plate.far) / eps
+    thin = 1.0 / cbrt(eps * plate.linear) if plate.linear > 0.0 else 1.0
+    share = min(thin, 1.0, most)
+    for _ in range(_STEPS):
+        A = share * eps
+        value, slope = _with_slope(A, _piece_at(plate, A))
+        residual, step = kernels.newton_step(share, value, slope)
+        share = min(share * min(max(1.0 + step, 0.3), 3.0), most)
+        if abs(residual) <= _CLOSE:
+            break
+    return share
+
+
+def _ordinary(one: float, other: float) -> bool:
+    low, high = _ORDINARY
+    return low < one < high and low < other < high
+
+
+def _modulus(lam: float, mu: float) -> float | None:
+    """(4/3) E* over mu of ordinary constants."""
+    low, high = _ORDINARY
+    if low < mu < high and -2.0 * mu < 3.0 * lam < high:
+        return kernels.modulus_over_mu(lam, mu)
+    return None
+
+
+def _piece_at(plate: PlatePoints, A: float) -> PointPiece:
+    """Which of the two polynomials with a slope serves."""
+    return plate.first if plate.reach * ROUNDED >= A else plate.beyond
+
+
+def _piece(piece: Piece) -> PointPiece:
+    coefficients = tuple(piece.coefficients[::-1, 0].tolist())
+    return PointPiece(coefficients, piece.middle.item(), 1.0 / piece.half.item())
+
+
+def _value(A: float, piece: PointPiece) -> float:
+    """F."""
+    t = (A * A - piece.middle) * piece.inverse_half
+    value = 0.0
+    for coefficient in piece.coefficients:
+        value = value * t + coefficient
+    return A * value
+
+
+def _with_slope(A: float, piece: PointPiece) -> tuple[float, float]:
+    """F and A F'."""
+    square = A * A
+    t = (square - piece.middle) * piece.inverse_half
+    value = slope = 0.0
+    for coefficient in piece.coefficients:
+        slope = slope * t + value
+        value = value * t + coefficient
+    return kernels.with_slope_of(A, square, piece.inverse_half, value, slope)

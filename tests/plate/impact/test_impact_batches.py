@@ -1,0 +1,42 @@
+"""Impacts in arrays of any size and shape are each what it is alone."""
+
+import tracemalloc
+
+import numpy as np
+
+from derivation.plate.benchmark.speed import scenes
+from generated.impact import _BATCH, impact
+
+
+def test_a_batch_is_every_impact_alone() -> None:
+    """Across the ends of what is solved at a time, with contacts beyond 3 h among them."""
+    given = scenes(0.01, 5.9, _BATCH + 600)
+    found = np.stack(impact(**given))
+    for place in (0, 511, 512, _BATCH - 1, _BATCH, _BATCH + 1, _BATCH + 599):
+        alone = np.stack(impact(**{name: float(x[place]) for name, x in given.items()}))
+        np.testing.assert_allclose(found[:, place], alone, rtol=2e-15)
+
+
+def test_a_batch_broadcasts_what_is_given() -> None:
+    """Speeds along one axis and plates along the other, more than are solved at a time."""
+    v0, h = np.linspace(0.1, 1.0, _BATCH // 4)[:, None], np.array([0.1, 0.12, 0.2, 0.1, 0.5])
+    found = np.stack(impact(0.13, 72.2, v0, h, 1.0, 0.36e9, 0.43e9))
+    assert found.shape == (4, v0.size, h.size)
+    for column, half in enumerate(h):
+        alone = np.stack(impact(0.13, 72.2, v0[::997, 0], half, 1.0, 0.36e9, 0.43e9))
+        np.testing.assert_allclose(found[:, ::997, column], alone, rtol=2e-15)
+
+
+def test_memory_grows_by_little_more_than_the_results() -> None:
+    """These have 32 bytes an impact."""
+
+    def peak(count: int) -> int:
+        given = {name: x[:count] for name, x in every.items()}
+        tracemalloc.start()
+        impact(**given)
+        _, most = tracemalloc.get_traced_memory()
+        tracemalloc.stop()
+        return most
+
+    every = scenes(0.01, 2.9, 4 * _BATCH)
+    assert peak(4 * _BATCH) - peak(_BATCH) < 100 * 3 * _BATCH

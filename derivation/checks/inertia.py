@@ -89,8 +89,10 @@ def placed(data: Scene, place: float) -> tuple[Scene, float]:
     assert still is not None  # such scenes are passed over
     others = dict.fromkeys(present(model) - {"inertia", "hertz"}, True)
     price = decide(model, others | {"inertia": "auto"}, ANY).error
-    radiated = max(higher_branch_error(model, still.max_contact_radius, still.contact_time))
-    least = MET * radiated * (1.0 + weight_share(model, still.max_indentation)) + TIGHT
+    radiated = max(
+        map(float, higher_branch_error(model, still.max_contact_radius, still.contact_time))
+    )
+    least = MET * radiated * (1.0 + float(weight_share(model, still.max_indentation))) + TIGHT
     if price < MUCH and (place < 0.5 or least > price):
         return {**data, "effects": {**others, "inertia": "auto"}}, price * (1.0 + place)
     return data, min(least * math.pow(10.0, 2.0 * place - 1.0), max(least, 0.9 * min(price, ANY)))

@@ -7,8 +7,9 @@ Read in this order:
 2. `model`: turns the scene into the numbers the kernels take.
 3. `effects`: one file each, which answers every question about the effect; `law` asks those that
    are included, and no other file knows an effect by its name.
-4. `effect_selection`: which effects are included, by bounds on the change of the results if they
-   are omitted (`omission_bounds`); `explanation` shows it.
+4. `selection`: which effects are included, by bounds on the change of the results if they are
+   omitted (`omission_bounds`, `law_errors`); `effect_selection` is the effects table, and
+   `explanation` shows it.
 5. `limits`: refuses what lies outside the contact law, warns where it grows inexact.
 6. `method_selection`: the fastest method whose error bound meets a tolerance. `motion` takes any
    law on a quasi-static plate, `viscous` by `collocation` also a viscoelastic contact
@@ -16,7 +17,9 @@ Read in this order:
    (`time_element`), contacts one after the other (`contact_sequence`), and their time history
    (`wave_motion`).
 7. `impact`, `indentation`: simulate an impact, compute a static contact.
-8. `sweep`: one simulation per value of a key.
+8. `sweep`: one simulation per value of a key. `rows`: many scenes at once, whose numbers are
+   `columns`; effects are selected (`rows_selection`) and quasi-static impacts computed
+   (`static_rows`) in arrays, with the same effects, bounds and laws as of one scene.
 9. `result`: the results, `answer` puts them in words; `export` hands them to pandas and xarray,
    `plot` draws them, `comparison` compares the paper's motion with them.
 10. `code`: what a module with the law and the impact of one scene is made of.

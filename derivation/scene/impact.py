@@ -8,6 +8,7 @@ from derivation.scene.edge_remainder import edge_remainder
 from derivation.scene.effect_selection import SelectedEffects, decide
 from derivation.scene.law import ContactLaw
 from derivation.scene.limits import (
+    PlateTimes,
     check_radius,
     contact_warnings,
     hollow_warnings,
@@ -97,6 +98,7 @@ def warnings_of(
     stress: float,
     strength: float | None,
     deflection: float | None = None,
+    known: PlateTimes | None = None,
 ) -> tuple[str, ...]:
     """What to know about an impact, but for its contacts one by one.
 
@@ -108,13 +110,15 @@ def warnings_of(
         Largest tensile stress on the back face and the plate's strength [Pa], if it is given.
     deflection
         Largest deflection of the plate [m], if its motion was computed.
+    known
+        The plate's times, if they are known already.
     """
     model, moves = law.model, deflection is not None
     share = 1.0 - float(local_indentation(law, a)) / delta
     return (
         *hollow_warnings(model),
         *warnings_at(law, a, delta, deflection),
-        *motion_warnings(model, contact_time, share, moves),
+        *motion_warnings(model, contact_time, share, moves, known),
         *_yield_warnings(law, a, pressure),
         *stress_warnings(stress, strength, _known(model.plate_yield_stress)),
     )

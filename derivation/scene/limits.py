@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from typing import NoReturn, TypeVar
+from typing import NamedTuple, NoReturn, TypeVar
 
 import numpy as np
 
@@ -192,8 +192,25 @@ def warnings_at(
 def zener_number(model: Model) -> float:
     """Zener's number of the contact's own modulus, the sphere's elasticity included [1]."""
     R, m, v0, h, _, lam, mu = model.numbers
-    found = float(kernels.zener_number(R, m, v0, h, lam, mu, model.density))
-    return found / math.pow(1.0 + model.softness, 0.4)
+    found = kernels.zener_number(R, m, v0, h, lam, mu, model.density)
+    number: float = found / np.power(1.0 + model.softness, 0.4)
+    return number
+
+
+class PlateTimes(NamedTuple):
+    """Zener's number [1], the first bending period and the time of two echoes [s] of a plate."""
+
+    zener: float
+    period: float
+    echoes: float
+
+
+def plate_times(model: Model) -> PlateTimes:
+    """What tells whether the plate's inertia matters; the density has to be known."""
+    h, b, lam, mu = model.numbers[3:]
+    period: float = kernels.bending_period(h, b, lam, mu, model.density)  # type: ignore[assignment]
+    echoes: float = kernels.echo_time(h, lam, mu, model.density)  # type: ignore[assignment]
+    return PlateTimes(zener_number(model), period, echoes)
 
 
 def contact_warnings(speeds: Sequence[float], least: float) -> tuple[str, ...]:
@@ -219,7 +236,11 @@ def contact_warnings(speeds: Sequence[float], least: float) -> tuple[str, ...]:
 
 
 def neglects_inertia(
-    model: Model, contact_time: float, deflection: float, dynamic: bool = False
+    model: Model,
+    contact_time: float,
+    deflection: float,
+    dynamic: bool = False,
+    known: PlateTimes | None = None,
 ) -> bool:
     """Whether the plate's inertia is neglected and may matter, as far as its density is known.
 
@@ -227,14 +248,17 @@ def neglects_inertia(
     """
     if dynamic or not model.density:
         return False
-    h, b, lam, mu = model.numbers[3:]
-    period = float(kernels.bending_period(h, b, lam, mu, model.density))
+    zener, period, _ = known or plate_times(model)
     slow = contact_time >= QUASI_STATIC_PERIODS * period
-    return not slow and (zener_number(model) > ZENER_LIMIT or deflection > SHARE_LIMIT)
+    return not slow and (zener > ZENER_LIMIT or deflection > SHARE_LIMIT)
 
 
 def motion_warnings(
-    model: Model, contact_time: float, deflection: float, dynamic: bool = False
+    model: Model,
+    contact_time: float,
+    deflection: float,
+    dynamic: bool = False,
+    known: PlateTimes | None = None,
 ) -> tuple[str, ...]:
     """Where the plate's own motion, which is left out, is not small; needs its density.
 
@@ -246,15 +270,14 @@ def motion_warnings(
         Share of the plate's deflection in the largest indentation [1].
     dynamic
         Whether the plate has inertia.
+    known
+        The plate's times, if they are known already.
     """
     if not model.density:
         return ()
-    h, b, lam, mu = model.numbers[3:]
-    zener = zener_number(model)
-    period = float(kernels.bending_period(h, b, lam, mu, model.density))
-    echoes = float(kernels.echo_time(h, lam, mu, model.density))
+    zener, period, echoes = times = known or plate_times(model)
     found = []
-    if neglects_inertia(model, contact_time, deflection, dynamic):
+    if neglects_inertia(model, contact_time, deflection, dynamic, times):
         found.append(
             f"plate inertia is neglected but may matter: Zener's number lambda = {zener:.3g} "
             f"(negligible below {ZENER_LIMIT}), contact time over the first bending period on the "

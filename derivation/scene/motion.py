@@ -30,7 +30,11 @@ SETTLED = 2e-14
 """Relative change at twice the nodes that is rounding alone."""
 _STEPS = 60
 _NEWTON = 5
-_CLOSE = 4e-16
+_CLOSE = 1e-9
+"""A step whose square, which is what the next would be, is far below rounding."""
+_CLOSEST = 4e-16
+"""A step as small as rounding: where the pressure is solved for, whose slope is not exact, and on
+a half-space, whose contact time is the unit of time of plates with inertia."""
 
 
 @dataclass(frozen=True)
@@ -220,10 +224,10 @@ def impact(law: ContactLaw) -> Motion:
         If the contact radius reaches the law's limit, or a result is no number above zero.
     """
     before: Motion | None = None
-    a = math.inf
+    a, close = math.inf, _CLOSEST if law.solved or not law.plate_effects else _CLOSE
     for n, times in [(n, n) for n in NODES] + [(NODES[1], n) for n in MORE_TIMES]:
         try:
-            a = largest_radius(law, n, a)
+            a = largest_radius(law, n, a, close)
         except SceneError:
             refuse(law)
         found = _results(law, a, n, times)

@@ -115,7 +115,7 @@ def _step(
     open_, state = given.left(included), state_of(law)
     error, limit = errors_of(state, open_, outputs)[:, 0], rtol[rows]
     candidates = [effect for effect in open_ if effect.name not in given.blocked]
-    near = np.abs(error - limit) <= NEAR * limit
+    near = (np.abs(error - limit) <= NEAR * limit) & (limit > 0.0)
     done = (error <= limit) if candidates else np.ones(len(rows), dtype=bool)
     others = _next(given, state, candidates, included, ~done & ~near, rows, outputs)
     kept = done & ~near

@@ -12,9 +12,14 @@ from derivation.scene.law import ContactLaw
 from derivation.scene.limits import (
     CURVATURE_LIMIT,
     HERTZ_LIMIT,
+    QUASI_STATIC_PERIODS,
+    SHARE_LIMIT,
     SOLID_LIMIT,
     STRETCH_LIMIT,
+    ZENER_LIMIT,
+    PlateTimes,
     local_indentation,
+    plate_times,
 )
 
 _ROUNDING = 1e-9
@@ -46,7 +51,8 @@ def warnings_of_rows(
         none if strength is None else np.broadcast_to(strength, len(results["contact_time"]))[rows]
     )
     columns = {name: values[rows][:, None] for name, values in results.items()}
-    for row in np.flatnonzero(_possible(some, columns, limits[:, None])).tolist():
+    times = plate_times(some.model) if np.any(some.model.density) else None
+    for row in np.flatnonzero(_possible(some, columns, limits[:, None], times)).tolist():
         numbers = {name: float(column[row, 0]) for name, column in columns.items()}
         found[row] = "; ".join(
             warnings_of(
@@ -57,24 +63,39 @@ def warnings_of_rows(
                 numbers["max_pressure"],
                 numbers["max_tensile_stress"],
                 None if strength is None else float(limits[row]),
+                known=times and PlateTimes(*(_at(x, row) for x in times)),
             )
         )
     return found
 
 
-def _possible(law: ContactLaw, results: Mapping[str, Array], strength: Array) -> NDArray[np.bool_]:
+def _at(numbers: Array | float, row: int) -> float:
+    """A row's number, of a column or of all rows."""
+    return float(np.ravel(numbers)[row if np.size(numbers) > 1 else 0])
+
+
+def _possible(
+    law: ContactLaw, results: Mapping[str, Array], strength: Array, times: PlateTimes | None
+) -> NDArray[np.bool_]:
     """The rows of which there may be a warning."""
     model, less = law.model, 1.0 - _ROUNDING
     a, delta = results["max_contact_radius"], results["max_indentation"]
     thickness, deflection = 2.0 * model.h, delta - local_indentation(law, a)
     stress = results["max_tensile_stress"]
     solid = 4 / 3 * np.pi * model.R * model.R * model.R * model.solid_density
-    found = less * model.m < SOLID_LIMIT * solid
-    found = found | (a > less * HERTZ_LIMIT * thickness)
-    found |= (not law.spherical) & (a > less * CURVATURE_LIMIT * model.R)
-    found |= deflection > less * STRETCH_LIMIT * thickness
-    found |= results["max_pressure"] > less * kernels.YIELD_LIMIT * model.yield_stress
-    found |= stress > less * np.minimum(model.plate_yield_stress, strength)
-    if np.any(model.density):
-        found |= True
-    return found[:, 0]
+    found = [
+        less * model.m < SOLID_LIMIT * solid,
+        a > less * HERTZ_LIMIT * thickness,
+        (a > less * CURVATURE_LIMIT * model.R) & (not law.spherical),
+        deflection > less * STRETCH_LIMIT * thickness,
+        results["max_pressure"] > less * kernels.YIELD_LIMIT * model.yield_stress,
+        stress > less * np.minimum(model.plate_yield_stress, strength),
+    ]
+    if times is not None:
+        fast = QUASI_STATIC_PERIODS * times.period > less * results["contact_time"]
+        much = (times.zener > less * ZENER_LIMIT) | (deflection > less * SHARE_LIMIT * delta)
+        found += [fast & much, times.echoes > less * results["contact_time"]]
+    possible = np.zeros(a.shape, dtype=bool)
+    for condition in found:
+        possible |= np.asarray(condition)
+    return possible[:, 0]

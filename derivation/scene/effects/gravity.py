@@ -32,6 +32,6 @@ class Gravity(Effect):
     def bound(self, model: Model, context: BoundContext) -> Bound:
         """-log(1 - e), e the work of the weight over the largest indentation over the energy."""
         share = 2.0 * model.gravity * context.depth / model.v0 / model.v0
-        energy = -np.log1p(-np.minimum(share, 1.0))
+        energy = np.where(np.less(share, 1.0), -np.log1p(-np.minimum(share, 1.0)), np.inf)
         none = none_of(context.radii)
         return Bound(none, none, energy=energy)

@@ -1,0 +1,209 @@
+"""Many scenes at once: every row is what `simulate` returns for its scene."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import pytest
+from given import PAPER
+
+from derivation.scene import SceneError, load, read, simulate
+from derivation.scene import rows as many
+from derivation.scene.columns import row_of
+from derivation.scene.effects.effect import Array
+from derivation.scene.law_errors import law_errors
+from derivation.scene.result import UNITS, Result
+from derivation.scene.rows import Rows, solve
+from derivation.scene.scene import Scene
+from generated import simple_impact
+
+ROUNDING = 1e-13
+"""Relative difference of a row from its own simulation."""
+STEEL_ON_GLASS: dict[str, dict[str, Any]] = {
+    "sphere": {"radius": 0.01, "material": "steel"},
+    "plate": {"radius": 0.3, "thickness": 0.05, "material": "glass"},
+    "impact": {"speed": 0.5, "gravity": 9.81},
+    "effects": {"inertia": False},
+}
+
+
+def scene_with(**tables: Mapping[str, Any]) -> Scene:
+    """Steel on glass with other keys."""
+    return read({n: {**STEEL_ON_GLASS.get(n, {}), **tables.get(n, {})} for n in
+                 STEEL_ON_GLASS.keys() | tables.keys()})  # fmt: skip
+
+
+def check(scene: Scene, columns: Mapping[str, Array], rtol: float | None = None) -> Rows:
+    """Solve rows, and compare each with its own simulation."""
+    found = solve(scene, columns, rtol)
+    for row in range(len(found.bound)):
+        one, said = simulated(row_of(scene, columns, row), rtol)
+        if one is None:
+            assert (found.status[row], found.reason[row]) == ("refused", said)
+            assert found.effects[row] == ""
+            assert all(np.isnan(values[row]) for values in found.results.values())
+            continue
+        assert found.effects[row] == " ".join(one.effects.included)
+        assert found.status[row] == "finished"
+        assert found.reason[row] == "; ".join(one.warnings)
+        assert found.model_error[row] == one.model_error
+        assert found.bound[row] == pytest.approx(one.accuracy.bound, rel=1e-9, abs=1e-14)
+        for name in UNITS:
+            value = getattr(one, name)
+            assert found.results[name][row] == pytest.approx(value, rel=ROUNDING), name
+    return found
+
+
+def simulated(tables: Mapping[str, Any], rtol: float | None) -> tuple[Result | None, str]:
+    """The simulation of a scene, or why it is refused."""
+    try:
+        return simulate(read(tables), rtol=rtol), ""
+    except SceneError as error:
+        return None, str(error)
+
+
+def never(*_: object, **__: object) -> None:
+    """Instead of the simulation of one scene."""
+    raise AssertionError("a row was simulated by itself")
+
+
+def in_arrays(monkeypatch: pytest.MonkeyPatch, *given: Any) -> None:
+    """See that no row needs a simulation of its own."""
+    monkeypatch.setattr(many, "simulate", never)
+    assert set(solve(*given).status) == {"finished"}
+
+
+@pytest.mark.parametrize("rtol", [None, 1e-1, 1e-2, 1e-6, 1e-13])
+def test_rows_of_the_paper_are_simulations(
+    rtol: float | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    chance = np.random.default_rng(1)
+    columns = {
+        "impact.speed": 10 ** chance.uniform(-2, 0.5, 5),
+        "plate.half_thickness": 10 ** chance.uniform(-1, 0, 5),
+    }
+    check(load(PAPER), columns, rtol)
+    in_arrays(monkeypatch, load(PAPER), columns, rtol)
+
+
+@pytest.mark.parametrize(
+    ("edge", "rtol"), [("paper", 3e-2), ("clamped", 0.3), ("simply-supported", 3e-2)]
+)
+def test_rows_of_any_law_are_simulations(
+    edge: str, rtol: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    chance = np.random.default_rng(2)
+    scene = scene_with(plate={"edge": edge})
+    columns = {
+        "impact.speed": chance.uniform(0.05, 0.5, 6),
+        "plate.thickness": chance.uniform(0.02, 0.05, 6),
+        "sphere.radius": chance.uniform(0.005, 0.015, 6),
+    }
+    check(scene, columns, rtol)
+    if edge != "clamped":  # there the bound takes in a pressure that is solved for
+        in_arrays(monkeypatch, scene, columns, rtol)
+
+
+def test_rows_whose_inertia_is_left_out_by_its_bound_stay_in_arrays(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    scene = scene_with(plate={"thickness": 0.5, "radius": 0.5}, effects={"inertia": "auto"})
+    columns = {"impact.speed": np.linspace(0.05, 0.1, 3)}
+    found = check(scene, columns, 0.1)
+    assert not any("inertia" in names for names in found.effects)
+    in_arrays(monkeypatch, scene, columns, 0.1)
+
+
+def test_refused_rows_and_rows_with_a_solution_of_their_own_are_simulations() -> None:
+    scene = scene_with()
+    speeds = np.array([0.2, -1.0, np.nan, 0.0, 1e4, 0.3])
+    found = check(scene, {"impact.speed": speeds}, 1e-1)
+    assert found.status.tolist() == ["finished", *["refused"] * 4, "finished"]
+    thin = {"plate.thickness": np.array([0.004, 0.05]), "impact.speed": np.array([2.0, 0.2])}
+    assert "non_hertzian_pressure" in check(scene, thin, 1e-4).effects[0]
+
+
+def test_rows_without_weight_or_with_it_part_where_it_applies() -> None:
+    columns = {"impact.gravity": np.array([0.0, 9.81, 1e4, 0.0])}
+    found = check(scene_with(), columns, 1e-2)
+    assert "gravity" in found.effects[2]
+    assert "gravity" not in found.effects[0]
+
+
+def test_columns_of_materials_and_keys_that_stand_in_for_others() -> None:
+    own = {"youngs_modulus": 6e10, "poissons_ratio": 0.2, "density": 2400.0}
+    scene = scene_with(plate={"material": "pane"}, materials={"pane": own})
+    columns = {
+        "materials.pane.youngs_modulus": np.array([5e10, 7e10, -1.0]),
+        "materials.pane.poissons_ratio": np.array([0.1, 0.3, 0.3]),
+        "sphere.mass": np.array([0.03, 0.02, 0.01]),
+        "plate.half_thickness": np.array([0.02, 0.03, 0.03]),
+    }
+    check(scene, columns, 1e-1)
+
+
+def test_a_strength_of_its_own_for_each_row() -> None:
+    columns = {"plate.tensile_strength": np.array([1e3, 1e12])}
+    weak, strong = check(scene_with(), columns, 1e-1).reason
+    assert "predicted to fail" in weak
+    assert "predicted to fail" not in strong
+
+
+def test_rows_do_not_depend_on_their_number(monkeypatch: pytest.MonkeyPatch) -> None:
+    columns = {"impact.speed": np.linspace(0.1, 0.5, 7)}
+    whole = solve(scene_with(), columns, 1e-1)
+    monkeypatch.setattr(many, "BLOCK", 2)
+    parts = solve(scene_with(), columns, 1e-1)
+    for name in UNITS:
+        assert parts.results[name] == pytest.approx(whole.results[name], rel=ROUNDING)
+    assert list(parts.effects) == list(whole.effects)
+
+
+@pytest.mark.parametrize("length", [1e-3, 1e3])
+def test_rows_in_other_units_of_length_are_the_same_impacts(length: float) -> None:
+    """Lengths, Pa = N/m^2 with N = kg m/s^2: the results scale as their units do."""
+    paper = load(PAPER).to_json()
+    speeds = np.linspace(0.2, 1.5, 4)
+    here = solve(load(PAPER), {"impact.speed": speeds})
+    sphere, plate = dict(paper["sphere"]), dict(paper["plate"])
+    sphere |= {"radius": sphere["radius"] * length, "density": sphere["density"] / length**3}
+    plate |= {key: plate[key] * length for key in ("radius", "half_thickness")}
+    plate |= {key: plate[key] / length for key in ("lame_lambda", "lame_mu")}
+    scene = read(paper | {"sphere": sphere, "plate": plate})
+    there = solve(scene, {"impact.speed": speeds * length})
+    powers = {"max_indentation": 1, "max_force": 1, "max_contact_radius": 1, "max_pressure": -1}
+    for name in ("contact_time", "restitution", *powers):
+        scaled = here.results[name] * length ** powers.get(name, 0)
+        assert there.results[name] == pytest.approx(scaled, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("columns", "message"),
+    [
+        ({"plate.colour": np.ones(2)}, "expected keys of a scene file"),
+        ({"impact.speed": np.ones(2), "plate.radius": np.ones(3)}, "of the same length"),
+        ({"impact.speed": np.ones((2, 2))}, "of the same length"),
+        ({}, "one or more arrays"),
+    ],
+)
+def test_columns_that_are_none_are_refused(columns: Any, message: str) -> None:
+    with pytest.raises(SceneError, match=message):
+        solve(load(PAPER), columns)
+
+
+def test_errors_of_many_laws_are_those_of_each() -> None:
+    chance = np.random.default_rng(3)
+    low, up, energy = 10 ** chance.uniform(-12, -1, (3, 200))
+    fall, rise = chance.uniform(0.0, 2.1, (2, 200))
+    found = np.array(law_errors(low, up, fall, rise, energy))
+    each = [simple_impact.law_errors(*numbers) for numbers in
+            zip(low, up, fall, rise, energy, strict=True)]  # fmt: skip
+    np.testing.assert_allclose(found.T, each, rtol=1e-12)
+
+
+def test_a_part_of_the_paper_plate_comes_with_the_whole() -> None:
+    loose = simulate(load(PAPER), rtol=1e-2)
+    assert loose.effects.included == simulate(load(PAPER), rtol=1e-6).effects.included
+    reasons = {row.name: row.reason for row in loose.effects.rows}
+    assert "cheaper" in reasons["finite_radius"]
+    assert loose.accuracy.bound <= 1e-2

@@ -18,10 +18,11 @@ from derivation.scene.effects import BY_NAME, WHOLE_PLATE
 from derivation.scene.law import ContactLaw
 from derivation.scene.method_selection import moved
 from derivation.scene.model import Model
-from derivation.scene.scene import OUTPUTS
+from derivation.scene.scene import OUTPUTS, SceneError
 from derivation.scene.time_element import DynamicProblem, P
 from derivation.scene.waves import problem_of
 from derivation.scene.yielding import yielding_of
+from derivation.scene_code import scene_code
 from generated.plasticity import plastic_restitution, yield_radius, yield_speed
 
 BALL = Model(R=0.005, m=4.1e-3, v0=1.0, h=0.5, b=1.0, lam=121.15e9, mu=80.77e9, yield_stress=500e6)
@@ -344,3 +345,8 @@ def test_parameter_is_the_pressure_over_its_limit() -> None:
     a = 1e-4
     found = BY_NAME["plasticity"].value(BALL, a)
     assert found == pytest.approx(law.max_pressure(a) / (1.6 * BALL.yield_stress), rel=1e-14)
+
+
+def test_code_of_a_contact_that_yields_is_refused_with_what_to_do_instead() -> None:
+    with pytest.raises(SceneError, match="largest force before; `platecontact simulate"):
+        scene_code(read(drop({"inertia": False})))

@@ -242,7 +242,8 @@ JUDGED = {
         layout_cases, {"flat": (1, SLOW), "cut": (1, SLOW), "pieces": (2, SLOW)}, users=LAW
     ),
     "contact_cells": Judged(
-        series_cases, users=["contact_series", *LAW, "contact_thickness", "sensitivity"]
+        series_cases,
+        users=["contact_series", "contact_domain", *LAW, "contact_thickness", "sensitivity"],
     ),
     "contact_series": Judged(
         series_cases,
@@ -254,7 +255,7 @@ JUDGED = {
             ),
             "direct": (5, f"{BEYOND_ALL}; and {SIZE}"),
         },
-        users=[*LAW, "contact_thickness", "sensitivity"],
+        users=["contact_domain", *LAW, "contact_thickness", "sensitivity"],
     ),
     "contact_thickness": Judged(sensitivity_cases, users=["sensitivity"]),
     "sensitivity": Judged(sensitivity_cases, {"_near_sums": (4, "a zero of the right shape")}),

@@ -83,7 +83,8 @@ def stiffnesses(some: PlateArrays, a: Double, R: Double, lam: Double, mu: Double
     """Stiffness [N/m] of contact radii [m]; NaN outside the domain, constants being inside."""
     [a] = inside([a], a >= 0, a < some.b, a < R, R > 0)
     rise = _plate_by_plate(_rises, some, a)
-    return kernels.contact_stiffness(a, rise, *modulus_factors(lam, mu))
+    whole = np.broadcast_to(rise, np.broadcast_shapes(rise.shape, R.shape))
+    return kernels.contact_stiffness(a, whole, *modulus_factors(lam, mu))
 
 
 def _plate_by_plate(

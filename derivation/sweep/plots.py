@@ -99,6 +99,8 @@ def figure(data: "xr.Dataset", keys: Sequence[str], results: Sequence[str]) -> "
         else:
             _map(made, axes, data, keys, name)
         axes.set_title(name.replace("_", " "), fontsize=10)
+    if panels[0].get_legend_handles_labels()[0]:
+        panels[0].legend(frameon=False, fontsize=8)
     notes = _notes(data)
     if notes:
         made.suptitle(notes, fontsize=9)
@@ -132,9 +134,7 @@ def _curve(axes: "Axes", data: "xr.Dataset", key: str, name: str) -> None:
     axes.set(xlabel=x_label, ylabel=y_label)
     _frame(axes)
     if _logarithmic(x):
-        axes.set_xscale("log")
-    if name == "contact_time":
-        axes.legend(frameon=False, fontsize=8)
+        _scale(axes.xaxis)
 
 
 def _map(made: "Figure", axes: "Axes", data: "xr.Dataset", keys: Sequence[str], name: str) -> None:
@@ -151,9 +151,9 @@ def _map(made: "Figure", axes: "Axes", data: "xr.Dataset", keys: Sequence[str], 
     made.colorbar(drawn, ax=axes, label=label)
     axes.set(xlabel=x_label, ylabel=y_label)
     if _logarithmic(x):
-        axes.set_xscale("log")
+        _scale(axes.xaxis)
     if _logarithmic(y):
-        axes.set_yscale("log")
+        _scale(axes.yaxis)
 
 
 def _bars(axes: "Axes", data: "xr.Dataset", name: str) -> None:
@@ -173,11 +173,9 @@ def _bars(axes: "Axes", data: "xr.Dataset", name: str) -> None:
         axes.text(0.5, 0.5, "no scatter", transform=axes.transAxes, ha="center", va="center")
         axes.set_xlim(0.0, 1.0)
     axes.set_yticks(places, [_words(key) for key in keys], fontsize=8)
-    axes.invert_yaxis()
+    axes.set_ylim(len(keys) - 0.5, -0.5)
     axes.set_xlabel("share of the variance [1]")
     _frame(axes)
-    if name == "contact_time":
-        axes.legend(frameon=False, fontsize=8)
 
 
 def _frame(axes: "Axes") -> None:
@@ -185,6 +183,16 @@ def _frame(axes: "Axes") -> None:
     axes.grid(visible=True, color="0.9", linewidth=0.6)
     axes.set_axisbelow(True)
     axes.spines[["top", "right"]].set_visible(False)
+
+
+def _scale(axis: Any) -> None:
+    """Logarithmic, with plain numbers at 1, 2 and 5."""
+    from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
+
+    axis.axes.set(**{f"{axis.axis_name}scale": "log"})
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axis.set_major_formatter(StrMethodFormatter("{x:g}"))
+    axis.set_minor_formatter(NullFormatter())
 
 
 def _logarithmic(values: Array) -> bool:

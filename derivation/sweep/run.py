@@ -240,13 +240,12 @@ def _client(scheduler: str | None, workers: int) -> Iterator[Any]:
             yield client
         return
     try:
-        with Client(scheduler, timeout=PATIENCE, set_as_default=False) as client:
-            client.wait_for_workers(1, timeout=PATIENCE)
-            yield client
-    except (TimeoutError, ValueError) as error:
-        if isinstance(error, SceneError):
-            raise
+        client = Client(scheduler, timeout=PATIENCE, set_as_default=False)
+        client.wait_for_workers(1, timeout=PATIENCE)
+    except (OSError, ValueError):  # an address that is none is a ValueError
         raise SceneError(
             f"--scheduler {scheduler}: expected a Dask scheduler with a worker, got none within "
             f"{PATIENCE:.0f} s; start them with `dask scheduler` and `dask worker ADDRESS`"
         ) from None
+    with client:
+        yield client

@@ -2,7 +2,6 @@
 
 import csv
 import json
-import os
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -109,9 +108,10 @@ def test_files_hold_the_dataset(
     assert formula.calls == made["max_force"].size
 
 
+@pytest.mark.usefixtures("formula")
 @pytest.mark.parametrize("suffix", [".csv", ".parquet"])
 def test_tables_hold_every_point(
-    formula: Formula, tmp_path: Path, suffix: str, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, suffix: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     import pandas as pd
 
@@ -216,7 +216,7 @@ def test_outputs_of_another_study_are_refused(
     once = out.read_bytes()
     assert main([*begin, "impact.speed=1:2:4"]) == 2
     assert "those of another one" in capsys.readouterr().err
-    os.rename(tmp_path / "rows.csv.parts", tmp_path / "elsewhere")
+    (tmp_path / "rows.csv.parts").rename(tmp_path / "elsewhere")
     assert main([*begin, "impact.speed=1:2:3"]) == 2
     assert "expected a new output or one of this study" in capsys.readouterr().err
     assert (out.read_bytes(), formula.calls) == (once, 3)
@@ -261,10 +261,10 @@ def test_memory_does_not_grow_with_the_study(
 
     import pyarrow as pa
 
-    monkeypatch.setattr(write, "BLOCK", 2**12)
-    monkeypatch.setattr(run, "LARGEST", 2**12)
+    monkeypatch.setattr(write, "BLOCK", 2**11)
+    monkeypatch.setattr(run, "LARGEST", 2**11)
     peaks = []
-    for size in (2**14, 2**17):
+    for size in (2**13, 2**15):
         made = plan.sample(read_distributions({"impact.speed": NORMAL}), size, 1, "random")
         held = store.Store(Study(scene(), made, None), tmp_path / f"{size}.parts")
         pa.default_memory_pool().release_unused()
@@ -276,5 +276,5 @@ def test_memory_does_not_grow_with_the_study(
         tracemalloc.stop()
         assert data_set(held).sizes == {"sample": size}
     assert peaks[1] < 1.5 * peaks[0]
-    assert journal(tmp_path / f"{2**17}", 2**17).max() == 1
-    assert formula.calls == 2**14 + 2**17
+    assert journal(tmp_path / f"{2**15}", 2**15).max() == 1
+    assert formula.calls == 2**13 + 2**15

@@ -32,13 +32,16 @@ def sweep(
     sample: Annotated[
         int | None, typer.Option(metavar="N", help="Number of points of the sample.")
     ] = None,
-    seed: Annotated[int, typer.Option(help="Random seed of the sample.")] = 1,
+    seed: Annotated[
+        int | None, typer.Option(help="Random seed of the sample; 1 without it.")
+    ] = None,
     method: Annotated[
-        str, typer.Option(metavar="NAME", help="random, latin-hypercube or sobol.")
-    ] = "random",
+        str | None,
+        typer.Option(metavar="NAME", help="random (without it), latin-hypercube or sobol."),
+    ] = None,
     sensitivity: Annotated[
         bool,
-        typer.Option("--sensitivity", help="Sensitivity indices, from N runs per key and 2 N."),
+        typer.Option("--sensitivity", help="Sensitivity indices, from N (keys + 2) runs."),
     ] = False,
     rtol: Annotated[
         float | None, typer.Option(metavar="X", help="Relative tolerance, 1e-13 to 1.")
@@ -79,7 +82,9 @@ def sweep(
     from derivation.sweep.study import Study
 
     check_outputs(scene, json, plot, out if out is None or out.suffix != ".zarr" else None)
-    given = _given(vary, distributions, sample, sensitivity)
+    sampling = (distributions, sample, seed, method, sensitivity or None)
+    given = _given(vary, distributions, sample, any(x is not None for x in sampling))
+    seed, method = 1 if seed is None else seed, method or "random"
     study = Study(load(scene), api.planned(given, sample, seed, method, sensitivity), rtol)
     api.check(study, out)
     if explain:
@@ -97,16 +102,16 @@ def sweep(
 
 
 def _given(
-    vary: list[str] | None, distributions: Path | None, sample: int | None, sensitivity: bool
+    vary: list[str] | None, distributions: Path | None, sample: int | None, sampling: bool
 ) -> Any:
     """What is varied: texts of a grid, or distributions of a sample."""
     from derivation.scene import SceneError
     from derivation.sweep.distributions import load_distributions
 
-    if vary and (distributions or sample is not None or sensitivity):
+    if vary and sampling:
         raise SceneError(
-            "--vary is of a grid and cannot be combined with --distributions, --sample or "
-            "--sensitivity; remove it, or them"
+            "--vary is of a grid and cannot be combined with --distributions, --sample, --seed, "
+            "--method or --sensitivity; remove it, or them"
         )
     if vary:
         return vary

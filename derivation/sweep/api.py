@@ -117,6 +117,11 @@ def planned(
     assert isinstance(vary, Mapping)
     distributions = read_distributions(vary)
     if sensitivity:
+        if method != "random":
+            raise SceneError(
+                f"method: expected none with sensitivities, which have points of their own, got "
+                f"{method}; leave it out"
+            )
         return saltelli(distributions, size, seed)
     return sample(distributions, size, seed, method)
 

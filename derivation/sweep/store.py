@@ -6,7 +6,6 @@ import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from io import BytesIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -184,17 +183,23 @@ def packed(rows: Rows) -> bytes:
 
 
 def _packed(table: Any) -> bytes:
+    import pyarrow as pa
     import pyarrow.parquet as pq
 
-    stream = BytesIO()
+    stream = pa.BufferOutputStream()
     pq.write_table(table, stream, compression="zstd")
-    return stream.getvalue()
+    return stream.getvalue().to_pybytes()  # type: ignore[no-any-return]
 
 
 def _parsed(content: bytes) -> Any:
+    """The table of a file's content.
+
+    A thread of pyarrow that reads one of Python's streams as Python ends would abort it.
+    """
+    import pyarrow as pa
     import pyarrow.parquet as pq
 
-    return pq.read_table(BytesIO(content))
+    return pq.ParquetFile(pa.BufferReader(content)).read(use_threads=False)
 
 
 @contextmanager

@@ -77,10 +77,11 @@ def _remove(path: Path) -> None:
 
 
 def _csv(store: Store, path: Path, tell: Tell) -> None:
+    import pyarrow as pa
     from pyarrow.csv import CSVWriter
 
     names = (*store.study.plan.keys, *NUMBERS, *TEXTS)
-    with path.open("wb") as stream:
+    with pa.OSFile(str(path), "wb") as stream:
         stream.write((",".join(names) + "\n").encode())
         writer = None
         for table in _with_points(store, tell):

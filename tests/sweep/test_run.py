@@ -19,7 +19,7 @@ from derivation.cli import main
 from derivation.engine.files import ROOT
 from derivation.sweep import run
 
-POINTS = 60
+POINTS = 40
 STUDY = ("--vary", f"impact.speed=0.5:2:{POINTS}")
 PATIENCE = 100.0
 
@@ -40,7 +40,7 @@ def whole(path: Path) -> bytes:
 
 def test_a_run_killed_at_any_moment_goes_on_where_it_was(tmp_path: Path) -> None:
     out, chance = tmp_path / "rows.csv", random.Random(1)
-    for _ in range(3):
+    for _ in range(2):
         before = len(parts(out))
         process = begin(*STUDY, "--out", str(out))
         wait(lambda before=before, process=process: len(parts(out)) > before or process.poll() == 0)

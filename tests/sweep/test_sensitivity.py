@@ -1,6 +1,7 @@
 """Sensitivity indices: those of functions whose indices are known."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,7 @@ from studies import QUICK, scene
 from derivation.cli import main
 from derivation.scene.result import UNITS
 from derivation.scene.rows import Rows
-from derivation.sweep import run
+from derivation.sweep import run, sensitivity
 
 SPREAD = {"distribution": "uniform", "low": 1.0, "high": 2.0}
 KEYS = ("impact.speed", "sphere.radius", "plate.radius")
@@ -53,6 +54,7 @@ def test_indices_of_known_functions(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_intervals_cover_the_truth_as_often_as_they_say(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(run, "solve", rows)
+    monkeypatch.setattr(sensitivity, "RESAMPLES", 100)
     inside = []
     for seed in range(20):
         data = pc.sweep(
@@ -82,8 +84,14 @@ def test_the_command_prints_and_draws_them(
 
 
 def test_points_without_a_result_have_no_sensitivities(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    def some(_: object, columns: dict[str, np.ndarray], __: object = None) -> Rows:
+        made = rows(_, dict.fromkeys(KEYS, columns["impact.speed"]))
+        status = np.where(columns["impact.speed"] > 0, "finished", "refused")
+        return replace(made, status=status)
+
+    monkeypatch.setattr(run, "solve", some)
     given = tmp_path / "vary.toml"
     given.write_text('[vary]\n"impact.speed" = {distribution = "normal", mean = 0.2, std = 0.2}\n')
     begin = ["sweep", str(QUICK), "--distributions", str(given), "--sample", "8"]

@@ -96,7 +96,7 @@ def test_a_cluster_that_loses_a_worker_loses_nothing(
     worker = ["dask_worker", "--scheduler-file", str(where), "--no-dashboard", "--nthreads", "1",
               "--no-nanny"]  # fmt: skip
     with ended(scheduler) as [first]:
-        wait(where.exists)
+        wait(lambda: where.exists() and where.read_text())
         address = json.loads(where.read_text())["address"]
         with ended(worker, worker) as workers:
             study = [*STUDY, "--out", str(out), "--scheduler", address]

@@ -30,9 +30,10 @@ def rows(_: object, columns: dict[str, np.ndarray], __: object = None) -> Rows:
 
 def test_indices_of_known_functions(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(run, "solve", rows)
+    monkeypatch.setattr(sensitivity, "RESAMPLES", 100)
     vary = dict.fromkeys(KEYS, SPREAD)
-    data = pc.sweep(scene(), vary, sample=2048, sensitivity=True)
-    assert data.sizes["sample"] == 2048 * 5
+    data = pc.sweep(scene(), vary, sample=1024, sensitivity=True)
+    assert data.sizes["sample"] == 1024 * 5
     variance = 1 / 12
     joint = variance**2 / (variance**2 + variance)
     names = list(UNITS)
@@ -68,6 +69,7 @@ def test_the_command_prints_and_draws_them(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(run, "solve", rows)
+    monkeypatch.setattr(sensitivity, "RESAMPLES", 100)
     given = tmp_path / "vary.toml"
     line = '{distribution = "uniform", low = 1, high = 2}'
     given.write_text("[vary]\n" + "".join(f'"{key}" = {line}\n' for key in KEYS))

@@ -18,6 +18,7 @@ from derivation.commands import formulas as formula_commands
 from derivation.commands import materials as material_commands
 from derivation.commands import paper as paper_commands
 from derivation.commands import scenes as scene_commands
+from derivation.commands import sweep as sweep_command
 from derivation.commands.command import Command
 from derivation.commands.groups import Grouped
 from derivation.commands.options import PaperFolder, chosen
@@ -199,6 +200,7 @@ def reference(
 
 
 command()(scene_commands.simulate)
+command()(sweep_command.sweep)
 command()(scene_commands.explain)
 command("map")(scene_commands.map_)
 command()(scene_commands.indent)

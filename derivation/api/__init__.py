@@ -41,6 +41,7 @@ if TYPE_CHECKING:
         schema,
         simulate,
     )
+    from derivation.sweep import sweep
 
     from .digits import reference
     from .formulary import formulas, misprints, rewrite
@@ -69,6 +70,7 @@ __all__ = [
     "rewrite",
     "schema",
     "simulate",
+    "sweep",
 ]
 
 HOMES = {
@@ -78,6 +80,7 @@ HOMES = {
     "misprints": ".formulary",
     "reference": ".digits",
     "rewrite": ".formulary",
+    "sweep": "derivation.sweep",
 }
 """The module of each name; of the others, `derivation.scene`. Relative, as an installed copy has
 this package under the name `platecontact` alone."""

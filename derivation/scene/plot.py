@@ -51,15 +51,18 @@ def render(result: Result, suffix: str) -> bytes:
     suffix
         Format: ``.png``, ``.svg`` or ``.pdf``.
     """
+    return saved(figure(result), suffix)
+
+
+def saved(made: "Figure", suffix: str) -> bytes:
+    """A figure as the content of a file; equal figures give equal files."""
     import matplotlib as mpl
 
     suffix = suffix.lower()
     stream = io.BytesIO()
     # A fixed salt names the parts of an SVG alike in every run.
     with mpl.rc_context({"svg.hashsalt": "platecontact", "svg.fonttype": "none"}):
-        figure(result).savefig(
-            stream, format=suffix[1:], dpi=150, metadata=METADATA[suffix] or None
-        )
+        made.savefig(stream, format=suffix[1:], dpi=150, metadata=METADATA[suffix] or None)
     return stream.getvalue()
 
 

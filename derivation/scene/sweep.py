@@ -4,13 +4,14 @@ import csv
 import io
 import signal
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from multiprocessing import get_context
+from typing import Any
 
 import numpy as np
 
@@ -30,6 +31,7 @@ LONG = 3.0
 """Seconds of work from which other processes are worth their start."""
 MOST_DIGITS = 4
 """Largest number of significant digits of a table on a screen."""
+EXAMPLE = "write for instance plate.thickness=1e-3:1e-2:50"
 SYMBOLS = {
     "contact_time": "t_c",
     "max_indentation": "δ",
@@ -87,7 +89,8 @@ class SweepRow:
 def parse(text: str) -> Sweep:
     """A sweep from `table.key=first:last:count`, values evenly spaced, both ends included.
 
-    A key of a scene's own material is `materials.NAME.key`.
+    With `:log` behind the count their logarithms are evenly spaced. A key of a scene's own
+    material is `materials.NAME.key`.
 
     Raises
     ------
@@ -95,28 +98,76 @@ def parse(text: str) -> Sweep:
         If the text is not of this form, or names no number of a scene file.
     """
     place, _, span = text.partition("=")
-    place = new_key(place.strip())
-    table, _, key = place.rpartition(".")
-    parts = span.split(":")
-    example = "write for instance plate.thickness=1e-3:1e-2:50"
-    known = _table(table)
-    field = known.model_fields.get(key) if known else None
-    numbers = [x for x in (field.examples if field else None) or [] if is_number(x)]
-    if not numbers:
-        near = nearest(place, _swept())
-        meant = f"did you mean {near}? " if near else ""
-        raise SceneError(
-            f"sweep: expected a number of the scene file, got {place!r:.60}; {meant}{example}"
-        )
+    table, key = number_key(place)
+    parts, logarithmic = span.removesuffix(":log").split(":"), span.endswith(":log")
     try:
         first, last, count = float(parts[0]), float(parts[1]), int(parts[2])
     except (ValueError, IndexError):
-        raise SceneError(f"sweep: expected first:last:count, got {span!r:.60}; {example}") from None
+        raise SceneError(f"sweep: expected first:last:count, got {span!r:.60}; {EXAMPLE}") from None
     if len(parts) != 3 or not 1 <= count <= MOST or not np.isfinite([first, last]).all():
         raise SceneError(
-            f"sweep: expected finite ends and 1 to {MOST} values, got {span!r:.60}; {example}"
+            f"sweep: expected finite ends and 1 to {MOST} values, got {span!r:.60}; {EXAMPLE}"
         )
-    return Sweep(table, key, tuple(np.linspace(first, last, count).tolist()))
+    if logarithmic and min(first, last) <= 0:
+        raise SceneError(
+            f"sweep: expected positive ends of a logarithmic spacing, got {span!r:.60}; leave out "
+            ":log, or give positive ends"
+        )
+    spaced = np.geomspace if logarithmic else np.linspace
+    return Sweep(table, key, tuple(spaced(first, last, count).tolist()))
+
+
+def number_key(place: str) -> tuple[str, str]:
+    """The table and the key of a number of the scene file, from `table.key`.
+
+    Raises
+    ------
+    SceneError
+        If there is no such number; the message suggests the nearest key.
+    """
+    place = new_key(place.strip())
+    table, _, key = place.rpartition(".")
+    known = _table(table)
+    field = known.model_fields.get(key) if known else None
+    if not any(map(is_number, (field.examples if field else None) or [])):
+        near = nearest(place, _swept())
+        meant = f"did you mean {near}? " if near else ""
+        raise SceneError(
+            f"sweep: expected a number of the scene file, got {place!r:.60}; {meant}{EXAMPLE}"
+        )
+    return table, key
+
+
+def described(place: str) -> str:
+    """What the scene file's schema says about a key `table.key`, with its unit in brackets."""
+    table, _, key = place.rpartition(".")
+    known = _table(table)
+    assert known is not None
+    return known.model_fields[key].description or key
+
+
+def rivals(place: str) -> set[str]:
+    """The keys that a key `table.key` replaces: half_thickness for thickness."""
+    table, _, key = place.rpartition(".")
+    known = _table(table)
+    assert known is not None
+    return {f"{table}.{other}" for other in _instead(known, key)}
+
+
+def varied(scene: Scene, values: Mapping[str, float]) -> dict[str, Any]:
+    """The tables of a scene in which keys `table.key` take other values, in SI."""
+    data = scene.to_json()
+    for place, value in values.items():
+        name, _, key = place.rpartition(".")
+        given, table = data, _table(name)
+        assert table is not None
+        for part in name.split(".", 1):
+            given = given.setdefault(part, {})
+        for other in _instead(table, key):
+            given.pop(other, None)
+        [example, *_] = table.model_fields[key].examples or [value]
+        given[key] = int(value) if isinstance(example, int) and value.is_integer() else value
+    return data
 
 
 def _table(name: str) -> type[Table] | None:
@@ -169,7 +220,7 @@ def _rows(scene: Scene, sweep: Sweep, rtol: float | None, workers: int) -> Itera
         return
     pool = ProcessPoolExecutor(workers, get_context("spawn"), initializer=_leave_interrupts)
     try:
-        with _unheard_interrupts():
+        with unheard_interrupts():
             found = pool.map(one, sweep.values[1:])
         yield from found
     except BrokenProcessPool:
@@ -183,7 +234,7 @@ def _rows(scene: Scene, sweep: Sweep, rtol: float | None, workers: int) -> Itera
 
 
 @contextmanager
-def _unheard_interrupts() -> Iterator[None]:
+def unheard_interrupts() -> Iterator[None]:
     """Let processes that are begun meanwhile never hear of Ctrl-C."""
     if not hasattr(signal, "pthread_sigmask"):
         yield
@@ -201,16 +252,7 @@ def _leave_interrupts() -> None:
 
 
 def _row(scene: Scene, sweep: Sweep, rtol: float | None, value: float) -> SweepRow:
-    data = scene.to_json()
-    given = data
-    for name in sweep.table.split(".", 1):
-        given = given.setdefault(name, {})
-    table = _table(sweep.table)
-    assert table is not None
-    for other in _instead(table, sweep.key):
-        given.pop(other, None)
-    [example, *_] = table.model_fields[sweep.key].examples or [value]
-    given[sweep.key] = int(value) if isinstance(example, int) and value.is_integer() else value
+    data = varied(scene, {f"{sweep.table}.{sweep.key}": value})
     try:
         found = simulate(read(data), rtol=rtol)
     except SceneError as error:

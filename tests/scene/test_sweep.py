@@ -124,7 +124,7 @@ def test_processes_do_not_hear_of_ctrl_c_even_while_they_begin() -> None:
         call = [sys.executable, "-c", ask]
         return subprocess.run(call, capture_output=True, text=True, check=True).stdout.strip()
 
-    with sweep._unheard_interrupts():
+    with sweep.unheard_interrupts():
         assert deaf() == "True"
     assert deaf() == "False"
 

@@ -1,0 +1,190 @@
+"""The command `sweep`: a study of many points, its file, table and picture."""
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from derivation.commands.scenes import SceneFile, check_outputs
+from derivation.engine.console import NOTES, OUT, Json, counted, put_json, warn
+from derivation.engine.files import write_file
+from derivation.engine.printable import one_line
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from derivation.sweep.sensitivity import Sensitivities
+    from derivation.sweep.store import Store
+    from derivation.sweep.study import Study
+
+
+def sweep(
+    scene: SceneFile,
+    vary: Annotated[
+        list[str] | None,
+        typer.Option(metavar="TABLE.KEY=A:B:N[:log]", help="A key of the grid; repeatable."),
+    ] = None,
+    distributions: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE.toml", help="Distributions of a sample, below [vary]."),
+    ] = None,
+    sample: Annotated[
+        int | None, typer.Option(metavar="N", help="Number of points of the sample.")
+    ] = None,
+    seed: Annotated[
+        int | None, typer.Option(help="Random seed of the sample; 1 without it.")
+    ] = None,
+    method: Annotated[
+        str | None,
+        typer.Option(metavar="NAME", help="random (without it), latin-hypercube or sobol."),
+    ] = None,
+    sensitivity: Annotated[
+        bool,
+        typer.Option("--sensitivity", help="Sensitivity indices, from N (keys + 2) runs."),
+    ] = False,
+    rtol: Annotated[
+        float | None, typer.Option(metavar="X", help="Relative tolerance, 1e-13 to 1.")
+    ] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="Write results: .nc, .zarr, .parquet or .csv."),
+    ] = None,
+    plot: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Draw results: .png, .svg or .pdf.")
+    ] = None,
+    result: Annotated[
+        list[str] | None,
+        typer.Option(metavar="NAME", help="Draw this result only; repeatable."),
+    ] = None,
+    explain: Annotated[
+        bool, typer.Option("--explain", help="Show points, effects and estimated time only.")
+    ] = False,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(metavar="tcp://HOST:PORT", help="Compute on the workers of this cluster."),
+    ] = None,
+    retry: Annotated[
+        bool, typer.Option("--retry", help="Compute points without a result again.")
+    ] = False,
+    json: Json = None,
+) -> None:
+    """Simulate a scene at every point of a grid or a sample.
+
+    Example: platecontact sweep scene.toml --vary plate.thickness=4e-3:12e-3:9 --out rows.csv
+
+    An interrupted study goes on where it was if the same command runs again: finished batches
+    stand in FILE.parts beside --out FILE.
+    """
+    from derivation.scene import SceneError, load
+    from derivation.sweep import api, plots
+    from derivation.sweep.dataset import check_memory
+    from derivation.sweep.study import Study
+
+    check_outputs(scene, json, plot, out if out is None or out.suffix != ".zarr" else None)
+    sampling = (distributions, sample, seed, method, sensitivity or None)
+    given = _given(vary, distributions, sample, any(x is not None for x in sampling))
+    seed, method = 1 if seed is None else seed, method or "random"
+    study = Study(load(scene), api.planned(given, sample, seed, method, sensitivity), rtol)
+    api.check(study, out)
+    if explain:
+        _explain(study, scheduler, json)
+        return
+    results = plots.check_results(result or [])
+    if plot is not None:
+        plots.check_plot(len(study.plan.keys), sensitivity)
+        check_memory(study, "--plot")
+    if sensitivity:
+        check_memory(study, "--sensitivity")
+    if result and plot is None:
+        raise SceneError("--result: expected --plot, whose panels it chooses; add it or remove it")
+    _run(study, out, plot, results, scheduler, retry, sensitivity, json, scene.name)
+
+
+def _given(
+    vary: list[str] | None, distributions: Path | None, sample: int | None, sampling: bool
+) -> Any:
+    """What is varied: texts of a grid, or distributions of a sample."""
+    from derivation.scene import SceneError
+    from derivation.sweep.distributions import load_distributions
+
+    if vary and sampling:
+        raise SceneError(
+            "--vary is of a grid and cannot be combined with --distributions, --sample, --seed, "
+            "--method or --sensitivity; remove it, or them"
+        )
+    if vary:
+        return vary
+    if distributions is None or sample is None:
+        raise SceneError(
+            "sweep: expected --vary KEY=A:B:N for a grid, or --distributions FILE and --sample N "
+            "for a sample; add them"
+        )
+    return load_distributions(distributions)
+
+
+def _explain(study: "Study", scheduler: str | None, json: str | None) -> None:
+    """Show what a study takes."""
+    from derivation.sweep.forecast import forecast
+
+    found = forecast(study, 1 if scheduler else os.cpu_count() or 1)
+    if put_json(found.to_json, json):
+        OUT.say(found.to_text())
+    warn([f"some points are refused: {text}" for text in found.refused])
+
+
+def _run(
+    study: "Study",
+    out: Path | None,
+    plot: Path | None,
+    results: tuple[str, ...],
+    scheduler: str | None,
+    retry: bool,
+    sensitivity: bool,
+    json: str | None,
+    name: str,
+) -> None:
+    """Compute a study, write its files, and show a summary."""
+    from derivation.sweep import api
+    from derivation.sweep.run import compute
+    from derivation.sweep.store import opened
+    from derivation.sweep.summary import summary
+
+    with opened(study, out) as store:
+        try:
+            with counted("sweep") as tell:
+                computed = compute(store, os.cpu_count() or 1, scheduler, retry, tell)
+                found = api.finish(store, out, sensitivity, tell)
+        except KeyboardInterrupt:
+            _say_how_to_resume(store, out)
+            raise
+        if plot is not None:
+            write_file(plot, _drawing(store, found, results, plot.suffix))
+        answer = summary(store, computed, found)
+    if put_json(answer.to_json, json):
+        OUT.say(f"Study of {one_line(name)}\n\n{answer.to_text()}")
+    warn(answer.warnings)
+
+
+def _drawing(
+    store: "Store", found: "Sensitivities | None", results: tuple[str, ...], suffix: str
+) -> bytes:
+    """The picture of a study."""
+    from derivation.sweep import plots
+    from derivation.sweep.dataset import data_set
+
+    data: xr.Dataset = data_set(store)
+    if found is not None:
+        data = found.add_to(data)
+    return plots.render(data, store.study.plan.keys, results, suffix)
+
+
+def _say_how_to_resume(store: "Store", out: Path | None) -> None:
+    """Say what an interrupted study keeps."""
+    if out is None:
+        NOTES.say("Nothing is kept: with --out FILE an interrupted study can go on later.")
+    else:
+        NOTES.say(
+            f"{store.done:,} of {store.study.plan.size:,} points are kept in {store.folder}; the "
+            "same command computes the others."
+        )

@@ -1,0 +1,163 @@
+"""Runs a study from Python: points in, a Dataset with units out, and files if wanted."""
+
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from derivation.engine.activity import Tell, quiet
+from derivation.scene.errors import SceneError
+from derivation.scene.method_selection import check_rtol
+from derivation.scene.scene import Scene
+from derivation.sweep.dataset import check_memory, column, data_set
+from derivation.sweep.distributions import read_distributions
+from derivation.sweep.plan import Plan, grid, saltelli, sample
+from derivation.sweep.run import compute
+from derivation.sweep.sensitivity import Sensitivities, sensitivities
+from derivation.sweep.store import Store, opened
+from derivation.sweep.study import Study
+from derivation.sweep.write import check_out, write
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+def sweep(
+    scene: Scene,
+    vary: Mapping[str, Any],
+    *,
+    sample: int | None = None,
+    seed: int = 1,
+    method: str = "random",
+    sensitivity: bool = False,
+    rtol: float | None = None,
+    out: str | Path | None = None,
+    workers: int = 1,
+    scheduler: str | None = None,
+    retry: bool = False,
+) -> "xr.Dataset":
+    """Simulate a scene at every point of a grid or a sample.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+    vary
+        By key, like "plate.thickness": values in SI units or a text "first:last:count" of a grid;
+        of a sample a distribution, for instance
+        ``{"distribution": "uniform", "low": 4e-3, "high": 12e-3}``.
+    sample
+        Number of points of a sample; without it a grid. With `sensitivity` the number of base
+        points, a power of two, each of which makes one run per key and two more.
+    seed
+        Random seed of the sample.
+    method
+        "random", "latin-hypercube" or "sobol".
+    sensitivity
+        Whether to compute variance-based sensitivity indices.
+    rtol
+        Relative tolerance of the results [1], as `simulate` takes it.
+    out
+        File to write: .nc, .zarr, .parquet or .csv. Finished batches stand in a folder beside it,
+        from which an interrupted study goes on.
+    workers
+        Processes that share the work if it takes long. Each of several begins by importing the
+        main module: a script that asks for them has to guard what it runs.
+    scheduler
+        Address of a Dask scheduler whose workers do the work instead.
+    retry
+        Whether points that are finished without a result are computed again.
+
+    Returns
+    -------
+    xarray.Dataset
+        Results over the dimensions of the grid, named as its keys, or over `sample`; with
+        `status` and `reason` of each point, `bound`, `model_error` and `effects`.
+
+    Raises
+    ------
+    SceneError
+        If a key, value or option is not valid, all points are refused, or there are more points
+        than a Dataset may hold.
+
+    Examples
+    --------
+    >>> import platecontact as pc
+    >>> scene = pc.Scene(
+    ...     sphere=pc.Sphere(radius=0.01, material="steel"),
+    ...     plate=pc.Plate(radius=0.3, thickness=0.05, material="glass"),
+    ...     impact=pc.Impact(speed=1.0),
+    ... )
+    >>> data = pc.sweep(scene, {"impact.speed": [0.5, 1.0]})
+    >>> data["max_force"].dims, data["max_force"].units, data["impact.speed"].units
+    (('impact.speed',), 'N', 'm/s')
+    """
+    study = Study(scene, planned(vary, sample, seed, method, sensitivity), rtol)
+    place = None if out is None else Path(out)
+    check(study, place)
+    check_memory(study, "sweep")
+    with opened(study, place) as store:
+        compute(store, workers, scheduler, retry, quiet)
+        found = finish(store, place, sensitivity, quiet)
+        data = data_set(store)
+    return data if found is None else found.add_to(data)
+
+
+def planned(
+    vary: Mapping[str, Any] | Iterable[str],
+    size: int | None,
+    seed: int,
+    method: str,
+    sensitivity: bool,
+) -> Plan:
+    """The points of a study, from what `sweep` takes."""
+    if size is None:
+        if sensitivity:
+            raise SceneError("sensitivity: expected a sample, got a grid; give its size too")
+        return grid(vary if isinstance(vary, Mapping) else list(vary))
+    assert isinstance(vary, Mapping)
+    distributions = read_distributions(vary)
+    if sensitivity:
+        if method != "random":
+            raise SceneError(
+                f"method: expected none with sensitivities, which have points of their own, got "
+                f"{method}; leave it out"
+            )
+        return saltelli(distributions, size, seed)
+    return sample(distributions, size, seed, method)
+
+
+def check(study: Study, out: Path | None) -> None:
+    """Refuse what can be refused before anything is computed."""
+    if study.rtol is not None:
+        check_rtol(study.rtol)
+    if out is not None:
+        check_out(out)
+
+
+def finish(store: Store, out: Path | None, sensitivity: bool, tell: Tell) -> Sensitivities | None:
+    """Write the file of a study whose points are all computed, and compute its sensitivities.
+
+    Raises
+    ------
+    SceneError
+        If no point has a result, and for sensitivities if one has none.
+    """
+    _check_some(store)
+    if out is not None:
+        write(store, out, tell)
+    return sensitivities(store) if sensitivity else None
+
+
+def _check_some(store: Store) -> None:
+    """Refuse a study of which every point is refused."""
+    for start, _, table in store.tables(2**16):
+        status = column(table, "status")
+        if (status != "refused").any():
+            return
+        if start == 0:
+            first = column(table, "reason")[0]
+    values = ", ".join(f"{k} = {v[0]:.6g}" for k, v in store.study.plan.points(0, 1).items())
+    raise SceneError(
+        "sweep: expected a point that can be simulated, but all "
+        f"{store.study.plan.size:,} are refused; at {values}: {first}"
+    )

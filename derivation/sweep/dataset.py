@@ -1,0 +1,106 @@
+"""The results of a study as an xarray Dataset, with units, names and what they belong to."""
+
+import json
+import re
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from derivation.scene.errors import SceneError
+from derivation.scene.result import UNITS
+from derivation.scene.sweep import described
+from derivation.sweep.plan import GridPlan
+from derivation.sweep.store import NUMBERS, TEXTS, Store
+from derivation.sweep.study import Study
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+MOST_IN_MEMORY = 2_000_000
+"""Points of a Dataset, plot or sensitivity at most, which are held in memory."""
+LABELS = {name: (name.replace("_", " "), unit) for name, unit in UNITS.items()} | {
+    "bound": ("bound of the relative error", "1"),
+    "model_error": ("largest relative error of the model", "1"),
+}
+"""Long name and unit of each number."""
+TEXT_LABELS = {
+    "status": "finished, incomplete or refused",
+    "reason": "why there is no result, or what to know about it",
+    "effects": "effects included",
+}
+"""Long name of each text."""
+
+
+def labels(name: str) -> dict[str, str]:
+    """Attributes `long_name` and `units` of a result or a key."""
+    if name in TEXT_LABELS:
+        return {"long_name": TEXT_LABELS[name]}
+    if name in LABELS:
+        long_name, unit = LABELS[name]
+        return {"long_name": long_name, "units": unit}
+    text = described(name)
+    bracket = re.search(r" \[(.+?)\]", text)
+    if bracket is None:
+        return {"long_name": text}
+    return {"long_name": text.replace(bracket[0], ""), "units": bracket[1]}
+
+
+def attributes(study: Study) -> dict[str, Any]:
+    """What a study's results belong to: scene, version, and if there are any, seed and rtol."""
+    accuracy = study.scene.accuracy
+    rtol = accuracy.rtol if study.rtol is None and accuracy is not None else study.rtol
+    given = {"seed": study.plan.seed, "rtol": rtol}
+    about = {"scene": json.dumps(study.base["scene"]), "version": study.base["version"]}
+    return about | {name: value for name, value in given.items() if value is not None}
+
+
+def check_memory(study: Study, what: str) -> None:
+    """Refuse more points than may be held in memory.
+
+    Raises
+    ------
+    SceneError
+        Naming what needs them.
+    """
+    if study.plan.size > MOST_IN_MEMORY:
+        raise SceneError(
+            f"{what}: expected at most {MOST_IN_MEMORY:,} points, which are held in memory, got "
+            f"{study.plan.size:,}; write a file instead, or use fewer points"
+        )
+
+
+def data_set(store: Store) -> "xr.Dataset":
+    """All results of a study.
+
+    Raises
+    ------
+    SceneError
+        If there are more points than may be held in memory.
+    """
+    import xarray as xr
+
+    study = store.study
+    check_memory(study, "sweep")
+    plan, table = study.plan, store.table(0, study.plan.size)
+    dims, shape = tuple(plan.dims), tuple(plan.dims.values())
+    values: dict[str, Any] = {
+        name: (dims, column(table, name).reshape(shape), labels(name))
+        for name in (*NUMBERS, *TEXTS)
+    }
+    return xr.Dataset(values, coords=coordinates(study), attrs=attributes(study))
+
+
+def coordinates(study: Study) -> dict[str, Any]:
+    """The values of the keys: along their own dimension, or along the sample."""
+    plan = study.plan
+    if isinstance(plan, GridPlan):
+        return {key: (key, np.array(axis), labels(key)) for key, axis in plan.axes.items()}
+    points = plan.points(0, plan.size)
+    return {key: ("sample", points[key], labels(key)) for key in plan.keys}
+
+
+def column(table: Any, name: str) -> Any:
+    """A column as an array: doubles, or texts as objects."""
+    if name in TEXTS:
+        return np.array(table[name].to_pylist(), dtype=object)
+    return table[name].to_numpy()

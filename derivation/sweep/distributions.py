@@ -1,0 +1,163 @@
+"""Distributions of varied quantities, as a file or Python gives them."""
+
+import math
+import tomllib
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from derivation.engine.files import read_file
+from derivation.engine.printable import one_line
+from derivation.scene.errors import SceneError
+from derivation.scene.messages import nearest, shown
+from derivation.scene.sweep import number_key
+from derivation.scene.table import is_number
+
+Array = NDArray[np.float64]
+
+PARAMETERS = {
+    "uniform": ("low", "high"),
+    "loguniform": ("low", "high"),
+    "normal": ("mean", "std"),
+    "lognormal": ("mean", "std"),
+}
+"""Parameters of each distribution, in the unit of the quantity; those of `lognormal` too are the
+mean and the standard deviation of the quantity, not of its logarithm."""
+EXAMPLE = '"plate.thickness" = {distribution = "uniform", low = 4e-3, high = 12e-3}'
+LARGEST = 2**20
+"""Bytes of a file of distributions at most."""
+
+
+@dataclass(frozen=True)
+class Distribution:
+    """The distribution of one varied quantity.
+
+    Attributes
+    ----------
+    distribution
+        A name of `PARAMETERS`.
+    first, second
+        Its two parameters, in SI units.
+    """
+
+    distribution: str
+    first: float
+    second: float
+
+    def quantiles(self, shares: Array) -> Array:
+        """Values that the given shares, each in (0, 1), of all values lie below."""
+        from scipy import stats
+
+        a, b = self.first, self.second
+        if self.distribution == "uniform":
+            return a + (b - a) * shares
+        if self.distribution == "loguniform":
+            return np.asarray(stats.loguniform(a, b).ppf(shares))
+        if self.distribution == "normal":
+            return np.asarray(stats.norm(a, b).ppf(shares))
+        spread = math.sqrt(math.log1p((b / a) ** 2))
+        return np.asarray(stats.lognorm(spread, scale=a * math.exp(-(spread**2) / 2)).ppf(shares))
+
+    def to_json(self) -> dict[str, Any]:
+        """The distribution as a file gives it."""
+        first, second = PARAMETERS[self.distribution]
+        return {"distribution": self.distribution, first: self.first, second: self.second}
+
+
+def load_distributions(path: Path) -> dict[str, Distribution]:
+    """Read the table `[vary]` of a TOML file.
+
+    Raises
+    ------
+    SceneError
+        If it cannot be read, or holds no valid distributions.
+    """
+    name = one_line(str(path), 200)
+    try:
+        data = tomllib.loads(read_file(path, LARGEST).decode("utf-8-sig"))
+    except OSError as error:
+        reason = error.strerror or error
+        raise SceneError(f"{name}: cannot read the distributions ({reason}); check its name") from (
+            None
+        )
+    except (ValueError, RecursionError) as error:
+        problem = one_line(str(error), 200)
+        raise SceneError(f"{name}: not valid TOML: {problem}; a line reads like {EXAMPLE}") from (
+            None
+        )
+    table = data.get("vary")
+    if set(data) != {"vary"} or not isinstance(table, Mapping) or not table:
+        got = ", ".join(one_line(key, 40) for key in data) or "nothing"
+        raise SceneError(
+            f"{name}: expected one table [vary] with lines like {EXAMPLE}, got {got}; "
+            "a key with a dot stands in quotes"
+        )
+    try:
+        return read_distributions(table)
+    except SceneError as error:
+        raise SceneError(f"{name}: {error}") from None
+
+
+def read_distributions(given: Mapping[str, Any]) -> dict[str, Distribution]:
+    """Make distributions by key from mappings of their parameters.
+
+    Raises
+    ------
+    SceneError
+        If a key, a distribution or a parameter is not known or out of range.
+    """
+    return {".".join(number_key(key)): _distribution(key, given[key]) for key in given}
+
+
+def _distribution(key: str, given: Any) -> Distribution:
+    """The distribution of one key."""
+    if isinstance(given, Distribution):
+        return given
+    example = f"write for instance {EXAMPLE}"
+    if not isinstance(given, Mapping):
+        raise SceneError(f"{key}: expected a distribution, got {shown(given)}; {example}")
+    name = given.get("distribution")
+    if name not in PARAMETERS:
+        near = nearest(name, PARAMETERS) if isinstance(name, str) else None
+        meant = f"did you mean {near}?" if near else example
+        got = "none" if name is None else shown(name)
+        raise SceneError(
+            f"{key}: expected the distribution {', '.join(PARAMETERS)}, got {got}; {meant}"
+        )
+    wanted = PARAMETERS[name]
+    if set(given) != {"distribution", *wanted}:
+        got = ", ".join(str(part) for part in given if part != "distribution") or "none"
+        raise SceneError(f"{key}: expected {' and '.join(wanted)} of {name}, got {got}; {example}")
+    first, second = (given[part] for part in wanted)
+    if not (is_number(first) and is_number(second)):
+        raise SceneError(
+            f"{key}: expected finite numbers {' and '.join(wanted)}, got {shown(first)} and "
+            f"{shown(second)}; {example}"
+        )
+    found = Distribution(name, float(first), float(second))
+    _check_range(key, found)
+    return found
+
+
+def _check_range(key: str, found: Distribution) -> None:
+    """Refuse parameters that make no distribution."""
+    first, second = found.first, found.second
+    spread = found.distribution in ("normal", "lognormal")
+    fine = second > 0 if spread else first < second
+    if found.distribution in ("loguniform", "lognormal"):
+        fine = fine and first > 0
+    if fine and math.isfinite(first) and math.isfinite(second):
+        return
+    expected = {
+        "uniform": "low < high",
+        "loguniform": "0 < low < high",
+        "normal": "std > 0",
+        "lognormal": "mean > 0 and std > 0",
+    }[found.distribution]
+    values = {k: v for k, v in asdict(found).items() if k != "distribution"}.values()
+    got = ", ".join(shown(value) for value in values)
+    raise SceneError(f"{key}: expected {expected} of {found.distribution}, got {got}; change them")

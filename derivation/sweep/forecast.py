@@ -1,0 +1,123 @@
+"""Says beforehand what a study takes: points, effects and time."""
+
+import time
+from collections import Counter
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from derivation.engine.text import aligned
+from derivation.scene.errors import SceneError
+from derivation.scene.impact import selected_effects
+from derivation.scene.rows import solve
+from derivation.scene.scene import read
+from derivation.scene.sweep import varied
+from derivation.sweep.study import Study
+
+MOST_PROBES = 32
+"""Points whose effects are looked at."""
+TIMED = (8, 64, 512, 4096)
+"""Points that are timed, more while they take less than `ENOUGH`."""
+ENOUGH = 0.5
+"""Seconds of a timing that tell the cost."""
+
+
+@dataclass(frozen=True)
+class Forecast:
+    """What a study takes.
+
+    Attributes
+    ----------
+    points
+        Number of points.
+    probes
+        Points whose effects were looked at: corners of a grid, first points of a sample.
+    effects
+        At how many of them each effect is included.
+    refused
+        Why some of them are refused, each reason once.
+    timed
+        Points that were simulated to learn the cost.
+    seconds
+        Estimated time on one process [s].
+    workers
+        Processes that share it.
+    """
+
+    points: int
+    probes: int
+    effects: dict[str, int]
+    refused: tuple[str, ...]
+    timed: int
+    seconds: float
+    workers: int
+
+    def to_json(self) -> dict[str, Any]:
+        """All of it."""
+        return {**vars(self), "refused": list(self.refused)}
+
+    def to_text(self) -> str:
+        """The answer for a screen."""
+        rows = [(name, f"{count} of {self.probes}") for name, count in self.effects.items()]
+        shared = self.seconds / self.workers
+        return (
+            f"{self.points:,} points\n\n"
+            f"{aligned(['effect', '#included at'], rows)}\n\n"
+            f"Estimated time: {_duration(self.seconds)} on one process, {_duration(shared)} on "
+            f"{self.workers}; from {self.timed:,} points"
+        )
+
+
+def forecast(study: Study, workers: int) -> Forecast:
+    """Look at some points of a study, and simulate a few of them.
+
+    Raises
+    ------
+    SceneError
+        If every point that is looked at is refused.
+    """
+    columns = study.plan.probes(MOST_PROBES)
+    count = len(next(iter(columns.values())))
+    effects, refused = Counter[str](), dict[str, None]()
+    for number in range(count):
+        values = {key: float(column[number]) for key, column in columns.items()}
+        try:
+            chosen = selected_effects(read(varied(study.scene, values)), study.rtol)[1]
+        except SceneError as error:
+            refused[str(error)] = None
+            continue
+        effects.update(chosen.included)
+    if not effects:
+        raise SceneError(
+            f"sweep: expected points that can be simulated, but all {count} looked at are "
+            f"refused: {next(iter(refused))}"
+        )
+    timed, seconds = _cost(study)
+    return Forecast(
+        study.plan.size, count, dict(effects), tuple(refused), timed, seconds, max(workers, 1)
+    )
+
+
+def _cost(study: Study) -> tuple[int, float]:
+    """Number of points that were timed, and the estimated seconds of all."""
+    size = study.plan.size
+    for most in TIMED:
+        count = min(most, size)
+        places = np.unique(np.linspace(0, size - 1, count).astype(np.int64))
+        points = [study.plan.points(int(place), int(place) + 1) for place in places]
+        columns = {key: np.concatenate([p[key] for p in points]) for key in study.plan.keys}
+        start = time.perf_counter()
+        solve(study.scene, columns, study.rtol)
+        seconds = time.perf_counter() - start
+        if seconds > ENOUGH or count == size:
+            break
+    return len(places), seconds * size / len(places)
+
+
+def _duration(seconds: float) -> str:
+    """A time to be read by people, to two digits."""
+    for size, unit in ((86400.0, "days"), (3600.0, "h"), (60.0, "min")):
+        if seconds >= 2 * size:
+            return f"{seconds / size:,.{0 if seconds >= 10 * size else 1}f} {unit}"
+    return f"{seconds:.2g} s"

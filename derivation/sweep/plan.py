@@ -1,0 +1,363 @@
+"""The points of a study, each made from its index, so that they are never held all at once."""
+
+import warnings
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property, lru_cache
+from itertools import pairwise, product
+from math import prod
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from derivation.scene.errors import SceneError
+from derivation.scene.sweep import number_key, parse, rivals
+from derivation.sweep.distributions import Distribution
+
+Array = NDArray[np.float64]
+
+MOST_POINTS = 10**9
+"""Largest number of points of a study."""
+MOST_LATIN = 10**6
+"""Largest Latin hypercube, which is held in memory."""
+METHODS = ("random", "latin-hypercube", "sobol")
+BLOCK = 4096
+"""Points that one seed makes of a random sample."""
+LEAST_SHARE = 2.0**-40
+"""Shares of a distribution closer to 0 or 1 are moved here: a normal one has no value there."""
+
+
+@dataclass(frozen=True)
+class GridPlan:
+    """Every combination of some values of each key.
+
+    Attributes
+    ----------
+    axes
+        The values of each key, in SI units; the last key varies fastest.
+    """
+
+    axes: dict[str, tuple[float, ...]]
+    seed: ClassVar[None] = None
+
+    @property
+    def keys(self) -> tuple[str, ...]:
+        """The varied keys."""
+        return tuple(self.axes)
+
+    @property
+    def dims(self) -> dict[str, int]:
+        """Names and lengths of the result's dimensions."""
+        return {key: len(values) for key, values in self.axes.items()}
+
+    @property
+    def size(self) -> int:
+        """Number of points."""
+        return prod(self.dims.values())
+
+    def points(self, start: int, stop: int) -> dict[str, Array]:
+        """The values of each key at the points from `start` to before `stop`."""
+        places = np.unravel_index(np.arange(start, stop), tuple(self.dims.values()))
+        return {
+            key: np.asarray(values)[place]
+            for (key, values), place in zip(self.axes.items(), places, strict=True)
+        }
+
+    def probes(self, most: int) -> dict[str, Array]:
+        """Some corners of the grid."""
+        ends = [sorted({0, length - 1}) for length in self.dims.values()]
+        corners = np.array([corner for corner, _ in zip(product(*ends), range(most), strict=False)])
+        columns = zip(self.axes.items(), corners.T, strict=True)
+        return {key: np.asarray(values)[places] for (key, values), places in columns}
+
+    def to_json(self) -> dict[str, Any]:
+        """The plan, for the hash of the study."""
+        return {"grid": {key: list(values) for key, values in self.axes.items()}}
+
+
+@dataclass(frozen=True)
+class SamplePlan:
+    """A sample of distributions of the keys.
+
+    Attributes
+    ----------
+    distributions
+        The distribution of each key.
+    size
+        Number of points.
+    seed
+        Random seed; the same seed makes the same points.
+    method
+        One of `METHODS`.
+    """
+
+    distributions: dict[str, Distribution]
+    size: int
+    seed: int
+    method: str
+
+    @property
+    def keys(self) -> tuple[str, ...]:
+        """The varied keys."""
+        return tuple(self.distributions)
+
+    @property
+    def dims(self) -> dict[str, int]:
+        """Names and lengths of the result's dimensions."""
+        return {"sample": self.size}
+
+    def points(self, start: int, stop: int) -> dict[str, Array]:
+        """The values of each key at the points from `start` to before `stop`."""
+        return _values(self.distributions, self._shares(start, stop))
+
+    def probes(self, most: int) -> dict[str, Array]:
+        """The first points."""
+        return self.points(0, min(most, self.size))
+
+    def to_json(self) -> dict[str, Any]:
+        """The plan, for the hash of the study."""
+        found = {key: one.to_json() for key, one in self.distributions.items()}
+        return {"vary": found, "sample": self.size, "seed": self.seed, "method": self.method}
+
+    def _shares(self, start: int, stop: int) -> Array:
+        """Points in the unit cube, one row each."""
+        if self.method == "latin-hypercube":
+            return self._latin[start:stop]
+        if self.method == "sobol":
+            return _sobol(len(self.keys), self.seed, start, stop)
+        first = start // BLOCK
+        blocks = [self._block(number) for number in range(first, -(-stop // BLOCK))]
+        return np.concatenate(blocks)[start - first * BLOCK : stop - first * BLOCK]
+
+    def _block(self, number: int) -> Array:
+        """A block of random points, from a seed of its own."""
+        seed = np.random.SeedSequence((self.seed, number))
+        return np.random.default_rng(seed).random((BLOCK, len(self.keys)))
+
+    @cached_property
+    def _latin(self) -> Array:
+        from scipy.stats import qmc
+
+        made = qmc.LatinHypercube(len(self.keys), rng=np.random.default_rng(self.seed))
+        return np.asarray(made.random(self.size))
+
+
+@dataclass(frozen=True)
+class SaltelliPlan:
+    """Points for variance-based sensitivity indices (Saltelli et al. 2010).
+
+    Each of `base` points of a Sobol sequence in twice the dimensions makes d + 2 points: A, B, and
+    for each of d keys A with this key's value from B.
+
+    Attributes
+    ----------
+    distributions
+        The distribution of each key.
+    base
+        Number of base points, a power of two.
+    seed
+        Random seed of the scrambled sequence.
+    """
+
+    distributions: dict[str, Distribution]
+    base: int
+    seed: int
+
+    @property
+    def keys(self) -> tuple[str, ...]:
+        """The varied keys."""
+        return tuple(self.distributions)
+
+    @property
+    def each(self) -> int:
+        """Number of points that one base point makes."""
+        return len(self.keys) + 2
+
+    @property
+    def size(self) -> int:
+        """Number of points."""
+        return self.base * self.each
+
+    @property
+    def dims(self) -> dict[str, int]:
+        """Names and lengths of the result's dimensions."""
+        return {"sample": self.size}
+
+    def points(self, start: int, stop: int) -> dict[str, Array]:
+        """The values of each key at the points from `start` to before `stop`."""
+        number, each = len(self.keys), self.each
+        first = start // each
+        both = _sobol(2 * number, self.seed, first, -(-stop // each))
+        a, b = both[:, :number], both[:, number:]
+        rows = np.stack([a, b, *([a] * number)], axis=1)
+        for key in range(number):
+            rows[:, 2 + key, key] = b[:, key]
+        shares = rows.reshape(-1, number)[start - first * each : stop - first * each]
+        return _values(self.distributions, shares)
+
+    def probes(self, most: int) -> dict[str, Array]:
+        """The first points."""
+        return self.points(0, min(most, self.size))
+
+    def to_json(self) -> dict[str, Any]:
+        """The plan, for the hash of the study."""
+        found = {key: one.to_json() for key, one in self.distributions.items()}
+        return {"vary": found, "saltelli": self.base, "seed": self.seed}
+
+
+Plan = GridPlan | SamplePlan | SaltelliPlan
+
+
+def grid(given: Mapping[str, Iterable[float] | str] | Sequence[str]) -> GridPlan:
+    """A grid from texts `table.key=first:last:count`, or from the values of each key.
+
+    Raises
+    ------
+    SceneError
+        If a key is not known, comes twice or with one that it replaces, or there are too many
+        points.
+    """
+    if isinstance(given, Mapping):
+        axes = [_axis(key, values) for key, values in given.items()]
+    else:
+        sweeps = [parse(text) for text in given]
+        axes = [(f"{one.table}.{one.key}", one.values) for one in sweeps]
+    _check_keys([key for key, _ in axes])
+    for key, values in axes:
+        if len(set(values)) < len(values):
+            raise SceneError(f"{key}: expected different values, got one twice; leave out one")
+    made = GridPlan(dict(axes))
+    _check_size(made.size, "use fewer values")
+    return made
+
+
+def sample(
+    distributions: Mapping[str, Distribution], size: int, seed: int, method: str
+) -> SamplePlan:
+    """A sample of distributions.
+
+    Raises
+    ------
+    SceneError
+        If the method is not known, or does not make so many points.
+    """
+    _check_keys(list(distributions))
+    _check_seed(seed)
+    if method not in METHODS:
+        raise SceneError(f"method: expected {', '.join(METHODS)}, got {method!r:.40}; choose one")
+    _check_size(size, "use a smaller sample")
+    if method == "latin-hypercube" and size > MOST_LATIN:
+        raise SceneError(
+            f"method: expected at most {MOST_LATIN:,} points of a Latin hypercube, which is held "
+            f"in memory, got {size:,}; use sobol or random"
+        )
+    if method == "sobol":
+        _check_power(size, "points of a Sobol sequence")
+    return SamplePlan(dict(distributions), size, seed, method)
+
+
+def saltelli(distributions: Mapping[str, Distribution], base: int, seed: int) -> SaltelliPlan:
+    """Points for sensitivities.
+
+    Raises
+    ------
+    SceneError
+        If the number of base points is not a power of two.
+    """
+    _check_keys(list(distributions))
+    _check_seed(seed)
+    made = SaltelliPlan(dict(distributions), base, seed)
+    _check_size(base, "use a smaller sample")
+    _check_power(base, f"base points, each of which makes {made.each} runs,")
+    return made
+
+
+def _axis(key: str, values: Iterable[float] | str) -> tuple[str, tuple[float, ...]]:
+    """A key and its values, from a text or numbers."""
+    if isinstance(values, str):
+        found = parse(f"{key}={values}")
+        return f"{found.table}.{found.key}", found.values
+    place = ".".join(number_key(key))
+    try:
+        numbers = np.atleast_1d(np.asarray(values, dtype=np.float64))
+    except (TypeError, ValueError):
+        raise SceneError(f"{place}: expected numbers, got {values!r:.60}; give a list") from None
+    if numbers.ndim != 1 or not numbers.size or not np.isfinite(numbers).all():
+        raise SceneError(f"{place}: expected finite numbers, got {values!r:.60}; give a list")
+    return place, tuple(numbers.tolist())
+
+
+def _check_keys(keys: list[str]) -> None:
+    """Refuse no key, one given twice, and keys of which one replaces another."""
+    if not keys:
+        raise SceneError("vary: expected a key to vary, got none; name one, like plate.thickness")
+    for number, key in enumerate(keys):
+        if key in keys[:number]:
+            raise SceneError(f"vary: expected {key} once, got it twice; leave out one")
+        for other in rivals(key) & set(keys):
+            raise SceneError(
+                f"vary: expected {key} or {other}, which replace each other, got both; remove one"
+            )
+
+
+def _check_seed(seed: int) -> None:
+    if seed < 0:
+        raise SceneError(f"seed: expected a whole number from 0, got {seed}; give another")
+
+
+def _check_size(size: int, mend: str) -> None:
+    if not 1 <= size <= MOST_POINTS:
+        raise SceneError(f"sweep: expected 1 to {MOST_POINTS:,} points, got {size:,}; {mend}")
+
+
+def _check_power(size: int, what: str) -> None:
+    """Refuse numbers for which a Sobol sequence is not balanced."""
+    if size & (size - 1) or size < 2:
+        below = max(2, 2 ** (size.bit_length() - 1))
+        raise SceneError(
+            f"sample: expected a power of two of {what} got {size}; take {below} or {2 * below}"
+        )
+
+
+def _values(distributions: Mapping[str, Distribution], shares: Array) -> dict[str, Array]:
+    """The quantities at points of the unit cube."""
+    inside = np.clip(shares, LEAST_SHARE, 1 - LEAST_SHARE)
+    columns = zip(distributions.items(), inside.T, strict=True)
+    return {key: one.quantiles(column) for (key, one), column in columns}
+
+
+@dataclass
+class _Sequence:
+    """A scrambled Sobol sequence that remembers where it is, as moving on takes time."""
+
+    dimensions: int
+    seed: int
+    engine: Any = field(default=None)
+
+    def between(self, start: int, stop: int) -> Array:
+        """The points from `start` to before `stop`."""
+        from scipy.stats import qmc
+
+        if self.engine is None or self.engine.num_generated > start:
+            seed = np.random.default_rng(self.seed)
+            self.engine = qmc.Sobol(self.dimensions, scramble=True, rng=seed)
+        if self.engine.num_generated < start:
+            self.engine.fast_forward(start - self.engine.num_generated)
+        with warnings.catch_warnings():  # the whole sequence is a power of two, its parts are not
+            warnings.simplefilter("ignore", UserWarning)
+            return np.asarray(self.engine.random(stop - start))
+
+
+_sequence = lru_cache(8)(_Sequence)
+
+
+def _sobol(dimensions: int, seed: int, start: int, stop: int) -> Array:
+    """Points of a scrambled Sobol sequence."""
+    return _sequence(dimensions, seed).between(start, stop)
+
+
+def gaps(ranges: Iterable[tuple[int, int]], size: int) -> Iterator[tuple[int, int]]:
+    """The ranges of 0 to `size` that sorted ranges without overlap leave."""
+    ends = [0, *(end for pair in ranges for end in pair), size]
+    return ((a, b) for number, (a, b) in enumerate(pairwise(ends)) if number % 2 == 0 and a < b)

@@ -1,0 +1,229 @@
+"""Draws a study: curves over one key, maps over two, sensitivities of many."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from derivation.scene.errors import SceneError
+from derivation.scene.messages import nearest
+from derivation.scene.plot import BLUE, BROWN, saved, scaled
+from derivation.scene.result import UNITS
+from derivation.scene.sweep import SYMBOLS
+from derivation.sweep.dataset import labels
+from derivation.sweep.plan import Array
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+KEY_SYMBOLS = {
+    "impact.gravity": "$g$",
+    "impact.speed": "$v_0$",
+    "plate.density": r"$\rho$",
+    "plate.half_thickness": "$h$",
+    "plate.lame_lambda": r"$\lambda$",
+    "plate.lame_mu": r"$\mu$",
+    "plate.poissons_ratio": r"$\nu$",
+    "plate.radius": "$b$",
+    "plate.thickness": "$H$",
+    "plate.yield_stress": "$Y$",
+    "plate.youngs_modulus": "$E$",
+    "sphere.mass": "$m$",
+    "sphere.poissons_ratio": r"$\nu_1$",
+    "sphere.radius": "$R$",
+    "sphere.youngs_modulus": "$E_1$",
+}
+"""Symbols of keys that have one."""
+TEX = {"δ": r"\delta", "σ": r"\sigma"}
+LARGEST_FIGURE = 3
+"""Panels beside each other."""
+
+
+def check_results(names: Sequence[str]) -> tuple[str, ...]:
+    """The results to draw: those named, or all.
+
+    Raises
+    ------
+    SceneError
+        If there is no such result.
+    """
+    for name in names:
+        if name not in UNITS:
+            near = nearest(name, UNITS)
+            meant = f"did you mean {near}?" if near else "choose one"
+            raise SceneError(f"--result: expected {', '.join(UNITS)}, got {name:.40}; {meant}")
+    return tuple(names) or tuple(UNITS)
+
+
+def check_plot(keys: int, sensitivity: bool) -> None:
+    """Refuse a study of which there is no drawing."""
+    if keys > 2 and not sensitivity:
+        raise SceneError(
+            f"--plot: expected one or two varied keys, or --sensitivity, got {keys} keys; "
+            "vary fewer, or add --sensitivity"
+        )
+
+
+def render(data: "xr.Dataset", keys: Sequence[str], results: Sequence[str], suffix: str) -> bytes:
+    """The drawing as the content of a file; parameters as `figure` takes them."""
+    return saved(figure(data, keys, results), suffix)
+
+
+def figure(data: "xr.Dataset", keys: Sequence[str], results: Sequence[str]) -> "Figure":
+    """Draw a study.
+
+    Parameters
+    ----------
+    data
+        Its results; with indices, these are drawn.
+    keys
+        The varied keys.
+    results
+        The results that get a panel.
+    """
+    from matplotlib.figure import Figure
+
+    columns = min(LARGEST_FIGURE, len(results))
+    rows = -(-len(results) // columns)
+    made = Figure(figsize=(0.6 + 4.2 * columns, 0.6 + 3.2 * rows), layout="constrained")
+    panels = made.subplots(rows, columns, squeeze=False).ravel()
+    for axes in panels[len(results) :]:
+        axes.remove()
+    for name, axes in zip(results, panels[: len(results)], strict=True):
+        if "first_order" in data:
+            _bars(axes, data, name)
+        elif len(keys) == 1:
+            _curve(axes, data, keys[0], name)
+        else:
+            _map(made, axes, data, keys, name)
+        axes.set_title(name.replace("_", " "), fontsize=10)
+    if panels[0].get_legend_handles_labels()[0]:
+        panels[0].legend(frameon=False, fontsize=8)
+    notes = _notes(data)
+    if notes:
+        made.suptitle(notes, fontsize=9)
+    return made
+
+
+def _notes(data: "xr.Dataset") -> str:
+    """What the drawing leaves out, and what its intervals are."""
+    if "first_order" in data:
+        return "Sensitivity indices with 95 % confidence intervals (bootstrap)"
+    status = data["status"].values
+    wrong = int(np.sum(status != "finished"))
+    return f"{wrong} of {status.size} points without a result are left out" if wrong else ""
+
+
+def _curve(axes: "Axes", data: "xr.Dataset", key: str, name: str) -> None:
+    """One result over one key, with its error band; gaps where there is no result."""
+    order = np.argsort(data[key].values)
+    x, x_label = _key(data[key].values[order], key)
+    raw = data[name].values[order]
+    error = (data["bound"].values + data["model_error"].values)[order]
+    finite = np.isfinite(raw)
+    y, y_label = np.full_like(raw, np.nan), ""
+    y[finite], y_label = _result(raw[finite], name)
+    band = np.abs(y) * np.where(np.isfinite(error), error, 0.0)
+    axes.fill_between(
+        x, y - band, y + band, color=BLUE, alpha=0.25, linewidth=0, label="error: bound and model"
+    )
+    few = len(x) <= 40
+    axes.plot(x, y, color=BLUE, linewidth=1.5, marker="o" if few else None, markersize=3)
+    axes.set(xlabel=x_label, ylabel=y_label)
+    _frame(axes)
+    if _logarithmic(x):
+        _scale(axes.xaxis)
+
+
+def _map(made: "Figure", axes: "Axes", data: "xr.Dataset", keys: Sequence[str], name: str) -> None:
+    """One result over two keys: an area per point of a grid, a dot per point of a sample."""
+    raw = data[name].values
+    finite = np.isfinite(raw)
+    values = np.full_like(raw, np.nan)
+    values[finite], label = _result(raw[finite], name)
+    (y, y_label), (x, x_label) = (_key(data[key].values, key) for key in keys)
+    if values.ndim == 2:
+        drawn: Any = axes.pcolormesh(x, y, values, shading="nearest", cmap="viridis")
+    else:
+        drawn = axes.scatter(x, y, c=values, s=8, cmap="viridis")
+    made.colorbar(drawn, ax=axes, label=label)
+    axes.set(xlabel=x_label, ylabel=y_label)
+    if _logarithmic(x):
+        _scale(axes.xaxis)
+    if _logarithmic(y):
+        _scale(axes.yaxis)
+
+
+def _bars(axes: "Axes", data: "xr.Dataset", name: str) -> None:
+    """First-order and total indices of one result, a pair of bars per key."""
+    one = data.sel(result=name)
+    keys = [str(key) for key in data["key"].values]
+    places = np.arange(len(keys))
+    orders = (("first_order", -0.2, BLUE, "alone"), ("total_order", 0.2, BROWN, "with all others"))
+    for order, shift, color, text in orders:
+        index = one[order].values
+        error = np.abs(np.array([one[f"{order}_low"].values, one[f"{order}_high"].values]) - index)
+        axes.barh(
+            places + shift, index, 0.36, xerr=error, color=color, ecolor="0.3", capsize=2,
+            label=text,
+        )  # fmt: skip
+    if np.isnan(one["first_order"].values).all():
+        axes.text(0.5, 0.5, "no scatter", transform=axes.transAxes, ha="center", va="center")
+        axes.set_xlim(0.0, 1.0)
+    axes.set_yticks(places, [_words(key) for key in keys], fontsize=8)
+    axes.set_ylim(len(keys) - 0.5, -0.5)
+    axes.set_xlabel("share of the variance [1]")
+    _frame(axes)
+
+
+def _frame(axes: "Axes") -> None:
+    """A thin grid and no box; no line at zero, which may be far from all results."""
+    axes.grid(visible=True, color="0.9", linewidth=0.6)
+    axes.set_axisbelow(True)
+    axes.spines[["top", "right"]].set_visible(False)
+
+
+def _scale(axis: Any) -> None:
+    """Logarithmic, with plain numbers at 1, 2 and 5."""
+    from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
+
+    axis.axes.set(**{f"{axis.axis_name}scale": "log"})
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axis.set_major_formatter(StrMethodFormatter("{x:g}"))
+    axis.set_minor_formatter(NullFormatter())
+
+
+def _logarithmic(values: Array) -> bool:
+    """Whether three or more values are spaced by a ratio."""
+    if len(values) < 3 or values.min() <= 0:
+        return False
+    ratios = values[1:] / values[:-1]
+    return bool(np.allclose(ratios, ratios[0], rtol=1e-6) and abs(np.log(ratios[0])) > 1e-6)
+
+
+def _words(key: str) -> str:
+    """A key in words with its symbol, which says of which body it is."""
+    table = key.rpartition(".")[0]
+    text = labels(key)["long_name"].split(",")[0]
+    if table in ("plate", "sphere") and table not in text:
+        text = f"{table}: {text}"
+    symbol = KEY_SYMBOLS.get(key, "")
+    return f"{text} {symbol}".strip()
+
+
+def _key(values: Array, key: str) -> tuple[Array, str]:
+    """Values of a key in a handy multiple of their unit, and the label."""
+    unit = labels(key).get("units", "1")
+    if unit == "1" or unit.startswith("kg"):
+        return values, f"{_words(key)} [{unit}]"
+    return scaled(values, _words(key), unit)
+
+
+def _result(values: Array, name: str) -> tuple[Array, str]:
+    """Values of a result in a handy multiple of their unit, and the label."""
+    symbol = SYMBOLS[name]
+    words = f"{name.replace('_', ' ')} ${TEX.get(symbol, symbol)}$"
+    unit = UNITS[name]
+    return (values, f"{words} [1]") if unit == "1" else scaled(values, words, unit)

@@ -1,0 +1,251 @@
+"""Computes the missing batches of a study: here, in processes, or on a Dask cluster."""
+
+import logging
+import time
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import CancelledError
+from contextlib import contextmanager
+from dataclasses import dataclass
+from importlib.metadata import version
+from typing import Any
+
+import numpy as np
+
+from derivation.engine.activity import Tell
+from derivation.scene.errors import SceneError
+from derivation.scene.rows import solve
+from derivation.scene.scene import read
+from derivation.scene.sweep import unheard_interrupts
+from derivation.sweep.plan import Array
+from derivation.sweep.store import PartFile, Store, packed
+
+FIRST = 4
+"""Points of the first batch, by which it is judged how long the others take."""
+LARGEST = 2**16
+"""Points of a batch at most."""
+GROWTH = 8
+"""Times the points of the last batch that the next one has at most."""
+BATCH_SECONDS = 3.0
+"""What a batch is to take: what an interrupted run loses at most, for each process."""
+LEAST_SECONDS = 0.3
+"""What a batch is to take at least, as the files of very many small ones would take time too."""
+LONG = 6.0
+"""Seconds of work left from which other processes are worth their start."""
+PATIENCE = 30.0
+"""Seconds in which a scheduler has to answer and its first worker to be there."""
+
+
+@dataclass(frozen=True)
+class Batch:
+    """Some points to compute.
+
+    Attributes
+    ----------
+    start, stop
+        The range of points.
+    renewed
+        The finished batch of which some points are computed again; None of new points.
+    numbers
+        The points that are computed again.
+    """
+
+    start: int
+    stop: int
+    renewed: PartFile | None = None
+    numbers: tuple[int, ...] = ()
+
+    @property
+    def count(self) -> int:
+        """Number of points to compute."""
+        return len(self.numbers) if self.renewed else self.stop - self.start
+
+
+class Queue:
+    """What is left to compute, cut into batches that take about `BATCH_SECONDS`."""
+
+    def __init__(
+        self, ranges: Iterable[tuple[int, int]], again: Iterable[tuple[PartFile, list[int]]]
+    ) -> None:
+        self._ranges = deque(ranges)
+        self._again = deque(
+            Batch(part.start, part.stop, part, tuple(numbers)) for part, numbers in again
+        )
+        new = sum(stop - start for start, stop in self._ranges)
+        self.left = new + sum(batch.count for batch in self._again)
+        self._size, self._least, self.seconds_per_point = FIRST, 1, 0.0
+
+    def next(self, workers: int = 1) -> Batch | None:
+        """The next batch; small enough that several workers end at about the same time."""
+        if self._again:
+            batch = self._again.popleft()
+        elif self._ranges:
+            start, stop = self._ranges.popleft()
+            share = self.left if workers == 1 else self.left // (2 * workers)
+            size = min(self._size, max(share, self._least))
+            batch = Batch(start, min(stop, start + size))
+            if batch.stop < stop:
+                self._ranges.appendleft((batch.stop, stop))
+        else:
+            return None
+        self.left -= batch.count
+        return batch
+
+    def learn(self, points: int, seconds: float) -> None:
+        """Choose the size of the following batches by how long one took."""
+        self.seconds_per_point = max(seconds, 1e-9) / points
+        self._least = max(1, int(LEAST_SECONDS / self.seconds_per_point))
+        wanted = int(BATCH_SECONDS / self.seconds_per_point)
+        self._size = min(max(wanted, 1), max(GROWTH * points, FIRST), LARGEST)
+
+
+def compute(store: Store, workers: int, scheduler: str | None, retry: bool, tell: Tell) -> int:
+    """Compute what is missing and keep it; returns the number of points computed.
+
+    Parameters
+    ----------
+    store
+        Where finished batches stand.
+    workers
+        Processes that share the work if it takes long.
+    scheduler
+        Address of a Dask scheduler whose workers do the work instead.
+    retry
+        Whether points that are finished without a result are computed again.
+    tell
+        Called after each batch with the number of points that are done and of all.
+    """
+    queue = Queue(store.missing(), store.failed() if retry else ())
+    todo, total, done = queue.left, store.study.plan.size, 0
+
+    def keep(batch: Batch, content: bytes, seconds: float) -> None:
+        nonlocal done
+        if batch.renewed:
+            store.renew(batch.renewed, list(batch.numbers), content, seconds)
+        else:
+            store.keep(batch.start, batch.stop, content, seconds)
+        done += batch.count
+        queue.learn(batch.count, seconds)
+        tell("points", total - todo + done + 1, total)
+
+    tell("points", total - todo + 1, total)
+    if scheduler is None:
+        _here(store, queue, keep, workers)
+    if queue.left:
+        with _client(scheduler, workers) as client:
+            _on_cluster(store, queue, keep, client)
+    store.settle()
+    return todo
+
+
+Keep = Callable[[Batch, bytes, float], None]
+
+
+def _here(store: Store, queue: Queue, keep: Keep, workers: int) -> None:
+    """Compute batches in this process, until others are worth their start."""
+    while batch := queue.next():
+        keep(batch, *solve_batch(*_task(store, batch)))
+        if workers > 1 and queue.left * queue.seconds_per_point > LONG:
+            return
+
+
+def _on_cluster(store: Store, queue: Queue, keep: Keep, client: Any) -> None:
+    """Compute batches on the workers of a cluster, no more at once than they can begin soon."""
+    from distributed import KilledWorker, as_completed
+
+    running: dict[str, Batch] = {}
+    finished = as_completed(loop=client.loop)
+
+    def fill() -> None:
+        workers = max(1, sum(client.nthreads().values()))
+        while len(running) < 2 * workers and (batch := queue.next(workers)):
+            future = client.submit(solve_batch, *_task(store, batch), pure=False)
+            running[future.key] = batch
+            finished.add(future)
+
+    fill()
+    for future in finished:
+        batch = running.pop(future.key)
+        try:
+            content, seconds = future.result()
+        except KilledWorker:
+            raise SceneError(
+                f"sweep: expected workers that finish the points {batch.start} to "
+                f"{batch.stop - 1}, but several were ended while they computed them, for want of "
+                "memory perhaps; run it again, other points are kept"
+            ) from None
+        except (CancelledError, OSError) as error:
+            raise SceneError(
+                f"sweep: lost the connection to the scheduler ({type(error).__name__}); run it "
+                "again, finished points are kept"
+            ) from None
+        except ImportError as error:
+            raise SceneError(
+                f"sweep: expected platecontact on every worker, got: {error}; install it there"
+            ) from None
+        future.release()
+        keep(batch, content, seconds)
+        fill()
+
+
+Task = tuple[dict[str, Any], dict[str, Array], float | None, str]
+
+
+def _task(store: Store, batch: Batch) -> Task:
+    """What a batch is computed from, in terms that another machine understands."""
+    study = store.study
+    columns = study.plan.points(batch.start, batch.stop)
+    if batch.renewed:
+        places = np.array(batch.numbers) - batch.start
+        columns = {key: values[places] for key, values in columns.items()}
+    return study.base["scene"], columns, study.rtol, study.base["version"]
+
+
+def solve_batch(
+    scene: dict[str, Any], columns: dict[str, Array], rtol: float | None, wanted: str
+) -> tuple[bytes, float]:
+    """Solve some points; returns the content of their file and the seconds it took.
+
+    Raises
+    ------
+    SceneError
+        If this machine has another version of the program.
+    """
+    own = version("platecontact")
+    if own != wanted:
+        raise SceneError(
+            f"sweep: expected version {wanted} of platecontact on every worker, got {own}; install "
+            "the same version everywhere"
+        )
+    start = time.perf_counter()
+    content = packed(solve(read(scene), columns, rtol))
+    return content, time.perf_counter() - start
+
+
+@contextmanager
+def _client(scheduler: str | None, workers: int) -> Iterator[Any]:
+    """A client of a scheduler, or of processes on this machine that end with the block."""
+    from distributed import Client, LocalCluster
+
+    logging.getLogger("distributed").setLevel(logging.CRITICAL)
+    if scheduler is None:
+        with unheard_interrupts():  # Ctrl-C is for this process, which ends the others
+            cluster = LocalCluster(
+                n_workers=workers,
+                threads_per_worker=1,
+                dashboard_address=None,
+                silence_logs=logging.CRITICAL,
+            )
+        with cluster, Client(cluster, set_as_default=False) as client:
+            yield client
+        return
+    try:
+        client = Client(scheduler, timeout=PATIENCE, set_as_default=False)
+        client.wait_for_workers(1, timeout=PATIENCE)
+    except (OSError, ValueError):  # an address that is none is a ValueError
+        raise SceneError(
+            f"--scheduler {scheduler}: expected a Dask scheduler with a worker, got none within "
+            f"{PATIENCE:.0f} s; start them with `dask scheduler` and `dask worker ADDRESS`"
+        ) from None
+    with client:
+        yield client

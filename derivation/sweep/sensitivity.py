@@ -1,0 +1,151 @@
+"""Variance-based sensitivities: which quantity's scatter the scatter of each result comes from."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from derivation.engine.text import aligned
+from derivation.scene.errors import SceneError
+from derivation.scene.result import UNITS
+from derivation.sweep.dataset import column
+from derivation.sweep.plan import Array, SaltelliPlan
+from derivation.sweep.store import Store
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+CONFIDENCE = 0.95
+"""Share of bootstrap samples that an interval covers."""
+RESAMPLES = 999
+"""Bootstrap samples."""
+ORDERS = ("first_order", "total_order")
+
+
+@dataclass(frozen=True)
+class Sensitivities:
+    """Sensitivity indices with their confidence intervals, each of shape (result, key).
+
+    Attributes
+    ----------
+    keys
+        The varied keys.
+    runs
+        Number of simulations.
+    index
+        By "first_order" and "total_order": the share of a result's variance [1] that a key
+        causes alone, and with all others together.
+    low, high
+        Ends of the confidence intervals, likewise.
+
+    A result whose scatter is within its error bound has NaN.
+    """
+
+    keys: tuple[str, ...]
+    runs: int
+    index: dict[str, Array]
+    low: dict[str, Array]
+    high: dict[str, Array]
+
+    def to_text(self) -> str:
+        """A table for a screen."""
+        heads = ["result", "key", "#first order", "#total order"]
+        rows = [
+            [
+                name.replace("_", " "),
+                key,
+                *(self._shown(order, i, j) for order in ORDERS),
+            ]
+            for i, name in enumerate(UNITS)
+            for j, key in enumerate(self.keys)
+        ]
+        title = (
+            f"Sensitivity indices with {100 * CONFIDENCE:.0f} % confidence intervals, "
+            f"from {self.runs:,} runs"
+        )
+        return f"{title}\n\n{aligned(heads, rows)}"
+
+    def to_json(self) -> list[dict[str, Any]]:
+        """A row for each result and key; null where a result does not vary."""
+        return [
+            {"result": name, "key": key}
+            | {
+                f"{order}{end}": None if np.isnan(values[order][i, j]) else values[order][i, j]
+                for order in ORDERS
+                for end, values in (("", self.index), ("_low", self.low), ("_high", self.high))
+            }
+            for i, name in enumerate(UNITS)
+            for j, key in enumerate(self.keys)
+        ]
+
+    def add_to(self, data: "xr.Dataset") -> "xr.Dataset":
+        """The Dataset with the indices, over the dimensions `result` and `key`."""
+        made: dict[str, Any] = {}
+        for order in ORDERS:
+            words = order.replace("_", "-") + " sensitivity index"
+            for end, values in (("", self.index), ("_low", self.low), ("_high", self.high)):
+                text = words + (f", {end[1:]} end of the confidence interval" if end else "")
+                about = {"long_name": text, "units": "1"}
+                made[order + end] = (("result", "key"), values[order], about)
+        return data.assign(made).assign_coords(result=list(UNITS), key=list(self.keys))
+
+    def _shown(self, order: str, i: int, j: int) -> str:
+        value, low, high = (x[order][i, j] for x in (self.index, self.low, self.high))
+        return "no scatter" if np.isnan(value) else f"{value:.3f} ({low:.3f} to {high:.3f})"
+
+
+def sensitivities(store: Store) -> Sensitivities:
+    """Compute the indices of a finished study whose plan is a `SaltelliPlan`.
+
+    Raises
+    ------
+    SceneError
+        If a point has no result: indices of the others alone would be biased.
+    """
+    plan = store.study.plan
+    assert isinstance(plan, SaltelliPlan)
+    table = store.table(0, plan.size)
+    _check_finished(table)
+    results = np.array([column(table, name) for name in UNITS])
+    error = 2 * float(np.max(column(table, "bound")))
+    varies = np.ptp(results, axis=1) > error * np.max(np.abs(results), axis=1)
+    values = results[varies].reshape(-1, plan.base, plan.each)
+    found = np.full((3, len(ORDERS), len(UNITS), len(plan.keys)), np.nan)
+    if values.size:
+        found[:, :, varies] = _with_intervals(values)
+    return Sensitivities(plan.keys, plan.size, *(dict(zip(ORDERS, x, strict=True)) for x in found))
+
+
+def _check_finished(table: Any) -> None:
+    """Refuse points without a result."""
+    status = column(table, "status")
+    wrong = np.flatnonzero(status != "finished")
+    if wrong.size:
+        reason = column(table, "reason")[wrong[0]]
+        raise SceneError(
+            f"sensitivity: expected every point to finish, but {wrong.size:,} of "
+            f"{len(status):,} did not; point {wrong[0]} is {status[wrong[0]]}: {reason}; "
+            "narrow the distributions"
+        )
+
+
+def _with_intervals(values: Array) -> Array:
+    """Indices, low and high ends, of shape (3, order, result, key), by resampling base points.
+
+    Values have the shape (result, base, d + 2).
+    """
+    base, rng = values.shape[1], np.random.default_rng(0)
+    again = [_indices(values[:, rng.integers(0, base, base)]) for _ in range(RESAMPLES)]
+    outside = (1 - CONFIDENCE) / 2
+    return np.stack([_indices(values), *np.quantile(again, [outside, 1 - outside], axis=0)])
+
+
+def _indices(values: Array) -> Array:
+    """First-order and total indices, of shape (order, result, key)."""
+    from scipy.stats import sobol_indices
+
+    count, base, each = values.shape
+    roles = np.moveaxis(values, 2, 0)
+    func = {"f_A": roles[0], "f_B": roles[1], "f_AB": roles[2:]}
+    found = sobol_indices(func=func, n=base)
+    return np.array([getattr(found, order) for order in ORDERS]).reshape(2, count, each - 2)

@@ -1,0 +1,222 @@
+"""The finished batches of a study, each a file that is there whole or not at all."""
+
+import json
+import os
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import numpy as np
+
+from derivation.engine.files import expect_folder
+from derivation.scene.errors import SceneError
+from derivation.scene.result import UNITS
+from derivation.scene.rows import Rows
+from derivation.sweep.plan import gaps
+from derivation.sweep.study import Study
+
+FILE = re.compile(r"(\d+)-(\d+)-([0-9a-f]+)\.parquet")
+"""First point, the one behind the last, and hash of the points of a batch."""
+TEXTS = ("status", "reason", "effects")
+NUMBERS = (*UNITS, "bound", "model_error")
+
+
+@dataclass(frozen=True)
+class PartFile:
+    """A finished batch: the points from `start` to before `stop`, and their file."""
+
+    start: int
+    stop: int
+    path: Path
+
+
+class Store:
+    """The finished batches of one study in a folder.
+
+    Parameters
+    ----------
+    study
+        The study.
+    folder
+        Where the batches stand; made if it is not there.
+
+    Raises
+    ------
+    SceneError
+        If the folder holds another study.
+    """
+
+    def __init__(self, study: Study, folder: Path) -> None:
+        self.study, self.folder = study, folder
+        expect_folder(folder)
+        folder.mkdir(parents=True, exist_ok=True)
+        self._claim()
+        for left in folder.glob("*.temporary"):
+            left.unlink()
+        self.parts = sorted(self._found(), key=lambda part: part.start)
+        self._last: tuple[PartFile, Any] | None = None
+
+    @property
+    def done(self) -> int:
+        """Number of points that are finished."""
+        return sum(part.stop - part.start for part in self.parts)
+
+    def missing(self) -> list[tuple[int, int]]:
+        """The ranges of points that are still to be computed."""
+        ranges = [(part.start, part.stop) for part in self.parts]
+        return list(gaps(ranges, self.study.plan.size))
+
+    def failed(self) -> Iterator[tuple[PartFile, list[int]]]:
+        """The batches with points that are not finished, and the numbers of these points."""
+        for part in list(self.parts):
+            status = np.array(self._read(part)["status"].to_pylist())
+            wrong = (np.flatnonzero(status != "finished") + part.start).tolist()
+            if wrong:
+                yield part, wrong
+
+    def keep(self, start: int, stop: int, content: bytes, seconds: float) -> None:
+        """Keep the file of a batch whose points have not been computed before."""
+        points = self.study.plan.points(start, stop)
+        name = f"{start:010d}-{stop:010d}-{self.study.points_hash(points)}.parquet"
+        self._write(name, content)
+        self.parts.append(PartFile(start, stop, self.folder / name))
+        self._note(start, stop, stop - start, seconds)
+
+    def renew(self, part: PartFile, numbers: list[int], content: bytes, seconds: float) -> None:
+        """Replace some points of a batch."""
+        import pyarrow as pa
+
+        old = self._read(part)
+        places = np.arange(part.stop - part.start)
+        places[np.array(numbers) - part.start] = len(old) + np.arange(len(numbers))
+        both = pa.concat_tables([old, _parsed(content)])
+        self._write(part.path.name, _packed(both.take(places)))
+        self._last = None
+        self._note(part.start, part.stop, len(numbers), seconds)
+
+    def settle(self) -> None:
+        """Order the batches, once all are there."""
+        self.parts.sort(key=lambda part: part.start)
+
+    def table(self, start: int, stop: int) -> Any:
+        """The results of the points from `start` to before `stop` as a table of pyarrow."""
+        import pyarrow as pa
+
+        pieces = []
+        for part in self.parts:
+            if part.start < stop and start < part.stop:
+                first, last = max(start, part.start), min(stop, part.stop)
+                pieces.append(self._read(part).slice(first - part.start, last - first))
+        return pa.concat_tables(pieces).combine_chunks()
+
+    def tables(self, size: int) -> Iterator[tuple[int, int, Any]]:
+        """All results in blocks of at most so many points: start, stop and table of each."""
+        total = self.study.plan.size
+        for start in range(0, total, size):
+            stop = min(start + size, total)
+            yield start, stop, self.table(start, stop)
+
+    def _claim(self) -> None:
+        """Write what is computed here, or see that it is this."""
+        own = self.folder / "study.json"
+        if own.is_file():
+            try:
+                same = json.loads(own.read_text()).get("hash") == self.study.name
+            except (ValueError, AttributeError):
+                same = False
+            if not same:
+                raise SceneError(
+                    f"{self.folder}: expected batches of this study, got those of another one (its "
+                    "scene, points, tolerance or version differ); name another output, or remove "
+                    "this folder"
+                )
+            return
+        text = json.dumps({"hash": self.study.name} | self.study.to_json(), indent=1)
+        self._write(own.name, text.encode())
+
+    def _found(self) -> Iterator[PartFile]:
+        """The batches that are there; those whose points have another hash do not count."""
+        reached = 0
+        for path in sorted(self.folder.glob("*.parquet")):
+            if not (known := FILE.fullmatch(path.name)):
+                continue
+            start, stop = int(known[1]), int(known[2])
+            if not reached <= start < stop <= self.study.plan.size:
+                continue
+            if self.study.points_hash(self.study.plan.points(start, stop)) == known[3]:
+                reached = stop
+                yield PartFile(start, stop, path)
+
+    def _read(self, part: PartFile) -> Any:
+        """The table of a batch; the last one is remembered."""
+        if self._last is None or self._last[0] != part:
+            self._last = part, _parsed(part.path.read_bytes())
+        return self._last[1]
+
+    def _write(self, name: str, content: bytes) -> None:
+        """Write a file whole or not at all, also if the machine goes down."""
+        temporary = self.folder / f"{name}.temporary"
+        with temporary.open("wb") as stream:
+            stream.write(content)
+            stream.flush()
+            os.fsync(stream.fileno())
+        temporary.replace(self.folder / name)
+
+    def _note(self, start: int, stop: int, computed: int, seconds: float) -> None:
+        """Add a line to the journal of what has been computed."""
+        with (self.folder / "journal.txt").open("a") as stream:
+            stream.write(f"{start} {stop} {computed} points {seconds:.3g} s\n")
+
+
+def packed(rows: Rows) -> bytes:
+    """Results as the content of a Parquet file."""
+    import pyarrow as pa
+
+    numbers = rows.results | {"bound": rows.bound, "model_error": rows.model_error}
+    columns = {name: pa.array(numbers[name], pa.float64()) for name in NUMBERS}
+    columns |= {name: pa.array(getattr(rows, name).tolist(), pa.string()) for name in TEXTS}
+    return _packed(pa.table(columns))
+
+
+def _packed(table: Any) -> bytes:
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    stream = pa.BufferOutputStream()
+    pq.write_table(table, stream, compression="zstd")
+    return stream.getvalue().to_pybytes()  # type: ignore[no-any-return]
+
+
+def _parsed(content: bytes) -> Any:
+    """The table of a file's content.
+
+    A thread of pyarrow that reads one of Python's streams as Python ends would abort it.
+    """
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    return pq.ParquetFile(pa.BufferReader(content)).read(use_threads=False)
+
+
+@contextmanager
+def opened(study: Study, out: Path | None) -> Iterator[Store]:
+    """The store beside an output, or one for as long as the block runs."""
+    if out is not None:
+        if out.exists() and not (parts_folder(out) / "study.json").is_file():
+            raise SceneError(
+                f"{out}: expected a new output or one of this study, got one without its folder "
+                f"{parts_folder(out).name}; name another output, or remove it"
+            )
+        yield Store(study, parts_folder(out))
+        return
+    with TemporaryDirectory(prefix="platecontact-") as folder:
+        yield Store(study, Path(folder))
+
+
+def parts_folder(out: Path) -> Path:
+    """The folder of the batches of an output."""
+    return out.with_name(f"{out.name}.parts")

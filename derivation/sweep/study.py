@@ -1,0 +1,64 @@
+"""What a study computes, and the hash by which its points are known."""
+
+import hashlib
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from importlib.metadata import version
+from typing import Any
+
+import numpy as np
+
+from derivation.scene.scene import Scene
+from derivation.sweep.plan import Array, Plan
+
+
+@dataclass(frozen=True)
+class Study:
+    """A scene, the points at which it is simulated, and the tolerance.
+
+    Attributes
+    ----------
+    scene
+        The scene; varied keys take other values.
+    plan
+        The points.
+    rtol
+        Relative tolerance of the results [1], as `simulate` takes it.
+    """
+
+    scene: Scene
+    plan: Plan
+    rtol: float | None
+
+    @cached_property
+    def base(self) -> dict[str, Any]:
+        """What every point has in common: scene, tolerance, version of the program."""
+        common = {"scene": self.scene.to_json(), "rtol": self.rtol}
+        return common | {"version": version("platecontact")}
+
+    def to_json(self) -> dict[str, Any]:
+        """All of the study."""
+        return self.base | {"plan": self.plan.to_json()}
+
+    @cached_property
+    def _common(self) -> bytes:
+        return _canonical(self.base)
+
+    def points_hash(self, columns: Mapping[str, Array]) -> str:
+        """Hash of the scenes of some points, in their order, with tolerance and version."""
+        digest = hashlib.sha256(self._common)
+        for key, values in columns.items():
+            digest.update(key.encode() + b"\0")
+            digest.update(np.ascontiguousarray(values, dtype="<f8").tobytes())
+        return digest.hexdigest()[:20]
+
+    @cached_property
+    def name(self) -> str:
+        """Hash of all of the study."""
+        return hashlib.sha256(_canonical(self.to_json())).hexdigest()
+
+
+def _canonical(data: dict[str, Any]) -> bytes:
+    return json.dumps(data, sort_keys=True, separators=(",", ":")).encode()

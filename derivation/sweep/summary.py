@@ -1,0 +1,105 @@
+"""The short answer of a study: how many points came out how, and the range of each result."""
+
+from collections import Counter
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from derivation.engine.text import aligned
+from derivation.scene.quantity import common_prefix
+from derivation.scene.result import UNITS
+from derivation.sweep.dataset import column
+from derivation.sweep.sensitivity import Sensitivities
+from derivation.sweep.store import Store
+
+BLOCK = 2**16
+"""Points that are looked at together."""
+DIGITS = 4
+"""Significant digits of a range."""
+MOST_WARNINGS = 5
+"""Different reasons that are kept."""
+
+
+@dataclass(frozen=True)
+class Summary:
+    """The short answer of a study.
+
+    Attributes
+    ----------
+    points, computed
+        Number of points, and of those computed in this run.
+    counts
+        Number of points by status.
+    ranges
+        Smallest and largest value of each result, in SI units; none without a result.
+    largest_bound
+        Largest bound of the relative error [1].
+    warnings
+        The reasons and warnings of points, each once, with one of its points; the first ones.
+    found
+        Sensitivity indices, if wanted.
+    """
+
+    points: int
+    computed: int
+    counts: dict[str, int]
+    ranges: dict[str, tuple[float, float]]
+    largest_bound: float
+    warnings: tuple[str, ...]
+    found: Sensitivities | None
+
+    def to_json(self) -> dict[str, Any]:
+        """All of it."""
+        data = {key: value for key, value in vars(self).items() if key != "found"}
+        data |= {"warnings": list(self.warnings)}
+        return data | ({"sensitivities": self.found.to_json()} if self.found else {})
+
+    def to_text(self) -> str:
+        """The answer for a screen."""
+        counts = ", ".join(f"{count:,} {status}" for status, count in self.counts.items())
+        rows = []
+        for name, ends in self.ranges.items():
+            values, unit = np.array(ends), UNITS[name]
+            if unit != "1":
+                values, unit = common_prefix(values, unit)
+            rows.append([name.replace("_", " "), *(f"{x:#.{DIGITS}g}" for x in values), unit])
+        text = (
+            f"{self.points:,} points: {counts} ({self.computed:,} computed in this run)\n\n"
+            f"{aligned(['result', '#smallest', '#largest', 'unit'], rows)}\n\n"
+            f"Accuracy: relative error at most {self.largest_bound:.1e}"
+        )
+        return f"{text}\n\n{self.found.to_text()}" if self.found else text
+
+
+def summary(store: Store, computed: int, found: Sensitivities | None) -> Summary:
+    """Summarise a finished study, block by block."""
+    counts, reasons = Counter[str](), dict[str, str]()
+    low, high = dict.fromkeys(UNITS, np.inf), dict.fromkeys(UNITS, -np.inf)
+    bound = 0.0
+    for start, _, table in store.tables(BLOCK):
+        status = column(table, "status")
+        counts.update(status.tolist())
+        bound = float(np.fmax(bound, np.fmax.reduce(column(table, "bound"))))
+        for name in UNITS:
+            values = column(table, name)
+            low[name] = float(np.fmin(low[name], np.fmin.reduce(values)))
+            high[name] = float(np.fmax(high[name], np.fmax.reduce(values)))
+        _add_reasons(reasons, store, start, status, column(table, "reason"))
+    ranges = {name: (low[name], high[name]) for name in UNITS if low[name] <= high[name]}
+    warnings = tuple(f"{where}: {text}" for text, where in reasons.items())
+    size = store.study.plan.size
+    return Summary(size, computed, dict(sorted(counts.items())), ranges, bound, warnings, found)
+
+
+def _add_reasons(reasons: dict[str, str], store: Store, start: int, status: Any, new: Any) -> None:
+    """Add reasons that are not known yet, with the first point of each."""
+    if len(reasons) >= MOST_WARNINGS:
+        return
+    for text, place in zip(*np.unique(new.astype(str), return_index=True), strict=True):
+        if text and text not in reasons and len(reasons) < MOST_WARNINGS:
+            number = start + int(place)
+            points = store.study.plan.points(number, number + 1)
+            where = ", ".join(f"{key} = {values[0]:.6g}" for key, values in points.items())
+            state = "" if status[place] == "finished" else f" ({status[place]})"
+            reasons[str(text)] = f"at {where}{state}"

@@ -1,0 +1,231 @@
+"""Writes the results of a study block by block: .nc, .zarr, .parquet or .csv."""
+
+import shutil
+import warnings
+from collections.abc import Callable, Iterator
+from math import prod
+from pathlib import Path
+from typing import Any
+
+from derivation.engine.activity import Tell
+from derivation.engine.files import expect_folder, expect_writable
+from derivation.scene.errors import SceneError
+from derivation.sweep.dataset import attributes, column, labels
+from derivation.sweep.plan import GridPlan
+from derivation.sweep.store import NUMBERS, TEXTS, Store
+
+SUFFIXES = (".nc", ".zarr", ".parquet", ".csv")
+Dims = tuple[str, ...]
+Labels = dict[str, str]
+BLOCK = 2**16
+"""Points that are held in memory while a file is written."""
+
+
+def check_out(out: Path) -> None:
+    """Refuse an output that says no format or cannot be written.
+
+    Raises
+    ------
+    SceneError
+        If its name ends in none of `SUFFIXES`.
+    OSError
+        If it cannot be written.
+    """
+    if out.suffix not in SUFFIXES:
+        raise SceneError(
+            f"--out {out}: expected a name ending in {', '.join(SUFFIXES)}, "
+            f"got {out.suffix or 'no ending'}; change its name"
+        )
+    (expect_folder if out.suffix == ".zarr" else expect_writable)(out)
+
+
+def write(store: Store, out: Path, tell: Tell) -> None:
+    """Write all results of a finished study; the file is there whole or not at all.
+
+    Parameters
+    ----------
+    store
+        The finished batches.
+    out
+        The file, or folder of Zarr.
+    tell
+        Called after each block with the number of points that are written and of all.
+    """
+    temporary = store.folder / f"{out.stem}.writing{out.suffix}"
+    _remove(temporary)
+    writers: dict[str, Callable[[Store, Path, Tell], None]] = {
+        ".nc": _netcdf,
+        ".zarr": _zarr,
+        ".parquet": _parquet,
+        ".csv": _csv,
+    }
+    try:
+        writers[out.suffix](store, temporary, tell)
+        if temporary.is_dir():
+            _remove(out)
+        temporary.replace(out)
+    except BaseException:  # Ctrl-C too
+        _remove(temporary)
+        raise
+
+
+def _remove(path: Path) -> None:
+    if path.is_dir():
+        shutil.rmtree(path)
+    else:
+        path.unlink(missing_ok=True)
+
+
+def _csv(store: Store, path: Path, tell: Tell) -> None:
+    import pyarrow as pa
+    from pyarrow.csv import CSVWriter
+
+    names = (*store.study.plan.keys, *NUMBERS, *TEXTS)
+    with pa.OSFile(str(path), "wb") as stream:
+        stream.write((",".join(names) + "\n").encode())
+        writer = None
+        for table in _with_points(store, tell):
+            if writer is None:
+                writer = CSVWriter(stream, table.schema, write_options=_plain())
+            writer.write_table(table)
+        if writer is not None:
+            writer.close()
+
+
+def _plain() -> Any:
+    """Options of CSV: no heading, as pyarrow quotes it; quotes where they are needed."""
+    from pyarrow.csv import WriteOptions
+
+    return WriteOptions(include_header=False, quoting_style="needed")
+
+
+def _parquet(store: Store, path: Path, tell: Tell) -> None:
+    import pyarrow.parquet as pq
+
+    writer = None
+    for table in _with_points(store, tell):
+        if writer is None:
+            writer = pq.ParquetWriter(path, table.schema, compression="zstd")
+        writer.write_table(table)
+    if writer is not None:
+        writer.close()
+
+
+def _with_points(store: Store, tell: Tell) -> Iterator[Any]:
+    """Tables of points and results, with units; numbers that there are not are null."""
+    import pyarrow as pa
+
+    study = store.study
+    for start, stop, found in store.tables(BLOCK):
+        columns = {
+            name: pa.array(values, pa.float64())
+            for name, values in study.plan.points(start, stop).items()
+        }
+        columns |= {name: pa.array(column(found, name), from_pandas=True) for name in NUMBERS}
+        columns |= {name: found[name] for name in TEXTS}
+        fields = [pa.field(name, v.type, metadata=labels(name)) for name, v in columns.items()]
+        about = {name: str(value) for name, value in attributes(study).items()}
+        yield pa.table(list(columns.values()), schema=pa.schema(fields, metadata=about))
+        tell("write", stop + 1, study.plan.size)
+
+
+def _zarr(store: Store, path: Path, tell: Tell) -> None:
+    import zarr
+
+    group = zarr.open_group(path, mode="w")
+    group.attrs.update(attributes(store.study))
+
+    def create(name: str, dims: Dims, blocks: tuple[int, ...], about: Labels) -> Any:
+        return group.create_array(
+            name,
+            shape=tuple(store.study.plan.dims[dim] for dim in dims),
+            chunks=blocks,
+            dtype=str if name in TEXTS else "float64",
+            fill_value="" if name in TEXTS else float("nan"),
+            dimension_names=dims,
+            attributes=about,
+        )
+
+    _arrays(store, create, tell)
+    with warnings.catch_warnings():  # that other programs may not know it; they do without it
+        warnings.simplefilter("ignore")
+        zarr.consolidate_metadata(path)
+
+
+def _netcdf(store: Store, path: Path, tell: Tell) -> None:
+    import h5netcdf
+    import h5py
+
+    with h5netcdf.File(path, "w") as file:
+        file.attrs.update(attributes(store.study))
+        file.dimensions = store.study.plan.dims
+
+        def create(name: str, dims: Dims, blocks: tuple[int, ...], about: Labels) -> Any:
+            kind = h5py.string_dtype() if name in TEXTS else "f8"
+            made = file.create_variable(name, dims, kind, chunks=blocks)
+            made.attrs.update(about)
+            return made
+
+        _arrays(store, create, tell)
+
+
+def _arrays(store: Store, create: Callable[..., Any], tell: Tell) -> None:
+    """Fill an array per result, over the dimensions of the study, and one per key."""
+    study, plan = store.study, store.study.plan
+    dims, shape = tuple(plan.dims), tuple(plan.dims.values())
+    chunks = _chunks(shape)
+    points: dict[str, Any] = {}
+    if isinstance(plan, GridPlan):
+        for key, values in plan.axes.items():
+            create(key, (key,), (len(values),), labels(key))[:] = values
+    else:
+        points = {key: create(key, dims, chunks, labels(key)) for key in plan.keys}
+    beside = {"coordinates": " ".join(points)} if points else {}  # as CF calls them
+    made = {name: create(name, dims, chunks, labels(name) | beside) for name in (*NUMBERS, *TEXTS)}
+    for place, start, stop in blocks(shape):
+        table = store.table(start, stop)
+        for name, array in made.items():
+            values = column(table, name)
+            array[place] = values.reshape(_extent(shape, place))
+        if points:
+            found = study.plan.points(start, stop)
+            for key, array in points.items():
+                array[place] = found[key]
+        tell("write", stop + 1, plan.size)
+
+
+Place = tuple[slice, ...]
+
+
+def blocks(shape: tuple[int, ...]) -> Iterator[tuple[Place, int, int]]:
+    """Pieces of an array of at most `BLOCK` elements that lie together in memory.
+
+    Yields the slices of each piece, its first element, and the one behind its last.
+    """
+    chunks = _chunks(shape)
+    counts = tuple(-(-length // part) for length, part in zip(shape, chunks, strict=True))
+    start = 0
+    for number in range(prod(counts)):
+        where, place = number, []
+        for length, part, count in list(zip(shape, chunks, counts, strict=True))[::-1]:
+            where, index = divmod(where, count)
+            place.append(slice(index * part, min((index + 1) * part, length)))
+        piece = tuple(place[::-1])
+        stop = start + prod(_extent(shape, piece))
+        yield piece, start, stop
+        start = stop
+
+
+def _extent(shape: tuple[int, ...], place: Place) -> tuple[int, ...]:
+    """Lengths of a piece."""
+    pairs = zip(shape, place, strict=True)
+    return tuple(len(range(*part.indices(length))) for length, part in pairs)
+
+
+def _chunks(shape: tuple[int, ...]) -> tuple[int, ...]:
+    """Lengths of the pieces: all of the last dimensions, part of one, 1 of the first."""
+    found, room = list[int](), BLOCK
+    for length in shape[::-1]:
+        found.append(max(1, min(length, room)))
+        room = room // length
+    return tuple(found[::-1])

@@ -1,0 +1,56 @@
+"""A scene that is quick to simulate, and a run of the command in a process of its own."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import platecontact as pc
+
+from derivation.engine.files import ROOT
+from derivation.sweep.store import FILE
+
+QUICK = ROOT / "derivation" / "scene" / "examples" / "paper.toml"
+UNIFORM = {"distribution": "uniform", "low": 0.15, "high": 0.25}
+NORMAL = {"distribution": "normal", "mean": 1.0, "std": 0.1}
+
+
+def scene() -> Any:
+    """The scene."""
+    return pc.load(QUICK)
+
+
+def begin(*arguments: str) -> "subprocess.Popen[str]":
+    """The command `sweep` of the scene in a process of its own."""
+    command = [sys.executable, "-m", "derivation.cli", "sweep", str(QUICK), *arguments]
+    return subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=ROOT,
+        env=os.environ | {"PYTHONPATH": str(ROOT)}, start_new_session=True,
+    )  # fmt: skip
+
+
+def parts(out: Path) -> list[Path]:
+    """The files of finished batches beside an output."""
+    return sorted(out.with_name(f"{out.name}.parts").glob("*.parquet"))
+
+
+def counts(out: Path, size: int) -> np.ndarray:
+    """How many finished batches have each point."""
+    found = np.zeros(size, dtype=int)
+    for path in parts(out):
+        known = FILE.fullmatch(path.name)
+        assert known
+        found[int(known[1]) : int(known[2])] += 1
+    return found
+
+
+def journal(out: Path, size: int) -> np.ndarray:
+    """How often each point was computed and kept, by the journal."""
+    found = np.zeros(size, dtype=int)
+    for line in (out.with_name(f"{out.name}.parts") / "journal.txt").read_text().splitlines():
+        start, stop, computed, *_ = line.split()
+        assert int(computed) == int(stop) - int(start)
+        found[int(start) : int(stop)] += 1
+    return found

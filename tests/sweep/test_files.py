@@ -1,0 +1,280 @@
+"""What a study gives: every point is its simulation, in every format, and nothing is redone."""
+
+import csv
+import json
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+import platecontact as pc
+import pytest
+import xarray as xr
+from studies import NORMAL, QUICK, UNIFORM, counts, journal, parts, scene
+
+from derivation.cli import main
+from derivation.scene.result import UNITS
+from derivation.scene.rows import Rows
+from derivation.scene.scene import Scene
+from derivation.sweep import plan, run, store, write
+from derivation.sweep.dataset import data_set
+from derivation.sweep.distributions import read_distributions
+from derivation.sweep.study import Study
+
+Captured = pytest.CaptureFixture[str]
+GRID = {"impact.speed": [0.8, 1.0, 1.3], "plate.thickness": "0.15:0.25:2"}
+
+
+class Formula:
+    """Stands in for the simulation: quick, of known values, with failures, and counts points."""
+
+    def __init__(self) -> None:
+        self.calls = 0
+        self.broken = True
+
+    def __call__(
+        self, scene: Scene, columns: Mapping[str, np.ndarray], rtol: float | None = None
+    ) -> Rows:
+        del scene, rtol
+        first, second = (*columns.values(), 0.0)[:2]
+        self.calls += len(first)
+        value = np.asarray(first + 2 * np.asarray(second))
+        wrong = (np.round(value * 1e6).astype(int) % 7 == 0) & self.broken
+        numbers = {name: np.where(wrong, np.nan, value * i) for i, name in enumerate(UNITS, 1)}
+        bound = np.full(len(first), 1e-12)
+        status = np.where(wrong, "refused", "finished")
+        reason = np.array(['no, "so"\nnot' if w else "" for w in wrong], dtype=object)
+        effects = np.array(["hertz bending"] * len(first), dtype=object)
+        return Rows(numbers, bound, 0 * bound, status, reason, effects)
+
+
+@pytest.fixture
+def formula(monkeypatch: pytest.MonkeyPatch) -> Formula:
+    made = Formula()
+    monkeypatch.setattr(run, "solve", made)
+    return made
+
+
+def test_every_point_is_its_simulation() -> None:
+    data = pc.sweep(scene(), GRID)
+    for speed in GRID["impact.speed"]:
+        for thickness in (0.15, 0.25):
+            given = scene().to_json()
+            given["plate"].pop("half_thickness")
+            given["plate"]["thickness"] = thickness
+            given["impact"]["speed"] = speed
+            expected = pc.simulate(pc.read(given))
+            found = data.sel({"impact.speed": speed, "plate.thickness": thickness})
+            for name, unit in UNITS.items():
+                assert float(found[name]) == getattr(expected, name)
+                assert found[name].units == unit
+            assert found["status"].item() == "finished"
+            assert found["effects"].item().split() == list(expected.effects.included)
+            assert float(found["bound"]) == expected.accuracy.bound
+    assert data["impact.speed"].units == "m/s"
+    assert data["plate.thickness"].long_name == "full thickness of the plate"
+    assert json.loads(data.attrs["scene"]) == scene().to_json()
+
+
+def opened(path: Path) -> xr.Dataset:
+    """The Dataset in a file."""
+    if path.suffix == ".nc":
+        return xr.load_dataset(path)
+    return xr.open_zarr(path).load()
+
+
+@pytest.mark.parametrize("sample", [None, 50])
+@pytest.mark.parametrize("suffix", [".nc", ".zarr"])
+def test_files_hold_the_dataset(
+    formula: Formula, tmp_path: Path, suffix: str, sample: int | None,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:  # fmt: skip
+    monkeypatch.setattr(write, "BLOCK", 7)
+    vary = {"plate.thickness": UNIFORM, "impact.speed": NORMAL} if sample else {
+        "impact.speed": "1:3:5", "plate.thickness": "0.1:0.3:4", "sphere.radius": "0.1:0.2:3"
+    }  # fmt: skip
+    out = tmp_path / f"rows{suffix}"
+    made = pc.sweep(scene(), vary, sample=sample, out=out, rtol=0.5)
+    found = opened(out)
+    assert set(found.coords) == set(made.coords)
+    assert found.attrs == made.attrs
+    assert found.attrs["rtol"] == 0.5
+    assert found.attrs.get("seed") == (1 if sample else None)
+    for name in made.variables:
+        assert found[name].dims == made[name].dims
+        assert found[name].attrs == made[name].attrs
+        np.testing.assert_array_equal(found[name].astype(made[name].dtype), made[name])
+    assert {"finished", "refused"} == set(made["status"].values.ravel())
+    assert np.isnan(made["max_force"].values[made["status"].values == "refused"]).all()
+    assert formula.calls == made["max_force"].size
+
+
+@pytest.mark.usefixtures("formula")
+@pytest.mark.parametrize("suffix", [".csv", ".parquet"])
+def test_tables_hold_every_point(
+    tmp_path: Path, suffix: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    import pandas as pd
+
+    monkeypatch.setattr(write, "BLOCK", 7)
+    out = tmp_path / f"rows{suffix}"
+    made = pc.sweep(scene(), {"impact.speed": "1:3:5", "sphere.radius": "1:2:9"}, out=out)
+    found = pd.read_csv(out) if suffix == ".csv" else pd.read_parquet(out)
+    frame = made.to_dataframe().reset_index()
+    for name in frame:
+        if frame[name].dtype == float:
+            np.testing.assert_array_equal(found[name], frame[name])
+        else:
+            assert found[name].fillna("").tolist() == frame[name].tolist()
+    if suffix == ".csv":
+        assert len(list(csv.reader(out.open()))) == 46
+
+
+def test_a_second_call_computes_nothing_and_writes_the_same(
+    formula: Formula, tmp_path: Path
+) -> None:
+    out = tmp_path / "rows.csv"
+    for wanted in (40, 40):
+        pc.sweep(scene(), {"impact.speed": "1:3:40"}, out=out)
+        assert formula.calls == wanted
+    once = out.read_bytes()
+    parts(out)[1].unlink()
+    missing = int((counts(out, 40) == 0).sum())
+    pc.sweep(scene(), {"impact.speed": "1:3:40"}, out=out)
+    assert formula.calls == 40 + missing
+    assert out.read_bytes() == once
+
+
+def test_batches_of_other_points_do_not_count(formula: Formula, tmp_path: Path) -> None:
+    out = tmp_path / "rows.csv"
+    pc.sweep(scene(), {"impact.speed": "1:3:40"}, out=out)
+    wrong = parts(out)[0]
+    wrong.rename(wrong.with_name(wrong.name[:22] + "0" * 20 + ".parquet"))
+    pc.sweep(scene(), {"impact.speed": "1:3:40"}, out=out)
+    assert formula.calls == 40 + run.FIRST
+
+
+def test_retry_computes_the_failures_alone(formula: Formula, tmp_path: Path) -> None:
+    out, vary = tmp_path / "rows.nc", {"impact.speed": "1:3:400"}
+    failed = int((pc.sweep(scene(), vary, out=out)["status"] != "finished").sum())
+    assert failed > 20
+    formula.broken = False
+    data = pc.sweep(scene(), vary, out=out, retry=True)
+    assert formula.calls == 400 + failed
+    assert (data["status"] == "finished").all()
+    np.testing.assert_array_equal(data["contact_time"], data["impact.speed"])
+    assert (opened(out)["status"] == "finished").all()
+
+
+def test_a_killed_write_leaves_the_old_file(
+    formula: Formula, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    out, vary = tmp_path / "rows.csv", {"impact.speed": "1:3:40"}
+
+    def stop(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patch:
+        patch.setattr(store.Store, "tables", stop)
+        with pytest.raises(KeyboardInterrupt):
+            pc.sweep(scene(), vary, out=out)
+    assert not out.exists()
+    pc.sweep(scene(), vary, out=out)
+    assert formula.calls == 40
+    assert out.exists()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["--out", "rows.xls"], "expected a name ending in .nc, .zarr, .parquet, .csv"),
+        (["--sample", "10"], "--vary is of a grid"),
+        (["--plot", "rows.doc"], "expected a plot file"),
+        (["--result", "max_forc", "--plot", "rows.png"], "did you mean max_force?"),
+        (["--result", "max_force"], "expected --plot"),
+        (["--rtol", "2"], "1e-13"),
+        (["--vary", "plate.radius=1:2:2", "--vary", "sphere.radius=1:2:2", "--plot", "a.png"],
+         "expected one or two varied keys"),
+    ],
+)  # fmt: skip
+def test_what_is_refused_before_anything_is_computed(
+    formula: Formula, tmp_path: Path, capsys: Captured, monkeypatch: pytest.MonkeyPatch,
+    arguments: list[str], said: str,
+) -> None:  # fmt: skip
+    monkeypatch.chdir(tmp_path)
+    assert main(["sweep", str(QUICK), "--vary", "impact.speed=1:2:3", *arguments]) == 2
+    assert said in capsys.readouterr().err
+    assert not formula.calls
+    assert not list(tmp_path.iterdir())
+
+
+def test_outputs_of_another_study_are_refused(
+    formula: Formula, tmp_path: Path, capsys: Captured
+) -> None:
+    out = tmp_path / "rows.csv"
+    begin = ["sweep", str(QUICK), "--out", str(out), "--vary"]
+    assert main([*begin, "impact.speed=1:2:3"]) == 0
+    once = out.read_bytes()
+    assert main([*begin, "impact.speed=1:2:4"]) == 2
+    assert "those of another one" in capsys.readouterr().err
+    (tmp_path / "rows.csv.parts").rename(tmp_path / "elsewhere")
+    assert main([*begin, "impact.speed=1:2:3"]) == 2
+    assert "expected a new output or one of this study" in capsys.readouterr().err
+    assert (out.read_bytes(), formula.calls) == (once, 3)
+
+
+def test_a_study_of_refused_points_alone_fails(tmp_path: Path, capsys: Captured) -> None:
+    out = tmp_path / "rows.csv"
+    assert main(["sweep", str(QUICK), "--vary", "impact.speed=-3:-1:3", "--out", str(out)]) == 2
+    assert "expected a positive number" in capsys.readouterr().err
+    assert not out.exists()
+
+
+@pytest.mark.parametrize("keys", [1, 2])
+def test_a_study_is_drawn(formula: Formula, tmp_path: Path, keys: int) -> None:
+    place = tmp_path / "rows.png"
+    vary = ["--vary", "impact.speed=1:3:9:log", "--vary", "plate.thickness=0.1:0.2:4"][: 2 * keys]
+    assert main(["sweep", str(QUICK), *vary, "--plot", str(place)]) == 0
+    assert place.read_bytes().startswith(b"\x89PNG")
+    assert formula.calls
+
+
+def test_explain_computes_a_few_points_alone(
+    formula: Formula, capsys: Captured, tmp_path: Path
+) -> None:
+    place = tmp_path / "forecast.json"
+    vary = ["--vary", "impact.speed=1:3:1000", "--vary", "plate.thickness=0.1:0.2:1000"]
+    assert main(["sweep", str(QUICK), *vary, "--explain", "--json", str(place)]) == 0
+    assert "1,000,000 points" in capsys.readouterr().out
+    found = json.loads(place.read_text())
+    assert found["probes"] == 4
+    assert found["effects"]["hertz"] == 4
+    assert found["seconds"] > 0
+    assert not formula.calls
+
+
+@pytest.mark.parametrize("suffix", [".zarr", ".csv", ".parquet"])
+def test_memory_does_not_grow_with_the_study(
+    formula: Formula, tmp_path: Path, suffix: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Arrays of NumPy and Python's objects; pyarrow holds a block of its own."""
+    import tracemalloc
+
+    import pyarrow as pa
+
+    monkeypatch.setattr(write, "BLOCK", 2**9)
+    monkeypatch.setattr(run, "LARGEST", 2**9)
+    peaks = []
+    for size in (2**11, 2**13):
+        made = plan.sample(read_distributions({"impact.speed": NORMAL}), size, 1, "random")
+        held = store.Store(Study(scene(), made, None), tmp_path / f"{size}.parts")
+        pa.default_memory_pool().release_unused()
+        tracemalloc.start()
+        before = pa.total_allocated_bytes()
+        run.compute(held, 1, None, False, lambda *_: None)
+        write.write(held, tmp_path / f"{size}{suffix}", lambda *_: None)
+        peaks.append(tracemalloc.get_traced_memory()[1] + pa.total_allocated_bytes() - before)
+        tracemalloc.stop()
+        assert data_set(held).sizes == {"sample": size}
+    assert peaks[1] < 1.5 * peaks[0]
+    assert journal(tmp_path / f"{2**13}", 2**13).max() == 1
+    assert formula.calls == 2**11 + 2**13

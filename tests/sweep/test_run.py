@@ -1,0 +1,141 @@
+"""Runs that are killed or interrupted, and runs on a cluster that loses a worker."""
+
+import json
+import random
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+import platecontact as pc
+import pytest
+from studies import QUICK, begin, counts, journal, parts, scene
+
+from derivation.cli import main
+from derivation.engine.files import ROOT
+from derivation.sweep import run
+
+POINTS = 40
+STUDY = ("--vary", f"impact.speed=0.5:2:{POINTS}")
+PATIENCE = 100.0
+
+
+def wait(condition: Callable[[], object]) -> None:
+    """Wait until something is so."""
+    end = time.monotonic() + PATIENCE
+    while not condition():
+        assert time.monotonic() < end, "waited in vain"
+        time.sleep(0.02)
+
+
+def whole(path: Path) -> bytes:
+    """The file of the study without interruption."""
+    pc.sweep(scene(), {"impact.speed": f"0.5:2:{POINTS}"}, out=path)
+    return path.read_bytes()
+
+
+def test_a_run_killed_at_any_moment_goes_on_where_it_was(tmp_path: Path) -> None:
+    out, chance = tmp_path / "rows.csv", random.Random(1)
+    for _ in range(2):
+        before = len(parts(out))
+        process = begin(*STUDY, "--out", str(out))
+        wait(lambda before=before, process=process: len(parts(out)) > before or process.poll() == 0)
+        time.sleep(chance.uniform(0, 0.3))
+        process.kill()
+        process.communicate()
+        if not out.exists():
+            assert len(parts(out)) > before
+    assert main(["sweep", str(QUICK), *STUDY, "--out", str(out)]) == 0
+    assert (journal(out, POINTS) == 1).all()
+    assert (counts(out, POINTS) == 1).all()
+    assert out.read_bytes() == whole(tmp_path / "whole.csv")
+
+
+def test_an_interrupted_run_says_how_it_goes_on(tmp_path: Path) -> None:
+    out = tmp_path / "rows.csv"
+    process = begin("--vary", "impact.speed=0.5:2:20000", "--out", str(out))
+    wait(lambda: parts(out))
+    process.send_signal(signal.SIGINT)
+    _, said = process.communicate(timeout=PATIENCE)
+    assert process.returncode == 2
+    assert "Traceback" not in said
+    assert "of 20,000 points are kept in" in said
+    assert "the same command computes the others" in " ".join(said.split())
+    assert not out.exists()
+
+
+@contextmanager
+def ended(*commands: list[str]) -> Iterator[list["subprocess.Popen[bytes]"]]:
+    """Processes that end with the block."""
+    made = [
+        subprocess.Popen(
+            [sys.executable, "-m", "distributed.cli." + command[0], *command[1:]], cwd=ROOT,
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+        )
+        for command in commands
+    ]  # fmt: skip
+    try:
+        yield made
+    finally:
+        for process in made:
+            process.kill()
+            process.wait()
+
+
+def test_a_cluster_that_loses_a_worker_loses_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PYTHONPATH", str(ROOT))
+    where, out = tmp_path / "scheduler.json", tmp_path / "rows.csv"
+    scheduler = ["dask_scheduler", "--port", "0", "--no-dashboard", "--host", "127.0.0.1",
+                 "--scheduler-file", str(where)]  # fmt: skip
+    worker = ["dask_worker", "--scheduler-file", str(where), "--no-dashboard", "--nthreads", "1",
+              "--no-nanny"]  # fmt: skip
+    with ended(scheduler) as [first]:
+        wait(lambda: where.exists() and where.read_text())
+        address = json.loads(where.read_text())["address"]
+        with ended(worker, worker) as workers:
+            study = [*STUDY, "--out", str(out), "--scheduler", address]
+            process = begin(*study)
+            wait(lambda: len(parts(out)) >= 2)
+            workers[0].kill()
+            _, said = process.communicate(timeout=PATIENCE)
+            assert process.returncode == 0, said
+            assert (journal(out, POINTS) == 1).all()
+            assert out.read_bytes() == whole(tmp_path / "whole.csv")
+        first.kill()
+
+
+def test_a_scheduler_that_is_not_there(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(run, "PATIENCE", 1.0)
+    for address in ("tcp://127.0.0.1:9", "nowhere:x"):
+        arguments = ["--out", str(tmp_path / "rows.csv"), "--scheduler", address]
+        assert main(["sweep", str(QUICK), *STUDY, *arguments]) == 2
+        said = capsys.readouterr().err
+        assert "expected a Dask scheduler with a worker" in said
+        assert "Traceback" not in said
+
+
+def test_workers_of_another_version_are_refused() -> None:
+    columns = {"impact.speed": np.ones(1)}
+    with pytest.raises(pc.SceneError, match=r"expected version 0\.0\.1 of platecontact"):
+        run.solve_batch(scene().to_json(), columns, None, "0.0.1")
+
+
+def test_batches_take_about_the_time_that_they_are_to_take() -> None:
+    queue = run.Queue([(0, 10_000), (20_000, 120_000)], [])
+    done = np.zeros(120_000, dtype=int)
+    while batch := queue.next(4):
+        assert batch.count * 1e-3 <= run.BATCH_SECONDS
+        done[batch.start : batch.stop] += 1
+        queue.learn(batch.count, 1e-3 * batch.count)
+    assert queue.left == 0
+    assert (done[:10_000] == 1).all()
+    assert not done[10_000:20_000].any()
+    assert (done[20_000:] == 1).all()

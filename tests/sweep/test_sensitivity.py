@@ -1,0 +1,102 @@
+"""Sensitivity indices: those of functions whose indices are known."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import platecontact as pc
+import pytest
+from studies import QUICK, scene
+
+from derivation.cli import main
+from derivation.scene.result import UNITS
+from derivation.scene.rows import Rows
+from derivation.sweep import run, sensitivity
+
+SPREAD = {"distribution": "uniform", "low": 1.0, "high": 2.0}
+KEYS = ("impact.speed", "sphere.radius", "plate.radius")
+
+
+def rows(_: object, columns: dict[str, np.ndarray], __: object = None) -> Rows:
+    """Results that are a sum, a product, a constant, and noise below the bound."""
+    x, y, z = (columns[key] for key in KEYS)
+    made = [x + 2 * y, (x - 1.5) * (y - 1.5) + z, 0 * x + 1, 1 + 1e-9 * x, x, y, z]
+    texts = [np.full(len(x), text, dtype=object) for text in ("", "hertz")]
+    bound = np.full(len(x), 1e-6)
+    status = np.full(len(x), "finished")
+    return Rows(dict(zip(UNITS, made, strict=True)), bound, 0 * bound, status, *texts)
+
+
+def test_indices_of_known_functions(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(run, "solve", rows)
+    monkeypatch.setattr(sensitivity, "RESAMPLES", 100)
+    vary = dict.fromkeys(KEYS, SPREAD)
+    data = pc.sweep(scene(), vary, sample=1024, sensitivity=True)
+    assert data.sizes["sample"] == 1024 * 5
+    variance = 1 / 12
+    joint = variance**2 / (variance**2 + variance)
+    names = list(UNITS)
+    truth = {
+        names[0]: ([0.2, 0.8, 0], [0.2, 0.8, 0]),
+        names[1]: ([0, 0, 1 - joint], [joint, joint, 1 - joint]),
+        names[4]: ([1, 0, 0], [1, 0, 0]),
+    }
+    for name, (first, total) in truth.items():
+        one = data.sel(result=name)
+        np.testing.assert_allclose(one["first_order"].sel(key=list(KEYS)), first, atol=0.03)
+        np.testing.assert_allclose(one["total_order"].sel(key=list(KEYS)), total, atol=0.03)
+        for order in ("first_order", "total_order"):
+            assert (one[f"{order}_low"] <= one[order] + 1e-12).all()
+            assert (one[order] <= one[f"{order}_high"] + 1e-12).all()
+    for name in names[2:4]:
+        assert np.isnan(data.sel(result=name)["first_order"]).all()
+
+
+def test_intervals_cover_the_truth_as_often_as_they_say(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(run, "solve", rows)
+    monkeypatch.setattr(sensitivity, "RESAMPLES", 100)
+    inside = []
+    for seed in range(20):
+        data = pc.sweep(
+            scene(), dict.fromkeys(KEYS, SPREAD), sample=64, sensitivity=True, seed=seed
+        ).sel(result=next(iter(UNITS)), key="sphere.radius")
+        inside.append(data["first_order_low"] < 0.8 < data["first_order_high"])
+    assert sum(map(bool, inside)) >= 17
+
+
+def test_the_command_prints_and_draws_them(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(run, "solve", rows)
+    monkeypatch.setattr(sensitivity, "RESAMPLES", 100)
+    given = tmp_path / "vary.toml"
+    line = '{distribution = "uniform", low = 1, high = 2}'
+    given.write_text("[vary]\n" + "".join(f'"{key}" = {line}\n' for key in KEYS))
+    begin = ["sweep", str(QUICK), "--distributions", str(given), "--sample", "64"]
+    picture, place = tmp_path / "bars.png", tmp_path / "found.json"
+    more = ["--sensitivity", "--plot", str(picture), "--json", str(place)]
+    assert main([*begin, *more]) == 0
+    shown = capsys.readouterr().out
+    assert "from 320 runs" in shown
+    assert "no scatter" in shown
+    assert picture.read_bytes().startswith(b"\x89PNG")
+    found = json.loads(place.read_text())["sensitivities"]
+    assert len(found) == len(KEYS) * len(UNITS)
+
+
+def test_points_without_a_result_have_no_sensitivities(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def some(_: object, columns: dict[str, np.ndarray], __: object = None) -> Rows:
+        made = rows(_, dict.fromkeys(KEYS, columns["impact.speed"]))
+        status = np.where(columns["impact.speed"] > 0, "finished", "refused")
+        return replace(made, status=status)
+
+    monkeypatch.setattr(run, "solve", some)
+    given = tmp_path / "vary.toml"
+    given.write_text('[vary]\n"impact.speed" = {distribution = "normal", mean = 0.2, std = 0.2}\n')
+    begin = ["sweep", str(QUICK), "--distributions", str(given), "--sample", "8"]
+    assert main([*begin, "--sensitivity", "--out", str(tmp_path / "rows.csv")]) == 2
+    assert "expected every point to finish, but" in capsys.readouterr().err
+    assert (tmp_path / "rows.csv").exists()

@@ -5,7 +5,16 @@ from typing import Any
 from typer.core import TyperGroup
 
 GROUPS = {
-    "Scenes": ("simulate", "explain", "map", "indent", "reference", "materials", "schema"),
+    "Scenes": (
+        "examples",
+        "simulate",
+        "explain",
+        "map",
+        "indent",
+        "reference",
+        "materials",
+        "schema",
+    ),
     "Formulas": ("derive", "misprints", "diagnose", "rewrite"),
     "Checks": ("check", "benchmark"),
     "Papers (your own with --paper FOLDER)": ("build", "generate", "report", "new"),

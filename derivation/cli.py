@@ -15,6 +15,7 @@ from typer.exceptions import TyperException
 from typer.main import get_command
 
 from derivation.commands import check as check_command
+from derivation.commands import derive as derive_command
 from derivation.commands import examples as example_commands
 from derivation.commands import formulas as formula_commands
 from derivation.commands import materials as material_commands
@@ -81,24 +82,7 @@ def _program(
 command = partial(app.command, cls=Command)
 
 
-@command()
-def derive(paper: PaperFolder = None, json: Json = None) -> None:
-    """Derive all formulas from the equilibrium equations.
-
-    Each is shown with how it was verified.
-
-    Example: platecontact derive --json formulas.json
-    """
-    from derivation.engine import build
-
-    own = chosen(paper)
-    with stage("derive"):
-        found = build.formulas(own)
-    if put_json(lambda: [formula.to_json() for formula in found.values()], json):
-        rows = [(f.name, f.unit, f.equation, f.proof.step, f.proof.method) for f in found.values()]
-        table("Derived formulas", ("formula", "unit", "equation", "proof", "verified"), rows)
-
-
+command()(derive_command.derive)
 command()(paper_commands.generate)
 
 

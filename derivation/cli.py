@@ -6,6 +6,7 @@ Exit status: 0 fine, 1 a check failed or formulas differ, 2 bad input, 141 nobod
 import sys
 from collections.abc import Sequence
 from functools import partial
+from importlib.metadata import version
 from pathlib import Path
 from typing import Annotated
 
@@ -14,6 +15,8 @@ from typer.exceptions import TyperException
 from typer.main import get_command
 
 from derivation.commands import check as check_command
+from derivation.commands import derive as derive_command
+from derivation.commands import examples as example_commands
 from derivation.commands import formulas as formula_commands
 from derivation.commands import materials as material_commands
 from derivation.commands import paper as paper_commands
@@ -46,33 +49,41 @@ from derivation.scene.old_names import OldNameWarning
 
 app = typer.Typer(
     cls=Grouped,
-    no_args_is_help=True,
     add_completion=True,
     rich_markup_mode=None,
+    context_settings={"help_option_names": ["-h", "--help"]},
     help="Derive, generate, check and report the contact law of a sphere on an elastic plate.",
+    epilog="To complete commands and options with the Tab key, run `platecontact "
+    "--install-completion` once and open a new shell.",
 )
+
+
+def _show_version(wanted: bool) -> None:
+    """Print the version of the installed distribution."""
+    if wanted:
+        OUT.say(f"platecontact {version('platecontact')}")
+        raise typer.Exit
+
+
+@app.callback(invoke_without_command=True)
+def _program(
+    context: typer.Context,
+    version: Annotated[  # noqa: ARG001
+        bool,
+        typer.Option(
+            "--version", callback=_show_version, is_eager=True, help="Show the version and exit."
+        ),
+    ] = False,
+) -> None:
+    """Show the help if no command is given."""
+    if context.invoked_subcommand is None:
+        OUT.say(context.get_help())
+
 
 command = partial(app.command, cls=Command)
 
 
-@command()
-def derive(paper: PaperFolder = None, json: Json = None) -> None:
-    """Derive all formulas from the equilibrium equations.
-
-    Each is shown with how it was verified.
-
-    Example: platecontact derive --json formulas.json
-    """
-    from derivation.engine import build
-
-    own = chosen(paper)
-    with stage("derive"):
-        found = build.formulas(own)
-    if put_json(lambda: [formula.to_json() for formula in found.values()], json):
-        rows = [(f.name, f.unit, f.equation, f.proof.step, f.proof.method) for f in found.values()]
-        table("Derived formulas", ("formula", "unit", "equation", "proof", "verified"), rows)
-
-
+command()(derive_command.derive)
 command()(paper_commands.generate)
 
 
@@ -205,6 +216,7 @@ command()(scene_commands.explain)
 command("map")(scene_commands.map_)
 command()(scene_commands.indent)
 command()(material_commands.materials)
+command()(example_commands.examples)
 command()(scene_commands.schema)
 
 

@@ -84,3 +84,10 @@ def test_a_class_has_a_name_of_its_own() -> None:
                 if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
                     found.setdefault(node.name, []).append(path)
     assert {name for name, paths in found.items() if len(paths) > 1} == set(SHARED)
+
+
+def test_the_citation_names_the_version() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    lines = (ROOT / "CITATION.cff").read_text().splitlines()
+    assert f"title: {project['name']}" in lines
+    assert f"version: {project['version']}" in lines

@@ -6,6 +6,7 @@ from typer.core import TyperGroup
 
 GROUPS = {
     "Scenes": (
+        "examples",
         "simulate",
         "sweep",
         "explain",

@@ -17,7 +17,7 @@ Out = Annotated[
 def build(out: Out = None, paper: PaperFolder = None) -> None:
     """Run the main job, from derivation to report.
 
-    The exit status is 1 if an error is above its budget.
+    At the end the files written are listed. The exit status is 1 if an error is above its budget.
 
     Example: platecontact build
     """
@@ -25,7 +25,7 @@ def build(out: Out = None, paper: PaperFolder = None) -> None:
 
     alone(paper, "no other option", out)
     built = stages.build(chosen(paper), out, counted)
-    NOTES.say("\n".join(built.notes))
+    NOTES.say("\n".join([*built.notes, "files written:", *map(str, built.files)]))
     raise typer.Exit(0 if built.passed else 1)
 
 

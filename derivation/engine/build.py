@@ -54,10 +54,13 @@ class Built:
         Whether every function keeps its budget.
     notes
         What is to be said about it, in sentences.
+    files
+        The files written.
     """
 
     passed: bool
     notes: tuple[str, ...]
+    files: tuple[Path, ...]
 
 
 def build(paper: Paper, out: Path | None, timed: Timed) -> Built:
@@ -85,14 +88,19 @@ def build(paper: Paper, out: Path | None, timed: Timed) -> Built:
     with timed("rewrite"):
         rewrite(paper)
     with timed("generate"):
-        generate(paper, generated)
+        written = generate(paper, generated)
     with timed("misprints"):
         misprints(paper)
     with timed("check") as progress:
         rows = check(paper, update=not paper.committed, tell=progress)
     with timed("report"):
-        missing = _report_as_far_as_possible(paper, reports)
-    return Built(all(row.passed is not False for row in rows), (*missing, *verdict(paper, rows)))
+        reported, missing = _report_as_far_as_possible(paper, reports)
+    measured = () if paper.committed else (paper.measured,)
+    return Built(
+        all(row.passed is not False for row in rows),
+        (*missing, *verdict(paper, rows)),
+        (*written, *measured, *reported),
+    )
 
 
 # --- the stages
@@ -253,15 +261,20 @@ def verdict(paper: Paper, rows: "Sequence[Row]") -> list[str]:
     return lines
 
 
-def _report_as_far_as_possible(paper: Paper, out: Path | None) -> tuple[str, ...]:
-    """Write the report; without LaTeX all of it but the PDF, and say so."""
-    from derivation.engine.report.pdf import TexError
+def _report_as_far_as_possible(
+    paper: Paper, out: Path | None
+) -> tuple[tuple[Path, ...], tuple[str, ...]]:
+    """Write the report; without LaTeX all of it but the PDF, and say so.
 
+    Returns the files written and what is missing.
+    """
+    from derivation.engine.report.pdf import TexError, compile_pdf
+
+    written = report(paper, out, compiled=False)
     try:
-        report(paper, out)
+        return (*written, compile_pdf(written[0])), ()
     except TexError as error:
-        return (f"no PDF, all else is there: {error}",)
-    return ()
+        return written, (f"no PDF, all else is there: {error}",)
 
 
 def _forget(target: str) -> None:

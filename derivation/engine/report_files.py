@@ -89,7 +89,7 @@ def write(
     if out is None and not sections:
         contents.update(own.beside(paper.folder))
     write_files(contents)
-    return (*written, *([pdf.compile_pdf(written[0])] if compiled else []))
+    return (*contents, *([pdf.compile_pdf(written[0])] if compiled else []))
 
 
 def freshness(paper: Paper, out: Path | None, mend: str) -> Freshness:

@@ -14,11 +14,12 @@ import pytest
 from derivation.checks import moving_costs
 from derivation.cli import main
 from derivation.engine import build, outputs, report_files
-from derivation.engine.files import ROOT
+from derivation.engine.files import ROOT, write_files
 from derivation.engine.measure.check import Row
 from derivation.engine.measure.judge import Errors, Worst
 from derivation.engine.package import files_of
 from derivation.engine.paper import Paper
+from derivation.engine.report import pdf as tex
 from derivation.engine.report.pdf import TexError
 from derivation.engine.rewrite import account as rules
 from derivation.engine.rewrite.account import Account
@@ -110,15 +111,20 @@ def test_build_goes_through_every_stage(
         assert (tmp_path / "generated" / "pressure.py").is_file()
         return rows_of(kept)
 
-    def reported(_: Paper, out: Path | None) -> Sequence[Path]:
+    def reported(_: Paper, out: Path | None, compiled: bool) -> Sequence[Path]:
         made.append("report")
         assert out == tmp_path / "reports"
+        assert not compiled
+        return write_files({out / "report.tex": "", out / "figures" / "overview.pdf": ""})
+
+    def typeset(source: Path) -> Path:
         if not pdf:
             raise TexError("no latexmk: install texlive")
-        return ()
+        return write_files({source.with_suffix(".pdf"): ""})[0]
 
     monkeypatch.setattr(build, "check", checked)
     monkeypatch.setattr(build, "report", reported)
+    monkeypatch.setattr(tex, "compile_pdf", typeset)
     assert main(["build", "--out", str(tmp_path)]) == (0 if kept else 1)
     assert made == ["check", "report"]
     written = {path.name: path.read_text() for path in (tmp_path / "generated").iterdir()}
@@ -129,6 +135,8 @@ def test_build_goes_through_every_stage(
     assert ("no PDF, all else is there: no latexmk" in said) is not pdf
     assert ("beyond their budget: P" in said) is not kept
     assert "not as committed in check.json: P" in said  # these errors are made up
+    listed = said.partition("files written:\n")[2].splitlines()
+    assert sorted(listed) == sorted(str(p) for p in tmp_path.rglob("*") if p.is_file())
 
 
 def test_an_installed_copy_builds_into_a_folder_named(monkeypatch: Patch, capsys: Captured) -> None:

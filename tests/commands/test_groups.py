@@ -1,10 +1,13 @@
 """The help of the command line: every command once, each line whole."""
 
+import tomllib
+
 import pytest
 from typer.main import get_command
 
 from derivation.cli import app, main
 from derivation.commands.groups import GROUPS
+from derivation.engine.files import ROOT
 
 
 def test_every_command_is_in_one_group() -> None:
@@ -21,3 +24,30 @@ def test_no_line_is_cut(command: str, capsys: pytest.CaptureFixture[str]) -> Non
     assert all(len(line) <= 80 for line in shown.splitlines())
     for title in GROUPS if not command else ["Commands"]:
         assert f"{title}:" in shown
+
+
+def test_the_version_is_that_of_the_distribution(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["--version"]) == 0
+    name, number = capsys.readouterr().out.split()
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    assert (name, number) == (project["name"], project["version"])
+
+
+def test_without_a_command_the_help_is_the_result(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([]) == 0
+    shown = capsys.readouterr()
+    assert main(["--help"]) == 0
+    assert shown.out == capsys.readouterr().out
+    assert shown.err == ""
+    assert "Tab key" in shown.out
+    assert "--install-completion" in shown.out.partition("Tab key")[2]
+
+
+@pytest.mark.parametrize("command", ["", "simulate", "check", "check timing", "examples"])
+def test_the_short_option_shows_the_same_help(
+    command: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([*command.split(), "-h"]) == 0
+    shown = capsys.readouterr().out
+    assert main([*command.split(), "--help"]) == 0
+    assert shown == capsys.readouterr().out

@@ -1,4 +1,4 @@
-"""Arithmetics for one and the same method: NumPy floats of any width, mpmath, and Arb balls.
+"""One method in several kinds of arithmetic: NumPy floats of any width, mpmath, and Arb balls.
 
 Each knows zeros of J0, s(y) = sin y - y cos y and its hyperbolic counterpart, and the
 plate factor, to its own precision; arrays hold its numbers.

@@ -24,7 +24,7 @@ TICKS = (0, 3, 6, 9, 12, 15, 30, 100, 1000)
 DOUBLE = 16.0
 """Digits of a double; beyond, the axis is logarithmic."""
 
-ARITHMETICS = {"float32": "s", "float64": "o", "long double": "D", "mpmath": "^", "Arb": "v"}
+MARKERS = {"float32": "s", "float64": "o", "long double": "D", "mpmath": "^", "Arb": "v"}
 """Markers; only doubles are joined by lines and filled."""
 
 COLOURS = (*mpl.color_sequences["tab10"], *mpl.color_sequences["Dark2"])
@@ -85,7 +85,7 @@ def draw_panel(
         x, y = np.array(points).T
         double = arithmetic == "float64"
         ax.plot(
-            x, y, "-" if double else " ", marker=ARITHMETICS[arithmetic], ms=3,
+            x, y, "-" if double else " ", marker=MARKERS[arithmetic], ms=3,
             color=colours[family], mfc=colours[family] if double else "none",
         )  # fmt: skip
     most = max((row["errors"]["total"] for row in rows), default=0.0)
@@ -130,11 +130,11 @@ def pareto_front(rows: Sequence[Row], kind: str) -> list[tuple[float, float]]:
 
 
 def keys(rows: Sequence[Row], colours: Mapping[str, Any]) -> Iterator[Line2D]:
-    """Entries of the legend: families by colour, arithmetics by marker, the front."""
+    """Entries of the legend: families by colour, kinds of arithmetic by marker, the front."""
     for family, colour in colours.items():
         yield Line2D([], [], color=colour, marker="o", ms=3, label=family)
     used = {row["arithmetic"].split(",")[0] for row in rows}
-    for name, marker in ARITHMETICS.items():
+    for name, marker in MARKERS.items():
         if name in used and name != "float64":
             yield Line2D([], [], color="0.3", marker=marker, ms=3, mfc="none", lw=0, label=name)
     yield Line2D([], [], color="0.8", lw=3, label="nothing is cheaper")
@@ -142,10 +142,10 @@ def keys(rows: Sequence[Row], colours: Mapping[str, Any]) -> Iterator[Line2D]:
 
 def scaling(data: Mapping[str, Any]) -> Figure:
     """Time over points, thinness, digits and scenes, with the straight part's slope."""
-    whats = list(dict.fromkeys(growth["what"] for growth in data["scaling"]))
+    titles = list(dict.fromkeys(growth["what"] for growth in data["scaling"]))
     with mpl.rc_context(STYLE | {"font.size": 8}):
         figure = Figure(figsize=(6.5, 4.6), layout="constrained")
-        for ax, what in zip(figure.subplots(2, 2).flat, whats, strict=True):
+        for ax, what in zip(figure.subplots(2, 2).flat, titles, strict=True):
             for growth in data["scaling"]:
                 if growth["what"] == what:
                     draw_growth(ax, growth)

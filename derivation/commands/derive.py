@@ -1,0 +1,106 @@
+"""The command `platecontact derive`: a table of all formulas, or all about one of them."""
+
+from difflib import get_close_matches
+from textwrap import wrap
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from derivation.commands.options import PaperFolder, chosen
+from derivation.engine.console import OUT, Json, put_json, stage
+from derivation.engine.text import WIDTH, aligned, paragraph
+
+if TYPE_CHECKING:
+    from derivation.engine.about import About
+    from derivation.engine.formula.record import Record
+
+HEADS = ("formula", "unit", "eq.", "meaning")
+NEAR = 3
+"""Names suggested for one that is not known."""
+
+
+def derive(
+    name: Annotated[
+        str | None, typer.Argument(metavar="NAME", help="Show all about this formula alone.")
+    ] = None,
+    paper: PaperFolder = None,
+    json: Json = None,
+) -> None:
+    """Derive all formulas from the equilibrium equations.
+
+    Each is shown with its unit, its equation in the paper and its meaning. With NAME: one formula,
+    its equation as text and LaTeX, its proof, and what it follows from.
+
+    Example: platecontact derive K_j
+    """
+    from derivation.engine import build
+    from derivation.engine.about import about
+
+    own = chosen(paper)
+    with stage("derive"):
+        found = build.formulas(own)
+    if name is None:
+        if put_json(lambda: [formula.to_json() for formula in found.values()], json):
+            OUT.say(_table(list(found.values())))
+            OUT.say("\nTo see one of them: platecontact derive NAME")
+        return
+    if name not in found:
+        near = get_close_matches(name, found, NEAR, cutoff=0.4)
+        meant = f"did you mean {', '.join(near)}? " if near else ""
+        raise ValueError(
+            f"no formula {name!r}: {meant}expected one that `platecontact derive` lists"
+        )
+    of = about(own, name)
+    if put_json(of.to_json, json):
+        OUT.say(_one(of))
+
+
+def _table(formulas: "list[Record]") -> str:
+    """Return the table of formulas, at most 80 columns wide; long meanings take several lines."""
+    from derivation.engine.formula.notation import to_plain
+
+    starts = [(f.name, f.unit, f.equation) for f in formulas]
+    columns = zip(HEADS[:3], zip(*starts, strict=True), strict=True)
+    taken = sum(max(len(text) for text in (head, *cells)) + 2 for head, cells in columns)
+    rows = []
+    for start, formula in zip(starts, formulas, strict=True):
+        first, *others = wrap(to_plain(formula.meaning), WIDTH - taken) or [""]
+        rows.append((*start, first))
+        rows += [("", "", "", line) for line in others]
+    return aligned(HEADS, rows)
+
+
+def _one(of: "About") -> str:
+    """Return all about a formula; equations stay on one line, so that they can be copied."""
+    formula, shown = of.formula, of.formula.to_json()
+    proof = formula.proof
+    equation = f"equation ({formula.equation}) of the paper" if formula.equation else ""
+    index = formula.vocabulary.indices[:1]
+    summed = [f"The quantity is the sum of this over {index} = 1, 2, ..."] if formula.summed else []
+    symbols = [f"{x.name} [{x.unit}]: {meaning}" for x, meaning in of.arguments]
+    parts = {
+        "Link of the chain": [of.link],
+        "Arguments": symbols,
+        "Domain": [", ".join(formula.domain)] if formula.domain else [],
+        f"Proved {proof.method}": [f"{proof.step}. {of.argument}"],
+        "Reduced to zero": list(proof.residuals),
+        "Follows from": [", ".join(formula.sources) or "nothing before it"],
+        "Used by": [", ".join(of.used_by) or "no other formula"],
+        "Sources": list(of.references),
+    }
+    lines = [
+        paragraph(f"{formula.name} [{formula.unit}]: {shown['meaning']}"),
+        *([paragraph(equation)] if equation else []),
+        "",
+        f"{formula.name} = {shown['expression']}",
+        *summed,
+        "",
+        str(shown["latex"]),
+        "",
+    ]
+    for title, texts in parts.items():
+        if len(texts) == 1:
+            lines.append(paragraph(f"{title}: {texts[0]}"))
+        elif texts:
+            lines += [f"{title}:", *(f"  {paragraph(text, 4)}" for text in texts)]
+    return "\n".join(lines)

@@ -1,0 +1,45 @@
+"""The command `platecontact examples`, which lists the example scenes and copies them."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from derivation.engine.console import NOTES, OUT, Json, put_json
+from derivation.engine.text import aligned
+
+
+def examples(
+    name: Annotated[
+        list[str] | None, typer.Argument(metavar="NAME", help="Copy these examples.")
+    ] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", metavar="DIR", help="Copy here instead of the current folder."),
+    ] = None,
+    force: Annotated[bool, typer.Option("--force", help="Replace files that exist.")] = False,
+    json: Json = None,
+) -> None:
+    """List the example scenes, or copy them.
+
+    Example: platecontact examples glass_pane paper --out scenes
+    """
+    from derivation.scene import SceneError
+    from derivation.scene.example_scenes import copy
+    from derivation.scene.example_scenes import examples as known
+
+    if not name:
+        if out is not None or force:
+            raise SceneError(
+                "--out and --force apply to examples that are copied, but none is named; name one"
+            )
+        found = tuple(known().values())
+    else:
+        found = copy(name, out or Path(), force)
+    if not put_json(lambda: [example.to_json() for example in found], json):
+        return
+    if name:
+        NOTES.say("\n".join(str(example.file) for example in found))
+        return
+    OUT.say(aligned(("example", "shows"), [(each.name, each.description) for each in found]))
+    OUT.say("\nTo copy examples: platecontact examples NAME... [--out DIR]")

@@ -1,0 +1,73 @@
+"""All that is known of one formula: its link, what it rests on, and what rests on it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from derivation.engine.formula.notation import to_plain
+from derivation.engine.formula.record import Record
+from derivation.engine.formula.vocabulary import Argument
+from derivation.engine.paper import Paper
+
+
+@dataclass(frozen=True)
+class About:
+    """A formula with its place in the chain.
+
+    Parameters
+    ----------
+    formula
+        The formula.
+    link
+        Name of the link of the chain that derives it.
+    used_by
+        Names of the formulas that are derived from it.
+    references
+        The literature that the link rests on, a text for each source.
+    """
+
+    formula: Record
+    link: str
+    used_by: tuple[str, ...]
+    references: tuple[str, ...]
+
+    @property
+    def argument(self) -> str:
+        """The argument of the proof as plain text."""
+        return to_plain(self.formula.proof.argument)
+
+    @property
+    def arguments(self) -> tuple[tuple[Argument, str], ...]:
+        """The symbols that the formula depends on, each with its meaning as plain text."""
+        return tuple((symbol, to_plain(symbol.meaning)) for symbol in self.formula.arguments)
+
+    def to_json(self) -> dict[str, object]:
+        """Return the formula as data, with its place in the chain."""
+        place = {"link": self.link, "used_by": self.used_by, "references": self.references}
+        return self.formula.to_json() | place
+
+
+def about(paper: Paper, name: str) -> About:
+    """Return all about a formula of a paper.
+
+    Raises
+    ------
+    KeyError
+        If the paper has no formula of that name.
+    """
+    found = paper.chain.found()
+    links = {formula.name: link for link, formulas in found for formula in formulas}
+    used_by = [f.name for _, formulas in found for f in formulas if name in f.sources]
+    references = paper.report().prose.references
+    sources = [references.entries[key] for key in references.cited(links[name])]
+    return About(
+        paper.chain.formulas()[name],
+        links[name],
+        tuple(used_by),
+        tuple(_source(entry) for entry in sources),
+    )
+
+
+def _source(entry: Mapping[str, str]) -> str:
+    """Return a source as a text: authors, title and year, as far as they are known."""
+    authors = entry.get("author", "").strip("{}").replace(" and ", "; ")
+    return ", ".join(text for text in (authors, entry["title"], entry.get("year", "")) if text)

@@ -1,0 +1,71 @@
+"""The command `derive`: a table of 80 columns, and all about one formula."""
+
+import json
+
+import pytest
+
+from derivation.cli import main
+from derivation.engine.about import about
+from derivation.engine.build import formulas
+from derivation.engine.formula.notation import to_plain
+from derivation.plate.paper import PAPER
+
+Captured = pytest.CaptureFixture[str]
+
+
+def test_every_formula_is_in_the_table_with_its_meaning(
+    capsys: Captured, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("COLUMNS", "200")
+    assert main(["derive"]) == 0
+    shown = capsys.readouterr().out
+    lines = shown.splitlines()
+    assert max(map(len, lines)) <= 80
+    start = lines[0].index("meaning")
+    cells = " ".join(line[start:].strip() for line in lines[2:])
+    for formula in formulas(PAPER).values():
+        assert sum(line.startswith(f"{formula.name} ") for line in lines) == 1
+        assert to_plain(formula.meaning) in cells
+
+
+def test_one_formula_is_shown_with_what_diagnose_accepts(capsys: Captured) -> None:
+    """The equation printed as text is read again and is equal to the derived one."""
+    assert main(["derive", "K_j"]) == 0
+    shown = capsys.readouterr().out
+    formula = formulas(PAPER)["K_j"]
+    [text] = [line for line in shown.splitlines() if line.startswith("K_j = 4*")]
+    assert main(["diagnose", "K_j", "--formula", text.removeprefix("K_j = ")]) == 0
+    assert f"{formula.latex} = {formula.right_hand_side}" in shown.splitlines()
+    assert "K_j [m]: " in shown
+    assert formula.proof.step in shown
+    for name in (*formula.sources, *formula.domain, *formula.proof.residuals):
+        assert name in shown
+
+
+def test_its_place_in_the_chain_is_data_too(capsys: Captured) -> None:
+    assert main(["derive", "K_j", "--json", "-"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["name"] == "K_j"
+    assert found["link"] == "contact law"
+    assert found["unit"] == "m"
+    for name in found["sources"]:
+        assert "K_j" in about(PAPER, name).used_by
+    for name in found["used_by"]:
+        assert "K_j" in formulas(PAPER)[name].sources
+
+
+@pytest.mark.parametrize("name", ["delta", "restitution_weak", "damped_motion", "radial_ode"])
+def test_formulas_of_every_kind_are_shown(name: str, capsys: Captured) -> None:
+    assert main(["derive", name]) == 0
+    shown = capsys.readouterr().out
+    of = about(PAPER, name)
+    assert f"Link of the chain: {of.link}\n" in shown
+    assert all(source.partition(",")[0] in shown for source in of.references)
+    assert ("sum of this over" in shown) is of.formula.summed
+
+
+def test_an_unknown_formula_is_told_the_nearest(capsys: Captured) -> None:
+    assert main(["derive", "Kj"]) == 2
+    said = capsys.readouterr()
+    assert "did you mean K_j" in said.err
+    assert said.out == ""

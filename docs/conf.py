@@ -22,7 +22,7 @@ extensions = [
     "numpydoc",
     "docs.generators.sphinx_hooks",
 ]
-exclude_patterns = ["generators"]
+exclude_patterns = ["gallery/*.py", "generators"]
 templates_path: list[str] = []
 
 myst_enable_extensions = ["attrs_inline", "dollarmath"]

@@ -18,6 +18,7 @@ PARTS = {
     "effect_choice": "effects.choice",
     "effect_example": "effects.example",
     "materials": "materials.text",
+    "gallery": "gallery.text",
     "costs": "costs.law",
     "dynamic_costs": "costs.inertia",
     "misprints": "misprints.text",

@@ -5,6 +5,7 @@ from typing import Any
 
 import platecontact as pc
 
+from derivation.scene.scene import TABLES, Material
 from docs.generators.markdown import anchored, code, table
 
 HEADS = ("key", "meaning", "unit", "allowed", "default", "example")
@@ -23,10 +24,25 @@ def text() -> str:
         about = _sentence(entry.get("description") or shape["description"])
         parts += [
             f"(table-{name})=\n## `[{title}]`",
-            f"{about} This table is {needed}.",
+            f"{about} This table is {needed}. {groups(name)}".rstrip(),
             table(HEADS, (_row(name, key, shape) for key in shape["properties"])),
         ]
     return "\n\n".join(parts)
+
+
+def groups(name: str) -> str:
+    """Return which keys of a table exclude one another, and of which one is required."""
+    shape = TABLES.get(name, Material)
+    required = "Exactly one of these is required"
+    if shape.stand_in is not None:
+        required += f", or `{shape.stand_in}` without any of them"
+    rules = [(required, choice) for choice in shape.choices]
+    rules += [("At most one of these may be given", choice) for choice in shape.options]
+    return " ".join(f"{said}: {', or '.join(map(_together, keys))}." for said, keys in rules)
+
+
+def _together(names: tuple[str, ...]) -> str:
+    return " with ".join(map(code, names))
 
 
 def keys() -> list[str]:

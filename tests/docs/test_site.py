@@ -4,15 +4,17 @@ CI builds the whole site with warnings as errors (`.ci/run`): that takes too lon
 """
 
 import re
+import runpy
 from pathlib import Path
 
+import numpy as np
 import platecontact as pc
 import pytest
 
 from derivation.engine.files import ROOT
 from derivation.scene.effects import EFFECTS
 from derivation.scene.materials import MATERIALS
-from docs.generators import PARTS, part, used
+from docs.generators import PARTS, gallery, part, used
 from docs.generators.sphinx_hooks import escape_bars, problems
 
 PAGES = {page: page.read_text() for page in sorted((ROOT / "docs").rglob("*.md"))}
@@ -84,6 +86,22 @@ def test_a_wrong_link_and_a_foreign_file_are_found(tmp_path: Path) -> None:
     found = "\n".join(problems(tmp_path))
     assert len(found.splitlines()) == 3
     assert all(text in found for text in ("x.js", "#there", "b.html"))
+
+
+def test_a_table_says_which_keys_exclude_one_another() -> None:
+    text = part("scene_keys")
+    assert "Exactly one of these is required: `half_thickness`, or `thickness`." in text
+
+
+@pytest.mark.parametrize("script", gallery.scripts(), ids=lambda script: script.stem)
+def test_a_figure_has_curves_with_units(script: Path) -> None:
+    axes = runpy.run_path(str(script))["figure"].axes
+    assert axes
+    for drawn in axes:
+        assert all(np.isfinite(line.get_ydata()).all() for line in drawn.lines)
+        assert len(drawn.lines) > 0
+        assert "[" in drawn.get_xlabel()
+        assert "[" in drawn.get_ylabel()
 
 
 def test_bars_are_kept() -> None:

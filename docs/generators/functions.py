@@ -33,8 +33,11 @@ def api() -> str:
 def generated() -> str:
     """Return the entries of the generated functions, module by module."""
     parts, found = [], dict(modules())
-    rows = ((f"[`{name}`](#module-{name.replace('_', '-')})", _first(name)) for name in found)
-    parts.append(table(("module", "content"), rows))
+    rows = (
+        (f"[`{module}`](#module-{module.replace('_', '-')})", _first(module), _links(module, names))
+        for module, names in found.items()
+    )
+    parts.append(table(("module", "content", "functions"), rows))
     for module, names in found.items():
         parts += [
             f"(module-{module.replace('_', '-')})=\n## `generated.{module}`",
@@ -72,6 +75,10 @@ def _own(module: str) -> Iterator[str]:
 
 def _first(module: str) -> str:
     return (inspect.getdoc(import_module(f"generated.{module}")) or "").partition("\n")[0]
+
+
+def _links(module: str, names: Iterable[str]) -> str:
+    return ", ".join(f"{{py:obj}}`~generated.{module}.{name}`" for name in names)
 
 
 def _summary(module: str, names: Iterable[str]) -> str:

@@ -4,6 +4,7 @@ import ast
 import io
 import runpy
 from pathlib import Path
+from typing import Any
 
 import matplotlib as mpl
 
@@ -13,7 +14,7 @@ from docs.generators.markdown import block
 FOLDER = Path(__file__).parent.parent / "gallery"
 FIGURES = FOLDER / "figures"
 """Where figures are written when the site is built; no file of it is committed."""
-STYLE = {"svg.hashsalt": "platecontact", "axes.grid": True, "grid.alpha": 0.3}
+STYLE: dict[Any, Any] = {"svg.hashsalt": "platecontact", "axes.grid": True, "grid.alpha": 0.3}
 
 
 def text() -> str:

@@ -1,0 +1,110 @@
+"""The documentation site: what its generated parts hold, and that its hooks find what is wrong.
+
+CI builds the whole site with warnings as errors (`.ci/run`): that takes too long for a test.
+"""
+
+import re
+import runpy
+from pathlib import Path
+
+import numpy as np
+import platecontact as pc
+import pytest
+
+from derivation.engine.files import ROOT
+from derivation.scene.effects import EFFECTS
+from derivation.scene.materials import MATERIALS
+from docs.generators import PARTS, gallery, part, used
+from docs.generators.sphinx_hooks import escape_bars, problems
+
+PAGES = {page: page.read_text() for page in sorted((ROOT / "docs").rglob("*.md"))}
+LINK = re.compile(r"\]\(([^)\s]+)\)")
+CODE = re.compile(r"^```.*?^```|`[^`\n]+`", re.MULTILINE | re.DOTALL)
+
+
+def test_every_part_is_used_once() -> None:
+    assert sorted(name for text in PAGES.values() for name in used(text)) == sorted(PARTS)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_a_link_to_a_page_leads_to_one(page: Path) -> None:
+    for link in LINK.findall(CODE.sub("", PAGES[page])):
+        if not re.match(r"https?:|#", link):
+            assert (page.parent / link.partition("#")[0]).is_file(), link
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_a_page_is_in_a_table_of_contents(page: Path) -> None:
+    if page.parent == ROOT / "docs":
+        assert "```{toctree}\n:hidden:\n:glob:\n\n*\n```" in PAGES[page.parent / "index.md"]
+    else:
+        assert f"\n{page.stem}\n" in PAGES[page.parent / "index.md"] or page.stem == "index"
+
+
+def test_scene_keys_are_those_that_a_scene_accepts() -> None:
+    text = part("scene_keys")
+    shown = set(re.findall(r"\{#key-(\w+)-([\w-]+)\}", text))
+    for name, table in (("sphere", pc.Sphere), ("plate", pc.Plate), ("accuracy", pc.Accuracy)):
+        accepted = {key.replace("_", "-") for key in table.model_fields}
+        assert {key for of, key in shown if of == name} == accepted
+    row = next(line for line in text.splitlines() if "{#key-plate-poissons-ratio}" in line)
+    assert "> -1, < 0.5" in row
+    row = next(line for line in text.splitlines() if "{#key-impact-speed}" in line)
+    assert "**required**" in row
+    assert "`m/s`" in row
+
+
+def test_every_effect_and_material_has_its_place() -> None:
+    table, entries, choice = part("effects_table"), part("effects"), part("effect_choice")
+    for effect in EFFECTS:
+        anchor = f"effect-{effect.name}".replace("_", "-")
+        assert f"(#{anchor})" in table
+        assert f"(#{anchor})" in choice
+        assert f"({anchor})=" in entries
+        assert effect.equation in entries
+    for name in MATERIALS:
+        assert f"| `{name}` |" in part("materials")
+
+
+def test_every_command_and_function_has_its_place() -> None:
+    commands = part("commands")
+    for name in ("simulate", "check hard-cases", "diagnose"):
+        assert f"`platecontact {name}`" in commands
+        assert f"Usage: platecontact {name} " in commands
+    for name in pc.__all__:
+        assert re.search(rf"auto\w+:: platecontact\.{name}\b", part("api"))
+    assert "autofunction:: generated.contact_law.indentation" in part("functions")
+    for status in ("0", "1", "2"):
+        assert f"| `{status}` |" in part("exit_status")
+
+
+def test_a_wrong_link_and_a_foreign_file_are_found(tmp_path: Path) -> None:
+    (tmp_path / "a.html").write_text(
+        '<script src="https://example.org/x.js"></script><p id="here"></p>'
+        '<a href="#here"></a><a href="#there"></a><a href="b.html"></a>'
+    )
+    found = "\n".join(problems(tmp_path))
+    assert len(found.splitlines()) == 3
+    assert all(text in found for text in ("x.js", "#there", "b.html"))
+
+
+def test_a_table_says_which_keys_exclude_one_another() -> None:
+    text = part("scene_keys")
+    assert "Exactly one of these is required: `half_thickness`, or `thickness`." in text
+
+
+@pytest.mark.parametrize("script", gallery.scripts(), ids=lambda script: script.stem)
+def test_a_figure_has_curves_with_units(script: Path) -> None:
+    axes = runpy.run_path(str(script))["figure"].axes
+    assert axes
+    for drawn in axes:
+        assert all(np.isfinite(line.get_ydata()).all() for line in drawn.lines)
+        assert len(drawn.lines) > 0
+        assert "[" in drawn.get_xlabel()
+        assert "[" in drawn.get_ylabel()
+
+
+def test_bars_are_kept() -> None:
+    lines = ["of |F| and |x J_1(x)/J_0(x)|", "    |code|", "``|set|``"]
+    escape_bars(None, "", "", None, None, lines)  # type: ignore[arg-type]
+    assert lines == ["of ``|F|`` and ``|x J_1(x)/J_0(x)|``", "    |code|", "``|set|``"]

@@ -208,8 +208,6 @@ def _row(
     elif choice[name] != "auto":
         worst = max(outputs, key=lambda output: error_of(state, [effect], [output]))
         why = _forced(bool(choice[name]), bound, worst)
-    elif name in found.cheaper:
-        why = "not required, but the whole plate is cheaper to compute than a part of it"
     elif name in found.required:
         why = f"required by {found.required[name]}"
     elif name in found.blocked:

@@ -33,8 +33,8 @@ _NEWTON = 5
 _CLOSE = 1e-9
 """A step whose square, which is what the next would be, is far below rounding."""
 _CLOSEST = 4e-16
-"""A step as small as rounding: where the pressure is solved for, whose slope is not exact, and on
-a half-space, whose contact time is the unit of time of plates with inertia."""
+"""A step as small as rounding: where the pressure is solved for, whose slope is not exact, with a
+weight, and on a half-space, whose contact time is the unit of time of plates with inertia."""
 
 
 @dataclass(frozen=True)
@@ -156,6 +156,12 @@ def largest_radius(
     return float(a)
 
 
+def closeness(law: ContactLaw) -> float:
+    """The step at which the iteration for a law's largest radius ends [1]."""
+    exact = law.solved or np.any(law.gravity) or not law.plate_effects
+    return _CLOSEST if exact else _CLOSE
+
+
 def largest_radii(
     law: ContactLaw, n: int = NODES[0], start: Array | None = None, close: float = _CLOSE
 ) -> Array:
@@ -224,7 +230,7 @@ def impact(law: ContactLaw) -> Motion:
         If the contact radius reaches the law's limit, or a result is no number above zero.
     """
     before: Motion | None = None
-    a, close = math.inf, _CLOSEST if law.solved or not law.plate_effects else _CLOSE
+    a, close = math.inf, closeness(law)
     for n, times in [(n, n) for n in NODES] + [(NODES[1], n) for n in MORE_TIMES]:
         try:
             a = largest_radius(law, n, a, close)

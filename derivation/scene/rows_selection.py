@@ -16,7 +16,7 @@ from derivation.scene.law import ContactLaw
 from derivation.scene.model import Model
 from derivation.scene.omission_bounds import LargestContact, errors_of, sizes_of, state_of
 from derivation.scene.scene import SceneError
-from derivation.scene.selection import Candidates, candidates_of, cheaper_with
+from derivation.scene.selection import Candidates, candidates_of
 
 NEAR = 1e-9
 """Relative distance from a tolerance within which rounding could decide, and one scene does."""
@@ -125,11 +125,6 @@ def _step(
     if not kept.any():
         return None, others
     law, error, rows = law.take(kept), error[kept], rows[kept]
-    cheaper = cheaper_with(law, candidates)
-    if cheaper:
-        law, error = _cheaper(given, law, cheaper, outputs)
-        kept = error < limit[kept] * (1.0 - NEAR)
-        law, error, rows = law.take(kept), error[kept], rows[kept]
     disabled = (e for e in given.present if given.choice[e.name] is False)
     held = not any(effect.other_edge for effect in disabled)
     return Group(rows, law, held, error) if len(rows) else None, others
@@ -159,12 +154,3 @@ def _next(
             names = included | {effect.name} | given.along[effect.name]
             found[names] = np.concatenate((found.get(names, mine[:0]), mine))
     return found
-
-
-def _cheaper(
-    given: Candidates, law: ContactLaw, more: frozenset[str], outputs: Sequence[str]
-) -> tuple[ContactLaw, Array]:
-    """The law with effects that make it cheaper, and what is then omitted."""
-    wider = ContactLaw(law.model, law.effects | more)
-    error = errors_of(state_of(wider), given.left(wider.effects), outputs)[:, 0]
-    return wider, error

@@ -3,14 +3,14 @@
 Starting from the effects that are always included, the effect with the largest bound is included
 until the bound on all omitted effects together is within the tolerance. As S_1 grows with each
 included effect and radii shrink, bounds are evaluated anew each time. The order does not depend on
-the tolerance. A looser one includes fewer effects, but for those that make the law cheaper.
+the tolerance, so that a looser tolerance never includes more effects.
 """
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from derivation.scene.effects import EFFECTS, PAPER, WHOLE_PLATE
+from derivation.scene.effects import EFFECTS
 from derivation.scene.effects.effect import Effect
 from derivation.scene.law import ContactLaw
 from derivation.scene.model import Model
@@ -39,8 +39,6 @@ class Selection:
         Of effects included only because another one needs them, the name of that one.
     blocked
         Of effects that cannot be included, the part of them that the scene disables.
-    cheaper
-        Names of effects that nothing requires, with which the law is cheaper to compute.
     """
 
     state: LargestContact
@@ -50,7 +48,6 @@ class Selection:
     reasons: Mapping[str, str]
     required: Mapping[str, str]
     blocked: Mapping[str, str]
-    cheaper: frozenset[str]
 
     @property
     def included(self) -> frozenset[str]:
@@ -169,30 +166,9 @@ def select(
         if effect.name in blocked:
             part = blocked[effect.name]
             effect.check_omitted(part, error_of(state, [effect], outputs), rtol)
-    cheaper = cheaper_with(state.law, candidates)
-    if cheaper:
-        wider = state_of(ContactLaw(given.model, included | cheaper))
-        wider_error = error_of(wider, given.left(included | cheaper), outputs)
-        if wider_error <= rtol:
-            state, error, included = wider, wider_error, included | cheaper
-        else:
-            cheaper = frozenset()
     left = (effect for effect in given.present if effect.name not in included)
     sizes |= {effect.name: error_of(state, [effect], outputs) for effect in left}
-    return Selection(state, error, sizes, given.choice, given.reasons, required, blocked, cheaper)
-
-
-def cheaper_with(law: ContactLaw, candidates: Sequence[Effect]) -> frozenset[str]:
-    """Names of effects with which a law is cheaper: the rest of the whole plate, or none.
-
-    The whole plate has a function of its own, which a part of it needs too if it is computed as
-    the whole less the others; and the paper's law as a whole has the fastest impact of all.
-    """
-    rest = WHOLE_PLATE - law.effects
-    if law.solved or law.dynamic or not rest <= {effect.name for effect in candidates}:
-        return frozenset()
-    differs = any(effect.difference for effect in law.plate_effects)
-    return rest if differs or (law.plate_effects and law.effects | rest == PAPER) else frozenset()
+    return Selection(state, error, sizes, given.choice, given.reasons, required, blocked)
 
 
 def _disabled(effect: Effect, wanted: Mapping[str, Any]) -> bool:

@@ -10,7 +10,7 @@ from derivation.scene import kernels
 from derivation.scene.effects.effect import Array
 from derivation.scene.law import ContactLaw
 from derivation.scene.method_selection import estimated, rounding_of, whole_law
-from derivation.scene.motion import SETTLED, largest_radii, results_at
+from derivation.scene.motion import SETTLED, closeness, largest_radii, results_at
 from derivation.scene.quadrature import MORE_TIMES, NODES
 
 WELL_WITHIN = 0.9
@@ -120,7 +120,7 @@ def _by_any_law(law: ContactLaw, found: Impacts) -> None:
     before = change = None
     with np.errstate(all="ignore"):
         for n, times in [(n, n) for n in NODES] + [(NODES[1], n) for n in MORE_TIMES]:
-            a = largest_radii(law, n, a)
+            a = largest_radii(law, n, a, closeness(law))
             after = np.hstack((*results_at(law, a, n, times), a))
             if before is not None:
                 change = np.max(np.abs(after / before - 1.0), axis=1)

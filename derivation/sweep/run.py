@@ -20,8 +20,9 @@ from derivation.scene.sweep import unheard_interrupts
 from derivation.sweep.plan import Array
 from derivation.sweep.store import PartFile, Store, packed
 
-FIRST = 4
-"""Points of the first batch, by which it is judged how long the others take."""
+FIRST, TRIED = 1, 1.0
+"""Points of the first batch; seconds of work after which it is judged how long the rest takes: the
+first batch loads libraries, and small ones take longer for each point."""
 LARGEST = 2**16
 """Points of a batch at most."""
 GROWTH = 8
@@ -143,9 +144,13 @@ Keep = Callable[[Batch, bytes, float], None]
 
 def _here(store: Store, queue: Queue, keep: Keep, workers: int) -> None:
     """Compute batches in this process, until others are worth their start."""
+    spent, batches = 0.0, 0
     while batch := queue.next():
-        keep(batch, *solve_batch(*_task(store, batch)))
-        if workers > 1 and queue.left * queue.seconds_per_point > LONG:
+        content, seconds = solve_batch(*_task(store, batch))
+        keep(batch, content, seconds)
+        spent, batches = spent + seconds, batches + 1
+        long = queue.left * queue.seconds_per_point > LONG
+        if workers > 1 and batches > 1 and spent > TRIED and long:
             return
 
 
@@ -230,12 +235,19 @@ def _client(scheduler: str | None, workers: int) -> Iterator[Any]:
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
     if scheduler is None:
         with unheard_interrupts():  # Ctrl-C is for this process, which ends the others
-            cluster = LocalCluster(
-                n_workers=workers,
-                threads_per_worker=1,
-                dashboard_address=None,
-                silence_logs=logging.CRITICAL,
-            )
+            try:
+                cluster = LocalCluster(
+                    n_workers=workers,
+                    threads_per_worker=1,
+                    dashboard_address=None,
+                    silence_logs=logging.CRITICAL,
+                )
+            except (RuntimeError, OSError) as error:
+                raise SceneError(
+                    f"sweep: expected {workers} processes to start, got: {error}; a script of your "
+                    'own has to call pc.sweep below `if __name__ == "__main__":`, or with '
+                    "workers=1; finished points are kept"
+                ) from None
         with cluster, Client(cluster, set_as_default=False) as client:
             yield client
         return

@@ -23,7 +23,7 @@ BOUNDS = {
     "law_errors",
 }  # fmt: skip
 """What the gate's bounds take, for the table of what is out too."""
-WHOLE = {"indentation", "indentation_slope"}
+WHOLE = {"contact_plates", "plate_share"}
 ZEROS = {"bessel_j0_zeros", "bessel_j1_at_j0_zeros"}
 ALONE: dict[str, set[str]] = {
     "hertz": set(),

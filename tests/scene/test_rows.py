@@ -199,11 +199,3 @@ def test_errors_of_many_laws_are_those_of_each() -> None:
     each = [simple_impact.law_errors(*numbers) for numbers in
             zip(low, up, fall, rise, energy, strict=True)]  # fmt: skip
     np.testing.assert_allclose(found.T, each, rtol=1e-12)
-
-
-def test_a_part_of_the_paper_plate_comes_with_the_whole() -> None:
-    loose = simulate(load(PAPER), rtol=1e-2)
-    assert loose.effects.included == simulate(load(PAPER), rtol=1e-6).effects.included
-    reasons = {row.name: row.reason for row in loose.effects.rows}
-    assert "cheaper" in reasons["finite_radius"]
-    assert loose.accuracy.bound <= 1e-2

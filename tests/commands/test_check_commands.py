@@ -346,8 +346,9 @@ def test_speed_is_shown_and_recorded(
     given, path = list[Any](), tmp_path / "speed.json"
     timing = SpeedTiming("law over exp", 2.25, "times", 2.0, 1.1, kept)
 
-    def measured(examples: Any, solved: Any, tell: Any) -> list[SpeedTiming]:
+    def measured(examples: Any, solved: Any, tell: Any, calls: Any) -> list[SpeedTiming]:
         tell("law", 1, 1)
+        assert calls
         given.append((examples, solved))
         return [timing]
 

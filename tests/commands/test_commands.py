@@ -176,7 +176,9 @@ def test_the_whole_report_takes_readme_and_picture_along(tmp_path: Path) -> None
     written = report_files.write(paper, compiled=False)
     assert readme.read_text() == committed
     assert picture.read_text().startswith("<?xml")
-    assert [path.name for path in written] == ["report.tex", "report.html", "report.bib"]
+    assert [path.name for path in written] == [
+        "report.tex", "report.html", "report.bib", "README.md", "overview.svg",
+    ]  # fmt: skip
 
 
 def test_the_picture_shows_what_the_plate_and_its_motion_change() -> None:

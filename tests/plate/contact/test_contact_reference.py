@@ -273,8 +273,9 @@ def test_energy_is_what_the_impact_brings() -> None:
 # --- the check of kernels
 
 
-def rounded(a: float, R: float, h: float, b: float) -> float:
-    return float(contact_balls.indentation(a, R, h, b, 25))
+def rounded(*point: Any) -> float:
+    """The true value of numbers, or of arrays of one."""
+    return float(contact_balls.indentation(*(np.asarray(x).item() for x in point), 25))
 
 
 def test_a_rounded_truth_passes_and_a_wrong_one_does_not() -> None:

@@ -141,7 +141,7 @@ class _Counting(ast.NodeTransformer):
         return ast.copy_location(call, node)
 
     def compared(self, home: str, number: int, *operands: Any) -> Any:
-        """The outcome of a comparison, each pair of a chained one counted by itself."""
+        """The outcome of a comparison, each pair of a chained one counted separately."""
         outcome: Any = True
         for index, (left, right) in enumerate(pairwise(operands)):
             place = Place(home, number + index)

@@ -1,4 +1,4 @@
-"""Columns of scenes: one scene with columns of numbers in it, and each row as a scene by itself."""
+"""Scenes as columns of numbers, and each row of the columns as a scene of its own."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 from pydantic.fields import FieldInfo
 
 from derivation.scene.effects.effect import Array
+from derivation.scene.keys import field_of, varied
 from derivation.scene.messages import OWN_MATERIALS
 from derivation.scene.model import NUMBERS, Model, numbers_of
-from derivation.scene.scene import TABLES, Material, Scene, SceneError
-from derivation.scene.table import Table
+from derivation.scene.scene import Scene
 
 Columns = Mapping[str, Array]
 """Numbers in SI by key, `table.key` or `materials.NAME.key`: one array each, of equal lengths."""
@@ -20,54 +20,9 @@ _BODIES = ("sphere", "plate", "impact", OWN_MATERIALS)
 """Tables whose keys are numbers of the model."""
 
 
-def table_of(place: str) -> type[Table]:
-    """The table of a key.
-
-    Raises
-    ------
-    SceneError
-        If there is no such key.
-    """
-    name, _, key = place.rpartition(".")
-    table = Material if name.startswith(f"{OWN_MATERIALS}.") else TABLES.get(name)
-    if table is None or key not in table.model_fields:
-        raise SceneError(
-            f"columns: expected keys of a scene file, got {place!r:.60}; write for instance "
-            "plate.thickness"
-        )
-    return table
-
-
 def row_of(scene: Scene, columns: Columns, row: int) -> dict[str, Any]:
-    """The tables of one row's scene, as a scene file would hold them.
-
-    A key given in a column takes the place of those that it stands in for, such as
-    half_thickness for thickness.
-    """
-    data = scene.to_json()
-    for place, values in columns.items():
-        name, _, key = place.rpartition(".")
-        table, given = table_of(place), data
-        for part in name.split(".", 1):
-            given = given.setdefault(part, {})
-        for other in _instead(table, key):
-            given.pop(other, None)
-        value = float(values[row])
-        [example, *_] = table.model_fields[key].examples or [value]
-        given[key] = int(value) if isinstance(example, int) and value.is_integer() else value
-    return data
-
-
-def _instead(table: type[Table], key: str) -> set[str]:
-    """Keys that a key stands in for: half_thickness for thickness, mass for density."""
-    return {
-        other
-        for groups in table.choices
-        if any(key in group for group in groups)
-        for group in groups
-        if key not in group
-        for other in group
-    }
+    """The tables of one row's scene, as a scene file would hold them."""
+    return varied(scene, {place: float(values[row]) for place, values in columns.items()})
 
 
 def of_bodies(columns: Columns) -> bool:
@@ -79,7 +34,7 @@ def allowed(columns: Columns) -> NDArray[np.bool_]:
     """Which rows have only numbers that their keys allow one by one."""
     found = np.ones(len(next(iter(columns.values()))), dtype=bool)
     for place, values in columns.items():
-        field = table_of(place).model_fields[place.rpartition(".")[2]]
+        field = field_of(place)
         found &= np.isfinite(values)
         for limit in _limits(field):
             found &= _within(values, limit)
@@ -112,7 +67,7 @@ def models_of(scene: Scene, columns: Columns) -> tuple[Model, NDArray[np.bool_]]
     scene
         The scene of one of the rows: the keys that are given are those of all.
     columns
-        Columns of the bodies' numbers, each allowed by itself.
+        Columns of the bodies' numbers, each of which its key allows.
     """
     given: dict[str, dict[str, Any]] = {}
     for place, values in columns.items():

@@ -167,7 +167,7 @@ def largest_radii(
 ) -> Array:
     """The same of one scene, or of many as a column; NaN where it is beyond the law's range.
 
-    Each scene's iteration ends by itself, so that a radius does not depend on the other scenes.
+    Each scene's iteration ends on its own, so that a radius does not depend on the other scenes.
     """
     model = law.model
     goal = math.log(3.0 / 16.0) + np.log(model.m) - np.log(law.modulus)

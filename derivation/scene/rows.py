@@ -12,11 +12,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from derivation.scene.columns import Columns, allowed, models_of, of_bodies, row_of, table_of
+from derivation.scene.columns import Columns, allowed, models_of, of_bodies, row_of
 from derivation.scene.edge_remainder import edge_remainder
 from derivation.scene.effects import EFFECTS
 from derivation.scene.effects.effect import Array
 from derivation.scene.impact import selection_tolerance, simulate
+from derivation.scene.keys import number_key
 from derivation.scene.result import UNITS
 from derivation.scene.rows_selection import Group, selected
 from derivation.scene.rows_warnings import warnings_of_rows
@@ -96,7 +97,7 @@ def solve(
             f"{sorted(lengths)}; give each key one number for each row"
         )
     for place in given:
-        table_of(place)
+        number_key(place)
     [(count,)] = lengths
     found = _empty(count)
     for start in range(0, count, BLOCK):
@@ -134,7 +135,7 @@ class _Block:
             self._one(row)
 
     def _one(self, row: int) -> None:
-        """Simulate a row by itself."""
+        """Simulate a single row."""
         found, place = self.found, self.start + row
         try:
             result = simulate(read(row_of(self.scene, self.columns, row)), rtol=self.rtol)

@@ -4,26 +4,23 @@ import csv
 import io
 import signal
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from multiprocessing import get_context
-from typing import Any
 
 import numpy as np
 
 from derivation.engine.activity import Tell, quiet
 from derivation.engine.text import aligned, paragraph
 from derivation.scene.impact import simulate
-from derivation.scene.messages import OWN_MATERIALS, nearest
-from derivation.scene.old_names import new_key
+from derivation.scene.keys import EXAMPLE, number_key, varied
 from derivation.scene.quantity import common_prefix
 from derivation.scene.result import UNITS
-from derivation.scene.scene import TABLES, Material, Scene, SceneError, read
-from derivation.scene.table import Table, is_number
+from derivation.scene.scene import Scene, SceneError, read
 
 MOST = 100_000
 """Largest number of values of a sweep."""
@@ -31,7 +28,6 @@ LONG = 3.0
 """Seconds of work from which other processes are worth their start."""
 MOST_DIGITS = 4
 """Largest number of significant digits of a table on a screen."""
-EXAMPLE = "write for instance plate.thickness=1e-3:1e-2:50"
 SYMBOLS = {
     "contact_time": "t_c",
     "max_indentation": "δ",
@@ -117,74 +113,6 @@ def parse(text: str) -> Sweep:
     return Sweep(table, key, tuple(spaced(first, last, count).tolist()))
 
 
-def number_key(place: str) -> tuple[str, str]:
-    """The table and the key of a number of the scene file, from `table.key`.
-
-    Raises
-    ------
-    SceneError
-        If there is no such number; the message suggests the nearest key.
-    """
-    place = new_key(place.strip())
-    table, _, key = place.rpartition(".")
-    known = _table(table)
-    field = known.model_fields.get(key) if known else None
-    if not any(map(is_number, (field.examples if field else None) or [])):
-        near = nearest(place, _swept())
-        meant = f"did you mean {near}? " if near else ""
-        raise SceneError(
-            f"sweep: expected a number of the scene file, got {place!r:.60}; {meant}{EXAMPLE}"
-        )
-    return table, key
-
-
-def described(place: str) -> str:
-    """What the scene file's schema says about a key `table.key`, with its unit in brackets."""
-    table, _, key = place.rpartition(".")
-    known = _table(table)
-    assert known is not None
-    return known.model_fields[key].description or key
-
-
-def rivals(place: str) -> set[str]:
-    """The keys that a key `table.key` replaces: half_thickness for thickness."""
-    table, _, key = place.rpartition(".")
-    known = _table(table)
-    assert known is not None
-    return {f"{table}.{other}" for other in _instead(known, key)}
-
-
-def varied(scene: Scene, values: Mapping[str, float]) -> dict[str, Any]:
-    """The tables of a scene in which keys `table.key` take other values, in SI."""
-    data = scene.to_json()
-    for place, value in values.items():
-        name, _, key = place.rpartition(".")
-        given, table = data, _table(name)
-        assert table is not None
-        for part in name.split(".", 1):
-            given = given.setdefault(part, {})
-        for other in _instead(table, key):
-            given.pop(other, None)
-        [example, *_] = table.model_fields[key].examples or [value]
-        given[key] = int(value) if isinstance(example, int) and value.is_integer() else value
-    return data
-
-
-def _table(name: str) -> type[Table] | None:
-    """The table of a name, `materials.NAME` among them."""
-    return Material if name.startswith(f"{OWN_MATERIALS}.") else TABLES.get(name)
-
-
-def _swept() -> list[str]:
-    """Every key that holds a number, with its table."""
-    return [
-        f"{table}.{key}"
-        for table, model in TABLES.items()
-        for key, field in model.model_fields.items()
-        if any(map(is_number, field.examples or []))
-    ]
-
-
 def run(
     scene: Scene,
     sweep: Sweep,
@@ -262,18 +190,6 @@ def _row(scene: Scene, sweep: Sweep, rtol: float | None, value: float) -> SweepR
     if not found.complete:  # there is no restitution: an empty row with the reason
         return SweepRow(value, {}, included, found.incomplete_note)
     return SweepRow(value, results, included, "; ".join(found.warnings), found.digits)
-
-
-def _instead(table: type[Table], key: str) -> set[str]:
-    """Keys that the swept one stands in for: half_thickness for thickness, mass for density."""
-    return {
-        other
-        for groups in table.choices
-        if any(key in group for group in groups)
-        for group in groups
-        if key not in group
-        for other in group
-    }
 
 
 def to_csv(sweep: Sweep, rows: Sequence[SweepRow]) -> str:

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from derivation.scene.errors import SceneError
+from derivation.scene.keys import described
 from derivation.scene.result import UNITS
-from derivation.scene.sweep import described
 from derivation.sweep.plan import GridPlan
 from derivation.sweep.store import NUMBERS, TEXTS, Store
 from derivation.sweep.study import Study

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from derivation.engine.files import read_file
 from derivation.engine.printable import one_line
 from derivation.scene.errors import SceneError
+from derivation.scene.keys import number_key
 from derivation.scene.messages import nearest, shown
-from derivation.scene.sweep import number_key
 from derivation.scene.table import is_number
 
 Array = NDArray[np.float64]

@@ -10,9 +10,9 @@ import numpy as np
 from derivation.engine.text import aligned
 from derivation.scene.errors import SceneError
 from derivation.scene.impact import selected_effects
+from derivation.scene.keys import varied
 from derivation.scene.rows import solve
 from derivation.scene.scene import read
-from derivation.scene.sweep import varied
 from derivation.sweep.study import Study
 
 MOST_PROBES = 32

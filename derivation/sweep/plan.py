@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from derivation.scene.errors import SceneError
-from derivation.scene.sweep import number_key, parse, rivals
+from derivation.scene.keys import number_key, rivals
+from derivation.scene.sweep import parse
 from derivation.sweep.distributions import Distribution
 
 Array = NDArray[np.float64]

@@ -64,7 +64,7 @@ def simulated(tables: Mapping[str, Any], rtol: float | None) -> tuple[Result | N
 
 def never(*_: object, **__: object) -> None:
     """Instead of the simulation of one scene."""
-    raise AssertionError("a row was simulated by itself")
+    raise AssertionError("a row was not solved in arrays")
 
 
 def in_arrays(monkeypatch: pytest.MonkeyPatch, *given: Any) -> None:
@@ -180,7 +180,7 @@ def test_rows_in_other_units_of_length_are_the_same_impacts(length: float) -> No
 @pytest.mark.parametrize(
     ("columns", "message"),
     [
-        ({"plate.colour": np.ones(2)}, "expected keys of a scene file"),
+        ({"plate.colour": np.ones(2)}, "expected a number of the scene file"),
         ({"impact.speed": np.ones(2), "plate.radius": np.ones(3)}, "of the same length"),
         ({"impact.speed": np.ones((2, 2))}, "of the same length"),
         ({}, "one or more arrays"),

@@ -228,7 +228,7 @@ JUDGED = {
         plain_cases,
         {
             "_invert": (8, START),
-            "plate_points": (1, START),
+            "linear": (1, START),
             "_modulus": (3, SLOW),
             "_ORDINARY": (2, SLOW),
             "_USUAL": (2, SLOW),

@@ -7,7 +7,8 @@ Arithmetic: A = a/h; where the iteration for the contact radius starts, its ends
 """
 
 from collections.abc import Callable
-from typing import NamedTuple
+from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -33,10 +34,11 @@ _CLOSE = 1e-9  # a relative residual whose square is far below rounding
 _APART = 512  # points of a plate from which on it is worked on alone
 
 
-class PlateArrays(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class PlateArrays:
     """Plates of the broadcast lengths h and b, NaN outside the domain.
 
-    Attributes
+    Parameters
     ----------
     h, b
         Half-thickness and radius [m], of any shapes.
@@ -44,23 +46,19 @@ class PlateArrays(NamedTuple):
         Polynomials of the plates that differ.
     owner
         Which of them each is, in the broadcast shape of h and b.
-    near
-        Of each of them sqrt(R delta)/h [1] at the end of the first polynomial.
     """
 
     h: Double
     b: Double
     plates: Plates
     owner: np.ndarray
-    near: Double
 
-
-def plate_arrays(h: Double, b: Double, plates: Plates, owner: np.ndarray) -> PlateArrays:
-    """The plates with what only their polynomials decide."""
-    [h] = inside([h], h > 0)
-    every = np.arange(plates.eta.size)
-    value = value_of(plates.reach, columns(plates.first, every))
-    return PlateArrays(h, b, plates, owner, kernels.depth_ratio_at(plates.reach, value))
+    @cached_property
+    def near(self) -> Double:
+        """Of each plate that differs sqrt(R delta)/h [1] at the end of the first polynomial."""
+        every = np.arange(self.plates.eta.size)
+        value = value_of(self.plates.reach, columns(self.plates.first, every))
+        return kernels.depth_ratio_at(self.plates.reach, value)
 
 
 def indentations(some: PlateArrays, a: Double, R: Double) -> Double:
@@ -123,7 +121,7 @@ def _one_of(some: PlateArrays, number: int, h: Double, b: Double) -> PlateArrays
     eta, reach, far, short, first = some.plates
     pieces = (Piece(x.coefficients[:, pick], x.middle[pick], x.half[pick]) for x in (short, first))
     plates = Plates(eta[pick], reach[pick], far[pick], *pieces)
-    return PlateArrays(h, b, plates, np.zeros((1,) * h.ndim, dtype=np.intp), some.near[pick])
+    return PlateArrays(h, b, plates, np.zeros((1,) * h.ndim, dtype=np.intp))
 
 
 def _indentations(some: PlateArrays, a: Double, R: Double) -> Double:

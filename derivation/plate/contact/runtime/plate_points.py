@@ -7,12 +7,14 @@ it is then worked on as an array of one point.
 Arithmetic: Horner's rule; A = a/h; where the iteration starts, its ends, and its steps.
 """
 
+from dataclasses import dataclass
+from functools import cached_property
 from math import cbrt
 from typing import NamedTuple
 
 from generated import contact_point_kernels as kernels
 from generated.contact_numbers import SHORT
-from generated.contact_series import ROUNDED, Piece, far_piece
+from generated.contact_series import ROUNDED, Piece, Plates, far_piece
 from generated.plate_arrays import PlateArrays
 
 _STEPS = 60  # of Newton's iteration at most; it takes four to six
@@ -29,52 +31,75 @@ class PointPiece(NamedTuple):
     inverse_half: float
 
 
-class PlatePoints(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class PlatePoints:
     """A plate whose law is computed in plain numbers.
 
-    Attributes
+    Parameters
     ----------
     h, b
         Half-thickness and radius [m].
-    brief, reach, far
-        Largest A = a/h [1] of the three polynomials.
-    near_ratio, far_ratio
-        sqrt(R delta)/h [1] at the ends of the second and the third.
-    linear
-        Of F for small A, at least 0 [1].
-    short, first, beyond
-        The polynomials; the third is the second in a plate that ends before it does.
+    plates
+        The plate's polynomials, in arrays.
     """
 
     h: float
     b: float
-    brief: float
-    reach: float
-    far: float
-    near_ratio: float
-    far_ratio: float
-    linear: float
-    short: PointPiece
-    first: PointPiece
-    beyond: PointPiece
+    plates: Plates
+
+    @cached_property
+    def brief(self) -> float:
+        """Largest A = a/h [1] of the shortened polynomial."""
+        return self.reach * SHORT
+
+    @cached_property
+    def reach(self) -> float:
+        """Largest A [1] of the first polynomial."""
+        return self.plates.reach.item()
+
+    @cached_property
+    def far(self) -> float:
+        """Largest A [1] of the second polynomial."""
+        return self.plates.far.item()
+
+    @cached_property
+    def near_ratio(self) -> float:
+        """sqrt(R delta)/h [1] at the end of the first polynomial."""
+        return kernels.depth_ratio_at(self.reach, _value(self.reach, self.first))
+
+    @cached_property
+    def far_ratio(self) -> float:
+        """sqrt(R delta)/h [1] at the end of the second."""
+        return kernels.depth_ratio_at(self.far, _value(self.far, self.beyond))
+
+    @cached_property
+    def linear(self) -> float:
+        """Of F for small A, at least 0 [1]."""
+        return max(self.first.coefficients[-1], 0.0)
+
+    @cached_property
+    def short(self) -> PointPiece:
+        """The first polynomial, shortened for small A."""
+        return _piece(self.plates.short)
+
+    @cached_property
+    def first(self) -> PointPiece:
+        """The first polynomial."""
+        return _piece(self.plates.first)
+
+    @cached_property
+    def beyond(self) -> PointPiece:
+        """The second polynomial; the first again in a plate that ends before it does."""
+        return _piece(far_piece(self.plates.eta)) if self.far > self.reach else self.first
 
 
 def plate_points(some: PlateArrays) -> PlatePoints | None:
     """The only plate there is, if it is of ordinary lengths."""
     if some.h.ndim or some.b.ndim:
         return None
-    h, b, plates = some.h.item(), some.b.item(), some.plates
-    eta, reach, far = plates.eta.item(), plates.reach.item(), plates.far.item()
-    if not (_USUAL[0] < eta < _USUAL[1] and _ordinary(h, b)):
-        return None
-    first = _piece(plates.first)
-    beyond = _piece(far_piece(plates.eta)) if far > reach else first
-    value, _ = _with_slope(far, beyond)
-    far_ratio = kernels.depth_ratio_at(far, value)
-    linear = max(first.coefficients[-1], 0.0)
-    pieces = _piece(plates.short), first, beyond
-    ends = reach * SHORT, reach, far
-    return PlatePoints(h, b, *ends, some.near.item(), far_ratio, linear, *pieces)
+    h, b = some.h.item(), some.b.item()
+    usual = _USUAL[0] < some.plates.eta.item() < _USUAL[1]
+    return PlatePoints(h, b, some.plates) if usual and _ordinary(h, b) else None
 
 
 def indentation(plate: PlatePoints, a: float, R: float) -> float | None:
@@ -126,7 +151,7 @@ def _contact(plate: PlatePoints, delta: float, R: float) -> tuple[float, float] 
     if not _ordinary(delta, R):
         return None
     eps = kernels.depth_ratio_in_range(delta, R, plate.h)
-    if not eps <= plate.far_ratio:
+    if eps > plate.near_ratio and not eps <= plate.far_ratio:
         return None
     share = _invert(plate, eps)
     a = kernels.radius_in_range(share, delta, R)

@@ -199,8 +199,9 @@ def prepare(h: ArrayLike, b: ArrayLike) -> PreparedPlate:
     refuse_masked(h, b)
     h, b = _kept(h), _kept(b)
     _, [half, radius] = as_doubles(h, b)
-    arrays = plate_arrays.plate_arrays(half, radius, *plates_of_lengths(half, radius))
-    return PreparedPlate(h, b, arrays)
+    plates, owner = plates_of_lengths(half, radius)
+    [sound] = inside([half], half > 0)
+    return PreparedPlate(h, b, PlateArrays(sound, radius, plates, owner))
 
 
 def _kept(length: ArrayLike) -> ArrayLike:

@@ -23,6 +23,7 @@ from derivation.checks.finite_elements.mesh import Grading, graded, resting
 from derivation.checks.finite_elements.plate import Plate, System
 from derivation.engine.activity import Tell, quiet
 from derivation.engine.files import measurements, write_file
+from derivation.engine.measure.origin import dump
 from derivation.engine.outputs import json_by_line
 
 MEASURED: Path = measurements() / "elastodynamics.json"
@@ -220,7 +221,7 @@ def source_hash() -> str:
             body = getattr(node, "body", None)
             if isinstance(body, list):
                 body[:] = [x for x in body if not (_is_text(x) or isinstance(x, ast.ImportFrom))]
-        digest.update(ast.dump(tree).encode())
+        digest.update(dump(tree).encode())
     return digest.hexdigest()[:16]
 
 

@@ -6,10 +6,12 @@ a change of the engine may move their radii and nothing else; its own tests see 
 
 import ast
 import hashlib
+import sys
 from collections.abc import Iterator
 from functools import cache
 from importlib.util import find_spec, resolve_name
 from pathlib import Path
+from typing import Any
 
 import sympy as sp
 
@@ -17,6 +19,7 @@ from derivation.engine.oracle.reference import DIGITS
 
 _HERE = __package__.partition(".")[0]
 _ENGINE = f"{_HERE}.engine"
+_WITH_EMPTY_LISTS: dict[str, Any] = {"show_empty": True} if sys.version_info >= (3, 13) else {}
 
 
 def of_expression(expression: sp.Expr) -> str:
@@ -55,7 +58,23 @@ def _code(tree: ast.Module, name: str) -> str:
         if isinstance(body, list):
             imported += [word for part in body for word in _imported(part, name)]
             body[:] = [part for part in body if not isinstance(part, ast.ImportFrom)]
-    return ast.dump(tree) + repr(sorted(imported))
+    return dump(tree) + repr(sorted(imported))
+
+
+def dump(tree: ast.AST) -> str:
+    """Return the text of a syntax tree, the same in every version of Python.
+
+    Python 3.12 added a field for parameters of types, and 3.13 leaves out empty lists.
+
+    Parameters
+    ----------
+    tree
+        The tree; its nodes lose fields of parameters of types that are empty.
+    """
+    for node in ast.walk(tree):
+        if getattr(node, "type_params", None) == []:
+            del node.type_params  # type: ignore[attr-defined]
+    return ast.dump(tree, **_WITH_EMPTY_LISTS)
 
 
 def _imported(node: ast.AST, where: str) -> Iterator[str]:

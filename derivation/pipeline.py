@@ -24,7 +24,7 @@ from derivation.engine.measure.search import Tell as SearchTell
 from derivation.engine.measure.search_record import Book, seconds_of
 from derivation.engine.outputs import folder_for, plain, recorded_in, sorted_json
 from derivation.engine.rewrite.stabilise import Stable, stabilise
-from derivation.engine.rewrite.tested import Tested
+from derivation.engine.rewrite.tested import CodeCheck
 from derivation.plate.benchmark import run as accuracy_run
 from derivation.plate.benchmark import speed, user_calls
 from derivation.plate.contact.cases.check import KERNELS, LIMIT, ContactRow
@@ -153,7 +153,7 @@ def accuracy(
     return data, path
 
 
-def rewritten(text: str, variable: str = "x") -> tuple[Stable, str, Tested]:
+def rewritten(text: str, variable: str = "x") -> tuple[Stable, str, CodeCheck]:
     """The stable form of a user's formula, its NumPy module, and what testing that found.
 
     Raises
@@ -165,7 +165,7 @@ def rewritten(text: str, variable: str = "x") -> tuple[Stable, str, Tested]:
         raise ValueError(f"--variable: expected a name like x, got {variable!r}")
     symbol = sp.Symbol(variable, positive=True)
 
-    def work() -> tuple[Stable, str, Tested]:
+    def work() -> tuple[Stable, str, CodeCheck]:
         expression = parse(text, NOTHING, {variable: symbol})
         if terms_when_expanded(expression) > MAX_TERMS:
             raise FormulaError(

@@ -6,7 +6,7 @@ from derivation import pipeline
 from derivation.engine.errata.findings import Finding
 from derivation.engine.formula.record import Record
 from derivation.engine.rewrite.stabilise import Stable
-from derivation.engine.rewrite.tested import Tested
+from derivation.engine.rewrite.tested import CodeCheck
 from derivation.plate import derived
 
 
@@ -26,7 +26,7 @@ class Rewritten:
 
     form: Stable
     source: str
-    tested: Tested
+    tested: CodeCheck
 
     def __str__(self) -> str:
         return self.source

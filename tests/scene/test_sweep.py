@@ -24,7 +24,8 @@ def test_rows_are_the_simulations_of_their_values(tmp_path: Path) -> None:
         main(["simulate", str(PAPER), "--sweep", "impact.speed=0.5:1.5:3", "--csv", str(place)])
         == 0
     )
-    rows = list(csv.DictReader(place.open()))
+    with place.open() as stream:
+        rows = list(csv.DictReader(stream))
     assert [float(row["impact.speed"]) for row in rows] == [0.5, 1.0, 1.5]
     for row in rows:
         data = load(PAPER).to_json() | {"impact": {"speed": float(row["impact.speed"])}}

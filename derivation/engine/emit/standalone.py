@@ -14,12 +14,12 @@ from derivation.engine.emit.source import format_files
 from derivation.engine.rewrite.form import Seam
 from derivation.engine.rewrite.series import POLYNOMIAL
 from derivation.engine.rewrite.stabilise import Stable
-from derivation.engine.rewrite.tested import ENDS, Function, Tested, tested
+from derivation.engine.rewrite.tested import ENDS, CodeCheck, Function, tested
 
 _WIDTH = 90
 
 
-def standalone(stable: Stable) -> tuple[str, Tested]:
+def standalone(stable: Stable) -> tuple[str, CodeCheck]:
     """Source of a module with the form as a function `f`, and what testing that code found.
 
     Raises

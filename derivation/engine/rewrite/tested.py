@@ -38,7 +38,7 @@ Function: TypeAlias = Callable[[np.ndarray], np.ndarray]
 
 
 @dataclass(frozen=True)
-class Tested:
+class CodeCheck:
     """What a test of the code of a form found.
 
     Parameters
@@ -106,7 +106,7 @@ class _Reference:
             return None
 
 
-def tested(stable: Stable, function: Function) -> Tested:
+def tested(stable: Stable, function: Function) -> CodeCheck:
     """Test the code of a form, and find the range and the error that it may state.
 
     Errors are compared with exact values at random points, next to zeros, overflow and
@@ -136,7 +136,7 @@ def tested(stable: Stable, function: Function) -> Tested:
         inside = {p: e for p, e in errors.items() if low <= p <= high}
         if max(inside.values()) <= ENOUGH:
             worst, at = max((e, p) for p, e in inside.items())
-            return Tested(low, high, stated(worst), worst, at, len(inside))
+            return CodeCheck(low, high, stated(worst), worst, at, len(inside))
         low, high = _range(sorted(inside.items()))
         if not low * LEAST_RATIO <= high:
             break

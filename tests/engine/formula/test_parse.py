@@ -153,7 +153,7 @@ REFUSED = {
     "besselj(10**6, b)": "whole order",
     "9" * 5000: "digits",
     "(" * 5000 + "a" + ")" * 5000: "nested",
-    "-" * 5000 + "a": "nested|nest",
+    "-" * 5000 + "a": "nested|parts",
     "a**" * 4000 + "a": "nest",
     "a+" * 4000 + "a": "nest|parts",
     "a" * 30_000: "characters",

@@ -19,7 +19,7 @@ from derivation.engine.formula.parse import parse
 from derivation.engine.formula.vocabulary import NOTHING
 from derivation.engine.rewrite.stabilise import stabilise
 from derivation.engine.rewrite.terms import UnreachableError
-from derivation.engine.rewrite.tested import Tested, stated
+from derivation.engine.rewrite.tested import CodeCheck, stated
 
 x = sp.Symbol("x", positive=True)
 FORMULAS = (
@@ -123,7 +123,7 @@ def test_what_is_stated_holds(text: str) -> None:
     assert worst[0] <= found.limit, worst
     assert found.high / found.low >= 10
     assert stated(found.worst) == found.limit > found.worst
-    assert isinstance(found, Tested)
+    assert isinstance(found, CodeCheck)
 
 
 def test_the_range_ends_before_a_double_zero_and_an_overflow() -> None:

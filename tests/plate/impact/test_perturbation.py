@@ -238,7 +238,7 @@ def test_it_changes_no_result(name: str, rtol: float | None) -> None:
 def test_it_is_no_effect() -> None:
     """It stands in no table of effects, and changes neither a static contact nor the reference."""
     asked, plain = read(compared(compare_paper_motion=True)), read(compared())
-    assert explain(asked).effects == explain(plain).effects
+    assert repr(explain(asked).effects) == repr(explain(plain).effects)  # NaN is like NaN
     assert indent(asked, force=[10.0]) == indent(plain, force=[10.0])
     wanted = compared(compare_paper_motion=True), compared()
     one, other = (derivation.checks.effects.everything(data) for data in wanted)

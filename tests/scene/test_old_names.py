@@ -209,6 +209,7 @@ def test_no_example_uses_an_old_name(path: Path) -> None:
     assert not rows & {old.partition(".")[2] for old in KEYS}
 
 
+@pytest.mark.checkout
 def test_the_readme_shows_no_old_name() -> None:
     blocks = re.findall(r"```toml\n(.*?)```", (ROOT / "README.md").read_text(), re.DOTALL)
     assert len(blocks) >= 2

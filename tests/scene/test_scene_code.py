@@ -344,6 +344,7 @@ def test_the_head_says_what_is_in_and_why() -> None:
     assert str(ROOT) not in text
 
 
+@pytest.mark.checkout
 @pytest.mark.parametrize("case", CASES)
 def test_reads_as_ruff_wants_it(case: str, tmp_path: Path) -> None:
     place = tmp_path / "alone.py"

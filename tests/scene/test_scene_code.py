@@ -106,8 +106,7 @@ def names_of(case: str) -> dict[str, Any]:
 def static_of(case: str) -> Callable[..., Any]:
     """The relaxed force of a contact."""
     names = names_of(case)
-    found: Callable[..., Any] = names.get("elastic_force", names["force"])
-    return found
+    return names.get("elastic_force", names["force"])
 
 
 def radii(case: str) -> np.ndarray:

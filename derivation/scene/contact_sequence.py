@@ -238,6 +238,8 @@ def contact(
         else:
             guess = np.zeros(n) if first else _onset(problem, n, length, -begin.separation_speed)
         made = element(problem, n, x, length, state, radius, guess)
+        if made is None and found:  # an oscillating slope is no guess beyond its own element
+            made = element(problem, n, x, length, state, radius, np.zeros(n))
         if made is None:
             length *= 0.5
             continue

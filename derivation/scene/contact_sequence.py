@@ -325,11 +325,12 @@ def _lost(
     why, remedy = "has no solution that can be found", "give less extreme numbers"
     beyond = np.nextafter(problem.contact.top, 0.0) / problem.a
     if radius > 0.99 * beyond:
-        why = (
-            f"grows wider than {problem.a * beyond:.4g} m, {WIDER:g} times what the impact on a "
-            "rigid plate reaches"
+        why = f"grows wider than {problem.a * beyond:.4g} m, " + (
+            f"the largest radius of the contact law: {problem.range_end}"
+            if problem.range_end
+            else f"{WIDER:g} times what the impact on a plate that does not deflect reaches"
         )
-        remedy = "give a lower speed, a lighter sphere or less weight"
+        remedy = "give a lower speed, a lighter sphere, less weight or a thicker plate"
     for a in (radius, 1.2 * radius):  # where it is, and where it would go
         at = problem.at(problem.a * np.array([min(a, beyond)]))
         bent = at.less_a[0] @ problem.contact.modes.by_shape(state.q)

@@ -63,7 +63,10 @@ def _problem(law: ContactLaw) -> DynamicProblem:
     still = Modes(none, none, none, no_index)
     contact = contact_of(law, ModalPlate(still, still, None), min(WIDER * a, law.limit), False)
     weight = law.gravity * (T / model.v0)
-    return DynamicProblem(contact, a, T, model.m, model.v0, weight, yielding=yielding_of(law))
+    end = law.limit_in_words if law.limit < WIDER * a else ""
+    return DynamicProblem(
+        contact, a, T, model.m, model.v0, weight, yielding=yielding_of(law), range_end=end
+    )
 
 
 def _motion(problem: DynamicProblem, n: int) -> PlasticMotion:

@@ -71,6 +71,8 @@ class DynamicProblem:
         Damping ratio of every mode [1].
     yielding
         The contact that yields, on the branch on which it is; None of an elastic one.
+    range_end
+        Which limit of the contact law ends its tables; empty if none does.
     """
 
     contact: ContactTables
@@ -83,6 +85,7 @@ class DynamicProblem:
     heard: float = math.inf
     damping_ratio: float = 0.0
     yielding: Yielding | None = None
+    range_end: str = ""
 
     @property
     def force(self) -> float:

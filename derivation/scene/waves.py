@@ -267,8 +267,9 @@ def _problem(law: ContactLaw, plate: ModalPlate) -> DynamicProblem:
     heard = echo_time(model) / T if model.inertia.infinite_plate else math.inf
     weight = law.gravity * (T / model.v0)
     units = a, T, model.m, model.v0
+    end = law.limit_in_words if law.limit < WIDER * a else ""
     return DynamicProblem(
-        contact, *units, weight, retardation, heard, law.damping_ratio, yielding_of(law)
+        contact, *units, weight, retardation, heard, law.damping_ratio, yielding_of(law), end
     )
 
 

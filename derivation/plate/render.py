@@ -77,9 +77,8 @@ def kernel_rows(
     of_modes = {f.name: f for f in forms if formulas[f.name].summed}
     closed = (f for f in forms if f.name not in of_modes)
     of_forms = tuple(kernel_of_form(f, formulas[f.name], budgets[f.name], STYLE) for f in closed)
-    load = formulas["A_j"], formulas["Omega_1"]
     of_sums = tuple(
-        kernel_of_sum(formulas[name], *load, budgets[name], of_modes.get(name))
+        kernel_of_sum(formulas[name], formulas, budgets[name], of_modes.get(name))
         for name in (*of_modes, *SHARES)
     )
     return of_forms + of_sums

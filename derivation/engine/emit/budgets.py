@@ -32,12 +32,13 @@ class Budget:
 
     def notes(self, domain: str) -> tuple[str, ...]:
         """What a docstring promises: the budget, and the conditions outside which there is NaN."""
-        promise = f"Error budget: {self.ulp:g} units in the last place of {self.rule}."
+        units = f"{self.ulp:g} unit{'' if self.ulp == 1 else 's'} in the last place (ULP)"
+        limit = f"Tested error budget: {units} of {self.rule}."
         where = (
-            f"Domain: {domain or 'all real numbers'}. The budget holds wherever the value is a "
-            "normal number; smaller ones are rounded to a subnormal number or to zero."
+            f"Domain: {domain or 'all real numbers'}. The budget applies where the value is a "
+            "normal floating-point number; smaller values become subnormal or zero."
         )
-        return (*textwrap.wrap(promise, 84), *textwrap.wrap(where, 84, break_on_hyphens=False))
+        return (*textwrap.wrap(limit, 84), *textwrap.wrap(where, 84, break_on_hyphens=False))
 
     def row(self) -> dict[str, object]:
         """Its parts under the manifest's keys."""

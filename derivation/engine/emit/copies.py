@@ -35,7 +35,7 @@ class ListedFunction:
     symbol, equation, domain, kernel
         As its decorator has them.
     meaning
-        The first line of its docstring.
+        The first line of its docstring, without "Compute the".
     """
 
     name: str
@@ -146,7 +146,7 @@ def _listed(node: ast.FunctionDef, mark: ast.Call, file: Path) -> ListedFunction
     units = _UNIT.findall(" ".join(parts.get("Returns", ())))
     if not units or "symbol" not in words:
         raise ValueError(f"{file.name}: {node.name} needs a symbol, and units of its results")
-    meaning = text.partition("\n")[0].rstrip(".")
+    meaning = re.sub("^Compute (the )?", "", text.partition("\n")[0]).rstrip(".")
     return ListedFunction(
         node.name,
         tuple(arguments),
@@ -192,10 +192,14 @@ def _promise(
     docstring = node.body[0]
     last = int(docstring.end_lineno or 0) - 1
     indented = [f"    {note}" for note in notes]
-    for index in range(docstring.lineno - 1, last):
-        if lines[index].strip() == "Notes" and set(lines[index + 1].strip()) == {"-"}:
-            return index + 2, [*indented, ""]
-    return last, ["", "    Notes", "    -----", *indented]
+    headings = {lines[i - 1].strip(): i for i in range(docstring.lineno, last)
+                if set(lines[i].strip()) == {"-"}}  # fmt: skip
+    if "Notes" in headings:
+        return headings["Notes"] + 1, [*indented, ""]
+    section = ["    Notes", "    -----", *indented]
+    if "Examples" in headings:
+        return headings["Examples"] - 1, [*section, ""]
+    return last, ["", *section]
 
 
 def _end_of_docstring(tree: ast.Module, file: Path) -> int:

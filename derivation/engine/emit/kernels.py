@@ -17,18 +17,21 @@ from derivation.engine.rewrite.form import Branch, Form, Seam, Step
 
 @dataclass(frozen=True)
 class Style:
-    """What a paper's functions say and test beyond the domains of their arguments.
+    """Conditions and text that a paper adds to its generated functions.
 
     Parameters
     ----------
     tested
-        Conditions that end a domain where the tests do, with the arguments they are about.
+        Conditions that limit a domain to the tested range, each with the arguments it contains.
     remark
-        What follows a formula's text, for its expression.
+        Function that returns the text to append to a formula's text.
+    package
+        Import name of the package, for the examples; without it they import nothing.
     """
 
     tested: Mapping[str, Set[str]] = field(default_factory=dict)
     remark: Callable[[sp.Expr], str] = lambda _: ""
+    package: str = ""
 
 
 @dataclass(frozen=True)
@@ -90,6 +93,7 @@ class EmittedKernel:
     steps: tuple[Line, ...] = ()
     value: str = ""
     seam: SeamText | None = None
+    example: tuple[str, ...] = ()
 
     @property
     def carried(self) -> tuple[str, ...]:
@@ -134,9 +138,14 @@ def kernel(
     steps: tuple[Line, ...] = (),
     value: str,
     seam: SeamText | None = None,
-    modes: bool = False,
+    modes: int = 0,
+    result: sp.Expr | None = None,
 ) -> EmittedKernel:
-    """Row of a function of the given arguments."""
+    """Return the row of a function of the given arguments.
+
+    `result` is the exact value of its docstring's example, by default that of the formula, and
+    `modes` the number of modes summed in it.
+    """
     names = {x.name for x in arguments}
     where = conditions(arguments, formula.where, style)
     meaning = to_plain(formula.meaning)
@@ -156,11 +165,34 @@ def kernel(
         arguments=tuple(argument_text(x, names) for x in arguments),
         conditions=where,
         budget=budget,
-        modes=modes,
+        modes=bool(modes),
         steps=steps,
         value=value,
         seam=seam,
+        example=_example(formula, arguments, style, modes, result),
     )
+
+
+def _example(
+    formula: Record,
+    arguments: tuple[Argument, ...],
+    style: Style,
+    modes: int,
+    value: sp.Expr | None,
+) -> tuple[str, ...]:
+    """Lines of a doctest at the vocabulary's sample values; none if an argument has no such value.
+
+    The expected number is evaluated by SymPy from the formula, not by the generated code.
+    """
+    samples = formula.vocabulary.values
+    if not all(x.name in samples for x in arguments):
+        return ()
+    exact = {x.symbol: sp.Float(samples[x.name], 40) for x in arguments}
+    number = float(sp.N(formula.expression.xreplace(exact) if value is None else value, 20))
+    given = [*(samples[x.name] for x in arguments), *([f"modes={modes}"] if modes else [])]
+    start = [f">>> from {style.package} import {formula.name}"] if style.package else []
+    call = f"{formula.name}({', '.join(given)})"
+    return (*start, f'>>> print(f"{{{call}:.10g}}")', f"{number:.10g}")
 
 
 def _wrap(text: str) -> tuple[str, ...]:

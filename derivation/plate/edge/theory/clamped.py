@@ -5,8 +5,8 @@ With n = nu/(1 - nu) and D the flexural rigidity, at the edge of a plate in bend
     psi = chi eta psi',   w(b, 0) = n G h^2 (kappa_r + kappa_t):
 
 because a clamp on the whole edge also prevents thinning of the plate there. A strip in plane
-strain, clamped at its end and bent far away, gives both constants: chi = n^2 turn(n) and G = level(n),
-computed by spectral elements (`edge.strip`) and fitted. Both are the work of n z^2/2 on the shear
+strain, clamped at its end and bent far away, gives both constants, chi = n^2 turn(n) and
+G = level(n), computed by spectral elements (`edge.strip`) and fitted. Both are the work of n z^2/2 on the shear
 stress at the clamp: chi under a moment, G under a shear force (Betti), so that chi is proportional
 to n^2. If the mean of w were 0, G would be 1/6.
 
@@ -210,8 +210,8 @@ def clamp_law() -> tuple[Formula, Formula]:
     sources = ("clamp_turn", "clamp_level", "P")
     return (
         Formula(
-            "F_clamp", r"X_c(\alpha, \eta)", r"reduction of $\delta R/a^2$ by a clamped edge", share,
-            "1", "6", sources, proof,
+            "F_clamp", r"X_c(\alpha, \eta)", r"reduction of $\delta R/a^2$ by a clamped edge",
+            share, "1", "6", sources, proof,
         ),
         Formula(
             "S_clamp", r"\frac{R}{2a}\frac{\mathrm{d}}{\mathrm{d}a}\frac{a^2 X_c}{R}",

@@ -6,9 +6,9 @@ With n = nu/(1 - nu) and D the flexural rigidity, at the edge of a plate in bend
 
 because a clamp on the whole edge also prevents thinning of the plate there. A strip in plane
 strain, clamped at its end and bent far away, gives both constants, chi = n^2 turn(n) and
-G = level(n), computed by spectral elements (`edge.strip`) and fitted. Both are the work of n z^2/2 on the shear
-stress at the clamp: chi under a moment, G under a shear force (Betti), so that chi is proportional
-to n^2. If the mean of w were 0, G would be 1/6.
+G = level(n), computed by spectral elements (`edge.strip`) and fitted. Both are the work of n z^2/2
+on the shear stress at the clamp: chi under a moment, G under a shear force (Betti), so that chi is
+proportional to n^2. If the mean of w were 0, G would be 1/6.
 
 The state of bending with that w, u = k r z and
 

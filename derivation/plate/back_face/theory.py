@@ -139,7 +139,7 @@ def far_stress() -> tuple[Formula, ...]:
     sources = ("far_factor", "A_j", "P")
     rows = (
         ("far_stress", r"\sigma_{rr}(0, -h)", "largest tensile stress on the back face", "Pa"),
-        ("far_sum", "S", r"this stress divided by $(1 + \nu) P/(8 \pi h^2)$", "1"),
+        ("far_sum", "S", r"largest tensile stress over $(1 + \nu) P/(8 \pi h^2)$", "1"),
     )
     return tuple(
         Formula(

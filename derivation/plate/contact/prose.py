@@ -4,7 +4,7 @@ ABOUT = {
     "Hertz": "Hertz pressure, its transform (Sonine's integral) and the contact radius, which "
     "follows from the half-space's influence coefficient.",
     "contact law": "The indentation is the deflection of the contact face at the centre.",
-    "divergence": r"For large $j$ the plate acts like a half-space: $\phi^3 K_j$ is nearly constant, "
+    "divergence": r"For large $j$ the plate acts like a half-space: $\phi^3 K_j$ is constant, "
     r"and the sums in the paper's $\gamma_k$ diverge for every $k$.",
     "contact split": "A contour integral turns the sum for the indentation into Hertz's term, an "
     "integral for the finite radius, and a sum that decays exponentially with the thickness.",

@@ -157,12 +157,13 @@ def series_formulas() -> tuple[Formula, ...]:
     formulas: list[Formula] = []
     for k in range(FIRST, LAST + 1):
         c = coefficient(k)
-        for part, value, summed in (("modes", c.mode, True), ("side", c.side, False)):
+        parts = (("modes", "modes", c.mode, True), ("side", "finite radius", c.side, False))
+        for part, source, value, summed in parts:
             formulas.append(
                 Formula(
                     f"c_{c.order}_{part}",
                     rf"c_{{{c.order}}}^{{\mathrm{{{part}}}}}",
-                    rf"coefficient of $(a/h)^{c.order}$ in $\delta R/a^2$: {part}",
+                    rf"coefficient of $(a/h)^{c.order}$ in $\delta R/a^2$: {source}",
                     value,
                     "1",
                     "10",

@@ -261,7 +261,7 @@ def contact_split() -> tuple[Formula, ...]:
     return (
         part("delta_half", r"\delta_\infty", "indentation of the half-space", a**2 / R),
         part("delta_side", r"\delta_b", "change of the indentation by the finite radius", side),
-        part("delta_thickness", r"\delta_h", "its change by the thickness", thickness, True),
+        part("delta_thickness", r"\delta_h", "that by the finite thickness", thickness, True),
     )
 
 

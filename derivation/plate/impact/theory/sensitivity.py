@@ -133,7 +133,7 @@ def law_slopes() -> tuple[Formula, ...]:
         Formula(
             "delta_slope",
             r"\mathrm{d}\delta/\mathrm{d}a",
-            "slope of the indentation by the contact radius, for $a < 4 h$ and $a < b$",
+            "derivative of the indentation by the contact radius, for $a < 4 h$ and $a < b$",
             slope,
             "1",
             "6",

@@ -143,7 +143,7 @@ def bending_zero() -> tuple[Formula, ...]:
             steepness(*tanh), steep, "bending_quotient",
         ),
         (
-            "bending_residue", r"\rho h\,r_0", "how A0 answers a load",
+            "bending_residue", r"\rho h\,r_0", "residue of A0",
             bending_residue(*tanh), plus * q / (8 * tanh[1] * s), "steepness",
         ),
     )  # fmt: skip

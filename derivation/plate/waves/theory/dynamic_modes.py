@@ -146,7 +146,7 @@ def wave_shapes() -> tuple[Formula, Formula]:
             shape_f, "m", "", sources, proof,
         ),
         Formula(
-            "wave_g", r"g(z)\vert_\omega", r"its radial displacement divided by $\phi_j$", shape_g,
+            "wave_g", r"g(z)\vert_\omega", r"its radial displacement, divided by $\phi_j$", shape_g,
             "m^2", "", sources, proof,
         ),
     )  # fmt: skip
@@ -228,12 +228,12 @@ def dynamic_influence() -> tuple[Formula, ...]:
     )
     shapes, names = ("wave_f", "wave_g"), sp.symbols("B_a B_s")
     total = h / mu * sum(1 / with_roots(value) for value in printed)
-    slowly = r"the same, in a form without cancellation for $\kappa < x^2$"
+    slowly = r"over $\mu/h$, without cancellation for $\kappa < x^2$"
     rows = (
         ("B_a", "B_a", r"dynamic stiffness in bending, over $\mu/h$", "1", shapes, printed[0]),
         ("B_s", "B_s", r"dynamic stiffness in extension, over $\mu/h$", "1", shapes, printed[1]),
-        ("B_a_slow", "B_a", slowly, "1", ("B_a",), slow[0]),
-        ("B_s_slow", "B_s", slowly, "1", ("B_s",), slow[1]),
+        ("B_a_slow", "B_a", f"dynamic stiffness in bending, {slowly}", "1", ("B_a",), slow[0]),
+        ("B_s_slow", "B_s", f"dynamic stiffness in extension, {slowly}", "1", ("B_s",), slow[1]),
     )
     parts_of_both = tuple(
         Formula(

@@ -16,9 +16,9 @@ from derivation.engine.oracle.tape import Tape, record
 FLOOR = flint.arb(2) ** -1200
 """A ball inside +-2^-1200 is returned as zero.
 
-The smallest double is 2^-1074, so that a computed double cannot distinguish a value below this limit
-from zero. No ball around an exact zero is relatively small; exact zeros are recognised by this
-limit.
+The smallest double is 2^-1074, so that a computed double cannot distinguish a value below this
+limit from zero. No ball around an exact zero is relatively small; exact zeros are recognised by
+this limit.
 """
 
 SLOPE_BITS = 20

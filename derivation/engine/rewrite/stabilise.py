@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 
 import sympy as sp
 
+from derivation.engine.rewrite.accuracy_test import AccuracyTest, accuracy_test, with_whole
 from derivation.engine.rewrite.form import Branch, Seam, Step
-from derivation.engine.rewrite.gate import Gate, gate, held
 from derivation.engine.rewrite.rules import RULES, SHARE, Rewritten, Rule
 from derivation.engine.rewrite.shape import Shape, assembled
 from derivation.engine.rewrite.terms import UnreachableError, terms_of
@@ -90,10 +90,12 @@ def stabilise(
     UnreachableError
         If the rules do not reduce its error to 8 ULP; the message states the reason.
     """
-    points = gate(expression, x, ends, decayed(expression, x))
+    points = accuracy_test(expression, x, ends, decayed(expression, x))
     if lead:
         whole = expression * x**lead
-        points = held(points, gate(whole, x, ends, decayed(whole, x), str(expression)), lead)
+        points = with_whole(
+            points, accuracy_test(whole, x, ends, decayed(whole, x), str(expression)), lead
+        )
     at = _Judge(points)
     kept = list(RULES)
     form, worst = _through(kept, x, expression, at)
@@ -120,14 +122,14 @@ def stabilise(
 class _Judge:
     """An accuracy test that measures each form once."""
 
-    def __init__(self, gate: Gate) -> None:
-        self.gate, self.lead = gate, gate.lead
+    def __init__(self, test: AccuracyTest) -> None:
+        self.test, self.lead = test, test.lead
         self.known: dict[Rewritten, float] = {}
 
     def worst(self, form: Rewritten) -> float:
         """Return the largest error of a form in ULP in addition to conditioning."""
         if form not in self.known:
-            self.known[form] = self.gate.worst(form)
+            self.known[form] = self.test.worst(form)
         return self.known[form]
 
 

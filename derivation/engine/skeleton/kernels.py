@@ -33,7 +33,7 @@ def stated(known: Mapping[str, Block]) -> dict[str, Shape]:
     above = difference.near(x) ** 3 * difference(x) - 2 * s * expm1(-2 * x)
     below = kappa * (1 + sp.exp(-2 * x)) + sp.exp(-x) * (1 + kappa**2 + x**2)
     return {
-        "F_bonded": ((Step(x, held(T, FAR), "constant for larger values"),), above / below),
+        "F_bonded": ((Step(x, held(T, FAR), "beyond, nothing changes"),), above / below),
     }
 
 

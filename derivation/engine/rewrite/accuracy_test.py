@@ -32,7 +32,7 @@ KNOWN = {function.__name__ for function in FUNCTIONS}
 
 
 @dataclass(frozen=True)
-class FormTruth:
+class ExactPoint:
     """A point, the exact value, and half the condition number there.
 
     Parameters
@@ -51,14 +51,14 @@ class FormTruth:
 
 
 @dataclass(frozen=True)
-class Gate:
+class AccuracyTest:
     """Points of an expression at which its forms are compared with exact values.
 
     Parameters
     ----------
     x, others
         The variable, and values of all others.
-    truths
+    exact
         The points with the exact values.
     lead, beyond
         A power of x, and the same points for the expression times that power, which is tested
@@ -67,39 +67,39 @@ class Gate:
 
     x: sp.Symbol
     others: tuple[tuple[sp.Symbol, float], ...]
-    truths: tuple[FormTruth, ...]
+    exact: tuple[ExactPoint, ...]
     lead: int = 0
-    beyond: tuple[FormTruth, ...] = ()
+    beyond: tuple[ExactPoint, ...] = ()
 
     def worst(self, form: sp.Expr | Shape) -> float:
         """Return the largest error in ULP in addition to conditioning; infinite for no value."""
         steps, value = assembled(form) if isinstance(form, Shape) else ((), form)
         if not (isinstance(value, Seam) and self.lead):
-            return max(self._error(truth, steps, value) for truth in self.truths)
-        at, held = float(value.at), float(value.at**self.lead)
-        below = (self._error(t, steps, value) for t in self.truths if t.x < at)
-        above = (self._error(t, steps, value, held) for t in self.beyond if t.x >= at)
+            return max(self._error(point, steps, value) for point in self.exact)
+        at, kept = float(value.at), float(value.at**self.lead)
+        below = (self._error(t, steps, value) for t in self.exact if t.x < at)
+        above = (self._error(t, steps, value, kept) for t in self.beyond if t.x >= at)
         return max(*below, *above)
 
     def _error(
-        self, truth: FormTruth, steps: tuple[Step, ...], value: sp.Expr | Seam, scale: float = 1.0
+        self, point: ExactPoint, steps: tuple[Step, ...], value: sp.Expr | Seam, scale: float = 1.0
     ) -> float:
         try:
-            got = run(steps, value, {self.x: truth.x, **dict(self.others)}) * scale
+            got = run(steps, value, {self.x: point.x, **dict(self.others)}) * scale
         except OverflowError:
             return math.inf
-        return max(ulp_error(got, truth.value) - truth.slack, 0.0)
+        return max(ulp_error(got, point.value) - point.slack, 0.0)
 
 
-def held(inner: Gate, whole: Gate, lead: int) -> Gate:
+def with_whole(inner: AccuracyTest, whole: AccuracyTest, lead: int) -> AccuracyTest:
     """Return a test that above a switch point compares the whole expression, not that over x^lead.
 
     Conditioning is taken into account for neither more than for the other.
     """
-    excused = {truth.x: truth.slack for truth in inner.truths}
+    excused = {point.x: point.slack for point in inner.exact}
     beyond = (
-        replace(truth, slack=min(truth.slack, excused.get(truth.x, math.inf)))
-        for truth in whole.truths
+        replace(point, slack=min(point.slack, excused.get(point.x, math.inf)))
+        for point in whole.exact
     )
     return replace(inner, lead=lead, beyond=tuple(beyond))
 
@@ -121,13 +121,13 @@ def points(low: float, high: float, seed: str) -> tuple[float, ...]:
     return tuple(sorted(x for x in found if low <= x <= high))
 
 
-def gate(
+def accuracy_test(
     expression: sp.Expr,
     x: sp.Symbol,
     ends: tuple[float, float],
     equal: sp.Expr,
     seed: str = "",
-) -> Gate:
+) -> AccuracyTest:
     """Select the points at which forms of an expression are tested.
 
     Parameters
@@ -157,17 +157,17 @@ def gate(
         raise UnreachableError(f"expected at most {len(SAMPLES)} further variables, got {others}")
     found = []
     for point in points(*ends, seed or str(expression)):
-        value, slack = _truth(expression, x, point, fixed, equal)
+        value, slack = _exact_value(expression, x, point, fixed, equal)
         if value is not None and value != 0 and not overflows(value) and abs(value) > 1e-300:
-            found.append(FormTruth(point, value, slack))
+            found.append(ExactPoint(point, value, slack))
     if len(found) < LEAST:
         raise UnreachableError(
             f"{expression!s:.80} has values at {len(found)} test points, expected {LEAST}"
         )
-    return Gate(x, fixed, tuple(found))
+    return AccuracyTest(x, fixed, tuple(found))
 
 
-def _truth(
+def _exact_value(
     expression: sp.Expr,
     x: sp.Symbol,
     point: float,

@@ -78,11 +78,11 @@ def far_stress(
 
     Notes
     -----
-    Error budget: 8 units in the last place of the value, plus half the sum of the
-    condition numbers of the arguments.
+    Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
+    of the condition numbers of the arguments.
     Domain: P >= 0, a > 0, a < b, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2
-    * mu, mu > 0. The budget holds wherever the value is a normal number; smaller ones
-    are rounded to a subnormal number or to zero.
+    * mu, mu > 0. The budget applies where the value is a normal floating-point number;
+    smaller values become subnormal or zero.
     """
     return _evaluated(P, a, h, b, lam, mu, None)
 
@@ -126,12 +126,12 @@ def supported_far_stress(
 
     Notes
     -----
-    Error budget: 8 units in the last place of the sum of the magnitudes of the paper's
-    edge and of the states of stretching and bending, plus half the sum of the condition
-    numbers of the arguments.
+    Tested error budget: 8 units in the last place (ULP) of the sum of the magnitudes of
+    the paper's edge and of the states of stretching and bending, plus half the sum of
+    the condition numbers of the arguments.
     Domain: P >= 0, a > 0, a <= 0.9 * b, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 *
-    lam > -2 * mu, mu > 0. The budget holds wherever the value is a normal number;
-    smaller ones are rounded to a subnormal number or to zero.
+    lam > -2 * mu, mu > 0. The budget applies where the value is a normal floating-point
+    number; smaller values become subnormal or zero.
     """
     return _evaluated(P, a, h, b, lam, mu, _with_support)
 
@@ -175,12 +175,12 @@ def clamped_far_stress(
 
     Notes
     -----
-    Error budget: 8 units in the last place of the sum of the magnitudes of the paper's
-    edge and of the states of stretching and bending, plus half the sum of the condition
-    numbers of the arguments.
+    Tested error budget: 8 units in the last place (ULP) of the sum of the magnitudes of
+    the paper's edge and of the states of stretching and bending, plus half the sum of
+    the condition numbers of the arguments.
     Domain: P >= 0, a > 0, a <= 0.9 * b, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 *
-    lam > -2 * mu, mu > 0. The budget holds wherever the value is a normal number;
-    smaller ones are rounded to a subnormal number or to zero.
+    lam > -2 * mu, mu > 0. The budget applies where the value is a normal floating-point
+    number; smaller values become subnormal or zero.
     """
     return _evaluated(P, a, h, b, lam, mu, _with_clamp)
 

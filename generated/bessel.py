@@ -75,10 +75,10 @@ def bessel_j0(x: ArrayLike) -> np.ndarray:
 
     Notes
     -----
-    Error budget: 2.25 units in the last place of the value, plus half the sum of the
-    condition numbers of the arguments.
-    Domain: all real numbers. The budget holds wherever the value is a normal number;
-    smaller ones are rounded to a subnormal number or to zero.
+    Tested error budget: 2.25 units in the last place (ULP) of the value, plus half the
+    sum of the condition numbers of the arguments.
+    Domain: all real numbers. The budget applies where the value is a normal
+    floating-point number; smaller values become subnormal or zero.
 
     The condition number is |x J_1(x)/J_0(x)|.
     """
@@ -107,10 +107,10 @@ def bessel_j1(x: ArrayLike) -> np.ndarray:
 
     Notes
     -----
-    Error budget: 2.25 units in the last place of the value, plus half the sum of the
-    condition numbers of the arguments.
-    Domain: all real numbers. The budget holds wherever the value is a normal number;
-    smaller ones are rounded to a subnormal number or to zero.
+    Tested error budget: 2.25 units in the last place (ULP) of the value, plus half the
+    sum of the condition numbers of the arguments.
+    Domain: all real numbers. The budget applies where the value is a normal
+    floating-point number; smaller values become subnormal or zero.
 
     The condition number is |x J_0(x)/J_1(x) - 1|.
     """
@@ -143,10 +143,10 @@ def bessel_j0_zeros(count: int) -> Double:
 
     Notes
     -----
-    Error budget: 0.51 units in the last place of the value; the argument is a whole
-    number, and exact.
-    Domain: count >= 0. The budget holds wherever the value is a normal number; smaller
-    ones are rounded to a subnormal number or to zero.
+    Tested error budget: 0.51 units in the last place (ULP) of the value; the argument
+    is a whole number, and exact.
+    Domain: count >= 0. The budget applies where the value is a normal floating-point
+    number; smaller values become subnormal or zero.
     """
     return _zeros(count, 0)
 
@@ -177,10 +177,10 @@ def bessel_j1_zeros(count: int) -> Double:
 
     Notes
     -----
-    Error budget: 0.51 units in the last place of the value; the argument is a whole
-    number, and exact.
-    Domain: count >= 0. The budget holds wherever the value is a normal number; smaller
-    ones are rounded to a subnormal number or to zero.
+    Tested error budget: 0.51 units in the last place (ULP) of the value; the argument
+    is a whole number, and exact.
+    Domain: count >= 0. The budget applies where the value is a normal floating-point
+    number; smaller values become subnormal or zero.
     """
     return _zeros(count, 1)
 
@@ -212,10 +212,10 @@ def bessel_j1_at_j0_zeros(count: int) -> Double:
 
     Notes
     -----
-    Error budget: 0.51 units in the last place of the value; the argument is a whole
-    number, and exact.
-    Domain: count >= 0. The budget holds wherever the value is a normal number; smaller
-    ones are rounded to a subnormal number or to zero.
+    Tested error budget: 0.51 units in the last place (ULP) of the value; the argument
+    is a whole number, and exact.
+    Domain: count >= 0. The budget applies where the value is a normal floating-point
+    number; smaller values become subnormal or zero.
     """
     count = whole(count, "zeros")
     m = _mcmahon_numbers(count, 0)

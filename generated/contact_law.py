@@ -52,11 +52,11 @@ def indentation(a: ArrayLike, R: ArrayLike, h: ArrayLike, b: ArrayLike) -> np.nd
 
     Notes
     -----
-    Error budget: 8 units in the last place of the value, plus half the sum of the
-    condition numbers of the arguments.
+    Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
+    of the condition numbers of the arguments.
     Domain: a >= 0, a < b, a < R, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, a <= 6
-    * h or h/b >= 1e-5. The budget holds wherever the value is a normal number; smaller
-    ones are rounded to a subnormal number or to zero.
+    * h or h/b >= 1e-5. The budget applies where the value is a normal floating-point
+    number; smaller values become subnormal or zero.
     """
     return prepare(h, b).indentation(a, R)
 
@@ -91,11 +91,11 @@ def contact_radius(delta: ArrayLike, R: ArrayLike, h: ArrayLike, b: ArrayLike) -
 
     Notes
     -----
-    Error budget: 8 units in the last place of the value, plus half the sum of the
-    condition numbers of the arguments.
+    Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
+    of the condition numbers of the arguments.
     Domain: delta >= 0, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, a < R, a <= b, a
-    <= 6 * h for the a that results. The budget holds wherever the value is a normal
-    number; smaller ones are rounded to a subnormal number or to zero.
+    <= 6 * h for the a that results. The budget applies where the value is a normal
+    floating-point number; smaller values become subnormal or zero.
     """
     return prepare(h, b).contact_radius(delta, R)
 
@@ -133,12 +133,12 @@ def force(
 
     Notes
     -----
-    Error budget: 8 units in the last place of the value, plus half the sum of the
-    condition numbers of the arguments.
+    Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
+    of the condition numbers of the arguments.
     Domain: delta >= 0, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2 *
-    mu, mu > 0, a < R, a <= b, a <= 6 * h for the a that results. The budget holds
-    wherever the value is a normal number; smaller ones are rounded to a subnormal
-    number or to zero.
+    mu, mu > 0, a < R, a <= b, a <= 6 * h for the a that results. The budget applies
+    where the value is a normal floating-point number; smaller values become subnormal
+    or zero.
     """
     return prepare(h, b).force(delta, R, lam, mu)
 
@@ -170,10 +170,10 @@ def force_of_radius(a: ArrayLike, R: ArrayLike, lam: ArrayLike, mu: ArrayLike) -
 
     Notes
     -----
-    Error budget: 8 units in the last place of the value, plus half the sum of the
-    condition numbers of the arguments.
-    Domain: a >= 0, a < R, R > 0, 3 * lam > -2 * mu, mu > 0. The budget holds wherever
-    the value is a normal number; smaller ones are rounded to a subnormal number or to
+    Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
+    of the condition numbers of the arguments.
+    Domain: a >= 0, a < R, R > 0, 3 * lam > -2 * mu, mu > 0. The budget applies where
+    the value is a normal floating-point number; smaller values become subnormal or
     zero.
     """
     kind, [a, R, lam, mu] = as_doubles(a, R, lam, mu)
@@ -212,11 +212,11 @@ def radius_of_force(P: ArrayLike, R: ArrayLike, lam: ArrayLike, mu: ArrayLike) -
 
     Notes
     -----
-    Error budget: 8 units in the last place of the value, plus half the sum of the
-    condition numbers of the arguments.
+    Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
+    of the condition numbers of the arguments.
     Domain: P >= 0, R > 0, 3 * lam > -2 * mu, mu > 0, a < R for the a that results. The
-    budget holds wherever the value is a normal number; smaller ones are rounded to a
-    subnormal number or to zero.
+    budget applies where the value is a normal floating-point number; smaller values
+    become subnormal or zero.
     """
     kind, [P, R, lam, mu] = as_doubles(P, R, lam, mu)
     [P, R, lam, mu] = inside([P, R, lam, mu], P >= 0, R > 0, *elastic(lam, mu))
@@ -261,11 +261,11 @@ def stiffness(
 
     Notes
     -----
-    Error budget: 8 units in the last place of the value, plus half the sum of the
-    condition numbers of the arguments.
+    Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
+    of the condition numbers of the arguments.
     Domain: a >= 0, a < b, a < R, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 *
-    lam > -2 * mu, mu > 0, a <= 6 * h or h/b >= 1e-5. The budget holds wherever the
-    value is a normal number; smaller ones are rounded to a subnormal number or to zero.
+    lam > -2 * mu, mu > 0, a <= 6 * h or h/b >= 1e-5. The budget applies where the value
+    is a normal floating-point number; smaller values become subnormal or zero.
     """
     return prepare(h, b).stiffness(a, R, lam, mu)
 
@@ -297,10 +297,10 @@ def max_pressure(a: ArrayLike, R: ArrayLike, lam: ArrayLike, mu: ArrayLike) -> n
 
     Notes
     -----
-    Error budget: 8 units in the last place of the value, plus half the sum of the
-    condition numbers of the arguments.
-    Domain: a >= 0, a < R, R > 0, 3 * lam > -2 * mu, mu > 0. The budget holds wherever
-    the value is a normal number; smaller ones are rounded to a subnormal number or to
+    Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
+    of the condition numbers of the arguments.
+    Domain: a >= 0, a < R, R > 0, 3 * lam > -2 * mu, mu > 0. The budget applies where
+    the value is a normal floating-point number; smaller values become subnormal or
     zero.
     """
     kind, [a, R, lam, mu] = as_doubles(a, R, lam, mu)

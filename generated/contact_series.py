@@ -120,10 +120,10 @@ def plate_coefficients(eta: ArrayLike) -> np.ndarray:
 
     Notes
     -----
-    Error budget: 8 units in the last place of max(1 + F, |F|), F being the sum of S_k A
-    (A/reach)^(2k), exactly, at any A <= reach.
-    Domain: eta >= 1e-90, eta <= 1e90. The budget holds wherever the value is a normal
-    number; smaller ones are rounded to a subnormal number or to zero.
+    Tested error budget: 8 units in the last place (ULP) of max(1 + F, |F|), F being the
+    sum of S_k A (A/reach)^(2k), exactly, at any A <= reach.
+    Domain: eta >= 1e-90, eta <= 1e90. The budget applies where the value is a normal
+    floating-point number; smaller values become subnormal or zero.
     """
     kind, [eta] = as_doubles(eta)
     [eta] = inside([eta], eta >= THINNEST, eta <= THICKEST)

@@ -78,11 +78,11 @@ def supported_edge(
 
     Notes
     -----
-    Error budget: 8 units in the last place of the value, plus half the sum of the
-    condition numbers of the arguments.
+    Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
+    of the condition numbers of the arguments.
     Domain: a >= 0, a <= 0.9 * b, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2
-    * mu, mu > 0. The budget holds wherever the value is a normal number; smaller ones
-    are rounded to a subnormal number or to zero.
+    * mu, mu > 0. The budget applies where the value is a normal floating-point number;
+    smaller values become subnormal or zero.
     """
     return _supported(a, h, b, lam, mu, INDENTATION)
 
@@ -124,11 +124,11 @@ def clamped_edge(
 
     Notes
     -----
-    Error budget: 8 units in the last place of the value, plus half the sum of the
-    condition numbers of the arguments.
+    Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
+    of the condition numbers of the arguments.
     Domain: a >= 0, a <= 0.9 * b, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2
-    * mu, mu > 0. The budget holds wherever the value is a normal number; smaller ones
-    are rounded to a subnormal number or to zero.
+    * mu, mu > 0. The budget applies where the value is a normal floating-point number;
+    smaller values become subnormal or zero.
     """
     kind, alpha, eta, n, _ = _inside(a, h, b, lam, mu, WIDEST)
     return as_result(kernels.of_clamp(alpha, eta, n), kind)
@@ -171,11 +171,11 @@ def supported_edge_slope(
 
     Notes
     -----
-    Error budget: 8 units in the last place of the value, plus half the sum of the
-    condition numbers of the arguments.
+    Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
+    of the condition numbers of the arguments.
     Domain: a >= 0, a <= 0.9 * b, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2
-    * mu, mu > 0. The budget holds wherever the value is a normal number; smaller ones
-    are rounded to a subnormal number or to zero.
+    * mu, mu > 0. The budget applies where the value is a normal floating-point number;
+    smaller values become subnormal or zero.
     """
     return _supported(a, h, b, lam, mu, SLOPE)
 
@@ -217,11 +217,11 @@ def clamped_edge_slope(
 
     Notes
     -----
-    Error budget: 8 units in the last place of the value, plus half the sum of the
-    condition numbers of the arguments.
+    Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
+    of the condition numbers of the arguments.
     Domain: a >= 0, a <= 0.9 * b, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2
-    * mu, mu > 0. The budget holds wherever the value is a normal number; smaller ones
-    are rounded to a subnormal number or to zero.
+    * mu, mu > 0. The budget applies where the value is a normal floating-point number;
+    smaller values become subnormal or zero.
     """
     kind, alpha, eta, n, _ = _inside(a, h, b, lam, mu, WIDEST)
     return as_result(kernels.slope_of_clamp(alpha, eta, n), kind)
@@ -264,11 +264,11 @@ def supported_edge_bound(
 
     Notes
     -----
-    Error budget: 8 units in the last place of the value, plus half the sum of the
-    condition numbers of the arguments.
+    Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
+    of the condition numbers of the arguments.
     Domain: a >= 0, a <= b, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2 * mu,
-    mu > 0. The budget holds wherever the value is a normal number; smaller ones are
-    rounded to a subnormal number or to zero.
+    mu > 0. The budget applies where the value is a normal floating-point number;
+    smaller values become subnormal or zero.
     """
     kind, *plate = _inside(a, h, b, lam, mu, 1.0)
     return as_result(kernels.support_bound(*plate), kind)
@@ -311,11 +311,11 @@ def clamped_edge_bound(
 
     Notes
     -----
-    Error budget: 8 units in the last place of the value, plus half the sum of the
-    condition numbers of the arguments.
+    Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
+    of the condition numbers of the arguments.
     Domain: a >= 0, a <= b, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2 * mu,
-    mu > 0. The budget holds wherever the value is a normal number; smaller ones are
-    rounded to a subnormal number or to zero.
+    mu > 0. The budget applies where the value is a normal floating-point number;
+    smaller values become subnormal or zero.
     """
     kind, alpha, eta, n, _ = _inside(a, h, b, lam, mu, 1.0)
     return as_result(kernels.clamp_bound(alpha, eta, n), kind)

@@ -58,10 +58,10 @@ def sphere_contact(a_over_R: ArrayLike) -> Sphere:
 
     Notes
     -----
-    Error budget: 8 units in the last place of the value, plus half the sum of the
-    condition numbers of the arguments.
-    Domain: a_over_R >= 0, a_over_R < 1. The budget holds wherever the value is a normal
-    number; smaller ones are rounded to a subnormal number or to zero.
+    Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
+    of the condition numbers of the arguments.
+    Domain: a_over_R >= 0, a_over_R < 1. The budget applies where the value is a normal
+    floating-point number; smaller values become subnormal or zero.
     """
     kind, [a_over_R] = as_doubles(a_over_R)
     [a_over_R] = inside([a_over_R], a_over_R >= 0, a_over_R < 1)
@@ -90,10 +90,10 @@ def side_wall(alpha: ArrayLike) -> Share:
 
     Notes
     -----
-    Error budget: 8 units in the last place of the value, plus half the sum of the
-    condition numbers of the arguments.
-    Domain: alpha >= 0, alpha < 1. The budget holds wherever the value is a normal
-    number; smaller ones are rounded to a subnormal number or to zero.
+    Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
+    of the condition numbers of the arguments.
+    Domain: alpha >= 0, alpha < 1. The budget applies where the value is a normal
+    floating-point number; smaller values become subnormal or zero.
     """
     kind, [alpha] = as_doubles(alpha)
     [alpha] = inside([alpha], alpha >= 0, alpha < 1)
@@ -125,10 +125,10 @@ def bending(a_ratio: ArrayLike, eta: ArrayLike) -> Share:
 
     Notes
     -----
-    Error budget: 4 units in the last place of the value, plus half the sum of the
-    condition numbers of the arguments.
-    Domain: a_ratio >= 0, eta > 0. The budget holds wherever the value is a normal
-    number; smaller ones are rounded to a subnormal number or to zero.
+    Tested error budget: 4 units in the last place (ULP) of the value, plus half the sum
+    of the condition numbers of the arguments.
+    Domain: a_ratio >= 0, eta > 0. The budget applies where the value is a normal
+    floating-point number; smaller values become subnormal or zero.
     """
     kind, [a_ratio, eta] = as_doubles(a_ratio, eta)
     [a_ratio, eta] = inside([a_ratio, eta], a_ratio >= 0, eta > 0)
@@ -172,11 +172,11 @@ def zener_number(
 
     Notes
     -----
-    Error budget: 8 units in the last place of the value, plus half the sum of the
-    condition numbers of the arguments.
+    Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
+    of the condition numbers of the arguments.
     Domain: R > 0, m > 0, v0 > 0, h > 0, 3 * lam > -2 * mu, mu > 0, rho > 0. The budget
-    holds wherever the value is a normal number; smaller ones are rounded to a subnormal
-    number or to zero.
+    applies where the value is a normal floating-point number; smaller values become
+    subnormal or zero.
     """
     kind, [R, m, v0, h, lam, mu, rho] = as_doubles(R, m, v0, h, lam, mu, rho)
     [R, m, v0] = inside([R, m, v0], R > 0, m > 0, v0 > 0)
@@ -211,10 +211,10 @@ def bending_period(
 
     Notes
     -----
-    Error budget: 8 units in the last place of the value, plus half the sum of the
-    condition numbers of the arguments.
-    Domain: h > 0, b > 0, 3 * lam > -2 * mu, mu > 0, rho > 0. The budget holds wherever
-    the value is a normal number; smaller ones are rounded to a subnormal number or to
+    Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
+    of the condition numbers of the arguments.
+    Domain: h > 0, b > 0, 3 * lam > -2 * mu, mu > 0, rho > 0. The budget applies where
+    the value is a normal floating-point number; smaller values become subnormal or
     zero.
     """
     kind, [h, b, lam, mu, rho] = as_doubles(h, b, lam, mu, rho)
@@ -249,10 +249,10 @@ def echo_time(h: ArrayLike, lam: ArrayLike, mu: ArrayLike, rho: ArrayLike) -> np
 
     Notes
     -----
-    Error budget: 8 units in the last place of the value, plus half the sum of the
-    condition numbers of the arguments.
-    Domain: h > 0, 3 * lam > -2 * mu, mu > 0, rho > 0. The budget holds wherever the
-    value is a normal number; smaller ones are rounded to a subnormal number or to zero.
+    Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
+    of the condition numbers of the arguments.
+    Domain: h > 0, 3 * lam > -2 * mu, mu > 0, rho > 0. The budget applies where the
+    value is a normal floating-point number; smaller values become subnormal or zero.
     """
     kind, [h, lam, mu, rho] = as_doubles(h, lam, mu, rho)
     [h, lam, mu, rho] = inside([h, lam, mu, rho], h > 0, mu > 0, 3 * lam > -2 * mu, rho > 0)

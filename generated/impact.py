@@ -122,11 +122,11 @@ def impact(
 
     Notes
     -----
-    Error budget: 8 units in the last place of the value, plus half the sum of the
-    condition numbers of the arguments.
+    Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
+    of the condition numbers of the arguments.
     Domain: m > 0, v0 > 0, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2
-    * mu, mu > 0, a < R, a <= b, a <= 6 * h for the largest a. The budget holds wherever
-    the value is a normal number; smaller ones are rounded to a subnormal number or to
+    * mu, mu > 0, a < R, a <= b, a <= 6 * h for the largest a. The budget applies where
+    the value is a normal floating-point number; smaller values become subnormal or
     zero.
     """
     kind, given = as_doubles(R, m, v0, h, b, lam, mu)
@@ -186,11 +186,11 @@ def history(
 
     Notes
     -----
-    Error budget: 8 units in the last place of the result's largest value in the impact,
-    plus half the sum of the condition numbers of the arguments.
+    Tested error budget: 8 units in the last place (ULP) of the result's largest value
+    in the impact, plus half the sum of the condition numbers of the arguments.
     Domain: m > 0, v0 > 0, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2
-    * mu, mu > 0, a < R, a <= b, a <= 6 * h for the largest a. The budget holds wherever
-    the value is a normal number; smaller ones are rounded to a subnormal number or to
+    * mu, mu > 0, a < R, a <= b, a <= 6 * h for the largest a. The budget applies where
+    the value is a normal floating-point number; smaller values become subnormal or
     zero.
     """
     kind, [t, R, m, v0, h, b, lam, mu] = as_doubles(t, R, m, v0, h, b, lam, mu)

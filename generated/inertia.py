@@ -100,10 +100,10 @@ def bending_frequency(x: ArrayLike, nu: ArrayLike) -> np.ndarray:
 
     Notes
     -----
-    Error budget: 4 units in the last place of the value, plus half the sum of the
-    condition numbers of the arguments.
-    Domain: x >= 1e-90, x <= 1e90, nu > -1, nu < 0.5. The budget holds wherever the
-    value is a normal number; smaller ones are rounded to a subnormal number or to zero.
+    Tested error budget: 4 units in the last place (ULP) of the value, plus half the sum
+    of the condition numbers of the arguments.
+    Domain: x >= 1e-90, x <= 1e90, nu > -1, nu < 0.5. The budget applies where the value
+    is a normal floating-point number; smaller values become subnormal or zero.
     """
     return _evaluated(x, nu, (_frequency, _frequency))
 
@@ -132,10 +132,10 @@ def bending_residue(x: ArrayLike, nu: ArrayLike) -> np.ndarray:
 
     Notes
     -----
-    Error budget: 8 units in the last place of the value, plus half the sum of the
-    condition numbers of the arguments.
-    Domain: x >= 1e-90, x <= 1e90, nu > -1, nu < 0.5. The budget holds wherever the
-    value is a normal number; smaller ones are rounded to a subnormal number or to zero.
+    Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
+    of the condition numbers of the arguments.
+    Domain: x >= 1e-90, x <= 1e90, nu > -1, nu < 0.5. The budget applies where the value
+    is a normal floating-point number; smaller values become subnormal or zero.
     """
     return _evaluated(x, nu, (_shallow_residue, _deep_residue))
 
@@ -164,10 +164,10 @@ def bending_share(x: ArrayLike, nu: ArrayLike) -> np.ndarray:
 
     Notes
     -----
-    Error budget: 8 units in the last place of the value, plus half the sum of the
-    condition numbers of the arguments.
-    Domain: x >= 1e-90, x <= 1e90, nu > -1, nu < 0.5. The budget holds wherever the
-    value is a normal number; smaller ones are rounded to a subnormal number or to zero.
+    Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
+    of the condition numbers of the arguments.
+    Domain: x >= 1e-90, x <= 1e90, nu > -1, nu < 0.5. The budget applies where the value
+    is a normal floating-point number; smaller values become subnormal or zero.
     """
     return _evaluated(x, nu, (_shallow_share, _deep_share))
 
@@ -315,11 +315,11 @@ def dynamic_influence(x: ArrayLike, kap: ArrayLike, nu: ArrayLike) -> tuple[np.n
 
     Notes
     -----
-    Error budget: 8 units in the last place of the value, plus half the sum of the
-    condition numbers of the arguments and the sum of those of p and q.
+    Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
+    of the condition numbers of the arguments and the sum of those of p and q.
     Domain: x >= 1e-40, x <= 1e40, kap >= 0, kap <= 1e80, nu > -1, nu < 0.5. The budget
-    holds wherever the value is a normal number; smaller ones are rounded to a subnormal
-    number or to zero.
+    applies where the value is a normal floating-point number; smaller values become
+    subnormal or zero.
     """
     kind, [x, kap, nu] = as_doubles(x, kap, nu)
     [x] = inside([x], x >= 1e-40, x <= 1e40)

@@ -40,11 +40,11 @@ def yield_radius(
 
     Notes
     -----
-    Error budget: 8 units in the last place of the value, plus half the sum of the
-    condition numbers of the arguments.
-    Domain: R > 0, 3 * lam > -2 * mu, mu > 0, yield_stress > 0. The budget holds
-    wherever the value is a normal number; smaller ones are rounded to a subnormal
-    number or to zero.
+    Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
+    of the condition numbers of the arguments.
+    Domain: R > 0, 3 * lam > -2 * mu, mu > 0, yield_stress > 0. The budget applies where
+    the value is a normal floating-point number; smaller values become subnormal or
+    zero.
     """
     kind, [R, lam, mu, yield_stress] = as_doubles(R, lam, mu, yield_stress)
     [R, lam, mu] = inside([R, lam, mu], R > 0, mu > 0, 3 * lam > -2 * mu)
@@ -82,11 +82,11 @@ def yield_speed(
 
     Notes
     -----
-    Error budget: 8 units in the last place of the value, plus half the sum of the
-    condition numbers of the arguments.
-    Domain: R > 0, m > 0, 3 * lam > -2 * mu, mu > 0, yield_stress > 0. The budget holds
-    wherever the value is a normal number; smaller ones are rounded to a subnormal
-    number or to zero.
+    Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
+    of the condition numbers of the arguments.
+    Domain: R > 0, m > 0, 3 * lam > -2 * mu, mu > 0, yield_stress > 0. The budget
+    applies where the value is a normal floating-point number; smaller values become
+    subnormal or zero.
     """
     kind, [R, m, lam, mu, yield_stress] = as_doubles(R, m, lam, mu, yield_stress)
     [R, m] = inside([R, m], R > 0, m > 0)
@@ -118,10 +118,10 @@ def plastic_indentation(xi_y: ArrayLike) -> np.ndarray:
 
     Notes
     -----
-    Error budget: 8 units in the last place of the value, plus half the sum of the
-    condition numbers of the arguments.
-    Domain: xi_y >= 1, xi_y <= 1e50. The budget holds wherever the value is a normal
-    number; smaller ones are rounded to a subnormal number or to zero.
+    Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
+    of the condition numbers of the arguments.
+    Domain: xi_y >= 1, xi_y <= 1e50. The budget applies where the value is a normal
+    floating-point number; smaller values become subnormal or zero.
     """
     kind, [xi_y] = as_doubles(xi_y)
     [xi_y] = _yielding(xi_y)
@@ -149,10 +149,10 @@ def flattening(xi_y: ArrayLike) -> np.ndarray:
 
     Notes
     -----
-    Error budget: 8 units in the last place of the value, plus half the sum of the
-    condition numbers of the arguments.
-    Domain: xi_y >= 1, xi_y <= 1e50. The budget holds wherever the value is a normal
-    number; smaller ones are rounded to a subnormal number or to zero.
+    Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
+    of the condition numbers of the arguments.
+    Domain: xi_y >= 1, xi_y <= 1e50. The budget applies where the value is a normal
+    floating-point number; smaller values become subnormal or zero.
     """
     kind, [xi_y] = as_doubles(xi_y)
     [xi_y] = _yielding(xi_y)
@@ -180,10 +180,10 @@ def dent(xi_y: ArrayLike) -> np.ndarray:
 
     Notes
     -----
-    Error budget: 8 units in the last place of the value, plus half the sum of the
-    condition numbers of the arguments.
-    Domain: xi_y >= 1, xi_y <= 1e50. The budget holds wherever the value is a normal
-    number; smaller ones are rounded to a subnormal number or to zero.
+    Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
+    of the condition numbers of the arguments.
+    Domain: xi_y >= 1, xi_y <= 1e50. The budget applies where the value is a normal
+    floating-point number; smaller values become subnormal or zero.
     """
     kind, [xi_y] = as_doubles(xi_y)
     [xi_y] = _yielding(xi_y)
@@ -211,10 +211,10 @@ def plastic_work(xi_y: ArrayLike) -> np.ndarray:
 
     Notes
     -----
-    Error budget: 8 units in the last place of the value, plus half the sum of the
-    condition numbers of the arguments.
-    Domain: xi_y >= 1, xi_y <= 1e50. The budget holds wherever the value is a normal
-    number; smaller ones are rounded to a subnormal number or to zero.
+    Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
+    of the condition numbers of the arguments.
+    Domain: xi_y >= 1, xi_y <= 1e50. The budget applies where the value is a normal
+    floating-point number; smaller values become subnormal or zero.
     """
     kind, [xi_y] = as_doubles(xi_y)
     [xi_y] = _yielding(xi_y)
@@ -242,10 +242,10 @@ def plastic_restitution(xi_y: ArrayLike) -> np.ndarray:
 
     Notes
     -----
-    Error budget: 8 units in the last place of the value, plus half the sum of the
-    condition numbers of the arguments.
-    Domain: xi_y >= 1, xi_y <= 1e50. The budget holds wherever the value is a normal
-    number; smaller ones are rounded to a subnormal number or to zero.
+    Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
+    of the condition numbers of the arguments.
+    Domain: xi_y >= 1, xi_y <= 1e50. The budget applies where the value is a normal
+    floating-point number; smaller values become subnormal or zero.
     """
     kind, [xi_y] = as_doubles(xi_y)
     [xi_y] = _yielding(xi_y)

@@ -66,11 +66,11 @@ def force_by_series(
 
     Notes
     -----
-    Error budget: 8 units in the last place of the value, plus half the sum of the
-    condition numbers of the arguments.
+    Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
+    of the condition numbers of the arguments.
     Domain: delta >= 0, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2 *
-    mu, mu > 0, sqrt(R * delta)/h < radius of convergence. The budget holds wherever the
-    value is a normal number; smaller ones are rounded to a subnormal number or to zero.
+    mu, mu > 0, sqrt(R * delta)/h < radius of convergence. The budget applies where the
+    value is a normal floating-point number; smaller values become subnormal or zero.
     """
     if terms < 1:
         raise ValueError(f"expected at least one term, got terms={terms}")

@@ -92,11 +92,11 @@ def indentation_slope(a: ArrayLike, R: ArrayLike, h: ArrayLike, b: ArrayLike) ->
 
     Notes
     -----
-    Error budget: 8 units in the last place of the value, plus half the sum of the
-    condition numbers of the arguments.
+    Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
+    of the condition numbers of the arguments.
     Domain: a >= 0, a < b, a < R, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, a <= 6
-    * h or h/b >= 1e-5. The budget holds wherever the value is a normal number; smaller
-    ones are rounded to a subnormal number or to zero.
+    * h or h/b >= 1e-5. The budget applies where the value is a normal floating-point
+    number; smaller values become subnormal or zero.
     """
     kind, [a, R, h, b] = as_doubles(a, R, h, b)
     [a, R], [h] = inside([a, R], a >= 0, a < b, a < R, R > 0), inside([h], h > 0)
@@ -159,11 +159,11 @@ def impact_sensitivities(
 
     Notes
     -----
-    Error budget: 8 units in the last place of max(1, |value|), plus half the sum of the
-    condition numbers of the arguments.
+    Tested error budget: 8 units in the last place (ULP) of max(1, |value|), plus half
+    the sum of the condition numbers of the arguments.
     Domain: m > 0, v0 > 0, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2
-    * mu, mu > 0, a < R, a <= b, a <= 6 * h for the largest a. The budget holds wherever
-    the value is a normal number; smaller ones are rounded to a subnormal number or to
+    * mu, mu > 0, a < R, a <= b, a <= 6 * h for the largest a. The budget applies where
+    the value is a normal floating-point number; smaller values become subnormal or
     zero.
     """
     kind, [R, m, v0, h, b, lam, mu] = as_doubles(R, m, v0, h, b, lam, mu)

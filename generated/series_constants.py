@@ -52,10 +52,10 @@ def kappa(n: ArrayLike) -> np.ndarray:
 
     Notes
     -----
-    Error budget: 0.51 units in the last place of the value; the argument is a whole
-    number, and exact.
-    Domain: n >= 0. The budget holds wherever the value is a normal number; smaller ones
-    are rounded to a subnormal number or to zero.
+    Tested error budget: 0.51 units in the last place (ULP) of the value; the argument
+    is a whole number, and exact.
+    Domain: n >= 0. The budget applies where the value is a normal floating-point
+    number; smaller values become subnormal or zero.
     """
     kind, (index,) = as_doubles(n)
     return _representable(_looked_up(KAPPA, index), kind)
@@ -83,10 +83,10 @@ def kappa_ratio(n: ArrayLike) -> np.ndarray:
 
     Notes
     -----
-    Error budget: 0.51 units in the last place of the value; the argument is a whole
-    number, and exact.
-    Domain: n >= 0. The budget holds wherever the value is a normal number; smaller ones
-    are rounded to a subnormal number or to zero.
+    Tested error budget: 0.51 units in the last place (ULP) of the value; the argument
+    is a whole number, and exact.
+    Domain: n >= 0. The budget applies where the value is a normal floating-point
+    number; smaller values become subnormal or zero.
     """
     kind, (index,) = as_doubles(n)
     far = (index >= KAPPA_START) & (index == np.floor(index))
@@ -122,10 +122,10 @@ def finite_part(k: ArrayLike) -> np.ndarray:
 
     Notes
     -----
-    Error budget: 0.51 units in the last place of the value; the argument is a whole
-    number, and exact.
-    Domain: k >= 2. The budget holds wherever the value is a normal number; smaller ones
-    are rounded to a subnormal number or to zero.
+    Tested error budget: 0.51 units in the last place (ULP) of the value; the argument
+    is a whole number, and exact.
+    Domain: k >= 2. The budget applies where the value is a normal floating-point
+    number; smaller values become subnormal or zero.
     """
     kind, (index,) = as_doubles(k)
     return _representable(_looked_up(FINITE_PART, index - FIRST_K), kind)
@@ -153,10 +153,10 @@ def finite_part_ratio(k: ArrayLike) -> np.ndarray:
 
     Notes
     -----
-    Error budget: 0.51 units in the last place of the value; the argument is a whole
-    number, and exact.
-    Domain: k >= 2. The budget holds wherever the value is a normal number; smaller ones
-    are rounded to a subnormal number or to zero.
+    Tested error budget: 0.51 units in the last place (ULP) of the value; the argument
+    is a whole number, and exact.
+    Domain: k >= 2. The budget applies where the value is a normal floating-point
+    number; smaller values become subnormal or zero.
     """
     kind, (index,) = as_doubles(k)
     far = (index >= FINITE_PART_START) & (index == np.floor(index))

@@ -80,11 +80,11 @@ def viscous_number(
 
     Notes
     -----
-    Error budget: 8 units in the last place of the value, plus half the sum of the
-    condition numbers of the arguments.
+    Tested error budget: 8 units in the last place (ULP) of the value, plus half the sum
+    of the condition numbers of the arguments.
     Domain: R > 0, m > 0, v0 > 0, 3 * lam > -2 * mu, mu > 0, viscous_time > 0. The
-    budget holds wherever the value is a normal number; smaller ones are rounded to a
-    subnormal number or to zero.
+    budget applies where the value is a normal floating-point number; smaller values
+    become subnormal or zero.
     """
     kind, [R, m, v0, lam, mu, viscous_time] = as_doubles(R, m, v0, lam, mu, viscous_time)
     [R, m, v0] = inside([R, m, v0], R > 0, m > 0, v0 > 0)
@@ -116,10 +116,10 @@ def restitution_weak(x_v: ArrayLike) -> np.ndarray:
 
     Notes
     -----
-    Error budget: 4 units in the last place of the value, plus half the sum of the
-    condition numbers of the arguments.
-    Domain: x_v >= 0. The budget holds wherever the value is a normal number; smaller
-    ones are rounded to a subnormal number or to zero.
+    Tested error budget: 4 units in the last place (ULP) of the value, plus half the sum
+    of the condition numbers of the arguments.
+    Domain: x_v >= 0. The budget applies where the value is a normal floating-point
+    number; smaller values become subnormal or zero.
     """
     kind, [x_v] = as_doubles(x_v)
     [x_v] = inside([x_v], x_v >= 0)

@@ -1,1 +1,1 @@
-"""The engine: what is done with a paper, whatever it is about."""
+"""The engine: derivation, code generation, checks and report for any paper."""

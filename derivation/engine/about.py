@@ -1,4 +1,4 @@
-"""All that is known of one formula: its link, what it rests on, and what rests on it."""
+"""One formula with its link, the formulas it follows from, and those that follow from it."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -11,18 +11,18 @@ from derivation.engine.paper import Paper
 
 @dataclass(frozen=True)
 class About:
-    """A formula with its place in the chain.
+    """A formula with its position in the derivation.
 
     Parameters
     ----------
     formula
         The formula.
     link
-        Name of the link of the chain that derives it.
+        Name of the link that derives it.
     used_by
         Names of the formulas that are derived from it.
     references
-        The literature that the link rests on, a text for each source.
+        The literature that the link uses, a text for each source.
     """
 
     formula: Record
@@ -41,13 +41,13 @@ class About:
         return tuple((symbol, to_plain(symbol.meaning)) for symbol in self.formula.arguments)
 
     def to_json(self) -> dict[str, object]:
-        """Return the formula as data, with its place in the chain."""
+        """Return the formula as data, with its position in the derivation."""
         place = {"link": self.link, "used_by": self.used_by, "references": self.references}
         return self.formula.to_json() | place
 
 
 def about(paper: Paper, name: str) -> About:
-    """Return all about a formula of a paper.
+    """Return a formula of a paper with its position in the derivation.
 
     Raises
     ------
@@ -68,6 +68,6 @@ def about(paper: Paper, name: str) -> About:
 
 
 def _source(entry: Mapping[str, str]) -> str:
-    """Return a source as a text: authors, title and year, as far as they are known."""
+    """Return a source as text: authors, title and year, as far as they are known."""
     authors = entry.get("author", "").strip("{}").replace(" and ", "; ")
     return ", ".join(text for text in (authors, entry["title"], entry.get("year", "")) if text)

@@ -1,26 +1,26 @@
-"""Tells whoever listens what a long computation is doing; by default nobody does."""
+"""Progress of a long computation, reported to a listener; by default there is none."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 Tell = Callable[[str, int, int], None]
-"""Is told of a part of the work, its number, and how many parts there are."""
+"""Function that receives the name of a part of the work, its number, and the number of parts."""
 _listeners: list[Callable[[str], None]] = []
 
 
 def quiet(*_: object) -> None:
-    """Tell nobody."""
+    """Report nothing."""
 
 
 def tell(text: str) -> None:
-    """Say what is being computed."""
+    """Report what is being computed."""
     for listener in _listeners:
         listener(text)
 
 
 @contextmanager
 def heard(listener: Callable[[str], None]) -> Iterator[None]:
-    """Pass on what is told while the block runs."""
+    """Report to a listener while the block runs."""
     _listeners.append(listener)
     try:
         yield

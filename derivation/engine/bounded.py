@@ -1,4 +1,4 @@
-"""Run work on a user's formula with limits of time and memory, in a process of its own."""
+"""Work on a user's formula in a process of its own, with limits of time and memory."""
 
 import contextlib
 import faulthandler
@@ -15,31 +15,31 @@ from typing import Any, NoReturn, TypeVar
 Value = TypeVar("Value")
 
 SECONDS = 15
-"""Processor time [s] that comparing a formula may take."""
+"""Processor time [s] allowed for comparing a formula."""
 MEGABYTES = 1000
-"""Memory [MB] that it may take beyond what the program holds already."""
+"""Memory [MB] allowed in addition to what the program already uses."""
 PATIENCE = 6
-"""Time on the clock over processor time after which a process counts as stuck."""
+"""Ratio of elapsed to processor time above which a process is treated as blocked."""
 _CHUNK = 1 << 16
 
 
 class LimitError(ValueError):
-    """The work reached a limit of time or memory; the message says which and what to do."""
+    """The work reached a limit of time or memory; the message states which, and a remedy."""
 
 
 def bounded(
     work: Callable[[], Value], what: str, seconds: int = SECONDS, megabytes: int = MEGABYTES
 ) -> Value:
-    """Return what `work` returns, or raise what it raises.
+    """Return the result of `work`, or raise its exception.
 
-    Where the system cannot fork, the work is done without limits.
+    If the system cannot fork, the work is done without limits.
 
     Parameters
     ----------
     work
         Called without arguments in a copy of this process; its result must be picklable.
     what
-        What is done, for the message: ``comparing the formulas``.
+        Description of the work for the message: ``comparing the formulas``.
     seconds, megabytes
         Limits of processor time [s] and additional memory [MB].
 
@@ -91,7 +91,7 @@ def _too_large(what: str, megabytes: int) -> str:
 
 
 def _read(reader: int, seconds: float) -> bytes | None:
-    """All that the child writes until it closes its end; None if that takes too long."""
+    """Return everything that the child writes until it closes its end; None after a timeout."""
     end = time.monotonic() + seconds
     parts: list[bytes] = []
     while True:
@@ -105,7 +105,7 @@ def _read(reader: int, seconds: float) -> bytes | None:
 
 
 def _work(work: Callable[[], Any], writer: int, seconds: int, megabytes: int) -> NoReturn:
-    """Do the work in the child, write the pickled outcome, and end without any clean-up."""
+    """Do the work in the child, write the pickled result, and exit without clean-up."""
     try:
         signal.signal(signal.SIGINT, signal.SIG_DFL)
         os.dup2(os.open(os.devnull, os.O_WRONLY), 2)
@@ -130,8 +130,8 @@ def _outcome(work: Callable[[], Any]) -> bytes:
 
 
 def _limit(seconds: int, megabytes: int) -> None:
-    """Set the limits of this process, as far as the system has them."""
-    import resource  # not on every system
+    """Set the limits of this process, as far as the system supports them."""
+    import resource  # not available on every system
 
     held = 0
     with contextlib.suppress(OSError):

@@ -1,9 +1,9 @@
-"""The main job on a paper: six stages in their order, each timed.
+"""The main job on a paper: six stages, each timed.
 
-1 derive     links -> proven formulas
+1 derive     links -> proved formulas
 2 rewrite    formulas -> stable forms, proved equal
 3 generate   forms -> the NumPy package
-4 misprints  printed formulas against derived ones
+4 misprints  published formulas compared with derived ones
 5 check      generated code against both references
 6 report     LaTeX, HTML and PDF
 """
@@ -41,19 +41,19 @@ if TYPE_CHECKING:
     from derivation.engine.rewrite.account import Account
 
 Timed = Callable[[str], AbstractContextManager[Tell]]
-"""From a stage's name, shows that it runs and how long it took; gives what is told its parts."""
+"""Context that shows the named stage and its duration, and yields a function for its progress."""
 
 
 @dataclass(frozen=True)
 class Built:
-    """What a build found.
+    """Result of a build.
 
     Parameters
     ----------
     passed
-        Whether every function keeps its budget.
+        Whether every function is within its budget.
     notes
-        What is to be said about it, in sentences.
+        Remarks on the result, in sentences.
     files
         The files written.
     """
@@ -69,14 +69,14 @@ def build(paper: Paper, out: Path | None, timed: Timed) -> Built:
     Parameters
     ----------
     out
-        Where the folders `generated` and `reports` are written, if not in the paper's own folder.
+        Parent of the folders `generated` and `reports`, instead of the paper's own folder.
     timed
-        Shows each stage.
+        Context that shows each stage.
 
     Raises
     ------
     ValueError
-        If no folder is given and the paper's own belongs to an installed copy.
+        If no folder is given and the paper belongs to an installed copy.
     OSError
         If a folder cannot be written to.
     """
@@ -107,17 +107,17 @@ def build(paper: Paper, out: Path | None, timed: Timed) -> Built:
 
 
 def derive(paper: Paper) -> Found:
-    """Stage 1: the links with their formulas."""
+    """Stage 1: return the links with their formulas."""
     return paper.chain.found()
 
 
 def rewrite(paper: Paper) -> tuple[Form, ...]:
-    """Stage 2: the stable forms."""
+    """Stage 2: return the stable forms."""
     return package.forms_of(paper.chain, paper.package())
 
 
 def generate(paper: Paper, out: Path | None = None) -> tuple[Path, ...]:
-    """Stage 3: write the package; returns the files written.
+    """Stage 3: write the package; return the files written.
 
     Raises
     ------
@@ -132,23 +132,23 @@ def generate(paper: Paper, out: Path | None = None) -> tuple[Path, ...]:
 
 
 def misprints(paper: Paper) -> tuple[Finding, ...]:
-    """Stage 4: what each printed formula turns out to be."""
+    """Stage 4: return the comparison of each published formula with the derived one."""
     return paper.errata.found(paper.chain)
 
 
 def check(
     paper: Paper, digits: int = 50, update: bool = False, tell: Tell = quiet
 ) -> "tuple[Row, ...]":
-    """Stage 5: compare the generated functions with both references; keep the result if asked.
+    """Stage 5: compare the generated functions with both references; save the result on request.
 
     Raises
     ------
     derivation.engine.oracle.agreement.OracleError
         If the two references contradict each other.
     FileNotFoundError
-        If nothing is generated.
+        If there is no generated package.
     """
-    # Only now, as these load much, and references may import what has just been generated.
+    # Imported late: these modules are slow to load, and references may import the new package.
     from derivation.engine.measure import check as measure
     from derivation.engine.measure.record import to_json
 
@@ -165,17 +165,17 @@ def check(
 
 
 def check_hard(paper: Paper, update: bool = False, tell: Tell = quiet) -> "tuple[HardRow, ...]":
-    """Stage 5 at the hard cases: compare generated and printed forms with recorded references.
+    """Stage 5 at the hard cases: compare generated and published forms with recorded references.
 
-    With `update` these are found anew where they follow from something else now, which takes
-    minutes, and recorded. A run that was stopped goes on where it was.
+    With `update`, outdated references are computed again, which takes minutes, and recorded. An
+    interrupted run continues where it was.
 
     Raises
     ------
     FileNotFoundError
-        If no references were recorded.
+        If no references are recorded.
     ValueError
-        If a case has none, or the paper no cases.
+        If a case has no reference, or the paper has no cases.
     """
     from derivation.engine.measure import hard
     from derivation.engine.measure.suite import find_references
@@ -184,7 +184,7 @@ def check_hard(paper: Paper, update: bool = False, tell: Tell = quiet) -> "tuple
         expect_recordable(paper.hard)
     handed_in = paper.judge().hard
     if handed_in is None:
-        raise ValueError("expected a paper with hard cases, got none: hand them in as Judge.hard")
+        raise ValueError("expected a paper with hard cases, got none: pass them as Judge.hard")
     suite = handed_in()
     if not update:
         if not paper.hard.is_file():
@@ -200,18 +200,18 @@ def check_hard(paper: Paper, update: bool = False, tell: Tell = quiet) -> "tuple
 def report(
     paper: Paper, out: Path | None = None, compiled: bool = True, sections: Sequence[str] = ()
 ) -> tuple[Path, ...]:
-    """Stage 6: write the report and, if asked, its PDF; see `derivation.engine.report_files`."""
-    # Only now, as it may import what has just been generated.
+    """Stage 6: write the report and, on request, its PDF; see `derivation.engine.report_files`."""
+    # Imported late, because it may import the new package.
     from derivation.engine import report_files
 
     return report_files.write(paper, out, compiled, sections)
 
 
-# --- what belongs to a stage
+# --- parts of a stage
 
 
 def formulas(paper: Paper) -> dict[str, Record]:
-    """Every formula by name."""
+    """Return every formula by name."""
     return paper.chain.formulas()
 
 
@@ -224,7 +224,7 @@ def diagnose(
 
 
 def account(paper: Paper, update: bool = False, tell: Tell = quiet) -> "tuple[Account, ...]":
-    """What the rules did to each formula, without and with each of them; keep it if asked."""
+    """Return the effect of each rule on each formula, without and with it; save on request."""
     from derivation.engine.rewrite.account import accounts
 
     if update:
@@ -243,11 +243,11 @@ def check_generated(paper: Paper, out: Path | None, mend: str) -> Freshness:
 
 
 def verdict(paper: Paper, rows: "Sequence[Row]") -> list[str]:
-    """Say what a new measurement found, and whether it repeats the kept one."""
+    """Return remarks on a new measurement, and whether it equals the saved one."""
     from derivation.engine.measure.record import to_json
 
     failed = [row.kernel for row in rows if row.passed is False]
-    lines = [f"beyond their budget: {', '.join(failed)}"] if failed else ["all budgets kept"]
+    lines = [f"above their budget: {', '.join(failed)}"] if failed else ["all budgets kept"]
     if paper.measured.is_file():
         kept, new = (
             {(row["kernel"], row["module"]): row for row in json.loads(text)["rows"]}
@@ -257,16 +257,16 @@ def verdict(paper: Paper, rows: "Sequence[Row]") -> list[str]:
             {name for name, module in new if new[name, module] != kept.get((name, module))}
         )
         if moved:
-            lines.append(f"not as committed in {paper.measured.name}: {', '.join(moved)}")
+            lines.append(f"differs from {paper.measured.name} as committed: {', '.join(moved)}")
     return lines
 
 
 def _report_as_far_as_possible(
     paper: Paper, out: Path | None
 ) -> tuple[tuple[Path, ...], tuple[str, ...]]:
-    """Write the report; without LaTeX all of it but the PDF, and say so.
+    """Write the report; without LaTeX all of it except the PDF, with a remark.
 
-    Returns the files written and what is missing.
+    Returns the files written, and what is missing.
     """
     from derivation.engine.report.pdf import TexError, compile_pdf
 
@@ -274,11 +274,11 @@ def _report_as_far_as_possible(
     try:
         return (*written, compile_pdf(written[0])), ()
     except TexError as error:
-        return written, (f"no PDF, all else is there: {error}",)
+        return written, (f"no PDF, everything else is written: {error}",)
 
 
 def _forget(target: str) -> None:
-    """Let a package that was written anew be read anew."""
+    """Unload modules of a package that was written again."""
     for name in [name for name in sys.modules if name == target or name.startswith(f"{target}.")]:
         del sys.modules[name]
     importlib.invalidate_caches()

@@ -1,8 +1,8 @@
-"""Results kept as plain data, each under a key made of the sources that it was computed from.
+"""Results cached as plain data, each under a hash of the sources that it was computed from.
 
-A file holds a checksum and a tree of JSON: numbers, texts, and lists of them under the name of what
-they make up. Reading it builds SymPy expressions and the records that the caller names, and runs
-nothing else. What cannot be read is computed again.
+A file contains a checksum and a tree of JSON: numbers, texts, and lists of them under the name of
+what they form. Reading it builds SymPy expressions and the records that the caller names, and
+executes nothing else. What cannot be read is computed again.
 """
 
 import contextlib
@@ -23,7 +23,7 @@ from derivation.engine.files import content_hash, read_file, sources, write_file
 Value = TypeVar("Value")
 
 LARGEST = 2**26
-"""Bytes of a file beyond which it is none of these."""
+"""Largest size in bytes of a cache file."""
 CONSTANTS: dict[str, sp.Basic] = {
     "Pi": sp.pi, "EulerGamma": sp.EulerGamma, "Exp1": sp.E, "ImaginaryUnit": sp.I,
     "Infinity": sp.oo, "NegativeInfinity": -sp.oo,
@@ -32,49 +32,49 @@ HEADS: dict[str, type] = {
     head.__name__: head
     for head in (sp.Add, sp.Mul, sp.Pow, sp.Derivative, sp.Integral, sp.Sum, sp.Tuple, expm1)
 }
-"""What expressions are built of besides SymPy's own functions."""
+"""Parts of expressions other than SymPy's functions."""
 
 
 def cached(
     name: str, rooms: tuple[str | Path, ...], compute: Callable[[], Value], *kinds: type
 ) -> Value:
-    """Result of `compute`, kept as long as the sources of the rooms stay the same.
+    """Return the result of `compute`, cached while the named sources stay the same.
 
-    The cache is a convenience: one that cannot be read or written is passed over.
+    A cache that cannot be read or written is ignored.
 
     Parameters
     ----------
     name, rooms
-        What is computed, and the sources it follows from: parts of this package by name, others
-        by their path.
+        Name of the result, and the sources on which it depends: parts of this package by name,
+        others by path.
     compute
-        Computes it, of None, truth values, integers, text, SymPy expressions, `kinds`, and tuples
-        and mappings by text of those.
+        Function that computes it, of None, booleans, integers, text, SymPy expressions, `kinds`,
+        and tuples and mappings by text of those.
     kinds
-        Dataclasses and SymPy functions of this project that occur in it.
+        Dataclasses and SymPy functions of this project that it contains.
     """
     key = f"{name}-{content_hash(sources(*rooms))[:32]}"
     folder, known = cache_folder(), {kind.__name__: kind for kind in kinds}
     path = None if folder is None else folder / f"{key}.json"
     if path is not None:
-        with contextlib.suppress(Exception):  # whatever a damaged file raises
+        with contextlib.suppress(Exception):  # any exception that a damaged file raises
             kept: Value = _read(key, read_file(path, LARGEST), known)
             return kept
     content = _written(key, compute(), known)
     if path is not None:
         with contextlib.suppress(OSError):
             write_file(path, content)
-    # SymPy builds an expression that is read anew, which may regroup it: so that
-    # the first run sees what later ones will, it reads what it has written.
+    # SymPy may regroup an expression that is read back. To make the first run equal to later
+    # ones, the result is read from what was written.
     value: Value = _read(key, content, known)
     return value
 
 
 def cache_folder() -> Path | None:
-    """Where results are kept; None if there is no folder of one's own for it.
+    """Return the folder for cached results; None if there is no private folder.
 
-    A relative path in XDG_CACHE_HOME counts for nothing, as its standard says. A folder of
-    somebody else's, or one that everybody may write into, is not used.
+    A relative path in XDG_CACHE_HOME is ignored, as its standard requires. A folder that belongs to
+    another user, or that everybody may write into, is not used.
     """
     said = Path(os.environ.get("XDG_CACHE_HOME", ""))
     try:
@@ -101,7 +101,7 @@ def _written(key: str, value: object, kinds: Mapping[str, type]) -> bytes:
 def _read(key: str, content: bytes, kinds: Mapping[str, type]) -> Any:
     checksum, _, text = content.partition(b"\n")
     if checksum != _checksum(key, text):
-        raise ValueError(f"{key}: expected a checksum that fits, got another")
+        raise ValueError(f"{key}: the checksum does not match the content")
     return from_plain(json.loads(text), kinds)
 
 
@@ -113,12 +113,12 @@ def _checksum(key: str, text: bytes) -> bytes:
 
 
 def to_plain(value: object, kinds: Mapping[str, type]) -> Any:
-    """A value as JSON's data.
+    """Return a value as JSON data.
 
     Raises
     ------
     TypeError
-        If it holds something that cannot be kept.
+        If it contains something that cannot be cached.
     """
     if value is None or isinstance(value, (bool, int, str)):
         return value
@@ -131,7 +131,7 @@ def to_plain(value: object, kinds: Mapping[str, type]) -> Any:
         return {name: [to_plain(getattr(value, field.name), kinds) for field in fields(value)]}
     if isinstance(value, sp.Basic):
         return _expression_to_plain(value, kinds)
-    raise TypeError(f"cache: expected what can be kept, got {type(value)}; name it among the kinds")
+    raise TypeError(f"cache: {type(value)} cannot be cached; name it among the kinds")
 
 
 def _expression_to_plain(value: sp.Basic, kinds: Mapping[str, type]) -> Any:
@@ -154,12 +154,12 @@ def _expression_to_plain(value: sp.Basic, kinds: Mapping[str, type]) -> Any:
 
 
 def from_plain(plain: Any, kinds: Mapping[str, type]) -> Any:
-    """The value that a tree stands for.
+    """Return the value that a tree represents.
 
     Raises
     ------
     TypeError, ValueError
-        If it stands for none.
+        If it does not represent a value.
     """
     if plain is None or isinstance(plain, (bool, int, str)):
         return plain
@@ -198,7 +198,7 @@ def _expression(name: str, parts: Any, kinds: Mapping[str, type]) -> sp.Basic:
 
 
 def _head(name: str, kinds: Mapping[str, type]) -> Any:
-    """The class of expressions of a name: a head, a kind or a function of SymPy's; None if none."""
+    """Return the class of expressions of a name: a head, a kind or a SymPy function; else None."""
     head = HEADS.get(name) or kinds.get(name) or getattr(sp, name, None)
     known = isinstance(head, type) and issubclass(head, (Application, *HEADS.values()))
     return head if known and head not in (Application, sp.Function) else None
@@ -207,7 +207,7 @@ def _head(name: str, kinds: Mapping[str, type]) -> Any:
 def _expressions(values: Iterable[Any]) -> tuple[sp.Basic, ...]:
     found = tuple(values)
     if not all(isinstance(value, sp.Basic) for value in found):
-        raise ValueError("expected expressions as the parts of one")
+        raise ValueError("expected expressions as parts of an expression")
     return found
 
 

@@ -1,4 +1,4 @@
-"""What the command line shows: stages with their times, tables, JSON to a file or the screen."""
+"""Output of the command line: stages with times, tables, JSON to a file or the screen."""
 
 import json
 import os
@@ -30,24 +30,24 @@ from derivation.engine.text import paragraph
 
 
 class UnreadError(Exception):
-    """Whoever reads the output has had enough, like `head`."""
+    """The reader of the output has closed it, like `head`."""
 
 
 def silence(stream: TextIO) -> None:
-    """Let what is written to a stream, and what is left in its buffer, go nowhere."""
+    """Discard further output to a stream, and its buffer."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
 class Screen(Console):
-    """A console on which no text of a user's moves the cursor or takes on a colour."""
+    """A console on which a user's text cannot move the cursor or set colours."""
 
     def say(self, text: str) -> None:
-        """Show a text as it is, unbroken, so that it can be copied."""
+        """Print a text as it is, without line breaks, so that it can be copied."""
         known = printable(text).encode(self.encoding, "backslashreplace").decode(self.encoding)
         self.print(Text(known), markup=False, highlight=False, soft_wrap=True)
 
     def on_broken_pipe(self) -> None:
-        """Stop quietly if results are not read; remarks that are not read stop nothing."""
+        """Exit quietly if the reader of results has closed the output; ignore it for remarks."""
         if not self.stderr:
             raise UnreadError
         silence(sys.stderr)
@@ -55,7 +55,7 @@ class Screen(Console):
 
 OUT = Screen(emoji=False)
 NOTES = Screen(stderr=True, emoji=False)
-"""Progress and remarks, kept apart from results so that these can be piped."""
+"""Progress and remarks, on another stream than results, so that results can be piped."""
 
 
 def _checked(where: str | None) -> str | None:
@@ -72,16 +72,16 @@ Json = Annotated[
 """The option of every command that has a result."""
 
 INTERRUPTED = 130
-"""What typer returns after Ctrl-C."""
+"""Exit status of typer after Ctrl-C."""
 UNREAD = 141
-"""What a shell sees of a program that writes to a pipe that nobody reads: 128 + SIGPIPE."""
+"""Exit status of a program that writes to a closed pipe: 128 + SIGPIPE."""
 MOST = 20
-"""Warnings that are shown."""
+"""Largest number of warnings shown."""
 
 
 @contextmanager
 def stage(name: str) -> Iterator[None]:
-    """Show that a stage is running, then how long it took."""
+    """Show that a stage is running, and then its duration."""
     start = time.perf_counter()
     with NOTES.status(f"{name} ..."):
         yield
@@ -90,7 +90,7 @@ def stage(name: str) -> Iterator[None]:
 
 @contextmanager
 def counted(name: str) -> Iterator[Tell]:
-    """Show a bar and a clock for work in parts; yields what wants to be told each part."""
+    """Show a bar and a clock for work in parts; yields the function that reports a part."""
     start = time.perf_counter()
     part = TextColumn("{task.description}", markup=False)
     columns = (TextColumn(name), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), part)
@@ -104,7 +104,7 @@ def counted(name: str) -> Iterator[Tell]:
 
 @contextmanager
 def clocked(name: str) -> Iterator[Callable[[str, int, float], None]]:
-    """Show a clock for work without end; yields what wants to be told part, count and worst."""
+    """Show a clock for work without end; yields the function that reports part, count and worst."""
     columns = (TextColumn(name), SpinnerColumn(), TimeElapsedColumn())
     with Progress(
         *columns, TextColumn("{task.description}", markup=False), console=NOTES, transient=True
@@ -117,7 +117,7 @@ def clocked(name: str) -> Iterator[Callable[[str, int, float], None]]:
 
 @contextmanager
 def watched(name: str) -> Iterator[None]:
-    """Show what a computation of unknown length is doing; nothing of one that is quick."""
+    """Show the progress of a computation of unknown length, unless it is quick."""
     from derivation.engine.activity import heard
 
     if not NOTES.is_terminal:
@@ -137,9 +137,9 @@ def watched(name: str) -> Iterator[None]:
 
 
 def table(title: str, columns: Sequence[str], rows: Sequence[Sequence[object]]) -> None:
-    """Print a table; columns whose name starts with `#` are numbers, set flush right.
+    """Print a table; columns whose name starts with `#` are numbers, aligned right.
 
-    Names, one word each, in the first column are not broken.
+    Names in the first column, one word each, are not broken.
     """
     heading = Text(one_line(title, 200), style="table.title")
     made = Table(title=heading, title_justify="left")
@@ -147,7 +147,7 @@ def table(title: str, columns: Sequence[str], rows: Sequence[Sequence[object]]) 
     for index, column in enumerate(columns):
         number = column.startswith("#")
         made.add_column(
-            Text(printable(column.lstrip("#"))),  # "[m]" is a unit, no markup
+            Text(printable(column.lstrip("#"))),  # "[m]" is a unit, not markup
             justify="right" if number else "left",
             overflow="fold",
             no_wrap=names and index == 0 and not number,
@@ -158,14 +158,14 @@ def table(title: str, columns: Sequence[str], rows: Sequence[Sequence[object]]) 
 
 
 def listing(title: str, lines: Sequence[str]) -> None:
-    """Print lines as they are, unbroken, so that they can be copied."""
+    """Print lines as they are, without line breaks, so that they can be copied."""
     OUT.print(Text(one_line(title, 200), style="italic"))
     for line in lines:
         OUT.say(line)
 
 
 def warn(warnings: Sequence[str]) -> None:
-    """Show each warning once, apart from the results; of very many the first."""
+    """Show each warning once, separate from the results; of many only the first."""
     found = list(dict.fromkeys(warnings))
     for text in found[:MOST]:
         NOTES.say(paragraph(f"warning: {text}"))
@@ -175,7 +175,7 @@ def warn(warnings: Sequence[str]) -> None:
 
 @contextmanager
 def noted(shown: type[Warning]) -> Iterator[None]:
-    """Show each warning of a category once, as a remark; all others as Python does."""
+    """Show each warning of a category once, as a remark; others as Python does."""
     seen, usual = set[str](), warnings.showwarning
 
     def show(
@@ -200,12 +200,12 @@ def noted(shown: type[Warning]) -> Iterator[None]:
 
 
 def json_text(result: Any) -> str:
-    """A result as JSON to be read by people too.
+    """Return a result as indented JSON.
 
     Raises
     ------
     ValueError
-        If a number is NaN or infinite, which JSON does not know.
+        If a number is NaN or infinite, which JSON does not allow.
     """
     try:
         text = json.dumps(result, indent=2, ensure_ascii=False, allow_nan=False)
@@ -217,7 +217,7 @@ def json_text(result: Any) -> str:
 
 
 def put(text: str) -> None:
-    """Write text to standard output as it is."""
+    """Write text to standard output without changes."""
     try:
         print(text, end="", flush=True)
     except BrokenPipeError:
@@ -227,19 +227,19 @@ def put(text: str) -> None:
 def put_json(make: Callable[[], Any], where: str | None) -> bool:
     """Write a result as JSON to a file, or to standard output for `-`.
 
-    Before anything is shown, as whoever reads the screen may stop reading.
+    This happens before anything is shown, because the reader of the screen may stop reading.
 
     Parameters
     ----------
     make
-        Makes the result, if it is wanted.
+        Function that returns the result; called if JSON is requested.
     where
-        The file, `-`, or nothing for no JSON.
+        The file, `-`, or an empty text for no JSON.
 
     Returns
     -------
     bool
-        Whether the screen is free for tables.
+        Whether tables may be printed.
     """
     if where == "-":
         put(json_text(make()))

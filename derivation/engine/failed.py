@@ -1,5 +1,5 @@
-"""What a check raises that fails: the message says which, and what is left over."""
+"""The exception of a failed check; its message states which, and the residual."""
 
 
 class FailedError(AssertionError):
-    """A proof does not hold, or two references contradict each other."""
+    """A proof fails, or two references contradict each other."""

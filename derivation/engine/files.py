@@ -1,4 +1,4 @@
-"""Files read with care, and written whole or not at all."""
+"""Reading of files with checks, and writing of whole files only."""
 
 import contextlib
 import errno
@@ -14,7 +14,7 @@ from pathlib import Path
 from derivation.engine.staging import Temporary, put_folder, recover, remove_leftovers, settle
 
 PAGE = 4096
-"""Least room for a file that a disk takes, in bytes."""
+"""Smallest space for a file on a disk, in bytes."""
 PACKAGE = Path(__file__).parents[1]
 ROOT = PACKAGE.parent
 PINNED = ("sympy", "python-flint", "mpmath", "jinja2", "ruff")
@@ -22,33 +22,33 @@ PINNED = ("sympy", "python-flint", "mpmath", "jinja2", "ruff")
 
 
 def measurements() -> Path:
-    """Folder of the committed measurements, of which an installed copy has its own."""
+    """Return the folder of the committed measurements; an installed copy has its own."""
     return ROOT / "reports" / "data" if in_checkout() else PACKAGE / "data"
 
 
 def in_checkout() -> bool:
-    """Whether the package runs from a checkout, which it may write into."""
+    """Return whether the package runs from a checkout, into which it may write."""
     return (ROOT / "pyproject.toml").is_file()
 
 
 def write_file(path: Path, content: str | bytes) -> None:
-    """Write a file through a temporary one beside it, so that it is never half there.
+    """Write a file through a temporary one in its folder, so that it is never incomplete.
 
     Raises
     ------
     OSError
-        If the folder cannot be made or written to.
+        If the folder cannot be created or written to.
     """
     write_files({path: content})
 
 
 def write_files(contents: Mapping[Path, str | bytes]) -> tuple[Path, ...]:
-    """Write all of the files or, where there is no leave or no room for one, none; returns them.
+    """Write all of the files or, if one cannot be written, none; return them.
 
     Raises
     ------
     OSError
-        Naming the file that cannot be written, why, and how to mend it.
+        Naming the file that cannot be written, the reason, and a remedy.
     """
     made: list[Path] = []
     temporaries: dict[Path, Temporary] = {}
@@ -80,15 +80,15 @@ def write_files(contents: Mapping[Path, str | bytes]) -> tuple[Path, ...]:
 
 
 def write_folder(folder: Path, contents: Mapping[str, str | bytes]) -> tuple[Path, ...]:
-    """Write files of a folder, all in one step, so that no reader finds old and new ones mixed.
+    """Write files of a folder in one step, so that no reader finds old and new ones mixed.
 
-    One by one if the folder cannot be moved: it holds other folders, is a disk of its own, or is
-    the one in which the process works.
+    They are written one by one if the folder cannot be moved: it contains other folders, is a mount
+    point, or is the working directory.
 
     Raises
     ------
     OSError
-        Naming the file that cannot be written, why, and how to mend it.
+        Naming the file that cannot be written, the reason, and a remedy.
     """
     target = real(folder)
     with _explained(folder):
@@ -107,7 +107,7 @@ def write_folder(folder: Path, contents: Mapping[str, str | bytes]) -> tuple[Pat
 
 
 def real(path: Path) -> Path:
-    """The file behind a link; a link that leads to itself stays what it is."""
+    """Return the file behind a link; a link to itself is returned as it is."""
     return Path(os.path.realpath(path))
 
 
@@ -116,26 +116,26 @@ def _bytes(content: str | bytes) -> bytes:
 
 
 def _make_folder(folder: Path) -> list[Path]:
-    """Make a folder; returns what had to be made, outermost first."""
+    """Create a folder; return the folders that were created, outermost first."""
     missing = [place for place in (folder, *folder.parents) if not place.exists()][::-1]
     folder.mkdir(parents=True, exist_ok=True)
     return missing
 
 
 def _remove_empty(folders: Sequence[Path]) -> None:
-    """Remove folders that were made for nothing, outermost first in the list."""
+    """Remove folders that were created in vain, outermost first in the list."""
     for folder in reversed(folders):
         with contextlib.suppress(OSError):
             folder.rmdir()
 
 
 def read_file(path: Path, most: int) -> bytes:
-    """Content of a file.
+    """Return the content of a file.
 
     Raises
     ------
     OSError
-        If it cannot be read, is no file but a folder or a device, or has more than `most` bytes.
+        If it cannot be read, is a folder or a device, or has more than `most` bytes.
     """
     if not stat.S_ISREG(path.stat().st_mode):
         raise OSError(errno.EINVAL, "a folder or a device, not a file")
@@ -148,7 +148,7 @@ def read_file(path: Path, most: int) -> bytes:
 
 
 def expect_writable(path: Path) -> None:
-    """Refuse a file that cannot be written before minutes are spent on what it is to hold."""
+    """Refuse a file that cannot be written, before minutes are spent on its content."""
     target = real(path)
     with _explained(path):
         there, fine = target.exists(), target.is_file()
@@ -161,7 +161,7 @@ def expect_writable(path: Path) -> None:
 
 
 def expect_folder(folder: Path) -> None:
-    """Refuse a folder that cannot be written into, there or still to be made."""
+    """Refuse a folder that cannot be written into or created."""
     with _explained(folder):
         other = folder.exists() and not folder.is_dir()
         if not other:
@@ -171,7 +171,7 @@ def expect_folder(folder: Path) -> None:
 
 
 def _try_folder(folder: Path) -> None:
-    """Write a page into a folder, or into that in which it would be made, unseen."""
+    """Write a test file into a folder, or into that in which it would be created."""
     there = next(place for place in (folder, *folder.parents) if place.exists())
     with tempfile.TemporaryFile(dir=there) as stream:
         stream.write(bytes(PAGE))
@@ -179,21 +179,21 @@ def _try_folder(folder: Path) -> None:
 
 @contextlib.contextmanager
 def _explained(path: Path) -> Iterator[None]:
-    """Say which file could not be written, and what to do."""
+    """Raise an error that names the file that could not be written, and a remedy."""
     try:
         yield
     except OSError as error:
         full = error.errno in (errno.ENOSPC, errno.EDQUOT)
-        mend = "free some space" if full else "ask for leave to write there"
+        mend = "free some space" if full else "ask for permission to write there"
         raise OSError(
             f"cannot write {path}: {error.strerror}; {mend}, or name another folder"
         ) from None
 
 
 def sources(*rooms: str | Path) -> Iterator[Path]:
-    """Source files of the rooms, templates and data included, in a fixed order.
+    """Return the named source files, templates and data included, in a fixed order.
 
-    A room is a folder or a file of the package, or a pattern like ``paper/*/theory*``.
+    A name is a folder or a file of the package, or a pattern like ``paper/*/theory*``.
     """
     for room in rooms:
         for place in sorted(PACKAGE.glob(room)) if isinstance(room, str) else [room]:
@@ -202,7 +202,7 @@ def sources(*rooms: str | Path) -> Iterator[Path]:
 
 
 def content_hash(paths: Iterable[Path]) -> str:
-    """Hash of the files' names and contents, the library versions and Python's."""
+    """Return a hash of the files' names and contents, and versions of libraries and Python."""
     digest = hashlib.sha256(platform.python_version().encode())
     for library in PINNED:
         digest.update(f"{library}={version(library)};".encode())

@@ -1,4 +1,4 @@
-"""A paper from a folder, which may stand anywhere; and a new one to begin with."""
+"""Loading of a paper from any folder, and creation of a new one."""
 
 import importlib
 import sys
@@ -12,20 +12,20 @@ from derivation.engine.paper import Paper
 
 SKELETON = Path(__file__).parent / "skeleton"
 PREFIX = "paper_in_"
-"""Of the name under which a folder is imported, so that it hides no other module."""
+"""Prefix of the name under which a folder is imported, so that it hides no other module."""
 
 
 class PaperError(ValueError):
-    """A folder that holds no paper; the message says what was expected and what to do."""
+    """A folder does not contain a paper; the message states what is expected, and a remedy."""
 
 
 def load(folder: Path) -> Paper:
-    """The paper of a folder: the object PAPER of its module `paper`.
+    """Return the paper of a folder: the object PAPER of its module `paper`.
 
     Raises
     ------
     PaperError
-        If there is none, or the folder's modules cannot be imported.
+        If there is no paper, or the folder's modules cannot be imported.
     """
     place = folder.resolve()
     if not (place / "paper.py").is_file():
@@ -38,7 +38,7 @@ def load(folder: Path) -> Paper:
         paper = _imported(name, place).PAPER
     except FailedError:
         raise
-    except Exception as error:  # whatever a module of the folder does
+    except Exception as error:  # any exception that a module of the folder raises
         raise PaperError(
             f"--paper: {folder} cannot be imported: {_place(error, place)}"
             f"{type(error).__name__}: {error}; correct it"
@@ -49,9 +49,9 @@ def load(folder: Path) -> Paper:
 
 
 def _imported(name: str, place: Path) -> ModuleType:
-    """The module `paper` of a folder, the folder being a package of the given name."""
+    """Return the module `paper` of a folder, imported as a package of the given name."""
     for known in [known for known in sys.modules if known == name or known.startswith(f"{name}.")]:
-        del sys.modules[known]  # of another folder of this name, or of files since edited
+        del sys.modules[known]  # from another folder of this name, or from edited files
     package = ModuleType(name)
     package.__path__ = [str(place)]
     sys.modules[name] = package
@@ -60,18 +60,18 @@ def _imported(name: str, place: Path) -> ModuleType:
 
 
 def _place(error: Exception, folder: Path) -> str:
-    """The line of the folder's files in which an error arose, as text in front of it."""
+    """Return the line of the folder's files in which an error occurred, as a prefix."""
     frames = [f for f in extract_tb(error.__traceback__) if Path(f.filename).parent == folder]
     return f"{Path(frames[-1].filename).name}, line {frames[-1].lineno}: " if frames else ""
 
 
 def begin(folder: Path) -> tuple[Path, ...]:
-    """Write a small paper that works, to be changed into one's own; returns its files.
+    """Write a small working paper as a start for one's own; return its files.
 
     Raises
     ------
     PaperError
-        If the folder holds something already.
+        If the folder is not empty.
     OSError
         If it cannot be written to.
     """

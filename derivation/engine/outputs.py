@@ -1,4 +1,4 @@
-"""Where results are written, a place that is named or the project's own in a checkout; and how."""
+"""Destinations of results: a given path, or the project's own in a checkout; JSON text."""
 
 import json
 import math
@@ -24,7 +24,7 @@ def folder_for(out: Path | None, own: Path) -> Path:
 
 
 def writable_folder(out: Path | None, own: Path) -> Path:
-    """Return the same, before anything is computed.
+    """Return the same folder after a test that it can be written to.
 
     Raises
     ------
@@ -39,7 +39,7 @@ def writable_folder(out: Path | None, own: Path) -> Path:
 
 
 def recorded_in(committed: Path, update: bool, out: Path | None) -> Path | None:
-    """Return the file that a measurement is written to: the committed one, `out`, or none.
+    """Return the file for a measurement: the committed one, `out`, or none.
 
     Raises
     ------
@@ -59,7 +59,7 @@ def recorded_in(committed: Path, update: bool, out: Path | None) -> Path | None:
 
 
 def expect_recordable(path: Path) -> None:
-    """Reject a measurement that takes minutes and cannot be kept.
+    """Reject a measurement that takes minutes if its result could not be saved.
 
     Raises
     ------
@@ -76,7 +76,7 @@ def expect_recordable(path: Path) -> None:
 
 
 def plain(value: Any) -> Any:
-    """Data as JSON holds it, which has no infinities and no NaN: they become text."""
+    """Return data for JSON, which has no infinities and no NaN: these become text."""
     if isinstance(value, dict):
         return {key: plain(part) for key, part in value.items()}
     if isinstance(value, list | tuple):
@@ -87,17 +87,17 @@ def plain(value: Any) -> Any:
 
 
 def plain_rows(rows: Iterable[Any]) -> list[dict[str, Any]]:
-    """Rows as plain data, field by field."""
+    """Return rows as plain data, field by field."""
     return [plain(asdict(row)) for row in rows]
 
 
 def sorted_json(data: Any) -> str:
-    """Plain data as JSON, byte for byte the same for the same data."""
+    """Return plain data as JSON; equal data give equal bytes."""
     return json.dumps(data, indent=1, sort_keys=True, allow_nan=False) + "\n"
 
 
 def json_by_line(data: Mapping[str, Any], *lists: str) -> str:
-    """Plain data as JSON, an entry to a line; of the lists that are named, a row to a line."""
+    """Return plain data as JSON, one entry per line; for the named lists one row per line."""
     lines = []
     for key, value in data.items():
         text = json.dumps(value, allow_nan=False)
@@ -109,5 +109,5 @@ def json_by_line(data: Mapping[str, Any], *lists: str) -> str:
 
 
 def _installed(path: Path) -> bool:
-    """Whether a path belongs to an installed copy, whose files stay as they are."""
+    """Return whether a path belongs to an installed copy, whose files are not changed."""
     return path.is_relative_to(ROOT) and not in_checkout()

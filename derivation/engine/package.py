@@ -1,4 +1,4 @@
-"""The generated package of a paper: its stable forms and its files, kept until sources change."""
+"""The generated package of a paper: stable forms and files, cached until sources change."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -17,7 +17,7 @@ Formulas = Mapping[str, Record]
 
 @dataclass(frozen=True, eq=False)
 class Package:
-    """What is generated.
+    """Definition of the generated package.
 
     Parameters
     ----------
@@ -26,12 +26,12 @@ class Package:
     forms
         The stable forms of the formulas, proved equal to them.
     files
-        Its files by name, from formulas and forms.
+        Function for its files by name, from formulas and forms.
     sources
-        What the files follow from besides the formulas: parts of this package by name, others by
-        their path.
+        Files on which it depends in addition to the formulas: parts of this package by name, others
+        by path.
     rewritten
-        Formulas whose forms are found by rule.
+        Formulas whose forms are found by the rules.
     scales
         Their dimensionless variables.
     """
@@ -45,14 +45,14 @@ class Package:
 
 
 def forms_of(chain: Chain, package: Package) -> tuple[Form, ...]:
-    """The stable forms, proved equal to the formulas."""
+    """Return the stable forms, proved equal to the formulas."""
     kinds = (Form, Step, Branch, Seam)
     rooms = ("engine/rewrite", *package.sources)
     return chain.kept("forms", lambda: package.forms(chain.formulas()), *kinds, also=rooms)
 
 
 def files_of(chain: Chain, package: Package) -> dict[str, str]:
-    """The files of the package by name."""
+    """Return the files of the package by name."""
     own = ("engine/rewrite", "engine/errata", "engine/emit", "engine/runtime")
     rooms = (*own, *package.sources)
 
@@ -63,7 +63,7 @@ def files_of(chain: Chain, package: Package) -> dict[str, str]:
 
 
 def write(chain: Chain, package: Package, folder: Path) -> tuple[Path, ...]:
-    """Write the package into a folder; returns the files written.
+    """Write the package into a folder; return the files written.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""A paper: the one object through which everything about it reaches the engine."""
+"""The class `Paper`, which contains everything the engine needs from a paper."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -25,24 +25,24 @@ def _nothing(_: Path) -> dict[Path, str | bytes]:
 
 @dataclass(frozen=True, eq=False)
 class Report:
-    """What the report says beyond formulas, findings and measurements.
+    """Content of the report in addition to formulas, findings and measurements.
 
     Parameters
     ----------
     prose
-        Prose by link, and references.
+        Text by link, and references.
     subtitle, abstract
-        Below the title, and in a few sentences what the report is about.
+        Subtitle, and the topic of the report in a few sentences.
     sections
         Names of its sections, in order.
     text
-        The report's LaTeX, from the names of the sections to show; None for the sections that
-        suit any paper.
+        Function for the report's LaTeX from the names of the sections; None for sections that are
+        suitable for any paper.
     figures
-        Every figure by name; those are drawn that a section shows.
+        Function for every figure by name; only figures of the shown sections are drawn.
     beside
-        From the paper's folder, other files that follow from the same data and are written with
-        the whole report.
+        Function from the paper's folder to other files that depend on the same data and are
+        written with the whole report.
     """
 
     prose: Prose = field(default_factory=Prose)
@@ -56,28 +56,28 @@ class Report:
 
 @dataclass(frozen=True, eq=False)
 class Paper:
-    """All of a paper.
+    """All data of a paper.
 
     Parameters
     ----------
     title
         Its title.
     folder
-        Where its package `generated` and its `reports` are written.
+        Parent folder of its package `generated` and its `reports`.
     records
-        Folder of the measurements that are kept.
+        Folder of the saved measurements.
     chain
-        Its vocabulary, the links of its derivation, and the files that they follow from.
+        Its vocabulary, the links of its derivation, and the files on which they depend.
     errata
-        The printed formulas.
+        The published formulas.
     package
-        The generated package. A function, so that what it imports is loaded when it is needed.
+        The generated package. It is a function, so that its imports are loaded when needed.
     judge
-        References and points; likewise.
+        References and points; likewise a function.
     report
-        The report; likewise.
+        The report; likewise a function.
     committed
-        Whether the measurements are renewed on demand alone, and a build compares with them.
+        Whether measurements are updated only on request, and a build compares with them.
     """
 
     title: str
@@ -107,15 +107,15 @@ class Paper:
 
     @property
     def measured(self) -> Path:
-        """File with the kept measurement of the generated functions."""
+        """File with the saved measurement of the generated functions."""
         return self.records / "check.json"
 
     @property
     def hard(self) -> Path:
-        """File with the references of the hard cases, and how they were kept."""
+        """File with the references of the hard cases, and their origin."""
         return self.records / "hard.json"
 
     @property
     def rewritten(self) -> Path:
-        """File with the kept account of the rules that were applied."""
+        """File with the saved effect of the rules."""
         return self.records / "rewrite.json"

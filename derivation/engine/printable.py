@@ -1,26 +1,26 @@
-"""Text from files and command lines, made safe to show: nothing in it steers a terminal."""
+"""Text from files and command lines with control characters escaped for the terminal."""
 
 import re
 
 _STEERING = re.compile(
     "[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff]"
 )
-"""Control characters but tab and new line, marks of direction, and halves of characters."""
+"""Control characters except tab and newline, marks of direction, and halves of characters."""
 
 
 def printable(text: str) -> str:
-    r"""Text with what steers a terminal written as Python writes it, as in ``\x1b``."""
+    r"""Return text with control characters escaped as in Python, like ``\x1b``."""
     return _STEERING.sub(lambda found: _escaped(found[0]), text)
 
 
 def one_line(text: str, most: int = 60) -> str:
-    """The same on one line, cut short if longer than `most`."""
+    """Return the same on one line, shortened to at most `most` characters."""
     cut = text if len(text) <= most else text[: most - 3] + "..."
     return printable(cut).replace("\n", "\\n").replace("\t", "\\t")
 
 
 def in_json(text: str) -> str:
-    """The same of JSON, whose own escapes are read back as what they stand for."""
+    """Return the same for JSON, whose own escapes keep their meaning."""
     return _STEERING.sub(lambda found: f"\\u{ord(found[0]):04x}", text)
 
 

@@ -1,4 +1,4 @@
-"""Stage 6 of the main job: the report as LaTeX, HTML and PDF, and pieces of it."""
+"""Files of the report (stage 6): LaTeX, HTML and PDF, and fragments of it."""
 
 import json
 from collections.abc import Sequence
@@ -57,10 +57,10 @@ def committed_files(paper: Paper) -> dict[str, str]:
 def write(
     paper: Paper, out: Path | None = None, compiled: bool = True, sections: Sequence[str] = ()
 ) -> tuple[Path, ...]:
-    """Write the report and, if asked, its PDF; returns the files written.
+    """Write the report and, on request, its PDF; return the files written.
 
-    Files of chosen sections are named after them. The whole report in the paper's own folder takes
-    the files along that stand beside it.
+    Files with selected sections are named after them. The whole report in the paper's own folder is
+    written together with its accompanying files.
 
     Raises
     ------
@@ -69,7 +69,7 @@ def write(
     ValueError
         If there is no section of a name.
     derivation.engine.report.pdf.TexError
-        If LaTeX is missing or refuses the text; all else is there all the same.
+        If LaTeX is missing or fails; everything else is written nevertheless.
     """
     folder, own = writable_folder(out, paper.report_folder), paper.report()
     name = "-".join(["report", *(chosen(sections, own.sections) if sections else ())])
@@ -99,23 +99,23 @@ def freshness(paper: Paper, out: Path | None, mend: str) -> Freshness:
 
 
 def fragments(paper: Paper, names: Sequence[str]) -> str:
-    """Return LaTeX of formulas, or of all of a link of the chain, ready to be pasted.
+    """Return LaTeX of formulas, or of all formulas of a link, ready to be pasted.
 
     Raises
     ------
     ValueError
-        If there is neither formula nor link of a name.
+        If a name is neither a formula nor a link.
     """
     return pasted(names, paper.chain.found(), paper.report().prose.references)
 
 
 def write_fragments(paper: Paper, names: Sequence[str], out: Path) -> tuple[Path, ...]:
-    """Write the same as a file of a folder, and the bibliography beside it.
+    """Write the same as a file, with the bibliography.
 
     Raises
     ------
     ValueError
-        If there is neither formula nor link of a name.
+        If a name is neither a formula nor a link.
     OSError
         If the folder cannot be written to.
     """

@@ -1,7 +1,7 @@
-"""Files and folders written beside their place and put there in one step.
+"""Temporary files and folders that replace their target in one step.
 
-A temporary is locked as long as the process lives that writes it. A later run can therefore tell
-what a killed one left, which it removes, from what another process is writing.
+A temporary is locked while the process that writes it is running. A later run can therefore
+distinguish what a killed process left, which it removes, from what another process is writing.
 """
 
 import contextlib
@@ -15,23 +15,23 @@ from types import ModuleType
 fcntl: ModuleType | None
 try:
     import fcntl
-except ImportError:  # no such locks on this system: nothing is taken for a leftover
+except ImportError:  # without such locks nothing is treated as a leftover
     fcntl = None
 
 MARK = ".platecontact-"
-"""Start of the name of every temporary."""
+"""Prefix of the name of every temporary."""
 TEMPORARY, SET_ASIDE = ".tmp", ".old"
 _EXCHANGE, _HERE = 2, -100
 """RENAME_EXCHANGE and AT_FDCWD of Linux."""
 
 
 class Temporary:
-    """A new file or folder under a hidden name, locked until it is closed.
+    """A new file or folder with a hidden name, locked until it is closed.
 
     Attributes
     ----------
     path
-        Where it is.
+        Its path.
     """
 
     def __init__(self, parent: Path, folder: bool = False) -> None:
@@ -43,10 +43,10 @@ class Temporary:
             self.close()
 
     def _locked(self) -> bool:
-        """Lock it; False if another process took it for a leftover before."""
+        """Lock it; False if another process has already removed it as a leftover."""
         if fcntl is None:
             return True
-        with contextlib.suppress(OSError):  # on some disks there are no locks
+        with contextlib.suppress(OSError):  # some file systems have no locks
             fcntl.flock(self._handle, fcntl.LOCK_EX)
         try:
             return os.path.samestat(self.path.stat(), os.fstat(self._handle))
@@ -54,15 +54,15 @@ class Temporary:
             return False
 
     def write(self, content: bytes) -> None:
-        """Write the whole content of a file to the disk."""
+        """Flush a file to the disk."""
         _write(self._handle, content)
 
     def close(self) -> None:
-        """Give up the lock."""
+        """Release the lock."""
         os.close(self._handle)
 
     def discard(self) -> None:
-        """Remove it, if it still has its own name."""
+        """Remove it, unless it was renamed."""
         _remove(self.path)
 
 
@@ -83,7 +83,7 @@ def _write(handle: int, content: bytes) -> None:
 
 
 def _remove(path: Path) -> None:
-    """Remove a file or a folder; what cannot be removed stays."""
+    """Remove a file or a folder, if possible."""
     if path.is_dir() and not path.is_symlink():
         shutil.rmtree(path, ignore_errors=True)
     else:
@@ -92,7 +92,7 @@ def _remove(path: Path) -> None:
 
 
 def settle(folder: Path) -> None:
-    """Have the names in a folder on the disk too, where the system can do that."""
+    """Flush a folder's entries to the disk, where the system supports that."""
     with contextlib.suppress(OSError):
         handle = os.open(folder, os.O_RDONLY)
         try:
@@ -117,23 +117,23 @@ def remove_leftovers(folder: Path) -> None:
 
 
 def put_folder(target: Path, contents: dict[str, bytes]) -> None:
-    """Put a folder with these files in the place of another, or where there is none, in one step.
+    """Replace a folder, or create it, with these files in one step.
 
-    Other files of the old folder are taken over; Python's caches are not.
+    Other files of the old folder are kept, except for Python's caches.
 
     Parameters
     ----------
     target
-        The folder, no link, in a folder that exists.
+        The folder, not a link, in an existing folder.
     contents
-        By name.
+        Contents by name.
 
     Raises
     ------
     OSError
-        If the folder has to stay where it is: nothing has changed then.
+        If the folder cannot be replaced; then nothing has changed.
     """
-    if fcntl is None:  # a folder that is left there could not be told from one at work
+    if fcntl is None:  # a leftover could not be distinguished from a folder in use
         raise OSError(errno.ENOTSUP, os.strerror(errno.ENOTSUP))
     staged = Temporary(target.parent, folder=True)
     try:
@@ -149,17 +149,17 @@ def put_folder(target: Path, contents: dict[str, bytes]) -> None:
         _swap(staged.path, target)
         settle(target.parent)
     finally:
-        staged.discard()  # what is there now is the old folder, or what could not be put in place
+        staged.discard()  # now the old folder, or a new one that could not be put in place
         staged.close()
 
 
 def _take_over(old: Path, new: Path, contents: dict[str, bytes]) -> None:
-    """Give a new folder owner, rights and other files of the old one.
+    """Give a new folder the owner, permissions and other files of the old one.
 
     Raises
     ------
     OSError
-        If the old one has folders of its own, or is one in which the process works.
+        If the old one contains folders, or is the working directory.
     """
     if Path.cwd().is_relative_to(old):
         raise OSError(errno.EBUSY, os.strerror(errno.EBUSY))
@@ -176,7 +176,7 @@ def _take_over(old: Path, new: Path, contents: dict[str, bytes]) -> None:
 
 
 def _swap(new: Path, target: Path) -> None:
-    """Exchange two folders, in one step where the system can do that."""
+    """Exchange two folders, in one step where the system supports that."""
     if not target.exists():
         new.rename(target)
     elif not _exchange(new, target):
@@ -191,7 +191,7 @@ def _swap(new: Path, target: Path) -> None:
 
 
 def _exchange(one: Path, other: Path) -> bool:
-    """Exchange two names in one step; False if the system cannot."""
+    """Exchange two names in one step; False if the system does not support it."""
     import ctypes
 
     try:
@@ -207,12 +207,12 @@ def _exchange(one: Path, other: Path) -> bool:
 
 
 def _aside(target: Path) -> Path:
-    """Where a folder is for the moment between two renames."""
+    """Return the name of a folder between two renames."""
     return target.with_name(f"{MARK}{target.name}{SET_ASIDE}")
 
 
 def recover(target: Path) -> None:
-    """Undo what a run has left that was killed between the two renames of a folder.
+    """Complete the replacement of a folder by a process that was killed between two renames.
 
     Raises
     ------

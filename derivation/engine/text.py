@@ -16,7 +16,7 @@ def paragraph(text: str, indent: int = 2) -> str:
 
 
 def aligned(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """Return a table; columns whose head starts with `#` are numbers, set flush right.
+    """Return a table; columns whose head starts with `#` are numbers, aligned right.
 
     Parameters
     ----------

@@ -1,1 +1,1 @@
-"""What papers share and no paper owns."""
+"""Mathematics that is independent of any paper."""

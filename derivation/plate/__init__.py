@@ -1,1 +1,1 @@
-"""The chain from the equilibrium equations to the contact law; `chain.derive` walks it."""
+"""The paper on the plate: its derivation, generated functions, references and report."""

@@ -1,4 +1,4 @@
-"""The plate's building blocks: the hyperbolic ones, and the shape of Hertz's pressure."""
+"""Building blocks of the plate's formulas: hyperbolic ones, and those of Hertz pressure."""
 
 import sympy as sp
 
@@ -14,5 +14,5 @@ DEFINITIONS = (
 
 
 def blocks() -> dict[str, Block]:
-    """Every building block of the plate by name."""
+    """Return every building block of the plate by name."""
     return built(DEFINITIONS)

@@ -1,4 +1,4 @@
-"""The budgets of the plate's functions: of the whole paper, and of single subjects."""
+"""Error budgets of the plate's functions, collected from the paper and its subjects."""
 
 import tomllib
 from collections.abc import Mapping
@@ -11,12 +11,12 @@ BUDGETS = Path(__file__).parent / "budgets.toml"
 
 
 def read_tables() -> dict[str, Any]:
-    """Read all tables; the subjects' own budgets are added to those of the paper.
+    """Read all tables; budgets of the subjects are added to those of the paper.
 
     Raises
     ------
     ValueError
-        If a subject states again what stands elsewhere.
+        If a subject repeats a budget that is stated elsewhere.
     """
     found = tomllib.loads(BUDGETS.read_text())
     for file in sorted(BUDGETS.parent.glob("*/budgets.toml")):
@@ -28,24 +28,24 @@ def read_tables() -> dict[str, Any]:
 
 
 def read_budgets() -> dict[str, budgets.Budget]:
-    """Budgets by kernel, as committed."""
+    """Return the committed error budgets by function."""
     return budgets.parse_budgets(read_tables())
 
 
 def read_printed_share() -> float:
-    """The part of the package's arithmetic that is printed at least [1], as committed."""
+    """Return the committed lower limit for the printed part of the package's arithmetic [1]."""
     share: float = read_tables()["package"]["printed"]
     return share
 
 
 def read_promises(table: str = "impact") -> dict[str, float]:
-    """Relative errors, of the impact or of another table, measured, not proven, as committed."""
+    """Return the committed relative errors of a table; they are measured, not proved."""
     return budgets.read_promises(BUDGETS, table)
 
 
 def counted(sources: Mapping[str, str]) -> dict[str, str]:
-    """The modules that the printed share is of, by name.
+    """Return the modules whose arithmetic is counted for the printed share, by name.
 
-    The one that repeats the paper's formulas, misprints included, is not among them.
+    `as_printed`, which repeats the paper's formulas with their misprints, is not counted.
     """
     return {name: text for name, text in sources.items() if name != "as_printed"}

@@ -1,6 +1,6 @@
-"""The chain: its links in order, and every formula by name.
+"""The derivation: its links in order, and every formula by name.
 
-What subjects hand in as `LINKS` of their theory follows at the end.
+The `LINKS` of the subjects' theory follow at the end.
 
  1 equilibrium      Hooke's law, force balance -> ODEs for f_j, g_j
  2 mode shapes      ODEs -> general solution (2)
@@ -16,27 +16,27 @@ What subjects hand in as `LINKS` of their theory follows at the end.
 and from the contact law to the motion:
 
 11 divergence       phi^3 K_j -> 4/(R b): the paper's gamma_k diverge
-12 contact split    delta = a^2/R + side wall + thickness
+12 contact split    delta = a^2/R + finite radius + finite thickness
 13 plate series     small contacts: c_1, c_3, ..., gamma_k without their divergent part
 14 thin plate       the same for h/b -> 0, and a sum over roots that makes it exact
-15 reversion        the force by the indentation: xi_k (10), p_n
+15 reversion        force as a function of indentation: xi_k (10), p_n
 16 impact           energy integral (13), contact time, linearisation (15) to (18)
-17 sensitivity      slopes of the law; what every parameter does to an impact
-18 substitution     how far an impact moves if its law is replaced by a simpler one
-19 edge             simply supported or clamped in the place of the paper's edge
-20 true pressure    the pressure solved for: integral equation, and what assuming Hertz's changes
-21 curvature        a sphere instead of a paraboloid
-22 effects          how much each effect can change the law
-23 plate motion     when the plate's own motion matters: Zener's number, periods
-24 viscosity        a viscoelastic contact: restitution, and what it changes at most
-25 back face        the largest tensile stress, on the back face under the contact
-26 dynamic modes    the first six links with the plate's inertia: influence at any frequency
-27 bending branch   the lowest branch of free waves: frequency, answer to a load, limits
-28 closure          a contact beside a plate of oscillators that neither loses nor makes energy
-29 held modes       bending modes of a plate that is clamped or simply supported
-30 held waves       the same of a plate with a thickness: Mindlin's edge, the branch A0
-31 plasticity       a contact that yields: limited pressure, elastic unloading, the dent
-32 damping          modes that lose energy: response, free motion, energy taken
+17 sensitivity      slopes of the law; derivatives of an impact by every parameter
+18 substitution     change of an impact if its law is replaced by a simpler one
+19 edge             simply supported or clamped edge instead of the paper's edge
+20 true pressure    non-Hertzian pressure: integral equation, and the error of Hertz pressure
+21 curvature        exact spherical profile instead of a paraboloid
+22 effects          bounds of the change of the law by each effect
+23 plate motion     criteria for plate inertia: Zener's parameter, periods
+24 viscosity        viscoelastic contact: restitution, and bounds of the change
+25 back face        largest tensile stress, on the back face opposite the contact
+26 dynamic modes    links 1 to 6 with plate inertia: influence at any frequency
+27 bending branch   lowest Lamb-wave branch A0: frequency, residue, limits
+28 closure          coupling of contact and modes that conserves energy
+29 held modes       bending modes of a clamped or simply supported plate
+30 held waves       the same for finite thickness: Mindlin's edge conditions, branch A0
+31 plasticity       elastic-plastic contact: limited pressure, unloading, residual indentation
+32 damping          damped modes: response, free motion, dissipated energy
 """
 
 from collections.abc import Callable, Iterator
@@ -115,21 +115,21 @@ MOTION_LINKS: tuple[Link, ...] = (
     ("closure", closure),
     *(link for links in handed_in("theory", "LINKS") for link in links),
 )
-"""What follows from the contact law. Apart: these formulas hold integrals and constants too."""
+"""Links after the contact law. They are separate, because they contain integrals and constants."""
 
 
 def links() -> Iterator[tuple[str, tuple[Formula, ...]]]:
-    """Each link's name and formulas up to the interior, proved as they are asked for."""
+    """Yield each link's name and formulas up to the interior; each is proved on request."""
     for name, derive_link in LINKS:
         yield name, derive_link()
 
 
 def derive() -> dict[str, Formula]:
-    """Every formula up to the interior by name, each proved.
+    """Return every formula up to the interior by name, each proved.
 
     Raises
     ------
     ProofError
-        Naming the step that does not hold.
+        Naming the step whose proof fails.
     """
     return {formula.name: formula for _, formulas in links() for formula in formulas}

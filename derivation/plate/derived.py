@@ -1,4 +1,4 @@
-"""The first stages, kept until their sources change: proven formulas, misprints, diagnosis."""
+"""Cached results of the first stages: proved formulas, misprints, comparisons of formulas."""
 
 from derivation.engine.errata.findings import Finding
 from derivation.engine.errata.text import TextDiagnosis, diagnosed
@@ -16,7 +16,7 @@ GROUND = (
     "plate/printed",
     "mathematics",
 )
-"""Sources that the formulas depend on."""
+"""Sources on which the formulas depend."""
 CHAIN = Chain(
     "plate",
     PLATE,
@@ -28,7 +28,7 @@ chain, formulas = CHAIN.found, CHAIN.formulas
 
 
 def misprints() -> tuple[Finding, ...]:
-    """What each printed formula turns out to be."""
+    """Return the comparison of each published formula with the derived one."""
     return ERRATA.found(CHAIN)
 
 
@@ -47,6 +47,6 @@ def diagnose(
     Raises
     ------
     derivation.engine.formula.parse.FormulaError
-        For a name, formula, point or number of digits that cannot be used.
+        If a name, formula, point or number of digits is not valid.
     """
     return diagnosed(CHAIN, RELATIONS, name, text, latex=latex, at=at, digits=digits)

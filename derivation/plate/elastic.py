@@ -1,7 +1,7 @@
-"""What ties the plate's symbols together in a comparison.
+"""Relations between the plate's symbols that a comparison of formulas takes into account.
 
-P follows by (7), A_j by (8), T = 2 phi h; Young's modulus and Poisson's ratio in a user's formula
-are related to the Lame constants, which the derived formulas use instead.
+P follows from (7), A_j from (8), and T = 2 phi h. Young's modulus and Poisson's ratio in a user's
+formula are expressed by the Lame constants, which the derived formulas contain instead.
 """
 
 from collections.abc import Mapping, Set
@@ -19,12 +19,12 @@ _CONSTANTS = {lam, mu, nu}
 
 
 def occurs(symbols: Set[sp.Symbol]) -> bool:
-    """Whether an elastic constant of the plate is among the symbols."""
+    """Return whether an elastic constant of the plate is among the symbols."""
     return bool(_CONSTANTS & symbols)
 
 
 def relations(used: Set[sp.Symbol]) -> dict[sp.Symbol, sp.Expr]:
-    """What E and nu are in the other elastic constants of a comparison.
+    """Return E and nu in terms of the other elastic constants of a comparison.
 
     Parameters
     ----------
@@ -43,12 +43,12 @@ def relations(used: Set[sp.Symbol]) -> dict[sp.Symbol, sp.Expr]:
 
 
 def lame(values: Mapping[str, Fraction]) -> dict[str, Fraction]:
-    """Lame constants [Pa] from Young's modulus E [Pa] and Poisson's ratio nu.
+    """Return Lame constants [Pa] for Young's modulus E [Pa] and Poisson's ratio nu.
 
     Raises
     ------
     ValueError
-        If no material has these constants.
+        If no elastic material has these constants.
     """
     young, poisson = values["E"], values["nu"]
     if young <= 0 or not -1 < poisson < Fraction(1, 2):
@@ -60,12 +60,12 @@ def lame(values: Mapping[str, Fraction]) -> dict[str, Fraction]:
 
 
 def _between(name: str, given: Symbols, derived: Symbols, formulas: Formulas) -> Meanings:
-    """Symbols that follow from others.
+    """Return the symbols that follow from others.
 
     Raises
     ------
     FormulaError
-        If Young's modulus occurs, and nothing that it could follow from.
+        If Young's modulus occurs and cannot be expressed by other constants.
     """
     meaning = {P: formulas["P"].expression, A_j: formulas["A_j"].expression, T: 2 * phi * h}
     used = given | derived
@@ -75,14 +75,14 @@ def _between(name: str, given: Symbols, derived: Symbols, formulas: Formulas) ->
         return found | (relations(used) if mu in used or lam in used else {})
     if not occurs(derived.union(*(v.free_symbols for v in found.values()))):
         raise FormulaError(
-            f"E is read as Young's modulus, and {name} depends on no elastic constant: "
-            "for the number 2.718... write exp(1)"
+            f"E is read as Young's modulus, but {name} depends on no elastic constant; "
+            "write exp(1) for the number 2.718..."
         )
     return found | relations(used)
 
 
 def _with_lame(point: Point) -> Point:
-    """The point with the Lame constants instead of Young's modulus and Poisson's ratio."""
+    """Return the point with Lame constants instead of Young's modulus and Poisson's ratio."""
     if "E" not in point:
         return point
     if "nu" not in point or {"lam", "mu"} & set(point):

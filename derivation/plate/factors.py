@@ -1,7 +1,7 @@
-"""Products and roots of factors, as code computes them and as proofs put them back.
+"""Products and roots of factors, for generated code and for proofs.
 
-Products and roots may leave the range of doubles in between: `root_factors` gives a root as three
-factors, and `product` multiplies as if only the whole were rounded.
+Intermediate values may leave the range of doubles: `root_factors` returns a root as three factors,
+and `product` multiplies as if only the result were rounded.
 """
 
 import sympy as sp
@@ -10,20 +10,20 @@ from derivation.engine.emit.routine import Let, Several
 from derivation.plate.vocabulary import lam, mu
 
 PRODUCT = sp.Function("product")
-"""The product of a tuple of factors, over that of a second one."""
+"""The product of a tuple of factors, divided by that of a second one."""
 _first, _second, _scale = sp.symbols("first second scale", positive=True)
 _share = sp.Symbol("share", positive=True)
 MODERATE = (
     Several((_first, _second), "moderate", (lam, mu), (lam / _scale, mu / _scale)),
     Let(_share, (_first + _second) / (_first + 2 * _second)),
 )
-"""Statements that YOUNG needs: Lame's constants over a power of two."""
+"""Statements that YOUNG needs: the Lame constants divided by a power of two."""
 YOUNG = 4, mu, _share
 """E* as factors."""
 
 
 def root(name: str, degree: int, factors: tuple[sp.Expr, ...], *below: sp.Expr) -> Several:
-    """The three factors of a root."""
+    """Return the three factors of a root."""
     parts = sp.symbols(f"{name}_0 {name}_1 {name}_2", positive=True)
     whole = (sp.Mul(*factors) / sp.Mul(*below)) ** sp.Rational(1, degree)
     given = (sp.Integer(degree), sp.Tuple(*factors), *([sp.Tuple(*below)] if below else []))
@@ -31,7 +31,7 @@ def root(name: str, degree: int, factors: tuple[sp.Expr, ...], *below: sp.Expr) 
 
 
 def multiplied(expression: sp.Expr) -> sp.Expr:
-    """The difference of two products as the logarithm of their quotient."""
+    """Return the logarithm of the quotient of two products, which is zero if they are equal."""
     found = expression.replace(
         PRODUCT, lambda above, *below: sp.Mul(*above) / sp.Mul(*(x for row in below for x in row))
     )

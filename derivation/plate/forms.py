@@ -1,7 +1,7 @@
 """Stable forms of the formulas, each proved equal to the derived one.
 
-Those of one dimensionless variable are found by the rules; the fields of a mode,
-which depend on the depth too, are written out in `modes.kernels.forms` and proved like the rest.
+The rules find the forms of functions of one dimensionless variable. The fields of a mode, which
+also depend on z, are written in `modes.kernels.forms`; all are proved.
 """
 
 from collections.abc import Mapping
@@ -33,18 +33,18 @@ SCALES = Scales(
     ),
     Ratio(RATIO, lam + 2 * mu, lam + mu),
 )
-"""Products that the plate's functions depend on."""
+"""Products of symbols that the plate's functions depend on."""
 
 
 def stable_forms(formulas: Mapping[str, Record]) -> tuple[Form, ...]:
-    """The stable form of every formula that is generated, in module order.
+    """Return the stable form of every generated formula, in the order of the modules.
 
     Raises
     ------
     ProofError
-        Naming the form that is not its formula.
+        Naming the form that differs from its formula.
     UnreachableError
-        Naming a formula that the rules do not reach.
+        Naming a formula for which the rules find no form.
     """
     known = blocks()
 
@@ -82,11 +82,11 @@ AUTOMATIC = (
 """Formulas whose forms the rules find."""
 
 CLOSE = ("G_m",)
-"""Those among them whose budget leaves no room for the roundings of their powers."""
+"""Those among them whose budget does not allow for the rounding of their powers."""
 
 
 def _pressure() -> dict[str, Shape]:
-    """Hertz pressure and the contact force: the edge's root by its two factors."""
+    """Return forms of Hertz pressure, whose root is split into two factors, and of the force."""
     fraction = Step(share, r / a)
     root = sp.sqrt((1 - share) * (1 + share))
     return {
@@ -96,7 +96,7 @@ def _pressure() -> dict[str, Shape]:
 
 
 def _indentation(formulas: Mapping[str, Record], known: Mapping[str, Block]) -> Shape:
-    """One mode's share: K_j phi^3 and s(a phi)/phi^3, lest powers of phi be rounded twice."""
+    """Return one term of the indentation as K_j phi^3 times s(a phi)/phi^3; powers round once."""
     face, face_value = automatic(formulas["K_j"].expression * phi**3, known, SCALES)
     contact, contact_value = automatic(SINE_MINUS / phi**3, known, SCALES)
     core, *powers = face_value.args

@@ -1,9 +1,9 @@
-"""Hard points for every kernel: exact doubles, the same in every run.
+"""Difficult points for every function: exact doubles, the same in every run.
 
-The hard quantities are dimensionless: x = phi h, y = a phi, z/h, r/b, nu. They
-come from lists of known trouble and from a seeded generator, and are turned
-into arguments in several systems of units. Whatever the value at a point, it is
-for the truth to say whether a double can hold it.
+The relevant quantities are dimensionless: x = phi h, y = a phi, z/h, r/b and nu. Their values come
+from lists of known difficulties and from a seeded generator, and are converted to arguments in
+several systems of units. Whether a double can represent the value at a point is decided by the
+reference value.
 """
 
 import math
@@ -26,48 +26,48 @@ SMALLEST = -150
 
 SMALL = (SMALLEST, -120, -100, -77, -60, -50, -40, -30, -25, -20, -16, -14, -12, -10, -8, -7, -6)
 LARGE = (36.04, 88.7, 100.0, 177.0, 300.0, 354.5, 372.0, 700.0, 708.3, 709.8, 745.1, 1e3, 1e4, 1e6)
-"""Up to where e^x, e^(2x) or e^(4x) overflow or underflow in either format, and beyond."""
+"""Values up to and beyond overflow or underflow of e^x, e^(2x), e^(4x) in either format."""
 
 NU = (0.3, 0.0, 0.45, -0.2, 0.33, -0.6, 0.1, 0.499, 0.21, -0.9, 0.4999, 0.49999999, -0.999)
 LENGTHS = (1.0, 1e-3, 25.4, 3e-7, 640.0)
-"""Scales of length: metres, millimetres in metres, inches in millimetres, and further off."""
+"""Scales of length: metres, millimetres in metres, inches in millimetres, and extreme ones."""
 
 STRESSES = (8.1e10, 1.0, 7.7e4, 2.6e-3)
 """Scales of stress: steel in Pa, unit modulus, steel in MPa, and a gel in MPa."""
 
 HEIGHTS = (None, 1.0, None, -1.0, None, 0.0, None, "below +1", None, "above -1", None, 1e-9, None)
-"""z/h; None is drawn at random, and words are the doubles next to the faces."""
+"""z/h; None is drawn at random, and words stand for the doubles next to the faces."""
 
 RADII = (None, 0.0, None, 1e-12, None, "below +1", None, 0.5, None)
-"""r/a of the pressure, whose edge r = a is a singular point, and r/b of the modal sums."""
+"""r/a of the pressure, whose edge r = a is singular, and r/b of the modal sums."""
 
 MODES = (1, 3, 20, 2, 7, 60)
 BESSEL_LARGE = (25.0, 100.0, 1e3, 12345.678, 1e5, 1e6, 1e8)
 INDICES = (0, 1, 2, 3, 5, 9, 40, 195, 1000, 10**6)
-"""Of kappa_n, and of M_k less its first index; both sides of the switches are added."""
+"""Indices of kappa_n, and of M_k minus its first index; switch points are added."""
 
 DRAWS = 200
-"""Numbers drawn in search of one inside a symbol's domain."""
+"""Number of random values tried to find one inside a symbol's domain."""
 
 COUNTS = (*range(1, 41), 64, 99, 100, 128, 500, 999, 1000, 4096, 10**4, 10**5)
 
 
 def grid(name: str, arguments: Sequence[str], modes: bool = False) -> tuple[Point, ...]:
-    """The points at which a kernel is measured.
+    """Return the points at which a function is tested.
 
     Parameters
     ----------
     name
-        The kernel's name; seeds what is drawn at random.
+        Name of the function; it seeds the random values.
     arguments
-        Its arguments' names; they decide which lists apply.
+        Names of its arguments; they decide which lists apply.
     modes
         Whether it is a modal sum.
 
     Raises
     ------
     KeyError
-        For an argument that is no symbol of the paper.
+        If an argument is not a symbol of the paper.
     """
     generator = random.Random(f"{name} on {','.join(arguments)}")
     if tuple(arguments) == ("count",):
@@ -88,24 +88,24 @@ def grid(name: str, arguments: Sequence[str], modes: bool = False) -> tuple[Poin
 
 
 def drawn(name: str, generator: random.Random) -> float:
-    """A value [SI] of a symbol for which there is no rule here, inside its own domain.
+    """Return a value [SI] inside the domain of a symbol that has no rule of its own.
 
     Raises
     ------
     KeyError
-        If the symbol is unknown, or nothing that is drawn lies in its domain.
+        If the symbol is unknown, or no random value lies in its domain.
     """
     argument = BY_NAME[name]
     for attempt in range(DRAWS):
         size = 10 ** generator.uniform(-3.0, 3.0) * (1 if attempt % 2 == 0 else -1)
         if not broken(argument.domain, {argument.symbol: Fraction(size)}):
             return size
-    raise KeyError(f"no value in {', '.join(argument.domain)} is found for {name}")
+    raise KeyError(f"no value of {name} found that satisfies {', '.join(argument.domain)}")
 
 
 @cache
 def seams() -> dict[str, tuple[float, ...]]:
-    """Where the stable forms change branches, by variable: T is 2 phi h, y is a phi."""
+    """Return the switch points of the stable forms by variable: T is 2 phi h, y is a phi."""
     found: dict[str, set[float]] = {}
     for value in (*(b.value for b in blocks().values()), *(v for _, v in mode_forms().values())):
         if isinstance(value, Seam):
@@ -114,13 +114,13 @@ def seams() -> dict[str, tuple[float, ...]]:
 
 
 def _around(place: float) -> tuple[float, ...]:
-    """A place, its neighbours, and the doubles 32 away."""
+    """Return a number, its neighbours, and the doubles at 32 ULP."""
     near = neighbours(place, 32)
     return near[0], near[31], near[32], near[33], near[64]
 
 
 def depths(generator: random.Random) -> list[float]:
-    """Values of x = phi h: both sides of every seam, decades, the middle densely, the far end."""
+    """Return x = phi h: both sides of switch points, decades, dense middle range, large values."""
     at_seams = [T / 2 for T in seams()["T"]]
     return [
         *(x for place in sorted(set(at_seams)) for x in _around(place)),
@@ -133,7 +133,7 @@ def depths(generator: random.Random) -> list[float]:
 
 
 def widths(generator: random.Random) -> list[float]:
-    """Values of y = a phi: seams, decades, the middle, and the doubles next to tan y = y."""
+    """Return y = a phi: switch points, decades, middle range, neighbours of roots of tan y = y."""
     zeros = [near for k in (1, 2, 3, 7, 30) for near in neighbours(_zero_of_sine_minus(k), 1)]
     return [
         *(y for place in seams().get("y", ()) for y in _around(place)),
@@ -147,7 +147,7 @@ def widths(generator: random.Random) -> list[float]:
 
 
 def _zero_of_sine_minus(k: int) -> float:
-    """A double next to the k-th positive zero of sin y - y cos y, by y = k pi + atan y."""
+    """Return a double next to the k-th positive zero of sin y - y cos y, from y = k pi + atan y."""
     y = (k + 0.5) * math.pi
     for _ in range(60):
         y = k * math.pi + math.atan(y)
@@ -155,13 +155,13 @@ def _zero_of_sine_minus(k: int) -> float:
 
 
 def _whole_numbers(argument: str) -> list[int]:
-    """Indices of kappa_n or M_k, ascending, both sides of where the expansion begins."""
+    """Return indices of kappa_n or M_k, ascending, on both sides of the switch to the expansion."""
     first, start = (0, kappa_start()) if argument == "n" else (FIRST_K, finite_part_start())
     return sorted({start - 1, start, *(first + index for index in INDICES)})
 
 
 def _bessel_arguments(generator: random.Random) -> list[float]:
-    """Zero, decades, the range of the tables densely, the doubles next to zeros, large ones."""
+    """Return zero, decades, dense values in the tables' range, neighbours of zeros, large x."""
     zeros = (2.404825557695773, 5.520078110286311, 3.8317059702075125, 7.015586669815619)
     return [
         0.0,
@@ -175,14 +175,14 @@ def _bessel_arguments(generator: random.Random) -> list[float]:
 
 
 def _lame(index: int, generator: random.Random) -> tuple[float, float]:
-    """Lame's constants of the next of the listed Poisson's ratios, in the next unit."""
+    """Return Lame constants for the next of the listed Poisson's ratios, in the next unit."""
     nu = NU[index % len(NU)]
     mu = STRESSES[index % len(STRESSES)] * generator.uniform(0.7, 1.4)
     return 2 * mu * nu / (1 - 2 * nu), mu
 
 
 def _within(end: float, place: float | str | None, generator: random.Random, low: float) -> float:
-    """A coordinate in [low end, end]: a fraction of the end, the double inside it, or random."""
+    """Return a coordinate in [low end, end]: a fraction of the end, its neighbour, or random."""
     if place is None:
         return end * generator.uniform(low, 1.0)
     if isinstance(place, str):
@@ -191,12 +191,12 @@ def _within(end: float, place: float | str | None, generator: random.Random, low
 
 
 def _single_modes(generator: random.Random, arguments: Sequence[str]) -> Iterator[dict[str, float]]:
-    """Values of every argument of the closed formulas, one set per x or y."""
+    """Yield arguments of the closed formulas, one set for each x or y."""
     by_width = "a" in arguments and "phi" in arguments
     values = widths(generator) if by_width else depths(generator)
     for i, hard in enumerate(values):
         length = 1.0 if i < len(values) // 5 else LENGTHS[i % len(LENGTHS)]
-        # The first fifth, at the seams, keeps the unit length: phi h is then exact.
+        # The first fifth, at the switch points, keeps the unit length: phi h is then exact.
         size = length if length == 1.0 else length * generator.uniform(0.5, 2.0)
         lam, mu = _lame(i, generator)
         yield {
@@ -223,7 +223,7 @@ def _single_modes(generator: random.Random, arguments: Sequence[str]) -> Iterato
 
 
 def _plates(generator: random.Random) -> Iterator[dict[str, float]]:
-    """Values of every argument of the modal sums: thin to thick plates, small to wide contacts."""
+    """Yield arguments of the modal sums: thin to thick plates, small to wide contacts."""
     for i in range(72):
         b = LENGTHS[i % len(LENGTHS)] * generator.uniform(0.5, 2.0)
         h = b * 10 ** generator.uniform(-2.5, 0.5)

@@ -1,4 +1,4 @@
-"""What the plate's generated functions are compared with, and where."""
+"""References and test points for the plate's generated functions."""
 
 from functools import partial
 from typing import TYPE_CHECKING
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def _is_easy(point: Point) -> bool:
-    """Whether neither quadrature nor cancellation takes long: a moderate x and y, low indices."""
+    """Return whether the second reference is fast: moderate x and y, low indices."""
     values = point.values
     x = values.get("T", values.get("phi", 1.0) * values.get("h", 1.0))
     y = values.get("phi", 1.0) * values.get("a", 1.0)

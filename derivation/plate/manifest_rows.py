@@ -1,4 +1,4 @@
-"""What the manifest says of functions written by hand, from their signatures and docstrings."""
+"""Rows of the manifest for handwritten functions, from their signatures and docstrings."""
 
 from collections.abc import Iterator, Mapping
 from typing import Any
@@ -11,14 +11,14 @@ Row = dict[str, Any]
 
 
 def listed() -> Iterator[tuple[str, ListedFunction]]:
-    """Names of the modules written by hand, and their functions that the manifest lists."""
+    """Yield each handwritten module's name with every function that the manifest lists."""
     for name, file in runtime_files().items():
         for function in listed_functions(file):
             yield name, function
 
 
 def hand_written_rows(budgets: Mapping[str, Budget]) -> tuple[list[Row], list[Row]]:
-    """Rows of functions that are listed with the printed formulas, and rows of all others."""
+    """Return the rows listed with the printed formulas, and the rows of all other functions."""
     kernels, others = [], []
     for module, function in listed():
         row = _row(module, function, budgets)

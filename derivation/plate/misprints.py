@@ -1,4 +1,4 @@
-"""Every printed formula of the plate held against the derived one, in the paper's order."""
+"""Comparison of every published formula with the derived one, in the paper's order."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -22,7 +22,7 @@ from derivation.plate.vocabulary import PLATE, k
 
 
 def plate_finding(record: Printed, formulas: Mapping[str, Record]) -> Finding:
-    """A printed formula compared with the derived one; series and powers have their own ways."""
+    """Compare a published formula with the derived one; series and powers have their own rules."""
     judges = {PrintedSeries: diagnose_series, PrintedPower: diagnose_power}
     diagnosis = judges.get(type(record), diagnose)(record.name, record.compared, formulas)
     field = record.name in ("u", "w") and diagnosis.verdict == DIFFERENT
@@ -32,7 +32,7 @@ def plate_finding(record: Printed, formulas: Mapping[str, Record]) -> Finding:
 
 
 def diagnose_series(name: str, term: sp.Expr, formulas: Mapping[str, Record]) -> Diagnosis:
-    """As `diagnose`, for a sum over all modes given by its term: it may have no value at all."""
+    """Compare a sum over all modes, given by its term, which may diverge."""
     term = resolved(term, formulas, PLATE)
     found = tail(term)
     if found.kind != DIVERGENT:
@@ -54,7 +54,7 @@ def diagnose_series(name: str, term: sp.Expr, formulas: Mapping[str, Record]) ->
 
 
 def diagnose_power(name: str, given: sp.Expr, formulas: Mapping[str, Record]) -> Diagnosis:
-    """As `diagnose`, for the power of the k-th term in a series: told by its first and its step."""
+    """Compare the power of the k-th term of a series by its first value and its step."""
     found = diagnose(name, given, formulas)
     if found.verdict == EQUAL:
         return found
@@ -71,15 +71,15 @@ def _step(power: sp.Expr) -> sp.Expr:
 
 
 def _balance_remark(record: Printed) -> str:
-    """What the equilibrium equations say about the signs of (1) and (2) taken together."""
+    """State what the equilibrium equations say about the signs of (1) and (2) together."""
     signs = signs_that_balance([record.name, *(symbol.name for symbol, _ in record.where)])
     if not signs:
         return ""
     equation = {record.name: record.equation for record in PRINTED}
     either = " or ".join(f"that of {name} in ({equation[name]})" for name in signs)
     return (
-        "The printed displacements leave the equilibrium equations unbalanced; they balance "
-        f"with one sign reversed, {either}"
+        "The published displacements do not satisfy the equilibrium equations; they do "
+        f"if one sign is reversed: {either}"
     )
 
 

@@ -1,4 +1,4 @@
-"""A subject's modules of the generated package: printed from formulas, or written by hand."""
+"""Modules of the generated package by subject: printed from formulas, or written by hand."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -23,11 +23,11 @@ class PrintedModule:
     Parameters
     ----------
     name, title
-        Its name, and its first line.
+        Name of the module, and first line of its docstring.
     stated
-        The stable form of each formula by name, written out; it is proved equal to the formula.
+        Stable forms by formula, where they are written out; each is proved.
     automatic
-        Formulas whose stable forms the rules find.
+        Formulas whose stable forms are found by the rules.
     """
 
     name: str
@@ -41,14 +41,14 @@ def _no_notes() -> Mapping[str, Sequence[str]]:
 
 
 class RuntimeModule(NamedTuple):
-    """A module that is written by hand and copied.
+    """A module that is written by hand and copied to the package.
 
     Attributes
     ----------
     name, file
-        Its name, and the original.
+        Name of the module, and the original file.
     notes
-        Lines about errors by function, of those that the manifest does not list.
+        Lines about errors, by function, for functions that the manifest does not list.
     """
 
     name: str
@@ -58,7 +58,7 @@ class RuntimeModule(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class ComputedModule:
-    """A module of routines or of numbers: its name, and what makes it."""
+    """A module of routines or of numbers: its name, and the function that returns it."""
 
     name: str
     make: Callable[[], Routines | Numbers]
@@ -68,12 +68,12 @@ SubjectModule = PrintedModule | RuntimeModule | ComputedModule
 
 
 def runtime_modules() -> tuple[RuntimeModule, ...]:
-    """Return the modules written by hand of all subjects."""
+    """Return the handwritten modules of all subjects."""
     return tuple(part for part in _modules() if isinstance(part, RuntimeModule))
 
 
 def runtime_files() -> dict[str, Path]:
-    """The originals of these modules by name."""
+    """Return the original files of these modules by name."""
     return {part.name: part.file for part in runtime_modules()}
 
 
@@ -92,7 +92,7 @@ MATHEMATICS: tuple[SubjectModule, ...] = (
     ComputedModule("bessel_kernels", bessel_kernels),
     RuntimeModule("bessel", RUNTIME / "bessel.py"),
 )
-"""Modules of what papers share."""
+"""Modules of mathematical functions that are independent of the paper."""
 
 
 def _modules() -> Iterator[SubjectModule]:

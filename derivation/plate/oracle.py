@@ -1,4 +1,4 @@
-"""The plate's references by ball arithmetic: its formulas, Bessel functions, numbers by index."""
+"""Arb references of the plate: formulas, Bessel functions, constants by index."""
 
 from collections.abc import Mapping
 
@@ -23,17 +23,16 @@ def _mode(j: int, values: Mapping[str, flint.arb], bits: int) -> dict[str, flint
 
 
 def _share(formula: Record) -> sp.Expr:
-    """One mode's share, with the constants that the load gives to a mode."""
+    """Return one term of a modal sum, with the constants that the load determines."""
     coefficient, _ = ORACLE.stated("A_j")
     return loaded(formula.expression).subs(symbols.A_j, coefficient.expression)
 
 
 def _limit_on_axis(expression: sp.Expr) -> sp.Expr | None:
-    """Value at r = 0 of an expression that holds J1(phi r)/r, whose limit is phi/2.
+    """Return the value at r = 0 of an expression that contains J1(phi r)/r, with limit phi/2.
 
-    J1(y) = y/2 + O(y^3), and r stands in denominators as 1/r only: putting the
-    first term alone changes nothing in the limit. What is not finite then,
-    ball arithmetic refuses.
+    J1(y) = y/2 + O(y^3), and r occurs in denominators as 1/r only, so the leading term
+    determines the limit. If the result is not finite, ball arithmetic raises an error.
     """
     powers = expression.atoms(sp.Pow)
     if not any(power.base == symbols.r and power.exp < 0 for power in powers):
@@ -55,7 +54,7 @@ ORACLE = Balls(
         "finite_part": ("k", moments.finite_part),
         "finite_part_ratio": ("k", moments.finite_part_ratio),
     },
-    # b acts through phi = j_n/b too; phi and J1 stand for j_n and J1(j_n), read from a table.
+    # b also acts through phi = j_n/b; phi and J1 stand for j_n and J1(j_n) from a table.
     terms=Terms((symbols.phi, symbols.J1), _mode, {"phi": ("b", -1)}, _share),
     limit=("r", _limit_on_axis),
 )

@@ -1,4 +1,4 @@
-"""The paper on the plate, as the engine sees it."""
+"""The `Paper` object of the paper on the plate."""
 
 from typing import TYPE_CHECKING
 

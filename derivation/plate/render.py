@@ -1,4 +1,4 @@
-"""The plate's package `generated`: proven formulas and their stable forms in, text out."""
+"""Source text of the package `generated` from proved formulas and their stable forms."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -41,7 +41,7 @@ from derivation.plate.printed.contact import PRINTED
 from derivation.plate.vocabulary import BY_NAME, arguments_of
 
 TEMPLATES = Path(__file__).parent / "templates"
-SUMMARY = "Contact of a rigid sphere with an elastic plate, in NumPy alone."
+SUMMARY = "Contact of a rigid sphere with an elastic plate: functions that need only NumPy."
 CITATION = "Elastodynamic contact in plate-like bodies"
 TITLES = {
     "omega": "Integration constants C_k = A_j Omega_k of a mode, scaled by e^(phi h) and plain.",
@@ -54,12 +54,12 @@ TITLES = {
 
 
 def render(formulas: Mapping[str, Record], forms: tuple[Form, ...]) -> dict[str, str]:
-    """Files of the generated package by name; the same bytes for the same input.
+    """Return the files of the generated package by name; equal input gives equal bytes.
 
     Raises
     ------
     ValueError
-        If less of its arithmetic is printed than before.
+        If a smaller part of its arithmetic is printed than committed.
     """
     kernels = kernel_rows(formulas, forms)
     planned = modules(kernels)
@@ -72,21 +72,20 @@ def render(formulas: Mapping[str, Record], forms: tuple[Form, ...]) -> dict[str,
 def kernel_rows(
     formulas: Mapping[str, Record], forms: tuple[Form, ...]
 ) -> tuple[EmittedKernel, ...]:
-    """Stage 1: a row for every stable form and every modal sum."""
+    """Return a row for every stable form and every modal sum (stage 1)."""
     budgets = read_budgets()
     of_modes = {f.name: f for f in forms if formulas[f.name].summed}
     closed = (f for f in forms if f.name not in of_modes)
     of_forms = tuple(kernel_of_form(f, formulas[f.name], budgets[f.name], STYLE) for f in closed)
-    load = formulas["A_j"], formulas["Omega_1"]
     of_sums = tuple(
-        kernel_of_sum(formulas[name], *load, budgets[name], of_modes.get(name))
+        kernel_of_sum(formulas[name], formulas, budgets[name], of_modes.get(name))
         for name in (*of_modes, *SHARES)
     )
     return of_forms + of_sums
 
 
 def modules(kernels: tuple[EmittedKernel, ...]) -> tuple[Planned, ...]:
-    """Stage 2: every file's template and context."""
+    """Return the template and context of every file (stage 2)."""
     grouped = rows_by_module(kernels)
     known, budgets = blocks() | sections(), read_budgets()
 
@@ -112,7 +111,7 @@ def modules(kernels: tuple[EmittedKernel, ...]) -> tuple[Planned, ...]:
         for module in kernel_modules(kernels, TITLES, known)
     )
     exported = {name: [k.name for k in group] for name, group in grouped.items()}
-    # The module `impact` keeps its name: its function is reached through it.
+    # The module `impact` keeps its name; its function is imported from it.
     for row in (*listed, *(row for row in others if row["module"] != "impact")):
         exported.setdefault(row["module"], []).append(row["name"])
     names = sorted(name for group in exported.values() for name in group)
@@ -122,12 +121,12 @@ def modules(kernels: tuple[EmittedKernel, ...]) -> tuple[Planned, ...]:
 
 
 def own(name: str, context: Mapping[str, Any]) -> Module:
-    """A module with a template of the paper's."""
+    """Return a module with a template of the paper."""
     return Module(name, name, context, TEMPLATES)
 
 
 def printed_rows() -> tuple[AsPrinted, ...]:
-    """The paper's formulas as functions: those that need neither modes nor other formulas."""
+    """Return the published formulas as functions, without modal sums and composed formulas."""
     rows = []
     for printed in PRINTED:
         expression = printed.expression if printed.solved is None else printed.solved
@@ -138,7 +137,7 @@ def printed_rows() -> tuple[AsPrinted, ...]:
         rows.append(
             AsPrinted(
                 printed.name,
-                f"{printed.name} as printed.",
+                f"Evaluate {printed.name} as published.",
                 printed.equation,
                 tuple(argument_text(x, named) for x in arguments),
                 to_numpy(expression),

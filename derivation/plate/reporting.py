@@ -1,4 +1,4 @@
-"""The report on the plate: its measurements, text and figures, and what stands beside it."""
+"""The report on the plate: its measurements, text and figures, and accompanying files."""
 
 import json
 from collections.abc import Sequence
@@ -29,53 +29,53 @@ from derivation.scene.scene import load
 from generated import contact_law
 
 README, PICTURE = Path("README.md"), Path("reports/overview.svg")
-"""In the project's folder; written with the whole report."""
+"""Files in the project's folder that are written together with the report."""
 EXAMPLES = PACKAGE / "scene" / "examples"
 PAPER, PANE = EXAMPLES / "paper.toml", EXAMPLES / "glass_pane.toml"
 NEEDED = (
     "accuracy", "check", "contact", "elastodynamics", "hard", "inertia", "moving",
     "rewrite", "speed",
 )  # fmt: skip
-"""Measurements without which there is no report."""
+"""Measurements that the report requires."""
 
 
 def measured() -> dict[str, bytes]:
-    """The committed measurements' files by name.
+    """Return the files of the committed measurements by name.
 
     Raises
     ------
     FileNotFoundError
-        If one is missing without which there is no report.
+        If a measurement that the report requires is missing.
     """
     folder = measurements()
     found = {path.stem: path.read_bytes() for path in sorted(folder.glob("*.json"))}
     for name in NEEDED:
         if name not in found:
             raise FileNotFoundError(
-                f"no measurements in {folder / name}.json: run `{RENEWED[name]}`"
+                f"no measurements in {folder / name}.json; run `{RENEWED[name]}`"
             )
     return found
 
 
 def measured_accuracy() -> dict[str, Any]:
-    """The committed measurement of what accuracy costs.
+    """Return the committed benchmark of accuracy against run time.
 
     Raises
     ------
     FileNotFoundError
-        If there is none.
+        If it is missing.
     """
     found: dict[str, Any] = json.loads(measured()["accuracy"])
     return found
 
 
 def paper_case() -> Model:
-    """The paper's example, as the example scene states it."""
+    """Return the paper's example as its example scene defines it."""
     return model_of(load(PAPER))
 
 
 def material() -> Material:
-    """Theory, comparison with the print, measurements, examples and generated code."""
+    """Return theory, comparison with the published formulas, measurements, examples and code."""
     data = measured()
     modules = sorted(Path(contact_law.__file__).parent.glob("*.py"))
     return Material(
@@ -92,18 +92,18 @@ def material() -> Material:
 
 
 def report_text(shown: Sequence[str] = tuple(SECTIONS)) -> Text:
-    """The report's LaTeX in parts, with the named sections.
+    """Return the LaTeX of the named sections, in parts.
 
     Raises
     ------
     FileNotFoundError
-        If there are no committed measurements.
+        If committed measurements are missing.
     """
     return text(material(), shown)
 
 
 def report_figures() -> dict[str, Figure]:
-    """Every figure of the report by name."""
+    """Return every figure of the report by name."""
     data = {name: json.loads(content) for name, content in measured().items()}
     return (
         figures(paper_case(), simulate(load(PAPER)))
@@ -114,7 +114,7 @@ def report_figures() -> dict[str, Figure]:
 
 
 def beside(folder: Path) -> dict[Path, str | bytes]:
-    """The README with measured numbers, and its picture."""
+    """Return the README with its measured numbers, and its picture."""
     costs = measured_accuracy()
     return {
         folder / README: readme.renewed((folder / README).read_text(), costs),

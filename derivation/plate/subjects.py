@@ -1,17 +1,17 @@
-"""The subjects of the paper, and what the files of a subject hand in.
+"""The subjects of the paper, and the names that the files of a subject export.
 
-A subject is a folder of this one. A new one is named in `SUBJECTS`, and nowhere else. Each of its
-files is a role, and hands in what is listed here, under the name that is listed here. Whatever a
-subject does not need is left out.
+A subject is a folder beside this module. To add one, name it in `SUBJECTS`. Each of its files has
+a role and exports what is listed here, under the listed name. Files that a subject does not need
+are omitted.
 
-theory    LINKS     its links of the chain, after those of `chain.py`
+theory    LINKS     its links of the derivation, after those of `chain.py`
 kernels   MODULES   its modules of generated code, see `modules.py`
 route     ROUTES    the second reference of a formula, by name
 cases     CASES     hard cases, as a function that yields them
-          LAWS      references of functions that are no formula, by name
-prose     ABOUT     what the report says of a link, by name
+          LAWS      references of functions that are not formulas, by name
+prose     ABOUT     text of the report about a link, by name
 
-Its `budgets.toml` states error budgets and domains.
+Its `budgets.toml` contains error budgets and domains.
 """
 
 from collections.abc import Iterator
@@ -36,7 +36,7 @@ SUBJECTS = (
 
 
 def handed_in(role: str, name: str) -> Iterator[Any]:
-    """Yield what the subjects' files of a role hand in under a name, in the subjects' order."""
+    """Yield the objects that the subjects' files of a role export under a name, in order."""
     for subject in SUBJECTS:
         path = f"{__package__}.{subject}.{role}"
         if find_spec(path) is not None:

@@ -33,7 +33,7 @@ c_A = {n: sp.Symbol(f"c_{n}", real=True) for n in range(1, 10, 2)}
 D = {n: sp.Symbol(f"D_{n}", real=True) for n in range(3, 12, 2)}
 """D_n = c_(n-2) (a_m/h)^(n-2), a_m the largest contact radius, by n."""
 D_eta = {n: sp.Symbol(f"D_{n}_eta", real=True) for n in range(3, 12, 2)}
-"""How D_n grows with log(h/b) at fixed a_m/h, by n."""
+"""Derivative of D_n by log(h/b) at fixed a_m/h, by n."""
 gamma_k = {k: sp.Symbol(f"gamma_{k}", positive=k == 2, real=True) for k in range(2, 7)}
 """gamma_k, coefficient of P^((2k-1)/3) in the indentation, by k."""
 xi_k = {k: sp.Symbol(f"xi_{k}", positive=k == 2, real=True) for k in range(2, 7)}
@@ -41,7 +41,7 @@ xi_k = {k: sp.Symbol(f"xi_{k}", positive=k == 2, real=True) for k in range(2, 7)
 
 
 class PlateRoot(sp.Function):
-    """T_n, the n-th root of sinh T = +-T in the first quadrant, by height."""
+    """Return T_n, the n-th root of sinh T = +-T in the first quadrant, by imaginary part."""
 
     nargs = 1
     is_complex = True
@@ -81,7 +81,7 @@ ARGUMENTS = (
     Argument(j_n, "1", "j_n", "n-th positive zero of J0", ("j_n > 0",)),
     Argument(eps, "1", r"\varepsilon", "sqrt(R delta)/h", ("eps > 0",)),
     Argument(m, "kg", "m", "mass of the sphere", ("m > 0",)),
-    Argument(v0, "m/s", "v_0", "velocity of the sphere before the impact", ("v0 > 0",)),
+    Argument(v0, "m/s", "v_0", "impact speed of the sphere", ("v0 > 0",)),
     Argument(rho, "kg/m^3", r"\rho", "density of the plate", ("rho > 0",)),
     Argument(
         viscous_time,
@@ -91,12 +91,12 @@ ARGUMENTS = (
         ("viscous_time > 0",),
     ),
     Argument(x_v, "1", "x_v", "viscous number", ("x_v >= 0",)),
-    Argument(yield_stress, "Pa", "Y", "smaller yield stress of the two", ("yield_stress > 0",)),
+    Argument(yield_stress, "Pa", "Y", "smaller yield stress of both bodies", ("yield_stress > 0",)),
     Argument(
         xi_y,
         "1",
         r"\xi",
-        "Hertz's radius of the largest force over the yield radius",
+        "Hertz contact radius of the peak force divided by the yield radius",
         ("xi_y >= 1",),
     ),
     Argument(omega, "1/s", r"\omega", "angular frequency", ("omega > 0",)),
@@ -104,17 +104,17 @@ ARGUMENTS = (
     Argument(kap, "1", r"\kappa", "(omega h/c_T)^2, c_T^2 = mu/rho", ("kap >= 0",)),
     Argument(gam, "1", r"\gamma", "mu/(lam + 2 mu)", ("gam > 0", "4 * gam < 3")),
     Argument(xi_R, "1", r"\xi", "(c_R/c_T)^2 of Rayleigh's wave", ("xi_R > 0", "xi_R < 1")),
-    Argument(q_j, "m", "q_j", "deflection of the axis by a mode of the plate", ()),
-    Argument(q_rate, "m/s", r"\dot q_j", "velocity of the axis by a mode of the plate", ()),
+    Argument(q_j, "m", "q_j", "deflection of a mode on the axis", ()),
+    Argument(q_rate, "m/s", r"\dot q_j", "velocity of a mode on the axis", ()),
     Argument(zeta, "1", r"\zeta", "damping ratio of a mode", ("zeta >= 0", "zeta < 1")),
     Argument(t, "s", "t", "time since first contact", ("t >= 0",)),
-    Argument(k_n, "1", "k_n", "wave number of a held plate's mode times b", ("k_n > 0",)),
+    Argument(k_n, "1", "k_n", "wave number of a plate mode times b", ("k_n > 0",)),
     Argument(nu, "1", r"\nu", "Poisson's ratio of the plate", ("nu > -1", "nu < 0.5")),
     Argument(delta, "m", r"\delta", "indentation", ("delta > 0",)),
-    Argument(delta_0, "m", r"\delta_0", "indentation by the linear law", ("delta_0 > 0",)),
-    Argument(N, "1", "N", "number of modes kept", ("N >= 1",)),
-    Argument(k, "1", "k", "index of a term, from 2", ("k >= 2",)),
-    Argument(u_t, "1", "u", "variable of time, 1 - u^2 = a/a_m", ("u_t >= 0", "u_t <= 1")),
+    Argument(delta_0, "m", r"\delta_0", "indentation of the linear law", ("delta_0 > 0",)),
+    Argument(N, "1", "N", "number of modes", ("N >= 1",)),
+    Argument(k, "1", "k", "index of a term, at least 2", ("k >= 2",)),
+    Argument(u_t, "1", "u", "time variable, 1 - u^2 = a/a_m", ("u_t >= 0", "u_t <= 1")),
     *(
         Argument(s, "1", rf"\kappa_{{{n}}}", f"integral of y^{n} K0/I0 over y > 0", ())
         for n, s in kappa.items()
@@ -132,9 +132,7 @@ ARGUMENTS = (
         for n, s in D.items()
     ),
     *(
-        Argument(
-            s, "1", rf"\dot D_{{{n}}}", f"h/b times the slope of D_{n} by h/b at fixed a_m/h", ()
-        )
+        Argument(s, "1", rf"\dot D_{{{n}}}", f"derivative of D_{n} by log(h/b) at fixed a_m/h", ())
         for n, s in D_eta.items()
     ),
     *(
@@ -206,7 +204,7 @@ _VALUES = {
     **{f"gamma_{k}": "1e-7" for k in range(2, 7)},
     **{f"xi_{k}": "1e7" for k in range(2, 7)},
 }
-"""The paper's plate, its first mode [SI]."""
+"""The paper's plate and its first mode [SI]."""
 
 
 PLATE = Vocabulary(
@@ -218,7 +216,7 @@ PLATE = Vocabulary(
     per_term=frozenset({phi, T, J1, A_j, j_n, k_n, q_j, q_rate, C1, C2, C3, C4}),
     indices="jn",
     values=_VALUES,
-    # Well inside the contact disc, where roots of 1 - r^2/a^2 are real.
+    # Well inside the contact area, where roots of 1 - r^2/a^2 are real.
     within={r: Fraction(1, 16)},
 )
 BY_NAME = PLATE.by_name
@@ -226,6 +224,6 @@ arguments_of = PLATE.arguments_of
 
 
 class Formula(Record):
-    """A proven formula of the plate."""
+    """A proved formula of the plate."""
 
     vocabulary = PLATE

@@ -1,1 +1,1 @@
-"""Stable forms become text: NumPy modules rendered with Jinja2, formatted by ruff."""
+"""Source text from stable forms: NumPy modules rendered with Jinja2 and formatted by ruff."""

@@ -1,7 +1,7 @@
-"""Budgets as committed data: what each generated function promises.
+"""Error budgets of the generated functions, read from committed data.
 
-A budget is a number of units in the last place (ULP) and a conditioning rule, which says what
-the number counts in and what comes on top of it.
+A budget is a number of units in the last place (ULP) and a rule. The rule states what the units
+refer to, and what is allowed in addition because of conditioning.
 """
 
 import textwrap
@@ -12,64 +12,65 @@ from pathlib import Path
 from typing import Any
 
 ORDINARY = "value"
-"""Name of the rule for kernels that no other one names."""
+"""Name of the rule for functions that no other rule names."""
 
 
 @dataclass(frozen=True)
 class Budget:
-    """What a kernel promises.
+    """The error budget of a function.
 
     Parameters
     ----------
     ulp
         Allowed error in units in the last place.
     rule
-        Of what these units are, and what is allowed on top.
+        What the units refer to, and what is allowed in addition.
     """
 
     ulp: float
     rule: str
 
     def notes(self, domain: str) -> tuple[str, ...]:
-        """What a docstring promises: the budget, and the conditions outside which there is NaN."""
-        promise = f"Error budget: {self.ulp:g} units in the last place of {self.rule}."
+        """Return lines for a docstring: the budget, and the domain outside which there is NaN."""
+        units = f"{self.ulp:g} unit{'' if self.ulp == 1 else 's'} in the last place (ULP)"
+        limit = f"Tested error budget: {units} of {self.rule}."
         where = (
-            f"Domain: {domain or 'all real numbers'}. The budget holds wherever the value is a "
-            "normal number; smaller ones are rounded to a subnormal number or to zero."
+            f"Domain: {domain or 'all real numbers'}. The budget applies where the value is a "
+            "normal floating-point number; smaller values become subnormal or zero."
         )
-        return (*textwrap.wrap(promise, 84), *textwrap.wrap(where, 84, break_on_hyphens=False))
+        return (*textwrap.wrap(limit, 84), *textwrap.wrap(where, 84, break_on_hyphens=False))
 
     def row(self) -> dict[str, object]:
-        """Its parts under the manifest's keys."""
+        """Return its parts under the manifest's keys."""
         return {"budget": self.ulp, "rule": self.rule}
 
 
 def read_budgets(file: Path) -> dict[str, Budget]:
-    """Budgets by kernel, as committed.
+    """Read the committed budgets by function.
 
     Raises
     ------
     ValueError
-        If a rule names a kernel without a number, or a kernel has two rules.
+        If a rule names a function without a number, or a function has two rules.
     """
     return parse_budgets(tomllib.loads(file.read_text()))
 
 
 def read_promises(file: Path, table: str) -> dict[str, float]:
-    """Relative errors of a table, measured, not proven, as committed."""
+    """Read the relative errors of a table; they are measured, not proved."""
     found: dict[str, float] = tomllib.loads(file.read_text())[table]
     return found
 
 
 def parse_budgets(data: Mapping[str, Any]) -> dict[str, Budget]:
-    """Budgets by kernel from the tables `ulp` and `rule`."""
+    """Return budgets by function from the tables `ulp` and `rule`."""
     numbers, rules = data["ulp"], data["rule"]
     named = [name for rule in rules.values() for name in rule.get("kernels", ())]
     unmatched = set(named) - set(numbers)
     twice = {name for name in named if named.count(name) > 1}
     if unmatched or twice:
         raise ValueError(
-            "expected one number and at most one rule per kernel in budgets.toml; "
+            "expected one number and at most one rule per function in budgets.toml; "
             f"mend {', '.join(sorted(unmatched | twice))}"
         )
     rule_of = {name: rule["text"] for rule in rules.values() for name in rule.get("kernels", ())}

@@ -1,7 +1,7 @@
-"""A module written by hand -> its copy in the generated package, and what its functions say.
+"""Copies of handwritten modules in the generated package, and what these say about their functions.
 
-A copy has the lines of the original, but for three things: a header names where it comes from,
-imports from the package are relative, and the docstring of a function in the manifest promises
+A copy has the lines of the original except for three changes: a header names the generator,
+imports from the package are relative, and the docstring of a function in the manifest also states
 its error budget and its domain.
 """
 
@@ -22,20 +22,20 @@ _UNIT = re.compile(r"\[([^\]]+)\]")
 
 @dataclass(frozen=True)
 class ListedFunction:
-    """What a function written by hand says of itself.
+    """What a handwritten function states about itself.
 
     Parameters
     ----------
     name
-        Its name.
+        Name of the function.
     arguments
-        Its arguments, as its docstring has them.
+        Its arguments, as described in its docstring.
     unit
         Units of its results, separated by commas.
     symbol, equation, domain, kernel
-        As its decorator has them.
+        As given in its decorator.
     meaning
-        The first line of its docstring.
+        The first line of its docstring, without "Compute the".
     """
 
     name: str
@@ -49,23 +49,23 @@ class ListedFunction:
 
 
 def listed_functions(file: Path) -> tuple[ListedFunction, ...]:
-    """The functions of a module that the manifest lists, from the syntax tree.
+    """Return the functions of a module that the manifest lists, from the syntax tree.
 
     Raises
     ------
     ValueError
-        Naming the function whose docstring or decorator lacks something.
+        Naming the function whose docstring or decorator is incomplete.
     """
     return tuple(_listed(node, mark, file) for node, mark in _marked(ast.parse(file.read_text())))
 
 
 def function_text(file: Path, name: str) -> str:
-    """The lines of one function of a module.
+    """Return the source text of one function of a module.
 
     Raises
     ------
     StopIteration
-        If the module has none of this name.
+        If the module has no function of this name.
     """
     text = file.read_text()
     named = (n for n in ast.parse(text).body if isinstance(n, ast.FunctionDef) and n.name == name)
@@ -79,7 +79,7 @@ def copied(
     budgets: Mapping[str, Budget],
     notes: Mapping[str, Sequence[str]] = NO_NOTES,
 ) -> str:
-    """The text of a module's copy.
+    """Return the text of a module's copy.
 
     Parameters
     ----------
@@ -92,7 +92,7 @@ def copied(
     budgets
         Error budgets by function.
     notes
-        Lines about errors by function, of those that the manifest does not list.
+        Lines about errors, by function, for functions that the manifest does not list.
     """
     tree = ast.parse(file.read_text())
     lines = file.read_text().splitlines()
@@ -108,7 +108,7 @@ def copied(
 
 
 def _relative(line: str, package: str) -> str:
-    """An import from the package as one from a module beside."""
+    """Replace an import from the package by a relative import."""
     for own in (package, "derivation.engine.runtime"):
         line = re.sub(rf"^from {re.escape(own)}\.(\w+) import", r"from .\1 import", line)
     return re.sub(rf"^from {re.escape(package)} import", "from . import", line)
@@ -123,7 +123,7 @@ def _marked(tree: ast.Module) -> Iterator[tuple[ast.FunctionDef, ast.Call]]:
 
 
 def _words(mark: ast.Call) -> dict[str, str]:
-    """The decorator's arguments by name."""
+    """Return the decorator's arguments by name."""
     given = zip(("symbol", "equation", "domain", "kernel"), mark.args, strict=False)
     named = ((str(word.arg), word.value) for word in mark.keywords)
     return {name: str(ast.literal_eval(value)) for name, value in (*given, *named)}
@@ -146,7 +146,7 @@ def _listed(node: ast.FunctionDef, mark: ast.Call, file: Path) -> ListedFunction
     units = _UNIT.findall(" ".join(parts.get("Returns", ())))
     if not units or "symbol" not in words:
         raise ValueError(f"{file.name}: {node.name} needs a symbol, and units of its results")
-    meaning = text.partition("\n")[0].rstrip(".")
+    meaning = re.sub("^Compute (the )?", "", text.partition("\n")[0]).rstrip(".")
     return ListedFunction(
         node.name,
         tuple(arguments),
@@ -160,7 +160,7 @@ def _listed(node: ast.FunctionDef, mark: ast.Call, file: Path) -> ListedFunction
 
 
 def _sections(text: str) -> dict[str, list[str]]:
-    """Lines of a docstring by the heading above them."""
+    """Return the lines of a docstring by the heading above them."""
     found: dict[str, list[str]] = {}
     lines = text.splitlines()
     current: list[str] = []
@@ -173,7 +173,7 @@ def _sections(text: str) -> dict[str, list[str]]:
 
 
 def _parameters(lines: list[str] | tuple[str, ...]) -> Iterator[tuple[str, str]]:
-    """Names and meanings of a section."""
+    """Yield names and meanings of a section."""
     names: list[str] = []
     meaning: list[str] = []
     for line in lines:
@@ -188,14 +188,18 @@ def _parameters(lines: list[str] | tuple[str, ...]) -> Iterator[tuple[str, str]]
 def _promise(
     node: ast.FunctionDef, notes: Sequence[str], lines: list[str]
 ) -> tuple[int, list[str]]:
-    """Where a docstring's notes go, and what they are."""
+    """Return the position for the notes in a docstring, and the lines to insert there."""
     docstring = node.body[0]
     last = int(docstring.end_lineno or 0) - 1
     indented = [f"    {note}" for note in notes]
-    for index in range(docstring.lineno - 1, last):
-        if lines[index].strip() == "Notes" and set(lines[index + 1].strip()) == {"-"}:
-            return index + 2, [*indented, ""]
-    return last, ["", "    Notes", "    -----", *indented]
+    headings = {lines[i - 1].strip(): i for i in range(docstring.lineno, last)
+                if set(lines[i].strip()) == {"-"}}  # fmt: skip
+    if "Notes" in headings:
+        return headings["Notes"] + 1, [*indented, ""]
+    section = ["    Notes", "    -----", *indented]
+    if "Examples" in headings:
+        return headings["Examples"] - 1, [*section, ""]
+    return last, ["", *section]
 
 
 def _end_of_docstring(tree: ast.Module, file: Path) -> int:

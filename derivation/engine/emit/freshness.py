@@ -1,4 +1,4 @@
-"""A folder against the files it should hold: what is missing, edited or does not belong."""
+"""Comparison of a folder with the files it should contain: missing, edited, surplus."""
 
 import difflib
 from collections.abc import Mapping
@@ -8,18 +8,18 @@ from pathlib import Path
 
 @dataclass(frozen=True)
 class Freshness:
-    """How a folder differs from what would be written into it.
+    """Differences between a folder and what would be written into it.
 
     Parameters
     ----------
     folder
-        The folder looked at.
+        The folder that was compared.
     missing, orphans
-        Names of files that should be there, and of files that should not.
+        Names of missing files, and of surplus files.
     diffs
         Unified diff of every edited file, by name.
     mend
-        The command that writes the folder anew.
+        The command that writes the folder again.
     """
 
     folder: Path
@@ -30,12 +30,12 @@ class Freshness:
 
     @property
     def fresh(self) -> bool:
-        """Whether nothing differs."""
+        """Whether there is no difference."""
         return not (self.missing or self.orphans or self.diffs)
 
     def __str__(self) -> str:
         if self.fresh:
-            return f"{self.folder} is fresh."
+            return f"{self.folder} is up to date."
         lines = [f"missing:  {self.folder / name}" for name in self.missing]
         lines += [f"edited:   {self.folder / name}" for name in self.diffs]
         lines += [f"orphaned: {self.folder / name}" for name in self.orphans]
@@ -57,13 +57,13 @@ def compare(
     Parameters
     ----------
     folder
-        Folder to look at; it need not exist.
+        Folder to compare; it need not exist.
     expected
         File contents by name relative to the folder.
     mend
         The command that would write them.
     pattern
-        Which files of the folder count.
+        Pattern of the files that are compared.
     """
     found = {
         str(path.relative_to(folder)): path.read_bytes()
@@ -81,7 +81,7 @@ def compare(
 
 
 def _diff(name: str, found: bytes, expected: str) -> str:
-    """Unified diff from the file found to the one expected."""
+    """Return the unified diff from the existing file to the expected one."""
     return "".join(
         difflib.unified_diff(
             found.decode(errors="replace").splitlines(keepends=True),

@@ -1,4 +1,4 @@
-"""Formulas, forms and budgets -> rows: what each generated function is and how it reads."""
+"""Rows that describe generated functions, from formulas, forms and budgets."""
 
 import re
 import textwrap
@@ -17,18 +17,21 @@ from derivation.engine.rewrite.form import Branch, Form, Seam, Step
 
 @dataclass(frozen=True)
 class Style:
-    """What a paper's functions say and test beyond the domains of their arguments.
+    """Conditions and text that a paper adds to its generated functions.
 
     Parameters
     ----------
     tested
-        Conditions that end a domain where the tests do, with the arguments they are about.
+        Conditions that limit a domain to the tested range, each with the arguments it contains.
     remark
-        What follows a formula's text, for its expression.
+        Function that returns the text to append to a formula's text.
+    package
+        Import name of the package, for the examples; without it they import nothing.
     """
 
     tested: Mapping[str, Set[str]] = field(default_factory=dict)
     remark: Callable[[sp.Expr], str] = lambda _: ""
+    package: str = ""
 
 
 @dataclass(frozen=True)
@@ -42,7 +45,7 @@ class Line:
 
 @dataclass(frozen=True)
 class BranchText:
-    """One side of a seam as text."""
+    """One side of a switch point as text."""
 
     guards: tuple[Line, ...]
     steps: tuple[Line, ...]
@@ -90,27 +93,28 @@ class EmittedKernel:
     steps: tuple[Line, ...] = ()
     value: str = ""
     seam: SeamText | None = None
+    example: tuple[str, ...] = ()
 
     @property
     def carried(self) -> tuple[str, ...]:
-        """Of a value that does not depend on all arguments: the last it needs, then the idle."""
+        """If some arguments are unused: the last one that is used, followed by the unused ones."""
         code = set(re.findall(r"\w+", repr((self.value, self.steps, self.seam))))
         idle = [x.name for x in self.arguments if x.name not in code and not self.modes]
         return ([x.name for x in self.arguments if x.name in code][-1], *idle) if idle else ()
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What the docstring promises about the error."""
+        """Lines of the docstring about error and domain."""
         return self.budget.notes(self.domain)
 
     @property
     def domain(self) -> str:
-        """Conditions outside which it gives NaN."""
+        """Conditions outside which the function returns NaN."""
         return ", ".join(self.conditions)
 
 
 def kernel_of_form(stable: Form, formula: Record, budget: Budget, style: Style) -> EmittedKernel:
-    """Row of a kernel that evaluates a stable form."""
+    """Return the row of a function that evaluates a stable form."""
     seam = seam_text(stable.value, whole=True) if isinstance(stable.value, Seam) else None
     return kernel(
         formula,
@@ -134,9 +138,14 @@ def kernel(
     steps: tuple[Line, ...] = (),
     value: str,
     seam: SeamText | None = None,
-    modes: bool = False,
+    modes: int = 0,
+    result: sp.Expr | None = None,
 ) -> EmittedKernel:
-    """Row of a function of the given arguments."""
+    """Return the row of a function of the given arguments.
+
+    `result` is the exact value of its docstring's example, by default that of the formula, and
+    `modes` the number of modes summed in it.
+    """
     names = {x.name for x in arguments}
     where = conditions(arguments, formula.where, style)
     meaning = to_plain(formula.meaning)
@@ -156,15 +165,38 @@ def kernel(
         arguments=tuple(argument_text(x, names) for x in arguments),
         conditions=where,
         budget=budget,
-        modes=modes,
+        modes=bool(modes),
         steps=steps,
         value=value,
         seam=seam,
+        example=_example(formula, arguments, style, modes, result),
     )
 
 
+def _example(
+    formula: Record,
+    arguments: tuple[Argument, ...],
+    style: Style,
+    modes: int,
+    value: sp.Expr | None,
+) -> tuple[str, ...]:
+    """Return lines of a doctest at the vocabulary's sample values, if all arguments have one.
+
+    The expected number is evaluated by SymPy from the formula, not by the generated code.
+    """
+    samples = formula.vocabulary.values
+    if not all(x.name in samples for x in arguments):
+        return ()
+    exact = {x.symbol: sp.Float(samples[x.name], 40) for x in arguments}
+    number = float(sp.N(formula.expression.xreplace(exact) if value is None else value, 20))
+    given = [*(samples[x.name] for x in arguments), *([f"modes={modes}"] if modes else [])]
+    start = [f">>> from {style.package} import {formula.name}"] if style.package else []
+    call = f"{formula.name}({', '.join(given)})"
+    return (*start, f'>>> print(f"{{{call}:.10g}}")', f"{number:.10g}")
+
+
 def _wrap(text: str) -> tuple[str, ...]:
-    """Lines of at most 88 characters, broken at spaces only."""
+    """Split a text into lines of at most 88 characters, at spaces only."""
     return tuple(
         textwrap.wrap(
             text, 88, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False
@@ -173,7 +205,7 @@ def _wrap(text: str) -> tuple[str, ...]:
 
 
 def argument_text(argument: Argument, names: set[str]) -> ArgumentText:
-    """An argument's line, with those of its conditions that apply."""
+    """Return the text of an argument, with those of its conditions that apply."""
     domain = ", ".join(applicable(argument.domain, names))
     return ArgumentText(argument.name, argument.unit, argument.meaning, domain)
 
@@ -181,7 +213,7 @@ def argument_text(argument: Argument, names: set[str]) -> ArgumentText:
 def conditions(
     arguments: tuple[Argument, ...], extra: tuple[str, ...], style: Style
 ) -> tuple[str, ...]:
-    """Every condition on the arguments that names nothing but arguments."""
+    """Return every condition that contains no other names than those of the arguments."""
     own = (condition for x in arguments for condition in x.domain)
     names = {x.name for x in arguments}
     tested = (text for text, used in style.tested.items() if used <= names)
@@ -189,14 +221,15 @@ def conditions(
 
 
 def lines(steps: tuple[Step, ...]) -> tuple[Line, ...]:
-    """Steps as lines of code."""
+    """Return steps as lines of code."""
     return tuple(Line(str(s.symbol), to_numpy(s.expression), s.comment) for s in steps)
 
 
 def seam_text(seam: Seam, *, whole: bool = False) -> SeamText:
-    """A seam as text: the branch above guards itself against points below.
+    """Return a switch point as text.
 
-    The one below is given those alone, on its own or, in a whole function, by that.
+    The branch above is evaluated at all points, guarded against those below. The branch below is
+    evaluated at its own points only: it selects them itself, or in a whole function is given them.
     """
     name = str(seam.variable)
     clamped = {seam.variable: f"np.maximum({name}, {float(seam.at)})"}
@@ -207,7 +240,7 @@ def seam_text(seam: Seam, *, whole: bool = False) -> SeamText:
 
 
 def _picked(branch: Branch) -> dict[sp.Symbol, str]:
-    """What a branch needs, at its own points alone."""
+    """Return the inputs of a branch, restricted to its own points."""
     used = sp.Tuple(branch.value, *(step.expression for step in branch.steps)).free_symbols
     given = sorted(used - {step.symbol for step in branch.steps}, key=str)
     return {symbol: f"np.asarray({symbol})[below]" for symbol in given}
@@ -232,7 +265,7 @@ class AsPrinted:
 
 
 def rows_by_module(kernels: tuple[EmittedKernel, ...]) -> Mapping[str, list[EmittedKernel]]:
-    """Kernels grouped by module, in order of first appearance."""
+    """Return rows grouped by module, in order of first appearance."""
     grouped: dict[str, list[EmittedKernel]] = {}
     for kernel in kernels:
         grouped.setdefault(kernel.module, []).append(kernel)

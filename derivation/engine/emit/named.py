@@ -1,4 +1,4 @@
-"""Routines that take their name and first line from the function that describes them."""
+"""Routines that take their name and summary from the Python function that describes them."""
 
 from collections.abc import Callable, Sequence
 from functools import wraps
@@ -10,7 +10,7 @@ from derivation.engine.emit.routine import Facts, Routine, Statement, routine
 
 
 class Claims(NamedTuple):
-    """A function to print and what its results are claimed to be, as `routine` takes them."""
+    """A function to print with its claimed results, the arguments of `routine`."""
 
     arguments: tuple[sp.Symbol, ...]
     statements: Sequence[Statement]
@@ -21,7 +21,7 @@ class Claims(NamedTuple):
 
 
 def named(build: Callable[[], Claims]) -> Callable[[], Routine]:
-    """Have a function that returns claims build the routine of its own name and docstring."""
+    """Turn a function that returns claims into one that builds the routine of its own name."""
 
     @wraps(build)
     def make() -> Routine:

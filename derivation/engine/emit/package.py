@@ -1,4 +1,4 @@
-"""A paper's forms -> the modules of its generated package, and a module -> its source."""
+"""Modules of a generated package, and their source text, from the forms of a paper."""
 
 import hashlib
 import math
@@ -40,7 +40,7 @@ Shape = tuple[tuple[Step, ...], sp.Expr | Seam]
 
 @dataclass(frozen=True)
 class Module:
-    """A file to be: its template and what goes in, and the folder of the template."""
+    """A file to be written: its template, the template's context, and the template's folder."""
 
     name: str
     template: str
@@ -50,7 +50,7 @@ class Module:
 
 @dataclass(frozen=True)
 class Numbers:
-    """A module of numbers: its name, its first line, and the numbers."""
+    """A module of constants: its name, the first line of its docstring, and the constants."""
 
     name: str
     title: str
@@ -59,18 +59,18 @@ class Numbers:
 
 @dataclass(frozen=True)
 class Routines:
-    """A module of routines: its name, its first line, and what it takes from which module.
+    """A module of routines: its name, the first line of its docstring, and its imports.
 
     Parameters
     ----------
     name, title
-        Its name, and its first line.
+        Name of the module, and first line of its docstring.
     routines
         Its functions, in order.
     imports
-        Modules of the package, and the names that the functions need of them.
+        Names that the functions need from other modules of the package.
     dialect
-        Whether they are of arrays or of single numbers.
+        Whether the functions are for arrays or for single numbers.
     """
 
     name: str
@@ -82,20 +82,20 @@ class Routines:
 
 @dataclass(frozen=True)
 class Copy:
-    """A module written by hand, which is copied.
+    """A handwritten module that is copied.
 
     Parameters
     ----------
     name
-        Its name in the package.
+        Name of the module in the package.
     file
         The original.
     package
-        Import name of the package, by which the original refers to it.
+        Import name of the package in the original.
     budgets
         Error budgets by function.
     notes
-        Lines about errors by function, of those that the manifest does not list.
+        Lines about errors, by function, for functions that the manifest does not list.
     """
 
     name: str
@@ -126,22 +126,22 @@ def _nothing(_: Mapping[str, Block]) -> Mapping[str, Shape]:
 
 @dataclass(frozen=True, eq=False)
 class Printing:
-    """How formulas of a paper become a package: their forms by rule, or as stated.
+    """Settings that turn formulas of a paper into a package.
 
     Parameters
     ----------
     summary
         First line of the package's docstring.
     citation
-        What its manifest cites.
+        Citation in the manifest.
     parts
         Its modules, in order.
     budgets
-        File with the error budget and the domain of every function.
+        File with the error budget of every function.
     scales
-        Dimensionless variables of the formulas whose forms are found by rule.
+        Dimensionless variables of the formulas whose forms are found by the rules.
     stated
-        Forms of the other ones, from the building blocks; each is proved equal to its formula.
+        Forms of the other formulas, from the building blocks; each is proved.
     blocks
         Building blocks of the forms.
     """
@@ -155,14 +155,14 @@ class Printing:
     blocks: tuple[Definition, ...] = HYPERBOLIC
 
     def forms(self, formulas: Mapping[str, Record]) -> tuple[Form, ...]:
-        """The stable form of every formula of the parts.
+        """Return the stable form of every formula of the parts.
 
         Raises
         ------
         ProofError
-            Naming the form that is not its formula.
+            Naming the form that differs from its formula.
         UnreachableError
-            Naming a formula that the rules do not reach, or whose form loses digits.
+            Naming a formula for which the rules find no form, or no accurate one.
         """
         known = built(self.blocks)
         stated = self.stated(known)
@@ -180,7 +180,7 @@ class Printing:
         )
 
     def files(self, formulas: Mapping[str, Record], forms: tuple[Form, ...]) -> dict[str, str]:
-        """Files of the package by name."""
+        """Return the files of the package by name."""
         known, budgets = built(self.blocks), read_budgets(self.budgets)
         style = Style()
         kernels = tuple(kernel_of_form(f, formulas[f.name], budgets[f.name], style) for f in forms)
@@ -199,7 +199,7 @@ class Printing:
 
 
 def shared(known: Mapping[str, Block]) -> tuple[Planned, ...]:
-    """The modules that every package begins with."""
+    """Return the modules that every package contains."""
     return (
         Copy("arrays", RUNTIME / "arrays.py"),
         Copy("polynomials", RUNTIME / "polynomials.py"),
@@ -211,7 +211,7 @@ def shared(known: Mapping[str, Block]) -> tuple[Planned, ...]:
 def kernel_modules(
     kernels: tuple[EmittedKernel, ...], titles: Mapping[str, str], known: Mapping[str, Block]
 ) -> tuple[Module, ...]:
-    """A module for every group of kernels."""
+    """Return a module for every group of functions."""
     planned = []
     for name, group in rows_by_module(kernels).items():
         text = repr(group)
@@ -223,9 +223,9 @@ def kernel_modules(
 
 
 def written(planned: Sequence[Planned]) -> dict[str, str]:
-    """The files of a package by name; the same bytes for the same modules.
+    """Return the files of a package by name; equal modules give equal bytes.
 
-    Copies keep their lines; all others are formatted.
+    Copies keep their lines; all other files are formatted.
     """
     copied = {f"{part.name}.py": _copied(part) for part in planned if isinstance(part, Copy)}
     printed = {f"{part.name}.py": _text(part) for part in planned if not isinstance(part, Copy)}
@@ -248,12 +248,12 @@ def _text(part: Module | Numbers | Routines) -> str:
 
 
 def _routines_text(part: Routines) -> str:
-    """Source of a module of routines.
+    """Return the source of a module of routines.
 
     Raises
     ------
     ValueError
-        Naming what the routines need and no module is named for.
+        Naming what the routines need and no import provides.
     """
     needed = {name for r in part.routines for name in r.calls | r.constants}
     given = {name for names in part.imports.values() for name in names}
@@ -269,7 +269,7 @@ def _routines_text(part: Routines) -> str:
 
 
 def _first_lines(printed: Sequence[str], dialect: Dialect) -> list[str]:
-    """What the functions need besides the package."""
+    """Return the imports from outside the package."""
     code = "\n".join(printed)
     lines = ["from collections.abc import Sequence"] if dialect.rows in code else []
     if dialect is ARRAYS:
@@ -282,7 +282,7 @@ def _first_lines(printed: Sequence[str], dialect: Dialect) -> list[str]:
 
 
 def block_text(block: Block) -> dict[str, Any]:
-    """Context of a building block."""
+    """Return the template context of a building block."""
     seam = seam_text(block.value) if isinstance(block.value, Seam) else None
     return {
         "name": block.name,
@@ -297,7 +297,7 @@ def block_text(block: Block) -> dict[str, Any]:
 
 
 def kernel_row(k: EmittedKernel) -> dict[str, Any]:
-    """What the manifest says of a kernel."""
+    """Return the manifest's row of a function."""
     return {
         "name": k.name,
         "module": k.module,
@@ -314,7 +314,7 @@ def kernel_row(k: EmittedKernel) -> dict[str, Any]:
 
 
 def fill(module: Module) -> str:
-    """Stage 3: a module's source, its header naming versions and the hash of what it came from."""
+    """Return a module's source (stage 3); the header states versions and a hash of the input."""
     source = repr(sorted(module.context.items()))
     source += (module.folder / f"{module.template}.py.j2").read_text()
     source += (TEMPLATES / "macros.j2").read_text()
@@ -322,10 +322,10 @@ def fill(module: Module) -> str:
 
 
 def header(source: str) -> str:
-    """Comment that says who generated a module, and from what."""
+    """Return the comment that names the generator, and a hash of its input."""
     digest = hashlib.sha256(source.encode()).hexdigest()
     versions = f"platecontact {version('platecontact')} with SymPy {sp.__version__}"
     return (
         f"# Generated by {versions} from {digest[:16]}.\n"
-        "# Do not edit: `platecontact generate` writes it anew."
+        "# Do not edit: run `platecontact generate` instead."
     )

@@ -1,4 +1,4 @@
-"""SymPy expression -> one line of NumPy: `np.` in front, building blocks by name."""
+"""NumPy code for SymPy expressions: `np.` functions, and building blocks by name."""
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -10,12 +10,12 @@ from derivation.engine.rewrite.form import CLOSELY, TIMES
 from derivation.engine.rewrite.shape import decay
 
 SMALL_INTEGER = 1000
-"""Largest denominator printed as a divisor; beyond, 1/n is folded into a double first."""
+"""Largest denominator printed as a divisor; for larger ones 1/n is evaluated as a double."""
 
 LARGEST_PRODUCT = 6
 """Largest power of a single number that is printed as a product."""
 POWERS_OF_TWO = (2, 4, 8, 16, 32, 64)
-"""Quotients by these are printed as exact factors: of single numbers a product is faster."""
+"""Denominators printed as exact factors, because a product of single numbers is faster."""
 
 
 class _Printer(NumPyPrinter):
@@ -41,7 +41,7 @@ class _Printer(NumPyPrinter):
         return self._bounds("np.maximum", expr)
 
     def _bounds(self, function: str, expr: sp.Expr) -> str:
-        """Two arguments at a time: NumPy takes a third one for the array to write into."""
+        """Print two arguments at a time: NumPy takes a third one as the output array."""
         arguments = sorted(expr.args, key=lambda x: (not x.free_symbols, sp.default_sort_key(x)))
         *others, text = (str(self._print(x)) for x in arguments)
         for other in reversed(others):
@@ -60,7 +60,7 @@ class _Printer(NumPyPrinter):
         number, rest = expr.as_coeff_Add()
         if not (number > 0 and rest.is_Add and all(_fades(part) for part in rest.args)):
             return str(super()._print_Add(expr, order=order))
-        # What decays is summed first: so the whole is rounded once where it hardly counts.
+        # Decaying terms are summed first, so that the total is rounded once where they are small.
         sign, rest = ("-", -rest) if rest.args[0].could_extract_minus_sign() else ("+", rest)
         return f"{self._print(number)} {sign} ({self._print(rest)})"
 
@@ -95,7 +95,7 @@ def _fades(part: sp.Expr) -> bool:
 
 
 def _split(product: sp.Expr) -> tuple[list[sp.Expr], list[sp.Expr]]:
-    """Factors above and below the line, numbers and symbols before functions."""
+    """Return factors above and below the line, numbers and symbols before functions."""
     above, below = [], []
     for factor in product.as_ordered_factors():
         base, exponent = factor.as_base_exp()
@@ -107,7 +107,7 @@ def _split(product: sp.Expr) -> tuple[list[sp.Expr], list[sp.Expr]]:
 
 
 class _OfSingleNumbers(_Printer):
-    """The same with Python's own functions, which are much faster on single numbers."""
+    """Printer with Python's own functions, which are much faster for single numbers."""
 
     def _module_format(self, fqn: str, register: bool = True) -> str:
         return super()._module_format(fqn, register).removeprefix("np.")
@@ -132,7 +132,7 @@ class _OfSingleNumbers(_Printer):
 
     def _print_Pow(self, expr: sp.Pow, rational: bool = False) -> str:
         if expr.exp.is_Integer and 1 < expr.exp <= LARGEST_PRODUCT:
-            # A power of a number that leaves the range would be an error, a product is infinite.
+            # Python raises an error if a power overflows, while a product becomes infinite.
             factor = self.parenthesize(expr.base, PRECEDENCE["Mul"], strict=False)
             return f"({'*'.join([factor] * int(expr.exp))})"
         return super()._print_Pow(expr, rational)
@@ -143,10 +143,10 @@ _SINGLE = _OfSingleNumbers({"allow_unknown_functions": True})
 
 
 def to_numpy(expression: sp.Basic) -> str:
-    """Source text of an expression, evaluated in the order printed."""
+    """Return the source text of an expression, evaluated in the order printed."""
     return str(_PRINTER.doprint(expression))
 
 
 def to_math(expression: sp.Basic) -> str:
-    """The same of single numbers: exp, log, pi, sqrt and the like as Python's `math` has them."""
+    """Return the source text for single numbers, with exp, log, pi, sqrt of Python's `math`."""
     return str(_SINGLE.doprint(expression))

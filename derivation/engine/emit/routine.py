@@ -1,9 +1,9 @@
-"""Routines: printed functions of several steps and results, each result proved to be its claim.
+"""Routines: printed functions with several steps and results, each result proved.
 
-A `Form` is one value with one switch in one argument. A routine is a list of statements with any
-number of results and of choices on computed conditions, and with calls of functions that have
-several results. Its proof puts all statements back, for every combination of choices that a
-result depends on.
+A `Form` is one value with one switch point in one argument. A routine is a list of statements with
+any number of results, of choices on computed conditions, and of calls of functions with several
+results. Its proof substitutes all statements, for every combination of choices that a result
+depends on.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -17,11 +17,11 @@ from derivation.engine.emit.printer import to_math, to_numpy
 from derivation.engine.formula.proof import Proof, prove
 
 GUARDED = sp.Function("np.minimum")
-"""A value held below a bound that it does not exceed where the branch counts."""
+"""Minimum with a guard value, which is not reached where the branch applies."""
 RAISED = sp.Function("np.maximum")
-"""A value held above a bound that it is not below where the branch counts."""
+"""Maximum with a guard value, which is not reached where the branch applies."""
 Facts = Mapping[sp.Basic, sp.Expr]
-"""What symbols stand for, or are equal to on one side of a choice."""
+"""Meanings of symbols, or equalities that are valid on one side of a choice."""
 
 
 @dataclass(frozen=True)
@@ -33,11 +33,11 @@ class Let:
     symbol, expression, comment
         The line of code.
     opaque
-        The claim holds whatever this is, such as a common scale.
+        The claim does not depend on this value, such as a common scale.
     means
-        What it is exactly: a lemma, proved on its own and then used.
+        Its exact value: a lemma that is proved separately and then used.
     within
-        It has no line but is written where it is used, once, so that NumPy works in place.
+        The expression is written where it is used, once, so that NumPy works in place.
     """
 
     symbol: sp.Symbol
@@ -55,11 +55,11 @@ class Several:
     Parameters
     ----------
     symbols
-        What is assigned.
+        The assigned names.
     name, arguments
-        A function of the package, and what it is given.
+        A function of the package, and its arguments.
     meanings
-        What each of its results is exactly.
+        The exact value of each result.
     """
 
     symbols: tuple[sp.Symbol, ...]
@@ -77,13 +77,13 @@ class Choice:
     symbol, condition, yes, no
         The line of code.
     if_yes, if_no
-        What holds on each side, which its proof alone may use.
+        Equalities that are valid on each side; only the proof of that side uses them.
     safe_yes, safe_no
-        Harmless values of symbols for the points that a side is not for.
+        Harmless values of symbols at the points of the other side.
     unclaimed
-        "yes" or "no" if that side is a guard and no part of the claim.
+        "yes" or "no" if that side is a guard and not part of the claim.
     reason
-        Why it is not.
+        Why that side is not claimed.
     """
 
     symbol: sp.Symbol
@@ -104,7 +104,7 @@ class Choice:
             )
         if self.condition in (sp.true, sp.false):
             raise ValueError(
-                f"{self.symbol}: expected a condition that may fail, got {self.condition}"
+                f"{self.symbol}: expected a condition that can be false, got {self.condition}"
             )
 
 
@@ -112,18 +112,18 @@ class Choice:
 class Sums:
     """``for items in rows:`` some steps, then ``symbol += term`` for each symbol.
 
-    A result may depend on the totals linearly, and is then proved for a single row.
+    A result may depend on the totals linearly; it is then proved for a single row.
 
     Parameters
     ----------
     symbols, terms
-        The totals, and what a row adds to each.
+        The totals, and the contribution of a row to each.
     rows
         A table of the package, or an argument.
     items
-        What a row holds.
+        Names of the items of a row.
     steps
-        What is computed first of each row.
+        Statements that are computed first for each row.
     """
 
     symbols: tuple[sp.Symbol, ...]
@@ -133,7 +133,7 @@ class Sums:
     steps: tuple[Let, ...] = ()
 
     def of_one_row(self, value: sp.Expr) -> sp.Expr:
-        """A value with the totals of a single row."""
+        """Return a value with the totals of a single row."""
         value = value.xreplace(dict(zip(self.symbols, self.terms, strict=True)))
         for step in reversed(self.steps):
             value = value.xreplace({step.symbol: step.expression})
@@ -145,7 +145,7 @@ Statement = Let | Several | Choice | Sums
 
 @dataclass(frozen=True)
 class Routine:
-    """A printed function, and the proof that its results are what is claimed."""
+    """A printed function, with the proof that its results equal the claims."""
 
     name: str
     arguments: tuple[sp.Symbol, ...]
@@ -156,7 +156,7 @@ class Routine:
 
     @property
     def calls(self) -> set[str]:
-        """Names of the package's functions that it needs."""
+        """Names of the package's functions that it calls."""
         named = {s.name for s in self.statements if isinstance(s, Several)}
         applied = {str(f.func) for e in self._expressions() for f in e.atoms(AppliedUndef)}
         return named | {name for name in applied if "." not in name}
@@ -181,7 +181,7 @@ def _assigned(s: Statement) -> tuple[sp.Symbol, ...]:
 
 
 def _used(s: Statement) -> Iterator[sp.Basic]:
-    """The expressions of a statement's code."""
+    """Yield the expressions of a statement's code."""
     if isinstance(s, Let):
         yield s.expression
     elif isinstance(s, Several):
@@ -203,16 +203,16 @@ def _check_arguments(
     Raises
     ------
     ValueError
-        Naming them.
+        Naming the unused arguments.
     """
     expressions = (*results, *(e for s in statements for e in _used(s)))
     used = {x for e in expressions for x in e.free_symbols}
     if idle := [str(x) for x in arguments if x not in used]:
-        raise ValueError(f"{name}: expected arguments that count, got {', '.join(idle)}")
+        raise ValueError(f"{name}: expected arguments that are used, got {', '.join(idle)}")
 
 
 def _check_sums(name: str, statements: tuple[Statement, ...], results: tuple[sp.Expr, ...]) -> None:
-    """Refuse totals that results do not depend on linearly.
+    """Refuse totals on which results do not depend linearly.
 
     Raises
     ------
@@ -236,23 +236,23 @@ def routine(
     meaning: Facts,
     reduce: Callable[[sp.Expr], sp.Expr] = lambda e: e,
 ) -> Routine:
-    """Build a routine, proving each result in every combination of choices.
+    """Build a routine and prove each result for every combination of choices.
 
     Parameters
     ----------
     name, arguments, statements, results, summary
         The function.
     claims
-        What each result is, in the theory's expressions; None for a sign or a mask.
+        Each result as an expression of the theory; None for a sign or a mask.
     meaning
-        What the arguments stand for in the theory.
+        Meaning of the arguments in the theory.
     reduce
-        The subject's own way to a normal form, 0 for what vanishes.
+        Function to a normal form of the subject, 0 for what vanishes.
 
     Raises
     ------
     ProofError
-        Naming the result, and the choices taken, if it is not its claim.
+        Naming the result and the choices, if it does not equal its claim.
     """
     statements = tuple(statements)
     _check_arguments(name, arguments, statements, results)
@@ -268,7 +268,9 @@ def routine(
             left = (value.subs(meaning) - claim).subs(facts)
             residuals[f"{name}[{i}] {label}".strip()] = reduce(left)
     proof = prove(
-        f"Routine {name}", "All statements put back, for every combination of choices.", residuals
+        f"Routine {name}",
+        "All statements are substituted, for every combination of choices.",
+        residuals,
     )
     return Routine(name, arguments, statements, results, summary, proof)
 
@@ -276,7 +278,7 @@ def routine(
 def _undone(
     result: sp.Expr, statements: tuple[Statement, ...], sides: Mapping[sp.Basic, bool] | None = None
 ) -> Iterator[tuple[str, sp.Expr, dict[sp.Basic, sp.Expr]]]:
-    """The result with every statement put back, for every combination of choices it depends on."""
+    """Yield the result with all statements substituted, for every combination of its choices."""
     taken = dict(sides or {})
     value = result
     for s in reversed(statements):
@@ -308,34 +310,34 @@ def _undone(
 
 
 class _Written(sp.Symbol):
-    """Code in place of a symbol, put in parentheses wherever an operation follows."""
+    """Code in place of a symbol, in parentheses wherever an operation follows."""
 
     precedence = PRECEDENCE["Lambda"]
 
 
 @dataclass(frozen=True)
 class Dialect:
-    """How expressions are written, and the type of numbers."""
+    """The way expressions are written, and the type of numbers."""
 
     write: Callable[[sp.Basic], str]
     number: str
 
     @property
     def rows(self) -> str:
-        """Type of a table."""
+        """Type annotation of a table."""
         return f"Sequence[tuple[{self.number}, ...]]"
 
 
 ARRAYS = Dialect(to_numpy, "Double")
 """NumPy's functions of arrays."""
 SCALARS = Dialect(to_math, "float")
-"""Python's functions of single numbers, which are much faster on these."""
+"""Python's functions of single numbers, which are much faster for these."""
 QUIET_SCALARS = Dialect(to_numpy, "float")
-"""NumPy's functions of single numbers: they give NaN where Python's raise an error."""
+"""NumPy's functions of single numbers, which return NaN where Python's raise an error."""
 
 
 def text(r: Routine, dialect: Dialect = ARRAYS) -> str:
-    """Python source of the function."""
+    """Return the Python source of the function."""
     tables = {s.rows for s in r.statements if isinstance(s, Sums)}
     types = (dialect.rows if a in tables else dialect.number for a in r.arguments)
     of = ", ".join(f"{a}: {kind}" for a, kind in zip(r.arguments, types, strict=True))

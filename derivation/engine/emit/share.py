@@ -1,7 +1,7 @@
-"""How much of the arithmetic in a generated package is printed, module by module.
+"""Fraction of the arithmetic in a generated package that is printed, by module.
 
-Counted are operators, signs, updates in place and calls of NumPy's functions of numbers, in the
-syntax tree. Tables of numbers have none: `1 / 6` is a number.
+Operators, signs, in-place updates and calls of NumPy's numerical functions are counted in the
+syntax tree. Tables of numbers are not counted: `1 / 6` is a number.
 """
 
 import ast
@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 REASON = "Arithmetic:"
-"""Begins the paragraph of a docstring that says what arithmetic a module written by hand has."""
+"""Start of the docstring paragraph that states the arithmetic of a handwritten module."""
 
 
 @dataclass(frozen=True)
@@ -21,11 +21,11 @@ class ModuleArithmetic:
     Parameters
     ----------
     module
-        Its name.
+        Name of the module.
     operations
-        How many operations it has.
+        Number of operations.
     reason
-        What they are, if they are written by hand; empty where they are printed from proven
+        What the operations are, if they are written by hand; empty if they are printed from proved
         expressions.
     """
 
@@ -35,12 +35,12 @@ class ModuleArithmetic:
 
     @property
     def printed(self) -> bool:
-        """Whether they are printed."""
+        """Whether the operations are printed."""
         return not self.reason
 
 
 def shares(sources: Mapping[str, str]) -> tuple[ModuleArithmetic, ...]:
-    """The arithmetic of every module that has some, from the text of the modules by name."""
+    """Return the arithmetic of every module that has some, from the source texts by name."""
     counted = ((name, operations(text), text) for name, text in sorted(sources.items()))
     return tuple(
         ModuleArithmetic(name, count, reason_of(text)) for name, count, text in counted if count
@@ -48,35 +48,35 @@ def shares(sources: Mapping[str, str]) -> tuple[ModuleArithmetic, ...]:
 
 
 def printed_share(found: Sequence[ModuleArithmetic]) -> float:
-    """The part of all operations that is printed [1]."""
+    """Return the printed fraction of all operations [1]."""
     printed = sum(part.operations for part in found if part.printed)
     return printed / sum(part.operations for part in found)
 
 
 def expect_growth(found: Sequence[ModuleArithmetic], kept: float) -> None:
-    """Refuse a package of which less is printed than was.
+    """Refuse a package whose printed fraction is smaller than before.
 
     Parameters
     ----------
     found
         The arithmetic of its modules.
     kept
-        The share that was reached before [1].
+        The committed fraction [1].
 
     Raises
     ------
     ValueError
-        If it is less.
+        If the fraction is smaller.
     """
     if (share := printed_share(found)) < kept:
         raise ValueError(
             f"expected at least {100 * kept:.1f} % of the package's arithmetic to be printed from "
-            f"proven expressions, as before, got {100 * share:.1f} %; print what was added by hand"
+            f"proved expressions, as committed, got {100 * share:.1f} %; derive what was added"
         )
 
 
 def operations(text: str) -> int:
-    """How many operations a module has."""
+    """Return the number of operations of a module."""
     return sum(map(_counts, ast.walk(ast.parse(text))))
 
 
@@ -93,14 +93,14 @@ def _counts(node: ast.AST) -> bool:
 
 
 def _is_number(node: ast.expr) -> bool:
-    """A number as it is written, with or without a sign."""
+    """Return whether a node is a number as written, with or without a sign."""
     if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
         return isinstance(node.operand, ast.Constant)
     return isinstance(node, ast.Constant)
 
 
 def reason_of(text: str) -> str:
-    """What a module says of arithmetic written by hand; empty if it says nothing."""
+    """Return a module's statement about handwritten arithmetic; empty if there is none."""
     docstring = ast.get_docstring(ast.parse(text)) or ""
     for paragraph in docstring.split("\n\n"):
         if paragraph.startswith(REASON):
@@ -109,15 +109,15 @@ def reason_of(text: str) -> str:
 
 
 def expect_reason(name: str, text: str) -> None:
-    """Refuse a module written by hand that does not say what its arithmetic is.
+    """Refuse a handwritten module that does not state its arithmetic.
 
     Raises
     ------
     ValueError
-        If it has some and says nothing.
+        If it has arithmetic and no statement.
     """
     if operations(text) and not reason_of(text):
         raise ValueError(
-            f"{name}: expected a paragraph of the module's docstring that begins {REASON!r} and "
-            "says what arithmetic it has and why that is not printed, got none"
+            f"{name}: expected a docstring paragraph that begins with {REASON!r} and states "
+            "the module's arithmetic and why it is not printed, got none"
         )

@@ -1,4 +1,4 @@
-"""Templates in, Python as ruff formats it out; starts without SymPy."""
+"""Rendering of templates, and formatting by ruff; starts without SymPy."""
 
 import subprocess
 import sys
@@ -13,16 +13,16 @@ TEMPLATES = Path(__file__).parent / "templates"
 
 
 def filled(template: str, context: Mapping[str, Any], folder: Path = TEMPLATES) -> str:
-    """A template's text; every name in it must be in the context.
+    """Return a rendered template; every name in it must be in the context.
 
     Parameters
     ----------
     template
-        Its name, without the ending.
+        Name of the template, without the suffix.
     context
-        What goes in.
+        Values of its variables.
     folder
-        Where it is looked for first.
+        Folder that is searched first.
     """
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader([folder, TEMPLATES]),
@@ -36,12 +36,12 @@ def filled(template: str, context: Mapping[str, Any], folder: Path = TEMPLATES) 
 
 
 def format_files(source: Mapping[str, str]) -> dict[str, str]:
-    """Stage 4: the files as ruff formats them.
+    """Return the files as formatted by ruff (stage 4).
 
     Raises
     ------
     RuntimeError
-        With ruff's message, if a file is not Python.
+        With ruff's message, if a file is not valid Python.
     """
     with tempfile.TemporaryDirectory() as folder:
         for name, text in source.items():

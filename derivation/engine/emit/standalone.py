@@ -1,4 +1,4 @@
-"""A stable form of one variable -> a tested NumPy module, as `platecontact rewrite` prints it."""
+"""A tested NumPy module for a stable form of one variable, as `platecontact rewrite` prints it."""
 
 import textwrap
 from importlib.metadata import version
@@ -20,19 +20,19 @@ _WIDTH = 90
 
 
 def standalone(stable: Stable) -> tuple[str, CodeCheck]:
-    """Source of a module with the form as a function `f`, and what testing that code found.
+    """Return the source of a module with the form as a function `f`, and the result of its test.
 
     Raises
     ------
     UnreachableError
-        If the code is accurate in no range worth the name.
+        If the code is accurate in no useful range.
     """
     x = stable.variable
     found = tested(stable, _compiled(_source(stable, *ENDS, "")))
     statement = (
-        f"At most {found.limit:g} ULP off beyond half the condition number |{x} f'/f|. "
+        f"Error at most {found.limit:g} ULP plus half the condition number |{x} f'/f|. "
         f"Tested, not proved: with NumPy {np.__version__} against exact values at {found.points} "
-        "points, among them the ends of the range and points next to zeros and overflow edges "
+        "points, including the ends of the range, and points next to zeros and overflow limits "
         f"of the formula and its parts; largest error {found.worst:.2f} ULP, at {x} = {found.at!r}."
     )
     return _source(stable, found.low, found.high, statement), found
@@ -40,7 +40,7 @@ def standalone(stable: Stable) -> tuple[str, CodeCheck]:
 
 def _compiled(source: str) -> Function:
     space: dict[str, Function] = {}
-    exec(compile(source, "f.py", "exec"), space)  # the module that is printed, of numbers and names
+    exec(compile(source, "f.py", "exec"), space)  # the printed module, of numbers and names only
     return space["f"]
 
 
@@ -53,7 +53,7 @@ def _source(stable: Stable, low: float, high: float, statement: str) -> str:
         for part in (side.value, *(step.expression for step in side.steps))
     )
     context = {
-        "summary": f"A stable form by platecontact {version('platecontact')}.",
+        "summary": f"Stable form of a formula, by platecontact {version('platecontact')}.",
         "name": "f",
         "variable": str(stable.variable),
         "formula": sp.sstr(stable.expression),

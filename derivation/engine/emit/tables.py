@@ -1,4 +1,4 @@
-"""Numbers that code needs, computed beforehand, as a generated module."""
+"""Modules of constants that are computed in advance."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -17,11 +17,11 @@ class Constant:
     Parameters
     ----------
     name
-        Its name in capitals.
+        Name of the constant, in capitals.
     value
-        Numbers, in tuples of tuples if there are several; an array stays one.
+        A number, or nested tuples of numbers; an array is written as an array.
     meaning
-        What it is, in a sentence.
+        Meaning of the constant, in a sentence.
     """
 
     name: str
@@ -30,7 +30,7 @@ class Constant:
 
 
 def module_text(title: str, header: str, constants: Sequence[Constant]) -> str:
-    """Source of a module of numbers."""
+    """Return the source of a module of constants."""
     arrays = any(isinstance(part.value, np.ndarray) for part in constants)
     lines = [f'"""{title}"""', header, ""]
     lines += ["import numpy as np", ""] if arrays else []
@@ -41,12 +41,12 @@ def module_text(title: str, header: str, constants: Sequence[Constant]) -> str:
 
 
 def literal(value: object) -> str:
-    """A number, or nested tuples of numbers, as Python writes them.
+    """Return a number, or nested tuples of numbers, as Python source.
 
     Raises
     ------
     TypeError
-        If it is something else.
+        For any other type.
     """
     if isinstance(value, np.ndarray):
         return f"np.array({literal(_tuples(value))})"
@@ -67,7 +67,7 @@ def _tuples(values: np.ndarray) -> object:
 
 
 def _wrapped(parts: Sequence[str]) -> str:
-    """A tuple, on lines of its own where it is long or nested."""
+    """Return a tuple as source, on several lines if it is long or nested."""
     line = ", ".join(parts) + ("," if len(parts) == 1 else "")
     if len(line) < WIDTH and "\n" not in line:
         return f"({line})"

@@ -1,6 +1,6 @@
-"""Compare a formula with the derived one of the same name: equal, or different with a correction.
+"""Comparison of a formula with the derived one of the same name, and search for a correction.
 
-Comparison is modulo the relations that tie the paper's symbols together.
+The comparison takes into account the relations between the paper's symbols.
 """
 
 from collections.abc import Iterator, Mapping
@@ -34,7 +34,7 @@ _MAX_CANDIDATES = 6
 
 @dataclass(frozen=True)
 class Diagnosis:
-    """What comparison of a formula with the derived one found.
+    """Result of comparing a formula with the derived one.
 
     Parameters
     ----------
@@ -43,21 +43,21 @@ class Diagnosis:
     verdict
         ``equal`` or ``different``.
     kind
-        The kind of error; ``equal`` where there is none.
+        The kind of error; ``equal`` if there is none.
     repair
-        A sentence that says how to correct the given formula.
+        A sentence that states how to correct the given formula.
     repaired
         The corrected formula, equal to the derived one; None if none was found.
     edits
-        Number of changes the repair makes.
+        Number of changes in the correction.
     ratio
-        Given over derived, where that is short.
+        Given over derived formula, if that is short.
     dimension
-        What is wrong with the given formula's dimension, if anything.
+        Error in the given formula's dimension, if any.
     given
-        What was compared with it.
+        The given formula.
     method
-        How equality was decided, of the given or of the repaired formula.
+        How equality was decided, for the given or the corrected formula.
     """
 
     formula: Record
@@ -87,13 +87,13 @@ class Diagnosis:
         return f"$\\displaystyle {given} {sign} {derived}$"
 
     def _repr_markdown_(self) -> str:
-        """Verdict, both formulas and the correction, for a notebook."""
+        """Return result, both formulas and the correction, for a notebook."""
         repair = "" if self.verdict == EQUAL else f"\n\n{self.kind}: {to_markdown(self.repair)}."
         name = to_markdown(self.name)
         return f"**{name}: {self.verdict}**, {self.method}\n\n{self._repr_latex_()}{repair}"
 
     def to_json(self) -> dict[str, str | int | None]:
-        """Plain text under fixed keys."""
+        """Return plain text under fixed keys."""
         return {
             "name": self.name,
             "verdict": self.verdict,
@@ -111,7 +111,7 @@ class Diagnosis:
 
 @dataclass(frozen=True)
 class _Case:
-    """One comparison: the formulas, the relations in force, and values at sample points."""
+    """One comparison: the formulas, the relations that apply, and values at sample points."""
 
     formula: Record
     given: sp.Expr
@@ -121,7 +121,7 @@ class _Case:
     truth: Values
 
     def method(self, expression: sp.Expr) -> str | None:
-        """How an expression was found equal to the derived one; None if it is not."""
+        """Return how an expression was found equal to the derived one; None if it is not."""
         if not self.search.points.same(expression, self.truth):
             return None
         difference = (expression - self.formula.expression).subs(dict(self.relations))
@@ -138,18 +138,18 @@ def diagnose(
     Parameters
     ----------
     name
-        Name of a formula of the chain, for instance ``Omega_3``.
+        Name of a derived formula, for instance ``Omega_3``.
     given
-        The formula to compare, in the paper's symbols; names of other formulas stand for these.
+        The formula to compare, in the paper's symbols and names of other formulas.
     formulas
-        The chain's formulas by name.
+        The derived formulas by name.
     relations
-        Which of the symbols follow from others.
+        The dependent symbols.
 
     Raises
     ------
     FormulaError
-        If the name is not known, or the formula cannot be evaluated.
+        If the name is unknown, or the formula cannot be evaluated.
     """
     formula = known_formula(name, formulas)
     given = resolved(given, formulas, formula.vocabulary)
@@ -169,17 +169,17 @@ def diagnose(
 
 
 def comparable(formulas: Mapping[str, Record]) -> list[str]:
-    """Names of the formulas that can be evaluated: without unknown functions or integrals."""
+    """Return names of formulas that can be evaluated: without unknown functions or integrals."""
     return [name for name, formula in formulas.items() if enclosable(formula.expression)]
 
 
 def known_formula(name: str, formulas: Mapping[str, Record]) -> Record:
-    """The derived formula of a name.
+    """Return the derived formula of a name.
 
     Raises
     ------
     FormulaError
-        Listing the names there are.
+        Listing the known names.
     """
     names = comparable(formulas)
     if name in formulas and name not in names:
@@ -193,7 +193,7 @@ def known_formula(name: str, formulas: Mapping[str, Record]) -> Record:
 
 
 def resolved(given: sp.Expr, formulas: Mapping[str, Record], vocabulary: Vocabulary) -> sp.Expr:
-    """An expression in which names of formulas that are no symbols are replaced by these.
+    """Return an expression with names of formulas replaced by their expressions.
 
     Raises
     ------
@@ -216,7 +216,7 @@ def relations_between(
     formulas: Mapping[str, Record],
     relations: Relations,
 ) -> dict[sp.Symbol, sp.Expr]:
-    """Symbols that follow from others: only if the two sides are not in the same symbols."""
+    """Return symbols that follow from others, if the two sides are not in the same symbols."""
     if given.free_symbols == derived.free_symbols:
         return {}
     return relations.between(name, given.free_symbols, derived.free_symbols, formulas)
@@ -283,7 +283,7 @@ def _diagnosis(
 def _repairs(
     case: _Case, formulas: Mapping[str, Record]
 ) -> Iterator[tuple[Repair, sp.Expr | None]]:
-    """Candidates in order: another derived formula, a factor counted twice, then single edits."""
+    """Yield candidates in order: another derived formula, a factor counted twice, single edits."""
     yield from _mistaken(case, formulas)
     yield from _counted_twice(case, formulas)
     for count, repair in enumerate(repairs(case.given, case.truth, case.search)):
@@ -295,15 +295,14 @@ def _repairs(
 def _mistaken(
     case: _Case, formulas: Mapping[str, Record]
 ) -> Iterator[tuple[Repair, sp.Expr | None]]:
-    """The given formula is another one of the chain, for instance that of the other face."""
+    """Yield derived formulas that the given one equals, for instance that of the other face."""
     derived = case.formula
     for other in _formulas_with_values(case, formulas, case.have):
         if other.unit == derived.unit:
             faces = "face" in other.meaning and "face" in derived.meaning
             says = (
-                f"it is {other.name}, {to_plain(other.meaning)}; {derived.name}, "
-                f"{to_plain(derived.meaning)}, "
-                f"is {derived.expression}"
+                f"this is {other.name} ({to_plain(other.meaning)}); {derived.name} "
+                f"({to_plain(derived.meaning)}) is {derived.expression}"
             )
             repair = Repair(FACE if faces else OTHER, says, derived.expression, 1)
             yield repair, other.expression / derived.expression
@@ -312,7 +311,7 @@ def _mistaken(
 def _formulas_with_values(
     case: _Case, formulas: Mapping[str, Record], values: Values
 ) -> Iterator[Record]:
-    """Other formulas of the chain that have these values at the sample points."""
+    """Yield other derived formulas that have these values at the sample points."""
     points = case.search.points
     for name in comparable(formulas):
         expression = formulas[name].expression
@@ -324,7 +323,7 @@ def _formulas_with_values(
 def _counted_twice(
     case: _Case, formulas: Mapping[str, Record]
 ) -> Iterator[tuple[Repair, sp.Expr | None]]:
-    """A factor named in a product is already part of what another factor was derived from."""
+    """Yield corrections for a factor that another factor of the product already contains."""
     points = case.search.points
     for factor in sp.Mul.make_args(case.given):
         if factor not in case.relations or factor.name not in formulas:
@@ -338,14 +337,14 @@ def _counted_twice(
                 if points.same(left, need):
                     double = case.relations[factor] / left
                     says = (
-                        f"{other.name} already holds the factor {double} of {factor.name}: "
+                        f"{other.name} already contains the factor {double} of {factor.name}: "
                         f"read {left} instead of {factor.name}"
                     )
                     yield Repair(TWICE, says, rest * left, 1), double
 
 
 def ancestors(name: str, formulas: Mapping[str, Record]) -> set[str]:
-    """All formulas that a formula was derived from, directly or not."""
+    """Return all formulas that a formula was derived from, directly or indirectly."""
     found: set[str] = set()
     todo = list(formulas[name].sources)
     while todo:
@@ -357,7 +356,7 @@ def ancestors(name: str, formulas: Mapping[str, Record]) -> set[str]:
 
 
 def _partial_products(expression: sp.Expr) -> Iterator[sp.Expr]:
-    """Products of some factors, the smallest first."""
+    """Yield products of some factors, the smallest first."""
     factors = sp.Mul.make_args(expression)
     for size in range(1, len(factors)):
         for some in combinations(factors, size):
@@ -365,7 +364,7 @@ def _partial_products(expression: sp.Expr) -> Iterator[sp.Expr]:
 
 
 def _as_power(case: _Case, repair: Repair) -> Repair:
-    """A stray or missing root of a factor that stands in the given formula is a wrong power."""
+    """Return the wrong power, for an extra or missing root of a factor of the given formula."""
     excess = _ratio(case)
     if repair.kind not in (STRAY, MISSING) or excess is None or not excess.is_Pow:
         return repair
@@ -378,7 +377,7 @@ def _as_power(case: _Case, repair: Repair) -> Repair:
 
 
 def _ratio(case: _Case) -> sp.Expr | None:
-    """Given over derived where that is a monomial, or short after cancelling equal factors."""
+    """Return given over derived where that is a monomial, or short after cancellation."""
     ratio = [v / w for v, w in zip(case.have, case.truth, strict=True)]
     simple = monomial(ratio, case.search.points)
     if simple is not None:

@@ -1,4 +1,4 @@
-"""Dimension check of a formula as it stands, before any other comparison."""
+"""Dimension check of a given formula, before any other comparison."""
 
 from fractions import Fraction
 
@@ -16,11 +16,11 @@ _COMMON = (
     *(f"N/m^({n}/3)" for n in (5, 7, 11)),
 )
 _NAMES = {dimension_of(unit): unit for unit in _COMMON}
-"""Units that dimensions are shown as."""
+"""Units in which dimensions are shown."""
 
 
 def dimension_note(expression: sp.Expr, unit: str, vocabulary: Vocabulary) -> str | None:
-    """What is wrong with the dimension of an expression that should have a unit, or None."""
+    """Return the error in the dimension of an expression that should have a unit, or None."""
     try:
         found = dimension(expression, vocabulary.dimensions)
     except DimensionError as error:
@@ -29,11 +29,11 @@ def dimension_note(expression: sp.Expr, unit: str, vocabulary: Vocabulary) -> st
     if found == expected:
         return None
     excess = unit_name(found / expected)
-    return f"[{unit}] expected, [{unit_name(found)}] found: a factor of [{excess}] too much"
+    return f"expected [{unit}], got [{unit_name(found)}]: an extra factor of [{excess}]"
 
 
 def unit_name(value: Dimension) -> str:
-    """The unit of a dimension, in metres and pascals where mass and time allow it."""
+    """Return the unit of a dimension, in metres and pascals where mass and time allow it."""
     if value in _NAMES:
         return _NAMES[value]
     if value.time != -2 * value.mass:

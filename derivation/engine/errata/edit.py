@@ -1,4 +1,4 @@
-"""Single edits: at each place of a formula, the changes that give it the required value."""
+"""Single edits: at each position in a formula, the changes that give it the required value."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -34,7 +34,7 @@ _FEW = 3
 
 @dataclass(frozen=True, eq=False)
 class Edit:
-    """One change at one place, with its weight: the smaller, the more likely the error."""
+    """One change at one position, with its weight: the smaller, the more likely the error."""
 
     kind: str
     place: Place
@@ -43,12 +43,12 @@ class Edit:
     cost: float
 
     def order(self) -> tuple[float, int, str]:
-        """Sort key: price, then nearness to the root, then text."""
+        """Sort key: cost, then distance from the root, then text."""
         return round(self.cost, 6), self.place.depth, self.says
 
 
 def single_edits(root: Place, truth: Values, search: VariantSearch) -> list[Edit]:
-    """Every edit below a place that gives it the true values, the likeliest first."""
+    """Yield every edit below a position that gives the correct values, the likeliest first."""
     found: list[Edit] = []
     for place, need in with_needs(root, truth, search.points):
         found += ratio_edits(place, need, search)
@@ -69,14 +69,14 @@ def _edit(kind: str, place: Place, new: sp.Expr, says: str, extra: float = 0.0) 
 
 
 def edit_of(variant: Variant, place: Place) -> Edit:
-    """The edit that puts a variant at a place."""
+    """Return the edit that puts a variant at a position."""
     new = variant.build()
     if variant.kind == LOST:
         shown = variant.shown() if variant.shown else sp.sstr(new)
         says = f"set the parentheses {shown} in {name_of(place)}"
     elif variant.kind == SUPERFLUOUS:
         shown = variant.shown() if variant.shown else sp.sstr(new)
-        says = f"take the parentheses away, {shown}, in {name_of(place)}"
+        says = f"remove the parentheses, {shown}, in {name_of(place)}"
     elif variant.kind in (SIGN, STRAY, MISSING, CONSTANT, TWICE) and own_ratio(place):
         return ratio_edit(place, new / place.node, variant.extra, variant.kind)
     else:
@@ -88,11 +88,11 @@ def _text(expression: sp.Expr) -> str:
     return str(sp.sstr(expression))
 
 
-# Ratio: the needed value is a simple multiple of what stands there.
+# Ratio: the required value is a simple multiple of the given one.
 
 
 def ratio_edits(place: Place, need: Values, search: VariantSearch) -> Iterator[Edit]:
-    """Sign, constant, stray or missing factor, a factor counted twice."""
+    """Yield edits of sign, constant, extra or missing factor, and a factor counted twice."""
     if not own_ratio(place):
         return
     have = search.points.values(place.node)
@@ -118,7 +118,7 @@ def ratio_edits(place: Place, need: Values, search: VariantSearch) -> Iterator[E
 
 
 def ratio_edit(place: Place, ratio: sp.Expr, extra: float = 0.0, kind: str | None = None) -> Edit:
-    """Multiplication by a ratio, in the words that fit what stands there."""
+    """Return the multiplication by a ratio, with a text that suits the expression."""
     new, where = ratio * place.node, name_of(place)
     if ratio == -1:
         return _edit(SIGN, place, new, f"reverse the sign of {where}", extra)
@@ -132,7 +132,7 @@ def ratio_edit(place: Place, ratio: sp.Expr, extra: float = 0.0, kind: str | Non
 
 
 def _stray_or_missing(place: Place, ratio: sp.Expr) -> str:
-    """Whether the ratio takes away what stands there, or adds what does not."""
+    """Return whether the ratio removes what the expression contains, or adds what it does not."""
     above, below = sp.fraction(ratio)
     numerator, denominator = sp.fraction(place.node)
     taken = denominator.has(*above.free_symbols) or numerator.has(*below.free_symbols)
@@ -142,9 +142,9 @@ def _stray_or_missing(place: Place, ratio: sp.Expr) -> str:
 def _ratio_words(where: str, ratio: sp.Expr, kind: str) -> str:
     above, below = sp.fraction(ratio)
     if kind in (STRAY, TWICE) and below == 1:
-        return f"leave out the factor {_text(above)} in the denominator of {where}"
+        return f"remove the factor {_text(above)} from the denominator of {where}"
     if kind in (STRAY, TWICE) and above == 1:
-        return f"leave out the factor {_text(below)} in {where}"
+        return f"remove the factor {_text(below)} from {where}"
     if above == 1:
         return f"divide {where} by the missing factor {_text(below)}"
     if below == 1:
@@ -153,17 +153,17 @@ def _ratio_words(where: str, ratio: sp.Expr, kind: str) -> str:
 
 
 def _size(ratio: sp.Expr) -> float:
-    """Extra price of a monomial: every further symbol, power or constant makes it less likely."""
+    """Return the additional cost of a monomial: further symbols make it less likely."""
     number, powers = ratio.as_coeff_Mul()
     degree = sum(abs(factor.as_base_exp()[1]) for factor in sp.Mul.make_args(powers))
     return 0.6 * (float(degree) - 1) + (0.0 if number == 1 else 0.6 if number == -1 else 1.0)
 
 
-# Exponent: the needed value is a power of what stands there.
+# Exponent: the required value is a power of the given one.
 
 
 def exponent_edits(place: Place, need: Values, search: VariantSearch) -> Iterator[Edit]:
-    """Another power of the same base."""
+    """Yield another power of the same base."""
     node = place.node
     if node.is_number or place.role in (BASE, TERMS):
         return
@@ -183,25 +183,25 @@ def exponent_edits(place: Place, need: Values, search: VariantSearch) -> Iterato
 
 
 def term_edits(place: Place, need: Values, search: VariantSearch) -> Iterator[Edit]:
-    """A term left out or added."""
+    """Yield a term removed or added."""
     if not isinstance(place.node, sp.Add) or place.role == TERMS:
         return
     have = search.points.values(place.node)
     lack = [w - v for w, v in zip(need, have, strict=True)]
     for part in inner(place):
         if part.role == TERM and search.points.same(-part.node, lack):
-            yield _edit(SUM, place, place.node - part.node, f"leave out {name_of(part)}")
+            yield _edit(SUM, place, place.node - part.node, f"remove {name_of(part)}")
     simple = monomial(lack, search.points)
     for term in search.terms if simple is None else (simple,):
         if term is simple or search.points.same(term, lack):
             yield _edit(SUM, place, place.node + term, f"add the missing term {_text(term)}", 0.5)
 
 
-# Parentheses: the terms in them need the factor that stands before another term only.
+# Parentheses: their terms need the factor that is applied to another term only.
 
 
 def drawn_in_front(place: Place, need: Values, search: VariantSearch) -> Iterator[Edit]:
-    """c (x + y) for c x + y, where c is found as the ratio that y needs."""
+    """Yield c (x + y) for c x + y, where c is the ratio that y needs."""
     if place.role not in (TERM, TERMS) or place.parent is None:
         return
     have = search.points.values(place.node)
@@ -224,13 +224,13 @@ def drawn_in_front(place: Place, need: Values, search: VariantSearch) -> Iterato
 
 
 def _cancelled(search: VariantSearch) -> tuple[sp.Expr, ...]:
-    """Sums at hand that may have cancelled against a part of the term, and 1."""
+    """Return known sums that may have cancelled against a part of the term, and 1."""
     sums = [factor for factor in search.factors if isinstance(factor, sp.Add)]
     return (sp.Integer(1), *(1 / factor for factor in sums), *sums)
 
 
 def _products(term: sp.Expr) -> Iterator[sp.Expr]:
-    """Products of some of a term's sums and functions, the empty one included."""
+    """Yield products of some of a term's sums and functions, including the empty one."""
     parts = [f for f in sp.Mul.make_args(term) if f.atoms(sp.Add, sp.Function)]
     for size in range(min(len(parts), 6) + 1):
         for some in combinations(parts, size):
@@ -238,7 +238,7 @@ def _products(term: sp.Expr) -> Iterator[sp.Expr]:
 
 
 def factor_pool(expressions: Sequence[sp.Expr]) -> tuple[sp.Expr, ...]:
-    """Sums and functions that stand as factors anywhere in the expressions, in a fixed order."""
+    """Return sums and functions that are factors in the expressions, in a fixed order."""
     found: set[sp.Expr] = set()
     for expression in expressions:
         found |= expression.atoms(sp.Function)
@@ -249,6 +249,6 @@ def factor_pool(expressions: Sequence[sp.Expr]) -> tuple[sp.Expr, ...]:
 
 
 def term_pool(expression: sp.Expr) -> tuple[sp.Expr, ...]:
-    """Terms of all sums in an expression, in a fixed order."""
+    """Return terms of all sums in an expression, in a fixed order."""
     found = {term for total in expression.atoms(sp.Add) for term in total.args}
     return tuple(sorted(found, key=sp.default_sort_key))

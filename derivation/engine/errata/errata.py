@@ -1,4 +1,4 @@
-"""All printed formulas of a paper, and what comparison with the derived ones finds."""
+"""All published formulas of a paper, and their comparison with the derived ones."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -11,18 +11,18 @@ from derivation.engine.formula.chain import Chain
 
 @dataclass(frozen=True, eq=False)
 class Errata:
-    """The formulas as printed, and how they are compared.
+    """The published formulas, and the way they are compared.
 
     Parameters
     ----------
     printed
-        The printed formulas, in the paper's order.
+        The published formulas, in the paper's order.
     relations
-        Which symbols follow from others.
+        The dependent symbols.
     finding
-        What comparison finds of a printed formula, if that is not one value against another.
+        Function that compares a published formula in a way of its own, if necessary.
     kinds
-        Further classes of printed formulas.
+        Further classes of published formulas.
     """
 
     printed: Sequence[Printed] = ()
@@ -31,7 +31,7 @@ class Errata:
     kinds: tuple[type, ...] = ()
 
     def compared(self, formulas: Formulas) -> tuple[Finding, ...]:
-        """Every printed formula compared with the derived one; right ones are listed as equal."""
+        """Return every published formula compared with the derived one, correct ones included."""
 
         def one(record: Printed) -> Finding:
             if self.finding is not None:
@@ -41,7 +41,7 @@ class Errata:
         return tuple(one(record) for record in self.printed)
 
     def found(self, chain: Chain) -> tuple[Finding, ...]:
-        """The same, kept until the sources change."""
+        """Return the same, cached until the sources change."""
         kinds = (Finding, Diagnosis, Printed, *self.kinds)
         return chain.kept(
             "misprints", lambda: self.compared(chain.formulas()), *kinds, also=("engine/errata",)

@@ -1,4 +1,4 @@
-"""Printed formulas, and what comparison with the derived ones finds."""
+"""Published formulas, and the result of comparing them with the derived ones."""
 
 from dataclasses import dataclass
 
@@ -14,28 +14,28 @@ CORRECT = "correct as published"
 
 @dataclass(frozen=True)
 class Printed:
-    """One formula as printed.
+    """One formula as published.
 
     Parameters
     ----------
     name
-        Name of the derived formula that it claims to be.
+        Name of the derived formula that it should equal.
     equation
         Number of the paper's equation.
     symbol
         LaTeX of the left-hand side.
     latex
-        LaTeX of the right-hand side; of one term of it where a sum is printed.
+        LaTeX of the right-hand side; for a sum, of one term.
     expression
         The same in SymPy.
     says
-        What the paper says about it in words, where that is part of the claim.
+        Statement of the paper about it in words, where that is part of the claim.
     full
-        The printed right-hand side, where `latex` is only a part of it.
+        The published right-hand side, where `latex` is only a part of it.
     where
-        Names in the expression that another line of the paper defines.
+        Names in the expression that another equation of the paper defines.
     solved
-        The expression solved for the quantity `name`, if it is printed another way round.
+        The expression solved for the quantity `name`, if the paper solves for another one.
     """
 
     name: str
@@ -50,7 +50,7 @@ class Printed:
 
     @property
     def compared(self) -> sp.Expr:
-        """What is held against the derived formula: solved, and written out as printed."""
+        """The expression to compare: solved, and with definitions inserted."""
         expression = self.expression if self.solved is None else self.solved
         return expression.subs(dict(self.where))
 
@@ -60,7 +60,7 @@ class Printed:
 
 @dataclass(frozen=True)
 class Finding:
-    """A printed formula, the derived one, and what comparison found."""
+    """A published formula, the derived one, and the result of the comparison."""
 
     printed: Printed
     formula: Record
@@ -69,12 +69,12 @@ class Finding:
 
     @property
     def is_misprint(self) -> bool:
-        """Whether print and derivation differ."""
+        """Whether published and derived formula differ."""
         return self.diagnosis.verdict == DIFFERENT
 
     @property
     def kind(self) -> str:
-        """The kind of misprint, or that there is none."""
+        """The kind of misprint, or the statement that there is none."""
         return self.diagnosis.kind if self.is_misprint else CORRECT
 
     @property
@@ -83,7 +83,7 @@ class Finding:
         return f"{self.diagnosis.repair}. {self.remark}" if self.remark else self.diagnosis.repair
 
     def to_json(self) -> dict[str, str | None]:
-        """Plain text under fixed keys."""
+        """Return plain text under fixed keys."""
         diagnosis, vocabulary = self.diagnosis, self.formula.vocabulary
         return {
             "equation": self.printed.equation,
@@ -111,13 +111,13 @@ class Finding:
         return f"$\\displaystyle {printed} \\;{sign}\\; {self.formula.right_hand_side}$"
 
     def _repr_markdown_(self) -> str:
-        """Published and derived formula, and the correction, for a notebook."""
+        """Return published and derived formula, and the correction, for a notebook."""
         where = f"**({self.printed.equation}) {to_markdown(self.printed.name)}: {self.kind}**"
         repair = f"\n\n{to_markdown(self.repair)}." if self.is_misprint else ""
         return f"{where}\n\n{self._repr_latex_()}{repair}"
 
 
 def finding(record: Printed, formulas: Formulas, relations: Relations) -> Finding:
-    """A printed formula compared with the derived one of its name."""
+    """Compare a published formula with the derived one of its name."""
     diagnosis = diagnose(record.name, record.compared, formulas, relations)
     return Finding(record, formulas[record.name], diagnosis)

@@ -1,7 +1,7 @@
-"""Two misprints in different parts of a product or a sum, found by meeting in the middle.
+"""Two misprints in different parts of a product or a sum, found by matching pairs of edits.
 
-Every edit of one part changes the whole by a known ratio (in a sum: difference);
-its partner is the edit of another part that supplies the rest.
+Every edit of one part changes the whole by a known ratio (in a sum: difference); its partner is the
+edit of another part that supplies the rest.
 """
 
 from bisect import bisect_left
@@ -30,7 +30,7 @@ _OVERALL = -1
 
 @dataclass(frozen=True, eq=False)
 class Pair:
-    """Two edits that together give the true values, and the expression they lead to."""
+    """Two edits that together give the correct values, and the resulting expression."""
 
     first: Edit
     second: Edit
@@ -38,17 +38,17 @@ class Pair:
 
     @property
     def says(self) -> str:
-        """Both changes in a sentence."""
+        """Return both changes in a sentence."""
         return f"{self.first.says}; and {self.second.says}"
 
     def order(self) -> tuple[float, str]:
-        """Sort key: price, then text."""
+        """Sort key: cost, then text."""
         return round(self.first.cost + self.second.cost, 6), self.says
 
 
 @dataclass(frozen=True, eq=False)
 class _Change:
-    """A variant somewhere inside one part (or of the whole), and its effect on the whole.
+    """A variant inside one part (or of the whole), and its effect on the whole.
 
     The effect is a ratio in a product and a difference in a sum.
     """
@@ -59,14 +59,14 @@ class _Change:
     effect: float
 
     def applied(self, whole: sp.Expr, root: Place) -> sp.Expr:
-        """`whole`, a rewriting of the root's node, after this change as well."""
+        """Return `whole`, a rewritten root, with this change as well."""
         if self.part == _OVERALL:
             return self.variant.build() / root.node * whole
         old, new = root.node.args[self.part], self.part_after(root)
         return whole / old * new if isinstance(root.node, sp.Mul) else whole - old + new
 
     def part_after(self, root: Place) -> sp.Expr:
-        """The changed part of the root's node."""
+        """Return the changed part of the root."""
         part = self.place
         while part.parent is not root and part.parent is not None:
             part = part.parent
@@ -74,7 +74,7 @@ class _Change:
 
 
 def pair_edits(root: Place, truth: Values, search: VariantSearch) -> list[Pair]:
-    """Pairs of edits in different parts of a product or sum, the likeliest first."""
+    """Yield pairs of edits in different parts of a product or sum, the likeliest first."""
     if not isinstance(root.node, sp.Add | sp.Mul):
         return []
     have = search.points.value(root.node, 0)
@@ -90,7 +90,7 @@ def pair_edits(root: Place, truth: Values, search: VariantSearch) -> list[Pair]:
 
 
 def _changes(root: Place, search: VariantSearch) -> Iterator[_Change]:
-    """Every variant inside every part of the root, and those of the whole, with their effects."""
+    """Yield every variant inside every part of the root, and of the whole, with their effects."""
     product = isinstance(root.node, sp.Mul)
     for index, node in enumerate(root.node.args):
         part = Place(node, FACTOR if product else TERM, root, (index,))
@@ -110,7 +110,7 @@ def _changes(root: Place, search: VariantSearch) -> Iterator[_Change]:
 
 
 def _of_the_whole(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:
-    """Variants of a product that no single factor shows."""
+    """Yield variants of a product that no single factor shows."""
     yield from superfluous_parentheses(node, search)
     have = search.points.value(node, 0)
     for kind, factor, extra in multipliers(search):
@@ -119,7 +119,7 @@ def _of_the_whole(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:
 
 
 def _lifted(place: Place, value: flint.acb, top: Place, search: VariantSearch) -> flint.acb:
-    """Value of the place `top` when the place inside it takes another value."""
+    """Return the value of the position `top` when the position inside it takes another value."""
     while place is not top and place.parent is not None:
         node = place.parent.node
         whole = search.points.value(node, 0)
@@ -140,7 +140,7 @@ def _lifted(place: Place, value: flint.acb, top: Place, search: VariantSearch) -
 def _meetings(
     root: Place, changes: Sequence[_Change], goal: float, truth: Values, search: VariantSearch
 ) -> Iterator[Pair]:
-    """Pairs of changes in different parts whose effects make up the goal."""
+    """Yield pairs of changes in different parts whose effects add up to the required one."""
     product = isinstance(root.node, sp.Mul)
     effects = [change.effect for change in changes]
     seen = 0
@@ -165,7 +165,7 @@ def _meetings(
 def _with_overall_ratio(
     root: Place, changes: Sequence[_Change], truth: Values, search: VariantSearch
 ) -> Iterator[Pair]:
-    """Changes after which a monomial is all that is missing."""
+    """Yield changes after which only a monomial is missing."""
     points = search.points
     last_effect = None
     for change in changes:
@@ -186,7 +186,7 @@ def _with_overall_ratio(
 
 
 def _could_be_monomial(root: Place, change: _Change, truth: Values, search: VariantSearch) -> bool:
-    """Whether what is missing after a change scales like a power of each symbol in turn."""
+    """Return whether the missing factor after a change scales like a power of each symbol."""
     points = search.points
     old = root.node.args[change.part]
     new = change.part_after(root)
@@ -204,7 +204,7 @@ def _could_be_monomial(root: Place, change: _Change, truth: Values, search: Vari
 
 
 def _tell_tale_points(root: Place, search: VariantSearch) -> list[int]:
-    """The first sample point, then those that double a symbol on which a function depends."""
+    """Return the first sample point, and those that double a symbol in a function's argument."""
     inside: set[sp.Symbol] = set().union(*(f.free_symbols for f in root.node.atoms(sp.Function)))
     symbols = enumerate(search.points.symbols, start=1)
     return [0, *(index for index, symbol in symbols if symbol in inside)]

@@ -1,8 +1,7 @@
-"""A place in an expression: what stands there, and what would have to stand there.
+"""A position in an expression: its subexpression, and the value that would be correct there.
 
-The needed value of a place is the one that makes the whole equal to the truth;
-it follows from the root downwards by inverting sums, products, powers and
-functions.
+The required value of a position is the one for which the whole is correct; it follows from the root
+downwards by inverting sums, products, powers and functions.
 """
 
 from collections.abc import Callable, Iterator
@@ -28,18 +27,18 @@ _INVERSE: dict[type[sp.Basic], Callable[[flint.acb], flint.acb]] = {
 
 @dataclass(frozen=True, eq=False)
 class Place:
-    """A node of an expression, or some terms of a sum, with the way back to the root.
+    """A node of an expression, or some terms of a sum, with the path to the root.
 
     Parameters
     ----------
     node
-        What stands there.
+        The subexpression.
     role
-        What it is to its parent: a term, a factor, ...
+        Its role in its parent: a term, a factor, ...
     parent
-        The place around it; None at the root.
+        The position around it; None at the root.
     taken
-        Indices among the parent's arguments that the place stands for.
+        Indices of the parent's arguments that the position covers.
     """
 
     node: sp.Expr
@@ -49,11 +48,11 @@ class Place:
 
     @property
     def depth(self) -> int:
-        """Steps to the root."""
+        """Number of steps to the root."""
         return 0 if self.parent is None else self.parent.depth + 1
 
     def put(self, new: sp.Expr, top: "Place | None" = None) -> sp.Expr:
-        """The whole expression, or that of the place `top`, with `new` standing here."""
+        """Return the whole expression, or that of the position `top`, with `new` inserted here."""
         if self.parent is None or self is top:
             return new
         node = self.parent.node
@@ -68,7 +67,7 @@ class Place:
 
 
 def inner(place: Place) -> Iterator[Place]:
-    """The places directly inside a place, groups of terms included."""
+    """Yield the positions directly inside a position, groups of terms included."""
     node, args = place.node, place.node.args
     if isinstance(node, sp.Add):
         for index, term in enumerate(args):
@@ -90,7 +89,7 @@ def inner(place: Place) -> Iterator[Place]:
 
 
 def everywhere(place: Place) -> Iterator[Place]:
-    """The place and all places inside it; a group of terms is not entered again."""
+    """Yield the position and all positions inside it; groups of terms are not divided further."""
     yield place
     if place.role != TERMS:
         for part in inner(place):
@@ -98,8 +97,8 @@ def everywhere(place: Place) -> Iterator[Place]:
 
 
 def needed(part: Place, need: Values, points: Sample) -> list[flint.acb] | None:
-    """Values an inner place needs, given those its parent needs; None where they do not follow."""
-    assert part.parent is not None  # what the root needs is the truth itself
+    """Return the values required inside, given those of the parent; None if not determined."""
+    assert part.parent is not None  # the root requires the reference values themselves
     node = part.parent.node
     have = points.values(part.node)
     whole = points.values(node)
@@ -119,7 +118,7 @@ def needed(part: Place, need: Values, points: Sample) -> list[flint.acb] | None:
 
 
 def _root(value: flint.acb, exponent: sp.Rational, near: flint.acb) -> flint.acb:
-    """The base whose power is the value; of two signs the one of the base that stands there."""
+    """Return the base whose power is the value; of two signs, the one of the given base."""
     root = value ** flint.arb(flint.fmpq(int(exponent.q), int(exponent.p)))
     if exponent.p % 2:
         if value.real < 0 and exponent.q == 1:
@@ -131,7 +130,7 @@ def _root(value: flint.acb, exponent: sp.Rational, near: flint.acb) -> flint.acb
 def with_needs(
     root: Place, truth: Values, points: Sample
 ) -> Iterator[tuple[Place, list[flint.acb]]]:
-    """Every place with the values it needs, where these follow and are finite."""
+    """Yield every position with its required values, where these are determined and finite."""
     yield root, list(truth)
     if root.role == TERMS:
         return

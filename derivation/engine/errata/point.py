@@ -12,14 +12,14 @@ from derivation.engine.formula.parse import FormulaError, number
 from derivation.engine.formula.vocabulary import Argument, Vocabulary, symbols_of
 
 _CANDIDATES = ("0.5", "0.1", "0.01", "1", "2", "10", "-1")
-"""Tried in turn for a symbol without a sample value."""
+"""Values tried in turn for a symbol without a sample value."""
 
 _SCALES = ("10", "0.1", "100", "0.01")
-"""Factors of a default value, in turn, where a formula has no real value at it."""
+"""Factors of a default value, tried in turn where a formula has no real value."""
 
 
 def default_value(argument: Argument, values: Mapping[str, str]) -> str:
-    """A value [SI] inside the symbol's own domain."""
+    """Return a value [SI] inside the symbol's own domain."""
     if argument.name in values:
         return values[argument.name]
     for literal in _CANDIDATES:
@@ -29,12 +29,12 @@ def default_value(argument: Argument, values: Mapping[str, str]) -> str:
 
 
 def parse_point(text: str) -> dict[str, str]:
-    """Values by symbol name, from ``phi=2.5,h=0.1``.
+    """Return values by symbol name, from ``phi=2.5,h=0.1``.
 
     Raises
     ------
     FormulaError
-        If an entry is no name and value, or a symbol is given twice.
+        If an entry is not a name and a value, or a symbol is given twice.
     """
     point: dict[str, str] = {}
     for entry in filter(None, (part.strip() for part in text.split(","))):
@@ -48,12 +48,12 @@ def parse_point(text: str) -> dict[str, str]:
 
 
 def exact(at: Mapping[str, str], vocabulary: Vocabulary, relations: Relations) -> Point:
-    """Literals and exact values by symbol name, those of guests in the vocabulary's own symbols.
+    """Return literals and exact values by symbol name, with additional symbols converted.
 
     Raises
     ------
     FormulaError
-        If a name is unknown or given twice under two names, or a value is no decimal number.
+        If a name is unknown or given twice under two names, or a value is not a decimal number.
     """
     known = vocabulary.names | vocabulary.guest_names
     result: Point = {}
@@ -83,12 +83,12 @@ def completed(
     conditions: Iterable[str],
     vocabulary: Vocabulary,
 ) -> Point:
-    """The chosen point with default values for the other symbols, inside the domain.
+    """Return the given point with default values for the other symbols, inside the domain.
 
     Parameters
     ----------
     chosen
-        Values that the caller gave.
+        Values given by the caller.
     names
         Independent symbols of the comparison.
     relations
@@ -101,8 +101,8 @@ def completed(
     Raises
     ------
     FormulaError
-        If a value is given for a symbol that follows from others or does not occur, or the
-        point is outside the domain.
+        If a value is given for a dependent symbol or one that does not occur, or the point is
+        outside the domain.
     """
     for symbol, meaning in relations.items():
         if symbol.name in chosen:
@@ -130,7 +130,7 @@ def completed(
 def others(
     point: Point, chosen: Iterable[str], conditions: Iterable[str], vocabulary: Vocabulary
 ) -> Iterator[Point]:
-    """Points near a completed one: one value that the caller left open larger or smaller."""
+    """Yield points near a completed one: one default value is made larger or smaller."""
     conditions = tuple(conditions)
     free = [name for name in point if name not in set(chosen)]
     for scale in _SCALES:

@@ -1,4 +1,4 @@
-"""How the symbols of a paper depend on one another, beyond its derivation: what comparison asks."""
+"""Dependent symbols of a paper, which a comparison of formulas takes into account."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ Formulas = Mapping[str, Record]
 Symbols = set[sp.Symbol]
 Meanings = dict[sp.Symbol, sp.Expr]
 Point = dict[str, tuple[str, Fraction]]
-"""The literal as typed and the exact value, by symbol name."""
+"""The literal as typed, and its exact value, by symbol name."""
 
 
 @dataclass(frozen=True)
@@ -22,11 +22,11 @@ class Relations:
     Parameters
     ----------
     between
-        The symbols that follow from others in a comparison, from the compared formula's name,
-        the symbols of the given and of the derived formula, and all formulas. Asked only where
-        the two are not in the same symbols.
+        The dependent symbols of a comparison, from the name of the compared formula, the symbols of
+        the given and of the derived formula, and all formulas. It is called only if the two
+        formulas are not in the same symbols.
     point
-        A point with values of guests, in the vocabulary's own symbols.
+        A point with values of additional symbols, converted to the vocabulary's symbols.
     """
 
     between: Callable[[str, Symbols, Symbols, Formulas], Meanings] = lambda *_: {}

@@ -1,4 +1,4 @@
-"""Search for a correction of a formula: one edit, or else two, the most likely first."""
+"""Search for a correction of a formula: one edit, or two, the most likely first."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -27,9 +27,9 @@ class Repair:
 
 
 def repairs(given: sp.Expr, truth: Values, search: VariantSearch) -> Iterator[Repair]:
-    """Repairs with the true values at every sample point: single edits, then pairs.
+    """Yield corrections with the right values at every sample point: single edits, then pairs.
 
-    Pairs are sought in different parts of the whole, then of each of its parts.
+    Pairs are sought in different parts of the whole, then in those of each part.
     """
     size = given.count_ops()
     if size > MAX_OPERATIONS:

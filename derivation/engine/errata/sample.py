@@ -1,7 +1,7 @@
-"""Sample points: values of expressions, in 448-bit balls, at which repairs are tried out.
+"""Sample points: values of expressions in 448-bit balls, by which corrections are tested.
 
-The first point is followed by copies of it with one symbol doubled each, which
-tell a monomial's exponents; further random points guard against coincidence.
+The first point is followed by copies of it with one symbol doubled each, which determine a
+monomial's exponents; further random points exclude coincidence.
 """
 
 from collections.abc import Mapping, Sequence
@@ -25,51 +25,51 @@ Values = Sequence[flint.acb]
 
 @dataclass(frozen=True, eq=False)
 class Sample:
-    """Sample points, with the values already known at each.
+    """Sample points, with the values that are already known at each.
 
     Parameters
     ----------
     symbols
         The independent symbols, in the order in which the points double them.
     known
-        Per point, the values of symbols and of expressions met before.
+        For each point, the known values of symbols and expressions.
     """
 
     symbols: tuple[sp.Symbol, ...]
     known: tuple[dict[sp.Basic, flint.acb], ...]
 
     def value(self, expression: sp.Expr, point: int) -> flint.acb:
-        """Ball around the expression's value at one point."""
+        """Return a ball around the expression's value at one point."""
         known = self.known[point]
         if expression in known:
             return known[expression]
         return flint.acb(enclose(expression, known))
 
     def applied(self, function: type[sp.Basic], value: flint.acb) -> flint.acb:
-        """Ball around a function of one argument that has the given value."""
+        """Return a ball around a function of an argument that has the given value."""
         argument = sp.Dummy()
         return flint.acb(enclose(function(argument), {argument: value}))
 
     def values(self, expression: sp.Expr) -> list[flint.acb]:
-        """Balls around the expression's values at all points."""
+        """Return balls around the expression's values at all points."""
         return [self.value(expression, point) for point in range(len(self.known))]
 
     def learn(self, expression: sp.Expr) -> None:
-        """Keep the values of an expression and of all its parts."""
+        """Store the values of an expression and of all its parts."""
         for node in sp.postorder_traversal(expression):
             for point, known in enumerate(self.known):
                 if node not in known:
                     known[node] = self.value(node, point)
 
     def same(self, expression: sp.Expr, values: Values) -> bool:
-        """Whether an expression has these values at every point."""
+        """Return whether an expression has these values at every point."""
         return all(
             agree(self.value(expression, point), value) for point, value in enumerate(values)
         )
 
 
 def agree(x: flint.acb, y: flint.acb) -> bool:
-    """Whether two balls are finite and overlap, that is agree to all their digits."""
+    """Return whether two balls are finite and overlap, that is, agree to all their digits."""
     return bool(x.is_finite() and y.is_finite() and x.overlaps(y))
 
 
@@ -78,7 +78,7 @@ def sample(
     relations: Mapping[sp.Symbol, sp.Expr],
     within: Mapping[sp.Symbol, Fraction],
 ) -> Sample:
-    """Points for all symbols of some expressions; a symbol with a relation follows the others.
+    """Return points for all symbols of some expressions; dependent symbols follow the others.
 
     The random values of the symbols in `within` are multiplied by these factors.
     """
@@ -102,7 +102,7 @@ def sample(
 
 
 def real(value: flint.acb) -> float | None:
-    """The value as a float, or None if it is not real, finite and of ordinary size."""
+    """Return the value as a float, or None if it is not real, finite and of moderate size."""
     if not value.is_finite():
         return None
     number = complex(value)
@@ -111,7 +111,7 @@ def real(value: flint.acb) -> float | None:
 
 
 def rational(number: float, denominator: int) -> Fraction | None:
-    """The simple fraction a number stands for, if any."""
+    """Return the simple fraction that a number represents, if any."""
     if not abs(number) < 1e6:
         return None
     fraction = Fraction(number).limit_denominator(denominator)
@@ -119,7 +119,7 @@ def rational(number: float, denominator: int) -> Fraction | None:
 
 
 def constant(values: Values) -> sp.Expr | None:
-    """The simple rational, times a power of pi, that all values are, if any."""
+    """Return the simple rational, times a power of pi, that all values equal, if any."""
     number = real(values[0])
     if number is None or not agree(values[0], values[-1]):
         return None
@@ -134,7 +134,7 @@ def constant(values: Values) -> sp.Expr | None:
 
 
 def monomial(values: Values, points: Sample) -> sp.Expr | None:
-    """The constant times powers of the symbols that the values are, if any."""
+    """Return the constant times powers of the symbols that the values equal, if any."""
     first = real(values[0])
     if first is None:
         return None

@@ -17,7 +17,7 @@ _LATEX_SUM = (
 
 
 def note(formula: Record) -> str | None:
-    """What is compared, if the quantity is a sum over the modes."""
+    """Return what is compared, if the quantity is a sum over the modes."""
     if not formula.summed:
         return None
     j = formula.vocabulary.indices[0]
@@ -25,7 +25,7 @@ def note(formula: Record) -> str | None:
 
 
 def without_latex_sum(text: str, vocabulary: Vocabulary) -> str:
-    r"""LaTeX of the contribution of one mode, from ``\sum_{j=1}^{\infty} ...`` or from itself."""
+    r"""Return the LaTeX of one mode's term, from ``\sum_{j=1}^{\infty} ...`` or from itself."""
     match = re.fullmatch(_LATEX_SUM.format(index=_index(vocabulary)), text, re.DOTALL)
     if match is None:
         return text
@@ -33,12 +33,12 @@ def without_latex_sum(text: str, vocabulary: Vocabulary) -> str:
 
 
 def _index(vocabulary: Vocabulary) -> str:
-    """A pattern of the letters that count the terms, which nothing matches if there are none."""
+    """Return a pattern of the letters that count the terms; without letters it matches nothing."""
     return f"(?:{'|'.join(vocabulary.indices)})" if vocabulary.indices else "(?!)"
 
 
 def parse_contribution(text: str, vocabulary: Vocabulary, also: Mapping[str, sp.Basic]) -> sp.Expr:
-    """The contribution of one mode, from ``c*Sum(..., (j, 1, oo))`` or from itself.
+    """Return the term of one mode, from ``c*Sum(..., (j, 1, oo))`` or from itself.
 
     Raises
     ------
@@ -69,7 +69,7 @@ def parse_contribution(text: str, vocabulary: Vocabulary, also: Mapping[str, sp.
 
 
 def _sums(plain: str) -> list[ast.Call]:
-    """The calls of Sum that are in no other one, in their order; none if it cannot be read."""
+    """Return the calls of Sum that are in no other one, in order; none if it cannot be read."""
     if "Sum" not in plain:
         return []
     try:
@@ -101,7 +101,7 @@ def _check_limits(call: ast.Call, source: str, vocabulary: Vocabulary) -> None:
 
 
 def check_contribution(formula: Record, given: sp.Expr) -> None:
-    """Refuse what cannot be the contribution of one mode, for instance the whole sum.
+    """Refuse what cannot be the term of one mode, for instance the whole sum.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Compare a formula given as text with the derived one, and evaluate both at a point."""
+"""Comparison of a formula given as text with the derived one, with values of both at a point."""
 
 import itertools
 import re
@@ -37,18 +37,18 @@ _ZERO_BITS = 8192
 
 @dataclass(frozen=True)
 class TextDiagnosis:
-    """A diagnosis with both values at a point, as text.
+    """A comparison with both values at a point, as text.
 
     Parameters
     ----------
     diagnosis
-        The comparison of the formulas themselves.
+        The comparison of the formulas.
     point
         The values at which both were evaluated.
     given_value, derived_value
         Decimal values, correctly rounded.
     compared
-        What was compared, if it is not the quantity itself: one term of a sum.
+        What was compared if it is not the quantity itself: one term of a sum.
     """
 
     diagnosis: Diagnosis
@@ -64,16 +64,16 @@ class TextDiagnosis:
 
     @property
     def repair(self) -> str:
-        """How to correct the given formula, in a sentence."""
+        """A sentence that states how to correct the given formula."""
         return self.diagnosis.repair
 
     @property
     def ratio(self) -> sp.Expr | None:
-        """Given over derived, where that is short."""
+        """Given over derived formula, if that is short."""
         return self.diagnosis.ratio
 
     def to_json(self) -> dict[str, object]:
-        """Plain text under fixed keys."""
+        """Return plain text under fixed keys."""
         more = self.diagnosis.to_json()
         return {
             "name": more["name"],
@@ -94,7 +94,7 @@ class TextDiagnosis:
         return self.diagnosis._repr_latex_()
 
     def _repr_markdown_(self) -> str:
-        """The comparison, and both values at the point."""
+        """Return the comparison, and both values at the point."""
         at = ", ".join(f"{name} = {value}" for name, value in self.point)
         values = f"given {self.given_value}\n\nderived {self.derived_value}"
         return f"{self.diagnosis._repr_markdown_()}\n\nAt {at}:\n\n{values}"
@@ -110,28 +110,28 @@ def diagnose_text(
     at: Mapping[str, str] | None = None,
     digits: int = 50,
 ) -> TextDiagnosis:
-    """Compare a formula given as text with the derived one; nothing in it is executed.
+    """Compare a formula given as text with the derived one; the text is not executed.
 
     Parameters
     ----------
     name
-        Name of the derived formula it should equal.
+        Name of the derived formula that it should equal.
     text
-        The formula in SymPy syntax, or in LaTeX if `latex`. Names of other formulas
-        stand for these. Of a sum over modes one term is expected, or ``Sum(..., (j, 1, oo))``.
+        The formula in SymPy syntax, or in LaTeX if `latex`; it may contain names of other formulas.
+        For a sum over modes one term is expected, or ``Sum(..., (j, 1, oo))``.
     formulas
-        The chain's formulas by name.
+        The derived formulas by name.
     relations
-        Which of the symbols follow from others.
+        The dependent symbols.
     at
-        Exact decimal values of symbols [SI]; the others take default values.
+        Exact decimal values of symbols [SI]; other symbols have default values.
     digits
         Significant digits of both values.
 
     Raises
     ------
     FormulaError
-        For a name, formula, point or number of digits that cannot be used.
+        If a name, formula, point or number of digits is not valid.
     """
     if not 1 <= digits <= MAX_DIGITS:
         raise FormulaError(f"expected 1 to {MAX_DIGITS} digits, got {digits}")
@@ -166,15 +166,15 @@ def diagnosed(
     at: str = "",
     digits: int = 50,
 ) -> TextDiagnosis:
-    """As `diagnose_text`, with limits of time and memory, the point as ``phi=2.5,h=0.1``.
+    """Do the same with limits of time and memory, for a point like ``phi=2.5,h=0.1``.
 
     Raises
     ------
     FormulaError
-        For a name, formula, point or number of digits that cannot be used.
+        If a name, formula, point or number of digits is not valid.
     """
     point = parse_point(at)
-    # Text that cannot be read is refused before anything is derived, whatever names it uses.
+    # A text that cannot be parsed is refused before anything is derived, for any names in it.
     anything = {word: sp.Symbol(word) for word in re.findall(r"[A-Za-z]\w*", text)}
     own = chain.vocabulary
     bounded(lambda: read(text, own, anything, latex) and None, "reading the formula")
@@ -186,7 +186,7 @@ def diagnosed(
 
 
 def read(text: str, vocabulary: Vocabulary, also: Mapping[str, sp.Basic], latex: bool) -> sp.Expr:
-    """The expression of a text in SymPy syntax or LaTeX; of a sum over the modes one term."""
+    """Return the expression of a text in SymPy syntax or LaTeX; for a sum, of one term."""
     if latex:
         return parse_latex(summed.without_latex_sum(text, vocabulary), vocabulary, also)
     return summed.parse_contribution(text, vocabulary, also)
@@ -195,7 +195,7 @@ def read(text: str, vocabulary: Vocabulary, also: Mapping[str, sp.Basic], latex:
 def _first(
     expression: sp.Expr, points: Iterable[Point], vocabulary: Vocabulary, digits: int
 ) -> tuple[Point, str]:
-    """The first point at which the expression has a real value, and that value."""
+    """Return the first point at which the expression has a real value, and that value."""
     errors = []
     for point in points:
         try:
@@ -207,7 +207,7 @@ def _first(
 
 
 def _at(expression: sp.Expr, point: Point, vocabulary: Vocabulary, digits: int) -> str:
-    """Value of an expression at a point, correctly rounded."""
+    """Return the value of an expression at a point, correctly rounded."""
     values = {vocabulary.by_name[n].symbol: value for n, (_, value) in point.items()}
     where = ", ".join(f"{n} = {literal}" for n, (literal, _) in point.items())
     return _decimal(expression, values, digits, where)
@@ -216,7 +216,7 @@ def _at(expression: sp.Expr, point: Point, vocabulary: Vocabulary, digits: int) 
 def _decimal(
     expression: sp.Expr, values: Mapping[sp.Symbol, Fraction], digits: int, where: str
 ) -> str:
-    """Value of an expression, correctly rounded to so many significant digits."""
+    """Return the value of an expression, correctly rounded to so many significant digits."""
     try:
         for guard in _GUARD_DIGITS:
             ball = evaluate(expression, values, digits + guard)
@@ -226,7 +226,7 @@ def _decimal(
                 return ends.pop()
     except PrecisionError:
         return _zero_or_singular(expression, values, where)
-    # A tie as far as a thousand further digits tell: the value itself is half-way.
+    # A tie, as far as a thousand further digits show: the value is exactly half-way.
     return _round(middle, digits)
 
 
@@ -243,7 +243,7 @@ def _fraction(point: flint.arb) -> Fraction:
 
 
 def _zero_or_singular(expression: sp.Expr, values: Mapping[sp.Symbol, Fraction], where: str) -> str:
-    """``0`` for a value that 8192 bits cannot tell from zero; otherwise there is none."""
+    """Return ``0`` for a value that 8192 bits cannot distinguish from zero, else raise an error."""
     with flint.ctx.workprec(_ZERO_BITS):
         ball = enclose(expression, {symbol: to_ball(value) for symbol, value in values.items()})
     if ball.is_finite() and ball.contains(0):

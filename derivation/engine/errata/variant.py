@@ -1,7 +1,7 @@
-"""What could have been meant at a place: other functions, parentheses, faces, simple multiples.
+"""Alternatives at a position: other functions, parentheses, faces, simple multiples.
 
-A variant carries its value at the first sample point, so that thousands can be
-looked through before one is written out as an expression.
+A variant contains its value at the first sample point, so that thousands can be tested before one
+is built as an expression.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -53,20 +53,20 @@ _EXPONENTS = tuple(sp.Rational(k) for k in (-1, 2, -2, 3, 4)) + tuple(
 
 @dataclass(frozen=True, eq=False)
 class Variant:
-    """Something else that a place could hold.
+    """An alternative for a subexpression.
 
     Parameters
     ----------
     kind
-        The kind of error that would have turned it into what stands there.
+        The kind of error that would turn it into the given one.
     value
         Its value at the first sample point.
     build
-        Writes it out.
+        Function that builds it as an expression.
     extra
-        Price on top of that of its kind.
+        Cost in addition to that of its kind.
     shown
-        Text of it, where the expression alone would not show the change.
+        Text of it, where the expression alone does not show the change.
     """
 
     kind: str
@@ -78,19 +78,19 @@ class Variant:
 
 @dataclass(frozen=True)
 class VariantSearch:
-    """What the search may use: the sample, factors of both formulas, terms of the right one."""
+    """Data of the search: sample points, factors of both formulas, terms of the derived one."""
 
     points: Sample
     factors: tuple[sp.Expr, ...]
     terms: tuple[sp.Expr, ...]
 
     def variant(self, kind: str, new: sp.Expr, extra: float = 0.0) -> Variant:
-        """A variant that is at hand as an expression."""
+        """Return a variant from an expression."""
         return Variant(kind, self.points.value(new, 0), lambda: new, extra)
 
 
 def variants(place: Place, search: VariantSearch) -> Iterator[Variant]:
-    """Other functions, parentheses and faces: what only trying can find."""
+    """Yield other functions, parentheses and faces, which can only be found by trying."""
     if place.role != TERMS:
         yield from other_functions(place.node, search)
         yield from lost_parentheses(place.node, search)
@@ -100,7 +100,7 @@ def variants(place: Place, search: VariantSearch) -> Iterator[Variant]:
 
 
 def tried(place: Place, search: VariantSearch) -> Iterator[Variant]:
-    """All variants, simple multiples and powers included, for where nothing can be solved for."""
+    """Yield all variants, simple multiples and powers included, where nothing can be solved."""
     yield from variants(place, search)
     node, value = place.node, search.points.value(place.node, 0)
     if own_ratio(place):
@@ -114,20 +114,20 @@ def tried(place: Place, search: VariantSearch) -> Iterator[Variant]:
 
 
 def raised_to(node: sp.Expr, power: sp.Rational) -> sp.Expr:
-    """The node to a power; of a power, that of its base, so that no root meets a square."""
+    """Return the node to a power; for a power, its base to a power, to avoid roots of squares."""
     base, exponent = node.as_base_exp()
     return base ** (exponent * power)
 
 
 def own_ratio(place: Place) -> bool:
-    """Whether a ratio here is not simply the ratio of the product or power around it."""
+    """Return whether a ratio here differs from that of the product or power around it."""
     if place.role == BASE:
         return bool(place.parent is not None and abs(place.parent.node.exp) != 1)
     return place.role != FACTOR
 
 
 def multipliers(search: VariantSearch) -> Iterator[tuple[str, sp.Expr, float]]:
-    """Sign, small numbers, powers of the symbols, and the factors at hand."""
+    """Yield sign, small numbers, powers of the symbols, and the known factors."""
     yield SIGN, sp.Integer(-1), 0.0
     for kind, factor in small_factors(search.points.symbols):
         yield kind, factor, 0.2
@@ -137,7 +137,7 @@ def multipliers(search: VariantSearch) -> Iterator[tuple[str, sp.Expr, float]]:
 
 
 def small_factors(symbols: Sequence[sp.Symbol]) -> Iterator[tuple[str, sp.Expr]]:
-    """Simple multipliers to try where the ratio cannot be computed."""
+    """Yield simple multipliers to be tried where the ratio cannot be computed."""
     for number in (2, 3, 4, 8, 16):
         yield CONSTANT, sp.Integer(number)
         yield CONSTANT, sp.Rational(1, number)
@@ -151,7 +151,7 @@ def small_factors(symbols: Sequence[sp.Symbol]) -> Iterator[tuple[str, sp.Expr]]
 
 
 def other_functions(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:
-    """Another function of the same argument, or the same one of a slightly other argument."""
+    """Yield another function of the same argument, or the same one of a similar argument."""
     apply: Callable[[sp.Expr], sp.Expr]
     if isinstance(node, sp.besselj):
         order, argument = node.args
@@ -170,7 +170,7 @@ def other_functions(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:
 
 
 def other_faces(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:
-    """The same with z or h reversed, where that changes it."""
+    """Yield the same with z or h reversed, where that changes it."""
     if node.is_Atom:
         return
     for symbol in sorted(node.free_symbols, key=str):
@@ -181,7 +181,7 @@ def other_faces(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:
 
 
 def lost_parentheses(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:
-    """c (x + y) for c x + y: a factor of one term of a sum drawn in front of further terms."""
+    """Yield c (x + y) for c x + y: the factor of one term is applied to further terms."""
     if not isinstance(node, sp.Add):
         return
     terms = node.args
@@ -198,7 +198,7 @@ def lost_parentheses(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:
 
 @dataclass(frozen=True)
 class _Grouped:
-    """A sum with a factor of one term drawn in front of a group of others."""
+    """Return a sum in which the factor of one term is applied to a group of others."""
 
     terms: Sequence[sp.Expr]
     index: int
@@ -221,7 +221,7 @@ class _Grouped:
 
 
 def superfluous_parentheses(node: sp.Expr, search: VariantSearch) -> Iterator[Variant]:
-    """c x + y for c (x + y): a factor of a product stands before some terms of a sum only."""
+    """Yield c x + y for c (x + y): a factor of a product is applied to some terms only."""
     for factor in node.args if isinstance(node, sp.Mul) else ():
         base, exponent = factor.as_base_exp()
         if not isinstance(base, sp.Add) or abs(exponent) != 1:
@@ -242,7 +242,7 @@ def superfluous_parentheses(node: sp.Expr, search: VariantSearch) -> Iterator[Va
 
 @dataclass(frozen=True)
 class _Spread:
-    """A product with a sum in which some factors stand before a group of terms only."""
+    """Return a product with a sum in which some factors are applied to a group of terms only."""
 
     node: sp.Expr
     base: sp.Expr
@@ -265,7 +265,7 @@ class _Spread:
 def _partial_products(
     term: sp.Expr, search: VariantSearch
 ) -> Iterator[tuple[tuple[sp.Expr, ...], flint.acb]]:
-    """Some of a term's factors, their product other than +-1, and its value."""
+    """Yield some of a term's factors, their product other than +-1, and its value."""
     factors = sp.Mul.make_args(term)
     if len(factors) > _MAX_FACTORS:
         return
@@ -283,14 +283,14 @@ def _partial_products(
 
 
 def groups(members: Sequence[int]) -> Iterator[tuple[int, ...]]:
-    """Non-empty groups: every one where there are few members, else small ones and the whole."""
+    """Yield non-empty groups: all where there are few members, else small ones and the whole."""
     count = len(members)
     sizes = range(1, count + 1) if count <= 5 else (1, 2, count)
     return chain.from_iterable(combinations(members, size) for size in sizes)
 
 
 def name_of(place: Place) -> str:
-    """How a sentence calls what stands at a place."""
+    """Return the name of a position for a sentence."""
     text = sp.sstr(place.node)
     short = text if len(text) <= 90 else text[:87] + "..."
     return "the whole expression" if place.role == WHOLE else f"the {place.role} {short}"

@@ -1,5 +1,5 @@
-"""The ground floor: what a formula is, its dimension, its notation and its exact value.
+"""The lowest layer: formulas, their dimensions, their notation and their exact values.
 
-Nothing is imported here, so that a simulation, which shares this package's
-parent, starts without SymPy.
+This module imports nothing, so that a simulation, which shares the parent package, starts without
+SymPy.
 """

@@ -1,4 +1,4 @@
-"""Exact expression -> Arb ball: rigorous evaluation, the precision raised until it suffices."""
+"""Rigorous evaluation of exact expressions by Arb balls of increasing precision."""
 
 from collections.abc import Callable, Mapping
 from fractions import Fraction
@@ -10,7 +10,7 @@ import sympy as sp
 from derivation.engine.formula.operations import operation
 
 Exact = int | float | Fraction
-"""A number taken as it is: a double stands for the binary fraction it holds."""
+"""An exact number; a double stands for the binary fraction that it represents."""
 
 LOG2_10 = 3.3219280948873626
 MAX_BITS = 1 << 16
@@ -18,11 +18,11 @@ SPARE_BITS = 24
 
 
 class PrecisionError(ArithmeticError):
-    """A ball did not become small enough: the value is zero, singular or out of reach."""
+    """A ball did not become small enough: the value is zero, singular or out of range."""
 
 
 def to_ball(number: Exact) -> flint.arb:
-    """Ball around an exact number at the current precision (a point for a double)."""
+    """Return a ball around an exact number at the current precision (a point for a double)."""
     if isinstance(number, int | float):
         return flint.arb(number)
     numerator, denominator = number.as_integer_ratio()
@@ -30,7 +30,7 @@ def to_ball(number: Exact) -> flint.arb:
 
 
 def enclose(expression: sp.Basic, values: Mapping[sp.Basic, flint.arb]) -> flint.arb:
-    """Ball that contains the expression's value, at the precision now set.
+    """Return a ball that contains the expression's value, at the current precision.
 
     Raises
     ------
@@ -50,7 +50,7 @@ def enclose(expression: sp.Basic, values: Mapping[sp.Basic, flint.arb]) -> flint
 
 @cache
 def enclosable(expression: sp.Basic) -> bool:
-    """Whether `enclose` knows every function in the expression."""
+    """Return whether `enclose` knows every function in the expression."""
     with flint.ctx.workprec(32):
         try:
             enclose(expression, {symbol: flint.arb(0.5) for symbol in expression.free_symbols})
@@ -62,23 +62,23 @@ def enclosable(expression: sp.Basic) -> bool:
 def evaluate(
     expression: sp.Basic, values: Mapping[sp.Symbol, Exact], digits: int = 50
 ) -> flint.arb:
-    """Ball around the value of an expression, its relative radius below 10^-digits.
+    """Return a ball around the value of an expression, with a relative radius below 10^-digits.
 
     Parameters
     ----------
     expression
         Exact SymPy expression.
     values
-        Exact numbers for its free symbols; doubles are taken as the binary
-        fractions they are.
+        Exact numbers for its free symbols; a double stands for the binary fraction that it
+        represents.
     digits
-        Decimal digits the ball's radius must warrant.
+        Number of correct decimal digits.
 
     Raises
     ------
     PrecisionError
-        If 65536 bits do not suffice, which for these formulas means a value
-        that is exactly zero or a singular point.
+        If 65536 bits are not sufficient, which for these formulas means a value that is exactly
+        zero, or a singular point.
     """
     return refine(
         lambda: enclose(expression, {key: to_ball(value) for key, value in values.items()}),
@@ -90,9 +90,9 @@ def evaluate(
 def refine(
     compute: Callable[[], flint.arb], digits: int, what: object, most: int = MAX_BITS
 ) -> flint.arb:
-    """Repeat `compute` at doubled precision, up to `most` bits, until its ball is small enough.
+    """Repeat `compute` with doubled precision, up to `most` bits, until its ball is small enough.
 
-    An exact zero (a point ball) is accepted as it is.
+    An exact zero (a point ball) is accepted.
     """
     target = int(digits * LOG2_10) + 1
     bits = target + SPARE_BITS

@@ -1,4 +1,4 @@
-"""A chain of links, each of which derives formulas: what a paper begins with."""
+"""The derivation of a paper: a chain of links, each of which derives formulas."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -12,12 +12,12 @@ from derivation.engine.formula.vocabulary import Vocabulary
 
 Value = TypeVar("Value")
 Found = tuple[tuple[str, tuple[Record, ...]], ...]
-"""The links' names, each with its formulas."""
+"""Names of the links, each with its formulas."""
 
 
 @dataclass(frozen=True)
 class Link:
-    """One link: its name, and the function that returns its formulas, proved."""
+    """One link: its name, and the function that returns its proved formulas."""
 
     name: str
     derive: Callable[[], tuple[Record, ...]]
@@ -30,16 +30,16 @@ class Chain:
     Parameters
     ----------
     name
-        The paper's name, which its kept results begin with.
+        Name of the paper, with which its cached results begin.
     vocabulary
         Its symbols.
     links
         The links, in order.
     sources
-        Files and folders that the formulas follow from: parts of this package by name, others by
-        their path.
+        Files and folders on which the formulas depend: parts of this package by name, others by
+        path.
     kinds
-        The class of the formulas, and the SymPy functions of the paper's own.
+        The class of the formulas, and SymPy functions that the paper defines.
     """
 
     name: str
@@ -49,17 +49,17 @@ class Chain:
     kinds: tuple[type, ...]
 
     def found(self) -> Found:
-        """The links with their formulas, kept until the sources change.
+        """Return the links with their formulas, cached until the sources change.
 
         Raises
         ------
         ProofError
-            Naming the step that does not hold.
+            Naming the step whose proof fails.
         """
         return self.kept("chain", lambda: tuple((x.name, x.derive()) for x in self.links))
 
     def formulas(self) -> dict[str, Record]:
-        """Every formula by name."""
+        """Return every formula by name."""
         return {formula.name: formula for _, formulas in self.found() for formula in formulas}
 
     def kept(
@@ -69,6 +69,6 @@ class Chain:
         *kinds: type,
         also: tuple[str | Path, ...] = (),
     ) -> Value:
-        """Result of `compute`, kept until the sources, or those in `also`, change."""
+        """Return the result of `compute`, cached until the sources, or those in `also`, change."""
         every = (*self.kinds, Proof, *kinds)
         return cached(f"{self.name}-{what}", (*self.sources, *also), compute, *every)

@@ -1,4 +1,4 @@
-"""Physical dimensions: units, and the dimension of a SymPy expression found term by term."""
+"""Physical dimensions of units and of SymPy expressions."""
 
 import re
 from collections.abc import Mapping
@@ -10,7 +10,7 @@ import sympy as sp
 
 
 class DimensionError(ValueError):
-    """An expression adds, exponentiates or feeds to a function what it must not."""
+    """Terms of unlike dimension are added, or an exponent or argument is not dimensionless."""
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ BASE = {
     "W": FORCE * LENGTH / TIME,
     "Pa": STRESS,
 }
-"""Units that others are made of."""
+"""Units that define others."""
 
 _FACTOR = re.compile(r"(1|[A-Za-z]+)(?:\^(?:(\d+)|\((\d+/\d+)\)))?")
 _SLASH = re.compile(r"/(?!\d+\))")
@@ -60,34 +60,34 @@ _SLASH = re.compile(r"/(?!\d+\))")
 
 @cache
 def unit(text: str) -> Dimension:
-    """Dimension of a unit: factors with powers, and after at most one slash those below it.
+    """Return the dimension of a unit: factors with powers, and after at most one slash a divisor.
 
-    Several factors below stand in brackets: ``m/N^(5/3)``, ``kg m/s^2``, ``J/(kg m)``.
+    A divisor of several factors is in brackets: ``m/N^(5/3)``, ``kg m/s^2``, ``J/(kg m)``.
 
     Raises
     ------
     ValueError
-        If the text is no such unit.
+        If the text is not such a unit.
     """
     above, *below = _SLASH.split(text)
     sides = [_product(above), *(_below(side) for side in below)]
     if None in sides or len(sides) > 2:
         raise ValueError(
             f"expected a unit like m/N^(5/3) or J/(kg m), got {text!r:.40}; "
-            f"make it of {', '.join(BASE)}"
+            f"use the units {', '.join(BASE)}"
         )
     first, *others = (side for side in sides if side is not None)
     return first / others[0] if others else first
 
 
 def _below(text: str) -> Dimension | None:
-    """Dimension of a factor, or of several in brackets; None if one of them is no unit."""
+    """Return the dimension of a factor, or of several in brackets; None if one is not a unit."""
     held = text.startswith("(") and text.endswith(")")
     return _product(text[1:-1]) if held else _factor(text)
 
 
 def _product(text: str) -> Dimension | None:
-    """Dimension of factors separated by spaces; None if one of them is no unit."""
+    """Return the dimension of factors separated by spaces; None if one is not a unit."""
     found = ONE
     for part in text.split(" "):
         factor = _factor(part)
@@ -98,7 +98,7 @@ def _product(text: str) -> Dimension | None:
 
 
 def _factor(text: str) -> Dimension | None:
-    """Dimension of a unit with its power; None if it is no unit."""
+    """Return the dimension of a unit with its power; None if it is not a unit."""
     match = _FACTOR.fullmatch(text)
     if match is None or match[1] not in BASE:
         return None
@@ -106,7 +106,7 @@ def _factor(text: str) -> Dimension | None:
 
 
 def thirds(base: str, count: int) -> str:
-    """A unit or symbol to the power count/3, as text: ``m``, ``m^(5/3)``, ``m^3``."""
+    """Return a unit or symbol to the power count/3, as text: ``m``, ``m^(5/3)``, ``m^3``."""
     power = Fraction(count, 3)
     if power == 1:
         return base
@@ -114,13 +114,13 @@ def thirds(base: str, count: int) -> str:
 
 
 def dimension(expression: sp.Basic, known: Mapping[sp.Basic, Dimension]) -> Dimension:
-    """Dimension of an expression whose symbols (and undefined functions) are in `known`.
+    """Return the dimension of an expression of symbols (and undefined functions) in `known`.
 
     Raises
     ------
     DimensionError
-        Where unlike dimensions are added, or an exponent or a function's
-        argument is not a pure number. The message names the offending part.
+        Where unlike dimensions are added, or an exponent or a function's argument is not
+        dimensionless. The message names the part.
     """
     if expression in known:
         return known[expression]
@@ -144,7 +144,7 @@ def dimension(expression: sp.Basic, known: Mapping[sp.Basic, Dimension]) -> Dime
         indices = dict.fromkeys(expression.variables, ONE)
         return dimension(expression.function, {**known, **indices})
     if isinstance(expression, sp.Integral):
-        # A variable of integration that is no symbol of the paper is a pure number.
+        # A variable of integration that is not a symbol of the paper is dimensionless.
         variables = {v: known.get(v, ONE) for v in expression.variables}
         result = dimension(expression.function, {**known, **variables})
         for variable in expression.variables:

@@ -1,4 +1,4 @@
-"""Conditions on symbols, written as comparisons in Python's notation, tested at exact points."""
+"""Conditions on symbols, written as comparisons in Python syntax, evaluated at exact points."""
 
 import operator
 import re
@@ -23,7 +23,7 @@ _OPERATORS = {
 
 
 def holds(condition: str, values: Mapping[sp.Symbol, Fraction]) -> bool:
-    """Whether a condition is true at an exact point.
+    """Return whether a condition is true at an exact point.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ def holds(condition: str, values: Mapping[sp.Symbol, Fraction]) -> bool:
     Raises
     ------
     ValueError
-        If the condition is no comparison, or a symbol has no value.
+        If the condition is not a comparison, or a symbol has no value.
     """
     difference, compare = _parsed(condition)
     known = {symbol.name: value for symbol, value in values.items()}
@@ -47,7 +47,7 @@ def holds(condition: str, values: Mapping[sp.Symbol, Fraction]) -> bool:
 
 @cache
 def _parsed(condition: str) -> tuple[sp.Expr, Callable[[Fraction, int], bool]]:
-    """What is compared with 0, and how."""
+    """Return the expression that is compared with 0, and the comparison."""
     match = _COMPARISON.fullmatch(condition)
     if match is None:
         raise ValueError(f"expected a comparison like 'a < b', got {condition!r}")
@@ -58,7 +58,7 @@ def _parsed(condition: str) -> tuple[sp.Expr, Callable[[Fraction, int], bool]]:
 
 
 def _exactly(node: sp.Basic, values: Mapping[str, Fraction]) -> Fraction:
-    """A rational expression at a point, by Python's fractions: SymPy's take much longer."""
+    """Evaluate a rational expression at a point by Python's fractions, which are fast."""
     if isinstance(node, sp.Symbol):
         return values[node.name]
     if isinstance(node, sp.Rational):
@@ -76,6 +76,6 @@ def _exactly(node: sp.Basic, values: Mapping[str, Fraction]) -> Fraction:
 
 
 def broken(conditions: Iterable[str], values: Mapping[sp.Symbol, Fraction]) -> list[str]:
-    """The conditions that are false at an exact point; those with further symbols do not count."""
+    """Return the conditions that are false at an exact point, without those of other symbols."""
     names = {symbol.name for symbol in values}
     return [c for c in conditions if symbols_of(c) <= names and not holds(c, values)]

@@ -1,8 +1,8 @@
-"""Hard points of any function, from the domains of its arguments: the same in every run.
+"""Difficult points of any function, from the domains of its arguments; the same in every run.
 
-Every argument takes decades from the smallest to the largest, places next to the ends of its own
-domain and both sides of the switch points of its forms; the others are drawn at random inside
-their domains meanwhile.
+Each argument in turn takes decades from the smallest to the largest number, values next to the ends
+of its own domain, and both sides of the switch points of its forms. The other arguments are drawn
+at random inside their domains.
 """
 
 import math
@@ -15,16 +15,16 @@ from derivation.engine.formula.ulp import neighbours
 from derivation.engine.formula.vocabulary import Vocabulary
 
 EXPONENTS = (-150, -100, -50, -20, -12, -8, -5, -3, -2, -1, 0, 1, 2, 3, 6, 9)
-"""Decades that every argument is set to, as far as its domain reaches."""
+"""Decades that every argument takes, as far as its domain extends."""
 FRACTIONS = (0.5, 1e-3, 1e-8, 1e-15)
-"""Distances from the end of a domain, as a share of the end."""
+"""Distances from the end of a domain, relative to the end."""
 DRAWN = 24
-"""Points at which all arguments are random."""
+"""Number of points at which all arguments are random."""
 ATTEMPTS = 400
 
 
 def inside(vocabulary: Vocabulary, values: Mapping[str, float]) -> bool:
-    """Whether a point lies in the domain of its symbols."""
+    """Return whether a point lies in the domain of its symbols."""
     own = vocabulary.by_name
     domain = [condition for key in values for condition in own[key].domain]
     return not broken(domain, {own[key].symbol: Fraction(value) for key, value in values.items()})
@@ -36,23 +36,23 @@ def domain_grid(
     vocabulary: Vocabulary,
     seams: Mapping[str, Sequence[float]],
 ) -> tuple[dict[str, float], ...]:
-    """Points for a function.
+    """Return points for a function.
 
     Parameters
     ----------
     name
-        The function's name; seeds what is drawn at random.
+        Name of the function; it seeds the random values.
     arguments
         Its arguments' names.
     vocabulary
         The symbols with their domains.
     seams
-        Where its forms change branches, by argument.
+        Switch points of its forms, by argument.
 
     Raises
     ------
     ValueError
-        If nothing that is drawn lies in the domain.
+        If no random point lies in the domain.
     """
     generator = random.Random(f"{name} on {','.join(arguments)}")
 
@@ -61,7 +61,7 @@ def domain_grid(
             values = {key: _random(generator) for key in arguments}
             if inside(vocabulary, values):
                 return values
-        raise ValueError(f"no point of {name} is found in its domain; widen the domain")
+        raise ValueError(f"found no point in the domain of {name}; widen the domain")
 
     points = [drawn() for _ in range(DRAWN)]
     for key in arguments:
@@ -71,13 +71,13 @@ def domain_grid(
 
 
 def _random(generator: random.Random) -> float:
-    """A number of moderate size, one in three negative."""
+    """Return a number of moderate size, negative in one of three cases."""
     size = 10 ** generator.uniform(-2.5, 1.5)
     return -size if generator.random() < 1 / 3 else size
 
 
 def _candidates(domain: Sequence[str]) -> Iterator[float]:
-    """Decades of both signs, and numbers next to those that the domain names."""
+    """Return decades of both signs, and numbers next to those that the domain contains."""
     for exponent in EXPONENTS:
         yield from (10.0**exponent, -(10.0**exponent))
     for end in _ends(domain):
@@ -87,7 +87,7 @@ def _candidates(domain: Sequence[str]) -> Iterator[float]:
 
 
 def _ends(domain: Sequence[str]) -> Iterator[float]:
-    """Numbers that the conditions name."""
+    """Return the numbers in the conditions."""
     for condition in domain:
         for word in condition.split():
             try:
@@ -97,7 +97,7 @@ def _ends(domain: Sequence[str]) -> Iterator[float]:
 
 
 def _around(places: Sequence[float]) -> Iterator[float]:
-    """Places, their neighbours, and the doubles 32 away."""
+    """Return numbers, their neighbours, and the doubles at 32 ULP."""
     for place in places:
         near = neighbours(place, 32)
         yield from (near[0], near[31], near[32], near[33], near[64])

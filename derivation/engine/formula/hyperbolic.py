@@ -1,4 +1,4 @@
-"""Exponentials of one argument -> hyperbolic functions, factor by factor."""
+"""Hyperbolic functions instead of exponentials of one argument, factor by factor."""
 
 import sympy as sp
 
@@ -6,14 +6,13 @@ import sympy as sp
 def to_hyperbolic(expression: sp.Expr, x: sp.Expr) -> sp.Expr:
     """Rewrite a rational function of e^x as factors made of sinh(n x) and cosh(n x).
 
-    Each irreducible factor is a polynomial in Q = e^(2x). Pairing its
-    coefficients from both ends turns it into hyperbolic functions times a
-    power of e^x, and those powers cancel over the whole expression.
+    Each irreducible factor is a polynomial in Q = e^(2x). Pairing its coefficients from both ends
+    gives hyperbolic functions times a power of e^x; these powers cancel in the whole expression.
 
     Raises
     ------
     ValueError
-        If odd and even powers of e^x are mixed in a factor, or some remain.
+        If a factor contains odd and even powers of e^x, or some remain.
     """
     E, Q = sp.Symbol("E", positive=True), sp.Symbol("Q", positive=True)
     rational = expression.rewrite((sp.sinh, sp.cosh), sp.exp).replace(
@@ -36,7 +35,7 @@ def to_hyperbolic(expression: sp.Expr, x: sp.Expr) -> sp.Expr:
 
 
 def _in_squares(polynomial: sp.Expr, E: sp.Symbol, Q: sp.Symbol) -> tuple[int, sp.Expr]:
-    """The odd power of E (0 or 1), and the polynomial over it in Q = E^2."""
+    """Return the odd power of E (0 or 1), and the polynomial divided by it in Q = E^2."""
     terms = sp.Poly(polynomial, E).terms()
     odd = int(terms[0][0][0]) % 2
     if any((power - odd) % 2 for (power,), _ in terms):
@@ -45,7 +44,7 @@ def _in_squares(polynomial: sp.Expr, E: sp.Symbol, Q: sp.Symbol) -> tuple[int, s
 
 
 def _pair(factor: sp.Expr, Q: sp.Symbol, x: sp.Expr) -> tuple[sp.Expr, sp.Expr, int]:
-    """A factor as number times hyperbolic functions, and the power of e^x taken out of it."""
+    """Return a factor as a number times hyperbolic functions, and the power of e^x removed."""
     if factor == Q:
         return sp.Integer(1), sp.Integer(1), 2
     coefficients = sp.Poly(factor, Q).all_coeffs()

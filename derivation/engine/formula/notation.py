@@ -1,4 +1,4 @@
-"""LaTeX of expressions in the paper's notation; sentences as Markdown and as plain text."""
+"""Expressions as LaTeX in the paper's notation; sentences as Markdown and as plain text."""
 
 import re
 from collections.abc import Callable
@@ -12,7 +12,7 @@ PLAIN = {
     "le": "<=", "ge": ">=", "to": "->", "pm": "+-", "infty": "oo", "ldots": "...",
     "varepsilon": "eps",
 }  # fmt: skip
-"""LaTeX's commands in plain text, but for those that are called the same there."""
+"""Plain text of LaTeX commands, except for those with the same name."""
 
 
 class PaperPrinter(LatexPrinter):
@@ -36,18 +36,18 @@ class PaperPrinter(LatexPrinter):
 
 
 def positive_first(terms: list[sp.Expr]) -> list[sp.Expr]:
-    """The terms of a sum with those that carry a minus sign last, as written by hand."""
+    """Return the terms of a sum, those with a minus sign last, as written by hand."""
     return sorted(terms, key=lambda term: bool(term.could_extract_minus_sign()))
 
 
 def to_latex(expression: sp.Basic, vocabulary: Vocabulary) -> str:
-    """LaTeX of an expression, symbols as in the paper."""
+    """Return the LaTeX of an expression, with symbols as in the paper."""
     settings = {"symbol_names": vocabulary.latex, "fold_short_frac": False}
     return str(PaperPrinter(settings).doprint(expression))
 
 
 def mixed(text: str, words: Callable[[str], str], mathematics: Callable[[str], str]) -> str:
-    """A sentence whose mathematics stands between dollars, both turned into something else.
+    """Convert a sentence with mathematics between dollars, by one function for each kind of part.
 
     Raises
     ------
@@ -61,12 +61,12 @@ def mixed(text: str, words: Callable[[str], str], mathematics: Callable[[str], s
 
 
 def to_markdown(text: str) -> str:
-    """A sentence with its stars and underscores as they are, which would be emphasis."""
+    """Return a sentence as Markdown, with its stars and underscores escaped."""
     return mixed(text, lambda words: re.sub(r"([*_])", r"\\\1", words), "${}$".format)
 
 
 def to_plain(text: str) -> str:
-    r"""A sentence for a terminal: `$\phi_j^{2/3} \le 1$` as `phi_j^(2/3) <= 1`."""
+    r"""Return a sentence for a terminal: `$\phi_j^{2/3} \le 1$` as `phi_j^(2/3) <= 1`."""
     return mixed(text, str, _plain)
 
 

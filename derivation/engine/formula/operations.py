@@ -1,6 +1,6 @@
-"""The one table of operations: SymPy function -> value in balls, and derivatives by operand.
+"""Table of operations: for each SymPy function its value in balls, and its derivatives.
 
-Balls of an expression, its gradient and its correctly rounded doubles all follow from it.
+Balls of an expression, its gradient and its correctly rounded doubles all use this table.
 """
 
 from collections.abc import Callable
@@ -12,7 +12,7 @@ from flint import arb
 from sympy.codegen.cfunctions import expm1, log1p
 
 Unary = tuple[Callable[[arb], arb], Callable[[arb, arb], arb]]
-"""A function, and its derivative from argument and value."""
+"""A function, and its derivative as a function of argument and value."""
 
 FUNCTIONS: dict[type[sp.Basic], Unary] = {
     sp.sin: (lambda x: x.sin(), lambda x, _: x.cos()),
@@ -34,16 +34,16 @@ FUNCTIONS: dict[type[sp.Basic], Unary] = {
 
 @dataclass(frozen=True)
 class Operation:
-    """A node of an expression.
+    """Operation at a node of an expression.
 
     Parameters
     ----------
     operands
-        The parts that it is computed from.
+        The operands.
     value
-        Their balls -> its ball, at the precision now set.
+        Function from the operands' balls to the node's ball, at the current precision.
     slopes
-        From its ball and theirs, the derivatives towards each of them.
+        Function from the node's and the operands' balls to the derivatives by each operand.
     """
 
     operands: tuple[sp.Basic, ...]
@@ -52,7 +52,7 @@ class Operation:
 
 
 def operation(node: sp.Basic) -> Operation:
-    """What a node of an expression does.
+    """Return the operation at a node of an expression.
 
     Raises
     ------
@@ -122,7 +122,7 @@ def _power(node: sp.Pow) -> Operation:
 def _bessel_slopes(
     sign: int, function: Callable[[arb, arb], arb]
 ) -> Callable[..., tuple[arb, ...]]:
-    """Towards the argument; none is known towards the order, and NaN is never narrow."""
+    """Return the derivative by the argument; that by the order is unknown and is NaN."""
     return lambda _, n, x: (arb.nan(), (function(x, n - 1) + sign * function(x, n + 1)) / 2)
 
 

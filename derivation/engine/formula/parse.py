@@ -1,7 +1,7 @@
-"""Parse text in SymPy syntax into an expression through a whitelist, without executing it.
+"""Parse text in SymPy syntax into an expression by a whitelist, without executing it.
 
-The text becomes a Python syntax tree, which is only read. The size of each operation is
-checked before it is performed, so that no input can produce a huge number or power.
+The text becomes a Python syntax tree, which is only read. The size of each operation is checked
+before it is performed, so that no input can produce a huge number or power.
 """
 
 import ast
@@ -30,18 +30,18 @@ MAX_DEGREE = 1000
 
 
 class FormulaError(ValueError):
-    """A formula that cannot be used; the message says what was expected, what came, what to do."""
+    """A formula that cannot be used; the message states what is expected, the input, a remedy."""
 
 
 _CONSTANTS: Mapping[str, sp.Basic] = {"pi": sp.pi, "EulerGamma": sp.EulerGamma}
 
 _NAME_HINTS = {
-    "E": "E usually is Young's modulus, which has no meaning in this formula; "
+    "E": "E usually is Young's modulus, which is not defined in this formula; "
     "for the number 2.718... write exp(1)",
     "e": "for powers of the number 2.718... write exp(...)",
-    "I": "formulas are real: leave out the imaginary unit",
-    "oo": "formulas are finite: leave out oo",
-    "inf": "formulas are finite: leave out inf",
+    "I": "formulas are real: remove the imaginary unit",
+    "oo": "formulas are finite: remove oo",
+    "inf": "formulas are finite: remove inf",
 }
 
 _HINTS = {
@@ -63,7 +63,7 @@ _NUMBER = re.compile(r"(\d+\.?\d*|\.\d+)(?:[eE]([+-]?\d+))?")
 
 
 def parse(text: str, vocabulary: Vocabulary, also: Mapping[str, sp.Basic] | None = None) -> sp.Expr:
-    """Expression that a text in SymPy syntax stands for.
+    """Return the expression for a text in SymPy syntax.
 
     Parameters
     ----------
@@ -78,8 +78,8 @@ def parse(text: str, vocabulary: Vocabulary, also: Mapping[str, sp.Basic] | None
     Raises
     ------
     FormulaError
-        If the text is anything but arithmetic in the allowed names and the
-        functions of `FUNCTIONS`, or needs a number or power beyond the limits above.
+        If the text contains anything but arithmetic in the allowed names and the functions of
+        `FUNCTIONS`, or a number or power beyond the limits above.
     """
     plain = _checked(text)
     try:
@@ -95,7 +95,7 @@ def parse(text: str, vocabulary: Vocabulary, also: Mapping[str, sp.Basic] | None
 
 def _syntax_hint(error: BaseException) -> str:
     if isinstance(error, SyntaxError) and error.offset is not None:
-        return f"it breaks off near character {error.offset}; check brackets and write every *"
+        return f"it is incomplete near character {error.offset}; check brackets and write every *"
     return "it is nested too deeply; write it with fewer brackets"
 
 
@@ -104,7 +104,7 @@ def _short(text: str) -> str:
 
 
 def _checked(text: str) -> str:
-    """The text on one line, once its characters, length, nesting and numbers are harmless."""
+    """Return the text on one line, after checks of characters, length, nesting and numbers."""
     if not isinstance(text, str):
         raise FormulaError(f"expected a formula as text, got {type(text).__name__}")
     if len(text) > MAX_TEXT:
@@ -124,12 +124,12 @@ def _checked(text: str) -> str:
 
 
 def check_nesting(text: str, opening: str, closing: str) -> None:
-    """Refuse brackets that are nested beyond what any formula needs, or do not pair."""
+    """Refuse brackets that are nested too deeply, or not in pairs."""
     depth = 0
     for mark in text:
         depth += (mark in opening) - (mark in closing)
         if depth > MAX_NESTING:
-            raise FormulaError(f"expected at most {MAX_NESTING} nested brackets: leave some out")
+            raise FormulaError(f"expected at most {MAX_NESTING} nested brackets: remove some")
         if depth < 0:
             break
     if depth:
@@ -138,7 +138,7 @@ def check_nesting(text: str, opening: str, closing: str) -> None:
 
 
 class _Reader:
-    """Walks a syntax tree and builds the expression, refusing all it does not know."""
+    """Builds the expression from a syntax tree, and refuses every unknown node."""
 
     def __init__(self, text: str, vocabulary: Vocabulary, also: Mapping[str, sp.Basic]) -> None:
         self.text = text
@@ -172,7 +172,7 @@ class _Reader:
             return self._call(node.func.id, node, depth)
         raise FormulaError(
             f"expected numbers, names, + - * / ** and functions, got {_short(self._source(node))} "
-            f"({type(node).__name__}): leave it out"
+            f"({type(node).__name__}): remove it"
         )
 
     def _arithmetic(self, node: ast.BinOp, left: sp.Expr, right: sp.Expr) -> sp.Expr:
@@ -189,7 +189,7 @@ class _Reader:
         if isinstance(node.op, ast.Pow):
             return power(left, right, self.vocabulary.numbers)
         raise FormulaError(
-            f"expected + - * / **, got the operator in {_short(self._source(node))}: leave it out"
+            f"expected + - * / **, got the operator in {_short(self._source(node))}: remove it"
         )
 
     def _named(self, name: str) -> sp.Expr:
@@ -222,7 +222,7 @@ class _Reader:
 
 
 def number(literal: str) -> sp.Rational:
-    """Exact rational a decimal literal stands for."""
+    """Return the exact rational that a decimal literal stands for."""
     match = _NUMBER.fullmatch(literal)
     if match is None:
         raise FormulaError(f"expected a decimal number, got {_short(literal)}: write it like 0.25")
@@ -236,7 +236,7 @@ def number(literal: str) -> sp.Rational:
 
 
 def power(base: sp.Expr, exponent: sp.Expr, numbers: Set[sp.Symbol]) -> sp.Expr:
-    """base**exponent for a moderate rational exponent, or one in `numbers`, without a unit."""
+    """Return base**exponent for a moderate rational exponent, or one in dimensionless symbols."""
     if base == sp.E:
         _check_constant(exponent, "exp")
         return sp.exp(exponent)
@@ -266,7 +266,7 @@ def _bits(value: sp.Rational) -> int:
 
 
 def guarded(expression: sp.Expr, source: str) -> sp.Expr:
-    """The expression, if it is finite and real as written and its numbers are modest."""
+    """Return the expression, if it is finite and real and its numbers are moderate."""
     if expression.has(sp.zoo, sp.nan, sp.oo, -sp.oo):
         raise FormulaError(f"{_short(source)} divides by zero or has no value: correct it")
     if expression.has(sp.I):
@@ -283,7 +283,7 @@ def guarded(expression: sp.Expr, source: str) -> sp.Expr:
 
 
 def _check_constant(argument: sp.Expr, name: str) -> None:
-    """Refuse a function of a constant whose argument is too large to evaluate cheaply."""
+    """Refuse a function of a constant whose argument is too large to be evaluated quickly."""
     if not argument.is_number:
         return
     with flint.ctx.workprec(128):
@@ -296,15 +296,15 @@ def _check_constant(argument: sp.Expr, name: str) -> None:
 
 
 def bessel(order: sp.Expr, argument: sp.Expr) -> sp.Expr:
-    """J_n(argument) of a small whole order."""
+    """Return J_n(argument) for a small integer order."""
     return sp.besselj(_order(order), argument)
 
 
 def _order(order: sp.Expr) -> sp.Integer:
-    """The order of a Bessel function, if it is a small integer."""
+    """Return the order of a Bessel function, if it is a small integer."""
     if not isinstance(order, sp.Integer) or abs(order) > MAX_ORDER:
         raise FormulaError(
-            f"expected a whole order of a Bessel function within +-{MAX_ORDER}, "
+            f"expected an integer order of a Bessel function within +-{MAX_ORDER}, "
             f"got {_short(str(order))}"
         )
     return order

@@ -1,7 +1,6 @@
-"""Parse LaTeX of the paper and of the project's own printer, with the checks of `parse`.
+"""Parse LaTeX of the paper and of this program's printer, with the checks of `parse`.
 
-The LaTeX is translated into the plain syntax of `parse`, which alone decides
-what is allowed.
+The LaTeX is translated into the syntax of `parse`, which alone decides what is allowed.
 """
 
 import re
@@ -39,7 +38,7 @@ _PRODUCT = {r"\cdot", r"\times", "*"}
 def parse_latex(
     text: str, vocabulary: Vocabulary, also: Mapping[str, sp.Basic] | None = None
 ) -> sp.Expr:
-    r"""Expression that a LaTeX formula stands for.
+    r"""Return the expression for a LaTeX formula.
 
     Parameters
     ----------
@@ -52,7 +51,7 @@ def parse_latex(
     Raises
     ------
     FormulaError
-        Naming the token that is not understood, or as `parse` does.
+        Naming the token that is not recognised, or as `parse` does.
     """
     if not isinstance(text, str):
         raise FormulaError(f"expected a formula as text, got {type(text).__name__}")
@@ -61,9 +60,7 @@ def parse_latex(
     translator = _Translator(_tokens(text), vocabulary, {**(also or {}), **vocabulary.names})
     plain = translator.sum()
     if translator.here is not None:
-        raise FormulaError(
-            f"expected an operator or the end, got {translator.here!r}: leave it out"
-        )
+        raise FormulaError(f"expected an operator or the end, got {translator.here!r}: remove it")
     return parse(plain, vocabulary, also)
 
 
@@ -79,7 +76,7 @@ def _tokens(text: str) -> list[str]:
             continue
         match = _TOKEN.match(rest, position)
         if match is None:
-            raise FormulaError(f"LaTeX token {rest[position]!r} is not known here: leave it out")
+            raise FormulaError(f"LaTeX token {rest[position]!r} is not known here: remove it")
         tokens.append(match.group())
         position = match.end()
     if not tokens:
@@ -88,7 +85,7 @@ def _tokens(text: str) -> list[str]:
 
 
 class _Translator:
-    """Recursive descent over the tokens; each method returns plain text for its part."""
+    """Recursive descent over the tokens; each method returns the text for its part."""
 
     def __init__(
         self, tokens: list[str], vocabulary: Vocabulary, allowed: Mapping[str, sp.Basic]
@@ -119,7 +116,7 @@ class _Translator:
         return "".join(parts)
 
     def _signs(self) -> str:
-        """Signs before a term; a sum broken over two lines repeats the operator."""
+        """Return the signs before a term; a sum on two lines repeats the operator."""
         signs = ""
         while self.here in ("+", "-"):
             signs += self.take()
@@ -152,7 +149,7 @@ class _Translator:
         return self.single()
 
     def single(self) -> str:
-        """The one token that a power or a fraction takes where no braces follow."""
+        """Return the single token that a power or a fraction takes without braces."""
         token = self.here
         if token is not None and token.isdigit() and len(token) > 1:
             self.tokens[self.position] = token[1:]
@@ -160,7 +157,7 @@ class _Translator:
         return self.primary()
 
     def bracket(self) -> str:
-        """What stands between a pair of brackets."""
+        """Return the text between a pair of brackets."""
         opening = self.take()
         if opening not in _BRACKETS:
             raise FormulaError(
@@ -198,7 +195,7 @@ class _Translator:
             return f"exp({self.exponent()})" if self.here == "^" else "exp(1)"
         if token in _GREEK or token.isalpha():
             return self._symbol(_GREEK.get(token, token))
-        raise FormulaError(f"LaTeX token {token!r} is not known here: write it another way")
+        raise FormulaError(f"LaTeX token {token!r} is not known here: write it differently")
 
     def _root(self) -> str:
         if self.here == "[":
@@ -207,7 +204,7 @@ class _Translator:
         return f"sqrt({self.bracket()})"
 
     def _function(self, name: str) -> str:
-        """A function, its power if any in front of the argument, and its argument in brackets."""
+        """Return a function with its power, if any, and its argument in brackets."""
         exponent = self.exponent() if self.here == "^" else None
         applied = f"{name}({self.bracket()})"
         return applied if exponent is None else f"({applied})**({exponent})"
@@ -226,7 +223,7 @@ class _Translator:
         return name if name in self.allowed else self.vocabulary.name_of_latex.get(name, name)
 
     def _pass_index(self) -> None:
-        """Pass over the index of a summed formula's term, as in ``C_1^{(j)}``."""
+        """Skip the index of a summed formula's term, as in ``C_1^{(j)}``."""
         if self._next(5) in (["^", "{", "(", i, ")"] for i in self.vocabulary.indices):
             self.position += 5
             self.take("}")

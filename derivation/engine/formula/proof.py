@@ -1,4 +1,4 @@
-"""Proofs: a residual is reduced to zero by rewriting, or decided by balls at two precisions."""
+"""Proofs: a residual is reduced to zero by rewriting, or by balls at two precisions."""
 
 import random
 from collections.abc import Callable, Iterable, Mapping
@@ -19,12 +19,12 @@ _POINTS = 12
 
 
 class ProofError(FailedError):
-    """A step of the derivation does not hold; the message names it and shows what is left."""
+    """A step of the derivation fails; the message names it and shows the residual."""
 
 
 @dataclass(frozen=True)
 class Proof:
-    """That a step was proved, by which argument, and how its residuals were decided."""
+    """Record of a proved step: its argument, and how its residuals were decided."""
 
     step: str
     argument: str
@@ -32,27 +32,27 @@ class Proof:
     method: str
 
     def _repr_markdown_(self) -> str:
-        """The step, its argument and what was shown to vanish, for a notebook."""
+        """Return the step, its argument and its residuals, for a notebook."""
         vanish, argument = (to_markdown(s) for s in (", ".join(self.residuals), self.argument))
         return f"**{self.step}.** {argument} Reduced to zero {self.method}: {vanish}."
 
 
 def prove(step: str, argument: str, residuals: Mapping[str, sp.Expr]) -> Proof:
-    """Show that every residual is zero.
+    """Prove that every residual is zero.
 
     Parameters
     ----------
     step
-        Name of the step, quoted in the error.
+        Name of the step, stated in the error.
     argument
-        The reasoning in a sentence: what was substituted into what.
+        The reasoning in a sentence: what was substituted where.
     residuals
         Labelled expressions that must vanish identically.
 
     Raises
     ------
     ProofError
-        Naming step and label, with the residual left over.
+        Naming step and label, with the residual.
     """
     methods = set()
     for label, residual in residuals.items():
@@ -65,10 +65,10 @@ def prove(step: str, argument: str, residuals: Mapping[str, sp.Expr]) -> Proof:
 
 
 def decide_zero(expression: sp.Expr) -> str | None:
-    """How the expression was found to be identically zero, or None if it is not.
+    """Return how the expression was found to be identically zero, or None if it is not zero.
 
-    Balls come first: one that excludes zero settles the matter at once, and
-    spares the expansion of what is not zero anyway.
+    Balls come first: one that excludes zero decides at once and avoids the expansion of an
+    expression that is not zero.
     """
     if expression.is_zero:
         return SYMBOLIC
@@ -78,21 +78,21 @@ def decide_zero(expression: sp.Expr) -> str | None:
 
 
 def reduces_to_zero(expression: sp.Expr) -> bool:
-    """Whether expansion over a common denominator, hyperbolics as exponentials, gives zero."""
+    """Return whether expansion over a common denominator, with exponentials, gives zero."""
     rewritten = lower_bessel(expression).rewrite((sp.sinh, sp.cosh, sp.tanh, sp.coth), sp.exp)
     numerator = sp.numer(sp.together(rewritten))
     return bool(sp.expand(sp.powsimp(sp.expand(numerator))) == 0)
 
 
 def lower_bessel(expression: sp.Expr) -> sp.Expr:
-    """The expression with J_n and I_n, n >= 2 or n < 0, replaced by those of orders 0 and 1."""
+    """Return the expression with J_n and I_n, n >= 2 or n < 0, in terms of orders 0 and 1."""
     for kind, sign in ((sp.besselj, -1), (sp.besseli, 1)):
         expression = expression.replace(kind, _lowered(kind, sign))
     return expression
 
 
 def _lowered(kind: type[sp.Function], sign: int) -> Callable[[sp.Expr, sp.Expr], sp.Expr]:
-    """A Bessel function by its recurrence; `sign` is that of Z_(n-2) less 2 (n - 1)/x Z_(n-1)."""
+    """Apply a Bessel function's recurrence; `sign` is that of Z_(n-2) minus 2 (n - 1)/x Z_(n-1)."""
 
     def step(order: sp.Expr, x: sp.Expr) -> sp.Expr:
         if order.is_Integer and order < 0:
@@ -105,10 +105,10 @@ def _lowered(kind: type[sp.Function], sign: int) -> Callable[[sp.Expr, sp.Expr],
 
 
 def balls_contain_zero(expression: sp.Expr) -> bool:
-    """Whether every finite ball, at random points and both precisions, contains zero.
+    """Return whether every finite ball, at random points and both precisions, contains zero.
 
-    Points outside the expression's domain give no finite ball and count for
-    nothing; at least two must lie inside.
+    Points outside the expression's domain give no finite ball and are ignored; at least two points
+    must lie inside.
     """
     inside = 0
     for values in sample_points(expression.free_symbols, _POINTS):
@@ -124,7 +124,7 @@ def balls_contain_zero(expression: sp.Expr) -> bool:
 def sample_points(
     symbols: Iterable[sp.Symbol], count: int, seed: int = 2
 ) -> list[dict[sp.Symbol, Fraction]]:
-    """Random rationals in (1/4, 9/4), the same for every run, as values for the symbols."""
+    """Return random rationals in (1/4, 9/4) for the symbols, the same in every run."""
     symbols = sorted(symbols, key=str)
     generator = random.Random(seed)
     return [

@@ -1,4 +1,4 @@
-"""The formula record: symbol, expression, unit, source and the proof it cannot exist without."""
+"""The formula record: symbol, expression, unit, source and proof."""
 
 from dataclasses import dataclass
 from typing import ClassVar
@@ -13,7 +13,7 @@ from derivation.engine.formula.vocabulary import Argument, Vocabulary, applicabl
 
 @dataclass(frozen=True)
 class Record:
-    """A proven formula. A paper's own class of them says in which vocabulary they are written.
+    """A proved formula. A subclass for each paper sets the vocabulary.
 
     Parameters
     ----------
@@ -22,7 +22,7 @@ class Record:
     latex
         The left-hand side as typeset.
     meaning
-        What the quantity is, in a few words.
+        Meaning of the quantity, in a few words.
     expression
         Exact right-hand side, or one term of it if `summed`.
     unit
@@ -36,16 +36,16 @@ class Record:
     summed
         The quantity is the sum of `expression` over all terms.
     where
-        Conditions on the arguments beyond those each one carries itself.
+        Conditions on the arguments in addition to their own.
     stated
-        The expression in terms of other formulas, where that is how it is read.
+        The expression in terms of other formulas, if it is shown that way.
 
     Raises
     ------
     DimensionError
-        If the expression has not the dimension of `unit`.
+        If the dimension of the expression differs from that of `unit`.
     KeyError
-        If it contains a symbol the paper does not define.
+        If it contains a symbol that the paper does not define.
     """
 
     vocabulary: ClassVar[Vocabulary]
@@ -70,30 +70,30 @@ class Record:
 
     @property
     def arguments(self) -> tuple[Argument, ...]:
-        """The symbols the expression depends on, in the fixed order of the notation."""
+        """The symbols that the expression depends on, in the order of the vocabulary."""
         return self.vocabulary.arguments_of(self.expression)
 
     @property
     def domain(self) -> tuple[str, ...]:
-        """Every condition on the arguments, in Python's notation."""
+        """Every condition on the arguments, in Python syntax."""
         names = {argument.name for argument in self.arguments}
         own = [c for argument in self.arguments for c in argument.domain]
         return applicable((*own, *self.where), names)
 
     @property
     def sum_sign(self) -> str:
-        """LaTeX of the sum over the terms, if there is one."""
+        """LaTeX of the sum over the terms, if the formula is a sum."""
         index = self.vocabulary.indices[:1]
         return rf"\sum_{{{index}=1}}^{{\infty}} " if self.summed else ""
 
     @property
     def right_hand_side(self) -> str:
-        """LaTeX of the right-hand side, with the sum over the terms if there is one."""
+        """LaTeX of the right-hand side, with the sum over the terms if the formula is a sum."""
         shown = self.expression if self.stated is None else self.stated
         return self.sum_sign + to_latex(shown, self.vocabulary)
 
     def to_json(self) -> dict[str, object]:
-        """Plain text under fixed keys."""
+        """Return the formula as plain text under fixed keys."""
         return {
             "name": self.name,
             "meaning": to_plain(self.meaning),
@@ -113,7 +113,7 @@ class Record:
         }
 
     def _repr_markdown_(self) -> str:
-        """The formula, what it is and how it was proved, for a notebook."""
+        """Return the formula with meaning and proof, for a notebook."""
         what = f"{to_markdown(self.meaning)} [{self.unit}], equation ({self.equation})"
         return f"{self._repr_latex_()}\n\n{what}\n\n{self.proof._repr_markdown_()}"
 

@@ -1,14 +1,14 @@
-"""Upper estimates of how large an expression becomes, made before anything is expanded."""
+"""Upper estimates of the size of an expression before anything is expanded."""
 
 import sympy as sp
 
 MANY = 16_000_000
-"""Estimates stop counting here."""
+"""Value at which estimates stop increasing."""
 _MOST_FACTORS = 30
 
 
 def terms_when_expanded(expression: sp.Expr) -> int:
-    """Upper estimate of the terms that expansion over a common denominator yields."""
+    """Return an upper estimate of the number of terms in an expansion over a common denominator."""
     return _terms(expression, {})
 
 
@@ -33,7 +33,7 @@ def _estimate(expression: sp.Expr, memo: dict[sp.Basic, int]) -> int:
 
 
 def _estimate_sum(expression: sp.Add, memo: dict[sp.Basic, int]) -> int:
-    """Every numerator meets the other denominators; equal denominators meet once."""
+    """Return the estimate for a sum: every numerator is multiplied by the other denominators."""
     total = 0
     below: set[sp.Expr] = set()
     for term in expression.args:
@@ -47,14 +47,14 @@ def _estimate_sum(expression: sp.Add, memo: dict[sp.Basic, int]) -> int:
 
 
 def degree(expression: sp.Basic, memo: dict[sp.Basic, float]) -> float:
-    """Largest product of nested exponents, functions of powers included.
+    """Return the largest product of nested exponents, functions of powers included.
 
     Parameters
     ----------
     expression
         For instance ``((x + 1)**9 + 1)**9``, whose degree is 81.
     memo
-        Degrees of expressions met before; extended.
+        Degrees of known expressions; it is extended.
     """
     if expression not in memo:
         inner = [degree(argument, memo) for argument in expression.args]

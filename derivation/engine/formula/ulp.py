@@ -1,7 +1,7 @@
-"""Units in the last place: spacing of floats, error against an exact ball, ordinals, neighbours.
+"""Units in the last place (ULP): spacing of floats, errors against exact balls, neighbours.
 
-Nothing here is computed in the format that is judged: the differences are
-ball arithmetic, the powers of two exact.
+Nothing is computed in the tested format: differences use ball arithmetic, and the powers of two
+are exact.
 """
 
 import math
@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import flint
 
 _GUARD_BITS = 128
-"""Bits of a difference beyond those of the format: its own rounding is below 2^-128 ULP."""
+"""Additional bits of a difference, whose own rounding is then below 2^-128 ULP."""
 
 
 @dataclass(frozen=True)
@@ -23,7 +23,7 @@ class Format:
     name
         Its NumPy name.
     precision
-        Bits of the significand, the hidden one included.
+        Bits of the significand, including the implicit one.
     smallest
         Exponent of the smallest subnormal, 2^smallest.
     limit
@@ -45,12 +45,11 @@ SINGLE = Format("float32", 24, -149, 128, "<f", "<i")
 
 
 def spacing_exponent(truth: flint.arb, fmt: Format = DOUBLE) -> int:
-    """Exponent k of the unit in the last place 2^k of an exact value.
+    """Return the exponent k of the unit in the last place 2^k of an exact value.
 
-    Below the smallest normal number the unit is the smallest subnormal, zero
-    included: floats are no denser there. Above the largest finite number it
-    is that number's unit: there are no floats beyond. A ball that reaches a
-    power of two counts as that power: its exact value may well be it.
+    Below the smallest normal number, and at zero, the unit is the smallest subnormal. Above the
+    largest finite number it is that number's unit. A ball that contains a power of two is treated
+    as that power, which its exact value may be.
     """
     with flint.ctx.workprec(fmt.precision + _GUARD_BITS):
         mantissa, exponent = truth.abs_upper().man_exp()
@@ -61,85 +60,85 @@ def spacing_exponent(truth: flint.arb, fmt: Format = DOUBLE) -> int:
 
 
 def spacing(x: float, fmt: Format = DOUBLE) -> float:
-    """Unit in the last place of a finite number, itself a power of two."""
+    """Return the unit in the last place of a finite number, a power of two."""
     return math.ldexp(1.0, spacing_exponent(flint.arb(x), fmt))
 
 
 def overflows(truth: flint.arb, fmt: Format = DOUBLE) -> bool:
-    """Whether rounding to nearest turns the exact value into an infinity."""
+    """Return whether rounding to nearest turns the exact value into an infinity."""
     threshold = flint.arb(2) ** fmt.limit - flint.arb(2) ** (fmt.limit - fmt.precision - 1)
     return bool(abs(truth) >= threshold)
 
 
 def ulp_error(got: float, truth: flint.arb, fmt: Format = DOUBLE) -> float:
-    """Distance between a computed number and the exact value, in ULP of the exact value.
+    """Return the distance between a computed number and the exact value, in ULP of the exact value.
 
     Parameters
     ----------
     got
-        The computed number; a float32 is passed as the double of equal value.
+        The computed number; a float32 is passed as the double of the same value.
     truth
-        Ball around the exact value. Its radius counts as error.
+        Ball around the exact value. Its radius is part of the error.
     fmt
-        The format whose units are meant.
+        The format that defines the unit.
 
     Returns
     -------
     float
-        Rounded upwards; infinite for NaN, and for an infinity where the
-        exact value does not overflow to it.
+        Rounded upwards; infinite for NaN, and for an infinity where the exact value does not
+        overflow.
 
     Raises
     ------
     ValueError
-        If the truth is not finite: then there is nothing to measure against.
+        If the exact value is not finite.
     """
     if not truth.is_finite():
-        raise ValueError(f"the truth must be a finite ball, got {truth}")
+        raise ValueError(f"expected a finite ball as the exact value, got {truth}")
     if math.isnan(got):
         return math.inf
     if math.isinf(got):
-        # The infinity of the right sign is the correctly rounded overflow.
+        # An infinity of the same sign is the correctly rounded overflow.
         return 0.0 if overflows(truth, fmt) and (got > 0) == bool(truth > 0) else math.inf
     return upper_float(distance(got, truth) * flint.arb(2) ** -spacing_exponent(truth, fmt))
 
 
 def distance(got: float, truth: flint.arb) -> flint.arb:
-    """|got - truth| as a ball whose rounding is far below a unit of either format."""
+    """Return |got - truth| as a ball whose rounding is far below a unit of either format."""
     with flint.ctx.workprec(DOUBLE.precision + _GUARD_BITS):
         return abs(flint.arb(got) - truth)
 
 
 def upper_float(ball: flint.arb) -> float:
-    """Smallest double found that is not below the ball's absolute value."""
+    """Return a double that is not below the ball's absolute value, the smallest one found."""
     upper = ball.abs_upper()
     nearest = float(upper)
     return nearest if flint.arb(nearest) >= upper else math.nextafter(nearest, math.inf)
 
 
 def ordinal(x: float, fmt: Format = DOUBLE) -> int:
-    """Position of a finite number among the floats: neighbours differ by one, zeros are 0.
+    """Return the position of a finite number among the floats: neighbours differ by 1, zeros are 0.
 
     Raises
     ------
     ValueError
-        For NaN and the infinities, which have no neighbours on both sides.
+        For NaN and infinities, which do not have two neighbours.
     """
     if not math.isfinite(x):
-        raise ValueError(f"a finite number has an ordinal, {x} has none")
+        raise ValueError(f"expected a finite number, got {x}")
     (bits,) = struct.unpack(fmt.integer, struct.pack(fmt.real, x))
     # Negative floats order their magnitude bits backwards, below the sign bit.
     return int(bits) if bits >= 0 else -(int(bits) + (1 << (struct.calcsize(fmt.integer) * 8 - 1)))
 
 
 def from_ordinal(position: int, fmt: Format = DOUBLE) -> float:
-    """The float at a position, inverse of `ordinal` (which maps both zeros to 0)."""
+    """Return the float at a position, the inverse of `ordinal` (which maps both zeros to 0)."""
     (magnitude,) = struct.unpack(fmt.real, struct.pack(fmt.integer, abs(position)))
     return math.copysign(float(magnitude), position)
 
 
 def neighbours(x: float, count: int, fmt: Format = DOUBLE) -> tuple[float, ...]:
-    """A number and up to `count` floats on either side of it, ascending, the finite ones."""
+    """Return the finite floats up to `count` positions on either side of a number, ascending."""
     centre = ordinal(x, fmt)
     last = _largest_ordinal(fmt)
     positions = range(max(centre - count, -last), min(centre + count, last) + 1)

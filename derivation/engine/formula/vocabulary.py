@@ -1,4 +1,4 @@
-"""The vocabulary of a paper: its symbols with units, domains, notation and sample values."""
+"""The vocabulary of a paper: symbols with units, domains, notation and sample values."""
 
 import re
 from collections.abc import Iterable, Mapping
@@ -15,22 +15,21 @@ _LATEX_SYMBOL = re.compile(r"\\?([A-Za-z]+)(?:_(?:\{(\w+)\}|(\w)))?(?:\^\{\(\w+\
 
 @dataclass(frozen=True)
 class Argument:
-    """One symbol a formula depends on.
+    """One symbol that formulas depend on.
 
     Parameters
     ----------
     symbol
-        The SymPy symbol; its assumptions are those the proofs may use.
+        The SymPy symbol; proofs may use its assumptions.
     unit
         SI unit, as `derivation.engine.formula.dimension.unit` reads it.
     latex
-        How the symbol is typeset.
+        LaTeX of the symbol.
     meaning
-        What it stands for, in a few words.
+        Its meaning, in a few words.
     domain
-        Conditions under which formulas in it hold, each a comparison in
-        Python's notation; one that names another symbol applies where that
-        symbol is an argument too.
+        Conditions under which formulas in it are valid, each a comparison in Python syntax. One
+        that contains another symbol applies where that symbol is an argument too.
     """
 
     symbol: sp.Symbol
@@ -58,17 +57,17 @@ class Vocabulary:
     aliases
         Further names under which symbols may be typed.
     guests
-        Symbols that a user's formula may contain although no derived one does.
+        Symbols that a user's formula may contain although no derived formula does.
     short
-        Expressions that have a symbol of their own, and that symbol.
+        Expressions that are replaced by a symbol, and that symbol.
     per_term
-        Symbols that have another value in each term of a summed formula.
+        Symbols with a different value in each term of a summed formula.
     indices
         Letters that count these terms.
     values
-        Sample values [SI] by name, inside the domain; others are searched for.
+        Sample values [SI] by name, inside the domain; other values are found at random.
     within
-        Factors on the random values of symbols that would leave the domain otherwise.
+        Factors for random values of symbols that would otherwise lie outside the domain.
     """
 
     arguments: tuple[Argument, ...] = ()
@@ -94,12 +93,12 @@ class Vocabulary:
 
     @cached_property
     def guest_names(self) -> dict[str, sp.Symbol]:
-        """The guests' symbols by name."""
+        """The symbols of `guests` by name."""
         return {argument.name: argument.symbol for argument in self.guests}
 
     @cached_property
     def latex(self) -> dict[sp.Symbol, str]:
-        """How each symbol is typeset."""
+        """LaTeX of each symbol."""
         return {argument.symbol: argument.latex for argument in self.arguments}
 
     @cached_property
@@ -110,7 +109,7 @@ class Vocabulary:
 
     @cached_property
     def applied(self) -> dict[str, tuple[str, ...]]:
-        """The arguments that each unknown function is written with, by its name."""
+        """Argument names of each unknown function, by its name."""
         functions = (unknown for unknown in self.unknowns if unknown.args)
         return {str(f.func.__name__): tuple(map(str, f.args)) for f in functions}
 
@@ -122,11 +121,11 @@ class Vocabulary:
 
     @cached_property
     def numbers(self) -> frozenset[sp.Symbol]:
-        """The symbols without a unit."""
+        """The dimensionless symbols."""
         return frozenset(argument.symbol for argument in self.arguments if argument.unit == "1")
 
     def arguments_of(self, expression: sp.Expr) -> tuple[Argument, ...]:
-        """Arguments an expression depends on, in their fixed order.
+        """Return the arguments that an expression depends on, in their fixed order.
 
         Raises
         ------
@@ -141,14 +140,14 @@ class Vocabulary:
 
 
 NOTHING = Vocabulary()
-"""The vocabulary without a symbol."""
+"""A vocabulary without symbols."""
 
 
 def symbols_of(condition: str) -> set[str]:
-    """Names of the symbols in a condition."""
+    """Return the names of the symbols in a condition."""
     return set(re.findall(r"(?<![\w.])[A-Za-z]\w*", condition)) - {"abs"}
 
 
 def applicable(conditions: Iterable[str], names: set[str]) -> tuple[str, ...]:
-    """The conditions that name nothing but the given arguments."""
+    """Return the conditions that contain no names but the given arguments."""
     return tuple(c for c in conditions if symbols_of(c) <= names)

@@ -1,4 +1,4 @@
-"""Reference 2: the same numbers along other routes in mpmath; and where both references agree."""
+"""mpmath references by other methods, and their agreement with the Arb references."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -17,17 +17,17 @@ Values = Mapping[str, mpf]
 Route = Callable[[Values], mpf]
 
 FLOOR_DIGITS = 400
-"""Two results below 10^-400 count as zero: beyond the smallest double by 76 digits."""
+"""Two results below 10^-400 count as zero; the smallest double is larger by 76 digits."""
 
 MAX_DIGITS = 4000
 
 
 class RouteError(ArithmeticError):
-    """A route gave no number it can answer for."""
+    """A method did not give a reliable number."""
 
 
 class OracleError(FailedError):
-    """The two references contradict each other: neither is to be believed."""
+    """The two references contradict each other; neither is used."""
 
 
 def _none_lost(_: Mapping[str, float]) -> int:
@@ -36,19 +36,19 @@ def _none_lost(_: Mapping[str, float]) -> int:
 
 @dataclass(frozen=True, eq=False)
 class Routes:
-    """A paper's references by mpmath, and what they are compared with.
+    """A paper's mpmath references, and the references they are compared with.
 
     Parameters
     ----------
     balls
-        The other references.
+        The Arb references.
     routes
-        For each formula the route to its value, or to one term of it. A formula without one is
-        evaluated as it stands: it shares the expression with the balls, and nothing else.
+        For each formula the method for its value, or for one term of it. A formula without a method
+        is evaluated as derived: it shares only the expression with the Arb reference.
     term
-        What the j-th term of a summed formula supplies, from j and the arguments.
+        Values that the j-th term of a summed formula supplies, from j and the arguments.
     lost
-        How many digits a route may lose at a point: an estimate that saves attempts.
+        Estimate of the digits that a method loses at a point, which saves attempts.
     """
 
     balls: Balls
@@ -57,7 +57,7 @@ class Routes:
     lost: Callable[[Mapping[str, float]], int] = _none_lost
 
     def evaluate(self, name: str, values: Mapping[str, float], modes: int | None) -> mpf:
-        """A formula along its route, at the working precision as it is."""
+        """Return a formula's value by its method, at the current working precision."""
         exact = {key: mpf(value) for key, value in values.items()}
         route = self.routes[name] if name in self.routes else self._as_stated(name)
         if modes is None or self.term is None:
@@ -69,13 +69,13 @@ class Routes:
         return {}
 
     def _as_stated(self, name: str) -> Route:
-        """The formula's own expression in mpmath: no tape, no ball arithmetic."""
+        """Evaluate the formula's own expression in mpmath, without tape and ball arithmetic."""
         if name not in self._stated:
             try:
                 _, expression = self.balls.stated(name)
             except KeyError:
                 known = ", ".join(self.routes)
-                raise KeyError(f"no route to {name!r}; there are {known}") from None
+                raise KeyError(f"no route to {name!r}; expected one of {known}") from None
             symbols = sorted(expression.free_symbols, key=str)
             function = sp.lambdify(symbols, expression, modules="mpmath")
             self._stated[name] = lambda values: mpf(
@@ -86,22 +86,22 @@ class Routes:
     def value(
         self, name: str, values: Mapping[str, float], digits: int = 50, modes: int | None = None
     ) -> mpf:
-        """A formula along its route, good to the asked digits.
+        """Return a formula's value by its method, with the requested number of correct digits.
 
-        Computed twice, each time with a quarter more digits, until both
-        agree; two results below 10^-400 are zero.
+        It is computed twice, each time with a quarter more digits, until both results agree; two
+        results below 10^-400 are zero.
 
         Raises
         ------
         KeyError
-            For a name that is no formula either.
+            If the name is not a formula either.
         RouteError
-            If no precision up to 4000 digits makes two results agree, or the
-            quadrature does not converge.
+            If no precision up to 4000 digits gives two equal results, or the quadrature does not
+            converge.
         """
         if name not in self.routes:
             self._as_stated(name)
-        # A multiple of 40, so that cached integrals serve many points.
+        # A multiple of 40, so that cached integrals can be used at many points.
         working = 40 * math.ceil((digits + 30 + self.lost(values)) / 40)
         with mp.workdps(working):
             coarse = self.evaluate(name, values, modes)
@@ -117,7 +117,7 @@ class Routes:
     def agree(
         self, name: str, values: Mapping[str, float], digits: int = 50, modes: int | None = None
     ) -> flint.arb:
-        """The value both references give, as the first one's ball.
+        """Return the value on which both references agree, as an Arb ball.
 
         Raises
         ------
@@ -142,7 +142,7 @@ def _agree(one: mpf, other: mpf, digits: int) -> bool:
 
 
 def to_ball(number: mpf) -> flint.arb:
-    """An mpmath number, exactly."""
+    """Return an mpmath number as an exact rational."""
     sign, mantissa, exponent, _ = number._mpf_
     with flint.ctx.workprec(max(53, int(mantissa).bit_length())):
         return flint.arb(int(-mantissa if sign else mantissa)) * flint.arb(2) ** int(exponent)

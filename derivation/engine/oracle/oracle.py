@@ -1,4 +1,4 @@
-"""Reference 1: a paper's original expressions in ball arithmetic, at doubles taken as they are."""
+"""Arb references: a paper's original expressions in ball arithmetic, at exact doubles."""
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
@@ -16,27 +16,27 @@ from derivation.engine.oracle.tape import Tape, record
 FLOOR = flint.arb(2) ** -1200
 """A ball inside +-2^-1200 is returned as zero.
 
-The smallest double is 2^-1074: to whatever a computed double is compared, a
-value below the floor and zero are the same. No ball around an exact zero can be
-relatively small, so this is also how exact zeros are recognised, without a guess.
+The smallest double is 2^-1074, so that a computed double cannot distinguish a value below this
+limit from zero. No ball around an exact zero is relatively small; exact zeros are recognised by
+this limit.
 """
 
 SLOPE_BITS = 20
-"""Accuracy asked of the sensitivities, which only set allowances."""
+"""Accuracy of the sensitivities, which only determine allowances."""
 
 
 @dataclass(frozen=True)
 class Terms:
-    """What a term of a summed formula supplies.
+    """Values that a term of a summed formula supplies.
 
     Parameters
     ----------
     symbols
-        The symbols it supplies.
+        The symbols whose values it supplies.
     at
-        Their values in the j-th term, from j, the arguments by name and a precision in bits.
+        Function for their values in the j-th term, from j, the arguments and a precision in bits.
     through
-        By symbol the argument that acts through it, and as which power.
+        For each symbol the argument through which it acts, and the power.
     expression
         The expression of one term, in its arguments and these symbols alone.
     """
@@ -48,15 +48,15 @@ class Terms:
 
 
 Numbers = Mapping[str, tuple[str, Callable[[int, int], flint.arb]]]
-"""Numbers by index: the argument's name and the ball at so many bits."""
+"""Constants by index: name of the index, and function for the ball at so many bits."""
 
 Limit = tuple[str, Callable[[sp.Expr], sp.Expr | None]]
-"""An argument, and the expression where it is zero if its tape cannot be run there."""
+"""An argument, and the expression for zero if its tape cannot be evaluated there."""
 
 
 @dataclass(frozen=True)
 class _Program:
-    """A formula's tape, the one at the limit if it differs, and whether it is summed."""
+    """A formula's tape, that at the limit if it differs, and whether it is summed."""
 
     tape: Tape
     at_limit: Tape | None
@@ -65,24 +65,24 @@ class _Program:
 
 @dataclass(frozen=True, eq=False)
 class Balls:
-    """A paper's references by ball arithmetic.
+    """A paper's Arb references.
 
     Parameters
     ----------
     vocabulary
         The paper's symbols.
     formulas
-        Every formula by name, as far as they are derived in short time.
+        Formulas by name that are derived quickly.
     further
-        The other ones; all of them if there is no such difference.
+        All other formulas; all formulas if there is no such distinction.
     functions
         Further functions of one argument by name: the argument and the expression.
     numbers
-        Numbers by index. Of a table the number is the entry that `count` of them end with.
+        Constants by index. For a table, the constant is the last of `count` entries.
     terms
-        What the terms of summed formulas supply.
+        Values that terms of summed formulas supply.
     limit
-        An argument that expressions have a limit in at zero.
+        An argument at which expressions have a limit, zero.
     """
 
     vocabulary: Vocabulary
@@ -102,12 +102,12 @@ class Balls:
         return {}
 
     def names(self) -> tuple[str, ...]:
-        """Every name `reference` knows: closed formulas of the chain, functions, numbers."""
+        """Return every name that `reference` accepts: formulas, functions, constants."""
         closed = (n for n, f in self._known.items() if not f.expression.atoms(sp.Derivative))
         return (*closed, *self.functions, *self.numbers)
 
     def arguments(self, name: str) -> tuple[str, ...]:
-        """Arguments of a formula, without those that the terms of a sum supply themselves."""
+        """Return the arguments of a formula without those that the terms of a sum supply."""
         if name in self.numbers:
             return (self.numbers[name][0],)
         program = self._program(name)
@@ -115,33 +115,33 @@ class Balls:
         return tuple(str(symbol) for symbol in program.tape.inputs if symbol not in own)
 
     def is_summed(self, name: str) -> bool:
-        """Whether a formula is a sum."""
+        """Return whether a formula is a sum."""
         return name not in self.numbers and self._program(name).summed
 
     def truth(
         self, name: str, values: Mapping[str, float], digits: int = 50, modes: int | None = None
     ) -> flint.arb:
-        """Ball around a formula's value, its relative radius below 10^-digits.
+        """Return a ball around a formula's value, with a relative radius below 10^-digits.
 
         Parameters
         ----------
         name
-            Formula of the chain, a function or a number by index; of a table the
-            value is the entry of index `count`.
+            A formula, a function or a constant by index; for a table the value is the entry of
+            index `count`.
         values
-            Its arguments by name, doubles taken as the binary fractions they are.
-            Arguments of the notation that the formula does not depend on are allowed.
+            Its arguments by name; a double stands for the binary fraction that it represents.
+            Arguments that the formula does not depend on are allowed.
         digits
-            Decimal digits the radius must warrant.
+            Number of correct decimal digits.
         modes
-            For a summed formula, and only then: how many terms.
+            For a summed formula, and only then: the number of terms.
 
         Raises
         ------
         PrecisionError
-            At a singular point, and at the end of a root, which a ball cannot take there.
+            At a singular point, and at a branch point of a root, where a ball has no value.
         ValueError
-            If `modes` is missing or out of place.
+            If `modes` is missing or not allowed.
         KeyError
             For an unknown formula, and for missing or unknown arguments.
         """
@@ -150,20 +150,20 @@ class Balls:
     def reference(
         self, name: str, values: Mapping[str, float], digits: int = 50, modes: int | None = None
     ) -> Reference:
-        """Value and sensitivities together, see `truth`; every slope must be finite too."""
+        """Return value and sensitivities, see `truth`; every slope must be finite too."""
         return self._refined(name, values, digits, modes, slopes=True)
 
     def stated(self, name: str) -> tuple[Record, sp.Expr]:
-        """A formula and its expression, of a sum that of one term.
+        """Return a formula and its expression; for a sum, that of one term.
 
         Raises
         ------
         KeyError
-            If the name is unknown, or stands for an equation, an integral or an infinite sum.
+            If the name is unknown, or denotes an equation, an integral or an infinite sum.
         """
         formula = self._known[name] if name in self._known else self.further().get(name)
         if formula is None or not enclosable(formula.expression):
-            raise KeyError(f"no formula {name!r}; there are {', '.join(self.names())}")
+            raise KeyError(f"no formula {name!r}; expected one of {', '.join(self.names())}")
         if formula.summed and self.terms is not None:
             return formula, self.terms.expression(formula)
         return formula, formula.expression
@@ -196,19 +196,19 @@ class Balls:
         return _refine(compute, digits, f"{name} at {dict(values)}")
 
     def _by_index(self, name: str, values: Mapping[str, float], digits: int) -> Reference:
-        """The number of an index, which is exact: certified to more bits than are asked."""
+        """Return the constant for an index; the index is exact, and extra bits are certified."""
         argument, number = self.numbers[name]
         if values[argument] != int(values[argument]):
-            raise ValueError(f"{name} is counted in whole numbers, got {values[argument]}")
+            raise ValueError(f"{name} needs an integer index, got {values[argument]}")
         ball = number(int(values[argument]), int(digits * LOG2_10) + SPARE_BITS)
         return unsized(ball)
 
     def _check(self, name: str, values: Mapping[str, float], modes: int | None) -> None:
         summed = self.is_summed(name)
         if summed and (modes is None or modes < 1):
-            raise ValueError(f"{name} is a modal sum: say over how many modes, got {modes}")
+            raise ValueError(f"{name} is a modal sum: expected the number of modes, got {modes}")
         if not summed and modes is not None:
-            raise ValueError(f"{name} is no modal sum, got modes={modes}")
+            raise ValueError(f"{name} is not a modal sum, got modes={modes}")
         missing = set(self.arguments(name)) - set(values)
         unknown = set(values) - set(self.arguments(name)) - set(self.vocabulary.by_name)
         if missing or unknown:
@@ -218,7 +218,7 @@ class Balls:
             )
 
     def _program(self, name: str) -> _Program:
-        """The formula's expression on tape."""
+        """Return the tape of the formula's expression."""
         if name not in self._programs:
             self._programs[name] = self._recorded(name)
         return self._programs[name]
@@ -235,7 +235,7 @@ class Balls:
 
 
 def _refine(compute: Callable[[int], Reference], digits: int, what: str) -> Reference:
-    """Repeat at doubled precision until value and sensitivities are narrow; NaN never is."""
+    """Repeat with doubled precision until value and sensitivities are narrow; NaN never is."""
     target = int(digits * LOG2_10) + 1
     bits = target + SPARE_BITS
     while bits <= MAX_BITS:
@@ -253,7 +253,7 @@ def _refine(compute: Callable[[int], Reference], digits: int, what: str) -> Refe
 
 
 def _is_narrow(ball: flint.arb, bits: int) -> bool:
-    """Whether a ball is finite, and relatively narrow or below the floor."""
+    """Return whether a ball is finite, and relatively narrow or below the limit for zero."""
     return ball.is_finite() and (ball.rel_accuracy_bits() >= bits or bool(abs(ball) < FLOOR))
 
 
@@ -263,7 +263,7 @@ def _at(
     slopes: bool,
     through: Mapping[str, tuple[str, int]],
 ) -> Reference:
-    """Value and sensitivities of one term at the precision now set."""
+    """Return value and sensitivities of one term at the current precision."""
     keys = [str(symbol) for symbol in tape.inputs]
     inputs = [known[key] for key in keys]
     slots = tape.run(inputs)
@@ -277,7 +277,7 @@ def _at(
 
 
 def _added(terms: Iterable[Reference]) -> Reference:
-    """The sum: values add with their signs, sensitivities without."""
+    """Return the sum: values are added with their signs, sensitivities without."""
     value, magnitude, shares = flint.arb(0), flint.arb(0), dict[str, flint.arb]()
     for term in terms:
         value += term.value

@@ -1,4 +1,4 @@
-"""A reference value: what is true, how much the arguments' rounding moves it, and as text."""
+"""A reference value, the effect of the arguments' rounding on it, and its text."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -9,35 +9,35 @@ from flint import arb
 from derivation.engine.formula.ulp import Format, overflows
 
 DIGITS = 45
-"""Digits written of a reference; the radius is written beside it."""
+"""Number of digits written for a reference; the radius is written separately."""
 
 _BITS = 512
-"""Precision for the way from balls to text and back, far beyond `DIGITS`."""
+"""Precision for conversion from balls to text and back, far beyond `DIGITS`."""
 
 _ENDLESS = {"nan": arb.nan(), "inf": arb.pos_inf(), "-inf": arb.neg_inf()}
 
 Stored = dict[str, str]
 """A reference as text: "value" and "radius" of the ball, "rounding" for the sum of the
-sensitivities |x df/dx|, "magnitude" and "scale". Of a value "nan", "inf" or "-inf" there is
-nothing else to say."""
+sensitivities |x df/dx|, "magnitude" and "scale". A value "nan", "inf" or "-inf" has no other
+entries."""
 
 
 @dataclass(frozen=True)
 class Reference:
-    """A function's reference value at a point, and what its arguments' rounding does to it.
+    """A function's reference value at a point, and the effect of its arguments' rounding.
 
     Parameters
     ----------
     value
-        Ball around the value. NaN outside the domain, infinite where no format holds it.
+        Ball around the value. NaN outside the domain, infinite where no format represents it.
     sensitivity
-        |x_i df/dx_i| by argument. For a summed formula these are added over the
-        terms; an argument acts through those of a term too, which stand among the
-        arguments, as a function reads them from a table.
+        |x_i df/dx_i| by argument. For a summed formula these are added over the terms; an argument
+        also acts through quantities of a term that a function reads from a table, which are
+        included.
     magnitude
         |value|, or for a summed formula the sum of its terms' magnitudes.
     scale
-        What the budget is multiplied by.
+        Factor of the budget.
     """
 
     value: arb
@@ -59,17 +59,17 @@ class Reference:
 
 
 def unsized(value: arb, scale: float = 1.0) -> Reference:
-    """A reference value that rounding the arguments excuses nothing of."""
+    """Return a reference value without allowance for rounding of the arguments."""
     return Reference(value, {}, abs(value), scale)
 
 
 def bare(value: str) -> Stored:
-    """The text of a value that there is nothing else to say of."""
+    """Return the text of a value without other entries."""
     return {"value": value, "radius": "0", "rounding": "0", "magnitude": "0", "scale": "1"}
 
 
 def stored(found: Reference, fmt: Format) -> Stored:
-    """A reference as text; of a value that the format cannot hold the sign alone."""
+    """Return a reference as text; of a value outside the format's range only the sign."""
     with flint.ctx.workprec(_BITS):
         value = found.value
         if overflows(value, fmt):
@@ -86,7 +86,7 @@ def stored(found: Reference, fmt: Format) -> Stored:
 
 
 def _upwards(number: arb) -> str:
-    """Three digits that are not below a number."""
+    """Return three digits that are not below a number."""
     if number == 0:
         return "0"
     raised = number * (1 + arb(10) ** -2)
@@ -94,7 +94,7 @@ def _upwards(number: arb) -> str:
 
 
 def restored(text: Mapping[str, str]) -> Reference:
-    """The reference that was written."""
+    """Return the reference that was written."""
     if text["value"] in _ENDLESS:
         return unsized(_ENDLESS[text["value"]])
     with flint.ctx.workprec(_BITS):

@@ -1,8 +1,8 @@
-"""Expression -> tape: a straight line of ball operations, run forwards for the value and
+"""Tapes: sequences of ball operations for an expression, evaluated forwards for the value and
 backwards for every partial derivative.
 
-A tape is recorded once per formula and run at any precision; equal
-subexpressions are recorded once.
+A tape is recorded once per formula and evaluated at any precision. Equal subexpressions are
+recorded once.
 """
 
 from collections.abc import Sequence
@@ -19,20 +19,20 @@ Step = tuple[Operation, tuple[int, ...]]
 
 @dataclass(frozen=True)
 class Tape:
-    """Inputs take the first slots, then each step fills the next; the last one is the result."""
+    """Inputs take the first slots; each step fills the next one, and the last one is the result."""
 
     inputs: tuple[sp.Symbol, ...]
     steps: tuple[Step, ...]
 
     def run(self, values: Sequence[flint.arb]) -> list[flint.arb]:
-        """Every slot's ball at the precision now set; the last one is the formula's value."""
+        """Return every slot's ball at the current precision; the last one is the value."""
         slots = list(values)
         for done, reads in self.steps:
             slots.append(done.value(*(slots[i] for i in reads)))
         return slots
 
     def gradient(self, slots: Sequence[flint.arb]) -> list[flint.arb]:
-        """Partial derivatives to the inputs, from the slots of a run (reverse accumulation)."""
+        """Return partial derivatives by the inputs from the slots of an evaluation, in reverse."""
         first = len(self.inputs)
         weights: list[flint.arb | None] = [None] * len(slots)
         weights[-1] = flint.arb(1)
@@ -48,7 +48,7 @@ class Tape:
 
 
 def record(expression: sp.Expr, inputs: Sequence[sp.Symbol]) -> Tape:
-    """Tape of an expression in the given inputs.
+    """Return the tape of an expression in the given inputs.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Same value, other shape: forms of the derived formulas that floating point can evaluate.
+"""Stable forms: expressions equal to the derived formulas that suit floating-point arithmetic.
 
-Every form is proved equal to the formula it stands for before it leaves this room.
+Every form is proved equal to its formula before another subpackage uses it.
 """

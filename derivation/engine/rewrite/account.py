@@ -1,4 +1,4 @@
-"""What the rules did to each formula of a paper: the rewrite report."""
+"""Effect of the rewriting rules on each formula of a paper: the rewrite report."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -10,23 +10,23 @@ from derivation.engine.rewrite.scales import Scales
 from derivation.engine.rewrite.stabilise import Applied, stabilise
 
 ENDS = (1e-150, 1e6)
-"""Of the dimensionless variable: the domain in which the kernels keep their budgets."""
+"""Range of the dimensionless variable for which the functions have error budgets."""
 
 
 @dataclass(frozen=True)
 class Account:
-    """A formula's rewriting.
+    """Result of the rules for one formula.
 
     Parameters
     ----------
     name
         The formula.
     variable
-        The dimensionless variable it was brought to, and what that stands for.
+        The dimensionless variable, and its definition.
     applied
-        The rules kept, with what the form is without and with each.
+        The rules that were kept, with the form's cost and error without and with each.
     worst
-        Worst error of the form in ULP beyond conditioning.
+        Largest error of the form in ULP in addition to conditioning.
     """
 
     name: str
@@ -41,18 +41,18 @@ def accounts(
     scales: Scales,
     tell: Tell = quiet,
 ) -> tuple[Account, ...]:
-    """Every formula of the names, whose forms the rules find.
+    """Yield the result for every named formula whose form the rules find.
 
     Parameters
     ----------
     formulas
         Every formula by name.
     names
-        Those to rewrite, in order.
+        Those to be rewritten, in order.
     scales
         The dimensionless variables.
     tell
-        Told about each formula before it is rewritten.
+        Called with each formula's name before it is rewritten.
     """
     found = []
     for number, name in enumerate(names, start=1):

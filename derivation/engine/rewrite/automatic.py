@@ -1,14 +1,14 @@
-"""A formula in several variables -> its stable form in one dimensionless variable and blocks.
+"""Stable forms of formulas in several variables, by one dimensionless variable and blocks.
 
 Stages, in this order:
 
  1 dimensionless   the one product that all functions depend on becomes a variable, and a sum of
-                   constants its ratio to another
+                   constants becomes its ratio to another
  2 rules           `fraction`, `decay` and `difference`, as for one variable
- 3 blocks          sums that cancel at 0 -> building blocks, their power of x taken out
- 4 quotients       what tends to 1 -> 1 and a positive rest; what is divisible is divided
- 5 powers          of the variable and of symbols, and the decay, stand apart: only sums are
-                   computed as they are, and `times` puts the powers to them
+ 3 blocks          sums that cancel at 0 become building blocks times a power of x
+ 4 quotients       quotients that tend to 1 become 1 plus a positive term; division where possible
+ 5 powers          powers of the variable and of symbols, and the decay, are separated: sums are
+                   evaluated as they are, and `times` multiplies them by the powers
 """
 
 from collections import defaultdict
@@ -28,14 +28,14 @@ from derivation.engine.rewrite.terms import ONE, Key, UnreachableError, terms_of
 fade, rest = sp.symbols("fade rest", positive=True)
 near, reach, stretch = sp.symbols("near reach stretch", positive=True)
 FADES = 700
-"""Up to there e^-x is a double of full length."""
+"""Largest x for which e^-x is a normal double."""
 
 
 @dataclass(frozen=True)
 class Reduced:
-    """A formula in its dimensionless variable, whose length is gone.
+    """A formula in its dimensionless variable, with the length eliminated.
 
-    The ratio is a symbol in the formula, or nothing that occurs there.
+    The ratio is a symbol of the formula, or one that does not occur in it.
     """
 
     expression: sp.Expr
@@ -44,12 +44,12 @@ class Reduced:
 
 
 def dimensionless(expression: sp.Expr, scales: Scales) -> Reduced:
-    """The formula in the product that all its functions depend on.
+    """Return the formula in the product that all its functions depend on.
 
     Raises
     ------
     UnreachableError
-        If there is no one such product.
+        If there is no single such product.
     """
     functions = expression.atoms(sp.exp, sp.sinh, sp.cosh, sp.sin, sp.cos)
     arguments = [function.args[0].as_coeff_Mul() for function in functions]
@@ -75,23 +75,23 @@ Automatic = tuple[tuple[Step, ...], sp.Expr]
 def automatic(
     expression: sp.Expr, known: Mapping[str, Block], scales: Scales, closely: bool = False
 ) -> Automatic:
-    """Steps and value of the formula's stable form.
+    """Return steps and value of the formula's stable form.
 
     Parameters
     ----------
     expression
-        The derived formula, all its symbols positive where a sign matters.
+        The derived formula; all symbols whose sign matters are positive.
     known
         Building blocks by name.
     scales
         The dimensionless variables.
     closely
-        Whether the powers' roundings are most of what the budget allows.
+        Whether the rounding of the powers uses most of the budget.
 
     Raises
     ------
     UnreachableError
-        If the formula is out of the rules' reach, or needs a block that is not there.
+        If the rules do not apply to the formula, or a building block is missing.
     """
     reduced = dimensionless(expression, scales)
     shape, scale = _shape(reduced), reduced.scale
@@ -100,7 +100,7 @@ def automatic(
         steps.append(scales.ratio.step)
     most = LARGEST if reduced.expression.has(sp.sin) else FAR
     times, product = scale.product.as_coeff_Mul()  # 2 h phi must not begin with 2 h
-    steps.append(Step(scale.variable, times * held(product, most), "beyond, nothing changes"))
+    steps.append(Step(scale.variable, times * held(product, most), "constant for larger values"))
     if shape.rate > 0:
         raise UnreachableError(f"grows as e^({shape.rate} {shape.x}): {expression}")
     size, core, powers = (
@@ -116,9 +116,7 @@ def automatic(
     if shape.rate < 0:
         decayed = -shape.rate * shape.x
         steps.append(Step(fade, sp.exp(-sp.Min(decayed, FADES))))
-        steps.append(
-            Step(rest, sp.exp(sp.Min(decayed, FADES) - decayed), "1 but where it underflows")
-        )
+        steps.append(Step(rest, sp.exp(sp.Min(decayed, FADES) - decayed), "1 unless it underflows"))
         powers[fade] = powers[rest] = 1
     core = core.xreplace({step.expression: near for step in steps if step.symbol == near})
     factors = [part for base in sorted(powers, key=str) for part in (base, powers[base])]
@@ -128,11 +126,11 @@ def automatic(
 
 
 Taken = tuple[sp.Expr, sp.Expr, dict[sp.Expr, int]]
-"""A constant, a core and bases with their powers: the product of them all."""
+"""A constant, a core and bases with their powers; their product is the factor."""
 
 
 def _taken(shape: Shape, known: Mapping[str, Block]) -> Taken:
-    """What a shape's sums are made of."""
+    """The factors of a shape's sums."""
     size, core, powers = sp.Integer(1), sp.Integer(1), defaultdict(int, {shape.x: shape.power})
     for factor in _paired(shape, known):
         content, value, taken = _factor(factor, shape.x, known)
@@ -147,7 +145,7 @@ def _taken(shape: Shape, known: Mapping[str, Block]) -> Taken:
 
 
 def _paired(shape: Shape, known: Mapping[str, Block]) -> tuple[Factor, ...]:
-    """The factors, two of them taken together if there is a building block for their product."""
+    """Return the factors; two are combined if there is a building block for their product."""
     for one, other in combinations(shape.factors, 2):
         if one.exponent == other.exponent and {shape.x} == (one.value * other.value).free_symbols:
             product = sp.expand(one.value * other.value)
@@ -158,9 +156,9 @@ def _paired(shape: Shape, known: Mapping[str, Block]) -> tuple[Factor, ...]:
 
 
 def _beyond_one(shape: Shape, known: Mapping[str, Block]) -> Taken | None:
-    """A quotient that tends to 1 -> 1 and a positive rest, which far out needs no digits.
+    """Write a quotient that tends to 1 as 1 plus a positive term, which may be inaccurate far out.
 
-    Nothing if the rest does not decay, or if its parts differ in sign.
+    Return None if the term does not decay, or its parts differ in sign.
     """
     own, whole = shape.x, sp.Mul(*(factor.value**factor.exponent for factor in shape.factors))
     if shape.rate != 0 or shape.power != 0 or whole.free_symbols != {own}:
@@ -181,9 +179,9 @@ def _beyond_one(shape: Shape, known: Mapping[str, Block]) -> Taken | None:
 
 
 def _divided(shape: Shape, ratio: sp.Expr) -> Taken | None:
-    """N/(N Q + R) -> 1/(Q + R/N), Q and R/N of one sign; nothing where there is no such Q.
+    """Write N/(N Q + R) as 1/(Q + R/N), with Q and R/N of one sign; None without such a Q.
 
-    Every function of the numerator is then computed once, and what is wrong with it counts less.
+    Every function of the numerator is then computed once, and its error has less effect.
     """
     own, q = shape.x, sp.Dummy("q")
     exponents = {factor.exponent: terms_of(factor.value, own) for factor in shape.factors}
@@ -209,7 +207,7 @@ def _positive(part: sp.Expr, own: sp.Symbol) -> bool:
 
 
 def _with_length(core: sp.Expr, powers: dict[sp.Expr, int], scale: Scale) -> sp.Expr:
-    """(ratio f + x g)/rate -> ratio f/rate + length g, which rounds x and the rate less often."""
+    """Write (ratio f + x g)/rate as ratio f/rate + length g, with fewer roundings of x and rate."""
     own, rate = scale.variable, scale.rate
     sums = [f for f in core.as_powers_dict() if f.is_Add and f.free_symbols > {own}]
     if rate is None or not sums or powers[rate] >= 0 or scale.product / rate != scale.length:
@@ -224,7 +222,7 @@ def _with_length(core: sp.Expr, powers: dict[sp.Expr, int], scale: Scale) -> sp.
 
 
 def _joined(powers: dict[sp.Expr, int], scale: Scale) -> list[Step]:
-    """Powers that undo each other taken together, as steps; no base is left with the power 0."""
+    """Combine powers that cancel each other, as steps; no base keeps the power 0."""
     steps, own, rate = [], scale.variable, scale.rate
     if rate is not None and scale.joined and powers[own] > 0 > powers[rate]:
         count = min(powers[own], -powers[rate])
@@ -252,17 +250,17 @@ def _joined(powers: dict[sp.Expr, int], scale: Scale) -> list[Step]:
 
 
 def _shape(reduced: Reduced) -> Shape:
-    """The formula taken apart, constants that cancel cancelled."""
+    """Return the formula as a shape, with constants that cancel removed."""
     given = reduced.expression
     if isinstance(given, sp.Add):
         given = next(fraction(reduced.scale.variable, given), given)
     shape = next(decay(reduced.scale.variable, given))
-    assert isinstance(shape, Shape)  # as `decay` gives of every expression
+    assert isinstance(shape, Shape)  # as `decay` returns for every expression
     return shape
 
 
 def _factor(factor: Factor, variable: sp.Symbol, known: Mapping[str, Block]) -> Taken:
-    """A factor as a constant, a sum that does not cancel at 0, and bases with their powers."""
+    """Return a factor as a constant, a sum that does not cancel at 0, and bases with powers."""
     terms = terms_of(factor.value, variable)
     if {variable} == factor.value.free_symbols:
         found = _block(terms, variable, known)
@@ -279,7 +277,7 @@ def _factor(factor: Factor, variable: sp.Symbol, known: Mapping[str, Block]) -> 
 def _block(
     terms: Mapping[Key, sp.Expr], variable: sp.Symbol, known: Mapping[str, Block]
 ) -> Taken | None:
-    """The same for a building block, of a multiple of the variable."""
+    """Return the same for a building block of a multiple of the variable."""
     rates = [abs(key.scale if key.wave else key.rate) for key in terms]
     least = sp.gcd_list([rate for rate in rates if rate != 0])
     for block in known.values():

@@ -1,7 +1,7 @@
-"""Building blocks: sums that cancel at 0, over the power of the variable they vanish with.
+"""Building blocks: sums that cancel at 0, divided by the power of their leading term.
 
-Each is a function of one variable with an exact definition, finite and not zero
-at the origin. How it is computed is found by the rewriting rules.
+Each is a function of one variable with an exact definition, finite and nonzero at the origin. The
+rewriting rules find how it is computed.
 """
 
 import hashlib
@@ -18,23 +18,23 @@ from derivation.engine.rewrite.stabilise import Stable, stabilise
 
 T = sp.Symbol("T", positive=True)
 ENDS = (1e-150, 1e75)
-"""Where blocks are held to the truth; beyond, the powers they are divided by overflow."""
+"""Upper limit of the tested range; above it, the powers in the denominators overflow."""
 
 
 class Definition(NamedTuple):
-    """A building block to be.
+    """Definition of a building block.
 
     Parameters
     ----------
     name, variable
-        What it is called and what it depends on.
+        Name, and variable.
     total
-        The sum it stands for.
+        The sum that it represents.
     lead, held
-        The power it vanishes with if it cancels at 0, and how much of that power stays above the
-        seam what it is there.
+        The power of the leading term if the sum cancels at 0, and how much of that power keeps its
+        value at the switch point above it.
     reads
-        How it reads when divided by the rest.
+        Text of the quotient for the docstring.
     """
 
     name: str
@@ -57,18 +57,18 @@ HYPERBOLIC = (
         "4 e^(-2T) (sinh^2 T - T^2)",
     ),
 )
-"""What solids with two parallel faces share."""
+"""Building blocks for solids with two parallel faces."""
 
 
 def built(definitions: tuple[Definition, ...]) -> dict[str, Block]:
-    """Building blocks by name, the direct form of each proved equal to its definition.
+    """Return building blocks by name, the direct form of each proved equal to its definition.
 
     Raises
     ------
     ProofError
-        Naming the block whose direct form is not its definition.
+        Naming the block whose direct form differs from its definition.
     UnreachableError
-        If the rules do not reach a block.
+        If the rules do not find a form of a block.
     """
     key = hashlib.sha256(repr(definitions).encode()).hexdigest()[:8]
     kinds = (Block, Step, Branch, Seam)
@@ -84,7 +84,7 @@ def _built(definitions: tuple[Definition, ...]) -> dict[str, Block]:
         direct = undo(side.value, (*block.steps, *side.steps), found)
         prove(
             f"Direct form of {block.name}",
-            "The direct form, which serves above the seam, equals the definition.",
+            "The direct form, used above the switch point, equals the definition.",
             {"direct form": direct - block.divided / over},
         )
     return found
@@ -120,7 +120,7 @@ def _block(
 
 
 def _decay_once(branch: Branch) -> Branch:
-    """The branch with its exponentials as powers of the slowest one, which is computed once."""
+    """Return the branch with its exponentials as powers of the slowest one, computed once."""
     found = sp.Tuple(branch.value, *(step.expression for step in branch.steps)).atoms(sp.exp)
     decays = sorted(found, key=lambda slow: abs(slow.args[0].as_coeff_Mul()[0]))
     powers = {slow: slow.args[0] / decays[0].args[0] for slow in decays}
@@ -133,11 +133,11 @@ def _decay_once(branch: Branch) -> Branch:
 
 
 def _truncation(stable: Stable) -> str:
-    """What the section leaves out, in words; nothing without one."""
+    """Return the truncation error in words; empty if there is no series."""
     if not isinstance(stable.value, Seam):
         return ""
     seam = stable.value
     return (
-        f"series cut off at a relative error of {float(stable.truncation):.1e} "
+        f"series truncated at a relative error of {float(stable.truncation):.1e} "
         f"for {seam.variable} < {seam.at}"
     )

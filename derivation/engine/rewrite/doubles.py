@@ -1,8 +1,7 @@
-"""What double precision makes of an expression, the same on every machine.
+"""Evaluation of expressions in double precision, with the same result on every machine.
 
-Sums and products are Python's; elementary functions are rounded correctly from
-ball arithmetic, so that no processor's or library's own last bits decide which
-form of a formula is kept.
+Sums and products are Python's. Elementary functions are rounded correctly from ball arithmetic, so
+that the choice of a form does not depend on a processor or library.
 """
 
 import math
@@ -25,12 +24,12 @@ NO_BLOCKS: Blocks = {}
 
 
 def rounded(expression: sp.Expr, values: Values, blocks: Blocks = NO_BLOCKS) -> float:
-    """The expression node by node in doubles; NaN where a step has no value.
+    """Evaluate the expression node by node in doubles; NaN where a step has no value.
 
     Raises
     ------
     NotImplementedError
-        For a function that has no counterpart in double precision here.
+        For a function that has no counterpart here.
     """
     memo: dict[sp.Basic, float] = dict(values)
 
@@ -53,7 +52,7 @@ def _node(node: sp.Basic, visit: Callable[[sp.Basic], float]) -> float:
     if node is sp.pi:
         return math.pi
     if isinstance(node, sp.Add):
-        number, rest = node.as_coeff_Add()  # a number comes last, as it is printed
+        number, rest = node.as_coeff_Add()  # a number is last, as in the printed code
         total = visit(rest.args[0]) if rest.is_Add else visit(rest)
         for term in rest.args[1:] if rest.is_Add else ():
             total += visit(term)
@@ -78,7 +77,7 @@ def _node(node: sp.Basic, visit: Callable[[sp.Basic], float]) -> float:
 
 
 def _product(node: sp.Mul, visit: Callable[[sp.Basic], float]) -> float:
-    """Numerator over denominator, as the generated code has it."""
+    """Return numerator over denominator, as in the generated code."""
     above, below = 1.0, 1.0
     for factor in node.args:
         if isinstance(factor, sp.Pow) and factor.exp.is_Rational and factor.exp < 0:
@@ -91,7 +90,7 @@ def _product(node: sp.Mul, visit: Callable[[sp.Basic], float]) -> float:
 
 
 def _held_apart(value: float, *powers: float) -> float:
-    """A value times bases to their powers, exponents of 2 apart, as `ranges.times` does it."""
+    """Return a value times powers of bases, with exponents of 2 separate, like `ranges.times`."""
     total, exponent = math.frexp(value)
     for base, power in zip(powers[::2], powers[1::2], strict=True):
         mantissa, shift = math.frexp(base)
@@ -113,7 +112,7 @@ def _power(base: float, exponent: sp.Expr) -> float:
 
 
 def _function(function: Callable[[flint.arb], flint.arb], argument: float) -> float:
-    """Correctly rounded for all practical purposes: from 160 bits."""
+    """Round correctly for all practical purposes, from 160 bits."""
     if not math.isfinite(argument):
         if function is _EXP and not math.isnan(argument):
             return 0.0 if argument < 0 else math.inf
@@ -132,7 +131,7 @@ def run(
     values: Values,
     blocks: Blocks = NO_BLOCKS,
 ) -> float:
-    """A form at a point: its steps in order, then the branch that the point lies in."""
+    """Evaluate a form at a point: its steps in order, then the branch for the point."""
     known = dict(values)
     for step in steps:
         known[step.symbol] = rounded(step.expression, known, blocks)

@@ -1,4 +1,4 @@
-"""Measures a form in several variables, in each of them over its domain, against exact values."""
+"""Accuracy test of a form in several variables, in each of them over its domain."""
 
 import math
 from collections.abc import Mapping
@@ -18,15 +18,15 @@ from derivation.engine.rewrite.terms import UnreachableError
 
 DIGITS = 25
 ENOUGH_POINTS = 20
-"""Without so many values there is no judging."""
+"""Smallest number of values for a decision."""
 SMALLEST = 1e-150
-"""Arguments are not set to smaller numbers, whose products underflow."""
+"""Smallest value of an argument; products of smaller ones underflow."""
 LEAST_VALUE = 1e-300
-"""Smaller values may be subnormal numbers, which do not have all digits."""
+"""Smallest value that is tested; smaller ones may be subnormal and have fewer digits."""
 
 
 class LargestError(NamedTuple):
-    """The largest error [ULP beyond half the condition numbers], where, and of how many points."""
+    """Largest error [ULP in addition to half the condition numbers], its point, point count."""
 
     error: float
     at: Mapping[str, float]
@@ -50,14 +50,14 @@ def accurate(
     Raises
     ------
     UnreachableError
-        If it is not, naming the point where it loses most.
+        If it is not accurate, naming the point with the largest error.
     """
     worst = measured(formula, steps, value, blocks)
     if worst.error > ENOUGH:
         where = ", ".join(f"{name} = {x!r}" for name, x in worst.at.items())
         raise UnreachableError(
-            f"the form found for {formula.name} is off by {worst.error:.2g} ULP at {where}, "
-            f"expected at most {ENOUGH:g}; state its form, or use a variable that is small there"
+            f"the form found for {formula.name} has an error of {worst.error:.2g} ULP at {where}, "
+            f"expected at most {ENOUGH:g}; state a form, or use a variable that is small there"
         )
     return steps, value
 
@@ -65,12 +65,12 @@ def accurate(
 def measured(
     formula: Record, steps: tuple[Step, ...], value: sp.Expr | Seam, blocks: Mapping[str, Block]
 ) -> LargestError:
-    """The largest error of a form at hard points of every variable.
+    """Return the largest error of a form at difficult points of every variable.
 
     Raises
     ------
     UnreachableError
-        If too few of them have a value.
+        If too few of the points have a value.
     """
     own = [argument.name for argument in formula.arguments]
     symbols = {argument.name: argument.symbol for argument in formula.arguments}
@@ -95,7 +95,7 @@ def _seams(value: sp.Expr | Seam) -> dict[str, tuple[float, ...]]:
 
 
 def _truth(expression: sp.Expr, at: Mapping[sp.Symbol, float]) -> flint.arb | None:
-    """The value; nothing where it has no ball, or no double has its digits."""
+    """Return the value; None where it has no ball, or is too small for all digits of a double."""
     try:
         value = evaluate(expression, at, DIGITS)
     except (PrecisionError, NotImplementedError):
@@ -118,7 +118,7 @@ def _computed(
 def _beyond(
     expression: sp.Expr, truth: flint.arb, got: float, at: Mapping[sp.Symbol, float]
 ) -> float:
-    """The error [ULP], less half the condition numbers where it would count."""
+    """Return the error [ULP], reduced by half the condition numbers where it is large."""
     error = ulp_error(got, truth)
     if not ENOUGH / 2 < error < math.inf:
         return error
@@ -126,7 +126,7 @@ def _beyond(
         try:
             slope = evaluate(expression.diff(symbol), at, 3)
         except (PrecisionError, NotImplementedError):
-            continue  # then nothing is excused
+            continue  # then no conditioning is taken into account
         with flint.ctx.workprec(64):
             error -= float(abs(slope * to_ball(x) / truth).abs_upper()) / 2
     return max(error, 0.0)

@@ -1,4 +1,4 @@
-"""The stable form: named steps, branches and the proof that it equals a derived formula."""
+"""The stable form: named steps, branches, and the proof that it equals a derived formula."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -10,34 +10,34 @@ from derivation.engine.formula.proof import Proof, prove
 from derivation.engine.runtime import ranges
 
 TIMES = sp.Function("times")
-"""A value, then bases and their powers in turn: the product, which may leave the doubles' range
-in between."""
+"""Product of a value and powers of bases, given in turn; intermediate products may leave the range
+of doubles."""
 
 CLOSELY = sp.Function("times_closely")
-"""The same, rounded as if once: where the factors are most of what a budget allows."""
+"""The same product, rounded as if once, for factors that use most of a budget."""
 
 LOST = sp.Function("lost")
-"""A product of two less what it is rounded to: exactly nothing."""
+"""The rounding error of a product of two: exactly zero in the proof."""
 
 SUM = sp.Function("sum_closely")
 """A sum, rounded as if once; its last term is small."""
 
 ONCE = sp.Integer(ranges.ONCE)
-"""e^(-v) is applied in one piece up to this v."""
+"""Largest v for which e^(-v) is applied as one factor."""
 
 TAIL = sp.Function("tail")
-"""What e^(-min(v, ONCE)) lacks of e^(-v), lest it underflow alone."""
+"""The factor e^(min(v, ONCE) - v), used where e^(-v) alone would underflow."""
 
 SCALINGS = (LOST, SUM, TAIL, TIMES, CLOSELY)
 """Functions of the generated module `ranges`."""
 
 TINY, FAR, LARGEST = sp.Float("5e-324"), sp.Integer(10**9), sp.Float("1e308")
-"""A product held between two of them neither vanishes nor overflows. Beyond FAR, what depends on
-e^-x is what it is at infinity; TINY is the smallest double."""
+"""Limits of a product that must neither vanish nor overflow. Above FAR, expressions in e^-x have
+their value at infinity; TINY is the smallest double."""
 
 
 def held(product: sp.Expr, most: sp.Expr) -> sp.Expr:
-    """The product, which is positive, between TINY and `most`."""
+    """Return the product, which is positive, limited to the range from TINY to `most`."""
     return sp.Max(TINY, sp.Min(product, most))
 
 
@@ -52,7 +52,7 @@ class Step:
 
 @dataclass(frozen=True)
 class Branch:
-    """One way to evaluate a form.
+    """One branch of a form.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ class Branch:
 
 @dataclass(frozen=True)
 class Seam:
-    """Below `at`, `variable` selects the first branch; from there on the second."""
+    """A switch point: `variable` below `at` selects the first branch, otherwise the second."""
 
     variable: sp.Symbol
     at: sp.Rational
@@ -83,13 +83,13 @@ class Form:
     Parameters
     ----------
     name, module
-        What it is called and in which generated module it stands.
+        Name of the function, and of the generated module that contains it.
     steps
         Intermediates common to all branches.
     value
-        The result, or the seam between two ways to compute it.
+        The result, or the switch point between two branches.
     proof
-        That it equals the formula, step by step undone.
+        That it equals the formula, with all steps substituted.
     """
 
     name: str
@@ -112,16 +112,16 @@ class Block:
     total
         The sum it stands for.
     lead, held
-        The power of the variable that the sum is divided by below the seam; and how much of it
-        stays above the seam what it is there.
+        The power of the variable that the sum is divided by below the switch point, and how much
+        of it keeps its value at the switch point above it.
     domain
-        Conditions on the variables, in Python's notation.
+        Conditions on the variables, in Python syntax.
     summary
         First line of its docstring.
     steps, value
-        How it is computed; series are truncated, see `truncation`.
+        The computation; series are truncated, see `truncation`.
     truncation
-        The bound on the relative error of a truncated series, or nothing.
+        Bound of the relative error of a truncated series, or empty.
     """
 
     name: str
@@ -136,27 +136,27 @@ class Block:
     truncation: str = ""
 
     def __call__(self, argument: sp.Expr) -> sp.Expr:
-        """The block applied to an argument, as it appears in forms."""
+        """Return the block applied to an argument, as it appears in forms."""
         return sp.Function(self.name)(argument)
 
     def near(self, argument: sp.Expr) -> sp.Expr:
-        """What is held: the argument, at most the seam."""
+        """Return the argument, at most the switch point."""
         return sp.Min(argument, self.value.at) if isinstance(self.value, Seam) else sp.Integer(1)
 
     def definition(self, argument: sp.Expr) -> sp.Expr:
-        """What the block is exactly."""
+        """Return the exact definition of the block."""
         (own,) = self.arguments
         return self.divided.subs(own, argument) / self.near(argument) ** self.held
 
     @property
     def divided(self) -> sp.Expr:
-        """The sum over the powers that are not held."""
+        """Return the sum divided by the powers that are not kept constant."""
         (own,) = self.arguments
         return self.total / own ** (self.lead - self.held)
 
 
 def undo(expression: sp.Expr, steps: tuple[Step, ...], blocks: Mapping[str, Block]) -> sp.Expr:
-    """The expression with every step put back and every block replaced by its definition."""
+    """Return the expression with steps substituted and blocks replaced by their definitions."""
     for step in reversed(steps):
         expression = expression.subs(step.symbol, step.expression)
     expression = expression.replace(TIMES, _product).replace(CLOSELY, _product)
@@ -164,8 +164,8 @@ def undo(expression: sp.Expr, steps: tuple[Step, ...], blocks: Mapping[str, Bloc
     expression = expression.replace(TAIL, lambda v: sp.exp(sp.Min(v, ONCE) - v))
     for block in blocks.values():
         expression = expression.replace(sp.Function(block.name), block.definition)
-    expression = expression.replace(sp.Abs, lambda x: x)  # roots of squares, in what is even
-    expression = expression.replace(sp.Heaviside, lambda *_: _CHOICE)  # whatever it is
+    expression = expression.replace(sp.Abs, lambda x: x)  # roots of squares, in even functions
+    expression = expression.replace(sp.Heaviside, lambda *_: _CHOICE)  # for either value
     expression = expression.replace(expm1, lambda x: sp.exp(x) - 1)
     expression = expression.replace(lambda e: isinstance(e, sp.Max) and TINY in e.args, _released)
     return expression.replace(sp.Min, _least)
@@ -175,7 +175,7 @@ _CHOICE = sp.Symbol("choice", real=True)
 
 
 def _released(product: sp.Max) -> sp.Expr:
-    """What is held, without its bounds."""
+    """Return a limited product without its limits."""
     (bounded,) = (bound for bound in product.args if bound != TINY)
     return sp.Mul(*(bound for bound in bounded.args if bound not in (FAR, LARGEST)))
 
@@ -185,7 +185,7 @@ def _product(value: sp.Expr, *powers: sp.Expr) -> sp.Expr:
 
 
 def _least(*bounds: sp.Expr) -> sp.Expr:
-    """Min(a, 1/phi) -> Min(a phi, 1)/phi, and Min(a phi, 1) a symbol: forms hold for any value."""
+    """Write Min(a, 1/phi) as Min(a phi, 1)/phi with a symbol for Min: valid for any value."""
     unit = sp.Mul(*(sp.denom(bound) for bound in bounds))
     name = sorted(str(sp.expand(bound * unit)) for bound in bounds)
     return sp.Symbol(f"Min({', '.join(name)})", positive=True) / unit
@@ -204,11 +204,11 @@ def form(
     Raises
     ------
     ProofError
-        Naming the branch that is not the formula, with the residual.
+        Naming the branch that differs from the formula, with the residual.
     """
     proof = prove(
         f"Stable form of {name}",
-        "Every branch, its steps and blocks put back, equals the derived formula.",
+        "Every branch, with steps and blocks substituted, equals the derived formula.",
         {
             label: undo(branch.value, (*steps, *branch.steps), blocks) - formula
             for label, branch in branches(value)
@@ -218,7 +218,7 @@ def form(
 
 
 def branches(value: sp.Expr | Seam) -> list[tuple[str, Branch]]:
-    """The branches of a result, labelled by their side of the seam."""
+    """Yield the branches of a result, labelled by their side of the switch point."""
     if isinstance(value, Seam):
         return [
             (f"{value.variable} < {value.at}", value.below),

@@ -1,8 +1,8 @@
-"""The rewriting rules in the order they are tried, each with its name, cause and condition.
+"""The rewriting rules in the order of application, each with name, cause and condition.
 
-The first three turn an expression into another one, the rest work on it taken
-apart. A rule gives back nothing where its condition fails; every rule is exact,
-but for `section`, whose truncation is bounded.
+The first three transform an expression, the others its decomposition. A rule returns nothing where
+its condition is not met. Every rule is exact, except for `section`, whose truncation error is
+bounded.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -28,8 +28,8 @@ from derivation.engine.rewrite.terms import (
 Rewritten: TypeAlias = sp.Expr | Shape
 
 SEAMS = tuple(sp.Rational(n, 4) for n in (1, 2, 4, 8, 16))
-"""Where a section may end; the first one is taken that is as exact as any. Powers of two, so
-that a power of x can stay there what it is without rounding."""
+"""Possible switch points of a truncated series; the first with sufficient accuracy is used. They
+are powers of two, so that a power of x can be constant there without rounding."""
 
 
 @dataclass(frozen=True)
@@ -39,11 +39,11 @@ class Rule:
     Parameters
     ----------
     name
-        What it is called in reports.
+        Name of the rule in reports.
     cause
         The inaccuracy it removes: cancellation, overflow or absorption.
     apply
-        The variable and what to rewrite in, every form the rule can give it out.
+        Function from the variable and an expression to every form that the rule can give it.
     """
 
     name: str
@@ -52,7 +52,7 @@ class Rule:
 
 
 def conjugate(_: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
-    """p - q with a square root among them, as in (18) -> (p^2 - q^2)/(p + q)."""
+    """Write p - q with a square root among them, as in (18), as (p^2 - q^2)/(p + q)."""
     if isinstance(given, Shape):
         return
 
@@ -76,7 +76,7 @@ def _is_root(term: sp.Expr) -> bool:
 
 
 def logarithm(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
-    """log(1 + u) -> log1p(u), which does not absorb a small u into the 1."""
+    """Write log(1 + u) as log1p(u), which does not absorb a small u."""
     if isinstance(given, Shape):
         return
     found = given.replace(
@@ -88,7 +88,7 @@ def logarithm(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
 
 
 def fraction(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
-    """A sum of quotients -> one quotient of products of sums, equal parts of which are gone."""
+    """Write a sum of quotients as one quotient of products of sums, with common factors removed."""
     if isinstance(given, Shape):
         return
     whole = sp.together(
@@ -102,7 +102,7 @@ def fraction(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
 
 
 def _split(expression: sp.Expr, x: sp.Symbol) -> sp.Expr:
-    """Factors, where x is the only variable: others would lose the signs of their brackets."""
+    """Factor an expression of x alone; with others, signs of brackets would be lost."""
     parts = sp.Mul.make_args(expression)
     return sp.Mul(
         *(sp.factor(sp.expand(p)) if p.free_symbols == {x} and p.is_Add else p for p in parts)
@@ -110,7 +110,7 @@ def _split(expression: sp.Expr, x: sp.Symbol) -> sp.Expr:
 
 
 def decay(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
-    """Hyperbolic functions -> decaying exponentials, the largest of each sum taken out."""
+    """Write hyperbolic functions as decaying exponentials, the largest of each sum factored out."""
     if isinstance(given, Shape):
         return
     front, power, rate = sp.Integer(1), 0, sp.Integer(0)
@@ -142,30 +142,30 @@ def _powers(expression: sp.Expr) -> Iterator[tuple[sp.Expr, sp.Expr]]:
 
 
 def _scaled(terms: Terms) -> tuple[sp.Rational, sp.Expr, dict[Key, sp.Expr]]:
-    """Largest rate, the coefficient that goes with it, and the terms without these."""
+    """Return the largest rate, its coefficient, and the terms without both."""
     rate = max(key.rate for key in terms)
     leading = min((key for key in terms if key.rate == rate), key=lambda key: key[2:] + key[:2])
     size = terms[leading]
     if size.free_symbols:
-        size = sp.Integer(1)  # brackets of other variables stay as they are
+        size = sp.Integer(1)  # brackets of other variables are unchanged
     elif _rises(terms) == size.is_negative:
-        size = -size  # the sum is positive near 0, and reads better
+        size = -size  # the sum is positive near 0, which is easier to read
     return rate, size, {k._replace(rate=k.rate - rate): v / size for k, v in terms.items()}
 
 
 def _rises(terms: Terms) -> bool:
-    """Whether the sum is positive next to 0."""
+    """Return whether the sum is positive next to 0."""
     return bool(next(islice(taylor(terms), leading_power(terms), None)) > 0)
 
 
 def _base(coefficient: sp.Expr) -> sp.Expr:
-    """The coefficient without its rational factor and sign."""
+    """Return the coefficient without its rational factor and sign."""
     _, rest = coefficient.as_content_primitive()
     return -rest if rest.could_extract_minus_sign() else rest
 
 
 def difference(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
-    """c - c e^(-m x) + ... -> -c expm1(-m x) + ..., the constants cancelled exactly."""
+    """Write c - c e^(-m x) + ... as -c expm1(-m x) + ..., with constants cancelled exactly."""
     if not isinstance(given, Shape):
         return
     factors = [
@@ -178,7 +178,7 @@ def difference(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
 
 
 def _terms(value: sp.Expr, x: sp.Symbol) -> dict[Key, sp.Expr]:
-    """Normal form of a sum; none if it has no such form."""
+    """Return the normal form of a sum; None if it has no such form."""
     try:
         return terms_of(value, x)
     except UnreachableError:
@@ -186,7 +186,7 @@ def _terms(value: sp.Expr, x: sp.Symbol) -> dict[Key, sp.Expr]:
 
 
 def parts_of(terms: Terms, x: sp.Symbol) -> list[tuple[sp.Expr, int]]:
-    """The sum in parts whose constants are cancelled, each with its lowest power of x."""
+    """Return the sum in parts whose constants are cancelled, each with its lowest power of x."""
     grouped: dict[tuple[sp.Expr, int, str, sp.Rational], dict[Key, sp.Expr]] = {}
     for key, value in terms.items():
         base = _base(value)
@@ -206,7 +206,7 @@ def parts_of(terms: Terms, x: sp.Symbol) -> list[tuple[sp.Expr, int]]:
 
 
 def balance(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
-    """The largest power of x taken out of a sum that stands over a power of x."""
+    """Factor the largest power of x out of a sum that is divided by a power of x."""
     if not isinstance(given, Shape):
         return
     factors = []
@@ -221,7 +221,7 @@ def balance(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
 
 
 def section(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
-    """Sums that cancel at 0 -> their Taylor sections below a seam, the power of x taken out."""
+    """Replace sums that cancel at 0, below a switch point, by series times a power of x."""
     if not isinstance(given, Shape) or given.seam is not None:
         return
     for seam in SEAMS:
@@ -234,12 +234,12 @@ def section(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
 
 
 def _sectioned(factor: Factor, x: sp.Symbol, seam: sp.Rational) -> Factor:
-    """The factor's lead, and its section if its parts cancel in it."""
+    """Return the factor's leading power, and its truncated series if its parts cancel in it."""
     terms = terms_of(factor.value, x)
     lead = leading_power(terms)
     if lead == min(power for _, power in parts_of(terms, x)):
         return replace(factor, lead=lead)
-    # About the middle of its rates a sum of hyperbolic functions is even or odd again.
+    # About the middle of its rates a sum of hyperbolic functions is even or odd.
     rates = [key.rate for key in terms]
     shift = (max(rates) + min(rates)) / 2
     found = taylor_section({k._replace(rate=k.rate - shift): v for k, v in terms.items()}, seam)
@@ -248,7 +248,7 @@ def _sectioned(factor: Factor, x: sp.Symbol, seam: sp.Rational) -> Factor:
 
 
 def share(x: sp.Symbol, given: Rewritten) -> Iterator[Rewritten]:
-    """e^(-x) on both sides of a seam -> computed once, e^(-2x) as its square."""
+    """Compute e^(-x) once for both sides of a switch point, and e^(-2x) as its square."""
     if isinstance(given, Shape) and given.seam is not None:
         _, seam = assembled(given)
         sides = [
@@ -267,7 +267,7 @@ RULES: Sequence[Rule] = (
     Rule("balance", "overflow", balance),
     Rule("section", "cancellation", section),
 )
-"""In the order they are tried."""
+"""Rules in the order of application."""
 
 SHARE = Rule("share", "time", share)
-"""The last: it costs accuracy nothing that counts, and takes an exponential away."""
+"""The last rule: it removes an exponential at a negligible loss of accuracy."""

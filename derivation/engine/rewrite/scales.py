@@ -1,4 +1,4 @@
-"""The dimensionless variables of a paper: what its formulas' functions depend on."""
+"""The dimensionless variables of a paper, which the functions in its formulas depend on."""
 
 from dataclasses import dataclass
 
@@ -9,20 +9,20 @@ from derivation.engine.rewrite.form import Step
 
 @dataclass(frozen=True)
 class Scale:
-    """A product that functions may depend on, which becomes a variable.
+    """A product that functions may depend on, and that becomes a variable.
 
     Parameters
     ----------
     product
         The product, for instance 2 k H.
     variable
-        The dimensionless symbol that stands for it.
+        The dimensionless symbol for it.
     length
         The symbol that the variable replaces.
     rate
-        What the variable over the length is, but for a number; None if they are the same.
+        The variable divided by the length, without a numerical factor; None if it is the product.
     joined
-        Whether powers of the variable over the rate become powers of the length again.
+        Whether powers of the variable over the rate are written as powers of the length again.
     """
 
     product: sp.Expr
@@ -34,7 +34,7 @@ class Scale:
 
 @dataclass(frozen=True)
 class Ratio:
-    """A quotient of two sums of constants, which is computed first: whole = step.symbol * part."""
+    """A quotient of two sums of constants that is computed first: whole = step.symbol * part."""
 
     step: Step
     whole: sp.Expr
@@ -43,11 +43,11 @@ class Ratio:
 
 @dataclass(frozen=True)
 class Scales:
-    """Every scale, and the ratio if there is one."""
+    """All scales, and the ratio if there is one."""
 
     rows: tuple[Scale, ...] = ()
     ratio: Ratio | None = None
 
     def of(self, product: sp.Expr) -> Scale | None:
-        """The scale of a product, if there is one."""
+        """Return the scale of a product, or None."""
         return next((scale for scale in self.rows if scale.product == product), None)

@@ -1,9 +1,8 @@
-"""Taylor sections: hyperbolic sums that cancel at 0, over the power they vanish with, up to END.
+"""Truncated Taylor series of hyperbolic sums that cancel at 0, over their leading power, up to END.
 
-All are even, and take the square of their variable: it may be known better than the variable.
-
-Where a mode's fields are computed in bending and stretching, no argument is larger; the
-exponentials that blocks are scaled by would cost accuracy there and gain nothing.
+All are even and take the square of their variable, which may be known more accurately. In the
+bending and extension of a mode's fields no argument is larger than END; the scaling exponentials of
+building blocks would reduce accuracy there without benefit.
 """
 
 from functools import cache
@@ -24,14 +23,14 @@ DEFINITIONS: tuple[tuple[str, sp.Expr, int], ...] = (
     ("sinh_quintic", sp.sinh(y) - y - y**3 / 6, 5),
     ("cosh_quintic", y * sp.cosh(y) - sp.sinh(y) - y**3 / 3, 5),
 )
-"""Name, the sum in y, and the power of y that it is divided by."""
+"""Name, the sum in y, and the power of y by which it is divided."""
 
 _MOST = 60
 
 
 @cache
 def sections() -> dict[str, Block]:
-    """Every section by name."""
+    """Return every truncated series by name."""
     return {name: _section(name, total, power) for name, total, power in DEFINITIONS}
 
 
@@ -47,15 +46,15 @@ def _section(name: str, total: sp.Expr, power: int) -> Block:
         f"({sp.sstr(total)})/y^{power} of the square of y, {coefficients[0]} at y = 0.",
         (),
         POLYNOMIAL(square, *coefficients),
-        f"series cut off at a relative error of {float(bound):.1e}",
+        f"series truncated at a relative error of {float(bound):.1e}",
     )
 
 
 def _coefficients(total: sp.Expr, power: int) -> tuple[tuple[sp.Rational, ...], sp.Rational]:
-    """Taylor's coefficients in y^2, and the relative error of leaving out all others.
+    """Return Taylor coefficients in y^2, and a bound of the relative truncation error.
 
-    They are positive, so that the sum is at least the first of them, and each term is
-    smaller than the one before by more than the last ratio.
+    They are positive, so that the sum is at least the first of them, and the ratio of successive
+    terms decreases.
     """
     series = sp.Poly(total.series(y, 0, _MOST).removeO(), y)
     found = [series.coeff_monomial(y ** (power + 2 * k)) for k in range((_MOST - power) // 2)]
@@ -65,4 +64,4 @@ def _coefficients(total: sp.Expr, power: int) -> tuple[tuple[sp.Rational, ...], 
         rest = sizes[count] / (1 - ratio) / sum(sizes[:count]) if 0 < ratio < 1 else sp.oo
         if rest < UNIT_ROUNDOFF / 4:
             return tuple(found[:count]), rest
-    raise ValueError(f"{total} takes more terms than {_MOST // 2} up to {END}")
+    raise ValueError(f"{total} needs more than {_MOST // 2} terms up to {END}")

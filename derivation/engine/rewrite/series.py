@@ -1,4 +1,4 @@
-"""Taylor sections near removable singularities: exact coefficients, degree from a proven bound."""
+"""Truncated Taylor series near removable singularities, with proved error bounds."""
 
 from dataclasses import dataclass
 from itertools import islice
@@ -11,7 +11,7 @@ UNIT_ROUNDOFF = sp.Rational(1, 2**53)
 MOST_TERMS = 64
 
 POLYNOMIAL = sp.Function("polynomial")
-"""The generated Horner scheme: variable, constant term, and so on upwards."""
+"""The generated Horner scheme: variable, constant term, and further coefficients upwards."""
 
 
 @dataclass(frozen=True)
@@ -21,13 +21,13 @@ class Section:
     Parameters
     ----------
     lead
-        Power of y taken out.
+        Power of y that is factored out.
     stride
         2 for even and odd functions, 1 for others.
     coefficients
         Exact rationals c_0, c_1, ...
     bound
-        Bound on the relative truncation error for 0 <= y <= seam.
+        Bound of the relative truncation error from y = 0 to the switch point.
     """
 
     lead: int
@@ -36,12 +36,12 @@ class Section:
     bound: sp.Rational
 
     def polynomial(self, power: sp.Expr) -> sp.Expr:
-        """The polynomial in y^stride, as a call of the generated Horner scheme."""
+        """Return the polynomial in y^stride, as a call of the generated Horner scheme."""
         return POLYNOMIAL(power, *self.coefficients)
 
 
 def leading_power(terms: Terms) -> int:
-    """The lowest power of the Taylor series."""
+    """Return the lowest power of the Taylor series."""
     for power, value in enumerate(islice(taylor(terms), MOST_TERMS)):
         if sp.expand(value) != 0:
             return power
@@ -49,15 +49,15 @@ def leading_power(terms: Terms) -> int:
 
 
 def taylor_section(terms: Terms, seam: sp.Rational) -> Section:
-    """Taylor section of a sum about 0, its relative error below a quarter of a unit of rounding.
+    """Return the truncated series of a sum about 0, with an error below a quarter of a rounding.
 
-    What is left out is bounded by Taylor's theorem term by term; the sum itself
-    is at least its first coefficient, less all others unless they have its sign.
+    The truncation error is bounded by Taylor's theorem term by term. The sum itself is at least its
+    first coefficient, reduced by all others unless they have the same sign.
 
     Raises
     ------
     UnreachableError
-        If the sum has no such section up to the seam.
+        If no such series reaches the switch point.
     """
     if any(value.free_symbols for value in terms.values()):
         raise UnreachableError("the series of a sum with further variables is not rational")

@@ -1,4 +1,4 @@
-"""A product of sums in x, taken apart: front x^power e^(rate x) times factors, and its assembly."""
+"""Decomposition of a product of sums in x: front x^power e^(rate x) times factors."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
@@ -13,18 +13,18 @@ ZERO = sp.Integer(0)
 
 @dataclass(frozen=True)
 class Factor:
-    """A sum in x to a power, and how it is written near 0 and far from it.
+    """A power of a sum in x, with its forms near 0 and far from 0.
 
     Parameters
     ----------
     value, exponent
-        The sum and the power it stands in.
+        The sum and its exponent.
     near, lead, rate
-        Below the seam the sum is x^lead e^(rate x) near; nothing if it needs no section.
+        Below the switch point the sum is x^lead e^(rate x) near; None if no series is needed.
     truncation
-        Bound of what the section leaves out, relatively.
+        Bound of the relative truncation error.
     far, top
-        Above the seam, or everywhere, it is x^top far; nothing for the sum as it stands.
+        Above the switch point, or everywhere, it is x^top far; None for the sum itself.
     """
 
     value: sp.Expr
@@ -46,17 +46,17 @@ class Shape:
     x
         The variable.
     front
-        What is free of it.
+        The part that does not contain x.
     power, rate
-        Of x and of the exponential.
+        Exponents of x and of the exponential.
     factors
-        Sums in x and their powers.
+        Sums in x and their exponents.
     seam
-        Below it the factors' sections serve.
+        Switch point below which the factors' series are used.
     shared
-        Whether exponentials are computed once for both sides of the seam, and their squares.
+        Whether exponentials are computed once for both sides of the switch point, and squared.
     lead
-        This power of x, which the front divides by, stays above the seam what it is there.
+        This power of x, by which the front is divided, is constant above the switch point.
     """
 
     x: sp.Symbol
@@ -69,12 +69,12 @@ class Shape:
     lead: int = 0
 
     def with_factors(self, factors: Iterable[Factor]) -> "Shape":
-        """The shape with other factors."""
+        """Return the shape with other factors."""
         return replace(self, factors=tuple(factors))
 
 
 def assembled(shape: Shape) -> tuple[tuple[Step, ...], sp.Expr | Seam]:
-    """Steps and value of a shape; a seam if it has sections."""
+    """Return steps and value of a shape; the value has a switch point if there are series."""
     x = shape.x
     beyond = [(f.far, f.top, 0) for f in shape.factors]
     if shape.seam is None:
@@ -93,7 +93,7 @@ def assembled(shape: Shape) -> tuple[tuple[Step, ...], sp.Expr | Seam]:
 
 
 def _with_decay(side: Branch, x: sp.Symbol) -> Branch:
-    """e^(-x) and e^(-2x) in a branch as a step before the seam and its square."""
+    """Replace e^(-x) and e^(-2x) in a branch by a step before the switch point, and its square."""
     steps = tuple(replace(s, expression=_decayed(s.expression, x)) for s in side.steps)
     return replace(side, steps=steps, value=_decayed(side.value, x))
 
@@ -108,7 +108,7 @@ def _side(
     rate: sp.Rational,
     sides: Iterable[tuple[sp.Expr | None, int, sp.Rational]],
 ) -> Branch:
-    """One branch: every factor as a step of its own, lest powers of x be merged with it."""
+    """Return one branch, with every factor as a step, so that powers of x are not merged."""
     steps: list[Step] = []
     product, x = sp.Integer(1), shape.x
     names = _names(shape.factors)
@@ -127,7 +127,7 @@ def _side(
 
 
 def _names(factors: Iterable[Factor]) -> list[sp.Symbol]:
-    """numerator, denominator, numerator_2, ..."""
+    """Yield numerator, denominator, numerator_2, ..."""
     found: list[sp.Symbol] = []
     counts = {"numerator": 0, "denominator": 0}
     for factor in factors:

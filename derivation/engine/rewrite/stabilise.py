@@ -1,4 +1,4 @@
-"""Find the stable form of an expression: apply the rules in turn, keep those that help."""
+"""Search for the stable form of an expression: apply the rules in turn, keep those that help."""
 
 import math
 from collections.abc import Sequence
@@ -6,20 +6,20 @@ from dataclasses import dataclass, replace
 
 import sympy as sp
 
+from derivation.engine.rewrite.accuracy_test import AccuracyTest, accuracy_test, with_whole
 from derivation.engine.rewrite.form import Branch, Seam, Step
-from derivation.engine.rewrite.gate import Gate, gate, held
 from derivation.engine.rewrite.rules import RULES, SHARE, Rewritten, Rule
 from derivation.engine.rewrite.shape import Shape, assembled
 from derivation.engine.rewrite.terms import UnreachableError, terms_of
 
 EXACT = 0.75
-"""A section that leaves no more ULP than this is not lengthened."""
+"""Error in ULP below which a series is not lengthened."""
 
 NOTHING = 1.5
-"""Differences of forms that are this exact, in ULP, decide nothing."""
+"""Difference of errors, in ULP, below which two forms count as equally accurate."""
 
 ENOUGH = 8.0
-"""A form that is off by more than this many ULP is refused."""
+"""Error in ULP above which a form is rejected."""
 
 
 @dataclass(frozen=True)
@@ -29,9 +29,9 @@ class Applied:
     Parameters
     ----------
     rule, cause
-        Its name, and the inaccuracy it removes.
+        Name of the rule, and the inaccuracy that it removes.
     operations, worst
-        How many operations the form has, and its worst error in ULP, without and with it.
+        Number of operations of the form, and its largest error in ULP, without and with it.
     """
 
     rule: str
@@ -42,7 +42,7 @@ class Applied:
 
 @dataclass(frozen=True)
 class Stable:
-    """A stable form with how it came about.
+    """A stable form, and how it was found.
 
     Parameters
     ----------
@@ -53,9 +53,9 @@ class Stable:
     applied
         The rules kept, in order.
     worst
-        Its worst error in ULP beyond conditioning.
+        Its largest error in ULP in addition to conditioning.
     truncation
-        Bound of what its sections leave out, relatively.
+        Bound of the relative truncation error of its series.
     """
 
     expression: sp.Expr
@@ -70,30 +70,32 @@ class Stable:
 def stabilise(
     expression: sp.Expr, x: sp.Symbol, ends: tuple[float, float] = (1e-150, 1e150), lead: int = 0
 ) -> Stable:
-    """The stable form of an expression for positive x.
+    """Return the stable form of an expression for positive x.
 
-    All rules are applied in turn; then each has to earn its place: it is left out
-    if the form without it is more exact, or as exact and no longer.
+    All rules are applied in turn. Then each is removed if the form without it is more accurate, or
+    equally accurate and no longer.
 
     Parameters
     ----------
     expression, x
-        What is to be computed, and its variable.
+        The expression, and its variable.
     ends
-        The interval in which the form is to hold.
+        The interval in which the form is to be accurate.
     lead
-        A power of x that the expression is divided by only to be finite at 0: above a seam s
-        the form is divided by s^lead instead, without rounding.
+        A power of x by which the expression is divided only to be finite at 0: above a switch
+        point s the form is divided by s^lead instead, without rounding.
 
     Raises
     ------
     UnreachableError
-        If the rules do not bring its error down to 8 ULP; with the reason.
+        If the rules do not reduce its error to 8 ULP; the message states the reason.
     """
-    points = gate(expression, x, ends, decayed(expression, x))
+    points = accuracy_test(expression, x, ends, decayed(expression, x))
     if lead:
         whole = expression * x**lead
-        points = held(points, gate(whole, x, ends, decayed(whole, x), str(expression)), lead)
+        points = with_whole(
+            points, accuracy_test(whole, x, ends, decayed(whole, x), str(expression)), lead
+        )
     at = _Judge(points)
     kept = list(RULES)
     form, worst = _through(kept, x, expression, at)
@@ -104,7 +106,7 @@ def stabilise(
         shorter, error = _through(fewer, x, expression, at)
         no_longer = sum(_operations(shorter)) <= sum(_operations(form))
         if error < worst or (error <= max(worst, NOTHING) and no_longer):
-            # What one rule did others may have rested on: they are asked again.
+            # Other rules may have depended on this one: they are tested again.
             kept, form, worst, candidates = fewer, shorter, error, list(reversed(fewer))
     if worst > ENOUGH:
         raise UnreachableError(_reason(expression, x, worst))
@@ -118,23 +120,23 @@ def stabilise(
 
 
 class _Judge:
-    """A gate that measures each form once."""
+    """An accuracy test that measures each form once."""
 
-    def __init__(self, gate: Gate) -> None:
-        self.gate, self.lead = gate, gate.lead
+    def __init__(self, test: AccuracyTest) -> None:
+        self.test, self.lead = test, test.lead
         self.known: dict[Rewritten, float] = {}
 
     def worst(self, form: Rewritten) -> float:
-        """Largest error of a form in ULP beyond conditioning."""
+        """Return the largest error of a form in ULP in addition to conditioning."""
         if form not in self.known:
-            self.known[form] = self.gate.worst(form)
+            self.known[form] = self.test.worst(form)
         return self.known[form]
 
 
 def _through(
     rules: Sequence[Rule], x: sp.Symbol, expression: sp.Expr, at: _Judge
 ) -> tuple[Rewritten, float]:
-    """The form that the rules lead to, and its worst error."""
+    """Return the form that the rules lead to, and its largest error."""
     form: Rewritten = expression
     for rule in rules:
         try:
@@ -154,7 +156,7 @@ def _held(form: Rewritten, lead: int) -> Rewritten:
 def _account(
     rule: Rule, kept: Sequence[Rule], x: sp.Symbol, expression: sp.Expr, at: _Judge
 ) -> Applied:
-    """What the form is without the rule and with it."""
+    """Return the form's cost and error without and with a rule."""
     with_it, without = list(kept), [other for other in kept if other != rule]
     pairs = [_through(rules, x, expression, at) for rules in (without, with_it)]
     before, after = (operations(form) for form, _ in pairs)
@@ -162,24 +164,24 @@ def _account(
 
 
 def decayed(expression: sp.Expr, x: sp.Symbol) -> sp.Expr:
-    """The expression in decaying exponentials, which can be enclosed for large x too."""
+    """Return the expression in decaying exponentials, which can be enclosed for large x too."""
     form: Rewritten = expression
     names = [rule.name for rule in RULES]
     for rule in RULES[: names.index("decay") + 1]:
         form = next(rule.apply(x, form), form)
-    assert isinstance(form, Shape)  # as `decay` gives of every expression
+    assert isinstance(form, Shape)  # as `decay` returns for every expression
     _, value = assembled(form)
     assert isinstance(value, sp.Expr)  # seams come later
     return value
 
 
 def operations(form: Rewritten) -> int:
-    """Operations of a form, the longer branch of a seam."""
+    """Return the number of operations of a form, of the longer branch at a switch point."""
     return max(_operations(form))
 
 
 def _operations(form: Rewritten) -> list[int]:
-    """Operations of every branch."""
+    """Return the number of operations of every branch."""
     steps, value = assembled(form) if isinstance(form, Shape) else ((), form)
     sides = (value.below, value.above) if isinstance(value, Seam) else (Branch((), value),)
     return [
@@ -190,8 +192,8 @@ def _operations(form: Rewritten) -> list[int]:
 
 
 def _reason(expression: sp.Expr, x: sp.Symbol, worst: float) -> str:
-    """What is left wrong, and the first rule that was stopped, with what stopped it."""
-    size = "overflows or has no value" if math.isinf(worst) else f"is off by {worst:.3g} ULP"
+    """Return the remaining inaccuracy, and the first rule that failed, with its reason."""
+    size = "overflows or has no value" if math.isinf(worst) else f"has an error of {worst:.3g} ULP"
     form: Rewritten = expression
     for rule in RULES:
         try:
@@ -200,8 +202,8 @@ def _reason(expression: sp.Expr, x: sp.Symbol, worst: float) -> str:
                 for factor in form.factors:
                     terms_of(factor.value, x)
         except UnreachableError as error:
-            stopped = f"; the rule `{rule.name}` stops as {error}"
+            stopped = f"; the rule `{rule.name}` fails because {error}"
             break
     else:
-        stopped = "; no rule applies to what is left"
-    return f"the rules leave a form of {expression!s:.80} that {size} for some {x} > 0{stopped}"
+        stopped = "; no rule applies to the rest"
+    return f"the rules give a form of {expression!s:.80} that {size} for some {x} > 0{stopped}"

@@ -1,7 +1,7 @@
-"""A sum of c x^k e^(m x) w(x): its normal form, Taylor coefficients and what they leave out.
+"""Sums of c x^k e^(m x) w(x): normal form, Taylor coefficients, truncation errors.
 
-w is 1, or sin, cos or log(1 + .) of a multiple of x. Every formula of the paper is
-made of quotients of such sums.
+w is 1, or sin, cos or log(1 + .) of a multiple of x. Every formula of the paper consists of
+quotients of such sums.
 """
 
 from collections.abc import Iterator, Mapping
@@ -14,11 +14,11 @@ WAVES = {sp.sin: "sin", sp.cos: "cos", log1p: "log1p"}
 
 
 class UnreachableError(ValueError):
-    """An expression that the rules cannot bring into a stable form, with the reason."""
+    """The rules find no stable form of an expression; the message states the reason."""
 
 
 class Key(NamedTuple):
-    """x^power e^(rate x) wave(scale x); no wave is the empty word."""
+    """x^power e^(rate x) wave(scale x); an empty word stands for no wave."""
 
     power: int
     rate: sp.Rational
@@ -33,12 +33,12 @@ ONE = Key(0, sp.Integer(0))
 
 
 def terms_of(expression: sp.Expr, x: sp.Symbol) -> dict[Key, sp.Expr]:
-    """The normal form of a sum.
+    """Return the normal form of a sum.
 
     Raises
     ------
     UnreachableError
-        Naming the part that is no such term.
+        Naming the part that is not such a term.
     """
     if not expression.has(x):
         return {ONE: expression}
@@ -57,7 +57,7 @@ def terms_of(expression: sp.Expr, x: sp.Symbol) -> dict[Key, sp.Expr]:
 
 
 def _function(expression: sp.Expr, x: sp.Symbol) -> dict[Key, sp.Expr]:
-    """A function of a multiple of x."""
+    """Return the wave for a function of a multiple of x."""
     scale = sp.cancel(expression.args[0] / x) if len(expression.args) == 1 else None
     if scale is None or not scale.is_Rational:
         raise UnreachableError(f"{expression} is not a function of a rational multiple of {x}")
@@ -72,7 +72,7 @@ def _function(expression: sp.Expr, x: sp.Symbol) -> dict[Key, sp.Expr]:
         return {Key(0, scale): half, Key(0, -scale): -half}
     if expression.func in WAVES:
         return {Key(0, zero, WAVES[expression.func], scale): sp.Integer(1)}
-    raise UnreachableError(f"no rule knows the function {expression.func.__name__}")
+    raise UnreachableError(f"no rule applies to the function {expression.func.__name__}")
 
 
 def _sum(*parts: Terms) -> dict[Key, sp.Expr]:
@@ -95,25 +95,25 @@ def _product(one: Terms, other: Terms) -> dict[Key, sp.Expr]:
 
 def _times(one: Key, other: Key) -> Key:
     if one.wave and other.wave:
-        raise UnreachableError(f"no rule for the product of {one.wave} and {other.wave}")
+        raise UnreachableError(f"no rule applies to the product of {one.wave} and {other.wave}")
     wave = one if one.wave else other
     return Key(one.power + other.power, one.rate + other.rate, wave.wave, wave.scale)
 
 
 def expression_of(terms: Terms, x: sp.Symbol) -> sp.Expr:
-    """The sum the terms stand for."""
+    """Return the sum that the terms stand for."""
     return sp.Add(*(coefficient * monomial(key, x) for key, coefficient in terms.items()))
 
 
 def monomial(key: Key, x: sp.Symbol) -> sp.Expr:
-    """One term without its coefficient."""
+    """Return one term without its coefficient."""
     functions = {name: function for function, name in WAVES.items()}
     wave = functions[key.wave](key.scale * x) if key.wave else sp.Integer(1)
     return x**key.power * sp.exp(key.rate * x) * wave
 
 
 def coefficient(key: Key, n: int) -> sp.Rational:
-    """Taylor coefficient of x^n of one term: exponential and wave multiplied out."""
+    """Return the Taylor coefficient of x^n of one term: exponential and wave multiplied out."""
     order = n - key.power
     if order < 0:
         return sp.Integer(0)
@@ -138,7 +138,7 @@ def _wave_coefficient(key: Key, order: int) -> sp.Rational:
 
 
 def taylor(terms: Terms) -> Iterator[sp.Expr]:
-    """Taylor coefficients of the sum about 0, from x^0 on, without end."""
+    """Yield the Taylor coefficients of the sum about 0, from x^0 on, without end."""
     n = 0
     while True:
         yield sp.Add(*(c * coefficient(key, n) for key, c in terms.items()))
@@ -146,11 +146,11 @@ def taylor(terms: Terms) -> Iterator[sp.Expr]:
 
 
 def left_out(terms: Terms, n: int, end: sp.Rational) -> sp.Rational:
-    """Bound of what the powers from x^n on add up to, for 0 <= x <= end.
+    """Return a bound of the sum of all powers from x^n on, for 0 <= x <= end.
 
-    Taylor's theorem: e^(m x) times a sine of p x after its first J terms is off by at
-    most ((|m| + |p|) x)^J/J! e^(|m| x), and log(1 + p x), whose terms alternate or add
-    up, by at most those of a geometric series.
+    Taylor's theorem: the error of e^(m x) times a sine of p x after its first J terms is at most
+    ((|m| + |p|) x)^J/J! e^(|m| x); that of log(1 + p x), whose terms alternate or have one sign, is
+    at most that of a geometric series.
     """
     total = sp.Integer(0)
     for key, size in terms.items():

@@ -1,4 +1,4 @@
-"""The range and the error that a stable form may state: those at which its code was tested."""
+"""Range and error that a stable form states: those for which its code was tested."""
 
 import math
 import random
@@ -17,16 +17,16 @@ from derivation.engine.rewrite.terms import UnreachableError
 from derivation.engine.rewrite.watch import derivative, hard_places
 
 ENDS = (1e-150, 1e150)
-"""The range that is tried first."""
+"""The range that is tested first."""
 QUIET = ENOUGH / 2
-"""Towards a place beyond the limit, the range ends where errors [ULP] stay below this."""
+"""Limit of the errors [ULP] at the ends of the range."""
 LEAST_RATIO = 10.0
-"""Upper over lower end; a form that is accurate in less is refused."""
+"""Smallest accepted ratio of the upper to the lower end."""
 ILL = 1e3
-"""Half a condition number from which on a point counts as next to a zero."""
+"""Half a condition number above which a point counts as next to a zero."""
 SHARE = 0.6
-"""Of what the condition number excuses, at most this may be used: functions of NumPy differ in
-their last bits from point to point, and what one point does not use the next one may."""
+"""Largest used part of the error that conditioning allows; NumPy's functions differ in their last
+bits from point to point, so that the next point may need more than the tested one."""
 _NEAR_ZERO, _MOST_ZEROS = 150, 12
 _DIGITS = 25
 _ROUNDS = 8
@@ -39,19 +39,19 @@ Function: TypeAlias = Callable[[np.ndarray], np.ndarray]
 
 @dataclass(frozen=True)
 class CodeCheck:
-    """What a test of the code of a form found.
+    """Result of the test of a form's code.
 
     Parameters
     ----------
     low, high
         Ends of the range, both included.
     limit
-        The error that is stated [ULP beyond half the condition number]: the largest one
-        found, with a margin.
+        The stated error [ULP in addition to half the condition number]: the largest one found,
+        with a margin.
     worst, at
-        The largest error found [ULP beyond half the condition number], and where.
+        The largest error found [ULP in addition to half the condition number], and its point.
     points
-        Number of points in the range at which it was compared.
+        Number of points in the range that were compared.
     """
 
     low: float
@@ -72,7 +72,7 @@ class _Reference:
         self.known: dict[float, tuple[flint.arb, float] | None] = {}
 
     def at(self, point: float) -> tuple[flint.arb, float] | None:
-        """The value, and half the condition number; None if there is no certified value."""
+        """Return the value, and half the condition number; None if there is no certified value."""
         if point not in self.known:
             self.known[point] = self._found(point)
         return self.known[point]
@@ -81,7 +81,7 @@ class _Reference:
         for most in (_LOW_PRECISION, _HIGH_PRECISION):
             for form, slope in self.candidates:
                 if most == _HIGH_PRECISION and not self._finite(form, point):
-                    continue  # beyond the exponents of balls too: no precision helps
+                    continue  # beyond the exponents of balls: more precision does not help
                 value = self._refined(form, point, _DIGITS, most)
                 if value is None:
                     continue
@@ -89,7 +89,7 @@ class _Reference:
                     return value, 0.0
                 steep = self._refined(slope, point, 3, most)
                 if steep is None:
-                    return value, 0.0  # nothing is excused
+                    return value, 0.0  # no conditioning is taken into account
                 with flint.ctx.workprec(64):
                     condition = abs(steep * to_ball(point) / value).abs_upper()
                 return value, float(condition) / 2
@@ -107,10 +107,10 @@ class _Reference:
 
 
 def tested(stable: Stable, function: Function) -> CodeCheck:
-    """Test the code of a form, and find the range and the error that it may state.
+    """Test the code of a form, and return the range and the error that it may state.
 
-    Errors are compared with exact values at random points, next to zeros, overflow and
-    underflow edges of the formula and its parts, next to switch points and at both ends.
+    Errors are computed from exact values at random points, next to zeros, overflow and underflow
+    limits of the formula and its parts, next to switch points, and at both ends.
 
     Parameters
     ----------
@@ -122,7 +122,7 @@ def tested(stable: Stable, function: Function) -> CodeCheck:
     Raises
     ------
     UnreachableError
-        If its error stays within `ENOUGH` in no range worth the name.
+        If its error stays within `ENOUGH` in no useful range.
     """
     reference = _Reference(stable.expression, stable.variable)
     draw = random.Random(str(stable.expression))
@@ -148,12 +148,12 @@ def tested(stable: Stable, function: Function) -> CodeCheck:
 
 
 def stated(worst: float) -> float:
-    """The limit that is stated for a largest error found: a fifth more, rounded up to halves."""
+    """Return the limit that is stated for a largest error: a fifth more, rounded up to halves."""
     return math.ceil(2 * (1.2 * worst + 0.3)) / 2
 
 
 def around(places: Iterable[float]) -> set[float]:
-    """Doubles next to the places, at distances that double."""
+    """Return doubles next to the given numbers, at distances that double."""
     last = ordinal(ENDS[1])
     found: set[float] = set()
     for place in places:
@@ -167,7 +167,7 @@ def around(places: Iterable[float]) -> set[float]:
 
 
 def _random(draw: random.Random, low: float, high: float) -> set[float]:
-    """Doubles of the range by their order, and more where functions bend."""
+    """Return doubles evenly distributed over the range, and more where functions bend."""
     first, last = ordinal(low), ordinal(high)
     found = {from_ordinal(draw.randint(first, last)) for _ in range(_RANDOM)}
     near, far = max(low, 1e-6), min(high, 1e4)
@@ -179,7 +179,7 @@ def _random(draw: random.Random, low: float, high: float) -> set[float]:
 def _next_to_zeros(
     draw: random.Random, reference: _Reference, low: float, high: float
 ) -> set[float]:
-    """Random doubles of the range at all distances from where the condition number is largest."""
+    """Return random doubles at all distances from where the condition number is largest."""
     steep = [
         (known[1], point)
         for point, known in sorted(reference.known.items())
@@ -200,14 +200,14 @@ def _next_to_zeros(
 
 
 def _towards(low: float, high: float) -> set[float]:
-    """Doubles of the range next to its ends."""
+    """Return doubles next to the ends of the range."""
     return {x for x in around([low, high]) if low <= x <= high}
 
 
 def _errors(
     function: Function, reference: _Reference, points: Sequence[float]
 ) -> dict[float, float]:
-    """Errors [ULP beyond half the condition number]; infinite where nothing can be stated."""
+    """Return errors [ULP in addition to half the condition number]; infinite for no value."""
     if not points:
         return {}
     with np.errstate(all="ignore"):
@@ -223,9 +223,9 @@ def _errors(
 
 
 def _range(errors: Sequence[tuple[float, float]]) -> tuple[float, float]:
-    """The largest range between points beyond the limit, its ends moved to where errors are small.
+    """Return the largest range between points beyond the limit, with ends where errors are small.
 
-    Ranges are compared by their ratio of ends within 1e-9 to 1e9, then altogether.
+    Ranges are compared by their ratio of ends within 1e-9 to 1e9, then in total.
     """
     runs: list[list[tuple[float, float]]] = [[]]
     for point, error in errors:
@@ -244,7 +244,7 @@ def _range(errors: Sequence[tuple[float, float]]) -> tuple[float, float]:
 
 
 def _quiet(errors: Sequence[float]) -> int:
-    """How many points to leave out before several in turn are small."""
+    """Return the number of points to omit before several successive errors are small."""
     for start in range(len(errors)):
         if max(errors[start : start + _STILL]) <= QUIET:
             return start
@@ -260,7 +260,7 @@ def _worth(ends: tuple[float, float]) -> tuple[float, float]:
 
 
 def _rounded(end: float, how: Callable[[float], int]) -> float:
-    """An end with few digits, moved inwards."""
+    """Return an end with few digits, moved inwards."""
     if end in ENDS:
         return end
     unit = 10.0 ** (math.floor(math.log10(end)) - _SIGNIFICANT + 1)

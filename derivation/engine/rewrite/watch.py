@@ -1,4 +1,4 @@
-"""Places where a formula is hard to compute: zeros of its parts, overflow and underflow edges."""
+"""Difficult arguments of a formula: zeros of its parts, overflow and underflow limits."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -16,15 +16,15 @@ from derivation.engine.rewrite.stabilise import Stable
 Number = TypeVar("Number", int, float)
 
 BITS = 1100
-"""Enough for differences of two terms down to 1e-150, and for sines of 1e150."""
+"""Bits that suffice for differences of two terms down to 1e-150, and for sines of 1e150."""
 _LARGEST, _SMALLEST, _LEAST = 1024, -1022, -1074
 _SHORT, _MOST_OPERATIONS = 60, 200
 _FIRST, _SPREAD = 30, 30
-"""Of many places, the first ones by size are kept, and so many of the others."""
+"""Numbers of arguments that are kept: the smallest ones, and a selection of the others."""
 
 
 def grid(low: float, high: float) -> list[float]:
-    """Points between which the parts' signs are compared: by decades, and evenly up to 60."""
+    """Return points between which the parts' signs are compared: decades, and evenly up to 60."""
     ends = math.log10(low), math.log10(high)
     steps = 320
     found = {10.0 ** (ends[0] + (ends[1] - ends[0]) * k / steps) for k in range(1, steps)}
@@ -34,7 +34,7 @@ def grid(low: float, high: float) -> list[float]:
 
 
 def parts(stable: Stable) -> list[sp.Expr]:
-    """Parts of formula and form whose signs and sizes matter, derivatives of sums included."""
+    """Return parts of formula and form whose signs and sizes matter, with derivatives of sums."""
     x = stable.variable
     whole = [stable.expression, *_written_out(stable)]
     found: dict[sp.Expr, None] = {}
@@ -51,10 +51,10 @@ def parts(stable: Stable) -> list[sp.Expr]:
 
 
 def derivative(expression: sp.Expr, x: sp.Symbol) -> sp.Expr:
-    """The derivative, found without assumptions on x.
+    """Return the derivative, computed without assumptions on x.
 
-    SymPy asks a function of a positive symbol for its sign by differentiating it again, part by
-    part, which can take hours.
+    To find the sign of a function of a positive symbol, SymPy would differentiate it part by part,
+    which can take hours.
     """
     plain = sp.Dummy()
     found: sp.Expr = sp.diff(expression.xreplace({x: plain}), plain).xreplace({plain: x})
@@ -62,7 +62,7 @@ def derivative(expression: sp.Expr, x: sp.Symbol) -> sp.Expr:
 
 
 def _written_out(stable: Stable) -> Iterator[sp.Expr]:
-    """The values of the form's branches in the variable alone; polynomials stay as they are."""
+    """Return the values of the form's branches in the variable alone, without polynomials."""
     value = stable.value
     sides = (value.below, value.above) if isinstance(value, Seam) else (Branch((), value),)
     for side in sides:
@@ -81,7 +81,7 @@ def _horner(variable: sp.Expr, *coefficients: sp.Expr) -> sp.Expr:
 
 
 def hard_places(stable: Stable, low: float, high: float) -> list[float]:
-    """Doubles next to which a part changes its sign, overflows or underflows; switch points too.
+    """Return doubles next to which a part changes sign, overflows or underflows; switch points too.
 
     Parameters
     ----------
@@ -104,7 +104,7 @@ def hard_places(stable: Stable, low: float, high: float) -> list[float]:
 
 
 def _some(found: list[Number]) -> list[Number]:
-    """The first ones, and the others evenly thinned out."""
+    """Return the first ones, and an even selection of the others."""
     others = found[_FIRST:]
     if len(others) <= _SPREAD:
         return found
@@ -127,7 +127,7 @@ def _enclosed(part: sp.Expr, known: dict[sp.Basic, flint.arb]) -> flint.arb:
 
 
 def _mark(value: flint.arb) -> tuple[int, int]:
-    """Sign, 0 if it is not known, and format class of a value."""
+    """Return sign, 0 if unknown, and format class of a value."""
     if not value.is_finite():
         return 0, 3
     sign = (value > 0) - (value < 0)
@@ -139,7 +139,7 @@ def _mark(value: flint.arb) -> tuple[int, int]:
 
 
 def _change(part: sp.Expr, x: sp.Symbol, below: float, above: float) -> float:
-    """The double at which the mark of a part changes, between two at which it differs."""
+    """Return the double at which the class of a part changes, between two where it differs."""
     first, last = ordinal(below), ordinal(above)
     start = _mark(_enclosed(part, {x: flint.arb(below)}))
     while last - first > 1:

@@ -1,1 +1,1 @@
-"""Plain modules that every generated package starts with, copied as they stand."""
+"""Modules common to all generated packages, copied without change."""

@@ -1,6 +1,6 @@
-"""Arguments in, result out: what every function of this package does with its arrays.
+"""Conversion of arguments and results, common to all functions of this package.
 
-Arithmetic: the types of results, and whether a number is whole.
+Arithmetic: the types of results, and the test for integers.
 """
 
 from collections.abc import Callable
@@ -13,26 +13,26 @@ Double = NDArray[np.float64]
 Function = TypeVar("Function", bound=Callable[..., object])
 
 quiet = np.errstate(over="ignore", under="ignore", divide="ignore")
-"""Decorator of every public function, whatever its caller's settings are.
+"""Decorator of public functions: floating-point settings that do not depend on the caller's.
 
-A value beyond the doubles is rounded to an infinity or to zero, which is no error, and
-so are shares of a value that are too small to count. An invalid operation is one.
+Overflow rounds to infinity and underflow to zero without a warning, since contributions to a
+result may be negligibly small. Invalid operations keep their warning.
 """
 
 
 def in_manifest(
     symbol: str, equation: str = "", domain: str = "", kernel: bool = False
 ) -> Callable[[Function], Function]:
-    """What the manifest says of a function besides its docstring; it changes nothing.
+    """Describe a function for the manifest, in addition to its docstring; it is not changed.
 
     Parameters
     ----------
     symbol
-        How its result is written, in LaTeX.
+        LaTeX symbol of its result.
     equation
         Number of its equation in the paper, if it has one.
     domain
-        Conditions on its arguments, separated by commas; outside it gives NaN.
+        Conditions on its arguments, separated by commas; outside the result is NaN.
     kernel
         Whether it is listed with the printed formulas.
     """
@@ -41,10 +41,10 @@ def in_manifest(
 
 
 def as_doubles(*arguments: ArrayLike) -> tuple[np.dtype, list[Double]]:
-    """Arguments as double arrays, and the type the result is to have.
+    """Return the arguments as arrays of doubles, and the type of the result.
 
-    Float32 in gives float32 out, computed in double; everything else gives
-    double. What is not finite becomes NaN, which every function passes on.
+    If all arguments are float32, so is the result, computed in double precision; otherwise it is
+    double. Infinite arguments become NaN, which every function propagates.
 
     Raises
     ------
@@ -63,7 +63,7 @@ def as_doubles(*arguments: ArrayLike) -> tuple[np.dtype, list[Double]]:
 
 
 def refuse_masked(*arguments: ArrayLike) -> None:
-    """Refuse masked arrays: the mask would be lost, and numbers come back in its place.
+    """Refuse masked arrays, because the mask would be lost and masked numbers would be used.
 
     Raises
     ------
@@ -77,7 +77,7 @@ def refuse_masked(*arguments: ArrayLike) -> None:
 
 
 def whole(count: int, what: str) -> int:
-    """A number of some things as a plain integer.
+    """Return a number of items as a plain integer.
 
     Raises
     ------
@@ -90,7 +90,7 @@ def whole(count: int, what: str) -> int:
 
 
 def inside(arguments: list[Double], *conditions: NDArray[np.bool_]) -> list[Double]:
-    """The arguments where all conditions hold, NaN elsewhere."""
+    """Return the arguments where all conditions are met, NaN elsewhere."""
     holds: NDArray[np.bool_] = np.asarray(True)
     for condition in conditions:
         holds = np.logical_and(holds, condition)
@@ -98,7 +98,7 @@ def inside(arguments: list[Double], *conditions: NDArray[np.bool_]) -> list[Doub
 
 
 def as_result(value: Double, kind: np.dtype) -> np.ndarray:
-    """The value in the type asked for, a scalar for scalar arguments."""
+    """Return the value in the requested type; a scalar if all arguments are scalars."""
     return np.asarray(value, dtype=kind)[()]
 
 
@@ -108,9 +108,9 @@ def patched(
     function: Callable[..., np.ndarray],
     arguments: list[Double],
 ) -> Double:
-    """The value, where a seam's variable lies below it replaced by the function's own there.
+    """Return the value, replaced by the function's own where the variable is below a switch point.
 
-    Called by the function itself, which computes arguments below the seam alone otherwise.
+    The function calls this; for arguments that are all below the switch point it does not.
     """
     if not below.any():
         return value

@@ -1,7 +1,7 @@
-"""Products and roots whose shares may leave the range of doubles though the whole does not.
+"""Products and roots whose factors may leave the range of doubles though the result does not.
 
-Arithmetic: products, quotients and roots of fractions, their exponents of 2 apart; sums that keep
-what rounding drops.
+Arithmetic: products, quotients and roots of mantissas, with exponents of 2 kept separately; sums
+with compensation of rounding errors.
 """
 
 import numpy as np
@@ -11,21 +11,21 @@ from .arrays import Double
 
 Factors = tuple[Double | float, ...]
 ONCE = 512
-"""e^(-v) is applied in one piece up to this v; e^(-745) is the smallest double."""
+"""Largest v for which e^(-v) is applied in one factor; e^(-745) is the smallest double."""
 
 
 def product(factors: Factors, divisors: Factors = ()) -> Double:
-    """The factors' product over that of the divisors."""
+    """Return the product of the factors divided by the product of the divisors."""
     value, power = _split(factors, divisors)
     result: Double = np.ldexp(value, power)
     return result
 
 
 def times(value: Double, *powers: tuple[Double, int]) -> Double:
-    """The value times base^power for every pair, as if only the whole were rounded to a double.
+    """Return value times base^power for every pair, as if only the result were rounded.
 
-    Bases and their powers may leave the range of doubles in between; the shares are
-    multiplied in the order given.
+    Bases and their powers may leave the range of doubles; the factors are multiplied in the
+    given order.
     """
     total, exponent = np.frexp(value)
     for base, power in powers:
@@ -38,14 +38,14 @@ def times(value: Double, *powers: tuple[Double, int]) -> Double:
 
 
 def times_closely(value: Double, *powers: tuple[Double, int]) -> Double:
-    """The same, with what the roundings on the way take from the whole given back in the end."""
+    """Return the same product with compensation of the rounding errors of intermediate products."""
     total, exponent = np.frexp(value)
     rest: Double = np.zeros(())
-    with np.errstate(invalid="ignore"):  # infinities have no rest
+    with np.errstate(invalid="ignore"):  # infinities have no rounding error
         for base, power in powers:
             mantissa, shift = np.frexp(base)
             exponent = exponent + power * shift
-            if (mantissa == 0.5).all():  # powers of two: nothing is rounded
+            if (mantissa == 0.5).all():  # powers of two multiply exactly
                 exponent = exponent - power
                 continue
             own = halves(mantissa)
@@ -64,24 +64,24 @@ def times_closely(value: Double, *powers: tuple[Double, int]) -> Double:
 
 
 def sum_closely(*parts: Double | float) -> Double:
-    """The sum of the parts, the last of them small, as if only the whole were rounded."""
+    """Return the sum of the parts, the last of them small, as if only the result were rounded."""
     total, rest = np.asarray(parts[0]), parts[-1]
     for part in parts[1:-1]:
         before, total = total, total + part
         share = total - before
-        rest = rest + ((before - (total - share)) + (part - share))  # by Knuth, exactly
+        rest = rest + ((before - (total - share)) + (part - share))  # exact (Knuth)
     result: Double = total + rest
     return result
 
 
 def moderate(first: Double, second: Double) -> tuple[Double, Double]:
-    """Both over the power of two above the larger, so that their sums stay in range."""
+    """Return both divided by the power of two above the larger, so that sums stay in range."""
     _, power = np.frexp(np.maximum(np.abs(first), np.abs(second)))
     return np.ldexp(first, -power), np.ldexp(second, -power)
 
 
 def tail(v: Double) -> Double:
-    """What e^(-min(v, ONCE)) lacks of e^(-v), which may underflow alone: as a factor."""
+    """Return e^(min(v, ONCE) - v), the factor by which e^(-min(v, ONCE)) differs from e^(-v)."""
     if not (v > ONCE).any():
         return np.ones(())
     result: Double = np.exp(np.minimum(v, ONCE) - v)
@@ -89,13 +89,13 @@ def tail(v: Double) -> Double:
 
 
 def lost(a: Double, b: Double) -> Double:
-    """The product of two numbers, itself of moderate size, less what it is rounded to."""
-    with np.errstate(invalid="ignore"):  # infinities lose nothing that could be told
+    """Return the rounding error of the product of two numbers of moderate size."""
+    with np.errstate(invalid="ignore"):  # infinities have no rounding error
         return lost_by_halves(halves(a), halves(b), a * b)
 
 
 def lost_by_halves(a: tuple[Double, Double], b: tuple[Double, Double], product: Double) -> Double:
-    """The same by the halves of both (Dekker); its own error is of no account."""
+    """Return the same by halves of both numbers (Dekker); its own error is negligible."""
     (a_high, a_low), (b_high, b_low) = a, b
     missing: Double = a_high * b_high
     missing -= product
@@ -106,13 +106,13 @@ def lost_by_halves(a: tuple[Double, Double], b: tuple[Double, Double], product: 
 
 
 def halves(x: Double) -> tuple[Double, Double]:
-    """The upper and the lower half of a number's digits."""
+    """Return the upper and the lower half of a number's digits."""
     high: Double = (x.view(np.int64) & -(2**27)).view(np.float64)
     return high, x - high
 
 
 def root(degree: int, factors: Factors, divisors: Factors = ()) -> Double:
-    """The square, cube or fifth root of such a product, which is not negative."""
+    """Return the square, cube or fifth root of such a product, which is not negative."""
     result: Double = np.ldexp(*_root(degree, factors, divisors))
     return result
 
@@ -120,14 +120,14 @@ def root(degree: int, factors: Factors, divisors: Factors = ()) -> Double:
 def root_factors(
     degree: int, factors: Factors, divisors: Factors = ()
 ) -> tuple[Double, Double, Double]:
-    """That root as factors, which hold it where it leaves the range of doubles itself."""
+    """Return that root as factors, which represent it even where it leaves the range of doubles."""
     value, power = _root(degree, factors, divisors)
     half = np.clip(power // 2, -1000, 1000)
     return value, np.ldexp(1.0, half), np.ldexp(1.0, np.clip(power - half, -1000, 1000))
 
 
 def _root(degree: int, factors: Factors, divisors: Factors) -> tuple[Double, NDArray[np.intc]]:
-    """The root as a number of moderate size and a power of two."""
+    """Return the root as a number of moderate size and a power of two."""
     value, power = _split(factors, divisors)
     value = np.ldexp(value, power % degree)
     if degree == 2:
@@ -135,12 +135,12 @@ def _root(degree: int, factors: Factors, divisors: Factors) -> tuple[Double, NDA
     elif degree == 3:
         value = np.cbrt(value)
     else:
-        value = value ** (1.0 / degree)  # a number of moderate size, so that this is accurate
+        value = value ** (1.0 / degree)  # accurate, because the number is of moderate size
     return value, power // degree
 
 
 def _split(factors: Factors, divisors: Factors) -> tuple[Double, NDArray[np.intc]]:
-    """The product as a number of moderate size times a power of two."""
+    """Return the product as a number of moderate size times a power of two."""
     value, power = np.frexp(factors[0])
     for factor in factors[1:]:
         mantissa, exponent = np.frexp(factor)

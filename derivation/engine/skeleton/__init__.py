@@ -1,1 +1,1 @@
-"""A small paper to begin with: an elastic film on a rigid base, pressed by p J0(k r)."""
+"""A small paper as a start: an elastic film on a rigid base under the pressure p J0(k r)."""

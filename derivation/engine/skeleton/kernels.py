@@ -1,4 +1,4 @@
-"""What is generated, and in which stable form."""
+"""The generated functions, and their stable forms."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -17,17 +17,17 @@ x = sp.Symbol("x", positive=True)
 COSH_MINUS = Definition(
     "cosh_minus", T, 2 * sp.exp(-T) * (sp.cosh(T) - 1), 2, 2, "2 e^(-T) (cosh T - 1)"
 )
-"""A building block of this paper: it cancels for thin films."""
+"""Return a building block of this paper: it cancels for thin films."""
 
 SCALES = Scales((Scale(T, T, T), Scale(2 * k * H, T, H, k)))
 REWRITTEN = ("F_slipping", "C_slipping")
-"""Formulas whose forms are found by rule."""
+"""Formulas whose forms are found by the rules."""
 
 
 def stated(known: Mapping[str, Block]) -> dict[str, Shape]:
-    """The bonded film's form: 2 (kappa sinh T - T) as two positive parts, as kappa = 1 + 2 s.
+    """Return the bonded film's form: 2 (kappa sinh T - T) as two positive parts, kappa = 1 + 2 s.
 
-    By rule it would lose digits for small s, where the film is nearly incompressible.
+    The form by the rules would lose digits for small s, a nearly incompressible film.
     """
     difference, kappa = known["sinh_minus"], 1 + 2 * s
     above = difference.near(x) ** 3 * difference(x) - 2 * s * expm1(-2 * x)
@@ -38,7 +38,7 @@ def stated(known: Mapping[str, Block]) -> dict[str, Shape]:
 
 
 PRINTING = Printing(
-    summary="Influence coefficients of an elastic film, in NumPy alone.",
+    summary="Influence coefficients of an elastic film: functions that need only NumPy.",
     citation="A film on a rigid base",
     parts=(
         Part("film", "Influence coefficients of a film.", ("F_bonded", "F_slipping", "C_slipping")),

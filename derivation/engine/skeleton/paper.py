@@ -1,4 +1,4 @@
-"""The paper: the one object through which the program knows it."""
+"""The `Paper` object, which the program loads."""
 
 from pathlib import Path
 
@@ -33,7 +33,7 @@ CHAIN = Chain(
 
 
 def easy(point: Point) -> bool:
-    """Whether the second reference takes little time: a film neither very thin nor thick."""
+    """Return whether the second reference is fast: a film that is neither very thin nor thick."""
     v = point.values
     thickness = v["T"] if "T" in v else 2 * v.get("k", 1 / v["H"]) * v["H"]
     return 1e-3 < thickness < 20

@@ -1,4 +1,4 @@
-"""The formulas as a paper might print them; one of them has a misprint."""
+"""The published formulas; one of them contains a misprint."""
 
 import sympy as sp
 
@@ -27,7 +27,7 @@ PRINTED = (
 
 
 def between(_: str, given: Symbols, derived: Symbols, __: Formulas) -> Meanings:
-    """Symbols that follow from others in a comparison: nu from s, and T from k and H."""
+    """Return the dependent symbols of a comparison: nu from s, and T from k and H."""
     used = given | derived
     found = {nu: (1 - s) / 2} if nu in used else {}
     return found | ({T: 2 * k * H} if T in used and {k, H} & used else {})

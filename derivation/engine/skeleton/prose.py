@@ -1,4 +1,4 @@
-"""What the report says."""
+"""Text of the report."""
 
 TITLE = "A film on a rigid base"
 SUBTITLE = "Derivation, misprints, accuracy"
@@ -11,4 +11,4 @@ ABOUT = {
     "film": "Navier's equations leave four constants; two conditions at the base and two on top "
     "determine them.",
 }
-"""By the name of the link."""
+"""Text by the name of the link."""

@@ -1,7 +1,7 @@
-"""The second reference: the film as a system of four differential equations, by mpmath.
+"""The mpmath reference: the film as a system of four differential equations.
 
-Nothing here is taken from the derivation. With k = G = 1 the state (U, W, shear, normal stress)
-obeys y' = A y, so that y at the top is e^(A H) times y at the base.
+Nothing here uses the derivation. With k = G = 1 the state (U, W, shear, normal stress) obeys
+y' = A y, so that y at the top is e^(A H) times y at the base.
 """
 
 from mpmath import matrix, mp, mpf
@@ -9,11 +9,11 @@ from mpmath import matrix, mp, mpf
 from derivation.engine.oracle.agreement import Values
 
 KNOWN = {"bonded": (0, 1), "slipping": (2, 1)}
-"""Places of the state that are zero at the base: U and W, or shear and W."""
+"""Components of the state that are zero at the base: U and W, or shear and W."""
 
 
 def over_half_space(s: mpf, T: mpf, held: str) -> mpf:
-    """Deflection of the top over that of a half-space."""
+    """Return the deflection of the top divided by that of a half-space."""
     a, b = (1 - s) / (1 + s), s / (1 + s)
     system = matrix([[0, 1, 1, 0], [-a, 0, 0, b], [4 / (1 + s), 0, 0, a], [0, 0, -1, 0]])
     through = mp.expm(system * (T / 2))

@@ -1,4 +1,4 @@
-"""Derivation: what a unit pressure p J0(k r) does to a film that is bonded to its base, or slips.
+"""Derivation: a film that is bonded to its base, or slips, under a unit pressure p J0(k r).
 
 The displacements are u = U(z) J1(k r) and w = W(z) J0(k r).
 """
@@ -16,13 +16,13 @@ LAME = G * (1 - s) / s
 
 
 def stresses(U: sp.Expr, W: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
-    """Hooke's law: sigma_zz over J0(k r) and sigma_rz over J1(k r)."""
+    """Return sigma_zz over J0(k r) and sigma_rz over J1(k r), by Hooke's law."""
     dilatation = sp.diff(W, z) + k * U
     return LAME * dilatation + 2 * G * sp.diff(W, z), G * (sp.diff(U, z) - k * W)
 
 
 def balance(U: sp.Expr, W: sp.Expr) -> dict[str, sp.Expr]:
-    """Navier's equations: what is left of the axial and of the radial one."""
+    """Return the residuals of Navier's axial and radial equation."""
     dilatation = sp.diff(W, z) + k * U
     return {
         "axial": G * (sp.diff(W, z, 2) - k**2 * W) + (LAME + G) * sp.diff(dilatation, z),
@@ -32,7 +32,7 @@ def balance(U: sp.Expr, W: sp.Expr) -> dict[str, sp.Expr]:
 
 @cache
 def shapes() -> tuple[sp.Expr, sp.Expr]:
-    """The general solution U, W with four constants."""
+    """Return the general solution U, W with four constants."""
     cosh, sinh = sp.cosh(k * z), sp.sinh(k * z)
     W = (E1 + E2 * z) * cosh + (E3 + E4 * z) * sinh
     a, b, c, d = unknown = sp.symbols("a b c d", real=True)
@@ -50,7 +50,7 @@ def shapes() -> tuple[sp.Expr, sp.Expr]:
 
 
 def closed_forms() -> dict[str, sp.Expr]:
-    """Deflection over that of a half-space, by how the film is held."""
+    """Return the deflection divided by that of a half-space, by the condition at the base."""
     kappa = 1 + 2 * s
     bonded = (2 * kappa * sp.sinh(T) - 2 * T) / (2 * kappa * sp.cosh(T) + 1 + kappa**2 + T**2)
     return {"bonded": bonded, "slipping": (sp.cosh(T) - 1) / (sp.sinh(T) + T)}
@@ -58,7 +58,7 @@ def closed_forms() -> dict[str, sp.Expr]:
 
 @cache
 def film() -> tuple[Formula, ...]:
-    """Influence coefficients of the film, bonded and slipping."""
+    """Return the influence coefficients of the film, bonded and slipping."""
     U, W = shapes()
     normal, shear = stresses(U, W)
     held = {"bonded": ("U at the base", U), "slipping": ("shear at the base", shear)}
@@ -78,7 +78,7 @@ def film() -> tuple[Formula, ...]:
 
 
 def _influence(name: str, conditions: dict[str, sp.Expr]) -> tuple[Formula, Formula]:
-    """The deflection per pressure, and the same over a half-space's."""
+    """Return the deflection per pressure, and the same divided by a half-space's."""
     U, W = shapes()
     e = sp.Symbol("e", positive=True)  # e^(k H), which makes the equations rational
     plain = {sp.cosh(k * H): (e + 1 / e) / 2, sp.sinh(k * H): (e - 1 / e) / 2}
@@ -88,7 +88,7 @@ def _influence(name: str, conditions: dict[str, sp.Expr]) -> tuple[Formula, Form
     deflection = (1 + s) / (2 * G * k) * shape.subs(T, 2 * k * H)
     proof = prove(
         f"Film, {name}",
-        "Navier's equations hold, the constants put into the four conditions fulfil them, and the "
+        "Navier's equations are satisfied, the constants satisfy the four conditions, and the "
         "closed form is the deflection of the top.",
         balance(U, W)
         | {label: left.subs(back) for label, left in conditions.items()}

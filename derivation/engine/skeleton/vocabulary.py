@@ -31,6 +31,6 @@ FILM = Vocabulary(
 
 
 class Formula(Record):
-    """A proven formula of the film."""
+    """A proved formula of the film."""
 
     vocabulary = FILM

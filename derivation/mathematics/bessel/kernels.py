@@ -1,9 +1,9 @@
-"""Turns the theory of J0, J1 and their zeros into the tables their generated code needs.
+"""Tables for the generated code of J0, J1 and their zeros, from the theory.
 
-Below `asymptotic_start` a Taylor polynomial about one of many centres: every zero of
-J0 and of J1 is a centre, held as a sum of two doubles, so that x - centre keeps all
-its digits near the zero. Above it modulus and phase. Every length in here (degree,
-switch points) follows from a bound of what is left out.
+Below `asymptotic_start` a Taylor polynomial about one of many centres is used: every zero of J0 and
+J1 is a centre, stored as a sum of two doubles, so that x - centre keeps its relative accuracy near
+the zero. Above it modulus and phase are used. Degrees and switch points follow from bounds of the
+truncation errors.
 """
 
 from bisect import bisect_left
@@ -41,17 +41,17 @@ from derivation.mathematics.bessel.theory.zeros import (
 )
 
 TOLERANCE = Fraction(1, 2**57)
-"""What truncation may change, relative to the value (absolute for the phase)."""
+"""Allowed truncation error, relative to the value (absolute for the phase)."""
 TERMS = 8
-"""Terms of each asymptotic expansion; the switch points follow from it."""
+"""Number of terms of each asymptotic expansion; the switch points follow from it."""
 CELLS = 16
-"""Seams are multiples of 1/16, so that a cell number floor(16 x) finds the centre exactly."""
+"""Switch points are multiples of 1/16, so that floor(16 x) finds the centre exactly."""
 SPACING = Fraction(17, 20)
-"""Largest distance of neighbouring centres: more centres mean a lower degree."""
+"""Largest distance of neighbouring centres; more centres allow a lower degree."""
 LARGEST_PHASE = 2.0**50
-"""Beyond it the multiple of pi/4 nearest to x is no longer an exact double."""
+"""x beyond which the multiple of pi/4 nearest to x is no longer an exact double."""
 RUNTIME = Path(__file__).parent / "runtime"
-"""Where the functions are written that need these tables."""
+"""Folder of the functions that need these tables."""
 _BITS = 320
 _NEWTON_STEPS = 12
 
@@ -77,16 +77,16 @@ class TaylorTable:
 
 
 def nearest_double(ball: flint.arb) -> float:
-    """The double nearest to every number in the ball.
+    """Return the double nearest to every number in the ball.
 
     Raises
     ------
     ArithmeticError
-        If the ball is too wide to tell.
+        If the ball is too wide for a unique double.
     """
     ends = {float(_fraction(end)) for end in (ball.lower(), ball.upper())}
     if len(ends) != 1:
-        raise ArithmeticError(f"{ball} lies between two doubles")
+        raise ArithmeticError(f"{ball} contains numbers with different nearest doubles")
     return ends.pop()
 
 
@@ -96,12 +96,11 @@ def _fraction(point: flint.arb) -> Fraction:
 
 
 def bessel_zero(order: int, index: int) -> flint.arb:
-    """Ball around the index-th positive zero of J0 or J1, at the precision now set.
+    """Return a ball around the index-th positive zero of J0 or J1, at the current precision.
 
-    Newton's iteration from the leading term of McMahon's expansion; the sign
-    change over the ball certifies a zero. It is the index-th: by Sturm's
-    comparison each interval (n -+ 1/4) pi +- pi/8, minus for J0, holds one zero,
-    and no zero lies elsewhere.
+    Newton's iteration starts from the leading term of McMahon's expansion; a change of sign over
+    the ball certifies a zero. It is the index-th: by Sturm's comparison each interval
+    (n -+ 1/4) pi +- pi/8, minus for J0, contains one zero, and there are no others.
 
     Raises
     ------
@@ -126,12 +125,12 @@ def _value_and_slope(order: int, x: flint.arb) -> tuple[flint.arb, flint.arb]:
 
 
 def first_true(holds: Callable[[int], bool], limit: int = 1 << 12) -> int:
-    """Smallest positive integer from which on a condition holds.
+    """Return the smallest positive integer from which a condition is met.
 
     Raises
     ------
     ArithmeticError
-        If it does not hold up to `limit`.
+        If it is not met up to `limit`.
     """
     found = bisect_left(range(limit), True, lo=1, key=holds)
     if found == limit:
@@ -141,7 +140,7 @@ def first_true(holds: Callable[[int], bool], limit: int = 1 << 12) -> int:
 
 @cache
 def asymptotic_start() -> Fraction:
-    """Smallest multiple of 1/16 where modulus and phase of both orders are within tolerance.
+    """Return the smallest multiple of 1/16 where both orders are within tolerance.
 
     The square root in J halves the relative error of the squared modulus.
     """
@@ -160,10 +159,10 @@ def asymptotic_start() -> Fraction:
 
 @cache
 def mcmahon_start(order: int) -> int:
-    """Smallest index from which the expansions of J_order's zeros are within tolerance.
+    """Return the smallest index from which the expansions of J_order's zeros are within tolerance.
 
-    The zero's remainder is bounded (`zero_bound`). For order 0 the expansion of J1
-    squared there counts too; its remainder is taken to be the first omitted term.
+    The zero's remainder is bounded (`zero_bound`). For order 0 the expansion of J1 squared there is
+    also required; its remainder is taken as the first omitted term.
     """
     quarters, slope = phase_at_zeros(order)[0], slope_squared(TERMS + 1)
 
@@ -177,7 +176,7 @@ def mcmahon_start(order: int) -> int:
 
 
 def centres() -> tuple[flint.arb, ...]:
-    """0, the zeros of J0 and J1 up to the first beyond the asymptotic start, and points between."""
+    """Return 0, the zeros of J0 and J1 up to the first above the start, and points between."""
     start = to_ball(asymptotic_start())
     special, index = [flint.arb(0)], 1
     while special[-1] < start:
@@ -194,13 +193,13 @@ def centres() -> tuple[flint.arb, ...]:
 
 
 def _on_grid(ball: flint.arb) -> Fraction:
-    """A multiple of 1/16 next to the ball: exact as a double."""
+    """Return a multiple of 1/16 next to the ball, which is an exact double."""
     return Fraction(round(float(ball) * CELLS), CELLS)
 
 
 @cache
 def taylor_table() -> TaylorTable:
-    """Centres, seams and the correctly rounded coefficients of J0 and J1."""
+    """Return centres, switch points and the correctly rounded coefficients of J0 and J1."""
     with flint.ctx.workprec(_BITS):
         stop = asymptotic_start()
         points = centres()
@@ -224,11 +223,11 @@ def _rounded(rows: Iterable[Iterable[flint.arb]]) -> tuple[tuple[float, ...], ..
 
 
 def _terms_needed(points: tuple[flint.arb, ...], seams: tuple[Fraction, ...]) -> int:
-    """Number of Taylor terms that is enough on every interval, for J0 and J1.
+    """Return the number of Taylor terms that suffices on every interval, for J0 and J1.
 
-    The remainder t^n/n! max |J0^(n)| (J0^(n+1) for J1) is compared with the value
-    at both ends. That suffices: from an end inwards the remainder shrinks like
-    t^n, the value at most like t (towards a zero at the centre).
+    The remainder t^n/n! max |J0^(n)| (J0^(n+1) for J1) is compared with the value at both ends.
+    This is sufficient: from an end inwards the remainder decreases like t^n, the value at most
+    like t (towards a zero at the centre).
     """
     ends = [
         (to_ball(end) - point, to_ball(end))
@@ -251,7 +250,7 @@ def _terms_needed(points: tuple[flint.arb, ...], seams: tuple[Fraction, ...]) ->
 
 
 def _taylor_of_j0(point: flint.arb, length: int) -> list[flint.arb]:
-    """Taylor coefficients of J0 about a centre; a zero's vanishing coefficient is exactly 0."""
+    """Return Taylor coefficients of J0 about a centre; those that vanish are exactly 0."""
     recurrence = taylor_recurrence()
     if point == 0:
         row = [flint.arb(1), flint.arb(0)]
@@ -268,13 +267,13 @@ def _taylor_of_j0(point: flint.arb, length: int) -> list[flint.arb]:
 
 
 def seams() -> tuple[float, ...]:
-    """Arguments where the generated J0 and J1 change their method or centre, ascending."""
+    """Return arguments where J0 and J1 change their method or centre, ascending."""
     return (*taylor_table().seams, LARGEST_PHASE)
 
 
 @cache
 def low_zeros(order: int) -> tuple[float, ...]:
-    """Zeros of J_order below McMahon's start, correctly rounded."""
+    """Return zeros of J_order below McMahon's start, correctly rounded."""
     with flint.ctx.workprec(_BITS):
         zeros = (bessel_zero(order, index) for index in range(1, mcmahon_start(order)))
         return tuple(nearest_double(zero) for zero in zeros)
@@ -282,23 +281,23 @@ def low_zeros(order: int) -> tuple[float, ...]:
 
 @cache
 def low_slopes() -> tuple[float, ...]:
-    """J1 at the zeros of J0 below McMahon's start, correctly rounded."""
+    """Return J1 at the zeros of J0 below McMahon's start, correctly rounded."""
     with flint.ctx.workprec(_BITS):
         zeros = (bessel_zero(0, index) for index in range(1, mcmahon_start(0)))
         return tuple(nearest_double(zero.bessel_j(flint.arb(1))) for zero in zeros)
 
 
 def _multiples_of_pi() -> tuple[Constant, ...]:
-    """The multiples and powers of pi the code needs, two of them with a second double."""
+    """Return the multiples and powers of pi for the code, two of them with a second double."""
     with flint.ctx.workprec(_BITS):
         pi = flint.arb.pi()
         head, square = nearest_double(pi / 4), nearest_double(8 / pi**2)
         return (
             Constant("QUARTER_PI", head, "pi/4."),
-            Constant("QUARTER_PI_TAIL", nearest_double(pi / 4 - head), "What that lacks of it."),
+            Constant("QUARTER_PI_TAIL", nearest_double(pi / 4 - head), "pi/4 minus that double."),
             Constant("EIGHT_OVER_PI2", square, "8/pi^2."),
             Constant(
-                "EIGHT_OVER_PI2_TAIL", nearest_double(8 / pi**2 - square), "What that lacks of it."
+                "EIGHT_OVER_PI2_TAIL", nearest_double(8 / pi**2 - square), "8/pi^2 minus that."
             ),
             Constant("HALF_PI", nearest_double(pi / 2), "pi/2."),
             Constant("INVERSE_PI", nearest_double(1 / pi), "1/pi."),
@@ -307,7 +306,7 @@ def _multiples_of_pi() -> tuple[Constant, ...]:
 
 
 def wrapped(texts: Iterable[str], width: int = 90) -> tuple[str, ...]:
-    """Items joined by commas into lines no longer than `width`, the last one's comma included."""
+    """Join items by commas into lines no longer than `width`, including the last comma."""
     lines = [""]
     for text in texts:
         if lines[-1] and len(lines[-1]) + len(text) + 2 > width:
@@ -317,13 +316,13 @@ def wrapped(texts: Iterable[str], width: int = 90) -> tuple[str, ...]:
 
 
 def bessel_numbers() -> Numbers:
-    """The tables of J0, J1 and their zeros, each for J0 and J1 in turn where there are two."""
+    """Return the tables of J0, J1 and their zeros, for J0 and J1 in turn where there are two."""
     table = taylor_table()
     both = (0, 1)
     constants = (
         *_multiples_of_pi(),
-        Constant("ASYMPTOTIC_START", table.seams[-1], "x from which on modulus and phase serve."),
-        Constant("LARGEST_PHASE", LARGEST_PHASE, "Up to here n in n pi/4 is an exact double."),
+        Constant("ASYMPTOTIC_START", table.seams[-1], "x above which modulus and phase are used."),
+        Constant("LARGEST_PHASE", LARGEST_PHASE, "x up to which n in n pi/4 is an exact double."),
         Constant(
             "MODULUS",
             tuple(modulus_squared(n, TERMS).coefficients for n in both),
@@ -352,15 +351,15 @@ def bessel_numbers() -> Numbers:
         Constant(
             "FIRST_MCMAHON",
             tuple(mcmahon_start(n) for n in both),
-            "Numbers of the zeros from which on McMahon's expansion serves.",
+            "Indices of the zeros from which McMahon's expansion is used.",
         ),
-        Constant("LOW_ZEROS", tuple(low_zeros(n) for n in both), "The zeros before these."),
-        Constant("LOW_SLOPES", low_slopes(), "J1 at those of J0."),
+        Constant("LOW_ZEROS", tuple(low_zeros(n) for n in both), "The zeros before these indices."),
+        Constant("LOW_SLOPES", low_slopes(), "J1 at those zeros of J0."),
         Constant("CELLS", CELLS, "Every interval ends at a multiple of 1/CELLS."),
-        Constant("SEAMS", table.seams[:-1], "Where the intervals of Taylor's polynomials begin."),
+        Constant("SEAMS", table.seams[:-1], "Starts of the intervals of the Taylor polynomials."),
         Constant("CENTRE_HIGH", table.high, "Their centres, rounded to doubles."),
-        Constant("CENTRE_LOW", table.low, "What these lack of the centres."),
+        Constant("CENTRE_LOW", table.low, "Differences of the centres and these doubles."),
         Constant("TAYLOR", table.rows, "Coefficients about each centre, constant term first."),
     )
-    title = "Numbers of the Bessel functions: expansions, zeros, Taylor polynomials."
+    title = "Constants of the Bessel functions: expansions, zeros, Taylor polynomials."
     return Numbers("bessel_numbers", title, constants)

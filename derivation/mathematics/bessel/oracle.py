@@ -1,14 +1,14 @@
 """Zeros of J0 and J1 as balls, each with a proof that it is the n-th.
 
-y = sqrt(x) J0(x) satisfies y'' + (1 + 1/(4 x^2)) y = 0. The coefficient falls
-towards 1, so by Sturm's comparison consecutive zeros are less than pi apart
-and their spacing grows; j_n - (n - 1/4) pi therefore falls with n, and tends
-to 0 by the asymptotic expansion. Hence 0 < j_n - (n - 1/4) pi <= j_1 - 3 pi/4
-for all n: the intervals (n - 1/4) pi + (0, 1/20) are disjoint and hold one zero
-each, the n-th, once j_1 is known to lie in the first (`first_zero_is_first`).
+y = sqrt(x) J0(x) satisfies y'' + (1 + 1/(4 x^2)) y = 0. The coefficient decreases towards 1, so by
+Sturm's comparison consecutive zeros are less than pi apart and their spacing increases;
+j_n - (n - 1/4) pi therefore decreases with n, and tends to 0 by the asymptotic expansion. Hence
+0 < j_n - (n - 1/4) pi <= j_1 - 3 pi/4 for all n: the intervals (n - 1/4) pi + (0, 1/20) are
+disjoint and contain one zero each, the n-th, if j_1 is known to lie in the first
+(`first_zero_is_first`).
 
-For J1 the coefficient is 1 - 3/(4 x^2) and rises, the spacing falls towards pi, and the
-same holds with the sign turned: the n-th zero lies in (n + 1/4) pi - (0, 1/8).
+For J1 the coefficient is 1 - 3/(4 x^2) and increases, the spacing decreases towards pi, and the
+argument applies with reversed sign: the n-th zero lies in (n + 1/4) pi - (0, 1/8).
 """
 
 from functools import cache
@@ -19,7 +19,7 @@ WIDTH = flint.arb(flint.fmpq(1, 20))
 WIDTH_J1 = flint.arb(flint.fmpq(1, 8))
 _GUARD_BITS = 48
 _START_BITS, _STEP_BITS = 16, 4
-"""Bits that Newton's first step reaches from McMahon's terms, and bits each step is spared."""
+"""Correct bits after Newton's first step from McMahon's terms, and bits that each step loses."""
 
 
 class ZeroError(ArithmeticError):
@@ -28,20 +28,20 @@ class ZeroError(ArithmeticError):
 
 @cache
 def j0_zero(index: int, bits: int) -> flint.arb:
-    """Ball around the index-th positive zero of J0, its relative radius below 2^-bits.
+    """Return a ball around the index-th positive zero of J0, its relative radius below 2^-bits.
 
     Raises
     ------
     ValueError
         If the index is not positive.
     ZeroError
-        If the sign of J0 does not change across the ball, or the ball leaves
-        the interval that belongs to the index.
+        If the sign of J0 does not change across the ball, or the ball leaves the interval of the
+        index.
     """
     if index < 1:
-        raise ValueError(f"zeros of J0 are counted from 1, got {index}")
+        raise ValueError(f"expected an index of at least 1, got {index}")
     if not first_zero_is_first():
-        raise ZeroError("J0 could not be shown to have no zero below 3 pi/4")
+        raise ZeroError("J0 could not be proved to have no zero below 3 pi/4")
     working = bits + _GUARD_BITS
     with flint.ctx.workprec(working):
         left = (index - flint.arb(1) / 4) * flint.arb.pi()
@@ -49,7 +49,7 @@ def j0_zero(index: int, bits: int) -> flint.arb:
         radius = flint.arb(2) ** (-bits - 2)
         low, high = guess - radius, guess + radius
         if not (low > left and high < left + WIDTH):
-            raise ZeroError(f"the ball {guess} is not where zero {index} lies")
+            raise ZeroError(f"the ball {guess} is outside the interval of zero {index}")
         if not low.bessel_j(0) * high.bessel_j(0) < 0:
             raise ZeroError(f"J0 does not change its sign across {guess}")
         return low.union(high)
@@ -57,11 +57,11 @@ def j0_zero(index: int, bits: int) -> flint.arb:
 
 @cache
 def j1_zero(index: int, bits: int) -> flint.arb:
-    """Ball around the index-th positive zero of J1, see `j0_zero`."""
+    """Return a ball around the index-th positive zero of J1, see `j0_zero`."""
     if index < 1:
-        raise ValueError(f"zeros of J1 are counted from 1, got {index}")
+        raise ValueError(f"expected an index of at least 1, got {index}")
     if not first_zero_of_j1_is_first():
-        raise ZeroError("J1 could not be shown to have no zero up to 5 pi/4 - 1/8")
+        raise ZeroError("J1 could not be proved to have no zero up to 5 pi/4 - 1/8")
     with flint.ctx.workprec(bits + _GUARD_BITS):
         right = (index + flint.arb(1) / 4) * flint.arb.pi()
         x = (right - 3 / (8 * right)).mid()
@@ -71,7 +71,7 @@ def j1_zero(index: int, bits: int) -> flint.arb:
         radius = flint.arb(2) ** (-bits - 2)
         low, high = x - radius, x + radius
         if not (high < right and low > right - WIDTH_J1):
-            raise ZeroError(f"the ball {x} is not where zero {index} of J1 lies")
+            raise ZeroError(f"the ball {x} is outside the interval of zero {index} of J1")
         if not low.bessel_j(1) * high.bessel_j(1) < 0:
             raise ZeroError(f"J1 does not change its sign across {x}")
         return low.union(high)
@@ -79,29 +79,29 @@ def j1_zero(index: int, bits: int) -> flint.arb:
 
 @cache
 def j1_at_zero(index: int, bits: int) -> flint.arb:
-    """J1 at the index-th positive zero of J0, its relative radius below 2^-bits.
+    """Return J1 at the index-th positive zero of J0, its relative radius below 2^-bits.
 
-    A ball's relative radius grows on the way through J1 by the argument, about
-    pi times the index: the zero is asked for with as many bits more.
+    J1 multiplies a ball's relative radius by the argument, about pi times the index: the zero is
+    computed with as many additional bits.
 
     Raises
     ------
     ZeroError
-        If the ball is wider than that all the same.
+        If the ball is wider nevertheless.
     """
     working = bits + index.bit_length() + _GUARD_BITS
     with flint.ctx.workprec(working):
         value = j0_zero(index, working).bessel_j(1)
     if value.rel_accuracy_bits() < bits:
-        raise ZeroError(f"J1 at zero {index} is known as {value} only")
+        raise ZeroError(f"J1 at zero {index} is only known as {value}")
     return value
 
 
 def _newton(start: flint.arb, bits: int) -> flint.arb:
-    """Newton's iteration on midpoints: a guess that the caller certifies.
+    """Apply Newton's iteration to midpoints, which gives a guess for the caller to certify.
 
-    An error e becomes e^2/(2 x) or less, so that half of the precision is enough in the
-    step before: all steps together cost little more than the last one.
+    An error e becomes e^2/(2 x) or less, so that half of the precision is sufficient in the step
+    before: all steps together take little more time than the last one.
     """
     precisions = [bits]
     while precisions[-1] > _START_BITS:
@@ -115,7 +115,7 @@ def _newton(start: flint.arb, bits: int) -> flint.arb:
 
 @cache
 def first_zero_is_first() -> bool:
-    """Whether J0 is positive on [0, 2.36], beyond 3 pi/4: shown by balls that cover it.
+    """Prove that J0 is positive on [0, 2.36], beyond 3 pi/4, by balls that cover it.
 
     Zeros there are more than 3 apart (the coefficient is below 1.05), so the
     one found in the first interval is the only one in it, and is j_1.
@@ -129,10 +129,10 @@ def first_zero_is_first() -> bool:
 
 @cache
 def first_zero_of_j1_is_first() -> bool:
-    """Whether J1 is positive on (0, 3.805], beyond 5 pi/4 - 1/8: shown by balls from 2 on.
+    """Prove that J1 is positive on (0, 3.805], beyond 5 pi/4 - 1/8, by balls from 2 on.
 
-    Below 2 the terms of J1 = (x/2) (1 - x^2/8 + ...) alternate and fall, and the first two
-    leave x/2 (1 - 1/2) at least.
+    Below 2 the terms of J1 = (x/2) (1 - x^2/8 + ...) alternate and decrease, and the first two are
+    at least x/2 (1 - 1/2).
     """
     with flint.ctx.workprec(64):
         half = flint.arb(flint.fmpq(1, 2000))

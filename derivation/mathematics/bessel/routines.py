@@ -1,4 +1,4 @@
-"""J0 and J1 far out, J1 at the zeros of J0, as code computes them: proved to be Hankel's form."""
+"""Routines of J0 and J1 at large arguments, and J1 at zeros of J0, proved from Hankel's form."""
 
 import sympy as sp
 
@@ -26,7 +26,7 @@ def _by_sines(expression: sp.Expr) -> sp.Expr:
 
 @named
 def wave() -> Claims:
-    """(-1)^k J where turned + rest is the multiple (4 k + 2 nu - 1) of pi/4."""
+    """Return (-1)^k J where turned + rest is the multiple (4 k + 2 nu - 1) of pi/4."""
     ratio, near, small = sp.symbols("ratio near small", real=True)
     half_turns = (4 * _turns + 2 * nu - 1) * sp.pi / 4
     return Claims(
@@ -44,7 +44,7 @@ def wave() -> Claims:
 
 
 def far(order: int) -> Routine:
-    """Where the modulus' series is 1 and the phase's shift 0."""
+    """Set the modulus series to 1 and the phase shift to 0."""
     sign = 1 - 2 * order
     return routine(
         f"far_{order}",
@@ -52,7 +52,7 @@ def far(order: int) -> Routine:
         (),
         (INVERSE_ROOT_PI * (sp.sin(x) + sign * sp.cos(x)) / sp.sqrt(x),),
         (hankel(order).subs({P: 1, SHIFT: 0}),),
-        f"J{order} where 1/x is below the rounding of 1.",
+        f"Return J{order} where 1/x is below the rounding of 1.",
         NUMBERS,
         _by_sines,
     )
@@ -60,7 +60,7 @@ def far(order: int) -> Routine:
 
 @named
 def slope() -> Claims:
-    """J1 at a zero of J0, beta = quarters pi/4, but for its sign."""
+    """Return |J1| at a zero of J0, beta = quarters pi/4."""
     quarters, excess = sp.symbols("quarters excess", positive=True)
     square = sp.Symbol("square", real=True)
     return Claims(
@@ -74,7 +74,7 @@ def slope() -> Claims:
 
 
 def bessel_kernels() -> Routines:
-    """All of them, printed."""
-    title = "J0 and J1 far out, and J1 at the zeros of J0, proved to be Hankel's form."
+    """Return the module of all routines."""
+    title = "J0 and J1 at large arguments, and J1 at the zeros of J0, proved from Hankel's form."
     made = wave(), far(0), far(1), slope()
     return Routines("bessel_kernels", title, made, {"bessel_numbers": tuple(map(str, NUMBERS))})

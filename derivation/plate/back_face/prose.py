@@ -1,4 +1,4 @@
-"""What the report says of the back face, by link."""
+"""Text of the report about the back face, by link."""
 
 ABOUT = {
     "back face": "The tensile stress is evaluated where bending makes it largest: on the back "

@@ -1,9 +1,8 @@
-"""Oracle 2 of the back face's stress: an integral and residues in mpmath, no sum over modes.
+"""mpmath reference for the stress on the back face: an integral and residues, no modal sum.
 
-F(T) = T g(A T/2) B(T) is integrated from 0 to its end without its pole 6/T; 3 (gamma_E - log 4 eta)
-and the residues at sinh T = +-T, found here by Newton's method, make the plate finite.
-The edge's part is taken from what three Poisson's ratios make of the indentation
-(`edge.route.supported`).
+F(T) = T g(A T/2) B(T) is integrated without its pole 6/T. The term 3 (gamma_E - log 4 eta) and the
+residues at sinh T = +-T, computed here by Newton's method, give the finite plate. The edge term
+follows from the indentation at three Poisson's ratios (`edge.route.supported`).
 """
 
 from mpmath import mp, mpc, mpf
@@ -13,9 +12,9 @@ from derivation.plate.edge.route import supported as edge_routes
 
 
 def far_sum(a: float, h: float, b: float, digits: int = 30) -> mpf:
-    """S for 0 < a < b, digits as asked for where h/b is not much above 1.
+    """Return S for 0 < a < b, to the requested digits where h/b is not much above 1.
 
-    The work goes with a/h.
+    The run time is proportional to a/h.
     """
     with mp.workdps(digits + 15):
         eta, A = mpf(h) / mpf(b), mpf(a) / mpf(h)
@@ -30,7 +29,7 @@ def _weight(T: mpf, A: mpf) -> mpf:
 
 
 def _finite_part(A: mpf) -> mpf:
-    """FP int_0^oo F dT; e^(-T) T^2 is nothing beyond the end."""
+    """Return FP int_0^oo F dT; e^(-T) T^2 is negligible beyond the end."""
     end = mpf(int(2.4 * mp.dps) + 12)
     step = min(mpf(4), 8 / A)
     points = [1 + step * i for i in range(int((end - 1) / step) + 2)]
@@ -50,7 +49,7 @@ def _roots(eta: mpf, A: mpf) -> mpf:
         T = edge_routes.root(n)
         y, z = A * T / 2, T / (2 * eta)
         g = 3 * (mp.sin(y) - y * mp.cos(y)) / y**3
-        # H/J0 at z = i u is (2/(pi i)) K0/I0 at u: nothing of it overflows or cancels.
+        # H/J0 at z = i u is (2/(pi i)) K0/I0 at u, without overflow and cancellation.
         turned = mpc(z.imag, -z.real)
         wave = mp.besselk(0, turned) / mp.besseli(0, turned) * mpc(0, -2) / mp.pi
         share = (-1) ** n * g * (1 + mp.sqrt(1 + T * T)) * wave
@@ -61,10 +60,10 @@ def _roots(eta: mpf, A: mpf) -> mpf:
 
 
 def far_edge(a: float, h: float, b: float, nu: float, digits: int = 30) -> mpf:
-    """What a clamp takes from S.
+    """Return the edge term of S.
 
-    pi/alpha times the edge's part of the indentation is (1 - 2 n eta^2) (B + n C)/eta^3 +
-    (8/3) n^2 D: of n = 0, 1/2, -1/4 its powers, and of these B, C and D.
+    pi/alpha times the edge term of the indentation is (1 - 2 n eta^2) (B + n C)/eta^3 +
+    (8/3) n^2 D: its values at n = 0, 1/2, -1/4 give B, C and D.
     """
     with mp.workdps(digits + 15):
         eta, alpha, n = mpf(h) / mpf(b), mpf(a) / mpf(b), mpf(nu) / (1 - mpf(nu))

@@ -1,31 +1,31 @@
-"""Link 25: the stress on the back face under the axis, where a plate breaks first.
+"""Link 25: the stress on the back face on the axis, the largest tensile stress of a plate.
 
 There S_zz = 0, and a mode's stress sigma_rr = sigma_tt = S_rr - mu g phi^2 = (1 + nu)/2 S_rr, with
-S_rr = -A_j B(T), T = 2 phi h. Under Hertz's pressure of resultant P, H = 2h and alpha = a/b,
+S_rr = -A_j B(T), T = 2 phi h. Under Hertz pressure of resultant P, H = 2h and alpha = a/b,
 
     sigma = (1 + nu) P/(2 pi H^2) S,   S = sum 4 eta^2 g(alpha j) B(2 eta j)/J1^2,
     B = 2 T sinh T/(sinh^2 T - T^2),   g(y) = 3 (sin y - y cos y)/y^3.
 
 In terms of T the sum is 2 eta sum F(2 eta j)/(j J1^2), F(T) = T g(A T/2) B(T), A = a/h. F is odd
-and has the pole 6/T at 0, so that of the contour integral behind the sum over the zeros of J0
-(`contact.theory.split`) the imaginary axes cancel and half circles about 0 leave a logarithm:
+and has the pole 6/T at 0. In the contour integral of the sum over the zeros of J0
+(`contact.theory.split`) the imaginary axes cancel, and half circles around 0 give a logarithm:
 
     S = 1/2 FP int_0^oo F dT + 3 (gamma_E - log 4 eta) + residues at T_n, sinh T_n = +-T_n.
 
-The integral depends on A = a/h alone, the residues die like exp(-Im T_1 (2 - alpha)/(2 eta)),
-Im T_1 = 4.212. A thin plate's S is therefore that of a thicker one of the same a/h and 3 log of
-the quotient of both h/b. Where a is large beside h too, B's power series leaves Kirchhoff's plate,
+The integral depends on A = a/h alone; the residues decay like exp(-Im T_1 (2 - alpha)/(2 eta)),
+Im T_1 = 4.212. A thin plate's S is therefore that of a thicker one with the same a/h plus 3 log of
+the ratio of both h/b. If a is much larger than h, the power series of B gives Kirchhoff's plate,
 
     S = 3 (4/3 - log 2 - log alpha) + (1/2) sum_(k>=0) b_k m_k (2/A)^(2k+2),
     m_k = 3 (-1)^(k+1) (2k)!/(2k - 1),   B = 6/T^2 + sum b_k T^(2k),
 
-an asymptotic series. Link 19's states of stretching and bending add to sigma what they are
-themselves at z = -h: of S they are X_f = sum g [12 (1 + 3 n - n Q)/(j^3 J1) + 8 n eta H/(j^2 J1)],
-of which a simple support adds (1 - nu)/(1 + nu), and a clamp takes
+an asymptotic series. The states of link 19, extension and bending, add their own sigma at z = -h.
+Their part of S is X_f = sum g [12 (1 + 3 n - n Q)/(j^3 J1) + 8 n eta H/(j^2 J1)]; a simple support
+adds (1 - nu)/(1 + nu) times X_f, and a clamped edge subtracts
 
     (3/2) [(1 + 2 chi eta) (1 - 2 alpha^2/5) - s] + 2 n eta^2
 
-with its own chi and s.
+with the chi and s of the clamped edge.
 """
 
 from functools import cache
@@ -76,18 +76,18 @@ _s = sp.Symbol("s", positive=True)
 ONE_AND_NU = (3 * lam + 2 * mu) / (2 * (lam + mu))
 """1 + nu."""
 SCALE = ONE_AND_NU * P / (8 * sp.pi * h**2)
-"""(1 + nu) P/(2 pi H^2), of which the stress is S times."""
+"""(1 + nu) P/(2 pi H^2); the stress is S times this factor."""
 _REDUCED = {a: alpha * b, h: eta * b, phi: j_n / b}
 
 
 def far_function() -> sp.Expr:
-    """B(T) = 2 T sinh T/(sinh^2 T - T^2)."""
+    """Return B(T) = 2 T sinh T/(sinh^2 T - T^2)."""
     return 2 * T * sp.sinh(T) / (sp.sinh(T) ** 2 - T**2)
 
 
 @cache
 def far_factor() -> Formula:
-    """B(T), from the loaded mode's S_rr at z = -h."""
+    """Return B(T), from the loaded mode's S_rr at z = -h."""
     raw = {formula.name: formula.expression for formula in (*mode_shapes(), *modal_stresses())}
     S_rr, S_zz, g_j = (raw[name] for name in ("S_rr", "S_zz", "g_j"))
     value = far_function()
@@ -109,7 +109,7 @@ def far_factor() -> Formula:
     return Formula(
         "far_factor",
         "B(T)",
-        "radial stress of the back face per pressure coefficient, sign turned",
+        "radial stress of the back face per pressure coefficient, with reversed sign",
         value,
         "1",
         "",
@@ -119,27 +119,27 @@ def far_factor() -> Formula:
 
 
 def _mode() -> sp.Expr:
-    """One mode's share of S."""
+    """Return one mode's term of S."""
     face = far_function().subs(T, 2 * eta * j_n)
     return 4 * eta**2 * indentation_kernel(alpha * j_n) * face / J1**2
 
 
 @cache
 def far_stress() -> tuple[Formula, ...]:
-    """One mode of the stress on the back face's centre, and of S."""
+    """Return one mode's term of the stress at the back face's centre, and of S."""
     far_factor()
     stress = -ONE_AND_NU / 2 * A_j * far_function().subs(T, 2 * phi * h)
     stress = stress.subs(A_j, pressure_coefficient().expression)
     share, force = _mode(), contact_radius().expression
     proof = prove(
-        "Stress under the axis",
-        "$A_j$ of Hertz's pressure, $R$ in terms of the force $P$.",
+        "Stress on the axis",
+        "$A_j$ of Hertz pressure, with $R$ expressed by the force $P$.",
         {"stress": (stress - SCALE.subs(P, force) * share).subs(_REDUCED)},
     )
     sources = ("far_factor", "A_j", "P")
     rows = (
         ("far_stress", r"\sigma_{rr}(0, -h)", "largest tensile stress on the back face", "Pa"),
-        ("far_sum", "S", r"the same over $(1 + \nu) P/(8 \pi h^2)$", "1"),
+        ("far_sum", "S", r"largest tensile stress over $(1 + \nu) P/(8 \pi h^2)$", "1"),
     )
     return tuple(
         Formula(
@@ -155,9 +155,9 @@ def far_stress() -> tuple[Formula, ...]:
 
 @cache
 def pole_at_zero() -> Proof:
-    """What a pole c/z of f at 0 adds to the sum over the zeros: c (gamma_E + log(rho/2))/2.
+    """Prove the contribution of a pole c/z of f at 0 to the sum: c (gamma_E + log(rho/2))/2.
 
-    Both contours of `contour` now pass 0 by quarter circles of radius rho, where H/J0 is
+    Both contours of `contour` pass 0 by quarter circles of radius rho, where H/J0 is
     1 +- (2 i/pi) (log(z/2) + gamma_E); the real axis begins at rho.
     """
     contour_with_poles()
@@ -166,7 +166,7 @@ def pole_at_zero() -> Proof:
     integral, principal, total, re, im = sp.symbols("F V S X_r X_i")
 
     def arc(sign: int) -> sp.Expr:
-        """From +-i rho to rho; L = log(rho/2) + gamma_E, dz/z = i dtheta."""
+        """Return the integral from +-i rho to rho; L = log(rho/2) + gamma_E, dz/z = i dtheta."""
         hankel = 1 + sign * 2 * sp.I / sp.pi * (level + sp.I * angle)
         return sp.integrate(sp.expand(c * sp.I * hankel), (angle, sign * sp.pi / 2, 0))
 
@@ -176,24 +176,24 @@ def pole_at_zero() -> Proof:
     (solution,) = sp.solve(sp.expand(upper + lower - sum(poles)), total)
     return prove(
         "Sum over the zeros of J0, with a pole at 0",
-        "Quarter circles about 0; an odd $f$ cancels on the imaginary axes.",
+        "Quarter circles around 0; an odd $f$ cancels on the imaginary axes.",
         {"sum": sp.expand(solution - integral / 2 - c * level / 2 - sp.pi * im)},
     )
 
 
 def odd_weight() -> sp.Expr:
-    """F(T) = T g(A T/2) B(T), 6/T at 0."""
+    """Return F(T) = T g(A T/2) B(T), which tends to 6/T at 0."""
     return T * indentation_kernel(a_ratio * T / 2) * far_function()
 
 
 def _pole_of(weight: sp.Expr) -> sp.Expr:
-    """Residue at T = 0 of an odd weight."""
+    """Return the residue at T = 0 of an odd weight."""
     return sp.limit(weight * T, T, 0)
 
 
 @cache
 def thin_far_face() -> tuple[Formula, Formula]:
-    """S of a thin plate, a function of a/h and a logarithm, and the roots' share that it lacks."""
+    """Return S of a thin plate, a function of a/h and a logarithm, and its correction by roots."""
     pole_at_zero()
     numbering()
     weight, u, sign = odd_weight(), sp.Symbol("u", positive=True), sp.Symbol("s", real=True)
@@ -211,8 +211,8 @@ def thin_far_face() -> tuple[Formula, Formula]:
     expected = finite / 2 + 3 * (sp.EulerGamma - sp.log(4 * eta))
     proof = prove(
         "Back face of a thin plate",
-        "$F$ is odd, $6/T$ at 0; the real axis leaves the finite part, quarter circles the "
-        "logarithm, the poles inside their residues.",
+        "$F$ is odd, $6/T$ at 0; the real axis gives the finite part, quarter circles give the "
+        "logarithm, and the poles inside give their residues.",
         {
             "modes": _mode() - 2 * eta * f / (j_n * J1**2),
             "odd": weight.subs(T, -T) + weight,
@@ -234,19 +234,19 @@ def thin_far_face() -> tuple[Formula, Formula]:
             ("far_sum",), proof, where=where,
         ),
         Formula(
-            "far_sum_roots", r"S - S^{\mathrm{thin}}", "what $S$ of a thin plate leaves out", roots,
+            "far_sum_roots", r"S - S^{\mathrm{thin}}", "correction of $S$ of a thin plate", roots,
             "1", "", ("far_sum", "far_sum_thin"), proof, where=where,
         ),
     )  # fmt: skip
 
 
 WIDE_TERMS = 10
-"""Terms of the series for a much larger than h: at a/h = 20 the next is below 1e-16 of S."""
+"""Number of terms of the series for large a/h: at a/h = 20 the next is below 1e-16 of S."""
 
 
 @cache
 def far_powers(count: int = WIDE_TERMS) -> tuple[sp.Rational, ...]:
-    """b_0, b_1, ... of B = 6/T^2 + sum b_k T^(2k): 2 (sinh T)/T over (sinh^2 T - T^2)/T^4."""
+    """Return b_k of B = 6/T^2 + sum b_k T^(2k): 2 (sinh T)/T over (sinh^2 T - T^2)/T^4."""
     above = [sp.Rational(2, sp.factorial(2 * i + 1)) for i in range(count + 1)]
     below = [sp.Rational(2 ** (2 * i + 3), sp.factorial(2 * i + 4)) for i in range(count + 1)]
     found: list[sp.Rational] = []
@@ -255,29 +255,29 @@ def far_powers(count: int = WIDE_TERMS) -> tuple[sp.Rational, ...]:
     series = sp.series(far_function(), T, 0, 4).removeO()
     prove(
         "Stress factor at T = 0",
-        "The first powers by SymPy's own series.",
+        "The first powers from SymPy's own series.",
         {f"T^{2 * k - 2}": series.coeff(T, 2 * k - 2) - found[k] for k in range(min(3, count + 1))},
     )
     return tuple(found[1:])
 
 
 def moment_of_wave(order: int) -> sp.Rational:
-    """m_k = int_0^oo y^(2k+1) g(y) dy, continued analytically from where it converges."""
+    """Return m_k = int_0^oo y^(2k+1) g(y) dy, continued analytically from where it converges."""
     return 3 * (-1) ** (order + 1) * sp.factorial(2 * order) / (2 * order - 1)
 
 
 @cache
 def wide_far_face() -> Formula:
-    """S where the contact is wide beside the thickness: Kirchhoff's plate and what follows."""
+    """Return S for a wide contact: Kirchhoff's plate and further terms."""
     thin_far_face()
-    # Mellin's transform of g, by int y^(s-1) sin y dy = Gamma(s) sin(pi s/2), alike for cos.
+    # Mellin transform of g, from int y^(s-1) sin y dy = Gamma(s) sin(pi s/2), and similarly cos.
     mellin = 3 * (
         sp.gamma(_s - 3) * sp.sin(sp.pi * (_s - 3) / 2)
         - sp.gamma(_s - 2) * sp.cos(sp.pi * (_s - 2) / 2)
     )
     regular = 3 * sp.gamma(_s + 1) * sp.cos(sp.pi * _s / 2) / ((_s - 1) * (_s - 3))
     constant, powers = sp.Rational(4, 3) - sp.log(2), far_powers()
-    # Of the load, (r/a)^s is on average (3/2) B(1 + s/2, 3/2).
+    # The mean of (r/a)^s over the load is (3/2) B(1 + s/2, 3/2).
     mean = sp.gamma(1 + _s / 2) / sp.gamma(sp.Rational(5, 2) + _s / 2)
     # f = 6 g(alpha z)/z is Kirchhoff's plate: pole 6, FP int g(alpha x)/x dx = C - log alpha.
     finite = sp.diff(regular, _s).subs(_s, 0) - sp.log(alpha)
@@ -298,14 +298,14 @@ def wide_far_face() -> Formula:
     )
     proof = prove(
         "Back face under a wide contact",
-        "Each power of $B$ times $g$, its integral continued analytically (Watson's lemma on "
+        "Each power of $B$ times $g$ is integrated by analytic continuation (Watson's lemma on "
         "the imaginary axis, where $g$ decays); $6/T^2$ alone is Kirchhoff's plate, exactly.",
         residuals,
     )
     return Formula(
         "far_sum_wide",
         r"S^{\mathrm{wide}}",
-        "$S$ of a thin plate where $a$ is much larger than $h$",
+        "$S$ of a thin plate for $a$ much larger than $h$",
         3 * (constant - sp.log(alpha)) + series,
         "1",
         "",
@@ -319,7 +319,7 @@ def wide_far_face() -> Formula:
 
 @cache
 def far_edge() -> Formula:
-    """X_f, by the edge's mean motion: one mode of each state's stress at z = -h."""
+    """Return X_f, by the edge's mean motion: one mode's stress of each state at z = -h."""
     stretching, bending = states()
     mean, turn = (formula.expression for formula in edge_resultants()[:2])
     uniform = [hooke(state.u, state.w).rr.subs(z, -h) for state in (stretching, bending)]
@@ -330,7 +330,7 @@ def far_edge() -> Formula:
     scale = SCALE.subs(P, contact_radius().expression)
     hoop = [hooke(state.u, state.w).tt.subs(z, -h) for state in (stretching, bending)]
     proof = prove(
-        "Edge's part of the back face's stress",
+        "Edge term of the stress on the back face",
         "Hooke's law of both states at $z = -h$, times the modes' mean motion of the edge.",
         {
             "stress": (stress - scale * value).subs(_REDUCED),
@@ -340,7 +340,7 @@ def far_edge() -> Formula:
     return Formula(
         "far_edge",
         r"S_e^{\mathrm{far}}",
-        "what the edge's mean motion takes from $S$",
+        "reduction of $S$ without mean motion of the edge",
         value,
         "1",
         "",
@@ -352,12 +352,12 @@ def far_edge() -> Formula:
 
 @cache
 def far_clamp() -> Formula:
-    """What a clamp takes from S: the stress of the states by which link 19 has it clamped."""
+    """Return the reduction of S by a clamped edge: the stress of the states of link 19."""
     clamp.amplitudes()
     stretching, bending = states()
     E, force = PLANE_STRAIN_MODULUS, contact_radius().expression
     wide, lost = 1 - clamp.HERTZ_MEAN * alpha**2, clamp.depth_lost()
-    # Reciprocity's turn and stretch, by the work of the load on the states.
+    # Rotation and extension from reciprocity, by the work of the load on the states.
     rotation = force * b**2 / 2 * ((1 + 2 * clamp.turn() * eta) * wide - lost)
     rotation /= 2 * sp.pi * b**2 * 2 * E * 2 * h**3 / 3
     strain = force * -stretching.w.subs(z, h) / (2 * sp.pi * b**2 * 2 * E * 2 * h)
@@ -365,16 +365,16 @@ def far_clamp() -> Formula:
     value = sp.Rational(3, 2) * ((1 + 2 * clamp.turn() * eta) * wide - lost) + 2 * RATIO * eta**2
     stress = strain * below[0] - rotation * below[1]
     proof = prove(
-        "Clamp's part of the back face's stress",
-        "Hooke's law of both states at $z = -h$, times what a clamp takes of turn and stretch.",
+        "Reduction of the stress on the back face by a clamped edge",
+        "Hooke's law of both states at $z = -h$, times the suppressed rotation and extension.",
         {"stress": (stress - SCALE.subs(P, force) * value).subs(_REDUCED)},
     )
     return Formula(
-        "far_clamp", r"S_c^{\mathrm{far}}", "what a clamp takes from $S$", value, "1", "",
+        "far_clamp", r"S_c^{\mathrm{far}}", "reduction of $S$ by a clamped edge", value, "1", "",
         ("F_clamp", "far_sum"), proof,
     )  # fmt: skip
 
 
 def far_face() -> tuple[Formula, ...]:
-    """The formulas of the link."""
+    """Return the formulas of the link."""
     return (far_factor(), *far_stress(), *thin_far_face(), wide_far_face(), far_edge(), far_clamp())

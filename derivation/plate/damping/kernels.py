@@ -1,6 +1,6 @@
-"""What damping hands in for the generated package: motions and losses without cancellation.
+"""Routines of damping for the generated package: motion and energy loss without cancellation.
 
-`phase` is omega t, of the undamped oscillator.
+`phase` is omega t of the undamped oscillator.
 """
 
 import sympy as sp
@@ -25,7 +25,7 @@ phase, root, turn, spent, decay = sp.symbols("phase root turn spent decay", posi
 half, sine, cosine, growth, double = sp.symbols("half sine cosine growth double", positive=True)
 swing, speed = sp.symbols("swing speed", real=True)
 TURNED, SPENT = sp.Rational(1, 2), sp.Rational(1, 8)
-"""Where series end: beyond, what they stand for is known to some roundings."""
+"""Limits of the series; beyond them the closed forms are accurate."""
 MEANING: Facts = {phase: omega * t}
 BEGIN = (
     Let(root, sp.sqrt((1 - zeta) * (1 + zeta)), means=ROOT),
@@ -37,13 +37,13 @@ BEGIN = (
 def _series(
     function: sp.Expr, variable: sp.Symbol, begin: int, step: int, end: int
 ) -> list[sp.Expr]:
-    """Coefficients of a function's power series."""
+    """Return the coefficients of a function's power series."""
     found = sp.series(function, variable, 0, end).removeO()
     return [found.coeff(variable, power) for power in range(begin, end, step)]
 
 
 def _reduced(expression: sp.Expr) -> sp.Expr:
-    """Half angles and shifted exponentials as whole ones."""
+    """Replace half angles and shifted exponentials by whole ones."""
     found = expression.replace(expm1, lambda x: sp.exp(x) - 1)
     found = found.replace(
         lambda e: e.is_Pow and e.exp.is_Rational and e.exp.q == 2,
@@ -55,7 +55,7 @@ def _reduced(expression: sp.Expr) -> sp.Expr:
 
 
 def free() -> Routine:
-    """The motion from a displacement and from a velocity on, less the uniform motion."""
+    """Return the motion from an initial displacement and velocity, minus the uniform motion."""
     late, later, gone, less = sp.symbols("late later gone less", positive=True)
     y = sp.Symbol("y", positive=True)
     of_turn = _series(1 - sp.sin(y) / y, y, 2, 2, 18)
@@ -97,14 +97,14 @@ def free() -> Routine:
             sp.diff(moved.rate, q_j) / omega,
             sp.diff(moved.rate, q_rate),
         ),
-        "Free motion: q less q_0 over q_0 and over t q_0', and q' over omega q_0 and over q_0'.",
+        "Return (q - q_0)/q_0 and (q - q_0)/(t q_0'), and q'/(omega q_0) and q'/q_0', free motion.",
         MEANING,
         _reduced,
     )
 
 
 def response() -> Routine:
-    """The factors of Duhamel's integral."""
+    """Return the factors of Duhamel's integral."""
     of = separated()
     return routine(
         "response",
@@ -125,14 +125,14 @@ def response() -> Routine:
             growth * sine,
         ),
         (*of.moved, *of.rate, *of.drive),
-        "Factors of omega g(t - s), a difference, and of g'(t - s), a sum: of t, of t, and of s.",
+        "Return factors of omega g(t - s), a difference, and g'(t - s), a sum: of t, of t, of s.",
         MEANING,
         _reduced,
     )
 
 
 def loss() -> Routine:
-    """What a free motion loses."""
+    """Return the energy loss of a free motion."""
     B, even, odd, fading = sp.symbols("B even odd fading")
     return routine(
         "free_loss",
@@ -153,16 +153,16 @@ def loss() -> Routine:
         ),
         (zeta / 2 * double - (speed * speed + B * B) / 2 * expm1(-2 * spent),),
         (free_motion().lost.subs(q_j, swing / omega).subs(q_rate, speed),),
-        "Energy per mass that a free motion loses, begun with swing = omega q_0 and speed = q_0'.",
+        "Return the energy loss per mass of a free motion, swing = omega q_0 and speed = q_0'.",
         MEANING,
         _reduced,
     )
 
 
 def power() -> Routine:
-    """What a moving oscillator loses in a time."""
+    """Return the rate of energy loss of a moving oscillator."""
     taken = (2 * zeta * omega * q_rate * q_rate,)
-    summary = "Energy per mass and time that an oscillator loses."
+    summary = "Return the energy loss per mass and time of an oscillator."
     return routine("power_lost", (omega, zeta, q_rate), (), taken, (POWER,), summary, {})
 
 
@@ -170,8 +170,8 @@ ROUTINES = free, response, power, loss
 
 
 def damping_kernels() -> Routines:
-    """The damped oscillator, printed."""
-    title = "Damped oscillators: free motion, response to a force and energy lost."
+    """Return the routines of the damped oscillator."""
+    title = "Damped oscillators: free motion, response to a force, and energy loss."
     made = tuple(make() for make in ROUTINES)
     return Routines("damping_kernels", title, made, {"blocks": ("polynomial",)})
 

@@ -1,8 +1,8 @@
-"""What the report says of damping, by link."""
+"""Text of the report about damping, by link."""
 
 ABOUT = {
-    "damping": r"A plate of loss factor $\eta_l = 2 \zeta$ takes energy from each mode. Viscous "
-    "damping at the mode's own frequency takes as much at resonance, and no effect comes before "
-    r"its cause: $q'' + 2 \zeta \omega q' + \omega^2 q = \omega^2 c P$. A force drives the mode "
-    "by Duhamel's integral over $g$.",
+    "damping": r"A plate with the loss factor $\eta_l = 2 \zeta$ dissipates energy in each mode. "
+    "Viscous damping at the mode's own frequency gives the same loss at resonance and is causal: "
+    r"$q'' + 2 \zeta \omega q' + \omega^2 q = \omega^2 c P$. The response to a force is "
+    "Duhamel's integral over $g$.",
 }

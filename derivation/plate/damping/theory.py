@@ -1,21 +1,21 @@
-"""Link 32: modes of a plate with structural damping, exact for each mode.
+"""Link 32: modes of a plate with structural damping, solved exactly for each mode.
 
 A plate of loss factor eta_l = 2 zeta (Cremer, Heckl and Petersson, Structure-Borne Sound, 3rd
 ed. 2005, ch. 4) loses 2 pi eta_l of a mode's largest potential energy in each cycle. Equivalent
-viscous damping at the mode's own frequency keeps this at resonance and is causal, as a complex
-modulus in the time domain is not:
+viscous damping at the mode's own frequency gives the same loss at resonance and is causal, unlike
+a complex modulus in the time domain:
 
     q'' + 2 zeta omega q' + omega^2 q = omega^2 c P.
 
-With w = omega sqrt(1 - zeta^2), q and q' being what they are at t = 0, the response to a unit
+With w = omega sqrt(1 - zeta^2) and initial values q and q' at t = 0, the response to a unit
 impulse and the free motion are
 
     g(t) = exp(-zeta omega t) sin(w t)/w,
     q(t) = exp(-zeta omega t) [q cos(w t) + (q' + zeta omega q) sin(w t)/w],
 
-and by Duhamel's integral a force adds omega^2 c int_0^t g(t - s) P(s) ds. The damping takes
-2 zeta omega q'^2 of the oscillator's (q'^2 + omega^2 q^2)/2; what it takes of a free motion has a
-closed form. A cycle leaves exp(-2 pi zeta/sqrt(1 - zeta^2)) of the amplitude (logarithmic
+and by Duhamel's integral a force adds omega^2 c int_0^t g(t - s) P(s) ds. The damping dissipates
+2 zeta omega q'^2 of the oscillator's (q'^2 + omega^2 q^2)/2; the loss in a free motion has a closed
+form. After one cycle exp(-2 pi zeta/sqrt(1 - zeta^2)) of the amplitude is left (logarithmic
 decrement).
 """
 
@@ -30,13 +30,13 @@ from derivation.plate.vocabulary import Formula, omega, q_j, q_rate, t, zeta
 ROOT = sp.sqrt(1 - zeta**2)
 """Angular frequency of the damped oscillator over that of the undamped one."""
 POWER = 2 * zeta * omega * q_rate**2
-"""What damping takes per modal mass and time."""
+"""Power dissipated by damping, per modal mass."""
 DECAY, COS, SIN = sp.symbols("decay cosine sine", positive=True)
 _root, _since, _push = sp.symbols("root since push", positive=True)
 
 
 class FreeMotion(NamedTuple):
-    """Displacement and velocity of a damped oscillator, and the energy lost per mass [m^2/s^2]."""
+    """Displacement and velocity of a damped oscillator, and the energy loss per mass [m^2/s^2]."""
 
     q: sp.Expr
     rate: sp.Expr
@@ -44,17 +44,17 @@ class FreeMotion(NamedTuple):
 
 
 def impulse_response() -> sp.Expr:
-    """Displacement after a unit change of the velocity."""
+    """Return the displacement after a unit change of the velocity."""
     return sp.exp(-zeta * omega * t) * sp.sin(omega * ROOT * t) / (omega * ROOT)
 
 
 @cache
 def free_motion() -> FreeMotion:
-    """Motion from a displacement and a velocity on, without force."""
+    """Return the free motion from an initial displacement and velocity."""
     g = impulse_response()
     q = q_j * (sp.diff(g, t) + 2 * zeta * omega * g) + q_rate * g
     x = omega * q_j
-    # q' is the real part of C exp((-zeta + i root) omega t), whose square is integrated.
+    # q' is the real part of C exp((-zeta + i root) omega t); its square is integrated.
     B = (x + zeta * q_rate) / ROOT
     even, odd = q_rate**2 - B**2, 2 * q_rate * B
     fading = sp.exp(-2 * zeta * omega * t)
@@ -66,7 +66,7 @@ def free_motion() -> FreeMotion:
 
 
 def in_turns(expression: sp.Expr) -> sp.Expr:
-    """A polynomial in exp(-zeta omega t) and the sine and cosine of w t; 0 if it vanishes."""
+    """Return a polynomial in exp(-zeta omega t), sin(w t) and cos(w t), zero if it vanishes."""
     found = sp.expand_trig(expression.subs(ROOT, _root))
     found = sp.expand(found, power_exp=False)
     phase = omega * _root * t
@@ -80,15 +80,15 @@ def in_turns(expression: sp.Expr) -> sp.Expr:
 
 
 def _equation(q: sp.Expr) -> sp.Expr:
-    """The left side of the oscillator's equation."""
+    """Return the left side of the oscillator's equation."""
     return sp.diff(q, t, 2) + 2 * zeta * omega * sp.diff(q, t) + omega**2 * q
 
 
 class Separated(NamedTuple):
-    """omega g(t - s) as a difference and g'(t - s) as a sum of two products, of t and of s.
+    """Return omega g(t - s) as a difference and g'(t - s) as a sum of two products, of t and of s.
 
-    The response of all times to a force at all times is then a product of matrices. The factors
-    of s grow, and stay small if t counts from a time shortly before.
+    The response at all times to a force at all times is then a product of matrices. The factors
+    of s increase, but stay moderate if t is counted from a time shortly before.
     """
 
     moved: tuple[sp.Expr, sp.Expr]
@@ -98,7 +98,7 @@ class Separated(NamedTuple):
 
 @cache
 def separated() -> Separated:
-    """The factors: of displacement, of velocity, and of the force."""
+    """Return the factors of displacement, of velocity, and of the force."""
     phase, decay = omega * ROOT * t, sp.exp(-zeta * omega * t)
     cosine, sine, ratio = decay * sp.cos(phase), decay * sp.sin(phase), zeta / ROOT
     found = Separated(
@@ -123,14 +123,14 @@ def separated() -> Separated:
 
 @cache
 def oscillator() -> Proof:
-    """The free motion and the response to an impulse, put into the equation."""
+    """Prove the free motion and the response to an impulse by inserting them into the equation."""
     g, free = impulse_response(), free_motion()
     start = {t: 0}
     # d/dt of int_0^t g(t - s) P(s) ds is g(0) P(t) + int g'(t - s) P(s) ds.
     return prove(
         "Damped oscillator",
-        "Both are put into the equation and taken at $t = 0$. Duhamel's integral solves it, as "
-        "its second derivative is $g'(0) P$ and the integral over $g''$.",
+        "Both are inserted into the equation and evaluated at $t = 0$. Duhamel's integral solves "
+        "it, because its second derivative is $g'(0) P$ plus the integral over $g''$.",
         {
             "impulse": in_turns(_equation(g)),
             "from rest": g.subs(start),
@@ -145,7 +145,7 @@ def oscillator() -> Proof:
 
 @cache
 def dissipation() -> Proof:
-    """The energy that the damping takes, of any motion and of a free one."""
+    """Prove the energy loss by damping, for any motion and for a free one."""
     free, q = free_motion(), sp.Function("q")(t)
     rate = sp.diff(q, t)
     energy = (rate**2 + omega**2 * q**2) / 2
@@ -156,10 +156,10 @@ def dissipation() -> Proof:
     cycle = 2 * sp.pi / (omega * ROOT)
     left = free.q.subs(t, cycle) / q_j
     return prove(
-        "Energy taken by damping",
-        "The energy's rate with the oscillator's equation. Of a free motion what is taken grows "
-        "by $2 \\zeta \\omega q'^2$ and is what the energy has lost. After a cycle the motion "
-        "is the same, smaller by the decrement.",
+        "Energy loss by damping",
+        "The rate of the energy follows from the oscillator's equation. In a free motion the loss "
+        "grows by $2 \\zeta \\omega q'^2$ and equals the decrease of the energy. After one cycle "
+        "the motion is the same, reduced by the decrement.",
         {
             "rate": sp.expand(flow - _push * rate + POWER.subs(q_rate, rate)),
             "growth": in_turns(sp.diff(free.lost, t) - POWER.subs(q_rate, free.rate)),
@@ -171,12 +171,12 @@ def dissipation() -> Proof:
 
 
 def damping() -> tuple[Formula, ...]:
-    """The formulas of the link."""
+    """Return the formulas of the link."""
     motion, energy, free = oscillator(), dissipation(), free_motion()
     separated()
     return (
         Formula(
-            "damped_response", "g(t)", "displacement of a damped mode by a unit impulse",
+            "damped_response", "g(t)", "displacement of a damped mode due to a unit impulse",
             impulse_response(), "s", "", (), motion,
         ),
         Formula(
@@ -184,7 +184,7 @@ def damping() -> tuple[Formula, ...]:
             ("damped_response",), motion,
         ),
         Formula(
-            "damped_loss", "D_j(t)", "energy per modal mass that damping takes of a free mode",
+            "damped_loss", "D_j(t)", "energy loss per modal mass of a damped free mode",
             free.lost, "m^2/s^2", "", ("damped_motion",), energy,
         ),
     )  # fmt: skip

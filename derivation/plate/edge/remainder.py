@@ -1,20 +1,20 @@
-"""What the edge's law leaves out: measured against three-dimensional elasticity.
+"""Model error of the edge corrections, measured against three-dimensional elasticity.
 
-Modes and polynomial states together satisfy everything but the conditions on the rim, pointwise.
-The remainder is an elastic field without load on the faces, driven by the rim alone, and smooth
-inside: spectral elements find it, with Hertz's pressure nowhere in them. On the rim
-r = b
+Modes and polynomial states together satisfy all conditions except those on the edge r = b,
+which hold in the mean only. The remainder is an elastic field without load on the faces, driven by
+the edge alone and smooth inside. Spectral elements compute it; Hertz pressure does not enter.
+The edge conditions of the remainder are
 
     supported   w = 0,  sigma_rr = 0:   traction -sigma_rr and displacement -w of what is there,
     clamped     u = w = 0:              displacements -u and -w of what is there,
 
-both for the whole rim, not for its middle plane or in the mean. The deflection of the loaded
-face's centre by both, less what the law says, over delta, is the model's error.
+both on the whole edge, not only in the middle plane or in the mean. The model error is the
+centre deflection of the contact face by both, minus the law's value, divided by delta.
 
-Elements are Gauss-Lobatto-Legendre of one degree, the mesh graded geometrically towards the
-rim and its two corners, where a clamp is singular. Convergence is shown by another degree and
-by another layer of elements. `python -m derivation.plate.edge.remainder`
-measures anew, with SciPy, in minutes.
+The Gauss-Lobatto-Legendre elements all have one degree. The mesh is graded geometrically towards
+the edge and its two corners, where a clamp is singular. Another degree and another layer of
+elements show convergence. `python -m derivation.plate.edge.remainder` repeats the computation with
+SciPy in minutes.
 """
 
 import dataclasses
@@ -38,14 +38,14 @@ from generated.pressure import A_j
 Double = NDArray[np.float64]
 SUPPORTS = ("supported", "clamped")
 MODES = 6000
-"""Modes in u at the rim; on the loaded face their sum converges like their number^(-3/2)."""
+"""Number of modes in u at the edge; on the contact face the sum converges like N^(-3/2)."""
 SIZES = (0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0)
 """h/b."""
 POISSON = (-0.5, 0.0, 0.2, 0.3, 0.45)
 WIDTHS = (0.01, 0.1, 0.3)
 """a/b."""
 RADIUS = 1e3
-"""The sphere's, over the plate's: the ratio does not depend on it."""
+"""Sphere radius over plate radius: the relative error does not depend on it."""
 
 
 @dataclass(frozen=True)
@@ -64,19 +64,19 @@ class RemainderCase:
 
 @dataclass(frozen=True)
 class RemainderMesh:
-    """Degree of the elements, and how many layers are graded towards rim and corners."""
+    """Degree of the elements, and number of layers graded towards edge and corners."""
 
     degree: int = 8
     layers: int = 5
 
 
 MESHES = (RemainderMesh(), RemainderMesh(degree=6), RemainderMesh(layers=4))
-"""The one that is believed, and two that say how far."""
+"""The mesh that is used, and two meshes that show its error."""
 
 
 @cache
 def lobatto(degree: int) -> tuple[Double, Double, Double]:
-    """Gauss-Lobatto-Legendre nodes and weights on [-1, 1], and the matrix of derivatives."""
+    """Return Gauss-Lobatto-Legendre nodes, weights and differentiation matrix on [-1, 1]."""
     from scipy.special import eval_legendre, roots_jacobi
 
     nodes = np.concatenate(([-1.0], roots_jacobi(degree - 1, 1, 1)[0], [1.0]))
@@ -91,13 +91,13 @@ def lobatto(degree: int) -> tuple[Double, Double, Double]:
 
 
 def heights(h: float, layers: int) -> Double:
-    """Ends of the elements over the thickness, halved towards both faces."""
+    """Return the element boundaries over the thickness, halved towards both faces."""
     steps = h * 0.5 ** np.arange(layers + 1)
     return np.concatenate((-h + np.append(0.0, steps[::-1]), h - steps[1:], [h]))
 
 
 def radii(h: float, layers: int) -> Double:
-    """Ends of the elements along r: halved towards the rim, growing towards the axis."""
+    """Return the element boundaries along r: halved towards the edge, growing towards the axis."""
     steps = [min(h, 1.0) * 0.5**k for k in range(layers, -1, -1)]
     while steps[-1] < 1.0:
         steps.append(min(steps[-1] + max(h, 0.5 * steps[-1]), 1.0))
@@ -107,19 +107,19 @@ def radii(h: float, layers: int) -> Double:
 
 
 def rim_displacement(case: RemainderCase, a: float, z: Double, modes: int = MODES) -> Double:
-    """u(b, z) of the modes, their number bounded."""
+    """Return u(b, z) of a limited number of modes."""
     j = bessel_j0_zeros(modes)
     slope = bessel_j1_at_j0_zeros(modes)
     A = A_j(j, 1.0, RADIUS, a, case.lam, 1.0, slope)
     shapes = mode_g(z[:, None], j, case.h, case.lam, 1.0, A)
     terms: Double = shapes * j * slope
-    # The last term halved: the sum alternates.
+    # The last term is halved, because the sum alternates.
     total: Double = terms.sum(axis=1) - 0.5 * terms[:, -1]
     return total
 
 
 def moments(u: Double, z: Double, weights: Double, h: float) -> tuple[float, float]:
-    """Mean strain e = u/b and rotation k of the rim."""
+    """Return mean strain e = u/b and rotation k of the edge."""
     return float(weights @ u) / (2.0 * h), float(weights @ (u * z)) * 1.5 / h**3
 
 
@@ -134,23 +134,23 @@ class Field:
         self.z, self.rim_weights = self._rim()
 
     def _rim(self) -> tuple[Double, Double]:
-        """Heights of the rim's nodes and their quadrature weights."""
+        """Heights of the nodes on the edge and their quadrature weights."""
         nodes, weights, _ = lobatto(self.degree)
         z, w = np.zeros(self.rows), np.zeros(self.rows)
         for k, (low, high) in enumerate(zip(self.z_ends[:-1], self.z_ends[1:], strict=True)):
             place = slice(k * self.degree, (k + 1) * self.degree + 1)
             z[place] = (low + high) / 2 + (high - low) / 2 * nodes
             w[place] += (high - low) / 2 * weights
-        # A node on a face may not come to lie beyond it by rounding.
+        # Rounding must not move a node on a face beyond it.
         return np.clip(z, -self.case.h, self.case.h), w
 
     def number(self, column: NDArray[Any], row: NDArray[Any], part: int) -> NDArray[Any]:
-        """Number of an unknown: u (0) or w (1) at a node."""
+        """Return the index of an unknown: u (0) or w (1) at a node."""
         found: NDArray[Any] = 2 * (column * self.rows + row) + part
         return found
 
     def stiffness(self) -> Any:
-        """The sparse matrix of the strain energy, 2 pi left out."""
+        """Sparse matrix of the strain energy without the factor 2 pi."""
         from scipy import sparse
 
         rows, columns, values = [], [], []
@@ -165,7 +165,7 @@ class Field:
         return sparse.csc_matrix(entries, shape=(size, size))
 
     def _element(self, i: int, k: int) -> tuple[Double, NDArray[Any]]:
-        """An element's matrix and the numbers of its unknowns."""
+        """Return an element's matrix and the indices of its unknowns."""
         nodes, weights, slope = lobatto(self.degree)
         (left, right), (low, high) = self.r_ends[i : i + 2], self.z_ends[k : k + 2]
         count = nodes.size
@@ -174,7 +174,7 @@ class Field:
         by_r = np.kron(slope * 2 / (right - left), one)
         by_z = np.kron(one, slope * 2 / (high - low))
         area = np.kron(weights * r * (right - left) / 2, weights * (high - low) / 2)
-        # u/r at r = 0 is du/dr, u being odd.
+        # u/r at r = 0 is du/dr, because u is odd.
         over_r = np.diag(np.kron(1.0 / np.where(r > 0, r, 1.0), np.ones(count)))
         on_axis = np.kron(r == 0, np.ones(count, dtype=bool))
         over_r[on_axis] = by_r[on_axis]
@@ -192,9 +192,9 @@ class Field:
         return block, numbers
 
     def depths(self, widths: Sequence[float], *, states: bool = True) -> list[float]:
-        """What a support adds to the paper's edge's indentation, by a/b: -w of the face's centre.
+        """Return what a support adds to the indentation, by a/b: -w at the face's centre.
 
-        The polynomial states carry most of it; without them the elements have to find all.
+        The polynomial states carry most of it; without them the elements must compute all.
         """
         from scipy.sparse.linalg import splu
 
@@ -206,7 +206,7 @@ class Field:
         fixed = np.concatenate((axis, *held))
         free = np.setdiff1d(np.arange(size), fixed)
         rows = matrix[free]
-        # The matrix is symmetric and positive: no pivoting.
+        # The matrix is symmetric and positive definite: no pivoting is needed.
         solver = splu(
             rows[:, free].tocsc(),
             permc_spec="MMD_AT_PLUS_A",
@@ -224,7 +224,7 @@ class Field:
         return [share - float(one[top]) for share, one in zip(known, found, strict=True)]
 
     def _of_states(self, a: float) -> float:
-        """What the states add, -w of the loaded face's centre."""
+        """Return the contribution of the states, -w at the contact face's centre."""
         case = self.case
         e, k = moments(rim_displacement(case, a, self.z), self.z, self.rim_weights, case.h)
         thinning = case.lam / (case.lam + 2.0)
@@ -232,7 +232,7 @@ class Field:
         return w if case.support == "clamped" else -(1.0 - case.nu) / (1.0 + case.nu) * w
 
     def _given(self, a: float, states: bool) -> tuple[Double, Double, Double]:
-        """Traction, u and w on the rim, what the support leaves open being 0."""
+        """Return traction, u and w on the edge; components that the support leaves free are 0."""
         case, z = self.case, self.z
         u = rim_displacement(case, a, z)
         e, k = moments(u, z, self.rim_weights, case.h) if states else (0.0, 0.0)
@@ -246,14 +246,14 @@ class Field:
 
 
 def added(case: RemainderCase, a: float) -> tuple[float, float]:
-    """What the law adds to the indentation on the paper's edge, and both together."""
+    """Return the law's addition to the indentation with the paper's edge, and their sum."""
     edge = {"supported": supported_edge, "clamped": clamped_edge}[case.support]
     more = float(edge(a, case.h, 1.0, case.lam, 1.0)) * a**2 / RADIUS
     return more, more + float(indentation(a, RADIUS, case.h, 1.0))
 
 
 def remainders(case: RemainderCase, mesh: RemainderMesh) -> list[float]:
-    """What the law leaves out, as a share of the indentation, by a/b."""
+    """Return the model error of the law relative to the indentation, by a/b."""
     depths = Field(case, mesh).depths(WIDTHS)
     laws = [added(case, a) for a in WIDTHS]
     return [(depth - more) / whole for depth, (more, whole) in zip(depths, laws, strict=True)]
@@ -262,7 +262,7 @@ def remainders(case: RemainderCase, mesh: RemainderMesh) -> list[float]:
 def rows(
     sizes: Sequence[float] = SIZES, poisson: Sequence[float] = POISSON
 ) -> list[dict[str, object]]:
-    """Every case: the remainder, and how it changes with degree and layers."""
+    """Yield every case: the remainder, and how it changes with degree and layers."""
     found: list[dict[str, object]] = []
     for support, h, nu in itertools.product(SUPPORTS, sizes, poisson):
         case = RemainderCase(support, h, nu)
@@ -277,7 +277,7 @@ def rows(
 
 
 def text() -> str:
-    """All rows as JSON, with what they were made."""
+    """Return all rows as JSON, with their settings."""
     import scipy
 
     provenance = {"numpy": np.__version__, "scipy": scipy.__version__, "modes": MODES}

@@ -1,23 +1,23 @@
-"""Elastic constants of a clamped end: measured on a strip in plane strain.
+"""Elastic constants of a clamped edge, computed for a strip in plane strain.
 
-Near its edge a thin plate is a semi-infinite strip x <= 0, |z| <= 1. Clamped at x = 0, u = w = 0,
-it does not bend as a plate theory says: the clamp also forbids the strip's thinning. With unit
-curvature far away and n = nu/(1 - nu) the strip's exact state is
+Near its edge a thin plate is a semi-infinite strip x <= 0, |z| <= 1. If it is clamped at x = 0,
+u = w = 0, it does not bend as in plate theory, because the clamp also prevents thinning. With unit
+curvature far away and n = nu/(1 - nu), the exact state of the strip is
 
     u = x z,  w = -x^2/2 - n z^2/2,
 
-and a field v, without load on the faces and without force and moment, has v = (0, n z^2/2) at
-x = 0. Far from the end v is a rigid motion u = theta z, w = n level - theta x:
+plus a field v, without load on the faces and without force and moment, that has
+v = (0, n z^2/2) at x = 0. Far away v is a rigid motion u = theta z, w = n level - theta x:
 
     turn     theta/n^2, so that psi = chi eta psi' for the plate's rotation, chi = n^2 turn
-    level    deflection of the middle plane at the edge; 1/6 if w were 0 in the mean
+    level    deflection of the middle plane at the edge; 1/6 if the mean of w were 0
 
-A shear force bulges the end of a simply supported strip by u ~ (2 + n)/3 (z^3 - 3 z/5); the clamp
-takes this away and leaves the level that is recorded as `shear`, times 4: what it adds to the
-plate's indentation, in units of P b^2/(16 pi D) eta^3.
+A shear force bulges the end of a simply supported strip by u ~ (2 + n)/3 (z^3 - 3 z/5). A clamp
+suppresses this bulge, which leaves the deflection recorded as `shear`, times 4: its contribution to
+the plate's indentation in units of P b^2/(16 pi D) eta^3.
 
-Elements, mesh and its grading are those of `remainder`.
-`python -m derivation.plate.edge.strip` measures anew, in minutes.
+Elements, mesh and grading are those of `remainder`. `python -m derivation.plate.edge.strip` repeats
+the computation in minutes.
 """
 
 import dataclasses
@@ -30,15 +30,15 @@ from derivation.engine.outputs import sorted_json
 from derivation.plate.edge.remainder import Double, RemainderMesh, heights, lobatto
 
 LENGTH = 6.0
-"""Of the strip, over its half-thickness: what decays goes with e^(-3.75 x) at least."""
+"""Length of the strip over its half-thickness: end effects decay at least like e^(-3.75 x)."""
 THINNINGS = (-0.49, -0.4, -1 / 3, -1 / 6, -0.05, 0.05, 1 / 9, 0.25, 3 / 7, 2 / 3, 9 / 11, 0.96)
-"""n; nu = n/(1 + n) from -0.96 to 0.49."""
+"""n; nu = n/(1 + n) ranges from -0.96 to 0.49."""
 MESHES = (RemainderMesh(9, 9), RemainderMesh(7, 9), RemainderMesh(9, 7))
-"""The one that is used, and two that say how far."""
+"""The mesh that is used, and two meshes that show its error."""
 
 
 class Strip:
-    """The strip's finite elements for one n, shear modulus 1."""
+    """The strip's finite elements for one n, with shear modulus 1."""
 
     def __init__(self, n: float, mesh: RemainderMesh) -> None:
         from scipy import sparse
@@ -82,7 +82,7 @@ class Strip:
         return z
 
     def _element(self, i: int, k: int) -> tuple[Double, np.ndarray]:
-        """An element's matrix and the numbers of its unknowns."""
+        """Return an element's matrix and the indices of its unknowns."""
         nodes, weights, slope = lobatto(self.degree)
         (left, right), (low, high) = self.x_ends[i : i + 2], self.z_ends[k : k + 2]
         one, lam = np.eye(nodes.size), 2.0 * self.n / (1.0 - self.n)
@@ -100,7 +100,7 @@ class Strip:
         return block, np.concatenate((first, first + 1))
 
     def rigid(self, u: Double, w: Double) -> tuple[float, float]:
-        """Turn and level, far away, of the field with this displacement at x = 0."""
+        """Return turn and level, far away, of the field with this displacement at x = 0."""
         values = np.zeros(self.size)
         values[self.clamped], values[self.clamped + 1] = u, w
         values[self.free] = self.solver.solve(-(self.matrix @ values))
@@ -109,7 +109,7 @@ class Strip:
         return float(turn), float(values[middle + 1] + turn * self.x_ends[0])
 
     def constants(self) -> tuple[float, float, float]:
-        """Turn, level and shear."""
+        """Return turn, level and shear."""
         turn, level = self.rigid(0.0 * self.z, self.z**2 / 2)
         bulge = (2 + self.n) / 3 * (self.z**3 - 3 * self.z / 5)
         return turn / self.n, level, 4.0 * self.rigid(bulge, 0.0 * self.z)[1]
@@ -118,7 +118,7 @@ class Strip:
 def rows(
     thinnings: Sequence[float] = THINNINGS, meshes: Sequence[RemainderMesh] = MESHES
 ) -> list[dict[str, float]]:
-    """Every n: its constants, and by how much another mesh changes them at most."""
+    """Yield the constants of every n, and their largest change on another mesh."""
     found = []
     for n in thinnings:
         first, *others = (np.array(Strip(n, mesh).constants()) for mesh in meshes)
@@ -131,7 +131,7 @@ def rows(
 
 
 def text() -> str:
-    """All rows as JSON, with what they were made."""
+    """Return all rows as JSON, with their settings."""
     import scipy
 
     record = {

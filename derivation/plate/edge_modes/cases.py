@@ -1,4 +1,4 @@
-"""Hard cases of plates with a held edge, and their references: the switch of I0, the cut-off."""
+"""Hard cases of clamped and supported plates, and their references: switch of I0, cut-off."""
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
@@ -16,16 +16,17 @@ from derivation.plate.waves.cases.laws import differences
 from derivation.plate.waves.cases.places import partner_crossing
 from generated.edge_mode_numbers import SMALL
 
-SEAMS, WAVES = "seams of held plates with a thickness", "waves of held plates"
+SEAMS = "switch points of clamped and supported plates"
+WAVES = "waves of clamped and supported plates"
 _MODES = ("clamped_waves", "supported_waves")
 _METAL = 0.3
 _LAST, _FIRST = math.nextafter(0.5, 0.0), -1.0 + 2.0**-53
 CROSSING = 12
-"""Mode that is followed to where its partner k2 passes the switch of I0."""
+"""Index of the mode whose k2 passes the switch point of I0."""
 
 
 def held_wave_families() -> Iterator[HardCase]:
-    """Every one of them."""
+    """Yield all of them."""
     for kernel in _MODES:
         place = partner_crossing(kernel.removesuffix("_waves"), CROSSING, _METAL)
         why = f"h/b = {place:g}, where k2 of mode {CROSSING} reaches the series at infinity"
@@ -36,11 +37,11 @@ def held_wave_families() -> Iterator[HardCase]:
         size = 2.0 * SMALL
         for k, k2 in ((size, 3.0), (5.0, size)):
             yield about(SEAMS, kernel, why, exactly(k=k, k2=k2, t=1.02, **{at: around(0.5)}))
-        cause = "From the axis, and from a punch of no size, to the edge."
+        cause = "From the axis, and from a punch of zero radius, to the edge."
         places = (1e-9, 1e-3, 0.3, 0.9)
         given = exactly(k=(2.2, 8.6), k2=(2.1, 8.1), t=1.02, **{at: places})
         yield HardCase(WAVES, kernel, cause, given, "broadcast")
-        cause = "High modes, whose I0 overflows, of a thin plate."
+        cause = "High modes of a thin plate, whose I0 overflows."
         given = exactly(k=1259.0, k2=1258.5, t=1.0, **{at: (0.3, 0.9)})
         yield HardCase(WAVES, kernel, cause, given, "array")
     yield from _ends()
@@ -51,7 +52,7 @@ def _ends() -> Iterator[HardCase]:
         cause = "The thinnest plates."
         given = exactly(count=2.0, eta=(1e-80, 1e-30, 1e-9), nu=_METAL)
         yield HardCase(WAVES, kernel, cause, given, "array")
-        cause = "Poisson's ratio at its ends and at 0."
+        cause = "Poisson's ratio at its limits and at 0."
         yield HardCase(
             WAVES, kernel, cause, exactly(count=2.0, eta=0.05, nu=(_FIRST, 0.0, _LAST)), "array"
         )
@@ -65,15 +66,15 @@ def _ends() -> Iterator[HardCase]:
 
 
 _FREE = 1e-9
-"""1 + nu below which a support resists hardly: a kernel that takes 1 + nu exactly loses nothing
-there, whatever the condition number of nu."""
+"""1 + nu below which a support has little stiffness: a function that computes 1 + nu exactly
+keeps its accuracy there, whatever the condition number of nu."""
 
 
 # --- references
 
 
 def _of_waves(edge: held_balls.Edge) -> HardLaw:
-    """A mode of a plate with a thickness, by its number; c and k2 are counted as budgets say."""
+    """Return a mode by its number; c and k2 are counted as the budgets state."""
 
     def values(given: Given, digits: int) -> tuple[arb, ...]:
         count, eta, nu = given
@@ -93,9 +94,9 @@ def _of_waves(edge: held_balls.Edge) -> HardLaw:
 
 
 def _of_face(punch: bool) -> HardLaw:
-    """The loaded face, or its mean under a punch less 1, of a mode's numbers.
+    """Return the contact face of a mode, or its mean under a punch minus 1.
 
-    Counted in the largest of its parts.
+    Errors are relative to the largest of its terms.
     """
 
     def values(given: Given, digits: int) -> tuple[arb]:
@@ -117,4 +118,4 @@ LAWS: Mapping[str, HardLaw] = {
     "wave_shape": _of_face(punch=False),
     "wave_share": _of_face(punch=True),
 }
-"""By kernel."""
+"""References by function."""

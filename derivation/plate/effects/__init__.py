@@ -1,1 +1,1 @@
-"""How much each effect changes the contact law, and the number that says when."""
+"""Changes of the contact law by single effects, and the parameters that show when they matter."""

@@ -1,6 +1,6 @@
-"""What the report says of single effects, by link."""
+"""Text of the report about single effects, by link."""
 
 ABOUT = {
-    "effects": "Each effect adds a share to the law's slope at equal force. What it can add at "
-    "most says whether a scene needs it.",
+    "effects": "Each effect contributes to the slope of the law at equal force. An upper bound of "
+    "its contribution decides whether a scene needs it.",
 }

@@ -1,18 +1,18 @@
-"""Link 22: how much an effect can change the contact law, before it is computed.
+"""Link 22: bounds of the change of the contact law by each effect, before it is computed.
 
-All in S = (R/2a) d delta/da at equal force, a being Hertz's radius: the half-space has S = 1,
-and every effect adds its share. With A = a/h, alpha = a/b and, from link 18, c_1 and K_3:
+All bounds refer to S = (R/2a) d delta/da at equal force, a being the Hertz radius. The half-space
+has S = 1, and every effect adds a contribution. With A = a/h, alpha = a/b and c_1, K_3 of link 18:
 
     bending             3/2 A/(4 pi eta^2), exactly
-    side wall           between -(4/pi^2) (kappa_0 alpha + k_3 alpha^3) and 0
-    finite thickness    what is left of 3/2 c_1 A - K_3 A^3 <= S - 1 <= 3/2 c_1 A
-    curvature           a_H/a - 1 of link 21, between 0 and its value at a/R = a_H/R
+    finite radius       between -(4/pi^2) (kappa_0 alpha + k_3 alpha^3) and 0
+    finite thickness    the rest of 3/2 c_1 A - K_3 A^3 <= S - 1 <= 3/2 c_1 A
+    spherical profile   a_H/a - 1 of link 21, between 0 and its value at a/R = a_H/R
     elastic sphere      s^2 - 1 and at most (s^2 - 1) K A^3 either way, s^3 = 1 + E*/E_1*
 
-Weight. v^2 at equal shares of the largest indentation is (2/m) [U_m - U - m g (delta_m - delta)],
-and U being convex, U_m - U >= U_m (1 - delta/delta_m): with e = m g delta_1/E, delta_1 the
-largest indentation without weight, the energy taken grows by a factor between 1 and
-1/(1 - e), and the time beside by one between 1 and 1/sqrt(1 - e).
+Weight. v^2 at equal fractions of the peak indentation is (2/m) [U_m - U - m g (delta_m - delta)],
+and because U is convex, U_m - U >= U_m (1 - delta/delta_m). With e = m g delta_1/E, delta_1 the
+largest indentation without weight, the energy of the contact grows by a factor between 1 and
+1/(1 - e), and the contact time by one between 1 and 1/sqrt(1 - e).
 """
 
 from functools import cache
@@ -33,7 +33,7 @@ _s = sp.Symbol("s", positive=True)
 
 @cache
 def bending() -> Formula:
-    """The thin plate's leading term as an effect of its own: delta = P b^2/(8 pi D)."""
+    """Return the leading term of a thin plate as an effect of its own: delta = P b^2/(8 pi D)."""
     first = {formula.name: formula for formula in thin_plate()}["c_1_thin"].expression
     share = sp.limit(first * eta**2, eta, 0) * a_ratio / eta**2
     radius, half, wide, sphere, modulus = sp.symbols("a h b R E", positive=True)
@@ -43,7 +43,7 @@ def bending() -> Formula:
     proof = prove(
         "Bending",
         r"The leading term of $c_1 A$ for $h/b \to 0$ is the deflection $P b^2/(8 \pi D)$ of a "
-        "thin plate, $D = E^* (2h)^3/12$, over $a^2/R$.",
+        "thin plate, $D = E^* (2h)^3/12$, divided by $a^2/R$.",
         {
             "deflection": share.subs({a_ratio: radius / half, eta: half / wide})
             - deflection * sphere / radius**2
@@ -52,7 +52,7 @@ def bending() -> Formula:
     return Formula(
         "F_bending",
         "F_B",
-        r"bending's part of $\delta R/a^2$",
+        r"contribution of bending to $\delta R/a^2$",
         share,
         "1",
         "6",
@@ -64,14 +64,14 @@ def bending() -> Formula:
 
 @cache
 def shares() -> Formula:
-    """What finite thickness adds to S at most: the rest of 3/2 c_1 A."""
+    """Return an upper bound of the finite thickness's contribution to S: the rest of 3/2 c_1 A."""
     one_sided()
     first = coefficient(2)
     wall = -4 / sp.pi**2 * kappa[0] * alpha
     most = sp.Rational(3, 2) * (c_A[1] * a_ratio - bending().expression) - wall
     proof = prove(
-        "Shares of the law's slope",
-        "$S - 1$ less bending, which is linear, and less the side wall, between "
+        "Contributions to the slope of the law",
+        "$S - 1$ minus bending, which is linear, and minus the finite radius, between "
         r"$-(4/\pi^2) (\kappa_0 \alpha + k_3 \alpha^3)$ and 0 by "
         r"$\sinh y \le y + (\sinh 1 - 1) y^3$ ...",
         {"side wall": sp.Rational(3, 2) * first.side * a_ratio - wall.subs(alpha, a_ratio * eta)},
@@ -79,7 +79,7 @@ def shares() -> Formula:
     return Formula(
         "S_thickness_most",
         r"S_H",
-        r"what finite thickness adds to $(R/2a) d \delta/da$ at most",
+        r"upper bound of the contribution of finite thickness to $(R/2a) d \delta/da$",
         most,
         "1",
         "6",
@@ -91,14 +91,14 @@ def shares() -> Formula:
 
 @cache
 def elastic_sphere() -> Proof:
-    """The half-space grows to s^2 times its size; what it does to the plate's cubic terms.
+    """Prove the bound for an elastic sphere: the half-space's part grows by s^2.
 
-    Each mode has s sinc(s y)/s instead of sinc y, and |sinc'| <= y/3; the side wall has
-    sinh(s y)/s, whose powers grow by s^(2k) - 1 <= k (s^2 - 1) s^(2k-2), where s alpha < 1.
+    Each mode has s sinc(s y)/s instead of sinc y, and |sinc'| <= y/3; the finite radius has
+    sinh(s y)/s, whose powers grow by s^(2k) - 1 <= k (s^2 - 1) s^(2k-2) for s alpha < 1.
     """
     order = sp.Symbol("k", integer=True, positive=True)
     slope = sp.diff(sp.sin(_y) / _y, _y) * _y**2
-    # |sinc'| = (sin y - y cos y)/y^2 <= y/3: the difference vanishes at 0 and rises.
+    # |sinc'| = (sin y - y cos y)/y^2 <= y/3: the difference vanishes at 0 and increases.
     rises = sp.diff(_y**3 / 3 + slope, _y) - (_y**2 - _y * sp.sin(_y))
     odd = _u ** (2 * order + 1) / sp.factorial(2 * order + 1)
     return prove(
@@ -117,13 +117,13 @@ def elastic_sphere() -> Proof:
 
 @cache
 def weight() -> Proof:
-    """Energy and time with weight, by the convexity of U; see the head of this file."""
+    """Prove the bounds for energy and time with weight by the convexity of U."""
     whole, share = sp.symbols("U_m x", positive=True)
-    # v^2 m/2 at the share x of delta_m, least for U on its chord.
+    # v^2 m/2 at the fraction x of delta_m is smallest for U on its chord.
     speed = whole * (1 - share) - _g * (1 - share)
     return prove(
         "Weight during contact",
-        "U <= U_m x by convexity; U_g = E + m g delta_g <= E + m g delta_1 U_g/E, since "
+        "U <= U_m x by convexity; U_g = E + m g delta_g <= E + m g delta_1 U_g/E, because "
         "delta grows no faster than U.",
         {
             "chord": speed - whole * (1 - share) * (1 - _g / whole),
@@ -133,7 +133,7 @@ def weight() -> Proof:
 
 
 def effects() -> tuple[Formula, ...]:
-    """The formulas of the link, its lemmas proved with them."""
+    """Return the formulas of the link; its lemmas are proved as well."""
     elastic_sphere()
     weight()
     return bending(), shares()
@@ -143,13 +143,13 @@ def effects() -> tuple[Formula, ...]:
 
 
 def wall_growth_ball(digits: int = 12) -> flint.arb:
-    """(4/pi^2) int_0^oo (y cosh y - sinh y)/(2 y) K0/I0 dy.
+    """Return (4/pi^2) int_0^oo (y cosh y - sinh y)/(2 y) K0/I0 dy.
 
-    By parts, with (sinh y - Shi y)/2 over y I0^2. For y <= 1 that is below y^3/12 + y^5/100 and
-    beyond below e^y/4.
+    By parts, with (sinh y - Shi y)/2 divided by y I0^2. This is below y^3/12 + y^5/100 for y <= 1
+    and below e^y/4 for larger y.
     """
 
     def integrand(y: flint.acb, _: bool) -> flint.acb:
         return (y.sinh() - y.shi()) / (2 * y * y.bessel_i(0) ** 2)
 
-    return wall_integral(integrand, digits, "the side wall's growth")
+    return wall_integral(integrand, digits, "the growth of the finite-radius term")

@@ -1,4 +1,4 @@
-"""The printed pair (1), (2) in the equilibrium equations, as it stands and with a sign changed."""
+"""The published pair (1), (2) in the equilibrium equations, unchanged and with a sign reversed."""
 
 from collections.abc import Iterable, Mapping
 
@@ -13,7 +13,7 @@ def _printed(name: str) -> Printed:
 
 
 def balances(signs: Mapping[str, int]) -> bool:
-    """Whether the printed u, w with the printed f_j, g_j balance; `signs` are put before each."""
+    """Return whether the published u, w and f_j, g_j balance; `signs` are put before each."""
     shapes = {
         f_j: signs.get("f_j", 1) * _printed("f_j").expression,
         g_j: signs.get("g_j", 1) * _printed("g_j").expression,
@@ -23,7 +23,7 @@ def balances(signs: Mapping[str, int]) -> bool:
 
 
 def signs_that_balance(names: Iterable[str]) -> tuple[str, ...]:
-    """Which of u, w, f_j, g_j may change its sign, alone, so that the printed pair balances."""
+    """Return which of u, w, f_j, g_j makes the published pair balance if its sign is reversed."""
     if balances({}):
         return ()
     return tuple(name for name in names if balances({name: -1}))

@@ -1,4 +1,4 @@
-"""Hard cases at the seams that single kernels have: closed formulas, sums over modes, one plate."""
+"""Hard cases at the switch points of single functions: formulas, modal sums, one plate."""
 
 from collections.abc import Iterator, Mapping
 from itertools import chain
@@ -16,9 +16,9 @@ from derivation.plate.oracle import arguments
 from generated.contact_series import _ORDINARY, _USUAL
 
 CLOSED, SUMS, PLATES = (
-    "seams of the closed formulas",
-    "seams of the sums over modes",
-    "seams of the contact law",
+    "switch points of the closed formulas",
+    "switch points of the sums over modes",
+    "switch points of the contact law",
 )
 
 Numbers = float | tuple[float, ...]
@@ -33,19 +33,19 @@ _LENGTHS: Mapping[str, Numbers] = {
 }
 _PLATE: Mapping[str, Numbers] = {**_LENGTHS, "b": 1.0, "a": 0.25, "r": 0.4, "z": 0.01, "h": 0.5}
 _AXIS = 2.0**-30
-"""phi r below which J1(y)/y is taken for 1/2: it stands in the template of the sums alone."""
+"""phi r below which J1(y)/y is replaced by 1/2, in the modal sums only."""
 _DIRECT = 3.9
-"""Modes of the direct sum times h/b, likewise."""
+"""Number of modes of the direct sum times h/b."""
 
 _BY_T = ("G", "G_m", "G_minus_1", "G_slope", "C_top", "C_bottom", "K_j", "K_j_bottom",
          "Omega_1", "Omega_4", "Omega_1_scaled", "Omega_4_scaled")  # fmt: skip
-"""Kernels that pass the seam of sinh^2 T - T^2."""
+"""Functions with the switch point of sinh^2 T - T^2."""
 
 _BY_X = ("Omega_1", "Omega_2", "Omega_3", "Omega_4")
 _SCALED = tuple(f"{name}_scaled" for name in _BY_X)
 _FADING = {"G_m": 1.0, "C_bottom": 1.0, "K_j_bottom": 1.0, "G_minus_1": 2.0, "G_slope": 2.0,
            **dict.fromkeys(_BY_X, 0.5)}  # fmt: skip
-"""Kernels that die like e^(-rate T), T = 2 phi h, and the rate."""
+"""Functions that decay like e^(-rate T), T = 2 phi h, and the rate."""
 
 _DECAY = {0.5: "e^(-T/2)", 1.0: "e^(-T)", 2.0: "e^(-2 T)"}
 
@@ -54,20 +54,20 @@ _MODES = 3
 
 
 def mode_families() -> Iterator[HardCase]:
-    """Every one of them."""
+    """Yield all of them."""
     return chain(_closed(), _mode_shapes(), _sums(), _one_plate())
 
 
 def _case(
     group: str, kernel: str, why: str, given: Mapping[str, Numbers], modes: int | None = None
 ) -> HardCase:
-    """A case of the arguments that its kernel has."""
+    """Return a case with the arguments of its function."""
     own = exactly(**{name: given[name] for name in arguments(kernel)})
     return about(group, kernel, why, own, modes)
 
 
 def _by_depth(kernel: str, T: float, why: str) -> HardCase:
-    """Where T = 2 phi h is a place: h is 1."""
+    """Yield cases where T = 2 phi h is near a given number, with h = 1."""
     depth = tuple(x / 2 for x in around(T))
     return _case(CLOSED, kernel, why, {**_LENGTHS, "T": around(T), "phi": depth})
 
@@ -75,30 +75,30 @@ def _by_depth(kernel: str, T: float, why: str) -> HardCase:
 def _closed() -> Iterator[HardCase]:
     pair = float(blocks()["sinh_pair"].value.at)
     for kernel in _BY_T:
-        why = f"T = {pair:g}, where sinh^2 T - T^2 ceases to be a power series"
+        why = f"T = {pair:g}, the end of the power series of sinh^2 T - T^2"
         yield _by_depth(kernel, pair, why)
     for kernel, rate in _FADING.items():
         place = FADES / rate
-        why = f"T = {place:g}, from which on what dies like {_DECAY[rate]} is applied in two pieces"
+        why = f"T = {place:g}, above which {_DECAY[rate]} is applied as two factors"
         yield _by_depth(kernel, place, why)
     for kernel in (*_BY_T[:8], *_BY_X, *_SCALED):
         place = float(FAR) * (1 if "T" in arguments(kernel) else 2)
-        yield _by_depth(kernel, place, f"T = {place:g}, beyond which nothing changes")
+        yield _by_depth(kernel, place, f"T = {place:g}, beyond which the result is constant")
 
 
 def _mode_shapes() -> Iterator[HardCase]:
     for kernel, (_, form) in mode_forms().items():
         place = float(form.at)
         phi = tuple(x / 2 for x in around(place))
-        why = f"T = {place:g}, where power series hand over to exponentials"
+        why = f"T = {place:g}, where power series are replaced by exponentials"
         yield _case(CLOSED, kernel, why, {**_LENGTHS, "z": 0.375, "phi": phi})
         phi = tuple(2 * x for x in around(float(ONCE)))
-        why = f"phi (h - z) = {ONCE}, beyond which e^(-phi (h - z)) is applied in two pieces"
+        why = f"phi (h - z) = {ONCE}, above which e^(-phi (h - z)) is applied as two factors"
         yield _case(CLOSED, kernel, why, {**_LENGTHS, "z": 0.5, "phi": phi})
-    why = "lam = mu, where 1 - 2 nu comes nearer to 1 than to 0"
+    why = "lam = mu, where 1 - 2 nu becomes closer to 1 than to 0"
     yield _case(CLOSED, "mode_g", why, {**_LENGTHS, "z": -0.25, "phi": 4.0, "lam": around(MU)})
     place = float(blocks()["sinh_minus"].value.at)
-    why = f"phi (h + z) = {place:g}, where sinh u - u ceases to be a power series"
+    why = f"phi (h + z) = {place:g}, the end of the power series of sinh u - u"
     phi = tuple(2 * x for x in around(place))
     yield _case(CLOSED, "mode_zz", why, {**_LENGTHS, "z": -0.5, "phi": phi})
 
@@ -114,12 +114,12 @@ def _sums() -> Iterator[HardCase]:
             why = f"y = a phi = {place:g} of the first mode, where the load changes branches"
             yield _case(SUMS, kernel, why, {**_PLATE, "a": around(place / zero)}, _MODES)
     for kernel in ("sigma_rr", "sigma_tt"):
-        why = "phi r = 2^-30 of the first mode, nearer to which the axis is taken for it"
+        why = "phi r = 2^-30 of the first mode, below which r = 0 is assumed"
         yield _case(SUMS, kernel, why, {**_PLATE, "r": around(_AXIS / zero)}, _MODES)
 
 
 def _one_plate() -> Iterator[HardCase]:
-    """Where one sphere and one plate cease to be computed in plain numbers; the direct sum."""
+    """Yield cases at the limits of the single-point law in plain numbers, and of the direct sum."""
     for places, moved, what in (
         (_ORDINARY, "R", "sphere radius"), (_ORDINARY, "h", "half-thickness"),
     ):  # fmt: skip

@@ -1,4 +1,4 @@
-"""The fields of a mode as one would write them down: hyperbolic functions, as the formulas say."""
+"""The fields of a mode in textbook form, with hyperbolic functions: for comparison."""
 
 from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
@@ -9,7 +9,7 @@ from generated.arrays import as_doubles, as_result, inside
 
 
 class _Place(NamedTuple):
-    """T = 2 phi h, distances from both faces times phi, 1 - 2 nu, and sinh T."""
+    """Return T = 2 phi h, distances from both faces times phi, 1 - 2 nu, and sinh T."""
 
     T: Any
     u: Any
@@ -41,11 +41,11 @@ FIELDS: Mapping[str, Callable[[_Place], Any]] = {
     "mode_rr": lambda p: _in_plane(p, 1.0),
     "mode_tt": lambda p: p.s * np.sinh(p.u) - p.T * np.sinh(p.v),
 }
-"""Both faces' shares times sinh^2 T - T^2, by field."""
+"""Contributions of both faces times sinh^2 T - T^2, by field."""
 
 
 def naive_field(name: str, *given: Any) -> Any:
-    """A field's naive form of z, phi, h, lam, mu and A_j, checked and cast as every kernel does."""
+    """Return the textbook form of a field as a function with the usual checks of arguments."""
     kind, [z, phi, h, lam, mu, A_j] = as_doubles(*given)
     [z, phi, h, lam, mu, A_j] = inside(
         [z, phi, h, lam, mu, A_j], abs(z) <= h, phi > 0, h > 0, 3 * lam > -2 * mu, mu > 0

@@ -1,1 +1,1 @@
-"""The contact that yields: limited pressure on loading, elastic unloading, and a dent."""
+"""Elastic-plastic contact: limited pressure, elastic unloading, residual indentation."""

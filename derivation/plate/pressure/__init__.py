@@ -1,1 +1,1 @@
-"""The contact pressure from its integral equation instead of Hertz's."""
+"""The non-Hertzian contact pressure, from its integral equation."""

@@ -1,12 +1,12 @@
-"""Oracle 1 of the contact with the true pressure: Nystroem's method in balls, nothing split off.
+"""Arb reference of the non-Hertzian contact: Nystroem's method in balls, without splitting.
 
     chi(t) + int_0^a N(t, s) chi(s) ds = (E*/pi) (delta - f(t)),   chi(a) = 0
 
-with N from the sum over the modes and the side wall's integral as they stand. Balls hold all
-rounding and, for the modes, what is left out of their sum. They do not hold the errors of the
-collocation and of the wall's trapezoids, which are found by repeating everything with more
-nodes and finer steps: ten times the difference is put on as the radius. An estimate by
-convergence, which is geometric, and no proof.
+with N from the sum over the modes and the integral of the lateral surface. The balls contain all
+rounding errors and the remainder of the modal sum. They do not contain the errors of collocation
+and of the trapezoidal rule, which are estimated by repeating the computation with more nodes and
+finer steps: ten times the difference is added to the radius. This is an estimate by geometric
+convergence, not a proof.
 """
 
 import math
@@ -22,7 +22,7 @@ from derivation.engine.formula.ball import LOG2_10, Exact, PrecisionError, to_ba
 from derivation.plate.contact.oracle.points import mode_points
 
 MARGIN = 10
-"""Radius put on, over the difference of two resolutions."""
+"""Added radius divided by the difference of two resolutions."""
 _SPARE = 40
 _Column = list[arb]
 
@@ -41,7 +41,7 @@ class PressureState(NamedTuple):
     centre: arb
     """q(0) R/(E* a) [1], 2/pi with Hertz."""
     pressures: tuple[arb, ...]
-    """q R/(E* a) [1] at the places asked for."""
+    """q R/(E* a) [1] at the requested points."""
 
 
 class Case(NamedTuple):
@@ -52,18 +52,18 @@ class Case(NamedTuple):
     curvature: Fraction = Fraction(0)
     share: Fraction = Fraction(1)
     places: tuple[Fraction, ...] = ()
-    """r/a < 1 at which the pressure is asked for."""
+    """r/a < 1 at which the pressure is requested."""
 
 
 def case(
     a: Exact, h: Exact, b: Exact, R: Exact = 0, share: Exact = 1, places: Sequence[Exact] = ()
 ) -> Case:
-    """The case of lengths taken as they are; R = 0 asks for a paraboloid.
+    """Return the case of the given lengths; R = 0 stands for a paraboloid.
 
     Raises
     ------
     ValueError
-        Unless 0 < a < b, and a < R if that is given.
+        Unless 0 < a < b, and a < R if R is given.
     """
     if not (0 < a < b and h > 0 and (R == 0 or a < R)):
         raise ValueError(f"expected 0 < a < b, h > 0, a < R, got a={a}, h={h}, b={b}, R={R}")
@@ -73,12 +73,12 @@ def case(
 
 
 def solve(case: Case, digits: int = 25) -> PressureState:
-    """The contact, each result's relative radius below 10^-digits.
+    """Return the contact, each result with a relative radius below 10^-digits.
 
     Raises
     ------
     PrecisionError
-        If it is not, which takes a contact close to the plate's edge.
+        If that is not reached, which happens close to the plate's edge.
     """
     count, step = _resolution(case, digits)
     bits = int(digits * LOG2_10) + _SPARE + _lost(case)
@@ -96,14 +96,14 @@ def solve(case: Case, digits: int = 25) -> PressureState:
 
 def _wider(coarse: arb, fine: arb, digits: int) -> arb:
     ball = fine + arb(0, (MARGIN * abs(fine - coarse)).upper())
-    # At a point where the pressure all but vanishes its relative radius means little.
+    # Where the pressure almost vanishes its relative radius is not used.
     if not ball.rad() < arb(10) ** -digits * (abs(fine) + arb(2) ** -10):
         raise PrecisionError(f"two resolutions of the contact differ by {abs(fine - coarse)}")
     return ball
 
 
 def _resolution(case: Case, digits: int) -> tuple[int, Fraction]:
-    """Nodes on (0, a), and trapezoids to 1, for so many digits.
+    """Return numbers of nodes on (0, a) and of trapezoids per unit for the requested digits.
 
     The kernel is singular at t + s = 2 b and |t +- s| = 4 i h; the even rule's error falls with
     the fourth power of the ellipse's parameter per node. The trapezoids' strip is 1.2 wide.
@@ -118,23 +118,23 @@ def _resolution(case: Case, digits: int) -> tuple[int, Fraction]:
 
 
 def _lost(case: Case) -> int:
-    """Bits lost to the thin plate's large constant kernel, and to what opens the contact."""
+    """Return bits lost to the thin plate's large constant kernel, and near loss of contact."""
     return max(0, math.ceil(-2 * math.log2(float(case.eta)))) + 24
 
 
 @cache
 def _rule(count: int, bits: int) -> tuple[_Column, _Column]:
-    """Positive nodes of the even rule, and weights of int_0^1."""
+    """Return positive nodes of the even rule, and weights of int_0^1."""
     with flint.ctx.workprec(bits):
         pairs = [arb.legendre_p_root(2 * count, i, weight=True) for i in range(count)]
         return [x for x, _ in pairs], [w for _, w in pairs]
 
 
 class _Waves(NamedTuple):
-    """a k(x a/b)/b = sum weight cos(rate x), x = t/a, `wall` rates standing for imaginary ones.
+    """a k(x a/b)/b = sum weight cos(rate x), x = t/a; `wall` rates stand for imaginary ones.
 
-    Their cosines are taken over e^y and their weights times e^(2y), `fades` being e^-y: sums of
-    products in fixed point keep the digits of the largest only.
+    Their cosines are divided by e^y and their weights multiplied by e^(2y), `fades` being e^-y:
+    sums of products in fixed point keep the digits of the largest term only.
     """
 
     rates: _Column
@@ -172,7 +172,7 @@ def _waves(case: Case, fineness: Fraction, bits: int) -> _Waves:
 
 
 def _span(case: Case, bits: int) -> tuple[float, float]:
-    """Ends of u where y = exp(u - e^-u) is 2^-bits, and where e^(-2 (1 - alpha) y) is."""
+    """Return the u at which y = exp(u - e^-u) is 2^-bits, and where e^(-2 (1 - alpha) y) is."""
     decay = bits * math.log(2)
     return -math.log(decay + 5), math.log(decay / (2 * float(1 - case.a_ratio * case.eta)) + 5)
 
@@ -183,7 +183,7 @@ def _cosines(waves: _Waves, x: arb) -> _Column:
 
 
 def _slopes(waves: _Waves, x: arb) -> _Column:
-    """-d/dx of the same, over x."""
+    """Return -d/dx of the same, divided by x."""
     turning = [r * r * (r * x).sinc() for r in waves.rates]
     wall = zip(waves.wall_rates, waves.fades, strict=True)
     rising = [-r * (r * x).sinh() / x * fade for r, fade in wall]
@@ -195,7 +195,7 @@ def _table(rows: Sequence[_Column]) -> arb_mat:
 
 
 def _solve(case: Case, count: int, fineness: Fraction, bits: int) -> PressureState:
-    """One resolution; the state's balls hold rounding and the modes' rest alone."""
+    """Solve at one resolution; the balls contain rounding and the modes' remainder alone."""
     with flint.ctx.workprec(bits):
         x, w = _rule(count, bits)
         waves = _waves(case, fineness, bits)
@@ -218,7 +218,7 @@ def _solve(case: Case, count: int, fineness: Fraction, bits: int) -> PressureSta
         depth = ends[1] / ends[0]
         chi = [depth * p - o for p, o in zip(psi, omega, strict=True)]
         weighted = _times(chi, w)
-        # int_0^1 chi cos(rate x) dx, with the kernel's weights: what bends chi.
+        # int_0^1 chi cos(rate x) dx, with the kernel's weights, determines chi'.
         transform = [
             value[0] * share
             for value, share in zip(
@@ -227,7 +227,7 @@ def _solve(case: Case, count: int, fineness: Fraction, bits: int) -> PressureSta
         ]
 
         def bend(t: arb) -> arb:
-            """-chi'(x)/x."""
+            """Return -chi'(x)/x."""
             return _profile(t, curvature)[1] - _dot(_slopes(waves, t), transform)
 
         def pressure(place: Fraction) -> arb:
@@ -256,7 +256,7 @@ def _times(left: _Column, right: _Column) -> _Column:
 
 
 def _profile(x: arb, curvature: arb) -> tuple[arb, arb]:
-    """f R/a^2 and its slope by x over x."""
+    """Return f R/a^2 and its slope by x divided by x."""
     if curvature == 0:
         return x * x, arb(2)
     y = curvature * x

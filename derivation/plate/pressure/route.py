@@ -1,15 +1,15 @@
-"""Oracle 2 of the contact with the true pressure: Galerkin's method on pressures like Hertz's.
+"""mpmath reference of the non-Hertzian contact: Galerkin's method with Hertz-like pressures.
 
 The pressure is a sum of q_k = (1 - r^2/a^2)^(k + 1/2), that is chi = sum c_k (1 - x^2)^(k+1) with
 x = t/a, and the surface condition is tested with 1, 1 - x^2, ..., (1 - x^2)^m. Everything is in
-closed form: with z = a phi a mode sees
+closed form: with z = a phi a mode has the integrals
 
     int_0^1 (1 - x^2)^n cos(z x) dx = B_n 0F1(n + 3/2, -z^2/4)
 
 with B_n = sqrt(pi) n!/(2 Gamma(n + 3/2)), a spherical Bessel function; the half-space is given
-by these B_n, and the side wall by a power series in the moments kappa_(2p) with (a/b)^2 for
-its variable: a <= b/2. No node of any quadrature over the contact, and no kernel N: mpmath
-throughout. Stiffness and slope are differences.
+by these B_n, and the lateral surface by a power series in the moments kappa_(2p) and (a/b)^2,
+for a <= b/2. There are no quadrature nodes in the contact and no kernel N; everything is computed
+with mpmath. Stiffness and slope are finite differences.
 """
 
 import math
@@ -24,7 +24,7 @@ from derivation.plate.contact.route.modes import excess, mode
 from derivation.plate.contact.route.moments import wall_moments
 
 WIDEST = 0.5
-"""Largest a/b: beyond it too many moments would count."""
+"""Largest a/b: above, too many moments would be needed."""
 
 
 class RouteState(NamedTuple):
@@ -42,12 +42,12 @@ def solve(
     share: Fraction = Fraction(1),
     digits: int = 25,
 ) -> RouteState:
-    """The contact of a/h, h/b, a/R (0 for a paraboloid), E* over the plate's, to so many digits.
+    """Return the contact for a/h, h/b, a/R (0 for a paraboloid) and E* over the plate's.
 
     Raises
     ------
     RouteError
-        If the contact is too wide, or two sizes of the basis differ by more than that.
+        If the contact is too wide, or two sizes of the basis differ by more than the digits allow.
     """
     if a_ratio * eta > WIDEST:
         raise RouteError(f"a/b = {float(a_ratio * eta):.3g} is above {WIDEST}")
@@ -61,7 +61,7 @@ def solve(
 
 
 def derivatives(a_ratio: Fraction, eta: Fraction, digits: int = 20) -> tuple[mpf, mpf]:
-    """dP/d delta over E* a, and (R/a) d delta/da, by central differences of the fourth order."""
+    """Return dP/d delta over E* a, and (R/a) d delta/da, by fourth-order central differences."""
     step = Fraction(1, 10 ** (digits // 4 + 2))
     factors = [1 + k * step for k in (-2, -1, 1, 2)]
     states = [solve(a_ratio * f, eta, digits=2 * digits) for f in factors]
@@ -74,10 +74,10 @@ def derivatives(a_ratio: Fraction, eta: Fraction, digits: int = 20) -> tuple[mpf
 
 
 def _size(a_ratio: Fraction, eta: Fraction, curvature: Fraction, digits: int) -> int:
-    """Functions for so many digits: the kernel's singularities at 2 b/a - 1 and 4 i h/a.
+    """Return the number of functions for the digits: singularities at 2 b/a - 1 and 4 i h/a.
 
-    Errors of chi fall with the square of the ellipse's parameter, those of its means twice as
-    fast, as in every variational method.
+    Errors of chi decrease with the square of the ellipse's parameter, those of its means with
+    the fourth power, as in every variational method.
     """
     upright = 4 / float(a_ratio)
     rho = upright + math.hypot(1, upright)
@@ -92,16 +92,16 @@ def _number(x: Fraction) -> mpf:
 
 @cache
 def _beta(n: int, dps: int) -> mpf:
-    """B_n."""
+    """Return B_n."""
     with mp.workdps(dps):
         return mp.sqrt(mp.pi) * mp.factorial(n) / (2 * mp.gamma(n + mpf(3) / 2))
 
 
 def _seen(z: mpf, count: int) -> list[mpf]:
-    """int_0^1 (1 - x^2)^n cos(z x) dx for n = 0 ... count - 1.
+    """Return int_0^1 (1 - x^2)^n cos(z x) dx for n = 0 ... count - 1.
 
     z^2 q_(n+1) = 2 (n+1) [(2n+1) q_n - 2n q_(n-1)], upwards while n < z and downwards from two
-    power series beyond: either way the solution wanted is not the one that dies out.
+    power series beyond: in both directions the required solution does not decay.
     """
     if z >= count:
         found = [mp.sin(z) / z, 2 * (mp.sin(z) - z * mp.cos(z)) / z**3]
@@ -116,7 +116,7 @@ def _seen(z: mpf, count: int) -> list[mpf]:
 
 
 def _modal(eta: mpf, alpha: mpf, count: int, goal: int) -> list[list[mpf]]:
-    """sum (4/pi) alpha (G - 1)/(j J1^2) q_k(alpha j) q_l(alpha j) over the modes."""
+    """Return sum (4/pi) alpha (G - 1)/(j J1^2) q_k(alpha j) q_l(alpha j) over the modes."""
     rows, weights = [], []
     n, T = 1, mpf(0)
     while goal * mp.log(10) + 2 * mp.log(2 + T) > 2 * T:
@@ -131,7 +131,7 @@ def _modal(eta: mpf, alpha: mpf, count: int, goal: int) -> list[list[mpf]]:
 
 
 def _walled(alpha: mpf, count: int, goal: int) -> list[list[mpf]]:
-    """(4/pi^2) alpha int K0/I0 times the same with imaginary arguments, a power series.
+    """Return (4/pi^2) alpha int K0/I0 times the same with imaginary arguments, a power series.
 
     0F1(a, z) 0F1(b, z) = sum (a + b - 1 + p)_p z^p/(p! (a)_p (b)_p), z = (alpha y)^2/4.
     """
@@ -156,7 +156,7 @@ def _walled(alpha: mpf, count: int, goal: int) -> list[list[mpf]]:
 
 
 def _profile(test: int, curvature: mpf, goal: int) -> mpf:
-    """int_0^1 (1 - x^2)^n f R/a^2 dx; artanh by its power series."""
+    """Return int_0^1 (1 - x^2)^n f R/a^2 dx, with artanh as a power series."""
     total, power, p = mpf(0), mpf(1), 0
     while True:
         # int (1 - x^2)^n x^(2p+2) dx is half a Beta function.
@@ -170,7 +170,7 @@ def _profile(test: int, curvature: mpf, goal: int) -> mpf:
 def _solve(
     case: tuple[Fraction, Fraction, Fraction, Fraction], sizes: tuple[int, ...], digits: int
 ) -> list[RouteState]:
-    """Some sizes of the basis; matrices are as ill-conditioned as those of Bernstein's powers."""
+    """Yield sizes of the basis; the matrices are as ill-conditioned as for Bernstein's powers."""
     a_ratio, eta, curvature, share = case
     most = max(sizes)
     goal = digits + 10 + most + math.ceil(max(0.0, -2 * math.log10(float(eta))))

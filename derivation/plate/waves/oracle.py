@@ -1,10 +1,10 @@
-"""Oracle 1 of the plate's own motion: link 26's B_a and B_s as they stand, in ball arithmetic.
+"""Arb reference of plate waves: B_a and B_s of link 26 in ball arithmetic.
 
     B = -(2/kap) [(2 x^2 - kap)^2 t(p)/p - 4 x^2 q t(q)],   t = tanh for B_a, coth for B_s,
 
-with complex p and q, whatever their sign below the root. A zero of B is enclosed by two numbers at
-which B is certainly above and below 0; between two poles B falls (link 26), so that it is the only
-one. Slopes come from the same expression by arithmetic of power series.
+with complex p and q, for squares of either sign. A zero of B is enclosed by two numbers at which
+B is certainly positive and negative. Between two poles B decreases (link 26), so there is only one.
+Slopes come from the same expression by arithmetic of power series.
 """
 
 import math
@@ -26,14 +26,14 @@ _MOST_BITS = 1 << 15
 
 
 def influence(x: Exact, kap: Exact, nu: Exact, digits: int = 30) -> tuple[arb, arb]:
-    """1/B_a and 1/B_s.
+    """Return 1/B_a and 1/B_s.
 
     Parameters
     ----------
     x, kap, nu
         phi h, (omega h/c_T)^2 >= 0 and Poisson's ratio, exact numbers.
     digits
-        Decimal digits the balls' radii warrant.
+        Correct decimal digits required of the balls.
     """
     places = _beside(Fraction(x), Fraction(kap), digits)
 
@@ -48,9 +48,9 @@ def influence(x: Exact, kap: Exact, nu: Exact, digits: int = 30) -> tuple[arb, a
 
 
 def _beside(x: Fraction, kap: Fraction, digits: int) -> list[Fraction]:
-    """kap, or where the expression has no value but a limit, at 0 and x^2, two that enclose it.
+    """Return kap, or two numbers around it where the expression has only a limit, at 0 and x^2.
 
-    For 1/B grows with kap wherever it is finite (link 26), and changes with the waves' own kap.
+    1/B increases with kap wherever it is finite (link 26), and varies on the scale of the waves.
     """
     if kap not in (0, x * x):
         return [kap]
@@ -59,9 +59,9 @@ def _beside(x: Fraction, kap: Fraction, digits: int) -> list[Fraction]:
 
 
 def condition(x: Exact, kap: Exact, nu: Exact, kind: str) -> tuple[float, float]:
-    """Sums of the condition numbers of 1/B: of the arguments, and of p and q by themselves.
+    """Return sums of the condition numbers of 1/B: of the arguments, and of p and q.
 
-    By steps so small that double precision sees no difference.
+    The differences use steps far below double precision.
     """
     small = -math.frexp(float(x))[1], -math.frexp(float(kap))[1]
     with flint.ctx.workprec(400 + 8 * max(0, *small)):
@@ -84,7 +84,7 @@ def condition(x: Exact, kap: Exact, nu: Exact, kind: str) -> tuple[float, float]
 
 
 def zero(x: Exact, nu: Exact, kind: str = KINDS[0], index: int = 0, digits: int = 30) -> arb:
-    """Kap of a branch: the zero of B_a or B_s between its poles `index` and `index` + 1.
+    """Return kap of a branch: the zero of B_a or B_s between its poles `index` and `index` + 1.
 
     Parameters
     ----------
@@ -93,20 +93,20 @@ def zero(x: Exact, nu: Exact, kind: str = KINDS[0], index: int = 0, digits: int 
     kind
         `antisymmetric` or `symmetric`.
     index
-        Number of the branch, 0 for A0 or S0.
+        Index of the branch, 0 for A0 or S0.
     digits
-        Decimal digits that the enclosure warrants.
+        Correct decimal digits required of the enclosure.
 
     Raises
     ------
     PrecisionError
-        If two poles are too close for B to have a sign between them.
+        If two poles are too close for the sign of B between them to be determined.
     """
     return _settled(x, digits, lambda: _zero(kind, x, nu, index, digits))
 
 
 def residue(x: Exact, nu: Exact, kind: str = KINDS[0], index: int = 0, digits: int = 30) -> arb:
-    """Rho h r = -1/B' at the zero."""
+    """Return rho h r = -1/B' at the zero."""
 
     def compute() -> arb:
         return -1 / _slope(kind, x, _zero(kind, x, nu, index, _finer(x, digits)), nu)
@@ -115,7 +115,7 @@ def residue(x: Exact, nu: Exact, kind: str = KINDS[0], index: int = 0, digits: i
 
 
 def share(x: Exact, nu: Exact, digits: int = 30) -> arb:
-    """A0's share of the static deflection, C = 2 G(2 x)/(E* phi) by link 7."""
+    """Return the fraction of A0 in the static deflection, C = 2 G(2 x)/(E* phi) by link 7."""
 
     def compute() -> arb:
         kap = _zero(KINDS[0], x, nu, 0, _finer(x, digits))
@@ -130,7 +130,7 @@ def share(x: Exact, nu: Exact, digits: int = 30) -> arb:
 def _settled(x: Exact, digits: int, compute: Callable[[], arb]) -> arb:
     """Repeat with more bits until the ball is narrow.
 
-    Thin plates cancel by up to eight powers; of large x all branches are near x^2.
+    For thin plates up to eight powers cancel; for large x all branches are near x^2.
     """
     target = math.ceil(digits * LOG2_10) + 1
     bits = target + 64 + 8 * abs(math.frexp(float(x))[1])
@@ -144,9 +144,9 @@ def _settled(x: Exact, digits: int, compute: Callable[[], arb]) -> arb:
 
 
 def _finer(x: Exact, digits: int) -> int:
-    """Digits of kap for that many of the slope.
+    """Return the digits of kap that are needed for the requested digits of the slope.
 
-    kap's width enters it divided by x^2, and for large x by a pole's distance.
+    The width of kap enters divided by x^2, and for large x by the distance of a pole.
     """
     return 2 * digits + 4 * math.ceil(abs(math.log10(x)))
 
@@ -160,13 +160,13 @@ def _gam_of(ratio: arb) -> arb:
 
 
 def _roots(x: arb, kap: Complex, gam: arb) -> tuple[Complex, Complex]:
-    """p and q."""
+    """Return p and q."""
     square = acb(x**2)
     return (square - kap * acb(gam)).sqrt(), (square - kap).sqrt()
 
 
 def _printed(kind: str, x: arb, kap: Complex, p: Complex, q: Complex) -> Complex:
-    """B_a or B_s."""
+    """Return B_a or B_s."""
     square = acb(x**2)
     sign = 1 if kind == KINDS[0] else -1
     t_p, t_q = (_tanh(y, sign) for y in (p, q))
@@ -175,7 +175,7 @@ def _printed(kind: str, x: arb, kap: Complex, p: Complex, q: Complex) -> Complex
 
 
 def _tanh(y: Complex, sign: int) -> Complex:
-    """tanh y of sign 1, coth y of -1, however large y is."""
+    """Return tanh y for sign 1, coth y for -1, for any size of y."""
     fading = sign * (-2 * y).exp()
     return (1 - fading) / (1 + fading)
 
@@ -190,19 +190,19 @@ def _value(kind: str, x: Exact, kap: arb, nu: Exact) -> arb:
 
 
 def _slope(kind: str, x: Exact, kap: arb, nu: Exact) -> arb:
-    if not kap.is_finite():  # series of it cannot be divided by
+    if not kap.is_finite():  # a series cannot be divided by it
         return kap
     return _stiffness(kind, x, acb_series([acb(kap), 1], 2), nu)[1].real
 
 
 def _zero(kind: str, x: Exact, nu: Exact, index: int, digits: int) -> arb:
-    """The enclosure at the precision now set; not finite if that does not suffice."""
+    """Return the enclosure at the current precision; not finite if that is not sufficient."""
     poles, fall = _poles(kind, x, nu, index), 4
     low, high = poles
-    # Branches are as close to a pole as powers of x or 1/x are to 0, and in soft plates as gam is.
+    # A branch is as close to a pole as powers of x or 1/x are to 0; in soft plates, as gam is.
     close = abs(math.frexp(float(x))[1]) + abs(math.frexp(float(_gam(nu)))[1])
     for _ in range(_HALVINGS + 4 * close):
-        # Of A0, whose kap may be x^2 times a small number, the logarithm is halved.
+        # For A0, whose kap may be x^2 times a small number, the logarithm is bisected.
         geometric = low > 0 and bool(high > 2 * low)
         middle = ((low * high).sqrt() if geometric else (low + high) / 2).mid()
         if not low > 0:
@@ -231,7 +231,7 @@ def _zero(kind: str, x: Exact, nu: Exact, index: int, digits: int) -> arb:
 
 
 def _poles(kind: str, x: Exact, nu: Exact, index: int) -> tuple[arb, arb]:
-    """kap of the two poles a branch lies between, 0 before the first."""
+    """Return kap of the two poles around a branch, 0 before the first."""
     square, gam = to_ball(x) ** 2, _gam(nu)
     half = Fraction(1, 2) if kind == KINDS[0] else Fraction(0)
     angles = [(to_ball(n + half) * arb.pi()) ** 2 for n in range(index + 2)]

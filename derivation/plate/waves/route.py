@@ -1,4 +1,4 @@
-"""Oracle 2 of the plate's own motion: its equations as a system of first order, in mpmath.
+"""mpmath reference of plate waves: the equations as a system of first order.
 
 With h = mu = 1, phi = x and rho omega^2 = kap the state y = (U, W, S_rz, S_zz) of u = U J1(phi r),
 w = W J0(phi r) obeys y' = A y,
@@ -6,8 +6,8 @@ w = W J0(phi r) obeys y' = A y,
     U' = x W + S_rz,                         W' = (S_zz - lam x U)/(lam + 2),
     S_rz' = x (lam W' + (lam + 2) x U) - kap U,    S_zz' = -x S_rz - kap W.
 
-A's eigenvectors, found in numbers, and the 4x4 system of the faces' tractions give the
-deflection of the loaded face; its poles are sought in it, and approached for their residues.
+The eigenvectors of A, computed numerically, and the 4x4 system of the face tractions give the
+deflection of the contact face. Its poles are located, and approached for their residues.
 """
 
 from collections.abc import Callable
@@ -17,18 +17,18 @@ from mpmath import mp, mpf
 from derivation.engine.oracle.agreement import RouteError
 
 _BITS = 200
-"""Halvings at most between a frequency too low and one too high."""
+"""Largest number of bisections between a frequency too low and one too high."""
 
 
 def influence(x: float, kap: float, nu: float, digits: int = 30) -> tuple[mpf, mpf]:
-    """w(+h) mu/(h A) under A/2 on both faces, alike and against each other.
+    """Return w(+h) mu/(h A) for A/2 on both faces, with equal and with opposite directions.
 
     Parameters
     ----------
     x, kap, nu
-        phi h, (omega h/c_T)^2 > 0 and Poisson's ratio, exact as they are.
+        phi h, (omega h/c_T)^2 > 0 and Poisson's ratio, exact numbers.
     digits
-        Decimal digits asked for.
+        Number of decimal digits requested.
     """
     with mp.workdps(_working(x, kap, digits)):
         bending, stretching = _answers(mpf(x), mpf(kap), mpf(nu))
@@ -36,13 +36,13 @@ def influence(x: float, kap: float, nu: float, digits: int = 30) -> tuple[mpf, m
 
 
 def zero(x: float, nu: float, digits: int = 30) -> mpf:
-    """Kap of A0: where the deflection in bending has its only pole below x^2."""
+    """Return kap of A0, the only pole of the deflection in bending below x^2."""
     with mp.workdps(_working(x, x**4 if x < 1 else x * x, digits)):
         return +_zero(mpf(x), mpf(nu), digits)
 
 
 def residue(x: float, nu: float, digits: int = 30) -> mpf:
-    """Rho h r: (kap_0 - kap) times the deflection near the pole, from both sides."""
+    """Return rho h r: (kap_0 - kap) times the deflection near the pole, from both sides."""
     with mp.workdps(_working(x, x**4 if x < 1 else x * x, 3 * digits)):
         wave, ratio = mpf(x), mpf(nu)
         kap = _zero(wave, ratio, 3 * digits)
@@ -52,20 +52,20 @@ def residue(x: float, nu: float, digits: int = 30) -> mpf:
 
 
 def share(x: float, nu: float, digits: int = 30) -> mpf:
-    """A0's share of the static deflection: of a frequency so low that it does not matter."""
+    """Return the fraction of A0 in the static deflection, at a negligibly low frequency."""
     with mp.workdps(3 * digits):
         kap, answer = zero(x, nu, digits), residue(x, nu, digits)
         return answer / kap / sum(influence(x, float(kap) * 10.0 ** -(digits + 2), nu, digits))
 
 
 def _working(x: float, kap: float, digits: int) -> int:
-    """Digits to work with: the exponents differ by kap/x alone, the tractions cancel likewise."""
+    """Return working digits: exponents differ by kap/x only, and tractions cancel likewise."""
     size = abs(mp.log10(mpf(x))) + abs(mp.log10(mpf(kap)))
     return int(2 * digits + 20 + 3 * size)
 
 
 def _answers(x: mpf, kap: mpf, nu: mpf) -> tuple[mpf, mpf]:
-    """Deflection of the upper face, loads alike and against each other."""
+    """Return the deflection of the upper face for equal and for opposite loads."""
     lam = 2 * nu / (1 - 2 * nu)
     stiff = lam + 2
     rows = mp.matrix(
@@ -99,7 +99,7 @@ def _answers(x: mpf, kap: mpf, nu: mpf) -> tuple[mpf, mpf]:
 
 
 def _zero(x: mpf, nu: mpf, digits: int) -> mpf:
-    """Halving, then the secant's method, of the stiffness."""
+    """Return the zero of the stiffness by bisection, then the secant method."""
 
     def stiffness(kap: mpf) -> mpf:
         return 1 / _answers(x, kap, nu)[0]
@@ -121,4 +121,4 @@ def _secant(function: Callable[[mpf], mpf], first: mpf, second: mpf, digits: int
         if abs(new - second) < abs(new) * mpf(10) ** -(digits + 5):
             return new
         first, second, before, here = second, new, here, function(new)
-    raise RouteError("the secant's method does not converge")
+    raise RouteError("the secant method does not converge")

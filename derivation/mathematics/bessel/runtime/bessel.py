@@ -1,16 +1,16 @@
 """Bessel functions J0 and J1, their zeros, and J1 at the zeros of J0, in NumPy alone.
 
-Up to ASYMPTOTIC_START: Taylor polynomials. Every zero of J0 and of J1 is one of their centres,
-held as a sum of two doubles, so that the value keeps its digits right up to the zero. Beyond:
-modulus and phase,
+Below ASYMPTOTIC_START the functions are Taylor polynomials. Every zero of J0 and J1 is one of the
+centres, stored as a sum of two doubles, so that values near a zero keep their relative accuracy.
+Above, modulus and phase are used,
 
     J_nu(x) = sqrt(2 p(x) / (pi x)) sin(x +- pi/4 + s(x)),   + for J0, - for J1,
 
-p and s series in 1/x with exact rational coefficients; the multiple of pi/4
-taken off x is carried in two doubles.
+where p and s are series in 1/x with exact rational coefficients. The multiple of pi/4 that is
+subtracted from x is a sum of two doubles.
 
-Arithmetic: polynomials of expansions whose coefficients are numbers computed beforehand, the
-multiple of pi/4 and its sign, beta as such a multiple, one Newton step in two doubles.
+Arithmetic: polynomials of expansions whose coefficients are computed in advance, the multiple
+of pi/4 and its sign, beta as such a multiple, and one Newton step in two doubles.
 """
 
 import numpy as np
@@ -42,8 +42,8 @@ from generated.bessel_numbers import (
 )
 from generated.ranges import halves, lost_by_halves
 
-_BLOCK = 8192  # points worked on at a time, so that intermediates stay in the cache
-# By power, the highest first: each line then holds one coefficient of all centres.
+_BLOCK = 8192  # number of points in one block, so that intermediate arrays fit in the cache
+# Ordered by power, the highest first: each line contains one coefficient of all centres.
 _TAYLOR = tuple(np.array(table).T[::-1].copy() for table in TAYLOR)
 _CELLS = np.arange(int(CELLS * ASYMPTOTIC_START)) / CELLS
 _CENTRE_OF_CELL = np.searchsorted(SEAMS, _CELLS, "right") - 1
@@ -54,7 +54,7 @@ _HIGH, _LOW = np.array(CENTRE_HIGH), np.array(CENTRE_LOW)
 @in_manifest("J_0(x)", kernel=True)
 @quiet
 def bessel_j0(x: ArrayLike) -> np.ndarray:
-    """The Bessel function of the first kind of order 0.
+    """Compute the Bessel function of the first kind of order 0.
 
     Formula::
 
@@ -68,12 +68,18 @@ def bessel_j0(x: ArrayLike) -> np.ndarray:
     Returns
     -------
     float or ndarray
-        J_0(x) [1] in the shape of x; float32 for float32, else float64. NaN for NaN
-        and for the infinities.
+        J_0(x) [1] in the shape of x; float32 for float32 input, else float64. NaN for NaN
+        and infinite arguments.
 
     Notes
     -----
     The condition number is |x J_1(x)/J_0(x)|.
+
+    Examples
+    --------
+    >>> from generated import bessel_j0
+    >>> print(f"{bessel_j0(1.0):.6g}")
+    0.765198
     """
     return _evaluate(x, 0)
 
@@ -81,7 +87,7 @@ def bessel_j0(x: ArrayLike) -> np.ndarray:
 @in_manifest("J_1(x)", kernel=True)
 @quiet
 def bessel_j1(x: ArrayLike) -> np.ndarray:
-    """The Bessel function of the first kind of order 1.
+    """Compute the Bessel function of the first kind of order 1.
 
     Formula::
 
@@ -95,12 +101,18 @@ def bessel_j1(x: ArrayLike) -> np.ndarray:
     Returns
     -------
     float or ndarray
-        J_1(x) [1] in the shape of x; float32 for float32, else float64. NaN for NaN
-        and for the infinities.
+        J_1(x) [1] in the shape of x; float32 for float32 input, else float64. NaN for NaN
+        and infinite arguments.
 
     Notes
     -----
     The condition number is |x J_0(x)/J_1(x) - 1|.
+
+    Examples
+    --------
+    >>> from generated import bessel_j1
+    >>> print(f"{bessel_j1(1.0):.6g}")
+    0.440051
     """
     return _evaluate(x, 1)
 
@@ -108,16 +120,16 @@ def bessel_j1(x: ArrayLike) -> np.ndarray:
 @in_manifest("j_n", domain="count >= 0", kernel=True)
 @quiet
 def bessel_j0_zeros(count: int) -> Double:
-    """The first positive zeros of J_0, ascending.
+    """Compute the first positive zeros of J_0 in ascending order.
 
-    Formula, beyond the first ten (McMahon)::
+    Formula for all but the first ten (McMahon, 1894)::
 
         j_n = beta + 1/(8 beta) - 31/(384 beta^3) + ...,   beta = (n - 1/4) pi
 
     Parameters
     ----------
     count : int
-        how many, n = 1 ... count [1]; count >= 0
+        number of zeros, n = 1 ... count [1]; count >= 0
 
     Returns
     -------
@@ -128,6 +140,12 @@ def bessel_j0_zeros(count: int) -> Double:
     ------
     ValueError
         If the count is negative or not an integer.
+
+    Examples
+    --------
+    >>> from generated import bessel_j0_zeros
+    >>> print(bessel_j0_zeros(3).round(6))
+    [2.404826 5.520078 8.653728]
     """
     return _zeros(count, 0)
 
@@ -135,16 +153,16 @@ def bessel_j0_zeros(count: int) -> Double:
 @in_manifest("j_{1,n}", domain="count >= 0", kernel=True)
 @quiet
 def bessel_j1_zeros(count: int) -> Double:
-    """The first positive zeros of J_1, ascending; x = 0, a zero too, is not among them.
+    """Compute the first positive zeros of J_1 in ascending order, without the zero at x = 0.
 
-    Formula, beyond the first seven (McMahon)::
+    Formula for all but the first seven (McMahon, 1894)::
 
         j_(1,n) = beta - 3/(8 beta) + 3/(128 beta^3) - ...,   beta = (n + 1/4) pi
 
     Parameters
     ----------
     count : int
-        how many, n = 1 ... count [1]; count >= 0
+        number of zeros, n = 1 ... count [1]; count >= 0
 
     Returns
     -------
@@ -155,6 +173,12 @@ def bessel_j1_zeros(count: int) -> Double:
     ------
     ValueError
         If the count is negative or not an integer.
+
+    Examples
+    --------
+    >>> from generated import bessel_j1_zeros
+    >>> print(bessel_j1_zeros(3).round(6))
+    [ 3.831706  7.015587 10.173468]
     """
     return _zeros(count, 1)
 
@@ -162,34 +186,40 @@ def bessel_j1_zeros(count: int) -> Double:
 @in_manifest("J_1(j_n)", domain="count >= 0", kernel=True)
 @quiet
 def bessel_j1_at_j0_zeros(count: int) -> Double:
-    """Values of J_1 at the first positive zeros of J_0.
+    """Compute J_1 at the first positive zeros of J_0.
 
-    Formula, beyond the first ten::
+    Formula for all but the first ten::
 
         J_1(j_n)^2 = 2/(pi beta) (1 - 7/(48 beta^4) + ...),   beta = (n - 1/4) pi
 
     Parameters
     ----------
     count : int
-        how many, n = 1 ... count [1]; count >= 0
+        number of zeros, n = 1 ... count [1]; count >= 0
 
     Returns
     -------
     ndarray
-        J_1(j_1) ... J_1(j_count) [1], of shape (count,); signs alternate, the first
-        is positive
+        J_1(j_1) ... J_1(j_count) [1], of shape (count,), with alternating signs; the first
+        value is positive
 
     Raises
     ------
     ValueError
         If the count is negative or not an integer.
+
+    Examples
+    --------
+    >>> from generated import bessel_j1_at_j0_zeros
+    >>> print(bessel_j1_at_j0_zeros(3).round(6))
+    [ 0.519147 -0.340265  0.271452]
     """
     count = whole(count, "zeros")
     m = _mcmahon_numbers(count, 0)
     square = 1.0 / (QUARTER_PI * m) ** 2
     excess = square * _polynomial(SLOPE_EXCESS, square)
     slope = kernels.slope(m, excess)
-    # One Newton step for m J_1^2 = (8/pi^2) (1 + excess), its residual without rounding errors.
+    # One Newton step for m J_1^2 = (8/pi^2) (1 + excess), with an exactly computed residual.
     slope_squared, slope_halves = slope * slope, halves(slope)
     scaled = m * slope_squared
     missing = EIGHT_OVER_PI2 - scaled
@@ -197,12 +227,12 @@ def bessel_j1_at_j0_zeros(count: int) -> Double:
     missing -= m * lost_by_halves(slope_halves, slope_halves, slope_squared)
     missing += EIGHT_OVER_PI2_TAIL + EIGHT_OVER_PI2 * excess
     slope += slope * missing / (2.0 * EIGHT_OVER_PI2)
-    slope[FIRST_MCMAHON[0] % 2 :: 2] *= -1.0  # even numbers
+    slope[FIRST_MCMAHON[0] % 2 :: 2] *= -1.0  # zeros with an even number
     return np.concatenate((LOW_SLOPES[:count], slope))
 
 
 def _evaluate(argument: ArrayLike, order: int) -> np.ndarray:
-    """J_order of an array of any shape: block by block, even or odd in the argument."""
+    """Return J_order of an array of any shape, block by block; J_order is even or odd."""
     refuse_masked(argument)
     given = np.asarray(argument)
     signed = given.astype(np.float64, casting="same_kind").ravel()
@@ -219,7 +249,7 @@ def _evaluate(argument: ArrayLike, order: int) -> np.ndarray:
 
 
 def _block(x: Double, order: int) -> Double:
-    """J_order for x >= 0, each point by the method of its range."""
+    """Return J_order for x >= 0, each point by the method for its range."""
     low = x < ASYMPTOTIC_START
     if low.all():
         return _taylor(x, order)
@@ -236,9 +266,9 @@ def _block(x: Double, order: int) -> Double:
 
 
 def _taylor(x: Double, order: int) -> Double:
-    """Taylor polynomial about the centre nearest to x, 0 <= x < ASYMPTOTIC_START."""
+    """Return the Taylor polynomial about the centre nearest to x, 0 <= x < ASYMPTOTIC_START."""
     centre = _CENTRE_OF_CELL.take((CELLS * x).astype(np.intp))
-    # The first difference is exact where it cancels; the second supplies the centre's tail.
+    # The first difference is exact where it cancels; the second adds the low part of the centre.
     t = (x - _HIGH.take(centre)) - _LOW.take(centre)
     table = _TAYLOR[order]
     value: Double = table[0].take(centre)
@@ -250,8 +280,8 @@ def _taylor(x: Double, order: int) -> Double:
 
 
 def _modulus_phase(x: Double, order: int) -> Double:
-    """sqrt(2 p/(pi x)) sin(x +- pi/4 + s), ASYMPTOTIC_START <= x <= LARGEST_PHASE."""
-    quarter = 2.0 * order - 1.0  # J0 crosses zero near (4 k - 1) pi/4, J1 near (4 k + 1) pi/4
+    """Return sqrt(2 p/(pi x)) sin(x +- pi/4 + s) for ASYMPTOTIC_START <= x <= LARGEST_PHASE."""
+    quarter = 2.0 * order - 1.0  # J0 has zeros near (4 k - 1) pi/4, J1 near (4 k + 1) pi/4
     inverse = 1.0 / x
     square = inverse * inverse
     shift = inverse * _polynomial(SHIFT[order], square)
@@ -264,12 +294,12 @@ def _modulus_phase(x: Double, order: int) -> Double:
 
 
 def _far(x: Double, order: int) -> Double:
-    """J_order for x > LARGEST_PHASE, where p = 1 and s = 0 in double."""
+    """Return J_order for x > LARGEST_PHASE, where p = 1 and s = 0 in double precision."""
     return (kernels.far_0, kernels.far_1)[order](x)
 
 
 def _zeros(count: int, order: int) -> Double:
-    """The first positive zeros of J_order: a table, then McMahon's expansion."""
+    """Return the first positive zeros of J_order: a table, then McMahon's expansion."""
     count = whole(count, "zeros")
     beta, rest = _times_quarter_pi(_mcmahon_numbers(count, order))
     inverse = 1.0 / beta
@@ -278,19 +308,19 @@ def _zeros(count: int, order: int) -> Double:
 
 
 def _times_quarter_pi(n: Double) -> tuple[Double, Double]:
-    """n pi/4 as the sum of two doubles."""
+    """Return n pi/4 as the sum of two doubles."""
     product = n * QUARTER_PI
     return product, lost_by_halves(halves(n), _QUARTER_HALVES, product) + n * QUARTER_PI_TAIL
 
 
 def _mcmahon_numbers(count: int, order: int) -> Double:
-    """beta/(pi/4) for the zeros of J_order from the expansion's first number up to count."""
+    """Return beta/(pi/4) for zeros of J_order from the expansion's first index up to count."""
     index = np.arange(FIRST_MCMAHON[order], count + 1, dtype=np.float64)
     return 4.0 * index + QUARTERS[order]
 
 
 def _polynomial(coefficients: tuple[float, ...], variable: Double) -> Double:
-    """Horner's scheme, constant term first."""
+    """Evaluate a polynomial by Horner's rule, constant term first."""
     value = np.full_like(variable, coefficients[-1])
     for coefficient in coefficients[-2::-1]:
         value *= variable

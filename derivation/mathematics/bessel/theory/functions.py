@@ -2,10 +2,10 @@
 
 With y = u/sqrt(x) Bessel's equation x^2 y'' + x y' + (x^2 - nu^2) y = 0 becomes
 u'' + I u = 0, I = 1 + (1/4 - nu^2)/x^2. Its solutions are u = sqrt(p) cos(theta),
-theta' = 1/p, where p'' p/2 - p'^2/4 + I p^2 = 1; p is a series in 1/x^2, and so is
-x times the phase's deviation from x. Everything below follows from those two
-series: J_nu(x) = sqrt(2 p/(pi x)) cos(theta). Its zeros, where theta is an odd
-multiple of pi/2, are found in `zeros`.
+theta' = 1/p, where p'' p/2 - p'^2/4 + I p^2 = 1; p is a series in 1/x^2, and so is x times the
+phase's deviation from x. All results below follow from these two series:
+J_nu(x) = sqrt(2 p/(pi x)) cos(theta). Its zeros, where theta is an odd multiple of pi/2, are found
+in `zeros`.
 """
 
 from collections.abc import Sequence
@@ -51,7 +51,7 @@ class Recurrence:
 
 @dataclass(frozen=True)
 class Expansion:
-    """Sum over j of coefficients[j] variable^(first - 2 j): asymptotic, exact rationals.
+    """Sum over j of coefficients[j] variable^(first - 2 j): asymptotic, with exact rationals.
 
     Parameters
     ----------
@@ -71,22 +71,22 @@ class Expansion:
     proof: Proof
 
     def term(self, index: int, variable: sp.Expr) -> sp.Expr:
-        """One term of the sum."""
+        """Return one term of the sum."""
         return self.coefficients[index] * variable ** (self.first - 2 * index)
 
     def expression(self, variable: sp.Expr, terms: int) -> sp.Expr:
-        """The sum of the first `terms` terms."""
+        """Return the sum of the first `terms` terms."""
         return sp.Add(*(self.term(index, variable) for index in range(terms)))
 
 
 def equation(y: sp.Expr, order: sp.Expr) -> sp.Expr:
-    """Left-hand side of Bessel's equation for y(x)."""
+    """Return the left-hand side of Bessel's equation for y(x)."""
     return x**2 * sp.diff(y, x, 2) + x * sp.diff(y, x) + (x**2 - order**2) * y
 
 
 @cache
 def bessel_functions() -> Proof:
-    """J0 and J1 solve Bessel's equation, and J1 = -J0'."""
+    """Prove that J0 and J1 solve Bessel's equation, and J1 = -J0'."""
     j0, j1 = sp.besselj(0, x), sp.besselj(1, x)
     return prove(
         "Bessel functions",
@@ -101,7 +101,7 @@ def bessel_functions() -> Proof:
 
 @cache
 def taylor_recurrence() -> Recurrence:
-    """Recurrence of J0's Taylor coefficients, from the coefficient of t^k in Bessel's equation.
+    """Return the recurrence of J0's Taylor coefficients, from t^k in Bessel's equation.
 
     x^i D^n acts on a_m t^m, t = x - c, and (c + t)^i is expanded by the binomial
     theorem: its term in t^l contributes to t^k for m = k + n - l.
@@ -120,7 +120,7 @@ def taylor_recurrence() -> Recurrence:
 
 
 def _prove_recurrence(following: sp.Expr, at_origin: sp.Expr, degree: int = 8) -> Proof:
-    """Substitute the polynomials the recurrence builds, their ends apart, into the equation."""
+    """Return residuals of polynomials from the recurrence in the equation, without their ends."""
     series = [sp.Integer(0), sp.Integer(0), *sp.symbols("a_0 a_1", real=True)]
     origin = [sp.Integer(0), sp.Integer(1)]
     for index in range(degree - 1):
@@ -147,10 +147,10 @@ def _prove_recurrence(following: sp.Expr, at_origin: sp.Expr, degree: int = 8) -
 
 @cache
 def wallis_reduction() -> Proof:
-    """(1/pi) int_0^pi sin^n = (n - 1)/n (1/pi) int_0^pi sin^(n-2), which bounds derivatives.
+    """Prove (1/pi) int_0^pi sin^n = (n - 1)/n (1/pi) int_0^pi sin^(n-2), for derivatives.
 
-    Bessel's integral J0(x) = (1/pi) int_0^pi cos(x sin t) dt, differentiated n
-    times, shows |J0^(n)| <= (1/pi) int_0^pi sin^n.
+    Bessel's integral J0(x) = (1/pi) int_0^pi cos(x sin t) dt, differentiated n times, gives
+    |J0^(n)| <= (1/pi) int_0^pi sin^n.
     """
     t = sp.Symbol("t", positive=True)
     n = k + 2
@@ -167,7 +167,7 @@ def wallis_reduction() -> Proof:
 
 @cache
 def derivative_bound(n: int) -> sp.Expr:
-    """Bound of |J0^(n)(x)| for every real x: (1/pi) int_0^pi sin^n, by Wallis's reduction."""
+    """Return a bound of |J0^(n)(x)| for every real x: (1/pi) int_0^pi sin^n, by Wallis."""
     wallis_reduction()
     if n < 2:
         return sp.Integer(1) if n == 0 else 2 / sp.pi
@@ -175,18 +175,17 @@ def derivative_bound(n: int) -> sp.Expr:
 
 
 def amplitude_equation(p: sp.Expr, order: sp.Expr) -> sp.Expr:
-    """p''' + 4 I p' + 2 I' p, which vanishes for the squared amplitude p(x)."""
+    """Return p''' + 4 I p' + 2 I' p, which vanishes for the squared amplitude p(x)."""
     stiffness = 1 + (sp.Rational(1, 4) - order**2) / x**2
     return sp.diff(p, x, 3) + 4 * stiffness * sp.diff(p, x) + 2 * sp.diff(stiffness, x) * p
 
 
 @cache
 def amplitude_and_phase() -> Proof:
-    """sqrt(p/x) cos(theta) with theta' = 1/p solves Bessel's equation.
+    """Prove that sqrt(p/x) cos(theta) with theta' = 1/p solves Bessel's equation.
 
-    That needs p'' p/2 - p'^2/4 + I p^2 = 1. The left side's derivative is p/2
-    times the linear equation of third order, so it is constant, and p -> 1 at
-    infinity makes it 1.
+    This requires p'' p/2 - p'^2/4 + I p^2 = 1. The left side's derivative is p/2 times the linear
+    equation of third order, so it is constant, and p -> 1 at infinity gives the value 1.
     """
     p0, p1, p2, p3, theta = sp.symbols("p0:4 theta", positive=True)
     chain = {p0: p1, p1: p2, p2: p3, theta: 1 / p0}
@@ -215,10 +214,10 @@ def amplitude_and_phase() -> Proof:
 
 @cache
 def modulus_squared(order: int, terms: int) -> Expansion:
-    """p(x) = (pi x/2) (J_nu^2 + Y_nu^2) = 1 + ..., in powers of 1/x^2.
+    """Return p(x) = (pi x/2) (J_nu^2 + Y_nu^2) = 1 + ..., in powers of 1/x^2.
 
-    A term x^(-2j) is put into the linear equation; the balance of each power
-    gives the ratio of neighbouring coefficients.
+    A term x^(-2j) is inserted into the linear equation; the balance of each power gives the ratio
+    of neighbouring coefficients.
     """
     amplitude_and_phase()
     image = sp.expand(sp.powsimp(sp.expand(amplitude_equation(x ** (-2 * j), nu)) * x ** (2 * j)))
@@ -231,7 +230,7 @@ def modulus_squared(order: int, terms: int) -> Expansion:
     residual = sp.expand(amplitude_equation(p, sp.Integer(order)))
     proof = prove(
         f"Squared modulus of order {order}",
-        "The truncated series is substituted into p''' + 4 I p' + 2 I' p = 0: every power "
+        "The truncated series is substituted into p''' + 4 I p' + 2 I' p = 0: every power that "
         "it determines vanishes.",
         {f"x^{-power}": residual.coeff(x, -power) for power in range(1, 2 * terms, 2)},
     )
@@ -240,7 +239,7 @@ def modulus_squared(order: int, terms: int) -> Expansion:
 
 @cache
 def phase_shift(order: int, terms: int) -> Expansion:
-    """theta(x) - (x - nu pi/2 - pi/4), in odd powers of 1/x, from theta' = 1/p."""
+    """Return theta(x) - (x - nu pi/2 - pi/4), in odd powers of 1/x, from theta' = 1/p."""
     p = modulus_squared(order, terms + 1).coefficients
     rate = power(p, sp.Integer(-1), terms + 1)
     coefficients = tuple(rate[index] / (1 - 2 * index) for index in range(1, terms + 1))
@@ -256,7 +255,7 @@ def phase_shift(order: int, terms: int) -> Expansion:
 
 
 def modulus_bound(order: int, terms: int, start: sp.Rational) -> sp.Rational:
-    """Bound, for x >= start, of what p(x) differs from its first `terms` terms.
+    """Return a bound, for x >= start, of the error of p(x) truncated after `terms` terms.
 
     The remainder has the sign of the first omitted term and is smaller
     (Digital Library of Mathematical Functions, 10.18(iii), for terms > nu - 1/2).
@@ -265,12 +264,12 @@ def modulus_bound(order: int, terms: int, start: sp.Rational) -> sp.Rational:
 
 
 def phase_bound(order: int, terms: int, start: sp.Rational) -> sp.Expr:
-    """Bound, for x >= start, of what the phase shift differs from its first `terms` terms.
+    """Return a bound, for x >= start, of the error of the truncated phase shift.
 
     With q the derivative of the truncated phase and P the truncated p,
-    |1/p - q| <= (|q P - 1| + |q| |p - P|)/p. Every power of 1/x in it is taken
-    in absolute value and integrated from x to infinity; near the origin, where p
-    has no positive lower bound in these terms, the bound is infinite.
+    |1/p - q| <= (|q P - 1| + |q| |p - P|)/p. Every power of 1/x in it is taken in absolute value
+    and integrated from x to infinity; near the origin, where p has no positive lower bound in these
+    terms, the bound is infinite.
     """
     m = modulus_squared(order, terms + 2).coefficients
     d = phase_shift(order, terms).coefficients
@@ -286,7 +285,7 @@ def phase_bound(order: int, terms: int, start: sp.Rational) -> sp.Expr:
 
 
 def multiply(a: Sequence[sp.Rational], b: Sequence[sp.Rational], terms: int) -> Coefficients:
-    """Product of two power series, truncated."""
+    """Return the product of two power series, truncated."""
     return tuple(
         sp.Add(*(a[i] * b[n - i] for i in range(n + 1) if i < len(a) and n - i < len(b)))
         for n in range(terms)
@@ -294,7 +293,7 @@ def multiply(a: Sequence[sp.Rational], b: Sequence[sp.Rational], terms: int) -> 
 
 
 def power(a: Sequence[sp.Rational], exponent: sp.Rational, terms: int) -> Coefficients:
-    """Power of a series that begins with 1, truncated: from b' a = exponent a' b, b = a^exponent.
+    """Return a power of a series with constant term 1, truncated: b' a = exponent a' b.
 
     Examples
     --------
@@ -311,17 +310,17 @@ def power(a: Sequence[sp.Rational], exponent: sp.Rational, terms: int) -> Coeffi
 
 
 def hankel(order: sp.Expr) -> sp.Expr:
-    """J_nu by its modulus and phase, with the constants of Hankel."""
+    """Return J_nu by its modulus and phase, with Hankel's constants."""
     return sp.sqrt(2 * P / (sp.pi * x)) * sp.cos(x - order * sp.pi / 2 - sp.pi / 4 + SHIFT)
 
 
 @cache
 def hankel_constants(terms: int = 12) -> Proof:
-    """J_nu(x) = sqrt(2 p/(pi x)) cos(x - nu pi/2 - pi/4 + shift): the constants of Hankel.
+    """Prove J_nu(x) = sqrt(2 p/(pi x)) cos(x - nu pi/2 - pi/4 + shift): Hankel's constants.
 
-    The equation leaves a factor and a phase open. With remainders inside their
-    bounds the formula must contain J_nu; ball arithmetic shows it where the
-    remainders are small enough to exclude any other simple constant.
+    The equation does not determine a factor and a phase. With remainders inside their bounds the
+    formula must contain J_nu; ball arithmetic proves it where the remainders are small enough to
+    exclude any other simple constant.
     """
     bessel_functions()
     for order in (0, 1):
@@ -338,7 +337,7 @@ def hankel_constants(terms: int = 12) -> Proof:
 
 
 def _contains(order: int, point: sp.Integer, terms: int) -> None:
-    """Raise unless the ball of the truncated formula with its remainders contains J_nu."""
+    """Raise an error unless the ball of the truncated formula with its remainders contains J_nu."""
     square = _widened(modulus_squared(order, terms), point, modulus_bound(order, terms, point))
     moved = _widened(phase_shift(order, terms), point, phase_bound(order, terms, point))
     argument = enclose(point, {})
@@ -348,6 +347,6 @@ def _contains(order: int, point: sp.Integer, terms: int) -> None:
 
 
 def _widened(series: Expansion, point: sp.Integer, bound: sp.Rational) -> flint.arb:
-    """Ball of the whole series, widened by the bound of the remainder."""
+    """Return a ball of the whole series, widened by the bound of the remainder."""
     ball = enclose(series.expression(point, len(series.coefficients)), {})
     return ball + flint.arb(0, enclose(bound, {}).upper())

@@ -1,4 +1,4 @@
-"""The zeros of J0 and J1 from the phase of either, and J1 at the zeros of J0.
+"""The zeros of J0 and J1 from their phases, and J1 at the zeros of J0.
 
 J_nu = sqrt(2 p/(pi x)) cos(theta) vanishes where theta = x - nu pi/2 - pi/4 + shift(x) is an
 odd multiple of pi/2: the n-th positive zero solves x + shift(x) = beta with
@@ -21,18 +21,18 @@ from derivation.mathematics.bessel.theory.functions import (
 )
 
 ASIDE = sp.Rational(2, 5)
-"""A zero of J0 or J1 is less than pi/8 < 2/5 away from beta, by Sturm's comparison."""
+"""Bound of the distance of a zero of J0 or J1 from beta: pi/8 < 2/5, by Sturm's comparison."""
 
 
 @cache
 def phase_at_zeros(order: int) -> tuple[int, Proof]:
-    """The integer q of beta = (4 n + q) pi/4: cos(theta) = 0 at the n-th positive zero."""
+    """Return the integer q of beta = (4 n + q) pi/4: cos(theta) = 0 at the n-th positive zero."""
     q = 2 * order - 1
     n = sp.Symbol("n", integer=True, positive=True)
     theta = (4 * n + q) * sp.pi / 4 - order * sp.pi / 2 - sp.pi / 4
     proof = prove(
         f"Phase at the zeros of J{order}",
-        "theta = beta - nu pi/2 - pi/4 is an odd multiple of pi/2, each n giving the next.",
+        "theta = beta - nu pi/2 - pi/4 is an odd multiple of pi/2, and each n gives the next one.",
         {"odd multiple": theta - (2 * n - 1) * sp.pi / 2},
     )
     return q, proof
@@ -40,11 +40,11 @@ def phase_at_zeros(order: int) -> tuple[int, Proof]:
 
 @cache
 def zero_correction(order: int, terms: int) -> Expansion:
-    """McMahon: the n-th zero of J_nu less beta, in odd powers of 1/beta, nu = 0 or 1.
+    """Return the n-th zero of J_nu minus beta (McMahon), in odd powers of 1/beta, nu = 0 or 1.
 
     With x = beta (1 + s) the equation x + shift(x) = beta is
-    s = -sum d_i w^i (1 + s)^(1-2i), w = 1/beta^2, and each pass through it
-    gives one more coefficient of s.
+    s = -sum d_i w^i (1 + s)^(1-2i), w = 1/beta^2, and each evaluation of it gives one more
+    coefficient of s.
     """
     phase_at_zeros(order)
     d = phase_shift(order, terms).coefficients
@@ -57,14 +57,14 @@ def zero_correction(order: int, terms: int) -> Expansion:
     residual = _reversion(order, stretch)
     proof = prove(
         f"McMahon's expansion for J{order}",
-        "It is substituted into x + shift(x) = beta, cleared of its denominators.",
+        "It is substituted into x + shift(x) = beta, multiplied by its denominators.",
         {f"w^{index}": residual[index] for index in range(terms + 1)},
     )
-    return Expansion(f"zero of J{order} less beta", -1, stretch[1:], proof)
+    return Expansion(f"zero of J{order} minus beta", -1, stretch[1:], proof)
 
 
 def _reversion(order: int, stretch: Coefficients) -> Coefficients:
-    """(x + shift(x) - beta) x^(2N-1) beta^(-2N) in powers of w, x = beta stretch, N terms."""
+    """Return (x + shift(x) - beta) x^(2N-1) beta^(-2N) in powers of w; x = beta stretch."""
     w = sp.Symbol("w", positive=True)
     terms = len(stretch) - 1
     one_plus_s = sp.Poly(sp.Add(*(s * w**index for index, s in enumerate(stretch))), w)
@@ -76,13 +76,12 @@ def _reversion(order: int, stretch: Coefficients) -> Coefficients:
 
 
 def zero_bound(order: int, terms: int, beta: sp.Rational) -> sp.Expr:
-    """Bound, for this beta and every larger one, of the zero less its truncated expansion.
+    """Return a bound, for this beta and larger ones, of the error of the truncated expansion.
 
-    At t, the truncated expansion, |theta(t) - beta| is at most what the truncated
-    phase leaves over there, a polynomial in 1/beta whose terms are taken in
-    absolute value, plus the phase's own remainder (`phase_bound`). Divided by the
-    least theta' = 1/p (`amplitude_and_phase`) between t and the zero it bounds
-    their distance. Each of these falls as beta grows.
+    At t, the truncated expansion, |theta(t) - beta| is at most the residual of the truncated phase,
+    a polynomial in 1/beta whose terms are taken in absolute value, plus the phase's own remainder
+    (`phase_bound`). Divided by the smallest theta' = 1/p (`amplitude_and_phase`) between t and the
+    zero it bounds their distance. Each of these decreases as beta increases.
     """
     stretch = (sp.Integer(1), *zero_correction(order, terms).coefficients)
     w = beta**-2
@@ -104,13 +103,13 @@ def zero_bound(order: int, terms: int, beta: sp.Rational) -> sp.Expr:
 
 
 def slope_at_zero(beta: sp.Expr, square: sp.Expr) -> sp.Expr:
-    """|J1| at a zero of J0 by the value of `slope_squared`."""
+    """Return |J1| at a zero of J0 from the value of `slope_squared`."""
     return sp.sqrt(2 * square / (sp.pi * beta))
 
 
 @cache
 def slope_squared(terms: int) -> Expansion:
-    """(pi beta/2) J1(j_n)^2 in powers of 1/beta^2, beta = (n - 1/4) pi.
+    """Return (pi beta/2) J1(j_n)^2 in powers of 1/beta^2, beta = (n - 1/4) pi.
 
     Where cos(theta) = 0, J0' = -sqrt(2 p/(pi x)) theta' sin(theta), hence
     J1(j_n)^2 = 2/(pi x p(x)) at x = j_n = beta (1 + s).
@@ -131,7 +130,7 @@ def slope_squared(terms: int) -> Expansion:
     residual = left * slope - one_plus_s**highest
     proof = prove(
         "J1 at the zeros of J0",
-        "It is substituted into J1^2 (pi x/2) p(x) = 1 at the zero, cleared of denominators.",
+        "It is substituted into J1^2 (pi x/2) p(x) = 1 at the zero, multiplied by denominators.",
         {f"w^{index}": residual.coeff_monomial(w**index) for index in range(terms)},
     )
     return Expansion("J1^2 times pi beta/2", 0, coefficients, proof)
@@ -140,7 +139,7 @@ def slope_squared(terms: int) -> Expansion:
 def _compose(
     coefficients: Coefficients, first: int, stretch: Coefficients, terms: int
 ) -> Coefficients:
-    """sum_i coefficients[i] w^e stretch^(first - 2 e), e = i + first, as a series in w."""
+    """Return sum_i coefficients[i] w^e stretch^(first - 2 e), e = i + first, as a series in w."""
     total = [sp.Integer(0)] * terms
     for index, coefficient in enumerate(coefficients, start=first):
         for n, factor in enumerate(power(stretch, sp.Integer(first - 2 * index), terms - index)):

@@ -1,4 +1,4 @@
-"""What the back face hands in for the generated package."""
+"""Modules of the back face for the generated package."""
 
 from pathlib import Path
 
@@ -11,14 +11,14 @@ RUNTIME = Path(__file__).parents[1] / "runtime"
 
 
 def back_face_kernels() -> Routines:
-    """The stress by its sum, printed from proven expressions."""
+    """Return the routines of the stress, printed from proved expressions."""
     imports = {
         "back_face_numbers": ("THIN",),
         "blocks": ("polynomial", "sinh_pair"),
         "edge_kernels": ("depth_lost", "turn_of_clamp"),
         "ranges": ("times",),
     }
-    title = "Stress on the back face of a plate: its modes, its series, and the edge's part."
+    title = "Stress on the back face of a plate: modal terms, series, and edge correction."
     return Routines("back_face_kernels", title, tuple(make() for make in stress.ROUTINES), imports)
 
 

@@ -1,4 +1,4 @@
-"""The stress on the back face: its modes, its series under a wide contact, and the edge's part."""
+"""The stress on the back face: modal terms, series for wide contacts, and edge correction."""
 
 import sympy as sp
 from sympy.codegen.cfunctions import expm1
@@ -35,7 +35,7 @@ _sum = sp.Symbol("S", real=True)
 
 
 def modes() -> Routine:
-    """Each mode's part of S; the block is over the smaller of T and its seam, to the fourth."""
+    """Return each mode's term of S; the block is divided by min(T, switch point)^4."""
     names = "low pair square low_square"
     low, pair, square, low_square = sp.symbols(names, positive=True)
     block = blocks()["sinh_pair"]
@@ -53,14 +53,14 @@ def modes() -> Routine:
         ),
         (-4 * share * cubed * sp.exp(-T) * expm1(-2 * T) / (pair * (j * J1) ** 2),),
         (mode.expression,),
-        "4 eta^2 k B(2 eta j)/J1^2 of modes, `share` being k.",
+        "Return 4 eta^2 k B(2 eta j)/J1^2 of modes; `share` is k.",
         {j: j_n, share: indentation_kernel(alpha * j_n)},
         in_ratio,
     )
 
 
 def other_plate() -> Routine:
-    """Which plate is summed: of a thin one a thicker one with the same a/h."""
+    """Return the plate whose sum is computed: for a thin plate, a thicker one with the same a/h."""
     width = sp.Symbol("width", positive=True)
     is_thin = sp.Lt(eta, THIN)
     held = sp.Max(eta, THIN)
@@ -70,13 +70,13 @@ def other_plate() -> Routine:
         (Choice(width, is_thin, A * THIN, alpha, if_yes={held: THIN}, if_no={held: eta}),),
         (width, held),
         (a_ratio * held, None),
-        "a/b and h/b of the plate that is summed.",
+        "Return a/b and h/b of the plate whose sum is computed.",
         {alpha: a_ratio * eta, A: a_ratio},
     )
 
 
 def thin_plate() -> Routine:
-    """S of a thin plate by that of a thicker one."""
+    """Return S of a thin plate from that of a thicker one."""
     stated = thin_far_face()[0].expression
     return routine(
         "of_thin_plate",
@@ -84,14 +84,14 @@ def thin_plate() -> Routine:
         (),
         (total + 3 * sp.log(thick / eta),),
         (stated,),
-        "S by that of a thicker plate with the same a/h.",
+        "Return S from that of a thicker plate with the same a/h.",
         {total: stated.subs(eta, thick)},
         lambda e: sp.expand(sp.expand_log(sp.expand(e))),
     )
 
 
 def wide_contact() -> Routine:
-    """S where the contact is wide beside the thickness."""
+    """Return S where the contact is wide compared with the thickness."""
     square = sp.Symbol("square", positive=True)
     stated = wide_far_face().expression
     powers = sp.Poly(
@@ -111,28 +111,28 @@ def wide_contact() -> Routine:
         (Let(square, (2 / A) ** 2),),
         (4 - 3 * sp.log(2 * alpha) + square * POLYNOMIAL(square, *coefficients),),
         (stated,),
-        "S where the contact is wide beside the thickness.",
+        "Return S where the contact is wide compared with the thickness.",
         {A: a_ratio},
         summed,
     )
 
 
 def supported() -> Routine:
-    """S and what a simple support adds."""
+    """Return S plus the correction for a simple support."""
     return routine(
         "with_support",
         (total, eta, n, support, bent, stretched),
         (),
         (total + support * (12 * bent + 8 * n * eta * stretched),),
         (_sum + support_ratio().expression * far_edge().expression,),
-        "S and what a simple support adds, by both sums over the modes.",
+        "Return S plus the correction for a simple support, from both sums over the modes.",
         {**one_mode(indentation_kernel), total: _sum},
         in_ratio,
     )
 
 
 def clamped() -> Routine:
-    """S and what a clamp adds."""
+    """Return S plus the correction for a clamped edge."""
     chi, lost, wide, moment = sp.symbols("chi lost wide moment", real=True)
     return routine(
         "with_clamp",
@@ -145,21 +145,21 @@ def clamped() -> Routine:
         ),
         (total - sp.Rational(3, 2) * moment - 2 * n * eta**2,),
         (_sum - far_clamp().expression,),
-        "S and what a clamp adds.",
+        "Return S plus the correction for a clamped edge.",
         {n: RATIO, total: _sum},
         in_ratio,
     )
 
 
 def scaled() -> Routine:
-    """The stress by S; lam and mu over any common scale."""
+    """Return the stress from S, with lam and mu over any common scale."""
     return routine(
         "stress_of_sum",
         (total, P, h, lam, mu),
         (Let(stiff, (3 * lam + 2 * mu) / (16 * sp.pi * (lam + mu))),),
         (TIMES(total, stiff, 1, P, 1, h, -2),),
         (SCALE * _sum,),
-        "(1 + nu) P/(2 pi H^2) S by S; lam and mu over any common scale.",
+        "Return (1 + nu) P/(2 pi H^2) S, with lam and mu over any common scale.",
         {lam: lam / unit, mu: mu / unit, total: _sum},
         lambda e: undo(e, (), {}),
     )

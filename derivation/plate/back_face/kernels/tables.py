@@ -1,4 +1,4 @@
-"""The numbers that the generated code of the back face needs: where each way to compute ends."""
+"""Constants for the generated code of the back face: limits of each method."""
 
 import sympy as sp
 
@@ -6,21 +6,21 @@ from derivation.engine.emit.package import Numbers
 from derivation.engine.emit.tables import Constant
 
 THIN = sp.Rational(1, 20)
-"""h/b below which a plate's sum is that of this h/b: exp(-4.212/THIN (1 - alpha/2)) < 1e-18."""
+"""h/b below which the sum for this h/b is used: exp(-4.212/THIN (1 - alpha/2)) < 1e-18."""
 WIDE = 1 / THIN
-"""a/h from which on a wide contact's series holds; up to it a/b < 1 where h/b is THIN."""
+"""a/h above which the series of a wide contact is used; below, a/b < 1 where h/b is THIN."""
 FADED = 46
-"""T beyond the first mode's from which on modes are left out: T^3 e^(-T) is below 1e-15 there."""
+"""T - T_1 above which modes are omitted: T^3 e^(-T) is below 1e-15 there."""
 
 
 def numbers() -> Numbers:
-    """Limits of the sum over the modes."""
+    """Return the limits of the sum over the modes."""
     return Numbers(
         "back_face_numbers",
-        "Numbers of the back face: where each way to compute its stress ends.",
+        "Constants of the back face: limits of the methods for its stress.",
         (
-            Constant("THIN", float(THIN), "h/b below which another plate's sum is taken."),
-            Constant("WIDE", float(WIDE), "a/h from which on a series in (2 h/a)^2 is taken."),
-            Constant("FADED", float(FADED), "T beyond which modes are left out."),
+            Constant("THIN", float(THIN), "h/b below which another plate's sum is used."),
+            Constant("WIDE", float(WIDE), "a/h above which a series in (2 h/a)^2 is used."),
+            Constant("FADED", float(FADED), "T beyond which modes are omitted."),
         ),
     )

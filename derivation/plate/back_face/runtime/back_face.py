@@ -1,24 +1,24 @@
-"""Largest tensile stress of a plate, on its back face under the contact, where it breaks first.
+"""Largest tensile stress of a plate: on the back face, opposite the centre of the contact.
 
-Under Hertz's pressure of resultant P on the contact radius a, with H = 2h, alpha = a/b,
+For Hertz pressure of resultant P on the contact radius a, with H = 2h, alpha = a/b,
 eta = h/b and j the zeros of J0::
 
     sigma_rr = sigma_tt = (1 + nu) P/(2 pi H^2) (S + edge)
     S = sum 4 eta^2 g(alpha j) B(2 eta j)/J1(j)^2,   g(y) = 3 (sin y - y cos y)/y^3
     B(T) = 2 T sinh T/(sinh^2 T - T^2)
 
-In a thin plate S + 3 log(h/b) depends on a/h alone, so that the sum is that of a thicker one;
-and where a is much larger than h, with rational c_k::
+In a thin plate S + 3 log(h/b) depends on a/h alone, so the sum for a thicker plate gives it.
+If a is much larger than h, with rational c_k::
 
     S = 3 (4/3 - log 2 - log alpha) + sum c_k (2 h/a)^(2k+2)
 
-The edge adds 0 as the paper has it; clamped -X_c, simply supported (1 - nu)/(1 + nu) X, where,
-see `edge`::
+The edge term is 0 for the paper's edge, -X_c for a clamped edge and (1 - nu)/(1 + nu) X for a
+simple support. With the symbols of `edge`::
 
     X = sum g [12 (1 + 3 n - n Q)/(j^3 J1) + 8 n eta H/(j^2 J1)]
     X_c = (3/2) [(1 + 2 chi eta) (1 - 2 alpha^2/5) - s] + 2 n eta^2
 
-Arithmetic: quotients of the arguments, the ends of their domain, and how many modes are summed.
+Arithmetic: quotients of the arguments, limits of their domain, and the number of modes summed.
 """
 
 from collections.abc import Callable
@@ -35,7 +35,7 @@ from generated.edge_kernels import indentation_kernel
 from generated.edge_numbers import WIDEST
 from generated.edge_sums import INDENTATION, edge_sums, elastic_ratios
 
-_POINTS = 64  # summed at a time
+_POINTS = 64  # number of points in one block of the sum
 
 
 @in_manifest(
@@ -47,7 +47,7 @@ _POINTS = 64  # summed at a time
 def far_stress(
     P: ArrayLike, a: ArrayLike, h: ArrayLike, b: ArrayLike, lam: ArrayLike, mu: ArrayLike
 ) -> np.ndarray:
-    """Largest tensile stress on the back face, on the paper's edge.
+    """Compute the largest tensile stress on the back face of a plate with the paper's edge.
 
     Formula::
 
@@ -73,6 +73,12 @@ def far_stress(
     float or ndarray
         sigma_rr = sigma_tt at r = 0, z = -h [Pa], tensile stress positive,
         in the arguments' broadcast shape; NaN outside the domain.
+
+    Examples
+    --------
+    >>> from generated import far_stress
+    >>> print(f"{far_stress(100.0, 1e-4, 0.004, 0.15, 22.5e9, 28.7e9):.6g}")
+    4.14397e+06
     """
     return _evaluated(P, a, h, b, lam, mu, None)
 
@@ -86,7 +92,7 @@ def far_stress(
 def supported_far_stress(
     P: ArrayLike, a: ArrayLike, h: ArrayLike, b: ArrayLike, lam: ArrayLike, mu: ArrayLike
 ) -> np.ndarray:
-    """Largest tensile stress on the back face of a plate that is simply supported.
+    """Compute the largest tensile stress on the back face of a simply supported plate.
 
     Formula::
 
@@ -110,9 +116,15 @@ def supported_far_stress(
     Returns
     -------
     float or ndarray
-        sigma_rr = sigma_tt at r = 0, z = -h [Pa], tensile stress positive; below 0
-        where a thick plate's back face is compressed,
+        sigma_rr = sigma_tt at r = 0, z = -h [Pa], tensile stress positive; negative
+        where the back face of a thick plate is compressed,
         in the arguments' broadcast shape; NaN outside the domain.
+
+    Examples
+    --------
+    >>> from generated import supported_far_stress
+    >>> print(f"{supported_far_stress(100.0, 1e-4, 0.004, 0.15, 22.5e9, 28.7e9):.6g}")
+    4.43501e+06
     """
     return _evaluated(P, a, h, b, lam, mu, _with_support)
 
@@ -126,7 +138,7 @@ def supported_far_stress(
 def clamped_far_stress(
     P: ArrayLike, a: ArrayLike, h: ArrayLike, b: ArrayLike, lam: ArrayLike, mu: ArrayLike
 ) -> np.ndarray:
-    """Largest tensile stress on the back face of a plate that is clamped.
+    """Compute the largest tensile stress on the back face of a clamped plate.
 
     Formula::
 
@@ -150,9 +162,15 @@ def clamped_far_stress(
     Returns
     -------
     float or ndarray
-        sigma_rr = sigma_tt at r = 0, z = -h [Pa], tensile stress positive; below 0
-        where a thick plate's back face is compressed,
+        sigma_rr = sigma_tt at r = 0, z = -h [Pa], tensile stress positive; negative
+        where the back face of a thick plate is compressed,
         in the arguments' broadcast shape; NaN outside the domain.
+
+    Examples
+    --------
+    >>> from generated import clamped_far_stress
+    >>> print(f"{clamped_far_stress(100.0, 1e-4, 0.004, 0.15, 22.5e9, 28.7e9):.6g}")
+    3.68877e+06
     """
     return _evaluated(P, a, h, b, lam, mu, _with_clamp)
 
@@ -166,7 +184,7 @@ def _evaluated(
     mu: ArrayLike,
     edge: Callable[[Double, Double, Double, Double, Double], Double] | None,
 ) -> np.ndarray:
-    """The stress of S and of what the edge adds to it, nothing on the paper's edge."""
+    """Return the stress from S and the edge term, which is zero for the paper's edge."""
     kind, [P, a, h, b, lam, mu] = as_doubles(P, a, h, b, lam, mu)
     reach = a < b if edge is None else a <= WIDEST * b
     [P, a] = inside([P, a], P >= 0, a > 0, reach)
@@ -192,7 +210,7 @@ def _with_clamp(total: Double, alpha: Double, eta: Double, n: Double, _: Double)
 
 
 def _sum(alpha: Double, eta: Double, A: Double) -> Double:
-    """S: a series where the contact is wide beside the thickness, a sum over modes elsewhere."""
+    """Return S: by a series where the contact is wide compared with h, else by a modal sum."""
     shape = np.broadcast_shapes(alpha.shape, eta.shape, A.shape)
     alpha, eta, A = (np.ravel(np.broadcast_to(x, shape)) for x in (alpha, eta, A))
     value = kernels.under_wide_contact(alpha, np.maximum(A, numbers.WIDE))
@@ -205,7 +223,7 @@ def _sum(alpha: Double, eta: Double, A: Double) -> Double:
 
 
 def _summed(alpha: Double, eta: Double, A: Double) -> Double:
-    """The sum over modes, of points in the order of eta."""
+    """Return the modal sum for points sorted by eta."""
     width, thick = kernels.summed_plate(alpha, eta, A)
     count = 2 + int(numbers.FADED / (2.0 * np.pi * thick[0]))
     j, J1 = bessel_j0_zeros(count), bessel_j1_at_j0_zeros(count)

@@ -1,6 +1,6 @@
-"""Polynomials of the contact law: Horner's rule with slope, and cells of plates of like thickness.
+"""Piecewise polynomials of the contact law: Horner's rule with slope, and cells in 1/eta.
 
-Arithmetic: Horner's rule, and a variable scaled to [-1, 1] in a cell.
+Arithmetic: Horner's rule, and the scaling of a variable to [-1, 1] in its cell.
 """
 
 from collections.abc import Iterator
@@ -10,11 +10,11 @@ import numpy as np
 from generated.arrays import Double
 
 Cells = tuple[tuple[float, float, Double], ...]
-"""Polynomials in b/h: for each its first and last b/h, and its rows."""
+"""Cells of b/h: the first and last b/h of each, and the rows of its polynomials."""
 
 
 def in_cells(v: Double, cells: Cells) -> Iterator[tuple[np.ndarray, Double, float, Double]]:
-    """Which v are in a cell, where in [-1, 1] of it, half its width, its rows for such points."""
+    """Return which v lie in a cell, their position in [-1, 1], the half-width and the rows."""
     for first, last, rows in cells:
         chosen = np.flatnonzero((v > first) & (v <= last))
         if chosen.size:
@@ -23,7 +23,7 @@ def in_cells(v: Double, cells: Cells) -> Iterator[tuple[np.ndarray, Double, floa
 
 
 def horner(coefficients: list[Double] | list[float] | Double, t: Double) -> tuple[Double, Double]:
-    """A polynomial and its slope, in place, as blocks of points stay in the cache."""
+    """Return a polynomial and its slope, computed in place because blocks fit in the cache."""
     value: Double = coefficients[-1] * t + coefficients[-2]
     slope = np.full_like(value, coefficients[-1])
     for coefficient in coefficients[-3::-1]:

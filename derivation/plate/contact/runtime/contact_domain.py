@@ -1,6 +1,6 @@
-"""Domain of the contact law: the plates of given lengths, and elastic constants.
+"""Domain of the contact law: plate dimensions and elastic constants.
 
-Arithmetic: h/b, and which points are compared to find plates that occur more than once.
+Arithmetic: h/b, and the choice of points at which plates are compared for repetition.
 """
 
 import numpy as np
@@ -10,15 +10,15 @@ from generated.arrays import Double, inside
 from generated.contact_series import THICKEST, THINNEST, Plates, plates_of
 from generated.ranges import moderate
 
-_MANY = 256  # lengths from which on it pays to look for plates that occur more than once
+_MANY = 256  # number of plates from which a search for repeated plates saves time
 _SAMPLE = 128
 
 
 def plates_of_lengths(h: Double, b: Double) -> tuple[Plates, np.ndarray]:
-    """Polynomials of the plates of the broadcast h and b, and a plate's number in that shape.
+    """Return the polynomials of the plates h and b, broadcast, and the index of each plate.
 
-    Lengths outside the domain make a plate whose polynomials are NaN. Plates of the same h/b
-    among many lengths are prepared once.
+    Dimensions outside the domain give polynomials of NaN. Among many plates, those with equal
+    h/b are prepared once.
     """
     h, b = np.broadcast_arrays(h, b)
     sound = (h > 0) & (b > 0)
@@ -31,7 +31,7 @@ def plates_of_lengths(h: Double, b: Double) -> tuple[Plates, np.ndarray]:
 
 
 def _repeats(eta: Double) -> bool:
-    """Whether some of many plates occur more than once, as a few of them tell."""
+    """Return whether some of many plates are repeated, judged by a sample of them."""
     if eta.size < _MANY:
         return False
     some = eta[:: -(-eta.size // _SAMPLE)]
@@ -39,11 +39,11 @@ def _repeats(eta: Double) -> bool:
 
 
 def elastic(lam: Double, mu: Double) -> tuple[np.ndarray, np.ndarray]:
-    """Conditions on Lame's constants: a positive bulk modulus, and a positive shear modulus."""
+    """Return conditions on the Lame constants: positive bulk modulus and shear modulus."""
     first, second = moderate(lam, mu)
     return 3.0 * first > -2.0 * second, mu > 0
 
 
 def modulus_factors(lam: Double, mu: Double) -> tuple[Double, Double]:
-    """(4/3) E*, as factors."""
+    """Return (4/3) E* as factors."""
     return mu, kernels.modulus_over_mu(*moderate(lam, mu))

@@ -1,11 +1,11 @@
-"""Contact law of a sphere pressed into a plate: indentation, contact radius, force, stiffness.
+"""Contact law of a sphere on an elastic plate: indentation, contact radius, force, stiffness.
 
-Hertz pressure over the contact radius a, the plate's edge as in the paper, A = a/h::
+For Hertz pressure on the contact radius a and the paper's edge condition, with A = a/h::
 
     delta = (a^2/R) (1 + F(A)),   P = 16 mu (lam + mu)/(3 (lam + 2 mu)) a^3/R
 
-F is a polynomial per plate, see `contact_series`. All arguments broadcast. For many calls about
-the same plate see `prepared_plate`, which has the same functions.
+F is a set of polynomials for each plate, see `contact_series`. All arguments broadcast. For many
+calls with the same plate use `prepared_plate`, which has the same functions.
 
 Arithmetic: none.
 """
@@ -26,7 +26,7 @@ from generated.prepared_plate import prepare
     "a <= 6 * h or h/b >= 1e-5",
 )
 def indentation(a: ArrayLike, R: ArrayLike, h: ArrayLike, b: ArrayLike) -> np.ndarray:
-    """Indentation of the loaded face for a given contact radius.
+    """Compute the indentation for a given contact radius, plate deflection included.
 
     Formula::
 
@@ -35,7 +35,7 @@ def indentation(a: ArrayLike, R: ArrayLike, h: ArrayLike, b: ArrayLike) -> np.nd
     Parameters
     ----------
     a : array_like
-        Contact radius [m]; a >= 0, a < b, a < R; beyond 6 h only for h/b >= 1e-5, slowly.
+        Contact radius [m]; a >= 0, a < b, a < R; above 6 h slower and only for h/b >= 1e-5.
     R : array_like
         Sphere radius [m]; R > 0.
     h : array_like
@@ -47,6 +47,12 @@ def indentation(a: ArrayLike, R: ArrayLike, h: ArrayLike, b: ArrayLike) -> np.nd
     -------
     float or ndarray
         delta [m] in the arguments' broadcast shape; NaN outside the domain.
+
+    Examples
+    --------
+    >>> from generated import indentation
+    >>> print(f"{indentation(1e-4, 0.01, 0.004, 0.15):.6g}")
+    3.80959e-06
     """
     return prepare(h, b).indentation(a, R)
 
@@ -55,13 +61,13 @@ def indentation(a: ArrayLike, R: ArrayLike, h: ArrayLike, b: ArrayLike) -> np.nd
     "a",
     equation="6",
     domain="delta >= 0, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, a < R, a <= b, "
-    "a <= 6 * h for the a that results",
+    "a <= 6 * h for the resulting a",
 )
 def contact_radius(delta: ArrayLike, R: ArrayLike, h: ArrayLike, b: ArrayLike) -> np.ndarray:
-    """Contact radius for a given indentation.
+    """Compute the contact radius for a given indentation.
 
-    Newton's iteration for the logarithm of a over Hertz's radius, from the lesser of
-    that and the radius of a thin plate, guarded by the ends of the polynomial.
+    Newton's method is applied to the logarithm of the ratio of a to the Hertz contact radius. It
+    starts at the smaller of 1 and the ratio of a thin plate, and stays in the polynomial's range.
 
     Parameters
     ----------
@@ -78,6 +84,12 @@ def contact_radius(delta: ArrayLike, R: ArrayLike, h: ArrayLike, b: ArrayLike) -
     -------
     float or ndarray
         a [m] in the arguments' broadcast shape; NaN outside the domain.
+
+    Examples
+    --------
+    >>> from generated import contact_radius
+    >>> print(f"{contact_radius(6e-6, 0.01, 0.004, 0.15):.6g}")
+    0.000117939
     """
     return prepare(h, b).contact_radius(delta, R)
 
@@ -86,12 +98,12 @@ def contact_radius(delta: ArrayLike, R: ArrayLike, h: ArrayLike, b: ArrayLike) -
     "P",
     equation="10",
     domain="delta >= 0, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2 * mu, "
-    "mu > 0, a < R, a <= b, a <= 6 * h for the a that results",
+    "mu > 0, a < R, a <= b, a <= 6 * h for the resulting a",
 )
 def force(
     delta: ArrayLike, R: ArrayLike, h: ArrayLike, b: ArrayLike, lam: ArrayLike, mu: ArrayLike
 ) -> np.ndarray:
-    """Contact force for a given indentation.
+    """Compute the contact force for a given indentation.
 
     Parameters
     ----------
@@ -112,6 +124,12 @@ def force(
     -------
     float or ndarray
         P [N] in the arguments' broadcast shape; NaN outside the domain.
+
+    Examples
+    --------
+    >>> from generated import force
+    >>> print(f"{force(6e-6, 0.01, 0.004, 0.15, 22.5e9, 28.7e9):.6g}")
+    16.0906
     """
     return prepare(h, b).force(delta, R, lam, mu)
 
@@ -119,7 +137,7 @@ def force(
 @in_manifest("P", equation="7", domain="a >= 0, a < R, R > 0, 3 * lam > -2 * mu, mu > 0")
 @quiet
 def force_of_radius(a: ArrayLike, R: ArrayLike, lam: ArrayLike, mu: ArrayLike) -> np.ndarray:
-    """Contact force for a given contact radius.
+    """Compute the contact force for a given contact radius.
 
     Formula::
 
@@ -140,6 +158,12 @@ def force_of_radius(a: ArrayLike, R: ArrayLike, lam: ArrayLike, mu: ArrayLike) -
     -------
     float or ndarray
         P [N] in the arguments' broadcast shape; NaN outside the domain.
+
+    Examples
+    --------
+    >>> from generated import force_of_radius
+    >>> print(f"{force_of_radius(1e-4, 0.01, 22.5e9, 28.7e9):.6g}")
+    9.80853
     """
     kind, [a, R, lam, mu] = as_doubles(a, R, lam, mu)
     [a, R, lam, mu] = inside([a, R, lam, mu], a >= 0, a < R, R > 0, *elastic(lam, mu))
@@ -149,11 +173,11 @@ def force_of_radius(a: ArrayLike, R: ArrayLike, lam: ArrayLike, mu: ArrayLike) -
 @in_manifest(
     "a",
     equation="7",
-    domain="P >= 0, R > 0, 3 * lam > -2 * mu, mu > 0, a < R for the a that results",
+    domain="P >= 0, R > 0, 3 * lam > -2 * mu, mu > 0, a < R for the resulting a",
 )
 @quiet
 def radius_of_force(P: ArrayLike, R: ArrayLike, lam: ArrayLike, mu: ArrayLike) -> np.ndarray:
-    """Contact radius for a given contact force.
+    """Compute the contact radius for a given contact force.
 
     Formula::
 
@@ -174,6 +198,12 @@ def radius_of_force(P: ArrayLike, R: ArrayLike, lam: ArrayLike, mu: ArrayLike) -
     -------
     float or ndarray
         a [m] in the arguments' broadcast shape; NaN outside the domain.
+
+    Examples
+    --------
+    >>> from generated import radius_of_force
+    >>> print(f"{radius_of_force(10.0, 0.01, 22.5e9, 28.7e9):.6g}")
+    0.000100647
     """
     kind, [P, R, lam, mu] = as_doubles(P, R, lam, mu)
     [P, R, lam, mu] = inside([P, R, lam, mu], P >= 0, R > 0, *elastic(lam, mu))
@@ -190,7 +220,7 @@ def radius_of_force(P: ArrayLike, R: ArrayLike, lam: ArrayLike, mu: ArrayLike) -
 def stiffness(
     a: ArrayLike, R: ArrayLike, h: ArrayLike, b: ArrayLike, lam: ArrayLike, mu: ArrayLike
 ) -> np.ndarray:
-    """Contact stiffness dP/d delta for a given contact radius.
+    """Compute the contact stiffness dP/d delta for a given contact radius.
 
     Formula::
 
@@ -199,7 +229,7 @@ def stiffness(
     Parameters
     ----------
     a : array_like
-        Contact radius [m]; a >= 0, a < b, a < R; beyond 6 h only for h/b >= 1e-5, slowly.
+        Contact radius [m]; a >= 0, a < b, a < R; above 6 h slower and only for h/b >= 1e-5.
     R : array_like
         Sphere radius [m]; R > 0.
     h : array_like
@@ -215,6 +245,12 @@ def stiffness(
     -------
     float or ndarray
         dP/d delta [N/m] in the arguments' broadcast shape; NaN outside the domain.
+
+    Examples
+    --------
+    >>> from generated import stiffness
+    >>> print(f"{stiffness(1e-4, 0.01, 0.004, 0.15, 22.5e9, 28.7e9):.6g}")
+    2.82158e+06
     """
     return prepare(h, b).stiffness(a, R, lam, mu)
 
@@ -222,7 +258,7 @@ def stiffness(
 @in_manifest("p_0", equation="7", domain="a >= 0, a < R, R > 0, 3 * lam > -2 * mu, mu > 0")
 @quiet
 def max_pressure(a: ArrayLike, R: ArrayLike, lam: ArrayLike, mu: ArrayLike) -> np.ndarray:
-    """Largest contact pressure, at the centre, as a positive number.
+    """Compute the largest contact pressure, at the centre of the contact, as a positive number.
 
     Formula::
 
@@ -243,6 +279,12 @@ def max_pressure(a: ArrayLike, R: ArrayLike, lam: ArrayLike, mu: ArrayLike) -> n
     -------
     float or ndarray
         p_0 [Pa] in the arguments' broadcast shape; NaN outside the domain.
+
+    Examples
+    --------
+    >>> from generated import max_pressure
+    >>> print(f"{max_pressure(1e-4, 0.01, 22.5e9, 28.7e9):.6g}")
+    4.68323e+08
     """
     kind, [a, R, lam, mu] = as_doubles(a, R, lam, mu)
     [a, R, lam, mu] = inside([a, R, lam, mu], a >= 0, a < R, R > 0, *elastic(lam, mu))

@@ -1,18 +1,18 @@
-"""Correction F of the contact law delta = (a^2/R) (1 + F) as polynomials, one set per plate.
+"""Correction F of the contact law delta = (a^2/R) (1 + F) as polynomials, one set for each plate.
 
 With A = a/h, eta = h/b, alpha = a/b = A eta < 1 and g = 3 (sin y - y cos y)/y^3::
 
     F   = W(alpha) + (8 alpha/(3 pi)) sum_n w_n g(alpha j_n)
     w_n = (G(2 eta j_n) - 1)/(j_n J1(j_n)^2)
 
-F/A is analytic in A^2, its nearest singularities at A = 4i and alpha = 2. Up to
-reach = min(REACH, 1/eta) it is a polynomial in (A/reach)^2, up to A = FAR_REACH another one;
-beyond that the sum itself. The coefficients come from tables: for eta >= 1/REACH an exact linear
-map of the first weights w_n, below it the thin plate's closed form and a remainder.
+F/A is analytic in A^2; its nearest singularities are at A = 4i and alpha = 2. Up to
+reach = min(REACH, 1/eta) F/A is one polynomial in (A/reach)^2, up to A = FAR_REACH a second one,
+and beyond that the modal sum is used. The coefficients come from tables. For eta >= 1/REACH they
+are an exact linear map of the first weights w_n; below, the thin-plate form plus a remainder.
 
-Arithmetic: Horner's rule, in place, as blocks of points stay in the cache; one sphere on one plate
-is a polynomial of a, its coefficients made once. Scaling of polynomials' variables to their ranges,
-and how many modes the direct sum needs.
+Arithmetic: Horner's rule, computed in place because blocks of points fit in the cache; for one
+sphere on one plate a polynomial of a with coefficients computed once; the scaling of the
+polynomials' variables to their ranges; and the number of modes in the direct sum.
 """
 
 from typing import NamedTuple
@@ -40,18 +40,18 @@ from generated.contact_numbers import (
 )
 
 THINNEST, THICKEST = 1e-90, 1e90
-"""Plates are computed for eta = h/b between these."""
+"""Range of eta = h/b for which plates are computed."""
 THINNEST_SUM = 1e-5
-"""Beyond A = FAR_REACH the direct sum takes 4/eta modes: eta is at least this."""
+"""Lower limit of eta for A > FAR_REACH, where the direct sum takes 4/eta modes."""
 
 ROUNDED = 1.0 + 2.0**-50
-"""An end of a range still counts after a few roundings."""
+"""Relative tolerance for the end of a range, so that a few roundings do not exceed it."""
 
-_BLOCK = 32768  # points worked on at a time, so that intermediates stay in the cache
-_ORDINARY = 1e-100, 1e100  # lengths whose products neither overflow nor underflow
-_USUAL = 1e-20, 1e20  # h/b with which that holds for the coefficients too
+_BLOCK = 32768  # number of points in one block, so that intermediate arrays fit in the cache
+_ORDINARY = 1e-100, 1e100  # range of lengths whose products neither overflow nor underflow
+_USUAL = 1e-20, 1e20  # range of h/b for which that also applies to the coefficients
 _MODE_BLOCK = 4096
-_THINNER = CELLS[-1][1]  # from this 1/eta on the closed form is all there is
+_THINNER = CELLS[-1][1]  # value of 1/eta above which the remainder is negligible
 
 
 class Piece(NamedTuple):
@@ -63,7 +63,7 @@ class Piece(NamedTuple):
 
 
 class Columns(NamedTuple):
-    """A piece at given points: for each an own plate (arrays) or one for all (scalars)."""
+    """A piece at given points: one plate for each point (arrays) or one plate for all (scalars)."""
 
     coefficients: list[Double] | list[float]
     middle: Double
@@ -71,7 +71,7 @@ class Columns(NamedTuple):
 
 
 class Plates(NamedTuple):
-    """Polynomials of several plates; eta, reach and far, the ends in A, of shape (plates,)."""
+    """Polynomials of several plates: eta, reach and far, the limits of A, have shape (plates,)."""
 
     eta: Double
     reach: Double
@@ -87,23 +87,23 @@ class Single(NamedTuple):
     h: Double
     inverse_R: Double
     scale: float
-    brief: float  # a up to which the short polynomial serves
-    end: float  # a up to which the first polynomial serves
-    short: list[float]  # coefficients over h R
+    brief: float  # largest a of the short polynomial
+    end: float  # largest a of the first polynomial
+    short: list[float]  # coefficients divided by h R
     first: list[float]
 
 
 @in_manifest("S_k", domain="eta >= 1e-90, eta <= 1e90")
 @quiet
 def plate_coefficients(eta: ArrayLike) -> np.ndarray:
-    """Coefficients of the contact law of a plate.
+    """Compute the polynomial coefficients of the contact law of a plate.
 
     Formula::
 
         delta = (a^2/R) (1 + F),  F = A sum_k S_k (A/reach)^(2k)
         A = a/h, reach = min(REACH, 1/eta), REACH as in `contact_numbers`
 
-    S_k reach^(-2k) is the paper's zeta-regularised c_(2k+1) up to economisation.
+    S_k reach^(-2k) equals the paper's zeta-regularised c_(2k+1) except for economisation.
 
     Parameters
     ----------
@@ -113,8 +113,14 @@ def plate_coefficients(eta: ArrayLike) -> np.ndarray:
     Returns
     -------
     ndarray
-        S_0, S_1, ... [1] along a last axis, as many as `contact_numbers.THIN` has; NaN outside
-        the domain.
+        S_0, S_1, ... [1] along a last axis of the length of `contact_numbers.THIN`; NaN
+        outside the domain.
+
+    Examples
+    --------
+    >>> from generated import plate_coefficients
+    >>> print(plate_coefficients(0.1)[:3].round(6))
+    [ 8.099018 -0.796645  0.161018]
     """
     kind, [eta] = as_doubles(eta)
     [eta] = inside([eta], eta >= THINNEST, eta <= THICKEST)
@@ -123,7 +129,7 @@ def plate_coefficients(eta: ArrayLike) -> np.ndarray:
 
 
 def plates_of(eta: Double) -> Plates:
-    """Polynomials of the plates h/b = eta, of shape (plates,)."""
+    """Return the polynomials of plates h/b = eta of shape (plates,)."""
     inverse = 1.0 / eta
     reach, coefficients = np.minimum(REACH, inverse), _first(eta)
     whole = np.zeros_like(eta)
@@ -137,7 +143,7 @@ def plates_of(eta: Double) -> Plates:
 
 
 def _first(eta: Double) -> Double:
-    """Coefficients of F/A in powers of (A/reach)^2, of shape (terms, plates)."""
+    """Return the coefficients of F/A in powers of (A/reach)^2, of shape (terms, plates)."""
     found = np.full((THIN.size, eta.size), np.nan)
     for some, coefficients in ((eta >= 1.0 / REACH, _thick), (eta < 1.0 / REACH, _thin)):
         if some.any():
@@ -146,7 +152,7 @@ def _first(eta: Double) -> Double:
 
 
 def _thick(eta: Double) -> Double:
-    """The edge's part plus the first modes', reach = 1/eta."""
+    """Return the edge contribution plus that of the first modes, for reach = 1/eta."""
     zeros, weights = _weights(eta, MODES.shape[0])
     total = np.repeat(EDGE[:, None], eta.size, axis=1)
     for index in reversed(range(zeros.size)):
@@ -155,7 +161,7 @@ def _thick(eta: Double) -> Double:
 
 
 def _thin(eta: Double) -> Double:
-    """The closed form of the thin plate, and its remainder where that counts."""
+    """Return the closed form of the thin plate plus its remainder where that is not negligible."""
     v = 1.0 / eta
     total = np.repeat(THIN[:, None], v.size, axis=1)
     _tabulated(v, CELLS, total)
@@ -166,7 +172,7 @@ def _thin(eta: Double) -> Double:
 
 
 def _tabulated(v: Double, cells: Cells, total: Double) -> None:
-    """Add the polynomials in v of the cells to the coefficients, of shape (terms, plates)."""
+    """Add the cells' polynomials in v to the coefficients, which have shape (terms, plates)."""
     for chosen, tau, _, rows in in_cells(v, cells):
         value = rows[-1] * tau + rows[-2]
         for row in rows[-3::-1]:
@@ -176,12 +182,12 @@ def _tabulated(v: Double, cells: Cells, total: Double) -> None:
 
 
 def _bending(v: Double) -> tuple[Double, Double]:
-    """c1 and c3 of the thin plate, v = 1/eta."""
+    """Return c1 and c3 of the thin plate for v = 1/eta."""
     return kernels.thin_coefficients(v)
 
 
 def far_piece(eta: Double) -> Piece:
-    """The second polynomial, from A = reach to min(FAR_REACH, 1/eta), of plates eta < 1/REACH."""
+    """Return the second polynomial, up to min(FAR_REACH, 1/eta), of plates eta < 1/REACH."""
     v = 1.0 / eta
     [v] = inside([v], v > REACH)
     middle, half = _far_span(v)
@@ -196,19 +202,19 @@ def far_piece(eta: Double) -> Piece:
 
 
 def _far_span(v: Double) -> tuple[Double, Double]:
-    """Middle and half of the second polynomial's range of A^2, never narrow."""
+    """Return middle and half-width of the second polynomial's range of A^2, never too narrow."""
     low, top = np.where(v <= WIDE_END, WIDE_START, REACH) ** 2, np.minimum(FAR_REACH, v) ** 2
     return 0.5 * (top + low), 0.5 * (top - low)
 
 
 def _weights(eta: Double, count: int) -> tuple[Double, Double]:
-    """j_n and w_n, the latter with the modes along a last axis."""
+    """Return j_n and w_n, the latter with the modes along a last axis."""
     zeros, slopes = bessel_j0_zeros(count), bessel_j1_at_j0_zeros(count)
     return zeros, kernels.mode_weight(np.asarray(eta)[..., None], zeros, slopes)
 
 
 def direct(A: Double, eta: float) -> tuple[Double, Double]:
-    """F and A F' by the sum over the modes, one plate, alpha = A eta < 1.
+    """Return F and A F' by summation over the modes, for one plate and alpha = A eta < 1.
 
     Parameters
     ----------
@@ -219,7 +225,7 @@ def direct(A: Double, eta: float) -> tuple[Double, Double]:
     """
     alpha = A * eta
     value, slope = with_slope(alpha, Columns(EDGE.tolist(), np.zeros(()), np.ones(())))
-    # T = 2 eta j_n beyond 24, where w_n is below 1e-19 of the first.
+    # T = 2 eta j_n > 24, where w_n is below 1e-19 times the first weight.
     zeros, weights = _weights(np.asarray(eta), int(3.9 / eta) + 2)
     points = max(1, 65536 // min(zeros.size, _MODE_BLOCK))
     for begin in range(0, A.size, points):
@@ -238,7 +244,7 @@ def direct(A: Double, eta: float) -> tuple[Double, Double]:
 
 
 def columns(piece: Piece, index: np.ndarray | None) -> Columns:
-    """The piece at points of the plates `index`; None for the only plate there is."""
+    """Return the piece at points of the plates `index`; None stands for the only plate."""
     if index is None:
         return Columns(piece.coefficients[:, 0].tolist(), piece.middle[0], 1.0 / piece.half[0])
     gathered = [row.take(index) for row in piece.coefficients]
@@ -246,9 +252,9 @@ def columns(piece: Piece, index: np.ndarray | None) -> Columns:
 
 
 def value_of(A: Double, piece: Columns) -> Double:
-    """F = A S(t) of a piece about A = 0."""
+    """Return F = A S(t) of a piece about A = 0."""
     t = A * A
-    t *= piece.inverse_half  # in place: the block stays in the cache
+    t *= piece.inverse_half  # in place, because the block fits in the cache
     value: Double = piece.coefficients[-1] * t
     value += piece.coefficients[-2]
     for coefficient in piece.coefficients[-3::-1]:
@@ -259,14 +265,14 @@ def value_of(A: Double, piece: Columns) -> Double:
 
 
 def with_slope(A: Double, piece: Columns) -> tuple[Double, Double]:
-    """F and A F'(A)."""
+    """Return F and A F'(A)."""
     square = A * A
     value, slope = horner(piece.coefficients, (square - piece.middle) * piece.inverse_half)
     return kernels.with_slope_of(A, square, piece.inverse_half, value, slope)
 
 
 def with_slopes(A: Double, piece: Columns) -> tuple[Double, Double, Double]:
-    """F, A F'(A) and A (A F')'."""
+    """Return F, A F'(A) and A (A F')'."""
     square = A * A
     t = (square - piece.middle) * piece.inverse_half
     value = np.full_like(t, piece.coefficients[-1])
@@ -282,7 +288,7 @@ def with_slopes(A: Double, piece: Columns) -> tuple[Double, Double, Double]:
 
 
 def sphere_on_plate(plates: Plates, h: Double, R: Double) -> Single | None:
-    """The law of one sphere and one plate of ordinary lengths; None for any others."""
+    """Return the law of one sphere and one plate of ordinary lengths; None for other lengths."""
     if plates.eta.size != 1 or R.size != 1 or not _USUAL[0] < plates.eta[0] < _USUAL[1]:
         return None
     if not all(_ORDINARY[0] < length < _ORDINARY[1] for length in (R.item(), h.flat[0])):
@@ -297,9 +303,9 @@ def sphere_on_plate(plates: Plates, h: Double, R: Double) -> Single | None:
 
 
 def indent(a: Double, most: float, law: Single, out: Double) -> None:
-    """Indentation at radii a >= 0 of shape (points,), alpha < 1, a block of them; NaN stays NaN.
+    """Return the indentation at a block of radii a >= 0 of shape (points,), alpha < 1.
 
-    `most` is the largest of them, or NaN if there may be NaN among them.
+    NaN stays NaN. `most` is the largest radius, or NaN if some radii may be NaN.
     """
     if most <= law.brief:
         _indent(a, law, law.short, out)
@@ -322,7 +328,7 @@ def indent(a: Double, most: float, law: Single, out: Double) -> None:
 
 
 def _indent(a: Double, law: Single, coefficients: list[float], out: Double) -> None:
-    """The polynomial in as few passes over memory as there are operations."""
+    """Evaluate the polynomial in as few passes over memory as there are operations."""
     t = a * law.scale
     t *= t
     np.multiply(t, coefficients[-1], out=out)
@@ -337,7 +343,7 @@ def _indent(a: Double, law: Single, coefficients: list[float], out: Double) -> N
 
 
 def correction(A: Double, plates: Plates, index: np.ndarray | None) -> Double:
-    """F at points A >= 0 of shape (points,), alpha < 1, a block of them; NaN stays NaN."""
+    """Return F at a block of points A >= 0 of shape (points,), alpha < 1; NaN stays NaN."""
     reach = plates.reach[slice(None) if index is None else index]
     brief = reach * SHORT >= A
     if brief.all():
@@ -357,7 +363,7 @@ def correction(A: Double, plates: Plates, index: np.ndarray | None) -> Double:
 def correction_with_slope(
     A: Double, plates: Plates, index: np.ndarray | None
 ) -> tuple[Double, Double]:
-    """F and A F' at points A >= 0 of shape (points,), alpha < 1, a block of them."""
+    """Return F and A F' at a block of points A >= 0 of shape (points,), alpha < 1."""
     reach = plates.reach[slice(None) if index is None else index]
     near = reach * ROUNDED >= A
     found, slopes = with_slope(A, columns(plates.first, index))
@@ -370,7 +376,7 @@ def correction_with_slope(
 def _beyond(
     A: Double, near: np.ndarray, plates: Plates, index: np.ndarray | None
 ) -> list[tuple[np.ndarray, Double | float, Double | float]]:
-    """F and A F' where A > reach: which points, and the values there."""
+    """Return the points with A > reach, and F and A F' there."""
     outside = np.flatnonzero(~near)
     owner = np.zeros(outside.size, dtype=np.intp) if index is None else index[outside]
     within = ROUNDED * plates.far[owner] >= A[outside]
@@ -390,5 +396,5 @@ def _beyond(
 
 
 def blocks_of(size: int) -> list[slice]:
-    """Slices of at most _BLOCK points."""
+    """Yield slices of at most _BLOCK points."""
     return [slice(start, start + _BLOCK) for start in range(0, size, _BLOCK)]

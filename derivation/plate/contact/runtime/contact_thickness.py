@@ -1,8 +1,8 @@
-"""How the polynomials of the contact law change with the plate's thickness.
+"""Derivatives of the contact law's polynomials with respect to the plate thickness.
 
-Slopes of F by log(eta), eta = h/b, at fixed A = a/h, in the powers that `contact_series` has.
+Slopes dF/d log(eta), eta = h/b, at fixed A = a/h, in the powers used by `contact_series`.
 
-Arithmetic: Horner's rule, and polynomials' variables scaled to their ranges.
+Arithmetic: Horner's rule, and the scaling of the polynomials' variables to their ranges.
 """
 
 import numpy as np
@@ -23,11 +23,11 @@ from generated.contact_numbers import (
 )
 from generated.contact_series import Piece
 
-_THINNER = CELLS[-1][1]  # from this 1/eta on the closed form is all there is
+_THINNER = CELLS[-1][1]  # value of 1/eta above which the remainder is negligible
 
 
 def first_by_thickness(first: Piece, eta: Double) -> Double:
-    """Coefficients of the slope of F by log(eta) at fixed A, in the powers of the first piece."""
+    """Return coefficients of dF/d log(eta) at fixed A, in the powers of the first piece."""
     found = np.full(first.coefficients.shape, np.nan)
     chosen = np.flatnonzero(eta >= 1.0 / REACH)
     if chosen.size:
@@ -35,7 +35,7 @@ def first_by_thickness(first: Piece, eta: Double) -> Double:
         total = np.zeros((MODES.shape[1], chosen.size))
         for index in reversed(range(zeros.size)):
             total += MODES[index][:, None] * slopes[..., index]
-        # reach is 1/eta: at fixed weights F is a function of alpha = A eta.
+        # reach is 1/eta: for fixed weights F is a function of alpha = A eta.
         orders = 2.0 * np.arange(total.shape[0], dtype=np.float64)[:, None] + 1.0
         whole = first.coefficients[:, chosen]
         found[:, chosen] = kernels.thick_by_thickness(orders, whole, eta[chosen], total)
@@ -51,11 +51,11 @@ def first_by_thickness(first: Piece, eta: Double) -> Double:
 
 
 def far_by_thickness(far: Piece, eta: Double) -> Piece:
-    """The slope of F by log(eta) at fixed A as a piece with the second polynomial's range."""
+    """Return dF/d log(eta) at fixed A as a piece on the second polynomial's range."""
     v = 1.0 / eta
     total = np.zeros_like(far.coefficients)
     _tabulated_slope(v, FAR_CELLS, total)
-    # Up to FAR_REACH the range grows with v, and t falls in proportion to 1 + t.
+    # Up to FAR_REACH the range grows with v, and t decreases in proportion to 1 + t.
     order = np.arange(total.shape[0])[:, None]
     inner = order * far.coefficients
     inner[:-1] += inner[1:]
@@ -67,12 +67,12 @@ def far_by_thickness(far: Piece, eta: Double) -> Piece:
 
 
 def _tabulated_slope(v: Double, cells: Cells, total: Double) -> None:
-    """Add v times the slopes by v of the cells' polynomials."""
+    """Add v times the derivatives by v of the cells' polynomials."""
     for chosen, tau, half, rows in in_cells(v, cells):
         total[:, chosen] += horner(rows, tau)[1] * (v[chosen] / half)
 
 
 def _weight_slopes(eta: Double, count: int) -> tuple[Double, Double]:
-    """j_n and the slopes of w_n by log(eta), modes along a last axis."""
+    """Return j_n and the derivatives of w_n by log(eta), with the modes along a last axis."""
     zeros, slopes = bessel_j0_zeros(count), bessel_j1_at_j0_zeros(count)
     return zeros, kernels.weight_by_thickness(eta[..., None], zeros, slopes)

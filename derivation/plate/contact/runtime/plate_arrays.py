@@ -1,9 +1,9 @@
-"""Contact law of arrays of points on prepared plates.
+"""Contact law for arrays of points on prepared plates.
 
-Points are worked on in blocks. Where every plate has many points along axes of their own, one
-plate is worked on after the other; else each point gathers the coefficients of its plate.
+Points are processed in blocks. If each plate has many points along axes of its own, the plates
+are processed one after another; otherwise the coefficients are gathered for each point.
 
-Arithmetic: A = a/h; where the iteration for the contact radius starts, its ends, and its steps.
+Arithmetic: A = a/h; starting value, limits and steps of the iteration for the contact radius.
 """
 
 from collections.abc import Callable
@@ -29,9 +29,9 @@ from generated.contact_series import (
     value_of,
 )
 
-_STEPS = 60  # of Newton's iteration at most; it takes four to six
-_CLOSE = 1e-9  # a relative residual whose square is far below rounding
-_APART = 512  # points of a plate from which on it is worked on alone
+_STEPS = 60  # largest number of Newton steps; four to six are usual
+_CLOSE = 1e-9  # relative residual whose square is far below rounding
+_APART = 512  # number of points per plate from which the plate is processed separately
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,9 +42,9 @@ class PlateArrays:
     ----------
     h, b
         Half-thickness and radius [m], of any shapes.
-    plates
+        Polynomials of the distinct plates.
         Polynomials of the plates that differ.
-    owner
+        Index of the polynomials of each plate, in the broadcast shape of h and b.
         Which of them each is, in the broadcast shape of h and b.
     """
 
@@ -55,30 +55,30 @@ class PlateArrays:
 
     @cached_property
     def near(self) -> Double:
-        """Of each plate that differs sqrt(R delta)/h [1] at the end of the first polynomial."""
+        """sqrt(R delta)/h [1] at the end of the first polynomial, for each distinct plate."""
         every = np.arange(self.plates.eta.size)
         value = value_of(self.plates.reach, columns(self.plates.first, every))
         return kernels.depth_ratio_at(self.plates.reach, value)
 
 
 def indentations(some: PlateArrays, a: Double, R: Double) -> Double:
-    """Indentation [m] of contact radii [m]; NaN outside the domain."""
+    """Return the indentation [m] at contact radii [m]; NaN outside the domain."""
     [R] = inside([R], R > 0)
     return _plate_by_plate(_indentations, some, a, R)
 
 
 def radii(some: PlateArrays, delta: Double, R: Double) -> Double:
-    """Contact radius [m] of indentations [m]; NaN outside the domain."""
+    """Return the contact radius [m] at indentations [m]; NaN outside the domain."""
     return _plate_by_plate(lambda *given: _contact(*given)[0], some, delta, R)
 
 
 def forces(some: PlateArrays, delta: Double, R: Double, lam: Double, mu: Double) -> Double:
-    """Force [N] of indentations [m]; NaN outside the domain, Lame's constants being inside."""
+    """Return the force [N] at indentations [m] for valid Lame constants; NaN outside the domain."""
     return _plate_by_plate(_forces, some, delta, R, lam, mu)
 
 
 def stiffnesses(some: PlateArrays, a: Double, R: Double, lam: Double, mu: Double) -> Double:
-    """Stiffness [N/m] of contact radii [m]; NaN outside the domain, constants being inside."""
+    """Return the stiffness [N/m] at radii [m] for valid Lame constants; NaN outside the domain."""
     [a] = inside([a], a >= 0, a < some.b, a < R, R > 0)
     rise = _plate_by_plate(_rises, some, a)
     whole = np.broadcast_to(rise, np.broadcast_shapes(rise.shape, R.shape))
@@ -88,7 +88,7 @@ def stiffnesses(some: PlateArrays, a: Double, R: Double, lam: Double, mu: Double
 def _plate_by_plate(
     function: Callable[..., Double], some: PlateArrays, *arguments: Double
 ) -> Double:
-    """The function of plates that have axes of their own, each with many points, one by one."""
+    """Evaluate a function plate by plate, if each plate has many points along its own axes."""
     owner = some.owner
     shape = np.broadcast_shapes(owner.shape, *(x.shape for x in arguments))
     count = int(np.prod(shape))
@@ -106,7 +106,7 @@ def _plate_by_plate(
 
 
 def _at(x: Double, place: tuple[int, ...], lengths: tuple[int, ...]) -> Double:
-    """What of an argument belongs to a plate: along the axes on which plates differ, its own."""
+    """Return the part of an argument that belongs to a plate, along the axes of the plates."""
     whole = x.reshape((1,) * (len(place) - x.ndim) + x.shape)
     sizes = whole.shape[whole.ndim - len(place) :]
     own = (min(i, size - 1) for i, size in zip(place, sizes, strict=True))
@@ -116,7 +116,7 @@ def _at(x: Double, place: tuple[int, ...], lengths: tuple[int, ...]) -> Double:
 
 
 def _one_of(some: PlateArrays, number: int, h: Double, b: Double) -> PlateArrays:
-    """One of the plates."""
+    """Return one of the plates."""
     pick = slice(number, number + 1)
     eta, reach, far, short, first = some.plates
     pieces = (Piece(x.coefficients[:, pick], x.middle[pick], x.half[pick]) for x in (short, first))
@@ -145,7 +145,7 @@ def _indentations(some: PlateArrays, a: Double, R: Double) -> Double:
 
 
 def _rises(some: PlateArrays, a: Double) -> Double:
-    """(R/a) d delta/da."""
+    """Return (R/a) d delta/da."""
     shape = np.broadcast_shapes(a.shape, some.owner.shape)
     flat_a, flat_h, index = flat(a, shape), flat(some.h, shape), index_of(some.owner, shape)
     result = np.empty(int(np.prod(shape)))
@@ -162,8 +162,8 @@ def _forces(some: PlateArrays, delta: Double, R: Double, lam: Double, mu: Double
 
 
 def _contact(some: PlateArrays, delta: Double, R: Double) -> tuple[Double, Double]:
-    """Contact radius, and what share it is of Hertz's radius sqrt(R delta)."""
-    # -0 becomes 0, of which roots and quotients have no sign.
+    """Return the contact radius and its ratio to Hertz's radius sqrt(R delta)."""
+    # -0 becomes 0, whose roots and quotients carry no sign.
     [delta, R] = inside([delta + 0.0, R], delta >= 0, R > 0)
     shape = np.broadcast_shapes(delta.shape, R.shape, some.owner.shape)
     index = index_of(some.owner, shape)
@@ -179,7 +179,7 @@ def _contact(some: PlateArrays, delta: Double, R: Double) -> tuple[Double, Doubl
 
 
 def _invert(eps: Double, some: PlateArrays, limits: Double, index: np.ndarray | None) -> Double:
-    """A/eps where A sqrt(1 + F) is eps; NaN where that is beyond `limits`."""
+    """Return A/eps, where A sqrt(1 + F) equals eps; NaN where that exceeds `limits`."""
     plates = some.plates
     pick: slice | np.ndarray = slice(None) if index is None else index
     near, limit = some.near[pick], limits[pick]
@@ -197,7 +197,7 @@ def _invert(eps: Double, some: PlateArrays, limits: Double, index: np.ndarray | 
 
 
 def _limits(eps: Double, some: PlateArrays, index: np.ndarray | None) -> Double:
-    """A sqrt(1 + F) of each plate at its far end if any point needs that, else at A = reach."""
+    """Return A sqrt(1 + F) of each plate at its far end if a point needs it, else at A = reach."""
     plates, near = some.plates, some.near
     owner = np.zeros(eps.size, dtype=np.intp) if index is None else index
     needed = np.unique(owner[eps > near[owner]])

@@ -1,10 +1,10 @@
-"""Contact law of a single point on a single plate, in plain numbers without NumPy's overhead.
+"""Contact law of a single point on a single plate, as plain numbers without NumPy's overhead.
 
-The same polynomials and the same iteration as for arrays, for numbers whose products neither
-overflow nor underflow. A result is None where a point is none of these, or outside the domain:
-it is then worked on as an array of one point.
+The polynomials and the iteration are those for arrays, for numbers whose products neither
+overflow nor underflow. For other numbers, and outside the domain, the result is None; the caller
+then evaluates an array of one point.
 
-Arithmetic: Horner's rule; A = a/h; where the iteration starts, its ends, and its steps.
+Arithmetic: Horner's rule; A = a/h; starting value, limits and steps of the iteration.
 """
 
 from dataclasses import dataclass
@@ -17,14 +17,14 @@ from generated.contact_numbers import SHORT
 from generated.contact_series import ROUNDED, Piece, Plates, far_piece
 from generated.plate_arrays import PlateArrays
 
-_STEPS = 60  # of Newton's iteration at most; it takes four to six
-_CLOSE = 1e-9  # a relative residual whose square is far below rounding
-_ORDINARY = 1e-60, 1e60  # numbers whose products neither overflow nor underflow
-_USUAL = 1e-20, 1e20  # h/b with which that holds for the coefficients too
+_STEPS = 60  # largest number of Newton steps; four to six are usual
+_CLOSE = 1e-9  # relative residual whose square is far below rounding
+_ORDINARY = 1e-60, 1e60  # range of numbers whose products neither overflow nor underflow
+_USUAL = 1e-20, 1e20  # range of h/b for which that also applies to the coefficients
 
 
 class PointPiece(NamedTuple):
-    """F = A (S_0 + S_1 t + ...), t = (A^2 - middle) inverse_half, the highest power first."""
+    """F = A (S_0 + S_1 t + ...), t = (A^2 - middle) inverse_half; the highest power comes first."""
 
     coefficients: tuple[float, ...]
     middle: float
@@ -33,14 +33,14 @@ class PointPiece(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class PlatePoints:
-    """A plate whose law is computed in plain numbers.
+    """A plate whose contact law is evaluated in plain numbers.
 
     Parameters
     ----------
     h, b
         Half-thickness and radius [m].
     plates
-        The plate's polynomials, in arrays.
+        Polynomials of the plate, as arrays.
     """
 
     h: float
@@ -69,32 +69,32 @@ class PlatePoints:
 
     @cached_property
     def far_ratio(self) -> float:
-        """sqrt(R delta)/h [1] at the end of the second."""
+        """sqrt(R delta)/h [1] at the end of the second polynomial."""
         return kernels.depth_ratio_at(self.far, _value(self.far, self.beyond))
 
     @cached_property
     def linear(self) -> float:
-        """Of F for small A, at least 0 [1]."""
+        """Upper bound of F for small A, at least 0 [1]."""
         return max(self.first.coefficients[-1], 0.0)
 
     @cached_property
     def short(self) -> PointPiece:
-        """The first polynomial, shortened for small A."""
+        """First polynomial, shortened for small A."""
         return _piece(self.plates.short)
 
     @cached_property
     def first(self) -> PointPiece:
-        """The first polynomial."""
+        """First polynomial."""
         return _piece(self.plates.first)
 
     @cached_property
     def beyond(self) -> PointPiece:
-        """The second polynomial; the first again in a plate that ends before it does."""
+        """Second polynomial; equal to the first if the plate ends before the second begins."""
         return _piece(far_piece(self.plates.eta)) if self.far > self.reach else self.first
 
 
 def plate_points(some: PlateArrays) -> PlatePoints | None:
-    """The only plate there is, if it is of ordinary lengths."""
+    """Return the only plate if its lengths are ordinary, else None."""
     if some.h.ndim or some.b.ndim:
         return None
     h, b = some.h.item(), some.b.item()
@@ -103,7 +103,7 @@ def plate_points(some: PlateArrays) -> PlatePoints | None:
 
 
 def indentation(plate: PlatePoints, a: float, R: float) -> float | None:
-    """Indentation [m] of a contact radius [m]."""
+    """Return the indentation [m] at a contact radius [m]."""
     if not (_ordinary(a, R) and a < plate.b and a < R):
         return None
     A = a / plate.h
@@ -119,13 +119,13 @@ def indentation(plate: PlatePoints, a: float, R: float) -> float | None:
 
 
 def contact_radius(plate: PlatePoints, delta: float, R: float) -> float | None:
-    """Contact radius [m] of an indentation [m]."""
+    """Return the contact radius [m] at an indentation [m]."""
     found = _contact(plate, delta, R)
     return None if found is None else found[0]
 
 
 def force(plate: PlatePoints, delta: float, R: float, lam: float, mu: float) -> float | None:
-    """Force [N] of an indentation [m]."""
+    """Return the force [N] at an indentation [m]."""
     modulus = _modulus(lam, mu)
     found = None if modulus is None else _contact(plate, delta, R)
     if modulus is None or found is None:
@@ -135,7 +135,7 @@ def force(plate: PlatePoints, delta: float, R: float, lam: float, mu: float) -> 
 
 
 def stiffness(plate: PlatePoints, a: float, R: float, lam: float, mu: float) -> float | None:
-    """Stiffness [N/m] of a contact radius [m]."""
+    """Return the stiffness [N/m] at a contact radius [m]."""
     modulus = _modulus(lam, mu)
     if modulus is None or not (_ordinary(a, R) and a < plate.b and a < R):
         return None
@@ -147,7 +147,7 @@ def stiffness(plate: PlatePoints, a: float, R: float, lam: float, mu: float) -> 
 
 
 def _contact(plate: PlatePoints, delta: float, R: float) -> tuple[float, float] | None:
-    """Contact radius, and what share it is of Hertz's radius."""
+    """Return the contact radius and its ratio to Hertz's radius."""
     if not _ordinary(delta, R):
         return None
     eps = kernels.depth_ratio_in_range(delta, R, plate.h)
@@ -159,7 +159,7 @@ def _contact(plate: PlatePoints, delta: float, R: float) -> tuple[float, float] 
 
 
 def _invert(plate: PlatePoints, eps: float) -> float:
-    """A/eps where A sqrt(1 + F) is eps."""
+    """Return A/eps, where A sqrt(1 + F) equals eps."""
     most = (plate.reach if eps <= plate.near_ratio else plate.far) / eps
     thin = 1.0 / cbrt(eps * plate.linear) if plate.linear > 0.0 else 1.0
     share = min(thin, 1.0, most)
@@ -179,7 +179,7 @@ def _ordinary(one: float, other: float) -> bool:
 
 
 def _modulus(lam: float, mu: float) -> float | None:
-    """(4/3) E* over mu of ordinary constants."""
+    """Return (4/3) E*/mu of ordinary constants."""
     low, high = _ORDINARY
     if low < mu < high and -2.0 * mu < 3.0 * lam < high:
         return kernels.modulus_over_mu(lam, mu)
@@ -187,7 +187,7 @@ def _modulus(lam: float, mu: float) -> float | None:
 
 
 def _piece_at(plate: PlatePoints, A: float) -> PointPiece:
-    """Which of the two polynomials with a slope serves."""
+    """Return the polynomial, of the two with a slope, that applies at A."""
     return plate.first if plate.reach * ROUNDED >= A else plate.beyond
 
 
@@ -197,7 +197,7 @@ def _piece(piece: Piece) -> PointPiece:
 
 
 def _value(A: float, piece: PointPiece) -> float:
-    """F."""
+    """Return F."""
     t = (A * A - piece.middle) * piece.inverse_half
     value = 0.0
     for coefficient in piece.coefficients:
@@ -206,7 +206,7 @@ def _value(A: float, piece: PointPiece) -> float:
 
 
 def _with_slope(A: float, piece: PointPiece) -> tuple[float, float]:
-    """F and A F'."""
+    """Return F and A F'."""
     square = A * A
     t = (square - piece.middle) * piece.inverse_half
     value = slope = 0.0

@@ -1,12 +1,12 @@
-"""A plate prepared once: its contact law for any number of calls.
+"""A prepared plate: its contact law for any number of calls.
 
     >>> from generated.prepared_plate import prepare
     >>> pane = prepare(0.1, 1.0)
     >>> print(f"{pane.indentation(0.004, 0.13):.10g}")
     0.0001629483151
 
-`contact_law` has the same functions with the plate's lengths as arguments, and prepares the plate
-in each call.
+`contact_law` has the same functions with the plate's dimensions as arguments; it prepares the
+plate again in each call.
 
 Arithmetic: none.
 """
@@ -26,17 +26,17 @@ from generated.plate_points import PlatePoints
 
 @dataclass(frozen=True, eq=False)
 class PreparedPlate:
-    """A plate, or plates of broadcast lengths, whose polynomials are made; see `prepare`.
+    """A plate, or plates of broadcast dimensions, with computed polynomials; see `prepare`.
 
-    Errors are those of `contact_law`: the same budgets hold. Arrays of contacts broadcast with
-    the plates' lengths; a single contact on a single plate takes some ten microseconds.
+    The errors and budgets are those of `contact_law`. Arrays of contacts broadcast with the
+    plates' dimensions. A single contact on a single plate takes about ten microseconds.
 
     Parameters
     ----------
     h, b
         Half the plate's thickness and its radius [m], as given.
     arrays
-        The polynomials.
+        Polynomials of the plates.
     """
 
     h: ArrayLike
@@ -44,12 +44,12 @@ class PreparedPlate:
     arrays: PlateArrays
 
     def indentation(self, a: ArrayLike, R: ArrayLike) -> np.ndarray:
-        """Indentation of the loaded face for a given contact radius.
+        """Compute the indentation for a given contact radius, plate deflection included.
 
         Parameters
         ----------
         a : array_like
-            Contact radius [m]; a >= 0, a < b, a < R; beyond 6 h only for h/b >= 1e-5, slowly.
+            Contact radius [m]; a >= 0, a < b, a < R; above 6 h slower and only for h/b >= 1e-5.
         R : array_like
             Sphere radius [m]; R > 0.
 
@@ -71,7 +71,7 @@ class PreparedPlate:
         return _indentation(self, a, R)
 
     def contact_radius(self, delta: ArrayLike, R: ArrayLike) -> np.ndarray:
-        """Contact radius for a given indentation.
+        """Compute the contact radius for a given indentation.
 
         Parameters
         ----------
@@ -98,7 +98,7 @@ class PreparedPlate:
         return _contact_radius(self, delta, R)
 
     def force(self, delta: ArrayLike, R: ArrayLike, lam: ArrayLike, mu: ArrayLike) -> np.ndarray:
-        """Contact force for a given indentation.
+        """Compute the contact force for a given indentation.
 
         Parameters
         ----------
@@ -129,12 +129,12 @@ class PreparedPlate:
         return _force(self, delta, R, lam, mu)
 
     def stiffness(self, a: ArrayLike, R: ArrayLike, lam: ArrayLike, mu: ArrayLike) -> np.ndarray:
-        """Contact stiffness dP/d delta for a given contact radius.
+        """Compute the contact stiffness dP/d delta for a given contact radius.
 
         Parameters
         ----------
         a : array_like
-            Contact radius [m]; a >= 0, a < b, a < R; beyond 6 h only for h/b >= 1e-5, slowly.
+            Contact radius [m]; a >= 0, a < b, a < R; above 6 h slower and only for h/b >= 1e-5.
         R : array_like
             Sphere radius [m]; R > 0.
         lam : array_like
@@ -162,14 +162,14 @@ class PreparedPlate:
 
     @cached_property
     def points(self) -> PlatePoints | None:
-        """The plate for contacts in plain numbers; None if it is none for these."""
+        """Return the plate for contacts in plain numbers; None if its lengths are not ordinary."""
         plain = isinstance(self.h, (int, float)) and isinstance(self.b, (int, float))
         return plate_points.plate_points(self.arrays) if plain else None
 
 
 @quiet
 def prepare(h: ArrayLike, b: ArrayLike) -> PreparedPlate:
-    """Prepare a plate, or many, for contacts that follow.
+    """Prepare one plate, or many, for repeated contacts.
 
     Parameters
     ----------
@@ -181,7 +181,7 @@ def prepare(h: ArrayLike, b: ArrayLike) -> PreparedPlate:
     Returns
     -------
     PreparedPlate
-        Its functions give NaN for plates outside the domain.
+        Its methods return NaN for plates outside the domain.
 
     Raises
     ------
@@ -205,12 +205,12 @@ def prepare(h: ArrayLike, b: ArrayLike) -> PreparedPlate:
 
 
 def _kept(length: ArrayLike) -> ArrayLike:
-    """A number as it is, and a copy of an array, which its owner may change."""
+    """Return a number as it is, or a copy of an array, which its owner may change later."""
     return length if isinstance(length, (int, float)) else np.array(length)
 
 
 def _numbers(*arguments: ArrayLike) -> tuple[float, ...]:
-    """The arguments as plain numbers; none if one of them is not."""
+    """Return the arguments as plain numbers; an empty result if one of them is not a number."""
     for argument in arguments:
         if not isinstance(argument, (int, float)):
             return ()
@@ -221,7 +221,7 @@ def _numbers(*arguments: ArrayLike) -> tuple[float, ...]:
 
 
 def _single(value: float) -> np.ndarray:
-    """A number as NumPy has it."""
+    """Return a number as a NumPy scalar."""
     found: np.ndarray = np.float64(value)  # type: ignore[assignment]
     return found
 

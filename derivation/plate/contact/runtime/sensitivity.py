@@ -1,16 +1,17 @@
-"""Slope of the contact law, and what every parameter of a scene does to an impact.
+"""Slope of the contact law, and logarithmic derivatives of the results of an impact.
 
-With A = a/h, eta = h/b and Y = m v0^2/2 over (4/3) E* h^5/R^2 every result of an impact is
-a product of powers times a function of Y and eta::
+With A = a/h, eta = h/b and Y the ratio of m v0^2/2 to (4/3) E* h^5/R^2, each result of an impact
+is a product of powers times a function of Y and eta::
 
     d log A_m/d log Y = E/V,   d log A_m/d log eta = -E_eta/V,   V = 2 (1 + F) + A F'
     A^5 E = int_0^A x^3 d(x^2 (1 + F)),   E_eta = eta dE/d eta at fixed A
 
-and so on for the indentation; the contact time is sqrt(m/(E* h)) A_m^(-1/2) int N/sqrt(S) dw
-up to a number, N and S as in `impact`, which changes by int (N' - N S'/(2 S))/sqrt(S) dw.
+The derivatives of the indentation are similar. The contact time is proportional to
+sqrt(m/(E* h)) A_m^(-1/2) int N/sqrt(S) dw with N and S of `impact`; the derivative of this
+integral is int (N' - N S'/(2 S))/sqrt(S) dw.
 
-Arithmetic: sums over powers by Horner's rule, over nodes of quadratures, and of the works up to
-the end of the first polynomial and beyond; A = a/h; where the nodes lie.
+Arithmetic: sums over powers by Horner's rule, over quadrature nodes, and of the work up to the
+end of the first polynomial and beyond it; A = a/h; the positions of the nodes.
 """
 
 from typing import NamedTuple
@@ -42,16 +43,16 @@ __all__ = ["PARAMETERS", "RESULTS", "impact_sensitivities", "indentation_slope"]
 
 
 class _Sums(NamedTuple):
-    """N and S at nodes, of the law or of a slope of it."""
+    """N and S at the nodes, for the law or for one of its derivatives."""
 
     rate: Double
     stored: Double
 
 
 class _Law(NamedTuple):
-    """F or a slope of it up to A_near = min(A_m, reach): sum terms_k s^(2k + 1), s = A/A_near.
+    """F, or a derivative of F, up to A_near = min(A_m, reach): sum terms_k s^(2k+1), s = A/A_near.
 
-    `tails` are the sums over l >= k of (2l + 3)/(2l + 6) terms_l; both (terms, scenes).
+    `tails` are the sums over l >= k of (2l + 3)/(2l + 6) terms_l; both have shape (terms, scenes).
     """
 
     terms: Double
@@ -66,7 +67,7 @@ class _Law(NamedTuple):
 )
 @quiet
 def indentation_slope(a: ArrayLike, R: ArrayLike, h: ArrayLike, b: ArrayLike) -> np.ndarray:
-    """Indentation added per contact radius added, d delta/da.
+    """Compute the slope d delta/da of the indentation with respect to the contact radius.
 
     Formula::
 
@@ -75,7 +76,7 @@ def indentation_slope(a: ArrayLike, R: ArrayLike, h: ArrayLike, b: ArrayLike) ->
     Parameters
     ----------
     a : array_like
-        Contact radius [m]; a >= 0, a < b, a < R; beyond 6 h only for h/b >= 1e-5, slowly.
+        Contact radius [m]; a >= 0, a < b, a < R; above 6 h slower and only for h/b >= 1e-5.
     R : array_like
         Sphere radius [m]; R > 0.
     h : array_like
@@ -87,6 +88,12 @@ def indentation_slope(a: ArrayLike, R: ArrayLike, h: ArrayLike, b: ArrayLike) ->
     -------
     float or ndarray
         d delta/da [1] in the arguments' broadcast shape; NaN outside the domain.
+
+    Examples
+    --------
+    >>> from generated import indentation_slope
+    >>> print(f"{indentation_slope(1e-4, 0.01, 0.004, 0.15):.6g}")
+    0.104288
     """
     kind, [a, R, h, b] = as_doubles(a, R, h, b)
     [a, R], [h] = inside([a, R], a >= 0, a < b, a < R, R > 0), inside([h], h > 0)
@@ -118,10 +125,10 @@ def impact_sensitivities(
     lam: ArrayLike,
     mu: ArrayLike,
 ) -> np.ndarray:
-    """Logarithmic derivatives of the results of `impact`: d log(result)/d log(parameter).
+    """Compute d log(result)/d log(parameter) for the results and parameters of `impact`.
 
-    A value of 0.4 says that 1 % more of the parameter gives 0.4 % more of the result. For lam,
-    which may be negative or 0, it is lam/result d(result)/d(lam).
+    A value of 0.4 means that a 1 % larger parameter gives a 0.4 % larger result. For lam,
+    which may be negative or zero, the value is (lam/result) d(result)/d(lam).
 
     Parameters
     ----------
@@ -130,7 +137,7 @@ def impact_sensitivities(
     m : array_like
         Sphere mass [kg]; m > 0.
     v0 : array_like
-        Speed of approach [m/s]; v0 > 0.
+        Impact speed of the sphere [m/s]; v0 > 0.
     h : array_like
         Half the plate's thickness [m]; h > 0.
     b : array_like
@@ -143,9 +150,16 @@ def impact_sensitivities(
     Returns
     -------
     ndarray
-        Logarithmic derivatives [1], of shape (4, 7) + the arguments' broadcast shape: the
-        first axis counts RESULTS (contact time, largest indentation, force, contact
-        radius), the second PARAMETERS (R, m, v0, h, b, lam, mu). NaN where `impact` is.
+        Logarithmic derivatives [1], of shape (4, 7) + the arguments' broadcast shape. The
+        first axis follows RESULTS (contact time, peak indentation, force, contact radius),
+        the second PARAMETERS (R, m, v0, h, b, lam, mu). NaN where `impact` gives NaN.
+
+    Examples
+    --------
+    >>> from generated import impact_sensitivities
+    >>> found = impact_sensitivities(0.01, 0.0327, 2.0, 0.004, 0.15, 22.5e9, 28.7e9)
+    >>> print(found[0].round(3))  # of the contact time: by R, m, v0, h, b, lam, mu
+    [-0.015  0.493 -0.015 -1.388  0.924 -0.078 -0.415]
     """
     kind, [R, m, v0, h, b, lam, mu] = as_doubles(R, m, v0, h, b, lam, mu)
     found, radius, _, _, ok = _solve(R, m, v0, h, b, lam, mu)
@@ -171,7 +185,7 @@ def impact_sensitivities(
 
 
 def _scaled(rows: Double, which: np.ndarray, near: Double, reach: Double) -> tuple[Double, Double]:
-    """Coefficients of the plates `which` as terms in powers of A/near, and their tails."""
+    """Return coefficients of the plates `which` as terms in powers of A/near, and their tails."""
     terms = rows[:, which] * near
     ratio = (near / reach[which]) ** 2
     power = ratio.copy()
@@ -186,12 +200,12 @@ def _tails(terms: Double) -> Double:
 
 
 def _orders(terms: Double) -> Double:
-    """With which powers of A the terms of F are in the indentation."""
+    """Return the factors by which powers of A change the terms of F in the indentation."""
     return 2.0 * np.arange(terms.shape[0], dtype=np.float64)[:, None] + 3.0
 
 
 def _changes(found: Scenes, part: slice, eta: Double, deeper: _Law) -> tuple[Double, Double]:
-    """Logarithmic slopes of A_m^(-1/2) I, A^2 (1 + F), A^3 and A by Y and by eta."""
+    """Return logarithmic slopes of A_m^(-1/2) I, A^2 (1 + F), A^3 and A by Y and by eta."""
     terms = found.terms[:, part]
     wider = kernels.power_slope(_orders(terms), terms)
     laws = _Law(terms, found.tails[:, part]), _Law(wider, _tails(wider)), deeper
@@ -216,9 +230,9 @@ def _changes(found: Scenes, part: slice, eta: Double, deeper: _Law) -> tuple[Dou
 
 
 def _inner(laws: tuple[_Law, _Law, _Law], ratio: Double, gap: Double, rises: Double) -> Double:
-    """int N/sqrt(S) dw and its changes by log A_m and log eta, up to q = ratio: (3, scenes).
+    """Return int N/sqrt(S) dw and its slopes by log A_m and log eta up to q = ratio: (3, scenes).
 
-    q = w (2 - w) up to w = 1 - sqrt(gap), where gap = 1 - ratio; rises are the works beyond.
+    Here q = w (2 - w), w <= 1 - sqrt(gap) and gap = 1 - ratio; `rises` is the work beyond q.
     """
     q, s, left, share, last = kernels.near_nodes(NODES, ratio[:, None], np.sqrt(gap)[:, None])
     found = []
@@ -230,7 +244,7 @@ def _inner(laws: tuple[_Law, _Law, _Law], ratio: Double, gap: Double, rises: Dou
 
 
 def _near_sums(s: Double, law: _Law) -> tuple[Double, Double, Double]:
-    """Sums of the terms times their powers, and of the tails from the second on; the first tail."""
+    """Return the sums of terms times powers, of tails from the second on, and the first tail."""
     square, count = s * s, law.terms.shape[0]
     rate = (2 * count + 1) * law.terms[-1][:, None] + 0.0 * s
     rest = law.tails[-1][:, None] + 0.0 * s
@@ -244,16 +258,16 @@ def _near_sums(s: Double, law: _Law) -> tuple[Double, Double, Double]:
 
 
 def _integrals(sums: list[_Sums], weights: Double) -> Double:
-    """int N/sqrt(S), and int (N' - N S'/(2 S))/sqrt(S) for both slopes."""
+    """Return int N/sqrt(S), and int (N' - N S'/(2 S))/sqrt(S) for both slopes."""
     law, by_radius, by_thickness = sums
     terms = kernels.time_terms(*law, *by_radius, *by_thickness, weights)
     return np.stack([term.sum(axis=1) for term in terms])
 
 
 class _Beyond(NamedTuple):
-    """What lies beyond the first polynomial, of the law and its slopes by log A_m and log eta.
+    """Return the contributions beyond the first polynomial, with slopes by log A_m and log eta.
 
-    `rises` are works over A_m^5, `integrals` those of the contact time from there on; `rate`
+    `rises` is the work divided by A_m^5, `integrals` the part of the contact time; `rate`
     and `lift_slope` are V and the slope of F by log eta at A_m.
     """
 
@@ -268,7 +282,7 @@ def _beyond(A: Double, gap: Double, eta: Double) -> _Beyond:
     far = far_piece(which)
     pieces = columns(far, position), columns(far_by_thickness(far, which), position)
     law, deeper = (_more_axes(piece) for piece in pieces)
-    # The outer nodes: 1 - q = gap u^2; the inner ones run over [q, 1], and over [near, 1].
+    # The outer nodes follow 1 - q = gap u^2; the inner ones cover [q, 1] and [near, 1].
     u = np.concatenate((NODES, [1.0]))
     nodes = np.concatenate(([1.0], INNER_NODES))
     x = kernels.far_nodes(gap[:, None, None], u[:, None], nodes)
@@ -287,13 +301,13 @@ def _beyond(A: Double, gap: Double, eta: Double) -> _Beyond:
 
 
 def _rates(A: Double, law: Columns, deeper: Columns) -> tuple[Double, Double, Double]:
-    """V and its slopes by log A and by log eta."""
+    """Return V and its slopes by log A and by log eta."""
     value, slope, curve = with_slopes(A, law)
     return kernels.rates(value, slope, curve, *with_slope(A, deeper))
 
 
 def _more_axes(piece: Columns) -> Columns:
-    """A piece for points of shape (scenes, nodes, nodes)."""
+    """Return a piece for points of shape (scenes, nodes, nodes)."""
     rows, *scale = piece
     middle, inverse_half = (np.asarray(x)[:, None, None] for x in scale)
     return Columns([np.asarray(row)[:, None, None] for row in rows], middle, inverse_half)

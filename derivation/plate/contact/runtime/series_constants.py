@@ -1,13 +1,13 @@
-"""Constants of the contact law by whole index, in NumPy alone.
+"""Constants of the contact law for an integer index.
 
-    kappa_n = int_0^oo y^n K0(y)/I0(y) dy            the side wall's moments
-    M_k     = FP int_0^oo T^(2k-4) (G(T) - 1) dT     the thin plate's finite parts
+    kappa_n = int_0^oo y^n K0(y)/I0(y) dy            moments of the lateral surface
+    M_k     = FP int_0^oo T^(2k-4) (G(T) - 1) dT     finite parts of the thin plate
 
-Both grow like a factorial, and leave the range of doubles beyond n = 196 and k = 99;
-over their leading terms they tend to 1, and these ratios are given for every index: for
-low index correctly rounded, beyond from the first terms of an expansion.
+Both grow like factorials and exceed the range of doubles for n > 196 and k > 99. Their ratios to
+the leading terms tend to 1 and are available for every index. For small indices they are tabulated
+and correctly rounded; for large indices they come from the first terms of an expansion.
 
-Arithmetic: look-up, and the expansions, whose coefficients are numbers computed beforehand.
+Arithmetic: look-up, and the expansions, whose coefficients are computed in advance.
 """
 
 import numpy as np
@@ -31,7 +31,7 @@ from generated.series_numbers import (
 @in_manifest(r"\kappa_n", domain="n >= 0", kernel=True)
 @quiet
 def kappa(n: ArrayLike) -> np.ndarray:
-    """The side wall's moment kappa_n.
+    """Compute the moment kappa_n of the lateral surface.
 
     Formula::
 
@@ -40,13 +40,19 @@ def kappa(n: ArrayLike) -> np.ndarray:
     Parameters
     ----------
     n : array_like
-        index [1], whole and not negative, of any shape
+        index [1], an integer of at least 0, of any shape
 
     Returns
     -------
     float or ndarray
-        kappa_n [1] in the shape of n; float32 for float32, else float64. NaN for what is
-        no such index, and for values too large for the type: n > 196 in float64.
+        kappa_n [1] in the shape of n; float32 for float32 input, else float64. NaN for other
+        numbers, and for values too large for the type: n > 196 in float64.
+
+    Examples
+    --------
+    >>> from generated import kappa
+    >>> print(f"{kappa(2):.6g}")
+    0.646889
     """
     kind, (index,) = as_doubles(n)
     return _representable(_looked_up(KAPPA, index), kind)
@@ -55,7 +61,7 @@ def kappa(n: ArrayLike) -> np.ndarray:
 @in_manifest(r"2^{n+1}\kappa_n/(\pi n!)", domain="n >= 0", kernel=True)
 @quiet
 def kappa_ratio(n: ArrayLike) -> np.ndarray:
-    """The side wall's moment kappa_n over its leading term for large n.
+    """Compute the ratio of the moment kappa_n to its leading term for large n.
 
     Formula::
 
@@ -64,13 +70,19 @@ def kappa_ratio(n: ArrayLike) -> np.ndarray:
     Parameters
     ----------
     n : array_like
-        index [1], whole and not negative, of any shape and size
+        index [1], an integer of at least 0, of any shape and size
 
     Returns
     -------
     float or ndarray
-        r_n [1] in the shape of n; float32 for float32, else float64. NaN for what is no
-        such index.
+        r_n [1] in the shape of n; float32 for float32 input, else float64. NaN for other
+        numbers.
+
+    Examples
+    --------
+    >>> from generated import kappa_ratio
+    >>> print(f"{kappa_ratio(2):.6g}")
+    0.823645
     """
     kind, (index,) = as_doubles(n)
     far = (index >= KAPPA_START) & (index == np.floor(index))
@@ -85,7 +97,7 @@ def kappa_ratio(n: ArrayLike) -> np.ndarray:
 @in_manifest("M_k", domain="k >= 2", kernel=True)
 @quiet
 def finite_part(k: ArrayLike) -> np.ndarray:
-    """The thin plate's constant M_k, a finite part in Hadamard's sense.
+    """Compute the constant M_k of the thin plate, a finite part in the sense of Hadamard.
 
     Formula::
 
@@ -96,13 +108,19 @@ def finite_part(k: ArrayLike) -> np.ndarray:
     Parameters
     ----------
     k : array_like
-        index [1], whole and at least 2, of any shape
+        index [1], an integer of at least 2, of any shape
 
     Returns
     -------
     float or ndarray
-        M_k [1] in the shape of k; float32 for float32, else float64. NaN for what is no
-        such index, and for values too large for the type: k > 99 in float64.
+        M_k [1] in the shape of k; float32 for float32 input, else float64. NaN for other
+        numbers, and for values too large for the type: k > 99 in float64.
+
+    Examples
+    --------
+    >>> from generated import finite_part
+    >>> print(f"{finite_part(2):.6g}")
+    -1.12648
     """
     kind, (index,) = as_doubles(k)
     return _representable(_looked_up(FINITE_PART, index - FIRST_K), kind)
@@ -111,7 +129,7 @@ def finite_part(k: ArrayLike) -> np.ndarray:
 @in_manifest("2^{2k-3}M_k/(2k-2)!", domain="k >= 2", kernel=True)
 @quiet
 def finite_part_ratio(k: ArrayLike) -> np.ndarray:
-    """The thin plate's constant M_k over its leading term for large k.
+    """Compute the ratio of the thin plate's constant M_k to its leading term for large k.
 
     Formula::
 
@@ -120,13 +138,19 @@ def finite_part_ratio(k: ArrayLike) -> np.ndarray:
     Parameters
     ----------
     k : array_like
-        index [1], whole and at least 2, of any shape and size
+        index [1], an integer of at least 2, of any shape and size
 
     Returns
     -------
     float or ndarray
-        rho_k [1] in the shape of k; float32 for float32, else float64. NaN for what is no
-        such index.
+        rho_k [1] in the shape of k; float32 for float32 input, else float64. NaN for other
+        numbers.
+
+    Examples
+    --------
+    >>> from generated import finite_part_ratio
+    >>> print(f"{finite_part_ratio(3):.6g}")
+    2.57462
     """
     kind, (index,) = as_doubles(k)
     far = (index >= FINITE_PART_START) & (index == np.floor(index))
@@ -136,13 +160,13 @@ def finite_part_ratio(k: ArrayLike) -> np.ndarray:
 
 
 def _looked_up(table: Double, place: Double) -> Double:
-    """Entries of a table, NaN for places that it does not have."""
+    """Return entries of a table; NaN for an index that it does not contain."""
     known = (place >= 0.0) & (place < table.size) & (place == np.floor(place))
     found = table.take(np.where(known, place, 0.0).astype(np.intp))
     return np.where(known, found, np.nan)
 
 
 def _representable(value: Double, kind: np.dtype) -> np.ndarray:
-    """The value in the type asked for, NaN where that would overflow."""
+    """Return the value in the requested type; NaN where it would overflow."""
     held = np.abs(value) <= float(np.finfo(kind).max)
     return as_result(np.where(held, value, np.nan), kind)

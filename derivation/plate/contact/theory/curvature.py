@@ -71,7 +71,7 @@ def spherical_contact() -> tuple[Formula, Formula]:
     atanh_slope = sp.diff(sp.log((1 + _x) / (1 - _x)) / 2, _x)
     proof = prove(
         "Sphere on a half-space",
-        r"$\delta'$ expanded in $a$ fits the sphere's profile power by power; "
+        r"$\delta'$ expanded in $a$ gives the sphere's profile power by power; "
         r"$dP = 2 E^* a d \delta$; $a/R \to 0$ is Hertz's law.",
         {
             "profile": sp.simplify(sp.gammasimp(ratio)) - 1,
@@ -90,7 +90,7 @@ def spherical_contact() -> tuple[Formula, Formula]:
         Formula(
             "delta_sphere",
             r"\delta",
-            "indentation of a half-space by a sphere",
+            "indentation of a half-space by an exact sphere",
             depth,
             "m",
             "7",
@@ -100,7 +100,7 @@ def spherical_contact() -> tuple[Formula, Formula]:
         Formula(
             "P_sphere",
             "P",
-            "force of a sphere on a half-space",
+            "force of an exact sphere on a half-space",
             force,
             "N",
             "7",

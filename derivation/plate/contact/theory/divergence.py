@@ -81,14 +81,14 @@ def tail(term: sp.Expr, variable: sp.Symbol = phi) -> Tail:
 def _judge(exponent: sp.Expr, leading: sp.Expr | None) -> Tail:
     like = f"like {_power('j', exponent)}"
     if bool(sp.simplify(-1 - exponent).is_positive):
-        return Tail(CONVERGENT, exponent, leading, f"the terms fall {like}, faster than 1/j")
+        return Tail(CONVERGENT, exponent, leading, f"the terms decrease {like}, faster than 1/j")
     if exponent == 0 and leading is not None:
-        return Tail(DIVERGENT, exponent, leading, "the terms tend to a value that is not zero")
+        return Tail(DIVERGENT, exponent, leading, "the terms do not tend to zero")
     if bool(sp.simplify(exponent).is_nonnegative):
         return Tail(DIVERGENT, exponent, leading, f"the terms grow {like}")
     if leading is not None and bool(sp.simplify(exponent + 1).is_nonnegative):
-        return Tail(DIVERGENT, exponent, leading, f"the terms fall no faster than {like[5:]}")
-    return Tail(UNDECIDED, exponent, leading, f"the terms oscillate with a size {like}")
+        return Tail(DIVERGENT, exponent, leading, f"the terms decrease no faster than {like[5:]}")
+    return Tail(UNDECIDED, exponent, leading, f"the terms oscillate with an amplitude {like}")
 
 
 def _power(base: str, exponent: sp.Expr) -> str:
@@ -151,7 +151,7 @@ def influence_at_infinity() -> Formula:
     return Formula(
         "K_j_limit",
         r"\lim_{j\to\infty}\phi_j^3 K_j",
-        r"what $\phi_j^3 K_j$ tends to for large $j$",
+        r"limit of $\phi_j^3 K_j$ for large $j$",
         sp.factor(limit),
         "1/m^2",
         "10",
@@ -202,7 +202,7 @@ def truncated_gamma(k: int) -> Formula:
     return Formula(
         f"gamma_{k}_truncated",
         rf"\gamma_{k}^{{(N)}}",
-        rf"the paper's $\gamma_{k}$ cut after $N$ modes, for large $N$",
+        rf"the paper's $\gamma_{k}$ truncated after $N$ modes, for large $N$",
         sp.powsimp(total),
         f"m/{thirds('N', 2 * k - 1)}",
         "10",

@@ -27,7 +27,7 @@ def pressure() -> Formula:
     (solution,) = sp.solve(resultant - P, peak)
     proof = prove(
         "Hertz pressure",
-        "The resultant of the pressure over the contact disc is $P$.",
+        "The resultant of the pressure over the contact area is $P$.",
         {"resultant": resultant.subs(peak, solution) - P},
     )
     return Formula(
@@ -61,7 +61,7 @@ def sonine() -> Formula:
     series = sp.series(sp.sin(_y) - _y * sp.cos(_y), _y, 0, 10).removeO()
     proof = prove(
         "Sonine's integral",
-        "$J_0$'s power series integrated term by term: the ratio of every coefficient to that "
+        "$J_0$'s power series is integrated term by term: the ratio of every coefficient to that "
         r"of $a^2 (\sin y - y \cos y)/y^3$, $y = a \phi$, is 1.",
         {"ratio of coefficients - 1": sp.simplify(ratio) - 1}
         | {
@@ -113,7 +113,7 @@ def contact_radius() -> Formula:
     proof = prove(
         "Hertz contact radius",
         r"The half-space's surface under the pressure is, for $r \le a$, a parabola of the "
-        "sphere's curvature $1/R$, and sinks by $a^2/R$ at the centre.",
+        "sphere's curvature $1/R$ with the depth $a^2/R$ at the centre.",
         {
             "moment of the sine": moment - SINE_MINUS / phi**2,
             "curvature": curvature.subs(P, force),

@@ -37,7 +37,7 @@ def contact_law() -> tuple[Formula, ...]:
         Formula(
             "K_j",
             "K_j",
-            r"indentation per $s(a \phi_j)$, loaded face $z = +h$",
+            r"factor of $s(a \phi_j)$ in the indentation, on the contact face $z = +h$",
             faces["K_j"],
             "m",
             "6",
@@ -47,7 +47,7 @@ def contact_law() -> tuple[Formula, ...]:
         Formula(
             "K_j_bottom",
             r"K_j^{-}",
-            r"indentation per $s(a \phi_j)$, far face $z = -h$",
+            r"the same for the deflection of the back face $z = -h$",
             faces["K_j_bottom"],
             "m",
             "6",
@@ -57,7 +57,7 @@ def contact_law() -> tuple[Formula, ...]:
         Formula(
             "delta",
             r"\delta",
-            "indentation, the sphere's travel into the loaded face",
+            "indentation, plate deflection included",
             faces["K_j"] * SINE_MINUS,
             "m",
             "6",

@@ -92,7 +92,7 @@ def coefficient(k: int) -> Coefficient:
     wall = sp.series(wall_bracket(alpha), alpha, 0, 2 * k).removeO().coeff(alpha, 2 * k - 1)
     proof = prove(
         f"Coefficient c_{order}",
-        r"Taylor's coefficients of both parts of the split; $\alpha = \eta A$.",
+        r"Taylor coefficients of both parts of the split; $\alpha = \eta A$.",
         {
             "share": shares - factor * spread.subs(_y, alpha * j_n) * excess,
             "modes": factor / alpha * taylor * j_n ** (order - 1) * eta**order * excess - mode,
@@ -157,12 +157,13 @@ def series_formulas() -> tuple[Formula, ...]:
     formulas: list[Formula] = []
     for k in range(FIRST, LAST + 1):
         c = coefficient(k)
-        for part, value, summed in (("modes", c.mode, True), ("side", c.side, False)):
+        parts = (("modes", "modes", c.mode, True), ("side", "finite radius", c.side, False))
+        for part, source, value, summed in parts:
             formulas.append(
                 Formula(
                     f"c_{c.order}_{part}",
                     rf"c_{{{c.order}}}^{{\mathrm{{{part}}}}}",
-                    rf"coefficient of $(a/h)^{c.order}$ in $\delta R/a^2$: {part}",
+                    rf"coefficient of $(a/h)^{c.order}$ in $\delta R/a^2$: {source}",
                     value,
                     "1",
                     "10",
@@ -190,7 +191,7 @@ def regular_gamma(k: int) -> Formula:
     return Formula(
         f"gamma_{k}",
         rf"\gamma_{k}",
-        f"coefficient of ${power}$ in the indentation, beside Hertz's term",
+        f"coefficient of ${power}$ in the indentation, after Hertz's term",
         value,
         f"m/{thirds('N', 2 * k - 1)}",
         "10",
@@ -215,7 +216,7 @@ def small_contact() -> Formula:
     return Formula(
         "delta_reduced",
         r"\delta R/a^2",
-        "indentation over that of the half-space, for $a < 4 h$ and $a < b$",
+        "indentation divided by that of the half-space, for $a < 4 h$ and $a < b$",
         value,
         "1",
         "10",

@@ -81,7 +81,7 @@ def formal_coefficients(last: int = LAST_XI) -> tuple[Formula, ...]:
     inverse = inverted(series, 3, 2, 3, last - 1)
     proof = prove(
         "Inversion of the formal law",
-        "The inverted series is put back into the law: every order vanishes.",
+        "The inverted series is inserted into the law: every order vanishes.",
         composition(series, inverse, 3, 2, 3),
     )
     formulas = []
@@ -91,7 +91,7 @@ def formal_coefficients(last: int = LAST_XI) -> tuple[Formula, ...]:
             Formula(
                 f"xi_{index}",
                 rf"\xi_{{{index}}}",
-                f"coefficient of ${power}$ in the formal force",
+                f"coefficient of ${power}$ in the force of the paper's series",
                 sp.factor(value) * first ** sp.Rational(-(2 * index - 1), 3),
                 f"N/{thirds('m', 2 * index - 1)}",
                 "10",
@@ -122,7 +122,7 @@ def force_composition(last: int = LAST_P) -> Proof:
     residuals = composition(plate_law(last), force_coefficients(last), 2, 1, 3)
     return prove(
         "Inversion of the contact law",
-        "$A = (A^3)^{1/3}$ from the inverted series is put back into "
+        "$A = (A^3)^{1/3}$ from the inverted series is inserted into "
         r"$\varepsilon^2 = A^2 (1 + c_1 A + \ldots)$.",
         residuals,
     )
@@ -136,7 +136,7 @@ def force_formulas(shown: int = 4) -> tuple[Formula, ...]:
         Formula(
             f"p_{n}",
             f"p_{n}",
-            rf"coefficient of $\varepsilon^{n}$ in $P$ over Hertz's force",
+            rf"coefficient of $\varepsilon^{n}$ in $P$ divided by Hertz's force",
             sp.factor(value),
             "1",
             "10",

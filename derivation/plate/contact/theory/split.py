@@ -231,8 +231,8 @@ def contact_split() -> tuple[Formula, ...]:
     half = 8 * b**2 / (sp.pi * R) * (a / b) ** 2 * sp.pi / 4 / 2
     proof = prove(
         "Split of the indentation",
-        r"$K_j = 8 G/(\pi R b^2 \phi^4 J_1^2)$, $G = 1 + (G - 1)$; the sum with $G = 1$ is the "
-        "two integrals of the sum identity, the first of which is Hertz's $a^2/R$.",
+        r"$K_j = 8 G/(\pi R b^2 \phi^4 J_1^2)$, $G = 1 + (G - 1)$; the sum with $G = 1$ is given "
+        "by the two integrals of the sum identity, the first of which is Hertz's $a^2/R$.",
         {
             "K_j": contact_law()[0].expression - flat * (1 + excess),
             "share": flat * SINE_MINUS - f.subs(x, b * phi) / (b * phi * J1**2),
@@ -260,8 +260,8 @@ def contact_split() -> tuple[Formula, ...]:
     thickness = flat * SINE_MINUS * excess
     return (
         part("delta_half", r"\delta_\infty", "indentation of the half-space", a**2 / R),
-        part("delta_side", r"\delta_b", "what the side wall adds to it", side),
-        part("delta_thickness", r"\delta_h", "what the thickness adds to it", thickness, True),
+        part("delta_side", r"\delta_b", "change of the indentation by the finite radius", side),
+        part("delta_thickness", r"\delta_h", "that by the finite thickness", thickness, True),
     )
 
 
@@ -289,7 +289,7 @@ def reduced_split() -> tuple[Formula, Formula]:
         Formula(
             "F_wall",
             r"W(\alpha)",
-            r"side wall's part of $\delta R/a^2 - 1$",
+            r"contribution of the finite radius to $\delta R/a^2$",
             sp.Integral(wall * WALL, (_y, 0, sp.oo)),
             "1",
             "6",
@@ -299,7 +299,7 @@ def reduced_split() -> tuple[Formula, Formula]:
         Formula(
             "F_modes",
             r"F(\alpha, \eta) - W(\alpha)",
-            r"thickness' part of $\delta R/a^2 - 1$",
+            r"contribution of the thickness to $\delta R/a^2$",
             mode,
             "1",
             "6",

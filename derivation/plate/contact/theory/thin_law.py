@@ -55,15 +55,15 @@ def universal_part() -> Formula:
     proof = prove(
         "Thin plate's universal part",
         r"The terms of $M_k$, $k \ge 4$, are those of $s(y)/y^3$ beyond its first two; "
-        "$s(y)/y^3$ is a mean of cosines, so that each stage of its series is off by less than "
-        "the next term.",
+        "$s(y)/y^3$ is a mean of cosines, so that the error of each truncation of its series is "
+        "below the next term.",
         residuals,
     )
     factor = 2 * a_ratio / sp.pi * kernel
     return Formula(
         "Phi",
         r"\Phi(A)",
-        r"part of $\delta R/a^2 - 1$ that is the same for all thin plates",
+        r"part of $\delta R/a^2$ that is the same for all thin plates",
         sp.Integral(factor * plate_factors()[2].expression, (T, 0, sp.oo)),
         "1",
         "10",

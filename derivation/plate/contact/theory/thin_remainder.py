@@ -174,9 +174,9 @@ def coefficient_remainder(k: int) -> Formula:
     one = mode * _share((T / (2 * eta)) ** (2 * k - 4))
     modes = coefficient(k).mode - mode * _mode_factor(2 * k - 4)
     proof = prove(
-        f"Roots' share of c_{order}",
-        "$z^{2k-4} (G - 1)$ in the contour integral: the axes leave the closed form, the poles "
-        r"inside $\pi$ times the imaginary part of their residues.",
+        f"Contribution of the roots to c_{order}",
+        "$z^{2k-4} (G - 1)$ in the contour integral: the axes give the closed form, the poles "
+        r"inside give $\pi$ times the imaginary part of their residues.",
         {
             "modes": modes,
             "pole": found[-1],
@@ -187,7 +187,7 @@ def coefficient_remainder(k: int) -> Formula:
     return Formula(
         f"c_{order}_roots",
         rf"c_{{{order}}} - c_{{{order}}}^{{\mathrm{{thin}}}}",
-        f"what $c_{order}$ of a thin plate leaves out, for every $h/b$",
+        f"correction of the thin-plate form of $c_{order}$, for every $h/b$",
         factor * _sum_of_roots(lambda at: at ** (2 * k - 6)),
         "1",
         "10",
@@ -222,10 +222,10 @@ def law_remainder() -> Formula:
     real = mode / 2 * sine_kernel(alpha * x) / (2 * eta)
     y = a_ratio * T / 2
     proof = prove(
-        "Roots' share of the law",
-        r"$q(z) = s(\alpha z)/(\alpha z)^3$ in the contour integral. Its powers 1 and $z^2$ "
-        r"alone meet the pole of $G$ at 0 and give $c_1$ and $c_3$; the real axis leaves $\Phi$, "
-        "the imaginary one cancels the side wall, the poles inside are the sum.",
+        "Contribution of the roots to the law",
+        r"$q(z) = s(\alpha z)/(\alpha z)^3$ in the contour integral. Only its powers 1 and $z^2$ "
+        r"meet the pole of $G$ at 0; they give $c_1$ and $c_3$. The real axis gives $\Phi$, the "
+        "imaginary one cancels the finite radius, and the poles inside give the sum.",
         {
             "modes": modes - mode * sine_kernel(alpha * j_n) * _mode_factor(0),
             "side wall": sp.expand((on_axis + wall.function / WALL).rewrite(sp.exp)),
@@ -237,7 +237,7 @@ def law_remainder() -> Formula:
     return Formula(
         "F_roots",
         r"\frac{\delta R}{a^2} - 1 - c_1^{\mathrm{thin}} A - c_3^{\mathrm{thin}} A^3 - \Phi(A)",
-        "what the law of a thin plate leaves out, for every $h/b$",
+        "correction of the thin-plate law, for every $h/b$",
         16 / a_ratio**2 * _sum_of_roots(_law_weight),
         "1",
         "10",

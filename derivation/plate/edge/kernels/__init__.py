@@ -1,4 +1,4 @@
-"""What the edge hands in for the generated package."""
+"""Modules of the edge for the generated package."""
 
 from pathlib import Path
 
@@ -11,13 +11,13 @@ RUNTIME = Path(__file__).parents[1] / "runtime"
 
 
 def edge_kernels() -> Routines:
-    """What a support and a clamp add, printed from proven expressions."""
+    """Return the routines of supported and clamped edges, printed from proved expressions."""
     made = [make for part in (supported, clamped) for make in part.ROUTINES]
     imports = {
         "blocks": ("hertz_shape", "polynomial", "sinh_minus", "sinh_plus"),
         "edge_numbers": ("FIRST_SQUARE", "FIRST_THIRD"),
     }
-    title = "What a simple support or a clamp adds to the law, and bounds of it."
+    title = "Corrections of the law for supported and clamped edges, and their bounds."
     return Routines("edge_kernels", title, tuple(make() for make in made), imports)
 
 

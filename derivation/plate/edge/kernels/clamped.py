@@ -1,4 +1,4 @@
-"""A clamp: what it takes from the law and from the slope, and how much at most."""
+"""A clamped edge: its change of the law and of the slope, and the bound of this change."""
 
 from functools import partial
 
@@ -21,32 +21,32 @@ chi, lost, inverse, wide, bending, thinned, scale = sp.symbols(
     "chi lost inverse wide bending thinned scale", real=True
 )
 PUNCH_MEAN = sp.Rational(2, 3)
-"""Mean of r^2/a^2 under a flat punch, which the slope's load is that of."""
+"""Mean of r^2/a^2 under a flat punch, which is the load in the slope."""
 MEANING: Facts = {n: RATIO}
 
 
 def _by_horner(expression: sp.Expr) -> sp.Expr:
-    """In n, its denominator by Horner's rule."""
+    """Return the expression in n, with its denominator in Horner form."""
     above, below = sp.fraction(sp.together(in_ratio(expression)))
     return above / sp.horner(below, n)
 
 
 def rotation() -> Routine:
-    """chi: how a clamped edge turns."""
+    """Return chi, the rotation of a clamped edge."""
     return routine(
         "turn_of_clamp",
         (n,),
         (),
         (_by_horner(turn()),),
         (turn(),),
-        "chi, by which a clamped edge turns under its moment: psi = chi eta psi'.",
+        "Return chi: a clamped edge under a moment has psi = chi eta psi'.",
         MEANING,
         in_ratio,
     )
 
 
 def depth() -> Routine:
-    """s over eta, 1 - 2 G in one piece."""
+    """Return s/eta, with 1 - 2 G as one fraction."""
     level, rate = sp.symbols("level rate", real=True)
     twice = 1 - depth_lost() / (2 * RATIO * eta**2)
     return routine(
@@ -55,14 +55,14 @@ def depth() -> Routine:
         (Let(level, 1 - _by_horner(twice)), Let(rate, 2 * n * level)),
         (eta * rate,),
         (depth_lost() / eta,),
-        "s/eta, s being what the bending state of a clamped plate is less deep by.",
+        "Return s/eta; s is the relative reduction of a clamped plate's bending deflection.",
         MEANING,
         in_ratio,
     )
 
 
 def _parts() -> tuple[Statement, ...]:
-    """What the law and its bound are made of."""
+    """Return the statements common to the law and its bound."""
     return (
         Let(inverse, 1 / eta),
         Several((lost,), "depth_lost", (eta, n), (depth_lost() / eta,)),
@@ -72,11 +72,11 @@ def _parts() -> tuple[Statement, ...]:
 
 
 REST = SHEAR + thinned * eta
-"""Of the end's shear and of stretching."""
+"""Contribution of the shear at the edge and of extension."""
 
 
 def law(name: str, formula: int, spread: sp.Rational, times: sp.Rational) -> Routine:
-    """What a clamp adds, by the mean of r^2/a^2 under the load."""
+    """Return the change due to a clamped edge for a given mean of r^2/a^2 under the load."""
     taken: Formula = clamp_law()[formula]
     return routine(
         name,
@@ -89,14 +89,14 @@ def law(name: str, formula: int, spread: sp.Rational, times: sp.Rational) -> Rou
         ),
         (scale * alpha * (bending + 2 * chi * wide * inverse**2 + REST),),
         (-taken.expression,),
-        f"What a clamp adds to {'the slope' if formula else 'delta R/a^2'}.",
+        f"Return the change of {'the slope' if formula else 'delta R/a^2'} by a clamped edge.",
         MEANING,
         in_ratio,
     )
 
 
 def bound() -> Routine:
-    """The bound of the slope."""
+    """Return the bound of the slope's change."""
     left = sp.Symbol("left", real=True)
     return routine(
         "clamp_bound",
@@ -109,7 +109,7 @@ def bound() -> Routine:
         ),
         (scale * alpha * (bending + 2 * chi * inverse**2 + REST),),
         (clamp_bound().expression,),
-        "Bound of what a clamp takes from the slope, for every contact up to this one.",
+        "Return a bound of the slope's change by a clamped edge, for all radii up to this one.",
         MEANING,
         in_ratio,
     )

@@ -1,14 +1,14 @@
-"""A simple support: its sums over the modes, how the law takes them up, and their bound.
+"""A simple support: its modal sums, the resulting change of the law, and their bound.
 
-With n = nu/(1 - nu), T = 2 eta j and k the kernel of the indentation or of the slope::
+With n = nu/(1 - nu), T = 2 eta j and k the weight function of the indentation or of the slope::
 
     sum k (1 + 3 n - n Q)/(j^3 J1) = P + n [3 P - 2 eta E + sum k (T - Q)/(j^3 J1)]
     sum k H/(j^2 J1) = E + sum k (H - 1)/(j^2 J1)
     P = sum k/(j^3 J1), a polynomial;   E = sum k/(j^2 J1), a function of alpha
 
-Both sums on the right fade like e^(-T). In a thin plate the bracket is small and its parts are not:
-of P and E what follows the first mode is tabulated, and the first mode is put in as a whole. The
-proofs have two modes, the first one and one for all others, as the sums are linear.
+Both sums on the right decay like e^(-T). For a thin plate the bracket is the small difference of
+large terms. Therefore P and E are tabulated without the first mode, which is added as a whole. The
+proofs use two modes, the first one and one for all others, because the sums are linear.
 """
 
 from functools import partial
@@ -41,7 +41,7 @@ from derivation.plate.edge.theory.supported import (
 from derivation.plate.vocabulary import J1, T, alpha, eta, j_n, lam, mu
 
 SMALLEST = sp.Float("1e-300")
-"""Below it sin(y)/y is 1."""
+"""Argument below which sin(y)/y is 1."""
 n = sp.Symbol("n", real=True)
 j, y, share, support = sp.symbols("j y share support", positive=True)
 bent, stretched, plain = sp.symbols("bent stretched plain", real=True)
@@ -51,7 +51,7 @@ KERNELS = {"indentation": indentation_kernel, "slope": slope_kernel}
 
 
 def in_ratio(expression: sp.Expr) -> sp.Expr:
-    """In n, without building blocks, the smallest number and common scales of lam and mu."""
+    """Return the expression in n, without building blocks, guards and common scales."""
     found = undo(expression, (), blocks()).replace(
         lambda e: isinstance(e, sp.Max) and SMALLEST in e.args,
         lambda e: sp.Mul(*(part for part in e.args if part != SMALLEST)),
@@ -62,21 +62,21 @@ def in_ratio(expression: sp.Expr) -> sp.Expr:
 
 
 def of_material() -> Routine:
-    """Two ratios of elastic constants, by these over any common scale."""
+    """Return two ratios of elastic constants, with these divided by any common scale."""
     return routine(
         "elastic_ratios",
         (lam, mu),
         (),
         (lam / (lam + 2 * mu), (lam + 2 * mu) / (3 * lam + 2 * mu)),
         (RATIO, support_ratio().expression),
-        "n = nu/(1 - nu) and (1 - nu)/(1 + nu), by lam and mu over any common scale.",
+        "Return n = nu/(1 - nu) and (1 - nu)/(1 + nu), for lam and mu over any common scale.",
         {lam: lam / _unit, mu: mu / _unit},
         sp.cancel,
     )
 
 
 def of_indentation() -> Routine:
-    """The kernel of the indentation; the block is over the smaller of y and 2, squared."""
+    """Return the weight function of the indentation; the block is divided by min(y, 2)^2."""
     at = blocks()["hertz_shape"].value.at
     high, shape = sp.symbols("high shape", positive=True)
 
@@ -101,7 +101,7 @@ def of_indentation() -> Routine:
 
 
 def of_slope() -> Routine:
-    """The kernel of the slope."""
+    """Return the weight function of the slope."""
     return routine(
         "slope_kernel",
         (alpha, j),
@@ -115,7 +115,7 @@ def of_slope() -> Routine:
 
 
 def thin(kind: str) -> Routine:
-    """P, and the sums of a thin plate in closed form."""
+    """Return P, and the sums of a thin plate in closed form."""
     half = closed(KERNELS[kind])
     parts = half.plain, plain - n * half.bent, half.stretched
     return routine(
@@ -124,14 +124,14 @@ def thin(kind: str) -> Routine:
         (Let(plain, half.plain),),
         (plain, *parts[1:]),
         (half.plain, half.plain - RATIO * half.bent, half.stretched),
-        "sum k/(j^3 J1), and both sums of a thin plate.",
+        "Return sum k/(j^3 J1), and both sums of a thin plate.",
         {n: RATIO},
         in_ratio,
     )
 
 
 def _bent_series(square: sp.Symbol, series: sp.Symbol) -> Several:
-    """(T cosh T + 2 T - 3 sinh T)/T^5 by powers of T^2, cut off where nothing is left to see."""
+    """Return (T cosh T + 2 T - 3 sinh T)/T^5 in powers of T^2, truncated below rounding."""
     total = sp.expand(sp.numer(sp.together(Q - 3)))
     section = taylor_section(terms_of(total, T), sp.Integer(SEAM))
     return Several(
@@ -140,7 +140,7 @@ def _bent_series(square: sp.Symbol, series: sp.Symbol) -> Several:
 
 
 def _of_T() -> tuple[dict[str, sp.Symbol], tuple[Let | Several, ...]]:
-    """What Q and H are made of."""
+    """Return the statements common to Q and H."""
     names = "fading", "gone", "lower", "upper", "square", "series"
     s = {name: sp.Symbol(name, real=True) for name in names}
     known = blocks()
@@ -157,7 +157,7 @@ def _of_T() -> tuple[dict[str, sp.Symbol], tuple[Let | Several, ...]]:
 
 
 def _sides(mode: sp.Symbol) -> tuple[sp.Basic, Facts, Facts]:
-    """Whether Q - 3 is a power series, and what the block's power is on either side."""
+    """Return the condition for the power series of Q - 3, and the block's power on either side."""
     size = 2 * eta * mode
     near = sp.Min(size, SEAM)
     return sp.Lt(T, SEAM), {near: size}, {near: SEAM}
@@ -165,7 +165,7 @@ def _sides(mode: sp.Symbol) -> tuple[sp.Basic, Facts, Facts]:
 
 @named
 def later_modes() -> Claims:
-    """k (T - Q)/(j^3 J1) and k (H - 1)/(j^2 J1) of modes, `share` being k."""
+    """Return k (T - Q)/(j^3 J1) and k (H - 1)/(j^2 J1) of modes; `share` is k."""
     s, statements = _of_T()
     fading, gone, lower, upper, square, series = s.values()
     weight, above = sp.symbols("weight above", real=True)
@@ -192,7 +192,7 @@ def later_modes() -> Claims:
 
 @named
 def all_modes() -> Claims:
-    """sum k (1 + 3 n - n Q)/(j^3 J1) and sum k H/(j^2 J1)."""
+    """Return sum k (1 + 3 n - n Q)/(j^3 J1) and sum k H/(j^2 J1)."""
     s, statements = _of_T()
     fading, gone, lower, upper, square, series = s.values()
     names = "FIRST_THIRD FIRST_SQUARE rest_third rest_square fading_third fading_square below"
@@ -243,7 +243,7 @@ def all_modes() -> Claims:
 
 
 def one_mode(kernel: Kernel) -> Facts:
-    """Both sums, one mode standing for all."""
+    """Return both sums, with one mode in place of all."""
     at = {T: 2 * eta * j_n}
     return {
         n: RATIO,
@@ -254,7 +254,7 @@ def one_mode(kernel: Kernel) -> Facts:
 
 
 def of_law() -> Routine:
-    """What a support adds, by both sums: of the indentation as of the slope."""
+    """Return the change of the indentation or of the slope by a simple support, from both sums."""
     square, stiff = sp.symbols("square stiff", positive=True)
     law, slope = edge_law()
     value = support * alpha / sp.pi * (stiff * bent + sp.Rational(8, 3) * n**2 * stretched)
@@ -265,7 +265,7 @@ def of_law() -> Routine:
             (Let(square, eta * eta), Let(stiff, (1 - 2 * n * square) / (eta * square))),
             (value,),
             (support_ratio().expression * formula.expression,),
-            "What a simple support adds to the law, or to its slope, by both sums.",
+            "Return the change of the law, or of its slope, by a simple support, from both sums.",
             one_mode(kernel),
             in_ratio,
         )
@@ -275,7 +275,7 @@ def of_law() -> Routine:
 
 
 def of_bound() -> Routine:
-    """The bound of the slope."""
+    """Return the bound of the slope's change."""
     square, bending, large = sp.symbols("square bending large", positive=True)
     sum_of_squares = inverse_squares()
     extended = sp.Rational(1, 8) + 2 * eta * sp.Abs(n) * sum_of_squares
@@ -290,7 +290,7 @@ def of_bound() -> Routine:
         ),
         (3 * alpha * support * large / (2 * sp.pi),),
         (support_ratio().expression * edge_bound().expression,),
-        "Bound of what a simple support adds to the slope, for every contact up to this one.",
+        "Return a bound of the slope's change by a simple support, for all radii up to this one.",
         {n: RATIO, support: support_ratio().expression},
         in_ratio,
     )

@@ -1,7 +1,7 @@
-"""The numbers that the generated code of the edge needs: limits, and tables of sums.
+"""Constants for the generated code of the edge: limits, and tables of sums.
 
-P = sum k/(j^3 J1) is a polynomial in alpha^2, E = sum k/(j^2 J1) a function of it; of both, what
-follows the first mode is tabulated.
+P = sum k/(j^3 J1) is a polynomial in alpha^2, E = sum k/(j^2 J1) a function of it. Both are
+tabulated without the first mode.
 """
 
 from collections.abc import Callable
@@ -26,19 +26,19 @@ from derivation.plate.edge.theory.sums import (
 from derivation.plate.vocabulary import alpha
 
 WIDEST = sp.Rational(9, 10)
-"""Largest a/b: nearer to the edge the states say nothing, and the tables grow without end."""
+"""Largest a/b: closer to the edge the states are not valid, and the tables grow without limit."""
 TERMS = 34
-"""Coefficients of the tables in alpha^2."""
+"""Number of coefficients of the tables in alpha^2."""
 CUT_OFF = 2**-58
-"""What the tables may leave out, of sums near 1/8."""
+"""Truncation error of the tables, for sums near 1/8."""
 SEAM = 2
 """T below which Q - 3 is a power series."""
 FADED = 46
-"""T beyond which modes are left out: T^2 e^(-T) is below 1e-16 of what the first modes are."""
+"""T beyond which modes are omitted: T^2 e^(-T) is below 1e-16 times the first modes."""
 THIN = sp.Rational(29, 2)
-"""(1 - alpha)/eta from which on the closed form is all there is.
+"""(1 - alpha)/eta above which the closed form is sufficient.
 
-The bending roots' share of it is then below e^(-3.7 THIN) = 3e-24, the stretching roots'
+The contribution of the bending roots is then below e^(-3.7 THIN) = 3e-24, that of the others
 below e^(-2.1 THIN) = 6e-14, times (8/3) n^2 eta^3 z^(-3/2), below 1e-4 of the bending sum.
 """
 _STEP = 48
@@ -48,7 +48,7 @@ KERNELS = {"INDENTATION": indentation_kernel, "SLOPE": slope_kernel}
 
 
 def numbers() -> Numbers:
-    """Where each way to compute ends, the first mode's weights, and the tables."""
+    """Return the limits of the methods, the first mode's weights, and the tables."""
     with flint.ctx.workprec(BITS):
         first = zero_of_j0(1, BITS // 2)
         weights = [1 / (first**power * first.bessel_j(1)) for power in (3, 2)]
@@ -62,12 +62,12 @@ def numbers() -> Numbers:
         third, square = (nearest_double(weight) for weight in weights)
     return Numbers(
         "edge_numbers",
-        "Numbers of the edge: limits, and sums over the modes as tables.",
+        "Constants of the edge: limits, and sums over the modes as tables.",
         (
             Constant("WIDEST", float(WIDEST), "Largest a/b."),
-            Constant("MIDDLE", float(WIDEST**2 / 2), "Of alpha^2, about which the tables are."),
-            Constant("THIN", float(THIN), "(1 - alpha)/eta from which on the closed form holds."),
-            Constant("FADED", float(FADED), "T beyond which modes are left out."),
+            Constant("MIDDLE", float(WIDEST**2 / 2), "alpha^2 at the centre of the tables."),
+            Constant("THIN", float(THIN), "(1 - alpha)/eta above which the closed form suffices."),
+            Constant("FADED", float(FADED), "T beyond which modes are omitted."),
             Constant("FIRST_THIRD", third, "1/(j^3 J1) of the first mode."),
             Constant("FIRST_SQUARE", square, "1/(j^2 J1) of the first mode."),
             *tables,
@@ -76,16 +76,16 @@ def numbers() -> Numbers:
 
 
 TABLES = {"THIRD": "sum k/(j^3 J1)", "SQUARE": "sum k/(j^2 J1)"}
-FROM = "from the second mode on, by powers of alpha^2/MIDDLE - 1."
+FROM = "without the first mode, in powers of alpha^2/MIDDLE - 1."
 
 
 def _tables(kernel: Kernel, first: Ball, weights: list[Ball]) -> tuple[tuple[float, ...], ...]:
-    """P and E without their first mode, in powers of alpha^2/middle - 1.
+    """Return P and E without their first mode, in powers of alpha^2/middle - 1.
 
     Raises
     ------
     ArithmeticError
-        If the last coefficients of a table still count.
+        If the last coefficients of a table are not negligible.
     """
     middle = enclose(WIDEST**2 / 2, {})
     points = [(middle * (1 + t)).sqrt() for t in chebyshev_nodes(TERMS)]
@@ -101,45 +101,45 @@ def _tables(kernel: Kernel, first: Ball, weights: list[Ball]) -> tuple[tuple[flo
     ]
     found = []
     for name, values in zip(TABLES, (cubes, squares), strict=True):
-        # Chebyshev's coefficients fall by 0.39 each: the last is what is left out.
+        # Chebyshev's coefficients decrease by 0.39 each: the last shows the truncation error.
         waves = [((TERMS - 1) * angle).cos() for angle in _angles()]
         last = 2 * sum((f * t for f, t in zip(values, waves, strict=True)), Ball(0)) / TERMS
         if not abs(last) < CUT_OFF:
-            raise ArithmeticError(f"{TERMS} coefficients of {name} leave out {last}")
+            raise ArithmeticError(f"truncation error of {name} with {TERMS} coefficients: {last}")
         found.append(tuple(nearest_double(c) for c in _that_count(in_powers(values))))
     return tuple(found)
 
 
 def _that_count(coefficients: list[Ball]) -> list[Ball]:
-    """The coefficients, as points, up to the last that a sum near 1/8 can show."""
+    """Return the midpoints of the coefficients, up to the last that matters in a sum near 1/8."""
     points = [c.mid() for c in coefficients]
     last = max(i for i, c in enumerate(points) if abs(c) > 1e-22)
     return points[: last + 1]
 
 
 def _angles() -> list[Ball]:
-    """Chebyshev's nodes by their angles."""
+    """Return Chebyshev's nodes as angles."""
     return [(2 * i + 1) * Ball.pi() / (2 * TERMS) for i in range(TERMS)]
 
 
 def value_of(kernel: Kernel, at: Ball) -> Ball:
-    """A kernel at a number."""
+    """Return a weight function at a number."""
     y = sp.Symbol("y", positive=True)
     return enclose(kernel(y), {y: at})
 
 
 def _turned(kernel: Kernel) -> Callable[[Ball], Ball]:
-    """k(iy)/k(0)."""
+    """Return k(iy)/k(0)."""
     if kernel is indentation_kernel:
         return lambda y: 3 * (y * y.cosh() - y.sinh()) / y**3
     return lambda y: y.sinh() / y
 
 
 def alternating_sum(kernel: Kernel, at: Ball) -> Ball:
-    """E = sum k/(j^2 J1) = (1/pi) int_0^oo (k(0) - k(iy)/I0(y))/y^2 dy.
+    """Return E = sum k/(j^2 J1) = (1/pi) int_0^oo (k(0) - k(iy)/I0(y))/y^2 dy.
 
-    With e^(-y^2) in the place of 1, whose integral of (1 - e^(-y^2))/y^2 is sqrt(pi): trapezoids
-    in v, y = exp(v - e^(-v)), err by e^(-2 pi d _STEP), d = pi/4 being the sector's half angle.
+    With e^(-y^2) instead of 1, and int (1 - e^(-y^2))/y^2 dy = sqrt(pi): the trapezoidal rule in
+    v, y = exp(v - e^(-v)), has the error e^(-2 pi d _STEP), d = pi/4 being the sector's half angle.
     """
     turned, size = _turned(kernel), sp.limit(kernel(alpha), alpha, 0)
     total = Ball(0)
@@ -154,7 +154,7 @@ _cached: list[tuple[Ball, Ball, Ball, Ball]] = []
 
 
 def _nodes() -> list[tuple[Ball, Ball, Ball, Ball]]:
-    """y, weight over y^2, I0(y) and e^(-y^2)."""
+    """Return y, the weight divided by y^2, I0(y) and e^(-y^2)."""
     if not _cached:
         step = Ball(1) / _STEP
         for index in range(-5 * _STEP, 8 * _STEP):

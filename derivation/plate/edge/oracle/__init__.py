@@ -1,1 +1,1 @@
-"""Reference values in ball arithmetic, from the original expressions: the edge."""
+"""Arb references for the edge, from the original expressions."""

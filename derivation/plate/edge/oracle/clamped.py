@@ -1,7 +1,7 @@
-"""Oracle 1 of a clamp's part of the law and of the back face's stress: exact rational arithmetic.
+"""Arb reference for a clamped edge, in exact rational arithmetic.
 
-But for 1/pi all of it is rational in the arguments. Of Hertz's pressure the mean of r^2 is 2 a^2/5;
-in the slope it is a flat punch's, 2 a^2/3.
+Except for 1/pi, everything is rational in the arguments. For Hertz pressure the mean of r^2 is
+2 a^2/5; in the slope it is that of a flat punch, 2 a^2/3.
 """
 
 from fractions import Fraction
@@ -13,11 +13,11 @@ from derivation.plate.contact.oracle.balls import ratio_of, settle
 from derivation.plate.edge.theory.clamped import LEVEL, TURN
 
 SPREAD = {"indentation": Fraction(2, 5), "slope": Fraction(2, 3)}
-"""Mean of r^2 over a^2, by kind."""
+"""Mean of r^2/a^2, by kind."""
 
 
 def constants(n: Fraction) -> tuple[Fraction, Fraction]:
-    """chi and G of the clamped end."""
+    """Return chi and G of the clamped edge."""
     turn, level = (
         Fraction(1000) / sum(c * n**i for i, c in enumerate(powers)) for powers in (TURN, LEVEL)
     )
@@ -27,7 +27,7 @@ def constants(n: Fraction) -> tuple[Fraction, Fraction]:
 def clamp_part(
     kind: str, a: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact, digits: int = 30
 ) -> arb:
-    """What a clamp takes from delta R/a^2, or of (R/2a) d delta/da for kind `slope`.
+    """Return the reduction of delta R/a^2, or of (R/2a) d delta/da for kind `slope`.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ def clamp_part(
     a, h, b, lam, mu
         Exact numbers; 0 < a < b.
     digits
-        Decimal digits the ball's radius warrants.
+        Correct decimal digits required of the ball.
 
     Raises
     ------
@@ -46,19 +46,19 @@ def clamp_part(
     width, eta = ratio_of(a, b), ratio_of(h, b)
     n = Fraction(lam) / (Fraction(lam) + 2 * Fraction(mu))
     if not width < 1:
-        raise ValueError(f"the law has meaning for a < b, got a/b = {float(width)}")
+        raise ValueError(f"expected a < b, got a/b = {float(width)}")
     chi, level = constants(n)
     lost = 2 * n * eta**2 * (1 - 2 * level)
     wide = 1 - SPREAD[kind] * width**2
     bending = (1 - lost) * (wide - lost) + 2 * chi * eta * wide
-    # Shear, and the state of stretching.
+    # Shear, and extension.
     total = bending / (8 * eta**3) + Fraction(1, 40) + 2 * n**2 * eta / 3
     total *= width if kind == "indentation" else 3 * width / 2
     return settle(lambda _: (to_ball(total) / arb.pi(),), digits, f"the clamp's {kind}")[0]
 
 
 def far_clamp(a: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact) -> tuple[Fraction, Fraction]:
-    """What a clamp takes from S, by bending and by stretching."""
+    """Return the reduction of S by bending and by extension."""
     width, eta = ratio_of(a, b), ratio_of(h, b)
     n = Fraction(lam) / (Fraction(lam) + 2 * Fraction(mu))
     chi, level = constants(n)

@@ -1,18 +1,18 @@
-"""Oracle 1 of the edge's part of the law: its modes summed in balls, the rest by an integral.
+"""Arb reference for a simple support: modes summed in balls, remainders by an integral.
 
-With k = g or (3/2) sinc and n = lam/(lam + 2 mu), link 19's sums are, N modes summed as they are,
+With k = g or (3/2) sinc and n = lam/(lam + 2 mu), the sums of link 19 are, for N modes,
 
     sum k (1 + 3 n - n Q)/(j^3 J1)
         = [N modes] + (1 + 3 n) P_N - 2 n eta E_N - n sum (Q - T) k/(j^3 J1)
     sum k H/(j^2 J1)
         = [N modes] + E_N + sum (H - 1) k/(j^2 J1)
 
-where P_N and E_N are the rests of P = sum k/(j^3 J1), half the coefficient of z^2 in k/J0, and of
-E = sum k/(j^2 J1), an integral over the imaginary axis. The last sums run over n > N.
+where P_N and E_N are the remainders of P = sum k/(j^3 J1), half the coefficient of z^2 in k/J0,
+and of E = sum k/(j^2 J1), an integral over the imaginary axis. The last sums run over n > N.
 
 Bounds: |k| <= 3/2, |1/J1| < sqrt(pi j/2) (`edge.theory.sums`), and for T >= 4, where
-sinh T - T >= e^T/4, 0 < Q - T <= 4 T^2 e^(-T) and 0 < 1 - H <= 4 T e^(-T). T^2 e^(-T) falls there
-at least like e^(-T/2), by e^(-3 eta) from mode to mode.
+sinh T - T >= e^T/4, 0 < Q - T <= 4 T^2 e^(-T) and 0 < 1 - H <= 4 T e^(-T). There T^2 e^(-T)
+decreases at least like e^(-T/2), by e^(-3 eta) from mode to mode.
 """
 
 import math
@@ -49,13 +49,13 @@ KERNELS = {
         lambda m: flint.fmpq(3, 2 * math.factorial(2 * m + 1)),
     ),
 }
-"""By what they belong to; `power(m)` is the coefficient of y^(2m) in k(iy)."""
+"""Weight functions by kind; `power(m)` is the coefficient of y^(2m) in k(iy)."""
 
 
 def edge_part(
     kind: str, a: Exact, h: Exact, b: Exact, lam: Exact, mu: Exact, digits: int = 30
 ) -> arb:
-    """What a clamp takes from delta R/a^2, or of (R/2a) d delta/da for kind `slope`.
+    """Return X, the change of delta R/a^2, or of (R/2a) d delta/da for kind `slope`.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ def edge_part(
     a, h, b, lam, mu
         Exact numbers; 0 < a < b.
     digits
-        Decimal digits the ball's radius warrants.
+        Correct decimal digits required of the ball.
 
     Raises
     ------
@@ -74,7 +74,7 @@ def edge_part(
     width, eta = ratio_of(a, b), ratio_of(h, b)
     thinning = Fraction(lam) / (Fraction(lam) + 2 * Fraction(mu))
     if not width < 1:
-        raise ValueError(f"the law has meaning for a < b, got a/b = {float(width)}")
+        raise ValueError(f"expected a < b, got a/b = {float(width)}")
 
     def compute(bits: int) -> tuple[arb]:
         bent, stretched = sums(kind, width, eta, thinning, bits)
@@ -86,7 +86,7 @@ def edge_part(
 
 
 def support_ratio(lam: Exact, mu: Exact) -> Fraction:
-    """(1 - nu)/(1 + nu), what a simple support adds over what a clamp takes."""
+    """Return (1 - nu)/(1 + nu), the factor of X for a simple support."""
     first, second = Fraction(lam), Fraction(mu)
     return (first + 2 * second) / (3 * first + 2 * second)
 
@@ -94,11 +94,11 @@ def support_ratio(lam: Exact, mu: Exact) -> Fraction:
 def sums(
     kind: str, width: Fraction, eta: Fraction, thinning: Fraction, bits: int
 ) -> tuple[arb, arb]:
-    """Both sums over the modes."""
+    """Return both sums over the modes."""
     kernel = KERNELS[kind]
     count = math.ceil((0.7 * bits + 12) / (2 * math.pi * float(eta))) + 1
     spare = 3 * max(0, -math.frexp(float(width))[1]) + 4 * max(0, -math.frexp(float(eta))[1])
-    # In steps, so that few sets of modes serve all.
+    # In steps, so that few tables of modes serve all calls.
     working = bits + 64 * (2 + spare // 64)
     with flint.ctx.workprec(working):
         alpha, x, n = to_ball(width), to_ball(eta), to_ball(thinning)
@@ -120,7 +120,7 @@ def sums(
 
 @cache
 def modes(count: int, bits: int) -> tuple[tuple[arb, arb], ...]:
-    """The first zeros of J0 and J1 at them."""
+    """Return the first zeros of J0, and J1 at them."""
     found = []
     for index in range(1, count + 1):
         j = j0_zero(index, bits + index.bit_length())
@@ -129,24 +129,24 @@ def modes(count: int, bits: int) -> tuple[tuple[arb, arb], ...]:
 
 
 def _rest(T: arb, eta: arb) -> arb:
-    """What either last sum is at most from T >= 4 on: k/(j^2 |J1|) < 1.5 1.26 j^(-3/2) < 1."""
+    """Return a bound of either last sum for T >= 4: k/(j^2 |J1|) < 1.5 1.26 j^(-3/2) < 1."""
     if not T > 4:
-        raise ValueError(f"the modes summed end at T = {T}")
+        raise ValueError(f"expected more modes in the sum, which ends at T = {T}")
     bound = 4 * T**2 * (-T).exp() / (1 - (-3 * eta).exp())
     return arb(0, bound.abs_upper())
 
 
 def plain_sum(kernel: EdgeKernel, alpha: arb) -> arb:
-    """P: half the coefficient of z^2 in k(alpha z)/J0(z), J0 = 1 - z^2/4 + ..."""
+    """Return P: half the coefficient of z^2 in k(alpha z)/J0(z), J0 = 1 - z^2/4 + ..."""
     return (arb(kernel.power(0)) / 4 - arb(kernel.power(1)) * alpha**2) / 2
 
 
 @cache
 def alternating_sum(kind: str, width: Fraction, bits: int) -> arb:
-    """E = (1/pi) int_0^oo (k(0) - k(i alpha y)/I0(y))/y^2 dy.
+    """Return E = (1/pi) int_0^oo (k(0) - k(i alpha y)/I0(y))/y^2 dy.
 
-    From 0 to 1 by power series; from 1 on the first term gives k(0), and of the second the
-    part beyond `end` is below (9/2) e^(-(1 - alpha) y)/((1 - alpha) y^(3/2)) there, by
+    From 0 to 1 by power series. From 1 on, the first term gives k(0); the part of the second
+    beyond `end` is below (9/2) e^(-(1 - alpha) y)/((1 - alpha) y^(3/2)) there, because
     |k(iy)| <= (3/2) e^y and I0 >= e^y/(3 sqrt y).
     """
     kernel = KERNELS[kind]
@@ -157,7 +157,7 @@ def alternating_sum(kind: str, width: Fraction, bits: int) -> arb:
         alpha, last = to_ball(width), arb(end)
         near = acb.integral(lambda y, _: _near(kernel, alpha, y), 0, 1).real
         cut, total = 1, near + arb(kernel.power(0))
-        while cut < end:  # panels that grow: one alone makes the integrand's balls too wide
+        while cut < end:  # panels of growing size: on a single one the balls are too wide
             upto = min(2 * cut, end)
             total -= acb.integral(lambda y, _: _far(kernel, alpha, y), cut, upto).real
             cut = upto
@@ -166,15 +166,15 @@ def alternating_sum(kind: str, width: Fraction, bits: int) -> arb:
 
 
 def _far(kernel: EdgeKernel, alpha: arb, y: acb) -> acb:
-    """k(i alpha y)/(y^2 I0(y))."""
+    """Return k(i alpha y)/(y^2 I0(y))."""
     return kernel.turned(alpha * y) / (y * y * y.bessel_i(0))
 
 
 def _near(kernel: EdgeKernel, alpha: arb, y: acb) -> acb:
     """(k(0) - k(i alpha y)/I0(y))/y^2 = (k(0) (I0 - 1) - (k(i alpha y) - k(0)))/(y^2 I0), |y| <= 4.
 
-    Both series' coefficients of y^(2m) are below 3/2 1/m!^2, and their terms beyond `count`
-    fall by more than half.
+    The coefficients of y^(2m) in both series are below 3/2 1/m!^2, and terms beyond `count`
+    decrease by more than half.
     """
     size = y.abs_upper()
     if not size < 4:

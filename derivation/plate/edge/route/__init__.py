@@ -1,1 +1,1 @@
-"""Reference values by another method, in mpmath: the edge."""
+"""References for the edge by another method, in mpmath."""

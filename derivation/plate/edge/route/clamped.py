@@ -1,8 +1,8 @@
-"""Oracle 2 of a clamp's part of the law: pressure integrated and states evaluated in mpmath.
+"""mpmath reference for a clamped edge: the pressure is integrated and the states are evaluated.
 
-By Betti's theorem the work of Hertz's pressure on the states of bending and stretching is the
-turn and the strain that a clamp has to take from the plate. Their fields give the depth at the
-centre of the loaded face, and the stress at that of the far one. b, R and E* are 1.
+By Betti's theorem, the work of Hertz pressure on the states of bending and extension gives the
+rotation and strain that a clamp suppresses. The states give the deflection at the centre of the
+contact face and the stress at the centre of the back face. b, R and E* are 1.
 """
 
 from collections.abc import Callable
@@ -14,7 +14,7 @@ from derivation.plate.edge.theory.clamped import LEVEL, SHEAR, TURN
 
 
 class Clamped(NamedTuple):
-    """What the clamp takes of a load P: turn, and its own by psi = chi eta psi'; strain."""
+    """Return the suppressed rotation for a load P, its part psi = chi eta psi', and the strain."""
 
     force: mpf
     turn: mpf
@@ -23,16 +23,16 @@ class Clamped(NamedTuple):
 
 
 def clamp_part(kind: str, a: float, h: float, b: float, nu: float, digits: int = 30) -> mpf:
-    """What a clamp takes from delta R/a^2, or of (R/2a) d delta/da for kind `slope`.
+    """Return the reduction of delta R/a^2, or of (R/2a) d delta/da for kind `slope`.
 
     Parameters
     ----------
     kind
         `indentation` or `slope`.
     a, h, b, nu
-        Numbers, exact as they are; 0 < a < b.
+        Exact numbers; 0 < a < b.
     digits
-        Decimal digits asked for.
+        Number of decimal digits requested.
     """
     with mp.workdps(2 * digits + 20):
         alpha, eta, n = mpf(a) / mpf(b), mpf(h) / mpf(b), mpf(nu) / (1 - mpf(nu))
@@ -51,20 +51,20 @@ def clamp_part(kind: str, a: float, h: float, b: float, nu: float, digits: int =
 
 
 def far_clamp(a: float, h: float, b: float, nu: float, digits: int = 30) -> mpf:
-    """What a clamp takes from S, of which the stress is (1 + nu) P/(2 pi H^2) times."""
+    """Return the reduction of S; the stress is (1 + nu) P/(2 pi H^2) times S."""
     with mp.workdps(digits + 20):
         eta, n = mpf(h) / mpf(b), mpf(nu) / (1 - mpf(nu))
         found = _clamped(mpf(a) / mpf(b), eta, n)
-        # sigma_rr = (1 + nu) E* times a strain that is the same in all directions.
+        # sigma_rr = (1 + nu) E* times a strain that is equal in all directions.
         strain = found.strain + (found.turn + found.own) * eta
         return +(strain * 8 * mp.pi * eta**2 / found.force)
 
 
 def _clamped(a: mpf, h: mpf, n: mpf) -> Clamped:
-    """Of Hertz's pressure (2/pi) sqrt(a^2 - r^2)."""
+    """Hertz pressure (2/pi) sqrt(a^2 - r^2)."""
 
     def load(weight: Callable[[mpf], mpf]) -> mpf:
-        """Integral over the contact, r = a sin t."""
+        """Return an integral over the contact, with r = a sin t."""
         return mp.quad(
             lambda t: 4 * a**3 * mp.sin(t) * mp.cos(t) ** 2 * weight(a * mp.sin(t)), [0, mp.pi / 2]
         )
@@ -78,7 +78,7 @@ def _clamped(a: mpf, h: mpf, n: mpf) -> Clamped:
 
 
 def _bent(r: mpf, h: mpf, n: mpf) -> mpf:
-    """Depth of the bending state k = 1 on the loaded face."""
+    """Return the deflection of the contact face in the bending state k = 1."""
     return (1 - r * r) / 2 - n * h * h * (1 - 2 * _fitted(LEVEL, n))
 
 

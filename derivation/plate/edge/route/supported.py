@@ -1,8 +1,8 @@
-"""Oracle 2 of the edge's part of the law: residues in mpmath, no sum over modes.
+"""mpmath reference for a simple support: residues, no sum over modes.
 
-1/J0 turns link 19's sums into residues: at 0 a polynomial, its coefficients found here from
-samples of the integrand on a circle, and at z = T_n/(2 eta), sinh T_n = (-1)^n T_n, a sum that
-converges like e^(-(1 - a/b) n pi b/(2 h)).
+Division by J0 turns the sums of link 19 into residues. At 0 it is a polynomial whose coefficients
+are computed here from samples of the integrand on a circle. At z = T_n/(2 eta),
+sinh T_n = (-1)^n T_n, the residues form a sum that converges like e^(-(1 - a/b) n pi b/(2 h)).
 """
 
 from collections.abc import Callable
@@ -12,7 +12,7 @@ from mpmath import mp, mpc, mpf
 from derivation.engine.oracle.agreement import RouteError
 
 MOST = 20000
-"""Roots at most."""
+"""Largest number of roots."""
 _SAMPLES = 48
 
 
@@ -28,16 +28,16 @@ KERNELS: dict[str, Callable[[mpc], mpc]] = {"indentation": _indentation, "slope"
 
 
 def edge_part(kind: str, a: float, h: float, b: float, nu: float, digits: int = 30) -> mpf:
-    """What a clamp takes from delta R/a^2, or of (R/2a) d delta/da for kind `slope`.
+    """Return X, the change of delta R/a^2, or of (R/2a) d delta/da for kind `slope`.
 
     Parameters
     ----------
     kind
         `indentation` or `slope`.
     a, h, b, nu
-        Numbers, exact as they are; 0 < a < b.
+        Exact numbers; 0 < a < b.
     digits
-        Decimal digits asked for.
+        Number of decimal digits requested.
     """
     with mp.workdps(digits + 15):
         alpha, eta = mpf(a) / mpf(b), mpf(h) / mpf(b)
@@ -53,9 +53,9 @@ def edge_part(kind: str, a: float, h: float, b: float, nu: float, digits: int = 
             T = 2 * eta * z
             return kernel(alpha * z) * (mp.cosh(T) - 1) / (mp.sinh(T) + T) / mp.besselj(0, z)
 
-        # Neither 1/J0 nor the roots have a pole within this circle.
+        # Neither 1/J0 nor the roots have poles within this circle.
         radius = min(mpf(1), 1 / eta)
-        # Samples near 0 cancel by four powers of T and three of alpha z.
+        # Near 0, four powers of T and three of alpha z cancel in the samples.
         lost = -4 * mp.log10(2 * eta * radius) - 3 * mp.log10(alpha * radius)
         with mp.workdps(mp.dps + 10 + max(0, int(lost))):
             first = _coefficient(bent, 2, radius, digits + 10) / 2
@@ -73,12 +73,12 @@ def edge_part(kind: str, a: float, h: float, b: float, nu: float, digits: int = 
 
 
 def _odd(T: mpc) -> mpc:
-    """Residue (cosh T - 1)/(cosh T + 1) of H at sinh T = -T."""
+    """Return the residue (cosh T - 1)/(cosh T + 1) of H at sinh T = -T."""
     return (mp.cosh(T) - 1) / (mp.cosh(T) + 1)
 
 
 def _coefficient(function: Callable[[mpc], mpc], power: int, radius: mpf, digits: int) -> mpf:
-    """Coefficient of a power of z: the mean of samples on a circle, converging geometrically."""
+    """Return a coefficient of a power series: the mean of samples on a circle converges fast."""
     count, former = _SAMPLES, None
     while count <= 64 * _SAMPLES:
         points = (radius * mp.expjpi(mpf(2 * i) / count) for i in range(count))
@@ -86,11 +86,11 @@ def _coefficient(function: Callable[[mpc], mpc], power: int, radius: mpf, digits
         if former is not None and abs(found - former) < mpf(10) ** -digits * abs(found):
             return found
         former, count = found, 2 * count
-    raise RouteError("no coefficient from samples on a circle")
+    raise RouteError("samples on a circle did not give a coefficient")
 
 
 def root(n: int) -> mpc:
-    """T_n of sinh T = (-1)^n T, first quadrant: Newton's iteration on T - asinh T = i pi n."""
+    """Return T_n of sinh T = (-1)^n T, first quadrant: Newton's method on T - asinh T = i pi n."""
     x = mpc(mp.log(2 * mp.pi * n), mp.pi * n + 1)
     for _ in range(mp.prec.bit_length() + 6):
         slope = 1 - 1 / mp.sqrt(1 + x * x)
@@ -101,7 +101,7 @@ def root(n: int) -> mpc:
 
 
 def _roots(parity: int, residue: Callable[[mpc], mpc], eta: mpf) -> mpf:
-    """2 Re of the residues at every second root, until they no longer count beside eta^3."""
+    """Return 2 Re of the residues at every second root, until they are negligible against eta^3."""
     total, floor = mpf(0), mp.eps * min(mpf(1), eta**4)
     for n in range(2 - parity, MOST, 2):
         T = root(n)
@@ -109,4 +109,4 @@ def _roots(parity: int, residue: Callable[[mpc], mpc], eta: mpf) -> mpf:
         total += 2 * share.real
         if abs(share) < floor:
             return total
-    raise RouteError(f"{MOST} roots are too few at h/b = {mp.nstr(eta)}")
+    raise RouteError(f"{MOST} roots are not enough at h/b = {mp.nstr(eta)}")

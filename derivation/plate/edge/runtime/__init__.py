@@ -1,1 +1,1 @@
-"""Algorithms of supported and clamped edges, copied into the generated package."""
+"""Algorithms for simply supported and clamped edges, copied into the generated package."""

@@ -1,32 +1,32 @@
-"""Plates that are simply supported or clamped at their edge, from the law of the paper's edge.
+"""Corrections of the paper's contact law for a simply supported or clamped edge.
 
 The paper's edge is elastically restrained: w = 0 and sigma_rr = -(2 mu/b) u at r = b. A simple
-support takes its force and moment away, by the exact polynomial states of stretching and bending::
+support removes its force and moment by the exact polynomial states of extension and bending::
 
     delta R/a^2 = 1 + F + (1 - nu)/(1 + nu) X        simply supported
     delta R/a^2 = 1 + F - X_c                        clamped
 
-At fixed a both parts go with the force, delta = P 3 (...)/(4 E* a). With alpha = a/b,
-eta = h/b, n = nu/(1 - nu) and T = 2 eta j, j the zeros of J0::
+At fixed a, both corrections are proportional to the force, delta = P 3 (...)/(4 E* a). With
+alpha = a/b, eta = h/b, n = nu/(1 - nu), T = 2 eta j and j the zeros of J0::
 
     X = (alpha/pi) [ (1 - 2 n eta^2)/eta^3 sum g (1 + 3 n - n Q)/(j^3 J1)
                      + (8/3) n^2 sum g H/(j^2 J1) ],  g = 3 (sin y - y cos y)/y^3, y = alpha j
     Q = T (cosh T - 1)/(sinh T - T),  H = (cosh T - 1)/(sinh T + T)
 
-In the slope (R/2a) d delta/da it is (3/2) sin y/y for g. What else the edge's tractions do
-dies within a thickness of the edge, and is left out.
+In the slope (R/2a) d delta/da, (3/2) sin y/y replaces g. The remaining tractions at the edge decay
+within a distance of one thickness from the edge and are neglected.
 
-A clamp, u = w = 0 on the whole edge, takes the same states' displacement away, and forbids the
-plate's thinning at the edge. There psi = chi eta psi' for the plate's rotation, and the middle
-plane's w is n G h^2 (kappa_r + kappa_t); chi and G are measured on a strip, and fitted by
+A clamped edge, u = w = 0 for all z, removes the displacement of the same states and prevents
+thinning of the plate at the edge. There psi = chi eta psi' for the plate's rotation, and the middle
+plane has w = n G h^2 (kappa_r + kappa_t). chi and G were computed for a strip and are fitted by
 `turn_of_clamp` and `depth_lost` in `edge_kernels`::
 
     X_c = alpha/(8 pi eta^3) [ (1 - s) (1 - 2 alpha^2/5 - s) + 2 chi eta (1 - 2 alpha^2/5)
                                + eta^3/5 + (16/3) n^2 eta^4 ],  s = 2 n (1 - 2 G) eta^2
 
-In the slope it is 2/3 for 2/5, and 3/2 of all.
+In the slope, 2/3 replaces 2/5, and everything is multiplied by 3/2.
 
-Arithmetic: quotients of the arguments, and the ends of their domain.
+Arithmetic: quotients of the arguments, and limits of their domain.
 """
 
 import numpy as np
@@ -49,7 +49,7 @@ from generated.edge_sums import INDENTATION, SLOPE, SummedKernel, edge_sums, ela
 def supported_edge(
     a: ArrayLike, h: ArrayLike, b: ArrayLike, lam: ArrayLike, mu: ArrayLike
 ) -> np.ndarray:
-    """Addition to delta R/a^2 of the paper's edge by a simple support.
+    """Compute the change of delta R/a^2 due to a simple support instead of the paper's edge.
 
     Formula::
 
@@ -71,8 +71,14 @@ def supported_edge(
     Returns
     -------
     float or ndarray
-        addition to delta R/a^2 [1] in the arguments' broadcast shape;
+        change of delta R/a^2 [1] in the arguments' broadcast shape;
         NaN outside the domain.
+
+    Examples
+    --------
+    >>> from generated import supported_edge
+    >>> print(f"{supported_edge(1e-4, 0.004, 0.15, 22.5e9, 28.7e9):.6g}")
+    0.894198
     """
     return _supported(a, h, b, lam, mu, INDENTATION)
 
@@ -87,7 +93,7 @@ def supported_edge(
 def clamped_edge(
     a: ArrayLike, h: ArrayLike, b: ArrayLike, lam: ArrayLike, mu: ArrayLike
 ) -> np.ndarray:
-    """Addition to delta R/a^2 of the paper's edge by a clamp; it makes the plate stiffer.
+    """Compute the change of delta R/a^2 due to a clamped edge, which is stiffer than the paper's.
 
     Formula::
 
@@ -109,8 +115,14 @@ def clamped_edge(
     Returns
     -------
     float or ndarray
-        addition to delta R/a^2 [1] in the arguments' broadcast shape;
+        change of delta R/a^2 [1] in the arguments' broadcast shape;
         NaN outside the domain.
+
+    Examples
+    --------
+    >>> from generated import clamped_edge
+    >>> print(f"{clamped_edge(1e-4, 0.004, 0.15, 22.5e9, 28.7e9):.6g}")
+    -1.39871
     """
     kind, alpha, eta, n, _ = _inside(a, h, b, lam, mu, WIDEST)
     return as_result(kernels.of_clamp(alpha, eta, n), kind)
@@ -126,7 +138,7 @@ def clamped_edge(
 def supported_edge_slope(
     a: ArrayLike, h: ArrayLike, b: ArrayLike, lam: ArrayLike, mu: ArrayLike
 ) -> np.ndarray:
-    """Addition to (R/2a) d delta/da of the paper's edge by a simple support.
+    """Compute the change of (R/2a) d delta/da due to a simple support instead of the paper's edge.
 
     Formula::
 
@@ -148,8 +160,14 @@ def supported_edge_slope(
     Returns
     -------
     float or ndarray
-        addition to (R/2a) d delta/da [1] in the arguments' broadcast shape;
+        change of (R/2a) d delta/da [1] in the arguments' broadcast shape;
         NaN outside the domain.
+
+    Examples
+    --------
+    >>> from generated import supported_edge_slope
+    >>> print(f"{supported_edge_slope(1e-4, 0.004, 0.15, 22.5e9, 28.7e9):.6g}")
+    1.3413
     """
     return _supported(a, h, b, lam, mu, SLOPE)
 
@@ -164,7 +182,7 @@ def supported_edge_slope(
 def clamped_edge_slope(
     a: ArrayLike, h: ArrayLike, b: ArrayLike, lam: ArrayLike, mu: ArrayLike
 ) -> np.ndarray:
-    """Addition to (R/2a) d delta/da of the paper's edge by a clamp.
+    """Compute the change of (R/2a) d delta/da due to a clamped edge instead of the paper's edge.
 
     Formula::
 
@@ -186,8 +204,14 @@ def clamped_edge_slope(
     Returns
     -------
     float or ndarray
-        addition to (R/2a) d delta/da [1] in the arguments' broadcast shape;
+        change of (R/2a) d delta/da [1] in the arguments' broadcast shape;
         NaN outside the domain.
+
+    Examples
+    --------
+    >>> from generated import clamped_edge_slope
+    >>> print(f"{clamped_edge_slope(1e-4, 0.004, 0.15, 22.5e9, 28.7e9):.6g}")
+    -2.09806
     """
     kind, alpha, eta, n, _ = _inside(a, h, b, lam, mu, WIDEST)
     return as_result(kernels.slope_of_clamp(alpha, eta, n), kind)
@@ -202,12 +226,12 @@ def clamped_edge_slope(
 def supported_edge_bound(
     a: ArrayLike, h: ArrayLike, b: ArrayLike, lam: ArrayLike, mu: ArrayLike
 ) -> np.ndarray:
-    """Bound of what a simple support adds to (R/2a) d delta/da, for every contact up to a.
+    """Compute a bound of the change by `supported_edge_slope` for all contact radii up to a.
 
     Formula::
 
         (1 - nu)/(1 + nu) (3 alpha/(2 pi)) [|1 - 2 n eta^2|/eta^3 (1/8 + 2 eta |n| s) + (8/3) n^2 s]
-        s > sum 1/(j^2 |J1|), by a thousandth or two
+        s exceeds sum 1/(j^2 |J1|) by one or two thousandths
 
     Parameters
     ----------
@@ -225,8 +249,14 @@ def supported_edge_bound(
     Returns
     -------
     float or ndarray
-        bound of the slope's size but for rounding [1] in the arguments' broadcast shape;
-        NaN outside the domain.
+        bound of the magnitude, without rounding errors [1], in the arguments' broadcast
+        shape; NaN outside the domain.
+
+    Examples
+    --------
+    >>> from generated import supported_edge_bound
+    >>> print(f"{supported_edge_bound(1e-4, 0.004, 0.15, 22.5e9, 28.7e9):.6g}")
+    1.45912
     """
     kind, *plate = _inside(a, h, b, lam, mu, 1.0)
     return as_result(kernels.support_bound(*plate), kind)
@@ -241,7 +271,7 @@ def supported_edge_bound(
 def clamped_edge_bound(
     a: ArrayLike, h: ArrayLike, b: ArrayLike, lam: ArrayLike, mu: ArrayLike
 ) -> np.ndarray:
-    """Bound of what a clamp takes from (R/2a) d delta/da, for every contact up to a.
+    """Compute a bound of the change by `clamped_edge_slope` for all contact radii up to a.
 
     Formula::
 
@@ -264,8 +294,14 @@ def clamped_edge_bound(
     Returns
     -------
     float or ndarray
-        bound of the slope's size but for rounding [1] in the arguments' broadcast shape;
-        NaN outside the domain.
+        bound of the magnitude, without rounding errors [1], in the arguments' broadcast
+        shape; NaN outside the domain.
+
+    Examples
+    --------
+    >>> from generated import clamped_edge_bound
+    >>> print(f"{clamped_edge_bound(1e-4, 0.004, 0.15, 22.5e9, 28.7e9):.6g}")
+    2.09807
     """
     kind, alpha, eta, n, _ = _inside(a, h, b, lam, mu, 1.0)
     return as_result(kernels.clamp_bound(alpha, eta, n), kind)
@@ -274,7 +310,7 @@ def clamped_edge_bound(
 def _inside(
     a: ArrayLike, h: ArrayLike, b: ArrayLike, lam: ArrayLike, mu: ArrayLike, widest: float
 ) -> tuple[np.dtype, Double, Double, Double, Double]:
-    """The result's type, alpha, eta, n and (1 - nu)/(1 + nu); NaN outside the domain."""
+    """Return the result's type, alpha, eta, n and (1 - nu)/(1 + nu); NaN outside the domain."""
     kind, [a, h, b, lam, mu] = as_doubles(a, h, b, lam, mu)
     [a] = inside([a], a >= 0, a <= widest * b, b > 0)
     [h, b] = inside([h, b], h > 0, b > 0)
@@ -287,7 +323,7 @@ def _inside(
 def _supported(
     a: ArrayLike, h: ArrayLike, b: ArrayLike, lam: ArrayLike, mu: ArrayLike, kernel: SummedKernel
 ) -> np.ndarray:
-    """What a simple support adds, by the sums of the kernel."""
+    """Return the correction for a simple support from the sums of the kernel."""
     kind, alpha, eta, n, support = _inside(a, h, b, lam, mu, WIDEST)
     sums = edge_sums(alpha, eta, n, kernel)
     return as_result(kernels.of_support(alpha, eta, n, support, *sums), kind)

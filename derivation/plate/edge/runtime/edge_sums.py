@@ -1,11 +1,11 @@
-"""What a plate's edge is given by, and both sums over the modes of a simple support.
+"""Parameters of the edge corrections, and both modal sums of a simple support.
 
-With n = nu/(1 - nu), T = 2 eta j, k the kernel of the indentation or of the slope::
+With n = nu/(1 - nu), T = 2 eta j and k the weight function of the indentation or of the slope::
 
     sum k (1 + 3 n - n Q)/(j^3 J1),   Q = T (cosh T - 1)/(sinh T - T)
     sum k H/(j^2 J1),                 H = (cosh T - 1)/(sinh T + T)
 
-Arithmetic: quotients of the arguments; how many modes are summed; the variable of the tables.
+Arithmetic: quotients of the arguments; the number of modes summed; the variable of the tables.
 """
 
 from collections.abc import Callable
@@ -19,20 +19,20 @@ from generated.arrays import Double
 from generated.bessel import bessel_j0_zeros, bessel_j1_at_j0_zeros
 from generated.blocks import polynomial
 
-_POINTS = 128  # summed at a time
+_POINTS = 128  # number of points in one block of the sum
 
 
 class SummedKernel(NamedTuple):
-    """The kernel of the indentation or of the slope, and its sums over the modes.
+    """Weight function of the indentation or of the slope, with its modal sums.
 
     Attributes
     ----------
     value
-        k by alpha and j.
+        k as a function of alpha and j.
     thin
-        sum k/(j^3 J1) and both sums of a thin plate by alpha, eta and n.
+        sum k/(j^3 J1) and both sums of a thin plate as functions of alpha, eta and n.
     third, square
-        sum k/(j^3 J1) and sum k/(j^2 J1) from the second mode on, by powers of alpha^2/MIDDLE - 1.
+        sum k/(j^3 J1), sum k/(j^2 J1) without the first mode, in powers of alpha^2/MIDDLE - 1.
     """
 
     value: Callable[[Double, Double], Double]
@@ -53,13 +53,13 @@ SLOPE = SummedKernel(
 
 
 def elastic_ratios(lam: Double, mu: Double) -> tuple[Double, Double]:
-    """n and (1 - nu)/(1 + nu), by lam and mu over the larger: nothing overflows or vanishes."""
+    """Return n and (1 - nu)/(1 + nu), with lam and mu scaled to avoid overflow and underflow."""
     most = np.maximum(lam, mu)
     return kernels.elastic_ratios(lam / most, mu / most)
 
 
 def edge_sums(alpha: Double, eta: Double, n: Double, kernel: SummedKernel) -> tuple[Double, Double]:
-    """Both sums: closed forms of a thin plate where that is all there is, over modes elsewhere."""
+    """Return both sums: closed forms for a thin plate where these suffice, else modal sums."""
     shape = np.broadcast_shapes(alpha.shape, eta.shape, n.shape)
     alpha, eta, n = (np.ravel(np.broadcast_to(x, shape)) for x in (alpha, eta, n))
     plain, bent, stretched = kernel.thin(alpha, eta, n)
@@ -75,7 +75,7 @@ def edge_sums(alpha: Double, eta: Double, n: Double, kernel: SummedKernel) -> tu
 def _summed(
     alpha: Double, eta: Double, n: Double, plain: Double, kernel: SummedKernel
 ) -> tuple[Double, Double]:
-    """Both sums over the modes, of points in the order of eta."""
+    """Return both modal sums for points sorted by eta."""
     count = 2 + int(numbers.FADED / (2.0 * np.pi * eta[0]))
     j, J1 = bessel_j0_zeros(count), bessel_j1_at_j0_zeros(count)
     place = alpha * alpha / numbers.MIDDLE - 1.0

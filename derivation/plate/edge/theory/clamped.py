@@ -1,29 +1,29 @@
-"""Link 19, the clamp: u = w = 0 on the whole edge, as three-dimensional elasticity has it.
+"""Link 19, clamped edge: u = w = 0 on the whole edge in three-dimensional elasticity.
 
-With n = nu/(1 - nu) and D the flexural rigidity, at the edge of a plate that bends
+With n = nu/(1 - nu) and D the flexural rigidity, at the edge of a plate in bending
 
     psi = chi eta psi',   w(b, 0) = n G h^2 (kappa_r + kappa_t):
 
-a clamp on the whole edge also forbids the plate's thinning there. A strip in plane strain,
-clamped at its end and bent from far away, gives both: chi = n^2 turn(n) and G = level(n),
-*measured* by spectral elements (`measure.edge_strip`) and fitted. Both are the strip's work of
-n z^2/2 on the clamp's shear stress: chi under a moment, G under a shear force (Betti), so that
-chi goes with n^2. If w were 0 in the mean, G would be 1/6.
+because a clamp on the whole edge also prevents thinning of the plate there. A strip in plane
+strain, clamped at its end and bent far away, gives both constants, chi = n^2 turn(n) and
+G = level(n), computed by spectral elements (`edge.strip`) and fitted. Both are the work of n z^2/2
+on the shear stress at the clamp: chi under a moment, G under a shear force (Betti), so that chi is
+proportional to n^2. If the mean of w were 0, G would be 1/6.
 
 The state of bending with that w, u = k r z and
 
     w = k [(b^2 - r^2)/2 - n z^2 + 2 n G h^2],
 
-is (k b^2/2)(1 - r^2/b^2 - s) deep on the loaded face, s = 2 n (1 - 2 G) eta^2. Betti's theorem
-with this state as the virtual field gives the turn that a load causes, by the work of the load
-on it: the same depth counts twice, once averaged over the load and once at its centre. The mean
-of the edge's rotation alone, int u z dz, leaves out the work of the edge's shear stress. So
+deflects the contact face by (k b^2/2)(1 - r^2/b^2 - s), s = 2 n (1 - 2 G) eta^2. In Betti's theorem
+with this state as the virtual field, the work of a load on it gives the rotation due to the load:
+this deflection counts twice, averaged over the load and at the centre. The mean rotation of the
+edge alone, int u z dz, would omit the work of the shear stress at the edge. Hence
 
     X_c = alpha/(8 pi eta^3) [(1 - s)(1 - 2 alpha^2/5 - s) + 2 chi eta (1 - 2 alpha^2/5)
                               + eta^3/5 + (16/3) n^2 eta^4],
 
-the last terms from the end's shear, for nu = 0 (`edge.strip`: 0.19935), and from stretching.
-What is left out begins with eta^3 n; `measure.edge_remainder` says how large it is.
+where the last terms come from shear at the edge, for nu = 0 (`edge.strip`: 0.19935), and from
+extension. Neglected terms begin with eta^3 n; `edge.remainder` computes their size.
 """
 
 from functools import cache
@@ -41,51 +41,51 @@ from derivation.plate.modes.theory.stresses import modal_stresses
 from derivation.plate.vocabulary import J1, A_j, Formula, R, a, alpha, b, eta, h, lam, mu, phi, r, z
 
 TURN = (7436, 3168, -976, 204)
-"""1000 n^2/chi by powers of n: within 0.2 % of what is measured, for -1/2 < n < 1."""
+"""1000 n^2/chi by powers of n: within 0.2 % of the computed values, for -1/2 < n < 1."""
 LEVEL = (7638, 801, -316, 255)
-"""1000/G by powers of n, alike."""
+"""1000/G by powers of n, with the same accuracy."""
 SHEAR = sp.Rational(1, 5)
-"""What the end's shear adds to X_c 8 pi eta^3/alpha, over eta^3; measured 0.19935 for nu = 0."""
+"""Contribution of shear at the edge to X_c 8 pi eta^3/alpha, over eta^3; 0.19935 for nu = 0."""
 HERTZ_MEAN = sp.Rational(2, 5)
-"""Mean of r^2/a^2 over Hertz's load."""
+"""Mean of r^2/a^2 under Hertz pressure."""
 _n, _G, _chi, _k, _s = sp.symbols("n G chi k s", real=True)
 
 
 def _fitted(powers: tuple[int, ...]) -> sp.Expr:
-    """1000 over a polynomial in n."""
+    """Return 1000 divided by a polynomial in n."""
     return 1000 / sp.Add(*(c * RATIO**i for i, c in enumerate(powers)))
 
 
 def turn() -> sp.Expr:
-    """The constant chi of psi = chi eta psi' at a clamped edge."""
+    """Return the constant chi of psi = chi eta psi' at a clamped edge."""
     return RATIO**2 * _fitted(TURN)
 
 
 def level() -> sp.Expr:
-    """The constant G of w(b, 0) = n G h^2 (kappa_r + kappa_t) at a clamped edge."""
+    """Return the constant G of w(b, 0) = n G h^2 (kappa_r + kappa_t) at a clamped edge."""
     return _fitted(LEVEL)
 
 
 def depth_lost() -> sp.Expr:
-    """s = 2 n (1 - 2 G) eta^2, by which the bending state is less deep than (b^2 - r^2)/2."""
+    """Return s = 2 n (1 - 2 G) eta^2, by which the bending state is below (b^2 - r^2)/2."""
     return 2 * RATIO * (1 - 2 * level()) * eta**2
 
 
 @cache
 def strip() -> Proof:
-    """The strip's state far from its end, and why chi is n^2 times a constant of the strip."""
+    """Prove the strip's state far from its end, and that chi is n^2 times a constant."""
     x = sp.Symbol("x", real=True)
     E = PLANE_STRAIN_MODULUS
     u, w = x * z, -(x**2) / 2 - RATIO * z**2 / 2
     xx, zz, xz = sp.diff(u, x), sp.diff(w, z), sp.diff(u, z) + sp.diff(w, x)
     along, across = ((lam + 2 * mu) * p + lam * q for p, q in ((xx, zz), (zz, xx)))
     bent = states()[1]
-    # Betti, v against the clamped strip bent by M: theta M = int sigma_xz n z^2/2 dz, and
+    # Betti's theorem for v and the clamped strip bent by M: theta M = int sigma_xz n z^2/2 dz;
     # sigma_xz itself is linear in n z^2/2.
     return prove(
         "Strip in plane strain",
-        "Bending without traction on the faces; it thins by $n$ times its curvature, the round "
-        "plate by $n$ times the sum of both.",
+        "In bending without traction on the faces, the strip thins by $n$ times its curvature, "
+        "the circular plate by $n$ times the sum of both curvatures.",
         {
             "faces": across,
             "shear": mu * xz,
@@ -100,7 +100,7 @@ def strip() -> Proof:
 
 @cache
 def reciprocity() -> Proof:
-    """Betti's theorem, one mode of the paper's plate against the bending state, any G."""
+    """Prove Betti's theorem for one mode of the paper's plate and the bending state, for any G."""
     raw = {formula.name: formula.expression for formula in (*mode_shapes(), *modal_stresses())}
     g_j, S_rz = raw["g_j"], raw["S_rz"]
     bent, E = states()[1], PLANE_STRAIN_MODULUS
@@ -119,21 +119,21 @@ def reciprocity() -> Proof:
     edge = -2 * mu * rotation + warp - sp.expand(stress) * rotation
     return prove(
         "Reciprocity of a mode and the bending state",
-        "Work of the mode's tractions on the state, of the state's on the mode: Hooke's "
-        "sigma_rr = -(2 mu/b) u at the edge, and the edge's shear stress, which does work too.",
+        "The work of the mode's tractions on the state equals that of the state's tractions on the "
+        "mode: sigma_rr = -(2 mu/b) u at the edge by Hooke's law, and the shear stress there.",
         {"work": load - b * edge, "stiffness": 2 * mu + stress - 2 * E},
     )
 
 
 @cache
 def amplitudes() -> Proof:
-    """Turn and stretch that a clamp takes from the paper's plate, and how deep they are."""
+    """Prove the rotation and extension that a clamp suppresses, and their effect on the centre."""
     strip()
     reciprocity()
     E = PLANE_STRAIN_MODULUS
     start, more = sp.symbols("psi_0 k_c", real=True)
     stretching, bending = states()
-    # Of Hertz's load, 1 - r^2/a^2 being the square of its height.
+    # For Hertz pressure, 1 - r^2/a^2 is the square of its relative height.
     height = sp.sqrt(1 - _s**2)
     mean = sp.integrate(_s**3 * height, (_s, 0, 1)) / sp.integrate(_s * height, (_s, 0, 1))
     deep = bending.w.subs(z, h) + 2 * RATIO * _G * h**2
@@ -147,9 +147,9 @@ def amplitudes() -> Proof:
     strain = force * -stretching.w.subs(z, h) / (2 * sp.pi * b**2 * 2 * E * 2 * h)
     scale = R / a**2 * 8 * sp.pi * eta**3 / alpha
     return prove(
-        "What a clamp takes",
-        "Reciprocity gives the turn by the work of the load; psi = chi eta psi' adds 2 chi eta "
-        "of it in the first power; the state's depth at the centre.",
+        "Motion suppressed by a clamp",
+        "Reciprocity gives the rotation by the work of the load; psi = chi eta psi' adds 2 chi eta "
+        "times it in first order; the state's deflection at the centre.",
         {
             "Hertz": mean - HERTZ_MEAN,
             "depth": (deep - (b**2 - r**2) / 2 + lost * b**2 / 2).subs(plate),
@@ -165,7 +165,7 @@ def amplitudes() -> Proof:
 
 
 def _bracket(share: sp.Expr, lost: sp.Expr, chi: sp.Expr) -> sp.Expr:
-    """X_c 8 pi eta^3/alpha, where the load's part of w is 1 - share alpha^2 - s."""
+    """Return X_c 8 pi eta^3/alpha, where w under the load is 1 - share alpha^2 - s."""
     wide = 1 - share * alpha**2
     rest = SHEAR * eta**3 + sp.Rational(16, 3) * RATIO**2 * eta**4
     return (1 - lost) * (wide - lost) + 2 * chi * eta * wide + rest
@@ -173,19 +173,19 @@ def _bracket(share: sp.Expr, lost: sp.Expr, chi: sp.Expr) -> sp.Expr:
 
 @cache
 def clamp_constants() -> tuple[Formula, Formula]:
-    """chi and G, fitted."""
+    """Return chi and G as fitted functions of n."""
     proof = strip()
     return (
         Formula(
             "clamp_turn", r"\chi_c", (
-                r"rotation of a clamped edge by its moment: $\psi = \chi \eta \psi'$"
+                r"rotation constant of a clamped edge under a moment, $\psi = \chi \eta \psi'$"
             ),
             turn(), "1", "", ("edge_turn",), proof,
         ),
         Formula(
             "clamp_level", "G_c", (
-                "deflection of a clamped edge's middle plane, over $n h^2$ and the sum of "
-                "curvatures"
+                "deflection of a clamped edge's middle plane, divided by $n h^2$ and the sum of "
+                "the curvatures"
             ),
             level(), "1", "", ("edge_turn",), proof,
         ),
@@ -194,7 +194,7 @@ def clamp_constants() -> tuple[Formula, Formula]:
 
 @cache
 def clamp_law() -> tuple[Formula, Formula]:
-    """X_c, what a clamp takes from delta R/a^2, and its share of the slope S."""
+    """Return X_c, the reduction of delta R/a^2 by a clamped edge, and that of the slope S."""
     amplitudes()
     front = alpha / (8 * sp.pi * eta**3)
     share = front * _bracket(HERTZ_MEAN, depth_lost(), turn())
@@ -202,34 +202,36 @@ def clamp_law() -> tuple[Formula, Formula]:
     symbolic = front * _bracket(HERTZ_MEAN, _s, _chi)
     steep = sp.Rational(3, 2) * front * _bracket(sp.Rational(2, 3), _s, _chi)
     proof = prove(
-        "Clamp's part of the indentation",
-        r"Bending, turned edge, shear and stretching; $\alpha^2 X_c$ is differentiated by "
+        "Reduction of the indentation by a clamped edge",
+        r"Bending, rotation of the edge, shear and extension; $\alpha^2 X_c$ is differentiated by "
         r"$\alpha$.",
         {"slope": sp.diff(alpha**2 * symbolic, alpha) / (2 * alpha) - steep},
     )
     sources = ("clamp_turn", "clamp_level", "P")
     return (
         Formula(
-            "F_clamp", r"X_c(\alpha, \eta)", r"what a clamp takes from $\delta R/a^2$", share, "1",
-            "6", sources, proof,
+            "F_clamp", r"X_c(\alpha, \eta)", r"reduction of $\delta R/a^2$ by a clamped edge",
+            share, "1", "6", sources, proof,
         ),
         Formula(
             "S_clamp", r"\frac{R}{2a}\frac{\mathrm{d}}{\mathrm{d}a}\frac{a^2 X_c}{R}",
-            r"what a clamp takes from $(R/2a) d \delta/da$", slope, "1", "6", ("F_clamp",), proof,
+            r"reduction of $(R/2a) d \delta/da$ by a clamped edge", slope, "1", "6", ("F_clamp",),
+            proof,
         ),
     )  # fmt: skip
 
 
 @cache
 def clamp_bound() -> Formula:
-    """What a clamp takes from S is at least 0 and at most this, for every a up to alpha b.
+    """Return an upper bound of the slope's reduction by a clamp, for all radii up to alpha b.
 
-    With m = (|1 - s| - (1 - s))/2 the bound's bracket is the slope's for alpha = 0 and 2 m/3. It
-    exceeds the slope's by (2/3) [m + alpha^2 (1 - s)] + (4/3) chi eta alpha^2 >= 0.
+    The reduction is not negative. With m = (|1 - s| - (1 - s))/2 the bound's bracket is the slope's
+    for alpha = 0 plus 2 m/3. It exceeds that by (2/3) [m + alpha^2 (1 - s)] + (4/3) chi eta
+    alpha^2 >= 0.
 
-    Not negative: s <= 2 |n| eta^2, so that (16/3) n^2 eta^4 >= (4/3) s^2, and for 0 <= beta <= 2/3
-    (1 - s)(1 - beta - s) + (4/3) s^2 = (7/3) (s - 3 (2 - beta)/14)^2 + f(beta), where f falls
-    with beta to 1/7 at 2/3.
+    The reduction is not negative, because s <= 2 |n| eta^2 gives (16/3) n^2 eta^4 >= (4/3) s^2,
+    and for 0 <= beta <= 2/3 (1 - s)(1 - beta - s) + (4/3) s^2 = (7/3) (s - 3 (2 - beta)/14)^2 +
+    f(beta), where f decreases with beta to 1/7 at 2/3.
     """
     lost, beta = depth_lost(), sp.Symbol("beta", real=True)
     front = sp.Rational(3, 2) * alpha / (8 * sp.pi * eta**3)
@@ -239,7 +241,7 @@ def clamp_bound() -> Formula:
     left = _bracket(sp.Integer(0), _s, _chi) + third * m - _bracket(third, _s, _chi)
     floor = 1 - beta - 3 * (2 - beta) ** 2 / 28
     proof = prove(
-        "Bound of the clamp's slope",
+        "Bound of the slope's reduction by a clamped edge",
         r"The slope's bracket is linear in $\alpha^2$; squares are completed. $1000/G$ is above "
         r"7000 and $1000 n^2/\chi$ above 5000 for $-1/2 < n < 1$, so that $0 < 1 - 2 G < 1$ and "
         r"$\chi \ge 0$.",
@@ -254,7 +256,7 @@ def clamp_bound() -> Formula:
     return Formula(
         "S_clamp_most",
         r"S_c",
-        r"what a clamp takes from $(R/2a) d \delta/da$ at most, for every $a$ up to this one",
+        r"bound of the reduction of $(R/2a) d \delta/da$ by a clamped edge for all radii up to $a$",
         value,
         "1",
         "6",
@@ -265,5 +267,5 @@ def clamp_bound() -> Formula:
 
 
 def clamp() -> tuple[Formula, ...]:
-    """The clamp's constants, what it takes, and the bound."""
+    """Return the clamp's constants, the reduction, and the bound."""
     return (*clamp_constants(), *clamp_law(), clamp_bound())

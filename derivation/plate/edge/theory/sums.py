@@ -1,4 +1,4 @@
-"""Link 19, summed: the edge's part in closed form, what that leaves out, and a bound.
+"""Link 19, sums: the edge corrections in closed form, the remainder of this form, and a bound.
 
 For k even and entire, |k(z)| <= C e^(alpha |Im z|), alpha < 1, and q even and meromorphic
 
@@ -10,16 +10,16 @@ conjugate. For Q and H (link 19) the poles are z_n = T_n/(2 eta), T_n the roots 
 sinh T = +-T, of even index for Q and of odd index for H; there is none on the axes. Along
 the lines Im T = pi n - pi/4, where |sinh T -+ T| > cosh(Re T)/4, and on verticals between
 the zeros of J0, where |1/J0| <= C sqrt|z| e^(-|Im z|), the integrand is O(|z|^(-3/2)), and
-the contours' share vanishes.
+the contours contribute nothing in the limit.
 
-The rest dies like e^(-(1 - alpha) Im T_n/(2 eta)): Im T_1 = 4.212 for stretching,
-Im T_2 = 7.498 for bending; it is what reaches the edge without having become a plate's.
+The remainder decays like e^(-(1 - alpha) Im T_n/(2 eta)): Im T_1 = 4.212 for extension,
+Im T_2 = 7.498 for bending. It represents edge effects that plate theory does not contain.
 
-In a thick plate Q -> T and H -> 1, exponentially, and what is left is
+In a thick plate Q -> T and H -> 1, exponentially, and the remaining sum is
 
     sum k(j)/(j^2 J1(j)) = (1/pi) int_0^oo (1 - k(iy)/I0(y))/y^2 dy,   k(0) = 1:
 
-k/(z^2 J0), even, along the imaginary axis, a half circle about 0 taking the double pole.
+k/(z^2 J0), even, along the imaginary axis, with a half circle around the double pole at 0.
 """
 
 from collections.abc import Callable
@@ -47,18 +47,18 @@ Kernel = Callable[[sp.Expr], sp.Expr]
 
 
 def indentation_kernel(y: sp.Expr) -> sp.Expr:
-    """g(y) = 3 (sin y - y cos y)/y^3."""
+    """Return g(y) = 3 (sin y - y cos y)/y^3."""
     return 3 * (sp.sin(y) - y * sp.cos(y)) / y**3
 
 
 def slope_kernel(y: sp.Expr) -> sp.Expr:
-    """(3/2) sin y/y, which takes g's place in the slope."""
+    """Return (3/2) sin y/y, which replaces g in the slope."""
     return sp.Rational(3, 2) * sp.sin(y) / y
 
 
 @cache
 def residues() -> Proof:
-    """What the sums over residues rest on: those of 1/J0, Q and H, and the balance of all."""
+    """Prove the basis of the sums over residues: those of 1/J0, Q and H, and their balance."""
     numbering()
     u, sign = sp.symbols("u s", positive=True)
     total, at_zero, real = sp.symbols("S R X")
@@ -91,7 +91,7 @@ def residues() -> Proof:
 
 @dataclass(frozen=True)
 class Closed:
-    """Half the residues at 0: of k/(z^3 J0), of k (Q - 3)/(z^3 J0) and of k H/(z^2 J0)."""
+    """Return half the residues at 0: of k/(z^3 J0), of k (Q - 3)/(z^3 J0) and of k H/(z^2 J0)."""
 
     plain: sp.Expr
     bent: sp.Expr
@@ -99,13 +99,13 @@ class Closed:
 
 
 def _low(expression: sp.Expr) -> sp.Expr:
-    """The expression's powers of z up to the second."""
+    """Return the expression's powers of z up to the second."""
     return sp.expand(sp.series(expression, _z, 0, 3).removeO())
 
 
 @cache
 def closed(kernel: Kernel) -> Closed:
-    """The sums over the modes without the roots' share."""
+    """Return the sums over the modes without the contribution of the roots."""
     residues()
     j0 = sp.Add(*((-1) ** m * (_z / 2) ** (2 * m) / sp.factorial(m) ** 2 for m in range(3)))
     size = 2 * eta * _z
@@ -118,7 +118,7 @@ def closed(kernel: Kernel) -> Closed:
     series = {name: _low(above / below) for name, (above, below) in quotients.items()}
 
     def left(name: str) -> sp.Expr:
-        """What the quotient and its first powers differ by, over z^2, at 0."""
+        """Return the difference of the quotient and its first powers, over z^2, at 0."""
         above, below = quotients[name]
         order = sp.series(below, _z, 0, 6).removeO().as_poly(_z).monoms()[-1][0]
         return sp.series(above - series[name] * below, _z, 0, order + 3).removeO()
@@ -140,13 +140,13 @@ def closed(kernel: Kernel) -> Closed:
 
 
 def _assembled(bent: sp.Expr, stretched: sp.Expr) -> sp.Expr:
-    """X of the sums of k (1 + 3 n - n Q)/(j^3 J1) and of k H/(j^2 J1)."""
+    """Return X from the sums of k (1 + 3 n - n Q)/(j^3 J1) and of k H/(j^2 J1)."""
     bending = (1 - 2 * RATIO * eta**2) / eta**3 * bent
     return alpha / sp.pi * (bending + sp.Rational(8, 3) * RATIO**2 * stretched)
 
 
 def _roots(kernel: Kernel) -> tuple[sp.Expr, sp.Expr]:
-    """2 Re of the residues of -n k Q/(z^3 J0) at even, of k H/(z^2 J0) at odd roots."""
+    """Return 2 Re of the residues of -n k Q/(z^3 J0) at even, of k H/(z^2 J0) at odd roots."""
 
     def total(at: sp.Expr, weight: sp.Expr) -> sp.Expr:
         z = at / (2 * eta)
@@ -162,7 +162,7 @@ def _roots(kernel: Kernel) -> tuple[sp.Expr, sp.Expr]:
 
 @cache
 def thin_edge() -> tuple[Formula, ...]:
-    """X and its share of the slope: closed form, and the sum over roots that makes it exact."""
+    """Return X and its slope in closed form, and the sums over roots that make them exact."""
     formulas = []
     rows = (
         ("F_edge", indentation_kernel, "X"),
@@ -178,16 +178,18 @@ def thin_edge() -> tuple[Formula, ...]:
         value = _assembled(half.plain - RATIO * half.bent, half.stretched)
         proof = prove(
             f"Closed form of {name}",
-            "The modes' share is a combination of the sums whose residues are known.",
+            "The term of one mode is a combination of the sums whose residues are known.",
             {"mode": modes[name] - mode},
         )
-        what = "what no mean motion of the edge takes from " + (
-            r"$\delta R/a^2$" if name == "F_edge" else r"$(R/2a) d \delta/da$"
+        what = (
+            "reduction of "
+            + (r"$\delta R/a^2$" if name == "F_edge" else r"$(R/2a) d \delta/da$")
+            + " without mean motion of the edge"
         )
         thin = Formula(
             f"{name}_thin",
             rf"\left({latex}\right)^{{\mathrm{{thin}}}}",
-            f"{what}, thin plate",
+            f"{what}, for a thin plate",
             value,
             "1",
             "6",
@@ -197,7 +199,7 @@ def thin_edge() -> tuple[Formula, ...]:
         rest = Formula(
             f"{name}_roots",
             rf"{latex} - \left({latex}\right)^{{\mathrm{{thin}}}}",
-            f"{what}, less that of a thin plate, for every $h/b$",
+            f"{what}: correction of the thin-plate form for every $h/b$",
             _assembled(*_roots(kernel)),
             "1",
             "6",
@@ -213,12 +215,12 @@ def thin_edge() -> tuple[Formula, ...]:
 
 @cache
 def half_plane() -> Proof:
-    """sum k(j)/(j^2 J1) from the right half-plane's contour, the double pole at 0 passed by."""
+    """Prove sum k(j)/(j^2 J1) by a contour in the right half-plane around the double pole at 0."""
     imaginary_axis()
     total, finite = sp.symbols("S F")
     radius = sp.Symbol("rho", positive=True)
-    # Down the imaginary axis dz = -i dy; 1/z^2 = -1/y^2 and J0(iy) = I0(y). Of the
-    # integral of k(iy)/(y^2 I0) from rho on, 1/rho + F remain.
+    # On the imaginary axis dz = -i dy, 1/z^2 = -1/y^2 and J0(iy) = I0(y). The integral of
+    # k(iy)/(y^2 I0) from rho on is 1/rho + F.
     down = sp.I * 2 * (finite + 1 / radius)
     circle = sp.integrate(1 / _u**2, (_u, sp.I * radius, -sp.I * radius))
     residues_inside = 2 * sp.pi * sp.I * -total
@@ -226,15 +228,15 @@ def half_plane() -> Proof:
     odd = lower_bessel(sp.diff(1 / sp.besselj(0, _z), _z)).subs(_z, 0)
     return prove(
         "Alternating sum of a thick plate",
-        "Axis, half circle from i rho to -i rho about 0 and residues add up; k/J0 has no odd "
-        "power, so that of the half circle nothing else remains.",
+        "Axis, half circle from i rho to -i rho around 0, and residues add up to zero; k/J0 has no "
+        "odd power, so that the half circle contributes nothing else.",
         {"sum": sp.simplify(solution + finite / sp.pi), "odd power": odd},
     )
 
 
 @cache
 def alternating_sums() -> tuple[Formula, Formula]:
-    """sum k/(j^2 J1) for both kernels, functions of alpha alone."""
+    """Return sum k/(j^2 J1) for both weight functions, as functions of alpha alone."""
     half_plane()
     found = []
     for name, kernel, factor, what in (
@@ -251,7 +253,7 @@ def alternating_sums() -> tuple[Formula, Formula]:
         value = (at_zero - turned / sp.besseli(0, _y)) / _y**2 / sp.pi
         proof = prove(
             "Alternating sum",
-            r"The finite part of $\int dy/y^2$ from 0 is 0; $Q - T$ and $H - 1$ die like $e^{-T}$.",
+            r"The finite part of $\int dy/y^2$ from 0 is 0; $Q - T$, $H - 1$ decay like $e^{-T}$.",
             {
                 "Q": bending_function() - T - T * (T - 1 + sp.exp(-T)) / (sp.sinh(T) - T),
                 "H": stretching_function() - 1 + (1 + T - sp.exp(-T)) / (sp.sinh(T) + T),
@@ -272,12 +274,12 @@ def alternating_sums() -> tuple[Formula, Formula]:
     return found[0], found[1]
 
 
-# --- what leaving the edge out changes at most
+# --- bounds of the change by the edge
 
 
 @cache
 def edge_bound() -> Formula:
-    """What no mean motion of the edge takes from S is at most this, for every a up to alpha b.
+    """Return an upper bound of the magnitude of `S_edge` for all radii up to alpha b.
 
     3 <= Q <= 3 + T, 0 <= H <= 1 and |sin y| <= y; sum sinc(alpha j)/(j^3 J1) lies between
     1/24 and 1/8. With s_2 = sum 1/(j^2 |J1|)
@@ -294,7 +296,7 @@ def edge_bound() -> Formula:
     bracket = sp.Abs(1 - 2 * RATIO * eta**2) / eta**3 * (sp.Rational(1, 8) + 2 * eta * n * s_2)
     value = 3 * alpha / (2 * sp.pi) * (bracket + sp.Rational(8, 3) * RATIO**2 * s_2)
     proof = prove(
-        "Bound of the edge's slope",
+        "Bound of the slope's change by the edge",
         r"$(3 + T) (\sinh T - T) - T (\cosh T - 1)$ vanishes at 0 with two derivatives, and its "
         r"third is $3 \cosh T - (3 - T) e^{-T} \ge 0$; $Q - 3$ has no negative power in its "
         r"numerator; $e^{-T} \le 1 + T$.",
@@ -322,8 +324,8 @@ def edge_bound() -> Formula:
     return Formula(
         "S_edge_most",
         r"S_e",
-        r"what no mean motion of the edge takes from $(R/2a) d \delta/da$ at most, for every $a$ "
-        "up to this one",
+        r"bound of the reduction of $(R/2a) d \delta/da$ without mean motion of the edge, for all "
+        "radii up to $a$",
         value,
         "1",
         "6",
@@ -335,18 +337,18 @@ def edge_bound() -> Formula:
 
 @cache
 def inverse_squares() -> sp.Rational:
-    """A short number above sum 1/(j^2 |J1|), by a thousandth or two."""
+    """Return a short number above sum 1/(j^2 |J1|), by one or two thousandths."""
     steps = (inverse_squares_ball(3) * 2000).upper().ceil().unique_fmpz()
     return sp.Rational(int(steps), 2000)
 
 
 def inverse_squares_ball(digits: int) -> flint.arb:
-    """Ball around sum 1/(j^2 |J1(j)|), its rest between two integrals.
+    """Return a ball around sum 1/(j^2 |J1(j)|), with its remainder between two integrals.
 
     x (J0^2 + Y0^2) rises to 2/pi, so that j Y0(j)^2 = 4/(pi^2 j J1^2) < 2/pi gives
     1/|J1| < sqrt(pi j/2), and the zeros lie above (n - 1/4) pi: terms n > N add up to less
     than sqrt(pi/2) (2/pi^(3/2)) (N - 1/4)^(-1/2). At j_N the square is within a factor of
-    its limit, which bounds them from below, j_n < (n - 1/4) pi + 1/20 being below n pi.
+    its limit, which gives a lower bound, because j_n < (n - 1/4) pi + 1/20 is below n pi.
     """
 
     def compute() -> flint.arb:
@@ -362,5 +364,5 @@ def inverse_squares_ball(digits: int) -> flint.arb:
 
 
 def edge_sums() -> tuple[Formula, ...]:
-    """The sums and the bound that the chain records."""
+    """Return the sums and the bound for the derivation."""
     return (*thin_edge(), *alternating_sums(), edge_bound())

@@ -1,26 +1,26 @@
-"""Link 19: the edge that users mean: simply supported, from the paper's.
+"""Link 19: corrections of the paper's edge for a simply supported edge.
 
 The paper's modes have w = 0 and u' + u/r = 0 at r = b, hence sigma_rr = -(2 mu/b) u there: an
 elastically restrained edge, in plate theory a rotational spring of stiffness (1 - nu) D/b. Its mean
 motion is that of two polynomial states, both in equilibrium and without traction on the faces,
 
-    stretching  u = e r,    w = -2 lam e z/(lam + 2 mu),
+    extension   u = e r,    w = -2 lam e z/(lam + 2 mu),
     bending     u = k r z,  w = k (b^2 - r^2)/2 - lam k z^2/(lam + 2 mu),
 
-with w = 0 at r = b in the middle plane z = 0. Taking the edge's mean motion away needs e and k
-such that neither the mean of u at r = b nor its mean rotation, int u z dz/int z^2 dz, remains.
-A simple support takes away the edge's force int sigma_rr dz and moment int sigma_rr z dz;
-these are -2 mu/b times the mean motion, so that it adds (1 - nu)/(1 + nu) of what the mean
-motion's absence takes. That is X, of delta R/a^2 = 1 + F, linear in the force like F:
+with w = 0 at r = b in the middle plane z = 0. To suppress the mean motion of the edge, e and k are
+chosen such that neither the mean of u at r = b nor its rotation, int u z dz/int z^2 dz, remains.
+A simple support removes the edge's force int sigma_rr dz and moment int sigma_rr z dz. These are
+-2 mu/b times the mean motion, so that its effect is (1 - nu)/(1 + nu) times that of suppressing the
+mean motion. The latter is X, in delta R/a^2 = 1 + F, linear in the force like F:
 
     X = (alpha/pi) [ (1 - 2 n eta^2)/eta^3 sum g (1 + 3 n - n Q)/(j^3 J1)
                      + (8/3) n^2 sum g H/(j^2 J1) ],   n = lam/(lam + 2 mu) = nu/(1 - nu),
     Q = T (cosh T - 1)/(sinh T - T),  H = (cosh T - 1)/(sinh T + T),  T = 2 eta j,
 
-with g(y) = 3 (sin y - y cos y)/y^3, y = alpha j. In the slope S = (R/2a) d delta/da it is
-the same with (3/2) sin y/y for g. The edge's other tractions are self-balanced, and what
-they do dies within a thickness (Saint-Venant): that, the states do not remove. A clamp needs
-more than no mean motion: see `clamp`.
+with g(y) = 3 (sin y - y cos y)/y^3, y = alpha j. In the slope S = (R/2a) d delta/da, (3/2) sin y/y
+replaces g. The other tractions at the edge are self-balanced, and their effect decays within one
+thickness (Saint-Venant); the states do not remove it. A clamp requires more than suppressing the
+mean motion: see `clamped`.
 """
 
 from dataclasses import dataclass
@@ -55,7 +55,7 @@ from derivation.plate.vocabulary import (
 )
 
 RATIO = lam / (lam + 2 * mu)
-"""n = nu/(1 - nu), by which a plate thins where it is stretched."""
+"""n = nu/(1 - nu): relative thinning of a plate in extension."""
 _e, _k = sp.symbols("e k", real=True)
 _y = alpha * j_n
 
@@ -71,23 +71,23 @@ class PlateState:
 
 
 def bending_function() -> sp.Expr:
-    """Q(T) = T (cosh T - 1)/(sinh T - T), 3 at T = 0."""
+    """Return Q(T) = T (cosh T - 1)/(sinh T - T), which is 3 at T = 0."""
     return T * (sp.cosh(T) - 1) / (sp.sinh(T) - T)
 
 
 def stretching_function() -> sp.Expr:
-    """H(T) = (cosh T - 1)/(sinh T + T), the symmetric half of the plate factor G, twice."""
+    """Return H(T) = (cosh T - 1)/(sinh T + T), twice the symmetric part of the plate factor G."""
     return (sp.cosh(T) - 1) / (sp.sinh(T) + T)
 
 
 def _through(expression: sp.Expr) -> sp.Expr:
-    """Integral over the thickness."""
+    """Return the integral over the thickness."""
     return sp.integrate(sp.expand(expression), (z, -h, h))
 
 
 @cache
 def states() -> tuple[PlateState, PlateState]:
-    """Stretching and bending with e = k = 1, proved to balance and to leave the faces free."""
+    """Return extension and bending for e = k = 1, proved to balance and to leave the faces free."""
     found = []
     for name, u, w in (
         ("Stretching", r, -2 * RATIO * z),
@@ -99,7 +99,7 @@ def states() -> tuple[PlateState, PlateState]:
         stiff = 2 * mu * (3 * lam + 2 * mu) / (lam + 2 * mu)
         prove(
             f"{name} of the whole plate",
-            "Its stresses balance, no face bears any, and w = 0 on the middle plane's rim.",
+            "Its stresses balance, the faces are free of traction, and w = 0 at r = b, z = 0.",
             {
                 "radial balance": radial,
                 "axial balance": axial,
@@ -117,10 +117,10 @@ def states() -> tuple[PlateState, PlateState]:
 
 @cache
 def edge_resultants() -> tuple[Formula, ...]:
-    """One mode's mean motion of the edge, its force and its moment.
+    """Return one mode's mean motion of the edge, its force and its moment.
 
-    By Hooke's law g phi^2 = (S_rr - n S_zz)/E*. S_rz' = phi S_rr leaves no force in S_rr, and
-    with S_zz' = -phi S_rz the moment A_j/phi^2; of S_zz force and moment remain.
+    By Hooke's law g phi^2 = (S_rr - n S_zz)/E*. S_rz' = phi S_rr gives no force of S_rr, and
+    with S_zz' = -phi S_rz the moment A_j/phi^2; S_zz has force and moment.
     """
     raw = {formula.name: formula.expression for formula in (*mode_shapes(), *modal_stresses())}
     g_j, S_rr, S_zz, S_rz = (raw[name] for name in ("g_j", "S_rr", "S_zz", "S_rz"))
@@ -132,7 +132,7 @@ def edge_resultants() -> tuple[Formula, ...]:
     turn = J1 * (A_j / phi**2 - RATIO * moment) / (E * phi)
     proof = prove(
         "Resultants at the edge",
-        "Moment balance and Hooke's law against the mode's own $g$ and stresses, integrated "
+        "Moment balance and Hooke's law for the mode's own $g$ and stresses, integrated "
         "through the thickness.",
         {
             "Hooke": g_j * phi**2 - (S_rr - RATIO * S_zz) / E,
@@ -151,7 +151,7 @@ def edge_resultants() -> tuple[Formula, ...]:
         (
             "edge_turn",
             r"\bar k",
-            ("mean turn over $b$ at the edge"),
+            ("mean rotation of the edge divided by $b$"),
             turn * 3 / (2 * h**3 * b),
             "1/m",
         ),
@@ -167,7 +167,7 @@ def edge_resultants() -> tuple[Formula, ...]:
 
 @cache
 def support_ratio() -> Formula:
-    """What a simple support adds, over X: (1 - nu)/(1 + nu)."""
+    """Return the factor (1 - nu)/(1 + nu) of X for a simple support."""
     nu = sp.Symbol("nu")
     stretching, bending = states()
     _, _, force, moment = (formula.expression for formula in edge_resultants())
@@ -176,8 +176,8 @@ def support_ratio() -> Formula:
     in_nu = value.subs(lam, 2 * mu * nu / (1 - 2 * nu))
     proof = prove(
         "Simple support",
-        "With $e$ and $k$ of no mean motion times this ratio the states' force and moment "
-        "cancel the modes'.",
+        "With this factor times the $e$ and $k$ that suppress the mean motion, the states' force "
+        "and moment cancel those of the modes.",
         {
             "force": force + value * mean * stretching.force,
             "moment": moment + value * turn * bending.moment,
@@ -187,7 +187,7 @@ def support_ratio() -> Formula:
     return Formula(
         "support_ratio",
         r"\chi",
-        r"what a simple support adds over $X$, $(1 - \nu)/(1 + \nu)$",
+        r"factor of $X$ for a simple support, $(1 - \nu)/(1 + \nu)$",
         value,
         "1",
         "6",
@@ -197,7 +197,7 @@ def support_ratio() -> Formula:
 
 
 def _reduced(kernel: sp.Expr) -> sp.Expr:
-    """One mode's share of X, for a kernel in the place of g(y)."""
+    """Return one mode's term of X, for a weight function in place of g(y)."""
     Q, H = (f.subs(T, 2 * eta * j_n) for f in (bending_function(), stretching_function()))
     bending = (1 - 2 * RATIO * eta**2) / eta**3 * (1 + 3 * RATIO - RATIO * Q) / (j_n**3 * J1)
     stretching = sp.Rational(8, 3) * RATIO**2 * H / (j_n**2 * J1)
@@ -206,10 +206,10 @@ def _reduced(kernel: sp.Expr) -> sp.Expr:
 
 @cache
 def edge_law() -> tuple[Formula, Formula]:
-    """X, what no mean motion takes from delta R/a^2, and its share of S: one mode of each."""
+    """Return X, the reduction of delta R/a^2 without mean edge motion, and that of S: one mode."""
     stretching, bending = states()
     mean, turn = (formula.expression for formula in edge_resultants()[:2])
-    # The indentation -w(0, +h) of both states, for Hertz's pressure.
+    # The indentation -w(0, +h) of both states, for Hertz pressure.
     depth = sp.Add(*(x * s.w.subs({r: 0, z: h}) for x, s in ((mean, stretching), (turn, bending))))
     depth = depth.subs(A_j, pressure_coefficient().expression)
     g = 3 * (sp.sin(_y) - _y * sp.cos(_y)) / _y**3
@@ -218,8 +218,8 @@ def edge_law() -> tuple[Formula, Formula]:
     scale = R / (alpha * b) ** 2
     reduced = {a: alpha * b, h: eta * b, phi: j_n / b}
     proof = prove(
-        "Edge's part of the indentation",
-        "The states' $w$ at the loaded face's centre less that at the rim, in $a/b$ and $h/b$; "
+        "Change of the indentation by the edge",
+        "The states' $w$ at the contact face, centre minus edge, in $a/b$ and $h/b$; "
         r"$\alpha^2 X$ is differentiated by $\alpha$.",
         {
             "indentation": -depth.subs(reduced) * scale - share,
@@ -232,7 +232,7 @@ def edge_law() -> tuple[Formula, Formula]:
         Formula(
             "F_edge",
             r"X(\alpha, \eta)",
-            r"what no mean motion of the edge takes from $\delta R/a^2$",
+            r"reduction of $\delta R/a^2$ without mean motion of the edge",
             share,
             "1",
             "6",
@@ -243,7 +243,7 @@ def edge_law() -> tuple[Formula, Formula]:
         Formula(
             "S_edge",
             r"\frac{R}{2a}\frac{\mathrm{d}}{\mathrm{d}a}\frac{a^2 X}{R}",
-            r"what no mean motion of the edge takes from $(R/2a) d \delta/da$",
+            r"reduction of $(R/2a) d \delta/da$ without mean motion of the edge",
             slope,
             "1",
             "6",
@@ -255,5 +255,5 @@ def edge_law() -> tuple[Formula, Formula]:
 
 
 def edge() -> tuple[Formula, ...]:
-    """The edge's motion, the support's ratio, and X."""
+    """Return the edge's motion, the support's factor, and X."""
     return (*edge_resultants(), support_ratio(), *edge_law())

@@ -1,4 +1,4 @@
-"""What the modes of plates with a held edge hand in for the generated package."""
+"""Modules of clamped and supported plates for the generated package."""
 
 import textwrap
 from collections.abc import Mapping, Sequence
@@ -14,7 +14,7 @@ RUNTIME = Path(__file__).parents[1] / "runtime"
 
 
 def edge_mode_kernels() -> Routines:
-    """Waves, the conditions of both edges, weights and the loaded face, printed."""
+    """Return the routines of waves, conditions of both edges, weights and the contact face."""
     made = [make for part in (states, edges, amplitudes, faces) for make in part.ROUTINES]
     functions = "curled", "even", "even_beyond", "grown", "logarithm_series", "odd", "punch_beyond"
     imports = {
@@ -23,19 +23,19 @@ def edge_mode_kernels() -> Routines:
         "edge_mode_numbers": ("SMALL", "START"),
         "wave_functions": ("shc",),
     }
-    title = "Modes of a plate with a held edge: waves, edges, weights and the loaded face."
+    title = "Modes of clamped and supported plates: waves, edges, weights, contact face."
     return Routines("edge_mode_kernels", title, tuple(make() for make in made), imports)
 
 
 def _limits() -> Mapping[str, Sequence[str]]:
-    """Tested limits as lines of a docstring."""
+    """Return tested limits as lines of a docstring."""
     promised = read_promises("edge_modes").items()
     numbers = ", ".join(f"{name} {ulp:g}" for name, ulp in promised if name != "face")
     text = (
-        f"Tested error limits in units in the last place (ULP): {numbers}; of c in those of "
-        "c (1 + k), of k2 in those of k^2/k2, of t in those of max(1, |t|). Half the sum of the "
-        "condition numbers of eta and nu is allowed on top. A mode whose x = k eta is within a "
-        "few ULP of the cut-off may be missing or there."
+        f"Tested error limits in units in the last place (ULP): {numbers}; for c relative to "
+        "c (1 + k), for k2 to k^2/k2, for t to max(1, |t|). Half the sum of the condition "
+        "numbers of eta and nu is added. A mode whose x = k eta is within a few ULP of the "
+        "cut-off may be missing or present."
     )
     return dict.fromkeys(("clamped_waves", "supported_waves"), textwrap.wrap(text, 84))
 

@@ -1,7 +1,7 @@
-"""The part of I0 in a mode, its loaded face over its mean, and how it answers a load.
+"""Evanescent amplitude c of a mode, ratio of face to mean deflection, and modal weight.
 
-By J1 = q J0 the kinetic energy over J0^2 is a function of q. In the first mode of a support, whose
-k vanishes at nu = -1, all terms are positive for k < j_1 of
+With J1 = q J0 the kinetic energy over J0^2 is a function of q. In the first mode of a supported
+plate, whose k vanishes at nu = -1, all terms are positive for k < j_1 of
 
     w = c V(k2^2) - V(-k^2),   V(y) = I0(sqrt(y)) - I0(r sqrt(y)).
 """
@@ -42,7 +42,7 @@ _NORM = theory.NORM.subs(mindlin.c, theory.PART)
 
 @named
 def first_part() -> Claims:
-    """c, of I0 e^(-k2)."""
+    """Return c in terms of I0 e^(-k2)."""
     return Claims((j0, scaled, k_2), (), (PART,), (theory.PART,), {j0: theory.J0, scaled: FADED})
 
 
@@ -52,7 +52,7 @@ def _weight_of(kinetic: sp.Expr) -> sp.Expr:
 
 @named
 def weight() -> Claims:
-    """c, t and W."""
+    """Return c, t and W."""
     total, of_w, of_psi = sp.symbols("total of_w of_psi", real=True)
     square = 1 + (q**2 - left * (k * mean / 2) ** 2) / 2 - 2 * (q / k + left * mean / 2) / total
     turning = (
@@ -82,7 +82,7 @@ def weight() -> Claims:
 
 @named
 def energy() -> Claims:
-    """(w^2 + (eta^2/3) psi^2) r."""
+    """Return (w^2 + (eta^2/3) psi^2) r."""
     w, psi = sp.symbols("w psi", real=True)
     turning = mindlin.rotation(theory.g_1, theory.g_2)
     stated = (mindlin.DEFLECTION**2 + eta**2 / 3 * turning**2) * r
@@ -111,7 +111,7 @@ def energy() -> Claims:
 
 @named
 def first_weight() -> Claims:
-    """t and W of the first mode of a support."""
+    """Return t and W of the first mode of a supported plate."""
     bulge, axis = sp.symbols("bulge axis", real=True)
     less_one = (theory.J0 - 1) / -(k_n**2), (theory.I0 - 1) / k_2**2
     return Claims(

@@ -1,10 +1,10 @@
-"""What vanishes at a mode of a held plate, and its slope by the wave number.
+"""Functions that vanish at a mode of a clamped or supported plate, with slopes by k.
 
-The edge is J1 = q J0,
+The condition of the edge is J1 = q J0,
 
     q = k [beta (1 + left) - turned M/2]/bent.
 
-The first mode of a support, whose k vanishes at nu = -1, is
+For the first mode of a supported plate, whose k vanishes at nu = -1, it is
 
     bent R(-k^2) + J0 [turned R(k2^2)/I0 + (n xi k^2/8 - goal)(1 + left)] = 0,
     R(y) = y/8 I0 - I2 at sqrt(y), R(-k^2) = J2 - (k^2/8) J0,   goal = (1 + nu)/(1 - nu),
@@ -49,23 +49,23 @@ _y = sp.Symbol("y", positive=True)
 
 
 def condition(of: sp.Expr) -> sp.Expr:
-    """S - beta Gam times J0/(g1 k), which is J1 - q J0."""
+    """Return (S - beta Gam) J0/(g1 k), which is J1 - q J0."""
     return (theory.TURN - of * theory.BEND) * theory.J0 / (theory.g_1 * k_n)
 
 
 def _plain(expression: sp.Expr) -> sp.Expr:
-    """At a quarter of xi, so that k2^2 > 0 wherever it is tried."""
+    """Evaluate at a quarter of xi, so that k2^2 > 0 at every trial value."""
     return lower_bessel(expression).subs(xi, xi / 4)
 
 
 def _between(expression: sp.Expr) -> sp.Expr:
-    """Derivative of an expression of the theory along k, by any change of xi."""
+    """Return the derivative of an expression of the theory along k, for any change of xi."""
     return by_wave_number(in_xi(expression))
 
 
 @named
 def edge() -> Claims:
-    """q, J1 - q J0 that vanishes at a mode, and its slope by k."""
+    """Return q, J1 - q J0, which vanishes at a mode, and its slope by k."""
     value = k * (beta * (1 + left) - turned * mean / 2) / bent
     steep_q = slope_of(value, {mean: (less - mean**2 / 4) * square})
     stated = condition(beta)
@@ -86,13 +86,13 @@ def edge() -> Claims:
 
 
 def curl_of(of: type[sp.Function]) -> sp.Expr:
-    """R(y) by J of y = -k^2, or by I of y = k^2, in k."""
+    """Return R(y) by J for y = -k^2, or by I for y = k^2, in k."""
     sign = -1 if of is sp.besselj else 1
     return sign * (k_n**2 / 8 * of(0, k_n) - of(2, k_n))
 
 
 def _curls(partner: sp.Symbol) -> tuple[Several, Several]:
-    """R and its slope by y, of both waves."""
+    """Return R and its slope by y, for both waves."""
     first, second = (curl_of(of) for of in (sp.besselj, sp.besseli))
     slopes = -sp.diff(first, k_n) / (2 * k_n), sp.diff(second, k_n) / (2 * k_n)
     wave_number = k_n * sp.sqrt(parts()[left])
@@ -105,7 +105,7 @@ def _curls(partner: sp.Symbol) -> tuple[Several, Several]:
 
 @named
 def first_edge() -> Claims:
-    """What vanishes at the first mode of a support, and its slope by k."""
+    """Return the function that vanishes at the first supported mode, and its slope by k."""
     partner = sp.Symbol("partner", real=True)
     bracket = turned * curl_2 / i0 + (ROTARY * xi * k**2 / 8 - goal) * (1 + left)
     value = bent * curl + j0 * bracket
@@ -134,14 +134,14 @@ def first_edge() -> Claims:
 
 @named
 def first_power() -> Claims:
-    """k^4 of the first mode of a support, near nu = -1."""
+    """Return k^4 of the first mode of a supported plate, near nu = -1."""
     u = sp.Symbol("u", positive=True)
     lowest = 2 * curl_powers(2)[1] * u + eta**2 / 12 * u - 2 * goal
     return Claims((eta, goal), (), (sp.solve(lowest, u)[0],), (_lowest_power(),), {})
 
 
 def curl_powers(count: int) -> tuple[sp.Rational, ...]:
-    """R by powers of y, from y^1 on."""
+    """Return R in powers of y, from y^1 on."""
     rows = []
     for m in range(count):
         own, other = sp.factorial(m) ** 2, sp.factorial(m) * sp.factorial(m + 2)
@@ -150,7 +150,7 @@ def curl_powers(count: int) -> tuple[sp.Rational, ...]:
 
 
 def _lowest_power() -> sp.Expr:
-    """k^4 to lowest order of the support's condition, where 1 + nu is as small as k^4."""
+    """Return k^4 to lowest order of the support's condition, where 1 + nu is of order k^4."""
     size, u = sp.symbols("size u", positive=True)
     order = 5
 
@@ -174,7 +174,7 @@ def _lowest_power() -> sp.Expr:
 
 @named
 def support() -> Claims:
-    """goal, and beta of a simple support."""
+    """Return goal, and beta of a simple support."""
     return Claims(
         (nu,),
         (),
@@ -186,7 +186,7 @@ def support() -> Claims:
 
 @named
 def clamp() -> Claims:
-    """beta of a clamp."""
+    """Return beta of a clamped edge."""
     chi = sp.Symbol("chi", real=True)
     return Claims(
         (eta, nu),
@@ -199,7 +199,7 @@ def clamp() -> Claims:
 
 @named
 def moved() -> Claims:
-    """J0 and J1 at the root that k rounded lacks so much of."""
+    """Return J0 and J1 at the root, from the difference between k and the root."""
     exact = tuple(sp.besselj(order, k_n) for order in (0, 1))
     known = {exact[0]: j0, exact[1]: j1, k_n: k}
     slopes = [lower_bessel(sp.diff(f, k_n)) for f in exact]

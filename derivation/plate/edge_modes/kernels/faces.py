@@ -1,4 +1,4 @@
-"""Modified Bessel functions of the partner, and the loaded face of a mode."""
+"""Modified Bessel functions of the evanescent wave, and the contact face of a mode."""
 
 from functools import partial
 
@@ -23,7 +23,7 @@ inverse, logarithm, above, scale = sp.symbols("inverse logarithm above scale", r
 FADED = sp.besseli(0, y) * sp.exp(-y)
 """I0 e^(-y)."""
 BEYOND = sp.Gt(y, START)
-"""Where the series at infinity are used, Bessel's integral elsewhere."""
+"""Condition for the series at infinity; Bessel's integral is used elsewhere."""
 _AT_INFINITY = (
     Choice(z, BEYOND, y, START, unclaimed="no", reason="the series at infinity end there"),
     Let(inverse, 1 / z),
@@ -37,7 +37,7 @@ _FADED_ANYWHERE = Choice(far, BEYOND, sp.exp(inverse * logarithm) * sp.sqrt(scal
 
 @named
 def modified() -> Claims:
-    """2 I1/(y I0), I2/(y^2 I0) and I0 e^(-y), y >= 0."""
+    """Return 2 I1/(y I0), I2/(y^2 I0) and I0 e^(-y) for y >= 0."""
     ratio, fourth, second = sp.symbols("ratio fourth second", real=True)
     I0, I1, I2 = (sp.besseli(order, y) for order in range(3))
     exact = I1 / y * sp.exp(-y), 3 * I2 / y**2 * sp.exp(-y)
@@ -62,7 +62,7 @@ def modified() -> Claims:
 
 @named
 def faded() -> Claims:
-    """I0 e^(-y), y >= 0."""
+    """Return I0 e^(-y) for y >= 0."""
     return Claims(
         (y,),
         (
@@ -83,10 +83,10 @@ def _reduce(expression: sp.Expr) -> sp.Expr:
 
 
 class _FaceParts:
-    """What differs between the face and its mean under a punch: both waves, as code has them."""
+    """Return the parts of face and punch that differ: both waves, as the code has them."""
 
     def __init__(self, punch: bool) -> None:
-        """Fill in the parts."""
+        """Insert the parts."""
         self.exact = theory.UNDER_PUNCH if punch else theory.ON_FACE
         self.first = self.exact.subs(mindlin.c, 0)
         self.second = (self.first - self.exact) / (mindlin.c * theory.t)
@@ -98,7 +98,7 @@ class _FaceParts:
 
 
 def on_face(punch: bool) -> Routine:
-    """At a distance from the axis, or the mean under a punch less 1."""
+    """Return the deflection at a distance from the axis, or the mean under a punch minus 1."""
     parts = _FaceParts(punch)
     value = (near - t * far) / (1 - c * t)
     claim = parts.exact / (1 - mindlin.c * theory.t)
@@ -123,8 +123,8 @@ def on_face(punch: bool) -> Routine:
         statements,
         (value if punch else 1 + value,),
         ((claim - int(punch)).subs(mindlin.c, theory.PART),),
-        "The loaded face over that on the axis: "
-        + ("its mean under a punch, less 1." if punch else "its deflection at r."),
+        "Return the contact-face deflection over that on the axis: "
+        + ("its mean under a punch, minus 1." if punch else "its value at r."),
         {r: alpha, k: k_n, c: theory.PART},
     )
 
@@ -132,7 +132,7 @@ def on_face(punch: bool) -> Routine:
 def _less_one(
     symbol: sp.Symbol, of: sp.Symbol, exact: sp.Expr, name: str, sign: int
 ) -> tuple[Several]:
-    """A wave less 1 over the square of its argument."""
+    """Return (wave - 1) divided by the square of its argument."""
     square = sign * ((k_n if of == y else k_2) * alpha) ** 2
     return (Several((symbol,), name, (sign * GUARDED(of, SMALL) ** 2,), ((exact - 1) / square,)),)
 

@@ -1,4 +1,4 @@
-"""The numbers that the generated code of plates with a held edge needs."""
+"""Constants for the generated code of clamped and supported plates."""
 
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
@@ -29,31 +29,31 @@ from derivation.plate.contact.kernels.tables import gauss_legendre
 from derivation.plate.edge_modes.kernels.edges import curl_powers
 
 NODES = 20
-"""Of the integral of the first supported mode's square, a smooth function of r."""
+"""Nodes of the integral of the first supported mode's square, a smooth function of r."""
 SMALL = 2.0
-"""y up to which J0 - 1, I0 - 1 and the means under a punch less 1 are power series."""
+"""y below which J0 - 1, I0 - 1 and the means under a punch minus 1 are power series."""
 WIDEST = 6
-"""Above j_1^2: |y| up to which power series in y = -k^2 or k2^2 serve."""
+"""Above j_1^2: |y| below which power series in y = -k^2 or k2^2 are used."""
 
 
 def powers(order: int, count: int) -> tuple[sp.Rational, ...]:
-    """I0 (order 0) or 2 I1/sqrt(y) (order 1) by powers of y."""
+    """Return I0 (order 0) or 2 I1/sqrt(y) (order 1) in powers of y."""
     return tuple(sp.Rational(1, 4**m * factorial(m) * factorial(m + order)) for m in range(count))
 
 
 def means(count: int) -> tuple[sp.Rational, ...]:
-    """sinh(y)/y by powers of y^2."""
+    """Return sinh(y)/y in powers of y^2."""
     return tuple(sp.Rational(1, factorial(2 * m + 1)) for m in range(count))
 
 
 def enough(coefficients: tuple[sp.Rational, ...]) -> int:
-    """How many coefficients count up to the widest argument."""
+    """Return the number of coefficients that matter up to the widest argument."""
     limit = sp.Rational(TOLERANCE) * coefficients[1]
     return first_true(lambda n: n > 2 and bool(coefficients[n] * WIDEST**n <= limit), 32) + 1
 
 
 def series_terms(start: Fraction) -> int:
-    """Terms of I1/I0 at infinity, so that neither it nor I0 is off by more than the tolerance."""
+    """Return the number of terms of I1/I0 at infinity for a relative error below the tolerance."""
     limit = to_ball(TOLERANCE)
 
     def enough(terms: int) -> bool:
@@ -66,13 +66,13 @@ def series_terms(start: Fraction) -> int:
 
 
 def turns(steps: int) -> tuple[flint.arb, ...]:
-    """1 - cos t over half a turn, the largest first."""
+    """Return 1 - cos t over half a turn, the largest first."""
     halves = (flint.arb.sin_pi_fmpq(flint.fmpq(i, steps)) for i in reversed(range(steps // 2 + 1)))
     return tuple(2 * half**2 for half in halves)
 
 
 def turn_steps(largest: Fraction) -> int:
-    """Steps of Bessel's integral, an even number, for I0, I1 and I2 up to the largest."""
+    """Return an even number of steps of Bessel's integral for I0, I1, I2 up to the largest."""
     least = int(largest) // 2 + 4
 
     def within(n: int) -> bool:
@@ -91,7 +91,7 @@ def _counted(values: tuple[sp.Rational, ...]) -> tuple[sp.Rational, ...]:
 
 
 def _of_turns(steps: int) -> tuple[Constant, ...]:
-    """Bessel's integral as a sum over half a turn, whose ends count half."""
+    """Return Bessel's integral as a sum over half a turn; the end points have half weight."""
     places = turns(steps)
     count = len(places) - 1
     shares = [flint.arb(1) / (count if 0 < i < count else 2 * count) for i in range(count + 1)]
@@ -111,7 +111,7 @@ def _of_turns(steps: int) -> tuple[Constant, ...]:
 
 
 def _times_sine(values: Sequence[flint.arb], places: Sequence[flint.arb]) -> list[flint.arb]:
-    """With sin^2 t of x = 1 - cos t."""
+    """Return the weights times sin^2 t, where x = 1 - cos t."""
     return [value * x * (2 - x) for value, x in zip(values, places, strict=True)]
 
 
@@ -132,19 +132,19 @@ def _of_series() -> tuple[Constant, ...]:
 
 
 def numbers() -> Numbers:
-    """Where each way to compute ends, and coefficients of series and sums."""
+    """Return the limits of the methods, and coefficients of series and sums."""
     start = asymptotic_start()
     with flint.ctx.workprec(BITS):
         places, weights = (np.array(x) for x in gauss_legendre(NODES))
         return Numbers(
             "edge_mode_numbers",
-            "Numbers of the modes of plates with a held edge: coefficients, and where series end.",
+            "Constants of clamped and supported plates: coefficients, and limits of series.",
             (
-                Constant("START", float(start), "y from which on I0 is its series at infinity."),
-                Constant("SMALL", SMALL, "y up to which J0 - 1, I0 - 1 and others are series."),
+                Constant("START", float(start), "y above which I0 is its series at infinity."),
+                Constant("SMALL", SMALL, "y below which J0 - 1, I0 - 1 and others are series."),
                 *_of_series(),
                 *_of_turns(turn_steps(start)),
-                Constant("NODES", places, "Gauss' rule on (0, 1),"),
+                Constant("NODES", places, "Nodes of Gauss' rule on (0, 1),"),
                 Constant("WEIGHTS", weights, "and its weights."),
             ),
         )

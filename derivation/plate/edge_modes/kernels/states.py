@@ -1,7 +1,7 @@
-"""A wave of a held plate: the variables of the code, and how they change along Mindlin's branch.
+"""A wave of a clamped or supported plate: variables of the code, and their slopes by k.
 
-With xi = kap/x^2, k2^2 = k^2 left, g1 = bent and g2 k2^2 = k^2 turned nothing cancels for thin
-plates. With M = 2 I1/(k2 I0) and L = (1 - M)/k2^2 = I2/(k2^2 I0) nothing does where k2 vanishes.
+With xi = kap/x^2, k2^2 = k^2 left, g1 = bent and g2 k2^2 = k^2 turned, no terms cancel for thin
+plates. With M = 2 I1/(k2 I0) and L = (1 - M)/k2^2 = I2/(k2^2 I0), none do where k2 vanishes.
 """
 
 import sympy as sp
@@ -31,35 +31,35 @@ NAMES: Facts = {
     t: theory.FACE,
     c: theory.PART,
 }
-"""What the variables stand for, g1 and g2 being any."""
+"""Meaning of the variables, for any g1 and g2."""
 
 
 def parts() -> dict[sp.Symbol, sp.Expr]:
-    """Left, bent and turned in xi, with the shear coefficient of A0."""
+    """Return left, bent and turned in terms of xi, with the shear coefficient of A0."""
     found = {left: mindlin.left(), bent: mindlin.u_1(), turned: mindlin.u_2()}
     return {s: sp.collect(sp.expand(v.subs(shear, slack())), xi) for s, v in found.items()}
 
 
 def in_xi(expression: sp.Expr) -> sp.Expr:
-    """An expression of the theory in k and xi."""
+    """Return an expression of the theory in k and xi."""
     found = parts()
     known = {theory.g_1: found[bent], theory.g_2: found[turned] / found[left]}
     return expression.subs(known).subs(k_2, k_n * sp.sqrt(found[left]))
 
 
 def of_xi() -> Facts:
-    """What the variables stand for, as functions of k and xi."""
+    """Return the meaning of the variables, as functions of k and xi."""
     names = {s: in_xi(sp.sympify(value)) for s, value in NAMES.items()}
     return names | parts()
 
 
 def by_wave_number(expression: sp.Expr) -> sp.Expr:
-    """Derivative of an expression in k and xi, `change` being that of xi."""
+    """Return the derivative of an expression in k and xi; `change` is that of xi."""
     return sp.diff(expression, k_n) + sp.diff(expression, xi) * change
 
 
 def branch_rate() -> sp.Expr:
-    """d log(xi)/d log(k) on Mindlin's branch, in xi: x follows from the dispersion relation."""
+    """Return d log(xi)/d log(k) on Mindlin's branch, in xi, from the dispersion relation."""
     (there,) = sp.solve(mindlin.dispersion(x_h), x_h**2)
     return mindlin.on_lower_branch().subs(x_h**2, there).subs(shear, slack())
 
@@ -69,14 +69,14 @@ RATE = 2 * bent * turned / (bent + turned - bent * turned)
 
 
 def slope_of(value: sp.Expr, others: Facts) -> sp.Expr:
-    """d/dk of the code's expression in k, in what depends on xi, and in others."""
+    """Return d/dk of the code's expression in k, in terms that depend on xi, and in others."""
     by_xi = sum(sp.diff(value, s) * sp.diff(part, xi) for s, part in parts().items())
     total = sp.diff(value, k) + (by_xi + sp.diff(value, xi)) * change
     return total + sum(sp.diff(value, s) * each for s, each in others.items())
 
 
 def changes() -> tuple[Let, Let]:
-    """Of xi and k2^2 with k; what uses the first holds for any."""
+    """Return the derivatives of xi and k2^2 by k; results of the first apply to any branch."""
     return (
         Let(
             change, xi * RATE / k, "of xi by k", opaque=True, means=xi * branch_rate() / k_n
@@ -87,7 +87,7 @@ def changes() -> tuple[Let, Let]:
 
 @named
 def wave() -> Claims:
-    """xi, k2^2/k^2, g1, g2 k2^2/k^2 and k2."""
+    """Return xi, k2^2/k^2, g1, g2 k2^2/k^2 and k2."""
     held = sp.Symbol("held", real=True)
     beyond = "beyond the cut-off there are no modes"
     partner, first, second = (formula.expression for formula in mindlin.waves())
@@ -106,7 +106,7 @@ def wave() -> Claims:
 
 @named
 def to_cutoff() -> Claims:
-    """A step of Newton's in log x, for k2 = 0."""
+    """Return a Newton step in log x for k2 = 0."""
     plain = parts()[left]
     claim = x_h * (1 - plain / (xi * sp.diff(plain, xi) * branch_rate()))
     return Claims(
@@ -124,7 +124,7 @@ def to_cutoff() -> Claims:
 
 @named
 def cutoff_of_mindlin() -> Claims:
-    """x at which k2 vanishes on Mindlin's branch."""
+    """Return x at which k2 vanishes on Mindlin's branch."""
     (there,) = sp.solve(mindlin.left(), xi)
     (square_there,) = sp.solve(mindlin.dispersion(x_h).subs(xi, there), x_h**2)
     exact = square_there.subs(shear, slack())

@@ -1,1 +1,1 @@
-"""Reference values in ball arithmetic, from the original expressions: plates with a held edge."""
+"""Arb references for clamped and supported plates, from the original expressions."""

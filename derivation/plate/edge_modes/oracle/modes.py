@@ -1,7 +1,7 @@
-"""Oracle 1 of held plates: modes as balls, each root certified between its zeros of J0.
+"""Arb reference for thin clamped and supported plates: each root is certified as a ball.
 
-(J1/J0 + I1/I0)/k grows from one zero of J0 to the next (link 29), so that a change of sign of it
-less S, S = 0 for a clamp and 2/(1 - nu) for a simple support, shows the only root between them.
+(J1/J0 + I1/I0)/k increases between neighbouring zeros of J0 (link 29). Minus S, with S = 0 for a
+clamp and 2/(1 - nu) for a simple support, it has one change of sign there: the only root.
 """
 
 from typing import Literal, NamedTuple
@@ -29,35 +29,35 @@ class Mode(NamedTuple):
 
 
 class RootError(ArithmeticError):
-    """A root could not be certified."""
+    """Error: a root could not be certified."""
 
 
 def mode(edge: Edge, n: int, nu: Exact = 0, digits: int = 30) -> Mode:
-    """The n-th mode of a held plate.
+    """Return the n-th mode of a clamped or supported plate.
 
     Parameters
     ----------
     edge
-        How it is held.
+        Edge condition, "clamped" or "supported".
     n
         Number of the mode, from 1.
     nu
-        Poisson's ratio, which a clamp asks for no more; -1 < nu < 1.
+        Poisson's ratio, which a clamped plate does not depend on; -1 < nu < 1.
     digits
-        Decimal digits the balls' radius warrants.
+        Correct decimal digits required of the balls.
 
     Raises
     ------
     ValueError
-        If n or nu has no meaning.
+        If n or nu is outside its range.
     PrecisionError
-        If the precision does not suffice.
+        If the precision is not sufficient.
     """
     if n < 1 or not -1 < nu < 1:
-        raise ValueError(f"modes are counted from 1 and -1 < nu < 1, got {n} and {nu}")
+        raise ValueError(f"expected n >= 1 and -1 < nu < 1, got {n} and {nu}")
 
     def compute(bits: int) -> tuple[arb, ...]:
-        # I0 has e^k, and c the relative error of k times k.
+        # I0 contains e^k, and the relative error of c is that of k times k.
         with flint.ctx.workprec(bits + 2 * n.bit_length() + _GUARD):
             known = {k_n: _root(edge, n, nu, bits + n.bit_length() + 8)}
             return known[k_n], enclose(PART, known), enclose(WEIGHT, known)

@@ -1,8 +1,8 @@
-"""Oracle 1 of held plates with a thickness: link 30's expressions as they stand, as balls.
+"""Arb reference for clamped and supported plates of finite thickness: link 30 as balls.
 
-S/Gam - beta changes its sign between two numbers that enclose k, kap there being oracle 1's of A0
-at each of the two. That it does so only once in an interval is tested, not certified. Along k,
-kap and the residue of A0 are enclosed by their values at both ends, as they go one way.
+S/Gam - beta changes sign between two numbers that enclose k; kap there is the Arb reference of A0
+at each of the two. That there is only one change in an interval is tested, not certified. kap and
+the residue of A0 are monotonic along k and are enclosed by their values at both ends.
 """
 
 from collections.abc import Callable
@@ -26,11 +26,11 @@ from derivation.plate.waves import oracle as inertia_balls
 _HALVINGS, _STEPS = 8, 200
 _GUARD = 64
 _LOWEST = Fraction(1, 2**14)
-"""Where the first supported mode is sought from: below it at nu = -1 + 2^-53."""
+"""Start of the search for the first supported mode, below its value at nu = -1 + 2^-53."""
 
 
 class HeldWave(NamedTuple):
-    """Wave number times b, omega h/c_T, partner, part of I0, loaded face over mean, W, rho h r."""
+    """k b, omega h/c_T, k2 b, amplitude of I0, face over mean deflection, W, rho h r."""
 
     k: arb
     root: arb
@@ -42,31 +42,31 @@ class HeldWave(NamedTuple):
 
 
 def wave(edge: Edge, n: int, thickness: Exact, ratio: Exact, digits: int = 30) -> HeldWave:
-    """The n-th mode of a held plate.
+    """Return the n-th mode of a clamped or supported plate.
 
     Parameters
     ----------
     edge
-        How it is held.
+        Edge condition, "clamped" or "supported".
     n
         Number of the mode, from 1.
     thickness, ratio
         h/b > 0 and Poisson's ratio, -1 < ratio < 1/2.
     digits
-        Decimal digits the balls' radii warrant.
+        Correct decimal digits required of the balls.
 
     Raises
     ------
     ValueError
-        If an argument has no meaning.
+        If an argument is outside its range.
     RootError
         If there is no change of sign in the mode's interval below the cut-off.
     PrecisionError
-        If the precision does not suffice.
+        If the precision is not sufficient.
     """
     if n < 1 or not thickness > 0 or not -1 < ratio < Fraction(1, 2):
         raise ValueError(
-            f"modes are counted from 1, h/b > 0 and -1 < nu < 1/2, got {n}, {thickness}, {ratio}"
+            f"expected n >= 1, h/b > 0 and -1 < nu < 1/2, got {n}, {thickness}, {ratio}"
         )
     given = Fraction(thickness), Fraction(ratio)
 
@@ -81,7 +81,7 @@ def wave(edge: Edge, n: int, thickness: Exact, ratio: Exact, digits: int = 30) -
 
 @cache
 def cutoff(ratio: Exact, digits: int = 30) -> tuple[Fraction, Fraction]:
-    """Numbers below and above x = k h/b at which k2 vanishes."""
+    """Return numbers below and above x = k h/b at which k2 vanishes."""
     partner = _expression("partner_wave") ** 2
     low, high = Fraction(1), Fraction(3)
     while high - low > low / 10**digits:
@@ -97,7 +97,7 @@ def cutoff(ratio: Exact, digits: int = 30) -> tuple[Fraction, Fraction]:
 
 @cache
 def _expression(name: str) -> sp.Expr:
-    """Of link 30, in k, kap, eta and nu."""
+    """Return quantities of link 30 in k, kap, eta and nu."""
     return theory.in_k(
         {
             "partner_wave": k_2,
@@ -115,12 +115,12 @@ def _known(k: arb, load: arb, thickness: Fraction, ratio: Fraction) -> dict[sp.B
 
 
 def on_face(punch: bool, k: Exact, partner: Exact, ratio: Exact, at: Exact) -> arb:
-    """The loaded face at r/b over that on the axis, or its mean under a flat punch less 1.
+    """Return the contact face at r/b over that on the axis, or its mean under a punch minus 1.
 
     Parameters
     ----------
     punch
-        Whether it is the mean.
+        Return the mean instead.
     k, partner, ratio, at
         Wave numbers times b, t, and r/b or the punch's radius over b.
     """
@@ -133,7 +133,7 @@ def on_face(punch: bool, k: Exact, partner: Exact, ratio: Exact, at: Exact) -> a
 def _root(
     edge: Edge, n: int, thickness: Fraction, ratio: Fraction, bits: int
 ) -> tuple[Fraction, Fraction]:
-    """Numbers below and above k, at which the edge's condition has opposite signs."""
+    """Return numbers below and above k at which the edge's condition has opposite signs."""
     condition = _expression(f"{edge}_wave") / k_n**2
 
     def excess(k: Fraction) -> arb:
@@ -141,7 +141,7 @@ def _root(
         return enclose(condition, _known(to_ball(k), load, thickness, ratio))
 
     def regular(k: Fraction) -> arb:
-        """Without poles at the zeros of J0."""
+        """Return the condition without poles at the zeros of J0."""
         return excess(k) * to_ball(k).bessel_j(0)
 
     first = n if edge == "clamped" else n - 1
@@ -160,7 +160,7 @@ def _root(
 def _illinois(
     function: Callable[[Fraction], arb], low: Fraction, high: Fraction, bits: int
 ) -> Fraction:
-    """Near a root, by halving and then false position with one end's value halved."""
+    """Return an enclosure of a root, by bisection and then the Illinois method."""
     at_low, at_high = (_exact(function(k).mid()) for k in (low, high))
     for step in range(_STEPS):
         k = (low + high) / 2
@@ -182,7 +182,7 @@ def _illinois(
 def _values(
     low: Fraction, high: Fraction, thickness: Fraction, ratio: Fraction, bits: int
 ) -> tuple[arb, ...]:
-    """All of a mode from two numbers that enclose k."""
+    """Return all quantities of a mode from two numbers that enclose k."""
     digits = _decimals(bits)
 
     def between(function: Callable[..., arb]) -> arb:

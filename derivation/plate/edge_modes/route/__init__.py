@@ -1,1 +1,1 @@
-"""Reference values by another method, in mpmath: plates with a held edge."""
+"""References for clamped and supported plates by another method, in mpmath."""

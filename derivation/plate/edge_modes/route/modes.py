@@ -1,8 +1,8 @@
-"""Oracle 2 of held plates: the plate's equation solved by power series in r, in mpmath.
+"""mpmath reference for clamped and supported plates: power series in r.
 
-nabla^4 r^p = p^2 (p - 2)^2 r^(p - 4), so that two series, from 1 and from r^2 on, are all that is
-regular on the axis. No Bessel function: the edge's two conditions are a determinant, whose changes
-of sign are counted from k = 0 on, and the norm is an integral by quadrature.
+nabla^4 r^p = p^2 (p - 2)^2 r^(p - 4), so that two series, starting with 1 and with r^2, are all
+solutions that are regular on the axis. No Bessel function is used: the two edge conditions form a
+determinant whose changes of sign are counted from k = 0, and the norm is a quadrature.
 """
 
 from typing import NamedTuple
@@ -12,7 +12,7 @@ from mpmath import mp, mpf
 from derivation.engine.oracle.agreement import RouteError
 
 STEP = mpf("0.25")
-"""Step of k in the count: far below the distance of modes, about pi."""
+"""Step of k in the count, far below the distance of modes, about pi."""
 
 
 class RouteMode(NamedTuple):
@@ -24,9 +24,9 @@ class RouteMode(NamedTuple):
 
 
 def mode(edge: str, n: int, nu: float = 0.0, digits: int = 30) -> RouteMode:
-    """The n-th mode of a plate held by its `edge`, "clamped" or "supported".
+    """Return the n-th mode of a plate with the given edge, "clamped" or "supported".
 
-    The work goes with n^2: one mode after the other is passed.
+    The run time is proportional to n^2, because all lower modes are passed.
     """
     with mp.workdps(digits + 4 * n + 25):
         low, high = _interval(edge, n, mpf(nu))
@@ -44,7 +44,7 @@ def mode(edge: str, n: int, nu: float = 0.0, digits: int = 30) -> RouteMode:
 
 
 def _series(start: int, strength: mpf) -> list[mpf]:
-    """Coefficients of r^start, r^(start + 4), ..."""
+    """Return the coefficients of r^start, r^(start + 4), ..."""
     found = [mpf(1)]
     power = start
     while power < 20 or abs(found[-1]) > mp.eps * mpf(10) ** -5:
@@ -54,7 +54,7 @@ def _series(start: int, strength: mpf) -> list[mpf]:
 
 
 def _at(series: list[mpf], start: int, r: mpf, slopes: int = 0) -> mpf:
-    """The sum, or its first or second derivative, at r > 0."""
+    """Return the sum, or its first or second derivative, at r > 0."""
     fourth, total = r**4, mpf(0)
     for i in reversed(range(len(series))):
         power = start + 4 * i
@@ -84,7 +84,7 @@ def _interval(edge: str, n: int, nu: mpf) -> tuple[mpf, mpf]:
 
 
 def _bisected(edge: str, low: mpf, high: mpf, nu: mpf, digits: int) -> mpf:
-    """The root by the rule of false position, halved if that is slow (Illinois)."""
+    """Return the root by the Illinois variant of false position."""
     at_low, at_high = (_determinant(edge, k, nu) for k in (low, high))
     for _ in range(40 + 4 * digits):
         k = high - at_high * (high - low) / (at_high - at_low)

@@ -1,13 +1,13 @@
-"""Oracle 2 of held plates with a thickness: two power series in r and a determinant, in mpmath.
+"""mpmath reference for clamped and supported plates of finite thickness: power series in r.
 
-With kap by oracle 2 of A0 and k2 by the sum rule, a mode obeys
+With kap from the mpmath reference of A0 and k2 from the sum rule, a mode obeys
 
     nabla^4 w + (k^2 - k2^2) nabla^2 w - k^2 k2^2 w = 0,
     psi' + psi/r = -nabla^2 w - (kap/(k_s eta^2)) w,
 
-the second of which is the balance of force. Both series that are regular on the axis, from 1 and
-from r^2 on, give w(1), psi(1) and psi'(1): the edge is a determinant. No Bessel function; the norm
-is an integral by quadrature.
+where the second equation is the balance of force. The two series that are regular on the axis,
+starting with 1 and with r^2, give w(1), psi(1) and psi'(1); the edge conditions are a determinant.
+No Bessel function is used; the norm is a quadrature.
 """
 
 from typing import NamedTuple
@@ -22,7 +22,7 @@ _STEPS = 40
 
 
 class RouteWave(NamedTuple):
-    """As of `edge_modes.oracle.waves`."""
+    """Quantities of a mode, as in `edge_modes.oracle.waves`."""
 
     k: mpf
     root: mpf
@@ -40,7 +40,7 @@ class _Series(NamedTuple):
     psi: list[mpf]
 
     def at(self, r: mpf) -> tuple[mpf, mpf, mpf]:
-        """w, psi and psi'."""
+        """Return w, psi and psi'."""
         square = r * r
         w = mp.polyval(self.w[::-1], square)
         psi = mp.polyval(self.psi[::-1], square)
@@ -49,7 +49,7 @@ class _Series(NamedTuple):
 
 
 def wave(edge: str, thickness: float, ratio: float, near: float, digits: int = 20) -> RouteWave:
-    """The mode of a plate held by its `edge`, "clamped" or "supported", that is next to a guess."""
+    """Return the mode next to a guess for an edge, "clamped" or "supported"."""
     with mp.workdps(2 * digits + int(near) + 20):
         eta, nu = mpf(thickness), mpf(ratio)
 
@@ -80,7 +80,7 @@ def wave(edge: str, thickness: float, ratio: float, near: float, digits: int = 2
 
 
 def _both(k: mpf, kap: mpf, eta: mpf, nu: mpf) -> tuple[mpf, _Series, _Series]:
-    """k2^2 and both regular solutions."""
+    """Return k2^2 and both regular solutions."""
     slack = (6 - nu) / 5
     partner = k**2 - kap / eta**2 * (slack + (1 - nu) / 2)
     force = kap * slack / eta**2
@@ -101,7 +101,7 @@ def _both(k: mpf, kap: mpf, eta: mpf, nu: mpf) -> tuple[mpf, _Series, _Series]:
 
 
 def _root(edge: str, eta: mpf, nu: mpf, near: mpf, digits: int) -> mpf:
-    """By the secant's method."""
+    """Return the root by the secant method."""
     chi = mpf(CHI.p) / CHI.q * (nu / (1 - nu)) ** 2
 
     def determinant(k: mpf) -> mpf:

@@ -1,1 +1,1 @@
-"""Algorithms of the modes of plates with a held edge, copied into the generated package."""
+"""Algorithms for modes of clamped and supported plates, copied into the generated package."""

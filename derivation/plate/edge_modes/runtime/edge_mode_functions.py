@@ -1,6 +1,6 @@
-"""Bessel's integral as a sum, and power series: what the modes of held plates are made of.
+"""Modified Bessel functions for the modes of clamped and supported plates.
 
-Arithmetic: sums and Horner's rule, with coefficients computed beforehand.
+Arithmetic: Bessel's integral as a sum, and power series by Horner's rule.
 """
 
 import numpy as np
@@ -23,13 +23,13 @@ from generated.edge_mode_numbers import (
 
 
 def turn_mean(y: Double) -> Double:
-    """I0 e^(-y), 0 <= y <= START."""
+    """Return I0 e^(-y) for 0 <= y <= START."""
     value: Double = np.sum(_faded(y) * MEAN, axis=-1)
     return value
 
 
 def turn_means(y: Double) -> tuple[Double, Double, Double]:
-    """I0 e^(-y), I1 e^(-y)/y and 3 I2 e^(-y)/y^2, 0 <= y <= START."""
+    """Return I0 e^(-y), I1 e^(-y)/y and 3 I2 e^(-y)/y^2 for 0 <= y <= START."""
     faded = _faded(y)
     return (
         np.sum(faded * MEAN, axis=-1),
@@ -44,42 +44,42 @@ def _faded(y: Double) -> Double:
 
 
 def ratio_series(inverse: Double) -> Double:
-    """I1/I0 of 1/inverse >= START."""
+    """Return I1/I0 at y = 1/inverse >= START."""
     return polynomial(inverse, *RATIO)
 
 
 def logarithm_series(inverse: Double) -> Double:
-    """Of y = 1/inverse >= START: y log(I0 sqrt(2 pi y) e^(-y))."""
+    """Return y log(I0 sqrt(2 pi y) e^(-y)) at y = 1/inverse >= START."""
     return polynomial(inverse, *LOGARITHM)
 
 
 def even(y: Double) -> Double:
-    """I0(sqrt(y))."""
+    """Return I0(sqrt(y))."""
     return polynomial(y, *EVEN)
 
 
 def even_beyond(y: Double) -> Double:
-    """(I0(sqrt(y)) - 1)/y."""
+    """Return (I0(sqrt(y)) - 1)/y."""
     return polynomial(y, *EVEN[1:])
 
 
 def odd(y: Double) -> Double:
-    """2 I1(sqrt(y))/sqrt(y)."""
+    """Return 2 I1(sqrt(y))/sqrt(y)."""
     return polynomial(y, *ODD)
 
 
 def punch_beyond(y: Double) -> Double:
-    """(sinh(sqrt(y))/sqrt(y) - 1)/y."""
+    """Return (sinh(sqrt(y))/sqrt(y) - 1)/y."""
     return polynomial(y, *PUNCH[1:])
 
 
 def curled(y: Double) -> tuple[Double, Double]:
-    """R = y/8 I0(sqrt(y)) - I2(sqrt(y)), and its slope by y."""
+    """Return R = y/8 I0(sqrt(y)) - I2(sqrt(y)), and its derivative by y."""
     return y * polynomial(y, *CURL), polynomial(y, *CURL_SLOPE)
 
 
 def grown(y: Double, r: Double) -> Double:
-    """I0(sqrt(y)) - I0(r sqrt(y)), term by term."""
+    """Return I0(sqrt(y)) - I0(r sqrt(y)), computed term by term."""
     total, square, part = np.zeros_like(r), r * r, np.ones_like(r)
     terms = []
     for m, coefficient in enumerate(EVEN):

@@ -1,21 +1,21 @@
-"""Modes of a circular plate with a thickness whose edge is clamped or simply supported.
+"""Bending modes of a circular plate of finite thickness with a clamped or supported edge.
 
-With b = 1 a mode is J0(k r) - c I0(k2 r), c = J0(k)/I0(k2), of the frequency of the lowest bending
-branch A0 at x = k h/b, kap = (omega h/c_T)^2, and of Mindlin's partner k2 at this frequency::
+With b = 1 a mode is J0(k r) - c I0(k2 r), c = J0(k)/I0(k2). Its frequency is that of the lowest
+bending branch A0 at x = k h/b, kap = (omega h/c_T)^2; k2 belongs to Mindlin's evanescent wave::
 
     k2^2 = k^2 - (kap/eta^2) (1/k_s + (1 - nu)/2),   k_s = 5/(6 - nu),   eta = h/b
     g1 = 1 - kap/(k_s x^2),   g2 = 1 + kap/(k_s eta^2 k2^2)
     g1 k J1(k)/J0(k) + g2 k2 I1(k2)/I0(k2) = beta (k^2 + k2^2)
     beta = 1/(1 - nu) simply supported,   chi eta/(1 + chi eta) clamped
 
-One root lies between neighbouring zeros of J0, below the cut-off k2 = 0 alone. It is found by
-Newton's method as J1 = q J0, halving where that leaves its interval. What k, rounded to a double,
-lacks of its root goes on into c and W. The first supported mode, whose k is 0 at nu = -1, is found
-from power series in -k^2 and k2^2.
+One root lies between neighbouring zeros of J0, for k below the cut-off k2 = 0 only. Newton's method
+for J1 = q J0 finds it, with bisection where a step leaves the interval. The difference between the
+root and the double nearest to it is taken into account in c and W. The first mode of a supported
+plate has k = 0 at nu = -1; it is found from power series in -k^2 and k2^2.
 
-I0, I1 and I2 are Bessel's integral as a sum, or their series at infinity.
+I0, I1 and I2 come from Bessel's integral as a sum, or from their series at infinity.
 
-Arithmetic: x = k eta, where Newton's method starts, its steps and intervals, a quadrature.
+Arithmetic: x = k eta; starting value, steps and intervals of Newton's method; a quadrature.
 """
 
 from typing import NamedTuple
@@ -32,29 +32,29 @@ from generated.inertia import bending_frequency, bending_residue
 THINNEST, THICKEST = 1e-80, 0.5
 """Range of eta."""
 
-_STEPS = 60  # of Newton's method and halving: 5 to 8 are enough
-_CLOSE = 2.0**-50  # a step over k after which the next would be rounding alone
+_STEPS = 60  # largest number of steps of Newton's method and bisection; 5 to 8 are usual
+_CLOSE = 2.0**-50  # relative step after which the next would be below rounding
 
 
 class Waves(NamedTuple):
-    """Modes w = J0(k r/b) - c I0(k2 r/b) of a held plate, the lowest first.
+    """Modes w = J0(k r/b) - c I0(k2 r/b) of a clamped or supported plate, the lowest first.
 
-    With the plate's density rho, a force P on the axis moves the loaded face there by
-    q'' + omega^2 q = residue weight P/(rho h b^2), omega = root c_T/h.
+    A force P at the centre of a plate of density rho moves the contact face there by q, where
+    q'' + omega^2 q = residue weight P/(rho h b^2) and omega = root c_T/h.
     """
 
     k: np.ndarray  # wave number times plate radius b [1]
     root: np.ndarray  # omega h/c_T [1]
-    k2: np.ndarray  # wave number of the part I0, times b [1]
-    c: np.ndarray  # part of I0 [1]
-    t: np.ndarray  # loaded face over mean deflection, of I0 over J0 [1]
-    weight: np.ndarray  # W [1]
+    k2: np.ndarray  # wave number of the evanescent part I0, times b [1]
+    c: np.ndarray  # amplitude of the evanescent part I0 [1]
+    t: np.ndarray  # ratio of contact-face to mean deflection, of I0 relative to J0 [1]
+    weight: np.ndarray  # modal weight W [1]
     residue: np.ndarray  # rho h r of A0 at x = k h/b [1]
 
 
 @quiet
 def clamped_waves(count: int, eta: float, nu: float) -> Waves:
-    """Modes of a clamped circular plate with a thickness, below the cut-off.
+    """Compute the modes of a clamped circular plate of finite thickness, below the cut-off.
 
     Formula::
 
@@ -64,7 +64,7 @@ def clamped_waves(count: int, eta: float, nu: float) -> Waves:
     Parameters
     ----------
     count : int
-        how many at most, the lowest first [1]; count >= 0
+        largest number of modes, the lowest first [1]; count >= 0
     eta : float
         half-thickness over radius h/b [1]; 1e-80 <= eta <= 0.5
     nu : float
@@ -73,14 +73,20 @@ def clamped_waves(count: int, eta: float, nu: float) -> Waves:
     Returns
     -------
     Waves
-        seven arrays [1] of one length, the count or the number of modes below the cut-off if that
-        is less; c is 0 where no double holds it. The n-th k lies between the n-th zero of J0 and
-        the next.
+        seven arrays [1] of one length: the count, or the number of modes below the cut-off if
+        that is smaller. c is 0 where it underflows. The n-th k lies between the n-th zero of J0
+        and the next zero.
 
     Raises
     ------
     ValueError
         If an argument is outside its range.
+
+    Examples
+    --------
+    >>> from generated.edge_modes import clamped_waves
+    >>> print(clamped_waves(3, 0.03, 0.22).k.round(4))
+    [3.1926 6.2878 9.3957]
     """
     count, size, ratio = _given(count, eta, nu)
     return _below_cutoff(count, size, ratio, kernels.clamp(size, ratio))
@@ -88,7 +94,7 @@ def clamped_waves(count: int, eta: float, nu: float) -> Waves:
 
 @quiet
 def supported_waves(count: int, eta: float, nu: float) -> Waves:
-    """Modes of a simply supported circular plate with a thickness, below the cut-off.
+    """Compute the modes of a supported circular plate of finite thickness, below the cut-off.
 
     Formula::
 
@@ -98,7 +104,7 @@ def supported_waves(count: int, eta: float, nu: float) -> Waves:
     Parameters
     ----------
     count : int
-        how many at most, the lowest first [1]; count >= 0
+        largest number of modes, the lowest first [1]; count >= 0
     eta : float
         half-thickness over radius h/b [1]; 1e-80 <= eta <= 0.5
     nu : float
@@ -107,14 +113,20 @@ def supported_waves(count: int, eta: float, nu: float) -> Waves:
     Returns
     -------
     Waves
-        seven arrays [1] of one length, the count or the number of modes below the cut-off if that
-        is less; c is 0 where no double holds it. The n-th k lies between the zero of J0 before
-        the n-th, or 0, and the n-th.
+        seven arrays [1] of one length: the count, or the number of modes below the cut-off if
+        that is smaller. c is 0 where it underflows. The n-th k lies between the (n-1)-th zero
+        of J0, or 0, and the n-th zero.
 
     Raises
     ------
     ValueError
         If an argument is outside its range.
+
+    Examples
+    --------
+    >>> from generated.edge_modes import supported_waves
+    >>> print(supported_waves(3, 0.03, 0.22).k.round(4))
+    [2.1943 5.4436 8.6072]
     """
     count, size, ratio = _given(count, eta, nu)
     goal, beta = kernels.support(ratio)
@@ -126,7 +138,7 @@ def supported_waves(count: int, eta: float, nu: float) -> Waves:
 
 @quiet
 def cutoff(nu: float) -> float:
-    """Wave number times half-thickness x = k h/b at which k2 vanishes.
+    """Compute the wave number times half-thickness x = k h/b at which k2 vanishes.
 
     Parameters
     ----------
@@ -136,19 +148,25 @@ def cutoff(nu: float) -> float:
     Returns
     -------
     float
-        x [1]; modes of a held plate exist below it alone
+        x [1]; modes of a clamped or supported plate exist only below it
 
     Raises
     ------
     ValueError
         If nu is outside its range.
+
+    Examples
+    --------
+    >>> from generated.edge_modes import cutoff
+    >>> print(f"{cutoff(0.22):.6g}")
+    1.9761
     """
     return float(_cutoff(_given(0, THICKEST, nu)[2]))
 
 
 @quiet
 def shape(waves: Waves, r: ArrayLike) -> np.ndarray:
-    """Deflection of the loaded face in each mode, over that on the axis.
+    """Compute the ratio of the contact-face deflection in each mode to that on the axis.
 
     Formula::
 
@@ -157,21 +175,28 @@ def shape(waves: Waves, r: ArrayLike) -> np.ndarray:
     Parameters
     ----------
     waves : Waves
-        modes
+        modes of a clamped or supported plate
     r : array_like
-        distances from the axis over the radius b [1], one-dimensional; 0 <= r <= 1
+        distances from the axis divided by the radius b [1], one-dimensional; 0 <= r <= 1
 
     Returns
     -------
     ndarray
         of shape (modes, distances) [1]; NaN outside the range
+
+    Examples
+    --------
+    >>> from generated.edge_modes import clamped_waves, shape
+    >>> print(shape(clamped_waves(2, 0.03, 0.22), [0.0, 0.5, 1.0]).round(4))
+    [[ 1.000e+00  5.261e-01  5.000e-04]
+     [ 1.000e+00 -3.208e-01 -1.500e-03]]
     """
     return kernels.face(_within(r), waves.k, waves.k2, waves.c, waves.t).T
 
 
 @quiet
 def shares_less_one(waves: Waves, a: ArrayLike) -> np.ndarray:
-    """Mean deflection of the loaded face under a flat punch over that on the axis, less 1.
+    """Compute s - 1, s the mean contact-face deflection under a flat punch over that at r = 0.
 
     Formula::
 
@@ -180,14 +205,20 @@ def shares_less_one(waves: Waves, a: ArrayLike) -> np.ndarray:
     Parameters
     ----------
     waves : Waves
-        modes
+        modes of a clamped or supported plate
     a : array_like
-        radii of the punch over the radius b [1], one-dimensional; 0 <= a <= 1
+        radii of the punch divided by the radius b [1], one-dimensional; 0 <= a <= 1
 
     Returns
     -------
     ndarray
         of shape (radii, modes) [1]; NaN outside the range
+
+    Examples
+    --------
+    >>> from generated.edge_modes import clamped_waves, shares_less_one
+    >>> print(shares_less_one(clamped_waves(2, 0.03, 0.22), [0.1]).round(5))
+    [[-0.01509 -0.06498]]
     """
     return kernels.punch_mean_less_one(_within(a), waves.k, waves.k2, waves.c, waves.t)
 
@@ -196,7 +227,7 @@ def shares_less_one(waves: Waves, a: ArrayLike) -> np.ndarray:
 
 
 def _given(count: int, eta: float, nu: float) -> tuple[int, Double, Double]:
-    """Arguments that are in their ranges."""
+    """Refuse arguments outside their ranges."""
     count = whole(count, "modes")
     if not THINNEST <= eta <= THICKEST:
         raise ValueError(f"expected eta = h/b from {THINNEST:g} to {THICKEST:g}, got {eta!r}")
@@ -206,7 +237,7 @@ def _given(count: int, eta: float, nu: float) -> tuple[int, Double, Double]:
 
 
 def _within(r: ArrayLike) -> Double:
-    """A column of distances that are in their range."""
+    """Return a column of distances, NaN outside their range."""
     given = np.ravel(np.asarray(r, dtype=np.float64))[:, None]
     return np.where((given >= 0.0) & (given <= 1.0), given, np.nan)
 
@@ -222,7 +253,7 @@ def _cutoff(nu: Double) -> Double:
 
 
 class _State(NamedTuple):
-    """A wave of one wave number.
+    """Quantities of the wave with one wave number.
 
     Attributes
     ----------
@@ -231,9 +262,9 @@ class _State(NamedTuple):
     xi, left, bent, turned
         kap/x^2, k2^2/k^2, g1 and g2 k2^2/k^2.
     k2
-        Its partner's wave number.
+        Wave number of the evanescent part.
     mean, less, scaled
-        M, L and I0 e^(-k2) of the partner.
+        M, L and I0 e^(-k2) of the evanescent part.
     """
 
     root: Double
@@ -254,14 +285,14 @@ def _state(k: Double, eta: Double, nu: Double) -> _State:
 
 
 def _below_cutoff(count: int, eta: Double, nu: Double, beta: Double) -> Waves:
-    """Modes between neighbouring zeros of J0."""
+    """Return the modes between neighbouring zeros of J0."""
     top = _cutoff(nu) / eta
-    count = int(np.minimum(count, top / np.pi + 2.0))  # zeros of J0 lie pi apart, or nearly
+    count = int(np.minimum(count, top / np.pi + 2.0))  # zeros of J0 are nearly pi apart
     j = bessel_j0_zeros(count + 1)
     low, high = j[:-1], j[1:]
-    sign = -np.ones(count)  # of J0 in between
+    sign = -np.ones(count)  # sign of J0 between the zeros
     sign[1::2] = 1.0
-    # The last interval may end at the cut-off, and with no root in it.
+    # The last interval may end at the cut-off and then contain no root.
     last = np.minimum(high, top)
     there = (low < top) & ((high <= top) | (sign * _residual(last, eta, nu, beta)[1] > 0.0))
     found = np.count_nonzero(np.logical_and.accumulate(there))
@@ -269,7 +300,7 @@ def _below_cutoff(count: int, eta: Double, nu: Double, beta: Double) -> Waves:
 
 
 def _residual(k: Double, eta: Double, nu: Double, beta: Double) -> tuple[Double, ...]:
-    """q, J1 - q J0 and its slope by k."""
+    """Return q, J1 - q J0 and its slope by k."""
     _, xi, left, bent, turned, _, mean, less, _ = _state(k, eta, nu)
     bessel = bessel_j0(k), bessel_j1(k)
     return kernels.edge(k, nu, beta, xi, left, bent, turned, mean, less, *bessel)
@@ -278,12 +309,12 @@ def _residual(k: Double, eta: Double, nu: Double, beta: Double) -> tuple[Double,
 def _solved(
     low: Double, high: Double, zero: Double, sign: Double, eta: Double, nu: Double, beta: Double
 ) -> Waves:
-    """Modes that are in (low, high), J0 having the sign there and vanishing at `zero`."""
+    """Return the modes in (low, high), where J0 has the given sign and vanishes at `zero`."""
     start = low
     k = 0.5 * (low + high)
     step = np.zeros_like(k)
     if k.size:
-        # J1/J0 = q of the middle, where it is nearly the tangent of a phase.
+        # Start from J1/J0 = q at the middle, where J1/J0 is nearly the tangent of a phase.
         q = _residual(k, eta, nu, beta)[0]
         phase = start + (zero - start) * (0.5 + np.arctan(q) / np.pi)
         k = np.where((low < phase) & (phase < high), phase, k)
@@ -310,7 +341,7 @@ def _solved(
 
 
 def _lowest(eta: Double, nu: Double, goal: Double) -> Waves:
-    """The first supported mode."""
+    """Return the first mode of a supported plate."""
     pole = bessel_j0_zeros(1)
     power = kernels.first_power(eta, goal)
     k = np.sqrt(np.sqrt(power / (1.0 + power / pole**4)))

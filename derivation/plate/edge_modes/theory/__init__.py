@@ -1,4 +1,4 @@
-"""Formulas, derived and proved: plates with a held edge."""
+"""Formulas, derived and proved: clamped and supported plates."""
 
 from derivation.plate.edge_modes.theory.modes import held_modes
 from derivation.plate.edge_modes.theory.waves import held_waves

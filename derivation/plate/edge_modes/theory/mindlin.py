@@ -1,4 +1,4 @@
-"""Link 30, first part: waves of a plate that shears, by Mindlin's equations, b = 1.
+"""Link 30, first part: waves of a shear-deformable plate by Mindlin's equations, b = 1.
 
 With the deflection w(r) cos(omega t), the rotation psi(r) cos(omega t) of the cross-section and the
 shear strain w' + psi, Hooke's law for moment and shear force in units of 2 mu h and the balances of
@@ -12,7 +12,7 @@ w = J0(k r) - c I0(k2 r), psi = g1 k J1(k r) + c g2 k2 I1(k2 r) with
     g1 = 1 - kap/(k_s x^2),   g2 = 1 + kap/(k_s eta^2 k2^2),   x = k eta,
     k2^2 = k^2 - (kap/eta^2)(1/k_s + n)
 
-satisfies the first for any kap, and leaves in the second a multiple of one number for both parts,
+satisfies the first for any kap. In the second it leaves, for both parts, a multiple of
 
     3 n xi - x^2 u1 u2,   xi = kap/x^2,   u1 = g1,   u2 = g2 k2^2/k^2 = 1 - n xi,
 
@@ -21,19 +21,20 @@ one frequency, and the formula for k2^2 is their sum. On the lower branch
 
     kap = x^4/(3 n) [1 - (1/k_s + n) x^2/(3 n) + ...],
 
-which is the exact branch A0 of link 27 to this order if k_s = 5/(6 - nu) and for no other k_s.
-Hence held plates take kap from A0 and all else from here: at A0 the number is of order x^6.
+which equals the exact branch A0 of link 27 to this order for k_s = 5/(6 - nu) only. Therefore
+clamped and supported plates use kap of A0, and everything else from here: at A0 the expression
+above is of order x^6.
 
 For two motions of frequencies kap_1 and kap_2 (Lagrange's identity)
 
     [r (Q_1 w_2 - Q_2 w_1 + M_1 psi_2 - M_2 psi_1)]' = (kap_2 - kap_1)/eta^2
                                                         (w_1 w_2 + eta^2/3 psi_1 psi_2) r:
 
-motions that are held alike are orthogonal. For neighbouring frequencies, with w = 0 at r = 1,
+motions with the same edge conditions are orthogonal. For neighbouring frequencies and w(1) = 0,
 
     M^2 d(psi/M)/dkap = (1/eta^2) int_0^1 (w^2 + eta^2/3 psi^2) r dr > 0 at r = 1,
 
-so that psi/M grows with the frequency of Mindlin's plate from pole to pole.
+so that psi/M increases with the frequency of Mindlin's plate from pole to pole.
 """
 
 from functools import cache
@@ -46,21 +47,21 @@ from derivation.plate.vocabulary import Formula, eta, gam, k_n, kap, nu, x_h
 from derivation.plate.waves.theory.bending_branch import thin_powers
 
 k_2, xi = sp.symbols("k_2 xi", positive=True)
-"""Evanescent partner's wave number times b; kap/x^2."""
+"""Wave number of the evanescent wave times b; kap/x^2."""
 c, shear = sp.symbols("c s", real=True)
-"""Part of I0; 1/k_s."""
+"""Amplitude of I0; 1/k_s."""
 ROTARY = (1 - nu) / 2
-"""n: rotary inertia times eta^2 k^4 over a third of the stiffness in bending, over kap."""
+"""n: rotary inertia times eta^2 k^4, divided by kap times a third of the bending stiffness."""
 _r = sp.Symbol("r", positive=True)
 _J0, _J1 = sp.besselj(0, k_n * _r), sp.besselj(1, k_n * _r)
 _I0, _I1 = sp.besseli(0, k_2 * _r), sp.besseli(1, k_2 * _r)
 DEFLECTION = _J0 - c * _I0
-"""w of wave numbers k and k2, in r."""
+"""w of the wave numbers k and k2, as functions of r."""
 
 
 @cache
 def shear_coefficient() -> Formula:
-    """k_s, by which Mindlin's lower branch is A0 to one more order."""
+    """Return k_s for which Mindlin's lower branch equals A0 to one more order."""
     s, y_0, y_1 = sp.symbols("s y_0 y_1", positive=True)
     # kap = x^4 (y_0 + y_1 s), s = x^2, in the dispersion relation over x^2.
     value = s * (y_0 + y_1 * s)
@@ -74,11 +75,11 @@ def shear_coefficient() -> Formula:
     next_order = sp.expand(dispersion(sp.sqrt(s)).subs(xi, s * third) / s).coeff(s, 2)
     lacking = sp.factor(next_order.subs(known).subs(shear, found))
     if lacking == 0:
-        raise ArithmeticError("Mindlin's branch is A0 to two orders: the docstring is wrong")
+        raise ArithmeticError("Mindlin's branch does not equal A0 to three orders as stated")
     proof = prove(
         "Shear coefficient",
-        "A0's power series, of link 27, in Mindlin's dispersion relation: $k_s$ is what makes "
-        "the second order vanish; the first vanishes for any, the third for none.",
+        "A0's power series, of link 27, is inserted into Mindlin's dispersion relation. The first "
+        "order vanishes for any $k_s$, the second for this one, the third for none.",
         {
             "first order": sp.cancel(powers[0].subs(known)),
             "second order": sp.cancel(powers[1].subs(known).subs(shear, 1 / value)),
@@ -86,13 +87,13 @@ def shear_coefficient() -> Formula:
         },
     )
     return Formula(
-        "shear_coefficient", "k_s", "shear coefficient by which Mindlin's lower branch follows A0",
+        "shear_coefficient", "k_s", "shear coefficient for which Mindlin's lower branch follows A0",
         value, "1", "", ("bending_kap_thin",), proof,
     )  # fmt: skip
 
 
 def slack() -> sp.Expr:
-    """1/k_s."""
+    """Return 1/k_s."""
     return sp.expand(1 / shear_coefficient().expression)
 
 
@@ -100,32 +101,32 @@ def slack() -> sp.Expr:
 
 
 def u_1() -> sp.Expr:
-    """g1."""
+    """Return g1."""
     return 1 - shear * xi
 
 
 def u_2() -> sp.Expr:
-    """g2 k2^2/k^2."""
+    """Return g2 k2^2/k^2."""
     return 1 - ROTARY * xi
 
 
 def left() -> sp.Expr:
-    """k2^2/k^2."""
+    """Return k2^2/k^2."""
     return 1 - (shear + ROTARY) * xi
 
 
 def dispersion(x: sp.Expr) -> sp.Expr:
-    """0 on Mindlin's branches."""
+    """Return the expression that is 0 on Mindlin's branches."""
     return 3 * ROTARY * xi - x**2 * u_1() * u_2()
 
 
 def rotation(g_1: sp.Expr, g_2: sp.Expr) -> sp.Expr:
-    """psi in r."""
+    """Return psi as a function of r."""
     return g_1 * k_n * _J1 + c * g_2 * k_2 * _I1
 
 
 def balances(w: sp.Expr, psi: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
-    """What Mindlin's equations leave of force and moment, over 2 mu h."""
+    """Return the residuals of force and moment in Mindlin's equations, over 2 mu h."""
     force = (sp.diff(w, _r) + psi) / shear
     turned = sp.diff(sp.diff(psi, _r) + psi / _r, _r)
     return (
@@ -136,7 +137,7 @@ def balances(w: sp.Expr, psi: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
 
 @cache
 def waves() -> tuple[Formula, ...]:
-    """k2, g1 and g2: what of Mindlin's equations they leave."""
+    """Return k2, g1 and g2, with the proof that they satisfy Mindlin's equations."""
     of_kap = {xi: kap / (k_n * eta) ** 2}
     g_1, g_2 = u_1(), u_2() * k_n**2 / k_2**2
     partner = k_n**2 * left().subs(of_kap)
@@ -150,8 +151,8 @@ def waves() -> tuple[Formula, ...]:
     stated = 1 + kap * shear / (eta * k_2) ** 2
     proof = prove(
         "Waves of Mindlin's plate",
-        r"$w$ and $\psi$ put into both balances, for any $\kappa$ and $k_s$, $\kappa$ in terms "
-        "of $k$ and $k_2$; and $-k_2^2$ into the dispersion relation, which is quadratic in "
+        r"$w$ and $\psi$ are inserted into both balances for any $\kappa$ and $k_s$, with $\kappa$ "
+        "in terms of $k$ and $k_2$; $-k_2^2$ into the dispersion relation, which is quadratic in "
         "$k^2$.",
         {
             "by partner": (k_n**2 - k_2**2 - kap / eta**2 * (shear + ROTARY)).subs(by_partner),
@@ -171,11 +172,11 @@ def waves() -> tuple[Formula, ...]:
             sp.sqrt(partner.subs(known)), None, ("shear_coefficient",),
         ),
         (
-            "wave_rotation", "g_1", "rotation over slope, of the part $J_0$",
+            "wave_rotation", "g_1", "rotation divided by slope, of the part $J_0$",
             g_1.subs(of_kap).subs(known), None, ("shear_coefficient",),
         ),
         (
-            "partner_rotation", "g_2", "rotation over slope, of the part $I_0$",
+            "partner_rotation", "g_2", "rotation divided by slope, of the part $I_0$",
             stated.subs(known).subs(k_2, sp.sqrt(partner.subs(known))),
             1 + kap * slack() / (eta * squared) ** 2, ("partner_wave",),
         ),
@@ -188,7 +189,7 @@ def waves() -> tuple[Formula, ...]:
 
 @cache
 def lagrange() -> Proof:
-    """Motions of two frequencies."""
+    """Prove Lagrange's identity for motions of two frequencies."""
     one, two = sp.symbols("kap_1 kap_2", positive=True)
     w_1, w_2, psi_1, psi_2 = (sp.Function(f)(_r) for f in ("w_1", "w_2", "psi_1", "psi_2"))
 
@@ -207,11 +208,11 @@ def lagrange() -> Proof:
     kinetic = (two - one) / eta**2 * (w_1 * w_2 + eta**2 / 3 * psi_1 * psi_2) * _r
     grown = sp.diff(flow, _r).subs(motion)
     p, m, p_1, m_1, step = sp.symbols("psi M psi' M' d", real=True)
-    # At the edge w = 0; of the second motion psi + psi' d and M + M' d.
+    # At the edge w = 0; the second motion has psi + psi' d and M + M' d.
     edge = m * (p + p_1 * step) - (m + m_1 * step) * p
     return prove(
         "Lagrange's identity of Mindlin's plate",
-        "The flow of force and moment, differentiated with both motions' balances; at an edge "
+        "The flow of force and moment is differentiated with both motions' balances; at an edge "
         "without deflection the flow of neighbouring motions is M^2 d(psi/M).",
         {
             "flow": sp.expand(without_functions(grown - kinetic, w_1, w_2, psi_1, psi_2)),
@@ -221,6 +222,6 @@ def lagrange() -> Proof:
 
 
 def on_lower_branch() -> sp.Expr:
-    """d log(xi)/d log(x) of Mindlin's lower branch, in xi."""
+    """Return d log(xi)/d log(x) of Mindlin's lower branch, in xi."""
     relation = dispersion(x_h)
     return -x_h * sp.diff(relation, x_h) / (xi * sp.diff(relation, xi))

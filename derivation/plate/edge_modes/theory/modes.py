@@ -1,8 +1,8 @@
 """Link 29: bending modes of a plate whose edge is clamped or simply supported.
 
-A thin plate, D nabla^4 w + rho H w'' = p, with b = 1. What is regular on the axis, bends with
-omega = k^2 sqrt(D/(rho H)) and vanishes at the edge is w = J0(k r) - c I0(k r), c = J0(k)/I0(k).
-Without slope at the edge, or without moment, w'' + nu w' = 0, there remains
+A thin plate, D nabla^4 w + rho H w'' = p, with b = 1. The solution that is regular on the axis,
+has omega = k^2 sqrt(D/(rho H)) and vanishes at the edge is w = J0(k r) - c I0(k r) with
+c = J0(k)/I0(k). Without slope at the edge, or without moment, w'' + nu w' = 0, the condition is
 
     clamped    J1/J0 + I1/I0 = 0,       simply supported    J1/J0 + I1/I0 = 2 k/(1 - nu)  at k;
 
@@ -11,25 +11,25 @@ the paper's edge has J0 = 0 and c = 0, which is nu = 1. For any k and any two fu
     r [v (nabla^2 w)' - v' nabla^2 w + w' nabla^2 v - w (nabla^2 v)']  has the slope
     r [v nabla^4 w - w nabla^4 v]
 
-where the left bracket vanishes at the edge for two functions held alike. Hence modes are
-orthogonal. With v = dw/dk it gives for every k, held or not, N = int_0^1 w^2 r dr,
+where the left bracket vanishes at the edge for two functions with the same edge conditions. Hence
+modes are orthogonal. With v = dw/dk it gives for every k, N = int_0^1 w^2 r dr,
 
     d/dk [(J1/J0 + I1/I0)/k] = 2 N/(k J0^2) > 0,
 
-so that between two zeros of J0, the poles, it grows from -oo to oo, and from 1 to oo up to the
-first: the n-th clamped mode lies between j_n and j_(n+1), the n-th supported one between j_(n-1)
-and j_n (j_0 = 0), and there is no other.
+so that it increases from -oo to oo between two zeros of J0, its poles, and from 1 to oo up to the
+first. The n-th clamped mode lies between j_n and j_(n+1), the n-th supported one between j_(n-1)
+and j_n (j_0 = 0), and there are no others.
 
 A force P on the axis gives q'' + omega^2 q = W P/(rho H b^2) for the deflection q of the axis,
 W = w(0)^2/(2 pi N), w(0) = 1 - c. For v the static deflection by the same force, the bracket
-tends to w(0)/(2 pi) on the axis, so that v has the component w(0)/(2 pi k^4 N) on w. Green's
-function being continuous and positive, its expansion converges to it (Mercer), and
+tends to w(0)/(2 pi) on the axis, so that v has the component w(0)/(2 pi k^4 N) on w. As Green's
+function is continuous and positive, its expansion converges to it (Mercer), and
 
     sum W_n/k_n^4 = D/(P b^2) times the static deflection:  1/(16 pi) clamped,
     (3 + nu)/((1 + nu) 16 pi) simply supported, 1/(8 pi) on the paper's edge.
 
 Under a flat punch of radius a the mean of w is sh(k a) - c shc(k a), sh y = sin(y)/y and
-shc y = sinh(y)/y, of which s_n, the mode's share in `closure`, is the quotient by w(0).
+shc y = sinh(y)/y; divided by w(0) it is the mode's weight s_n in `closure`.
 """
 
 from functools import cache
@@ -47,7 +47,7 @@ J0, J1 = sp.besselj(0, k_n), sp.besselj(1, k_n)
 I0, I1 = sp.besseli(0, k_n), sp.besseli(1, k_n)
 
 PART = J0 / I0
-"""c, the part of I0 in a mode."""
+"""c, the amplitude of I0 in a mode."""
 SHAPE = sp.besselj(0, k_n * _r) - _c * sp.besseli(0, k_n * _r)
 """w(r) for any c."""
 NORM = (J0**2 + J1**2) / 2 - PART * (J0 * I1 + J1 * I0) / k_n + PART**2 * (I0**2 - I1**2) / 2
@@ -59,7 +59,7 @@ SUPPORTED_COMPLIANCE = (3 + nu) / (16 * sp.pi * (1 + nu))
 
 
 def laplacian(f: sp.Expr) -> sp.Expr:
-    """f'' + f'/r."""
+    """Return f'' + f'/r."""
     return sp.diff(f, _r, 2) + sp.diff(f, _r) / _r
 
 
@@ -74,10 +74,10 @@ def _bracket(v: sp.Expr, w: sp.Expr) -> sp.Expr:
 
 
 def _orthogonality() -> dict[str, sp.Expr]:
-    """The bracket's slope, and that it vanishes at an edge where both are held alike."""
+    """Return residuals: slope of the bracket, and its value at an edge with equal conditions."""
     v_1, w_1, bend = sp.symbols("v' w' m", real=True)
     slope = sp.diff(_bracket(_v, _w), _r)
-    # At the edge v = w = 0; nabla^2 = m times the slope: m = 1 - nu without moment.
+    # At the edge v = w = 0; nabla^2 is m times the slope, m = 1 - nu without moment.
     edge = -v_1 * (bend * w_1) + w_1 * (bend * v_1)
     w_2 = -nu * w_1
     return {
@@ -91,17 +91,18 @@ def _orthogonality() -> dict[str, sp.Expr]:
 
 @cache
 def frequency_equations() -> tuple[Formula, Formula, Formula]:
-    """c, and what vanishes at the wave numbers of clamped and of supported plates."""
+    """Return c, and the functions that vanish at wave numbers of clamped and supported plates."""
     clamped = J1 * I0 + J0 * I1
     supported = J1 / J0 + I1 / I0 - 2 * k_n / (1 - nu)
     held = SHAPE.subs(_c, PART)
     slope = lower_bessel(sp.diff(held, _r)).subs(_r, 1)
     moment = lower_bessel(sp.diff(held, _r, 2) + nu * sp.diff(held, _r)).subs(_r, 1)
     proof = prove(
-        "Modes of a held plate",
-        r"$w$ in $\nabla^4 w = k^4 w$, and its deflection, slope and moment at the edge. "
-        r"Orthogonality: the bracket is differentiated for any two functions; $w'' = -\nu w'$ "
-        r"makes $\nabla^2 w = (1 - \nu) w'$ at a supported edge, and a clamped one has no slopes.",
+        "Modes of a clamped or supported plate",
+        r"$w$ is inserted into $\nabla^4 w = k^4 w$; its deflection, slope and moment are taken "
+        r"at the edge. Orthogonality: the bracket is differentiated for any two functions; "
+        r"$w'' = -\nu w'$ gives $\nabla^2 w = (1 - \nu) w'$ at a supported edge, and a clamped one "
+        "has zero slope.",
         {
             "plate": lower_bessel(laplacian(laplacian(SHAPE)) - k_n**4 * SHAPE),
             "deflection": held.subs(_r, 1),
@@ -114,7 +115,7 @@ def frequency_equations() -> tuple[Formula, Formula, Formula]:
         Formula(
             "held_part",
             "c",
-            "part of $I_0$ in a held plate's mode $J_0(k r/b) - c I_0(k r/b)$",
+            "amplitude of $I_0$ in the mode $J_0(k r/b) - c I_0(k r/b)$ of a plate",
             PART,
             "1",
             "",
@@ -124,7 +125,7 @@ def frequency_equations() -> tuple[Formula, Formula, Formula]:
         Formula(
             "clamped_frequency",
             "F_c(k_n)",
-            "vanishes at the wave numbers of a clamped plate",
+            "frequency function, zero at the wave numbers of a clamped thin plate",
             clamped,
             "1",
             "",
@@ -134,7 +135,7 @@ def frequency_equations() -> tuple[Formula, Formula, Formula]:
         Formula(
             "supported_frequency",
             "F_s(k_n)",
-            "vanishes at the wave numbers of a simply supported plate",
+            "frequency function, zero at the wave numbers of a simply supported thin plate",
             supported,
             "1",
             "",
@@ -146,7 +147,7 @@ def frequency_equations() -> tuple[Formula, Formula, Formula]:
 
 @cache
 def norm() -> Formula:
-    """N in closed form, and the growth of the frequency equations that orders the modes."""
+    """Return N in closed form, and prove the monotonic function that orders the modes."""
     frequency_equations()
     j0, j1 = sp.besselj(0, k_n * _r), sp.besselj(1, k_n * _r)
     i0, i1 = sp.besseli(0, k_n * _r), sp.besseli(1, k_n * _r)
@@ -156,10 +157,10 @@ def norm() -> Formula:
     start = (sp.diff(J1, k_n) + sp.diff(I1, k_n)).subs(k_n, 0)
     slope = 2 * k_n / (1 - nu) - I1 / I0
     proof = prove(
-        "Norm of a held plate's mode",
+        "Norm of a plate mode",
         "A primitive of $w^2 r$; the slope of $(J_1/J_0 + I_1/I_0)/k$ by $k$ is "
-        "$2 N/(k J_0^2)$, and it begins with 1 at $k = 0$. The frequency equations take $J_1$ "
-        "out of $N$.",
+        "$2 N/(k J_0^2)$, and its value is 1 at $k = 0$. The frequency equations eliminate $J_1$ "
+        "from $N$.",
         {
             "primitive": lower_bessel(sp.diff(primitive, _r)) - _r * SHAPE**2,
             "closed": primitive.subs({_r: 1, _c: PART}) - NORM,
@@ -174,7 +175,7 @@ def norm() -> Formula:
     return Formula(
         "held_norm",
         "N",
-        r"integral of the mode's square over the plate, over $2 \pi b^2$",
+        r"integral of the mode's square over the plate, divided by $2 \pi b^2$",
         NORM,
         "1",
         "",
@@ -184,13 +185,13 @@ def norm() -> Formula:
 
 
 def static_deflection(span: sp.Expr) -> sp.Expr:
-    """D/(P b^2) times the deflection by a force on the axis; `span`/(8 pi) on the axis."""
+    """Return D/(P b^2) times the deflection by a force on the axis; `span`/(8 pi) at r = 0."""
     return (_r**2 * sp.log(_r) + span * (1 - _r**2)) / (8 * sp.pi)
 
 
 @cache
 def weight() -> tuple[Formula, ...]:
-    """W, and what the sums of W/k^4 are."""
+    """Return W, and prove the sums of W/k^4."""
     N = norm()
     clamped, supported = sp.Rational(1, 2), (3 + nu) / (2 * (1 + nu))
     found = {
@@ -204,9 +205,9 @@ def weight() -> tuple[Formula, ...]:
     w_0, w_2, w_4 = sp.symbols("w_0 w_2 w_4", real=True)
     near = _bracket(w_0 + w_2 * _r**2 + w_4 * _r**4, static_deflection(_A))
     proof = prove(
-        "Weight of a held plate's mode",
-        "The static deflection: no load away from the axis, carrying $P$, held at the edge; "
-        r"the bracket of it and a mode on the axis. On the paper's edge $\nu = 1$.",
+        "Modal weight of a plate mode",
+        "The static deflection has no load away from the axis, carries $P$ and satisfies the edge "
+        r"conditions; the bracket of it and a mode on the axis. The paper's edge has $\nu = 1$.",
         {
             "load": laplacian(laplacian(static_deflection(_A))),
             "force": 2 * sp.pi * _r * sp.diff(laplacian(static_deflection(_A)), _r) - 1,
@@ -227,7 +228,7 @@ def weight() -> tuple[Formula, ...]:
         Formula(
             "held_weight",
             "W_n",
-            r"acceleration of the axis by a force there, in units of $1/(\rho H b^2)$",
+            r"modal weight: acceleration on the axis by a unit force there, times $\rho H b^2$",
             WEIGHT,
             "1",
             "",
@@ -237,7 +238,7 @@ def weight() -> tuple[Formula, ...]:
         Formula(
             "clamped_compliance",
             r"\sum_n W_n/k_n^4",
-            "deflection of a clamped plate's axis by a force there, in units of $P b^2/D$",
+            "static deflection of a clamped plate under a force on the axis, over $P b^2/D$",
             CLAMPED_COMPLIANCE,
             "1",
             "",
@@ -247,7 +248,7 @@ def weight() -> tuple[Formula, ...]:
         Formula(
             "supported_compliance",
             r"\sum_n W_n/k_n^4",
-            "deflection of a supported plate's axis by a force there, in units of $P b^2/D$",
+            "static deflection of a supported plate under a force on the axis, over $P b^2/D$",
             SUPPORTED_COMPLIANCE,
             "1",
             "",
@@ -259,7 +260,7 @@ def weight() -> tuple[Formula, ...]:
 
 @cache
 def share() -> Formula:
-    """s_n: the mean of a mode under a flat punch over w(0)."""
+    """Return s_n: the mean of a mode under a flat punch, divided by w(0)."""
     flat_punch()
     m = sp.Symbol("m", integer=True, nonnegative=True)
     bessel = 1 / (4**m * sp.factorial(m) ** 2)
@@ -268,9 +269,9 @@ def share() -> Formula:
     y = k_n * alpha
     value = (sp.sin(y) / y - PART * sp.sinh(y) / y) / (1 - PART)
     proof = prove(
-        "Mean of a held plate's mode under a flat punch",
-        r"$I_0$'s power series is $J_0$'s without signs, and so are the transforms $\sinh(y)/y$ "
-        r"and $\sin(y)/y$, power by power.",
+        "Mean of a plate mode under a flat punch",
+        r"The power series of $I_0$ is that of $J_0$ without signs; the same applies to the "
+        r"transforms $\sinh(y)/y$ and $\sin(y)/y$, power by power.",
         {
             "power": sp.combsimp(sp.gammasimp(bessel * moment * sp.factorial(2 * m + 1))) - 1,
             "small contact": sp.limit(value.subs(alpha, _r / k_n), _r, 0) - 1,
@@ -279,7 +280,7 @@ def share() -> Formula:
     return Formula(
         "held_share",
         "s_n",
-        "mean of a held plate's mode under a flat punch over its deflection on the axis",
+        "mean of a plate mode under a flat punch divided by its deflection on the axis",
         value,
         "1",
         "",
@@ -289,5 +290,5 @@ def share() -> Formula:
 
 
 def held_modes() -> tuple[Formula, ...]:
-    """The formulas of the link."""
+    """Return the formulas of the link."""
     return (*frequency_equations(), *weight(), share())

@@ -1,4 +1,4 @@
-"""Link 30: waves of a plate with a thickness whose edge is clamped or simply supported.
+"""Link 30: bending waves of a plate of finite thickness with a clamped or supported edge.
 
 With w, psi, k2, g1 and g2 of `mindlin`, b = 1, kap = (omega h/c_T)^2 of A0 at x = k eta and
 w = 0 at the edge, c = J0(k)/I0(k2), rotation and moment there are
@@ -6,36 +6,36 @@ w = 0 at the edge, c = J0(k)/I0(k2), rotation and moment there are
     psi = J0 S,                 S = g1 k J1/J0 + g2 k2 I1/I0,
     psi' = J0 (Gam - S),        Gam = g1 k^2 + g2 k2^2 = k^2 + k2^2,
 
-and every edge is S = beta Gam. Without moment, psi' + nu psi = 0, beta = 1/(1 - nu). A clamp has
-psi = chi eta psi', beta = chi eta/(1 + chi eta): chi = 0 holds the rotation, and CHI is by how much
-a clamp on the whole edge differs, which forbids Poisson's bulging too. The paper's edge has J0 = 0,
-psi' + psi = 0 and beta = oo.
+and every edge condition is S = beta Gam. Without moment, psi' + nu psi = 0, beta = 1/(1 - nu). A
+clamped edge has psi = chi eta psi', beta = chi eta/(1 + chi eta): chi = 0 suppresses the rotation
+alone; CHI is the value for a clamp on the whole edge, which also prevents Poisson's bulging. The
+paper's edge has J0 = 0, psi' + psi = 0 and beta = oo.
 
-As psi/M grows with the frequency of Mindlin's plate and M ~ Gam - (1 - nu) S, so does S/Gam, whose
-poles are the zeros of J0 (Gam > 0): it grows from -oo to oo between two of them, from 1/2 to oo
-up to the first. The n-th clamped mode lies between j_n and j_(n+1), the n-th supported one between
-j_(n-1) and j_n, j_0 = 0, for 1/2 < 1/(1 - nu) and chi eta < 1. With A0's kap in the place of
-Mindlin's this is tested, not proved. Beyond the cut-off, k2 = 0 or (1/k_s + n) kap = x^2, the
-partner is a travelling wave, and there are no modes of this kind.
+psi/M increases with the frequency of Mindlin's plate and M ~ Gam - (1 - nu) S, so that S/Gam, whose
+poles are the zeros of J0 (Gam > 0), increases too: from -oo to oo between two of them, from 1/2 to
+oo up to the first. The n-th clamped mode lies between j_n and j_(n+1), the n-th supported one
+between j_(n-1) and j_n, j_0 = 0, for 1/2 < 1/(1 - nu) and chi eta < 1. With A0's kap instead of
+Mindlin's this is tested, not proved. Above the cut-off, k2 = 0 or (1/k_s + n) kap = x^2, the other
+wave propagates, and there are no modes of this kind.
 
-A0 of link 27 says how one wave answers a load; its kinetic energy is that of w and psi with
-c = 0. A mode's is N = int_0^1 (w^2 + eta^2/3 psi^2) r dr, and
+A0 of link 27 gives the response of one wave to a load; its kinetic energy is that of w and psi for
+c = 0. A mode has N = int_0^1 (w^2 + eta^2/3 psi^2) r dr, and
 
     W = (1 - c t)^2 (1 + (eta^2/3) g1^2 k^2)/(2 pi N),
 
 so that W = 1/(pi J1^2) at J0 = 0: the axis moves by q'' + omega^2 q = r_0 W P/b^2, r_0 of A0.
-Here 1 - c t is the deflection of the loaded face on the axis. Without normal stress in z the strain
-there is n_nu z nabla^2 w, n_nu = nu/(1 - nu), by which the loaded face deflects
-1 + (n_nu/3) eta^2 nabla^2 times as much as the mean; nabla^2 is -k^2 of the part J0, k2^2 of I0.
-Likewise the mean under a flat punch, sh y = sin(y)/y and shc y = sinh(y)/y, is
+Here 1 - c t is the deflection of the contact face on the axis. Without normal stress the strain
+in z is n_nu z nabla^2 w, n_nu = nu/(1 - nu), so that the contact face deflects
+1 + (n_nu/3) eta^2 nabla^2 times as much as the mean; nabla^2 is -k^2 for J0 and k2^2 for I0.
+Likewise the mean under a flat punch, with sh y = sin(y)/y and shc y = sinh(y)/y, is
 
     s_n = [sh(k a) - c t shc(k2 a)]/(1 - c t).
 
-At rest a plate held differs from the paper's by w = A (1 - r^2), psi = 2 A r. On the axis, in units
-of P b^2/D, that is (1 - nu)/(1 + nu)/(16 pi) and -(1 + chi eta)/(1 - chi eta)/(16 pi) for a force
-in the middle plane. One on the face finds, and works on, 1 - 4 n_nu eta^2/3 times as much.
+In static loading such a plate differs from the paper's by w = A (1 - r^2), psi = 2 A r. At r = 0,
+in units of P b^2/D, that is (1 - nu)/(1 + nu)/(16 pi) and -(1 + chi eta)/(1 - chi eta)/(16 pi) for
+a force in the middle plane. For a force on the face the factor is 1 - 4 n_nu eta^2/3.
 
-eta -> 0 is link 29.
+The limit eta -> 0 is link 29.
 """
 
 from functools import cache
@@ -77,12 +77,12 @@ from derivation.plate.vocabulary import (
 from derivation.plate.waves.theory.dynamic_modes import in_p_and_q, p, q, wave
 
 CHI = sp.Rational(9, 100)
-"""chi over n_nu^2: measured, not derived, on static finite elements of clamped plates (0.076 to
-0.105 for nu = 0.2 to 0.45 and H/b = 0.06 to 0.5). It stands for the boundary layer of an edge on
-which Poisson's bulging is held back too."""
+"""chi over n_nu^2, not derived but computed by static finite elements of clamped plates (0.076 to
+0.105 for nu = 0.2 to 0.45 and H/b = 0.06 to 0.5). It represents the boundary layer of an edge that
+also prevents Poisson's bulging."""
 
 g_1, g_2, t, beta = sp.symbols("g_1 g_2 t beta", real=True)
-"""Rotations over slopes; face over mean, of the part I0 over the part J0; S/Gam."""
+"""Rotations over slopes; face over mean of I0 divided by that of J0; S/Gam."""
 _r = sp.Symbol("r", positive=True)
 J0, J1 = sp.besselj(0, k_n), sp.besselj(1, k_n)
 I0, I1 = sp.besseli(0, k_2), sp.besseli(1, k_2)
@@ -120,7 +120,7 @@ N = sp.Symbol("N", positive=True)
 WEIGHT = (1 - c * t) ** 2 * (1 + eta**2 / 3 * (g_1 * k_n) ** 2) / (2 * sp.pi * N)
 """W."""
 ON_FACE = sp.besselj(0, k_n * alpha) - c * t * sp.besseli(0, k_2 * alpha)
-"""The loaded face at r = alpha."""
+"""The contact face at r = alpha."""
 UNDER_PUNCH = sp.sin(k_n * alpha) / (k_n * alpha) - c * t * sp.sinh(k_2 * alpha) / (k_2 * alpha)
 """Its mean under a flat punch of radius alpha."""
 SUPPORTED_REST = (1 - nu) / (1 + nu) / (16 * sp.pi)
@@ -128,7 +128,7 @@ CLAMPED_REST = -1 / (16 * sp.pi)
 
 
 def in_k(expression: sp.Expr) -> sp.Expr:
-    """An expression of a mode in k, kap, eta and nu alone."""
+    """Return an expression of a mode in k, kap, eta and nu alone."""
     known = {shear: slack(), xi: kap / (k_n * eta) ** 2}
     partner = k_n * sp.sqrt(left().subs(known))
     turned = {g_1: u_1().subs(known), g_2: (u_2() / left()).subs(known)}
@@ -137,7 +137,7 @@ def in_k(expression: sp.Expr) -> sp.Expr:
 
 @cache
 def edges() -> tuple[Formula, ...]:
-    """c, and what vanishes at the wave numbers of held plates."""
+    """Return c, and the functions that vanish at wave numbers of clamped and supported plates."""
     lagrange()
     thin.frequency_equations()
     psi = rotation(g_1, g_2).subs(c, PART)
@@ -147,9 +147,9 @@ def edges() -> tuple[Formula, ...]:
     moment, ratio = bend - (1 - nu) * turn, turn / (bend - (1 - nu) * turn)
     free = turn - CLAMP * eta * (bend - turn)
     proof = prove(
-        "Edges of a plate that shears",
-        r"Rotation and its slope at the edge; $S/\Gamma$ by $\psi/M$, whose slope it has the "
-        "sign of; and the limit of a thin plate, link 29's equations, where $k_2 = k$ and "
+        "Edges of a shear-deformable plate",
+        r"Rotation and its slope at the edge; $S/\Gamma$ by $\psi/M$, whose slope has the same "
+        "sign; and the limit of a thin plate, link 29's equations, where $k_2 = k$ and "
         "$g_1 = g_2 = 1$.",
         {
             "deflection": DEFLECTION.subs({_r: 1, c: PART}),
@@ -168,12 +168,12 @@ def edges() -> tuple[Formula, ...]:
     total = k_n**2 + k_2**2
     rows = (
         ("wave_part", "c", (
-            "part of $I_0$ in a held plate's mode $J_0(k r/b) - c I_0(k_2 r/b)$"
+            "amplitude of $I_0$ in the mode $J_0(k r/b) - c I_0(k_2 r/b)$ of a plate"
         ), PART,
          PART, ()),
-        ("supported_wave", "F_s", "vanishes at the wave numbers of a simply supported plate",
+        ("supported_wave", "F_s", "frequency function, zero at wave numbers of a supported plate",
          TURN - SUPPORTED * BEND, TURN - SUPPORTED * total, ("wave_part",)),
-        ("clamped_wave", "F_c", "vanishes at the wave numbers of a clamped plate",
+        ("clamped_wave", "F_c", "frequency function, zero at wave numbers of a clamped plate",
          TURN - CLAMPED * BEND, TURN - CLAMPED * total, ("wave_part",)),
     )  # fmt: skip
     return tuple(
@@ -186,13 +186,13 @@ def edges() -> tuple[Formula, ...]:
 
 
 def _thin(expression: sp.Expr) -> sp.Expr:
-    """eta -> 0: kap/x^2 vanishes like x^2."""
+    """Return the limit eta -> 0, where kap/x^2 vanishes like x^2."""
     return expression.subs({g_1: 1, g_2: 1, t: 1, eta: 0, k_2: k_n})
 
 
 @cache
 def norm() -> Formula:
-    """N in closed form."""
+    """Return N in closed form."""
     at_r = {k_n: k_n * _r, k_2: k_2 * _r}
     one, other, mixed = (
         f.subs(at_r, simultaneous=True) for f in (*_SQUARES, (k_n**2 + k_2**2) * _MIXED)
@@ -207,7 +207,7 @@ def norm() -> Formula:
     turned += 2 * c * g_1 * k_n * g_2 * k_2 * both / total
     psi = rotation(g_1, g_2)
     proof = prove(
-        "Norm of a held plate's wave",
+        "Norm of a plate wave",
         r"Primitives of $w^2 r$ and $\psi^2 r$, for any $k$, $k_2$, $g_1$, $g_2$ and $c$; link "
         r"29's for $\eta \to 0$.",
         {
@@ -220,7 +220,7 @@ def norm() -> Formula:
     )
     stated = sp.Integral((DEFLECTION**2 + eta**2 / 3 * sp.Symbol("psi") ** 2) * _r, (_r, 0, 1))
     return Formula(
-        "wave_norm", "N", "kinetic energy of a held plate's mode, rotation included",
+        "wave_norm", "N", "kinetic energy of a plate mode, rotary inertia included",
         in_k(NORM), "1", "", ("wave_part", "wave_rotation", "partner_rotation"), proof,
         stated=stated,
     )  # fmt: skip
@@ -228,7 +228,7 @@ def norm() -> Formula:
 
 @cache
 def face_ratio() -> Formula:
-    """The face's deflection over the mean through the thickness, of long waves."""
+    """Return the face's deflection over the mean through the thickness, for long waves."""
     general = wave(C1 * sp.cosh(p * z / h), C3 * sp.cosh(q * z / h) / phi)
     f, shear_stress = in_p_and_q(general.f), in_p_and_q(general.rz).subs(z, 1)
     part = sp.solve(shear_stress, C3)[0]
@@ -256,10 +256,10 @@ def face_ratio() -> Formula:
     one = BULGE.subs(nu, (1 - 2 * gam) / (2 * (1 - gam))) / 3
     mean_square, edge_square = sp.Rational(1, 3) / 2, sp.Rational(1, 2)
     proof = prove(
-        "Loaded face over mean",
-        r"A wave without shear on its faces, of $\kappa = Y x^4$, to the first power of $x^2$; "
-        r"the partner has $-k_2^2$ for $k^2$. The same from $\sigma_{zz} = 0$: "
-        r"$n_{\nu} z^2/2 \nabla^2 w$, face less mean.",
+        "Contact-face over mean deflection",
+        r"A wave without shear on its faces, $\kappa = Y x^4$, to the first power of $x^2$; "
+        r"the evanescent wave has $-k_2^2$ for $k^2$. The same follows from $\sigma_{zz} = 0$: "
+        r"$n_{\nu} z^2/2 \nabla^2 w$, face minus mean.",
         {
             "series": sp.cancel(found - 1 + one * s),
             "plane stress": sp.cancel(one - one * 3 * (edge_square - mean_square)),
@@ -270,7 +270,7 @@ def face_ratio() -> Formula:
     )  # fmt: skip
     return Formula(
         "face_ratio", "t", (
-            "loaded face over mean deflection, of a mode's part $I_0$ over its part $J_0$"
+            "contact-face over mean deflection of a mode's part $I_0$, divided by that of $J_0$"
         ),
         in_k(FACE), "1", "", ("wave_f", "partner_wave"), proof, stated=FACE,
     )  # fmt: skip
@@ -278,13 +278,13 @@ def face_ratio() -> Formula:
 
 @cache
 def weight() -> Formula:
-    """W."""
+    """Return W."""
     energy = norm()
     face_ratio()
     soft = WEIGHT.subs(N, NORM).subs(c, 0).subs(J0, 0)
     proof = prove(
-        "Weight of a held plate's wave",
-        "At $J_0 = 0$ that of the paper's edge, whose residue is A0's; link 29's for "
+        "Modal weight of a plate wave",
+        "At $J_0 = 0$ it is that of the paper's edge, whose residue is A0's; link 29's for "
         r"$\eta \to 0$. " + energy.proof.argument,
         {
             "paper's edge": sp.cancel(soft - 1 / (sp.pi * J1**2)),
@@ -292,7 +292,8 @@ def weight() -> Formula:
         },
     )
     return Formula(
-        "wave_weight", "W_n", "acceleration of the axis by a force there, over $r_0/b^2$ of A0",
+        "wave_weight", "W_n",
+        "modal weight: acceleration on the axis by a unit force there, times $b^2/r_0$",
         in_k(WEIGHT.subs(N, NORM)), "1", "", ("wave_norm", "face_ratio", "bending_residue"), proof,
         stated=WEIGHT,
     )  # fmt: skip
@@ -300,12 +301,12 @@ def weight() -> Formula:
 
 @cache
 def share() -> Formula:
-    """s_n."""
+    """Return s_n."""
     means = thin.share()
     value = UNDER_PUNCH / (1 - c * t)
     proof = prove(
-        "Mean of a held plate's wave under a flat punch",
-        "The transforms of link 29, of $J_0(k r)$ and of $I_0(k_2 r)$ on the loaded face. "
+        "Mean of a plate wave under a flat punch",
+        "The transforms of link 29, of $J_0(k r)$ and of $I_0(k_2 r)$ on the contact face. "
         + means.proof.argument,
         {
             "thin": _thin(value.subs(c, PART)) - means.expression,
@@ -313,14 +314,15 @@ def share() -> Formula:
         },
     )
     return Formula(
-        "wave_share", "s_n", "mean of the loaded face under a flat punch over its deflection there",
+        "wave_share", "s_n",
+        "mean of the contact face under a flat punch over its deflection on the axis",
         in_k(value), "1", "", ("face_ratio", means.name), proof, stated=value,
     )  # fmt: skip
 
 
 @cache
 def at_rest() -> tuple[Formula, Formula]:
-    """By how much a held plate differs under a static load from the paper's, on the axis."""
+    """Return the difference to the paper's edge under a static load, on the axis."""
     A = sp.Symbol("A", real=True)
     # In units of P b^2/D: (psi' + psi/r)' = -1/(2 pi r), and psi' + psi = 0 at the edge.
     paper = (_r / 4 - _r * sp.log(_r) / 2) / (2 * sp.pi)
@@ -334,11 +336,11 @@ def at_rest() -> tuple[Formula, Formula]:
     nabla = thin.laplacian(1 - _r**2)
     lift = 1 + BULGE / 3 * eta**2 * nabla
     proof = prove(
-        "Held plates under a static load",
-        r"$\psi$ under a force on the paper's edge, and $2 A r$, which bends evenly without "
-        "shear and lifts $w$ by $A (1 - r^2)$. On the face $w$ is "
-        r"$1 + (n_{\nu}/3) \eta^2 \nabla^2$ times the mean; and so, by reciprocity, is what a "
-        "force there does.",
+        "Clamped and supported plates under a static load",
+        r"$\psi$ under a force on the paper's edge, and $2 A r$, uniform bending without shear "
+        "with the deflection $A (1 - r^2)$. On the face $w$ is "
+        r"$1 + (n_{\nu}/3) \eta^2 \nabla^2$ times the mean; by reciprocity, the same factor "
+        "applies to a force there.",
         {
             "load": sp.expand(sp.diff(bent, _r) + 1 / (2 * sp.pi * _r)),
             "paper's edge": bent.subs(_r, 1),
@@ -354,8 +356,8 @@ def at_rest() -> tuple[Formula, Formula]:
     )
     found = tuple(
         Formula(
-            name, r"\Delta", f"static deflection of {which} plate less that on the paper's edge, "
-            r"by a force on the axis, in $P b^2/D$; first order of $\chi$",
+            name, r"\Delta", f"static deflection of {which} plate minus that on the paper's edge, "
+            r"under a force on the axis, divided by $P b^2/D$; first order of $\chi$",
             value, "1", "", ("wave_weight",), proof,
         )
         for name, which, value in rows
@@ -365,7 +367,7 @@ def at_rest() -> tuple[Formula, Formula]:
 
 @cache
 def held_waves() -> tuple[Formula, ...]:
-    """The formulas of the link."""
+    """Return the formulas of the link."""
     return (
         shear_coefficient(), *waves(), *edges(), norm(), face_ratio(), weight(), share(),
         *at_rest(),

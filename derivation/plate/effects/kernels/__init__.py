@@ -1,4 +1,4 @@
-"""What the effects hand in for the generated package."""
+"""Modules of the effects for the generated package."""
 
 from pathlib import Path
 
@@ -11,13 +11,13 @@ RUNTIME = Path(__file__).parents[1] / "runtime"
 
 
 def effect_kernels() -> Routines:
-    """The effects' formulas, printed."""
+    """Return the routines of the effects."""
     imports = {
         "blocks": ("polynomial",),
         "effect_numbers": ("PERIOD", "ZENER"),
         "ranges": ("moderate", "product", "root_factors"),
     }
-    title = "Formulas of single effects, proved equal to what the theory derives."
+    title = "Formulas of single effects, proved equal to those of the theory."
     return Routines("effect_kernels", title, tuple(make() for make in ROUTINES), imports)
 
 

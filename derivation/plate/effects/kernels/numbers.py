@@ -1,12 +1,12 @@
-"""The numbers of the effects: power series of the sphere's profile and of the side wall, bounds.
+"""Constants of the effects: series of spherical profile and finite radius, bounds.
 
 With t = (a/R)^2 and L = (artanh sqrt(t) - sqrt(t))/t^(3/2) = 1/3 + t/5 + t^2/7 + ... the
-contact of link 21 is, over Hertz's at equal contact radius,
+contact of link 21, relative to Hertz's at equal contact radius, is
 
     delta = 1 + t L,    P = (3/4) (1 + (1 + t) L),    S = (1 + t L + 1/(1 - t))/2.
 
-The side wall's part of delta is W = -(8/pi^2) sum kappa_(2k-4) (2k-2)/(2k-1)! alpha^(2k-3), and
-S has the power n of it 1 + n/2 times.
+The finite radius contributes W = -(8/pi^2) sum kappa_(2k-4) (2k-2)/(2k-1)! alpha^(2k-3) to delta;
+its power n contributes 1 + n/2 times as much to S.
 """
 
 from fractions import Fraction
@@ -30,15 +30,15 @@ from derivation.plate.vocabulary import j_n, lam, mu
 from derivation.plate.waves.theory.plate_motion import plate_motion
 
 NEAR = Fraction(1, 4)
-"""t up to which L is a sum; from here on it is known to 4 roundings by what it stands for."""
+"""t below which L is a sum; above, its closed form is accurate to 4 roundings."""
 NEGLIGIBLE = 2.0**-56
 _a, _n = sp.symbols("a n", positive=True)
 _STEEPER = sp.simplify(sp.diff(_a ** (_n + 2), _a) / (2 * _a ** (_n + 1)))
-"""S over F of one power n: (R/2a) d delta/da of delta = a^2 F/R."""
+"""S divided by F for one power n: (R/2a) d delta/da of delta = a^2 F/R."""
 
 
 def effect_numbers() -> Numbers:
-    """The series, what bounds the side wall, and the factors of the plate's own motion."""
+    """Return the series, bounds for the finite radius, and factors of the inertia formulas."""
     with flint.ctx.workprec(BITS):
         depth, slope = wall_rows()
         wall_linear = above(Ball(3) / 2 * depth[0])
@@ -46,16 +46,16 @@ def effect_numbers() -> Numbers:
         factors = tuple(_factor_double(name) for name in ("zener_number", "bending_period"))
     return Numbers(
         "effect_numbers",
-        "Numbers of the effects: power series, bounds of the side wall, factors.",
+        "Constants of the effects: power series, bounds for the finite radius, factors.",
         (
-            Constant("WALL_DEPTH", rows[0], "Of the side wall's -F/alpha in powers of alpha^2."),
-            Constant("WALL_SLOPE", rows[1], "Of the side wall's -S/alpha in powers of alpha^2."),
-            Constant("ZENER", factors[0], "Of Zener's number, all else but its factors 1."),
-            Constant("PERIOD", factors[1], "Of the bending period, likewise."),
+            Constant("WALL_DEPTH", rows[0], "Finite radius: -F/alpha in powers of alpha^2."),
+            Constant("WALL_SLOPE", rows[1], "Finite radius: -S/alpha in powers of alpha^2."),
+            Constant("ZENER", factors[0], "Factor of Zener's parameter."),
+            Constant("PERIOD", factors[1], "Factor of the bending period."),
             Constant(
                 "WALL_LINEAR",
                 wall_linear,
-                "The side wall takes at most WALL_LINEAR alpha + WALL_CUBIC alpha^3 from S, "
+                "The finite radius reduces S at most by WALL_LINEAR alpha + WALL_CUBIC alpha^3, "
                 "alpha = a/b < 1.",
             ),
             Constant("WALL_CUBIC", above(wall_rest_ball()), "See WALL_LINEAR."),
@@ -76,9 +76,9 @@ def effect_numbers() -> Numbers:
 
 
 def factor(name: str) -> sp.Expr:
-    """The number in front of a formula of link 23: its value where every argument makes 1.
+    """Return the constant factor of a formula of link 23.
 
-    E* is 1 for lam = 0 and mu = 1/2; the first mode's j_1 belongs to the number.
+    E* is 1 for lam = 0 and mu = 1/2; j_1 of the first mode belongs to the factor.
     """
     formula = {f.name: f for f in plate_motion()}[name]
     ones = {x.symbol: 1 for x in formula.arguments if x.symbol != j_n}
@@ -90,7 +90,7 @@ def _factor_double(name: str) -> float:
 
 
 def arc_coefficients() -> list[sp.Rational]:
-    """1/3, 1/5, ... as far as they count beside 1/3 at t = NEAR; what follows is less again."""
+    """Return 1/3, 1/5, ... as far as they matter compared with 1/3 at t = NEAR."""
     found: list[sp.Rational] = []
     while True:
         k = len(found)
@@ -100,10 +100,10 @@ def arc_coefficients() -> list[sp.Rational]:
 
 
 def wall_rows() -> tuple[list[Ball], list[Ball]]:
-    """Coefficients of -W/alpha and of its part of -S/alpha in alpha^2, as far as they count.
+    """Return coefficients of -W/alpha, and of -S/alpha, in alpha^2, as far as they matter.
 
-    At alpha = 1 neighbours are in the ratio 1/4 at most, so that what is left out is a third
-    of the last.
+    At alpha = 1 the ratio of neighbours is 1/4 at most, so that all omitted terms are below a third
+    of the last one.
     """
     depth: list[Ball] = []
     slope: list[Ball] = []
@@ -113,4 +113,4 @@ def wall_rows() -> tuple[list[Ball], list[Ball]]:
         slope.append(depth[-1] * enclose(_STEEPER.subs(_n, 2 * k - 3), {}))
         if float(slope[-1] / slope[0]) < NEGLIGIBLE:
             return depth, slope
-    raise ArithmeticError("the side wall's series needs more of kappa_n")
+    raise ArithmeticError("the series of the finite radius needs more moments kappa_n")

@@ -1,4 +1,4 @@
-"""The effects' formulas as code computes them, each proved to be a formula of its link."""
+"""Formulas of the effects as code computes them, each proved equal to one of its link."""
 
 import sympy as sp
 
@@ -28,7 +28,7 @@ THREE_HALVES = sp.Float(1.5)
 
 
 def _by_contact_radius(expression: sp.Expr) -> sp.Expr:
-    """In a/R, the hyperbolic arc by logarithms."""
+    """Return the expression in a/R, with the hyperbolic arc as a logarithm."""
     found = expression.subs(a, a_over_R * R).replace(sp.log, lambda x: sp.log(sp.cancel(x)))
     found = found.replace(sp.atanh, lambda x: sp.log((1 + x) / (1 - x)) / 2)
     return sp.cancel(found)
@@ -38,7 +38,7 @@ ARC = (sp.atanh(a_over_R) - a_over_R) / a_over_R**3
 
 
 def sphere() -> Routine:
-    """Force, indentation and slope of a sphere over those of Hertz's paraboloid."""
+    """Return force, indentation and slope of a sphere over those of Hertz's paraboloid."""
     arc, series, depth, whole = sp.symbols("arc series depth whole", positive=True)
     far, steep = sp.symbols("far steep", positive=True)
     delta, force = (formula.expression for formula in spherical_contact())
@@ -63,7 +63,7 @@ def sphere() -> Routine:
             steep / 2,
         ),
         (force / hertz, delta * R / a**2, R / (2 * a) * sp.diff(delta, a)),
-        "Force, indentation and its slope of a sphere over those of a paraboloid.",
+        "Return force, indentation and its slope of a sphere over those of a paraboloid.",
         {a_over_R: a / R},
         _by_contact_radius,
     )
@@ -71,7 +71,7 @@ def sphere() -> Routine:
 
 @named
 def bent_plate() -> Claims:
-    """Bending's part of F and of S."""
+    """Return the contribution of bending to F and S."""
     part, over, depth = sp.symbols("part over depth", positive=True)
     share = bending().expression
     return Claims(
@@ -88,7 +88,7 @@ def bent_plate() -> Claims:
 
 
 def zener() -> Routine:
-    """Zener's number."""
+    """Return Zener's parameter."""
     waves = root("waves", 5, (m, m, m, R, v0))
     young = root("young", 5, YOUNG)
     mass = root("mass", 2, (rho, *young.symbols))
@@ -97,14 +97,14 @@ def zener() -> Routine:
 
 
 def first_period() -> Routine:
-    """The first bending period."""
+    """Return the first bending period."""
     slowness = root("slowness", 2, (rho,), *YOUNG)
     value = PRODUCT(sp.Tuple(PERIOD, b, b, *slowness.symbols), sp.Tuple(h))
     return _of_motion("bending_period", (h, b, lam, mu, rho), (slowness,), value)
 
 
 def echo() -> Routine:
-    """The time of two echoes."""
+    """Return the time of two reflections."""
     slowness = root("slowness", 2, (rho,), sp.Integer(4), lam / 4 + mu / 2)
     value = PRODUCT(sp.Tuple(8, h, *slowness.symbols))
     return _of_motion("echo_time", (h, lam, mu, rho), (slowness,), value)
@@ -113,7 +113,7 @@ def echo() -> Routine:
 def _of_motion(
     name: str, arguments: tuple[sp.Symbol, ...], roots: tuple[Several, ...], value: sp.Expr
 ) -> Routine:
-    """A formula of link 23."""
+    """Return the routine of a formula of link 23."""
     formula = {f.name: f for f in plate_motion()}[name]
     scaled = MODERATE if name != "echo_time" else ()
     return routine(

@@ -1,10 +1,10 @@
-"""What single effects add to the contact law, apart from the others, and bounds of it.
+"""Contributions of single effects to the contact law, and parameters that show when they matter.
 
-Depth and slope are a part of F and of S, where at equal force, a being Hertz's radius::
+`depth` and `slope` are contributions to F and S at equal force, a being the Hertz contact radius::
 
     delta = (a^2/R) (1 + F),   d delta/da = (2a/R) S
 
-Arithmetic: the side wall's power series, whose coefficients are numbers computed beforehand.
+Arithmetic: the power series of the finite radius, whose coefficients are computed in advance.
 """
 
 from typing import NamedTuple
@@ -19,7 +19,7 @@ from generated.effect_numbers import WALL_DEPTH, WALL_SLOPE
 
 
 class Sphere(NamedTuple):
-    """A sphere on a half-space over Hertz's paraboloid at equal contact radius [1]."""
+    """Ratios of a sphere on a half-space to Hertz's paraboloid at equal contact radius [1]."""
 
     force: np.ndarray
     depth: np.ndarray
@@ -27,7 +27,7 @@ class Sphere(NamedTuple):
 
 
 class Share(NamedTuple):
-    """A part of F and of S [1]."""
+    """Contribution to F and to S [1]."""
 
     depth: np.ndarray
     slope: np.ndarray
@@ -36,7 +36,7 @@ class Share(NamedTuple):
 @in_manifest("", equation="7", domain="a_over_R >= 0, a_over_R < 1")
 @quiet
 def sphere_contact(a_over_R: ArrayLike) -> Sphere:
-    """Force, indentation and its slope of a sphere over those of a paraboloid.
+    """Compute force, indentation and slope of a spherical profile relative to a paraboloid.
 
     Formula (Sneddon, 1965), x = a/R::
 
@@ -51,8 +51,14 @@ def sphere_contact(a_over_R: ArrayLike) -> Sphere:
     Returns
     -------
     Sphere
-        P/((4/3) E* a^3/R), delta R/a^2 and (R/2a) d delta/da [1], a being the contact radius
-        itself, in the argument's shape; NaN outside the domain.
+        P/((4/3) E* a^3/R), delta R/a^2 and (R/2a) d delta/da [1], in the shape of the
+        argument, a being the actual contact radius; NaN outside the domain.
+
+    Examples
+    --------
+    >>> from generated import sphere_contact
+    >>> print(f"{sphere_contact(0.5).force:.6g}")
+    1.1198
     """
     kind, [a_over_R] = as_doubles(a_over_R)
     [a_over_R] = inside([a_over_R], a_over_R >= 0, a_over_R < 1)
@@ -63,7 +69,7 @@ def sphere_contact(a_over_R: ArrayLike) -> Sphere:
 @in_manifest("W", equation="6", domain="alpha >= 0, alpha < 1")
 @quiet
 def side_wall(alpha: ArrayLike) -> Share:
-    """What the plate's finite radius adds, of Hertz's pressure and the paper's edge.
+    """Compute the effect of the plate's finite radius for Hertz pressure and the paper's edge.
 
     Formula::
 
@@ -77,7 +83,14 @@ def side_wall(alpha: ArrayLike) -> Share:
     Returns
     -------
     Share
-        Its part of F and of S [1], below 0, in the argument's shape; NaN outside the domain.
+        Contributions to F and S [1], both negative, in the shape of the argument; NaN outside
+        the domain.
+
+    Examples
+    --------
+    >>> from generated import side_wall
+    >>> print(f"{side_wall(0.1).depth:.6g}")
+    -0.0369707
     """
     kind, [alpha] = as_doubles(alpha)
     [alpha] = inside([alpha], alpha >= 0, alpha < 1)
@@ -89,7 +102,7 @@ def side_wall(alpha: ArrayLike) -> Share:
 @in_manifest("F_B", equation="6", domain="a_ratio >= 0, eta > 0")
 @quiet
 def bending(a_ratio: ArrayLike, eta: ArrayLike) -> Share:
-    """What the deflection of a thin plate adds, P b^2/(8 pi D), on the paper's edge.
+    """Compute the effect of thin-plate bending, P b^2/(8 pi D), for the paper's edge.
 
     Formula::
 
@@ -105,7 +118,13 @@ def bending(a_ratio: ArrayLike, eta: ArrayLike) -> Share:
     Returns
     -------
     Share
-        Its part of F and of S [1], in the arguments' broadcast shape; NaN outside the domain.
+        Contributions to F and S [1], in the arguments' broadcast shape; NaN outside the domain.
+
+    Examples
+    --------
+    >>> from generated import bending
+    >>> print(f"{bending(0.1, 0.03).depth:.6g}")
+    8.84194
     """
     kind, [a_ratio, eta] = as_doubles(a_ratio, eta)
     [a_ratio, eta] = inside([a_ratio, eta], a_ratio >= 0, eta > 0)
@@ -123,7 +142,7 @@ def zener_number(
     mu: ArrayLike,
     rho: ArrayLike,
 ) -> np.ndarray:
-    """Zener's number: how much of the impact the waves of an infinite plate carry away.
+    """Compute Zener's inelasticity parameter, a measure of the energy radiated as bending waves.
 
     Formula (Zener, 1941), H = 2h and D = E* H^3/12::
 
@@ -145,7 +164,14 @@ def zener_number(
     Returns
     -------
     float or ndarray
-        The number [1] in the arguments' broadcast shape; NaN outside the domain.
+        Inelasticity parameter lambda [1] in the arguments' broadcast shape; NaN outside the
+        domain. Inertia of the plate is usually negligible below 0.006.
+
+    Examples
+    --------
+    >>> from generated import zener_number
+    >>> print(f"{zener_number(0.01, 0.0327, 2.0, 0.004, 22.5e9, 28.7e9, 2500.0):.6g}")
+    0.730456
     """
     kind, [R, m, v0, h, lam, mu, rho] = as_doubles(R, m, v0, h, lam, mu, rho)
     [R, m, v0] = inside([R, m, v0], R > 0, m > 0, v0 > 0)
@@ -158,7 +184,7 @@ def zener_number(
 def bending_period(
     h: ArrayLike, b: ArrayLike, lam: ArrayLike, mu: ArrayLike, rho: ArrayLike
 ) -> np.ndarray:
-    """First bending period of the plate on the paper's edge.
+    """Compute the first bending period of the plate with the paper's edge.
 
     Formula, H = 2h and D = E* H^3/12::
 
@@ -176,7 +202,13 @@ def bending_period(
     Returns
     -------
     float or ndarray
-        The period [s] in the arguments' broadcast shape; NaN outside the domain.
+        Period [s] in the arguments' broadcast shape; NaN outside the domain.
+
+    Examples
+    --------
+    >>> from generated import bending_period
+    >>> print(f"{bending_period(0.004, 0.15, 22.5e9, 28.7e9, 2500.0):.6g}")
+    0.00195134
     """
     kind, [h, b, lam, mu, rho] = as_doubles(h, b, lam, mu, rho)
     [h, b, lam, mu, rho] = inside(
@@ -188,7 +220,7 @@ def bending_period(
 @in_manifest("T_e", domain="h > 0, 3 * lam > -2 * mu, mu > 0, rho > 0")
 @quiet
 def echo_time(h: ArrayLike, lam: ArrayLike, mu: ArrayLike, rho: ArrayLike) -> np.ndarray:
-    """Time of two echoes of a pressure wave through the thickness.
+    """Compute the time of two reflections of a pressure wave through the thickness.
 
     Formula, H = 2h::
 
@@ -206,7 +238,13 @@ def echo_time(h: ArrayLike, lam: ArrayLike, mu: ArrayLike, rho: ArrayLike) -> np
     Returns
     -------
     float or ndarray
-        The time [s] in the arguments' broadcast shape; NaN outside the domain.
+        Time [s] in the arguments' broadcast shape; NaN outside the domain.
+
+    Examples
+    --------
+    >>> from generated import echo_time
+    >>> print(f"{echo_time(0.004, 22.5e9, 28.7e9, 2500.0):.6g}")
+    5.66039e-06
     """
     kind, [h, lam, mu, rho] = as_doubles(h, lam, mu, rho)
     [h, lam, mu, rho] = inside([h, lam, mu, rho], h > 0, mu > 0, 3 * lam > -2 * mu, rho > 0)

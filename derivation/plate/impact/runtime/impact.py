@@ -1,13 +1,13 @@
-"""Impact of a sphere on a plate by the contact law alone: extremes and history, without stepping.
+"""Impact of a sphere on a quasi-static plate: extremes and time history, without time stepping.
 
-With q = a/a_m, the contact radius over its largest value, and delta_m the largest
-indentation, energy conservation makes every time an integral of a smooth function::
+With q = a/a_m, the ratio of the contact radius to its largest value, and delta_m the largest
+indentation, energy conservation gives every time as an integral of a smooth function::
 
     t = (delta_m/v0) int 2 (d(delta/delta_m)/dq)/sqrt((1 - E(q)/E_m)/(1 - q)) dw,   q = w (2 - w)
 
-Arithmetic: Newton's and Halley's iterations with their first values; the quadrature's sums, twice
-for both halves of a contact; powers that scale the polynomials' terms; scaling of times and
-results; the change of variable q = w (2 - w).
+Arithmetic: Newton's and Halley's iterations with their starting values; the sums of the
+quadrature, doubled for both halves of a contact; powers that scale the polynomials' terms;
+scaling of times and results; the change of variable q = w (2 - w).
 """
 
 from typing import NamedTuple
@@ -41,14 +41,14 @@ __all__ = [
     "history",
     "impact",
 ]
-_STEPS = 60  # of Newton's iteration at most; it takes four to six
-_CLOSE = 1e-9  # a relative residual whose square is far below rounding
-_SCENES = 512  # worked on at a time, so that intermediates stay in the cache
-_BATCH = 32 * _SCENES  # solved at a time, so that memory does not grow with what is kept of each
+_STEPS = 60  # largest number of Newton steps; four to six are usual
+_CLOSE = 1e-9  # relative residual whose square is far below rounding
+_SCENES = 512  # number of impacts in one block, so that intermediate arrays fit in the cache
+_BATCH = 32 * _SCENES  # number of impacts solved together, which limits the memory
 
 
 class Impact(NamedTuple):
-    """Contact time [s], largest indentation [m], force [N] and contact radius [m]."""
+    """Contact time [s], peak indentation [m], peak force [N] and largest contact radius [m]."""
 
     contact_time: np.ndarray
     max_indentation: np.ndarray
@@ -57,7 +57,7 @@ class Impact(NamedTuple):
 
 
 class History(NamedTuple):
-    """Indentation [m], its rate [m/s], contact radius [m] and force [N] at given times."""
+    """Indentation [m], indentation rate [m/s], contact radius [m] and force [N] at given times."""
 
     indentation: np.ndarray
     velocity: np.ndarray
@@ -83,20 +83,20 @@ def impact(
     *,
     coarse: bool = False,
 ) -> Impact:
-    """Contact time and extremes of an impact that conserves energy.
+    """Compute contact time and peak values of an impact that conserves energy.
 
     Formula::
 
         (4/3) E* h^5/R^2 int_0^(A_m) A^3 d(A^2 (1 + F)) = m v0^2/2
 
-    Any consistent units will do (SI, or mm, t, s).
+    Any consistent units are possible (SI, or mm, t, s).
 
     Parameters
     ----------
     R : array_like
         sphere radius [m]; R > 0
     m : array_like
-        sphere mass [kg]; m > 0
+        impact speed of the sphere [m/s]; v0 > 0
     v0 : array_like
         speed of approach [m/s]; v0 > 0
     h : array_like
@@ -108,15 +108,22 @@ def impact(
     mu : array_like
         second Lame constant (shear modulus) [Pa]; mu > 0
     coarse : bool
-        with half the nodes: the contact time's relative error is then up to
-        COARSE_QUADRATURE
+        use half the number of quadrature nodes; the relative error of the contact time is
+        then at most COARSE_QUADRATURE
 
     Returns
     -------
     Impact
-        Contact time [s], largest indentation [m], force [N] and contact radius [m]: arrays in
-        the arguments' broadcast shape; NaN outside the domain and where the contact radius
-        would exceed R, b or 6 h.
+        Contact time [s], peak indentation [m], peak force [N] and largest contact radius [m]:
+        arrays in the arguments' broadcast shape. NaN outside the domain, and where the contact
+        radius would exceed R, b or 6 h.
+
+    Examples
+    --------
+    >>> from generated.impact import impact
+    >>> found = impact(0.01, 0.0327, 2.0, 0.004, 0.15, 22.5e9, 28.7e9)
+    >>> print(f"{found.contact_time:.6g} s, {found.max_force:.6g} N")
+    0.000318047 s, 653.198 N
     """
     kind, given = as_doubles(R, m, v0, h, b, lam, mu)
     shape = np.broadcast_shapes(*(x.shape for x in given))
@@ -143,9 +150,9 @@ def history(
     lam: ArrayLike,
     mu: ArrayLike,
 ) -> History:
-    """State at given times of an impact that begins at t = 0.
+    """Compute the state at given times of an impact that begins at t = 0.
 
-    Each time is found by inverting t(q) with Newton's iteration; nothing is stepped.
+    For each time, Newton's method inverts t(q); there is no time stepping.
 
     Parameters
     ----------
@@ -156,7 +163,7 @@ def history(
     m : array_like
         sphere mass [kg]; m > 0
     v0 : array_like
-        speed of approach [m/s]; v0 > 0
+        impact speed of the sphere [m/s]; v0 > 0
     h : array_like
         half the plate's thickness [m]; h > 0
     b : array_like
@@ -169,9 +176,16 @@ def history(
     Returns
     -------
     History
-        Indentation [m], its rate [m/s], contact radius [m] and force [N]: arrays in the
-        arguments' broadcast shape; NaN outside the domain. Before and after the contact the
-        sphere is free: velocity v0 and -v0, the rest 0.
+        Indentation [m], indentation rate [m/s], contact radius [m] and force [N]: arrays in
+        the arguments' broadcast shape; NaN outside the domain. Before and after the contact
+        the velocity is v0 and -v0, and the other values are 0.
+
+    Examples
+    --------
+    >>> from generated.impact import history
+    >>> found = history([1e-4, 2e-4], 0.01, 0.0327, 2.0, 0.004, 0.15, 22.5e9, 28.7e9)
+    >>> print(found.force.round(3))
+    [541.95  598.708]
     """
     kind, [t, R, m, v0, h, b, lam, mu] = as_doubles(t, R, m, v0, h, b, lam, mu)
     found, radius, depth, load, ok = _solve(R, m, v0, h, b, lam, mu)
@@ -200,7 +214,7 @@ def history(
 
 
 def _results(given: list[Double], coarse: bool) -> Double:
-    """Contact time, largest indentation, force and radius of a batch, as rows."""
+    """Return contact time, peak indentation, force and contact radius of a batch, as rows."""
     found, radius, depth, load, _ = _solve(*given)
     integral = np.empty_like(found.A)
     nodes, weights = (INNER_NODES, INNER_WEIGHTS) if coarse else (NODES, WEIGHTS)
@@ -213,9 +227,9 @@ def _results(given: list[Double], coarse: bool) -> Double:
 
 
 def _state(since: Double, left: Double, scenes: Scenes, owner: np.ndarray, whole: Double) -> Double:
-    """Indentation, velocity, contact radius and force over their largest values.
+    """Return indentation, velocity, contact radius and force relative to their largest values.
 
-    sqrt(t(w)) is inverted: t starts like w^2, and is smooth to w = 1.
+    sqrt(t(w)) is inverted, because t is proportional to w^2 for small w and smooth up to w = 1.
     """
     nearest = np.minimum(since, left)
     inside_contact = nearest > 0
@@ -241,10 +255,10 @@ def _state(since: Double, left: Double, scenes: Scenes, owner: np.ndarray, whole
 def _solve(
     R: Double, m: Double, v0: Double, h: Double, b: Double, lam: Double, mu: Double
 ) -> tuple[Scenes, Double, Factors, Factors, np.ndarray]:
-    """The scenes, their largest radius, depth and force, and where they are within the domain.
+    """Return the impacts, their largest radius, indentation and force, and the domain mask.
 
-    Depth and force are products of those of Hertz's impact and shares of its radius, so that
-    the radius' own error does not count two and three times.
+    Indentation and force are those of Hertz's impact times powers of the ratio of the radii,
+    so that the error of the radius is not multiplied by two or three.
     """
     ok = (R > 0) & (m > 0) & (v0 > 0) & (h > 0) & (b > 0)
     for condition in elastic(lam, mu):
@@ -252,9 +266,9 @@ def _solve(
     plates, numbers = plates_of_lengths(h, b)
     given = np.broadcast_arrays(R, m, v0, h, b, lam, mu)
     [R, m, v0, h, b, lam, mu] = inside([*given], ok)
-    _, modulus = modulus_factors(lam, mu)  # over mu
+    _, modulus = modulus_factors(lam, mu)  # divided by mu
     hertz, *factors = kernels.hertz_impact(R, m, v0, mu, modulus)
-    over_h = np.minimum(np.ravel(hertz / h), 1e200)  # no contact is that wide
+    over_h = np.minimum(np.ravel(hertz / h), 1e200)  # larger values lie outside the domain
     owner = np.ravel(np.broadcast_to(numbers, ok.shape))
     pieces = plates.first.coefficients
     shares = kernels.work_share(np.arange(3.0, 2.0 * pieces.shape[0] + 3.0, 2.0))
@@ -283,7 +297,7 @@ def _solve(
 
 
 def _scaled(pieces: Double, near: Double, reach: Double, shares: Double) -> tuple[Double, Double]:
-    """Terms and tails as of `Scenes`, from coefficients of powers of A/reach."""
+    """Return terms and tails of `Scenes` from coefficients of powers of A/reach."""
     terms = pieces * near
     ratio = (near / reach) ** 2
     power = ratio.copy()
@@ -299,13 +313,13 @@ def _scaled(pieces: Double, near: Double, reach: Double, shares: Double) -> tupl
 def _deepest(
     hertz: Double, energy: Piece, plates: Plates, owner: np.ndarray
 ) -> tuple[Double, np.ndarray]:
-    """A_m over Hertz's from E(A) = 2 hertz^5/5, and where A_m is beyond the first polynomial."""
+    """Return A_m/hertz from E(A) = 2 hertz^5/5, and whether A_m exceeds the first polynomial."""
     piece, end = columns(energy, owner), plates.reach[owner]
     bending = np.maximum(np.asarray(piece.coefficients[0]), 0.0)
     value, _ = with_slope(end, piece)
     most = end / hertz
     far = most < kernels.share_of_work(value)
-    # A thin plate's by 2 hertz^5/5 = bending A^6.
+    # For a thin plate, from 2 hertz^5/5 = bending A^6.
     thin = (0.4 / bending / hertz) ** (1.0 / 6.0)
     share = np.where(far, np.nan, np.minimum(np.minimum(thin, 1.0), most))
     for _ in range(_STEPS):
@@ -319,9 +333,9 @@ def _deepest(
 def _far_deepest(
     goal: Double, near: Double, inner: Double, plates: Plates, owner: np.ndarray
 ) -> tuple[Double, Double, Double, Beyond]:
-    """E/A^5, 1 + F and A where E(A) = goal beyond the first polynomial, and what `Beyond` holds.
+    """Return E/A^5, 1 + F and A where E(A) = goal beyond the first polynomial, and `Beyond`.
 
-    `inner` is E/A^5 at A = near, that polynomial's end.
+    `inner` is E/A^5 at A = near, the end of that polynomial.
     """
     which, position = np.unique(owner, return_inverse=True)
     piece = columns(far_piece(plates.eta[which]), position)

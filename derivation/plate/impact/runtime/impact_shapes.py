@@ -1,11 +1,11 @@
-"""The course of an impact in shares of its extremes: indentation, its rate, and the work left.
+"""Normalised time history of an impact: indentation, its rate, and the remaining work.
 
-With q = a/a_m, the contact radius over its largest value, and E the work. The quotient
-(1 - E/E_m)/(1 - q) is a polynomial, found by synthetic division; where the contact goes beyond
-the law's first polynomial, the work from there on is a quadrature.
+q = a/a_m is the ratio of the contact radius to its largest value, and E is the work. The quotient
+(1 - E/E_m)/(1 - q) is a polynomial, computed by synthetic division. Beyond the law's first
+polynomial, a quadrature gives the remaining work.
 
-Arithmetic: Horner's rule; the change of variable q = w (2 - w); the quadrature's nodes and sum;
-which points are beyond the first polynomial, and by how much.
+Arithmetic: Horner's rule; the change of variable q = w (2 - w); the nodes and sum of the
+quadrature; which points lie beyond the first polynomial, and how far.
 """
 
 from types import EllipsisType
@@ -18,14 +18,14 @@ from generated.arrays import Double
 from generated.contact_series import Columns, with_slope
 from generated.impact_numbers import INNER_NODES, INNER_WEIGHTS
 
-_POINTS = 1024  # beyond the first polynomial, so that their quadratures stay in the cache
+_POINTS = 1024  # points in one block beyond the first polynomial, so that arrays fit in the cache
 
 
 class Scenes(NamedTuple):
-    """Impacts of shape (scenes,): lift 1 + F and energy E/A^5 at the largest A.
+    """Impacts of shape (scenes,): lift is 1 + F and energy is E/A^5 at the largest A.
 
-    Up to A_near = A or reach, F = sum terms_k s^(2k + 1), s = A'/A_near, and tails are
-    the sums over l >= k of (2l + 3)/(2l + 6) terms_l, both of shape (terms, scenes).
+    Up to A_near = A or reach, F = sum terms_k s^(2k + 1), s = A'/A_near; `tails` are the sums
+    over l >= k of (2l + 3)/(2l + 6) terms_l. Both have shape (terms, scenes).
     """
 
     A: Double
@@ -33,29 +33,29 @@ class Scenes(NamedTuple):
     energy: Double
     terms: Double
     tails: Double
-    slot: np.ndarray  # among those beyond, -1 for the others
+    slot: np.ndarray  # index among the impacts beyond the first polynomial, -1 for the others
     beyond: "Beyond"
 
 
 class Beyond(NamedTuple):
-    """Impacts that go beyond the first polynomial: what only these need."""
+    """Additional data of impacts that go beyond the first polynomial."""
 
     near: Double  # A_near/A
     gap: Double  # 1 - A_near/A
     rise: Double  # (E - E_near)/A^5
-    piece: Columns  # of the second polynomial
+    piece: Columns  # the second polynomial
 
 
 def time_rate(w: Double, scenes: Scenes, pick: slice | np.ndarray) -> Double:
-    """dt/dw in units of delta_m/v0, w of shape (scenes, points)."""
+    """Return dt/dw in units of delta_m/v0, for w of shape (scenes, points)."""
     _, rate, quotient = shapes(w, scenes, pick)
     return kernels.time_density(rate, quotient)
 
 
 def shapes(w: Double, scenes: Scenes, pick: slice | np.ndarray) -> tuple[Double, Double, Double]:
-    """(1 + F)/(1 + F_m), d(delta/delta_m)/dq and (1 - E/E_m)/(1 - q), q = w (2 - w).
+    """Return (1 + F)/(1 + F_m), d(delta/delta_m)/dq and (1 - E/E_m)/(1 - q), q = w (2 - w).
 
-    Of the shape of w, (scenes, points).
+    The results have the shape of w, (scenes, points).
     """
     q = w * (2.0 - w)
     lift, slope, quotient = _near_shapes(q, scenes.terms[:, pick], scenes.tails[:, pick])
@@ -70,7 +70,7 @@ def shapes(w: Double, scenes: Scenes, pick: slice | np.ndarray) -> tuple[Double,
 
 
 def _near_shapes(s: Double, terms: Double, tails: Double) -> tuple[Double, Double, Double]:
-    """1 + F, A F' and (E_near - E)/((1 - s) A_near^5) of the first polynomial."""
+    """Return 1 + F, A F' and (E_near - E)/((1 - s) A_near^5) of the first polynomial."""
     square = s * s
     value, slope = np.full_like(s, terms[-1][:, None]), np.zeros_like(s)
     rest = np.full_like(s, tails[-1][:, None])
@@ -90,7 +90,7 @@ def _near_shapes(s: Double, terms: Double, tails: Double) -> tuple[Double, Doubl
 def _far_shapes(
     w: Double, near: tuple[Double, Double], A: Double, beyond: Beyond, slot: np.ndarray
 ) -> tuple[Double, Double, Double]:
-    """1 + F, A F' and (E_m - E)/((1 - q) A^5) of impacts beyond the first polynomial."""
+    """Return 1 + F, A F' and (E_m - E)/((1 - q) A^5) of impacts beyond the first polynomial."""
     ratio, gap, rise = (x[slot, None] for x in (beyond.near, beyond.gap, beyond.rise))
     q, left = w * (2.0 - w), (1.0 - w) ** 2  # left is 1 - q
     outside = left <= gap
@@ -109,7 +109,7 @@ def _far_shapes(
 
 
 def mean_work(q: Double, A: Double, piece: Columns) -> Double:
-    """(E_m - E)/((1 - q) A^5), the mean of the work's density over [q, 1], reach <= q A."""
+    """Return (E_m - E)/((1 - q) A^5), the mean work density over [q, 1], for reach <= q A."""
     x = q[..., None] + (1.0 - q[..., None]) * INNER_NODES
     value, slope = with_slope(A[:, None, None] * x, cut(piece, ...))
     mean: Double = (kernels.work_density(x, value, slope) * INNER_WEIGHTS).sum(axis=-1)
@@ -117,7 +117,7 @@ def mean_work(q: Double, A: Double, piece: Columns) -> Double:
 
 
 def cut(piece: Columns, pick: np.ndarray | slice | EllipsisType) -> Columns:
-    """A piece at some of its points, with one axis more."""
+    """Return a piece at some of its points, with one additional axis."""
     rows, *scale = piece
     middle, inverse_half = (np.asarray(x)[pick, None] for x in scale)
     return Columns([np.asarray(row)[pick, None] for row in rows], middle, inverse_half)

@@ -1,15 +1,15 @@
-"""The paper's own motion of an impact, (14) to (18): for comparison only.
+"""The paper's own equations of motion, (14) to (18): for comparison only.
 
-The sums of (10) diverge, so that every number here depends on where they are cut off, and the
-correction (16) ends where the radicand of (17) and (18) vanishes: before the turning point, as
-xi_3 > 0 for every number of modes. Up to there the indentation grows, so that (14) has no
-turning point and no contact time of its own. One impact at a time.
+The sums of (10) diverge, so every result depends on the number of terms. The correction (16)
+ends where the radicand of (17) and (18) vanishes. This is before the turning point, because
+xi_3 > 0 for every number of modes. Up to there the indentation grows, so that (14) has neither
+a turning point nor a contact time of its own. One impact is computed at a time.
 
-With s = delta_0/delta_max, the linear motion's largest indentation delta_max, and u = 0 where the
-radicand vanishes, s = last (1 - u^2)^3, the integrals of (16) are of smooth functions of u.
+With s = delta_0/delta_max, delta_max the largest indentation of the linear motion, and
+s = last (1 - u^2)^3, where u = 0 at the zero of the radicand, the integrands of (16) are smooth.
 
-Arithmetic: sums over modes; Newton's iteration; the change of variable and the quadrature on
-shrinking parts of it.
+Arithmetic: sums over modes; Newton's iteration; the change of variable, and the quadrature on
+successively smaller parts of its range.
 """
 
 from dataclasses import dataclass
@@ -31,14 +31,14 @@ from generated.motion_kernels import (
 )
 from generated.perturbation_kernels import integrands, linear, shares
 
-_NODES = 24  # of Gauss' rule on each part
-_PARTS = 27  # [1/2, 1], [1/4, 1/2], ..., [0, 2^-26] of u: for a radicand that vanishes late
-_STEPS = 60  # of Newton's iteration at most; it takes four to ten
+_NODES = 24  # number of Gauss nodes on each part
+_PARTS = 27  # [1/2, 1], [1/4, 1/2], ..., [0, 2^-26] of u, for a radicand that vanishes late
+_STEPS = 60  # largest number of Newton steps; four to ten are usual
 
 
 @dataclass(frozen=True)
 class PrintedMotion:
-    """The motion by the first two terms of the paper's force, m delta'' + P = 0.
+    """Motion under the first two terms of the paper's force, m delta'' + P = 0.
 
     Formula::
 
@@ -48,9 +48,9 @@ class PrintedMotion:
     ----------
     m
         Sphere mass [kg].
-    v0
+        Impact speed of the sphere [m/s].
         Speed of approach [m/s].
-    xi_2, xi_3
+        Coefficients of (10), their sums truncated [N/m, N/m^(5/3)].
         Coefficients of (10), their sums cut off [N/m, N/m^(5/3)].
     """
 
@@ -74,14 +74,14 @@ class PrintedMotion:
     @property
     @quiet
     def excess(self) -> float:
-        """Radicand of (17), (18) at the linear motion's turning point, over -v0^2 [1]."""
+        """Radicand of (17), (18) at the linear motion's turning point, divided by -v0^2 [1]."""
         return float(excess_at_turn(*np.array((self.m, self.v0, self.xi_2, self.xi_3))))
 
     @property
     def last(self) -> float:
-        """Where the radicand of (17), (18) vanishes: delta_0 over its largest value [1].
+        """Ratio of delta_0 to its largest value where the radicand of (17), (18) vanishes [1].
 
-        Newton's iteration for y^3 + excess y^4 = 1, s^2 = y^3, convex, from above its root.
+        Newton's iteration for y^3 + excess y^4 = 1, s^2 = y^3, convex, starts above the root.
         """
         excess = self.excess
         y = min(1.0, excess**-0.25) if excess > 0.0 else np.nan
@@ -95,20 +95,20 @@ class PrintedMotion:
 
     @property
     def breaks_at(self) -> float:
-        """Time at which the radicand of (17), (18) vanishes [s]: beyond, (16) is not real."""
+        """Time at which the radicand of (17), (18) vanishes [s]; later, (16) is not real."""
         return self.share / 2 * self.contact_time
 
     @property
     def share(self) -> float:
-        """That time over the one at which the linear motion turns, t_c [1]."""
+        """Ratio of that time to t_c, the turning time of the linear motion [1]."""
         s = self.last
         return float(np.arctan2(s, cosine_at_end(self.excess, s))) / (np.pi / 2)
 
     @quiet
     def linear(self, t: ArrayLike) -> np.ndarray:
-        """Indentation delta_0 by the linear term.
+        """Compute the indentation delta_0 of the linear term.
 
-        Equation (15) of the paper, as derived::
+        Formula derived for equation (15) of the paper::
 
             delta_0 = v0 sqrt(m/xi_2) sin(sqrt(xi_2/m) t)
 
@@ -127,9 +127,9 @@ class PrintedMotion:
 
     @quiet
     def corrected(self, t: ArrayLike) -> np.ndarray:
-        """Indentation with the first correction, (14).
+        """Compute the indentation with the first correction, (14).
 
-        Equations (16) to (18) of the paper, as derived::
+        Formulas derived for equations (16) to (18) of the paper::
 
             delta = delta_0 + eta,  eta = -exp(-S) int G exp(S) dt,  S = int F dt
             F = (xi_2 delta_0 + xi_3 delta_0^(5/3))/(m V),  G = V_0 - V
@@ -143,7 +143,7 @@ class PrintedMotion:
         Returns
         -------
         float or ndarray
-            delta [m] in the shape of t; NaN outside the domain. The integrals are right to
+            delta [m] in the shape of t; NaN outside the domain. The integrals are accurate to
             1e-14 of the largest indentation.
         """
         kind, [t] = as_doubles(t)
@@ -153,7 +153,7 @@ class PrintedMotion:
         return as_result(self.max_indentation * (s + self._eta(u)), kind)
 
     def _eta(self, u: Double) -> Double:
-        """The correction eta over the linear motion's largest indentation."""
+        """Return the correction eta divided by the linear motion's largest indentation."""
         nodes, weights = leggauss(_NODES)
         ends = np.append(0.5 ** np.arange(_PARTS), 0.0)
         middle, half = (ends[:-1] + ends[1:]) / 2, (ends[:-1] - ends[1:]) / 2
@@ -163,7 +163,7 @@ class PrintedMotion:
         series = legvander(nodes, _NODES - 1) * weights[:, None] * (np.arange(_NODES) + 0.5)
 
         def integral(values: Double) -> tuple[Double, Double]:
-            """From 1 down to each part, and from its upper end on as a Legendre series."""
+            """Return the Legendre series on each part, integrated from its upper end and from 1."""
             parts = -half * legint((values @ series).T, lbnd=1.0)
             return np.append(0.0, np.cumsum(legval(-1.0, parts))[:-1]), parts
 
@@ -177,7 +177,7 @@ class PrintedMotion:
         return -total * np.exp(-growth)
 
 
-@np.errstate(all="ignore")  # what leaves the doubles ends in NaN
+@np.errstate(all="ignore")  # overflow results in NaN
 def printed_motion(
     R: float,
     m: float,
@@ -190,7 +190,7 @@ def printed_motion(
     *,
     corrected: bool = False,
 ) -> PrintedMotion:
-    """The paper's motion, its sums cut off.
+    """Compute the paper's motion with truncated sums.
 
     Equation (10) of the paper, with the derived K_j::
 
@@ -203,20 +203,27 @@ def printed_motion(
         sphere radius, half the plate's thickness and its radius [m]; above 0
     m : float
         sphere mass [kg]; m > 0
-    v0 : float
+        impact speed of the sphere [m/s]; v0 > 0
         speed of approach [m/s]; v0 > 0
     lam, mu : float
         Lame constants [Pa]; mu > 0, 3 lam > -2 mu
     modes : int
-        number of modes after which the sums, which diverge, are cut off; at least 1
+        number of modes after which the divergent sums are truncated; at least 1
     corrected : bool
-        xi_3 = -gamma_3/gamma_2^(8/3), as derived, instead of the printed one, whose dimension
-        is wrong: that one's value depends on the units, here those given
+        use xi_3 = -gamma_3/gamma_2^(8/3), as derived, instead of the published formula, which
+        is dimensionally inconsistent: its value depends on the units, here those of the arguments
 
     Returns
     -------
     PrintedMotion
-        Its numbers are NaN outside the domain and where a coefficient is no double above 0.
+        Its numbers are NaN outside the domain, and where a coefficient is not a positive double.
+
+    Examples
+    --------
+    >>> from generated.perturbation import printed_motion
+    >>> motion = printed_motion(0.01, 0.0327, 2.0, 0.004, 0.15, 22.5e9, 28.7e9, 100)
+    >>> print(f"{motion.contact_time:.6g}")
+    0.000308833
     """
     zeros, J1 = bessel_j0_zeros(modes), bessel_j1_at_j0_zeros(modes)
     phi = zeros / b

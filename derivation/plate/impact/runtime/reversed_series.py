@@ -1,4 +1,4 @@
-"""Force over indentation by the paper's reversed series, cut off: to show, not to compute with.
+"""Force as a function of indentation by the paper's reversed series: for comparison only.
 
 Arithmetic: Horner's rule; powers of a power series by Euler's recurrence; the search for the
 best circle; scaling of coefficients by powers of a radius.
@@ -12,7 +12,7 @@ from generated.arrays import Double, as_doubles, as_result, in_manifest, inside,
 from generated.contact_domain import elastic, modulus_factors, plates_of_lengths
 from generated.contact_series import Plates
 
-_CIRCLE = 129  # directions in which a radius of convergence is sought
+_CIRCLE = 129  # number of directions in the search for the radius of convergence
 
 
 @in_manifest(
@@ -32,7 +32,7 @@ def force_by_series(
     *,
     terms: int = 12,
 ) -> np.ndarray:
-    """Contact force by the truncated reversed series, NaN beyond its radius.
+    """Compute the contact force by the truncated reversed series, within its radius of convergence.
 
     Formula (Lagrange's inversion)::
 
@@ -54,13 +54,19 @@ def force_by_series(
     mu : array_like
         second Lame constant (shear modulus) [Pa]; mu > 0
     terms : int
-        Number of terms of the bracket, at least 1.
+        Number of terms of the series in parentheses, at least 1.
 
     Returns
     -------
     float or ndarray
-        P [N] in the arguments' broadcast shape; NaN outside the domain and for eps
-        beyond the radius of convergence (a lower bound of it, by Rouche's theorem).
+        P [N] in the arguments' broadcast shape; NaN outside the domain and for eps above a
+        lower bound of the radius of convergence (Rouche's theorem).
+
+    Examples
+    --------
+    >>> from generated import force_by_series
+    >>> print(f"{force_by_series(1e-6, 0.01, 0.004, 0.02, 22.5e9, 28.7e9):.6g}")
+    9.14599
     """
     if terms < 1:
         raise ValueError(f"expected at least one term, got terms={terms}")
@@ -76,15 +82,15 @@ def force_by_series(
     for power in reversed(range(terms)):
         coefficient = np.array([row[1][power] for row in rows] or [np.nan])[owner]
         value = value * eps + coefficient
-    _, modulus = modulus_factors(lam, mu)  # over mu
+    _, modulus = modulus_factors(lam, mu)  # divided by mu
     return as_result(kernels.force_of_bracket(delta, R, mu, modulus, value), kind)
 
 
 def _reversed(plates: Plates, plate: int, terms: int) -> tuple[float, Double]:
-    """Radius of convergence r in eps, and p_n r^n for n < terms.
+    """Return the radius of convergence r in eps, and p_n r^n for n < terms.
 
-    eps(A) = A sqrt(1 + F) takes each value below its least modulus on a circle
-    once within it, as long as 1 + F has no zero there: the best circle is sought.
+    Within a circle on which |eps(A)| is at least e and 1 + F has no zero, eps(A) =
+    A sqrt(1 + F) takes each value below e once. The circle with the largest e is sought.
     """
     reach = plates.reach[plate]
     if not np.isfinite(reach):
@@ -92,7 +98,7 @@ def _reversed(plates: Plates, plate: int, terms: int) -> tuple[float, Double]:
     row = plates.first.coefficients[:, plate]
     start = min(reach, 0.05 / max(abs(float(row[0])), 1e-300))
     circles = reach * np.geomspace(start / reach, 1.0, 1 + int(400 * (1 - np.log10(start / reach))))
-    directions = np.exp(1j * np.linspace(0.0, np.pi, _CIRCLE))  # the rest is conjugate
+    directions = np.exp(1j * np.linspace(0.0, np.pi, _CIRCLE))  # the others are conjugate
     radius = scale = 0.0
     for circle in circles:
         A = circle * directions
@@ -111,7 +117,7 @@ def _reversed(plates: Plates, plate: int, terms: int) -> tuple[float, Double]:
 
 
 def _power(series: Double, exponent: float) -> Double:
-    """A power of 1 + a power series without constant term (Euler's recurrence)."""
+    """Return a power of 1 + a power series without constant term, by Euler's recurrence."""
     result = np.zeros_like(series)
     result[0] = 1.0
     for n in range(1, series.size):

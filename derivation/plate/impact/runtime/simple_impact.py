@@ -1,14 +1,14 @@
-"""An impact by Hertz's law and by its first correction, with bounds of what these leave out.
+"""Impact by Hertz's law or its first correction, with bounds of the errors of both.
 
-With A = a/h, eta = h/b and S = (R/2a) d delta/da the contact law keeps, for every a < b::
+With A = a/h, eta = h/b and S = (R/2a) d delta/da the contact law satisfies, for every a < b::
 
     1 + 3/2 c_1 A - K_3 A^3 <= S <= 1 + 3/2 c_1 A
 
-so that `hertz` (S = 1) and `leading` (S = 1 + 3/2 c_1 A) know their own errors: proven ones,
-but for rounding, which is counted. One scene at a time, in microseconds, without NumPy.
+Hence `hertz` (S = 1) and `leading` (S = 1 + 3/2 c_1 A) return bounds of their own errors. These are
+proved; rounding errors are counted. One impact takes microseconds, without NumPy.
 
-Arithmetic: margins for rounding; intervals of logarithms added up; Newton's iteration and
-where it starts; ratios and products that tell whether numbers are ordinary.
+Arithmetic: margins for rounding; sums of intervals of logarithms; Newton's iteration and its
+starting value; ratios and products that tell whether numbers are ordinary.
 """
 
 from bisect import bisect_right
@@ -39,20 +39,20 @@ from generated.simple_impact_numbers import (
 )
 
 _ZEROS = tuple(zero for zero, _ in MODES)
-_ORDINARY = 1e-100, 1e100  # numbers whose products and roots are rounded as counted
+_ORDINARY = 1e-100, 1e100  # range of numbers whose products and roots are rounded as counted
 _PLATES = 1e-50, 1e50
-_MARGIN = log(1.02)  # bounds are taken on radii up to 1.02 times the largest found
-_DEEP = 0.5  # c_1 A > -1/3: the first correction, if negative, halves the slope at most
-_SLACK = 1.0 + 1e-9  # for the rounding of the bounds themselves
-_CLOSE = 4e-15  # residual of the largest radius' equation
+_MARGIN = log(1.02)  # bounds apply to radii up to 1.02 times the largest radius found
+_DEEP = 0.5  # c_1 A > -1/3: a negative first correction reduces the slope at most by half
+_SLACK = 1.0 + 1e-9  # allows for rounding of the bounds themselves
+_CLOSE = 4e-15  # residual of the equation of the largest radius
 _STEPS = 40
 
 ROUNDING = 4e-14
-"""Counted: below 200 roundings of 2^-53 in the worst of the results, half of this number.
+"""Bound of the rounding errors, counted: the worst result has fewer than 200 roundings of 2^-53.
 
-The largest radius has 40 of them, 23 since 1/5 is no double; force takes three times as many,
-the contact time twice as many and those of its sum. The C library's powers, roots and
-logarithms are taken to be right to two units in the last place."""
+The largest radius has 40 of them, 23 because 1/5 is not a double. The force has three times as
+many; the contact time has twice as many, plus those of its sum. Powers, roots and logarithms of
+the C library are assumed to be accurate to two units in the last place."""
 
 
 class Plate(NamedTuple):
@@ -64,10 +64,10 @@ class Plate(NamedTuple):
 
 
 class Estimate(NamedTuple):
-    """Contact time, largest indentation, force and contact radius, and relative error bounds.
+    """Contact time, peak indentation, peak force and contact radius, with relative error bounds.
 
-    `law` is of what the law leaves out, `quadrature` of the integral over time, `rounding` of
-    the rest; each holds for all four results.
+    `law` bounds the error of the simplified law, `quadrature` that of the integral over time and
+    `rounding` all other errors; each applies to all four results.
     """
 
     contact_time: float
@@ -80,7 +80,7 @@ class Estimate(NamedTuple):
 
 
 class _Scene(NamedTuple):
-    """Hertz's largest contact radius, E*, and the scene."""
+    """Hertz's largest contact radius, E*, and the parameters of the impact."""
 
     radius: float
     modulus: float
@@ -91,7 +91,7 @@ class _Scene(NamedTuple):
 
 
 def plate_of(eta: float) -> Plate:
-    """c_1 and K_3 of a plate h/b = eta, 1e-50 <= eta <= 1e50."""
+    """Return c_1 and K_3 of a plate h/b = eta, 1e-50 <= eta <= 1e50."""
     v = 1.0 / eta
     if v > THIN:
         bend, rest, roots = thin_plate(v)
@@ -105,7 +105,7 @@ def plate_of(eta: float) -> Plate:
 def hertz(
     R: float, m: float, v0: float, h: float, b: float, lam: float, mu: float
 ) -> Estimate | None:
-    """An impact by Hertz's law, as if on a half-space, and a bound of its error.
+    """Compute an impact by Hertz's law, as on a half-space, and a bound of its error.
 
     Parameters
     ----------
@@ -113,7 +113,7 @@ def hertz(
         sphere radius, half the plate's thickness and its radius [m]; above 0
     m : float
         sphere mass [kg]; m > 0
-    v0 : float
+        impact speed of the sphere [m/s]; v0 > 0
         speed of approach [m/s]; v0 > 0
     lam, mu : float
         Lame constants [Pa]; mu > 0, 3 lam > -2 mu
@@ -121,14 +121,21 @@ def hertz(
     Returns
     -------
     Estimate or None
-        None where nothing is shown: beyond a = b or R, for numbers that are not ordinary, or
-        if the law's slope may vanish.
+        None where no bound is proved: for a > b or a > R, for numbers outside the ordinary range,
+        and if the slope of the law may vanish.
+
+    Examples
+    --------
+    >>> from generated.simple_impact import hertz
+    >>> found = hertz(0.01, 0.0327, 0.01, 0.4, 4.0, 22.5e9, 28.7e9)
+    >>> print(f"{found.max_force:.6g} N, relative error at most {found.law:.1e}")
+    5.80118 N, relative error at most 2.9e-03
     """
     scene = _scene(R, m, v0, h, b, lam, mu)
     if scene is None:
         return None
     plate, top = plate_of(h / b), 1.02 * scene.radius / h
-    # Of the lower bound's loss, which is convex, the largest is at one of the ends.
+    # The loss of the lower bound is convex: its maximum is at one of the ends.
     low, up = hertz_bounds(plate.bend, plate.bend_error, plate.rest, top)
     law = law_error(max(0.0, low), max(0.0, up), 0.0, 0.0)
     found = hertz_peaks(scene.radius, R, v0, scene.modulus)
@@ -138,9 +145,16 @@ def hertz(
 def leading(
     R: float, m: float, v0: float, h: float, b: float, lam: float, mu: float
 ) -> Estimate | None:
-    """An impact by delta = (a^2/R) (1 + c_1 a/h), and a bound of its error.
+    """Compute an impact by delta = (a^2/R) (1 + c_1 a/h), and a bound of its error.
 
     Parameters and result are those of `hertz`.
+
+    Examples
+    --------
+    >>> from generated.simple_impact import leading
+    >>> found = leading(0.01, 0.0327, 0.01, 0.4, 4.0, 22.5e9, 28.7e9)
+    >>> print(f"{found.max_force:.6g} N, relative error at most {found.law:.1e}")
+    5.7938 N, relative error at most 2.4e-12
     """
     scene = _scene(R, m, v0, h, b, lam, mu)
     if scene is None:
@@ -152,7 +166,7 @@ def leading(
     steep = steepness(plate.bend, top)
     if not steep > -_DEEP:
         return None
-    # What S may be off by, over S_1: grows with A.
+    # Error of S relative to S_1, which grows with A.
     wrong, low, elasticity = leading_bounds(plate.bend_error, plate.rest, steep, top)
     law = law_error(low + wrong, wrong, max(0.0, -elasticity), max(0.0, elasticity))
     a = share * scene.radius
@@ -162,34 +176,34 @@ def leading(
 
 
 def law_error(low: float, up: float, fall: float, rise: float) -> float:
-    """The largest of `law_errors`."""
+    """Return the largest of `law_errors`."""
     return max(law_errors(low, up, fall, rise))
 
 
 def law_errors(
     low: float, up: float, fall: float, rise: float, energy: float = 0.0
 ) -> tuple[float, float, float, float]:
-    """Relative errors of the results if S is within 1 - low and 1 + up times S_1.
+    """Return relative errors of the results if S lies within 1 - low and 1 + up times S_1.
 
     Parameters
     ----------
     low, up
-        not negative [1]; they hold up to 1.02 times the largest radius by S_1
+        not negative [1]; valid up to 1.02 times the largest radius by S_1
     fall, rise
         d log S_1/d log a is between -fall and rise [1]
     energy
-        logarithm of the factor by which the contact may take more energy than the sphere
-        brings, its own weight at work; not negative [1]
+        logarithm of the ratio of the largest energy of the contact, work of the weight
+        included, to the kinetic energy of the sphere; not negative [1]
 
     Returns
     -------
     tuple of float
-        Of contact time, largest indentation, force and contact radius; inf where nothing is
-        shown: if the radius may exceed that range.
+        For contact time, peak indentation, force and contact radius; inf if the radius may
+        exceed the range of validity.
     """
     if not (low < 1.0 and up < inf and fall < 2.0):
         return inf, inf, inf, inf
-    # Logarithms of the true values over those by S_1 lie within these.
+    # Logarithms of the ratios of the true values to those by S_1 lie within these intervals.
     loss, gain = -log1p(-low), log1p(up)
     elasticity, depth, shorter, longer = elasticities(fall, rise)
     wider, narrower = (loss + energy) / elasticity, gain / elasticity
@@ -206,14 +220,14 @@ def law_errors(
 
 
 def _relative(logarithm: float) -> float:
-    """Relative error of a factor's logarithm."""
+    """Return the relative error for the logarithm of a factor."""
     return expm1(logarithm) * _SLACK if logarithm < 700.0 else inf
 
 
 def _scene(
     R: float, m: float, v0: float, h: float, b: float, lam: float, mu: float
 ) -> _Scene | None:
-    """Hertz's largest radius; None for extreme numbers."""
+    """Return Hertz's largest radius; None for extreme numbers."""
     modulus, energy, work = sphere(R, m, v0, lam, mu)
     low, high = _ORDINARY
     numbers = (R, m, v0, h, b, modulus, energy, energy / modulus, work)
@@ -223,10 +237,10 @@ def _scene(
 
 
 def _share(y: float) -> float:
-    """s > 0 of s^5 (1 + y s) = 1, the largest radius over Hertz's, by Newton's iteration.
+    """Return the root s > 0 of s^5 (1 + y s) = 1, the largest radius divided by Hertz's.
 
-    From above for y > 0, where the left side is convex; for y < 0 the root is sought below
-    s = 2/(-3 y), up to where that holds too. NaN if there is none.
+    Newton's iteration starts above the root for y > 0, where the left side is convex. For y < 0
+    the search ends at s = 2/(-3 y), where convexity ends. NaN if there is no root.
     """
     s = min(1.0, y ** (-1.0 / 6.0)) if y > 0.0 else 1.0
     for _ in range(_STEPS):
@@ -242,7 +256,7 @@ def _share(y: float) -> float:
 def _estimate(
     scene: _Scene, a: float, found: tuple[float, float, float], law: float, quadrature: float
 ) -> Estimate | None:
-    """The results, if the contact is shown to stay within the plate and the sphere."""
+    """Return the results if the contact provably stays within the plate and the sphere."""
     if not (law < inf and 1.02 * a < min(scene.b, scene.R)):
         return None
     return Estimate(*found, a, law, quadrature, ROUNDING)

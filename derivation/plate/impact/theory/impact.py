@@ -42,7 +42,7 @@ def motion() -> tuple[Formula, Formula]:
     acceleration = -force / m
     proof = prove(
         "Energy integral",
-        r"$\delta'^2$ is differentiated along the motion, and is $v_0^2$ at $\delta = 0$.",
+        r"$\delta'^2$ is differentiated along the motion and equals $v_0^2$ at $\delta = 0$.",
         {
             "along the motion": sp.diff(squared, delta) - 2 * acceleration,
             "start": squared.subs(delta, 0) - v0**2,
@@ -57,7 +57,7 @@ def motion() -> tuple[Formula, Formula]:
         Formula(
             "acceleration",
             r"\ddot{\delta}",
-            "acceleration of the sphere, the force cut after its second term",
+            "acceleration of the sphere, the force truncated after its second term",
             acceleration,
             "m/s^2",
             "11",
@@ -67,7 +67,7 @@ def motion() -> tuple[Formula, Formula]:
         Formula(
             "speed",
             r"\dot{\delta}",
-            "velocity of the sphere, the force cut after its second term",
+            "velocity of the sphere, the force truncated after its second term",
             sp.sqrt(squared),
             "m/s",
             "13",
@@ -118,8 +118,8 @@ def contact_time(shown: int = SHOWN) -> tuple[Formula, ...]:
         Formula(
             "contact_integrand",
             r"\mathrm{d}I/\mathrm{d}u",
-            r"$q = 1 - u^2$; half the contact time is $\sqrt{m/2} (a_m^2/R)/\sqrt{C a_m^5}$ "
-            "times its integral",
+            r"integrand for $q = 1 - u^2$; half the contact time is its integral times "
+            r"$\sqrt{m/2} (a_m^2/R)/\sqrt{C a_m^5}$",
             integrand,
             "1",
             "13",
@@ -130,7 +130,7 @@ def contact_time(shown: int = SHOWN) -> tuple[Formula, ...]:
         Formula(
             "contact_work",
             r"\frac{m v_0^2}{2 C a_m^5}",
-            "energy of impact over $C a_m^5$, which determines $a_m$",
+            "impact energy divided by $C a_m^5$, which determines $a_m$",
             work_of_contact(shown),
             "1",
             "13",
@@ -209,7 +209,7 @@ def hertz_time() -> Formula:
     return Formula(
         "hertz_time",
         r"2 t_c v_0/\delta_{\max}",
-        "contact time on the half-space over largest indentation by velocity",
+        r"contact time on the half-space divided by $\delta_{\max}/v_0$",
         value,
         "1",
         "13",
@@ -234,7 +234,7 @@ def linear_motion() -> Formula:
     return Formula(
         "delta_0",
         r"\delta_0(t)",
-        "indentation under the force's first term alone",
+        "indentation under the first term of the force alone",
         value,
         "m",
         "15",
@@ -273,8 +273,8 @@ def linearisation() -> tuple[Formula, ...]:
     slope = sp.diff(solution, integral) * source * sp.exp(S) + sp.diff(solution, S) * rate
     proof = prove(
         "Linearisation",
-        r"$V(\delta_0 + \eta) - V_0(\delta_0)$ is expanded to first order in $\eta$; (16) is put "
-        r"into $\eta' + F \eta + G = 0$; the radicand is taken where $V_0$ vanishes.",
+        r"$V(\delta_0 + \eta) - V_0(\delta_0)$ is expanded to first order in $\eta$; (16) is "
+        r"inserted into $\eta' + F \eta + G = 0$; the radicand is taken where $V_0$ vanishes.",
         {
             "F": F + sp.diff(V, delta_0),
             "G": G - (sp.sqrt(v0**2 - xi_k[2] / m * delta_0**2) - V),
@@ -287,12 +287,12 @@ def linearisation() -> tuple[Formula, ...]:
         return Formula(name, symbol, what, value, unit, eq, ("speed", "delta_0"), proof)
 
     return (
-        record("F_1", "F(t)", "coefficient of the correction's equation", F, "1/s", "17"),
-        record("G_1", "G(t)", "source of the correction's equation", G, "m/s", "18"),
+        record("F_1", "F(t)", "coefficient in the equation of the correction", F, "1/s", "17"),
+        record("G_1", "G(t)", "source term in the equation of the correction", G, "m/s", "18"),
         record(
             "radicand_at_turn",
             r"\dot{\delta}^2(\delta_{0,\max})",
-            "radicand of (17), (18) at the linear motion's turning point",
+            "radicand of (17), (18) at the turning point of the linear motion",
             at_turning,
             "m^2/s^2",
             "18",
@@ -319,7 +319,7 @@ def linearisation_about_hertz() -> tuple[Formula, Formula]:
     V, V_0 = (sp.sqrt(square.subs(x, sp.sqrt(delta_0))) for square in squares)
     proof = prove(
         "Linearisation about Hertz's motion",
-        "The velocities' squares by hand; $F$ is minus the derivative of the perturbed one.",
+        "The squares of the velocities by hand; $F$ is minus the derivative of the perturbed one.",
         {"F": F + sp.diff(V, delta_0), "G": G - V_0 + V},
     )
     sources = ("P_half", "p_1", "speed")
@@ -327,7 +327,7 @@ def linearisation_about_hertz() -> tuple[Formula, Formula]:
         Formula(
             "F_hertz",
             r"F_H(t)",
-            "coefficient of the correction to Hertz's motion",
+            "coefficient in the equation of the correction to Hertz's motion",
             F,
             "1/s",
             "17",
@@ -337,7 +337,7 @@ def linearisation_about_hertz() -> tuple[Formula, Formula]:
         Formula(
             "G_hertz",
             r"G_H(t)",
-            "source of the correction to Hertz's motion",
+            "source term in the equation of the correction to Hertz's motion",
             G,
             "m/s",
             "18",

@@ -87,7 +87,7 @@ def energy_number() -> Formula:
     return Formula(
         "energy_number",
         r"\mathcal{Y}",
-        "energy of impact over $(4/3) E^* h^5/R^2$",
+        "impact energy divided by $(4/3) E^* h^5/R^2$",
         sp.factor(value),
         "1",
         "13",
@@ -116,7 +116,7 @@ def law_slopes() -> tuple[Formula, ...]:
     side = -4 / sp.pi**2 * sp.sinh(alpha * _y) / _y
     proof = prove(
         "Slopes of the contact law",
-        r"The series is differentiated by $a$; the split times $\alpha^2$ by $\alpha$, and at "
+        r"The series is differentiated by $a$, the split times $\alpha^2$ by $\alpha$ and, at "
         r"fixed $\alpha$ by $\log(h/b)$.",
         {
             "series": sp.diff(delta, a) - slope,
@@ -133,7 +133,7 @@ def law_slopes() -> tuple[Formula, ...]:
         Formula(
             "delta_slope",
             r"\mathrm{d}\delta/\mathrm{d}a",
-            "indentation added per contact radius added, for $a < 4 h$ and $a < b$",
+            "derivative of the indentation by the contact radius, for $a < 4 h$ and $a < b$",
             slope,
             "1",
             "6",
@@ -143,7 +143,7 @@ def law_slopes() -> tuple[Formula, ...]:
         Formula(
             "slope_modes",
             r"\frac{R}{2a}\frac{\mathrm{d}\delta_h}{\mathrm{d}a}",
-            r"thickness' part of $d \delta/da$ over that of the half-space",
+            r"contribution of the thickness to $d \delta/da$, divided by the half-space's",
             sinc,
             "1",
             "6",
@@ -154,7 +154,7 @@ def law_slopes() -> tuple[Formula, ...]:
         Formula(
             "F_thickness",
             r"h\,\partial F/\partial h",
-            r"what $\delta R/a^2$ gains as $\log h$ grows, at fixed $a$ and $b$",
+            r"derivative of $\delta R/a^2$ by $\log h$ at fixed $a$ and $b$",
             deeper,
             "1",
             "6",
@@ -241,7 +241,7 @@ def modulus_slope() -> Formula:
     return Formula(
         "modulus_by_lam",
         r"\partial\log E^*/\partial\log\lambda",
-        r"share of $\lambda$ in the modulus; that of $\mu$ is the rest to 1",
+        r"derivative of $\log E^*$ by $\log \lambda$; that by $\log \mu$ is 1 minus this",
         value,
         "1",
         "7",
@@ -289,8 +289,8 @@ def peaks() -> tuple[Formula, ...]:
     depth = (grown(lift) + 2 * lift) / lift
     proof = prove(
         "Peaks by energy and thickness",
-        "$A^5 E$ is the energy number, $A^2 (1 + F)$ the indentation: $A$ moves so that the "
-        r"former grows, or stays while $\eta$ grows.",
+        "$A^5 E$ is the energy number and $A^2 (1 + F)$ the indentation. $A$ changes such that the "
+        r"former increases, or stays constant while $\eta$ increases.",
         {
             "work": work - work_of_contact(),
             "by energy": energy_by_radius * by_energy - 1,
@@ -306,10 +306,10 @@ def peaks() -> tuple[Formula, ...]:
         ("depth_by_thickness", r"\partial\log(\delta_m/h^2)/\partial\log\eta", depth_by_eta),
     )
     meanings = (
-        "growth of the largest contact radius with the energy; the force's is three times this",
-        "growth of $a_m/h$ with $h/b$ at fixed energy number",
-        "growth of the largest indentation with the energy",
-        r"growth of $\delta R/h^2$ with $h/b$ at fixed energy number",
+        r"derivative of $\log a_m$ by the log of the energy; that of the force is three times this",
+        r"derivative of $\log(a_m/h)$ by $\log(h/b)$ at fixed energy number",
+        "derivative of the log of the peak indentation by that of the energy",
+        r"derivative of $\log(\delta R/h^2)$ by $\log(h/b)$ at fixed energy number",
     )
     return tuple(
         Formula(name, latex, meaning, value, "1", "13", ("contact_work",), proof)
@@ -354,7 +354,7 @@ def times() -> tuple[Formula, ...]:
             proofs[f"{label} by {name}"] = sp.expand(moved - change)
     proof = prove(
         "Contact time by contact radius and thickness",
-        "Numerator and radicand at fixed $u$ are differentiated by each $D_n$; the quotient's "
+        "Numerator and radicand at fixed $u$ are differentiated by each $D_n$, with the quotient "
         "rule.",
         proofs,
     )
@@ -366,7 +366,7 @@ def times() -> tuple[Formula, ...]:
         Formula(
             name,
             rf"{latex}\,\mathrm{{d}}I/\mathrm{{d}}u",
-            f"growth of the contact time's integrand with {by}",
+            f"derivative of the contact time's integrand by {by}",
             value,
             "1",
             "13",

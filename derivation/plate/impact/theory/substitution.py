@@ -64,7 +64,7 @@ def slope_law() -> Formula:
     return Formula(
         "slope_wall",
         r"\frac{R}{2a}\frac{\mathrm{d}\delta_b}{\mathrm{d}a}",
-        r"side wall's part of $d \delta/da$ over that of the half-space",
+        r"contribution of the finite radius to $d \delta/da$, divided by the half-space's",
         sp.Integral(density * WALL.subs(height, _y), (_y, 0, sp.oo)),
         "1",
         "6",
@@ -83,11 +83,11 @@ def one_sided() -> Formula:
     order = sp.Symbol("k", integer=True, positive=True)
     rising = sp.diff(_y - sp.sin(_y), _y), sp.diff(sp.sin(_y) - _y + _y**3 / 6, _y)
     proof = prove(
-        "The law's slope between two simple ones",
-        r"$y - \sin y$ vanishes at 0 and rises; so do $y^2/2 + \cos y - 1$, with that slope, and "
-        r"$\sin y - y + y^3/6$, with this one; each power of $\alpha$ in $\sinh(\alpha y)$ "
-        r"beyond the first is at most $\alpha^3$; all $w_n > 0$, as $G > 1$. The first powers "
-        "add up to $3/2 c_1 A$.",
+        "Bounds of the law's slope",
+        r"$y - \sin y$ vanishes at 0 and increases; so does $y^2/2 + \cos y - 1$, which has that "
+        r"slope, and $\sin y - y + y^3/6$, which has this one. Each power of $\alpha$ in "
+        r"$\sinh(\alpha y)$ beyond the first is at most $\alpha^3$; all $w_n > 0$, because "
+        "$G > 1$. The first powers add up to $3/2 c_1 A$.",
         {
             "sinc below 1": rising[0] - chord,
             "1 - cos y below y^2/2": sp.diff(_y**2 / 2 - chord, _y) - (_y - sp.sin(_y)),
@@ -103,7 +103,7 @@ def one_sided() -> Formula:
     return Formula(
         "S_most",
         r"S_1",
-        r"what $(R/2a) d \delta/da$ is at most, for every $a < b$",
+        r"upper bound of $(R/2a) d \delta/da$ for every $a < b$",
         1 + sp.Rational(3, 2) * c_A[1] * a_ratio,
         "1",
         "6",

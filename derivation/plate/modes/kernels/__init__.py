@@ -1,4 +1,4 @@
-"""Which expressions become code, and the numbers that this code needs: the plate's modes."""
+"""Printed functions of the plate's modes, and the constants that they need."""
 
 from pathlib import Path
 

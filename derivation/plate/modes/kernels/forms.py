@@ -1,7 +1,7 @@
 """Stable forms of one mode's displacements and stresses through the thickness.
 
-Deflection, S_zz and S_rz, whose terms are of one sign, are written out here; the fields in
-plane, whose terms are not, in `in_plane`; notation and what they share in `steps`.
+Deflection, S_zz and S_rz, whose terms have one sign, are written here; the in-plane fields, whose
+terms do not, are in `in_plane`; `steps` contains the notation and common steps.
 """
 
 import sympy as sp
@@ -59,7 +59,7 @@ ODD_T = Step(odd_T, -expm1(-2 * T), "2 e^(-T) sinh T")
 
 
 def mode_forms() -> dict[str, Shape]:
-    """Steps and value of every field of a mode."""
+    """Return steps and value of every field of a mode."""
     plane = in_plane()
     return {
         "mode_f": _deflection(),
@@ -72,7 +72,7 @@ def mode_forms() -> dict[str, Shape]:
 
 
 def _deflection() -> Shape:
-    """A sum of terms of one sign; what stands beside 1 is added up first."""
+    """Return a sum of terms of one sign; the terms added to 1 are summed first."""
     cubic_of = sections()["sinh_cubic"]
     fields = (
         *DEPTHS,
@@ -82,14 +82,14 @@ def _deflection() -> Shape:
         ODD_U,
         ODD_V,
         Step(depth, h - z),
-        Step(slip, phi * (h - depth - z), "what rounding h - z takes from v, exactly"),
-        Step(rest, excess + (v * odd_u + far_u * ratio), "in thick plates the half-space's less 1"),
+        Step(slip, phi * (h - depth - z), "exact correction of v for rounding of h - z"),
+        Step(rest, excess + (v * odd_u + far_u * ratio), "half-space value - 1 in thick plates"),
     )
     by_far = 2 * T * (ratio * (1 + far_v) + u * odd_v)
     scale = (A_j, 1, mu, -1, phi, -1)
 
     def lacking(main: sp.Expr) -> Step:
-        return Step(others, others - slip * (main + others), "with what e^(-v) lacks")
+        return Step(others, others - slip * (main + others), "with the correction of e^(-v)")
 
     thin = Branch(
         (
@@ -115,7 +115,7 @@ def _deflection() -> Shape:
             Step(decay, far_u * far_v),
             Step(odd_T, 1 - decay, ODD_T.comment),
             LACK,
-            Step(share, decay * (odd_T + 4 * T**2) * (1 + rest), "what sinh^2 T exceeds D by"),
+            Step(share, decay * (odd_T + 4 * T**2) * (1 + rest), "excess of sinh^2 T over D"),
             Step(over, by_far * far_u),
             Step(others, rest + (share + over) / (1 - lack)),
             lacking(ONE),
@@ -127,7 +127,7 @@ def _deflection() -> Shape:
 
 
 def _axial() -> Shape:
-    """S_zz; in plates of no thickness alpha^2 (1 + 2 beta), to which the rest is added."""
+    """Return S_zz: for zero thickness alpha^2 (1 + 2 beta), to which a correction is added."""
     known = sections()
     square_of, cubic_of = known["cosh_square"], known["sinh_cubic"]
     quartic_of, quintic_of = known["cosh_quartic"], known["sinh_quintic"]
@@ -147,14 +147,14 @@ def _axial() -> Shape:
                 square_u * quartic_of(square_u)
                 + square_v * square_of(square_u) * cubic_of(square_v) / both
                 - 3 * fifth,
-                "what the faces of a plate of no thickness leave of the term in beta",
+                "remainder of the term in beta, which cancels for zero thickness",
             ),
             Step(
                 first,
                 square_u * quintic_of(square_u)
                 + square_v * cubic_of(square_u) * square_of(square_v) / both
                 - fifth,
-                "and of the term in alpha",
+                "remainder of the term in alpha",
             ),
             Step(over, (beta * third + alpha * first) / cubic),
             Step(core, alpha**2 * (1 + (2 * beta + over))),
@@ -184,7 +184,7 @@ def _axial() -> Shape:
 
 
 def _shear() -> Shape:
-    """S_rz, which vanishes on both faces."""
+    """Return S_rz, which vanishes on both faces."""
     cubic_of = sections()["sinh_cubic"]
     thin = Branch(
         (
@@ -198,7 +198,7 @@ def _shear() -> Shape:
             Step(
                 over,
                 (plus * square_u * cubic_of(square_u) + square_v * cubic_of(square_v)) / (1 + plus),
-                "small beside 1",
+                "small compared with 1",
             ),
             Step(core, alpha * beta * (1 + over) / cubic),
         ),

@@ -1,7 +1,7 @@
-"""Stable forms of one mode's fields in plane: radial displacement, S_rr and S_tt.
+"""Stable forms of one mode's in-plane fields: radial displacement, S_rr and S_tt.
 
-In thin plates the shares of both faces cancel, and bending and stretching are added instead.
-In thick ones those would cancel.
+In thin plates the contributions of both faces cancel, so that bending and extension are added
+instead. In thick plates those would cancel.
 """
 
 import sympy as sp
@@ -45,25 +45,25 @@ bending, stretching = sp.symbols("bending stretching", real=True)
 small_x, small_t, lift, gain, lean = sp.symbols("small_x small_t lift gain lean", real=True)
 
 CROSSING = sp.Integer(3)
-"""The same as `THIN` for the radial displacement."""
+"""Switch point of the radial displacement, like `THIN`."""
 
 TO_FAR = (Step(dist, h + z), Step(height, dist - h))
-REST_U = Step(rest_u, phi * (z - height), "what rounding h + z takes from u")
-EXACT_U = (*TO_FAR, Step(rest_u, REST_U.expression + LOST(phi, dist), "what rounding takes from u"))
+REST_U = Step(rest_u, phi * (z - height), "correction of u for rounding of h + z")
+EXACT_U = (*TO_FAR, Step(rest_u, REST_U.expression + LOST(phi, dist), "rounding correction of u"))
 EXACT_V = (
     Step(depth, h - z),
-    Step(slip, phi * (h - depth - z) + LOST(phi, depth), "what rounding takes from v"),
+    Step(slip, phi * (h - depth - z) + LOST(phi, depth), "correction of v for rounding"),
 )
 MIDDLE = (Step(t, phi * z), Step(zeta, z / h, "t/x"))
 
 
 def in_plane() -> dict[str, Shape]:
-    """Steps and value of each of these fields."""
+    """Return steps and value of each of these fields."""
     return {"mode_g": _radial_displacement(), "mode_rr": _radial(), "mode_tt": _hoop()}
 
 
 def _of_middle(*unused: sp.Symbol) -> Steps:
-    """What bending and stretching are made of, each over its power, but for what is unused."""
+    """Return the factors of bending and extension, each divided by its power."""
     square_of, cubic_of = sections()["cosh_square"], sections()["sinh_cubic"]
     steps = (
         Step(square_T, T**2),
@@ -81,13 +81,13 @@ def _of_middle(*unused: sp.Symbol) -> Steps:
         Step(cubic, cubic_of(square_T)),
         Step(minus, square_T * cubic, "(sinh T - T)/T"),
         Step(plus, 4 + 2 * minus, "2 (sinh T + T)/T"),
-        Step(level, 3 * zeta / square_T, "bending in a plate of no thickness"),
+        Step(level, 3 * zeta / square_T, "bending at zero thickness"),
     )
     return tuple(step for step in steps if step.symbol not in unused)
 
 
 def _growth() -> Steps:
-    """What `level` grows by, the same for both stresses."""
+    """Return the growth of `level`, which both stresses share."""
     quintic_of = sections()["sinh_quintic"]
     growth = (cosh_x * small_t + rise - 6 * square_T * quintic_of(square_T)) / (6 * cubic)
     return (
@@ -97,26 +97,26 @@ def _growth() -> Steps:
 
 
 def _from_faces(main: tuple[sp.Expr, ...], far: sp.Expr, less: sp.Expr) -> Steps:
-    """Both faces' shares in plane over 4 e^(-2T) D, divided by as little as possible.
+    """Return both faces' in-plane terms over 4 e^(-2T) D, with the smallest possible divisor.
 
-    The main terms, less `far_u` times what comes by way of the far face, and less the rest.
+    They are the main terms, minus `far_u` times the back face's terms, minus the remainder.
     """
     return (
         LACK,
-        Step(tip, far_u * far, "by way of the far face"),
+        Step(tip, far_u * far, "contribution of the back face"),
         Step(over, less - 2 * rest_u * tip),
         Step(whole, sum(main) - (tip + over)),
-        Step(rest, whole * (lack / (1 - lack) - slip) - over, "with what e^(-v) lacks"),
+        Step(rest, whole * (lack / (1 - lack) - slip) - over, "with the correction of e^(-v)"),
         Step(core, SUM(*main, -tip, rest)),
     )
 
 
 def _radial_displacement() -> Shape:
-    """Half the sum in plane, c = 1 - 2 nu.
+    """Return half the in-plane sum, c = 1 - 2 nu.
 
-    Where c is small, cosh x cosh t and x sinh x sinh t in bending cancel: it is
-    1 - (x^2 - t^2)/2 and what is small beside that. Three terms may each be all there is, or
-    cancel the others: they are added closely, what rounding takes from x and v with them.
+    Where c is small, cosh x cosh t and x sinh x sinh t in bending cancel to
+    1 - (x^2 - t^2)/2 and smaller terms. Any one of three terms may dominate, or cancel the others:
+    they are added with compensation, rounding errors of x and v included.
     """
     quartic_of = sections()["cosh_quartic"]
     above_x, above_t, mixed = sp.symbols("above_x above_t mixed", real=True)
@@ -126,8 +126,8 @@ def _radial_displacement() -> Shape:
     elastic = (
         Step(modulus, lam + mu),
         Step(c, mu / modulus, "1 - 2 nu"),
-        Step(base, sp.Heaviside(mu - lam, 1), "what c is closer to"),
-        Step(shift, (mu * (1 - base) - base * lam) / modulus, "what it is off by"),
+        Step(base, sp.Heaviside(mu - lam, 1), "the number 0 or 1 that is closer to c"),
+        Step(shift, (mu * (1 - base) - base * lam) / modulus, "difference of c and that number"),
     )
     made = {step.symbol: step for step in _of_middle()}
     middle = Branch(
@@ -135,7 +135,7 @@ def _radial_displacement() -> Shape:
             *elastic,
             Step(t, phi * z),
             Step(c_less_1, -lam / modulus, "-2 nu"),
-            Step(gap, 2 * x * LOST(phi, h) + LOST(x, x), "what rounding takes from x^2"),
+            Step(gap, 2 * x * LOST(phi, h) + LOST(x, x), "correction of x^2 for rounding"),
             Step(square_x, x**2 + gap),
             *(made[s] for s in (square_t, small_x, small_t, sinh_x, sinh_t)),
             Step(above_x, square_x * quartic_of(square_x), "(cosh x - 1)/x^2 - 1/2"),
@@ -180,7 +180,7 @@ def _radial_displacement() -> Shape:
 
 
 def _radial() -> Shape:
-    """The sum in plane with c = 1; in thin plates twice `_hoop`'s with lam = modulus, nearly."""
+    """Return the in-plane sum for c = 1; in thin plates nearly twice `_hoop` for lam = modulus."""
     middle = Branch(
         (
             *MIDDLE,
@@ -189,7 +189,7 @@ def _radial() -> Shape:
             Step(
                 bending,
                 (cosh_x * (versine - small_t) - square_x * sinh_t * sinh_x) / (6 * cubic),
-                "what `level` times it makes the whole of bending of twice mode_tt's",
+                "factor of `level` that gives the bending part of twice mode_tt",
             ),
             Step(gap, square_x * sections()["cosh_quintic"](square_x)),
             Step(narrow, square_x * (sp.Rational(1, 3) + gap), "cosh x - sinh x/x"),
@@ -216,7 +216,7 @@ def _radial() -> Shape:
 
 
 def _hoop() -> Shape:
-    """lam times the dilatation: the sum in plane with c = 1 and d = 0."""
+    """Return lam times the dilatation: the in-plane sum for c = 1 and d = 0."""
     scale = (A_j, 1, lam, 1, modulus, -1)
     elastic = Step(modulus, lam + mu)
     middle = Branch(

@@ -1,5 +1,8 @@
-"""Rows of the plate's modal sums, and what all its functions say and test."""
+"""Rows of the modal sums, and the conditions and text common to all printed functions."""
 
+from collections.abc import Mapping
+
+import mpmath
 import sympy as sp
 
 from derivation.engine.emit.budgets import Budget
@@ -8,33 +11,35 @@ from derivation.engine.emit.printer import to_numpy
 from derivation.engine.formula.record import Record
 from derivation.engine.rewrite.form import Form
 from derivation.plate.modes.kernels.shares import ARGUMENTS as SHARE_ARGUMENTS
-from derivation.plate.vocabulary import ARGUMENTS, C1, C3, A_j
+from derivation.plate.vocabulary import ARGUMENTS, C1, C2, C3, C4, J1, PLATE, A_j, b, phi
 
 TESTED = {"phi * h >= 1e-151": {"phi", "h"}, "T >= 1e-151": {"T"}}
-"""Conditions that end a domain where the tests do, with the arguments they are about.
+"""Conditions that limit a domain to the tested range, each with the arguments it contains.
 
 Below, products of such numbers leave the range of doubles.
 """
+EXAMPLE_MODES = 3
+"""Number of modes that the examples sum."""
 
 
 def _constants(stated: sp.Expr) -> str:
     return ", C_k = A_j*Omega_k" if stated.has(C1) or stated.has(C3) else ""
 
 
-STYLE = Style(TESTED, _constants)
+STYLE = Style(TESTED, _constants, "generated")
 
 
 def kernel_of_sum(
-    formula: Record, coefficient: Record, factor: Record, budget: Budget, share: Form | None
+    formula: Record, formulas: Mapping[str, Record], budget: Budget, share: Form | None
 ) -> EmittedKernel:
-    """Row of a modal sum: its arguments are those of its parts, less phi and J1.
+    """Return the row of a modal sum: its arguments are those of its parts without phi and J1.
 
-    One mode's share has a stable form of its own, or is a routine of `shares`.
+    The contribution of one mode has a stable form of its own, or is a routine of `shares`.
     """
-    expression = formula.expression
+    expression, coefficient = formula.expression, formulas["A_j"]
     parts: tuple[Record, ...] = (formula,)
     if any(str(symbol).startswith("C") for symbol in expression.free_symbols):
-        parts += (coefficient, factor)
+        parts += (coefficient, formulas["Omega_1"])
     names = {x.name for part in parts for x in part.arguments}
     names -= {"phi", "J1", "A_j", "C1", "C2", "C3", "C4"}
     arguments = tuple(x for x in ARGUMENTS if x.name in names)
@@ -42,6 +47,24 @@ def kernel_of_sum(
     steps = () if share is None else lines(share.steps)
     given = ", ".join(under if x == A_j else str(x) for x in SHARE_ARGUMENTS)
     value = f"{formula.name}_of_mode({given})" if share is None else to_numpy(share.value)
+    result = _of_modes(expression, formulas)
     return kernel(
-        formula, arguments, "modal_sum", budget, STYLE, steps=steps, value=value, modes=True
-    )
+        formula, arguments, "modal_sum", budget, STYLE,
+        steps=steps, value=value, modes=EXAMPLE_MODES, result=result,
+    )  # fmt: skip
+
+
+def _of_modes(term: sp.Expr, formulas: Mapping[str, Record]) -> sp.Expr:
+    """Return the sum over the first modes at the vocabulary's sample values."""
+    for k, constant in enumerate((C1, C2, C3, C4), start=1):
+        term = term.xreplace({constant: A_j * formulas[f"Omega_{k}"].expression})
+    term = term.xreplace({A_j: formulas["A_j"].expression})
+    with mpmath.workdps(40):
+        zeros = [mpmath.besseljzero(0, n + 1) for n in range(EXAMPLE_MODES)]
+        samples = {x.symbol: sp.Float(PLATE.values[x.name], 40) for x in PLATE.arguments
+                   if x.name in PLATE.values}  # fmt: skip
+        of_mode = (
+            {phi: sp.Float(j, 40) / samples[b], J1: sp.Float(mpmath.besselj(1, j), 40)}
+            for j in zeros
+        )
+        return sp.Add(*(term.xreplace(samples | mode) for mode in of_mode))

@@ -1,4 +1,4 @@
-"""One mode's share of the interior fields, from its shapes through the thickness."""
+"""One mode's contribution to the interior fields, from its shapes through the thickness."""
 
 from collections.abc import Mapping
 
@@ -13,7 +13,7 @@ from derivation.plate.vocabulary import A_j, h, lam, mu, phi, r, z
 
 SHARES = ("u", "w", "sigma_rr", "sigma_tt", "sigma_zz", "sigma_rz")
 SMALLEST = sp.Rational(1, 2**30)
-"""Nearer to the axis J1(y)/y is 1/2 to rounding."""
+"""Closer to the axis, J1(y)/y rounds to 1/2."""
 POWER_OF_TWO = sp.Function("power_of_two")
 ARGUMENTS = (r, z, phi, h, lam, mu, A_j)
 y, away, size, unit = sp.symbols("y away size unit", positive=True)
@@ -21,7 +21,7 @@ shape, radial, hoop, J, chord, twist = sp.symbols("shape radial hoop J chord twi
 
 
 def _shape(name: str, amplitude: sp.Expr) -> sp.Expr:
-    """A loaded mode's shape under an amplitude."""
+    """Return a loaded mode's shape for an amplitude."""
     shapes: Mapping[str, sp.Expr] = {f.name: f.expression for f in loaded_mode()}
     found: sp.Expr = shapes[name].subs(A_j, amplitude)
     return found
@@ -36,13 +36,13 @@ def _bessel(order: int, at: sp.Expr) -> Several:
 
 
 def _field(name: str) -> sp.Expr:
-    """What theory says of the share, under A_j."""
+    """Return the contribution for A_j as derived."""
     fields = {f.name: f.expression for f in interior_fields()}
     return loaded(fields[name])
 
 
 def of_bessel() -> Routine:
-    """What the stresses in plane need of J0 and J1."""
+    """Return the functions of J0 and J1 that in-plane stresses need."""
 
     def without_guard(expression: sp.Expr) -> sp.Expr:
         return sp.simplify(expression.xreplace({sp.Max(y, SMALLEST): y}))
@@ -61,28 +61,28 @@ def of_bessel() -> Routine:
             sp.besselj(1, y) / y,
             sp.besselj(0, y) - 2 * sp.besselj(1, y) / y,
         ),
-        "J1(y)/y, which is 1/2 on the axis, and what the derivative of J1 at y exceeds it by.",
+        "Return J1(y)/y, which is 1/2 on the axis, and dJ1/dy - J1(y)/y.",
         {},
         without_guard,
     )
 
 
 def _plain(name: str, mode: str, order: int, factor: sp.Expr) -> Routine:
-    """A field that is one shape times J0 or J1; the factor goes into the amplitude."""
+    """Return a field that is one shape times J0 or J1; the factor belongs to the amplitude."""
     statements = (_mode(shape, mode, A_j * factor), _bessel(order, phi * r))
     return _routine(name, statements, shape * J)
 
 
 def _in_plane(name: str, own: sp.Symbol) -> Routine:
-    """A stress in plane: the sum of both is rounded as little as can be.
+    """Return an in-plane stress, the sum of two terms, with as few roundings as possible.
 
-    It is small where Poisson's ratio is almost -1. The amplitude is a power of two in both.
+    It is small where Poisson's ratio is almost -1. Both terms contain a power of two as amplitude.
     """
     at = phi * r
     J0, J1 = sp.besselj(0, at), sp.besselj(1, at)
     statements = (
         Several((chord, twist), "chord_and_twist", (at,), (J1 / at, J0 - 2 * J1 / at)),
-        Let(unit, POWER_OF_TWO(A_j), "by which nothing is rounded", opaque=True),
+        Let(unit, POWER_OF_TWO(A_j), "exact scaling", opaque=True),
         _mode(radial, "mode_rr", unit),
         _mode(hoop, "mode_tt", unit),
         Let(size, A_j / unit),
@@ -98,17 +98,17 @@ def _routine(name: str, statements: tuple[Statement, ...], result: sp.Expr) -> R
         statements,
         (result,),
         (_field(name),),
-        f"One mode's share of the {meaning}, under A_j.",
+        f"Return one mode's contribution to the {meaning}, under A_j.",
         {},
         sp.simplify,
     )
 
 
 def shares() -> Routines:
-    """The shares as a module."""
+    """Return the module of these contributions."""
     routines = (
         of_bessel(),
-        _plain("u", "mode_g", 1, phi),  # g phi may be a normal number where g is none
+        _plain("u", "mode_g", 1, phi),  # g phi may be a normal number where g is subnormal
         _plain("w", "mode_f", 0, sp.Integer(1)),
         _in_plane("sigma_rr", radial),
         _in_plane("sigma_tt", hoop),
@@ -120,4 +120,5 @@ def shares() -> Routines:
         "mode_shapes": ("mode_f", "mode_g", "mode_rr", "mode_rz", "mode_tt", "mode_zz"),
         "mode_sums": ("power_of_two",),
     }
-    return Routines("mode_shares", "One mode's share of the interior fields.", routines, imports)
+    title = "Contributions of one mode to the interior fields."
+    return Routines("mode_shares", title, routines, imports)

@@ -9,9 +9,9 @@ With D = sinh^2 T - T^2, every field is a multiple of
     S_rz        [sinh T v sinh u + T u sinh v]/D
     in plane    [sinh T (c sinh u - d v cosh u) - T (c sinh v - d u cosh v)]/D
 
-Thick plates take decaying exponentials, e^(-v) in front and e^(-2u) for what comes by way of
-the far face; thin ones Taylor sections. What may be very large or small is left to `times`, or
-to `times_closely` where its roundings are most of what the budget allows.
+For thick plates decaying exponentials are used, e^(-v) as a factor and e^(-2u) for the
+contribution of the back face; for thin plates truncated Taylor series. `times` multiplies factors
+that may be very large or small, `times_closely` where rounding uses most of the budget.
 """
 
 import sympy as sp
@@ -29,19 +29,19 @@ Shape = tuple[Steps, sp.Expr | Seam]
 ONE = sp.Integer(1)
 
 THIN = sp.Rational(9, 4)
-"""Below this T, deflection and stresses are computed by Taylor sections. S_rr and S_tt change
-over together: their sum is small where Poisson's ratio is almost -1, and their roundings are to
-cancel there."""
+"""T below which deflection and stresses are computed by truncated Taylor series. S_rr and S_tt
+have the same switch point, because their sum is small where Poisson's ratio is almost -1, and
+their rounding errors must cancel there."""
 
 RATIO = Step(ratio, 1 + 1 / (1 + lam / mu), "2 (1 - nu)")
 WHOLE_T = (Step(x, phi * h), Step(T, 2 * x))
 DEPTHS = (
-    Step(u, phi * (h + z), "from the far face"),
-    Step(v, phi * (h - z), "from the loaded face"),
+    Step(u, phi * (h + z), "from the back face"),
+    Step(v, phi * (h - z), "from the contact face"),
 )
-FADE = Step(fade, sp.exp(-sp.Min(v, ONCE)), "decay from the loaded face")
+FADE = Step(fade, sp.exp(-sp.Min(v, ONCE)), "decay from the contact face")
 FADED = (fade, 1, TAIL(v), 1)
-FAR_U = Step(far_u, sp.exp(-2 * u), "decay on the way to the far face and back")
+FAR_U = Step(far_u, sp.exp(-2 * u), "decay to the back face and back")
 FAR_V = Step(far_v, sp.exp(-2 * v))
 DECAY = Step(decay, sp.exp(-2 * T))
-LACK = Step(lack, decay * (4 * T**2 + 2 - decay), "what 4 e^(-2T) D lacks of 1")
+LACK = Step(lack, decay * (4 * T**2 + 2 - decay), "1 - 4 e^(-2T) D")

@@ -1,1 +1,1 @@
-"""Reference values by another method, in mpmath: the plate's modes."""
+"""References for the plate's modes by another method, in mpmath."""

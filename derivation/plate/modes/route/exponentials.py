@@ -1,7 +1,7 @@
-"""A mode as four exponentials, found by hand, and the 4x4 system of its face tractions.
+"""A mode as four exponentials, derived by hand, and the 4x4 system of its face tractions.
 
-Independent of the theory's derivation: Navier's equations are solved on
-z^k e^(+-phi z), and the weights come out of numbers, at mpmath's precision.
+Independent of the derivation in `theory`: Navier's equations are solved for
+z^k e^(+-phi z), and the weights are computed numerically at mpmath's precision.
 """
 
 from dataclasses import dataclass
@@ -19,12 +19,12 @@ class ModeMaterial:
 
 @dataclass(frozen=True)
 class Exponential:
-    """W(z) = z^power e^(sign phi (z - foot)), and the U(z) that balances it.
+    """W(z) = z^power e^(sign phi (z - foot)), and the U(z) that satisfies the equations with it.
 
     For u = U J1(phi r), w = W J0(phi r) the dilatation is D J0 with
     D = phi U + W'. Navier's axial equation, mu (W'' - phi^2 W) + (lam + mu) D' = 0,
-    gives D; then U = (D - W')/phi. `foot` is the face where the exponential is 1:
-    nothing overflows, and nothing large cancels.
+    gives D; then U = (D - W')/phi. `foot` is the face where the exponential is 1: nothing
+    overflows, and no large terms cancel.
     """
 
     phi: mpf
@@ -34,7 +34,7 @@ class Exponential:
     material: ModeMaterial
 
     def _parts(self, z: mpf) -> tuple[mpf, mpf, mpf, mpf]:
-        """W, W', D and the exponential itself."""
+        """Return W, W', D and the exponential itself."""
         e = mp.exp(self.sign * self.phi * (z - self.foot))
         if self.power == 0:
             return e, self.sign * self.phi * e, mpf(0), e
@@ -42,7 +42,7 @@ class Exponential:
         return z * e, (1 + self.sign * self.phi * z) * e, dilatation, e
 
     def at(self, z: mpf) -> "ModeState":
-        """Displacements and stresses at height z."""
+        """Return displacements and stresses at height z."""
         lam, mu = self.material.lam, self.material.mu
         w, slope_w, dilatation, e = self._parts(z)
         u = (dilatation - slope_w) / self.phi
@@ -63,7 +63,7 @@ class Exponential:
 class ModeState:
     """A mode at one height: factors of J0 (w, zz, rr, tt) and J1 (u, rz).
 
-    sigma_rr and sigma_tt have beside them -+ 2 mu u J1(phi r)/r.
+    sigma_rr and sigma_tt also contain -+ 2 mu u J1(phi r)/r.
     """
 
     w: mpf
@@ -75,7 +75,7 @@ class ModeState:
 
 
 def combine(weights: list[mpf], states: list[ModeState]) -> ModeState:
-    """Weighted sum of states."""
+    """Return a weighted sum of states."""
 
     def total(part: str) -> mpf:
         return mp.fsum(c * getattr(s, part) for c, s in zip(weights, states, strict=True))
@@ -84,14 +84,14 @@ def combine(weights: list[mpf], states: list[ModeState]) -> ModeState:
 
 
 def basis(phi: mpf, h: mpf, material: ModeMaterial) -> list[Exponential]:
-    """The four exponentials of a plate, each 1 on the face towards which it grows."""
+    """Return the four exponentials of a plate, each 1 on the face towards which it grows."""
     return [
         Exponential(phi, sign, power, sign * h, material) for power in (0, 1) for sign in (1, -1)
     ]
 
 
 def solve_tractions(phi: mpf, h: mpf, material: ModeMaterial) -> list[mpf]:
-    """Weights of the four exponentials for unit axial traction above and no other."""
+    """Return weights of the four exponentials for unit axial traction on the upper face only."""
     four = basis(phi, h, material)
     above, below = [e.at(h) for e in four], [e.at(-h) for e in four]
     rows = [
@@ -105,13 +105,13 @@ def solve_tractions(phi: mpf, h: mpf, material: ModeMaterial) -> list[mpf]:
 
 
 def unit_mode(phi: mpf, h: mpf, material: ModeMaterial, z: mpf) -> ModeState:
-    """The mode under unit pressure coefficient at height z."""
+    """Return the mode under unit pressure coefficient at height z."""
     weights = solve_tractions(phi, h, material)
     return combine(weights, [e.at(z) for e in basis(phi, h, material)])
 
 
 def half_space(phi: mpf, material: ModeMaterial) -> mpf:
-    """Surface deflection of the half-space z < 0 per unit traction: two decaying exponentials."""
+    """Return the deflection of the half-space z < 0 per unit traction, by decaying exponentials."""
     surface = [Exponential(phi, 1, power, mpf(0), material).at(mpf(0)) for power in (0, 1)]
     rows = mp.matrix([[s.zz for s in surface], [s.rz for s in surface]])
     weights = mp.lu_solve(rows, mp.matrix([1, 0]))

@@ -1,8 +1,8 @@
-"""The plate's references by mpmath: the same numbers along other routes.
+"""mpmath references of the plate: the same numbers by independent methods.
 
-Nothing here reads the theory's closed forms. A mode is solved for numerically
-(`exponentials`). The pressure's coefficients come from quadrature: of the
-pressure itself, of Boussinesq's point load, of Sonine's integral.
+The closed forms of `theory` are not used. A mode is solved numerically (`exponentials`). The
+pressure coefficients come from quadrature: of the pressure itself, of Boussinesq's point load,
+and of Sonine's integral.
 """
 
 import math
@@ -33,7 +33,7 @@ MAX_OSCILLATIONS = 60
 
 
 def _integral(integrand: Callable[[mpf], mpf], points: list[mpf], method: str) -> mpf:
-    """Quadrature that answers for all but the last twenty of the working digits.
+    """Return a quadrature whose error affects only the last twenty of the working digits.
 
     Raises
     ------
@@ -48,14 +48,14 @@ def _integral(integrand: Callable[[mpf], mpf], points: list[mpf], method: str) -
 
 @cache
 def _disc_moment(digits: int) -> mpf:
-    """int_0^1 t sqrt(1-t^2) dt: resultant of the pressure over 2 pi a^2 p(0)."""
+    """Return int_0^1 t sqrt(1-t^2) dt: resultant of the pressure over 2 pi a^2 p(0)."""
     with mp.workdps(digits):
         return _integral(lambda t: mp.sin(t) * mp.cos(t) ** 2, [0, mp.pi / 2], "tanh-sinh")
 
 
 @cache
 def _boussinesq_drop(digits: int) -> mpf:
-    """pi E* (w(0) - w(a)) / (p(0) a) under Hertz pressure, by Boussinesq's point load.
+    """Return pi E* (w(0) - w(a)) / (p(0) a) under Hertz pressure, by Boussinesq's point load.
 
     A ring of radius s < a acts on the axis with 2 pi s/s and at distance a with
     4 (s/a) K(s/a), K = pi/(2 agm(1, sqrt(1 - s^2/a^2))) the complete elliptic
@@ -71,14 +71,14 @@ def _boussinesq_drop(digits: int) -> mpf:
 
 
 def peak_pressure(R: mpf, a: mpf, material: ModeMaterial) -> mpf:
-    """p(0) > 0 such that the half-space's surface drops by a^2/(2R) from centre to edge."""
+    """Return p(0) > 0 for which the half-space is a^2/(2R) lower at the centre than at the edge."""
     modulus = 2 / half_space(mpf(1), material)  # E* = 2/(phi C)
     return mp.pi * modulus * a / (2 * R * _boussinesq_drop(mp.dps))
 
 
 @cache
 def _sonine_unit(y: mpf, digits: int) -> mpf:
-    """int_0^1 t sqrt(1-t^2) J0(y t) dt by quadrature.
+    """Return int_0^1 t sqrt(1-t^2) J0(y t) dt by quadrature.
 
     With c = sqrt(1-t^2) the integrand c^2 J0(y sqrt(1-c^2)) is entire in c:
     Gauss's rule converges faster than any power.
@@ -108,7 +108,7 @@ _UNIT = ModeMaterial(mpf(1), mpf(1))
 
 
 def _omega(k: int, v: Values) -> mpf:
-    """Constant of cosh, sinh, z cosh, z sinh from the weights of the exponentials."""
+    """Return the constants of cosh, sinh, z cosh, z sinh from the weights of the exponentials."""
     material = ModeMaterial(v.get("lam", mpf(1)), v["mu"])
     up, down, z_up, z_down = solve_tractions(v["phi"], v["h"], material)
     foot = mp.exp(-v["phi"] * v["h"])  # the exponentials are 1 on their faces
@@ -122,7 +122,7 @@ def _plate_factor(v: Values, side: int) -> mpf:
 
 
 def _plate_factor_slope(v: Values) -> mpf:
-    """T dG/dT by a symmetric difference, the square of its step beyond the digits asked."""
+    """Return T dG/dT by a symmetric difference; its step squared is below the last digit."""
     with mp.workdps(2 * mp.dps):
         step = mpf(10) ** (-mp.dps // 4)
         beside = (_plate_factor({"T": v["T"] * (1 + x)}, 1) for x in (step, -step))
@@ -134,7 +134,7 @@ def _face(v: Values, side: int) -> mpf:
 
 
 def _indentation(v: Values, side: int) -> mpf:
-    """K_j: deflection over s(a phi), which no material and no contact radius changes; a phi = 2."""
+    """Return K_j: deflection over s(a phi), independent of material and radius; here a phi = 2."""
     inner = {**v, "a": 2 / v["phi"], "lam": mpf(1), "mu": mpf(1)}
     s = mp.sin(mpf(2)) - 2 * mp.cos(mpf(2))
     return -_pressure_coefficient(inner) * _face(inner, side) / s
@@ -146,7 +146,7 @@ def _mode(v: Values, part: str) -> mpf:
 
 
 def _general(v: Values, part: str) -> mpf:
-    """The general solution: hyperbolic functions as exponentials standing on z = 0."""
+    """Return the general solution: hyperbolic functions as exponentials equal to 1 at z = 0."""
     c1, c2, c3, c4 = (v.get(f"C{k}", mpf(0)) for k in range(1, 5))
     material = ModeMaterial(v.get("lam", mpf(1)), v.get("mu", mpf(1)))
     four = [
@@ -157,7 +157,7 @@ def _general(v: Values, part: str) -> mpf:
 
 
 def _field(v: Values, quantity: str) -> mpf:
-    """One mode's share of a displacement or stress at (r, z)."""
+    """Return one mode's contribution to a displacement or stress at (r, z)."""
     phi, r = v["phi"], v["r"]
     state = unit_mode(phi, v["h"], _material(v), v["z"])
     j0, j1 = mp.besselj(0, phi * r), mp.besselj(1, phi * r)
@@ -190,7 +190,7 @@ def _force(v: Values) -> mpf:
 
 
 def _over_phi(route: Callable[[Values, str], mpf]) -> Callable[[Values], mpf]:
-    """The paper's g is U/phi."""
+    """Return the paper's g, which is U/phi."""
     return lambda v: route(v, "u") / v["phi"]
 
 
@@ -252,7 +252,7 @@ ROUTES: dict[str, Callable[[Values], mpf]] = {
     "finite_part": lambda v: finite_part(int(v["k"]), mp.dps),
     "finite_part_ratio": lambda v: finite_part(int(v["k"]), mp.dps) / leading_finite_part(v["k"]),
 }
-"""For each formula the route to its value, or to one mode's share of it."""
+"""Method for the value of each formula, or for one mode's contribution to it."""
 for _routes in handed_in("route", "ROUTES"):
     ROUTES |= _routes
 
@@ -263,9 +263,9 @@ def _mode_of_plate(j: int, values: Values) -> dict[str, mpf]:
 
 
 def _cancellation(values: Mapping[str, float]) -> int:
-    """Digits the 4x4 system may lose: up to the sixth power of a small phi h, or e^(2 phi h).
+    """Return digits the 4x4 system may lose: up to the sixth power of small phi h, or e^(2 phi h).
 
-    An estimate that saves attempts; what decides is that two precisions agree.
+    The estimate only saves attempts; agreement of two precisions decides.
     """
     x = values["T"] if "T" in values else values.get("phi", 1.0) * values.get("h", 0.0)
     if 0.0 < x < 1.0:

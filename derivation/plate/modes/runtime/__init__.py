@@ -1,1 +1,1 @@
-"""The algorithms of the modes: sums over them."""
+"""Sums over the modes, copied into the generated package."""

@@ -1,6 +1,6 @@
-"""Sums over the modes, in blocks; a power of two near a number.
+"""Sums over the modes, computed in blocks, and powers of two for scaling.
 
-Arithmetic: the wave numbers of a block, sums of shares, and a power of two.
+Arithmetic: the wave numbers of a block, sums of contributions, and a power of two.
 """
 
 from collections.abc import Callable
@@ -11,11 +11,11 @@ from generated.arrays import Double
 from generated.bessel import bessel_j0_zeros, bessel_j1_at_j0_zeros
 
 BLOCK = 128
-"""Modes summed at a time: bounds the memory at BLOCK times the number of points."""
+"""Number of modes in one block: limits the memory to BLOCK times the number of points."""
 
 
 def sum_modes(share: Callable[[Double, Double], np.ndarray], b: Double, modes: int) -> Double:
-    """Sum of share(phi, J1) over the modes, the last axis, smallest shares first.
+    """Return the sum of share(phi, J1) over the modes, the last axis, smallest terms first.
 
     Raises
     ------
@@ -33,6 +33,6 @@ def sum_modes(share: Callable[[Double, Double], np.ndarray], b: Double, modes: i
 
 
 def power_of_two(x: Double) -> Double:
-    """The power of two next to x towards zero, by which nothing is rounded; x is not negative."""
+    """Return the largest power of two not above x; multiplication by it is exact. x >= 0."""
     unit: Double = np.ldexp(0.5, np.frexp(x)[1])
     return unit

@@ -29,7 +29,7 @@ class Stresses:
 
 
 def hooke(u: sp.Expr, w: sp.Expr) -> Stresses:
-    """Stresses of the displacement field u (radial), w (axial) by Hooke's law."""
+    """Return the stresses of the displacement field u (radial), w (axial) by Hooke's law."""
     strain_rr, strain_tt, strain_zz = sp.diff(u, r), u / r, sp.diff(w, z)
     dilatation = strain_rr + strain_tt + strain_zz
     return Stresses(
@@ -41,20 +41,20 @@ def hooke(u: sp.Expr, w: sp.Expr) -> Stresses:
 
 
 def force_balance(stress: Stresses) -> tuple[sp.Expr, sp.Expr]:
-    """Radial and axial force per volume that the stresses leave unbalanced."""
+    """Return the radial and axial force per volume that is missing for equilibrium."""
     radial = sp.diff(stress.rr, r) + sp.diff(stress.rz, z) + (stress.rr - stress.tt) / r
     axial = sp.diff(stress.rz, r) + sp.diff(stress.zz, z) + stress.rz / r
     return radial, axial
 
 
 def factor_of(expression: sp.Expr, bessel: sp.Expr) -> sp.Expr:
-    """Coefficient of J0(phi r) or J1(phi r) in an expression linear in both."""
+    """Return the coefficient of J0(phi r) or J1(phi r) in an expression linear in both."""
     return sp.factor(sp.expand(lower_bessel(expression.doit())).coeff(bessel))
 
 
 @cache
 def equilibrium() -> tuple[Formula, Formula]:
-    """The ODEs for f and g: expressions that must vanish.
+    """Return the ODEs for f and g, as expressions that must vanish.
 
     Raises
     ------
@@ -66,8 +66,8 @@ def equilibrium() -> tuple[Formula, Formula]:
     radial, axial = factor_of(balance_r, BESSEL_J1), factor_of(balance_z, BESSEL_J0)
     proof = prove(
         "Equilibrium of one mode",
-        r"Hooke's law put into both equilibrium equations leaves nothing but $\phi J_1(\phi r)$ "
-        r"times the first and $J_0(\phi r)$ times the second ODE.",
+        r"With Hooke's law, the two equilibrium equations become $\phi J_1(\phi r)$ times the "
+        r"first and $J_0(\phi r)$ times the second ODE.",
         {
             "radial balance": without_functions(balance_r - radial * BESSEL_J1),
             "axial balance": without_functions(balance_z - axial * BESSEL_J0),
@@ -77,7 +77,7 @@ def equilibrium() -> tuple[Formula, Formula]:
         Formula(
             "radial_ode",
             "0",
-            "radial equilibrium of mode $j$",
+            "radial equilibrium equation of mode $j$",
             sp.expand(radial / phi),
             "Pa",
             "2",
@@ -87,7 +87,7 @@ def equilibrium() -> tuple[Formula, Formula]:
         Formula(
             "axial_ode",
             "0",
-            "axial equilibrium of mode $j$",
+            "axial equilibrium equation of mode $j$",
             sp.expand(axial),
             "Pa/m",
             "2",
@@ -98,7 +98,7 @@ def equilibrium() -> tuple[Formula, Formula]:
 
 
 def without_functions(expression: sp.Expr, *functions: sp.Expr) -> sp.Expr:
-    """The expression with f, g (or others) and their derivatives made independent symbols."""
+    """Return the expression with independent symbols for f, g (or others) and their derivatives."""
     found = expression.atoms(sp.Derivative) | set(functions or (f, g))
     atoms = sorted(found, key=sp.default_sort_key, reverse=True)
     return expression.subs({atom: sp.Dummy(f"d{i}") for i, atom in enumerate(atoms)})

@@ -13,7 +13,7 @@ from derivation.plate.vocabulary import A_j, Formula, h, phi, z
 
 
 def tractions() -> dict[str, sp.Expr]:
-    """What must vanish on the faces: shear on both, axial stress below, S_zz - A_j above."""
+    """Return what must vanish on the faces: shear on both, S_zz below, S_zz - A_j above."""
     stress = {formula.name: formula.expression for formula in modal_stresses()}
     return {
         "sigma_rz at z = +h": stress["S_rz"].subs(z, h),
@@ -25,21 +25,21 @@ def tractions() -> dict[str, sp.Expr]:
 
 @cache
 def omegas() -> tuple[Formula, ...]:
-    """Omega_k = C_k / A_j, from the four traction conditions."""
+    """Return Omega_k = C_k / A_j, from the four traction conditions."""
     conditions = tractions()
     (solution,) = sp.linsolve(list(conditions.values()), *CONSTANTS)
     expressions = [to_hyperbolic(sp.cancel(value / A_j), phi * h) for value in solution]
     loads = {c: A_j * omega for c, omega in zip(CONSTANTS, expressions, strict=True)}
     proof = prove(
         "Face conditions",
-        r"$C_k = A_j \Omega_k$ put back into both stresses on both faces.",
+        r"$C_k = A_j \Omega_k$ is inserted into both stresses on both faces.",
         {where: traction.subs(loads) for where, traction in conditions.items()},
     )
     return tuple(
         Formula(
             f"Omega_{k}",
             rf"\Omega_{k}",
-            f"$C_{k}$ per unit pressure coefficient",
+            f"integration constant $C_{k}$ divided by the pressure coefficient $A_j$",
             expression,
             "m/Pa" if k < 3 else "1/Pa",
             "5",
@@ -52,7 +52,7 @@ def omegas() -> tuple[Formula, ...]:
 
 @cache
 def scaled_omegas() -> tuple[Formula, ...]:
-    """e^(phi h) Omega_k: of the order of 1 where Omega_k itself underflows (phi h > 708)."""
+    """Return e^(phi h) Omega_k, of order 1 where Omega_k itself underflows (phi h > 708)."""
     results = []
     for omega in omegas():
         scaled = sp.exp(phi * h) * omega.expression
@@ -77,7 +77,7 @@ def scaled_omegas() -> tuple[Formula, ...]:
 
 
 def loaded(expression: sp.Expr) -> sp.Expr:
-    """An expression in C1 ... C4 with the constants that the face conditions give them."""
+    """Return an expression in C1 ... C4 with the constants from the face conditions."""
     values: Mapping[sp.Symbol, sp.Expr] = {
         c: A_j * omega.expression for c, omega in zip(CONSTANTS, omegas(), strict=True)
     }

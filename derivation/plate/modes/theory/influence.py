@@ -20,7 +20,7 @@ PLANE_STRAIN_MODULUS = 4 * mu * (lam + mu) / (lam + 2 * mu)
 
 @cache
 def influence_coefficients() -> tuple[Formula, Formula, Formula]:
-    """C_top, C_bottom and their common limit C_half for phi h -> oo on the loaded face."""
+    """Return C_top, C_bottom and their common limit C_half for phi h -> oo on the contact face."""
     deflection = loaded(mode_shapes()[0].expression) / A_j
     faces = {"top": deflection.subs(z, h), "bottom": deflection.subs(z, -h)}
     closed = {face: to_hyperbolic(value, phi * h) for face, value in faces.items()}
@@ -37,7 +37,7 @@ def influence_coefficients() -> tuple[Formula, Formula, Formula]:
         Formula(
             "C_top",
             r"C(\phi_j, +h)",
-            "deflection of the loaded face per pressure coefficient",
+            "deflection of the contact face per pressure coefficient",
             closed["top"],
             "m/Pa",
             "6",
@@ -47,7 +47,7 @@ def influence_coefficients() -> tuple[Formula, Formula, Formula]:
         Formula(
             "C_bottom",
             r"C(\phi_j, -h)",
-            "deflection of the far face per pressure coefficient",
+            "deflection of the back face per pressure coefficient",
             closed["bottom"],
             "m/Pa",
             "6",

@@ -22,7 +22,7 @@ _MEANING = {
 
 @cache
 def interior_fields() -> tuple[Formula, ...]:
-    """One mode's share of u, w and the four stresses, in the constants C1 ... C4 = A_j Omega_k."""
+    """Return one term of u, w and the four stresses, in the constants C1 ... C4 = A_j Omega_k."""
     f_j, g_j = (formula.expression for formula in mode_shapes())
     shape = {formula.name: formula.expression for formula in modal_stresses()}
     names = (*shape, "f_j", "g_j")
@@ -74,6 +74,6 @@ def interior_fields() -> tuple[Formula, ...]:
 
 
 def _on_edge(expression: sp.Expr) -> sp.Expr:
-    """An expression at r = b, where J0(b phi) = 0 and J1(b phi) is the symbol J1."""
+    """Return an expression at r = b, where J0(b phi) = 0 and J1(b phi) is the symbol J1."""
     lowered = sp.expand(lower_bessel(expression).subs(r, b))
     return lowered.subs({sp.besselj(0, b * phi): 0, sp.besselj(1, b * phi): J1})

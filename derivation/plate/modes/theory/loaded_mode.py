@@ -1,4 +1,4 @@
-"""Link 5: the mode under its load: f_j, g_j and the stresses with C_k = A_j Omega_k."""
+"""Link 5: the loaded mode: f_j, g_j and the stresses with C_k = A_j Omega_k."""
 
 from functools import cache
 
@@ -11,14 +11,14 @@ from derivation.plate.vocabulary import A_j, Formula, h, z
 
 @cache
 def loaded_mode() -> tuple[Formula, ...]:
-    """mode_f, mode_g, mode_zz, mode_rz, mode_rr, mode_tt: what A_j does through the thickness."""
+    """Return mode_f, mode_g, mode_zz, mode_rz, mode_rr, mode_tt: the response to A_j."""
     general = (*mode_shapes(), *modal_stresses())
     shapes = {formula.name: loaded(formula.expression) for formula in general}
     radial, axial = substitute(shapes["f_j"], shapes["g_j"])
     proof = prove(
         "Loaded mode",
-        "$f_j$ and $g_j$ under load satisfy both ODEs; their stresses leave both faces free of "
-        "shear, the far face free of pressure and the loaded one under $A_j$.",
+        "$f_j$ and $g_j$ under load satisfy both ODEs; with their stresses both faces are free of "
+        "shear, the back face is free of pressure, and the contact face carries $A_j$.",
         {
             "radial ODE": radial,
             "axial ODE": axial,

@@ -16,14 +16,14 @@ CONSTANTS = (C1, C2, C3, C4)
 
 
 def characteristic_roots() -> dict[sp.Expr, int]:
-    """Exponents s of the solutions e^(s z), with multiplicities."""
+    """Return the exponents s of the solutions e^(s z), with multiplicities."""
     s = sp.Symbol("s")
     rows = [[_operator(ode.expression, unknown, s) for unknown in (f, g)] for ode in equilibrium()]
     return dict(sp.roots(sp.Matrix(rows).det(), s))
 
 
 def _operator(equation: sp.Expr, unknown: sp.Expr, s: sp.Symbol) -> sp.Expr:
-    """Polynomial in s that the equation's share of one unknown becomes on e^(s z)."""
+    """Return the polynomial in s that one unknown's terms in an equation become on e^(s z)."""
     linear = sp.expand(equation)
     return sum(
         (linear.coeff(sp.diff(unknown, z, order)) * s**order for order in (1, 2)),
@@ -32,7 +32,7 @@ def _operator(equation: sp.Expr, unknown: sp.Expr, s: sp.Symbol) -> sp.Expr:
 
 
 def real_basis(roots: dict[sp.Expr, int]) -> list[sp.Expr]:
-    """Even and odd combinations of z^k e^(s z) over the roots s and -s: z^k cosh, z^k sinh."""
+    """Return combinations of z^k e^(s z) over the roots s and -s: z^k cosh, z^k sinh."""
     positive = [(s, count) for s, count in roots.items() if s.is_positive]
     return [
         z**power * shape(s * z)
@@ -44,7 +44,7 @@ def real_basis(roots: dict[sp.Expr, int]) -> list[sp.Expr]:
 
 @cache
 def general_solution() -> tuple[sp.Expr, sp.Expr]:
-    """f and g with the four constants of integration; g follows from f through both ODEs."""
+    """Return f and g with the four integration constants; g follows from f by both ODEs."""
     basis = real_basis(characteristic_roots())
     shape_f = sum((c * e for c, e in zip(CONSTANTS, basis, strict=True)), sp.Integer(0))
     unknown = sp.symbols("d1:5")
@@ -56,19 +56,19 @@ def general_solution() -> tuple[sp.Expr, sp.Expr]:
 
 
 def substitute(shape_f: sp.Expr, shape_g: sp.Expr) -> list[sp.Expr]:
-    """What the two ODEs leave when f and g are put in."""
+    """Return the residuals of the two ODEs for given f and g."""
     return [ode.expression.subs({f: shape_f, g: shape_g}).doit() for ode in equilibrium()]
 
 
 def _independent_parts(residual: sp.Expr) -> list[sp.Expr]:
-    """Coefficients of the independent functions z^k cosh(phi z), z^k sinh(phi z)."""
+    """Return coefficients of the independent functions z^k cosh(phi z), z^k sinh(phi z)."""
     ch, sh = sp.Dummy(), sp.Dummy()
     flat = residual.subs({sp.cosh(phi * z): ch, sp.sinh(phi * z): sh})
     return list(sp.Poly(sp.expand(flat), z, ch, sh).coeffs())
 
 
 def by_constants(expression: sp.Expr) -> sp.Expr:
-    """An expression linear in C1 ... C4, its coefficients collected as the paper writes them."""
+    """Return an expression linear in C1 ... C4 with its coefficients collected as in the paper."""
     shapes = (sp.cosh(phi * z), sp.sinh(phi * z))
     linear = sp.expand(expression)
     total = sp.Integer(0)
@@ -80,12 +80,12 @@ def by_constants(expression: sp.Expr) -> sp.Expr:
 
 @cache
 def mode_shapes() -> tuple[Formula, Formula]:
-    """The paper's (2): f_j and g_j."""
+    """Return the paper's (2): f_j and g_j."""
     shape_f, shape_g = general_solution()
     radial, axial = substitute(shape_f, shape_g)
     proof = prove(
         "General solution",
-        "$f_j$ and $g_j$ put into both ODEs; their four functions are linearly independent.",
+        "$f_j$ and $g_j$ are inserted into both ODEs; their four functions are independent.",
         {"radial ODE": radial, "axial ODE": axial},
     )
     return (
@@ -102,7 +102,7 @@ def mode_shapes() -> tuple[Formula, Formula]:
         Formula(
             "g_j",
             "g_j(z)",
-            r"radial displacement of mode $j$ through the thickness, over $\phi_j$",
+            r"radial displacement of mode $j$ through the thickness, divided by $\phi_j$",
             by_constants(shape_g),
             "m^2",
             "2",

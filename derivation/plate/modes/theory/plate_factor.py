@@ -1,4 +1,4 @@
-"""Link 7: the plate factors G(T) and G_m(T), T = 2 phi h: influence over the half-space's."""
+"""Link 7: the plate factors G(T) and G_m(T), T = 2 phi h: influence relative to a half-space."""
 
 from functools import cache
 
@@ -11,7 +11,7 @@ from derivation.plate.vocabulary import Formula, T, h, phi
 
 @cache
 def plate_factors() -> tuple[Formula, ...]:
-    """G = C_top/C_half, G_m = C_bottom/C_half, and G - 1, which dies like e^(-2T)."""
+    """Return G = C_top/C_half, G_m = C_bottom/C_half, and G - 1, which decays like e^(-2T)."""
     top, bottom, half = (formula.expression for formula in influence_coefficients())
     G, G_m = ((face / half).subs(phi, T / (2 * h)) for face in (top, bottom))
     proof = prove(
@@ -23,14 +23,14 @@ def plate_factors() -> tuple[Formula, ...]:
         },
     )
     return (
-        Formula("G", "G(T)", "plate factor of the loaded face", G, "1", "6", ("C_top",), proof),
+        Formula("G", "G(T)", "plate factor of the contact face", G, "1", "6", ("C_top",), proof),
         Formula(
-            "G_m", "G_m(T)", "plate factor of the far face", G_m, "1", "6", ("C_bottom",), proof
+            "G_m", "G_m(T)", "plate factor of the back face", G_m, "1", "6", ("C_bottom",), proof
         ),
         Formula(
             "G_minus_1",
             "G(T) - 1",
-            "what the finite thickness adds to the half-space",
+            "relative increase of the deflection by the finite thickness, $G - 1$",
             G - 1,
             "1",
             "6",
@@ -42,18 +42,18 @@ def plate_factors() -> tuple[Formula, ...]:
 
 @cache
 def plate_factor_slope() -> Formula:
-    """T dG/dT = -2 T^3 sinh^2 T/(sinh^2 T - T^2)^2: one product, of one sign."""
+    """Return T dG/dT = -2 T^3 sinh^2 T/(sinh^2 T - T^2)^2: one product, of one sign."""
     G = plate_factors()[0].expression
     value = -2 * T**3 * sp.sinh(T) ** 2 / ((sp.sinh(T) - T) * (sp.sinh(T) + T)) ** 2
     proof = prove(
         "Slope of the plate factor",
-        r"$G$ is differentiated; what is left of the numerator is $4 T^2 \sinh^2 T$.",
+        r"$G$ is differentiated; the numerator reduces to $4 T^2 \sinh^2 T$.",
         {"derivative": T * sp.diff(G, T) - value},
     )
     return Formula(
         "G_slope",
         r"T\,G'(T)",
-        r"what the plate factor of the loaded face gains as $\log T$ grows",
+        r"derivative of the plate factor of the contact face by $\log T$",
         value,
         "1",
         "6",

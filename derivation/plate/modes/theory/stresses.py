@@ -23,7 +23,7 @@ _NAMES = {
 
 @cache
 def modal_stresses() -> tuple[Formula, ...]:
-    """Stresses through the thickness.
+    """Return the stresses through the thickness.
 
     sigma_zz = S_zz J0, sigma_rz = S_rz J1,
     sigma_rr = S_rr J0 - 2 mu g phi J1/r, sigma_tt = S_tt J0 + 2 mu g phi J1/r.

@@ -1,4 +1,4 @@
-"""What the plasticity hands in for the generated package."""
+"""Modules of the elastic-plastic contact for the generated package."""
 
 from pathlib import Path
 
@@ -13,7 +13,7 @@ RUNTIME = Path(__file__).parents[1] / "runtime"
 
 
 def plasticity_numbers() -> Numbers:
-    """The limit of the pressure, and what it may rise to beyond the model."""
+    """Return the limit of the pressure, and its largest value beyond the model."""
     limit = Constant(
         "YIELD_LIMIT", float(ONSET), "Largest contact pressure over the smaller yield stress."
     )
@@ -22,13 +22,13 @@ def plasticity_numbers() -> Numbers:
         float(FULLY_PLASTIC),
         "Mean pressure of a fully plastic contact over the yield stress.",
     )
-    return Numbers("plasticity_numbers", "Numbers of the yielding contact.", (limit, risen))
+    return Numbers("plasticity_numbers", "Constants of elastic-plastic contact.", (limit, risen))
 
 
 def plasticity_kernels() -> Routines:
-    """The yielding contact's formulas, printed."""
+    """Return the routines of the elastic-plastic contact."""
     imports = {"ranges": ("moderate", "product", "root_factors")}
-    title = "Formulas of the yielding contact, proved equal to what the theory derives."
+    title = "Formulas of the elastic-plastic contact, proved equal to those of the theory."
     made = (*printed.ROUTINES, *hertz.ROUTINES, *fully_plastic.ROUTINES)
     return Routines("plasticity_kernels", title, tuple(make() for make in made), imports)
 

@@ -1,4 +1,4 @@
-"""What a fully plastic contact changes, as code computes it: the model error of link 31."""
+"""Changes in a fully plastic contact, which are the model error of link 31."""
 
 import sympy as sp
 
@@ -10,7 +10,7 @@ grown, top = sp.symbols("grown top", positive=True)
 
 
 def risen() -> Routine:
-    """Mean pressure over that of link 31, and s, of an indentation a^2/(s R)."""
+    """Return the mean pressure over that of link 31, and s of an indentation a^2/(s R)."""
     mean, risen_pressure = theory.mean_pressure(), theory.risen_pressure()
     steepness = theory.steepness()
     return routine(
@@ -24,19 +24,19 @@ def risen() -> Routine:
                 grown,
                 theory.FULLY_PLASTIC,
                 unclaimed="no",
-                reason="the contact is fully plastic, and its pressure rises no further",
+                reason="the contact is fully plastic, and its pressure is constant",
             ),
         ),
         (top / mean, steepness.subs(pressure, top)),
         (risen_pressure / mean, steepness.subs(pressure, risen_pressure)),
-        "Mean pressure as the plastic zone grows over that of link 31, and a^2/(R delta).",
+        "Return mean pressure of a growing plastic zone over link 31's, and a^2/(R delta).",
         {},
         sp.simplify,
     )
 
 
 def beyond() -> Routine:
-    """What they change in an impact."""
+    """Return the resulting changes of an impact."""
     changed = theory.beyond()
     return routine(
         "beyond",
@@ -44,7 +44,7 @@ def beyond() -> Routine:
         (),
         (changed.force, changed.restitution),
         (changed.force, changed.restitution),
-        "Force and restitution of an impact on a half-space, over those by link 31.",
+        "Return force and restitution of an impact on a half-space over those of link 31.",
         {},
     )
 

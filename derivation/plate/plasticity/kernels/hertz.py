@@ -1,4 +1,4 @@
-"""Hertz's contact as one that yields needs it: by E* of both bodies, and by its force."""
+"""Hertz contact in the variables of an elastic-plastic contact: E*, force, radius."""
 
 import sympy as sp
 
@@ -16,35 +16,35 @@ BODIES = {modulus: PLANE_STRAIN_MODULUS}
 
 
 def hertz_radius() -> Routine:
-    """Radius by the force."""
+    """Return the radius for a force."""
     return routine(
         "hertz_radius",
         (P, R, modulus),
         (Let(strain, P / modulus),),
         (CUBE_ROOT(sp.Rational(3, 4) * strain * R),),
         (a,),
-        "Radius at which Hertz's law has a force.",
+        "Return the radius at which Hertz's law gives a force.",
         BODIES | {P: FORCE},
         _cleared,
     )
 
 
 def hertz_modulus() -> Routine:
-    """E* by force and radius."""
+    """Return E* for force and radius."""
     return routine(
         "hertz_modulus",
         (P, R, a),
         (),
         (sp.Rational(3, 4) * PRODUCT(sp.Tuple(P, R), sp.Tuple(a, a, a)),),
         (PLANE_STRAIN_MODULUS,),
-        "E* with which Hertz's law has a force at a radius.",
+        "Return the E* for which Hertz's law gives a force at a radius.",
         {P: FORCE},
         _cleared,
     )
 
 
 def hertz_energy() -> Routine:
-    """Energy by the radius."""
+    """Return the energy for a radius."""
     brought = sp.integrate(FORCE * sp.diff(a**2 / R, a), (a, 0, a))
     return routine(
         "hertz_energy",
@@ -52,14 +52,14 @@ def hertz_energy() -> Routine:
         (),
         (sp.Rational(8, 15) * PRODUCT(sp.Tuple(modulus, a, a, a, a, a), sp.Tuple(R, R)),),
         (brought,),
-        "Energy that Hertz's contact takes up to a radius.",
+        "Return the energy of a Hertz contact at a radius.",
         BODIES,
         _cleared,
     )
 
 
 def widening() -> Routine:
-    """How fast the contact that yields widens: its area grows with the force."""
+    """Return the growth of the elastic-plastic contact: its area is linear in the force."""
     force = P / FORCE.subs(a, a_y)  # xi^3
     radius = a_y * sp.sqrt(theory.loading().area.subs(xi_y, sp.cbrt(force)))
     wide = FORCE.subs(a, a_y) * (3 * a**2 / a_y**2 - 1) / 2
@@ -69,14 +69,14 @@ def widening() -> Routine:
         (),
         (R / (4 * modulus * a_y * a),),
         (sp.diff(radius, P).subs(P, wide),),
-        "Growth of the contact radius with the force on loading, at a radius.",
+        "Return the growth of the contact radius with the force on loading, at a radius.",
         BODIES,
         _cleared,
     )
 
 
 def reached() -> Routine:
-    """xi by the energy brought."""
+    """Return xi for an energy."""
     work, ratio = theory.plastic_work().expression, theory.flattening().expression
     brought = sp.expand(work + ratio * xi_y**5)
     return routine(
@@ -85,14 +85,14 @@ def reached() -> Routine:
         (),
         (((6 * energy_ratio - 1) / 5) ** sp.Rational(1, 6),),
         (xi_y,),
-        "xi up to which loading takes an energy, over Hertz's at the onset of yield.",
+        "Return xi at which the loading energy is a multiple of Hertz's at the onset of yield.",
         {energy_ratio: brought},
         _cleared,
     )
 
 
 def _cleared(expression: sp.Expr) -> sp.Expr:
-    """Products as such, and roots of powers taken."""
+    """Expand products, and take roots of powers."""
     found = expression.replace(CUBE_ROOT, sp.cbrt)
     found = found.replace(PRODUCT, lambda above, below: sp.Mul(*above) / sp.Mul(*below))
     return sp.simplify(sp.powdenest(sp.simplify(found), force=True))

@@ -1,4 +1,4 @@
-"""The yielding contact's formulas as code computes them, each proved to be one of its link."""
+"""Formulas of the elastic-plastic contact as code computes them, each proved."""
 
 import sympy as sp
 
@@ -16,21 +16,21 @@ RATIO = Let(ratio, xi_y * sp.sqrt(THREE / DOUBLED))
 
 
 def yield_radius() -> Routine:
-    """Contact radius at the onset of yield."""
+    """Return the contact radius at the onset of yield."""
     return routine(
         "yield_radius_of_factors",
         (R, lam, mu, yield_stress),
         MODERATE,
         (PRODUCT(sp.Tuple(sp.pi / 5, R, yield_stress), sp.Tuple(mu, SHARE)),),
         (theory.yield_radius().expression,),
-        "Contact radius at which Hertz's largest pressure is 1.6 Y.",
+        "Return the contact radius at which the largest Hertz pressure is 1.6 Y.",
         {},
         multiplied,
     )
 
 
 def yield_speed() -> Routine:
-    """Impact speed at the onset of yield."""
+    """Return the impact speed at the onset of yield."""
     above = (sp.Rational(64, 75) * sp.pi, yield_stress, R, R, R)
     rate = root("rate", 2, above, m)
     strain = sp.pi / 5, yield_stress, sp.pi / 5, yield_stress
@@ -40,14 +40,14 @@ def yield_speed() -> Routine:
         (*MODERATE, rate),
         (PRODUCT(sp.Tuple(*strain, *rate.symbols), sp.Tuple(mu, SHARE, mu, SHARE)),),
         (theory.yield_speed().expression,),
-        "Impact speed at which a half-space begins to yield.",
+        "Return the impact speed at which a half-space begins to yield.",
         {},
         multiplied,
     )
 
 
 def loading() -> Routine:
-    """Plastic indentation on loading, and its slope."""
+    """Return the plastic part of the indentation on loading, and its slope."""
     extra = theory.plastic_indentation().expression
     return routine(
         "loaded",
@@ -55,13 +55,13 @@ def loading() -> Routine:
         (BEYOND,),
         (beyond * beyond * (2 * xi_y + 1) / 3, 2 * xi_y * beyond),
         (extra, sp.diff(extra, xi_y)),
-        "Plastic indentation on loading over a_y^2/R, and its slope by xi.",
+        "Return the plastic part of the indentation on loading over a_y^2/R, and its slope by xi.",
         {},
     )
 
 
 def unloading() -> Routine:
-    """How flat a contact has become, and its dent."""
+    """Return the flattening of a contact, and its residual indentation."""
     cubic = beyond * (xi_y * xi_y + xi_y + 1)
     squared = sp.Symbol("squared", positive=True)
     return routine(
@@ -70,14 +70,14 @@ def unloading() -> Routine:
         (BEYOND, CUBE, RATIO, Let(squared, (cubic / DOUBLED) ** 2), Let(cubed, ratio**3)),
         (ratio, squared * (8 * cube + 1) / (3 * (1 + cubed))),
         (theory.flattening().expression, theory.dent().expression),
-        "Of a contact unloaded from xi: Hertz's radius over its own, and the dent over a_y^2/R.",
+        "Return Hertz over actual radius at unloading, and residual indentation over a_y^2/R.",
         {},
         _by_roots,
     )
 
 
 def work() -> Routine:
-    """Plastic work, and the restitution of a half-space."""
+    """Return the plastic work, and the restitution of a half-space."""
     quintic = sp.Symbol("quintic", positive=True)
     brought = ((((5 * xi_y + 4) * xi_y + 3) * xi_y + 2) * xi_y + 1) / 6
     return routine(
@@ -95,14 +95,14 @@ def work() -> Routine:
             sp.sqrt(6 * ratio * quintic / (5 * quintic * xi_y + 1)),
         ),
         (theory.plastic_work().expression, theory.plastic_restitution().expression),
-        "Plastic work over Hertz's energy at the onset of yield, and restitution on a half-space.",
+        "Return plastic work over energy at the onset of yield, and restitution of a half-space.",
         {},
         _by_roots,
     )
 
 
 def _by_roots(expression: sp.Expr) -> sp.Expr:
-    """With one symbol for the root of 2 xi^3 + 1, of which everything else is rational."""
+    """Return the expression with one symbol for the root of 2 xi^3 + 1; it is then rational."""
     whole = sp.Symbol("whole", positive=True)
     found = sp.powdenest(expression.subs(xi_y, sp.cbrt((whole**4 - 1) / 2)), force=True)
     return sp.simplify(found)

@@ -1,1 +1,1 @@
-"""Algorithms of the yielding contact, copied into the generated package."""
+"""Algorithms of the elastic-plastic contact, copied into the generated package."""

@@ -1,6 +1,6 @@
-"""A contact that yields: where it begins to, what it adds to the indentation, and what remains.
+"""Elastic-plastic contact: onset of yield, plastic indentation, and residual indentation.
 
-Arithmetic: the ends of the domain.
+Arithmetic: limits of the domain.
 """
 
 import numpy as np
@@ -15,7 +15,7 @@ from generated.arrays import as_doubles, as_result, in_manifest, inside, quiet
 def yield_radius(
     R: ArrayLike, lam: ArrayLike, mu: ArrayLike, yield_stress: ArrayLike
 ) -> np.ndarray:
-    """Contact radius at which a contact begins to yield.
+    """Compute the contact radius at the onset of yield.
 
     Formula (Johnson, 1985)::
 
@@ -33,8 +33,14 @@ def yield_radius(
     Returns
     -------
     float or ndarray
-        The radius [m] of a rigid sphere's contact, in the arguments' broadcast shape; NaN outside
-        the domain. It goes with 1/E*.
+        Contact radius [m] for a rigid sphere, in the arguments' broadcast shape; NaN outside
+        the domain. It is proportional to 1/E*.
+
+    Examples
+    --------
+    >>> from generated import yield_radius
+    >>> print(f"{yield_radius(0.01, 115e9, 77e9, 300e6):.6g}")
+    3.42974e-05
     """
     kind, [R, lam, mu, yield_stress] = as_doubles(R, lam, mu, yield_stress)
     [R, lam, mu] = inside([R, lam, mu], R > 0, mu > 0, 3 * lam > -2 * mu)
@@ -47,7 +53,7 @@ def yield_radius(
 def yield_speed(
     R: ArrayLike, m: ArrayLike, lam: ArrayLike, mu: ArrayLike, yield_stress: ArrayLike
 ) -> np.ndarray:
-    """Impact speed above which a contact on a half-space yields.
+    """Compute the impact speed at the onset of yield for a half-space.
 
     Formula (Thornton, 1997)::
 
@@ -67,8 +73,14 @@ def yield_speed(
     Returns
     -------
     float or ndarray
-        The speed [m/s] of a rigid sphere, in the arguments' broadcast shape; NaN outside the
-        domain. It goes with 1/E*^2.
+        Impact speed [m/s] for a rigid sphere, in the arguments' broadcast shape; NaN outside
+        the domain. It is proportional to 1/E*^2.
+
+    Examples
+    --------
+    >>> from generated import yield_speed
+    >>> print(f"{yield_speed(0.01, 0.0327, 115e9, 77e9, 300e6):.6g}")
+    0.00184478
     """
     kind, [R, m, lam, mu, yield_stress] = as_doubles(R, m, lam, mu, yield_stress)
     [R, m] = inside([R, m], R > 0, m > 0)
@@ -81,7 +93,7 @@ def yield_speed(
 @in_manifest("Delta", domain="xi_y >= 1, xi_y <= 1e50")
 @quiet
 def plastic_indentation(xi_y: ArrayLike) -> np.ndarray:
-    """Plastic indentation on loading over a_y^2/R.
+    """Compute the plastic part of the indentation during loading, divided by a_y^2/R.
 
     Formula (Thornton, 1997)::
 
@@ -90,13 +102,19 @@ def plastic_indentation(xi_y: ArrayLike) -> np.ndarray:
     Parameters
     ----------
     xi_y : array_like
-        Hertz's radius of the force over the yield radius [1]; 1 <= xi_y <= 1e50
+        Hertz contact radius of the force divided by the yield radius [1]; 1 <= xi_y <= 1e50
 
     Returns
     -------
     float or ndarray
-        What yielding adds to the indentation at this force [1], in the argument's shape; NaN
+        Plastic part of the indentation at this force [1], in the shape of the argument; NaN
         outside the domain.
+
+    Examples
+    --------
+    >>> from generated import plastic_indentation
+    >>> print(f"{plastic_indentation(2.0):.6g}")
+    1.66667
     """
     kind, [xi_y] = as_doubles(xi_y)
     [xi_y] = _yielding(xi_y)
@@ -106,7 +124,7 @@ def plastic_indentation(xi_y: ArrayLike) -> np.ndarray:
 @in_manifest("c", domain="xi_y >= 1, xi_y <= 1e50")
 @quiet
 def flattening(xi_y: ArrayLike) -> np.ndarray:
-    """Hertz's radius of the force over the contact radius, where unloading begins.
+    """Compute the Hertz radius of the peak force divided by the actual contact radius.
 
     Formula (Thornton, 1997)::
 
@@ -115,12 +133,19 @@ def flattening(xi_y: ArrayLike) -> np.ndarray:
     Parameters
     ----------
     xi_y : array_like
-        Hertz's radius of the largest force over the yield radius [1]; 1 <= xi_y <= 1e50
+        Hertz contact radius of the peak force divided by the yield radius [1]; 1 <= xi_y <= 1e50
 
     Returns
     -------
     float or ndarray
-        The ratio [1] in the argument's shape; NaN outside the domain.
+        Ratio at the beginning of unloading [1], in the shape of the argument; NaN outside the
+        domain.
+
+    Examples
+    --------
+    >>> from generated import flattening
+    >>> print(f"{flattening(2.0):.6g}")
+    0.840168
     """
     kind, [xi_y] = as_doubles(xi_y)
     [xi_y] = _yielding(xi_y)
@@ -130,7 +155,7 @@ def flattening(xi_y: ArrayLike) -> np.ndarray:
 @in_manifest("delta_p", domain="xi_y >= 1, xi_y <= 1e50")
 @quiet
 def dent(xi_y: ArrayLike) -> np.ndarray:
-    """Indentation that remains over a_y^2/R.
+    """Compute the residual indentation divided by a_y^2/R.
 
     Formula (Thornton, 1997)::
 
@@ -139,12 +164,18 @@ def dent(xi_y: ArrayLike) -> np.ndarray:
     Parameters
     ----------
     xi_y : array_like
-        Hertz's radius of the largest force over the yield radius [1]; 1 <= xi_y <= 1e50
+        Hertz contact radius of the peak force divided by the yield radius [1]; 1 <= xi_y <= 1e50
 
     Returns
     -------
     float or ndarray
-        The depth of the dent [1] in the argument's shape; NaN outside the domain.
+        Residual indentation [1] in the shape of the argument; NaN outside the domain.
+
+    Examples
+    --------
+    >>> from generated import dent
+    >>> print(f"{dent(2.0):.6g}")
+    2.30599
     """
     kind, [xi_y] = as_doubles(xi_y)
     [xi_y] = _yielding(xi_y)
@@ -154,7 +185,7 @@ def dent(xi_y: ArrayLike) -> np.ndarray:
 @in_manifest("W_p", domain="xi_y >= 1, xi_y <= 1e50")
 @quiet
 def plastic_work(xi_y: ArrayLike) -> np.ndarray:
-    """Plastic work over Hertz's energy at the onset of yield.
+    """Compute the plastic work divided by the elastic energy at the onset of yield.
 
     Formula (Thornton, 1997)::
 
@@ -163,12 +194,18 @@ def plastic_work(xi_y: ArrayLike) -> np.ndarray:
     Parameters
     ----------
     xi_y : array_like
-        Hertz's radius of the largest force over the yield radius [1]; 1 <= xi_y <= 1e50
+        Hertz contact radius of the peak force divided by the yield radius [1]; 1 <= xi_y <= 1e50
 
     Returns
     -------
     float or ndarray
-        The work [1] in the argument's shape; NaN outside the domain.
+        Plastic work [1] in the shape of the argument; NaN outside the domain.
+
+    Examples
+    --------
+    >>> from generated import plastic_work
+    >>> print(f"{plastic_work(2.0):.6g}")
+    26.6146
     """
     kind, [xi_y] = as_doubles(xi_y)
     [xi_y] = _yielding(xi_y)
@@ -178,7 +215,7 @@ def plastic_work(xi_y: ArrayLike) -> np.ndarray:
 @in_manifest("e", domain="xi_y >= 1, xi_y <= 1e50")
 @quiet
 def plastic_restitution(xi_y: ArrayLike) -> np.ndarray:
-    """Restitution of a yielding contact on a half-space.
+    """Compute the coefficient of restitution of an elastic-plastic contact on a half-space.
 
     Formula (Thornton, 1997)::
 
@@ -187,12 +224,18 @@ def plastic_restitution(xi_y: ArrayLike) -> np.ndarray:
     Parameters
     ----------
     xi_y : array_like
-        Hertz's radius of the largest force over the yield radius [1]; 1 <= xi_y <= 1e50
+        Hertz contact radius of the peak force divided by the yield radius [1]; 1 <= xi_y <= 1e50
 
     Returns
     -------
     float or ndarray
-        The coefficient of restitution [1] in the argument's shape; NaN outside the domain.
+        Coefficient of restitution [1] in the shape of the argument; NaN outside the domain.
+
+    Examples
+    --------
+    >>> from generated import plastic_restitution
+    >>> print(f"{plastic_restitution(2.0):.6g}")
+    0.708894
     """
     kind, [xi_y] = as_doubles(xi_y)
     [xi_y] = _yielding(xi_y)

@@ -1,4 +1,4 @@
-"""Formulas, derived and proved: the contact that yields."""
+"""Formulas, derived and proved: the elastic-plastic contact."""
 
 from derivation.plate.plasticity.theory.contact import yielding
 

@@ -1,14 +1,14 @@
-"""Link 31: a contact that yields, with its pressure limited to 1.6 Y, and the dent that remains.
+"""Link 31: elastic-plastic contact with a pressure limit of 1.6 Y, and residual indentation.
 
-Johnson (1985), Thornton (1997): Hertz's pressure reaches p_y = 1.6 Y, Y the smaller yield stress of
-the two bodies, at the contact radius a_y. From there on it is cut off at p_y, while the
+Johnson (1985), Thornton (1997): the Hertz pressure reaches p_y = 1.6 Y, Y the smaller yield stress
+of the two bodies, at the contact radius a_y. Beyond a_y the pressure is limited to p_y, while the
 indentation stays a^2/R. With the radius a_H = a_y xi at which Hertz's law has the same force,
 
     P = (4/3) E* a_H^3/R,   a^2 = a_y^2 (2 xi^3 + 1)/3   on loading, xi >= 1.
 
 Unloading from xi is elastic: Hertz's law with the flattened radius R_p = R P_e/P, where P_e is
-Hertz's force at the same contact radius. So a_H/a stays c, R_p = R/c^3, and the indentation is
-delta_p + c a_H^2/R until the force has gone. All lengths below are over a_y^2/R.
+Hertz's force at the same contact radius. Hence a_H/a stays c, R_p = R/c^3, and the indentation is
+delta_p + c a_H^2/R until the force is zero. All lengths below are divided by a_y^2/R.
 """
 
 from functools import cache
@@ -22,46 +22,46 @@ from derivation.plate.modes.theory.influence import PLANE_STRAIN_MODULUS
 from derivation.plate.vocabulary import Formula, P, R, a, m, r, xi_y, yield_stress
 
 ONSET = sp.Rational(8, 5)
-"""Largest contact pressure over the yield stress where a contact begins to yield (Johnson 1985,
+"""Largest contact pressure over the yield stress at the onset of yield (Johnson 1985,
 section 6.1, von Mises, Poisson's ratio 0.3)."""
 _s, _modulus, _a_y, _top = sp.symbols("s modulus a_y top", positive=True)
 _NEEDED = ("p", "P")
 
 
 class Loading(NamedTuple):
-    """On loading beyond the onset, over their values there: contact radius squared and force."""
+    """Return contact radius squared and force on loading, over their values at the onset."""
 
     area: sp.Expr
     force: sp.Expr
 
 
 def _hertz() -> tuple[sp.Expr, sp.Expr]:
-    """Hertz's force, and his largest pressure, at a contact radius."""
+    """Return Hertz's force and largest pressure at a contact radius."""
     force = contact_radius().expression
     return force, -pressure().expression.subs(r, 0).subs(P, force)
 
 
 @cache
 def yield_radius() -> Formula:
-    """a_y, at which Hertz's largest pressure is 1.6 Y."""
+    """Return a_y, at which the largest Hertz pressure is 1.6 Y."""
     _, peak = _hertz()
     (radius,) = sp.solve(peak - ONSET * yield_stress, a)
     proof = prove(
         "Onset of yield",
-        "Hertz's largest pressure is $1.6 Y$ at this contact radius.",
+        "The largest Hertz pressure is $1.6 Y$ at this contact radius.",
         {"pressure": sp.simplify(peak.subs(a, radius) - ONSET * yield_stress)},
     )
     return Formula(
-        "yield_radius", "a_y", "contact radius at which a contact begins to yield",
+        "yield_radius", "a_y", "contact radius at the onset of yield",
         radius, "m", "", _NEEDED, proof,
     )  # fmt: skip
 
 
 @cache
 def loading() -> Loading:
-    """The force of the limited pressure: Hertz's pressure less what is above p_y.
+    """Prove the force of the limited pressure: Hertz pressure minus the part above p_y.
 
-    It is above within r^2 < a^2 - a_y^2, as the square of Hertz's pressure falls like r^2.
+    It is above p_y for r^2 < a^2 - a_y^2, because its square is linear in r^2.
     """
     limit = sp.Symbol("p_y", positive=True)
     inner = sp.sqrt(a**2 - _a_y**2)
@@ -74,8 +74,8 @@ def loading() -> Loading:
     hertz, peak = _hertz()
     prove(
         "Force of a limited pressure",
-        "Beyond the onset the force grows with the area of the contact, by $p_y$; where it is "
-        "Hertz's at the radius $a_H$ it is $\\xi^3$ times that at the onset.",
+        "Beyond the onset the force increases by $p_y$ times the increase of the contact area; "
+        "where it is Hertz's at the radius $a_H$ it is $\\xi^3$ times that at the onset.",
         {
             "antiderivative": sp.diff(-((a**2 - r**2) ** sp.Rational(3, 2)) / 3, r)
             - r * sp.sqrt(a**2 - r**2),
@@ -90,10 +90,10 @@ def loading() -> Loading:
 
 @cache
 def plastic_indentation() -> Formula:
-    """What yielding adds to the indentation at a force, on loading: (a^2 - a_H^2)/R."""
+    """Return the plastic part of the indentation at a force, on loading: (a^2 - a_H^2)/R."""
     extra = loading().area - xi_y**2
     proof = prove(
-        "Indentation of a yielding contact",
+        "Indentation of an elastic-plastic contact",
         "The indentation is $a^2/R$, with the larger radius of the limited pressure; at the onset "
         "value and slope are Hertz's.",
         {
@@ -102,14 +102,14 @@ def plastic_indentation() -> Formula:
         },
     )
     return Formula(
-        "plastic_indentation", r"\Delta", "plastic indentation on loading over a_y^2/R",
+        "plastic_indentation", r"\Delta", "plastic part of the indentation on loading over a_y^2/R",
         extra, "1", "", ("yield_radius",), proof,
     )  # fmt: skip
 
 
 @cache
 def flattening() -> Formula:
-    """c = a_H/a where unloading begins; the flattened radius is R/c^3."""
+    """Return c = a_H/a at the beginning of unloading; the flattened radius is R/c^3."""
     ratio = xi_y / sp.sqrt(loading().area)
     hertz, _ = _hertz()
     top = sp.sqrt(loading().area) * _a_y
@@ -117,7 +117,7 @@ def flattening() -> Formula:
     unloaded = hertz.subs(R, R * equivalent / hertz.subs(a, xi_y * _a_y))
     proof = prove(
         "Flattened radius",
-        "Thornton's radius $R_p = R P_e/P$ makes force and contact radius those at which "
+        "Thornton's radius $R_p = R P_e/P$ gives the force and contact radius at which "
         "unloading begins.",
         {
             "radius": sp.simplify((equivalent / hertz.subs(a, xi_y * _a_y)) - ratio**-3),
@@ -126,32 +126,32 @@ def flattening() -> Formula:
         },
     )
     return Formula(
-        "flattening", "c", "Hertz's radius of the force over the contact radius, on unloading",
+        "flattening", "c", "Hertz radius of the force over the contact radius, on unloading",
         ratio, "1", "", ("plastic_indentation",), proof,
     )  # fmt: skip
 
 
 @cache
 def dent() -> Formula:
-    """The indentation that remains, (a^2/R) (1 - c^3) of where unloading begins."""
+    """Return the residual indentation, (a^2/R) (1 - c^3) at the beginning of unloading."""
     ratio, area = flattening().expression, loading().area
     depth = area * (1 - ratio**3)
     proof = prove(
         "Dent",
-        "Where unloading begins the indentation is that of loading.",
+        "At the beginning of unloading the indentation is that of loading.",
         {"continuous": sp.simplify(depth + ratio * xi_y**2 - area)},
     )
     return Formula(
-        "dent", r"\delta_p", "indentation that remains over a_y^2/R", depth, "1", "",
+        "dent", r"\delta_p", "residual indentation over a_y^2/R", depth, "1", "",
         ("flattening",), proof,
     )  # fmt: skip
 
 
 @cache
 def plastic_work() -> Formula:
-    """Energy that a contact dissipates up to xi and back, over Hertz's energy at the onset."""
+    """Return the energy dissipated in a cycle up to xi, over Hertz's energy at the onset."""
     extra, ratio = plastic_indentation().expression, flattening().expression
-    # P over that at the onset is xi^3; Hertz's energy there is int xi^3 d(xi^2) = 2/5.
+    # P over that at the onset is xi^3; Hertz's energy at the onset is int xi^3 d(xi^2) = 2/5.
     brought = sp.integrate(_top**3 * sp.diff(extra, xi_y).subs(xi_y, _top), (_top, 1, xi_y))
     elastic = sp.integrate(2 * _top**4, (_top, 0, xi_y))
     work = sp.expand((brought + elastic) / sp.Rational(2, 5)) - ratio * xi_y**5
@@ -160,7 +160,7 @@ def plastic_work() -> Formula:
     ) / sp.Rational(2, 5)
     proof = prove(
         "Plastic work",
-        "What the contact takes on loading less what it returns on unloading.",
+        "The energy of loading minus the energy returned on unloading.",
         {
             "returned": sp.simplify(returned - ratio * xi_y**5),
             "onset": sp.simplify(work.subs(xi_y, 1)),
@@ -174,7 +174,7 @@ def plastic_work() -> Formula:
 
 @cache
 def yield_speed() -> Formula:
-    """Impact speed on a half-space above which the contact yields."""
+    """Return the impact speed at the onset of yield of a half-space."""
     force, _ = _hertz()
     energy = sp.integrate(force * sp.diff(a**2 / R, a), (a, 0, _a_y))
     speed = sp.sqrt(2 * energy.subs(_a_y, yield_radius().expression) / m)
@@ -184,18 +184,18 @@ def yield_speed() -> Formula:
     )
     proof = prove(
         "Yield speed",
-        "The energy of Hertz's contact at the onset; Thornton (1997) writes the same.",
+        "The energy of the Hertz contact at the onset; it equals Thornton's (1997) formula.",
         {"Thornton": sp.simplify((thornton / speed) ** 2 - 1)},
     )
     return Formula(
-        "yield_speed", "v_y", "impact speed above which a contact on a half-space yields",
+        "yield_speed", "v_y", "impact speed at the onset of yield for a half-space",
         sp.powdenest(sp.simplify(speed), force=True), "m/s", "", ("yield_radius",), proof,
     )  # fmt: skip
 
 
 @cache
 def plastic_restitution() -> Formula:
-    """e of a half-space, by xi of the largest force: Thornton's formula in other words."""
+    """Return e of a half-space as a function of xi: Thornton's formula in another variable."""
     work, ratio = plastic_work().expression, flattening().expression
     whole = work + ratio * xi_y**5
     square = ratio * xi_y**5 / whole
@@ -204,9 +204,9 @@ def plastic_restitution() -> Formula:
     thornton = sp.Rational(6, 5) * sp.sqrt(3) * (1 - slow**2 / 6) * sp.sqrt(part)
     ends = sp.limit(square / slow ** sp.Rational(1, 2), xi_y, sp.oo)
     proof = prove(
-        "Restitution of a yielding contact",
-        "The energy returned over that brought; equal to Thornton's (1997) formula in $v_y/v_0$, "
-        "which falls like $1.185 (v_y/v_0)^{1/4}$ in the end.",
+        "Restitution of an elastic-plastic contact",
+        "The energy returned over the initial energy; equal to Thornton's (1997) formula in "
+        "$v_y/v_0$, which tends to $1.185 (v_y/v_0)^{1/4}$.",
         {
             "Thornton": sp.simplify((thornton / square) ** 4 - 1),
             "fast": sp.simplify(
@@ -215,13 +215,13 @@ def plastic_restitution() -> Formula:
         },
     )
     return Formula(
-        "plastic_restitution", "e", "restitution of a yielding contact on a half-space",
+        "plastic_restitution", "e", "restitution of an elastic-plastic contact on a half-space",
         sp.sqrt(square), "1", "", ("plastic_work",), proof,
     )  # fmt: skip
 
 
 def yielding() -> tuple[Formula, ...]:
-    """The formulas of the link."""
+    """Return the formulas of the link."""
     return (
         yield_radius(), yield_speed(), plastic_indentation(), flattening(), dent(),
         plastic_work(), plastic_restitution(),

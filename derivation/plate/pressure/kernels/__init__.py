@@ -1,4 +1,4 @@
-"""What the pressure hands in for the generated package."""
+"""Modules of the non-Hertzian pressure for the generated package."""
 
 from pathlib import Path
 
@@ -11,8 +11,8 @@ RUNTIME = Path(__file__).parents[1] / "runtime"
 
 
 def pressure_kernels() -> Routines:
-    """The kernel's waves and the profile of the sphere, printed."""
-    title = "Waves of the kernel of a contact, and the profile of the sphere."
+    """Return the routines of the kernel's cosines and of the sphere's profile."""
+    title = "Cosines of the kernel of the integral equation, and profile of the sphere."
     imports = {"pressure_numbers": ("LOW",)}
     return Routines("pressure_kernels", title, tuple(make() for make in ROUTINES), imports)
 

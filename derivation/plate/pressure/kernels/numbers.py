@@ -1,12 +1,12 @@
-"""Numbers that the generated solution for the true pressure needs: its quadratures.
+"""Constants for the generated solution of the integral equation: its quadratures.
 
 With lengths in units of b the kernel is
 
     k(x) = (4/pi) sum w_n cos(x j_n) - (4/pi^2) int_0^oo K0(y)/I0(y) cosh(x y) dy.
 
-For 1/eta up to THIN few modes count; beyond it the sum is the thin plate's integral
+For 1/eta up to THIN few modes are needed; above, the sum is replaced by the thin plate's integral
 (1/pi) int (G - 1) cos(A T/2) dT with its c_1 and c_3, up to e^(-4.2124/eta + 2.11 x/h) as in
-the contact law. Either way k is a sum of cosines, so that its matrices are products.
+the contact law. In both cases k is a sum of cosines, so that its matrices are products.
 """
 
 import math
@@ -29,26 +29,26 @@ from derivation.plate.vocabulary import c_A
 NODES = 24
 """Collocation points: the positive ones of a rule on (-a, a) exact up to the degree 95."""
 THIN = 16
-"""1/eta beyond which a plate is thin: e^(-4.2124 THIN + 2.11 * 2 WIDEST) is below 1e-16."""
+"""1/eta above which a plate is thin: e^(-4.2124 THIN + 2.11 * 2 WIDEST) is below 1e-16."""
 WIDEST = 7
-"""Largest a/h. In a thin plate the contact opens before that."""
+"""Largest a/h. In a thin plate, contact at the centre is lost before that."""
 DIRECTIONS, LARGEST_T = 80, 24
-"""Gauss' nodes for a thin plate, where 4 T^2 e^(-2T), which is G - 1 there, is below 1e-17."""
+"""Gauss nodes for a thin plate, where 4 T^2 e^(-2T), which is G - 1 there, is below 1e-17."""
 LOW = 1e-3
-"""Up to here sinh(x)/x is 1 + x^2/6, to 1e-14."""
+"""Argument below which sinh(x)/x is 1 + x^2/6, to 1e-14."""
 FADED = 23
-"""Modes count up to T = 2 eta j_n = FADED in plates that are not thin."""
+"""T = 2 eta j_n up to which modes are summed in plates that are not thin."""
 WIDEST_SHARE = 0.95
 """Largest a/b: the kernel is singular where t + s = 2 b."""
 WALL_STEPS, WALL_FIRST, WALL_LAST = 5, -12, 30
-"""Trapezoids in u, this many to 1, of the side wall's integral, y = exp(u - e^(-u)).
+"""Number of trapezoids per unit of u for the integral of the lateral surface, y = exp(u - e^(-u)).
 
-What is integrated goes like y^2 log y, and is below 1e-20 before the first; the last y is 400.
+The integrand behaves like y^2 log y and is below 1e-20 before the first; the last y is 400.
 """
 
 
 def pressure_numbers() -> Numbers:
-    """Collocation, the thin plate's wave numbers, the side wall's places, limits."""
+    """Return collocation points, wave numbers of the thin plate, nodes in y, and limits."""
     first, cubic = _powers()
     with flint.ctx.workprec(3 * BITS):
         nodes, waves, wall = (_doubles(pairs) for pairs in (_collocation(), _waves(), _wall()))
@@ -56,9 +56,9 @@ def pressure_numbers() -> Numbers:
     square = math.fsum((waves[1] * waves[0] ** 2).tolist()) / 2
     return Numbers(
         "pressure_numbers",
-        "Numbers of the true pressure: quadratures of its kernel, limits.",
+        "Constants of the non-Hertzian pressure: quadratures of its kernel, limits.",
         (
-            Constant("THIN", float(THIN), "1/eta = b/h beyond which a plate is thin."),
+            Constant("THIN", float(THIN), "1/eta = b/h above which a plate is thin."),
             Constant("WIDEST", float(WIDEST), "Largest a/h."),
             Constant(
                 "WIDEST_SHARE", WIDEST_SHARE, "Largest a/b: the kernel is singular at the edge."
@@ -66,19 +66,19 @@ def pressure_numbers() -> Numbers:
             Constant(
                 "ERROR",
                 read_promises("pressure")["error"],
-                "Tested limit of the relative error of every result, the pressure's over its mean.",
+                "Tested limit of the relative error of all results; for the pressure, of its mean.",
             ),
-            Constant("FADED", float(FADED), "Modes count up to T = 2 eta j_n = FADED."),
-            Constant("LOW", LOW, "Up to here sinh(x)/x is 1 + x^2/6, to 1e-14."),
+            Constant("FADED", float(FADED), "T = 2 eta j_n up to which modes are summed."),
+            Constant("LOW", LOW, "Argument below which sinh(x)/x is 1 + x^2/6, to 1e-14."),
             Constant("FIRST", first, "N(0, 0) over c_1/h."),
-            Constant("CUBIC", cubic, "What c_3 a^2/h^3 times x^2 + s^2 has in N."),
-            Constant("SQUARE", square, "Of the waves' sum in x^2 + s^2."),
-            Constant("MODES", modes, "Of the modes' weights in the kernel."),
+            Constant("CUBIC", cubic, "Factor of c_3 a^2/h^3 (x^2 + s^2) in N."),
+            Constant("SQUARE", square, "Factor of x^2 + s^2 in the sum of the cosines."),
+            Constant("MODES", modes, "Factor of the modes' weights in the kernel."),
             Constant("NODES", nodes[0], "Collocation: t/a."),
             Constant("WEIGHTS", nodes[1], "And weights of int_0^1 of an even function."),
             Constant("WAVES", waves[0], "Thin plate: w h = T/2."),
             Constant("WAVE_WEIGHTS", waves[1], "And (G(T) - 1)/pi dT."),
-            Constant("WALL", wall[0], "Side wall: y."),
+            Constant("WALL", wall[0], "Lateral surface: y."),
             Constant("WALL_WEIGHTS", wall[1], "And (4/pi^2) K0/I0 e^(2y) dy."),
         ),
     )
@@ -92,27 +92,27 @@ def _doubles(pairs: list[tuple[Ball, Ball]]) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _powers() -> tuple[float, float]:
-    """What c_1 and c_3 are multiplied by in the kernel."""
+    """Return the factors of c_1 and c_3 in the kernel."""
     parts = kernel_by_powers()
     (x, *_) = sorted(parts[3].free_symbols - {c_A[3]}, key=str)
     return float(parts[1] / c_A[1]), float(sp.diff(parts[3], x, 2) / 2 / c_A[3])
 
 
 def _front(part: int) -> Ball:
-    """The number in front of the kernel's modes, or of its side wall."""
+    """Return the constant factor of the kernel's modes, or of its lateral surface."""
     expression = kernel()[part].expression
     factors = expression.function.args if isinstance(expression, sp.Integral) else expression.args
     return abs(enclose(sp.Mul(*(x for x in factors if x.is_number)), {}))
 
 
 def _collocation() -> list[tuple[Ball, Ball]]:
-    """x = t/a, rising, with the weights of int_0^1."""
+    """Return x = t/a, ascending, with the weights of int_0^1."""
     pairs = [Ball.legendre_p_root(2 * NODES, i, weight=True) for i in reversed(range(NODES))]
     return [(x, w) for x, w in pairs]
 
 
 def _waves() -> list[tuple[Ball, Ball]]:
-    """Wave numbers times h, T/2, and weights of the thin plate's integral, (G - 1)/pi in them."""
+    """Return wave numbers times h, T/2, and weights, (G - 1)/pi included, of the thin plate."""
     half = Ball(LARGEST_T) / 2
     pairs = [Ball.legendre_p_root(DIRECTIONS, i, weight=True) for i in reversed(range(DIRECTIONS))]
     places = [(half * (1 + x), half * w) for x, w in pairs]
@@ -120,13 +120,13 @@ def _waves() -> list[tuple[Ball, Ball]]:
 
 
 def wall_places() -> list[float]:
-    """Places y of the side wall's integral, rising."""
+    """Return the nodes y of the lateral surface's integral, ascending."""
     with flint.ctx.workprec(3 * BITS):
         return [nearest_double(y) for y, _ in _wall()]
 
 
 def _wall() -> list[tuple[Ball, Ball]]:
-    """Places y and weights of the side wall's integral, times e^(2y): (4/pi^2) K0/I0 in them."""
+    """Return nodes y and weights of that integral, times e^(2y) and (4/pi^2) K0/I0."""
     front, found = _front(1), []
     for index in range(WALL_FIRST, WALL_LAST + 1):
         u = Ball(index) / WALL_STEPS

@@ -1,7 +1,7 @@
-"""Waves of the kernel and profile of the sphere, each proved to be that of link 20.
+"""Cosines of the kernel and profile of the sphere, each proved equal to that of link 20.
 
-The kernel is a sum of cosines, and cosines of imaginary arguments beside the wall. Code has
-1 - cos of them, and how fast that grows with x = t/a, over x.
+The kernel is a sum of cosines, with imaginary arguments for the lateral surface. The code uses
+1 - cos and its slope by x = t/a, divided by x.
 """
 
 import sympy as sp
@@ -17,7 +17,7 @@ phase, rise, x, y, c, unit = sp.symbols("phase rise x y c unit", positive=True)
 
 
 def _shape(of_wall: bool, turn: sp.Expr) -> sp.Expr:
-    """The kernel's cosine of a turn."""
+    """Return the kernel's cosine."""
     expression = kernel()[of_wall].expression
     (cosine,) = expression.atoms(sp.cosh if of_wall else sp.cos)
     return cosine.subs(alpha, turn * alpha / cosine.args[0])
@@ -30,7 +30,7 @@ def _by_exponentials(expression: sp.Expr) -> sp.Expr:
 
 @named
 def wave() -> Claims:
-    """1 - cos(phase x), and its slope by x over x."""
+    """Return 1 - cos(phase x), and its slope by x divided by x."""
     turns = sp.Symbol("turns", positive=True)
     risen = 1 - _shape(False, phase * x)
     return Claims(
@@ -45,7 +45,7 @@ def wave() -> Claims:
 
 @named
 def wall_wave() -> Claims:
-    """1 - cosh(rise x), and its slope by x over x, both over e^y."""
+    """Return 1 - cosh(rise x), and its slope by x divided by x, both divided by e^y."""
     grown, faded, half, chord = sp.symbols("grown faded half chord", positive=True)
     risen = sp.exp(-y) * (1 - _shape(True, rise * x))
     above = sp.exp(grown - y) - sp.exp(-grown - y)
@@ -61,7 +61,7 @@ def wall_wave() -> Claims:
                 above / (2 * RAISED(grown, LOW)),
                 faded * (1 + grown**2 / 6),
                 unclaimed="no",
-                reason="two terms of the power series, right to 1e-14 up to LOW",
+                reason="two terms of the power series, accurate to 1e-14 up to LOW",
             ),
         ),
         (-(half**2) / 2, -(rise**2) * chord),
@@ -72,7 +72,7 @@ def wall_wave() -> Claims:
 
 
 def _profile(of_sphere: bool) -> sp.Expr:
-    """f R/a^2 of t = a x, c = a/R."""
+    """Return f R/a^2 at t = a x, c = a/R."""
     shapes = profile()
     (t,) = shapes[0].free_symbols - {R}
     return shapes[of_sphere].subs(t, c * R * x) / (c**2 * R)
@@ -85,7 +85,7 @@ def _by_logarithms(expression: sp.Expr) -> sp.Expr:
 
 @named
 def paraboloid() -> Claims:
-    """f R/a^2 of a paraboloid, and its slope by x over x; `unit` is 1 in their shape."""
+    """Return f R/a^2 of a paraboloid, and its slope by x over x; `unit` is 1 in their shape."""
     exact = _profile(False)
     return Claims(
         (x, unit),
@@ -99,7 +99,7 @@ def paraboloid() -> Claims:
 
 @named
 def sphere() -> Claims:
-    """f R/a^2 of a sphere, and its slope by x over x; c = a/R."""
+    """Return f R/a^2 of a sphere, and its slope by x over x; c = a/R."""
     angle, share = sp.symbols("angle share", positive=True)
     exact = _profile(True)
     return Claims(
@@ -128,7 +128,7 @@ MEANING = {
 
 @named
 def contact_results() -> Claims:
-    """Force, indentation, stiffness, slope, energy, pressure at the centre and on the mean."""
+    """Return force, indentation, stiffness, slope, energy, central and mean pressure."""
     ratio, deep, stiff, series = sp.symbols("ratio deep stiff series", positive=True)
     pressed, peak, reach, share = sp.symbols("pressed peak reach share", positive=True)
     found = theory.results()
@@ -160,13 +160,13 @@ def contact_results() -> Claims:
 
 
 def pressure_unit() -> Routine:
-    """What the sums of -c'/x are in units of."""
+    """Return the unit of the sums of -c'/x."""
     unit = theory.results().centre_pressure / theory.centre
     return _unit("pressure_unit", modulus / sp.pi * a / R, unit, "Unit of the pressure.")
 
 
 def chi_unit() -> Routine:
-    """What c is in units of."""
+    """Return the unit of c."""
     return _unit("chi_unit", modulus / sp.pi * a**2 / R, theory.results().chi, "Unit of chi.")
 
 
@@ -179,7 +179,7 @@ def _unit(name: str, value: sp.Expr, exact: sp.Expr, summary: str) -> Routine:
 
 @named
 def pressure_points() -> Claims:
-    """t/a where the pressure at r/a is summed, and the front of that sum."""
+    """Return t/a for the pressure at r/a, and the factor of its sum."""
     within, node, gap = sp.symbols("within node gap", positive=True)
     t, front, _ = theory.substitution()
     (u,) = t.free_symbols - {a, r}

@@ -1,1 +1,1 @@
-"""Algorithms of the pressure, copied into the generated package."""
+"""Algorithms of the non-Hertzian pressure, copied into the generated package."""

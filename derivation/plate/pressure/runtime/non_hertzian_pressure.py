@@ -1,23 +1,23 @@
-"""Contact of a sphere and a plate with the pressure solved for, not assumed to be Hertz's.
+"""Contact of a sphere and a plate with the pressure computed from an integral equation.
 
-The pressure is q(r) = -int_r^a chi'(t)/sqrt(t^2 - r^2) dt, and chi solves::
+The pressure is q(r) = -int_r^a chi'(t)/sqrt(t^2 - r^2) dt, where chi solves::
 
     chi(t) + int_0^a N(t, s) chi(s) ds = (E*/pi) (delta - f(t)),   chi(a) = 0
     P = 2 pi int_0^a chi dt,   N(t, s) = [k((t + s)/b) + k((t - s)/b)]/(2 b)
 
-f = t^2/R for a paraboloid, t artanh(t/R) for an exact sphere. k is the slope of
-S = (R/2a) d delta/da of Hertz's pressure, so that b k(0) = (3/2) c_1 b/h comes from the
-polynomials of `contact_series`. It is a sum of cosines, and with C = 1 - cos::
+f = t^2/R for a paraboloid and t artanh(t/R) for an exact sphere. k is the slope of
+S = (R/2a) d delta/da for Hertz pressure, so that b k(0) = (3/2) c_1 b/h follows from the
+polynomials of `contact_series`. N is a sum of cosines; with C = 1 - cos::
 
     N(t, s) - N(0, 0) = sum nu_i [C(w_i t) C(w_i s) - C(w_i t) - C(w_i s)]
 
-for a thick plate over its modes, w = j_n/b, and the side wall, w = i y/b with nu < 0; for a
-thin one over the nodes of an integral, with a multiple of t^2 + s^2 besides. N(0, 0), large
-in a thin plate, is split off: it adds N(0, 0) P/(2 E*) to the indentation. The t^2 + s^2 acts
-like more curvature of the sphere, so that a thin plate's pressure has a shape of a/h alone.
+For a thick plate the sum covers its modes, w = j_n/b, and the lateral surface, w = i y/b with
+nu < 0. For a thin plate it covers the nodes of an integral, and a multiple of t^2 + s^2 is added.
+N(0, 0), large in a thin plate, is separated: it adds N(0, 0) P/(2 E*) to the indentation. The term
+t^2 + s^2 acts like additional curvature, so that the pressure's shape depends on a/h alone.
 
-Arithmetic: the equation's matrix from products of the kernel's waves, sums by Gauss' rule, and
-units: lengths over h or b.
+Arithmetic: the equation's matrix as products of the kernel's cosines, sums by Gauss quadrature,
+and the conversion of lengths to units of h or b.
 """
 
 from typing import NamedTuple
@@ -46,27 +46,27 @@ from generated.pressure_numbers import (
 )
 
 _POINTS = np.append(NODES, 1.0)
-_BLOCK = 8  # contacts worked on at a time, so that intermediates stay in the cache
+_BLOCK = 8  # number of contacts in one block, so that intermediate arrays fit in the cache
 
 
 class Plate(NamedTuple):
-    """The kernel of a plate; lengths are in units of `unit`, h or b [m]."""
+    """Kernel of a plate's integral equation; lengths are in units of `unit`, h or b [m]."""
 
     h: float
     b: float
     unit: float
     first: float  # N(0, 0)
-    square: float  # of t^2 + s^2, beside the waves
+    square: float  # coefficient of t^2 + s^2, in addition to the cosines
     waves: Double  # w_i of the cosines
     wave_weights: Double
     rises: Double  # y_i of the hyperbolic cosines
-    rise_weights: Double  # times e^(2 y_i)
+    rise_weights: Double  # multiplied by e^(2 y_i)
 
 
 class Contact(NamedTuple):
-    """What a contact radius needs, all of the shape of the arguments; NaN outside the domain.
+    """Results at given contact radii, all of the shape of the arguments; NaN outside the domain.
 
-    The contact is open, and everything NaN, where the pressure at the centre would be negative.
+    All are NaN where the pressure at the centre would be negative: contact is lost there.
     """
 
     a: Double  # contact radius [m]
@@ -74,7 +74,7 @@ class Contact(NamedTuple):
     indentation: Double  # delta [m]
     stiffness: Double  # dP/d delta [N/m]
     slope: Double  # d delta/da [1]
-    energy: Double  # int P d delta from no contact on [J]
+    energy: Double  # int P d delta since first contact [J]
     centre_pressure: Double  # q(0) [Pa], positive
     mean_pressure: Double  # P/(pi a^2) [Pa]
     nodes: Double  # t [m], along a last axis
@@ -82,10 +82,10 @@ class Contact(NamedTuple):
 
 
 class _Waves(NamedTuple):
-    """At points t/a, of shape (contacts, points, waves): C = 1 - cos(w t), scaled by e^-y.
+    """C = 1 - cos(w t) at points t/a of shape (contacts, points, waves), scaled by e^-y.
 
-    `bends` is the slope of C by x = t/a over x. `weights` hold signs and the factor a, `faded`
-    is what cos(0) is with that scaling: of shapes (contacts, waves) and (waves,).
+    `bends` is the slope of C by x = t/a divided by x. `weights` contain signs and the factor a;
+    `faded` is the value of cos(0) in that scaling. Shapes: (contacts, waves) and (waves,).
     """
 
     rises: Double
@@ -95,11 +95,11 @@ class _Waves(NamedTuple):
 
 
 class _Solution(NamedTuple):
-    """In units of E* a^2/(pi R) for chi, of a^2/R for depths; of shape (contacts,) or more."""
+    """Solution with chi in E* a^2/(pi R) and depths in a^2/R; shape (contacts,) or more."""
 
     chi: Double
     force: Double  # int_0^1 chi dx
-    depth: Double  # delta without the part of N(0, 0)
+    depth: Double  # delta without the contribution of N(0, 0)
     work: Double  # int_0^1 chi (depth - f) dx
     flat: Double  # int_0^1 psi dx of the flat punch
     edge: Double  # psi at x = 1
@@ -107,7 +107,7 @@ class _Solution(NamedTuple):
 
 
 def plate(h: float, b: float) -> Plate:
-    """What a plate's contacts have in common.
+    """Compute the kernel of a plate, which all its contacts share.
 
     Parameters
     ----------
@@ -119,7 +119,13 @@ def plate(h: float, b: float) -> Plate:
     Returns
     -------
     Plate
-        For `contact`. Outside the domain its numbers are NaN.
+        Argument of `contact`. Outside the domain its numbers are NaN.
+
+    Examples
+    --------
+    >>> from generated.non_hertzian_pressure import plate
+    >>> print(f"{plate(0.004, 0.15).first:.6g}")
+    168.576
     """
     _, [height, radius] = as_doubles(h, b)
     h, b = float(height), float(radius)
@@ -151,7 +157,7 @@ def contact(
     sphere: bool = False,
     compliance: ArrayLike = 0.0,
 ) -> Contact:
-    """Force, indentation, stiffness and pressure at given contact radii.
+    """Compute force, indentation, stiffness and pressure at given contact radii.
 
     Formula::
 
@@ -167,26 +173,33 @@ def contact(
     R : array_like
         sphere radius [m]; R > 0
     modulus : array_like
-        E* of the contact [Pa], 1/E* summed over sphere and plate; > 0
+        E* of the contact [Pa]: 1/E* is the sum of those of sphere and plate; > 0
     plate_modulus : array_like, optional
-        E* of the plate alone [Pa], that of the contact if the sphere is rigid; >= modulus
+        E* of the plate alone [Pa], equal to `modulus` for a rigid sphere; >= modulus
     sphere : bool
-        whether the profile is that of an exact sphere rather than its paraboloid; its half-space
-        is Sneddon's: delta = (a/2) ln((R+a)/(R-a)), P = E* [(a^2+R^2)/2 ln((R+a)/(R-a)) - a R]
+        use the profile of an exact sphere instead of its paraboloid; on a half-space this gives
+        Sneddon's delta = (a/2) ln((R+a)/(R-a)), P = E* [(a^2+R^2)/2 ln((R+a)/(R-a)) - a R]
     compliance : array_like
-        what the support adds to the indentation per force [m/N]; negative if it is stiffer
+        indentation per force that the support adds [m/N]; negative for a stiffer support
 
     Returns
     -------
     Contact
-        Its arrays have the arguments' broadcast shape. NaN outside the domain, and where the
-        contact would open at its centre, near a = 6 h in a thin plate.
+        Its arrays have the arguments' broadcast shape. NaN outside the domain, and where contact
+        would be lost at the centre, which happens near a = 6 h in a thin plate.
 
     Notes
     -----
-    Relative errors are below `pressure_numbers.ERROR`, measured against an oracle from h/b = 1e-4
-    to 1e5: 1e-15 up to a = h, 7e-14 near a = 6 h, where next to nothing of the pressure is left
-    at the centre.
+    Relative errors are below `pressure_numbers.ERROR`, as measured against a reference solution for
+    h/b from 1e-4 to 1e5: 1e-15 up to a = h, and 7e-14 near a = 6 h, where the pressure at the
+    centre almost vanishes.
+
+    Examples
+    --------
+    >>> from generated.non_hertzian_pressure import contact, plate
+    >>> found = contact(plate(0.004, 0.15), 0.01, 0.5, 75e9)
+    >>> print(f"{found.force:.6g} N, {found.indentation:.6g} m")
+    23003.2 N, 0.00643546 m
     """
     own = modulus if plate_modulus is None else plate_modulus
     _, given = as_doubles(a, R, modulus, own, compliance)
@@ -208,7 +221,7 @@ def contact(
 
 
 def _contact(plate: Plate, found: _Solution, given: tuple[Double, ...]) -> Contact:
-    """From units of the half-space to those of the arguments."""
+    """Convert from units of the half-space to those of the arguments."""
     a, R, modulus, own, compliance = given
     centre = found.bends[..., :-1] @ WEIGHTS
     edge, bend = found.edge, found.bends[..., -1]
@@ -225,7 +238,7 @@ def _contact(plate: Plate, found: _Solution, given: tuple[Double, ...]) -> Conta
 
 
 def _waves(plate: Plate, a: Double, x: Double, share: Double) -> _Waves:
-    """At points x = t/a of shape (contacts, points)."""
+    """Return the waves at points x = t/a of shape (contacts, points)."""
     ratio = (a / plate.unit)[:, None]
     points, phase, rise = x[:, :, None], ratio * plate.waves, ratio * plate.rises
     waves = kernels.wave(points, phase[:, None, :])
@@ -237,7 +250,7 @@ def _waves(plate: Plate, a: Double, x: Double, share: Double) -> _Waves:
 
 
 def _solve(plate: Plate, a: Double, R: Double, share: Double, sphere: bool) -> _Solution:
-    """chi at the nodes by Nystroem's method; `share` is E* of the contact over the plate's."""
+    """Return chi at the nodes by Nystroem's method; `share` is E* divided by the plate's E*."""
     x = np.broadcast_to(_POINTS, (a.size, _POINTS.size))
     waves = _waves(plate, a, x, share)
     square = plate.square * (a / plate.unit) ** 3 * share
@@ -261,14 +274,14 @@ def _solve(plate: Plate, a: Double, R: Double, share: Double, sphere: bool) -> _
 
 
 def _profile(x: Double, c: Double, sphere: bool) -> tuple[Double, Double]:
-    """f R/a^2 and its slope by x over x, c = a/R."""
+    """Return f R/a^2, and its slope by x divided by x, for c = a/R."""
     if sphere:
         return kernels.sphere(x, c)
     return kernels.paraboloid(x, np.ones_like(x * c))
 
 
 def _transform(waves: _Waves, chi: Double) -> Double:
-    """int_0^1 chi cos(w a x) dx, scaled as the waves are."""
+    """Return int_0^1 chi cos(w a x) dx, scaled like the waves."""
     weighted = (chi * WEIGHTS)[:, None, :]
     near = waves.rises[:, : NODES.size]
     whole: Double = weighted.sum(axis=2) * waves.faded - (weighted @ near)[:, 0]
@@ -276,7 +289,7 @@ def _transform(waves: _Waves, chi: Double) -> Double:
 
 
 def _bends(waves: _Waves, transform: Double) -> Double:
-    """What the waves take off -chi'(x)/x."""
+    """Return the contribution of the waves to chi'(x)/x."""
     return np.asarray(waves.bends @ (waves.weights * transform)[:, :, None])[:, :, 0]
 
 
@@ -291,7 +304,7 @@ def pressure(
     *,
     sphere: bool = False,
 ) -> np.ndarray:
-    """Contact pressure q(r) = -sigma_zz >= 0 of one contact.
+    """Compute the contact pressure q(r) = -sigma_zz >= 0 of one contact.
 
     Formula::
 
@@ -302,13 +315,19 @@ def pressure(
     r : array_like
         distance from the axis [m]; 0 <= r <= a
     plate, a, R, modulus, plate_modulus, sphere
-        as for `contact`, one of each
+        as in `contact`, one value each
 
     Returns
     -------
     float or ndarray
-        Pressure [Pa] in the shape of r; NaN outside the domain, and everywhere if the contact
-        would open.
+        Pressure [Pa] in the shape of r; NaN outside the domain, and for all r if contact would
+        be lost at the centre.
+
+    Examples
+    --------
+    >>> from generated.non_hertzian_pressure import plate, pressure
+    >>> print(pressure([0.0, 0.005], plate(0.004, 0.15), 0.01, 0.5, 75e9).round(-3))
+    [79788000. 85992000.]
     """
     whole = contact(plate, a, R, modulus, plate_modulus, sphere=sphere)
     _, [r] = as_doubles(r)

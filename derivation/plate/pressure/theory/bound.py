@@ -1,14 +1,14 @@
-"""Link 20's bound: how far assuming Hertz's pressure moves the law at given force.
+"""Link 20, bound: the error of the law with Hertz pressure at given force.
 
-Let a_H be Hertz's radius of the force P and S = (R/2 a_H) d delta/d a_H, for the true pressure
-S_T, for Hertz's S_H. N_0 = N(0, 0) adds N_0 a_H to both. With x = t/a the rest M(x, s) of a N
-lies between -tau (x^2 + s^2) and 0, and M(x, s) - M(1, s) within tau (1 - x^2), where
+Let a_H be the Hertz radius of the force P and S = (R/2 a_H) d delta/d a_H: S_T for the exact
+pressure, S_H for Hertz pressure. N_0 = N(0, 0) adds N_0 a_H to both. With x = t/a the rest M(x, s)
+of a N lies between -tau (x^2 + s^2) and 0, and M(x, s) - M(1, s) within tau (1 - x^2), where
 
     tau = Theta a^3,   Theta b^3 = (2/pi) sum w_n j_n^2 + (2/pi^2) int y sinh(g y)/g K0/I0 dy,
 
-for every a <= g b/2: of a mode, 1 - cos x cos y <= (x^2 + y^2)/2 and |sin x cos y| <= x; of the
-side wall (cosh z - 1)/z^2 and sinh(z)/z grow with z. The two parts of Theta are those of
--(15/2) c_3/h^3 but for sinh(g y)/g in the place of y, which adds at most WALL_EXTRA to the sum.
+for every a <= g b/2. For a mode, 1 - cos x cos y <= (x^2 + y^2)/2 and |sin x cos y| <= x; for the
+lateral surface (cosh z - 1)/z^2 and sinh(z)/z increase with z. The two parts of Theta are those of
+-(15/2) c_3/h^3 except for sinh(g y)/g instead of y, which adds at most WALL_EXTRA to the sum.
 Let tau <= 1/4.
 
 The solution is chi = (E* a^2/(pi R)) (1 - x^2) z, and z differs from 1 by at most
@@ -39,22 +39,22 @@ from derivation.plate.modes.theory.plate_factor import plate_factors
 from derivation.plate.vocabulary import J1, Formula, R, T, a, a_ratio, c_A, eta, j_n, kappa
 
 WIDTH = sp.Rational(7, 8)
-"""g: the true contact radius is at most g b/2."""
+"""g: the actual contact radius is at most g b/2."""
 WIDEST = sp.Rational(2, 5)
-"""Hertz's radius over that of the plate, at most."""
+"""Largest ratio of the Hertz radius to that of the plate."""
 WALL_EXTRA = sp.Rational(2, 25)
-"""What (2/pi^2) int (y sinh(g y)/g - y^2) K0/I0 dy is at most."""
+"""Upper bound of (2/pi^2) int (y sinh(g y)/g - y^2) K0/I0 dy."""
 LARGEST = sp.Rational(1, 5)
-"""theta, at most."""
+"""Largest theta."""
 BELOW, ABOVE, DEPTH = sp.Rational(5, 3), sp.Rational(2, 3), sp.Rational(2, 3)
-"""Shares of theta in the bounds: of S downwards, of S upwards, of delta R/a^2."""
+"""Factors of theta in the bounds: of S downwards, of S upwards, of delta R/a^2."""
 
 _x, _s, _y = sp.symbols("x s y", positive=True)
 _tau, _theta = sp.symbols("tau theta", positive=True)
 
 
 def wall_share_ball(digits: int = 12) -> flint.arb:
-    """int_0^oo y sinh(g y)/g K0/I0 dy over kappa_2.
+    """Return int_0^oo y sinh(g y)/g K0/I0 dy over kappa_2.
 
     By parts, (K0/I0)' = -1/(y I0^2): int (y cosh(g y) - sinh(g y)/g)/(g^2 y I0^2) dy. Its tail is
     below e^y/(g^2 I0^2) <= pi^2 e y e^(-y)/g^2, as `contact.theory.split.wall_tail` has I0.
@@ -77,34 +77,34 @@ def wall_share_ball(digits: int = 12) -> flint.arb:
         )
         return (body + flint.arb(0, rest.upper())) / kappa_ball(2)
 
-    return refine(compute, digits, "the side wall's share")
+    return refine(compute, digits, "the contribution of the lateral surface")
 
 
 @cache
 def wall_share() -> flint.arb:
-    """The share as a ball; WALL_EXTRA shown to hold, and Hertz's radius to keep a below g b/2.
+    """Return the contribution as a ball; prove WALL_EXTRA and that a stays below g b/2.
 
     Raises
     ------
     ProofError
-        If one is not.
+        If one of both fails.
     """
     share = wall_share_ball()
     extra = 2 / flint.arb.pi() ** 2 * (share - 1) * kappa_ball(2)
     if not extra < flint.arb(int(WALL_EXTRA.p)) / int(WALL_EXTRA.q):
-        raise ProofError(f"Bound of Hertz's pressure: the side wall's share is {share}")
+        raise ProofError(f"Bound for Hertz pressure: the contribution of the edge is {share}")
     # a^3 <= a_H^3/(1 - zeta) with zeta <= theta.
     if not WIDEST**3 / (1 - LARGEST) <= (WIDTH / 2) ** 3:
-        raise ProofError("Bound of Hertz's pressure: the true contact may be too wide")
+        raise ProofError("Bound for Hertz pressure: the actual contact may be too wide")
     return share
 
 
 @cache
 def estimates() -> Proof:
-    """The integrals and the inequalities between rational functions of the argument above.
+    """Prove the integrals and the inequalities between rational functions of the argument above.
 
-    Each inequality holds because what is left is a product of factors of known sign, for
-    tau <= 1/4 or theta <= 1/5; cube roots lie below their tangents and above what is cubed here.
+    Each inequality holds because the difference is a product of factors of known sign, for
+    tau <= 1/4 or theta <= 1/5; cube roots lie below their tangents and above the cubed expressions.
     """
     zeta = 2 * _tau / 3 / (1 - 2 * _tau / 3)
     rise = 2 * _tau / 3 / (1 - 4 * _tau / 3)
@@ -117,7 +117,7 @@ def estimates() -> Proof:
     E = sp.Symbol("E", positive=True)
     force_rise = sp.diff(contact_radius().expression, a) * E / reduced_modulus()
     return prove(
-        "Bound of what Hertz's pressure changes",
+        "Bound of the error of Hertz pressure",
         r"Both parts of $\Theta$, the integrals of the estimates, and each inequality as a "
         "product.",
         {
@@ -152,9 +152,9 @@ def estimates() -> Proof:
 
 @cache
 def pressure_bound() -> tuple[Formula, Formula]:
-    """Bounds of |S_T - S_H| and of |delta_T - delta_H| R/a^2 at the Hertz radius a of the force.
+    """Return bounds of |S_T - S_H| and of |delta_T - delta_H| R/a^2 at the Hertz radius a.
 
-    c_3 < 0 for every plate, as both of its parts are: the bounds are positive.
+    c_3 < 0 for every plate, because both of its parts are negative: the bounds are positive.
     """
     wall_share()
     proof = estimates()
@@ -166,7 +166,7 @@ def pressure_bound() -> tuple[Formula, Formula]:
         return Formula(
             name,
             latex,
-            f"what Hertz's pressure changes of {what} at given force, at most",
+            f"bound of the error of {what} with Hertz pressure at given force",
             share * theta,
             "1",
             "",

@@ -1,9 +1,9 @@
-"""What a solution of the contact's integral equation gives, in units of the half-space.
+"""Results from a solution of the contact's integral equation, in units of the half-space.
 
 With x = t/a, chi = (E*/pi) (a^2/R) c(x) and f = (a^2/R) g(x). The constant N_0 of the kernel is a
-compliance in series with the rest, and so is that of the support: both are left out of the
-equation that c, and psi of the flat punch, solve. chi is elastic energy: I + N being symmetric,
-dU/da = P d delta/da for U = pi int chi (delta - f) dt.
+compliance in series with the rest, and so is that of the support: both are omitted from the
+equation for c, and for psi of the flat punch. chi gives the elastic energy: because I + N is
+symmetric, dU/da = P d delta/da for U = pi int chi (delta - f) dt.
 """
 
 from functools import cache
@@ -23,7 +23,7 @@ _c, _g = sp.Function("c"), sp.Function("g")
 
 
 class Results(NamedTuple):
-    """Quantities of the contact, the unit of chi, and the proof that the solution gives these."""
+    """Quantities of the contact, the unit of chi, and the proof that the solution gives them."""
 
     force: sp.Expr
     indentation: sp.Expr
@@ -38,7 +38,7 @@ class Results(NamedTuple):
 
 @cache
 def results() -> Results:
-    """All of them by the numbers of the solution."""
+    """Return all results in terms of the numbers of the solution."""
     series = a * N_0 + 2 * E * a * support
     load = 2 * E * a**3 / R * force
     found = (
@@ -58,7 +58,7 @@ def _proof(
     peak: sp.Expr, mean: sp.Expr, unit: sp.Expr,
 ) -> Proof:  # fmt: skip
     chi = unit * _c(_t / a)
-    # int psi of the whole kernel, and psi at the end, by the remainder's.
+    # int psi of the whole kernel, and psi at the end, in terms of those of the remaining kernel.
     whole = a * flat / (1 + N_0 * a * flat)
     last = edge * (1 - N_0 * whole)
     end = sp.diff(chi, _t).subs(_t, a * _x).doit().subs({sp.diff(_c(_x), _x): -bend, _x: 1})
@@ -67,8 +67,8 @@ def _proof(
     squares = (N_0 / (2 * E) + support) * load**2 / 2
     return prove(
         "Results of the contact's integral equation",
-        r"Integrals over $t$ are put in $x = t/a$; $\chi(a) = 0$ is differentiated; compliances "
-        "are added.",
+        r"Integrals over $t$ are written in $x = t/a$; $\chi(a) = 0$ is differentiated; "
+        "compliances are added.",
         {
             "force": over_x(2 * sp.pi * chi) - load / force * _c(_x),
             "indentation": a**2 / R * depth + (N_0 / (2 * E) + support) * load - indentation,
@@ -82,19 +82,19 @@ def _proof(
 
 
 def over_x(integrand: sp.Expr) -> sp.Expr:
-    """What is integrated over x from 0 to 1 instead of over t from 0 to a."""
+    """Return the integrand over x from 0 to 1 that replaces one over t from 0 to a."""
     return (a * integrand.subs(_t, a * _x)).doit()
 
 
 @cache
 def substitution() -> tuple[sp.Expr, sp.Expr, Proof]:
-    """t by u, and what is in front of the pressure's integral of -chi'/t over u."""
+    """Return t in terms of u, and the factor of the pressure's integral of -chi'/t over u."""
     t = sp.sqrt(r**2 + (a**2 - r**2) * _u**2)
     front = sp.sqrt(a**2 - r**2)
     proof = prove(
         "Points of the pressure's integral",
-        r"In $\int \chi'/\sqrt{t^2 - r^2} dt$ the measure $dt/\sqrt{t^2 - r^2}$ is the front times "
-        "$du/t$.",
+        r"In $\int \chi'/\sqrt{t^2 - r^2} dt$ the measure $dt/\sqrt{t^2 - r^2}$ is the factor "
+        "times $du/t$.",
         {
             "measure": (sp.diff(t, _u) * t / (front * _u)) - front,
             "root": t**2 - r**2 - (front * _u) ** 2,

@@ -1,6 +1,6 @@
-"""Link 20: the contact pressure solved for, not assumed: an integral equation with a smooth kernel.
+"""Link 20: the non-Hertzian contact pressure: an integral equation with a smooth kernel.
 
-The pressure is put as q(r) = -int_r^a chi'(t)/sqrt(t^2 - r^2) dt, chi(a) = 0, so that its
+The pressure is written as q(r) = -int_r^a chi'(t)/sqrt(t^2 - r^2) dt, chi(a) = 0, so that its
 Hankel transform is int_0^a chi cos(phi t) dt and its resultant P = 2 pi int_0^a chi dt. Abel's
 operator d/dt int_0^t r(.)/sqrt(t^2 - r^2) dr turns the condition that the surface follows the
 sphere for r < a into
@@ -9,10 +9,10 @@ sphere for r < a into
     N(t, s) = [k((t + s)/b) + k((t - s)/b)]/(2 b),
 
 f = t^2/R for the paraboloid and t artanh(t/R) for the sphere. The part G = 1 of the modes gives
-chi itself and the side wall's part of k by the sum identity of link 12, as cos(t z) times the
-transform is entire, grows slower than e^(2 |Im z|) for t < b, and falls like 1/z^2. The kernel
-is the slope of the slope of the contact law: k = dS/d alpha, S = (R/2a) d delta/da of Hertz's
-pressure. chi(a) = 0 fixes delta. A flat punch, (I + N) psi = 1, gives the stiffness.
+chi itself and the lateral surface's part of k by the sum identity of link 12, as cos(t z) times
+the transform is entire, grows slower than e^(2 |Im z|) for t < b, and decreases like 1/z^2. The
+kernel is the derivative of the law's slope: k = dS/d alpha, S = (R/2a) d delta/da of Hertz
+pressure. chi(a) = 0 determines delta. A flat punch, (I + N) psi = 1, gives the stiffness.
 """
 
 from functools import cache
@@ -56,7 +56,7 @@ ORDER = 4
 
 @cache
 def abel_of_bessel() -> Proof:
-    """int_0^t r J0(phi r)/sqrt(t^2 - r^2) dr = sin(phi t)/phi, by its power series."""
+    """Prove int_0^t r J0(phi r)/sqrt(t^2 - r^2) dr = sin(phi t)/phi by its power series."""
     bessel = (-1) ** _m / (4**_m * sp.factorial(_m) ** 2)
     # int_0^1 x^(2m+1)/sqrt(1 - x^2) dx, a Beta integral.
     moment = sp.gamma(_m + 1) * sp.gamma(sp.Rational(1, 2)) / (2 * sp.gamma(_m + sp.Rational(3, 2)))
@@ -65,14 +65,14 @@ def abel_of_bessel() -> Proof:
     )
     return prove(
         "Abel's integral of J0",
-        "J0's power series integrated term by term: every coefficient is that of the sine.",
+        "J0's power series is integrated term by term: every coefficient is that of the sine.",
         {"ratio of coefficients - 1": sp.simplify(ratio) - 1},
     )
 
 
 @cache
 def representation() -> Proof:
-    """Transform, resultant and Hertz's case of the pressure that chi stands for.
+    """Prove transform, resultant and Hertz's case of the pressure that chi represents.
 
     The transform is -int chi' sin(phi t)/phi dt by the integral above, by parts int chi cos.
     """
@@ -99,16 +99,16 @@ def representation() -> Proof:
 
 
 def profile() -> tuple[sp.Expr, sp.Expr]:
-    """f(t) of the paraboloid and of the sphere, Abel's transform of the profile's depth."""
+    """Return f(t) of the paraboloid and of the sphere, Abel's transform of the profile's depth."""
     return _t**2 / R, _t / 2 * sp.log((R + _t) / (R - _t))
 
 
 @cache
 def profiles() -> Proof:
-    """Abel's operator on the sphere's depth below its tip: f = t int_0^t depth'/sqrt(t^2 - r^2) dr.
+    """Prove Abel's operator on the sphere's profile: f = t int_0^t depth'/sqrt(t^2 - r^2) dr.
 
     For the sphere depth' = r/sqrt(R^2 - r^2); with v^2 = (t^2 - r^2)/(R^2 - r^2) the integrand is
-    -v'/(1 - v^2), and v falls from t/R to 0. Without the plate, chi = (E*/pi) (f(a) - f(t)).
+    -v'/(1 - v^2), and v decreases from t/R to 0. Without the plate, chi = (E*/pi) (f(a) - f(t)).
     """
     parabola, sphere = profile()
     angle = sp.Symbol("theta", positive=True)
@@ -135,20 +135,20 @@ def profiles() -> Proof:
 
 
 def sneddon() -> tuple[sp.Expr, sp.Expr]:
-    """Indentation and force of an exact sphere on the half-space (Sneddon 1965), E* a symbol."""
+    """Return indentation and force of a sphere on the half-space (Sneddon 1965), E* a symbol."""
     logarithm = sp.log((R + a) / (R - a))
     return a / 2 * logarithm, _MODULUS * ((a**2 + R**2) / 2 * logarithm - a * R)
 
 
 @cache
 def kernel() -> tuple[Formula, Formula]:
-    """Both parts of k: one mode's share, and the side wall's integral."""
+    """Return both parts of k: one mode's term, and the integral of the lateral surface."""
     contour()
     norm_of_bessel()
     representation()
     G = plate_factors()[0].expression.subs(T, 2 * phi * h)
     half = influence_coefficients()[2].expression
-    # A mode's coefficient is 2 Q/(b^2 J1^2); its deflection, by Abel's operator, cos(phi t).
+    # A mode's coefficient is 2 Q/(b^2 J1^2); its deflection is cos(phi t) by Abel's operator.
     load = 2 * sp.cos(phi * _s) / (b**2 * J1**2)
     share = reduced_modulus() / sp.pi * half * G * load * sp.cos(phi * _t)
     weight = plate_factors()[2].expression.subs(T, 2 * eta * j_n) / (j_n * J1**2)
@@ -159,7 +159,7 @@ def kernel() -> tuple[Formula, Formula]:
         ends = (part.subs(alpha, (_t + sign * _s) / b) for sign in (1, -1))
         return sp.Add(*ends) / (2 * b)
 
-    # f of the sum identity: one mode's share with G = 1 is f(j_n)/(j_n J1^2), j_n = b phi.
+    # f of the sum identity: one mode's term with G = 1 is f(j_n)/(j_n J1^2), j_n = b phi.
     f = 4 / (sp.pi * b) * sp.cos(_x * _t / b) * sp.cos(_x * _s / b)
     both = f.subs(_x, sp.I * _y) + f.subs(_x, -sp.I * _y)
     slope = law_slopes()[1].expression, slope_law().expression.function
@@ -169,8 +169,8 @@ def kernel() -> tuple[Formula, Formula]:
     proof = prove(
         "Kernel of the contact's integral equation",
         r"A mode's deflection under $\chi$, by Abel's operator; with $G = 1$ the sum identity "
-        r"leaves $(2/\pi) \int \cos(x t) \cos(x s) dx$, which is $\chi$, and the side wall. $S$ "
-        "is differentiated.",
+        r"gives $(2/\pi) \int \cos(x t) \cos(x s) dx$, which is $\chi$, and the lateral surface. "
+        "$S$ is differentiated.",
         {
             "one mode": share - f.subs(_x, b * phi) / (b * phi * J1**2) * G,
             "thickness": f.subs(_x, b * phi) / (b * phi * J1**2) * (G - 1)
@@ -186,7 +186,7 @@ def kernel() -> tuple[Formula, Formula]:
         Formula(
             "k_modes",
             r"k_h(\alpha)",
-            r"thickness' part of the contact's kernel, $t + s$ and $t - s$ over $b$ for $\alpha$",
+            r"contribution of the finite thickness to the kernel, for $(t + s)/b$ and $(t - s)/b$",
             mode,
             "1",
             "",
@@ -197,7 +197,7 @@ def kernel() -> tuple[Formula, Formula]:
         Formula(
             "k_wall",
             r"k_b(\alpha)",
-            "side wall's part of the contact's kernel",
+            "contribution of the lateral surface to the kernel",
             sp.Integral(wall * WALL, (_y, 0, sp.oo)),
             "1",
             "",
@@ -208,25 +208,25 @@ def kernel() -> tuple[Formula, Formula]:
 
 
 def _spread(expression: sp.Expr, function: type[sp.Function]) -> sp.Expr:
-    """Addition theorems in the function of a sum."""
+    """Return the expression with addition theorems applied to functions of a sum."""
     return expression.replace(function, lambda x: sp.expand_trig(function(sp.expand(x)))).expand()
 
 
 @cache
 def motion_of_the_edge() -> Proof:
-    """dP/d delta = 2 E* int psi, (I + N) psi = 1: what the flat punch of that radius has.
+    """Prove dP/d delta = 2 E* int psi, (I + N) psi = 1, the stiffness of the flat punch.
 
     The equation is differentiated by a: chi(a) = 0 leaves no term of the moving end, and
     (I + N) d chi/da = (E*/pi) d delta/da. A constant part N_0 of the kernel is a compliance
     N_0/(2 E*) in series with what remains.
     """
     whole, rest, constant, rise = sp.symbols("W I N_0 delta_a", positive=True)
-    # (I + rest) psi = 1 - N_0 int psi, hence psi is (1 - N_0 W) times the remainder's.
+    # (I + rest) psi = 1 - N_0 int psi, hence psi is (1 - N_0 W) times that of the rest.
     (found,) = sp.solve(whole - (1 - constant * whole) * rest, whole)
     force = 2 * sp.pi * _MODULUS / sp.pi * rise * whole
     return prove(
         "Stiffness of the contact",
-        "The integral equation is differentiated by its end; a constant kernel is split off.",
+        "The integral equation is differentiated by its end; a constant kernel is separated.",
         {
             "stiffness": force / rise - 2 * _MODULUS * whole,
             "compliances in series": 1 / (2 * _MODULUS * found)
@@ -240,7 +240,7 @@ Series = dict[int, sp.Expr]
 
 
 def kernel_by_powers() -> Series:
-    """a N(a x, a s) by powers of A = a/h: k h = sum n (n + 2)/2 c_n A^(n - 1)."""
+    """Return a N(a x, a s) in powers of A = a/h: k h = sum n (n + 2)/2 c_n A^(n - 1)."""
     return {
         n: sp.Rational(n * (n + 2), 4) * c_A[n] * ((_x + _s) ** (n - 1) + (_x - _s) ** (n - 1))
         for n in range(1, ORDER + 1, 2)
@@ -253,7 +253,7 @@ def _applied(kernel_part: sp.Expr, chi: sp.Expr) -> sp.Expr:
 
 @cache
 def small_contact_solution() -> tuple[Series, Series]:
-    """chi over E* a^2/(pi R) at x = t/a, and delta R/a^2, by powers of A."""
+    """Return chi over E* a^2/(pi R) at x = t/a, and delta R/a^2, in powers of A."""
     parts = kernel_by_powers()
     chi: Series = {0: 1 - _x**2}
     depth: Series = {0: sp.Integer(1)}
@@ -266,7 +266,7 @@ def small_contact_solution() -> tuple[Series, Series]:
 
 @cache
 def at_given_force() -> tuple[Formula, Formula]:
-    """The law at given force, by the Hertz radius a_H of the force; c_1 stays, c_3 grows."""
+    """Return the law at given force in the Hertz radius a_H; c_1 is unchanged, c_3 increases."""
     chi, depth = small_contact_solution()
     parts = kernel_by_powers()
     residuals = {"N = 0": chi[0] - (depth[0] - _x**2)}
@@ -294,16 +294,16 @@ def at_given_force() -> tuple[Formula, Formula]:
         sp.series(reduced.subs(q, ratio), a_ratio, 0, ORDER + 1).removeO()
     )
     proof = prove(
-        "Law at given force with the true pressure",
-        r"$\chi$ by powers of $A$ solves the integral equation; with $P$ its Hertz radius is "
-        r"$a_H$, $(a_H/a)^3 = (3/2) \int \chi$. Both expansions are put in, up to $A^4$.",
+        "Law at given force with non-Hertzian pressure",
+        r"$\chi$ in powers of $A$ solves the integral equation; the Hertz radius of its $P$ is "
+        r"$a_H$, $(a_H/a)^3 = (3/2) \int \chi$. Both expansions are inserted, up to $A^4$.",
         residuals,
     )
     return (
         Formula(
             "hertz_radius_ratio",
             r"a_{\mathrm{Hertz}}(P)/a",
-            "Hertz's contact radius of the force over the true one, up to $(a/h)^4$",
+            "Hertz radius of the force over the actual contact radius, up to $(a/h)^4$",
             ratio,
             "1",
             "",
@@ -313,7 +313,7 @@ def at_given_force() -> tuple[Formula, Formula]:
         Formula(
             "delta_true",
             r"\delta R/a_{\mathrm{Hertz}}^2",
-            "reduced indentation at given force with the true pressure, up to $(a/h)^4$",
+            "reduced indentation at given force with non-Hertzian pressure, up to $(a/h)^4$",
             law.subs(q, 1),
             "1",
             "",
@@ -329,7 +329,7 @@ def _truncated(expression: sp.Expr) -> sp.Expr:
 
 
 def true_pressure() -> tuple[Formula, ...]:
-    """The formulas of this link, what they rest on proved with them."""
+    """Return the formulas of this link; their lemmas are proved as well."""
     profiles()
     motion_of_the_edge()
     results()

@@ -1,4 +1,4 @@
-"""What the viscosity hands in for the generated package."""
+"""Modules of the viscoelastic contact for the generated package."""
 
 from pathlib import Path
 
@@ -17,32 +17,32 @@ RUNTIME = Path(__file__).parents[1] / "runtime"
 
 
 def viscosity_numbers() -> Numbers:
-    """The first coefficient of the restitution."""
+    """Return the first coefficient of the restitution."""
     with flint.ctx.workprec(BITS):
         loss = nearest_double(loss_ball(40))
-    constant = Constant("LOSS", loss, "(4/5)^(2/5) B(3/5, 3/2), of the restitution.")
-    return Numbers("viscosity_numbers", "Number of the viscous contact.", (constant,))
+    constant = Constant("LOSS", loss, "(4/5)^(2/5) B(3/5, 3/2), coefficient of the restitution.")
+    return Numbers("viscosity_numbers", "Constant of the viscoelastic contact.", (constant,))
 
 
 def viscosity_kernels() -> Routines:
-    """The viscous contact's formulas, printed."""
+    """Return the routines of the viscoelastic contact."""
     imports = {
         "ranges": ("moderate", "product", "root_factors"),
         "viscosity_numbers": ("LOSS",),
     }
-    title = "Formulas of the viscous contact, proved equal to what the theory derives."
+    title = "Formulas of the viscoelastic contact, proved equal to those of the theory."
     return Routines("viscosity_kernels", title, tuple(make() for make in ROUTINES), imports)
 
 
 def viscosity_bounds() -> Routines:
-    """What viscosity can change at most, printed for single numbers."""
-    title = "Bounds of what a viscous contact changes, proved to be those of the theory."
+    """Return the bounds of the effect of viscosity, for single numbers."""
+    title = "Bounds of the effect of viscosity on an impact, proved in the theory."
     return Routines("viscosity_bounds", title, tuple(make() for make in BOUNDS), {}, SCALARS)
 
 
 def viscous_bodies() -> Routines:
-    """What a contact takes from the viscosity of each body, printed for single numbers."""
-    title = "Viscosity of a contact by that of its bodies, proved to be that of the theory."
+    """Return the retardation time of a contact from those of the bodies, for single numbers."""
+    title = "Retardation time of a contact from those of its bodies, proved in the theory."
     return Routines("viscous_bodies", title, tuple(make() for make in BODIES), {}, SCALARS)
 
 

@@ -1,4 +1,4 @@
-"""The viscous contact's formulas as code computes them, each proved to be one of its link."""
+"""Formulas of the viscoelastic contact as code computes them, each proved."""
 
 import sympy as sp
 from sympy.codegen.cfunctions import expm1, log1p
@@ -25,7 +25,7 @@ STIFFNESS = sp.Rational(16, 3), *YOUNG[1:]
 
 
 def viscous_number() -> Routine:
-    """What a viscous contact takes of the speed, to leading order."""
+    """Return the viscous parameter, proportional to the loss of speed to leading order."""
     rate = root("rate", 5, (*STIFFNESS, *STIFFNESS, R, v0), m, m)
     return routine(
         "viscous_number_of_factors",
@@ -40,7 +40,7 @@ def viscous_number() -> Routine:
 
 
 def weak_restitution() -> Routine:
-    """Restitution of a weakly viscous contact."""
+    """Return the restitution of a weakly viscoelastic contact."""
     first = sp.Symbol("first", positive=True)
     return routine(
         "restitution_of_number",
@@ -48,7 +48,7 @@ def weak_restitution() -> Routine:
         (Let(first, LOSS * x_v),),
         (1 + first * (sp.Float(0.6) * first - 1),),
         (restitution().expression,),
-        "Restitution of a weakly viscous contact, to second order.",
+        "Return the restitution of a weakly viscoelastic contact to second order.",
         {LOSS: C_1},
         lambda e: sp.expand(sp.nsimplify(e)),
     )
@@ -62,7 +62,7 @@ def _by_logarithms(expression: sp.Expr) -> sp.Expr:
 
 @named
 def spiral_bounds() -> Claims:
-    """Logarithms of time, depth, radius and force, and the share of energy that may be lost."""
+    """Return logarithms for time, depth, radius and force, and the largest energy loss."""
     quarter, loss, square, pull = sp.symbols("quarter loss square pull", positive=True)
     of, t = theory.bounds(), theory
     return Claims(
@@ -90,7 +90,7 @@ def spiral_bounds() -> Claims:
 
 @named
 def rebound_bounds() -> Claims:
-    """Logarithms of the restitution: by the energy lost, and by what the weight gives."""
+    """Return logarithms for the restitution: from the energy loss, and from the weight."""
     of, t = theory.bounds(), theory
     return Claims(
         (gone, epsilon, t.steepness, t.energy),
@@ -103,14 +103,14 @@ def rebound_bounds() -> Claims:
 
 
 def retardation_of_two() -> Routine:
-    """The retardation time of a contact by those of its bodies."""
+    """Return the retardation time of a contact from those of its bodies."""
     return routine(
         "retardation_of_two",
         (plate_time, sphere_time, softness),
         (),
         ((plate_time + softness * sphere_time) / (1 + softness),),
         (contact_time().expression,),
-        "Retardation time of a contact, the mean of its bodies' by their compliances.",
+        "Return the retardation time of a contact: its bodies' mean, weighted by compliance.",
         {},
         sp.simplify,
     )

@@ -1,1 +1,1 @@
-"""The viscous contact in NumPy, copied into the generated package."""
+"""The viscoelastic contact, copied into the generated package."""

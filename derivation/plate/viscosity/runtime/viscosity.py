@@ -1,6 +1,6 @@
-"""A viscous contact, P = P_e + A_v dP_e/dt: what it takes of the speed, and what it can change.
+"""Viscoelastic contact, P = P_e + A_v dP_e/dt: loss of speed, and bounds of its effect.
 
-Arithmetic: the restitution's bound widens that of the time.
+Arithmetic: the bound for the restitution extends that for the contact time.
 """
 
 from math import inf
@@ -15,22 +15,22 @@ from generated.viscosity_bounds import rebound_bounds, spiral_bounds
 
 
 class Course(NamedTuple):
-    """What a contact law without viscosity says of an impact, each at its largest on the way.
+    """Largest values during an impact computed without viscosity, from which bounds follow.
 
-    With z, P and U its indentation, force and energy, s = sqrt(2 U/m) and Omega = P/(m s):
+    With indentation z, force P, energy U, s = sqrt(2 U/m) and Omega = P/(m s):
 
     Attributes
     ----------
     epsilon
         A_v (dP/dz) s/P [1].
     steepness
-        d log P/d log z over its value at the turning point [1].
+        d log P/d log z divided by its value at the turning point [1].
     fall, rise
         d log Omega/d log s is between -fall and rise [1].
     depth, radius
-        d log z/d log s, and the same of the contact radius [1].
+        d log z/d log s, and the same for the contact radius [1].
     energy
-        U over the energy that the sphere brings, 1 without weight [1].
+        U divided by the kinetic energy of the sphere, 1 without gravity [1].
     """
 
     epsilon: float
@@ -52,7 +52,7 @@ def viscous_number(
     mu: ArrayLike,
     viscous_time: ArrayLike,
 ) -> np.ndarray:
-    """Viscous number: what a viscous contact takes of the speed, to leading order.
+    """Compute the viscous parameter, which is proportional to the loss of speed to leading order.
 
     Formula (Kuwabara and Kono, 1987; Schwager and Poeschel, 1998)::
 
@@ -65,7 +65,7 @@ def viscous_number(
     m : array_like
         sphere mass [kg]; m > 0
     v0 : array_like
-        speed of approach [m/s]; v0 > 0
+        impact speed of the sphere [m/s]; v0 > 0
     lam, mu : array_like
         Lame constants of the plate [Pa]; mu > 0, 3 lam > -2 mu
     viscous_time : array_like
@@ -74,7 +74,13 @@ def viscous_number(
     Returns
     -------
     float or ndarray
-        The number [1] in the arguments' broadcast shape; NaN outside the domain.
+        Viscous parameter x_v [1] in the arguments' broadcast shape; NaN outside the domain.
+
+    Examples
+    --------
+    >>> from generated import viscous_number
+    >>> print(f"{viscous_number(0.01, 0.0327, 2.0, 22.5e9, 28.7e9, 1e-6):.6g}")
+    0.0671614
     """
     kind, [R, m, v0, lam, mu, viscous_time] = as_doubles(R, m, v0, lam, mu, viscous_time)
     [R, m, v0] = inside([R, m, v0], R > 0, m > 0, v0 > 0)
@@ -87,7 +93,7 @@ def viscous_number(
 @in_manifest("e", domain="x_v >= 0")
 @quiet
 def restitution_weak(x_v: ArrayLike) -> np.ndarray:
-    """Restitution of a weakly viscous contact, to second order.
+    """Compute the restitution of a weakly viscoelastic contact to second order.
 
     Formula (Schwager and Poeschel, 1998; Ramirez et al., 1999)::
 
@@ -96,13 +102,19 @@ def restitution_weak(x_v: ArrayLike) -> np.ndarray:
     Parameters
     ----------
     x_v : array_like
-        viscous number x_v [1]; x_v >= 0
+        viscous parameter x_v [1]; x_v >= 0
 
     Returns
     -------
     float or ndarray
-        The coefficient of restitution [1], in the argument's shape; NaN outside the domain. What
-        follows is of order x^(5/2).
+        Coefficient of restitution [1] in the shape of the argument; NaN outside the domain. The
+        neglected terms are of order x_v^(5/2).
+
+    Examples
+    --------
+    >>> from generated import restitution_weak
+    >>> print(f"{restitution_weak(0.1):.6g}")
+    0.892638
     """
     kind, [x_v] = as_doubles(x_v)
     [x_v] = inside([x_v], x_v >= 0)
@@ -110,7 +122,7 @@ def restitution_weak(x_v: ArrayLike) -> np.ndarray:
 
 
 def viscous_logarithms(course: Course) -> tuple[float, float, float, float, float]:
-    """By what factors viscosity can change an impact at most.
+    """Return bounds of the factors by which viscosity can change the results of an impact.
 
     Parameters
     ----------
@@ -120,18 +132,18 @@ def viscous_logarithms(course: Course) -> tuple[float, float, float, float, floa
     Returns
     -------
     tuple of float
-        The factors' logarithms, not negative [1]: of contact time, largest indentation, force
-        and contact radius, and of the restitution; inf where nothing is shown: for epsilon >= 1,
-        or if the weight may keep the sphere.
+        Logarithms of the factors, not negative [1], for contact time, peak indentation, force,
+        contact radius and restitution. They are inf where no bound is proved: for epsilon >= 1,
+        or if the weight may prevent separation.
     """
     epsilon, steepness, *_, energy = course
     if not (epsilon < 1.0 and steepness * epsilon < 2.0):
         return inf, inf, inf, inf, inf
     longer, shorter, shallower, narrower, pull, weaker, gone = spiral_bounds(*course)
     if not gone < 1.0:
-        return inf, inf, inf, inf, inf  # the weight may keep the sphere
+        return inf, inf, inf, inf, inf  # the weight may prevent separation
     leaving = max(rebound_bounds(gone, epsilon, steepness, energy))
     time = max(longer, shorter)
-    if energy > 1.0:  # a slower sphere takes longer to rise against its weight
+    if energy > 1.0:  # a slower sphere needs more time to rise against its weight
         time += leaving
     return time, shallower, max(pull, weaker), narrower, leaving

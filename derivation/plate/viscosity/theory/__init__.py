@@ -1,1 +1,1 @@
-"""Formulas, derived and proved: the viscous contact."""
+"""Formulas, derived and proved: the viscoelastic contact."""

@@ -1,25 +1,26 @@
-"""Link 24: what a viscous contact can change of an impact at most, by the spiral of `contact`.
+"""Link 24: bounds of the effect of viscosity on an impact, from the spiral of `contact`.
 
-The impact runs from phi = 0 over the turning point phi = pi/2 to tan(phi) = -epsilon. Let
-epsilon stand for its largest value below, s <= v0; n = d log P_e/d log z at its largest over
-that at the turning point; and d log Omega/d log s lie between -nu_- and nu_+. Then
+The impact runs from phi = 0 over the turning point phi = pi/2 to tan(phi) = -epsilon. Below,
+epsilon is its largest value for s <= v0, n the ratio of the largest d log P_e/d log z to that at
+the turning point, and d log Omega/d log s lies between -nu_- and nu_+. Then
 
-    at the turning point   0 <= -log(s/v0) <= (pi/4) epsilon,     as phi'/Omega >= 1 till there
-    in the end             0 <= -log(rho/v0) <= Lambda = (pi/2) epsilon/(1 - epsilon/2)
+    at the turning point   0 <= -log(s/v0) <= (pi/4) epsilon,     as phi'/Omega >= 1 before it
+    at the end             0 <= -log(rho/v0) <= Lambda = (pi/2) epsilon/(1 - epsilon/2)
     largest force          P_e(s) <= P <= P_m sqrt(1 + epsilon^2)
     restitution            1 >= e >= exp(-Lambda)/sqrt(1 + epsilon^2)
     contact time, over     exp(nu_+ Lambda)/(1 - epsilon/2)
       that without         (1 - n epsilon/2) exp(-nu_- Lambda)/(1 + epsilon/2)
 
-where the elastic motion from tan(phi) = -epsilon on, left out, has z <= n_z A_v |v| to go and
-lasts n_z A_v at most, while the whole lasts 2 delta_m/v0 at least. Proved for a half-space
-without weight; with a plate, whose bending is elastic, epsilon is taken of the whole law.
-The weight, sinking by delta_m, makes the largest U that of the sphere times u > 1. Of this the
-same share is lost, so that e^2 >= 1 - u (1 - exp(-2 Lambda)/(1 + epsilon^2)); and what sinks less
-than it rises, z <= n_z A_v |v| at the end, may leave faster: e^2 <= 1 + (u - 1) n epsilon.
-The time of a sphere that rises against its weight grows like what it lost of its speed, by which
-its bound is widened. What is said of the end takes epsilon(s) and P_e to fall with s, P_e
-convex; with weight and plates these are no proofs, and random scenes hold them.
+where the remaining elastic motion from tan(phi) = -epsilon has z <= n_z A_v |v| and lasts
+n_z A_v at most, while the contact lasts 2 delta_m/v0 at least. This is proved for a half-space
+without weight; for a plate, whose bending is elastic, epsilon is that of the whole law.
+The weight, moving down by delta_m, makes the largest U equal to that of the sphere times u > 1. The
+same fraction of it is lost, so that e^2 >= 1 - u (1 - exp(-2 Lambda)/(1 + epsilon^2)). A sphere
+that moves down more than up, z <= n_z A_v |v| at the end, may leave faster:
+e^2 <= 1 + (u - 1) n epsilon.
+The time of a sphere that rises against its weight increases with its loss of speed, by which the
+bound is extended. The statements about the end assume that epsilon(s) and P_e decrease with s and
+that P_e is convex; with weight and plates they are not proved but tested on random scenes.
 """
 
 from functools import cache
@@ -42,26 +43,26 @@ from derivation.plate.vocabulary import Formula
 steepness, fall, rise, energy = sp.symbols("steepness fall rise energy", positive=True)
 """n, nu_-, nu_+ and u."""
 depth, radius = sp.symbols("depth radius", positive=True)
-"""d log z/d log s and d log a/d log s at their largest."""
+"""Largest d log z/d log s and d log a/d log s."""
 
 
 class Bounds(NamedTuple):
-    """Logarithms of what can change at most, and the proof.
+    """Logarithms of the largest possible changes, and the proof.
 
     Attributes
     ----------
     longer, shorter
         Contact time.
     depth, radius
-        Indentation and contact radius, which can only be less.
+        Indentation and contact radius, which can only decrease.
     pull, weaker
         Largest force.
     gone
-        Share of the sphere's own energy that may be lost.
+        Fraction of the sphere's own energy that may be lost.
     slower, faster
         Restitution.
     end
-        Part of the time, left out at the end, over all of it.
+        Fraction of the contact time that is omitted at the end.
     """
 
     longer: sp.Expr
@@ -79,7 +80,7 @@ class Bounds(NamedTuple):
 
 @cache
 def bounds() -> Bounds:
-    """All of them by the numbers of the course without viscosity."""
+    """Return all bounds in terms of the numbers of the impact without viscosity."""
     polar()
     radial, turning, force = spiral()
     least, most = (turning.subs(phi, angle * sp.pi / 4) for angle in (3, 1))
@@ -104,9 +105,9 @@ def bounds() -> Bounds:
 
 
 def _end() -> sp.Expr:
-    """n_z A_v over 2 delta_m/v0: at the turning point epsilon is A_v d log P_e/d log z v0/delta_m.
+    """Return n_z A_v over 2 delta_m/v0: at the turning point epsilon is A_v (P_e'/P_e) v0.
 
-    The way z left there, n_z A_v v0 at most, is twice as much of delta_m.
+    The remaining distance there, n_z A_v v0 at most, is twice as large relative to delta_m.
     """
     A, power, deepest, speed = sp.symbols("A power deepest speed", positive=True)
     (time,) = sp.solve(A * power * speed / deepest - epsilon, A)
@@ -116,15 +117,15 @@ def _end() -> sp.Expr:
 def _proof(
     till_turned: sp.Expr, whole: sp.Expr, least: sp.Expr, most: sp.Expr, amplitude: sp.Expr
 ) -> Proof:
-    """The rates lie between those that are integrated: what differs has a known sign."""
+    """Prove that the rates lie between the integrated ones: the differences have a known sign."""
     radial, turning, force = spiral()
     sine, cosine = sp.sin(phi), sp.cos(phi)
     per_angle = radial / turning
     share = epsilon * cosine**2 / (turning * least)
     return prove(
         "Bounds of the viscous spiral",
-        r"What $\phi'/\Omega$ has over its least and lacks of its largest value are squares; over "
-        "the first quarter it is 1 at least. The square of the force and that of its slope by "
+        r"The differences between $\phi'/\Omega$ and its bounds are squares; over the first "
+        "quarter it is at least 1. The squares of the force and of its slope by "
         r"$\phi$ add up to that of its amplitude.",
         {
             "least": on_circle(turning - least - epsilon * (sine + cosine) ** 2 / 2),
@@ -139,6 +140,6 @@ def _proof(
 
 
 def viscosity() -> tuple[Formula, ...]:
-    """The formulas of the link; the bounds are proved with them."""
+    """Return the formulas of the link; the bounds are proved as well."""
     bounds()
     return viscous_number(), weak_restitution()

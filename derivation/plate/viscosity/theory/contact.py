@@ -1,16 +1,17 @@
-"""Link 24: a viscous contact, and how much of the speed it takes.
+"""Link 24: viscoelastic contact and its loss of speed.
 
 Kuwabara and Kono (1987), Brilliantov et al. (1996): the indentation of the half-space lags the
-force, P = P_e + A_v dP_e/dt, A_v a retardation time, and the contact ends with P = 0, for it
-cannot pull. With the elastic energy U, s = sqrt(2 U/m), v = dz/dt, Omega = P_e/(m s) and
+force, P = P_e + A_v dP_e/dt, A_v a retardation time, and the contact ends with P = 0, because
+the force cannot be tensile. With the elastic energy U, s = sqrt(2 U/m), v = dz/dt,
+Omega = P_e/(m s) and
 epsilon(s) = A_v P_e'(z) s/P_e,
 
     s = rho sin(phi),  v = rho cos(phi):   rho' = -epsilon Omega rho cos^2(phi),
                                            phi' = Omega (1 + epsilon sin(phi) cos(phi)),
                                            P = m Omega rho (sin(phi) + epsilon cos(phi)).
 
-The impact runs from phi = 0 over the turning point phi = pi/2 to tan(phi) = -epsilon. What it
-can change at most is in `bounds`.
+The impact runs from phi = 0 over the turning point phi = pi/2 to tan(phi) = -epsilon. The module
+`bounds` bounds its effect.
 """
 
 from functools import cache
@@ -30,19 +31,19 @@ _K, _z = sp.symbols("K z", positive=True)
 
 
 def spiral() -> tuple[sp.Expr, sp.Expr, sp.Expr]:
-    """rho'/(Omega rho), phi'/Omega and P/(m Omega rho), in epsilon and phi."""
+    """Return rho'/(Omega rho), phi'/Omega and P/(m Omega rho), in epsilon and phi."""
     turning = 1 + epsilon * sp.sin(phi) * sp.cos(phi)
     return -epsilon * sp.cos(phi) ** 2, turning, sp.sin(phi) + epsilon * sp.cos(phi)
 
 
 def on_circle(x: sp.Expr) -> sp.Expr:
-    """In powers of the cosine alone, but for one sine."""
+    """Return the expression in powers of the cosine, with at most one sine."""
     return sp.expand(sp.expand(x).subs(sp.sin(phi) ** 2, 1 - sp.cos(phi) ** 2))
 
 
 @cache
 def polar() -> Proof:
-    """The motion in the plane of s and v, in polar coordinates."""
+    """Prove the motion in the plane of s and v, in polar coordinates."""
     # m s s' = P_e v, and m v' = -(P_e + A P_e' v) with A P_e' = epsilon P_e/s.
     rate_s = _Omega * _v
     rate_v = -_Omega * _s - epsilon * _Omega * _v
@@ -53,7 +54,7 @@ def polar() -> Proof:
 
     radial, turning, force = spiral()
     return prove(
-        "Viscous contact in polar coordinates",
+        "Viscoelastic contact in polar coordinates",
         "s' = Omega v and v' = -Omega (s + epsilon v) with s = rho sin phi, v = rho cos phi.",
         {
             "radius": turned((_s * rate_s + _v * rate_v) / _rho**2 - _Omega * radial),
@@ -65,7 +66,7 @@ def polar() -> Proof:
 
 @cache
 def viscous_number() -> Formula:
-    """x, on which Hertz's impact depends alone: epsilon = (4/5)^(2/5) x at the turning point."""
+    """Return x, the only parameter of Hertz's impact; epsilon is (4/5)^(2/5) x at the turn."""
     polar()
     # Hertz: P = K z^(3/2), U = (2/5) K z^(5/2).
     speed = sp.sqrt(sp.Rational(4, 5) * _K * _z ** sp.Rational(5, 2) / m)
@@ -80,7 +81,7 @@ def viscous_number() -> Formula:
 
     proof = prove(
         "Viscous number",
-        r"$\varepsilon$ of Hertz's law goes with $s^{1/5}$; at the turning point $s = v_0$.",
+        r"$\varepsilon$ of Hertz's law is proportional to $s^{1/5}$; $s = v_0$ at the turn.",
         {
             "rise": sp.diff(plain(rise), _z),
             "turning point": plain(ratio.subs(_z, deepest))
@@ -93,7 +94,7 @@ def viscous_number() -> Formula:
     return Formula(
         "viscous_number",
         "x_v",
-        "viscous number: what a viscous contact takes of the speed, to leading order",
+        "viscous parameter, proportional to the loss of speed to leading order",
         sp.Rational(3, 2) * viscous_time * rate,
         "1",
         "",
@@ -108,10 +109,10 @@ C_1 = sp.Rational(4, 5) ** sp.Rational(2, 5) * sp.beta(sp.Rational(3, 5), sp.Rat
 
 @cache
 def weak_restitution() -> Formula:
-    """e to second order in x; the third term is of order x^(5/2), by the early end.
+    """Return e to second order in x; the third term is of order x^(5/2), due to the early end.
 
-    To first order -log e = int_0^pi epsilon cos^2 phi dphi with epsilon ~ sin^(1/5) phi. Run
-    backwards in time an impact at e v0 with -A_v ends at v0: e(x) e(-x e^(1/5)) = 1.
+    To first order -log e = int_0^pi epsilon cos^2 phi dphi with epsilon ~ sin^(1/5) phi. Reversed
+    in time, an impact at e v0 with -A_v ends at v0: e(x) e(-x e^(1/5)) = 1.
     """
     viscous_number()
     c_1, c_2, x = sp.symbols("c_1 c_2 x", positive=True)
@@ -121,8 +122,8 @@ def weak_restitution() -> Formula:
     loss = 2 * sp.hyperexpand(sp.integrate(share, (phi, 0, 1)))
     loss *= sp.Rational(4, 5) ** sp.Rational(2, 5)
     proof = prove(
-        "Weakly viscous restitution",
-        "The loss along the elastic motion; the second term from the motion run backwards.",
+        "Restitution of a weakly viscoelastic contact",
+        "The loss along the elastic motion; the second term follows from the time-reversed motion.",
         {
             "first": sp.gammasimp((loss - C_1).rewrite(sp.gamma)),
             "second": product.coeff(x, 2).subs(c_2, sp.Rational(3, 5) * c_1**2),
@@ -131,7 +132,7 @@ def weak_restitution() -> Formula:
     return Formula(
         "restitution_weak",
         "e",
-        "restitution of a weakly viscous contact, to second order",
+        "restitution of a weakly viscoelastic contact, to second order",
         1 - C_1 * x_v + sp.Rational(3, 5) * C_1**2 * x_v**2,
         "1",
         "",
@@ -141,7 +142,7 @@ def weak_restitution() -> Formula:
 
 
 def loss_ball(digits: int = 20) -> flint.arb:
-    """C_1 as a ball."""
+    """Return C_1 as a ball."""
 
     def compute() -> flint.arb:
         two, three = flint.arb(3) / 5, flint.arb(3) / 2

@@ -1,8 +1,8 @@
 """Link 24: the retardation time of a contact between two viscoelastic bodies.
 
 Under one pressure p the surface of a body of retardation time A_i follows C_i p with a delay,
-(1 + A_i D) w_i = C_i p with D = d/dt and C_i = 1/E_i*, if shear and volume have the same A_i. What
-the sphere enters is w = w_p + w_s, and with C = C_p + C_s
+(1 + A_i D) w_i = C_i p with D = d/dt and C_i = 1/E_i*, if shear and volume have the same A_i. The
+indentation is w = w_p + w_s, and with C = C_p + C_s
 
     p = (1 + A_v D) w/C + O(A^2),   A_v = (C_p A_p + C_s A_s)/C,
 
@@ -23,7 +23,7 @@ _C_p, _C_s, _D, _small = sp.symbols("C_p C_s D epsilon", positive=True)
 
 
 class ContactTime(NamedTuple):
-    """Retardation time of the contact, by those of the bodies, and the proof."""
+    """Return the retardation time of the contact from those of the bodies, and the proof."""
 
     expression: sp.Expr
     proof: Proof
@@ -31,7 +31,7 @@ class ContactTime(NamedTuple):
 
 @cache
 def contact_time() -> ContactTime:
-    """Mean of the bodies' retardation times, weighted with their compliances."""
+    """Return the mean of the bodies' retardation times, weighted with their compliances."""
     both = _C_p + _C_s
     mean = (_C_p * plate_time + _C_s * sphere_time) / both
     delays = {plate_time: _small * plate_time, sphere_time: _small * sphere_time}
@@ -43,8 +43,8 @@ def contact_time() -> ContactTime:
     alike = {sphere_time: plate_time}
     proof = prove(
         "Two viscoelastic bodies in contact",
-        "Pressure over indentation, with D for the rate of change; the mean has too much of it by "
-        "what vanishes for bodies alike and is of second order in the times.",
+        "Pressure over indentation, with D for the time derivative; the error of the mean "
+        "vanishes for equal bodies and is of second order in the times.",
         {
             "first order": sp.together(slope - mean * _D / both),
             "second order": sp.simplify(stiffness - (1 + mean * _D) / both + rest),

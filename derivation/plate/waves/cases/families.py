@@ -11,7 +11,7 @@ from derivation.plate.waves import oracle as inertia_balls
 from derivation.plate.waves.cases.places import CROSSINGS, crossing
 from generated.wave_numbers import NEAR, SHALLOW, SMALL
 
-WAVES = "seams of the plate's waves"
+WAVES = "switch points of the plate's waves"
 HARD_WAVES = "waves of the plate"
 
 LOWEST = ("bending_frequency", "bending_residue", "bending_share")
@@ -22,28 +22,28 @@ INFLUENCE = "dynamic_influence"
 _METAL = 0.3
 _LAST, _FIRST = math.nextafter(0.5, 0.0), -1.0 + 2.0**-53
 RATIOS = (_METAL, 0.0, _LAST, _FIRST, -1e-300)
-"""Poisson's ratios, the ends of their range among them."""
+"""Poisson's ratios, including the limits of their range."""
 _NEAREST = 2**10
-"""ULP from a pole: nearer to it the value depends on the arguments' last bits like 1/x at 0."""
+"""Distance in ULP from a pole: closer, the value depends on the last bits like 1/x at 0."""
 
 
 def wave_families() -> Iterator[HardCase]:
-    """Every one of them."""
+    """Yield all of them."""
     return chain(
         _lowest_seams(), _influence_seams(), _branch_seams(), _lowest(),
         _influence(), _branches(), _shapes(),
     )  # fmt: skip
 
 
-# --- seams
+# --- switch points
 
 
 def _lowest_seams() -> Iterator[HardCase]:
     everywhere = {SHALLOW: LOWEST, SMALL: LOWEST[2:], 1.0: LOWEST[2:]}
     what = {
-        SHALLOW: "where a power series hands over to exponentials",
-        SMALL: "where the share ceases to be 1 less what A0 lacks",
-        1.0: "where sinh T - T, T = 2 x, ceases to be a power series",
+        SHALLOW: "where a power series is replaced by exponentials",
+        SMALL: "above which the fraction of A0 is no longer 1 minus a small difference",
+        1.0: "above which sinh T - T, T = 2 x, is no longer a power series",
     }
     for (place, kernels), nu in product(everywhere.items(), (_METAL, _LAST, _FIRST)):
         for kernel in kernels:
@@ -56,9 +56,9 @@ def _influence_seams() -> Iterator[HardCase]:
     for x in (1e-3, 0.7, 20.1):
         square = Fraction(x) ** 2
         for load, what in (
-            (square, "kap = x^2, from which on q is imaginary"),
-            (square / gam, "gam kap = x^2, from which on p is imaginary"),
-            (3 * square / (4 - gam), "2 q = p, where two ways to take a difference part"),
+            (square, "kap = x^2, above which q is imaginary"),
+            (square / gam, "gam kap = x^2, above which p is imaginary"),
+            (3 * square / (4 - gam), "2 q = p, the switch point of two forms of a difference"),
         ):
             given = exactly(x=x, kap=around(float(load)), nu=_METAL)
             yield about(WAVES, INFLUENCE, f"{what}; x = {x:g}", given)
@@ -66,12 +66,12 @@ def _influence_seams() -> Iterator[HardCase]:
         # p + q = S and p - q = (1 - gam) kap/S.
         p = (Fraction(NEAR) + (1 - gam) * Fraction(kap) / Fraction(NEAR)) / 2
         x = math.sqrt(p * p + gam * Fraction(kap))
-        why = f"p + q = {NEAR:g} at kap = {kap:g}, up to where F is a power series"
+        why = f"p + q = {NEAR:g} at kap = {kap:g}, below which F is a power series"
         yield about(WAVES, INFLUENCE, why, exactly(x=around(x), kap=kap, nu=_METAL))
 
 
 def _level(nu: float) -> Fraction:
-    """gam."""
+    """Return gam."""
     return (1 - 2 * Fraction(nu)) / (2 * (1 - Fraction(nu)))
 
 
@@ -89,7 +89,7 @@ def _lowest() -> Iterator[HardCase]:
     thinnest, shortest = 1e-90, 1e90
     x = (thinnest, 1e-40, 1e-8, 1e-3, 0.3, 1.5, 17.0, 300.0, 1e5, 1e40, shortest)
     for kernel, nu in product(LOWEST, RATIOS):
-        cause = f"From the thinnest plates to Rayleigh's waves: nu = {nu:.17g}."
+        cause = f"From the thinnest plates to Rayleigh waves: nu = {nu:.17g}."
         yield HardCase(HARD_WAVES, kernel, cause, exactly(x=x, nu=nu), "array")
     for kernel in LOWEST:
         ends = (beside(thinnest, -1), beside(shortest, 1))
@@ -104,7 +104,7 @@ _NO_RATIOS = (0.5, -1.0, math.inf, -math.inf, math.nan)
 def _refused(
     group: str, kernel: str, name: str, places: tuple[float, ...], **same: float
 ) -> Iterator[HardCase]:
-    """Outside the domain in an argument: all places in one array, and one alone."""
+    """Yield values outside the domain of an argument: all in one array, and single ones."""
     cause = f"Values of {name} outside the domain."
     for given, form in ((places, "array"), (places[0], "scalar")):
         yield HardCase(group, kernel, cause, exactly(**{name: given}, **same), form, expect="nan")
@@ -117,7 +117,7 @@ def _influence() -> Iterator[HardCase]:
         for what, load in loads.items():
             cause = f"A load that is {what}, at nu = {nu:.17g}."
             yield HardCase(HARD_WAVES, INFLUENCE, cause, exactly(x=x, kap=load, nu=nu), "array")
-    for nu in (_METAL, _LAST, -0.9):  # at nu = -1 the lowest branch of stretching is there
+    for nu in (_METAL, _LAST, -0.9):  # at nu = -1 the lowest symmetric branch is there
         cause = f"A load of kap = x^2, where the expression is 0/0: nu = {nu:.17g}."
         given = exactly(x=x, kap=tuple(y * y for y in x), nu=nu)
         yield HardCase(HARD_WAVES, INFLUENCE, cause, given, "array")
@@ -127,7 +127,7 @@ def _influence() -> Iterator[HardCase]:
             yield _next_to(y, place, f"branch {index} ({kind}), a pole")
         for angle, what in ((0.5, "bending"), (1.0, "stretching")):
             yield _next_to(y, y * y + (angle * math.pi) ** 2, f"a zero of the part in {what}")
-    cause = "Fast beyond any branch that could be told apart."
+    cause = "Frequencies above all branches that can be separated."
     given = exactly(x=(1.0, 1e-40, 1e39), kap=1e80, nu=_METAL)
     yield HardCase(HARD_WAVES, INFLUENCE, cause, given, "array")
     places = (beside(1e-40, -1), beside(1e40, 1), *_NO_LENGTHS)
@@ -150,9 +150,9 @@ def _branches() -> Iterator[HardCase]:
             given = exactly(x=(1e-40, 1e-6, 0.3, 3.0, 200.0, 1e40), nu=nu, index=float(index))
             yield HardCase(HARD_WAVES, kernel, cause, given, "array")
         for x, index in ((1.0, 300), (1e-6, 2000)):
-            cause = f"Branch {index}, far up."
+            cause = f"Branch {index}, at high frequency."
             yield HardCase(HARD_WAVES, kernel, cause, exactly(x=x, nu=_METAL, index=float(index)))
-        # sqrt(gam) = 1/3: a third of a pressure wave's frequency is a shear wave's.
+        # sqrt(gam) = 1/3: three times a pressure wave's frequency is a shear wave's.
         cause = "Two poles that lie 8 x^2 apart enclose a branch."
         given = exactly(x=(1e-9, 1e-5, 1e-2), nu=0.4375, index=1.0)
         yield HardCase(HARD_WAVES, kernel, cause, given, "array")
@@ -169,12 +169,12 @@ _NONE: tuple[float, ...] = ()
 
 
 def _shapes() -> Iterator[HardCase]:
-    cause = "Arguments in another form, with numbers from both sides of a seam."
+    cause = "Arguments of other shapes and types, with numbers on both sides of a switch point."
     for form in ("array", "strided", "read-only", "float32"):
         for kernel, same in _same().items():
             given = exactly(x=_SINGLES) | same
             yield HardCase(HARD_WAVES, kernel, cause, given, form)
-    cause = "No number at all."
+    cause = "Not a number."
     for kernel, same in _same().items():
         yield HardCase(HARD_WAVES, kernel, cause, exactly(x=_NONE) | same, "empty")
     both = exactly(x=_SINGLES, nu=(-0.5, 0.25))
@@ -189,7 +189,7 @@ def _shapes() -> Iterator[HardCase]:
 
 
 def _same() -> dict[str, Inputs]:
-    """Kernels of a wave number, and their other arguments."""
+    """Functions of a wave number, and their other arguments."""
     found = {kernel: exactly(nu=0.25) for kernel in LOWEST}
     found[INFLUENCE] = exactly(kap=2.5, nu=0.25)
     return found | {kernel: exactly(nu=0.25, index=2.0) for kernel in BRANCHES}

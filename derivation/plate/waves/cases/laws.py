@@ -1,4 +1,4 @@
-"""References of the plate's waves in the hard cases: Arb balls."""
+"""Arb references of the plate's waves for the hard cases."""
 
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
@@ -13,11 +13,11 @@ from derivation.plate.waves import oracle as inertia_balls
 
 _STEP, _DIGITS = Fraction(1, 2**40), 30
 _AT_REST = Fraction(1, 2**60)
-"""For the condition of a static load, whose frequency has no effect."""
+"""Frequency for the condition numbers of a static load, where it has no effect."""
 
 
 def differences(values: Values, *places: int) -> Callable[[Given, Sequence[arb]], Sequence[arb]]:
-    """Of every result the sum of |x df/dx| over the arguments at these places, by differences."""
+    """Return for each result the sum of |x df/dx| over these arguments, by differences."""
 
     def slopes(given: Given, _: Sequence[arb]) -> list[arb]:
         here = values(given, _DIGITS)
@@ -40,7 +40,7 @@ def differences(values: Values, *places: int) -> Callable[[Given, Sequence[arb]]
 
 
 def _of_lowest(function: Callable[..., arb], root: bool = False) -> HardLaw:
-    """A number of A0 at x and nu, or its square root."""
+    """Return a quantity of A0 at x and nu, or its square root."""
 
     def values(given: Given, digits: int) -> tuple[arb]:
         found = function(*given, digits=digits)
@@ -56,7 +56,7 @@ def _influence(given: Given, digits: int) -> tuple[arb, ...]:
 
 
 def _conditions(given: Given, values: Sequence[arb]) -> list[arb]:
-    """Arguments', and beyond x^2 those of p and q, as the budget's rule has them."""
+    """Return condition numbers of the arguments and, above x^2, of p and q, as budgeted."""
     x, kap, nu = map(Fraction, given)
     load = kap or min(x**2, x**4) * _AT_REST
     found = []
@@ -67,7 +67,7 @@ def _conditions(given: Given, values: Sequence[arb]) -> list[arb]:
 
 
 def _of_branch(kind: str, function: Callable[..., arb], root: bool = False) -> HardLaw:
-    """Frequency or residue of a branch, counted from 0."""
+    """Return frequency or residue of a branch, counted from 0."""
 
     def values(given: Given, digits: int) -> tuple[arb]:
         x, nu, index = given
@@ -76,7 +76,7 @@ def _of_branch(kind: str, function: Callable[..., arb], root: bool = False) -> H
             return (found.sqrt() if root else found,)
 
     def sizes(given: Given, found: Sequence[arb]) -> tuple[arb]:
-        """Residues are counted in the largest, which is among the first two."""
+        """Return residues relative to the largest, which is among the first two."""
         x, nu, _ = given
         first, second = (values((x, nu, index), _DIGITS)[0] for index in (0, 1))
         return (abs(found[0]).max(first).max(second),)
@@ -99,4 +99,4 @@ LAWS: Mapping[str, HardLaw] = {
     for kind in inertia_balls.KINDS
     for name, function, root in (("frequency", _FREQUENCY, True), ("residue", _RESIDUE, False))
 }
-"""By kernel."""
+"""References by function."""

@@ -1,4 +1,4 @@
-"""Where the residues of the plate's branches change their form: by oracle 1's roots."""
+"""Switch points of the residues of the plate's branches, located with Arb."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -32,16 +32,16 @@ class Both(NamedTuple):
 
 @dataclass(frozen=True)
 class Crossing:
-    """A switch of a residue.
+    """A switch point of a residue.
 
     Parameters
     ----------
     kind
         Parity of the branch.
     value
-        What changes its sign there.
+        Function that changes its sign there.
     nu, index
-        The plate, and the branch that is followed.
+        Poisson's ratio, and the index of the branch that is followed.
     low, high
         Wave numbers on either side.
     """
@@ -55,7 +55,7 @@ class Crossing:
 
 
 def _lean(of: Both) -> arb:
-    """The smaller of both sinh over the smaller of both cosh, less 1."""
+    """Return the smaller of both sinh over the smaller of both cosh, minus 1."""
     return of.sinh_p.min(of.sinh_q) - of.cosh_p.min(of.cosh_q)
 
 
@@ -64,7 +64,7 @@ def _apart(of: Both) -> arb:
 
 
 def _lift(of: Both) -> arb:
-    """|p sinh p| less |sinh(q)/q|."""
+    """Return |p sinh p| - |sinh(q)/q|."""
     return of.sinh_p * abs(of.level_p).sqrt() - of.sinh_q / abs(of.level_q).sqrt()
 
 
@@ -72,7 +72,7 @@ _BENT, _STRETCHED = inertia_balls.KINDS
 CROSSINGS = {
     "the smaller sinh is as small as the smaller cosh, in bending":
         Crossing(_BENT, _lean, 0.3, 1, 1.15, 1.2),
-    "the smaller sinh is as small as the smaller cosh, in stretching":
+    "the smaller sinh is as small as the smaller cosh, in extension":
         Crossing(_STRETCHED, _lean, 0.3, 1, 1.1, 1.15),
     "cosh p is as small as cosh q": Crossing(_BENT, _apart, -0.2, 1, 0.83, 0.89),
     "p sinh p is as small as sinh(q)/q": Crossing(_STRETCHED, _lift, -0.2, 1, 5.1, 5.2),
@@ -88,19 +88,19 @@ CROSSINGS = {
     "q^2 is small, imaginary q":
         Crossing(_STRETCHED, lambda of: of.level_q + arb(CLOSE), 0.3, 0, 0.36, 0.38),
 }  # fmt: skip
-"""By what happens there."""
+"""Switch points by description."""
 
 
 @cache
 def crossing(name: str) -> float:
-    """The double nearest to where a switch of `CROSSINGS` is."""
+    """Return the double nearest to a switch point of `CROSSINGS`."""
     of = CROSSINGS[name]
     return _nearest(lambda x: _sign(of, x), of.low, of.high)
 
 
 @cache
 def partner_crossing(edge: held_balls.Edge, n: int, nu: float) -> float:
-    """The double nearest to h/b at which a mode's k2 passes where I0 becomes a series."""
+    """Return the double nearest to h/b at which k2 of a mode reaches the series of I0."""
 
     def below(eta: Exact) -> bool:
         return bool(held_wave_balls.wave(edge, n, eta, nu, _DIGITS).k2 < arb(START))
@@ -109,10 +109,10 @@ def partner_crossing(edge: held_balls.Edge, n: int, nu: float) -> float:
 
 
 def _nearest(holds: Callable[[Exact], bool], low: float, high: float) -> float:
-    """The double nearest to where something begins or ceases to hold, by halving."""
+    """Return the double nearest to where a condition changes, by bisection."""
     before = holds(low)
     if before == holds(high):
-        raise ValueError(f"nothing changes between {low} and {high}")
+        raise ValueError(f"the condition does not change between {low} and {high}")
     while low < (middle := (low + high) / 2) < high:
         low, high = (middle, high) if holds(middle) == before else (low, middle)
     return high if holds((Fraction(low) + Fraction(high)) / 2) == before else low

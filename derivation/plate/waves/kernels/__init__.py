@@ -1,4 +1,4 @@
-"""What the waves hand in for the generated package."""
+"""Modules of the waves for the generated package."""
 
 from pathlib import Path
 
@@ -11,7 +11,7 @@ RUNTIME = Path(__file__).parents[1] / "runtime"
 
 
 def wave_kernels() -> Routines:
-    """Stiffness, residues and the lowest branch, printed from proven expressions."""
+    """Return the routines of stiffness, residues and the lowest branch."""
     parts = any_frequency, residues, lowest_branch, share_at_rest
     made = [make for part in parts for make in part.ROUTINES]
     functions = "compared", "differences", "double", "fading", "hyperbolic", "least"

@@ -1,4 +1,4 @@
-"""Both stiffnesses at any frequency: as code finds their zeros, and how the face yields."""
+"""Both stiffnesses at any frequency: for their zeros, and for the deflection of the face."""
 
 from functools import partial
 
@@ -39,12 +39,12 @@ load = sp.Symbol("kap", positive=True)
 
 
 def scaled_shc(y: sp.Expr) -> sp.Expr:
-    """What the function `shc` of the package gives."""
+    """Return the result of the package's function `shc`."""
     return sp.exp(-y) * shc(y)
 
 
 def reduce_exponentials(expression: sp.Expr) -> sp.Expr:
-    """0 if and only if it vanishes, of exponentials too."""
+    """Return 0 if and only if the expression vanishes, exponentials included."""
     found = in_p_and_q(expression).replace(expm1, lambda y: sp.exp(y) - 1)
     return in_sines(found.replace(sp.exp, lambda y: sp.cosh(y) + sp.sinh(y)))
 
@@ -61,7 +61,7 @@ def _slope(
 
 
 def zero_of(bends: bool) -> Routine:
-    """-kap B/2 times what makes it entire, its slope by kap, the sign of that factor."""
+    """Return -kap B/2 times an entire-making factor, its slope by kap, the factor's sign."""
     value = sp.Add(*terms(bends))
     claim = -kap / 2 * stiffness(bends) * whole(bends)
     slopes = (
@@ -78,15 +78,15 @@ def zero_of(bends: bool) -> Routine:
             sp.sign(entire(whole(bends)).xreplace(NAMES)),
         ),
         (E_p * E_q * claim, E_p * E_q * sp.diff(with_roots(claim), kap), None),
-        f"-kap B{'a' if bends else 's'}/2 times what makes it entire, its slope by kap, the sign "
-        "of that.",
+        f"Return -kap B{'a' if bends else 's'}/2 times a factor that makes it entire, the slope by "
+        "kap, and the sign of the factor.",
         MEANING,
         reduce,
     )
 
 
 def above_shear() -> Routine:
-    """1/B_a and 1/B_s for kap > x^2."""
+    """Return 1/B_a and 1/B_s for kap > x^2."""
     values = [
         (-load * entire(whole(bends)) / (2 * sp.Add(*terms(bends)))).xreplace(NAMES)
         for bends in (True, False)
@@ -98,7 +98,7 @@ def above_shear() -> Routine:
         (first, Let(over, load - square), *others),
         tuple(values),
         tuple(1 / stiffness(bends) for bends in (True, False)),
-        "1/Ba and 1/Bs for kap > x^2, where q is imaginary, and p for gam kap > x^2.",
+        "Return 1/Ba and 1/Bs for kap > x^2, where q is imaginary, and p for gam kap > x^2.",
         {x: x_h, load: kap, rest: 1 - gam},
         reduce,
     )
@@ -111,12 +111,12 @@ fading_p, fading_q, tanh_p, tanh_q = sp.symbols("fading_p fading_q tanh_p tanh_q
 
 
 def _bracket() -> tuple[Let | Several | Choice, ...]:
-    """2 (1 - gam) F/(cosh p cosh q) = [tanh(q)/q - tanh(p)/p]/kap, by what does not cancel."""
+    """Return 2 (1 - gam) F/(cosh p cosh q) = [tanh(q)/q - tanh(p)/p]/kap without cancellation."""
     unlike, near = sp.Gt(p, 2 * q), sp.Ge(NEAR, total)
     apart = (tanh_q - tanh_p) / load
     together = -expm1(-2 * total) - 2 * total * fading_q * shc_d
     together *= rest / (p * q * total) / ((1 + fading_p) * (1 + fading_q))
-    end = "the power series is held at its end, for points that it is not for"
+    end = "guard at the end of the power series for points outside its range"
     return (
         Choice(low, near, total, NEAR, unclaimed="no", reason=end),
         Several((F,), "series", (low**2, GUARDED(d, low) ** 2), (differences(),)),
@@ -127,7 +127,7 @@ def _bracket() -> tuple[Let | Several | Choice, ...]:
 
 
 def below_shear() -> Routine:
-    """1/B_a and 1/B_s for kap <= x^2, by functions that are positive."""
+    """Return 1/B_a and 1/B_s for kap <= x^2, in positive functions."""
     statements = (
         Let(square, x * x),
         Let(p, sp.sqrt(square - gam * load)),
@@ -153,7 +153,7 @@ def below_shear() -> Routine:
         statements,
         (1 / (2 * bending), p * p / (2 * stretching)),
         tuple(1 / stiffness(bends) for bends in (True, False)),
-        "1/Ba and 1/Bs for kap <= x^2, where p and q are real.",
+        "Return 1/Ba and 1/Bs for kap <= x^2, where p and q are real.",
         {x: x_h, load: kap, rest: 1 - gam},
         reduce_exponentials,
     )

@@ -1,7 +1,7 @@
-"""cosh and sinh of p and q as entire functions of p^2 and q^2, which code computes first.
+"""cosh and sinh of p and q as entire functions of p^2 and q^2, the first values in the code.
 
-cosh p and sinh(p)/p depend on p^2 alone, whatever its sign. Code scales both by E_p = e^(-p) where
-p is real (by 1 elsewhere), so that neither overflows; the claims carry the scales.
+cosh p and sinh(p)/p depend on p^2 alone, for either sign. The code scales both by E_p = e^(-p) for
+real p (by 1 otherwise), so that neither overflows; the claims contain the scales.
 """
 
 import sympy as sp
@@ -23,38 +23,38 @@ x, over, level, square, m, rest = sp.symbols("x over level square m rest", real=
 cosh_p, sinh_p, cosh_q, sinh_q = sp.symbols("cosh_p sinh_p cosh_q sinh_q", real=True)
 slope_p, slope_q = sp.symbols("slope_p slope_q", real=True)
 MEANING: Facts = {x: x_h, over: kap - x_h**2, rest: 1 - gam}
-"""What the arguments stand for."""
+"""Meaning of the arguments."""
 _BY_KAP = {over: sp.Integer(1), level: -gam, m: sp.Integer(-1)}
-"""How what code computes first grows with kap."""
+"""Slopes by kap of the first values in the code."""
 
 
 class SlopeOfShc(sp.Function):
-    """(cosh p - sinh(p)/p)/(2 p^2) of p^2."""
+    """Return (cosh p - sinh(p)/p)/(2 p^2) as a function of p^2."""
 
 
 class Shc(sp.Function):
-    """sinh(p)/p of p^2."""
+    """sinh(p)/p as a function of p^2."""
 
     def fdiff(self, argindex: int = 1) -> sp.Expr:
-        """By p^2."""
+        """Return the derivative by p^2."""
         del argindex
         return SlopeOfShc(self.args[0])
 
 
 class RootTimesSinh(sp.Function):
-    """p sinh p of p^2."""
+    """p sinh p as a function of p^2."""
 
     def fdiff(self, argindex: int = 1) -> sp.Expr:
-        """By p^2."""
+        """Return the derivative by p^2."""
         del argindex
         return (Shc(self.args[0]) + Cosh(self.args[0])) / 2
 
 
 class Cosh(sp.Function):
-    """cosh p of p^2."""
+    """cosh p as a function of p^2."""
 
     def fdiff(self, argindex: int = 1) -> sp.Expr:
-        """By p^2."""
+        """Return the derivative by p^2."""
         del argindex
         return Shc(self.args[0]) / 2
 
@@ -69,22 +69,22 @@ NAMES = {
     SlopeOfShc(-over): slope_q,
     RootTimesSinh(-over): -over * sinh_q,
 }
-"""Variables of the code for what it computes first."""
+"""Variables of the code for its first values."""
 
 
 def reduce(expression: sp.Expr) -> sp.Expr:
-    """0 if and only if it vanishes."""
+    """Return 0 if and only if the expression vanishes."""
     return in_sines(in_p_and_q(expression))
 
 
 def in_cosh_and_sinh(expression: sp.Expr) -> sp.Expr:
-    """Without tanh and coth."""
+    """Return the expression without tanh and coth."""
     found = expression.replace(sp.tanh, lambda y: sp.sinh(y) / sp.cosh(y))
     return found.replace(sp.coth, lambda y: sp.cosh(y) / sp.sinh(y))
 
 
 def entire(term: sp.Expr) -> sp.Expr:
-    """A product of cosh and sinh of p and q, even in both, in what code computes first.
+    """Return a product of cosh and sinh of p and q, even in both, in the code's first values.
 
     Raises
     ------
@@ -102,34 +102,34 @@ def entire(term: sp.Expr) -> sp.Expr:
 
 
 def by_kap(value: sp.Expr) -> sp.Expr:
-    """Derivative of what code computes, by kap."""
+    """Return the derivative of the code's expression by kap."""
     return sp.Add(*(rate * sp.diff(value, part) for part, rate in _BY_KAP.items()))
 
 
 def by_log_kap(value: sp.Expr) -> sp.Expr:
-    """Derivative of an expression of the theory, by log kap."""
+    """Return the derivative of an expression of the theory by log kap."""
     return kap * sp.diff(with_roots(value), kap)
 
 
 def stiffness(bends: bool) -> sp.Expr:
-    """B_a or B_s in x, kap, p and q."""
+    """Return B_a or B_s in x, kap, p and q."""
     stated: sp.Expr = dynamic_influence()[0 if bends else 1].stated
     return stated
 
 
 def whole(bends: bool) -> sp.Expr:
-    """The factor that makes kap B/2 entire."""
+    """Return the factor that makes kap B/2 entire."""
     return sp.cosh(p) * sp.cosh(q) if bends else p * sp.sinh(p) * sp.sinh(q) / q
 
 
 def terms(bends: bool) -> list[sp.Expr]:
-    """Both terms of -kap B/2 times that factor."""
+    """Return both terms of -kap B/2 times that factor."""
     (bracket,) = (part for part in stiffness(bends).args if part.is_Add)
     return [entire(term * whole(bends)) for term in bracket.args]
 
 
 def steepness_anywhere() -> sp.Expr:
-    """How fast the quotient of both terms of B_a falls with log kap, times 1 - xi."""
+    """Return minus the slope of B_a's quotient by log kap, times 1 - xi."""
     return -(q**2) / x_h**2 * by_log_kap(quotient()) / quotient()
 
 
@@ -147,11 +147,11 @@ FIRST: tuple[Let | Several, ...] = (
     _hyperbolic(cosh_q, sinh_q, -over, q, E_q),
     Let(m, square - over),
 )
-"""What every routine of x and kap - x^2 computes first."""
+"""First statements of every routine of x and kap - x^2."""
 
 
 def at_zero(expression: sp.Expr, bends: bool) -> sp.Expr:
-    """0 if and only if it vanishes wherever B is 0, where tanh p follows from tanh q."""
+    """Return 0 if and only if the expression vanishes at all zeros of B, by tanh p from tanh q."""
     t_p, t_q, c_p, c_q = sp.symbols("t_p t_q c_p c_q", positive=True)
     found = in_cosh_and_sinh(sp.expand_trig(in_p_and_q(expression)))
     named = {sp.sinh(p): t_p * c_p, sp.sinh(q): t_q * c_q, sp.cosh(p): c_p, sp.cosh(q): c_q}
@@ -165,6 +165,6 @@ def at_zero(expression: sp.Expr, bends: bool) -> sp.Expr:
 
 
 def _without_squares(value: sp.Expr, c: sp.Symbol, t: sp.Symbol) -> sp.Expr:
-    """A polynomial in c, where c^2 = 1/(1 - t^2)."""
+    """Return a polynomial in c, where c^2 = 1/(1 - t^2)."""
     found = sp.Poly(value, c)
     return sp.Add(*(k * c ** (n % 2) * (1 - t**2) ** -(n // 2) for (n,), k in found.terms()))

@@ -1,4 +1,4 @@
-"""The lowest branch A0: the equation it solves, how it responds to a load, its static share.
+"""The lowest branch A0: its equation, its residue, and its static fraction.
 
 With S = P + Q, P = p/x, Q = q/x, xi = kap/x^2 and `left` = 1 - xi = Q^2.
 """
@@ -42,7 +42,7 @@ WAVE: Facts = {
 
 @named
 def shallow() -> Claims:
-    """First over second term of Ba, less 1, and how steeply that falls."""
+    """Return the quotient of both terms of Ba minus 1, and its slope."""
     fall, growth, F, change, ratio, other = sp.symbols("fall growth F change ratio other")
     rates = gam / P, 1 / Q
     in_squares = square * S * S, square * d * d, fall, growth
@@ -82,7 +82,7 @@ def shallow() -> Claims:
 
 @named
 def deep_steepness() -> Claims:
-    """How steeply the quotient falls, right where it is 1 alone."""
+    """Return the slope of the quotient, accurate where the quotient is 1."""
     plus, faded_p, faded_q, less, fading = sp.symbols("plus faded_p faded_q less fading")
     lost = fading_q / (1 + fading_q) ** 2 - fading_p / (1 + fading_p) ** 2
     statements = (
@@ -116,7 +116,7 @@ def deep_steepness() -> Claims:
 
 
 def whole_less_one() -> Routine:
-    """E - 1, which fades."""
+    """Return E - 1, which decays exponentially."""
     shc_d = sp.Symbol("shc_d", positive=True)
     exact = (sp.sinh(p + q) - (p + q) * shc(p - q)) / (sp.cosh(p + q) + sp.cosh(p - q))
     statements = (
@@ -140,7 +140,7 @@ def whole_less_one() -> Routine:
 
 
 def residue(is_shallow: bool) -> Routine:
-    """-1/B_a' at A0, by the steepness."""
+    """Return -1/B_a' at A0, in terms of the steepness."""
     root = sp.Symbol("root", positive=True)
     own = P if is_shallow else Q
     turned = root / sp.tanh(root)
@@ -159,14 +159,14 @@ def residue(is_shallow: bool) -> Routine:
 
 @named
 def deep_excess() -> Claims:
-    """First over second term of Ba, less 1, by both of short waves and their difference."""
+    """Return the quotient of both terms minus 1 for short waves, from their difference."""
     first, second, difference, excess, lack = sp.symbols("first second difference excess lack")
     E = (sp.sinh(p + q) - (p + q) * shc(p - q)) / (sp.cosh(p + q) + sp.cosh(p - q))
     short = 2 * q / x_h, kap * (p + q) / (2 * (1 - gam) * x_h**3)
     meaning = {first: short[0], second: short[1], difference: short[0] - short[1], excess: E - 1}
     statements = (
         Let(fading_p, sp.exp(-2 * x * P)),
-        Let(lack, 2 * fading_p / (1 + fading_p), "of tanh p", means=1 - sp.tanh(p)),
+        Let(lack, 2 * fading_p / (1 + fading_p), "1 - tanh p", means=1 - sp.tanh(p)),
     )
     above = difference + first * excess + second * lack
     return Claims(
@@ -180,7 +180,7 @@ def deep_excess() -> Claims:
 
 
 def plate() -> Routine:
-    """Both ratios of the squared wave speeds, by Poisson's ratio."""
+    """Return both ratios of the squared wave speeds, from Poisson's ratio."""
     return routine(
         "material",
         (nu,),
@@ -193,7 +193,7 @@ def plate() -> Routine:
 
 
 def wave_numbers() -> Routine:
-    """The variables of the lowest branch, by kap/x^4."""
+    """Return the variables of the lowest branch, from kap/x^4."""
     return routine(
         "wave_ratios",
         (x, gam, slope),

@@ -1,4 +1,4 @@
-"""How each branch but the lowest answers a load: -1/B' where B is 0, without cancellation."""
+"""Residues of the higher branches: -1/B' at the zeros of B, without cancellation."""
 
 from functools import partial
 
@@ -39,14 +39,14 @@ def _double(symbol: sp.Symbol, of: sp.Expr, root: sp.Symbol, scale: sp.Symbol) -
 
 
 class _Parts:
-    """What differs between bending and stretching.
+    """Formulas that differ between bending and extension.
 
-    B = 0 gives the ratio of the amplitudes of q to those of p in two ways, `near` and `far`. Of
-    small over small the other one knows more.
+    B = 0 gives the ratio of the amplitudes of q and p in two ways, `near` and `far`. Where one is
+    the quotient of two small numbers, the other one is accurate.
     """
 
     def __init__(self, bends: bool) -> None:
-        """Fill in the parts."""
+        """Insert the parts."""
         shear = 4 * square
         self.scale: Facts = {}
         if bends:
@@ -55,7 +55,7 @@ class _Parts:
             self.in_p = gam * m**2 * double_p / 2 - 2 * m * sinh_p * cosh_p
             self.in_q = 2 * square * (sinh_q * cosh_q + 1)
             self.extra: tuple[Statement, ...] = (_double(double_p, level, p, E_p),)
-            self.scale = {E_q: sp.Integer(1)}  # over > 0 of all but A0: q is imaginary
+            self.scale = {E_q: sp.Integer(1)}  # over > 0 for all but A0: q is imaginary
             return
         lift = level * sinh_p
         self.near = sinh_q, lift
@@ -67,20 +67,20 @@ class _Parts:
 
 
 def residue(bends: bool) -> Routine:
-    """-1/B' where B is 0."""
+    """Return -1/B' at the zeros of B."""
     parts = _Parts(bends)
     least = sp.Function("least")(sinh_p, level, sinh_q, over)
     small = sp.Min(sp.Abs(cosh_p), sp.Abs(cosh_q))
     exact = sp.Gt(least, small) if bends else sp.Gt(small, least)
     swap = sp.And(exact, sp.Gt(sp.Abs(parts.near[1]), sp.Abs(parts.near[0])))
     largest = sp.Max(sp.Abs(ratio_q), sp.Abs(ratio_p), SMALLEST)
-    nothing = "no pressure moves the face"
+    nothing = "the branch is not excited by pressure"
     statements: tuple[Statement, ...] = (
         *FIRST,
         *parts.extra,
         Choice(ratio_q, exact, parts.far[0], parts.near[0]),
         Choice(ratio_p, exact, parts.far[1], parts.near[1]),
-        Let(larger, largest, "only the ratio counts", opaque=True),
+        Let(larger, largest, "only the ratio matters", opaque=True),
         Let(first, ratio_q / larger),
         Let(second, ratio_p / larger),
         Choice(size, swap, parts.near[1] * first, parts.near[0] * second),
@@ -93,7 +93,7 @@ def residue(bends: bool) -> Routine:
         statements,
         ((square + over) * size**2 / (2 * safe),),
         (-1 / sp.diff(with_roots(stiffness(bends)), kap),),
-        f"-1/B{'a' if bends else 's'}' where that is 0.",
+        f"Return -1/B{'a' if bends else 's'}' where B{'a' if bends else 's'} is 0.",
         MEANING,
         lambda e: at_zero(e.subs(parts.scale), bends),
     )

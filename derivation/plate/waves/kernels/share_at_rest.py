@@ -1,4 +1,4 @@
-"""A0's share of the deflection under a static load: (rho h r/kap) over mu C/h."""
+"""Fraction of A0 in the deflection under a static load: (rho h r/kap) over mu C/h."""
 
 import sympy as sp
 
@@ -17,20 +17,20 @@ TWO = 2 * x_h
 
 
 def _at_rest(expression: sp.Expr) -> sp.Expr:
-    """kap = 0, where p = q = x and shc(p - q) = 1."""
+    """Evaluate at kap = 0, where p = q = x and shc(p - q) = 1."""
     still: sp.Expr = expression.subs(kap, 0).subs(shc(p - q), 1).subs({p: x_h, q: x_h})
     return still
 
 
 def _share() -> sp.Expr:
-    """The derived share by its steepness and static B_a/B_s."""
+    """Return the derived fraction in terms of its steepness and static B_a/B_s."""
     names = {"s": steep, "beta": unlike}
     stated: sp.Expr = bending_share().stated
     return stated.subs({k: names[k.name] for k in stated.free_symbols if k.name in names})
 
 
 def ratio_at_rest() -> Routine:
-    """B_a/B_s at kap = 0."""
+    """Return B_a/B_s at kap = 0."""
     bent, stretched = (_at_rest(form) for form in slow_stiffness())
     fading = 2 * sp.exp(-TWO)
     statements = (
@@ -45,7 +45,7 @@ def ratio_at_rest() -> Routine:
         statements,
         (sp.tanh(x) ** 2 * lower * held**3 / upper,),
         (bent / stretched,),
-        "Ba/Bs at kap = 0.",
+        "Return Ba/Bs at kap = 0.",
         {x: x_h},
         reduce_exponentials,
     )
@@ -53,7 +53,7 @@ def ratio_at_rest() -> Routine:
 
 @named
 def share_beyond() -> Claims:
-    """Static share of A0 for x >= 1; `excess` is E - 1, `product` is 4 P Q."""
+    """Return the static fraction of A0 for x >= 1; `excess` is E - 1, `product` is 4 P Q."""
     scaled = 2 * sp.exp(-TWO) * (sp.sinh(TWO) - TWO) / 2**3
     statements = (
         Let(T, 2 * x),
@@ -72,7 +72,7 @@ def share_beyond() -> Claims:
 
 
 def product_at_zero() -> Routine:
-    """4 P Q where B_a is 0: of x where tanh p and tanh q are known better than p and q."""
+    """Return 4 P Q at B_a = 0, for x at which tanh p and tanh q are more accurate than p and q."""
     return routine(
         "deep_product",
         (x, left, P, Q),
@@ -87,7 +87,7 @@ def product_at_zero() -> Routine:
 
 @named
 def share_near_one() -> Claims:
-    """Static share of A0 for small x, as 1 less what is small."""
+    """Return the static fraction of A0 for small x, as 1 minus a small difference."""
     near, F, less, first, second = sp.symbols("near F less first second")
     steeper, below = sp.symbols("steeper below")
     F_at_rest = (shc(TWO) - 1) / TWO**2

@@ -1,1 +1,1 @@
-"""Algorithms of the plate's waves, copied into the generated package."""
+"""Algorithms of waves in the plate, copied into the generated package."""

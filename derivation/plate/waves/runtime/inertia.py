@@ -1,23 +1,23 @@
-"""The plate's own motion: its lowest bending branch, and how it yields to a load that oscillates.
+"""Inertia of the plate: the lowest bending branch A0, and the response to an oscillating load.
 
 One mode of a plate of half-thickness h moves with w = f(z) J0(phi r) cos(omega t). With
 x = phi h, kap = (omega h/c_T)^2, gam = mu/(lam + 2 mu) = (1 - 2 nu)/(2 (1 - nu)), c_T^2 = mu/rho,
-p^2 = x^2 - gam kap and q^2 = x^2 - kap its influence coefficient on the loaded face is::
+p^2 = x^2 - gam kap and q^2 = x^2 - kap, its influence coefficient at the contact face is::
 
     w(+h)/A = (h/mu) (1/Ba + 1/Bs)
     Ba = -(2/kap) [(2 x^2 - kap)^2 tanh(p)/p - 4 x^2 q tanh(q)]      bending, w even in z
-    Bs = -(2/kap) [(2 x^2 - kap)^2 coth(p)/p - 4 x^2 q coth(q)]      stretching, w odd in z
+    Bs = -(2/kap) [(2 x^2 - kap)^2 coth(p)/p - 4 x^2 q coth(q)]      extension, w odd in z
 
-As printed these cancel for kap below x^2. With shc y = sinh(y)/y, S = p + q, d = p - q they are::
+For kap below x^2 these forms cancel. With shc y = sinh(y)/y, S = p + q, d = p - q they become::
 
     Ba = 2 [8 x^2 q^2 (1 - gam) F/(cosh p cosh q) - kap tanh(p)/p],  F = (shc S - shc d)/(S^2 - d^2)
     Bs = (2/p^2) [2 x^2 (1 - gam) (shc S + shc d)/(shc p shc q) - kap p coth p]
 
-The lowest bending branch A0 is the only zero of Ba below x^2: of kap = xi x^2 the quotient of both
-terms of Ba falls as xi grows, and Newton's method finds where it is 1.
+The lowest bending branch A0 is the only zero of Ba below x^2. With kap = xi x^2, the ratio of the
+two terms of Ba decreases as xi grows; Newton's method finds where it equals 1.
 
-Arithmetic: where Newton's method starts and its steps; the quotient of short waves, which is right
-to twice the digits by error-free transformations.
+Arithmetic: starting value and steps of Newton's method; the quotient for short waves, computed in
+twice the precision by error-free transformations.
 """
 
 from collections.abc import Callable
@@ -34,16 +34,16 @@ from generated.wave_numbers import RAYLEIGH, SHALLOW, SMALL, STEPS
 
 
 class _Wave(NamedTuple):
-    """A wave number, the plate it is in, and a frequency that may be A0's.
+    """A wave number, Poisson's ratio, and a trial frequency for A0.
 
     Attributes
     ----------
     x, nu, gam, rest
         rest is 1 - gam.
     slope, xi
-        kap over x^4 and over x^2.
+        kap divided by x^4 and by x^2.
     left
-        1 - xi, with what rounding xi would lose.
+        1 - xi, including the rounding error of xi.
     P, Q
         p/x and q/x.
     """
@@ -65,9 +65,9 @@ class _Balance(NamedTuple):
     Attributes
     ----------
     excess
-        First over second, less 1.
+        First term divided by the second, minus 1.
     steep
-        With the logarithm of kap growing that quotient's falls as steep/(1 - xi).
+        The slope of the logarithm of that ratio by log kap is -steep/(1 - xi).
     """
 
     excess: Double
@@ -77,7 +77,7 @@ class _Balance(NamedTuple):
 @in_manifest(r"\omega_0 h/c_T", domain="x >= 1e-90, x <= 1e90, nu > -1, nu < 0.5")
 @quiet
 def bending_frequency(x: ArrayLike, nu: ArrayLike) -> np.ndarray:
-    """Frequency omega h/c_T of the lowest bending branch A0 of a free plate.
+    """Compute the frequency omega h/c_T of the lowest bending branch A0 of a free plate.
 
     Formula::
 
@@ -94,7 +94,13 @@ def bending_frequency(x: ArrayLike, nu: ArrayLike) -> np.ndarray:
     Returns
     -------
     float or ndarray
-        Frequency over c_T/h [1] in the arguments' broadcast shape; NaN outside the domain.
+        Frequency in units of c_T/h [1] in the arguments' broadcast shape; NaN outside the domain.
+
+    Examples
+    --------
+    >>> from generated import bending_frequency
+    >>> print(f"{bending_frequency(0.1, 0.22):.6g}")
+    0.00918467
     """
     return _evaluated(x, nu, (_frequency, _frequency))
 
@@ -102,7 +108,7 @@ def bending_frequency(x: ArrayLike, nu: ArrayLike) -> np.ndarray:
 @in_manifest(r"\rho h\,r_0", domain="x >= 1e-90, x <= 1e90, nu > -1, nu < 0.5")
 @quiet
 def bending_residue(x: ArrayLike, nu: ArrayLike) -> np.ndarray:
-    """How A0 answers a load: q'' + omega^2 q = r A for the share q of w(+h), as rho h r.
+    """Compute the modal residue rho h r of A0, q'' + omega^2 q = r A for its part q of w(+h).
 
     Formula::
 
@@ -120,6 +126,12 @@ def bending_residue(x: ArrayLike, nu: ArrayLike) -> np.ndarray:
     -------
     float or ndarray
         Residue rho h r [1] in the arguments' broadcast shape; NaN outside the domain.
+
+    Examples
+    --------
+    >>> from generated import bending_residue
+    >>> print(f"{bending_residue(0.1, 0.22):.6g}")
+    0.497446
     """
     return _evaluated(x, nu, (_shallow_residue, _deep_residue))
 
@@ -127,12 +139,12 @@ def bending_residue(x: ArrayLike, nu: ArrayLike) -> np.ndarray:
 @in_manifest("s_0", domain="x >= 1e-90, x <= 1e90, nu > -1, nu < 0.5")
 @quiet
 def bending_share(x: ArrayLike, nu: ArrayLike) -> np.ndarray:
-    """Share of A0 in the deflection of the loaded face under a static load.
+    """Compute the fraction of the static contact-face deflection that belongs to A0.
 
     Formula::
 
         (rho h r/kap)/(mu C/h),   C = 2 G(2 x)/(E* phi) = (h/mu) (1/Ba + 1/Bs) at kap = 0
-        1 for x -> 0; what is left belongs to all other branches
+        1 for x -> 0; the remaining fraction belongs to all other branches
 
     Parameters
     ----------
@@ -144,7 +156,13 @@ def bending_share(x: ArrayLike, nu: ArrayLike) -> np.ndarray:
     Returns
     -------
     float or ndarray
-        Share [1] in the arguments' broadcast shape; NaN outside the domain.
+        Fraction [1] in the arguments' broadcast shape; NaN outside the domain.
+
+    Examples
+    --------
+    >>> from generated import bending_share
+    >>> print(f"{bending_share(0.1, 0.22):.6g}")
+    0.999957
     """
     return _evaluated(x, nu, (_shallow_share, _deep_share))
 
@@ -152,7 +170,7 @@ def bending_share(x: ArrayLike, nu: ArrayLike) -> np.ndarray:
 def _evaluated(
     x: ArrayLike, nu: ArrayLike, values: tuple[Callable[[_Wave, _Balance], Double], ...]
 ) -> np.ndarray:
-    """What one of two functions makes of A0: of small x, and of others."""
+    """Apply one function to A0 at small x and another one at all other x."""
     kind, [x, nu] = as_doubles(x, nu)
     [x] = inside([x], x >= 1e-90, x <= 1e90)
     [nu] = inside([nu], nu > -1, nu < 0.5)
@@ -177,7 +195,7 @@ def _wave(x: Double, nu: Double, slope: Double) -> _Wave:
 
 
 def _lowest(x: Double, nu: Double, balance: Callable[[_Wave], _Balance]) -> _Wave:
-    """A0 by Newton's method, from 1/kap = 1/Rayleigh's + 1/thin plate's, which fades."""
+    """Return A0 by Newton's method, starting at 1/kap = 1/Rayleigh's + 1/thin plate's."""
     (gam, rest), square = kernels.material(nu), x * x
     slope = 1.0 / (square / polynomial(gam, *RAYLEIGH) + np.exp(-square / 16.0) * 0.75 / rest)
     for _ in range(STEPS):
@@ -227,7 +245,7 @@ def _deep_residue(wave: _Wave, balance: _Balance) -> Double:
 
 
 def _deep(wave: _Wave) -> _Balance:
-    """With what is exponential split off; `steep` is right at the zero alone."""
+    """Return the quotient with exponentials separated; `steep` is accurate at the zero only."""
     x, _, gam, _, _, xi, left, P, Q = wave
     short = _rayleigh(wave.nu, xi, left)
     excess = kernels.deep_excess(x, P, *short, _less_than_one(wave))
@@ -239,7 +257,7 @@ def _less_than_one(wave: _Wave) -> Double:
 
 
 def _rayleigh(nu: Double, xi: Double, left: Double) -> tuple[Double, Double, Double]:
-    """2 Q, (1 - nu) xi (P + Q) and, as if in twice the digits, the first less the second."""
+    """Return 2 Q, (1 - nu) xi (P + Q) and their difference, as in twice the working precision."""
     ratio = 1.0 - nu
     ratio_rest, left_rest = (1.0 - ratio) - nu, (1.0 - left) - xi
     Q = np.sqrt(left)
@@ -269,7 +287,7 @@ def _rayleigh(nu: Double, xi: Double, left: Double) -> tuple[Double, Double, Dou
 )
 @quiet
 def dynamic_influence(x: ArrayLike, kap: ArrayLike, nu: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
-    """How the loaded face of a plate yields to a load of one wave number and frequency.
+    """Compute the contact-face deflection due to a load of one wave number and frequency.
 
     Formula::
 
@@ -287,8 +305,15 @@ def dynamic_influence(x: ArrayLike, kap: ArrayLike, nu: ArrayLike) -> tuple[np.n
     Returns
     -------
     tuple of float or ndarray
-        1/Ba and 1/Bs [1], bending and stretching, each in the arguments' broadcast shape; NaN
+        1/Ba and 1/Bs [1], bending and extension, each in the arguments' broadcast shape; NaN
         outside the domain.
+
+    Examples
+    --------
+    >>> from generated import dynamic_influence
+    >>> bending, extension = dynamic_influence(0.1, 0.01, 0.22)
+    >>> print(f"{bending:.6g} {extension:.6g}")
+    -50.1068 0.205198
     """
     kind, [x, kap, nu] = as_doubles(x, kap, nu)
     [x] = inside([x], x >= 1e-40, x <= 1e40)

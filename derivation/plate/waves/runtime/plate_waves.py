@@ -1,13 +1,13 @@
-"""Every branch of waves in a free plate: frequencies, and how each answers a load on one face.
+"""All Lamb-wave branches of a free plate: frequencies, and responses to a load on one face.
 
-Of one wave number x = phi h the loaded face yields to a load of frequency omega as::
+For a wave number x = phi h, a load of frequency omega deflects the contact face by::
 
     w(+h)/A = (h/mu) (1/Ba + 1/Bs),   1/B(kap) = sum r_k/(kap_k - kap),   kap = (omega h/c_T)^2
 
-with Ba and Bs as in `inertia`. Both fall wherever they are finite (they are the kinetic energy's
-quotients), so that between two poles of either there is one zero, one branch of its kind. The
-poles are known: with p^2 = x^2 - gam kap and q^2 = x^2 - kap those of Ba are at
--p^2, -q^2 = (pi/2)^2, (3 pi/2)^2, ..., those of Bs at -p^2 = 0, pi^2, ... and -q^2 = pi^2, ....
+with Ba and Bs as in `inertia`. Both decrease wherever they are finite, so that between two
+poles of either there is exactly one zero, which is one branch of that symmetry. The poles are
+known: with p^2 = x^2 - gam kap and q^2 = x^2 - kap, those of Ba are at -p^2, -q^2 = (pi/2)^2,
+(3 pi/2)^2, ...; those of Bs are at -p^2 = 0, pi^2, ... and -q^2 = pi^2, ....
 
 Arithmetic: the poles, between which Newton's method and bisection find the zeros.
 """
@@ -21,14 +21,14 @@ from generated.arrays import Double, as_doubles, as_result, inside, quiet
 from generated.inertia import bending_frequency, bending_residue
 from generated.wave_kernels import bending_residues, bent, material, stretched, stretching_residues
 
-_MOST = 200  # steps at most: Newton's, or halvings of the interval between two poles
+_MOST = 200  # largest number of steps: of Newton's method, or bisections between two poles
 
 
 @quiet
 def branches(
     x: ArrayLike, nu: ArrayLike, count: int, parity: str = "antisymmetric"
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Frequencies of the first branches of one kind, and how they answer a load.
+    """Compute frequencies and residues of the first Lamb-wave branches of one symmetry.
 
     Parameters
     ----------
@@ -37,26 +37,33 @@ def branches(
     nu : array_like
         Poisson's ratio [1]; -1 < nu < 0.5.
     count : int
-        How many branches; at least 1.
+        Number of branches; at least 1.
     parity : str
-        "antisymmetric" for A0, A1, ... (bending), "symmetric" for S0, S1, ... (stretching).
+        "antisymmetric" for A0, A1, ... (bending), "symmetric" for S0, S1, ... (extension).
 
     Returns
     -------
     tuple of ndarray
         Frequencies omega h/c_T, ascending, and residues rho h r [1], in the arguments'
-        broadcast shape and `count` along one more axis; NaN outside the domain. A residue of
-        0 is a branch that no pressure moves.
+        broadcast shape with one more axis of length `count`; NaN outside the domain. A branch
+        with residue 0 is not excited by pressure.
 
     Raises
     ------
     ValueError
-        For another parity, and a count below 1.
+        If `parity` is not one of these, or `count` is below 1.
 
     Notes
     -----
-    A0 is that of `inertia`. Measured, of the others: frequencies are right to 8 units in the last
-    place, residues to 1e-12 of the largest, most of them to 1e-15 of themselves.
+    A0 is computed by `inertia`. Measured for the other branches: frequencies are accurate to 8
+    units in the last place, residues to 1e-12 of the largest, most of them to 1e-15 (relative).
+
+    Examples
+    --------
+    >>> from generated.plate_waves import branches
+    >>> frequencies, residues = branches(0.5, 0.22, 3)
+    >>> print(frequencies.round(5))
+    [0.20162 1.79722 4.67054]
     """
     if parity not in ("antisymmetric", "symmetric"):
         raise ValueError(f"parity is 'antisymmetric' or 'symmetric', got {parity!r}")
@@ -82,7 +89,7 @@ def branches(
 
 
 def _bending(x: Double, gam: Double, rest: Double, count: int) -> tuple[Double, Double]:
-    """All but A0: between the poles, the lowest of which is above x^2."""
+    """Return all branches but A0: one between two poles, the lowest of which is above x^2."""
     wave, gam, rest = (y[:, None] for y in (x, gam, rest))
     edges = _edges(wave, gam, rest, (np.arange(count) + 0.5) * np.pi)[:, :count]
     over = _between(edges, np.zeros_like(edges[:, 1:]), bent, wave, gam, rest)
@@ -90,11 +97,11 @@ def _bending(x: Double, gam: Double, rest: Double, count: int) -> tuple[Double, 
 
 
 def _stretching(x: Double, gam: Double, rest: Double, count: int) -> tuple[Double, Double]:
-    """S0 from kap = 0 on, the others between the poles."""
+    """Return S0, whose interval starts at kap = 0, and the other branches between the poles."""
     wave, gam, rest = (y[:, None] for y in (x, gam, rest))
     square = wave * wave
     poles = _edges(wave, gam, rest, np.arange(count + 1) * np.pi)
-    edges = np.hstack((-square, poles[:, 1 : count + 1]))  # q = 0 is no pole
+    edges = np.hstack((-square, poles[:, 1 : count + 1]))  # q = 0 is not a pole
     floor = np.zeros_like(edges[:, 1:])
     floor[:, :1] = square  # S0 may have kap = x^2
     over = _between(edges, floor, stretched, wave, gam, rest)
@@ -102,7 +109,7 @@ def _stretching(x: Double, gam: Double, rest: Double, count: int) -> tuple[Doubl
 
 
 def _edges(x: Double, gam: Double, rest: Double, angles: np.ndarray) -> Double:
-    """kap - x^2 where |p| or |q| is one of the angles, ascending."""
+    """Return kap - x^2 where |p| or |q| equals one of the angles, ascending."""
     square = angles * angles
     return np.sort(np.hstack((square + 0.0 * x, (rest * (x * x) + square) / gam)), axis=1)
 
@@ -113,7 +120,7 @@ def _between(
     terms: Callable[..., tuple[Double, Double, Double]],
     *plate: Double,
 ) -> Double:
-    """kap - x^2 of the zero between every two edges: Newton's method, or halving."""
+    """Return kap - x^2 of the zero in each interval, by Newton's method with bisection."""
     low, high = edges[:, :-1].copy(), edges[:, 1:].copy()
     over = 0.5 * (low + high)
     sign, open_ = terms(over, *plate)[2], high > low

@@ -1,6 +1,6 @@
-"""Entire functions of a square, scaled, and power series of two variables.
+"""Entire functions of a squared argument, scaled, and power series in two variables.
 
-Arithmetic: Horner's rule, quotients that are 1 at 0, scaling by exponentials.
+Arithmetic: Horner's rule, quotients that equal 1 at 0, scaling by exponentials.
 """
 
 import numpy as np
@@ -11,7 +11,7 @@ from generated.wave_numbers import CLOSE, FACTORIALS
 
 
 def series(first: Double, second: Double) -> Double:
-    """F as by `differences`."""
+    """Return F as defined in `differences`."""
     inner, total = np.zeros_like(first), np.zeros_like(first)
     for coefficient in FACTORIALS[::-1]:
         inner = coefficient + second * inner
@@ -20,7 +20,7 @@ def series(first: Double, second: Double) -> Double:
 
 
 def hyperbolic(level: Double) -> tuple[Double, Double]:
-    """cosh and sinh(p)/p of p^2, over e^p where p is real."""
+    """Return cosh and sinh(p)/p from p^2, divided by e^p where p is real."""
     size = np.sqrt(np.abs(level))
     real, sine = level >= 0, over_of(np.sin(size), size)
     return np.where(real, 0.5 + 0.5 * np.exp(-2.0 * size), np.cos(size)), np.where(
@@ -29,12 +29,12 @@ def hyperbolic(level: Double) -> tuple[Double, Double]:
 
 
 def shc(y: Double) -> Double:
-    """sinh(y)/y over e^y, for y >= 0."""
+    """Return sinh(y)/y divided by e^y, for y >= 0."""
     return over_of(-0.5 * np.expm1(-2.0 * y), y)
 
 
 def over_of(above: Double, y: Double) -> Double:
-    """A function that begins as y, over y; 1 at y = 0."""
+    """Return the ratio of a function to its leading term y; 1 at y = 0."""
     safe = np.where(y > 0, y, 1.0)
     return np.where(y > 0, above / safe, 1.0)
 
@@ -42,9 +42,9 @@ def over_of(above: Double, y: Double) -> Double:
 def differences(
     first: Double, second: Double, fall: Double, growth: Double
 ) -> tuple[Double, Double]:
-    """F as a power series in S^2 and d^2, and its change by those of S^2 and d^2.
+    """Return F as a power series in S^2 and d^2, and its derivatives by S^2 and d^2.
 
-    sum_i S^(2i) sum_k d^(2k)/(2 (i + k) + 3)!, both sums by Horner's rule at once.
+    sum_i S^(2i) sum_k d^(2k)/(2 (i + k) + 3)!, both sums by one pass of Horner's rule.
     """
     inner, inner_change = np.zeros_like(first), np.zeros_like(first)
     total, change = np.zeros_like(first), np.zeros_like(first)
@@ -57,7 +57,7 @@ def differences(
 
 
 def compared(first: Double, second: Double, gap: Double) -> tuple[Double, Double]:
-    """F, and F of S^2 + gap and d = 0 less F."""
+    """Return F, and the difference F(S^2 + gap, d = 0) - F."""
     inner, total, less = np.zeros_like(first), np.zeros_like(first), np.zeros_like(first)
     for coefficient in FACTORIALS[::-1]:
         less = (first + gap) * less + gap * total - second * inner
@@ -67,7 +67,7 @@ def compared(first: Double, second: Double, gap: Double) -> tuple[Double, Double
 
 
 def double(level: Double) -> Double:
-    """(sinh(2 p)/(2 p) - 1)/p^2, over e^(2 p) where p is real."""
+    """Return (sinh(2 p)/(2 p) - 1)/p^2, divided by e^(2 p) where p is real."""
     close, faded = np.abs(level) < CLOSE, fading(level)
     cosh, sinh = hyperbolic(level)
     far = (cosh * sinh - faded) / np.where(close, 1.0, level)
@@ -76,23 +76,23 @@ def double(level: Double) -> Double:
 
 
 def slope(level: Double, cosh: Double, sinh: Double) -> Double:
-    """How sinh(p)/p grows with p^2, in the scale of cosh p: right enough for Newton's method."""
+    """Return the slope of sinh(p)/p by p^2, scaled like cosh p, accurate enough for Newton."""
     close = np.abs(level) < CLOSE
     far = 0.5 * (cosh - sinh) / np.where(close, 1.0, level)
     return np.where(close, cosh / 6.0, far)
 
 
 def fading(level: Double) -> Double:
-    """e^(-2 p) where p is real, 1 elsewhere."""
+    """Return e^(-2 p) where p is real, 1 elsewhere."""
     return np.exp(-2.0 * np.sqrt(np.maximum(level, 0.0)))
 
 
 def least(sinh_p: Double, level: Double, sinh_q: Double, over: Double) -> Double:
-    """The smaller of |sinh p| and |sinh q|."""
+    """Return the smaller of |sinh p| and |sinh q|."""
     sizes = np.abs(sinh_p) * np.sqrt(np.abs(level)), np.abs(sinh_q) * np.sqrt(np.abs(over))
     return np.minimum(*sizes)
 
 
 def tanhc(y: Double) -> Double:
-    """tanh(y)/y, for y >= 0."""
+    """Return tanh(y)/y for y >= 0."""
     return over_of(np.tanh(y), y)

@@ -1,19 +1,19 @@
-"""Link 27: the lowest branch of free waves, A0, which bends the plate and carries most of a load.
+"""Link 27: the lowest branch of free waves, A0, which carries most of a static load.
 
-For kap < x^2 B_a of link 26 is finite, above 0 at kap = 0, below at kap = x^2 (q = 0), and falls:
-A0 is its one zero kap_0 there. Of the two positive terms of B_a the first over the second is
+For kap < x^2 B_a of link 26 is finite, positive at kap = 0, negative at kap = x^2 (q = 0), and
+decreases: A0 is its only zero kap_0 there. The quotient of the two positive terms of B_a is
 
     quotient = 8 x^2 q^2 (1 - gam) F p/(kap sinh p cosh q) = 1,
     steep = -w kap d log(quotient)/dkap = 1 - w [kap F'/F + gam (p coth(p) - 1) xi/(2 P^2)
                                                 + kap tanh(q)/(2 q)],
 
 xi = kap/x^2, w = 1 - xi, P = p/x, Q = q/x. B_a = 2 kap tanh(p)/p (quotient - 1), so that
-rho h r = -1/B_a' = p w/(2 tanh(p) steep): r is the strength with which A0's share of w(+h)
-answers a load, q'' + omega_0^2 q = r A_j. At rest that share is rho h r/kap_0 of mu C/h,
+rho h r = -1/B_a' = p w/(2 tanh(p) steep): r is the residue of A0, whose part q of w(+h) obeys
+q'' + omega_0^2 q = r A_j. In static loading this part is rho h r/kap_0 of mu C/h,
 
     s_0 = F_0 cosh p cosh q/(F cosh^2 x steep (1 + B_a/B_s)),    F_0 and B_a/B_s at kap = 0.
 
-At the zero, where (1 + w)^2 tanh(p)/P = 4 Q tanh q, p leaves what does not fade like e^(-2q),
+At the zero, where (1 + w)^2 tanh(p)/P = 4 Q tanh q, p is eliminated except for terms like e^(-2q),
 
     steep = 1/2 + w [1 - 2/(1 + w)^2] + fading/xi,    rho h r = (1 + w)^2 q/(8 tanh(q) steep),
     F/(cosh p cosh q) = E/(2 p q (p + q)),    E = (sinh S - S shc d)/(cosh S + cosh d) -> 1.
@@ -46,25 +46,25 @@ from derivation.plate.waves.theory.dynamic_modes import (
 )
 
 ORDER = 3
-"""Terms of the series for thin plates that are written out."""
+"""Number of terms of the series for thin plates that are written out."""
 
 
-# --- the zero and how B_a passes it
+# --- the zero of B_a, and the slope there
 
 
 def differences() -> sp.Expr:
-    """F."""
+    """Return F."""
     return (shc(p + q) - shc(p - q)) / (4 * p * q)
 
 
 def quotient() -> sp.Expr:
-    """First over second term of B_a, in x, kap, gam, p and q."""
+    """Return the quotient of the two terms of B_a, in x, kap, gam, p and q."""
     above = 8 * x_h**2 * q**2 * (1 - gam) * differences() * p
     return above / (kap * sp.sinh(p) * sp.cosh(q))
 
 
 def steepness(tanh_p: sp.Expr, tanh_q: sp.Expr) -> sp.Expr:
-    """The quotient's fall at a zero of B_a, times w, in x, kap, gam, p and q."""
+    """Return the slope of the quotient at a zero of B_a, times w, in x, kap, gam, p and q."""
     xi, w, P = kap / x_h**2, q**2 / x_h**2, p / x_h
     faded_p, faded_q = (y * (1 - t**2) / t for y, t in ((p, tanh_p), (q, tanh_q)))
     plus, less = (1 + w) ** 2, 1 - tanh_q**2 / tanh_p**2
@@ -73,14 +73,14 @@ def steepness(tanh_p: sp.Expr, tanh_q: sp.Expr) -> sp.Expr:
 
 
 def bending_residue(tanh_p: sp.Expr, tanh_q: sp.Expr) -> sp.Expr:
-    """Rho h r of a zero of B_a, in x, kap, gam, p and q."""
+    """Return rho h r of a zero of B_a, in x, kap, gam, p and q."""
     plus = (1 + q**2 / x_h**2) ** 2
     return plus * q / (8 * tanh_q * steepness(tanh_p, tanh_q))
 
 
 @cache
 def rise_anywhere() -> Proof:
-    """The quotient's fall by logarithms, of F as a function of S^2 and d^2."""
+    """Prove the logarithmic slope of the quotient, for F as a function of S^2 and d^2."""
 
     def change(value: sp.Expr) -> sp.Expr:
         return in_p_and_q(kap * sp.diff(with_roots(value), kap))
@@ -91,7 +91,7 @@ def rise_anywhere() -> Proof:
     steep = in_p_and_q(1 - w * other)
     return prove(
         "Slope of the quotient",
-        "Differentiated by log kap: the quotient, and the squares of S and d.",
+        "Derivatives by log kap: of the quotient, and of the squares of S and d.",
         {
             "S^2": in_sines(change(total**2) + in_p_and_q(kap * total * (gam / p + 1 / q))),
             "d^2": in_sines(change(apart**2) - in_p_and_q(kap * apart * (1 / q - gam / p))),
@@ -102,7 +102,7 @@ def rise_anywhere() -> Proof:
 
 @cache
 def bending_zero() -> tuple[Formula, ...]:
-    """The quotient that is 1 on A0, its fall and the residue there."""
+    """Return the quotient that is 1 on A0, its slope and the residue there."""
     kinetic_slope()
     rise_anywhere()
     B_a = stiffness(sp.tanh(p), sp.tanh(q))
@@ -121,7 +121,7 @@ def bending_zero() -> tuple[Formula, ...]:
     reduced = {w: q**2 / x_h**2, x_i: kap / x_h**2}
     proof = prove(
         "The lowest bending branch",
-        r"$B_a$ by its quotient; $B_a$ differentiated, at its zero $\tanh p$ in terms of "
+        r"$B_a$ in terms of the quotient; $B_a$ differentiated, at its zero $\tanh p$ in terms of "
         r"$\tanh q$.",
         {
             "quotient": in_sines(in_p_and_q(B_a - 2 * kap * sp.tanh(p) / p * (quotient() - 1))),
@@ -133,17 +133,17 @@ def bending_zero() -> tuple[Formula, ...]:
     )
     rows = (
         (
-            "bending_quotient", r"q_0(\kappa)", "first over second term of $B_a$, 1 on A0",
+            "bending_quotient", r"q_0(\kappa)", "quotient of the two terms of $B_a$, 1 on A0",
             quotient(), quotient(), "B_a_slow",
         ),
         (
             "steepness", "s", (
-                r"how fast that quotient falls on A0 as $\log \kappa$ grows, times $w$"
+                r"slope of that quotient on A0 by $\log \kappa$ with reversed sign, times $w$"
             ),
             steepness(*tanh), steep, "bending_quotient",
         ),
         (
-            "bending_residue", r"\rho h\,r_0", "how A0 answers a load",
+            "bending_residue", r"\rho h\,r_0", "residue of A0",
             bending_residue(*tanh), plus * q / (8 * tanh[1] * s), "steepness",
         ),
     )  # fmt: skip
@@ -157,7 +157,7 @@ def bending_zero() -> tuple[Formula, ...]:
 
 @cache
 def bending_share() -> Formula:
-    """A0's part of the deflection under a static load."""
+    """Return the fraction of A0 in the deflection under a static load."""
     static_limit()
     residue = bending_zero()[2]
     T_x, steep = 2 * x_h, sp.Symbol("steep", positive=True)
@@ -174,8 +174,8 @@ def bending_share() -> Formula:
     B = (sp.sinh(T_x) - T_x) / (sp.cosh(T_x) + 1)
     value = p * q * (p + q) * B / (2 * x_h**3 * E * steep)
     proof = prove(
-        "Static share of the lowest branch",
-        r"The residue over $\kappa$, $\kappa$ by the quotient, times the static $B_a$; $F$ by $E$.",
+        "Static fraction of the lowest branch",
+        r"The residue over $\kappa$, with $\kappa$ from the quotient, times the static $B_a$.",
         {
             "static B_a": in_sines(both[0] - bent),
             "B_a over B_s": in_sines(both[0] / both[1] - unlike),
@@ -188,7 +188,7 @@ def bending_share() -> Formula:
     stated = (value / (1 + beta)).subs(steep, sp.Symbol("s", positive=True))
     return Formula(
         "bending_share", "s_0", (
-            r"A0's share of the static deflection, $\beta$ being $B_a/B_s$ there"
+            r"fraction of A0 in the static deflection, $\beta$ being $B_a/B_s$ there"
         ),
         with_roots(value.subs(steep, steep_value) / (1 + unlike)), "1", "",
         (residue.name, "C_top"), proof, stated=stated,
@@ -200,7 +200,7 @@ def bending_share() -> Formula:
 
 @cache
 def rayleigh() -> tuple[Formula, Formula]:
-    """x -> oo: tanh p = tanh q = 1."""
+    """Return the limit x -> oo: tanh p = tanh q = 1."""
     proof_of_residue = bending_zero()[2].proof
     w, P = 1 - xi_R, sp.sqrt(1 - gam * xi_R)
     cubic = xi_R**3 - 8 * xi_R**2 + 8 * (3 - 2 * gam) * xi_R - 16 * (1 - gam)
@@ -210,8 +210,8 @@ def rayleigh() -> tuple[Formula, Formula]:
     limit = plus * sp.sqrt(w) / (8 * (sp.Rational(1, 2) + w * (1 - 2 / plus)))
     proof = prove(
         "Rayleigh's wave",
-        r"$(2 - \xi)^2 = 4 P Q$ squared, without its root $\xi = 0$; the residue without "
-        "what fades. " + proof_of_residue.argument,
+        r"$(2 - \xi)^2 = 4 P Q$ is squared and divided by its root $\xi = 0$; the residue without "
+        "decaying terms. " + proof_of_residue.argument,
         {
             "cubic": sp.expand((2 - xi_R) ** 4 - 16 * w * P**2 - xi_R * cubic),
             "residue": sp.cancel(share - limit),
@@ -220,12 +220,12 @@ def rayleigh() -> tuple[Formula, Formula]:
     return (
         Formula(
             "rayleigh_cubic", "0", (
-                r"squared speed $\xi$ of short waves, over $c_T^2$"
+                r"squared speed $\xi$ of short waves, divided by $c_T^2$"
             ), cubic, "1", "",
             ("B_a",), proof,
         ),
         Formula(
-            "rayleigh_residue", r"\lim_{x\to\infty}\rho h\,r_0/x", "how short waves answer a load",
+            "rayleigh_residue", r"\lim_{x\to\infty}\rho h\,r_0/x", "residue of A0 for short waves",
             limit, "1", "", ("bending_residue",), proof,
         ),
     )  # fmt: skip
@@ -238,13 +238,13 @@ _RING, _s, _e, _g = ring("s e g", sp.QQ)
 
 
 def _cut(value: PolyElement, order: int) -> PolyElement:
-    """Without s^order and above, and e^2 and above."""
+    """Drop s^order and higher powers, and e^2 and higher powers."""
     terms = {k: c for k, c in value.items() if k[0] < order and k[1] < 2}
     return _RING.from_dict(terms)
 
 
 def _tanh_powers(count: int) -> list[sp.Rational]:
-    """t_0, t_1, ...: sinh(y)/y = cosh(y) tanh(y)/y."""
+    """Return t_0, t_1, ...: sinh(y)/y = cosh(y) tanh(y)/y."""
     found: list[sp.Rational] = []
     for n in range(count):
         rest = sum(found[k] / sp.factorial(2 * (n - k)) for k in range(n))
@@ -253,10 +253,10 @@ def _tanh_powers(count: int) -> list[sp.Rational]:
 
 
 def _stiffness_of(slope: PolyElement, order: int) -> PolyElement:
-    """B_a/(2 x^4) at kap = slope x^4, to order s^order.
+    """Return B_a/(2 x^4) at kap = slope x^4, to order s^order.
 
     4 (1 - s slope) (1 - gam) sum (-t_k) h_(k-1)(p^2, q^2) - slope tanh(p)/p, h_n the sum of all
-    products of n factors: of F (cosh p cosh q)^-1, the divided difference of tanh(y)/y.
+    products of n factors, from F/(cosh p cosh q), the divided difference of tanh(y)/y.
     """
     powers = _tanh_powers(order + 2)
     u, v = (_cut(_s - part * _s**2 * slope, order) for part in (_g, _RING(1)))
@@ -273,10 +273,10 @@ def _stiffness_of(slope: PolyElement, order: int) -> PolyElement:
 
 @cache
 def thin_powers(order: int) -> tuple[tuple[sp.Expr, ...], tuple[sp.Expr, ...]]:
-    """kap_0/x^4 and rho h r of A0 as power series in x^2: coefficients, polynomials in gam."""
+    """Return kap_0/x^4 and rho h r of A0 in powers of x^2, with polynomials in gam."""
     slope = _RING(0)
     for n in range(1, order + 1):
-        # B_a/(2 x^4) falls by 1 with slope, to lowest order.
+        # B_a/(2 x^4) has the slope -1 by `slope`, to lowest order.
         slope = _cut(slope + _stiffness_of(slope, n), n)
     step = _stiffness_of(slope + _e, order)
     fall = -_RING.from_dict({(k[0], 0, k[2]): c for k, c in step.items() if k[1] == 1})
@@ -287,7 +287,7 @@ def thin_powers(order: int) -> tuple[tuple[sp.Expr, ...], tuple[sp.Expr, ...]]:
 
 
 def _coefficients(value: PolyElement, order: int) -> tuple[sp.Expr, ...]:
-    """Coefficients of s^0, s^1, ... as polynomials in gam."""
+    """Return the coefficients of s^0, s^1, ... as polynomials in gam."""
     rows = [sp.Integer(0)] * order
     for (n, _, k), c in value.items():
         rows[n] += sp.Rational(int(c.numerator), int(c.denominator)) * gam**k
@@ -296,12 +296,12 @@ def _coefficients(value: PolyElement, order: int) -> tuple[sp.Expr, ...]:
 
 @cache
 def thin_plates() -> tuple[Formula, ...]:
-    """kap_0, rho h r and A0's share of the deflection under a static load, for x -> 0."""
+    """Return kap_0, rho h r and the static fraction of A0, for x -> 0."""
     bending_zero()
     s, slope = sp.symbols("s Y", positive=True)
     rows = thin_powers(ORDER)
     found, residue = (sp.Add(*(c * s**n for n, c in enumerate(row))) for row in rows)
-    # B_a as printed, with tanh's power series: what is left is of higher order.
+    # B_a with the power series of tanh: the residual is of higher order.
     t = _tanh_powers(ORDER + 3)
     u, v = s - gam * s**2 * slope, s - s**2 * slope
     bracket = (2 * s - s**2 * slope) ** 2 * sp.Add(*(c * u**k for k, c in enumerate(t)))
@@ -313,7 +313,7 @@ def thin_plates() -> tuple[Formula, ...]:
     share = _share_at_rest(rows[1], rows[0])
     proof = prove(
         "Bending of thin plates",
-        "The power series put into $B_a$ as printed and its slope; $y_0$ is Kirchhoff's plate.",
+        "The power series are inserted into $B_a$ and its slope; $y_0$ is Kirchhoff's plate.",
         {
             "frequency": _below(stiff.subs(slope, found), s),
             "residue": _below(1 + residue * change.subs(slope, found), s),
@@ -324,8 +324,8 @@ def thin_plates() -> tuple[Formula, ...]:
     )
     lines = (
         ("bending_kap_thin", r"\kappa_0", r"$(\omega h/c_T)^2$ of A0, thin plates", 4, rows[0]),
-        ("residue_thin", r"\rho h\,r_0", "how A0 answers a load, thin plates", 0, rows[1]),
-        ("share_thin", "s_0", "A0's share of the static deflection, thin plates", 0, share),
+        ("residue_thin", r"\rho h\,r_0", "residue of A0, thin plates", 0, rows[1]),
+        ("share_thin", "s_0", "fraction of A0 in the static deflection, thin plates", 0, share),
     )
     return tuple(
         Formula(
@@ -337,13 +337,13 @@ def thin_plates() -> tuple[Formula, ...]:
 
 
 def _below(value: sp.Expr, s: sp.Symbol) -> sp.Expr:
-    """What a series has below s^ORDER."""
+    """Return the terms of a series below s^ORDER."""
     terms = sp.Poly(sp.expand(value), s).terms()
     return sp.expand(sp.Add(*(c * s**n for (n,), c in terms if n < ORDER)))
 
 
 def _share_at_rest(residue: tuple[sp.Expr, ...], slope: tuple[sp.Expr, ...]) -> list[sp.Expr]:
-    """(rho h r/kap)/(mu C/h) by powers of x^2; C = 2 G/(E* phi) of a static load.
+    """Return (rho h r/kap)/(mu C/h) in powers of x^2; C = 2 G/(E* phi) for a static load.
 
     With T = 2 x and G = above/below, x^3 G = (above/T)/(below/T^4)/8.
     """
@@ -366,5 +366,5 @@ def _share_at_rest(residue: tuple[sp.Expr, ...], slope: tuple[sp.Expr, ...]) -> 
 
 
 def bending_branch() -> tuple[Formula, ...]:
-    """The formulas of the link."""
+    """Return the formulas of the link."""
     return (*bending_zero(), bending_share(), *thin_plates(), *rayleigh())

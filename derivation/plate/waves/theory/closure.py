@@ -1,32 +1,32 @@
-"""Link 28: a contact beside a plate of oscillators, closed so that no energy is lost or made.
+"""Link 28: coupling of a contact to the plate's modes that conserves energy.
 
-A growing contact is taken as a sequence of flat punches, each step of its static law P(a),
-delta(a) one. A punch of radius c spreads dP so that J0(phi r) has the mean sh(c phi) under it,
-sh y = sin(y)/y. Of the force a mode therefore feels, and in the gap it therefore counts by,
+A growing contact is treated as a sequence of flat punches, each a step of its static law P(a),
+delta(a). A punch of radius c distributes dP so that J0(phi r) has the mean sh(c phi) under it,
+sh y = sin(y)/y. The modal force, and the modal weight in the gap, are therefore
 
     P_j(a) = int_0^a P'(c) sh(c phi_j) dc,   s_j = dP_j/dP = sh(a phi_j);
 
-of Hertz's pressure P_j = P g(a phi_j), g(y) = 3 (sin y - y cos y)/y^3. With the static compliance
-c_j of each mode at the axis, the sphere's way z and its weight m g
+for Hertz pressure P_j = P g(a phi_j), g(y) = 3 (sin y - y cos y)/y^3. With the static compliance
+c_j of each mode on the axis, the sphere displacement z and its weight m g
 
     m z'' = m g - P,   q_j'' + omega_j^2 q_j = omega_j^2 c_j P_j,   z = D + sum s_j q_j,
     D = delta - sum c_j P_j s_j,
 
-so that static oscillators leave z = delta(a), and
+so that static modes leave z = delta(a), and
 
     m z'^2/2 - m g z + E_c + sum (q_j'^2 + omega_j^2 q_j^2)/(2 omega_j^2 c_j),
     E_c = int P dD + sum q_j (P s_j - P_j)
 
-is conserved whatever delta(a) is. If the contact lags, its pressure keeps its shape: it is that
-of P times (1 + A_v P'/P), and so is what a mode feels, which ends with the force. The energy then
-falls at the rate A_v P' (z' - sum (P_j/P) q_j'); an endless plate's deflection w beside them,
-w' = Y P, takes Y P^2. With s_j = 1, the indentation taken at the axis, and E_c = int P dD, it
-falls at the rate sum (P - P_j) q_j'.
+is conserved for any delta(a). In a viscoelastic contact the pressure keeps its shape: it is that
+of P times (1 + A_v P'/P), and so is the modal force, which ends with the force. The energy then
+decreases at the rate A_v P' (z' - sum (P_j/P) q_j'); an infinite plate in series, w' = Y P,
+takes Y P^2. With s_j = 1, the indentation at the axis, and E_c = int P dD, the energy
+decreases at the rate sum (P - P_j) q_j'.
 
-The same weight makes a static law of its own. If the gap is closed in the mean under the punch
-that comes next, where a sphere's r^2/(2R) is a^2/(3R), then delta = a^2/(3R) + sum K_j sh(y) s(y),
-and the work P d delta is stored in plate and gap. As sh(y) s(y) is half the mean of s between 0
-and 2y, this turns the plate's part Q of the law at the axis into
+The same weight defines a static law of its own. If the mean of the gap under the next punch is
+zero, where a sphere's r^2/(2R) has the mean a^2/(3R), then delta = a^2/(3R) + sum K_j sh(y) s(y),
+and the work P d delta is stored in plate and gap. Because sh(y) s(y) is half the mean of s between
+0 and 2y, the plate's part Q of the law at the axis becomes
 
     Q_V(a) = (1/4a) int_0^(2a) Q(x) dx:   c_n -> 2^(n+1)/(n+3) c_n,   c_1 -> c_1, c_3 -> (8/3) c_3.
 """
@@ -44,7 +44,7 @@ from derivation.plate.vocabulary import Formula, P, R, a, k, phi, q_j, q_rate, r
 _t, _u, _y = sp.symbols("t u y", positive=True)
 _m, _g, _A, _Y, _v, _z, _growth = sp.symbols("m g A_v Y v z a'", real=True)
 MODES = 3
-"""Oscillators written out in the proofs; the energy holds no product of two."""
+"""Number of modes in the proofs; the energy contains no product of two modes."""
 _P, _D, _work = (sp.Function(name)(a) for name in ("P", "D", "W"))
 _felt, _share = ([sp.Function(f"{name}_{j}")(a) for j in range(MODES)] for name in ("P", "s"))
 _q, _rate, _omega, _c = (
@@ -54,12 +54,12 @@ _q, _rate, _omega, _c = (
 SHARE = sp.sin(a * phi) / (a * phi)
 """sh(a phi)."""
 FELT = P * 3 * SINE_MINUS / (a * phi) ** 3
-"""P_j of Hertz's pressure."""
+"""P_j for Hertz pressure."""
 
 
 @cache
 def growing_contact() -> Proof:
-    """What a mode feels of a growing contact, and that Hertz's pressure is one."""
+    """Return the modal force of a growing contact, and prove that Hertz pressure is one."""
     flat_punch()
     c, depth = sp.symbols("c u_1", positive=True)
     step = sp.diff(P * (c / a) ** 3, c)
@@ -70,8 +70,8 @@ def growing_contact() -> Proof:
     hertz = pressure().expression
     return prove(
         "Growing contact",
-        "Flat punches of every radius up to $a$, $P$ growing like $a^3$: their pressures add up "
-        "to Hertz's, what their transforms add up to is Sonine's integral.",
+        "Flat punches of every radius up to $a$, $P$ proportional to $a^3$: their pressures add up "
+        "to Hertz's, and their transforms to Sonine's integral.",
         {
             "pressure": spread + hertz,
             "felt": felt - FELT,
@@ -82,7 +82,7 @@ def growing_contact() -> Proof:
 
 
 def _along(energy: sp.Expr, rates: dict[sp.Expr, sp.Expr]) -> sp.Expr:
-    """How fast an energy grows if its variables do; generic functions end as plain symbols.
+    """Return the rate of an energy; generic functions end as plain symbols.
 
     int P dD has the slope P D', and P_j has s_j P'.
     """
@@ -93,16 +93,16 @@ def _along(energy: sp.Expr, rates: dict[sp.Expr, sp.Expr]) -> sp.Expr:
 
 
 def _plain(expression: sp.Expr) -> sp.Expr:
-    """Generic functions and their slopes as symbols of their own, products expanded."""
+    """Replace generic functions and their slopes by symbols, and expand products."""
     functions = (_P, _D, *_felt, *_share)
     names = {sp.diff(f, a): sp.Symbol(f"{f.func}'") for f in functions}
     return sp.expand(expression.xreplace(names | {f: sp.Symbol(str(f.func)) for f in functions}))
 
 
 def _loss(weights: list[sp.Expr], stored: sp.Expr, lag: sp.Expr, admittance: sp.Expr) -> sp.Expr:
-    """The energy's rate, for the weights that the modes have in the gap.
+    """Return the energy's rate, for the modal weights in the gap.
 
-    The contact stores int P dD and `stored`; it lags, and an endless plate yields beside.
+    The contact stores int P dD and `stored`; it is viscoelastic, in series with an infinite plate.
     """
     load = [f * (1 + lag * _growth * sp.diff(_P, a) / _P) for f in (_P, *_felt)]
     energy = _m * _v**2 / 2 - _m * _g * _z + _work + stored
@@ -119,7 +119,7 @@ def _loss(weights: list[sp.Expr], stored: sp.Expr, lag: sp.Expr, admittance: sp.
 
 @cache
 def conservation() -> Proof:
-    """The energy along the motion: kept, lost to a lag and to an endless plate, or leaked."""
+    """Prove the energy along the motion: conserved, dissipated, radiated, or spuriously lost."""
     triples = list(zip(_q, _share, _felt, strict=True))
     stored = sp.Add(*(q * (_P * s - f) for q, s, f in triples))
     slope = sp.diff(_D + sp.Add(*(q * s for q, s, _ in triples)), a)
@@ -130,9 +130,9 @@ def conservation() -> Proof:
     nothing, axis = sp.Integer(0), [sp.Integer(1)] * MODES
     leaked = sp.Add(*((_P - f) * v for f, v in zip(_felt, _rate, strict=True)))
     return prove(
-        "Energy beside oscillators",
-        f"Generic $P$, $D$ and $s_j$, {MODES} modes: the energy is differentiated along the "
-        "motion, $z'$ taken from the closure. At rest $q_j = c_j P_j$.",
+        "Energy of contact and modes",
+        f"For generic $P$, $D$ and $s_j$ and {MODES} modes, the energy is differentiated along the "
+        "motion, with $z'$ from the coupling. In static loading $q_j = c_j P_j$.",
         {
             "kept": _plain(_loss(_share, stored, nothing, nothing)),
             "lag and endless plate": _plain(_loss(_share, stored, _A, _Y) + lost + taken),
@@ -143,7 +143,7 @@ def conservation() -> Proof:
 
 
 def _at_rest() -> dict[str, sp.Expr]:
-    """With q_j = c_j P_j: what the depth leaves of delta, and the energy of the work P d delta."""
+    """Return delta minus the modes' depth, and the energy of P d delta, for q_j = c_j P_j."""
     rest = [c * f for c, f in zip(_c, _felt, strict=True)]
     depth = _D + sp.Add(*(s * q for s, q in zip(_share, rest, strict=True)))
     law = sp.Function("delta")(a)
@@ -163,7 +163,7 @@ def _at_rest() -> dict[str, sp.Expr]:
 
 @cache
 def variational_law() -> Proof:
-    """Half the mean over [0, 2a], power by power, and the sphere under the next punch."""
+    """Prove half the mean over [0, 2a], power by power, and the sphere under the next punch."""
     contact = {formula.name: formula.expression for formula in contact_law()}
     n = sp.Symbol("n", positive=True)
     s = SINE_MINUS.subs(a * phi, _y)
@@ -173,7 +173,7 @@ def variational_law() -> Proof:
     ratio = 2 ** (n + 1) / (n + 3)
     gap = sp.integrate((a * sp.sin(_t)) ** 2 / (2 * R) * sp.sin(_t), (_t, 0, sp.pi / 2))
     whole = sp.integrate(_u**2 / R, (_u, 0, 2 * a)) / (4 * a)
-    # Work P d delta against that of modes of compliance c, sum c P_j^2/2, and of the gap.
+    # Work P d delta compared with that of modes of compliance c, sum c P_j^2/2, and of the gap.
     felt = (FELT / P).subs(P, 1) * a**3
     compliance = sp.Symbol("c", positive=True)
     depth = gap + compliance * felt * SHARE
@@ -196,14 +196,14 @@ def variational_law() -> Proof:
 
 
 def closure() -> tuple[Formula, ...]:
-    """What a mode feels, its weight, its part of the energy, the leak, and the variational law."""
+    """Return modal force, modal weight, contact energy, spurious loss, and variational law."""
     growing, energy, variational = growing_contact(), conservation(), variational_law()
     contact = {formula.name: formula.expression for formula in contact_law()}
     return (
         Formula(
             "mode_force",
             "P_j",
-            "part of the force of Hertz's pressure that a mode feels",
+            "modal force: part of the force of Hertz pressure that acts on a mode",
             FELT,
             "N",
             "",
@@ -213,7 +213,7 @@ def closure() -> tuple[Formula, ...]:
         Formula(
             "mode_share",
             "s_j",
-            "mean of $J_0$ under a flat punch: a mode's weight in the gap",
+            "modal weight in the gap: mean of $J_0$ under a flat punch",
             SHARE,
             "1",
             "",
@@ -223,7 +223,7 @@ def closure() -> tuple[Formula, ...]:
         Formula(
             "gap_energy",
             r"E_c - \int P\,\mathrm{d}D",
-            "energy of the contact beside its static part",
+            "energy of the contact in addition to its static part",
             q_j * (P * SHARE - FELT),
             "J",
             "",
@@ -234,7 +234,7 @@ def closure() -> tuple[Formula, ...]:
         Formula(
             "axis_leak",
             r"-\dot E",
-            "what a closure at the axis loses",
+            "spurious power loss of the pointwise coupling",
             q_rate * (P - FELT),
             "W",
             "",
@@ -245,7 +245,7 @@ def closure() -> tuple[Formula, ...]:
         Formula(
             "delta_variational",
             r"\delta_V - a^2/(3R)",
-            "indentation by the variational law, less the sphere's own",
+            "indentation by the variational law without the half-space's",
             contact["K_j"] * SINE_MINUS * SHARE,
             "m",
             "6",
@@ -256,7 +256,7 @@ def closure() -> tuple[Formula, ...]:
         Formula(
             "variational_ratio",
             "c_{2k-3}^V/c_{2k-3}",
-            "coefficient of the variational law over the one at the axis",
+            "coefficient of the variational law divided by that of the law at the axis",
             4 ** (k - 1) / (2 * k),
             "1",
             "",

@@ -1,10 +1,10 @@
-"""Link 26: the chain's first six links with the plate's own inertia, rho d^2/dt^2.
+"""Link 26: the first six links with plate inertia, rho d^2/dt^2.
 
 A mode u = g(z) phi J1(phi r), w = f(z) J0(phi r), both times cos(omega t), adds rho omega^2 g and
 rho omega^2 f to link 1's equations. On e^(s z) they give s^2 = phi^2 - rho omega^2/(lam + 2 mu),
-where the motion has no rotation, and s^2 = phi^2 - rho omega^2/mu, where it has no dilatation.
-Half of A_j on both faces, pulled alike or against each other, leaves the far face free and parts
-the motion into bending (f even) and stretching (f odd). With x = phi h, kap = (omega h/c_T)^2,
+for motion without rotation, and s^2 = phi^2 - rho omega^2/mu for motion without dilatation.
+Half of A_j on both faces, in equal or opposite directions, leaves the back face free and separates
+the motion into bending (f even) and extension (f odd). With x = phi h, kap = (omega h/c_T)^2,
 c_T^2 = mu/rho, gam = mu/(lam + 2 mu), p^2 = x^2 - gam kap and q^2 = x^2 - kap,
 
     C = w(+h)/A_j = (h/mu) (1/B_a + 1/B_s),
@@ -24,7 +24,7 @@ where every function is positive. Of any two solutions (Lagrange's identity)
                                                          int (f f' + phi^2 g g') dz,
 
 ' marking the other one. For two free waves the left side is 0: they are orthogonal. For one load at
-neighbouring frequencies it is A_j dw(+h): 1/B_a and 1/B_s grow with kap wherever they are finite,
+neighbouring frequencies it is A_j dw(+h): 1/B_a and 1/B_s increase with kap where they are finite,
 
     d(1/B)/dkap = (mu^2/(h^3 A_j^2)) int (f^2 + phi^2 g^2) dz > 0,
 
@@ -74,12 +74,12 @@ P_NUMBER = sp.sqrt(phi**2 - rho * omega**2 / (lam + 2 * mu))
 S_NUMBER = sp.sqrt(phi**2 - rho * omega**2 / mu)
 """p/h and q/h."""
 p, q = sp.symbols("p q", positive=True)
-"""Of proofs, with h = mu = 1: kap = x^2 - q^2 and gam kap = x^2 - p^2, and no root is left."""
+"""For proofs with h = mu = 1: kap = x^2 - q^2 and gam kap = x^2 - p^2 eliminate all roots."""
 IN_P_AND_Q = {kap: x_h**2 - q**2, gam: (x_h**2 - p**2) / (x_h**2 - q**2)}
 
 
 class Wave(NamedTuple):
-    """f and g through the thickness, and the stresses that go with J0 and J1."""
+    """f and g through the thickness, and the stresses, factors of J0 and J1."""
 
     f: sp.Expr
     g: sp.Expr
@@ -89,7 +89,7 @@ class Wave(NamedTuple):
 
 @cache
 def wave_equations() -> tuple[Formula, Formula]:
-    """Link 1's equations with inertia: expressions that must vanish."""
+    """Return link 1's equations with inertia, as expressions that must vanish."""
     radial, axial = (ode.expression for ode in equilibrium())
     inertia = rho * omega**2
     u, w = g * phi * BESSEL_J1, f * BESSEL_J0
@@ -116,7 +116,7 @@ def wave_equations() -> tuple[Formula, Formula]:
 
 
 def wave(shape_p: sp.Expr, shape_q: sp.Expr) -> Wave:
-    """The motion whose f is a part without rotation, of p z/h, and one without dilatation."""
+    """Return the motion from a part without rotation, of p z/h, and one without dilatation."""
     shape_f = shape_p + shape_q
     shape_g = -sp.diff(shape_p, z) / (p / h) ** 2 - sp.diff(shape_q, z) / phi**2
     stress = hooke(shape_g * phi * BESSEL_J1, shape_f * BESSEL_J0)
@@ -126,7 +126,7 @@ def wave(shape_p: sp.Expr, shape_q: sp.Expr) -> Wave:
 
 @cache
 def wave_shapes() -> tuple[Formula, Formula]:
-    """f and g with four constants."""
+    """Return f and g with four constants."""
     first = C1 * sp.cosh(p * z / h) + C2 * sp.sinh(p * z / h)
     second = (C3 * sp.cosh(q * z / h) + C4 * sp.sinh(q * z / h)) / phi
     found = wave(first, second)
@@ -136,7 +136,7 @@ def wave_shapes() -> tuple[Formula, Formula]:
     ]
     proof = prove(
         "Solution of the waves",
-        "$f$ and $g$ put into both equations; four independent functions, as for link 2.",
+        "$f$ and $g$ are inserted into both equations; four independent functions, as in link 2.",
         {"radial": residuals[0], "axial": residuals[1]},
     )
     sources = ("radial_wave", "axial_wave")
@@ -146,7 +146,7 @@ def wave_shapes() -> tuple[Formula, Formula]:
             shape_f, "m", "", sources, proof,
         ),
         Formula(
-            "wave_g", r"g(z)\vert_\omega", r"its radial displacement over $\phi_j$", shape_g,
+            "wave_g", r"g(z)\vert_\omega", r"its radial displacement, divided by $\phi_j$", shape_g,
             "m^2", "", sources, proof,
         ),
     )  # fmt: skip
@@ -156,13 +156,13 @@ def wave_shapes() -> tuple[Formula, Formula]:
 
 
 def stiffness(tanh_p: sp.Expr, tanh_q: sp.Expr) -> sp.Expr:
-    """B_a, or B_s with coth for tanh, in x, kap, p and q."""
+    """Return B_a, or B_s with coth for tanh, in x, kap, p and q."""
     bracket = (2 * x_h**2 - kap) ** 2 * tanh_p / p - 4 * x_h**2 * q * tanh_q
     return -2 / kap * bracket
 
 
 def slow_stiffness() -> tuple[sp.Expr, sp.Expr]:
-    """B_a and B_s of functions that are positive for kap < x^2."""
+    """Return B_a and B_s in functions that are positive for kap < x^2."""
     total, apart = p + q, p - q
     even, odd = (shc(total) + sign * shc(apart) for sign in (1, -1))
     rest = 1 - gam
@@ -172,17 +172,17 @@ def slow_stiffness() -> tuple[sp.Expr, sp.Expr]:
 
 
 def shc(y: sp.Expr) -> sp.Expr:
-    """sinh(y)/y."""
+    """Return sinh(y)/y."""
     return sp.sinh(y) / y
 
 
 def with_roots(expression: sp.Expr) -> sp.Expr:
-    """p and q by what they stand for."""
+    """Insert the definitions of p and q."""
     return expression.subs({p: sp.sqrt(x_h**2 - gam * kap), q: sp.sqrt(x_h**2 - kap)})
 
 
 def in_p_and_q(expression: sp.Expr) -> sp.Expr:
-    """An expression of the plate in x, p and q: h = mu = 1, so that phi = x."""
+    """Return an expression of the plate in x, p and q: h = mu = 1, so that phi = x."""
     roots = {x_h**2 - gam * kap: p, x_h**2 - kap: q}
     plain = expression.replace(
         lambda e: e.is_Pow and e.base in roots, lambda e: roots[e.base] ** (2 * e.exp)
@@ -194,7 +194,7 @@ def in_p_and_q(expression: sp.Expr) -> sp.Expr:
 
 @cache
 def loaded_wave(bends: bool) -> Wave:
-    """The motion under 1/2 on both faces: alike (f even), or against each other (f odd).
+    """Return the motion under 1/2 on both faces: equal (f even) or opposite (f odd) directions.
 
     In x, p and q as by `in_p_and_q`; A_j = 1.
     """
@@ -209,7 +209,7 @@ def loaded_wave(bends: bool) -> Wave:
 
 @cache
 def dynamic_influence() -> tuple[Formula, ...]:
-    """C, B_a and B_s as they come, and so that nothing cancels below x^2."""
+    """Return C, B_a and B_s as derived, and in forms without cancellation below x^2."""
     parts = loaded_wave(bends=True), loaded_wave(bends=False)
     printed = stiffness(sp.tanh(p), sp.tanh(q)), stiffness(sp.coth(p), sp.coth(q))
     slow = slow_stiffness()
@@ -221,19 +221,19 @@ def dynamic_influence() -> tuple[Formula, ...]:
         residuals[f"{name} without cancellation"] = in_sines(in_p_and_q(form - value))
     proof = prove(
         "Dynamic influence coefficient",
-        "$A_j/2$ on both faces, alike and against each other: their sum leaves the far face "
+        "$A_j/2$ on both faces, in equal and in opposite directions: the sum leaves the back face "
         r"free. The tractions are solved for the constants, $\kappa$ and $\gamma$ in terms of "
         "$p$ and $q$.",
         residuals,
     )
     shapes, names = ("wave_f", "wave_g"), sp.symbols("B_a B_s")
     total = h / mu * sum(1 / with_roots(value) for value in printed)
-    slowly = r"the same, without cancellation for $\kappa < x^2$"
+    slowly = r"over $\mu/h$, without cancellation for $\kappa < x^2$"
     rows = (
-        ("B_a", "B_a", r"stiffness in bending, over $\mu/h$", "1", shapes, printed[0]),
-        ("B_s", "B_s", r"stiffness in stretching, over $\mu/h$", "1", shapes, printed[1]),
-        ("B_a_slow", "B_a", slowly, "1", ("B_a",), slow[0]),
-        ("B_s_slow", "B_s", slowly, "1", ("B_s",), slow[1]),
+        ("B_a", "B_a", r"dynamic stiffness in bending, over $\mu/h$", "1", shapes, printed[0]),
+        ("B_s", "B_s", r"dynamic stiffness in extension, over $\mu/h$", "1", shapes, printed[1]),
+        ("B_a_slow", "B_a", f"dynamic stiffness in bending, {slowly}", "1", ("B_a",), slow[0]),
+        ("B_s_slow", "B_s", f"dynamic stiffness in extension, {slowly}", "1", ("B_s",), slow[1]),
     )
     parts_of_both = tuple(
         Formula(
@@ -244,7 +244,7 @@ def dynamic_influence() -> tuple[Formula, ...]:
     both = Formula(
         "dynamic_influence",
         r"C(\phi_j, \omega)",
-        "deflection of the loaded face per pressure coefficient that oscillates",
+        "deflection of the contact face per coefficient of an oscillating pressure",
         total,
         "m/Pa",
         "",
@@ -257,7 +257,7 @@ def dynamic_influence() -> tuple[Formula, ...]:
 
 @cache
 def static_limit() -> Proof:
-    """kap -> 0: link 6's influence coefficient, and its parts in bending and stretching."""
+    """Prove the limit kap -> 0: link 6's influence coefficient, and its two parts."""
     top, _, half = (formula.expression for formula in influence_coefficients())
     plate = {lam: mu * (1 / gam - 2), phi: x_h / h}
     T = 2 * x_h
@@ -268,7 +268,7 @@ def static_limit() -> Proof:
     symmetric = (sp.cosh(T) - 1) / (sp.sinh(T) + T) * E / x_h
     return prove(
         "Static load",
-        "$p$ and $q$ tend to $x$, $p - q$ to 0, shc of which to 1.",
+        "$p$ and $q$ tend to $x$, and shc$(p - q)$ to 1.",
         {
             "bending": in_sines(1 / bent - mu * antisymmetric),
             "stretching": in_sines(1 / stretched - mu * symmetric),
@@ -279,7 +279,7 @@ def static_limit() -> Proof:
 
 @cache
 def kinetic_identity() -> Proof:
-    """Lagrange's identity of two motions, and what it says of neighbouring frequencies."""
+    """Prove Lagrange's identity of two motions, and its limit for neighbouring frequencies."""
     other = sp.Symbol("omega_1", positive=True)
     names = [sp.Function(name)(z) for name in ("f_1", "g_1", "f_2", "g_2")]
     pairs = ((names[0], names[1], omega), (names[2], names[3], other))
@@ -300,14 +300,14 @@ def kinetic_identity() -> Proof:
     kinetic = rho * (other**2 - omega**2) * (f_1 * f_2 + phi**2 * g_1 * g_2)
     return prove(
         "Lagrange's identity",
-        "The flow of force times displacement, differentiated by z with both motions' equations.",
+        "The flow of force times displacement is differentiated by z with both motions' equations.",
         {"flow": sp.expand(without_functions(grown - kinetic, *names))},
     )
 
 
 @cache
 def kinetic_slope() -> Proof:
-    """d(1/B)/dkap is the loaded motion's int (f^2 + phi^2 g^2) dz, both sides in full."""
+    """Prove d(1/B)/dkap as the loaded motion's int (f^2 + phi^2 g^2) dz, both sides in full."""
     kinetic_identity()
     residuals = {}
     for bends, name in ((True, "B_a"), (False, "B_s")):
@@ -325,13 +325,13 @@ def kinetic_slope() -> Proof:
         residuals[name] = in_sines(change - energy)
     return prove(
         "Slope of the compliance",
-        "1/B differentiated by kap, and the squares of f and g integrated.",
+        "1/B is differentiated by kap, and the squares of f and g are integrated.",
         residuals,
     )
 
 
 def _integrals(shape: type[sp.Function]) -> tuple[Callable[[sp.Expr], sp.Expr], sp.Expr]:
-    """Integrals over (-1, 1) of shape(k z)^2, by k, and of shape(p z) shape(q z)."""
+    """Return integrals over (-1, 1) of shape(k z)^2, by k, and of shape(p z) shape(q z)."""
     cosh_p, sinh_p, cosh_q, sinh_q = (f(k * z) for k in (p, q) for f in (sp.cosh, sp.sinh))
     turned = sinh_p * cosh_q, cosh_p * sinh_q
     sign = 1 if shape is sp.cosh else -1
@@ -351,9 +351,9 @@ def _integrals(shape: type[sp.Function]) -> tuple[Callable[[sp.Expr], sp.Expr], 
 
 
 def in_sines(expression: sp.Expr) -> sp.Expr:
-    """An expression's numerator as a polynomial in hyperbolic functions, cosh^2 being 1 + sinh^2.
+    """Return an expression's numerator as a polynomial in hyperbolic functions, without cosh^2.
 
-    Not 0 unless it vanishes: sinh p, cosh p, sinh q and cosh q have no other relation.
+    It is 0 only if it vanishes: sinh p, cosh p, sinh q and cosh q have no other relation.
     """
     single = sp.expand_trig(expression)
     single = single.replace(sp.tanh, lambda y: sp.sinh(y) / sp.cosh(y))
@@ -369,6 +369,6 @@ def in_sines(expression: sp.Expr) -> sp.Expr:
 
 
 def dynamic_modes() -> tuple[Formula, ...]:
-    """The formulas of the link."""
+    """Return the formulas of the link."""
     kinetic_slope()
     return (*wave_equations(), *wave_shapes(), *dynamic_influence())

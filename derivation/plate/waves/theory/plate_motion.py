@@ -1,16 +1,16 @@
-"""Link 23: when the plate's own motion matters: Zener's number, bending period, echoes.
+"""Link 23: criteria for plate inertia: Zener's parameter, bending period, reflections.
 
 Bending waves: D nabla^4 w + rho H w'' = 0, D = E* H^3/12, H = 2h, has w = J0(phi r) cos(omega t)
 with omega = phi^2 sqrt(D/(rho H)); with the paper's edge phi_1 = j_1/b is the lowest mode.
 
 Under a point force P an infinite plate moves with w' = P/(8 sqrt(D rho H)) (Boussinesq 1885):
-every wave number takes P phi/(2 pi rho H) sin(omega t)/omega, and int_0^oo sin(s)/s ds = pi/2.
-Hertz's impact on such a plate has one number only (Zener 1941),
+every wave number contributes P phi/(2 pi rho H) sin(omega t)/omega, int_0^oo sin(s)/s ds = pi/2.
+Hertz's impact on such a plate has one parameter only (Zener 1941),
 
     d'' + d^(3/2) + lambda (d^(3/2))' = 0,   lambda = m/(8 T sqrt(D rho H)),
     T = (m^2/(K^2 v0))^(1/5),   K = (4/3) E* sqrt(R),
 
-time in units of T and the local indentation d in those of v0 T.
+time in units of T and the local indentation d in units of v0 T.
 """
 
 from functools import cache
@@ -23,19 +23,19 @@ from derivation.plate.vocabulary import Formula, R, b, h, j_n, lam, m, mu, phi, 
 
 _D, _s, _t, _H = sp.symbols("D s t H", positive=True)
 _RIGIDITY_OVER_MASS = PLANE_STRAIN_MODULUS * (2 * h) ** 2 / (12 * rho)
-"""D/(rho H), flexural rigidity of the plate over its mass per area."""
+"""D/(rho H), flexural rigidity of the plate divided by its mass per area."""
 
 
 @cache
 def bending_waves() -> Proof:
-    """The equation of motion with w = J0(phi r), the Laplacian applied twice."""
+    """Return the equation of motion for w = J0(phi r), with the Laplacian applied twice."""
     shape = sp.besselj(0, phi * r)
 
     def laplacian(w: sp.Expr) -> sp.Expr:
         return lower_bessel(sp.diff(w, r, 2) + sp.diff(w, r) / r)
 
     omega = phi**2 * sp.sqrt(_D / (rho * _H))
-    # The step force's share of wave number phi, integrated with s = omega t.
+    # The response of wave number phi to a force step, integrated with s = omega t.
     share = phi / (2 * sp.pi * rho * _H) / omega
     measure = sp.diff(sp.sqrt(_s / _t) * (rho * _H / _D) ** sp.Rational(1, 4), _s)
     at = sp.sqrt(_s / _t) * (rho * _H / _D) ** sp.Rational(1, 4)
@@ -54,7 +54,7 @@ def bending_waves() -> Proof:
 
 @cache
 def zener_number() -> Formula:
-    """lambda, by which Hertz's impact on an infinite plate differs from that on a half-space."""
+    """Return lambda, the parameter of Hertz's impact on an infinite plate."""
     bending_waves()
     K, T, impedance = sp.symbols("K T I", positive=True)
     scale = (m**2 / (K**2 * v0)) ** sp.Rational(1, 5)
@@ -71,7 +71,7 @@ def zener_number() -> Formula:
     proof = prove(
         "Zener's number",
         r"$m (d + w)'' = -K d^{3/2}$ with $w' = K d^{3/2}/I$, $I = 8 \sqrt{D \rho H}$, in units "
-        "of $T$ and $v_0 T$: the force's coefficient is 1, its rate's $m/(T I)$.",
+        "of $T$ and $v_0 T$: the force has the coefficient 1, its rate $m/(T I)$.",
         {
             "force": scaled(force * T / (m * v0)) - 1,
             "rate": scaled(force / (impedance * v0) * T / m) - 1 / impedance,
@@ -81,7 +81,7 @@ def zener_number() -> Formula:
     return Formula(
         "zener_number",
         r"\lambda_Z",
-        "Zener's number: how much of the impact the plate's waves carry away",
+        "Zener's inelasticity parameter, a measure of the energy radiated by bending waves",
         number,
         "1",
         "",
@@ -92,14 +92,14 @@ def zener_number() -> Formula:
 
 @cache
 def plate_times() -> tuple[Formula, Formula]:
-    """First bending period on the paper's edge, and the time of four echoes through H."""
+    """Return the first bending period for the paper's edge, and the time of four passages of H."""
     proof = bending_waves()
     omega = (j_n / b) ** 2 * sp.sqrt(_RIGIDITY_OVER_MASS)
     return (
         Formula(
             "bending_period",
             "T_1",
-            "period of bending with $n$ nodal circles, of the first for $j_1$",
+            "period of bending with $n$ nodal circles; $j_1$ gives the first",
             2 * sp.pi / omega,
             "s",
             "",
@@ -109,7 +109,7 @@ def plate_times() -> tuple[Formula, Formula]:
         Formula(
             "echo_time",
             "T_e",
-            "time of two echoes of a pressure wave through the thickness",
+            "time of two reflections of a pressure wave through the thickness",
             4 * 2 * h / sp.sqrt((lam + 2 * mu) / rho),
             "s",
             "",
@@ -120,5 +120,5 @@ def plate_times() -> tuple[Formula, Formula]:
 
 
 def plate_motion() -> tuple[Formula, ...]:
-    """The formulas of the link."""
+    """Return the formulas of the link."""
     return zener_number(), *plate_times()

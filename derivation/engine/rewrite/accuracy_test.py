@@ -1,4 +1,4 @@
-"""Measure a form's largest error in double precision against exact values of the original."""
+"""Accuracy test of forms in double precision, against exact values of the original expression."""
 
 import math
 import random
@@ -18,13 +18,13 @@ from derivation.engine.rewrite.terms import UnreachableError
 
 DIGITS = 25
 LARGE = (36.5, 88.9, 95.0, 177.7, 190.0, 300.0, 355.2, 372.0, 500.0, 690.0, 709.5, 744.0, 800.0)
-"""Where e^x, e^(2x), e^(4x) or their inverses leave a format."""
+"""Arguments at which e^x, e^(2x), e^(4x) or their inverses leave the range of a format."""
 
 LEAST = 40
-"""Points without which there is no judging."""
+"""Smallest number of points for a decision."""
 
 SAMPLES = (1.3, 0.7, 2.1, 0.45, 1.7, 0.9)
-"""What further variables, all positive, are set to."""
+"""Values of all further variables, which are positive."""
 
 
 KNOWN = {function.__name__ for function in FUNCTIONS}
@@ -32,8 +32,8 @@ KNOWN = {function.__name__ for function in FUNCTIONS}
 
 
 @dataclass(frozen=True)
-class FormTruth:
-    """A point, the exact value and half the condition number there.
+class ExactPoint:
+    """A point, the exact value, and half the condition number there.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ class FormTruth:
     value
         Ball around the value.
     slack
-        What half a unit of rounding in x may cost, in units of the value: |x f'/(2 f)|.
+        Error due to half a unit of rounding in x, in units of the value: |x f'/(2 f)|.
     """
 
     x: float
@@ -51,61 +51,61 @@ class FormTruth:
 
 
 @dataclass(frozen=True)
-class Gate:
-    """The points of an expression at which forms of it are compared with exact values.
+class AccuracyTest:
+    """Points of an expression at which its forms are compared with exact values.
 
     Parameters
     ----------
     x, others
-        The variable, and what others are set to.
-    truths
+        The variable, and values of all others.
+    exact
         The points with the exact values.
     lead, beyond
-        A power of x, and the same points for the expression times that, which is what counts
-        above a seam.
+        A power of x, and the same points for the expression times that power, which is tested
+        above a switch point.
     """
 
     x: sp.Symbol
     others: tuple[tuple[sp.Symbol, float], ...]
-    truths: tuple[FormTruth, ...]
+    exact: tuple[ExactPoint, ...]
     lead: int = 0
-    beyond: tuple[FormTruth, ...] = ()
+    beyond: tuple[ExactPoint, ...] = ()
 
     def worst(self, form: sp.Expr | Shape) -> float:
-        """Largest error in ULP beyond conditioning; infinite where a result is not finite."""
+        """Return the largest error in ULP in addition to conditioning; infinite for no value."""
         steps, value = assembled(form) if isinstance(form, Shape) else ((), form)
         if not (isinstance(value, Seam) and self.lead):
-            return max(self._error(truth, steps, value) for truth in self.truths)
-        at, held = float(value.at), float(value.at**self.lead)
-        below = (self._error(t, steps, value) for t in self.truths if t.x < at)
-        above = (self._error(t, steps, value, held) for t in self.beyond if t.x >= at)
+            return max(self._error(point, steps, value) for point in self.exact)
+        at, kept = float(value.at), float(value.at**self.lead)
+        below = (self._error(t, steps, value) for t in self.exact if t.x < at)
+        above = (self._error(t, steps, value, kept) for t in self.beyond if t.x >= at)
         return max(*below, *above)
 
     def _error(
-        self, truth: FormTruth, steps: tuple[Step, ...], value: sp.Expr | Seam, scale: float = 1.0
+        self, point: ExactPoint, steps: tuple[Step, ...], value: sp.Expr | Seam, scale: float = 1.0
     ) -> float:
         try:
-            got = run(steps, value, {self.x: truth.x, **dict(self.others)}) * scale
+            got = run(steps, value, {self.x: point.x, **dict(self.others)}) * scale
         except OverflowError:
             return math.inf
-        return max(ulp_error(got, truth.value) - truth.slack, 0.0)
+        return max(ulp_error(got, point.value) - point.slack, 0.0)
 
 
-def held(inner: Gate, whole: Gate, lead: int) -> Gate:
-    """The gate of an expression over x^lead that above a seam is held to the whole expression.
+def with_whole(inner: AccuracyTest, whole: AccuracyTest, lead: int) -> AccuracyTest:
+    """Return a test that above a switch point compares the whole expression, not that over x^lead.
 
-    There neither excuses more than the other: what is divided by may go its own way.
+    Conditioning is taken into account for neither more than for the other.
     """
-    excused = {truth.x: truth.slack for truth in inner.truths}
+    excused = {point.x: point.slack for point in inner.exact}
     beyond = (
-        replace(truth, slack=min(truth.slack, excused.get(truth.x, math.inf)))
-        for truth in whole.truths
+        replace(point, slack=min(point.slack, excused.get(point.x, math.inf)))
+        for point in whole.exact
     )
     return replace(inner, lead=lead, beyond=tuple(beyond))
 
 
 def points(low: float, high: float, seed: str) -> tuple[float, ...]:
-    """Decades with random digits between the ends, densely from 1e-4 to 50 and beyond seams."""
+    """Return decades with random digits between the ends, dense from 1e-4 to 50."""
     generator = random.Random(seed)
     first, last = math.log10(low), math.log10(high)
     found = {low, high}
@@ -121,62 +121,60 @@ def points(low: float, high: float, seed: str) -> tuple[float, ...]:
     return tuple(sorted(x for x in found if low <= x <= high))
 
 
-def gate(
+def accuracy_test(
     expression: sp.Expr,
     x: sp.Symbol,
     ends: tuple[float, float],
     equal: sp.Expr,
     seed: str = "",
-) -> Gate:
-    """Select the points at which forms of an expression are measured.
+) -> AccuracyTest:
+    """Select the points at which forms of an expression are tested.
 
     Parameters
     ----------
     expression
-        The original, whose balls are the truth.
+        The original, whose balls are the reference values.
     x
-        Its variable; all others are set to fixed positive numbers.
+        Its variable; all others have fixed positive values.
     ends
-        The interval in which forms of it are to hold.
+        The interval in which its forms are to be accurate.
     equal
-        A form proved equal, for points at which the original has no ball.
+        An expression proved equal, for points at which the original has no ball.
     seed
-        What the points depend on; the expression itself if not given.
+        Seed of the points; by default the expression itself.
 
     Raises
     ------
     UnreachableError
-        If it holds functions no rule knows, too many variables, or has too few values.
+        If it contains unknown functions, too many variables, or has too few values.
     """
     unknown = {f.func.__name__ for f in expression.atoms(sp.Function)} - KNOWN
     if unknown:
-        raise UnreachableError(f"no rule knows the function {', '.join(sorted(unknown))}")
+        raise UnreachableError(f"no rule applies to the function {', '.join(sorted(unknown))}")
     others = sorted(expression.free_symbols - {x}, key=str)
     fixed = tuple(zip(others, SAMPLES, strict=False))
     if len(fixed) < len(others):
-        raise UnreachableError(
-            f"at most {len(SAMPLES)} further variables are expected, got {others}"
-        )
+        raise UnreachableError(f"expected at most {len(SAMPLES)} further variables, got {others}")
     found = []
     for point in points(*ends, seed or str(expression)):
-        value, slack = _truth(expression, x, point, fixed, equal)
+        value, slack = _exact_value(expression, x, point, fixed, equal)
         if value is not None and value != 0 and not overflows(value) and abs(value) > 1e-300:
-            found.append(FormTruth(point, value, slack))
+            found.append(ExactPoint(point, value, slack))
     if len(found) < LEAST:
         raise UnreachableError(
             f"{expression!s:.80} has values at {len(found)} test points, expected {LEAST}"
         )
-    return Gate(x, fixed, tuple(found))
+    return AccuracyTest(x, fixed, tuple(found))
 
 
-def _truth(
+def _exact_value(
     expression: sp.Expr,
     x: sp.Symbol,
     point: float,
     fixed: Sequence[tuple[sp.Symbol, float]],
     equal: sp.Expr,
 ) -> tuple[flint.arb | None, float]:
-    """The value at a point and its slack; nothing where neither expression has a ball."""
+    """Return the value and its slack; None where neither expression has a ball."""
     at: dict[sp.Symbol, Exact] = {x: point, **dict(fixed)}
     for candidate in (expression, equal):
         try:
@@ -186,7 +184,7 @@ def _truth(
         try:
             slope = evaluate(candidate.diff(x), at, 3)
         except (PrecisionError, NotImplementedError):
-            return value, 0.0  # then nothing is excused
+            return value, 0.0  # then no conditioning is taken into account
         with flint.ctx.workprec(64):
             return value, float(abs(slope * to_ball(point) / value).abs_upper()) / 2
     return None, 0.0

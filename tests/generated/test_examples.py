@@ -1,0 +1,26 @@
+"""Every public function of the generated package has an example, and all examples run."""
+
+import doctest
+import importlib
+
+import pytest
+
+import generated
+
+MODULES = {name: module for module, names in generated._MODULES.items() for name in names}
+WITH_EXAMPLES = sorted(
+    {*MODULES.values(), "edge_modes", "impact", "non_hertzian_pressure", "perturbation",
+     "plate_waves", "prepared_plate", "simple_impact"}
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("name", sorted(generated.__all__))
+def test_every_public_function_has_an_example(name: str) -> None:
+    assert "Examples\n" in (getattr(generated, name).__doc__ or "")
+
+
+@pytest.mark.parametrize("module", WITH_EXAMPLES)
+def test_examples_run(module: str) -> None:
+    found = doctest.testmod(importlib.import_module(f"generated.{module}"))
+    assert found.attempted
+    assert not found.failed

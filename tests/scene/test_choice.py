@@ -15,6 +15,7 @@ from derivation.cli import main
 from derivation.plate import budgets
 from derivation.plate.benchmark.speed import scenes
 from derivation.scene import SceneError, kernels, load, method_selection, read, simulate
+from derivation.scene.achieved_accuracy import METHODS
 from derivation.scene.model import Model, model_of
 from generated import simple_impact
 from generated import simple_impact_numbers as numbers
@@ -22,7 +23,7 @@ from generated.impact import impact
 from generated.sensitivity import impact_sensitivities
 
 TOLERANCES = [10.0**-n for n in range(13)] + [1e-13, 9e-9, 3e-4]
-COST = {name: rank for rank, name in enumerate(method_selection.METHODS)}
+COST = {name: rank for rank, name in enumerate(METHODS)}
 Captured = pytest.CaptureFixture[str]
 
 
@@ -39,7 +40,7 @@ def test_bounds_hold_in_a_hundred_scenes() -> None:
     assert len(known) >= 100
     chosen = known[:: len(known) // 100][:100]
     rows = bounds.judge(chosen)
-    assert {row.method for row in rows} == set(method_selection.METHODS)
+    assert {row.method for row in rows} == set(METHODS)
     assert [row for row in rows if not row.kept] == []
     assert {row.method: row.ratio > 0.1 for row in rows}["leading"]  # and are no mere caution
 

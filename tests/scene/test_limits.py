@@ -225,7 +225,7 @@ def test_warning_where_the_pressure_is_not_hertz(monkeypatch: pytest.MonkeyPatch
     assert limits.warnings_at(ContactLaw(m, PAPER), 0.0299, law(0.0299, m.R, m.h, m.b)) == ()
     delta = law(0.0301, m.R, m.h, m.b)
     cost = 5 / 3 * c3 * 0.301**3 * 0.0301**2 / 0.13 / delta
-    assert limits.hertz_cost(m, 0.0301, delta) == pytest.approx(cost, rel=1e-10)
+    assert limits.pressure_correction(m, 0.0301, delta) == pytest.approx(cost, rel=1e-10)
     [text] = limits.warnings_at(ContactLaw(m, PAPER), 0.0301, delta)
     assert "a/H = 0.15" in text
     assert f"{100 * cost:+.2g} %" in text
@@ -244,14 +244,14 @@ def test_warning_reaches_the_result() -> None:
     assert "a/H" in result._repr_html_()
 
 
-def test_curvature_cost_is_that_of_the_exact_profile() -> None:
+def test_profile_correction_is_that_of_the_exact_profile() -> None:
     """Sneddon's sphere and the paraboloid pressed by the same force into a half-space."""
     m = model_of(thick())
     t = 0.2
     log = math.log((1 + t) / (1 - t))
     a = m.R * (0.75 * ((1 + t * t) / 2 * log - t)) ** (1 / 3)
     change = (t / 2 * log) / (a / m.R) ** 2 - 1
-    assert limits.curvature_cost(m, a, a * a / m.R) == pytest.approx(change, rel=0.1)
+    assert limits.profile_correction(m, a, a * a / m.R) == pytest.approx(change, rel=0.1)
     texts = limits.warnings_at(ContactLaw(m, PAPER), 0.31 * m.R, 0.31**2 * m.R)
     assert [("a/R" in text) for text in texts] == [True]
 

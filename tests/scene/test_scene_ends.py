@@ -30,10 +30,10 @@ from derivation.scene import (
     viscous,
     waves,
 )
+from derivation.scene.achieved_accuracy import AchievedAccuracy, Part
 from derivation.scene.effects import WHOLE_PLATE
 from derivation.scene.law import THICK, ContactLaw
 from derivation.scene.limits import GRAZING
-from derivation.scene.method_selection import AchievedAccuracy, Part
 from derivation.scene.model import InertiaSettings, Model, model_of
 from derivation.scene.scene import IncompleteError
 from derivation.scene.time_element import P
@@ -342,7 +342,7 @@ def test_a_course_is_the_same_by_the_finest_rule(monkeypatch: pytest.MonkeyPatch
     """The rule is the first that gives the contact time: the rounding of finer ones adds up."""
     result = simulate(given.scene())
     first = result.history(41)
-    monkeypatch.setattr(motion, "AGREED", -1.0)
+    monkeypatch.setattr(motion, "HISTORY_TOLERANCE", -1.0)
     for ours, finest in zip(first, result.history(41), strict=True):
         off = np.abs(finest - ours) / np.max(np.abs(ours))
         assert np.max(off[1:-1]) < 1e-12

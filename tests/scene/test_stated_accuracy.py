@@ -9,6 +9,7 @@ import pytest
 
 from derivation.engine import activity
 from derivation.scene import SceneError, contact_sequence, flight, read, simulate, waves
+from derivation.scene.answer import plain
 from derivation.scene.effects import PAPER
 from derivation.scene.effects.effect import NO_BOUND
 from derivation.scene.law import ContactLaw
@@ -43,9 +44,9 @@ def test_a_tolerance_out_of_reach_is_refused() -> None:
 def test_digits_are_those_that_bound_and_model_error_support() -> None:
     result = simulate(scene())
     error = result.accuracy.bound + result.model_error
-    rows = {name: float(value) for name, value, _ in result.rows()}
+    rows = {name: float(value) for name, value, _ in map(str.split, plain(result).splitlines())}
     # The last digit shown is not finer than the error, nor ten times as coarse.
-    shown = rows["max force"]
+    shown = rows["max_force"]
     assert abs(shown / result.max_force - 1.0) <= 10.0 * error
     exact = replace(result, accuracy=replace(result.accuracy, law=result.accuracy.rounding))
     assert replace(exact, model_error=0.0).digits > result.digits

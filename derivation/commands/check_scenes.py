@@ -98,4 +98,4 @@ def finite_elements(
     """
     from derivation.checks.elastodynamics import compare, result
 
-    shown(lambda progress: result(compare(save=update, tell=progress)), json)
+    shown(lambda progress: result(compare(save=update, progress=progress)), json)

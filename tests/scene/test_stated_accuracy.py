@@ -36,7 +36,7 @@ def test_a_tolerance_is_met(rtol: float) -> None:
 
 def test_a_tolerance_out_of_reach_is_refused() -> None:
     few = {"modes": 8, "branches": "A0"}
-    with pytest.raises(SceneError, match=r"rtol: expected at least .*; give a larger"):
+    with pytest.raises(SceneError, match=r"^rtol: .*at least \d"):
         simulate(scene(inertia=few), rtol=1e-6)
     assert simulate(scene(inertia=few)).accuracy.bound > 1e-6
 
@@ -152,5 +152,5 @@ def test_a_tolerance_is_refused_where_omitted_effects_have_no_bound() -> None:
         }
     )
     assert math.isinf(simulate(scene).accuracy.effects.bound)
-    with pytest.raises(SceneError, match=r"rtol: expected a bound .*leave out what \[effects\]"):
+    with pytest.raises(SceneError, match=r"^rtol: .*\[effects\]"):
         simulate(scene, rtol=0.5)

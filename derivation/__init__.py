@@ -19,18 +19,31 @@ os.environ["SYMPY_GROUND_TYPES"] = "python"
 
 
 def formula(name: str) -> "Record":
-    """A derived formula by name, with its proof; displays as LaTeX in a notebook.
+    """Return a derived formula with its proof; a notebook displays it as LaTeX.
+
+    Parameters
+    ----------
+    name
+        Name of the formula, as `platecontact derive` lists it.
 
     Raises
     ------
     KeyError
-        If there is no formula of that name; the message lists those there are.
+        If no formula has that name; the message suggests the nearest names.
+
+    Examples
+    --------
+    >>> import platecontact as pc
+    >>> pc.formula("K_j").unit
+    'm'
     """
+    from derivation.engine.nearest import did_you_mean
     from derivation.plate import derived
 
     known = derived.formulas()
     if name not in known:
-        raise KeyError(f"no formula {name!r}: expected one of {', '.join(known)}")
+        near = did_you_mean(name, known, most=3)
+        raise KeyError(f"no formula {name!r}: {near}expected one of {', '.join(known)}")
     return known[name]
 
 

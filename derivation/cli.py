@@ -1,6 +1,7 @@
-"""The command `platecontact`: each command unpacks its arguments and makes one call.
+"""The command `platecontact`: each command reads its arguments and makes one call.
 
-Exit status: 0 fine, 1 a check failed or formulas differ, 2 bad input, 141 nobody reads the output.
+Exit status: 0 success, 1 a check failed or formulas differ, 2 invalid input, 141 the reader of the
+output has closed the pipe.
 """
 
 import sys
@@ -52,8 +53,10 @@ app = typer.Typer(
     add_completion=True,
     rich_markup_mode=None,
     context_settings={"help_option_names": ["-h", "--help"]},
-    help="Derive, generate, check and report the contact law of a sphere on an elastic plate.",
-    epilog="To complete commands and options with the Tab key, run `platecontact "
+    help="Simulate the impact of a sphere on an elastic plate; derive, check and generate the "
+    "formulas used. All quantities are in SI units.",
+    epilog="To start: `platecontact examples glass_pane`, then `platecontact simulate "
+    "glass_pane.toml`. To complete commands and options with the Tab key, run `platecontact "
     "--install-completion` once and open a new shell.",
 )
 
@@ -89,14 +92,16 @@ command()(paper_commands.generate)
 
 @command()
 def misprints(paper: PaperFolder = None, json: Json = None) -> None:
-    """Find what is wrong with the published formulas, and why.
+    """Compare the published formulas with the derived ones.
+
+    For each formula the misprints are listed, with the correction.
 
     Example: platecontact misprints --json -
     """
     from derivation.engine import build
 
     own = chosen(paper)
-    with stage("compare printed with derived"):
+    with stage("compare published with derived"):
         findings = build.misprints(own)
     if put_json(lambda: [finding.to_json() for finding in findings], json):
         rows = [(f.printed.equation, f.printed.name, f.kind, f.repair) for f in findings]
@@ -109,14 +114,18 @@ app.add_typer(check_command.app, name="check")
 @command("accuracy", hidden=True)  # its former name
 @command()
 def benchmark(
-    quick: Annotated[bool, typer.Option("--quick", help="Fewer methods and rounds.")] = False,
+    quick: Annotated[bool, typer.Option("--quick", help="Run fewer methods and rounds.")] = False,
     method: Annotated[
         list[str] | None,
-        typer.Option("--method", metavar="NAME", help="Measure this family only; repeatable."),
+        typer.Option(
+            "--method", metavar="NAME", help="Benchmark this family of methods only; repeatable."
+        ),
     ] = None,
     scene: Annotated[
         Path | None,
-        typer.Option("--scene", metavar="FILE", help="A scene instead of the paper's case."),
+        typer.Option(
+            "--scene", metavar="FILE", help="Benchmark this scene instead of the paper's case."
+        ),
     ] = None,
     out: Annotated[
         Path | None,
@@ -135,9 +144,7 @@ def benchmark(
 ) -> None:
     """Benchmark all methods: accuracy against run time.
 
-    Takes minutes.
-
-    Files are written only with --out or --update.
+    The benchmark takes minutes. It writes files only with --out or --update.
 
     Example: platecontact benchmark --quick --out accuracy.json
     """
@@ -147,17 +154,16 @@ def benchmark(
     from derivation import pipeline
     from derivation.plate.benchmark.summary import COLUMNS, cells, headline
 
-    with counted("benchmark") as tell:
-        data, path = pipeline.accuracy(method or (), quick, scene, out, tell, update)
+    with counted("benchmark") as progress:
+        data, path = pipeline.accuracy(method or (), quick, scene, out, progress, update)
     table("Fastest methods for arrays", COLUMNS, cells(data))
     OUT.say(headline(data))
     _written(path)
 
 
 def _written(path: Path | None) -> None:
-    """Say where a measurement was written, or how to keep it."""
-    said = f"written to {path}" if path else "not written: keep it with --out FILE or --update"
-    NOTES.say(said)
+    """Say where a measurement was written, or how to save it."""
+    NOTES.say(f"written: {path}" if path else "not saved; to save it, add --out FILE or --update")
 
 
 def _dynamic(out: Path | None, update: bool, others: bool) -> None:
@@ -168,9 +174,9 @@ def _dynamic(out: Path | None, update: bool, others: bool) -> None:
         raise typer.BadParameter(
             "--dynamic can be combined with --out or --update only; remove the other options"
         )
-    with counted("benchmark") as tell:
-        data, path = moving_costs.record(out, tell, update)
-    table("An impact with plate inertia", moving_costs.COLUMNS, moving_costs.cells(data))
+    with counted("benchmark") as progress:
+        data, path = moving_costs.record(out, progress, update)
+    table("Impact with plate inertia", moving_costs.COLUMNS, moving_costs.cells(data))
     _written(path)
 
 
@@ -184,15 +190,13 @@ command()(paper_commands.new)
 @command()
 def reference(
     scene: scene_commands.SceneFile,
-    digits: Annotated[int, typer.Option(min=1, max=1000, help="Digits of every number.")] = 50,
+    digits: Annotated[int, typer.Option(min=1, max=1000, help="Number of digits.")] = 50,
     json: Json = None,
 ) -> None:
     """Compute contact law and impact of a scene to many digits.
 
-    Both references, Arb and mpmath, have to agree.
-
-    The scene's numbers are taken as the exact doubles they are read as. Exit status 1 if the
-    oracles differ.
+    Two independent methods (Arb and mpmath) must agree; the exit status is 1 if they do not. Each
+    number of the scene means exactly the double that it is read as.
 
     Example: platecontact reference scene.toml --digits 100
     """
@@ -203,10 +207,10 @@ def reference(
     known = pipeline.in_doubles(load(scene))
     warn(known.warnings)
     NOTES.say(pipeline.time_of_reference(known, digits))
-    with counted("reference") as tell:
-        found = pipeline.reference(known, digits, tell)
+    with counted("reference") as progress:
+        found = pipeline.reference(known, digits, progress)
     if put_json(found.to_json, json):
-        listing(f"{scene.name} to {digits} digits, its numbers being exact doubles", found.lines())
+        listing(f"{scene.name} to {digits} digits", found.lines())
     raise typer.Exit(0 if found.agrees else 1)
 
 
@@ -221,7 +225,7 @@ command()(scene_commands.schema)
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run a command; every error a user can cause is one message and status 2."""
+    """Run a command; an error that a user can cause is shown as one message, with status 2."""
     platecontact = get_command(app)
     try:
         if in_checkout():
@@ -241,7 +245,9 @@ def main(argv: Sequence[str] | None = None) -> int:
         NOTES.say(f"platecontact: {error}")
         return 1 if isinstance(error, FailedError) else 2
     if status == INTERRUPTED:
-        NOTES.say("platecontact: interrupted; no file is half-written, so simply run it again")
+        NOTES.say(
+            "platecontact: interrupted; no file is incomplete, so the command can be run again"
+        )
         return 2
     return int(status or 0)
 

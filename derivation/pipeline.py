@@ -1,4 +1,4 @@
-"""What is measured of the plate beyond the stages of `derivation.engine.build`, and kept."""
+"""Measurements of the plate code beyond the stages of `derivation.engine.build`."""
 
 import keyword
 import os
@@ -42,27 +42,27 @@ from derivation.scene.scene import Scene, SceneError, load, read
 from generated import contact_law, impact
 
 MAX_TERMS = 5000
-"""Terms that a formula to rewrite may have when expanded."""
+"""Largest number of terms of an expanded formula that can be rewritten."""
 REWRITE_SECONDS = 30
-"""Processor time [s] that rewriting a formula may take."""
+"""Largest processor time [s] for rewriting a formula."""
 MEASURED_CONTACT = measurements() / "contact.json"
 MEASURED_SPEED = measurements() / "speed.json"
 MEASURED_ACCURACY = measurements() / "accuracy.json"
 EXAMPLE = PACKAGE / "scene" / "examples" / "paper.toml"
 
 
-def check_contact(tell: Tell = quiet) -> CheckResult:
-    """Measure the contact law, its inversion and the impact against both oracles: minutes.
+def check_contact(progress: Tell = quiet) -> CheckResult:
+    """Compare contact law, its inversion and impact with both references; takes minutes.
 
     Raises
     ------
     derivation.engine.oracle.agreement.OracleError
-        If the two oracles contradict each other.
+        If the two references contradict each other.
     """
     kernels: dict[str, Callable[..., Any]] = {
         name: impact.impact if name == "impact" else getattr(contact_law, name) for name in KERNELS
     }
-    rows = measure_contact(kernels, processes=os.cpu_count() or 1, tell=tell)
+    rows = measure_contact(kernels, processes=os.cpu_count() or 1, tell=progress)
     cells = [
         (r.kernel, r.points, r.digits, f"{r.max_error:.2g}", f"{r.double.max_ulp:.3g}",
          f"{r.double.ratio:.2f}", f"{r.budget:g}", r.passed)
@@ -70,7 +70,16 @@ def check_contact(tell: Tell = quiet) -> CheckResult:
     ]  # fmt: skip
     return CheckResult(
         "Errors of the contact law",
-        ("kernel", "#points", "#digits shared", "#max", "#max ULP", "#used", "#budget", "kept"),
+        (
+            "function",
+            "#points",
+            "#agreeing digits",
+            "#max error",
+            "#max ULP",
+            "#fraction of budget",
+            "#budget",
+            "passed",
+        ),
         cells,
         lambda: contact_data(rows),
         all(row.passed for row in rows),
@@ -80,7 +89,7 @@ def check_contact(tell: Tell = quiet) -> CheckResult:
 
 
 def contact_data(rows: tuple[ContactRow, ...]) -> dict[str, Any]:
-    """Rows of the contact law as plain data, with what they were measured with."""
+    """Return the rows of the contact law as plain data, with their provenance."""
     found = [
         asdict(row) | {"double": _short(row.double), "single": row.single and _short(row.single)}
         for row in rows
@@ -89,20 +98,22 @@ def contact_data(rows: tuple[ContactRow, ...]) -> dict[str, Any]:
 
 
 def _short(errors: Errors) -> dict[str, Any]:
-    """What is recorded of a contact kernel's errors in a format."""
+    """Return the recorded part of the errors of a function in a format."""
     kept = ("points", "max_ulp", "needed", "ratio", "dtype")
     worst = [exact for _, exact, _ in errors.worst.arguments]
     return {name: getattr(errors, name) for name in kept} | {"worst": worst}
 
 
-def check_speed(tell: Tell = quiet) -> CheckResult:
-    """Measure the speed of contact law, impact and cold starts on this machine."""
+def check_speed(progress: Tell = quiet) -> CheckResult:
+    """Measure run times of contact law, impact and start of the program on this machine."""
     examples = sorted(EXAMPLE.parent.glob("*.toml"))
     solved = [path for path in examples if selected_effects(load(path))[1].law.solved]
-    timings = speed.measure(examples, solved, tell, user_calls.planned())
-    columns = ("what", "#measured", "#promise", "kept")
+    timings = speed.measure(examples, solved, progress, user_calls.planned())
+    columns = ("measurement", "#measured", "#limit", "passed")
     cells = [(t.name, f"{t.value:.3g} {t.unit}", f"{t.limit:g}", t.kept) for t in timings]
-    return CheckResult("Speed", columns, cells, lambda: speed.as_data(timings), all_kept(timings))
+    return CheckResult(
+        "Run times", columns, cells, lambda: speed.as_data(timings), all_kept(timings)
+    )
 
 
 def accuracy(
@@ -110,66 +121,69 @@ def accuracy(
     quick: bool = False,
     scene: Path | None = None,
     out: Path | None = None,
-    tell: Tell = quiet,
+    progress: Tell = quiet,
     update: bool = False,
 ) -> tuple[dict[str, Any], Path | None]:
-    """Measure the run time that each accuracy takes, and write it to a file if asked.
+    """Measure accuracy against run time, and write the result to a file if one is given.
 
     Parameters
     ----------
     methods
-        Families to measure; all of them if empty.
+        Families of methods; all if empty.
     quick
-        Fewer methods and rounds.
+        Whether to run fewer methods and rounds.
     scene
         A scene file instead of the paper's case.
     out
-        Where to write the result.
-    tell
-        Told about each step.
+        File for the result.
+    progress
+        Called at each step.
     update
         Whether to replace the project's committed measurement.
 
     Raises
     ------
     ValueError
-        If a method is unknown, the scene cannot be used, or a part is to be recorded.
+        If a method is unknown, the scene cannot be used, or `update` is combined with other
+        options.
     OSError
         If the file cannot be written.
     """
     if update and (methods or scene is not None or out is not None):
         raise ValueError(
             "--update replaces the whole committed measurement and cannot be combined with "
-            "--method, --scene or --out; remove --update, or these"
+            "--method, --scene or --out; remove --update, or these options"
         )
     path = recorded_in(MEASURED_ACCURACY, update, out)
     regime = None
     if scene is not None:
         case = model_of(load(scene))
         regime = accuracy_run.scene_regime(**dict(zip(NUMBERS, case.numbers, strict=True)))
-    data = accuracy_run.measure(methods, quick, regime, tell)
+    data = accuracy_run.measure(methods, quick, regime, progress)
     if path is not None:
         write_file(path, sorted_json(data))
     return data, path
 
 
 def rewritten(text: str, variable: str = "x") -> tuple[Stable, str, CodeCheck]:
-    """The stable form of a user's formula, its NumPy module, and what testing that found.
+    """Return the stable form of a formula, its NumPy module, and the result of testing it.
 
     Raises
     ------
     ValueError
-        If the formula cannot be read, no rule reaches it, or it needs too much time or memory.
+        If the formula cannot be read, no rule applies, or it needs too much time or memory.
     """
     if not variable.isidentifier() or keyword.iskeyword(variable) or variable in FUNCTIONS:
-        raise ValueError(f"--variable: expected a name like x, got {variable!r}")
+        raise ValueError(
+            f"--variable: expected a name such as x, got {variable!r}; use another name"
+        )
     symbol = sp.Symbol(variable, positive=True)
 
     def work() -> tuple[Stable, str, CodeCheck]:
         expression = parse(text, NOTHING, {variable: symbol})
         if terms_when_expanded(expression) > MAX_TERMS:
             raise FormulaError(
-                f"the formula has more than {MAX_TERMS} terms when expanded: simplify it"
+                f"the formula has more than {MAX_TERMS} terms when expanded; simplify it"
             )
         stable = stabilise(expression, symbol)
         return stable, *standalone(stable)
@@ -180,37 +194,36 @@ def rewritten(text: str, variable: str = "x") -> tuple[Stable, str, CodeCheck]:
 def search_worse(
     duration: str,
     seed: int = 1,
-    kernels: Sequence[str] = (),
+    functions: Sequence[str] = (),
     out: Path | None = None,
-    tell: SearchTell | None = None,
+    progress: SearchTell | None = None,
 ) -> tuple[Search, Book]:
-    """Look for larger errors for some time, and write each new worst case to a file.
+    """Search for larger errors for some time, and write each new worst case to a file.
 
     Raises
     ------
     ValueError
-        If the duration or a kernel is none, or the file is of another kind.
+        If the duration or a function name is invalid, or the file contains something else.
     """
-    seconds, chosen = seconds_of(duration), targets(kernels)
+    seconds, chosen = seconds_of(duration), targets(functions)
     path = folder_for(None, PAPER.report_folder) / "search.toml" if out is None else out
     expect_writable(path)
     book = Book(path, chosen, *recorded(PAPER.measured, MEASURED_CONTACT))
-    found = search(chosen, seed, seconds, tell=tell, keep=book.keep)
+    found = search(chosen, seed, seconds, tell=progress, keep=book.keep)
     book.keep(found)
     return found, book
 
 
 def in_doubles(scene: Scene) -> Result:
-    """The impact of a scene in doubles by the law that the oracles know.
+    """Return the impact of a scene in double precision by the law of the references.
 
-    That is the whole quasi-static plate's on the paper's edge, under a rigid paraboloid and
+    That is the paper's law: a quasi-static plate with the paper's edge, a rigid paraboloid and
     Hertz's pressure.
 
     Raises
     ------
     derivation.scene.scene.SceneError
-        If the scene needs an effect beyond that law or switches off one of it, or leaves the
-        law's range.
+        If the scene requires an effect beyond that law, disables one of it, or exceeds its range.
     """
     switched = scene.effects.model_dump()
     known = {name: name in WHOLE_PLATE for name in BY_NAME if name != "hertz"}
@@ -226,46 +239,46 @@ def in_doubles(scene: Scene) -> Result:
         }
         names = sorted({*missing, *needed, *applied})
         lines = [f"{name} = {str(known[name]).lower()}" for name in names]
-        parts = [f"needs {', '.join(needed)}"] if needed else []
-        parts += [f"switches off {', '.join(missing)}"] if missing else []
+        parts = [f"requires {', '.join(needed)}"] if needed else []
+        parts += [f"disables {', '.join(missing)}"] if missing else []
         raise SceneError(
-            "effects: expected a scene that the paper's contact law describes, as the reference "
-            f"knows no other, got one that {' and '.join(parts)}; run `simulate`, or to get the "
-            f"digits of the paper's law write below [effects] {', '.join(lines)}"
+            "effects: `reference` is available for the paper's contact law only, but this scene "
+            f"{' and '.join(parts)}; run `simulate`, or to use the paper's law write below "
+            f"[effects] {', '.join(lines)}"
         )
     return simulate(read(scene.to_json() | {"effects": known}))
 
 
 def _needed(scene: Scene) -> list[str]:
-    """Effects beyond the paper's law that a scene asks for or the tolerance requires."""
+    """Return the effects beyond the paper's law that the scene or its tolerance requires."""
     wanted = scene.effects.model_dump()
     if not model_of(scene).density and wanted["inertia"] is not True:
-        # Whether the plate's inertia matters cannot be told then.
+        # Without density it is unknown whether plate inertia matters.
         wanted["inertia"] = False
         scene = read(scene.to_json() | {"effects": wanted})
     return sorted(selected_effects(scene)[1].law.effects - WHOLE_PLATE - {"hertz"})
 
 
 def time_of_reference(known: Result, digits: int) -> str:
-    """How long `reference` is going to take, about."""
+    """Return the estimated run time of `reference`, in words."""
     seconds = many_digits.expected_seconds(_motion(known), known.max_contact_radius, digits)
-    long = f"{seconds / 60:.0f} min" if seconds > 90 else f"{seconds:.0f} s"
-    return f"about {long} on an idle machine"
+    time = f"{seconds / 60:.0f} min" if seconds > 90 else f"{seconds:.0f} s"
+    return f"estimated time: about {time} on an idle machine"
 
 
-def reference(known: Result, digits: int, tell: Tell) -> many_digits.ImpactReference:
-    """Contact law and impact of a scene to many digits by both oracles.
+def reference(known: Result, digits: int, progress: Tell) -> many_digits.ImpactReference:
+    """Return contact law and impact of a scene to many digits, by both references.
 
     Raises
     ------
     ValueError
-        If the oracles do not reach so many digits.
+        If the references do not reach this number of digits.
     """
     try:
-        return many_digits.reference(_motion(known), digits, tell)
-    except ArithmeticError as error:  # a ball too wide, a zero not certified, a route astray
+        return many_digits.reference(_motion(known), digits, progress)
+    except ArithmeticError as error:  # an interval too wide, a zero not certified, no convergence
         raise ValueError(
-            f"an oracle does not reach {digits} digits of this scene ({error}); ask for fewer"
+            f"--digits: {digits} digits cannot be reached for this scene ({error}); use fewer"
         ) from None
 
 

@@ -1,4 +1,4 @@
-"""Contact and impact of a sphere on an elastic plate: formulas, scenes, and code for your own.
+"""Contact and impact of a sphere on an elastic plate: simulations, formulas, code.
 
     >>> import platecontact as pc
     >>> pc.formula("G").unit
@@ -11,10 +11,10 @@
     >>> print(f"{pc.simulate(scene).contact_time:.3g} s")
     9.26e-05 s
 
-`load` reads the same from a scene file, `read` from tables of keys.
+`load` reads a scene from a file, `read` from nested mappings.
 
-All quantities are in SI units. Each name is loaded when it is first used: a simulation starts
-without SymPy.
+All quantities are in SI units. Each name is loaded at its first use, so that a simulation does not
+load SymPy.
 """
 
 from importlib import import_module
@@ -82,13 +82,18 @@ HOMES = {
     "rewrite": ".formulary",
     "sweep": "derivation.sweep",
 }
-"""The module of each name; of the others, `derivation.scene`. Relative, as an installed copy has
-this package under the name `platecontact` alone."""
+"""The module of each name; the default is `derivation.scene`. Names are relative because an
+installed copy has this package only under the name `platecontact`."""
 
 
 def __getattr__(name: str) -> Any:
     if name not in __all__:
-        raise AttributeError(f"module 'platecontact' has no attribute {name!r}")
+        from derivation.engine.nearest import did_you_mean
+
+        near = did_you_mean(name, __all__)
+        raise AttributeError(
+            f"module 'platecontact' has no attribute {name!r}; {near}".rstrip("; ")
+        )
     return getattr(import_module(HOMES.get(name, "derivation.scene"), __name__), name)
 
 

@@ -8,21 +8,26 @@ from derivation.scene import Scene
 def reference(scene: Scene, digits: int = 50) -> many_digits.ImpactReference:
     """Return contact law and impact to many digits, by both references (Arb and mpmath).
 
-    The scene's numbers are taken as the exact doubles they are read as.
+    Each number of the scene means exactly the double that it is read as.
 
     Parameters
     ----------
     scene
         A quasi-static impact that the paper's contact law describes.
     digits
-        Digits of every number, from 1 to 1000.
+        Number of digits, from 1 to 1000.
+
+    Returns
+    -------
+    derivation.plate.impact.oracle.many_digits.ImpactReference
+        The values of both references in SI units, and whether they agree.
 
     Raises
     ------
     derivation.scene.SceneError
-        If the scene needs an effect beyond that law, switches off one of it, or leaves its range.
+        If the scene requires an effect beyond that law, disables one of it, or exceeds its range.
     ValueError
-        If the references do not reach so many digits.
+        If the references do not reach this number of digits.
 
     Examples
     --------
@@ -39,5 +44,5 @@ def reference(scene: Scene, digits: int = 50) -> many_digits.ImpactReference:
     True
     """
     if not 1 <= digits <= 1000:
-        raise ValueError(f"digits: expected 1 to 1000, got {digits}")
+        raise ValueError(f"digits: expected 1 to 1000, got {digits}; change it")
     return pipeline.reference(pipeline.in_doubles(scene), digits, lambda *_: None)

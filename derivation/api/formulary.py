@@ -1,4 +1,4 @@
-"""Derived formulas, the paper's misprints, and stable code for a formula of your own."""
+"""Derived formulas, misprints of the paper, and stable code for your own formula."""
 
 from dataclasses import dataclass
 
@@ -17,11 +17,11 @@ class Rewritten:
     Parameters
     ----------
     form
-        The form, proved equal to the formula, with the rules that were applied.
+        The form, verified to be equal to the formula, with the applied rules.
     source
-        A module with one function that evaluates it; it imports NumPy alone.
+        Source of a module with one function that evaluates it; it imports only NumPy.
     tested
-        The range in which the function was tested, and the error found there.
+        The tested range of the function, and the largest error found.
     """
 
     form: Stable
@@ -33,7 +33,7 @@ class Rewritten:
 
 
 def formulas() -> dict[str, Record]:
-    """Return every derived formula by name, each with its proof.
+    """Return all derived formulas by name, each with its proof.
 
     Examples
     --------
@@ -45,7 +45,7 @@ def formulas() -> dict[str, Record]:
 
 
 def misprints() -> tuple[Finding, ...]:
-    """Return each printed formula of the paper with what it turns out to be.
+    """Return the published formulas of the paper, each with the finding of its comparison.
 
     Examples
     --------
@@ -62,14 +62,19 @@ def rewrite(formula: str, variable: str = "x") -> Rewritten:
     Parameters
     ----------
     formula
-        The formula in SymPy syntax; nothing in it is executed.
+        The formula in SymPy syntax; it is parsed, not executed.
     variable
-        Its variable, a positive real number.
+        Name of its variable, a positive real number.
+
+    Returns
+    -------
+    Rewritten
+        The stable form, its source code and the test result.
 
     Raises
     ------
     ValueError
-        If the formula cannot be read, no rule applies to it, or it takes too much time or memory.
+        If the formula cannot be read, no rule applies to it, or it needs too much time or memory.
 
     Examples
     --------

@@ -1,8 +1,8 @@
-"""Whether stated error bounds hold: random impacts at several tolerances against oracle 1.
+"""Tests stated error bounds: random impacts at several tolerances against Arb reference values.
 
-A scene's truth does not depend on how it is computed otherwise, takes the oracle about a
-second, and is kept; errors are measured anew each time. Scenes are drawn one by one from a
-seed and their number, log-uniform over shapes, materials and speeds within the law's range.
+The reference values of a scene take about a second each and are recorded; the errors are measured
+again each time. Each scene is drawn from the seed and its number, log-uniformly over shapes,
+materials and speeds within the range of the law.
 """
 
 import json
@@ -26,12 +26,12 @@ from generated.contact_law import force_of_radius, indentation
 
 MEASURED = measurements() / "bounds.json"
 KEPT_EVERY = 20
-"""Truths after which they are written."""
+"""Number of new reference values after which they are saved."""
 DIGITS = 50
-"""Of a truth; a bound is never below 4e-14."""
+"""Number of digits of the reference values; a bound is never below 4e-14."""
 SEED = 1
 TOLERANCES = tuple(10.0**-n for n in range(2, 14))
-COLUMNS = ("method", "#runs", "#worst error/bound", "#error", "#bound", "of")
+COLUMNS = ("method", "#runs", "#largest error/bound", "#error", "#bound", "result")
 QUANTITIES = ("contact_time", "max_indentation", "max_force", "max_contact_radius")
 _WRITTEN = DIGITS + 3
 
@@ -42,7 +42,7 @@ ORACLE: Callable[..., tuple[flint.arb, ...]] = contact_impact.impact
 
 @dataclass(frozen=True)
 class SceneTruth:
-    """An impact's results by the oracle, in decimal, to DIGITS digits."""
+    """Reference values of an impact, in decimal, to DIGITS digits."""
 
     point: Point
     values: tuple[str, ...]
@@ -50,20 +50,20 @@ class SceneTruth:
 
 @dataclass(frozen=True)
 class BoundRow:
-    """How one method's bounds held.
+    """The largest error of one method over its bound.
 
     Parameters
     ----------
     method
         Its name.
     runs
-        How often it was chosen, of all scenes at all tolerances.
+        Number of runs, over all scenes and tolerances, in which the method was chosen.
     ratio
-        Largest true error over the bound stated.
+        Largest error over the stated bound.
     error, bound
-        Both of them there [1].
+        Error and bound of that run [1].
     quantity, point
-        Of which result, and where.
+        The result, and the scene.
     """
 
     method: str
@@ -76,21 +76,21 @@ class BoundRow:
 
     @property
     def kept(self) -> bool:
-        """Whether no error was above its bound."""
+        """Whether no error exceeds its bound."""
         return self.ratio <= 1.0
 
 
-def check_bounds(count: int, update: bool = False, tell: Tell = quiet) -> CheckResult:
+def check_bounds(count: int, update: bool = False, progress: Tell = quiet) -> CheckResult:
     """Test the bounds that `simulate` states on the first `count` random scenes.
 
-    Truths that are committed are taken as they are; others are sought, about a second each,
-    and if asked kept every few, so that a run that was stopped goes on where it was.
+    Recorded reference values are reused; others are computed, about a second each. With `update`
+    they are saved from time to time, so that an interrupted run can be continued.
     """
     if update:
         expect_recordable(MEASURED)
     known = committed_truths()
     found: list[SceneTruth] = []
-    for true in truths(count, known, tell=tell):
+    for true in truths(count, known, progress=progress):
         found.append(true)
         if update and len(found) > len(known) and len(found) % KEPT_EVERY == 0:
             write_file(MEASURED, to_json(found, ()))
@@ -101,12 +101,12 @@ def check_bounds(count: int, update: bool = False, tell: Tell = quiet) -> CheckR
         (r.method, r.runs, f"{r.ratio:.3f}", f"{r.error:.2g}", f"{r.bound:.2g}", r.quantity)
         for r in rows
     ]
-    title = f"Stated bounds in {count} scenes"
+    title = f"Error bounds in {count} scenes"
     return CheckResult(title, COLUMNS, cells, lambda: plain_rows(rows), all_kept(rows))
 
 
 def scene(number: int, seed: int = SEED) -> Point:
-    """The scene of a number: h/b from 1e-4 to 100, a_m from 1e-8 of the law's range up."""
+    """Return the scene with a number: h/b from 1e-4 to 100, a_m from 1e-8 of the law's range up."""
     generator = random.Random(f"bounds {seed} {number}")
     spread = spreading(generator)
     b, eta = spread(1e-3, 1e2), spread(1e-4, 1e2)
@@ -114,27 +114,27 @@ def scene(number: int, seed: int = SEED) -> Point:
     mu, nu = spread(1e4, 1e12), generator.uniform(-0.9, 0.49)
     lam = 2 * mu * nu / (1 - 2 * nu)
     a = 0.85 * min(b, R, 6 * h) * spread(1e-8, 1.0)
-    # Hertz's share, 2/5; a stiffer or softer law needs not quite this work to come to a.
+    # The work by Hertz's law is 2/5 of P delta; other laws need a slightly different work.
     work = 0.4 * float(force_of_radius(a, R, lam, mu) * indentation(a, R, h, b))
     m = spread(1e-6, 1e6)
     return R, m, math.sqrt(2 * work / m), h, b, lam, mu
 
 
 def truth(point: Point) -> SceneTruth:
-    """What oracle 1 says of an impact."""
+    """Compute the reference values of an impact."""
     balls = ORACLE(*point, digits=DIGITS)
     return SceneTruth(point, tuple(ball.str(_WRITTEN, radius=False) for ball in balls))
 
 
 def truths(
-    count: int, known: Sequence[SceneTruth] = (), seed: int = SEED, tell: Tell = quiet
+    count: int, known: Sequence[SceneTruth] = (), seed: int = SEED, progress: Tell = quiet
 ) -> Iterator[SceneTruth]:
-    """The first `count` scenes' truths, one by one; those already known are not sought again.
+    """Yield the reference values of the first `count` scenes; known ones are not computed again.
 
     Parameters
     ----------
-    tell
-        Called before each that is sought, with its number and how many there will be.
+    progress
+        Called before each computation, with the number of the scene and their total number.
     """
     found = {_written(t.point): t for t in known}
     for number in range(count):
@@ -142,20 +142,20 @@ def truths(
         if _written(point) in found:
             yield found[_written(point)]
             continue
-        tell("oracle", number + 1, count)
+        progress("reference", number + 1, count)
         yield truth(point)
 
 
 def _written(point: Point) -> tuple[str, ...]:
-    """A scene's numbers to 11 digits: the last ones of its speed follow those of the generated law.
+    """Return the numbers of a scene to 11 digits, which identify it.
 
-    A truth on record is one of the point on record.
+    The last digits of the speed depend on rounding errors of the generated law.
     """
     return tuple(f"{x:.10e}" for x in point)
 
 
 def errors(values: Iterable[float], true: SceneTruth) -> tuple[float, ...]:
-    """Relative errors of the results, the truth's own radius added."""
+    """Return the relative errors of the results, with the error of the reference values added."""
     with flint.ctx.workprec(256):
         return tuple(
             float((abs(flint.arb(value) / flint.arb(text) - 1) + 10.0**-DIGITS).abs_upper())
@@ -166,7 +166,7 @@ def errors(values: Iterable[float], true: SceneTruth) -> tuple[float, ...]:
 
 
 def simulated(point: Point, rtol: float) -> tuple[Sequence[float], str, float]:
-    """An impact as `simulate` computes it at a tolerance: results, method and bound."""
+    """Return results, method and bound of `simulate` for an impact at a tolerance."""
     R, m, v0, h, b, lam, mu = point
     values, accuracy = solve(Model(R, m, v0, h, b, lam, mu), rtol)
     return values[:4], accuracy.method, accuracy.bound
@@ -175,12 +175,12 @@ def simulated(point: Point, rtol: float) -> tuple[Sequence[float], str, float]:
 def judge(
     known: Sequence[SceneTruth], tolerances: Sequence[float] = TOLERANCES
 ) -> tuple[BoundRow, ...]:
-    """Every scene at every tolerance, gathered by method in order of first use.
+    """Run every scene at every tolerance; return a row for each method in order of first use.
 
     Raises
     ------
     ValueError
-        If a bound does not meet the tolerance, or a scene is refused.
+        If a bound exceeds the tolerance, or a scene is rejected.
     """
     worst: dict[str, BoundRow] = {}
     for rtol in tolerances:
@@ -201,14 +201,14 @@ def judge(
 
 
 def to_json(known: Sequence[SceneTruth], rows: Sequence[BoundRow]) -> str:
-    """Truths and rows as JSON, one to a line."""
+    """Return reference values and rows as JSON, one per line."""
     data = {"digits": DIGITS, "seed": SEED, "python-flint": flint.__version__}
     listed = {"rows": plain_rows(rows), "truths": plain_rows(known)}
     return json_by_line(data | listed, *listed)
 
 
 def committed_truths() -> list[SceneTruth]:
-    """The committed truths, none if they are of other digits."""
+    """Return the recorded reference values; none if they have another number of digits."""
     if not MEASURED.is_file():
         return []
     data: dict[str, Any] = json.loads(MEASURED.read_text())

@@ -1,7 +1,7 @@
-"""Whether leaving effects out is honest: random scenes at several tolerances, against all effects.
+"""Tests the effect selection: random scenes at several tolerances against all applicable effects.
 
-Scenes are drawn one by one from a seed and their number, log-uniform over materials, sizes and
-speeds. "Everything" is the same scene with every effect that applies.
+Each scene is drawn from the seed and its number, log-uniformly over materials, sizes and speeds.
+The reference is a quasi-static simulation of the same scene with every effect that applies.
 """
 
 import random
@@ -26,33 +26,33 @@ MEASURED: Path = measurements() / "effects.json"
 SEED = 1
 TOLERANCES = (1e-2, 1e-4, 1e-6, 1e-9)
 COLUMNS = (
-    "#rtol", "#scenes", "#worst error/rtol", "#error/bound", "of", "#effects in", "#that apply",
-    "#refused",
+    "#rtol", "#scenes", "#largest error/rtol", "#error/bound", "result", "#effects included",
+    "#applicable", "#rejected",
 )  # fmt: skip
 
 
 @dataclass(frozen=True)
 class EffectCheckRow:
-    """How the bounds held at one tolerance.
+    """The largest differences at one tolerance.
 
     Parameters
     ----------
     rtol
         The tolerance.
     scenes
-        How many were within the models' range.
+        Number of scenes within the range of the models.
     ratio
-        Largest difference from everything over the tolerance.
+        Largest difference from the reference over the tolerance.
     tightest
-        Largest difference over the bound stated.
+        Largest difference over the stated bound.
     included
-        Effects included, on average, besides Hertz's contact.
+        Mean number of included effects, without Hertz's contact.
     applicable
-        Effects that applied, on average, besides it.
+        Mean number of applicable effects, without Hertz's contact.
     quantity, number
-        Of which result the largest ratio was, and in which scene.
+        The result and the scene with the largest ratio.
     refused
-        How many scenes were told that the tolerance is out of reach.
+        Number of scenes that were rejected because the tolerance cannot be met.
     """
 
     rtol: float
@@ -67,20 +67,20 @@ class EffectCheckRow:
 
     @property
     def kept(self) -> bool:
-        """Whether no difference was above its tolerance or its bound."""
+        """Whether no difference exceeds its tolerance or its bound."""
         return self.ratio <= 1.0 and self.tightest <= 1.0
 
 
-def check_effects(count: int, tell: Tell = quiet) -> CheckResult:
-    """Random scenes at several tolerances against everything on."""
-    rows = judge(count, tell=tell)
+def check_effects(count: int, progress: Tell = quiet) -> CheckResult:
+    """Compare random scenes at several tolerances with all applicable effects."""
+    rows = judge(count, progress=progress)
     cells = [
         (f"{r.rtol:g}", r.scenes, f"{r.ratio:.3f}", f"{r.tightest:.3f}", r.quantity,
          f"{r.included:.2f}", f"{r.applicable:.2f}", r.refused)
         for r in rows
     ]  # fmt: skip
     return CheckResult(
-        f"Effects in {count} scenes",
+        f"Effect selection in {count} scenes",
         COLUMNS,
         cells,
         lambda: plain_rows(rows),
@@ -92,7 +92,7 @@ def check_effects(count: int, tell: Tell = quiet) -> CheckResult:
 
 
 def scene(number: int, seed: int = SEED) -> dict[str, dict[str, Any]]:
-    """The scene of a number: pebbles to boulders on panes, plates and blocks."""
+    """Return the scene with a number: pebbles to boulders on panes, plates and blocks."""
     generator = random.Random(f"effects {seed} {number}")
     spread = spreading(generator)
     b = spread(1e-2, 10.0)
@@ -110,25 +110,25 @@ def scene(number: int, seed: int = SEED) -> dict[str, dict[str, Any]]:
     if generator.random() < 0.5:
         impact["gravity"] = 9.81
     if generator.random() < 0.3:
-        # From nothing to much beside a fall through the sphere's own radius.
+        # From negligible to large compared with the time in which the sphere moves by its radius.
         plate["retardation_time"] = sphere["radius"] / impact["speed"] * spread(1e-12, 1e-1)
-    still = {"inertia": False}  # what that is worth is another check
-    return {"sphere": sphere, "plate": plate, "impact": impact, "effects": still}
+    effects = {"inertia": False}  # `check inertia` tests plate inertia
+    return {"sphere": sphere, "plate": plate, "impact": impact, "effects": effects}
 
 
-def judge(count: int, seed: int = SEED, tell: Tell = quiet) -> tuple[EffectCheckRow, ...]:
-    """Every scene at every tolerance, the rows by tolerance."""
+def judge(count: int, seed: int = SEED, progress: Tell = quiet) -> tuple[EffectCheckRow, ...]:
+    """Run every scene at every tolerance; return a row for each tolerance."""
     found: dict[float, list[EffectCheckRow]] = {rtol: [] for rtol in TOLERANCES}
     refused = dict.fromkeys(TOLERANCES, 0)
     for number in range(count):
-        tell("scene", number + 1, count)
+        progress("scene", number + 1, count)
         data = scene(number, seed)
         whole = everything(data)
         if whole is None:
             continue
         true, applicable = whole
         for rtol in TOLERANCES:
-            solved = gated(data, rtol)
+            solved = selected_impact(data, rtol)
             if solved is None:
                 refused[rtol] += 1
                 continue
@@ -142,7 +142,7 @@ def judge(count: int, seed: int = SEED, tell: Tell = quiet) -> tuple[EffectCheck
 
 
 def _together(rows: Sequence[EffectCheckRow], refused: int) -> EffectCheckRow:
-    """One row of those of single scenes."""
+    """Combine the rows of single scenes."""
     return replace(
         max(rows, key=lambda row: (row.ratio, row.tightest, row.quantity, row.number)),
         scenes=len(rows),
@@ -153,10 +153,12 @@ def _together(rows: Sequence[EffectCheckRow], refused: int) -> EffectCheckRow:
     )
 
 
-def gated(data: Scene, rtol: float) -> tuple[Sequence[float], Sequence[str], float] | None:
-    """A scene as `simulate` computes it at a tolerance: results, effects included and bound.
+def selected_impact(
+    data: Scene, rtol: float
+) -> tuple[Sequence[float], Sequence[str], float] | None:
+    """Return results, included effects and bound of `simulate` for a scene at a tolerance.
 
-    Model errors stand apart. None if it is refused.
+    The bound does not contain model errors. Returns None if the scene is rejected.
     """
     _, selected = selected_effects(read(data), rtol)
     try:
@@ -167,9 +169,9 @@ def gated(data: Scene, rtol: float) -> tuple[Sequence[float], Sequence[str], flo
 
 
 def everything(data: Scene) -> tuple[Sequence[float], Sequence[str]] | None:
-    """The same scene with every effect that applies, on a quasi-static plate: results and effects.
+    """Return results and effects of a scene with every applicable effect, on a quasi-static plate.
 
-    None beyond the range of the models.
+    Returns None outside the range of the models.
     """
     model = model_of(read(data))
     present = sorted(

@@ -15,29 +15,29 @@ from derivation.scene.impact import simulate
 from derivation.scene.scene import OUTPUTS, SceneError, read
 
 COLUMNS = (
-    "case", "#elements' error", "#difference", "worst result", "#bound", "#model error",
-    "#contacts", "kept",
+    "case", "#finite-element error", "#difference", "worst result", "#bound", "#model error",
+    "#contacts", "passed",
 )  # fmt: skip
 
 
 @dataclass(frozen=True)
 class Compared:
-    """A case: simulated result against the finite-element solution.
+    """A case with the differences between simulation and finite-element solution.
 
     Parameters
     ----------
     name
-        Of the case.
+        Name of the case.
     differences
-        Relative difference of each result from that of the elements [1].
+        Relative difference of each result from that of the finite elements [1].
     errors
-        The elements' own relative errors [1].
+        Relative errors of the finite elements [1].
     bound, model_error
-        As the simulation states them [1].
+        Error bound and model error stated by the simulation [1].
     contacts
-        Number of contacts, of the elements and of the simulation.
+        Number of contacts, of the finite elements and of the simulation.
     refused
-        The message, if the simulation rejects the scene; then there is nothing else.
+        The error message if the simulation rejects the scene; then all else is empty.
     """
 
     name: str
@@ -50,13 +50,13 @@ class Compared:
 
     @property
     def excess(self) -> dict[str, float]:
-        """Difference over what bound, model error and the elements' own error allow [1]."""
+        """Difference over the sum of bound, model error and finite-element error [1]."""
         stated = self.bound + self.model_error
         return {k: abs(self.differences[k]) / (stated + self.errors[k]) for k in self.differences}
 
     @property
     def worst(self) -> str:
-        """The result with the largest difference over what is allowed."""
+        """The result with the largest difference over the allowed one."""
         return max(self.excess, key=self.excess.__getitem__)
 
     @property
@@ -66,9 +66,9 @@ class Compared:
 
 
 def compare(
-    path: Path = MEASURED, *, save: bool = False, tell: Tell = quiet
+    path: Path = MEASURED, *, save: bool = False, progress: Tell = quiet
 ) -> tuple[Compared, ...]:
-    """Simulate every recorded case anew, without solving elements; keep the results if asked.
+    """Simulate every recorded case, without finite elements; save the results if requested.
 
     Raises
     ------
@@ -85,7 +85,7 @@ def compare(
         expect_writable(path)
     rows = []
     for number, row in enumerate(data["impacts"]):
-        tell(row["name"], number + 1, len(data["impacts"]))
+        progress(row["name"], number + 1, len(data["impacts"]))
         rows.append(row | {"program": simulated(row)})
     if save:
         write_file(path, record.to_json(data | {"impacts": rows}))
@@ -143,7 +143,7 @@ def compared(row: Mapping[str, Any]) -> Compared:
 
 
 def _judged(row: Mapping[str, Any]) -> Sequence[str]:
-    """Return the results that bounds hold for: the total time has none, nor a node's radius."""
+    """Return the results with a bound, without total time and contact radius."""
     return [name for name in OUTPUTS if name in row["elements"] and name != "max_contact_radius"]
 
 

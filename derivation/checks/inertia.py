@@ -1,4 +1,4 @@
-"""Holds plates that move to random scenes: bounds against twice the modes and all branches."""
+"""Tests impacts with plate inertia on random scenes, against twice the modes and all branches."""
 
 import itertools
 import math
@@ -29,21 +29,21 @@ from generated.inertia import bending_frequency
 
 MEASURED: Path = measurements() / "inertia.json"
 HEAVIEST = 5.0
-"""Zener's number up to which scenes are looked at."""
+"""Largest Zener parameter of the scenes."""
 FALLEN = 100.0
-"""Work of the weight over the energy brought up to which they are."""
+"""Largest work of the weight over the kinetic energy of the scenes."""
 MODES = {"A0": 100, "all": 10}
-"""Modes up to which they are, of the first run."""
+"""Largest number of modes of the first run of a scene."""
 OSCILLATORS = 1200
-"""Oscillators that the truth may have."""
+"""Largest number of modes of the reference simulation."""
 ANY, MUCH = 1.0, 0.3
-"""A tolerance that leaves inertia out whatever it changes; a change too large to be left out."""
+"""A tolerance with which inertia is always omitted, and a change too large to be omitted."""
 MET, TIGHT = 3.0, 1e-4
-"""A tolerance that can be met, over what branches may contribute statically; and at least [1]."""
+"""Tolerance over the bound on the omitted branches, and smallest tolerance [1]."""
 
 
-def judge(count: int, seed: int = inertia.SEED, tell: Tell = quiet) -> InertiaJudged:
-    """So many scenes that are neither passed over nor refused."""
+def judge(count: int, seed: int = inertia.SEED, progress: Tell = quiet) -> InertiaJudged:
+    """Draw scenes until `count` of them are neither skipped nor rejected."""
     passed_over, refused, rows = Counter[str](), Counter[str](), list[InertiaRow]()
     for number in itertools.count():
         data, place = inertia.scene(number, seed)
@@ -51,7 +51,7 @@ def judge(count: int, seed: int = inertia.SEED, tell: Tell = quiet) -> InertiaJu
         if reason:
             passed_over[reason] += 1
             continue
-        tell("scene", len(rows) + 1, count)
+        progress("scene", len(rows) + 1, count)
         found = solve(number, data, place)
         if isinstance(found, str):
             refused[found] += 1
@@ -63,11 +63,11 @@ def judge(count: int, seed: int = inertia.SEED, tell: Tell = quiet) -> InertiaJu
 
 
 def pass_over(data: Scene) -> str:
-    """Why a scene takes too long to be looked at, or has no impact at all; empty if none."""
+    """Return why a scene is skipped (too long or no impact); empty if it is not."""
     model = bending(model_of(read(data)))
     if zener_number(model) > HEAVIEST:
         return f"Zener's number above {HEAVIEST:g}"
-    still = at_rest(model)
+    still = quasi_static(model)
     if still is None:
         return "no impact on the quasi-static plate"
     if weight_share(model, still.max_indentation) > FALLEN:
@@ -79,14 +79,14 @@ def pass_over(data: Scene) -> str:
 
 
 def placed(data: Scene, place: float) -> tuple[Scene, float]:
-    """A scene and its tolerance, by a number in [0, 1).
+    """Return a scene and its tolerance, from a number in [0, 1).
 
-    From the lower half, and where inertia changes little, a scene with all other effects and a
-    tolerance that lets inertia be left out; else one that needs it, and can be met.
+    For the lower half, and if inertia changes little, the scene has all other effects and a
+    tolerance with which inertia is omitted; else a tolerance that requires inertia and can be met.
     """
     model = model_of(read(data))
-    still = at_rest(model)
-    assert still is not None  # such scenes are passed over
+    still = quasi_static(model)
+    assert still is not None  # such scenes are skipped
     others = dict.fromkeys(present(model) - {"inertia", "hertz"}, True)
     price = decide(model, others | {"inertia": "auto"}, ANY).error
     radiated = max(
@@ -99,14 +99,14 @@ def placed(data: Scene, place: float) -> tuple[Scene, float]:
 
 
 def solve(number: int, data: Scene, place: float) -> InertiaRow | str:
-    """A scene as `simulate` computes it against the truth; or the key that a message begins with.
+    """Compare `simulate` with the reference; return the key of the error if the scene is rejected.
 
     Parameters
     ----------
     number, data
         The scene.
     place
-        Places its tolerance, see `placed`.
+        A number in [0, 1) that determines its tolerance (see `placed`).
     """
     try:
         data, rtol = placed(data, place)
@@ -122,8 +122,8 @@ def solve(number: int, data: Scene, place: float) -> InertiaRow | str:
         truth = _moving(many, rtol)
     except SceneError as refused:
         return str(refused).partition(":")[0]
-    still = at_rest(model)
-    assert still is not None  # such scenes are passed over
+    still = quasi_static(model)
+    assert still is not None  # such scenes are skipped
     price = next(row.bound for row in selected.rows if row.name == "inertia")
     total = used.inertia.total_time if used is not None else values[0]
     error, quantity = largest_change(values, truth.numbers)
@@ -137,12 +137,12 @@ def solve(number: int, data: Scene, place: float) -> InertiaRow | str:
 
 
 def bending(model: Model) -> Model:
-    """The same in its bending modes, as many as it takes."""
+    """Return the model with an automatic number of bending modes."""
     return replace(model, inertia=InertiaSettings())
 
 
-def at_rest(model: Model) -> motion.Motion | None:
-    """The impact with every effect but inertia; None beyond the range of the models."""
+def quasi_static(model: Model) -> motion.Motion | None:
+    """Return the impact with every effect except inertia; None outside the range of the models."""
     try:
         return moved(ContactLaw(model, present(model) - {"inertia"}))
     except SceneError:
@@ -150,15 +150,15 @@ def at_rest(model: Model) -> motion.Motion | None:
 
 
 def present(model: Model) -> frozenset[str]:
-    """Every effect that applies."""
+    """Return the names of all applicable effects."""
     return frozenset(e.name for e in EFFECTS if e.selectable and not e.not_applicable_reason(model))
 
 
 def oscillators_of(model: Model) -> int:
-    """About how many oscillators the modes of all branches are, by Weyl's law.
+    """Return the approximate number of modes of all branches, by Weyl's law.
 
-    Across the thickness stand (2/pi) sqrt(Omega^2 - x^2) shear waves and as many of pressure with
-    gam Omega^2, x = phi h being n pi eta.
+    There are (2/pi) sqrt(Omega^2 - x^2) shear waves across the thickness, and likewise pressure
+    waves with gam Omega^2, where x = phi h = n pi eta.
     """
     modes, gam = model.inertia.modes, model.mu / (model.lam + 2.0 * model.mu)
     root = bending_frequency(np.array([modes * math.pi * model.eta]), model.poissons_ratio)
@@ -166,11 +166,11 @@ def oscillators_of(model: Model) -> int:
 
 
 def _moving(model: Model, rtol: float) -> DynamicImpact:
-    """The impact with every effect."""
+    """Return the impact with every effect."""
     with np.errstate(all="ignore"):
         return waves.impact(ContactLaw(model, present(model)), waves.goal(rtol))
 
 
 def _modes(found: DynamicImpact) -> int:
-    """How many wave numbers the plate has."""
+    """Return the number of wave numbers of the plate."""
     return len(np.unique(found.impact_history.problem.contact.modes.phi))

@@ -1,8 +1,7 @@
-"""Random scenes of plates with inertia, and how the stated bounds held in them.
+"""Random scenes with plate inertia, and the errors in them over the stated bounds.
 
-Scenes are drawn one by one from a seed and their number, log-uniform over shapes, stiffnesses,
-densities and speeds. The truth is the same scene with every effect, twice the modes and all
-branches.
+Each scene is drawn from the seed and its number, log-uniformly over shapes, stiffnesses, densities
+and speeds. The reference is the same scene with every effect, twice the modes and all branches.
 """
 
 import random
@@ -19,7 +18,7 @@ SEED = 1
 
 @dataclass(frozen=True)
 class InertiaRow:
-    """How the bounds held in a scene that is not refused.
+    """The errors and bounds of a scene that is not rejected.
 
     Parameters
     ----------
@@ -28,14 +27,13 @@ class InertiaRow:
     included
         Whether the selection included inertia.
     bound, error, quantity
-        Stated bound, largest difference from the truth, and of which result [1].
+        Stated bound, largest difference from the reference, and its result [1].
     total_time
-        Difference of the time from the first contact to the last release [1]; of a quasi-static
-        plate that is its contact time.
+        Relative difference of the total time [1]; of a quasi-static plate, of the contact time.
     price, alone, worth
-        What leaving inertia out may change, as stated, does change, and in which result [1].
+        Stated bound on the change if inertia is omitted, actual change, and its result [1].
     contacts, modes, oscillators
-        Of the truth: contacts, wave numbers and oscillators.
+        Numbers of contacts, wave numbers and modes of the reference.
     """
 
     number: int
@@ -55,18 +53,18 @@ class InertiaRow:
 
 @dataclass(frozen=True)
 class InertiaJudged:
-    """Random scenes, judged.
+    """The outcome for random scenes.
 
     Parameters
     ----------
     drawn
-        How many were drawn, until enough were within what is looked at.
+        Number of scenes drawn.
     passed_over
-        Reasons why others were not, with how often.
+        Number of skipped scenes by reason.
     refused
-        What the messages of refused ones begin with, with how often.
+        Number of rejected scenes by the key of the error message.
     rows
-        The others.
+        The other scenes.
     """
 
     drawn: int
@@ -77,20 +75,20 @@ class InertiaJudged:
 
 @dataclass(frozen=True)
 class Side:
-    """How the bounds held on one side of the selection threshold.
+    """The largest errors over the bounds on one side of the selection threshold.
 
     Parameters
     ----------
     included
-        Which side.
+        Whether inertia is included on this side.
     scenes
-        How many there are.
+        Number of scenes.
     ratio, quantity, number
-        Largest difference over the tolerance, of which result, and in which scene.
+        Largest difference over the tolerance, with its result and scene.
     tightest
-        Largest difference over the bound stated.
+        Largest difference over the stated bound.
     price
-        Largest change by leaving inertia out over what is stated of it.
+        Largest change if inertia is omitted over the stated bound.
     """
 
     included: bool
@@ -103,13 +101,14 @@ class Side:
 
     @property
     def kept(self) -> bool:
-        """Whether no difference was above its tolerance or its bound."""
+        """Whether no difference exceeds its tolerance or its bound."""
         return max(self.ratio, self.tightest, self.price) <= 1.0
 
 
 def scene(number: int, seed: int = SEED) -> tuple[dict[str, dict[str, Any]], float]:
-    """The scene of a number: grains to boulders on panes, plates and blocks; and a number in
-    [0, 1) that places its tolerance.
+    """Return the scene with a number, and a number in [0, 1) that determines its tolerance.
+
+    The scenes range from grains to boulders on panes, plates and blocks.
     """
     generator = random.Random(f"inertia {seed} {number}")
     spread = spreading(generator)
@@ -135,7 +134,7 @@ def scene(number: int, seed: int = SEED) -> tuple[dict[str, dict[str, Any]], flo
 
 
 def sides(rows: Sequence[InertiaRow]) -> tuple[Side, ...]:
-    """Both sides of the threshold, those there are."""
+    """Return the sides of the threshold on which there are scenes."""
     parted = ([row for row in rows if row.included is side] for side in (True, False))
     return tuple(_side(part) for part in parted if part)
 
@@ -154,14 +153,14 @@ def _side(rows: Sequence[InertiaRow]) -> Side:
 
 
 COLUMNS = (
-    "inertia", "#scenes", "#worst error/rtol", "worst result", "#error/bound",
+    "inertia", "#scenes", "#largest error/rtol", "result", "#error/bound",
     "#change/bound if omitted",
 )  # fmt: skip
-"""Heads of the table of sides; the price is what leaving inertia out may change."""
+"""Column heads of the table of sides."""
 
 
 def as_data(judged: InertiaJudged, seed: int) -> dict[str, Any]:
-    """What was judged as plain data, infinite prices as null."""
+    """Return the outcome as plain data, infinite bounds as null."""
     rows = plain_rows(judged.rows)
     for row in rows:
         row["price"] = None if isinstance(row["price"], str) else row["price"]
@@ -176,20 +175,20 @@ def as_data(judged: InertiaJudged, seed: int) -> dict[str, Any]:
 
 
 def result(judged: InertiaJudged, seed: int) -> CheckResult:
-    """A line of the table for each side, and why other scenes do not count."""
+    """Return the table of sides, and the reasons why other scenes do not count."""
     cells = [
         ("included" if side.included else "omitted", side.scenes, f"{side.ratio:.3f}",
          side.quantity, f"{side.tightest:.3f}", f"{side.price:.3f}")
         for side in sides(judged.rows)
     ]  # fmt: skip
-    reasons = {"refused": judged.refused, "passed over": judged.passed_over}
+    reasons = {"rejected": judged.refused, "skipped": judged.passed_over}
     others = [f"{n} {what}: {why}" for what, by in reasons.items() for why, n in by.items()]
     return CheckResult(
-        f"Inertia in {len(judged.rows)} of {judged.drawn} scenes drawn",
+        f"Plate inertia in {len(judged.rows)} of {judged.drawn} random scenes",
         COLUMNS,
         cells,
         lambda: as_data(judged, seed),
         all_kept(sides(judged.rows)),
-        listings=[("The others", others)],
+        listings=[("Other scenes", others)],
         recorded=lambda: json_by_line(as_data(judged, seed), "rows"),
     )

@@ -1,8 +1,8 @@
-"""What accuracy costs on a plate that moves: integrators, modes, branches, and a tolerance.
+"""Accuracy against run time with plate inertia: integrators, modes, branches, tolerance.
 
-One scene, an impact that is over before the edge's echo matters little enough to be checked by
-every method. Integrators take the same oscillators and are held to the finest elements; modes and
-branches to the most of them; a tolerance to the tightest one.
+All methods simulate one scene, an impact for which every method is feasible. Integrators use the
+same modes and are compared with a Runge-Kutta method of the smallest tolerance. Numbers of modes
+and branches are compared with the largest number, tolerances with the reference of modes.
 """
 
 import os
@@ -37,28 +37,28 @@ SCENE: dict[str, dict[str, Any]] = {
     "impact": {"speed": 2.0},
     "effects": {"non_hertzian_pressure": False},
 }
-"""A bearing ball on an aluminium plate, on the paper's edge."""
+"""A bearing ball on an aluminium plate with the paper's edge."""
 OSCILLATORS, FINEST = 40, 1e-13
-"""Oscillators that integrators share, and tolerance of the Runge-Kutta method that judges them."""
+"""Number of modes of all integrators, and tolerance of the reference Runge-Kutta method."""
 NODES, TOLERANCES = (6, 8, 10, 12, 16), (1e-3, 1e-5, 1e-7, 1e-9, 1e-11)
-"""Of an element, at the tightest tolerance; and tolerances, at 16 nodes."""
+"""Nodes of a time element, at the smallest tolerance; and tolerances, with 16 nodes."""
 STEPS, RELATIVE = (8, 10, 12), (1e-3, 1e-5, 1e-7, 1e-9, 1e-11)
-"""Powers of two of Verlet's steps in a contact; tolerances of the Runge-Kutta method."""
+"""Powers of two of the number of Verlet steps; tolerances of the Runge-Kutta method."""
 MODES, MOST = (5, 10, 20, 40, 80, 160), 320
 ALL, MOST_ALL = (5, 10, 20, 40, 80), 160
 ASKED = ((1e-2, "A0"), (5e-3, "A0"), (1e-3, "all"), (3e-4, "all"))
 ROUNDS = 5
 BEGUN = 0.1
-"""Root of time from which a release is looked for."""
+"""Square root of the time from which separation is detected."""
 LOOKS = 200
-"""Times at which an integrator is asked for the force, to find near which it is largest."""
+"""Number of times at which the force is sampled to locate its peak."""
 CLOSE = 1e-8
-"""How closely the time of the largest force is found, on which the force itself hardly depends."""
+"""Tolerance of the time of the peak force, on which the force depends weakly."""
 Numbers = tuple[float, ...]
 
 
 class CostOutcome(NamedTuple):
-    """Results, how many oscillators there were, and the bound that was stated, if any."""
+    """Results, number of modes, and the stated bound, if any."""
 
     numbers: Numbers
     oscillators: int
@@ -74,15 +74,15 @@ class CostRow:
     study
         `integrator`, `modes`, `branches` or `rtol`.
     method, setting
-        What is used, and its knob.
+        Method, and its parameter.
     oscillators
-        How many there are.
+        Number of modes.
     seconds
-        Of the processor, for an impact [s].
+        Processor time of an impact [s].
     errors
-        Relative, by result [1]; of an integrator those of the first contact.
+        Relative errors by result [1]; for integrators, those of the first contact.
     bound
-        What was stated to be at most the largest of them [1]; of `rtol` alone.
+        Stated error bound [1]; only for `rtol`.
     """
 
     study: str
@@ -106,21 +106,21 @@ class Trial:
     names: Sequence[str]
 
 
-COLUMNS = ("study", "method", "#oscillators", "#time [ms]", "#largest error")
+COLUMNS = ("study", "method", "#modes", "#CPU time [ms]", "#largest error")
 FIRST = ("contact_time", "max_force", "restitution")
-"""Of the first contact; restitution is by the speed after it."""
+"""Results of the first contact; the restitution refers to the speed after it."""
 
 
-def measure(tell: Tell = quiet) -> dict[str, Any]:
-    """Every row, timed in turns, with the scene, the machine and its load."""
+def measure(progress: Tell = quiet) -> dict[str, Any]:
+    """Measure every row, in interleaved rounds; return it with scene, machine and load."""
     trials = [*integrators(), *modes(), *branches(), *tolerances()]
     before, rows = os.getloadavg()[0], list[tuple[Trial, CostOutcome, dict[str, float]]]()
     for number, trial in enumerate(trials, start=1):
-        tell(f"{trial.study}: {trial.method}", number, len(trials) + 1)
+        progress(f"{trial.study}: {trial.method}", number, len(trials) + 1)
         found = trial.call()
         pairs = zip(trial.names, found.numbers, trial.truth(), strict=True)
         rows.append((trial, found, {n: abs(x / true - 1.0) for n, x, true in pairs}))
-    tell("times", len(trials) + 1, len(trials) + 1)
+    progress("times", len(trials) + 1, len(trials) + 1)
     nothing = np.zeros(1)
     candidates = [Candidate(_timed(trial), nothing, 1) for trial in trials]
     timings, spread = interleaved(candidates, ROUNDS)
@@ -142,18 +142,18 @@ def measure(tell: Tell = quiet) -> dict[str, Any]:
 
 
 def record(
-    out: Path | None = None, tell: Tell = quiet, committed: bool = False
+    out: Path | None = None, progress: Tell = quiet, committed: bool = False
 ) -> tuple[dict[str, Any], Path | None]:
-    """Measure, and write the result to a file or, if asked, as the committed measurement."""
+    """Measure, and write the result to a file or as the committed measurement."""
     path = recorded_in(MEASURED, committed, out)
-    data = measure(tell)
+    data = measure(progress)
     if path is not None:
         write_file(path, sorted_json(data))
     return data, path
 
 
 def cells(data: dict[str, Any]) -> list[tuple[str, ...]]:
-    """The rows as text."""
+    """Return the rows as text."""
     return [
         (
             row["study"],
@@ -167,7 +167,7 @@ def cells(data: dict[str, Any]) -> list[tuple[str, ...]]:
 
 
 def _timed(trial: Trial) -> Callable[[Array], object]:
-    """The call as the clock takes it; nothing is remembered from one to the next."""
+    """Return the call to be timed, without cached results."""
 
     def run(_: Array) -> object:
         waves.impact.cache_clear()
@@ -180,7 +180,7 @@ def _timed(trial: Trial) -> Callable[[Array], object]:
 
 
 def integrators() -> list[Trial]:
-    """The first contact by elements, by a Runge-Kutta method and by fixed steps."""
+    """Return the trials of the first contact: time elements, Runge-Kutta, fixed steps."""
     truth = cache(lambda: by_runge_kutta(FINEST).numbers)
     settings: list[tuple[str, float, Callable[[], CostOutcome]]] = [
         ("elements, nodes", n, partial(by_elements, n, contact_sequence.TOLERANCE)) for n in NODES
@@ -192,7 +192,7 @@ def integrators() -> list[Trial]:
 
 
 def by_elements(n: int, tolerance: float) -> CostOutcome:
-    """By elements of n nodes."""
+    """Compute the first contact by time elements with n nodes."""
     problem = _problem()
     found = contact_sequence.contact(problem, n, problem.begin(), 0.0, 0.0, tolerance)
     peak = max(piece.element.largest(P) for piece in found.pieces)

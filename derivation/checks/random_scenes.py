@@ -1,4 +1,4 @@
-"""What checks by random scenes share: tables of keys, numbers spread over decades, differences."""
+"""Functions shared by the checks on random scenes: random numbers, differences."""
 
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -8,16 +8,16 @@ from typing import Any
 from derivation.scene.scene import OUTPUTS
 
 Scene = Mapping[str, Mapping[str, Any]]
-"""Tables of keys, as a scene file holds them."""
+"""The tables of a scene file."""
 
 
 def spreading(generator: Random) -> Callable[[float, float], float]:
-    """A function that draws a number between two, every decade with its share."""
+    """Return a function that draws log-uniform numbers between two limits."""
     return lambda low, high: 10 ** generator.uniform(math.log10(low), math.log10(high))
 
 
 def largest_change(values: Sequence[float], truth: Sequence[float]) -> tuple[float, str]:
-    """Largest relative difference of results, infinite for one that is no number; and of which."""
+    """Return the largest relative difference of the results (infinite for NaN) and its result."""
     changes = [abs(value / x - 1.0) for value, x in zip(values, truth, strict=True)]
     changes = [change if math.isfinite(change) else math.inf for change in changes]
     return max(changes), OUTPUTS[changes.index(max(changes))]

@@ -1,7 +1,7 @@
-"""Random scenes as an engineer might write them, and what becomes of each run of one.
+"""Random scenes as an engineer might write them, and the outcome of their simulation.
 
 Materials range from foam to steel, spheres from 1 mm to 0.1 m, plates from 0.5 mm to 0.2 m. Scenes
-that no elastic model could mean are drawn again.
+far outside the range of an elastic model are drawn again.
 """
 
 import json
@@ -17,11 +17,11 @@ from derivation.engine.measure.result import CheckResult
 
 SEED = 1
 RTOL = 1e-3
-"""Relative tolerance that every scene is run at."""
+"""Relative tolerance of the simulations."""
 MOST_REFUSED = 0.15
-"""Largest fraction of the runs at the tolerance that may be refused or left incomplete."""
+"""Largest allowed fraction of runs at that tolerance that are rejected or incomplete."""
 WIDEST = 0.4
-"""Hertz's contact radius over sphere radius up to which a scene is realistic."""
+"""Largest contact radius by Hertz's law over sphere radius of a realistic scene."""
 PLATES: Mapping[str, tuple[float, float, float]] = {
     "foam": (1e7, 0.3, 100.0),
     "rubber": (5e6, 0.45, 1100.0),
@@ -30,41 +30,41 @@ PLATES: Mapping[str, tuple[float, float, float]] = {
     "lead": (1.6e10, 0.44, 11340.0),
     "titanium": (1.1e11, 0.34, 4500.0),
 }
-"""Young's modulus [Pa], Poisson's ratio [1] and density [kg/m^3] of plates without a name."""
+"""Young's modulus [Pa], Poisson's ratio [1] and density [kg/m^3] of unnamed materials."""
 NAMED = ("steel", "glass", "aluminium", "concrete", "PMMA")
-"""Materials that a scene file knows by name."""
+"""Materials given by name."""
 STIFFNESS = {"steel": 210e9, "glass": 70e9, "aluminium": 70e9, "concrete": 33e9, "PMMA": 3.3e9}
-"""Their Young's moduli [Pa], to tell which scenes are realistic."""
+"""Their Young's moduli [Pa], to decide whether a scene is realistic."""
 DENSITY = {"steel": 7850.0, "glass": 2500.0, "aluminium": 2700.0, "concrete": 2400.0,
            "PMMA": 1190.0}  # fmt: skip
-"""Their densities [kg/m^3], for the same."""
+"""Their densities [kg/m^3], for the same purpose."""
 EDGES = ("paper", "simply-supported", "clamped")
 SOFT = ("foam", "rubber", "polyethylene")
-"""Materials that may be viscous."""
+"""Materials that may be viscoelastic."""
 Kind = Literal["finished", "refused", "incomplete", "NaN", "traceback", "overrun"]
 KINDS: tuple[Kind, ...] = ("finished", "refused", "incomplete", "NaN", "traceback", "overrun")
 COLUMNS = ("rtol", "outcome", "#runs", "#fraction", "reason")
-"""Heads of the table."""
+"""Column heads of the table."""
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of a run.
+    """The outcome of a simulation.
 
     Attributes
     ----------
     kind
-        One of `KINDS`: refused before the impact was followed, incomplete if during it.
+        One of `KINDS`: refused means rejected before the impact, incomplete during it.
     message
-        Why, if it did not finish; of a traceback its last lines.
+        The reason, if it did not finish; of a traceback the last lines.
     rtol
-        Relative tolerance of the run [1]; None if none was given.
+        Relative tolerance [1]; None for the default.
     scene
         The scene.
     seconds
-        Processor time that the run took [s]; NaN if its process ended without saying so.
+        Processor time [s]; NaN if the process terminated without a result.
     memory
-        Most memory that its process has had up to then, by all its runs [bytes].
+        Peak memory of the process so far [bytes].
     """
 
     kind: Kind
@@ -76,19 +76,19 @@ class Outcome:
 
     @property
     def group(self) -> str:
-        """The key that the message begins with."""
+        """The key at the beginning of the message."""
         return self.message.partition(":")[0] if self.kind != "finished" else ""
 
     @property
     def remedied(self) -> bool:
-        """Whether a refusal says, after a semicolon, what would make the scene run."""
+        """Whether a rejection states a remedy after a semicolon."""
         if self.kind not in ("refused", "incomplete"):
             return True
         return bool(self.message.rpartition("; ")[0] and self.message.rpartition("; ")[2].strip())
 
 
 def scenes(count: int, seed: int = SEED) -> Iterator[Scene]:
-    """So many realistic scenes, the same for the same seed."""
+    """Yield realistic scenes, the same for the same seed."""
     generator = Random(seed)
     for _ in range(count):
         scene = _draw(generator)
@@ -98,7 +98,7 @@ def scenes(count: int, seed: int = SEED) -> Iterator[Scene]:
 
 
 def _draw(generator: Random) -> Scene:
-    """A sphere, a plate, an impact, and which effects are asked for."""
+    """Draw sphere, plate, impact and effects."""
     spread = spreading(generator)
     R = spread(1e-3, 0.1)
     sphere: dict[str, Any] = {"radius": R, "material": generator.choice(NAMED)}
@@ -118,7 +118,7 @@ def _draw(generator: Random) -> Scene:
     if generator.random() < 0.3:
         impact["gravity"] = 9.81
     if name in SOFT and generator.random() < 0.3:
-        # A part of the contact time by Hertz's law.
+        # A fraction of the contact time by Hertz's law.
         scene = {"sphere": sphere, "plate": plate, "impact": impact}
         plate["retardation_time"] = (
             spread(1e-3, 0.3) * 3.0 * _widest(scene) ** 2 * R / impact["speed"]
@@ -129,14 +129,14 @@ def _draw(generator: Random) -> Scene:
 
 
 def _realistic(scene: Scene) -> bool:
-    """Whether sphere and contact are small beside the plate, and the contact beside the sphere."""
+    """Return whether sphere and contact are small against the plate, and contact against sphere."""
     R, b = scene["sphere"]["radius"], scene["plate"]["radius"]
     wide = _widest(scene)
     return bool(b > R and wide < WIDEST and wide * R < 0.5 * b)
 
 
 def _widest(scene: Scene) -> float:
-    """Largest contact radius over sphere radius [1] by Hertz's law, about."""
+    """Return the approximate contact radius over sphere radius [1] by Hertz's law."""
     sphere, plate, v0 = scene["sphere"], scene["plate"], scene["impact"]["speed"]
     R = sphere["radius"]
     soft = 0.0 if "mass" in sphere else 1.0 / STIFFNESS[sphere["material"]]
@@ -147,48 +147,48 @@ def _widest(scene: Scene) -> float:
 
 
 def passed(found: Sequence[Outcome]) -> bool:
-    """Whether no run failed, every refusal has a remedy, and few are refused at the tolerance."""
+    """Return whether no run failed, each rejection has a remedy, and few scenes are rejected."""
     failed = any(outcome.kind in ("NaN", "traceback", "overrun") for outcome in found)
     remedied = all(outcome.remedied for outcome in found)
     return not failed and remedied and refused(found).get(RTOL, 0.0) <= MOST_REFUSED
 
 
 def refused(found: Sequence[Outcome]) -> dict[float | None, float]:
-    """By tolerance, the fraction of runs that were refused or left incomplete."""
+    """Return the fraction of runs that were rejected or incomplete, by tolerance."""
     runs = Counter(outcome.rtol for outcome in found)
     stopped = Counter(o.rtol for o in found if o.kind in ("refused", "incomplete"))
     return {rtol: stopped[rtol] / many for rtol, many in runs.items()}
 
 
 def cells(found: Sequence[Outcome]) -> list[tuple[str, ...]]:
-    """Tolerance, outcome, number and fraction of the runs at it, and reason, for a table."""
+    """Return the rows of the table: tolerance, outcome, number and fraction of runs, reason."""
     runs = Counter(outcome.rtol for outcome in found)
     groups = Counter((outcome.rtol, outcome.kind, outcome.group) for outcome in found)
     rows: list[tuple[str, ...]] = []
     for rtol, total in runs.items():
         here = [(k, g, many) for (r, k, g), many in groups.items() if r == rtol]
         for kind, group, many in sorted(here, key=lambda x: (KINDS.index(x[0]), -x[2])):
-            asked = "not given" if rtol is None else f"{rtol:g}"
+            asked = "default" if rtol is None else f"{rtol:g}"
             rows.append((asked, kind, str(many), f"{100 * many / total:.1f} %", group or "-"))
     return rows
 
 
 def cost(found: Sequence[Outcome]) -> str:
-    """Processor time of the runs and memory of their processes in a sentence."""
+    """Return processor time and memory of the runs as a sentence."""
     seconds = sorted(o.seconds for o in found if not math.isnan(o.seconds))
     if not seconds:
-        return "Processor time and memory of the runs are not known."
+        return "Processor time and memory of the runs are unknown."
     median, most = (seconds[int(part * (len(seconds) - 1))] for part in (0.5, 0.95))
     memory = max(o.memory for o in found if not math.isnan(o.seconds))
     return (
-        f"Processor time of a run: median {median:.2g} s, 95 % below {most:.2g} s, at most "
-        f"{seconds[-1]:.2g} s, in all {sum(seconds):.3g} s; memory of a process at most "
+        f"Processor time of a run: median {median:.2g} s, 95 % below {most:.2g} s, maximum "
+        f"{seconds[-1]:.2g} s, total {sum(seconds):.3g} s; peak memory of a process "
         f"{memory / 1e9:.2g} GB."
     )
 
 
 def failures(found: Sequence[Outcome]) -> list[str]:
-    """Of every group that did not finish one message and its scene as TOML in one line."""
+    """Return a message and its scene, as TOML in one line, for each group that did not finish."""
     firsts: dict[tuple[str, str, bool], Outcome] = {}
     for outcome in found:
         if outcome.kind != "finished":
@@ -203,7 +203,7 @@ def failures(found: Sequence[Outcome]) -> list[str]:
 
 
 def one_line(scene: Scene) -> str:
-    """A scene as inline tables of TOML."""
+    """Return a scene as inline tables of TOML."""
     tables = (
         f"{table} = {{ " + ", ".join(f"{k} = {json.dumps(v)}" for k, v in keys.items()) + " }"
         for table, keys in scene.items()
@@ -212,7 +212,7 @@ def one_line(scene: Scene) -> str:
 
 
 def as_data(found: Sequence[Outcome], seed: int) -> dict[str, Any]:
-    """The outcomes as plain data."""
+    """Return the outcomes as plain data."""
     rows = [
         {
             "kind": outcome.kind,
@@ -230,13 +230,13 @@ def as_data(found: Sequence[Outcome], seed: int) -> dict[str, Any]:
 
 
 def result(found: Sequence[Outcome], count: int, seed: int) -> CheckResult:
-    """The table of the outcomes, and one of each kind that did not finish."""
+    """Return the table of outcomes, with an example of each kind that did not finish."""
     return CheckResult(
-        f"Runs of {count} realistic scenes, seed {seed}",
+        f"Simulations of {count} realistic scenes, seed {seed}",
         COLUMNS,
         cells(found),
         lambda: as_data(found, seed),
         passed(found),
         note=cost(found),
-        listings=[("One of each that did not finish", failures(found))],
+        listings=[("Example of each group that did not finish", failures(found))],
     )

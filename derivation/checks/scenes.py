@@ -1,4 +1,4 @@
-"""Runs random realistic scenes in processes of their own, each for a limited time."""
+"""Simulates random realistic scenes in separate processes, each for a limited time."""
 
 import json
 import math
@@ -24,29 +24,29 @@ from derivation.scene.impact import simulate
 from derivation.scene.scene import IncompleteError, SceneError, read
 
 LIMIT = 60.0
-"""Seconds of processor time that a run may take."""
+"""Largest processor time of a run [s]."""
 PATIENCE = 20.0
-"""Seconds that pass for one of processor time, at most, on a machine with other work."""
+"""Largest elapsed time over processor time, on a busy machine."""
 START = 300.0
-"""Seconds that a process may take to start."""
+"""Longest start of a process [s]."""
 READY = "ready"
 
 
 def check_scenes(
     count: int,
     seed: int = SEED,
-    tell: Tell = quiet,
+    progress: Tell = quiet,
     limit: float = LIMIT,
     drawn: Sequence[Scene] | None = None,
 ) -> tuple[Outcome, ...]:
     """Simulate realistic random scenes in the order in which they are drawn.
 
-    Each is run at `RTOL`, and once more without a tolerance if it does not finish.
+    Each is simulated with `RTOL`, and again with the default tolerance if it does not finish.
 
     Parameters
     ----------
     limit
-        Seconds of processor time that a run may take.
+        Largest processor time of a run [s].
     drawn
         Scenes to run instead of random ones.
     """
@@ -72,7 +72,7 @@ def check_scenes(
     try:
         for number, outcomes in enumerate(pool.map(run, jobs), 1):
             found.extend(outcomes)
-            tell(outcomes[0].kind, number, len(jobs))
+            progress(outcomes[0].kind, number, len(jobs))
     finally:
         pool.shutdown(wait=False, cancel_futures=True)
         for worker in workers:
@@ -81,19 +81,19 @@ def check_scenes(
 
 
 def processors() -> int:
-    """How many processors this process may use."""
-    may = getattr(os, "sched_getaffinity", None)
-    return len(may(0)) if may else os.cpu_count() or 1
+    """Return the number of processors that this process may use."""
+    affinity = getattr(os, "sched_getaffinity", None)
+    return len(affinity(0)) if affinity else os.cpu_count() or 1
 
 
 class Worker:
-    """A process that simulates one scene after the other, and is replaced if one takes too long."""
+    """A process that simulates scenes, and is replaced if one takes too long."""
 
     def __init__(self) -> None:
         self.start()
 
     def start(self) -> None:
-        """Start the process, which says when it is ready."""
+        """Start the process, which sends `READY`."""
         context = get_context("spawn")
         self.pipe, other = context.Pipe()
         self.process = context.Process(target=serve, args=(other,), daemon=True)
@@ -102,7 +102,7 @@ class Worker:
         self.ready = False
 
     def run(self, scene: Scene, rtol: float | None, limit: float) -> Outcome:
-        """What becomes of a scene."""
+        """Simulate a scene in the process."""
         try:
             if not self.ready and self.pipe.poll(START):
                 self.ready = self.pipe.recv() == READY
@@ -110,12 +110,12 @@ class Worker:
             if self.pipe.poll(PATIENCE * limit):
                 kind, message, seconds, memory = self.pipe.recv()
                 return Outcome(kind, message, rtol, scene, seconds, memory)
-            said: tuple[Kind, str] = "overrun", overrun(limit)
+            ended: tuple[Kind, str] = "overrun", overrun(limit)
         except (EOFError, OSError):
-            said = ("traceback", "the process ended without a result")
+            ended = ("traceback", "the process terminated without a result")
         self.stop()
         self.start()
-        return Outcome(*said, rtol, scene)
+        return Outcome(*ended, rtol, scene)
 
     def stop(self) -> None:
         """End the process."""
@@ -125,8 +125,8 @@ class Worker:
 
 
 def serve(pipe: Connection) -> None:
-    """Simulate what comes through a pipe, until nobody is at its other end."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the main process's, which ends this
+    """Simulate the scenes that arrive through a pipe, until it is closed."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the main process handles Ctrl-C
     pipe.send(READY)
     while True:
         try:
@@ -139,7 +139,7 @@ def serve(pipe: Connection) -> None:
 
 
 def peak_memory() -> float:
-    """Most memory that this process has had [bytes]; NaN where the system does not tell."""
+    """Return the peak memory of this process [bytes]; NaN if it is unknown."""
     try:
         from resource import RUSAGE_SELF, getrusage
     except ImportError:
@@ -149,12 +149,12 @@ def peak_memory() -> float:
 
 
 def overrun(limit: float) -> str:
-    """Says that a run took too long."""
+    """Return the message for a run that took too long."""
     return f"still running after {limit:g} s of processor time"
 
 
 def run(scene: Scene, rtol: float | None, limit: float = LIMIT) -> tuple[Kind, str]:
-    """Simulate a scene as the command does, its history too: what became of it, and why."""
+    """Simulate a scene as the command does, with its history; return outcome and message."""
     try:
         with limited(limit):
             return _run(scene, rtol)
@@ -164,7 +164,7 @@ def run(scene: Scene, rtol: float | None, limit: float = LIMIT) -> tuple[Kind, s
 
 @contextmanager
 def limited(seconds: float) -> Iterator[None]:
-    """Raise TimeoutError after so many seconds of processor time, where the system can tell."""
+    """Raise TimeoutError after a processor time [s], if the system supports it."""
 
     def stop(*_: object) -> None:
         raise TimeoutError
@@ -182,7 +182,7 @@ def limited(seconds: float) -> Iterator[None]:
 
 
 def _run(scene: Scene, rtol: float | None) -> tuple[Kind, str]:
-    """The same without a limit."""
+    """Do the same without a limit."""
     try:
         result = simulate(read(scene), rtol=rtol)
         columns: Any = result.history()
@@ -193,7 +193,7 @@ def _run(scene: Scene, rtol: float | None) -> tuple[Kind, str]:
         return "refused", str(error)
     except TimeoutError:
         raise
-    except Exception:  # whatever it is, it is counted
+    except Exception:  # any exception counts as a failure
         return "traceback", "".join(traceback.format_exc().splitlines(keepends=True)[-3:])
     if not result.complete:
         return "incomplete", result.incomplete_note
@@ -203,7 +203,7 @@ def _run(scene: Scene, rtol: float | None) -> tuple[Kind, str]:
 
 
 def _finite(data: Any) -> bool:
-    """Whether plain data has no NaN and no infinity."""
+    """Return whether plain data contains no NaN and no infinity."""
     try:
         json.dumps(data, allow_nan=False)
     except ValueError:

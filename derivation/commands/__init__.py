@@ -1,1 +1,1 @@
-"""The command line's commands; each makes one call and shows its result."""
+"""Commands of the command line; each makes one call and shows the result."""

@@ -1,4 +1,4 @@
-"""The command `platecontact check`: what it does alone, and its subcommands."""
+"""The command `platecontact check` and its subcommands."""
 
 from collections.abc import Callable
 from typing import Annotated, Any
@@ -38,10 +38,10 @@ MOVED = {
 
 
 class CheckGroup(Group):
-    """The command, which names the subcommand that has replaced a former option."""
+    """The command `check`, which rejects former options and names the subcommand to use instead."""
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        """Look for former options before anything is read."""
+        """Reject former options before the arguments are parsed."""
         names = [arg.partition("=")[0] for arg in self.own(args)]
         for name in (name for name in names if name in MOVED):
             ctx.fail(f"{name} is now a subcommand: run `platecontact check {MOVED[name]}`")
@@ -59,7 +59,10 @@ for subcommand, function in SUBCOMMANDS.items():
 def check(
     context: typer.Context,
     digits: Annotated[
-        int, typer.Option(min=20, max=1000, metavar="N", help="Digits of the reference.")
+        int,
+        typer.Option(
+            min=20, max=1000, metavar="N", help="Number of digits of the reference values."
+        ),
     ] = 50,
     update: Annotated[
         bool, typer.Option("--update", help="Save the result as the paper's check.json.")
@@ -70,8 +73,8 @@ def check(
 ) -> None:
     """Compare every generated function with both references.
 
-    Without a subcommand: the error of each function in ULP. The exit status is 1 if an error is
-    above its budget.
+    Prints the largest error of each function in ULP (units in the last place). The exit status is
+    1 if an error exceeds its budget. The subcommands run other checks.
 
     Example: platecontact check --digits 100
     """
@@ -82,7 +85,9 @@ def check(
 
     own = chosen(paper)
     shown(
-        lambda tell: result(build.check(own, digits, update, tell), digits, own.package().target),
+        lambda progress: result(
+            build.check(own, digits, update, progress), digits, own.package().target
+        ),
         json,
         suggest_budgets,
     )

@@ -1,4 +1,4 @@
-"""The subcommands of `platecontact check` on generated functions."""
+"""Subcommands of `platecontact check` that test generated functions."""
 
 from pathlib import Path
 from typing import Annotated
@@ -32,7 +32,7 @@ def contact_law(
 ) -> None:
     """Compare contact law and impact with both references.
 
-    Takes minutes. The exit status is 1 if an error is above its budget.
+    The check takes minutes. The exit status is 1 if an error exceeds its budget.
 
     Example: platecontact check contact-law --json contact.json
     """
@@ -47,16 +47,16 @@ def hard_cases(
         bool,
         typer.Option(
             "--update",
-            help="Compute references that are missing or stale, and save all as the paper's "
-            "hard.json: up to a quarter of an hour.",
+            help="Compute reference values that are missing or outdated (up to 15 minutes), and "
+            "save all as the paper's hard.json.",
         ),
     ] = False,
     paper: PaperFolder = None,
     json: Json = None,
 ) -> None:
-    """Compare functions with recorded references at hard cases.
+    """Compare functions with recorded reference values at hard cases.
 
-    The exit status is 1 if an error is above what is allowed.
+    The exit status is 1 if an error exceeds its limit.
 
     Example: platecontact check hard-cases --json hard.json
     """
@@ -64,7 +64,9 @@ def hard_cases(
     from derivation.engine.measure.hard import result
 
     own = chosen(paper)
-    shown(lambda tell: result(build.check_hard(own, update, tell), own.package().target), json)
+    shown(
+        lambda progress: result(build.check_hard(own, update, progress), own.package().target), json
+    )
 
 
 def search(
@@ -77,35 +79,37 @@ def search(
     out: Annotated[
         Path | None,
         typer.Option(
-            "--out", metavar="FILE", help="Write new cases here (default: reports/search.toml)."
+            "--out",
+            metavar="FILE",
+            help="Write new worst cases to this file (default: reports/search.toml).",
         ),
     ] = None,
     json: Json = None,
 ) -> None:
     """Search for larger errors at random arguments.
 
-    The same seed visits the same points in the same order. The exit status is 1 if an error is
-    above what is allowed.
+    The same seed gives the same arguments in the same order. The exit status is 1 if an error
+    exceeds its limit.
 
     Example: platecontact check search --time 5m --function G --out worst.toml
     """
     from derivation import pipeline
     from derivation.engine.measure.search_record import COLUMNS, arguments, as_data, cells, kept
 
-    with clocked("search") as tell:
-        found, book = pipeline.search_worse(time, seed, function or [], out, tell)
+    with clocked("search") as progress:
+        found, book = pipeline.search_worse(time, seed, function or [], out, progress)
     if put_json(lambda: as_data(found), json):
         table(f"Search, seed {seed}", COLUMNS, [cells(k, found, book) for k in found.standings])
         listing("Worst arguments", [arguments(k, found) for k in found.standings])
     if book.written:
-        NOTES.say(f"new worst cases in {book.path}")
+        NOTES.say(f"new worst cases written to {book.path}")
     raise typer.Exit(INTERRUPTED if found.interrupted else 0 if kept(found) else 1)
 
 
 def timing(update: Annotated[bool, update_option("speed")] = False, json: Json = None) -> None:
     """Compare run times on this machine with their limits.
 
-    The exit status is 1 if one is above its limit.
+    The exit status is 1 if a run time exceeds its limit.
 
     Example: platecontact check timing --json timing.json
     """

@@ -1,4 +1,4 @@
-"""The subcommands of `platecontact check` on simulated scenes."""
+"""Subcommands of `platecontact check` that test simulated scenes."""
 
 from typing import Annotated
 
@@ -19,13 +19,13 @@ def error_bounds(
     """Test the error bounds reported by `simulate`.
 
     Random impacts are simulated at several tolerances and compared with a reference. The exit
-    status is 1 if an error is above its bound.
+    status is 1 if an error exceeds its bound.
 
     Example: platecontact check error-bounds -n 200
     """
     from derivation.checks.bounds import check_bounds
 
-    shown(lambda tell: check_bounds(number, update, tell), json)
+    shown(lambda progress: check_bounds(number, update, progress), json)
 
 
 def effects(
@@ -34,14 +34,14 @@ def effects(
     """Test the effect selection on random scenes.
 
     The automatic selection is compared with a quasi-static simulation that includes every
-    applicable effect. The exit status is 1 if a difference is above its bound.
+    applicable effect. The exit status is 1 if a difference exceeds its bound.
 
     Example: platecontact check effects -n 300
     """
     from derivation.checks import effects as check
 
     record = check.MEASURED if update else None
-    shown(lambda tell: check.check_effects(number, tell), json, record=record)
+    shown(lambda progress: check.check_effects(number, progress), json, record=record)
 
 
 def inertia(
@@ -52,8 +52,8 @@ def inertia(
 ) -> None:
     """Test impacts with plate inertia on random scenes.
 
-    They are compared with simulations of twice the modes and all branches. The exit status is 1 if
-    a difference is above its bound.
+    Each is compared with a simulation with twice as many modes and all wave branches. The exit
+    status is 1 if a difference exceeds its bound.
 
     Example: platecontact check inertia -n 50 --seed 3
     """
@@ -61,13 +61,13 @@ def inertia(
     from derivation.checks.inertia_judged import result
 
     record = MEASURED if update else None
-    shown(lambda tell: result(judge(number, seed, tell), seed), json, record=record)
+    shown(lambda progress: result(judge(number, seed, progress), seed), json, record=record)
 
 
 def scenes(number: Number, seed: Seed = SEED, json: Json = None) -> None:
-    """Simulate random realistic scenes, and count failures.
+    """Simulate random realistic scenes and count failures.
 
-    The exit status is 1 if a simulation crashes, runs too long, gives no number, or if too many
+    The exit status is 1 if a simulation crashes, runs too long or returns NaN, or if too many
     scenes are rejected.
 
     Example: platecontact check scenes -n 20 --seed 5
@@ -75,7 +75,7 @@ def scenes(number: Number, seed: Seed = SEED, json: Json = None) -> None:
     from derivation.checks.realistic_scenes import result
     from derivation.checks.scenes import check_scenes
 
-    shown(lambda tell: result(check_scenes(number, seed, tell), number, seed), json)
+    shown(lambda progress: result(check_scenes(number, seed, progress), number, seed), json)
 
 
 def finite_elements(
@@ -84,18 +84,18 @@ def finite_elements(
         typer.Option(
             "--update",
             help="Save the simulated results in reports/data/elastodynamics.json; the "
-            "finite-element results stay.",
+            "finite-element results there are not changed.",
         ),
     ] = False,
     json: Json = None,
 ) -> None:
     """Compare impacts with recorded finite-element results.
 
-    The exit status is 1 if a difference is above bound, model error and finite-element error
-    together.
+    The exit status is 1 if a difference exceeds the sum of error bound, model error and
+    finite-element error.
 
     Example: platecontact check finite-elements
     """
     from derivation.checks.elastodynamics import compare, result
 
-    shown(lambda tell: result(compare(save=update, tell=tell)), json)
+    shown(lambda progress: result(compare(save=update, progress=progress)), json)

@@ -1,4 +1,4 @@
-"""The classes of all commands: options given once, and the former names of options."""
+"""Base classes of the commands: reject repeated options, accept former names of options."""
 
 from collections.abc import Iterator, Sequence
 from itertools import takewhile
@@ -22,32 +22,32 @@ class Command(TyperCommand):
     """A command that rejects an option given twice where only one value counts."""
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        """Replace former names and look for repetitions before anything is read."""
+        """Replace former names and reject repeated options before the arguments are parsed."""
         return super().parse_args(ctx, prepared(self, ctx, args))
 
 
 class Group(TyperGroup):
-    """A command with subcommands, whose own options are for use without a subcommand."""
+    """A command with subcommands; its own options apply only without a subcommand."""
 
     def own(self, args: list[str]) -> list[str]:
         """Return the arguments in front of a subcommand."""
         return list(takewhile(lambda arg: arg not in self.commands, args))
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        """Do the same with the group's own options."""
+        """Replace former names and reject repeated options of the group itself."""
         own = prepared(self, ctx, self.own(args))
         rest = args[len(self.own(args)) :]
         misplaced = [option for option in given(self, ctx, own) if not option.is_eager]
         if rest and misplaced and not ctx.resilient_parsing:
             ctx.fail(
-                f"{misplaced[0].opts[0]} in front of {rest[0]} has no effect; write the options "
-                f"of {rest[0]} after it"
+                f"{misplaced[0].opts[0]} has no effect before the subcommand {rest[0]}; write the "
+                f"options of {rest[0]} after it"
             )
         return super().parse_args(ctx, [*own, *rest])
 
 
 def prepared(command: Any, ctx: Any, args: list[str]) -> list[str]:
-    """Return the arguments with the present names of options.
+    """Return the arguments with former names of options replaced.
 
     Raises
     ------
@@ -61,19 +61,19 @@ def prepared(command: Any, ctx: Any, args: list[str]) -> list[str]:
     for option in found:
         count = found.count(option)
         if count > 1 and not (option.multiple or option.is_flag):
-            problem = f"expected once, got {count} times; leave out all but one"
+            problem = f"expected once, got {count} times; remove all but one"
             raise BadParameter(problem, ctx=ctx, param=option)
     return args
 
 
 def given(command: Any, ctx: Any, args: Sequence[str]) -> list[TyperOption]:
-    """Return the options among the arguments, one entry for each time that one is given."""
+    """Return the options among the arguments; a repeated option has several entries."""
     found = command.make_parser(ctx).parse_args(args=list(args))[2]
     return [option for option in found if isinstance(option, TyperOption)]
 
 
 def _present_names(command: Any, args: Sequence[str]) -> Iterator[str]:
-    """Return the arguments, former names of the command's options replaced with a notice."""
+    """Yield the arguments; each former name of an option is replaced, with a notice."""
     known = {name for parameter in command.params for name in parameter.opts}
     for arg in args:
         name, equals, value = arg.partition("=")

@@ -1,6 +1,5 @@
-"""The command `platecontact derive`: a table of all formulas, or all about one of them."""
+"""The command `platecontact derive`: a table of all formulas, or the details of one formula."""
 
-from difflib import get_close_matches
 from textwrap import wrap
 from typing import TYPE_CHECKING, Annotated
 
@@ -8,6 +7,7 @@ import typer
 
 from derivation.commands.options import PaperFolder, chosen
 from derivation.engine.console import OUT, Json, put_json, stage
+from derivation.engine.nearest import did_you_mean
 from derivation.engine.text import WIDTH, aligned, paragraph
 
 if TYPE_CHECKING:
@@ -21,15 +21,15 @@ NEAR = 3
 
 def derive(
     name: Annotated[
-        str | None, typer.Argument(metavar="NAME", help="Show all about this formula alone.")
+        str | None, typer.Argument(metavar="NAME", help="Show the details of this formula.")
     ] = None,
     paper: PaperFolder = None,
     json: Json = None,
 ) -> None:
     """Derive all formulas from the equilibrium equations.
 
-    Each is shown with its unit, its equation in the paper and its meaning. With NAME: one formula,
-    its equation as text and LaTeX, its proof, and what it follows from.
+    Prints each formula with its unit, the number of its equation in the paper and its meaning. With
+    NAME, prints one formula: expression, LaTeX, proof, and the formulas that it follows from.
 
     Example: platecontact derive K_j
     """
@@ -42,21 +42,18 @@ def derive(
     if name is None:
         if put_json(lambda: [formula.to_json() for formula in found.values()], json):
             OUT.say(_table(list(found.values())))
-            OUT.say("\nTo see one of them: platecontact derive NAME")
+            OUT.say("\nTo show one formula: platecontact derive NAME")
         return
     if name not in found:
-        near = get_close_matches(name, found, NEAR, cutoff=0.4)
-        meant = f"did you mean {', '.join(near)}? " if near else ""
-        raise ValueError(
-            f"no formula {name!r}: {meant}expected one that `platecontact derive` lists"
-        )
+        near = did_you_mean(name, found, most=NEAR)
+        raise ValueError(f"no formula {name!r}: {near}`platecontact derive` lists all formulas")
     of = about(own, name)
     if put_json(of.to_json, json):
         OUT.say(_one(of))
 
 
 def _table(formulas: "list[Record]") -> str:
-    """Return the table of formulas, at most 80 columns wide; long meanings take several lines."""
+    """Return the table of formulas, at most 80 columns wide; long meanings are wrapped."""
     from derivation.engine.formula.notation import to_plain
 
     starts = [(f.name, f.unit, f.equation) for f in formulas]
@@ -71,19 +68,23 @@ def _table(formulas: "list[Record]") -> str:
 
 
 def _one(of: "About") -> str:
-    """Return all about a formula; equations stay on one line, so that they can be copied."""
+    """Return the details of a formula; equations stay on one line, so that they can be copied."""
     formula, shown = of.formula, of.formula.to_json()
     proof = formula.proof
     equation = f"equation ({formula.equation}) of the paper" if formula.equation else ""
     index = formula.vocabulary.indices[:1]
-    summed = [f"The quantity is the sum of this over {index} = 1, 2, ..."] if formula.summed else []
+    summed = (
+        [f"The quantity is the sum of this expression over {index} = 1, 2, ..."]
+        if formula.summed
+        else []
+    )
     symbols = [f"{x.name} [{x.unit}]: {meaning}" for x, meaning in of.arguments]
     parts = {
-        "Link of the chain": [of.link],
+        "Derivation step": [of.link],
         "Arguments": symbols,
         "Domain": [", ".join(formula.domain)] if formula.domain else [],
-        f"Proved {proof.method}": [f"{proof.step}. {of.argument}"],
-        "Reduced to zero": list(proof.residuals),
+        f"Verified {proof.method}": [f"{proof.step}. {of.argument}"],
+        "Residuals reduced to zero": list(proof.residuals),
         "Follows from": [", ".join(formula.sources) or "nothing before it"],
         "Used by": [", ".join(of.used_by) or "no other formula"],
         "Sources": list(of.references),

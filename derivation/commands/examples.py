@@ -15,7 +15,9 @@ def examples(
     ] = None,
     out: Annotated[
         Path | None,
-        typer.Option("--out", metavar="DIR", help="Copy here instead of the current folder."),
+        typer.Option(
+            "--out", metavar="DIR", help="Copy into this folder instead of the current one."
+        ),
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace files that exist.")] = False,
     json: Json = None,
@@ -31,7 +33,8 @@ def examples(
     if not name:
         if out is not None or force:
             raise SceneError(
-                "--out and --force apply to examples that are copied, but none is named; name one"
+                "--out and --force apply only if examples are copied; add the NAME of an example, "
+                "or remove these options"
             )
         found = tuple(known().values())
     else:

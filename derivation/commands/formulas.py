@@ -1,4 +1,4 @@
-"""The commands `platecontact rewrite` and `platecontact diagnose`, for a user's own formulas."""
+"""The commands `platecontact rewrite` and `platecontact diagnose`, for formulas of the user."""
 
 from dataclasses import asdict
 from typing import Annotated
@@ -13,7 +13,7 @@ def rewrite(
     formula: Annotated[
         str, typer.Argument(help="A formula of one variable (default: the paper's formulas).")
     ] = "",
-    variable: Annotated[str, typer.Option(help="Variable of the formula, positive.")] = "x",
+    variable: Annotated[str, typer.Option(help="Name of the variable, a positive number.")] = "x",
     update: Annotated[
         bool, typer.Option("--update", help="Save the paper's result as its rewrite.json.")
     ] = False,
@@ -22,7 +22,7 @@ def rewrite(
 ) -> None:
     """Find a numerically stable form of a formula, as NumPy code.
 
-    It is tested, and the range and the error found are stated.
+    The code is tested; its docstring states the tested range and the largest error found.
 
     Without a formula: show which rules were applied to the paper's formulas.
 
@@ -45,8 +45,8 @@ def rewrite(
         applied = [asdict(a) for a in stable.applied]
         data: object = {"source": source, "tested": asdict(tested), "applied": applied}
     else:
-        with counted("rewrite") as tell:
-            accounts = build.account(chosen(paper), update, tell)
+        with counted("rewrite") as progress:
+            accounts = build.account(chosen(paper), update, progress)
         found = [(account.name, applied) for account in accounts for applied in account.applied]
         data, source = {"rows": [asdict(account) for account in accounts]}, ""
     if put_json(lambda: plain(data), json):
@@ -61,13 +61,18 @@ def rewrite(
 
 
 def diagnose(
-    name: Annotated[str, typer.Argument(help="Name of a derived formula, for instance K_j.")],
-    formula: Annotated[str, typer.Option(help="Your formula for it, in SymPy syntax.")],
-    latex: Annotated[bool, typer.Option("--latex", help="The formula is LaTeX.")] = False,
+    name: Annotated[str, typer.Argument(help="Name of a derived formula, for example K_j.")],
+    formula: Annotated[str, typer.Option(help="Your version of the formula, in SymPy syntax.")],
+    latex: Annotated[bool, typer.Option("--latex", help="Read the formula as LaTeX.")] = False,
     at: Annotated[
-        str, typer.Option(metavar="phi=2.5,h=0.1,...", help="Evaluate both at this point [SI].")
+        str,
+        typer.Option(
+            metavar="phi=2.5,h=0.1,...", help="Evaluate both formulas at this point, in SI units."
+        ),
     ] = "",
-    digits: Annotated[int, typer.Option(min=1, max=1000, help="Digits of both values.")] = 50,
+    digits: Annotated[
+        int, typer.Option(min=1, max=1000, help="Number of digits of both values.")
+    ] = 50,
     paper: PaperFolder = None,
     json: Json = None,
 ) -> None:
@@ -75,8 +80,8 @@ def diagnose(
 
     The exit status is 1 if they differ.
 
-    E and nu stand for Young's modulus and Poisson's ratio. Of a sum over the modes, such as delta,
-    one term is compared.
+    E and nu are Young's modulus and Poisson's ratio. For a sum over the modes, such as delta, one
+    term of the sum is compared.
 
     Example: platecontact diagnose G --formula "1 + 4*T*(1+T)*exp(-2*T)" --at T=3
     """

@@ -1,4 +1,4 @@
-"""The help of `platecontact`: the commands by what they are about."""
+"""The help of `platecontact`, which lists the commands by topic."""
 
 from typing import Any
 
@@ -24,7 +24,7 @@ GROUPS = {
 
 
 class Grouped(TyperGroup):
-    """Commands that the help lists by group."""
+    """A command whose help lists its subcommands by topic."""
 
     def format_commands(self, ctx: Any, formatter: Any) -> None:  # noqa: ARG002
         """Write a section for each group."""

@@ -1,4 +1,4 @@
-"""The command that shows named materials and where their numbers come from."""
+"""The command `platecontact materials`: named materials with the sources of their constants."""
 
 from typing import TYPE_CHECKING, Annotated
 
@@ -14,13 +14,13 @@ COLUMNS = ("name", "#E [GPa]", "#nu", "#density [kg/m^3]", "#yield [MPa]", "sour
 
 def materials(
     name: Annotated[
-        str | None, typer.Argument(metavar="NAME", help="Show this material alone.")
+        str | None, typer.Argument(metavar="NAME", help="Show this material only.")
     ] = None,
     json: Json = None,
 ) -> None:
     """List named materials with their sources.
 
-    Names are matched without regard to case, spaces and hyphens.
+    Upper and lower case, spaces and hyphens in names do not matter.
 
     Example: platecontact materials "bearing steel"
     """
@@ -30,7 +30,7 @@ def materials(
     if name is None:
         if put_json(lambda: [material.to_json() for material in MATERIALS.values()], json):
             table("Named materials", COLUMNS, [_cells(each) for each in MATERIALS.values()])
-            OUT.say("A table [materials.NAME] of a scene file defines another one.")
+            OUT.say("To define another material, add a table [materials.NAME] to the scene file.")
         return
     found = find(name)
     if found is None:
@@ -42,7 +42,7 @@ def materials(
 
 
 def _cells(material: "KnownMaterial") -> tuple[str, ...]:
-    """One line of the table; a value that the source does not give is n/a."""
+    """Return a row of the table; a value that the source does not give is shown as n/a."""
     stress, density = material.yield_stress, material.density
     shown = (
         f"{material.youngs_modulus / 1e9:.6g}",

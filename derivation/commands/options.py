@@ -1,4 +1,4 @@
-"""Options that several commands share: the paper, the record to renew, the random seed."""
+"""Options that several commands share: the paper, the measurement to update, the random seed."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -10,23 +10,23 @@ if TYPE_CHECKING:
 
 PaperFolder = Annotated[
     Path | None,
-    typer.Option("--paper", metavar="FOLDER", help="Work on the paper in this folder (see `new`)."),
+    typer.Option("--paper", metavar="FOLDER", help="Use the paper in this folder (see `new`)."),
 ]
 SEED = 1
 Seed = Annotated[int, typer.Option(help="Random seed.")]
 Suggest = Annotated[
     bool,
-    typer.Option("--suggest-budgets", help="Print tighter error budgets too; change no file."),
+    typer.Option("--suggest-budgets", help="Also print tighter error budgets; no file is changed."),
 ]
 
 
 def update_option(name: str) -> Any:
-    """Return the option that renews a committed measurement."""
+    """Return the option `--update`, which replaces a committed measurement."""
     return typer.Option("--update", help=f"Save the result in reports/data/{name}.json.")
 
 
 def chosen(folder: Path | None) -> "Paper":
-    """The paper of a folder; without one the paper on the plate.
+    """Return the paper in a folder; without a folder, the paper on plates.
 
     Raises
     ------
@@ -43,14 +43,15 @@ def chosen(folder: Path | None) -> "Paper":
 
 
 def alone(folder: Path | None, allowed: str, *others: object) -> None:
-    """Refuse options that a paper in a folder has nothing for.
+    """Reject options that cannot be combined with --paper.
 
     Raises
     ------
     ValueError
-        If one of the others is set too.
+        If one of the others is also given.
     """
     if folder is not None and any(others):
         raise ValueError(
-            f"--paper can be combined with {allowed} only here; remove the other options"
+            f"--paper: this command accepts it together with {allowed} only; remove the other "
+            "options"
         )

@@ -1,4 +1,4 @@
-"""The commands that write what belongs to a paper: build, generate, report and new."""
+"""The commands that write the files of a paper: build, generate, report and new."""
 
 from pathlib import Path
 from typing import Annotated
@@ -10,14 +10,15 @@ from derivation.commands.scenes import check_outputs
 from derivation.engine.console import NOTES, OUT, counted, put, stage
 
 Out = Annotated[
-    Path | None, typer.Option("--out", metavar="DIR", help="Write here instead of the checkout.")
+    Path | None,
+    typer.Option("--out", metavar="DIR", help="Write into this folder instead of the checkout."),
 ]
 
 
 def build(out: Out = None, paper: PaperFolder = None) -> None:
-    """Run the main job, from derivation to report.
+    """Derive the formulas, generate and check the code, and write the report.
 
-    At the end the files written are listed. The exit status is 1 if an error is above its budget.
+    At the end, the written files are listed. The exit status is 1 if an error exceeds its budget.
 
     Example: platecontact build
     """
@@ -31,26 +32,29 @@ def build(out: Out = None, paper: PaperFolder = None) -> None:
 
 def generate(
     check: Annotated[
-        bool, typer.Option("--check", help="Compare only: show what differs, write nothing.")
+        bool,
+        typer.Option("--check", help="Only compare: list the files that differ, write nothing."),
     ] = False,
     out: Annotated[
         Path | None,
         typer.Option(
-            "--out", metavar="PATH", help="Write into this folder, or the code of a scene here."
+            "--out", metavar="PATH", help="Write into this folder; with --scene, into this file."
         ),
     ] = None,
     scene: Annotated[
         Path | None,
-        typer.Option("--scene", metavar="SCENE.toml", help="Write one module for this scene."),
+        typer.Option(
+            "--scene", metavar="SCENE.toml", help="Write one module with the code of this scene."
+        ),
     ] = None,
     paper: PaperFolder = None,
 ) -> None:
-    """Write the NumPy package `generated`, or check that it is fresh.
+    """Write the NumPy package `generated`, or check that it is up to date.
 
     Example: platecontact generate --out mypackage/plate
 
-    With --scene: one module that imports NumPy alone, with the contact law and the impact of a
-    scene, of the effects that it calls for.
+    With --scene: write one module that imports only NumPy. It contains the contact law and the
+    impact of the scene, with the effects that its tolerance requires.
 
     Example: platecontact generate --scene glass_pane.toml --out glass_pane.py
     """
@@ -68,7 +72,7 @@ def generate(
         raise typer.Exit(0 if freshness.fresh else 1)
     with stage("derive and generate"):
         written = build.generate(own, out)
-    NOTES.say(f"{len(written)} files in {written[0].parent}")
+    NOTES.say(f"{len(written)} files written to {written[0].parent}")
 
 
 def _scene_code(scene: Path, out: Path | None, check: bool) -> None:
@@ -82,27 +86,30 @@ def _scene_code(scene: Path, out: Path | None, check: bool) -> None:
             "remove one of them"
         )
     if out is None:
-        raise SceneError("--out: expected a file for the scene's code, got none; add --out FILE.py")
+        raise SceneError(
+            "--out: expected a file for the code of the scene, got none; add --out FILE.py"
+        )
     check_outputs(scene, None, csv=out)
     write_scene_code(load(scene), out)
     NOTES.say(f"{out}")
 
 
 def report(
-    pdf: Annotated[bool, typer.Option("--pdf/--no-pdf", help="Compile the PDF too.")] = True,
+    pdf: Annotated[bool, typer.Option("--pdf/--no-pdf", help="Also compile the PDF.")] = True,
     check: Annotated[
-        bool, typer.Option("--check", help="Compare the committed files only, write nothing.")
+        bool, typer.Option("--check", help="Only compare with the committed files, write nothing.")
     ] = False,
     section: Annotated[
         list[str] | None,
-        typer.Option("--section", metavar="NAME", help="This section only; repeatable."),
+        typer.Option("--section", metavar="NAME", help="Write only this section; repeatable."),
     ] = None,
     fragment: Annotated[
         list[str] | None,
         typer.Option(
             "--fragment",
             metavar="NAME",
-            help="Print a formula, or all of a link of the chain, as LaTeX to paste; repeatable.",
+            help="Print a formula, or all formulas of a derivation step, as LaTeX to paste; "
+            "repeatable.",
         ),
     ] = None,
     out: Out = None,
@@ -112,12 +119,14 @@ def report(
 
     Example: platecontact report --section misprints --section accuracy
 
-    With --fragment: to the screen, or with --out into a folder, the bibliography beside it.
+    With --fragment: print to the screen, or write into the folder of --out, with the bibliography.
 
     Example: platecontact report --fragment K_j --fragment "contact split" --out pieces
     """
     if bool(check) + bool(section) + bool(fragment) > 1:
-        raise ValueError("expected one of --check, --section and --fragment: run one by one")
+        raise ValueError(
+            "--check, --section and --fragment cannot be combined; run the command once for each"
+        )
     from derivation.engine import report_files
 
     own = chosen(paper)
@@ -138,9 +147,9 @@ def report(
 
 
 def new(
-    folder: Annotated[Path, typer.Argument(help="An empty folder, or one to be made.")],
+    folder: Annotated[Path, typer.Argument(help="A folder that is empty or does not exist yet.")],
 ) -> None:
-    """Begin a paper of your own, from a small one that works.
+    """Create a small working paper of your own to start from.
 
     Example: platecontact new film
     """
@@ -148,7 +157,7 @@ def new(
 
     written = begin(folder)
     NOTES.say("\n".join(str(path) for path in written))
-    NOTES.say(f"run it: platecontact build --paper {folder}")
+    NOTES.say(f"To build it, run: platecontact build --paper {folder}")
 
 
 def _repeated(command: str, paper: Path | None, out: Path | None) -> str:

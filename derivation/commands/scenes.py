@@ -1,4 +1,4 @@
-"""The commands that take a scene file: check the names, make one call, show the result."""
+"""The commands that take a scene file: check the output files, make one call, show the result."""
 
 import os
 from collections.abc import Callable, Sequence
@@ -37,36 +37,36 @@ def simulate(
     ] = None,
     csv: Annotated[
         Path | None,
-        typer.Option(metavar="FILE", help="Write time, indentation, velocity, radius and force."),
+        typer.Option(metavar="FILE", help="Write the time history as CSV, in SI units."),
     ] = None,
     animate: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Show the plate move: .gif or .html.")
+        Path | None, typer.Option(metavar="FILE", help="Animate the plate: .gif or .html.")
     ] = None,
     rtol: Annotated[
         float | None,
-        typer.Option(metavar="X", help="Relative tolerance, 1e-13 to 1: cheapest method."),
+        typer.Option(metavar="X", help="Relative tolerance of the results, 1e-13 to 1."),
     ] = None,
     sweep: Annotated[
         str | None,
         typer.Option(metavar="TABLE.KEY=A:B:N", help="Simulate for N values from A to B."),
     ] = None,
     details: Annotated[
-        bool, typer.Option("--details", help="Print the tables of effects and contacts too.")
+        bool, typer.Option("--details", help="Also print the tables of effects and contacts.")
     ] = False,
     quiet: Annotated[
         bool,
-        typer.Option("--quiet", help="Print name, value and SI unit alone, and no warnings."),
+        typer.Option("--quiet", help="Print only name, value and SI unit; no warnings."),
     ] = False,
 ) -> None:
     """Simulate the impact of a scene file.
 
     Example: platecontact simulate scene.toml --plot impact.pdf --csv impact.csv
 
-    Prints the results with the digits that hold, their accuracy and the effects included.
+    Prints the results with their significant digits, the error bound and the included effects.
 
-    With --sweep plate.thickness=1e-3:1e-2:50 the table, --csv and --json have a row per value.
+    With --sweep plate.thickness=1e-3:1e-2:50, the table, --csv and --json have a row per value.
     """
-    _check_kind_of_answer(details, quiet, sweep is not None)
+    _check_exclusive(details, quiet, sweep is not None)
     if sweep is not None:
         _sweep(scene, sweep, json, plot or animate, csv, rtol)
         return
@@ -95,8 +95,8 @@ def simulate(
         raise typer.Exit(1)
 
 
-def _check_kind_of_answer(details: bool, quiet: bool, sweep: bool) -> None:
-    """Refuse options that exclude each other."""
+def _check_exclusive(details: bool, quiet: bool, sweep: bool) -> None:
+    """Reject options that exclude each other."""
     given = {"--details": details, "--quiet": quiet, "--sweep": sweep}
     names = [name for name, wanted in given.items() if wanted]
     if len(names) > 1:
@@ -108,7 +108,7 @@ def _check_kind_of_answer(details: bool, quiet: bool, sweep: bool) -> None:
 def _drawings(
     result: "Result", plot: Path | None, animate: Path | None
 ) -> tuple[dict[Path, bytes], list[str]]:
-    """Plot and animation, and why one could not be drawn: no drawing may lose the result."""
+    """Return plot and animation, and an error message for each that could not be drawn."""
     made: dict[Path, bytes] = {}
     problems = []
     for option, path in (("--plot", plot), ("--animate", animate)):
@@ -125,12 +125,12 @@ def _drawings(
                 made[path] = plots.render(result, path.suffix)
         except (ArithmeticError, ValueError, RuntimeError, MemoryError, OSError) as error:
             text = str(error) or type(error).__name__
-            problems.append(f"{option} {path}: no drawing was made ({text})")
+            problems.append(f"{option} {path}: the figure could not be drawn ({text})")
     return made, problems
 
 
 def _write(files: dict[Path, str | bytes], json: str | None, make: Callable[[], Any]) -> bool:
-    """Write files and result, all or none, before anything is shown; as `put_json` else."""
+    """Write all files or none; return whether the result is to be printed (see `put_json`)."""
     if json and json != "-":
         files[Path(json)] = json_text(make())
     write_files(files)
@@ -145,22 +145,25 @@ def _sweep(
     csv: Path | None,
     rtol: float | None,
 ) -> None:
-    """Simulate once per value of a key."""
+    """Simulate the scene once for each value of a key."""
     from derivation.scene import SceneError, load
     from derivation.scene import sweep as sweeps
 
     if plot is not None:
-        raise SceneError("--plot, --animate: expected none of a sweep; leave it out, or --sweep")
+        raise SceneError(
+            "--plot and --animate cannot be combined with --sweep; remove --plot and --animate, or "
+            "--sweep"
+        )
     check_outputs(scene, json, csv=csv)
     sweep = sweeps.parse(text)
     loaded = load(scene)
-    with counted("simulate") as tell:
-        rows = sweeps.run(loaded, sweep, rtol, tell, workers=os.cpu_count() or 1)
+    with counted("simulate") as progress:
+        rows = sweeps.run(loaded, sweep, rtol, progress, workers=os.cpu_count() or 1)
     key = f"{sweep.table}.{sweep.key}"
     if not any(row.results for row in rows):
         raise SceneError(
-            f"sweep: expected a value of {key} that can be simulated, but all {len(rows)} are "
-            f"refused; {rows[0].value:.6g} is {rows[0].remark}"
+            f"--sweep: expected a value of {key} that can be simulated, but all {len(rows)} are "
+            f"rejected; {key} = {rows[0].value:.6g} is {rows[0].remark}"
         )
     files: dict[Path, str | bytes] = {}
     if csv is not None:
@@ -177,7 +180,7 @@ def explain(
         float | None, typer.Option(metavar="X", help="Relative tolerance, 1e-13 to 1.")
     ] = None,
 ) -> None:
-    """Show which effects a simulation of a scene includes, and why.
+    """Show which effects a scene requires, and why.
 
     Example: platecontact explain scene.toml --rtol 1e-4
     """
@@ -195,15 +198,15 @@ def explain(
 def map_(
     scene: SceneFile,
     plot: Annotated[
-        Path, typer.Option("--plot", metavar="FILE", help="Where to: .png, .svg or .pdf.")
+        Path, typer.Option("--plot", metavar="FILE", help="File to write: .png, .svg or .pdf.")
     ] = Path("map.pdf"),
     rtol: Annotated[
         float | None, typer.Option(metavar="X", help="Relative tolerance, 1e-13 to 1.")
     ] = None,
 ) -> None:
-    """Draw which effects matter where, over a/h and h/b.
+    """Draw for which a/h and h/b each effect matters.
 
-    The scene is marked.
+    a is the contact radius, h half the plate thickness, b the plate radius. The scene is marked.
 
     Example: platecontact map scene.toml --plot map.pdf
     """
@@ -231,7 +234,7 @@ def indent(
     ] = None,
     json: Json = None,
 ) -> None:
-    """Compute static contacts by radius, force or indentation.
+    """Compute static contacts for given radii, forces or indentations.
 
     Example: platecontact indent scene.toml --force 10 100 1000
     """
@@ -250,12 +253,12 @@ def indent(
 
 def schema(
     out: Annotated[
-        str, typer.Option(metavar="FILE|-", help="Write here; standard output without it.")
+        str, typer.Option(metavar="FILE|-", help="Write to this file; - is standard output.")
     ] = "-",
 ) -> None:
     """Print the JSON schema of scene files.
 
-    Editors use it to check and complete TOML.
+    Editors use it to check scene files and to complete their keys.
 
     Example: platecontact schema --out scene.schema.json
     """
@@ -265,7 +268,7 @@ def schema(
 
 
 def _numbers(name: str, texts: Sequence[str], more: Sequence[str] | None) -> list[float]:
-    """Numbers after an option: `--force 1 2`, `--force 1,2` and `--force 1 --force 2` alike."""
+    """Return the numbers of an option: `--force 1 2`, `--force 1,2` or `--force 1 --force 2`."""
     from derivation.scene import SceneError
 
     numbers = []
@@ -276,7 +279,7 @@ def _numbers(name: str, texts: Sequence[str], more: Sequence[str] | None) -> lis
             option = name.replace("_", "-")
             raise SceneError(
                 f"--{option}: expected numbers, got {text!r}; "
-                f"write for instance --{option} 1e-3 2e-3, after the scene file"
+                f"write for example --{option} 1e-3 2e-3, after the scene file"
             ) from None
     return numbers
 
@@ -288,7 +291,7 @@ def check_outputs(
     csv: Path | None = None,
     animate: Path | None = None,
 ) -> None:
-    """Refuse output names that say no format or would overwrite the scene or each other."""
+    """Reject output files of unknown format, and those that would overwrite scene or each other."""
     from derivation.scene import SceneError
 
     if plot is not None:
@@ -305,11 +308,11 @@ def check_outputs(
     taken = {real(scene): "the scene file"}
     for place in places:
         if place == Path("-"):
-            raise SceneError("-: expected a file to write; only --json takes standard output as -")
+            raise SceneError("-: expected a file name; only --json accepts - for standard output")
         expect_writable(place)
         if real(place) in taken:
             raise SceneError(
-                f"{place}: expected a file of its own for each output, "
+                f"{place}: expected a separate file for each output, "
                 f"got {taken[real(place)]}; choose another name"
             )
-        taken[real(place)] = "one that another output takes"
+        taken[real(place)] = "the file of another output"

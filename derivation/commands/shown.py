@@ -1,4 +1,4 @@
-"""Runs a check and shows what it found: progress, JSON, tables, tighter budgets, exit status."""
+"""Runs a check and shows the result: progress, JSON, tables, tighter budgets, exit status."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -21,11 +21,11 @@ def shown(
     suggest_budgets: bool = False,
     record: Path | None = None,
 ) -> NoReturn:
-    """Measure, keep the result in the record if one is named, show it, exit with 1 if it failed."""
+    """Run a check, save its result if `record` is given, and exit with 1 if the check failed."""
     if record:
         expect_recordable(record)
-    with counted("check") as tell:
-        found = measure(tell)
+    with counted("check") as progress:
+        found = measure(progress)
     if record:
         write_file(record, found.record())
     budgets = []
@@ -41,6 +41,6 @@ def shown(
         for title, lines in found.listings:
             listing(title, lines)
         if suggest_budgets:
-            lines = ["[ulp]", *map(str, budgets)] if budgets else ["# no budget can be tighter"]
+            lines = ["[ulp]", *map(str, budgets)] if budgets else ["# no budget can be tightened"]
             OUT.say("\n".join(lines))
     raise typer.Exit(0 if found.passed else 1)

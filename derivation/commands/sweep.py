@@ -1,4 +1,4 @@
-"""The command `sweep`: a study of many points, its file, table and picture."""
+"""The command `platecontact sweep`: a parameter study, its file, table and figure."""
 
 import os
 from pathlib import Path
@@ -23,25 +23,25 @@ def sweep(
     scene: SceneFile,
     vary: Annotated[
         list[str] | None,
-        typer.Option(metavar="TABLE.KEY=A:B:N[:log]", help="A key of the grid; repeatable."),
+        typer.Option(metavar="TABLE.KEY=A:B:N[:log]", help="Vary this key on a grid; repeatable."),
     ] = None,
     distributions: Annotated[
         Path | None,
-        typer.Option(metavar="FILE.toml", help="Distributions of a sample, below [vary]."),
+        typer.Option(metavar="FILE.toml", help="Sample from the distributions in this file."),
     ] = None,
     sample: Annotated[
         int | None, typer.Option(metavar="N", help="Number of points of the sample.")
     ] = None,
     seed: Annotated[
-        int | None, typer.Option(help="Random seed of the sample; 1 without it.")
+        int | None, typer.Option(help="Random seed of the sample (default: 1).")
     ] = None,
     method: Annotated[
         str | None,
-        typer.Option(metavar="NAME", help="random (without it), latin-hypercube or sobol."),
+        typer.Option(metavar="NAME", help="random (default), latin-hypercube or sobol."),
     ] = None,
     sensitivity: Annotated[
         bool,
-        typer.Option("--sensitivity", help="Sensitivity indices, from N (keys + 2) runs."),
+        typer.Option("--sensitivity", help="Sensitivity indices, from N (keys + 2) simulations."),
     ] = False,
     rtol: Annotated[
         float | None, typer.Option(metavar="X", help="Relative tolerance, 1e-13 to 1.")
@@ -55,17 +55,20 @@ def sweep(
     ] = None,
     result: Annotated[
         list[str] | None,
-        typer.Option(metavar="NAME", help="Draw this result only; repeatable."),
+        typer.Option(metavar="NAME", help="Draw only this result; repeatable."),
     ] = None,
     explain: Annotated[
-        bool, typer.Option("--explain", help="Show points, effects and estimated time only.")
+        bool,
+        typer.Option(
+            "--explain", help="Show points, effects and estimated time; simulate nothing."
+        ),
     ] = False,
     scheduler: Annotated[
         str | None,
-        typer.Option(metavar="tcp://HOST:PORT", help="Compute on the workers of this cluster."),
+        typer.Option(metavar="tcp://HOST:PORT", help="Compute on this Dask cluster."),
     ] = None,
     retry: Annotated[
-        bool, typer.Option("--retry", help="Compute points without a result again.")
+        bool, typer.Option("--retry", help="Repeat points that have no result.")
     ] = False,
     json: Json = None,
 ) -> None:
@@ -73,8 +76,8 @@ def sweep(
 
     Example: platecontact sweep scene.toml --vary plate.thickness=4e-3:12e-3:9 --out rows.csv
 
-    An interrupted study goes on where it was if the same command runs again: finished batches
-    stand in FILE.parts beside --out FILE.
+    To continue an interrupted study, run the same command again: finished batches are kept in the
+    folder FILE.parts next to the file of --out.
     """
     from derivation.scene import SceneError, load
     from derivation.sweep import api, plots
@@ -97,40 +100,40 @@ def sweep(
     if sensitivity:
         check_memory(study, "--sensitivity")
     if result and plot is None:
-        raise SceneError("--result: expected --plot, whose panels it chooses; add it or remove it")
+        raise SceneError("--result selects the panels of --plot; add --plot, or remove --result")
     _run(study, out, plot, results, scheduler, retry, sensitivity, json, scene.name)
 
 
 def _given(
     vary: list[str] | None, distributions: Path | None, sample: int | None, sampling: bool
 ) -> Any:
-    """What is varied: texts of a grid, or distributions of a sample."""
+    """Return the keys of a grid as text, or the distributions of a sample."""
     from derivation.scene import SceneError
     from derivation.sweep.distributions import load_distributions
 
     if vary and sampling:
         raise SceneError(
-            "--vary is of a grid and cannot be combined with --distributions, --sample, --seed, "
-            "--method or --sensitivity; remove it, or them"
+            "--vary defines a grid and cannot be combined with --distributions, --sample, --seed, "
+            "--method or --sensitivity; remove --vary, or the other options"
         )
     if vary:
         return vary
     if distributions is None or sample is None:
         raise SceneError(
             "sweep: expected --vary KEY=A:B:N for a grid, or --distributions FILE and --sample N "
-            "for a sample; add them"
+            "for a sample; add one of the two"
         )
     return load_distributions(distributions)
 
 
 def _explain(study: "Study", scheduler: str | None, json: str | None) -> None:
-    """Show what a study takes."""
+    """Show the size of a study and its estimated run time."""
     from derivation.sweep.forecast import forecast
 
     found = forecast(study, 1 if scheduler else os.cpu_count() or 1)
     if put_json(found.to_json, json):
         OUT.say(found.to_text())
-    warn([f"some points are refused: {text}" for text in found.refused])
+    warn([f"some points are rejected: {text}" for text in found.refused])
 
 
 def _run(
@@ -152,9 +155,9 @@ def _run(
 
     with opened(study, out) as store:
         try:
-            with counted("sweep") as tell:
-                computed = compute(store, os.cpu_count() or 1, scheduler, retry, tell)
-                found = api.finish(store, out, sensitivity, tell)
+            with counted("sweep") as progress:
+                computed = compute(store, os.cpu_count() or 1, scheduler, retry, progress)
+                found = api.finish(store, out, sensitivity, progress)
         except KeyboardInterrupt:
             _say_how_to_resume(store, out)
             raise
@@ -169,7 +172,7 @@ def _run(
 def _drawing(
     store: "Store", found: "Sensitivities | None", results: tuple[str, ...], suffix: str
 ) -> bytes:
-    """The picture of a study."""
+    """Return the figure of a study as the content of a file."""
     from derivation.sweep import plots
     from derivation.sweep.dataset import data_set
 
@@ -180,11 +183,11 @@ def _drawing(
 
 
 def _say_how_to_resume(store: "Store", out: Path | None) -> None:
-    """Say what an interrupted study keeps."""
+    """Say how to continue an interrupted study."""
     if out is None:
-        NOTES.say("Nothing is kept: with --out FILE an interrupted study can go on later.")
+        NOTES.say("Nothing was saved; with --out FILE an interrupted study can be continued.")
     else:
         NOTES.say(
-            f"{store.done:,} of {store.study.plan.size:,} points are kept in {store.folder}; the "
-            "same command computes the others."
+            f"{store.done:,} of {store.study.plan.size:,} points are saved in {store.folder}; to "
+            "compute the others, run the same command again."
         )

@@ -1,4 +1,4 @@
-"""Animates an impact on a plate with inertia: the plate's profile under the sphere."""
+"""Animates an impact on a plate with inertia: deflection profile and position of the sphere."""
 
 import tempfile
 from pathlib import Path
@@ -13,16 +13,16 @@ from derivation.scene.time_element import Z
 
 SUFFIXES = ".gif", ".html"
 FRAMES, POINTS, PER_SECOND = 120, 201, 20
-"""Pictures, points of the profile, and pictures shown per second."""
+"""Number of frames, points of the profile, and frames per second."""
 
 
 def render(result: Result, suffix: str) -> bytes:
-    """The animation as the content of a file.
+    """Return the animation as the content of a file.
 
     Parameters
     ----------
     suffix
-        Format: ``.gif``, or ``.html`` that holds its pictures in itself.
+        Format: ``.gif``, or ``.html`` with embedded frames.
 
     Raises
     ------
@@ -35,8 +35,8 @@ def render(result: Result, suffix: str) -> bytes:
 
     if result.dynamics is None:
         raise SceneError(
-            "--animate: expected a plate with inertia, got a quasi-static plate; remove --animate, "
-            "or set effects.inertia = true"
+            "--animate needs plate inertia, but the plate is quasi-static; set effects.inertia = "
+            "true, or remove --animate"
         )
     times = np.linspace(0.0, result.total_time, FRAMES)
     r = np.linspace(-1.0, 1.0, POINTS) * result.model.b
@@ -80,7 +80,7 @@ def render(result: Result, suffix: str) -> bytes:
 
 
 def _limits(profiles: Array, displacement: Array) -> tuple[float, float]:
-    """Ends of the axis, which points downwards, with some room."""
+    """Return the limits of the vertical axis, which points downwards, with a margin."""
     low, high = min(profiles.min(), displacement.min()), max(profiles.max(), displacement.max())
     room = 0.1 * (high - low)
     return float(high + room), float(low - 3.0 * room)

@@ -1,5 +1,6 @@
-"""The answer of a simulation as text: the short one, its details, and that of a notebook."""
+"""A result as text: summary, details, and HTML for a notebook."""
 
+import math
 from collections.abc import Iterator
 from html import escape
 from typing import TYPE_CHECKING
@@ -12,14 +13,14 @@ if TYPE_CHECKING:
     from derivation.scene.wave_motion import DynamicImpact
 
 CONTACT_HEADS = "#start [s]", "#end [s]", "#impulse [N s]", "#peak force [N]", "#speed ratio"
-"""Heads of the table of contacts, which fits a screen."""
+"""Column heads of the table of contacts."""
 
 
 def quantities(result: "Result") -> list[tuple[str, str, str]]:
-    """Quantity, value with the digits that hold, and unit with an SI prefix."""
+    """Return name, value with significant digits, and unit with SI prefix of each result."""
     found = result.numbers()
     contacts = len(result.dynamics.inertia.contacts) if result.dynamics is not None else 1
-    if contacts == 1:  # the total time says nothing new
+    if contacts == 1:  # the total time is the contact time
         found = [row for row in found if row[0] != "total_time"]
     return [
         (_named(name, contacts), *prefixed(value, unit, result.digits))
@@ -28,20 +29,23 @@ def quantities(result: "Result") -> list[tuple[str, str, str]]:
 
 
 def _named(name: str, contacts: int) -> str:
-    """A quantity as people call it."""
+    """Return the displayed name of a result."""
     if name == "contact_time" and contacts > 1:
         return f"contact time (first of {contacts})"
     return name.replace("_", " ")
 
 
 def plain(result: "Result") -> str:
-    """Name, value with the digits that hold, and SI unit of each result, one on a line."""
-    lines = (f"{name.replace(' ', '_')} {value} {unit}" for name, value, unit in result.rows())
+    """Return name, value and SI unit of each result, one result per line."""
+    lines = []
+    for name, value, unit in result.numbers():
+        number = f"{value:#.{result.digits}g}".removesuffix(".")
+        lines.append(f"{name} {number if math.isfinite(value) else 'unknown'} {unit}")
     return "\n".join(lines)
 
 
 def short(result: "Result") -> str:
-    """The results, how accurate they are, and which effects they include."""
+    """Return the results with error bound and included effects."""
     rows = quantities(result)
     names, values = (max(len(row[column]) for row in rows) for column in (0, 1))
     table = (f"{name:{names}}  {value:>{values}} {unit}".rstrip() for name, value, unit in rows)
@@ -54,7 +58,7 @@ def short(result: "Result") -> str:
 
 
 def _remarks(result: "Result") -> Iterator[str]:
-    """Accuracy, effects, and what the scene asks for besides."""
+    """Yield the lines below the table of results."""
     model = f", model error up to {100 * result.model_error:.2g} %" if result.model_error else ""
     yield f"Accuracy: {result.accuracy.summary}{model}"
     yield f"Effects: {result.effects.summary}"
@@ -69,9 +73,9 @@ def _remarks(result: "Result") -> Iterator[str]:
 
 
 def details(result: "Result") -> str:
-    """The short answer, then method and bound, the effects table, and the contacts."""
-    told = [str(result.accuracy), result.model_note]
-    blocks = [short(result), "\n".join(paragraph(text) for text in told if text)]
+    """Return the summary, then method and bound, the effects table, and the table of contacts."""
+    notes = [str(result.accuracy), result.model_note]
+    blocks = [short(result), "\n".join(paragraph(text) for text in notes if text)]
     blocks.append(f"Effects\n\n{result.effects.to_text()}")
     if result.dynamics is not None:
         blocks.append(_contacts(result.dynamics))
@@ -79,14 +83,14 @@ def details(result: "Result") -> str:
 
 
 def _contacts(dynamics: "DynamicImpact") -> str:
-    """Every contact, the energies and the end of the impact."""
+    """Return the table of contacts, the final energies and how the impact ended."""
     title = "Contacts (speed ratio: approach speed / impact speed)"
     notes = "\n".join(map(paragraph, dynamics.notes()))
     return f"{title}\n\n{aligned(CONTACT_HEADS, dynamics.lines())}\n\n{notes}"
 
 
 def html(result: "Result") -> str:
-    """The same for a notebook: answer, accuracy, effects, warnings; details are folded."""
+    """Return the summary and warnings as HTML; the details are folded."""
     cells = (
         f"<tr><td>{name}</td><td style='text-align:right'>{value}</td><td>{unit}</td></tr>"
         for name, value, unit in quantities(result)
@@ -95,8 +99,8 @@ def html(result: "Result") -> str:
     remarks = "".join(f"<p>{escape(text)}</p>" for text in _remarks(result))
     paper = result.comparison.to_html() if result.comparison else ""
     warnings = "".join(f"<p><b>Warning:</b> {escape(text)}</p>" for text in result.warnings)
-    told = (str(result.accuracy), result.model_note)
-    more = "".join(f"<p>{escape(text)}</p>" for text in told if text) + result.effects.to_html()
+    notes = (str(result.accuracy), result.model_note)
+    more = "".join(f"<p>{escape(text)}</p>" for text in notes if text) + result.effects.to_html()
     if result.dynamics is not None:
         more += result.dynamics.to_html()
     folded = f"<details><summary>Details</summary>{more}</details>"

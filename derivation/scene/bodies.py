@@ -1,4 +1,4 @@
-"""Tables of a scene for its bodies: sphere, plate, and materials of one's own."""
+"""Tables of a scene for sphere, plate and own materials."""
 
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal
@@ -15,7 +15,7 @@ Edge = Literal["paper", "simply-supported", "clamped"]
 
 
 class Sphere(Table):
-    """The solid sphere that strikes: rigid, unless its material or elastic constants are given.
+    """The solid sphere; it is rigid unless a material or elastic constants are given.
 
     Density, yield stress and retardation time replace those of the material.
 
@@ -42,7 +42,7 @@ class Sphere(Table):
     )
     material: str | None = Field(
         default=None,
-        description="sphere material, which makes it elastic",
+        description="name of the sphere material; the sphere is rigid without elastic constants",
         examples=list(MATERIALS),
     )
     retardation_time: Positive | None = Field(
@@ -54,14 +54,14 @@ class Sphere(Table):
 
     @classmethod
     def conflicts(cls, given: Mapping[str, Any]) -> list[str]:
-        """Also what only a sphere that deforms has."""
+        """Also reject material constants of a rigid sphere."""
         problems = super().conflicts(given)
         elastic = ("material", "youngs_modulus", "poissons_ratio")
         if all(given.get(key) is None for key in elastic):
             problems += [
-                f"sphere.{key}: expected an elastic sphere, got a rigid one, which does not "
-                f"deform; add sphere.material or the pair sphere.youngs_modulus, "
-                f"sphere.poissons_ratio, or remove sphere.{key}"
+                f"sphere.{key}: expected an elastic sphere, got a rigid sphere; add "
+                f"sphere.material or the pair sphere.youngs_modulus, sphere.poissons_ratio, or "
+                f"remove sphere.{key}"
                 for key in ("retardation_time", "yield_stress")
                 if given.get(key) is not None
             ]
@@ -69,7 +69,7 @@ class Sphere(Table):
 
 
 class Plate(Table):
-    """The elastic plate that is struck in its middle.
+    """The elastic circular plate, struck at its centre.
 
     Density, yield stress and retardation time replace those of the material.
 
@@ -81,7 +81,7 @@ class Plate(Table):
     >>> pc.Plate(radius=-0.3, thickness=0.008, material="glass")  # doctest: +ELLIPSIS
     Traceback (most recent call last):
     ...
-    derivation.scene.errors.SceneError: plate.radius: expected a positive number, ...
+    derivation.scene.errors.SceneError: plate.radius: expected a positive number ...
     """
 
     choices = (
@@ -90,29 +90,32 @@ class Plate(Table):
     )
     radius: Positive = Field(description="plate radius [m]", examples=[1.0])
     half_thickness: Positive | None = Field(
-        default=None, description="half of the plate's thickness [m]", examples=[0.1]
+        default=None, description="half of the plate thickness [m]", examples=[0.1]
     )
     thickness: Positive | None = Field(
-        default=None, description="full thickness of the plate [m]", examples=[0.2]
+        default=None, description="plate thickness [m]", examples=[0.2]
     )
     lame_lambda: float | None = Field(
-        default=None, description="first Lame constant [Pa]", examples=[0.36e9]
+        default=None, description="first Lame constant of the plate [Pa]", examples=[0.36e9]
     )
     lame_mu: Positive | None = Field(
-        default=None, description="second Lame constant (shear modulus) [Pa]", examples=[0.43e9]
+        default=None,
+        description="shear modulus (second Lame constant) of the plate [Pa]",
+        examples=[0.43e9],
     )
     youngs_modulus: Positive | None = Field(
-        default=None, description="Young's modulus [Pa]", examples=[1.056e9]
+        default=None, description="Young's modulus of the plate [Pa]", examples=[1.056e9]
     )
     poissons_ratio: Ratio | None = Field(
-        default=None, description="Poisson's ratio [1]", examples=[0.228]
+        default=None, description="Poisson's ratio of the plate [1]", examples=[0.228]
     )
     material: str | None = Field(
-        default=None, description="plate material", examples=["glass", *MATERIALS]
+        default=None, description="name of the plate material", examples=["glass", *MATERIALS]
     )
     edge: Edge = Field(
         default="paper",
-        description="how the plate's edge is held; paper: the paper's edge, elastically restrained",
+        description='support of the edge; "paper": the edge condition of the paper, elastically '
+        "restrained",
         examples=["clamped"],
     )
     density: Positive | None = Field(
@@ -123,7 +126,7 @@ class Plate(Table):
     )
     loss_factor: Annotated[float, Field(ge=0, lt=2)] | None = Field(
         default=None,
-        description="loss factor of the plate's vibration [1], twice each mode's damping ratio",
+        description="loss factor of the plate vibration [1]; twice the damping ratio of each mode",
         examples=[0.01],
     )
     yield_stress: Positive | None = Field(
@@ -135,20 +138,20 @@ class Plate(Table):
 
     @classmethod
     def conflicts(cls, given: Mapping[str, Any]) -> list[str]:
-        """Also what makes the material unstable: no bulk modulus above zero."""
+        """Also reject an unstable material, whose bulk modulus is not positive."""
         problems = super().conflicts(given)
         lam, mu = given.get("lame_lambda"), given.get("lame_mu")
         if is_number(lam) and is_number(mu) and mu > 0 and 3 * lam + 2 * mu <= 0:
             problems.append(
-                "plate.lame_lambda: expected 3 lame_lambda + 2 lame_mu above zero "
-                f"(a positive bulk modulus), got lame_lambda = {shown(lam)} and "
-                f"lame_mu = {shown(mu)}; raise lame_lambda above {-2 * mu / 3:.6g}"
+                "plate.lame_lambda: expected 3 lame_lambda + 2 lame_mu > 0 (a positive bulk "
+                f"modulus), got lame_lambda = {shown(lam)} and "
+                f"lame_mu = {shown(mu)}; increase lame_lambda above {-2 * mu / 3:.6g}"
             )
         return problems
 
 
 class Material(Table):
-    """A material of one's own, which sphere and plate name.
+    """Your own material, to which `material` of sphere and plate refers by name.
 
     Examples
     --------
@@ -162,8 +165,12 @@ class Material(Table):
     ... )
     """
 
-    youngs_modulus: Positive = Field(description="Young's modulus [Pa]", examples=[9.33e9])
-    poissons_ratio: Ratio = Field(description="Poisson's ratio [1]", examples=[0.325])
+    youngs_modulus: Positive = Field(
+        description="Young's modulus of the material [Pa]", examples=[9.33e9]
+    )
+    poissons_ratio: Ratio = Field(
+        description="Poisson's ratio of the material [1]", examples=[0.325]
+    )
     density: Positive = Field(description="density of the material [kg/m^3]", examples=[917.0])
     yield_stress: Positive | None = Field(
         default=None, description="yield stress of the material [Pa]", examples=[235e6]
@@ -173,6 +180,6 @@ class Material(Table):
     )
     source: str | None = Field(
         default=None,
-        description="where the numbers stand",
+        description="source of the constants",
         examples=["data sheet of the manufacturer"],
     )

@@ -1,4 +1,4 @@
-"""What sphere and plate are made of: the values that a table gives itself, else its material's."""
+"""Material constants of sphere and plate: those given in its table, else those of its material."""
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
@@ -17,20 +17,21 @@ from derivation.scene.messages import OWN_MATERIALS, shown
 
 
 class Body(NamedTuple):
-    """What a body is made of.
+    """Material constants of a body.
 
     Attributes
     ----------
     lam, mu
-        Lame constants [Pa]; infinite if it is rigid.
+        Lame constants [Pa]; infinite for a rigid body.
     density
-        Density [kg/m^3]; 0 if it is not known.
+        Density [kg/m^3]; 0 if unknown.
     retardation_time
-        Retardation time [s]; 0 if it is elastic.
+        Retardation time [s]; 0 for an elastic body.
     yield_stress
-        Yield stress [Pa]; infinite if none is known.
+        Yield stress [Pa]; infinite if unknown.
     solid_density
-        Density of its material [kg/m^3], whatever the table says; 0 without a material.
+        Density of its material [kg/m^3], even if the table gives another density; 0 without a
+        material.
     """
 
     lam: float
@@ -42,17 +43,17 @@ class Body(NamedTuple):
 
 
 def own_materials(tables: Mapping[str, Material]) -> dict[str, KnownMaterial]:
-    """The materials that a scene defines."""
+    """Return the materials that a scene defines, by name."""
     return {name: material_of(name, dict(table)) for name, table in tables.items()}
 
 
 def first_given(*values: Any) -> Any:
-    """The first value that is not None."""
+    """Return the first value that is not None."""
     return next(value for value in values if value is not None)
 
 
 def body_of(table: Sphere | Plate, own: Mapping[str, KnownMaterial]) -> Body:
-    """What a body of a valid scene is made of."""
+    """Return the material constants of a body of a valid scene."""
     material = find(table.material, own) if table.material is not None else None
     return Body(
         *_lame_constants(table, material),
@@ -64,7 +65,7 @@ def body_of(table: Sphere | Plate, own: Mapping[str, KnownMaterial]) -> Body:
 
 
 def _lame_constants(table: Sphere | Plate, material: KnownMaterial | None) -> tuple[float, float]:
-    """First and second Lame constant [Pa], as given or from Young's modulus and Poisson's ratio."""
+    """Return both Lame constants [Pa]; infinite for a rigid body."""
     if material is not None:
         return material.lam, material.mu
     if isinstance(table, Plate) and table.lame_lambda is not None and table.lame_mu is not None:
@@ -75,7 +76,7 @@ def _lame_constants(table: Sphere | Plate, material: KnownMaterial | None) -> tu
 
 
 def material_problems(tables: Mapping[str, Any]) -> list[str]:
-    """What is wrong with the materials of a scene, whose tables need not be right."""
+    """Return the problems of the materials of a scene, whose tables may be invalid."""
     given = tables.get(OWN_MATERIALS)
     own = [str(name) for name in given] if isinstance(given, Mapping) else []
     problems = list(_names_alike(own))
@@ -90,22 +91,25 @@ def material_problems(tables: Mapping[str, Any]) -> list[str]:
         elif table == "sphere" and material.density is None and _massless(tables[table]):
             problems.append(
                 f"sphere.material: expected a material of known density, got {shown(name)}; "
-                "add for instance `mass = 72` to [sphere]"
+                "add for example `mass = 72` to [sphere]"
             )
     return problems
 
 
 def _massless(sphere: Mapping[str, Any]) -> bool:
-    """Whether a sphere has neither mass nor density of its own."""
+    """Return whether the table gives neither mass nor density."""
     return sphere.get("mass") is None and sphere.get("density") is None
 
 
 def _names_alike(own: Iterable[str]) -> Iterator[str]:
-    """Names of own materials that are empty, or no different from one another."""
+    """Yield a message for each name of an own material that is empty or not unique."""
     first = dict[str, str]()
     for name in own:
         if not plain(name):
-            yield f"{OWN_MATERIALS}: expected a name with letters or digits, got {shown(name)}"
+            yield (
+                f"{OWN_MATERIALS}: expected a name with letters or digits, got {shown(name)}; "
+                "rename it"
+            )
         elif plain(name) in first:
             yield (
                 f"{OWN_MATERIALS}: expected names that differ in more than case, spaces and "

@@ -1,4 +1,4 @@
-"""Chebyshev's polynomials on [0, 1]: values, coefficients from them, and weighted means."""
+"""Chebyshev polynomials on [0, 1]: values, coefficients, weighted means."""
 
 from functools import lru_cache
 
@@ -10,9 +10,9 @@ from derivation.scene.quadrature import gauss
 
 
 def chebyshev(s: Array, degree: int) -> Array:
-    """Chebyshev's polynomials up to a degree at places of [-1, 1], along a last axis.
+    """Return the Chebyshev polynomials up to a degree at points of [-1, 1], along a last axis.
 
-    Twice as many at a time: 2 T_m T_k = T_(m+k) + T_(m-k).
+    Each step doubles their number by 2 T_m T_k = T_(m+k) + T_(m-k).
     """
     found = np.empty((degree + 1, *s.shape))
     found[0] = 1.0
@@ -27,7 +27,7 @@ def chebyshev(s: Array, degree: int) -> Array:
 
 
 def by_growth(table: Array) -> Array:
-    """Coefficients of x df/dx on [0, 1] from those of f, a column each: x is (1 + T_1)/2."""
+    """Return the coefficients of x df/dx on [0, 1] from those of f (columns); x = (1 + T_1)/2."""
     slopes = np.zeros_like(table)
     slopes[:-1] = 2.0 * chebder(table)
     found = 0.5 * slopes
@@ -39,11 +39,11 @@ def by_growth(table: Array) -> Array:
 
 @lru_cache(maxsize=8)
 def knots(degree: int) -> tuple[Array, Array, Array]:
-    """Chebyshev's points on [0, 1], coefficients from values there, and int_0^1 t^2 f(x t) dt."""
+    """Return Chebyshev points on [0, 1], the matrix of coefficients, and int_0^1 t^2 f(x t) dt."""
     n = 2 * degree
     odd = np.arange(2 * n - 1, 0, -2)
     x = (1.0 + np.cos(np.pi / (2 * n) * odd)) / 2.0
-    # The polynomials, cos(k angle), are orthogonal over the points; whole turns are left out.
+    # The polynomials, cos(k angle), are orthogonal over the points; whole turns are removed.
     turned = np.outer(np.arange(degree + 1), odd) % (4 * n)
     analysis = (2.0 / n) * np.cos(np.pi / (2 * n) * turned)
     analysis[0] *= 0.5

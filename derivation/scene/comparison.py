@@ -1,4 +1,4 @@
-"""Compares a result with the paper's own motion, (14) to (18): only where a scene asks for it."""
+"""Compares a result with the paper's approximate motion, equations (14) to (18), on request."""
 
 import math
 from dataclasses import asdict, dataclass
@@ -14,37 +14,38 @@ HEADS = (
     "motion", "#time [s]", "#difference", "#indentation [m]", "#difference",
     "#valid until [s]", "#t/t_c",
 )  # fmt: skip
-"""Heads of the table."""
+"""Column heads of the table."""
 QUANTITIES = (
     "contact time [s]", "its difference", "max indentation [m]", "its difference",
     "valid until [s]", "valid until t/t_c",
 )  # fmt: skip
 MOTIONS = "quantity", "#linear term (15)", "#as published", "#corrected"
-"""Lines and heads of the table on a screen."""
+"""Column heads of the table as text."""
 MODES = 100
-"""Number of modes in the paper's sums: they diverge, and the paper gives no truncation."""
+"""Number of modes in the paper's sums, which diverge; the paper does not state the truncation."""
 
 
 @dataclass(frozen=True)
 class PaperMotion:
-    """One of the paper's motions.
+    """One of the paper's approximations of the motion.
 
     Attributes
     ----------
     name
-        Which one.
+        Its name.
     contact_time
-        Contact time [s]; None of a correction that breaks before it has a turning point.
+        Contact time [s]; None if the motion becomes invalid before its turning point.
     max_indentation
-        Largest indentation [m]; of a correction up to where it breaks.
+        Largest indentation [m] while the motion is valid.
     contact_time_difference, max_indentation_difference
-        The same over the result's, less 1 [1].
+        Relative differences from the result of the simulation [1].
     breaks_at
-        Time at which the radicand of (17), (18) vanishes [s]; None if none does.
+        Time [s] at which the radicand of (17) and (18) vanishes, and the motion becomes invalid;
+        None if it stays valid.
     share
-        The same over t_c, the time at which the linear motion turns [1].
+        That time over t_c, the time of the turning point of the linear motion [1].
 
-    What is no number is None.
+    Values that are not finite are None.
     """
 
     name: str
@@ -56,7 +57,7 @@ class PaperMotion:
     share: float | None
 
     def cells(self) -> tuple[str, ...]:
-        """The motion as it is shown."""
+        """Return the cells of the motion."""
         return (
             self.name,
             _shown(self.contact_time, ".4g"),
@@ -70,14 +71,14 @@ class PaperMotion:
 
 @dataclass(frozen=True)
 class Comparison:
-    """The paper's motions beside a result.
+    """The paper's approximations of the motion, compared with a result.
 
     Attributes
     ----------
     modes
-        Where their sums, which diverge, are cut off.
+        Number of modes after which their sums, which diverge, are truncated.
     motions
-        The linear term, and its correction as printed and as corrected.
+        The linear term, and its correction as published and with the misprints fixed.
     """
 
     modes: int
@@ -85,35 +86,36 @@ class Comparison:
 
     @property
     def title(self) -> str:
-        """What the table shows."""
-        return f"The paper's own motion, (15) to (18), its sums truncated after {self.modes} modes"
+        """The title of the table."""
+        return f"Motion by the paper's equations (15) to (18), truncated after {self.modes} modes"
 
     @property
     def note(self) -> str:
-        """How to read it."""
+        """A note on how to read the table."""
         return (
-            "For comparison only: the sums diverge. A correction is valid only up to t/t_c of the "
-            "linear motion's time to its turning point. The indentation still grows there, so the "
-            "correction has no contact time; its largest indentation is the last valid one."
+            "For comparison only: the sums diverge. The correction is valid only up to the stated "
+            "fraction of t_c, the time of the turning point of the linear motion. The indentation "
+            "is still growing at that time, so that the correction has no contact time; the "
+            "largest indentation is that at the end of its validity."
         )
 
     def lines(self) -> list[tuple[str, ...]]:
-        """A line for each motion, to be read by people."""
+        """Return the cells of all motions."""
         return [motion.cells() for motion in self.motions]
 
     def to_text(self) -> str:
-        """The motions side by side for a screen, a line for each quantity."""
+        """Return the motions side by side as text, a row for each quantity."""
         _, *columns = zip(*self.lines(), strict=True)
         rows = [[name, *cells] for name, cells in zip(QUANTITIES, columns, strict=True)]
         table = aligned(MOTIONS, rows)
         return f"{paragraph(self.title, 0)}\n\n{table}\n\n{paragraph(self.note, 0)}"
 
     def to_json(self) -> dict[str, Any]:
-        """The comparison under fixed keys."""
+        """Return the comparison under fixed keys."""
         return {"modes": self.modes, "motions": [asdict(motion) for motion in self.motions]}
 
     def to_html(self) -> str:
-        """The table for a notebook."""
+        """Return the table for a notebook."""
         table = html_table(HEADS, self.lines())
         return f"<p>{escape(self.title)}</p>{table}<p>{escape(self.note)}</p>"
 
@@ -121,7 +123,7 @@ class Comparison:
 
 
 def compare(model: Model, contact_time: float, max_indentation: float) -> Comparison:
-    """The paper's motions beside a contact time [s] and a largest indentation [m]."""
+    """Compare the paper's motions with a contact time [s] and a largest indentation [m]."""
 
     def motion_of(name: str, time: float, depth: float, at: float, share: float) -> PaperMotion:
         off = time / contact_time - 1.0, depth / max_indentation - 1.0

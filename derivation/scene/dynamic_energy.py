@@ -1,4 +1,4 @@
-"""Energy balance of an impact on a plate with inertia: each part is integrated."""
+"""Energy balance of an impact on a plate with inertia, each part by integration."""
 
 from dataclasses import replace
 
@@ -24,7 +24,7 @@ def balance_of(history: ImpactHistory) -> EnergyBalance:
     energy = problem.m * problem.v0**2
     pieces = [piece for touching in history.contacts for piece in touching.pieces]
     lost = sum(_sum(piece, LOST) for piece in pieces) if problem.retardation_time else 0.0
-    leak = sum(_sum(piece, LEAK) for piece in pieces) if problem.contact.pointwise else 0.0
+    spurious = sum(_sum(piece, LEAK) for piece in pieces) if problem.contact.pointwise else 0.0
     return EnergyBalance(
         initial_kinetic=0.5 * energy,
         gravity_work=energy * problem.weight * last.displacement,
@@ -33,17 +33,17 @@ def balance_of(history: ImpactHistory) -> EnergyBalance:
         unrecovered_elastic=energy
         * sum(_given_up(problem, touching) for touching in history.contacts),
         plate=energy * float(np.sum(problem.energies(last))),
-        coupling_loss=energy * leak,
+        coupling_loss=energy * spurious,
         damping_loss=energy * _damping_loss(history),
         plastic_loss=problem.yielding.work if problem.yielding else 0.0,
     )
 
 
 def _damping_loss(history: ImpactHistory) -> float:
-    """Energy over m v0^2 that the plate's damping takes, up to the last separation.
+    """Return the energy over m v0^2 dissipated by damping, up to the last separation.
 
-    In contact its power is integrated; in flight, and after the last time element of a contact, the
-    modes vibrate freely.
+    During contact the power is integrated; between contacts, and after the last time element of a
+    contact, the modes vibrate freely.
     """
     problem, found = history.problem, 0.0
     if not problem.damping_ratio:
@@ -59,7 +59,7 @@ def _damping_loss(history: ImpactHistory) -> float:
 
 
 def _given_up(problem: DynamicProblem, touching: Touching) -> float:
-    """Energy over m v0^2 in a viscoelastic contact at its end, less that at its beginning."""
+    """Return the energy over m v0^2 stored in a viscoelastic contact at its end, minus start."""
     if not problem.retardation_time:
         return 0.0
     begun = 0.0
@@ -71,7 +71,7 @@ def _given_up(problem: DynamicProblem, touching: Touching) -> float:
 
 
 def _stored(problem: DynamicProblem, radius: float, state: ImpactState) -> float:
-    """Energy over m v0^2 in a contact: int P dD + sum q_j (P s_j - P_j)."""
+    """Return the energy over m v0^2 stored in a contact: int P dD + sum q_j (P s_j - P_j)."""
     nodes, weights = gauss(NODES[1])
     at = problem.at(problem.a * radius * nodes)
     rest = problem.a * radius * float(weights @ (at.force * at.depth_a))
@@ -82,7 +82,7 @@ def _stored(problem: DynamicProblem, radius: float, state: ImpactState) -> float
 
 
 def _sum(piece: TimeElement, row: int) -> float:
-    """Integral over an element of a row that is a rate by x, by Gauss' rule."""
+    """Return the integral of a row, a rate by x, over a time element by Gauss' rule."""
     nodes, weights = gauss(piece.element.slope.size)
     values = piece.element.at(piece.element.x + piece.element.length * nodes)[row]
     return piece.element.length * float(weights @ values)

@@ -1,8 +1,8 @@
-"""What the edge's model leaves out: measured against a three-dimensional elastic plate.
+"""Model error of a simply supported or clamped edge, measured against three-dimensional elasticity.
 
-The table holds the share of the indentation by h/b, Poisson's ratio and a/b, and by how much
-coarser elements change it, which is added. Between its points the largest of the neighbours
-counts; it is a model error, and stands beside the bound of the computation, never in it.
+The table contains the error relative to the indentation by h/b, Poisson's ratio and a/b, and the
+changes with coarser finite elements, which are added. Between the points of the table the largest
+neighbour counts. It is a model error and is not part of the error bound of the computation.
 """
 
 import json
@@ -16,7 +16,7 @@ from derivation.scene.model import Model
 from derivation.scene.scene import SceneError
 
 LARGEST = 0.01
-"""Share of the indentation above which the model is refused."""
+"""Model error relative to the indentation above which a scene is rejected."""
 _KEYS = ("h_over_b", "nu", "a_over_b")
 _PARTS = ("share_of_indentation", "lower_degree", "fewer_layers")
 
@@ -32,20 +32,20 @@ def _table() -> dict[tuple[Any, ...], float]:
 
 @cache
 def _axes() -> tuple[list[float], ...]:
-    """The points of each axis of the table."""
+    """Return the points of each axis of the table."""
     return tuple(sorted({key[1 + i] for key in _table()}) for i in range(len(_KEYS)))
 
 
 def edge_remainder(model: Model, a: float) -> float:
-    """Largest share of the indentation that the edge's model may be off by at a radius [m].
+    """Return the largest model error of the edge at a contact radius [m], over the indentation [1].
 
-    Thinner plates than the table's, and smaller contacts, count as its first; Poisson's ratio
-    as the nearest.
+    For h/b, a/b and Poisson's ratio below the range of the table, its first values are used; for
+    Poisson's ratio above it, the last one.
 
     Raises
     ------
     SceneError
-        If it exceeds 1 %, or the plate or the contact is beyond the table.
+        If the error exceeds 1 %, or h/b or a/b is above the range of the table.
     """
     kind = "supported" if model.edge == SUPPORTED else "clamped"
     nu = model.lam / (2.0 * (model.lam + model.mu))
@@ -55,22 +55,22 @@ def edge_remainder(model: Model, a: float) -> float:
         if name != "nu" and place[name] > axis[-1]:
             raise SceneError(
                 f"plate.edge: expected {name.replace('_over_', '/')} up to {axis[-1]} for a "
-                f"{model.edge} edge, where its model is measured, got {place[name]:.4g}; "
-                'write edge = "paper", or effects.edge = false'
+                f"{model.edge} edge, the range in which its model error is known, got "
+                f'{place[name]:.4g}; write edge = "paper", or effects.edge = false'
             )
     around = [_neighbours(axis, place[name]) for name, axis in zip(_KEYS, axes, strict=True)]
     found = max(_table()[(kind, *point)] for point in product(*around))
     if found > LARGEST:
         raise SceneError(
-            f"plate.edge: expected a {model.edge} edge whose model is right to 1 % of the "
+            f"plate.edge: expected a model error of the {model.edge} edge of at most 1 % of the "
             f"indentation, got {100 * found:.2g} % at h/b = {model.eta:.4g}, nu = {nu:.3g}, "
-            f"a/b = {a / model.b:.4g}; give a larger plate, or effects.edge = false"
+            f"a/b = {a / model.b:.4g}; use a larger plate, or set effects.edge = false"
         )
     return found
 
 
 def _neighbours(axis: list[float], value: float) -> list[float]:
-    """The one or two points of an axis that a value lies between."""
+    """Return the points of an axis on both sides of a value."""
     below = [x for x in axis if x <= value] or axis[:1]
     above = [x for x in axis if x >= value] or axis[-1:]
     return sorted({below[-1], above[0]})

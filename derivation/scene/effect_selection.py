@@ -1,4 +1,4 @@
-"""Effects table: the effects that a scene requires, as `selection` finds them, and the reasons."""
+"""The effects table: the effects selected for a scene, with parameters, bounds and reasons."""
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
@@ -11,33 +11,37 @@ from derivation.scene.effects.effect import NO_BOUND, Effect
 from derivation.scene.html import html_table
 from derivation.scene.law import ContactLaw
 from derivation.scene.model import Model
-from derivation.scene.omission_bounds import error_of, price_of
+from derivation.scene.omission_bounds import change_of, error_of
 from derivation.scene.scene import OUTPUTS
 from derivation.scene.selection import Selection, select
 
 HEADS = (
     "effect", "parameter", "parameter value", "max. change if omitted", "status", "reason",
 )  # fmt: skip
-"""Heads of the effects table."""
+"""Column heads of the effects table."""
+
+
+SYMBOLS = "a contact radius, b plate radius, h half the plate thickness, H = 2 h, R sphere radius"
+"""Symbols of the parameters."""
 
 
 @dataclass(frozen=True)
 class EffectRow:
-    """An effect's line of the effects table.
+    """A row of the effects table.
 
     Attributes
     ----------
     name, adds
-        The effect, and what it adds.
+        Name of the effect, and what it adds to the model.
     parameter, parameter_value
         Its dimensionless parameter, and the value in this scene [1]; NaN if it does not apply.
     bound
-        Relative change of the results, the worst of them, if it is left out [1]; infinite
-        where no bound is shown.
+        Bound on the largest relative change of a result if the effect is omitted [1]; infinite if
+        there is no bound.
     included
-        Whether it is computed.
+        Whether the effect is included.
     reason
-        The reason.
+        Why it is included or omitted.
     disabled
         Whether the scene disables it.
     """
@@ -52,14 +56,14 @@ class EffectRow:
     disabled: bool = False
 
     def to_json(self) -> dict[str, Any]:
-        """The row under fixed keys; null where there is no value or no bound."""
+        """Return the row under fixed keys; null for no value and for no bound."""
         return {
             name: None if isinstance(value, float) and not math.isfinite(value) else value
             for name, value in vars(self).items()
         }
 
     def cells(self) -> tuple[str, str, str, str, str, str]:
-        """The row as it is shown."""
+        """Return the cells of the row."""
         unknown = math.isnan(self.parameter_value)
         value = "n/a" if unknown else f"{self.parameter_value:.3g}"
         bound = f"{self.bound:.1e}" if self.bound < NO_BOUND else "no bound"
@@ -71,17 +75,17 @@ class EffectRow:
 
 @dataclass(frozen=True)
 class SelectedEffects:
-    """The effects of a simulation: its contact law and the effects table.
+    """The effects of a simulation: contact law and effects table.
 
     Attributes
     ----------
     law
-        The contact law of the effects included.
+        The contact law with the included effects.
     rtol
         The tolerance of the selection [1].
     error
-        Bound on the change of the outputs, the worst of them, by all effects that the selection
-        omitted together [1].
+        Bound on the largest relative change of an output if all effects omitted by the selection
+        were included together [1].
     rows
         The effects table.
     outputs
@@ -96,51 +100,54 @@ class SelectedEffects:
 
     @property
     def forced_out(self) -> tuple[str, ...]:
-        """Effects that apply and that the scene switches off."""
+        """Names of applicable effects that the scene disables."""
         return tuple(row.name for row in self.rows if row.disabled)
 
     @property
     def edge_disabled(self) -> bool:
-        """Whether the scene has another edge than the paper's and switches its effect off."""
+        """Whether the edge differs from the paper's and the scene disables that effect."""
         return any(BY_NAME[name].other_edge for name in self.forced_out)
 
     @property
     def included(self) -> tuple[str, ...]:
-        """Names of the effects included, in the order of the table."""
+        """Names of the included effects, in the order of the table."""
         return tuple(row.name for row in self.rows if row.included)
 
     @property
+    def omits(self) -> bool:
+        """Whether the selection omitted an applicable effect."""
+        return any(row.bound and not (row.included or row.disabled) for row in self.rows)
+
+    @property
     def summary(self) -> str:
-        """The effects included, and what the omitted ones may change."""
-        omitted = any(row.bound and not (row.included or row.disabled) for row in self.rows)
-        others = f"; the omitted ones change the results by at most {self.error:.1e}"
-        return ", ".join(self.included) + (others if omitted else "")
+        """The included effects, and the bound on the change by the omitted ones."""
+        omitted = f"; the omitted effects change the results by at most {self.error:.1e}"
+        return ", ".join(self.included) + (omitted if self.omits else "")
 
     def lines(self) -> list[tuple[str, str, str, str, str, str]]:
-        """The rows as they are shown, under `HEADS`."""
+        """Return the cells of all rows, under `HEADS`."""
         return [row.cells() for row in self.rows]
 
     def to_text(self, run_times: Mapping[str, str] | None = None) -> str:
-        """The effects table for a screen, with parameters and reasons in lines below it.
+        """Return the effects table as text, with parameters and reasons below it.
 
         Parameters
         ----------
         run_times
-            Run times by effect, as they are shown; without them the table has none.
+            Run times by effect, as text; by default the table has no run times.
         """
         heads = ["effect", "#parameter value", "#change if omitted", "status"]
         cells = [[name, *known] for name, _, *known, _ in self.lines()]
         if run_times is not None:
             heads.append("#run time")
             cells = [[*row, run_times.get(row[0], "n/a")] for row in cells]
-        parameters = _grouped((row.name, row.parameter) for row in self.rows)
+        adds = [paragraph(f"  {row.name}: {row.adds}; {row.parameter}", 4) for row in self.rows]
         reasons = _grouped((row.name, row.reason) for row in self.rows)
-        return "\n".join(
-            [aligned(heads, cells), "", "Parameters:", *parameters, "", "Reasons:", *reasons]
-        )
+        title = paragraph(f"Effects and their dimensionless parameters ({SYMBOLS}):", 0)
+        return "\n".join([aligned(heads, cells), "", title, *adds, "", "Reasons:", *reasons])
 
     def to_html(self) -> str:
-        """The effects table for a notebook."""
+        """Return the effects table for a notebook."""
         return html_table(HEADS, self.lines())
 
     _repr_html_ = to_html
@@ -153,23 +160,25 @@ def decide(
     outputs: Sequence[str] = OUTPUTS,
     default: bool = False,
 ) -> SelectedEffects:
-    """Include effects until the tolerance is met, and say why.
+    """Include effects until the tolerance is met, and make the effects table.
 
     Parameters
     ----------
+    model
+        The quantities of the scene.
     wanted
-        "auto", True or False by effect; "auto" if left out.
+        "auto", True or False by effect; "auto" if missing.
     rtol
-        What the effects omitted may change at most, relative [1].
+        Largest relative change of the outputs by the omitted effects [1].
     outputs
-        The results it applies to.
+        The results that the tolerance applies to.
     default
-        Whether nobody gave the tolerance.
+        Whether the tolerance is the default one.
 
     Raises
     ------
     SceneError
-        As `select` does; or if an effect lacks what it takes to compute it.
+        As `select` does; or if a key that an included effect needs is missing.
     """
     found = select(model, wanted, rtol, outputs)
     law = found.state.law
@@ -180,12 +189,12 @@ def decide(
     return SelectedEffects(law, rtol, found.error, tuple(rows), tuple(outputs))
 
 
-def _grouped(told: Iterable[tuple[str, str]]) -> list[str]:
-    """Paragraphs that say the same of several effects at once."""
+def _grouped(texts: Iterable[tuple[str, str]]) -> list[str]:
+    """Return a paragraph for each text, preceded by the names of its effects."""
     names: dict[str, list[str]] = {}
-    for name, text in told:
+    for name, text in texts:
         names.setdefault(text, []).append(name)
-    return [paragraph(f"  {', '.join(found)}: {text}", 4) for text, found in names.items()]
+    return [paragraph(f"  {', '.join(group)}: {text}", 4) for text, group in names.items()]
 
 
 def _row(
@@ -194,7 +203,7 @@ def _row(
     tolerance: str,
     outputs: Sequence[str],
 ) -> EffectRow:
-    """The effect's line, at the largest radius of the law decided on."""
+    """Return the row of an effect, at the largest contact radius of the selected law."""
     state, choice, reasons, error = found.state, found.choice, found.reasons, found.error
     model, name = state.law.model, effect.name
     radius = state.law.limit if math.isnan(state.a) else float(state.a)
@@ -202,18 +211,18 @@ def _row(
     if reasons[name]:
         return EffectRow(name, effect.adds, effect.parameter, math.nan, 0.0, False, reasons[name])
     value = effect.value(model, radius)
-    bound = price_of(state, effect, outputs) if included else error_of(state, [effect], outputs)
+    bound = change_of(state, effect, outputs) if included else error_of(state, [effect], outputs)
     if effect.always_included:
-        why = "always"
+        why = "always included"
     elif choice[name] != "auto":
         worst = max(outputs, key=lambda output: error_of(state, [effect], [output]))
         why = _forced(bool(choice[name]), bound, worst)
     elif name in found.required:
         why = f"required by {found.required[name]}"
     elif name in found.blocked:
-        why = f"cannot be included: {found.blocked[name]} is disabled in the scene"
+        why = f"cannot be included, because the scene disables {found.blocked[name]}"
     elif included:
-        why = f"omitted it could exceed {tolerance}"
+        why = f"the error bound without it exceeds {tolerance}"
     else:
         why = f"all omitted effects together change the results by at most {error:.1e}"
     disabled = choice[name] is False and effect.selectable
@@ -221,9 +230,9 @@ def _row(
 
 
 def _forced(included: bool, bound: float, output: str) -> str:
-    """What the scene's own choice means, and in which result most."""
+    """Return the reason for a choice of the scene, with the result that changes most."""
     if included:
-        return "true in the scene"
+        return "enabled in the scene"
     if bound < NO_BOUND:
         return f"disabled in the scene: changes {output} by at most {100 * bound:.2g} %"
     return "disabled in the scene: no bound available"

@@ -1,12 +1,13 @@
-"""The example scenes of the package: their names, what each one shows, and copies of them."""
+"""The example scenes of the package: names, descriptions, copies."""
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from derivation.engine.files import write_files
+from derivation.engine.nearest import did_you_mean, nearest
 from derivation.scene.errors import SceneError
-from derivation.scene.messages import nearest, shown
+from derivation.scene.messages import shown
 
 FOLDER = Path(__file__).parent / "examples"
 
@@ -47,14 +48,14 @@ def copy(names: Sequence[str], folder: Path, replace: bool = False) -> tuple[Exa
     names
         Names of examples, with or without the ending ``.toml``.
     folder
-        Where the copies are written; it is made if it does not exist.
+        Folder of the copies; it is created if it does not exist.
     replace
-        Whether files that exist are replaced.
+        Whether existing files are replaced.
 
     Raises
     ------
     SceneError
-        If there is no example of a name, or a file exists that may not be replaced.
+        If a name is unknown, or a file exists and `replace` is False.
     OSError
         If the folder cannot be written to.
     """
@@ -63,8 +64,8 @@ def copy(names: Sequence[str], folder: Path, replace: bool = False) -> tuple[Exa
     there = [str(path) for path in targets if path.exists()]
     if there and not replace:
         raise SceneError(
-            f"examples: expected no file of that name yet, got {', '.join(there)}; "
-            "add --out DIR to write into another folder, or --force to replace the file"
+            f"examples: {', '.join(there)} exists already; add --out DIR to write into another "
+            "folder, or --force to replace it"
         )
     write_files({path: source.read_bytes() for path, source in targets.items()})
     return tuple(_example(path) for path in targets)
@@ -75,10 +76,9 @@ def _named(name: str) -> Example:
     known = examples()
     found = known.get(name.removesuffix(".toml"))
     if found is None:
-        near = nearest(name.removesuffix(".toml"), known)
-        meant = f"did you mean {near}? " if near else ""
+        near = did_you_mean(name.removesuffix(".toml"), known)
         raise SceneError(
-            f"examples: expected the name of an example, got {shown(name)}; {meant}"
+            f"examples: expected the name of an example, got {shown(name)}; {near}"
             "`platecontact examples` lists them"
         )
     return found
@@ -88,3 +88,15 @@ def _example(path: Path) -> Example:
     """Return the example of a scene file."""
     first = path.read_text(encoding="utf-8").partition("\n")[0]
     return Example(path.stem, first.removeprefix("#").strip(), path)
+
+
+def remedy(path: Path) -> str:
+    """Return what to do about a scene file that cannot be read: the nearest file or example."""
+    if path.exists():
+        return "check that it is a file and that you may read it"
+    folder = path.parent if path.parent.is_dir() else Path()
+    for near in nearest(path.stem, sorted(file.stem for file in folder.glob("*.toml"))):
+        return f"did you mean {folder / near}.toml?"
+    for near in nearest(path.stem, examples()):
+        return f"check its name, or run `platecontact examples {near}` to copy the example"
+    return "check its name"

@@ -1,4 +1,4 @@
-"""Explains a scene: which effects it requires, by which parameters, and their evaluation times."""
+"""Explains a scene: the required effects with parameters, error bounds and evaluation times."""
 
 import math
 import time
@@ -22,17 +22,17 @@ from derivation.scene.scene import OUTPUTS, Scene
 
 @dataclass(frozen=True)
 class Explanation:
-    """The effects table of a scene; nothing is simulated.
+    """The effects table of a scene, computed without a simulation.
 
     Attributes
     ----------
     effects
-        The effects included, and the effects table.
+        The included effects, and the effects table.
     evaluation_times
-        Time to evaluate a law with each included effect alone at an impact's nodes, measured now
-        [s].
+        Measured time [s] to evaluate the law with each included effect alone at the nodes of an
+        impact.
     notes
-        What else to know.
+        Remarks about plate inertia.
     """
 
     effects: SelectedEffects
@@ -40,7 +40,7 @@ class Explanation:
     notes: tuple[str, ...]
 
     def details(self) -> str:
-        """The decision, then the effects table with the run time of each effect."""
+        """Return the selected effects, then the effects table with run times."""
         times = {
             name: " ".join(prefixed(seconds, "s", RUN_TIME_DIGITS))
             for name, seconds in self.evaluation_times.items()
@@ -48,26 +48,27 @@ class Explanation:
         return f"{paragraph(str(self), 0)}\n\n{self.effects.to_text(times)}"
 
     def __str__(self) -> str:
-        """The decision in a sentence."""
+        """Return the selected effects and the error bound of the omitted ones."""
         effects = ", ".join(self.effects.included)
-        of = "each result"
+        results = "each result"
         if self.effects.outputs != OUTPUTS:
-            of = "each of " + ", ".join(name.replace("_", " ") for name in self.effects.outputs)
-        omitted = any(row.bound and not (row.included or row.disabled) for row in self.effects.rows)
-        said = (
-            f"The omitted effects change {of} by at most {self.effects.error:.1e} "
+            results = "each of " + ", ".join(
+                name.replace("_", " ") for name in self.effects.outputs
+            )
+        omitted = (
+            f"The omitted effects change {results} by at most {self.effects.error:.1e} "
             f"(tolerance {self.effects.rtol:.3g})."
-            if omitted
+            if self.effects.omits
             else "No applicable effect was omitted automatically."
         )
         disabled = ", ".join(
             f"{row.name} ({_change(row.bound)})" for row in self.effects.rows if row.disabled
         )
         more = f" The scene disables {disabled}." if disabled else ""
-        return f"Included effects: {effects}. {said}{more}"
+        return f"Included effects: {effects}. {omitted}{more}"
 
     def to_json(self) -> dict[str, Any]:
-        """Decision and table under fixed keys; evaluation times differ from run to run."""
+        """Return effects, bound and table under fixed keys; evaluation times vary between runs."""
         return {
             "included": list(self.effects.included),
             "rtol": self.effects.rtol,
@@ -78,19 +79,19 @@ class Explanation:
         }
 
     def _repr_html_(self) -> str:
-        """The table for a notebook."""
+        """Return the effects table for a notebook."""
         return f"<p>{escape(str(self))}</p>{self.effects.to_html()}"
 
 
 def _change(bound: float) -> str:
-    """What disabling an effect changes at most."""
+    """Return the bound on the change by a disabled effect, in words."""
     return f"changes the results by at most {bound:.1e}" if bound < NO_BOUND else "no bound"
 
 
 RUN_TIME_DIGITS = 2
 """Significant digits of a run time that are shown."""
 REPEATS, SHORT = 3, 1e-3
-"""How often a term is timed, of which the least counts, unless once takes longer [s]."""
+"""Number of timings, of which the least counts, and duration [s] above which one is enough."""
 
 
 def explain(scene: Scene, rtol: float | None = None) -> Explanation:
@@ -101,12 +102,28 @@ def explain(scene: Scene, rtol: float | None = None) -> Explanation:
     scene
         The scene, as `load` returns it.
     rtol
-        Relative tolerance [1]; without it that of the scene counts, or else 1e-3.
+        Relative tolerance [1]; by default that of the scene, or 1e-3 if the scene has none.
+
+    Returns
+    -------
+    Explanation
+        The effects with parameters, error bounds and reasons.
 
     Raises
     ------
     SceneError
-        If the tolerance is not between 1e-13 and 1.
+        If the tolerance is not between 1e-13 and 1, or an effect cannot be computed.
+
+    Examples
+    --------
+    >>> import platecontact as pc
+    >>> scene = pc.Scene(
+    ...     sphere=pc.Sphere(radius=0.01, material="steel"),
+    ...     plate=pc.Plate(radius=0.3, thickness=0.05, material="glass"),
+    ...     impact=pc.Impact(speed=1.0),
+    ... )
+    >>> "inertia" in pc.explain(scene).effects.included
+    True
     """
     _, selected = selected_effects(scene, rtol)
     law = selected.law
@@ -117,9 +134,9 @@ def explain(scene: Scene, rtol: float | None = None) -> Explanation:
 
 
 def _evaluation_time(law: ContactLaw, effect: Effect) -> float:
-    """Time [s] that a law with this effect alone takes at an impact's nodes.
+    """Return the time [s] to evaluate the law with one effect alone at the nodes of an impact.
 
-    Of plate inertia that of its modes and tables.
+    For plate inertia, the time to compute its modes and tables.
     """
     a = rule(NODES[0]).x * min(law.limit, law.model.h)
     alone = law.only(lambda e: e.always_included or e == effect)
@@ -140,23 +157,26 @@ def _evaluation_time(law: ContactLaw, effect: Effect) -> float:
 
 
 def _inertia(selected: SelectedEffects) -> str:
-    """What can be said of the plate's inertia before the impact is computed."""
+    """Return a remark about plate inertia, before the impact is computed."""
     law, model = selected.law, selected.law.model
     if law.dynamic:
         from derivation.scene.mode_count import count_of
 
-        plate = f"{2 * count_of(law)} bending modes to begin with"
+        modes = f"the simulation starts with {2 * count_of(law)} bending modes"
         if model.inertia.infinite_plate:
-            plate += ", on a plate too large for a wave to return from its edge"
-        number = f"Zener's number lambda = {zener_number(model):.3g}"
-        return f"The plate's inertia is included: {number}; {plate}."
+            modes += ", on a plate so large that no wave returns from its edge"
+        return f"Plate inertia is included: Zener parameter {zener_number(model):.3g}; {modes}."
     if not model.density:
         [row] = [row for row in selected.rows if BY_NAME[row.name].dynamic]
         if row.bound and row.name not in selected.forced_out:
-            return "The plate's inertia is omitted by its bound, whatever the plate's density."
-        return "The plate's inertia is not judged: no plate.density or material of known density."
+            return (
+                "Plate inertia is omitted: its error bound is small for any density of the plate."
+            )
+        return (
+            "Plate inertia cannot be assessed because the density of the plate is unknown; give "
+            "plate.density or a material with known density."
+        )
     return (
-        f"The plate's inertia is omitted: Zener's number lambda = {zener_number(model):.3g} "
-        f"(small: below {ZENER_LIMIT}); simulate also compares the contact time with the first "
-        "bending period."
+        f"Plate inertia is omitted: Zener parameter {zener_number(model):.3g} (negligible below "
+        f"{ZENER_LIMIT}); `simulate` also compares the contact time with the first bending period."
     )

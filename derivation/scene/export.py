@@ -1,4 +1,4 @@
-"""Results for pandas and xarray: the history as a table, all of a result as a data set."""
+"""Exports results to pandas (time history) and xarray (results and time history)."""
 
 import json
 from typing import TYPE_CHECKING, Any
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 def data_frame(result: Result, n: int | None = None) -> "pd.DataFrame":
-    """Return the history of an impact over time [s]; its `attrs` hold the units.
+    """Return the history of an impact over time [s]; the units are in `attrs`.
 
     Parameters
     ----------
@@ -31,10 +31,10 @@ def data_frame(result: Result, n: int | None = None) -> "pd.DataFrame":
 
 
 def data_set(result: Result, n: int | None = None) -> "xr.Dataset":
-    """Return results without dimension and the history over time, each with its unit.
+    """Return results as scalars and the history over time, each with its unit.
 
-    The attributes of the set are the error bound, the model error, the warnings and, as JSON, the
-    scene.
+    The attributes of the data set are the error bound, the model error, the warnings and the scene
+    as JSON.
 
     Parameters
     ----------
@@ -77,5 +77,5 @@ def data_set(result: Result, n: int | None = None) -> "xr.Dataset":
 
 
 def _labels(name: str, unit: str) -> dict[str, str]:
-    """Attributes by which xarray labels axes."""
+    """Return the attributes that xarray uses as axis labels."""
     return {"long_name": name.replace("_", " "), "units": unit}

@@ -1,4 +1,4 @@
-"""Time histories of an impact and pressures of a contact: arrays, CSV and notebook tables."""
+"""Time histories of an impact and pressure of a contact: arrays, CSV, tables for notebooks."""
 
 from collections.abc import Mapping
 from typing import NamedTuple
@@ -11,9 +11,9 @@ from derivation.scene.html import html_table
 Array = NDArray[np.float64]
 
 POINTS = 201
-"""Times of a history, if not said otherwise."""
+"""Default number of times of a history."""
 SHOWN = 12
-"""Rows of a history that a notebook shows."""
+"""Number of rows of a history that a notebook shows."""
 HISTORY_UNITS = {
     "time": "s",
     "indentation": "m",
@@ -47,11 +47,11 @@ class History(NamedTuple):
     force: Array
 
     def to_csv(self) -> str:
-        """The history as CSV, one line per time, numbers to the last bit."""
+        """Return the history as CSV in SI units, one line per time, with all digits."""
         return _csv(self._asdict())
 
     def _repr_html_(self) -> str:
-        """Some of its times as a table for a notebook."""
+        """Return a table of some of the times for a notebook."""
         return _some_rows(self._asdict())
 
 
@@ -69,9 +69,9 @@ class DynamicHistory(NamedTuple):
     force
         Contact force [N].
     deflection
-        Of the plate's modes at the axis [m].
+        Deflection of the plate at the axis [m], sum of the modes.
     plate_energy
-        Energy of the plate's modes [J].
+        Energy of the plate vibration [J].
     """
 
     time: Array
@@ -83,16 +83,16 @@ class DynamicHistory(NamedTuple):
     plate_energy: Array
 
     def to_csv(self) -> str:
-        """The history as CSV, one line per time, numbers to the last bit."""
+        """Return the history as CSV in SI units, one line per time, with all digits."""
         return _csv(self._asdict())
 
     def _repr_html_(self) -> str:
-        """Some of its times as a table for a notebook."""
+        """Return a table of some of the times for a notebook."""
         return _some_rows(self._asdict())
 
 
 def _some_rows(columns: Mapping[str, Array]) -> str:
-    """At most a dozen rows, evenly chosen, first and last among them, and how many there are."""
+    """Return a table of at most 12 evenly spaced rows, with first and last."""
     count = len(columns["time"])
     chosen = np.unique(np.linspace(0, count - 1, min(count, SHOWN)).round().astype(int))
     heads = [f"{name.replace('_', ' ')} [{HISTORY_UNITS[name]}]" for name in columns]
@@ -107,14 +107,14 @@ def _csv(columns: Mapping[str, Array]) -> str:
 
 
 class Pressures(NamedTuple):
-    """Pressure of a contact.
+    """Pressure over the distance from the axis of a contact.
 
     Attributes
     ----------
     distance
         Distance from the axis [m].
     pressure, hertz
-        Contact pressure and Hertz's of the same force [Pa], 0 outside the contact.
+        Contact pressure, and Hertz's pressure of the same force [Pa]; 0 outside the contact.
     """
 
     distance: Array

@@ -1,4 +1,4 @@
-"""Simulates an impact: from the scene to contact time, indentation, force and their history."""
+"""Simulates an impact: from a scene to contact time, indentation, force and error bound."""
 
 import math
 from collections.abc import Iterable
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from derivation.scene.wave_motion import DynamicImpact
 
 DEFAULT = 1e-3
-"""What effects may change if they are to be left out and no tolerance is given [1]."""
+"""Tolerance of the effect selection if the scene has no tolerance [1]."""
 
 
 def simulate(
@@ -43,37 +43,49 @@ def simulate(
     scene
         The scene, as `load` returns it.
     times
-        Times after first contact [s] at which `Result.history` is to be given; without them
-        it covers the contact evenly.
+        Times after first contact [s], of any shape, at which `Result.history` is evaluated; by
+        default times evenly spaced over the contact.
     rtol
-        Relative tolerance of the results [1]: of effects and methods the cheapest are taken
-        whose bounds meet it. Without it that of the scene counts; without that too effects
-        may change 1e-3, and the law that they leave is computed by the full method.
-        The history is by the full method always.
+        Relative tolerance of the results [1], from 1e-13 to 1: the fastest combination of effects
+        and method whose error bound meets it is used. By default the tolerance of the scene; if
+        the scene has none, omitted effects may change the results by 1e-3, and the remaining law
+        is evaluated by the full method. The history always uses the full method.
 
     Returns
     -------
     Result
-        Contact time [s], largest indentation [m], force [N] and contact radius [m], with the
-        method and the bound of its error.
+        Contact time [s], largest indentation [m], force [N] and contact radius [m], restitution
+        [1], with the method and its error bound.
 
     Raises
     ------
     SceneError
-        If the impact leaves the contact law's range, a time lies outside the contact, or the
-        tolerance is not between 1e-13 and 1.
+        If the impact exceeds the range of the contact law, a time lies outside the contact, or the
+        tolerance is not between 1e-13 and 1 or cannot be met.
+
+    Examples
+    --------
+    >>> import platecontact as pc
+    >>> scene = pc.Scene(
+    ...     sphere=pc.Sphere(radius=0.01, material="steel"),
+    ...     plate=pc.Plate(radius=0.3, thickness=0.05, material="glass"),
+    ...     impact=pc.Impact(speed=1.0),
+    ... )
+    >>> result = pc.simulate(scene)
+    >>> print(f"{result.max_force:.3g} N, {result.restitution:.2f}")
+    857 N, 0.97
     """
     rtol, selected = selected_effects(scene, rtol)
     numbers, accuracy = solve_selected(selected, rtol)
     contact_time, delta, force, a, _ = numbers
     law, model = selected.law, selected.law.model
-    check_radius(law, a, "impact.speed", "lower the speed")
+    check_radius(law, a, "impact.speed", "reduce the speed")
     motion = dynamic_impact(selected, rtol) if law.dynamic else None
     pressure = min(law.max_pressure(a), law.pressure_limit)
     model_error = _model_error(selected, a, motion)
-    share = 1.0 - float(local_indentation(law, a)) / delta
+    fraction = 1.0 - float(local_indentation(law, a)) / delta
     deflection = motion.largest_deflection(law) if motion is not None else None
-    neglected = neglects_inertia(model, contact_time, share, motion is not None)
+    neglected = neglects_inertia(model, contact_time, fraction, motion is not None)
     strength, yield_stress = scene.plate.tensile_strength, _known(model.plate_yield_stress)
     stress = math.nan
     if strength is not None or yield_stress is not None:
@@ -100,32 +112,32 @@ def warnings_of(
     deflection: float | None = None,
     known: PlateTimes | None = None,
 ) -> tuple[str, ...]:
-    """What to know about an impact, but for its contacts one by one.
+    """Return the warnings about an impact, except those about single contacts.
 
     Parameters
     ----------
     contact_time, delta, a, pressure
         Contact time [s], and largest indentation [m], contact radius [m] and pressure [Pa].
     stress, strength
-        Largest tensile stress on the back face and the plate's strength [Pa], if it is given.
+        Largest tensile stress on the back face, and tensile strength of the plate [Pa], if given.
     deflection
-        Largest deflection of the plate [m], if its motion was computed.
+        Largest deflection of the plate [m], if plate inertia is included.
     known
-        The plate's times, if they are known already.
+        Characteristic times of the plate, if they have been computed.
     """
-    model, moves = law.model, deflection is not None
-    share = 1.0 - float(local_indentation(law, a)) / delta
+    model, dynamic = law.model, deflection is not None
+    fraction = 1.0 - float(local_indentation(law, a)) / delta
     return (
         *hollow_warnings(model),
         *warnings_at(law, a, delta, deflection),
-        *motion_warnings(model, contact_time, share, moves, known),
+        *motion_warnings(model, contact_time, fraction, dynamic, known),
         *_yield_warnings(law, a, pressure),
         *stress_warnings(stress, strength, _known(model.plate_yield_stress)),
     )
 
 
 def _yield_warnings(law: ContactLaw, a: float, pressure: float) -> tuple[str, ...]:
-    """Whether a body yields that the law takes for elastic, or far beyond what the law covers."""
+    """Return warnings about yielding that the law neglects or does not cover."""
     if law.plastic:
         return impact_warnings(law, a)
     model = law.model
@@ -134,12 +146,12 @@ def _yield_warnings(law: ContactLaw, a: float, pressure: float) -> tuple[str, ..
 
 
 def _known(stress: float) -> float | None:
-    """A yield stress [Pa], None if it is not known."""
+    """Return a yield stress [Pa]; None if it is unknown."""
     return stress if math.isfinite(stress) else None
 
 
 def _model_error(selected: SelectedEffects, a: float, motion: "DynamicImpact | None") -> float:
-    """The largest model error of the outputs [1]: of the edge, and of the plate's inertia."""
+    """Return the largest relative model error of the outputs, of edge and plate inertia."""
     model, other_edge = selected.law.model, selected.law.other_edge
     if motion is None:
         return edge_remainder(model, a) if other_edge else 0.0
@@ -147,7 +159,7 @@ def _model_error(selected: SelectedEffects, a: float, motion: "DynamicImpact | N
     size = max(found[name] for name in selected.outputs)
     from derivation.scene.waves import echo_time
 
-    # Before a wave has come back the edge has no effect.
+    # The edge has no effect before a wave has returned from it.
     if other_edge and motion.inertia.total_time > echo_time(motion.law.model):
         size = max(size, edge_remainder(model, a))
     return size
@@ -156,7 +168,7 @@ def _model_error(selected: SelectedEffects, a: float, motion: "DynamicImpact | N
 def selected_effects(
     scene: Scene, rtol: float | None = None
 ) -> tuple[float | None, SelectedEffects]:
-    """The tolerance that applies, and the effects that it requires; nothing is simulated.
+    """Return the tolerance of a scene and the effects that it requires, without a simulation.
 
     Raises
     ------
@@ -167,12 +179,12 @@ def selected_effects(
     if scene.accuracy is not None:
         outputs = scene.accuracy.outputs
         rtol = scene.accuracy.rtol if rtol is None else rtol
-    wanted, share = scene.effects.model_dump(), selection_tolerance(rtol)
-    return rtol, decide(model_of(scene), wanted, share, outputs, default=rtol is None)
+    wanted, tolerance = scene.effects.model_dump(), selection_tolerance(rtol)
+    return rtol, decide(model_of(scene), wanted, tolerance, outputs, default=rtol is None)
 
 
 def selection_tolerance(rtol: float | None) -> float:
-    """What the effects omitted may change, of a tolerance, or if none is given [1].
+    """Return the tolerance of the effect selection [1], from that of the results or by default.
 
     Raises
     ------

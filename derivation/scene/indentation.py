@@ -1,8 +1,8 @@
-"""Presses the sphere into the plate by a given contact radius, force or indentation.
+"""Computes static contacts from given contact radii, forces or indentations.
 
-Every effect that applies to a static contact is included, unless the scene says false: there
-none of them costs time worth saving. Force and indentation are turned into radii by Newton's
-iteration in logarithms.
+Every effect that applies to a static contact is included unless the scene disables it, because none
+of them takes much time. Radii follow from forces and indentations by Newton's iteration in
+logarithms.
 """
 
 import math
@@ -33,7 +33,7 @@ UNITS = {"contact_radius": "m", "force": "N", "indentation": "m"}
 HEADS = (
     "#radius [m]", "#indentation [m]", "#force [N]", "#stiffness [N/m]", "#max. pressure [Pa]",
 )  # fmt: skip
-"""Heads of the table of contacts."""
+"""Column heads of the table of contacts."""
 _STEPS, _CLOSE = 60, 4e-16
 Values = float | Iterable[float]
 
@@ -45,15 +45,15 @@ class StaticContact:
     Attributes
     ----------
     contact_radius, indentation
-        In m.
+        Contact radius and indentation [m].
     force
         Contact force [N].
     stiffness
-        Growth of the force with the indentation [N/m].
+        Derivative of the force by the indentation [N/m].
     max_pressure
-        Pressure in the middle of the contact [Pa].
+        Pressure at the centre of the contact [Pa].
     warnings
-        What to know about the row.
+        Warnings about validity.
     """
 
     contact_radius: float
@@ -64,25 +64,25 @@ class StaticContact:
     warnings: tuple[str, ...] = ()
 
     def to_json(self) -> dict[str, Any]:
-        """The row as it stands in JSON."""
+        """Return the contact under fixed keys, in SI units."""
         return asdict(self) | {"warnings": list(self.warnings)}
 
 
 class StaticContacts(tuple[StaticContact, ...]):
-    """Contacts in the order asked for."""
+    """Static contacts, in the order of the given values."""
 
     __slots__ = ()
 
     def rows(self) -> list[list[str]]:
-        """The contacts as they are shown, under `HEADS`, in SI."""
+        """Return the cells of the table, under `HEADS`, in SI units."""
         return [[f"{x:.6g}" for x in list(asdict(c).values())[: len(HEADS)]] for c in self]
 
     def __str__(self) -> str:
-        """Table for a screen."""
+        """Return the table as text."""
         return aligned(HEADS, self.rows())
 
     def _repr_html_(self) -> str:
-        """Table for a notebook, warnings below it."""
+        """Return the table for a notebook, with the warnings below it."""
         texts = dict.fromkeys(text for contact in self for text in contact.warnings)
         return html_table(HEADS, self.rows()) + "".join(
             f"<p><b>Warning:</b> {escape(text)}</p>" for text in texts
@@ -96,28 +96,41 @@ def indent(
     force: Values | None = None,
     indentation: Values | None = None,
 ) -> StaticContacts:
-    """Press the sphere in statically; exactly one of the three is to be given.
+    """Compute static contacts; give exactly one of contact_radius, force and indentation.
 
     Parameters
     ----------
     scene
-        The scene, as `load` returns it; its speed and mass play no part.
+        The scene, as `load` returns it; its speed and mass have no effect.
     contact_radius
-        Contact radii [m].
+        Contact radii [m], a positive number or an iterable of positive numbers.
     force
-        Contact forces [N].
+        Contact forces [N], likewise.
     indentation
-        Indentations [m].
+        Indentations [m], likewise.
 
     Returns
     -------
-    Contacts
-        A tuple: one row for each value, in the order given.
+    StaticContacts
+        A tuple with a `StaticContact` for each value, in the given order.
 
     Raises
     ------
     SceneError
-        If not exactly one is given, or a value is none the contact law covers.
+        If not exactly one of the three is given, or a value is outside the range of the contact
+        law.
+
+    Examples
+    --------
+    >>> import platecontact as pc
+    >>> scene = pc.Scene(
+    ...     sphere=pc.Sphere(radius=0.01, material="steel"),
+    ...     plate=pc.Plate(radius=0.3, thickness=0.05, material="glass"),
+    ...     impact=pc.Impact(speed=1.0),
+    ... )
+    >>> [contact] = pc.indent(scene, force=100.0)
+    >>> print(f"{contact.indentation:.2g} m")
+    9.1e-06 m
     """
     choices = {"contact_radius": contact_radius, "force": force, "indentation": indentation}
     given = [(name, values) for name, values in choices.items() if values is not None]
@@ -125,17 +138,17 @@ def indent(
         got = " and ".join(name for name, _ in given) or "none"
         raise SceneError(
             "indent: expected exactly one of contact_radius, force and indentation, "
-            f"got {got}; give one"
+            f"got {got}; {'remove all but one' if given else 'add one of them'}"
         )
     [(name, values)] = given
-    law = law_at_rest(scene)
+    law = static_law(scene)
     numbers = _numbers(name, values)
-    with np.errstate(all="ignore"):  # extreme scenes end in NaN, which is looked for
+    with np.errstate(all="ignore"):  # extreme scenes give NaN, which is checked
         return StaticContacts(_contact(law, name, value) for value in numbers)
 
 
-def law_at_rest(scene: Scene) -> ContactLaw:
-    """The law of every effect that applies to a static contact and is not false."""
+def static_law(scene: Scene) -> ContactLaw:
+    """Return the law with every effect that applies to a static contact and is not disabled."""
     model, wanted = model_of(scene), scene.effects.model_dump()
     present = (
         effect.name
@@ -146,33 +159,37 @@ def law_at_rest(scene: Scene) -> ContactLaw:
 
 
 def _numbers(name: str, values: Values) -> list[float]:
-    """The values, each a positive number."""
+    """Return the given values after checking that each is a positive number."""
     listed = list(values) if isinstance(values, Iterable) else [values]
     if not listed or isinstance(values, str):
         got = "a string" if isinstance(values, str) else "none"
         raise SceneError(
             f"{name}: expected one or more positive numbers [{UNITS[name]}], got {got}; "
-            f"write for instance {name} = [0.001]"
+            f"write for example {name} = [0.001]"
         )
     for value in listed:
         number = isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
         if not number or not 0 < value < float("inf"):
             raise SceneError(
                 f"{name}: expected positive numbers [{UNITS[name]}], got {shown(value)}; "
-                "leave it out or correct it"
+                "correct or remove it"
             )
     return [float(value) for value in listed]
+
+
+def _in_words(name: str) -> str:
+    return name.replace("_", " ")
 
 
 def _contact(law: ContactLaw, name: str, value: float) -> StaticContact:
     model = law.model
     given = name == "contact_radius" and not law.plastic
     a = value if given else _radius(law, name, value)
-    check_radius(law, a, f"{name} = {value:.6g} {UNITS[name]}", f"give a smaller {name}")
+    check_radius(law, a, f"{name} = {value:.6g} {UNITS[name]}", f"reduce the {_in_words(name)}")
     at = _loaded(law, a)
     pressure = min(law.max_pressure(a), law.pressure_limit)
     check_numbers(model, *at, pressure)
-    # What was given is returned as it was given, not after a trip through its inverse.
+    # The given value is returned unchanged, without the rounding errors of the inversion.
     found = {"contact_radius": at.radius, "indentation": at.depth, "force": at.force} | {
         name: value
     }
@@ -185,9 +202,9 @@ def _contact(law: ContactLaw, name: str, value: float) -> StaticContact:
 
 
 class _Loaded(NamedTuple):
-    """Contact radius [m], force [N], indentation [m] and stiffness [N/m] of a contact.
+    """Contact radius [m], force [N], indentation [m] and stiffness [N/m] of a static contact.
 
-    And the slopes of the first three by the radius of the elastic law.
+    `radius_a`, `force_a` and `depth_a` are derivatives by the contact radius of the elastic law.
     """
 
     radius: float
@@ -200,7 +217,7 @@ class _Loaded(NamedTuple):
 
 
 def _loaded(law: ContactLaw, a: float) -> _Loaded:
-    """The contact pressed in to a radius [m] of the elastic law; one that yields is wider."""
+    """Return the contact at a radius [m] of the elastic law; a yielding contact is wider."""
     radii = np.array([a])
     shape: Shape = law.at(radii)
     stiffness, depth_a = law.stiffness(radii, shape), 2.0 * shape.slope * (radii / law.model.R)
@@ -218,19 +235,20 @@ def _loaded(law: ContactLaw, a: float) -> _Loaded:
 
 
 def _radius(law: ContactLaw, name: str, value: float) -> float:
-    """Contact radius [m] of a force or an indentation.
+    """Return the contact radius [m] of the elastic law for a force, indentation or radius.
 
     Raises
     ------
     SceneError
-        If it is beyond the law's range, or the law gives no number.
+        If the value exceeds the range of the law, or the law gives no finite number.
     """
     R, last = law.model.R, last_radius(law)
     largest, _ = _with_slope(law, name, last)
     if not value < largest:
         raise SceneError(
             f"{name}: expected less than {largest:.6g} {UNITS[name]}, where the contact radius "
-            f"reaches {law.limit_in_words}, got {value:.6g} {UNITS[name]}; give a smaller {name}"
+            f"reaches {law.limit_in_words}, got {value:.6g} {UNITS[name]}; "
+            f"reduce the {_in_words(name)}"
         )
     a = value if name == "contact_radius" else math.sqrt(R) * math.sqrt(value)
     if name == "force":
@@ -247,7 +265,7 @@ def _radius(law: ContactLaw, name: str, value: float) -> float:
 
 
 def _with_slope(law: ContactLaw, name: str, a: float) -> tuple[float, float]:
-    """A quantity at a radius [m] of the elastic law, and its elasticity d log/d log a [1]."""
+    """Return a quantity at a radius [m] of the elastic law, and d log(quantity)/d log(a) [1]."""
     at = _loaded(law, a)
     value, slope = {
         "indentation": (at.depth, at.depth_a),

@@ -1,47 +1,48 @@
-"""Keys of a scene file that hold numbers: their meaning, and a scene with other numbers."""
+"""Keys of a scene file with numeric values: their descriptions, and scenes with other values."""
 
 from collections.abc import Mapping
 from typing import Any
 
 from pydantic.fields import FieldInfo
 
-from derivation.scene.messages import OWN_MATERIALS, nearest
+from derivation.engine.nearest import did_you_mean
+from derivation.scene.messages import OWN_MATERIALS
 from derivation.scene.old_names import new_key
 from derivation.scene.scene import TABLES, Material, Scene, SceneError
 from derivation.scene.table import Table, is_number
 
-EXAMPLE = "write for instance plate.thickness=1e-3:1e-2:50"
-"""A sweep of a key."""
+EXAMPLE = "write for example plate.thickness=1e-3:1e-2:50"
+"""Example of a sweep."""
 
 
 def number_key(place: str) -> tuple[str, str]:
-    """The table and the key of a number of the scene file, from `table.key`.
+    """Return table and key of a numeric key `table.key`.
 
     Raises
     ------
     SceneError
-        If there is no such number; the message suggests the nearest key.
+        If no numeric key has that name; the message suggests the nearest key.
     """
     place = new_key(place.strip())
     table, _, key = place.rpartition(".")
     known = table_of(table)
     field = known.model_fields.get(key) if known else None
     if not any(map(is_number, (field.examples if field else None) or [])):
-        near = nearest(place, _numbers())
-        meant = f"did you mean {near}? " if near else ""
+        near = did_you_mean(place, _numbers())
         raise SceneError(
-            f"sweep: expected a number of the scene file, got {place!r:.60}; {meant}{EXAMPLE}"
+            f"sweep: expected TABLE.KEY with a numeric key of the scene file, got {place!r:.60}; "
+            f"{near}{EXAMPLE}"
         )
     return table, key
 
 
 def described(place: str) -> str:
-    """What the scene file's schema says about a key `table.key`, with its unit in brackets."""
+    """Return the description of a key `table.key`, with its unit in brackets."""
     return field_of(place).description or place.rpartition(".")[2]
 
 
 def field_of(place: str) -> FieldInfo:
-    """The field of a key `table.key`."""
+    """Return the field of a key `table.key`."""
     table, _, key = place.rpartition(".")
     known = table_of(table)
     assert known is not None
@@ -49,7 +50,7 @@ def field_of(place: str) -> FieldInfo:
 
 
 def rivals(place: str) -> set[str]:
-    """The keys that a key `table.key` replaces: half_thickness for thickness."""
+    """Return the keys that exclude a key `table.key`, such as half_thickness for thickness."""
     table, _, key = place.rpartition(".")
     known = table_of(table)
     assert known is not None
@@ -57,7 +58,7 @@ def rivals(place: str) -> set[str]:
 
 
 def varied(scene: Scene, values: Mapping[str, float]) -> dict[str, Any]:
-    """The tables of a scene in which keys `table.key` take other values, in SI."""
+    """Return the tables of a scene with other values of keys `table.key`, in SI units."""
     data = scene.to_json()
     for place, value in values.items():
         name, _, key = place.rpartition(".")
@@ -73,12 +74,12 @@ def varied(scene: Scene, values: Mapping[str, float]) -> dict[str, Any]:
 
 
 def table_of(name: str) -> type[Table] | None:
-    """The table of a name, `materials.NAME` among them."""
+    """Return the class of a table by its name, which may be `materials.NAME`."""
     return Material if name.startswith(f"{OWN_MATERIALS}.") else TABLES.get(name)
 
 
 def _numbers() -> list[str]:
-    """Every key that holds a number, with its table."""
+    """Return every numeric key as `table.key`."""
     return [
         f"{table}.{key}"
         for table, model in TABLES.items()
@@ -88,7 +89,7 @@ def _numbers() -> list[str]:
 
 
 def _instead(table: type[Table], key: str) -> set[str]:
-    """Keys that a key stands in for: half_thickness for thickness, mass for density."""
+    """Return the keys that exclude a key: half_thickness for thickness, mass for density."""
     return {
         other
         for groups in table.choices

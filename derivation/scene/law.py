@@ -1,13 +1,13 @@
-"""The contact law of a scene: force and indentation by the contact radius, of chosen effects.
+"""The contact law of a scene: force and indentation as functions of the contact radius.
 
-With the contact radius a itself as the variable, p the force over Hertz's at that radius and
-a_H = a p^(1/3) the radius at which Hertz's law has the same force,
+With contact radius a, p the force over that of Hertz's law at a, and a_H = a p^(1/3) the radius at
+which Hertz's law has the same force,
 
     P = (4/3) E* a^3/R p,   delta = (a^2/R) D,   d delta/da = (2a/R) S
     D = D_sphere + k p^(2/3) sum F(a_H),   S = S_sphere (1 + k p^(-1/3) sum S_plate(a_H))
 
-the sums over the plate's effects, whose parts F and S are those of a rigid sphere, and k the
-modulus of the contact over the plate's. A paraboloid has p = D_sphere = S_sphere = 1.
+with sums over the plate effects, whose contributions F and S are those of a rigid sphere, and k the
+modulus E* of the contact over that of the plate. For a paraboloid p = D_sphere = S_sphere = 1.
 """
 
 import math
@@ -29,17 +29,17 @@ if TYPE_CHECKING:
     from generated.non_hertzian_pressure import Contact, Plate
 
 THICK = 1.0
-"""h/b up to which the supports' model is measured."""
+"""Largest h/b for which the model of simply supported and clamped edges was measured."""
 CANCELLED = 8 * np.finfo(np.float64).eps
-"""Rounding error of the plate's share, over itself, as tests bound it."""
+"""Relative rounding error of the contribution of the plate, tested."""
 _HALVINGS = 30
 
 
 class Shape(NamedTuple):
-    """Force, indentation and slope over Hertz's at contact radii [1]: p, D and S.
+    """Force, indentation and slope over those of Hertz's law at contact radii [1]: p, D and S.
 
-    `additive` is the slope over that of Hertz's at equal force, p^(1/3) S/S_sphere, to which
-    every effect adds its part.
+    `additive` is the slope over that of Hertz's law at equal force, p^(1/3) S/S_sphere, to which
+    each effect adds its contribution.
     """
 
     force: Array
@@ -55,9 +55,9 @@ class ContactLaw:
     Attributes
     ----------
     model
-        The scene's numbers.
+        The quantities of the scene.
     effects
-        Names of the effects in it.
+        Names of the included effects.
     """
 
     model: Model
@@ -65,25 +65,25 @@ class ContactLaw:
 
     @cached_property
     def chosen(self) -> tuple[Effect, ...]:
-        """The effects in it, in the order of their names."""
+        """The included effects, in the order of their names."""
         return tuple(BY_NAME[name] for name in sorted(self.effects))
 
     @cached_property
     def plate_effects(self) -> tuple[PlateEffect, ...]:
-        """Those that add to the plate's deflection."""
+        """The included effects that add to the deflection of the plate."""
         return tuple(effect for effect in self.chosen if isinstance(effect, PlateEffect))
 
     def take(self, index: Any) -> "ContactLaw":
-        """The law of some of many scenes, as `Model.take` takes them."""
+        """Return the law of some of many scenes (see `Model.take`)."""
         return replace(self, model=self.model.take(index))
 
     def only(self, wanted: Callable[[Effect], bool]) -> "ContactLaw":
-        """The law of those of its effects for which a condition holds."""
+        """Return the law with only those effects that meet a condition."""
         return replace(self, effects=frozenset(e.name for e in self.chosen if wanted(e)))
 
     @property
     def half_space(self) -> "ContactLaw":
-        """The law of an elastic contact on a half-space: no plate deflects or moves."""
+        """The law of an elastic contact on a half-space, without plate deflection or inertia."""
         return self.only(
             lambda e: (
                 not (isinstance(e, PlateEffect) or e.solved or e.viscous or e.plastic or e.dynamic)
@@ -117,7 +117,7 @@ class ContactLaw:
 
     @cached_property
     def solved(self) -> bool:
-        """Whether the pressure is solved for."""
+        """Whether the pressure is non-Hertzian, from the integral equation."""
         return any(effect.solved for effect in self.chosen)
 
     @cached_property
@@ -127,7 +127,7 @@ class ContactLaw:
 
     @cached_property
     def plastic(self) -> bool:
-        """Whether the contact yields."""
+        """Whether the contact deforms plastically."""
         return any(effect.plastic for effect in self.chosen)
 
     @cached_property
@@ -137,13 +137,13 @@ class ContactLaw:
 
     @cached_property
     def damping_ratio(self) -> float:
-        """Damping ratio of the plate's modes [1]: half of the loss factor, as at resonance."""
+        """Damping ratio of the plate modes [1]: half the loss factor, as at resonance."""
         damped = any(effect.damps for effect in self.chosen)
         return 0.5 * self.model.loss_factor if damped else 0.0
 
     @cached_property
     def softness(self) -> float:
-        """E* of the plate over that of the sphere in this law, 0 for a rigid one [1]."""
+        """E* of the plate over that of the sphere in this law [1]; 0 for a rigid sphere."""
         return sum((effect.softness(self.model) for effect in self.chosen), 0.0)
 
     @property
@@ -153,9 +153,9 @@ class ContactLaw:
 
     @cached_property
     def limit(self) -> float:
-        """Contact radius [m] at which the law ends: min(b, R), or where an effect does before.
+        """Largest contact radius [m] of the law: min(b, R), or less if an effect requires it.
 
-        Where the pressure is solved for, contact may be lost at the centre before that.
+        With non-Hertzian pressure it ends earlier if contact is lost at the centre.
         """
         plate, sphere, thickness = self._reach
         model = self.model
@@ -174,7 +174,7 @@ class ContactLaw:
 
     @property
     def limit_in_words(self) -> str:
-        """What the limit is, and how large."""
+        """The limit in words, with its value."""
         lengths = ", ".join(
             length if reach == 1.0 else f"{reach:g} {length}"
             for reach, length in zip(self._reach, ("b", "R", "h"), strict=True)
@@ -186,7 +186,7 @@ class ContactLaw:
 
     @property
     def _reach(self) -> Reach:
-        """The contacts that all effects can be computed for."""
+        """The contacts for which all included effects can be computed."""
         each = zip(Reach(), *(effect.reach for effect in self.chosen), strict=True)
         return Reach(*map(min, each))
 
@@ -196,29 +196,30 @@ class ContactLaw:
         return sum((effect.gravity(self.model) for effect in self.chosen), 0.0)
 
     def force(self, a: Array, shape: Shape) -> Array:
-        """Contact force [N] at radii [m]."""
+        """Return the contact force [N] at contact radii [m]."""
         return 4.0 / 3.0 * self.modulus * (a * a * (a / self.model.R)) * shape.force
 
     def indentation(self, a: Array, shape: Shape) -> Array:
-        """Indentation [m] at radii [m]."""
+        """Return the indentation [m] at contact radii [m]."""
         return a * (a / self.model.R) * shape.depth
 
     def stiffness(self, a: Array, shape: Shape) -> Array:
-        """dP/d delta [N/m] at radii [m]: 2 E* times Hertz's radius over the additive slope."""
+        """Return dP/d delta [N/m] at radii [m]: 2 E* times Hertz's radius over additive slope."""
         return 2.0 * self.modulus * a * np.cbrt(shape.force) / shape.additive
 
     def max_pressure(self, a: float) -> float:
-        """Pressure in the middle [Pa]: (E*/pi) int_0^a delta'(c)/c dc of the half-space's delta.
+        """Return the pressure at the centre [Pa]: (E*/pi) int_0^a delta'(c)/c dc on a half-space.
 
-        Each step of the growing contact adds the pressure of a flat punch of radius c. For a
-        paraboloid that is Hertz's (2/pi) E* a/R. Solved for, it is part of the solution.
+        Each increment of the contact adds the pressure of a flat punch of radius c. For a
+        paraboloid the result is Hertz's (2/pi) E* a/R. Non-Hertzian pressure is part of the
+        solution of the integral equation.
         """
         if self.solved:
             return float(self._contact(np.array([a])).centre_pressure[0])
         return float(self.centre_pressure(np.array([a]))[0])
 
     def centre_pressure(self, a: Array) -> Array:
-        """The same where it is not solved for, at one radius [m] or a column of them."""
+        """Do the same without non-Hertzian pressure, at one radius [m] or a column of radii."""
         x, weights = gauss(NODES[2])
         mean = np.sum(weights * self._sphere(x * a).slope, axis=-1, keepdims=True)
         found: Array = 2.0 / np.pi * self.modulus * (a / self.model.R) * mean
@@ -226,14 +227,14 @@ class ContactLaw:
 
     @property
     def pressure_limit(self) -> float:
-        """Largest pressure [Pa] of a contact that yields; infinite if it does not."""
+        """Largest pressure [Pa] of a plastic contact; infinite for an elastic one."""
         return kernels.YIELD_LIMIT * self.model.yield_stress if self.plastic else math.inf
 
     def pressure(self, r: Array, a: float) -> Array:
-        """Contact pressure [Pa] at distances r [m] from the axis, 0 <= r <= a.
+        """Return the contact pressure [Pa] at distances r [m] from the axis, 0 <= r <= a.
 
-        (E*/pi) int_r^a delta'(c)/sqrt(c^2 - r^2) dc of the half-space's delta, with
-        c^2 = r^2 + (a^2 - r^2) x^2; or solved for.
+        It is (E*/pi) int_r^a delta'(c)/sqrt(c^2 - r^2) dc on a half-space, with
+        c^2 = r^2 + (a^2 - r^2) x^2, or the solution of the integral equation.
         """
         R = self.model.R
         if self.solved:
@@ -249,50 +250,59 @@ class ContactLaw:
         mean: Array = slopes @ weights
         return 2.0 / np.pi * self.modulus * (width / R) * mean
 
-    def max_tensile_stress(self, a: float, force: float, held: bool = True) -> float:
-        """Largest tensile stress on the back face [Pa], of a force [N] spread as Hertz's over a.
+    def max_tensile_stress(self, a: float, force: float, on_edge: bool = True) -> float:
+        """Return the largest tensile stress on the back face [Pa].
 
-        Of the whole plate, whatever effects are in the law; on the paper's edge unless `held`,
-        or where contact or plate are wider or thicker than the support's model reaches.
+        It includes all plate effects, even those that are omitted from the law.
+
+        Parameters
+        ----------
+        a
+            Contact radius [m]; the force is distributed over it as in Hertz's law.
+        force
+            Contact force [N].
+        on_edge
+            Whether to use the edge of the scene; if not, or if the contact or the plate is outside
+            the range of the edge model, the paper's edge is used.
         """
-        return float(self.tensile_stresses(np.array([a]), np.array([force]), held)[0])
+        return float(self.tensile_stresses(np.array([a]), np.array([force]), on_edge)[0])
 
-    def tensile_stresses(self, a: Array, force: Array, held: bool = True) -> Array:
-        """The same at one radius [m] and force [N], or at columns of them."""
-        of = {
+    def tensile_stresses(self, a: Array, force: Array, on_edge: bool = True) -> Array:
+        """Return the same at one radius [m] and force [N], or at columns of them."""
+        stresses = {
             edge.SUPPORTED: kernels.supported_far_stress,
             edge.CLAMPED: kernels.clamped_far_stress,
         }
         model = self.model
         plate = model.h, model.b, model.lam, model.mu
-        stress = of.get(model.edge if held else "", kernels.far_stress)
+        stress = stresses.get(model.edge if on_edge else "", kernels.far_stress)
         reached = (a <= edge.MAX_A_OVER_B * model.b) & (model.eta <= THICK)
         if reached.all() or stress is kernels.far_stress:
             return np.asarray(stress(force, a, *plate))
-        on_edge = stress(force, np.where(reached, a, np.nan), *plate)
-        return np.where(reached, on_edge, kernels.far_stress(force, a, *plate))
+        inside = stress(force, np.where(reached, a, np.nan), *plate)
+        return np.where(reached, inside, kernels.far_stress(force, a, *plate))
 
     def hertz_radius(self, force: Array) -> Array:
-        """Radius [m] at which Hertz's law has a force [N]."""
+        """Return the radius [m] at which Hertz's law has a force [N]."""
         return np.cbrt(0.75 * (force / self.modulus) * self.model.R)
 
     def at(self, a: Array) -> Shape:
-        """Force, indentation and slope at contact radii [m], which grow."""
+        """Return force, indentation and slope at increasing contact radii [m]."""
         if self.solved:
             return self._solved(a)
         sphere = self._sphere(a)
         root = np.cbrt(sphere.force)
         if not self.plate_effects:
             return Shape(*sphere, root)
-        share = self.deflection(a * root)
+        plate = self.deflection(a * root)
         part = 1.0 / (1.0 + self.softness)
-        depth = sphere.depth + part * root * root * share.depth
-        slope = sphere.slope * (1.0 + part * share.slope / root)
-        return Shape(sphere.force, depth, slope, root + part * share.slope)
+        depth = sphere.depth + part * root * root * plate.depth
+        slope = sphere.slope * (1.0 + part * plate.slope / root)
+        return Shape(sphere.force, depth, slope, root + part * plate.slope)
 
     def _solved(self, a: Array) -> Shape:
-        """By the pressure that is solved for; the edge adds its part under Hertz's pressure."""
-        # Next to a = 0 it is Hertz's.
+        """Do the same with non-Hertzian pressure; the edge contributes as under Hertz's."""
+        # Near a = 0 the pressure is Hertzian.
         a = np.maximum(a, 1e-12 * min(self.model.h, self.model.b, self.model.R))
         found = self._contact(a)
         R, scale = self.model.R, 4.0 / 3.0 * self.modulus * a * a * (a / self.model.R)
@@ -300,17 +310,17 @@ class ContactLaw:
         equal = a * np.cbrt(force)
         depth = found.indentation / a * (R / a)
         additive = 2.0 * self.modulus * equal / found.stiffness
-        # Growth of Hertz's radius of the force with the radius itself.
+        # Derivative of Hertz's radius of the force by the contact radius.
         growth = found.stiffness * found.slope / (4.0 * self.modulus * equal) * (R / equal)
         part = 1.0 / (1.0 + self.softness)
         for effect in self._beyond_whole_plate:
-            share = effect.contribution(self.model, equal)
-            depth = depth + part * (equal / a) ** 2 * share.depth
-            additive = additive + part * share.slope
+            plate = effect.contribution(self.model, equal)
+            depth = depth + part * (equal / a) ** 2 * plate.depth
+            additive = additive + part * plate.slope
         return Shape(force, depth, additive * growth * (equal / a), additive)
 
     def _contact(self, a: Array) -> "Contact":
-        """The contact with the pressure that is solved for."""
+        """Return the contact with non-Hertzian pressure."""
         from generated import non_hertzian_pressure
 
         model = self.model
@@ -320,24 +330,27 @@ class ContactLaw:
 
     @cached_property
     def _solved_plate(self) -> "Plate":
-        """The plate as the integral equation of the pressure takes it."""
+        """The plate in the integral equation of the pressure."""
         from generated import non_hertzian_pressure
 
         return non_hertzian_pressure.plate(self.model.h, self.model.b)
 
     def _sphere(self, a: Array) -> kernels.Sphere:
-        """Force, indentation and slope on a half-space."""
+        """Return force, indentation and slope on a half-space."""
         if self.spherical:
             return kernels.sphere_contact(a / self.model.R)
         return kernels.Sphere(*(np.ones_like(a),) * 3)
 
     def cancellation(self, a: Array) -> Array:
-        """Rounding error of the slope [1] where an effect's part is a difference.
+        """Return the relative rounding error of the slope by cancellation.
 
-        At one radius [m], or at a column of them.
+        Unless all plate effects are included, the contribution of an effect may be computed as that
+        of the whole plate minus those of omitted effects, which may be much larger.
 
-        Unless the whole plate is in the law, that part is the whole plate's less that of effects
-        that are not, which may be much larger.
+        Parameters
+        ----------
+        a
+            A contact radius [m], or a column of them.
         """
         differs = any(effect.difference for effect in self.plate_effects)
         if not differs or self.effects >= WHOLE_PLATE:
@@ -346,7 +359,7 @@ class ContactLaw:
         return np.asarray(CANCELLED * np.abs(whole.slope) / slope)
 
     def deflection(self, a: Array) -> Contribution:
-        """The plate's parts of F and S at Hertz's radii [m], of a rigid sphere."""
+        """Return the contributions of the plate to F and S at Hertz's radii [m] (rigid sphere)."""
         if self.effects >= WHOLE_PLATE:
             found, others = [plate_contribution(self.model, a)], self._beyond_whole_plate
         else:
@@ -359,5 +372,5 @@ class ContactLaw:
 
     @property
     def _beyond_whole_plate(self) -> tuple[PlateEffect, ...]:
-        """Effects that add to the deflection of the whole plate on the paper's edge."""
+        """Effects that add to the deflection of the whole plate with the paper's edge."""
         return tuple(e for e in self.plate_effects if e.name not in WHOLE_PLATE)

@@ -1,4 +1,4 @@
-"""Errors of the results by link 18, of many laws at once: `kernels.law_errors` in arrays."""
+"""Bounds on the errors of the results (derivation step 18) for many laws: vectorised law_errors."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -7,31 +7,31 @@ from derivation.scene.effects.effect import Array
 from generated.simple_impact_kernels import elasticities
 
 WIDER = np.log(1.02)
-"""Logarithm of how much wider than by S_1 the contact may become: bounds are taken up to there."""
+"""Logarithm of the factor up to which the contact may be wider than by S_1; bounds cover it."""
 SLACK = 1.0 + 1e-9
-"""For the rounding of the bounds themselves."""
+"""Factor that covers rounding errors of the bounds."""
 
 
 def law_errors(
     low: Array, up: Array, fall: Array, rise: Array, energy: Array | float = 0.0
 ) -> tuple[Array, Array, Array, Array]:
-    """Relative errors of the results if S is within 1 - low and 1 + up times S_1.
+    """Return bounds on the relative errors of the results if S is 1 - low to 1 + up times S_1.
 
     Parameters
     ----------
     low, up
-        Not negative [1]; they hold up to 1.02 times the largest radius by S_1.
+        Not negative [1]; valid up to 1.02 times the largest radius by S_1.
     fall, rise
         d log S_1/d log a is between -fall and rise [1].
     energy
-        Logarithm of the factor by which the contact may take more energy than the sphere brings;
-        not negative [1].
+        Logarithm of the factor by which the contact may absorb more than the kinetic energy; not
+        negative [1].
 
     Returns
     -------
     tuple of ndarray
-        Of contact time, largest indentation, force and contact radius; infinite where nothing is
-        shown.
+        Errors of contact time, largest indentation, force and contact radius [1]; infinite where
+        there is no bound.
     """
     known = (low < 1.0) & (up < np.inf) & (fall < 2.0)
     loss, gain = -np.log1p(-np.where(known, low, 0.0)), np.log1p(np.where(known, up, 0.0))
@@ -54,5 +54,5 @@ def law_errors(
 
 
 def _relative(logarithm: Array, known: NDArray[np.bool_]) -> Array:
-    """Relative error of a factor's logarithm."""
+    """Return the relative error from the logarithm of a factor."""
     return np.where(known & (logarithm < 700.0), np.expm1(logarithm) * SLACK, np.inf)

@@ -1,4 +1,4 @@
-"""Where the contact law ends or grows inexact: refusals and warnings, each with its number."""
+"""Limits of the contact law: errors beyond its range, warnings where it becomes inaccurate."""
 
 import math
 from collections.abc import Sequence
@@ -14,40 +14,40 @@ from derivation.scene.quadrature import gauss
 from derivation.scene.scene import SceneError
 
 HERTZ_LIMIT = 0.15
-"""Contact radius over thickness above which the pressure is no longer Hertz's."""
-CURVATURE_LIMIT = 0.3
-"""Contact radius over sphere radius above which the sphere is no longer a paraboloid."""
+"""Contact radius over thickness above which the pressure is no longer Hertzian."""
+PARABOLOID_LIMIT = 0.3
+"""Contact radius over sphere radius above which a paraboloid no longer approximates the sphere."""
 STRETCH_LIMIT = 0.5
-"""Plate deflection over thickness above which the plate's middle surface stretches."""
+"""Plate deflection over thickness above which membrane stretching stiffens the plate."""
 ZENER_LIMIT = 0.006
-"""Zener's number above which an infinite plate's waves carry off 1 % of the speed."""
+"""Zener parameter above which bending waves in an infinite plate take 1 % of the speed."""
 QUASI_STATIC_PERIODS = 10.0
-"""Contact time over the first bending period from which the plate follows without inertia."""
-SHARE_LIMIT = 0.01
-"""Share of the plate's deflection in the indentation below which its inertia is no matter."""
+"""Contact time over first bending period above which the plate responds quasi-statically."""
+DEFLECTION_LIMIT = 0.01
+"""Plate deflection over indentation below which the inertia of the plate is negligible."""
 SOLID_LIMIT = 1 / 3
-"""Mass of a sphere over that of a solid one of its material below which it may be hollow."""
+"""Sphere mass over that of a solid sphere of its material below which it may be hollow."""
 GRAZING = 1e-3
-"""Approach speed over the impact speed, or force over the largest, below which a contact grazes."""
+"""Approach speed over impact speed, or force over peak force, of a grazing contact."""
 SMALL_CORRECTION = 0.3
-"""Relative correction above which its leading term is no estimate any more."""
+"""Relative correction above which its leading term is no longer an estimate."""
 Values = TypeVar("Values", float, Array)
 MARGIN = 1e-3
-"""Relative error that quadratures may make in the fastest speed, where a law is steep."""
+"""Relative quadrature error of the largest possible speed, where a law is steep."""
 POINTS = 192
-"""Gauss points of the energy up to the law's limit, close to which a sphere's slope is steep."""
+"""Gauss points of the energy up to the law's limit, near which a sphere's slope is steep."""
 
 
-def check_radius(law: ContactLaw, a: float, what: str, mend: str) -> None:
-    """Refuse a contact radius beyond the law's range.
+def check_radius(law: ContactLaw, a: float, key: str, remedy: str) -> None:
+    """Raise an error if a contact radius is outside the range of the law.
 
     Parameters
     ----------
     a
         Contact radius [m].
-    what
-        What asks for it, named as the user knows it.
-    mend
+    key
+        Key or argument that determines the radius, as the user writes it.
+    remedy
         What the user can do.
 
     Raises
@@ -57,34 +57,34 @@ def check_radius(law: ContactLaw, a: float, what: str, mend: str) -> None:
     """
     if a >= law.limit:
         raise SceneError(
-            f"{what}: expected a contact radius below {law.limit_in_words}, got {a:.6g} m; {mend}"
+            f"{key}: expected a contact radius below {law.limit_in_words}, got {a:.6g} m; {remedy}"
         )
 
 
 def refuse(law: ContactLaw) -> NoReturn:
-    """Refuse an impact that has no largest contact radius in the law's range.
+    """Raise the error of an impact that has no largest contact radius in the law's range.
 
     Raises
     ------
     SceneError
-        Of what is too large for the law, or for doubles.
+        If the speed or the weight is too large for the law, or a value for double precision.
     """
     check_energy(law, MARGIN)
     raise _no_number(law.model)
 
 
 def check_energy(law: ContactLaw, margin: float = 0.0) -> None:
-    """Refuse an impact that presses the sphere in beyond the law's range.
+    """Raise an error if the sphere has more energy than the contact absorbs up to the law's limit.
 
     Parameters
     ----------
     margin
-        Share of the speed [1] by which quadratures may differ on what is too fast.
+        Relative quadrature error of the largest possible speed [1].
 
     Raises
     ------
     SceneError
-        If the sphere's energy is more than the contact takes up to the law's limit.
+        If the kinetic energy or the weight is too large.
     """
     model = law.model
     last = last_radius(law)
@@ -100,31 +100,32 @@ def check_energy(law: ContactLaw, margin: float = 0.0) -> None:
         fastest = min(fastest, model.v0)
         raise SceneError(
             f"impact.speed: expected less than {fastest:.6g} m/s, where the contact radius "
-            f"reaches {law.limit_in_words}, got {model.v0:.6g} m/s; lower the speed"
+            f"reaches {law.limit_in_words}, got {model.v0:.6g} m/s; reduce the speed"
         )
 
 
 def _too_heavy(law: ContactLaw) -> SceneError:
-    """Of a sphere whose weight alone presses it in beyond the law's range, at any speed."""
+    """Return the error for a sphere whose weight alone exceeds the law's range, at any speed."""
     model = law.model
     return SceneError(
-        f"impact.gravity: expected a sphere whose weight the plate carries, got {model.m:.4g} kg "
-        f"at {law.gravity:.4g} m/s^2, which press it in beyond {law.limit_in_words} even at zero "
-        "speed; give a lighter sphere, a thicker or stiffer plate, or effects.gravity = false"
+        f"impact.gravity: expected a weight that the plate can carry, got {model.m:.4g} kg at "
+        f"{law.gravity:.4g} m/s^2: even at zero speed the contact radius exceeds "
+        f"{law.limit_in_words}; use a lighter sphere, a thicker or stiffer plate, or set "
+        "effects.gravity = false"
     )
 
 
 def _no_energy(law: ContactLaw) -> SceneError:
-    """Of a law that takes up no energy, which no speed can satisfy."""
+    """Return the error for a law that absorbs no energy, so that no speed is possible."""
     return SceneError(
-        f"scene: expected a contact law that takes up energy up to {law.limit_in_words}, got one "
-        f"of {', '.join(sorted(law.effects))} that takes up none; give a thicker plate, or leave "
-        "out what [effects] switches off"
+        f"scene: expected a contact law that absorbs energy up to {law.limit_in_words}, got the "
+        f"law of {', '.join(sorted(law.effects))}, which absorbs none; use a thicker plate, or "
+        "remove the effects that [effects] disables"
     )
 
 
 def check_numbers(model: Model, *values: float) -> None:
-    """Refuse results that are no numbers above zero, which extreme scenes lead to.
+    """Raise an error if a result of an extreme scene is not a positive finite number.
 
     Raises
     ------
@@ -136,15 +137,15 @@ def check_numbers(model: Model, *values: float) -> None:
 
 
 def _no_number(model: Model) -> SceneError:
-    """Of numbers so extreme that the contact law gives none."""
+    """Return the error for values so extreme that the contact law gives no finite number."""
     numbers = ", ".join(f"{name} = {x:.6g}" for name, x in model.dimensionless().items())
     return SceneError(
-        f"scene: the contact law gives no number for {numbers}; give less extreme numbers"
+        f"scene: the contact law gives no finite number for {numbers}; use less extreme values"
     )
 
 
 def energy_of(law: ContactLaw, a: float) -> float:
-    """Energy [J] the contact takes up to a contact radius [m], the integral of P over delta."""
+    """Return the energy [J] absorbed up to a contact radius [m], the integral of P over delta."""
     x, weights = gauss(POINTS)
     shape = law.at(x * a)
     mean = float(np.sum(weights * x**4 * shape.force * shape.slope))
@@ -154,43 +155,44 @@ def energy_of(law: ContactLaw, a: float) -> float:
 def warnings_at(
     law: ContactLaw, a: float, indentation: float, deflection: float | None = None
 ) -> tuple[str, ...]:
-    """What to know about a result that is still usable.
+    """Return warnings about a wide contact or a large deflection.
 
     Parameters
     ----------
     a
         Largest contact radius [m].
     indentation
-        Indentation at it [m].
+        Indentation at that radius [m].
     deflection
-        Largest deflection of the plate at the axis [m], where its motion was computed; without
-        it that of the quasi-static plate.
+        Largest deflection of the plate at the axis [m]; by default that of the quasi-static plate.
     """
     model, found = law.model, []
     thickness = 2 * model.h
     if a / thickness > HERTZ_LIMIT and not law.solved:
         found.append(
-            f"contact radius over thickness a/H = {a / thickness:.3g} exceeds {HERTZ_LIMIT}: the "
-            f"pressure is no longer Hertz's; {_cost(hertz_cost(model, a, indentation))}"
+            f"contact radius over thickness a/H = {a / thickness:.3g} exceeds "
+            f"{HERTZ_LIMIT}: the pressure is no longer Hertzian; "
+            f"{_in_words(pressure_correction(model, a, indentation))}"
         )
-    if a / model.R > CURVATURE_LIMIT and not law.spherical:
+    if a / model.R > PARABOLOID_LIMIT and not law.spherical:
         found.append(
             f"contact radius over sphere radius a/R = {a / model.R:.3g} exceeds "
-            f"{CURVATURE_LIMIT}: the law takes the sphere for a paraboloid; "
-            f"{_cost(curvature_cost(model, a, indentation))}"
+            f"{PARABOLOID_LIMIT}: the law approximates the sphere by a paraboloid; "
+            f"{_in_words(profile_correction(model, a, indentation))}"
         )
     if deflection is None:
         deflection = indentation - float(local_indentation(law, a))
     if deflection / thickness > STRETCH_LIMIT:
         found.append(
             f"plate deflection over thickness w/H = {deflection / thickness:.3g} exceeds "
-            f"{STRETCH_LIMIT}: the plate stretches and is stiffer than the linear law says"
+            f"{STRETCH_LIMIT}: membrane stretching makes the plate stiffer than in the "
+            "linear law"
         )
     return tuple(found)
 
 
 def zener_number(model: Model) -> float:
-    """Zener's number of the contact's own modulus, the sphere's elasticity included [1]."""
+    """Return the Zener parameter [1], with the elasticity of the sphere included."""
     R, m, v0, h, _, lam, mu = model.numbers
     found = kernels.zener_number(R, m, v0, h, lam, mu, model.density)
     number: float = found / np.power(1.0 + model.softness, 0.4)
@@ -198,7 +200,7 @@ def zener_number(model: Model) -> float:
 
 
 class PlateTimes(NamedTuple):
-    """Zener's number [1], the first bending period and the time of two echoes [s] of a plate."""
+    """Zener parameter [1], first bending period [s] and time of two thickness echoes [s]."""
 
     zener: float
     period: float
@@ -206,7 +208,7 @@ class PlateTimes(NamedTuple):
 
 
 def plate_times(model: Model) -> PlateTimes:
-    """What tells whether the plate's inertia matters; the density has to be known."""
+    """Return the quantities that show whether plate inertia matters; requires the density."""
     h, b, lam, mu = model.numbers[3:]
     period: float = kernels.bending_period(h, b, lam, mu, model.density)  # type: ignore[assignment]
     echoes: float = kernels.echo_time(h, lam, mu, model.density)  # type: ignore[assignment]
@@ -221,16 +223,17 @@ def contact_warnings(speeds: Sequence[float], least: float) -> tuple[str, ...]:
     speeds
         Relative approach speeds of the contacts over the impact speed [1].
     least
-        Smallest force between two maxima of it, over the largest [1]; 1 if there is none.
+        Smallest force between two maxima of the force, over the peak force [1]; 1 if none.
     """
     slow = min(speeds)
     if slow >= GRAZING and least >= GRAZING:
         return ()
-    how = f"grazing contact: the force falls to {least:.2g} of its largest value"
+    event = f"grazing contact: the force falls to {least:.2g} of its peak"
     if slow < GRAZING:
-        how = f"grazing re-contact at {slow:.2g} of the impact speed"
+        event = f"grazing re-contact at {slow:.2g} of the impact speed"
     text = (
-        f"{how}; the number of contacts and the restitution are sensitive to rounding of the input"
+        f"{event}: the number of contacts and the restitution are sensitive to rounding of the "
+        "input"
     )
     return (text,)
 
@@ -242,7 +245,7 @@ def neglects_inertia(
     dynamic: bool = False,
     known: PlateTimes | None = None,
 ) -> bool:
-    """Whether the plate's inertia is neglected and may matter, as far as its density is known.
+    """Return whether plate inertia is neglected but may matter; False if the density is unknown.
 
     The arguments are those of `motion_warnings`.
     """
@@ -250,7 +253,7 @@ def neglects_inertia(
         return False
     zener, period, _ = known or plate_times(model)
     slow = contact_time >= QUASI_STATIC_PERIODS * period
-    return not slow and (zener > ZENER_LIMIT or deflection > SHARE_LIMIT)
+    return not slow and (zener > ZENER_LIMIT or deflection > DEFLECTION_LIMIT)
 
 
 def motion_warnings(
@@ -260,18 +263,18 @@ def motion_warnings(
     dynamic: bool = False,
     known: PlateTimes | None = None,
 ) -> tuple[str, ...]:
-    """Where the plate's own motion, which is left out, is not small; needs its density.
+    """Return warnings about neglected plate inertia and thickness echoes; none without density.
 
     Parameters
     ----------
     contact_time
         Contact time [s].
     deflection
-        Share of the plate's deflection in the largest indentation [1].
+        Plate deflection over the largest indentation [1].
     dynamic
-        Whether the plate has inertia.
+        Whether plate inertia is included.
     known
-        The plate's times, if they are known already.
+        Characteristic times of the plate, if they have been computed.
     """
     if not model.density:
         return ()
@@ -279,30 +282,29 @@ def motion_warnings(
     found = []
     if neglects_inertia(model, contact_time, deflection, dynamic, times):
         found.append(
-            f"plate inertia is neglected but may matter: Zener's number lambda = {zener:.3g} "
-            f"(negligible below {ZENER_LIMIT}), contact time over the first bending period on the "
-            f"paper's edge = {contact_time / period:.3g} (quasi-static above "
-            f"{QUASI_STATIC_PERIODS:g}), plate deflection {100 * deflection:.3g} % of the "
-            "indentation"
+            f"plate inertia is neglected but may matter: Zener parameter {zener:.3g} (negligible "
+            f"below {ZENER_LIMIT}); contact time / first bending period "
+            f"{contact_time / period:.3g} (quasi-static above {QUASI_STATIC_PERIODS:g}); "
+            f"plate deflection {100 * deflection:.3g} % of the indentation"
         )
     plate = model.inertia
     echoing = dynamic and plate.branches == "all" and not plate.infinite_plate
     if contact_time < echoes and not echoing:
         found.append(
-            f"the contact time is below 4 H/c_P = {echoes:.3g} s: echoes through the thickness, "
-            "which are left out, return during the contact"
+            f"the contact time is below 4 H/c_P = {echoes:.3g} s: through-thickness wave "
+            "reflections return during the contact, but the model neglects them"
         )
     return tuple(found)
 
 
 def hollow_warnings(model: Model) -> tuple[str, ...]:
-    """Whether the sphere is far too light to be solid, if its material's density is known."""
+    """Return a warning if the sphere is far too light to be solid."""
     solid = 4 / 3 * math.pi * model.R * model.R * model.R * model.solid_density
     if model.m >= SOLID_LIMIT * solid:
         return ()
     text = (
-        f"the sphere's mass is {model.m / solid:.2g} of that of a solid one of its material, "
-        f"{solid:.4g} kg: if it is hollow it bends like a shell, which the model leaves out"
+        f"the sphere mass is {model.m / solid:.2g} times that of a solid sphere of its material "
+        f"({solid:.4g} kg): the model does not include the bending of a hollow sphere"
     )
     return (text,)
 
@@ -310,18 +312,19 @@ def hollow_warnings(model: Model) -> tuple[str, ...]:
 def pressure_warnings(
     pressure: float, yield_stress: float | None, viscous: bool = False, body: str = "plate"
 ) -> tuple[str, ...]:
-    """Whether the body that yields first does below the contact, if its yield stress is known."""
+    """Return a warning if the body with the lower yield stress yields, if that is known."""
     if yield_stress is not None and viscous:
         text = (
-            f"whether the {body} yields is not judged: the largest pressure is that of the elastic "
-            "part, beside which a viscous contact has more while it grows"
+            f"yielding of the {body} is not checked: max_pressure is the elastic part, to which a "
+            "viscoelastic contact adds while it grows"
         )
         return (text,)
     if yield_stress is None or pressure <= kernels.YIELD_LIMIT * yield_stress:
         return ()
     text = (
-        f"largest pressure over yield stress = {pressure / yield_stress:.3g} exceeds "
-        f"{kernels.YIELD_LIMIT}: the {body} yields below the contact, and takes energy"
+        f"largest pressure / yield stress = {pressure / yield_stress:.3g} exceeds "
+        f"{kernels.YIELD_LIMIT}: the {body} yields below the contact and dissipates energy, which "
+        "this simulation neglects"
     )
     return (text,)
 
@@ -329,45 +332,45 @@ def pressure_warnings(
 def stress_warnings(
     stress: float, strength: float | None, yield_stress: float | None = None
 ) -> tuple[str, ...]:
-    """Whether the back face fails or yields, by its largest tensile stress.
+    """Return warnings if the back face is predicted to fail or to yield.
 
     Parameters
     ----------
     stress
         Largest tensile stress on the back face [Pa].
     strength, yield_stress
-        Of the plate [Pa], if they are given. Under the axis the stress is the same in both
-        directions of the face, so that it alone says when the face yields.
+        Of the plate [Pa], if they are known. On the axis both in-plane stresses are equal, and
+        the face yields when they reach the yield stress.
     """
     found = []
     if strength is not None and stress > strength:
         found.append(
             f"the largest tensile stress on the back face is {stress / strength:.3g} times the "
-            "strength: the plate is predicted to fail (quasi-static stress under the peak force), "
-            "and the results assume that it does not"
+            "strength (quasi-static, under the peak force): the plate is predicted to fail, and "
+            "the results assume that it does not"
         )
     if yield_stress is not None and stress > yield_stress:
         found.append(
             f"the largest tensile stress on the back face is {stress / yield_stress:.3g} times "
-            "the yield stress: the plate is predicted to yield in bending (quasi-static stress "
-            "under the peak force), and the results assume that it does not"
+            "the yield stress (quasi-static, under the peak force): the plate is predicted to "
+            "yield in bending, and the results assume that it does not"
         )
     return tuple(found)
 
 
 def local_indentation(law: ContactLaw, a: Values) -> Values:
-    """Indentation [m] of a half-space at contact radii [m], which is no deflection."""
+    """Return the local indentation [m], that of a half-space, at contact radii [m]."""
     R = law.model.R
     depth = kernels.sphere_contact(a / R).depth if law.spherical else 1.0
     found: Values = a * (a / R) * depth  # type: ignore[assignment]
     return found
 
 
-def hertz_cost(model: Model, a: float, indentation: float) -> float:
-    """Relative change of the indentation at a given force, were the pressure not Hertz's [1].
+def pressure_correction(model: Model, a: float, indentation: float) -> float:
+    """Return the relative change of the indentation at equal force by the exact pressure [1].
 
-    To leading order the true pressure turns c3 of delta = (a^2/R) (1 + c1 A + c3 A^3 + ...),
-    A = a/h, into (8/3) c3. Three terms of this law, taken at a and a/2, leave that of c3 alone:
+    To leading order the exact pressure changes c3 of delta = (a^2/R) (1 + c1 A + c3 A^3 + ...),
+    A = a/h, into (8/3) c3. A combination of values at a and a/2 isolates the c3 term:
     delta(a) - 8 delta(a/2) + a^2/R = (3/4) c3 A^3 a^2/R.
     """
     half, whole = (float(kernels.indentation(x, model.R, model.h, model.b)) for x in (a / 2, a))
@@ -375,21 +378,22 @@ def hertz_cost(model: Model, a: float, indentation: float) -> float:
     return 5 / 3 * cubic / indentation
 
 
-def curvature_cost(model: Model, a: float, indentation: float) -> float:
-    """Relative change of the indentation at a given force, were the sphere not a paraboloid [1].
+def profile_correction(model: Model, a: float, indentation: float) -> float:
+    """Return the relative change of the indentation at equal force by the spherical profile [1].
 
-    To leading order Sneddon's law of the exact profile, indentation (a/2) ln((R+a)/(R-a)),
-    adds (1/15) (a/R)^2 times a^2/R, the smaller contact radius at that force included.
+    To leading order Sneddon's law for the spherical profile, indentation (a/2) ln((R+a)/(R-a)),
+    adds (1/15) (a/R)^2 times a^2/R, including the smaller contact radius at that force.
     """
     return (a / model.R) ** 2 / 15 * a * (a / model.R) / indentation
 
 
-def _cost(change: float) -> str:
+def _in_words(change: float) -> str:
+    percent = f"{100 * change:+.2g} % of the indentation"
     if abs(change) > SMALL_CORRECTION:
-        return f"the error is too large to estimate (leading term {100 * change:+.2g} % of it)"
-    return f"the indentation at this force would change by about {100 * change:+.2g} %"
+        return f"no reliable error estimate: the leading-order correction is {percent}"
+    return f"the correction, which is neglected, is about {percent} at this force"
 
 
 def last_radius(law: ContactLaw) -> float:
-    """Largest contact radius inside the law's range [m]."""
+    """Return the largest contact radius [m] within the range of the law."""
     return float(np.nextafter(law.limit, 0.0))

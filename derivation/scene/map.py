@@ -1,11 +1,10 @@
-"""Draws where the effect selection includes each effect, over a/h and h/b, with the scene marked.
+"""Draws for which a/h and h/b the effect selection includes each effect, with the scene marked.
 
-Sphere, materials, edge and tolerance are the scene's; thickness and speed vary, the speed such
-that a quasi-static plate has the contact radius. On every such scene the effects are selected
-as for the scene itself (`selection.select`), so that map and `explain` cannot disagree.
+Sphere, materials, edge and tolerance are those of the scene. Thickness and speed vary; the speed is
+that which gives the contact radius on a quasi-static plate. For each point the effects are selected
+as for the scene itself (`selection.select`), so that the map agrees with `explain`.
 """
 
-import io
 import math
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
@@ -18,7 +17,7 @@ from derivation.scene.law import ContactLaw
 from derivation.scene.limits import energy_of
 from derivation.scene.model import Model
 from derivation.scene.motion import largest_radius
-from derivation.scene.plot import METADATA
+from derivation.scene.plot import saved
 from derivation.scene.result import Result
 from derivation.scene.scene import SceneError
 from derivation.scene.selection import Selection, select
@@ -28,31 +27,31 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 THICKNESSES = np.geomspace(1e-3, 10.0, 25)
-"""h/b of the map; a line may lie anywhere between two of them."""
+"""h/b of the map."""
 RADII = np.geomspace(1e-3, 6.0, 25)
 """a/h of the map."""
 COLOURS = ("#1f4e79", "#b35806", "#1b7837", "#762a83", "#b2182b", "#01665e", "#e7298a")
-CHOICES = {"auto": "", True: " (true in the scene)", False: " (disabled in the scene)"}
-"""What is said of an effect by its switch in the scene."""
+CHOICES = {"auto": "", True: " (enabled in the scene)", False: " (disabled in the scene)"}
+"""Remark in the legend by the choice of the scene."""
 OUTSIDE = "0.88"
-"""Grey of places where there is no such scene."""
+"""Grey of points outside the range of the contact law."""
 TICKS = 9.0
-"""Distance of the ticks on a line in points."""
+"""Distance of the ticks on a line [pt]."""
 MOST, SIDE = 100.0, 1.001
-"""Largest ratio that is drawn, and the least on the side of the line where an effect counts."""
+"""Largest ratio in the map, and smallest ratio where an effect is included."""
 
 
 @dataclass(frozen=True)
 class Grid:
-    """What the selection says over thicknesses (columns) and contact radii (rows).
+    """Result of the effect selection by thickness (columns) and contact radius (rows).
 
     Attributes
     ----------
     thicknesses, radii
-        h/b and a/h, those of the scene among them [1].
+        h/b and a/h, including those of the scene [1].
     ratios
-        By effect, how much it changes the results over the tolerance: above 1 where it is
-        included, below where it is omitted; NaN where there is no such scene [1].
+        For each effect, its largest change of the results over the tolerance [1]: above 1 where it
+        is included, below 1 where it is omitted, NaN outside the range of the contact law.
     """
 
     thicknesses: Array
@@ -61,7 +60,7 @@ class Grid:
 
 
 def drawn(result: Result) -> list[str]:
-    """Effects that the map shows: those that the selection may include or omit."""
+    """Return the names of the effects that the selection may include or omit."""
     model = result.model
     return [
         e.name
@@ -71,17 +70,17 @@ def drawn(result: Result) -> list[str]:
 
 
 def grid(result: Result, rtol: float) -> Grid:
-    """The selection over thicknesses and contact radii, at a tolerance [1]."""
+    """Select the effects for all thicknesses and contact radii, at a tolerance [1]."""
     model, wanted = result.model, result.scene.effects.model_dump()
     eta, wide = model.eta, result.max_contact_radius / model.h
     thicknesses = np.unique(np.append(THICKNESSES, eta))
-    # From the scene's own contact on, if that is smaller.
+    # The range includes the contact radius of the scene.
     low = min(RADII[0], wide / 2)
     radii = np.unique(np.append(np.geomspace(low, RADII[-1], RADII.size), wide))
     names = drawn(result)
     ratios = {name: np.full((radii.size, thicknesses.size), math.nan) for name in names}
     with np.errstate(all="ignore"):
-        # By the paper's law the contact radius of the scene is another, if there is one.
+        # By the paper's law the contact radius of the scene differs.
         try:
             stretch = largest_radius(_law(model)) / result.max_contact_radius
         except SceneError:
@@ -104,19 +103,19 @@ def grid(result: Result, rtol: float) -> Grid:
 
 
 def _law(model: Model) -> ContactLaw:
-    """The paper's law, by which contact radius and speed belong together."""
+    """Return the paper's law, which relates contact radius and speed."""
     return ContactLaw(replace(model, gravity=0.0), PAPER)
 
 
 def _speed(model: Model, a: float) -> float:
-    """Speed [m/s] at which the paper's law has a largest contact radius [m]; NaN if none."""
+    """Return the speed [m/s] for a largest contact radius [m] by the paper's law; NaN if none."""
     law = _law(model)
     energy = energy_of(law, a) if a < law.limit else math.nan
     return math.sqrt(2.0 * energy / model.m) if energy > 0.0 else math.nan
 
 
 def _ratio(found: Selection, name: str, rtol: float) -> float:
-    """What an effect changes over the tolerance, on the side that the selection put it."""
+    """Return the change by an effect over the tolerance, above 1 if the effect is included."""
     if found.reasons[name]:
         return math.nan
     size = found.sizes.get(name, math.inf)
@@ -127,7 +126,7 @@ def _ratio(found: Selection, name: str, rtol: float) -> float:
 
 
 def lines(found: Grid) -> dict[tuple[str, ...], Array]:
-    """The ratio of one effect of each group that is included at the same places."""
+    """Return the ratios of the effects, grouped if they are included at the same points."""
     groups: dict[bytes, list[str]] = {}
     for name, ratio in found.ratios.items():
         groups.setdefault((ratio > 1.0).tobytes(), []).append(name)
@@ -135,7 +134,7 @@ def lines(found: Grid) -> dict[tuple[str, ...], Array]:
 
 
 def figure(result: Result, rtol: float) -> "Figure":
-    """The map of a scene as a Matplotlib figure, its largest contact marked."""
+    """Return the map of a scene as a Matplotlib figure."""
     from matplotlib.figure import Figure
     from matplotlib.patches import Patch
 
@@ -149,30 +148,32 @@ def figure(result: Result, rtol: float) -> "Figure":
     colours = iter(COLOURS)
     for names, ratio in lines(found).items():
         label = ", ".join(name + CHOICES[wanted[name]] for name in names)
-        sure = ratio[np.isfinite(ratio)]
-        if not sure.size or sure.min() > 1.0 or sure.max() < 1.0:
-            where = "everywhere" if sure.size and sure.min() > 1.0 else "nowhere"
+        finite = ratio[np.isfinite(ratio)]
+        if not finite.size or finite.min() > 1.0 or finite.max() < 1.0:
+            where = "everywhere" if finite.size and finite.min() > 1.0 else "nowhere"
             axes.plot([], [], linestyle="none", label=f"{where}: {label}")
             continue
         _line(axes, found, ratio, next(colours), label)
-    axes.plot(*place, marker="*", markersize=14, color="black", linestyle="none", label="the scene")
+    axes.plot(
+        *place, marker="*", markersize=14, color="black", linestyle="none", label="this scene"
+    )
     axes.set(xlabel="half-thickness / plate radius, $h/b$ [1]")
     axes.set(ylabel="largest contact radius / half-thickness, $a/h$ [1]")
     axes.set_xlim(min(THICKNESSES[0], place[0] / 2), max(THICKNESSES[-1], place[0] * 2))
     axes.set_ylim(found.radii[0], max(found.radii[-1], place[1] * 2))
     axes.set_title(
-        "An effect matters on the shaded side of its line, to which the ticks point:\n"
-        f"omitting it there may change a result by more than {rtol:g}",
+        "Shaded (the side with the ticks): omitting the effect\n"
+        f"may change a result by more than {rtol:g} (relative)",
         fontsize=10,
     )
     handles, _ = axes.get_legend_handles_labels()
-    handles.append(Patch(facecolor=OUTSIDE, label="no contact within the range of the contact law"))
+    handles.append(Patch(facecolor=OUTSIDE, label="outside the range of the contact law"))
     made.legend(handles=handles, loc="outside lower center", fontsize=8, frameon=False)
     return made
 
 
 def _line(axes: "Axes", found: Grid, ratio: Array, colour: str, label: str) -> None:
-    """The line at which an effect begins to count, with ticks and a tint on that side."""
+    """Draw the line beyond which an effect is included, with ticks and shading on that side."""
     from matplotlib.patheffects import withTickedStroke
 
     values = np.log(np.maximum(ratio, 1.0 / MOST))
@@ -185,12 +186,5 @@ def _line(axes: "Axes", found: Grid, ratio: Array, colour: str, label: str) -> N
 
 
 def render(result: Result, rtol: float, suffix: str) -> bytes:
-    """The map as the content of a file of a format, `.png`, `.svg` or `.pdf`."""
-    import matplotlib as mpl
-
-    suffix, stream = suffix.lower(), io.BytesIO()
-    with mpl.rc_context({"svg.hashsalt": "platecontact", "svg.fonttype": "none"}):
-        figure(result, rtol).savefig(
-            stream, format=suffix[1:], dpi=150, metadata=METADATA[suffix] or None
-        )
-    return stream.getvalue()
+    """Return the map as the content of a file with the suffix `.png`, `.svg` or `.pdf`."""
+    return saved(figure(result, rtol), suffix)

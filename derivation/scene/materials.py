@@ -1,4 +1,4 @@
-"""Named materials: their constants with sources, and how names are found."""
+"""Named materials: constants with sources, and look-up by name."""
 
 import tomllib
 from collections.abc import Iterable, Mapping
@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from derivation.scene.messages import nearest, shown
+from derivation.engine.nearest import nearest
+from derivation.scene.messages import shown
 
 
 @dataclass(frozen=True)
@@ -28,7 +29,7 @@ class KnownMaterial:
     retardation_time
         Retardation time of the material [s]; None if it is elastic.
     source
-        Where the numbers stand.
+        Source of the constants.
     also
         Other names.
     """
@@ -45,7 +46,7 @@ class KnownMaterial:
     also: tuple[str, ...] = ()
 
     def to_json(self) -> dict[str, Any]:
-        """What the source gives, in SI."""
+        """Return the constants in SI units; those that the source does not give are missing."""
         found = {
             "name": self.name,
             "youngs_modulus": self.youngs_modulus,
@@ -60,18 +61,18 @@ class KnownMaterial:
 
 
 def lame_constants(E: float, nu: float) -> tuple[float, float]:
-    """First and second Lame constant [Pa] from Young's modulus [Pa] and Poisson's ratio."""
+    """Return both Lame constants [Pa] from Young's modulus [Pa] and Poisson's ratio [1]."""
     mu = E / (2 * (1 + nu))
     return 2 * mu * nu / (1 - 2 * nu), mu
 
 
 def plane_strain_modulus(lam: float, mu: float) -> float:
-    """E* = E/(1 - nu^2) = 4 mu (lam + mu)/(lam + 2 mu) [Pa]."""
+    """Return E* = E/(1 - nu^2) = 4 mu (lam + mu)/(lam + 2 mu) [Pa]."""
     return 4.0 * mu * ((lam + mu) / (lam + 2.0 * mu))
 
 
 def material_of(name: str, keys: Mapping[str, Any]) -> KnownMaterial:
-    """A material from its table, which gives E and nu or, in the catalogue, Lame constants."""
+    """Make a material from a table with E and nu or, in the catalogue, Lame constants."""
     if "lame_mu" in keys:
         lam, mu = keys["lame_lambda"], keys["lame_mu"]
         E, nu = mu * (3 * lam + 2 * mu) / (lam + mu), lam / (2 * (lam + mu))
@@ -90,11 +91,11 @@ def _catalogue() -> dict[str, KnownMaterial]:
 
 
 MATERIALS = _catalogue()
-"""By the name that lists show."""
+"""The built-in materials by name."""
 
 
 def plain(name: str) -> str:
-    """A name without what does not tell names apart: case, spaces, hyphens and underscores."""
+    """Return a name in lower case without spaces, hyphens and underscores."""
     return name.casefold().translate({ord(c): None for c in " -_"})
 
 
@@ -108,16 +109,16 @@ HOLLOW = {
         "beach ball", "balloon",
     )
 }  # fmt: skip
-"""Balls that are shells filled with air."""
+"""Names of hollow balls."""
 
 
 def find(name: str, own: Mapping[str, KnownMaterial] | None = None) -> KnownMaterial | None:
-    """The material of a name: one of the scene's own first, then one of the catalogue.
+    """Return the material with a name, first from the scene, then from the catalogue.
 
     Parameters
     ----------
     name
-        Its name, without regard to case, spaces, hyphens and underscores.
+        Its name; case, spaces, hyphens and underscores do not matter.
     own
         Materials that a scene defines, by name.
     """
@@ -126,17 +127,17 @@ def find(name: str, own: Mapping[str, KnownMaterial] | None = None) -> KnownMate
 
 
 def unknown(name: str, own: Iterable[str] = ()) -> str:
-    """What to say of a name that is no material's: the nearest one, or that the ball is hollow."""
+    """Return the message for an unknown material: the nearest name, or that the ball is hollow."""
     if plain(name) in HOLLOW:
         return (
-            f"expected the material of a solid sphere, got {shown(name)}, which is hollow: a shell "
-            "bends in contact, which this model does not include"
+            f"expected the material of a solid sphere, got {shown(name)}, which is hollow; the "
+            "model does not include the bending of a shell"
         )
     names = {key: material.name for key, material in _BY_PLAIN.items()}
     names |= {plain(known): known for known in own}
     near = nearest(plain(name), names)
-    meant = f"did you mean {names[near]}? " if near else ""
+    meant = f"did you mean {names[near[0]]}? " if near else ""
     return (
         f"expected the name of a material, got {shown(name)}; {meant}`platecontact materials` "
-        "lists them, and a table [materials.NAME] defines one"
+        "lists them, and a table [materials.NAME] in the scene file defines another one"
     )

@@ -1,8 +1,8 @@
-"""A measured restitution: the yield stress or retardation time of the plate that gives it.
+"""Determines the yield stress or retardation time of the plate from a measured restitution.
 
-The restitution that is measured on a thick block, which takes no energy as a plate does, or on the
-plate itself is met by simulating that impact again and again. It falls as the plate yields earlier
-or its contact is more viscous, so that the value is the only one.
+The restitution was measured on a thick block, which does not vibrate, or on the plate itself. The
+impact is simulated repeatedly until the restitution agrees. Restitution decreases with decreasing
+yield stress and with increasing retardation time, so that the solution is unique.
 """
 
 import json
@@ -19,29 +19,28 @@ if TYPE_CHECKING:
 
 UNITS = {"yield_stress": "Pa", "retardation_time": "s"}
 DIGITS = 4
-"""Digits of the value that are shown."""
+"""Number of digits of the value that are shown."""
 BLOCK = 1e4
-"""Size of the block over the sphere radius: it neither bends nor ends."""
+"""Size of the block over the sphere radius, so large that bending and edges have no effect."""
 EFFECTS = {"yield_stress": "plasticity", "retardation_time": "viscosity"}
-"""The effect that a quantity belongs to."""
+"""The effect that each constant belongs to."""
 EARLY = 1e-2
-"""Retardation time over contact time that is tried first."""
+"""First trial value of retardation time over contact time."""
 STEPS, FACTOR = 40, 2.0
-"""How many values are tried until the one looked for lies between two, and how far apart they
-are."""
+"""Largest number of trial values until two of them enclose the solution, and their ratio."""
 CLOSE = {"block": 1e-9, "plate": 1e-4}
-"""Relative accuracy of the value found [1]: a moving plate's restitution is not smoother."""
+"""Relative accuracy of the solution [1]; with plate inertia the restitution is less smooth."""
 BLOCK_RTOL = 1e-8
 """Relative tolerance of impacts on a block [1]."""
 
 
 def fitted(scene: "Scene") -> "Scene":
-    """The scene with the value that its measured restitution tells, and without the measurement.
+    """Return the scene with the constant determined from its measured restitution.
 
     Raises
     ------
     SceneError
-        If no value gives the restitution, or an impact on the way is refused.
+        If no value gives the restitution, or a simulation with a trial value fails.
     """
     from derivation.scene.scene import read
 
@@ -49,26 +48,27 @@ def fitted(scene: "Scene") -> "Scene":
 
 
 def solved(scene: "Scene") -> float:
-    """The value that the measured restitution of a scene tells [Pa or s]."""
+    """Return the constant determined from the measured restitution of a scene [Pa or s]."""
     assert scene.measured is not None
     return float(fitted(scene).plate.model_dump()[scene.measured.solve_for])
 
 
 def in_words(scene: "Scene") -> str:
-    """The same in a sentence."""
+    """Return the constant determined from the measured restitution, as a sentence."""
     wanted = scene.measured
     assert wanted is not None
     value, unit = prefixed(solved(scene), UNITS[wanted.solve_for], DIGITS)
-    struck = "a thick block" if wanted.target == "block" else "the plate"
+    specimen = "a thick block" if wanted.target == "block" else "the plate"
     return (
         f"plate.{wanted.solve_for} = {value} {unit}, from the restitution "
-        f"{wanted.restitution:g} of {struck} at {wanted.tested_at or scene.impact.speed:g} m/s"
+        f"{wanted.restitution:g} measured on {specimen} at "
+        f"{wanted.tested_at or scene.impact.speed:g} m/s"
     )
 
 
 @lru_cache(maxsize=64)
 def _fitted(text: str) -> str:
-    """The same of scenes as JSON."""
+    """Do the same for a scene as JSON text; results are cached."""
     tables = json.loads(text)
     wanted = tables.pop("measured")
     key, goal = wanted["solve_for"], wanted["restitution"]
@@ -79,7 +79,7 @@ def _fitted(text: str) -> str:
 
 
 def _measurement(tables: dict[str, Any], wanted: dict[str, Any]) -> dict[str, Any]:
-    """The scene of the measurement."""
+    """Return the scene of the measurement."""
     speed = wanted.get("tested_at", tables["impact"]["speed"])
     scene = tables | {"impact": tables["impact"] | {"speed": speed}}
     if wanted.get("target", "block") == "plate":
@@ -98,7 +98,7 @@ def _measurement(tables: dict[str, Any], wanted: dict[str, Any]) -> dict[str, An
 
 
 def _simulated(tables: dict[str, Any], key: str, value: float | None) -> "Result":
-    """The impact with a value of the plate's, or without loss in the contact."""
+    """Simulate the impact with a trial value, or without energy loss in the contact."""
     from derivation.scene.impact import simulate
     from derivation.scene.scene import read
 
@@ -108,18 +108,19 @@ def _simulated(tables: dict[str, Any], key: str, value: float | None) -> "Result
 
 
 def _solved(tables: dict[str, Any], key: str, goal: float, close: float) -> float:
-    """The value at which the restitution is the one measured.
+    """Return the value at which the restitution agrees with the measurement.
 
-    What the contact takes grows as the yield stress falls below its pressure, and with the
-    retardation time.
+    The energy loss in the contact increases as the yield stress decreases, and as the retardation
+    time increases.
     """
     from scipy.optimize import brentq
 
     lossless = _simulated(tables, key, None)
     if not goal < lossless.restitution:
         raise SceneError(
-            f"measured.restitution: expected less than {lossless.restitution:.6g}, which is left "
-            f"without any loss in the contact, got {goal:.6g}; correct it, or the target"
+            f"measured.restitution: expected less than {lossless.restitution:.6g}, the restitution "
+            f"without energy loss in the contact, got {goal:.6g}; correct measured.restitution or "
+            "measured.target"
         )
 
     def above(x: float) -> float:
@@ -128,7 +129,7 @@ def _solved(tables: dict[str, Any], key: str, goal: float, close: float) -> floa
     first = lossless.max_pressure if key == "yield_stress" else EARLY * lossless.contact_time
     more = -math.log(FACTOR) if key == "yield_stress" else math.log(FACTOR)
     x = math.log(first)
-    # Towards a larger loss as long as too little is taken, else towards a smaller one.
+    # Towards a larger energy loss if the restitution is too large, else towards a smaller one.
     step = more if above(x) > 0.0 else -more
     for _ in range(STEPS):
         if above(x + step) * step * more <= 0.0:
@@ -136,7 +137,8 @@ def _solved(tables: dict[str, Any], key: str, goal: float, close: float) -> floa
         x += step
     else:
         raise SceneError(
-            f"measured.restitution: expected one that some {key} gives, got {goal:.6g}, which none "
-            f"gave up to {math.exp(x):.6g}; correct it, or solve for the other quantity"
+            f"measured.restitution: expected a value that some plate.{key} gives, got {goal:.6g}, "
+            f"which no value up to {math.exp(x):.6g} {UNITS[key]} gives; correct it, or change "
+            "measured.solve_for"
         )
     return math.exp(float(brentq(above, x, x + step, xtol=close)))

@@ -1,66 +1,67 @@
-"""Words for what is wrong with a scene: expected, got, and how to mend it."""
+"""Error messages about a scene: what was expected, what was given, what to do."""
 
-import difflib
 import json
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 from pydantic.fields import FieldInfo
 
+from derivation.engine.nearest import did_you_mean, nearest
 from derivation.engine.printable import one_line
 
 Fields = Mapping[str, Mapping[str, FieldInfo]]
-"""Per table its keys."""
+"""The fields of each table by key."""
 
 MOST, LONG = 20, 40
-"""Problems that are listed, and letters of a key that are shown."""
-ELSEWHERE_LIKE = 0.8
-"""How alike, of 1, a key of another table has to be in order to be meant."""
-TABLE_LIKE = 0.9
-"""How alike a name has to be to a table's in order to be no key of another table."""
+"""Largest number of problems that are listed, and of letters of a key that are shown."""
+OTHER_TABLE_ALIKE = 0.8
+"""Similarity, from 0 to 1, from which a key of another table is suggested."""
+TABLE_ALIKE = 0.9
+"""Similarity from which an unknown table is taken for a misspelled table, not for a key."""
 WANTED = '"auto", true or false'
 EXPECTED = {
     "material": "the name of a material (`platecontact materials` lists them)",
-    "source": "a text",
+    "source": "text",
     "edge": '"paper", "simply-supported" or "clamped"',
     "outputs": "a list of contact_time, max_indentation, max_force, max_contact_radius and "
     "restitution",
     "lame_lambda": "a finite number",
-    "loss_factor": "a number from 0 to below 2, where damping is critical",
+    "loss_factor": "a number from 0 to below 2 (2 is critical damping)",
     "poissons_ratio": "a number above -1 and below 0.5",
     "rtol": "a number from 1e-13 to 1",
-    "compare_paper_motion": 'true or false (it is never "auto")',
+    "compare_paper_motion": 'true or false (not "auto")',
     "modes": '"auto" or a whole number from 2 to 6000',
-    "branches": '"A0" or "all"',
+    "branches": '"auto", "A0" or "all"',
     "coupling": '"variational" or "pointwise"',
     "extent": '"finite" or "infinite"',
     "restitution": "a number above 0 and below 1",
     "solve_for": '"yield_stress" or "retardation_time"',
     "target": '"block" or "plate"',
 }
-"""What a key is to hold, if not a positive number."""
+"""Expected value of each key that does not hold a positive number."""
 
 OWN_MATERIALS = "materials"
-"""The table of tables that define materials."""
+"""Name of the table that contains the tables of own materials."""
 _SOLID = (
-    "the sphere is solid: a hollow one bends like a shell, which this model does not include; "
-    "remove it"
+    "the sphere is solid, and the model does not include the bending of a hollow sphere; remove "
+    "the key"
 )
 UNKNOWN = {
     ("sphere", key): _SOLID
     for key in ("thickness", "wall_thickness", "shell_thickness", "wall", "hollow", "inner_radius")
 }
-"""Why a table has no such key."""
+"""Why a key does not exist, for keys that users may expect."""
 
 ELSEWHERE = {
-    "rtol": "; for more digits than doubles hold run "
+    "rtol": "; for more digits than double precision has, run "
     "`platecontact reference SCENE.toml --digits N`",
 }
-"""Where to go with what a key does not take."""
+"""What to use for values that a key does not accept."""
 
 
 def shown(value: Any) -> str:
-    """A value as TOML writes it, cut short if long."""
+    """Return a value as TOML writes it, shortened if it is long."""
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, float):
@@ -74,11 +75,11 @@ def shown(value: Any) -> str:
     try:
         return one_line(str(value), 40)
     except ValueError:  # an integer of so many digits that Python refuses to print it
-        return "an integer too large for a number"
+        return "an integer with too many digits"
 
 
 def explain(kind: str, place: tuple[int | str, ...], value: Any, fields: Fields) -> str:
-    """One problem of one key or table.
+    """Return the message for one problem of a key or table.
 
     Parameters
     ----------
@@ -87,41 +88,42 @@ def explain(kind: str, place: tuple[int | str, ...], value: Any, fields: Fields)
     place
         Table and key.
     value
-        What the scene holds there.
+        The given value.
     fields
-        The keys each table knows.
+        The fields of each table by key.
     """
-    name = _named(place)
+    name = _name(place)
     if kind in {"extra_forbidden", "invalid_key"}:
         return _unknown(place, fields)
     if kind == "string_unicode" and len(place) < 2:
         where = name or "scene"
-        return f"{where}: expected a name of whole characters, got {shown(value)}; rename it"
+        return f"{where}: expected a name in valid Unicode, got {shown(value)}; rename it"
     if place == (OWN_MATERIALS,):
         return (
-            f"{name}: expected tables [{name}.NAME], got {shown(value)}; write [{name}.NAME], "
-            "below it the material's constants"
+            f"{name}: expected tables [{name}.NAME], got {shown(value)}; write [{name}.NAME] and "
+            "below it the constants of the material"
         )
     if len(place) == 1:
         example = _line(name, next(iter(fields[name].items())))
         if kind == "missing":
             return f"{name}: expected a table [{name}], got none; add [{name}] with {example}, ..."
         expected = f"expected a table [{name}], got {shown(value)}"
-        return f"{name}: {expected}; write [{name}], below it {example}"
+        return f"{name}: {expected}; write [{name}] and below it {example}"
     table, key = str(place[0]), str(place[1])
     field = fields[table][key]
     usual = WANTED if table == "effects" else "a positive number"
-    name = f"{table}.{key}"  # not which alternative of it failed
-    said = field.description or ""
-    told = said if said.startswith(("the ", "how ")) else f"the {said}"
-    expected = f"expected {EXPECTED.get(key, usual)}, {told}"
+    name = f"{table}.{key}"  # without the alternative that failed
+    meaning = re.split(r"[;:(]", field.description or "")[0].strip()
+    expected = f"expected {EXPECTED.get(key, usual)} ({meaning})"
     example = _line(table, (key, field))
+    for near in nearest(value, re.findall(r'"(.+?)"', expected)) if isinstance(value, str) else ():
+        example = f'`{key} = "{near}"`'
     if kind == "missing":
         return f"{name}: {expected}, got nothing; add {example} to [{table}]"
     elsewhere = ELSEWHERE.get(key, "")
-    words = field.examples and not isinstance(field.examples[0], (int, float))
-    quotes = " without quotes" if isinstance(value, str) and not words else ""
-    return f"{name}: {expected}, got {shown(value)}; write it{quotes} like {example}{elsewhere}"
+    text = field.examples and not isinstance(field.examples[0], (int, float))
+    quotes = "without quotes, " if isinstance(value, str) and not text else ""
+    return f"{name}: {expected}, got {shown(value)}; write {quotes}for example {example}{elsewhere}"
 
 
 def choice_problem(
@@ -130,18 +132,18 @@ def choice_problem(
     given: Iterable[str],
     examples: Mapping[str, str],
 ) -> str | None:
-    """What is wrong if not exactly one group of keys is given, and given whole.
+    """Return a message unless exactly one group of keys is given completely.
 
     Parameters
     ----------
     table
         Name of the table.
     groups
-        The alternatives, each one key or several that go together.
+        The alternatives, each a key or several keys that belong together.
     given
-        Keys present.
+        The given keys.
     examples
-        A value for each key.
+        An example value of each key.
     """
     keys = set(given)
     present = [key for group in groups for key in group if key in keys]
@@ -152,61 +154,54 @@ def choice_problem(
     first = ", ".join(f"`{key} = {examples[key]}`" for key in groups[0])
     stray = [key for key in present if whole and key not in whole[0]]
     if not present:
-        got, mend = "neither", f"add for instance {first} to [{table}]"
+        got, remedy = "neither", f"add for example {first} to [{table}]"
     elif len(whole) == 2 and len(present) == len(whole[0]) + len(whole[1]):
-        got, mend = "both", f"remove {_group(table, whole[0])} or {_group(table, whole[1])}"
+        got, remedy = "both", f"remove {_group(table, whole[0])} or {_group(table, whole[1])}"
     elif whole:
-        got, mend = _names(table, present), f"remove {_names(table, stray)}"
+        got, remedy = _names(table, present), f"remove {_names(table, stray)}"
     else:
         begun = [group for group in groups if keys.intersection(group)]
         absent = [key for key in begun[0] if key not in keys]
         stray = [key for key in present if key not in begun[0]]
-        got, mend = f"only {_names(table, present)}", f"add {_names(table, absent)}"
-        mend += f" and remove {_names(table, stray)}" if stray else ""
-    return f"[{table}]: expected either {wanted}, got {got}; {mend}"
+        got, remedy = f"only {_names(table, present)}", f"add {_names(table, absent)}"
+        remedy += f" and remove {_names(table, stray)}" if stray else ""
+    return f"[{table}]: expected either {wanted}, got {got}; {remedy}"
 
 
 def _unknown(place: tuple[int | str, ...], fields: Fields) -> str:
-    name = _named(place)
+    name = _name(place)
     key = str(place[-1])
     if place in UNKNOWN:
         return f"{name}: unknown key: {UNKNOWN[place]}"
     homes = [f"[{table}]" for table, keys in fields.items() if key in keys]
     if len(place) == 1:
         known = [*(table for table in fields if "." not in table), OWN_MATERIALS]
-        said = f"{name}: unknown table, expected {', '.join(known)}"
+        problem = f"{name}: unknown table, expected one of {', '.join(known)}"
     else:
         table = str(place[0])
         known = list(fields[table])
-        said = f"{name}: unknown key, expected in [{table}] one of {', '.join(known)}"
-    table_meant = len(place) == 1 and nearest(key, known, TABLE_LIKE)
+        problem = f"{name}: unknown key, expected in [{table}] one of {', '.join(known)}"
+    table_meant = len(place) == 1 and nearest(key, known, TABLE_ALIKE)
     if homes and not table_meant:
-        return f"{said}; move it to {' or '.join(homes)}"
-    near = nearest(key, known)
-    if near:
-        return f"{said}; did you mean {near}?"
-    others = ((table, nearest(key, keys, ELSEWHERE_LIKE)) for table, keys in fields.items())
-    elsewhere = [f"{table}.{other}" for table, other in others if other]
-    found = nearest(name, elsewhere)
-    return f"{said}; did you mean {found}?" if found else f"{said}; remove it"
-
-
-def nearest(name: str, known: Iterable[str], alike: float = 0.5) -> str | None:
-    """The known name that one mistyped is nearest to, if any is near."""
-    lowered = name[:LONG].lower().replace("-", "_")
-    close = difflib.get_close_matches(lowered, list(known), n=1, cutoff=alike)
-    return close[0] if close else None
+        return f"{problem}; move it to {' or '.join(homes)}"
+    elsewhere = [
+        f"{table}.{other}"
+        for table, keys in fields.items()
+        for other in nearest(key, keys, OTHER_TABLE_ALIKE)
+    ]
+    near = did_you_mean(key, known) or did_you_mean(name, elsewhere)
+    return f"{problem}; {near.rstrip() or 'remove it'}"
 
 
 def listed(problems: Sequence[Callable[[], str]]) -> str:
-    """Problems below each other; of very many the first, which alone are put into words."""
+    """Return the problems as a list; if there are many, only the first."""
     lines = [f"\n  - {problem()}" for problem in problems[:MOST]]
     more = f"\n  - … and {len(problems) - MOST:,} more" if len(problems) > MOST else ""
     return f"{len(problems):,} problems{''.join(lines)}{more}"
 
 
-def _named(place: tuple[int | str, ...]) -> str:
-    """A key with its table, on a line however long or odd it is."""
+def _name(place: tuple[int | str, ...]) -> str:
+    """Return a key with its table on one line, shortened if it is long."""
     return ".".join(one_line(str(part), LONG) for part in place)
 
 

@@ -1,18 +1,27 @@
-"""Takes the cheapest method whose error bound meets a tolerance, and says what the bound rests on.
+"""Selects the fastest method whose error bound meets the tolerance, with the basis of the bound.
 
-The effects of the law have been selected. From the fastest: `hertz` and `leading` have a proven
-bound on what they omit of the plate's law; `coarse` and `full` take the whole law, with half the
-nodes of the quadrature and with all. A bound is a relative error of all its results against the
-law of every effect that the scene does not disable, the scene's numbers being exact doubles.
+The effects of the law have been selected before. In the order of run time: `hertz` and `leading`
+omit terms of the plate's law and have a proved bound; `coarse` and `full` use the whole law, with
+half the quadrature nodes and with all of them. An error bound is a relative error of each output
+against the law with all effects that the scene does not disable, for inputs that are exact doubles.
 """
 
 import math
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from derivation.scene import kernels, motion
+from derivation.scene.achieved_accuracy import (
+    ESTIMATED,
+    PROVED,
+    ROUNDING_ANALYSIS,
+    TESTED,
+    AchievedAccuracy,
+    Part,
+    rounded_up,
+)
 from derivation.scene.effect_selection import SelectedEffects
 from derivation.scene.effects import BY_NAME, PAPER
 from derivation.scene.effects.effect import Results
@@ -20,135 +29,14 @@ from derivation.scene.law import ContactLaw
 from derivation.scene.limits import check_energy, check_numbers
 from derivation.scene.messages import shown
 from derivation.scene.model import Model
-from derivation.scene.scene import OUTPUTS, TIGHTEST, SceneError
+from derivation.scene.scene import TIGHTEST, SceneError
 
 if TYPE_CHECKING:
     from derivation.scene.wave_motion import DynamicImpact
 
-METHODS = {
-    "hertz": "Hertz's law alone",
-    "leading": "Hertz's law and the plate's first correction",
-    "coarse": "the law of every effect included, half the nodes",
-    "full": "the law of every effect included",
-}
-"""From the cheapest to the dearest."""
-BASES = PROVED, ROUNDING_ANALYSIS, TESTED, ESTIMATED = (
-    "proved", "rounding_analysis", "tested", "estimated",
-)  # fmt: skip
-"""What a bound rests on, the strongest first: a proof; the number of operations times their
-rounding; an error budget that the test suite enforces; an estimate without guarantee, as of
-omitted modes and branches."""
-
-
-@dataclass(frozen=True)
-class Part:
-    """One part of an error bound.
-
-    Attributes
-    ----------
-    bound
-        Relative error [1].
-    basis
-        `proved`, `rounding_analysis`, `tested` or `estimated`.
-    """
-
-    bound: float
-    basis: str
-
-
-@dataclass(frozen=True)
-class AchievedAccuracy:
-    """How an impact was computed and how wrong it may be.
-
-    Attributes
-    ----------
-    method
-        One of `METHODS`.
-    rtol
-        The tolerance that was asked for [1]; None if none was.
-    law, quadrature, rounding
-        Parts of the bound: what is left out of the contact law, what the integral for the
-        contact time misses, and the arithmetic, of the law's tables too.
-    effects
-        Another part: the effects that the selection omitted.
-    outputs
-        The results that the bound is one of.
-    """
-
-    method: str
-    rtol: float | None
-    law: Part
-    quadrature: Part
-    rounding: Part
-    effects: Part = Part(0.0, PROVED)
-    outputs: tuple[str, ...] = OUTPUTS
-
-    @property
-    def parts(self) -> dict[str, Part]:
-        """The bound's parts by name."""
-        names = ("effects", "law", "quadrature", "rounding")
-        return {name: getattr(self, name) for name in names}
-
-    @property
-    def bound(self) -> float:
-        """Bound of the relative error of every result it is one of [1]."""
-        return math.expm1(sum(math.log1p(part.bound) for part in self.parts.values()))
-
-    def to_json(self) -> dict[str, Any]:
-        """Method, tolerance and bound, with each part and what it rests on."""
-        parts = {
-            name: {
-                "bound": part.bound if math.isfinite(part.bound) else None,
-                "basis": part.basis,
-            }
-            for name, part in self.parts.items()
-        }
-        bound = self.bound if math.isfinite(self.bound) else None
-        made = {"method": self.method, "rtol": self.rtol, "bound": bound, "parts": parts}
-        return made | {"outputs": list(self.outputs)}
-
-    @property
-    def _of(self) -> str:
-        """Whose error, if not that of every result."""
-        if self.outputs == OUTPUTS:
-            return ""
-        return " of " + ", ".join(name.replace("_", " ") for name in self.outputs)
-
-    @property
-    def basis(self) -> str:
-        """What the bound as a whole rests on: the weakest basis of its parts."""
-        return max((part.basis for part in self.parts.values() if part.bound), key=BASES.index)
-
-    @property
-    def summary(self) -> str:
-        """The bound in a few words."""
-        if not math.isfinite(self.bound):
-            return "no error bound is known"
-        return f"relative error{self._of} at most {_above(self.bound)} ({self.basis})"
-
-    def __str__(self) -> str:
-        """Method and bound in a sentence."""
-        if not math.isfinite(self.bound):
-            return f"method {self.method} ({METHODS[self.method]}): no error bound is known"
-        parts = ", ".join(
-            f"{name} {_above(part.bound)} ({part.basis})"
-            for name, part in self.parts.items()
-            if part.bound
-        )
-        return (
-            f"method {self.method} ({METHODS[self.method]}): "
-            f"relative error{self._of} at most {_above(self.bound)}, of this {parts}"
-        )
-
-
-def _above(bound: float) -> str:
-    """Two digits of a bound, rounded up."""
-    text = f"{bound:.1e}"
-    return text if float(text) >= bound else f"{1.05 * bound:.1e}"
-
 
 def check_rtol(rtol: float) -> float:
-    """The tolerance, if doubles can meet it.
+    """Return the tolerance as a float.
 
     Raises
     ------
@@ -159,7 +47,8 @@ def check_rtol(rtol: float) -> float:
     if not number or not TIGHTEST <= rtol <= 1:
         raise SceneError(
             f"rtol: expected a relative tolerance from {TIGHTEST:g} to 1, got {shown(rtol)}; for "
-            "more digits than doubles hold run `platecontact reference SCENE.toml --digits N`"
+            "more digits than double precision has, run `platecontact reference SCENE.toml "
+            "--digits N`"
         )
     return float(rtol)
 
@@ -167,18 +56,20 @@ def check_rtol(rtol: float) -> float:
 def solve_selected(
     selected: SelectedEffects, rtol: float | None = None
 ) -> tuple[Results, AchievedAccuracy]:
-    """The five results by the law of the selected effects.
+    """Return the five outputs by the law of the selected effects, with their accuracy.
 
     Parameters
     ----------
+    selected
+        The selected effects.
     rtol
-        Relative tolerance of every result [1], the omitted effects included; without it
-        the full method.
+        Relative tolerance of each output [1], omitted effects included; by default the full
+        method is used.
 
     Raises
     ------
     SceneError
-        If the impact leaves the law's range, or the tolerance is out of reach.
+        If the impact exceeds the law's range, or the tolerance cannot be met.
     """
     law, rest = selected.law, remaining(selected, rtol)
     if law.of_paper:
@@ -193,7 +84,7 @@ def solve_selected(
         effects=Part(selected.error, _basis(selected)),
         outputs=selected.outputs,
     )
-    # An incomplete course has no bound: it is shown as what it is, not refused.
+    # An incomplete impact has no bound; it is returned and marked as incomplete.
     if rtol is not None and rtol < accuracy.bound and not math.isnan(found[-1]):
         raise _out_of_reach(rtol, accuracy, law, found[3])
     check_numbers(law.model, *(found[:-1] if math.isnan(found[-1]) else found))
@@ -201,36 +92,37 @@ def solve_selected(
 
 
 def _out_of_reach(rtol: float, accuracy: AchievedAccuracy, law: ContactLaw, a: float) -> SceneError:
-    """Of a tolerance that the results do not meet, or of which that cannot be told."""
+    """Return the error for a tolerance that is not met, or cannot be compared with a bound."""
     if math.isinf(accuracy.effects.bound):
         return SceneError(
-            f"rtol: expected a bound on the omitted effects to compare {rtol:.3g} with, got none; "
-            "leave out what [effects] disables, or the tolerance"
+            f"rtol: the tolerance {rtol:.3g} cannot be checked because there is no bound on the "
+            "omitted effects; remove the effects that [effects] disables, or the tolerance"
         )
-    where = f"for a contact as wide as a/R = {a / law.model.R:.4g}"
-    mend = "give a larger tolerance"
+    where = f"for a contact radius a/R = {a / law.model.R:.4g}"
+    remedy = "increase the tolerance"
     if law.dynamic:
-        where = "with the modes and branches that move"
-        mend += ", or more inertia.modes"
+        where = "with the dynamic modes and wave branches of this scene"
+        remedy += " or inertia.modes"
     if math.isinf(accuracy.bound):
         return SceneError(
-            f"inertia.modes: expected modes as fast as the contact, as the error bound requires, "
-            f"got {law.model.inertia.modes}; give more, or remove the tolerance"
+            f"inertia.modes: expected enough modes for an error bound, got "
+            f"{law.model.inertia.modes}; increase inertia.modes, or remove the tolerance"
         )
     return SceneError(
-        f"rtol: expected at least {_above(accuracy.bound)} {where}, got {rtol:.3g}; {mend}"
+        f"rtol: expected at least {rounded_up(accuracy.bound)} {where}, got {rtol:.3g}; {remedy}"
     )
 
 
 def remaining(selected: SelectedEffects, rtol: float | None) -> float | None:
-    """What a tolerance leaves beside the effects left out [1]."""
+    """Return the part of a tolerance that the omitted effects leave [1]."""
     return None if rtol is None else (rtol - selected.error) / (1.0 + selected.error)
 
 
 def _basis(selected: SelectedEffects) -> str:
-    """What the bound of the omitted effects rests on.
+    """Return the basis of the bound on the omitted effects.
 
-    Proofs are of elastic contacts on a quasi-static plate; others are tested on random scenes.
+    It is proved for elastic contacts on a quasi-static plate, and otherwise tested on random
+    scenes.
     """
     law = selected.law
     out = [row.name for row in selected.rows if row.bound and not (row.included or row.disabled)]
@@ -239,7 +131,7 @@ def _basis(selected: SelectedEffects) -> str:
 
 
 def _composed(law: ContactLaw) -> tuple[Results, AchievedAccuracy]:
-    """The results on a quasi-static plate by a law of any effects, and their bounds."""
+    """Return the outputs on a quasi-static plate by a law of any effects, with their accuracy."""
     if law.hertzian and not (law.viscous or law.plastic or law.gravity):
         closed = _half_space(law)
         if closed is not None:
@@ -255,14 +147,14 @@ def _composed(law: ContactLaw) -> tuple[Results, AchievedAccuracy]:
 
 
 def _cancellation(law: ContactLaw, a: float) -> float:
-    """Rounding error of the slope at a contact radius [m] [1]."""
+    """Return the relative rounding error of the slope at a contact radius [m]."""
     return float(law.cancellation(np.array([a]))[0])
 
 
 def _with_inertia(
     selected: SelectedEffects, rtol: float | None
 ) -> tuple[Results, AchievedAccuracy]:
-    """The results with inertia, and their bounds."""
+    """Return the outputs with plate inertia, with their accuracy."""
     from derivation.scene import waves
 
     law, found = selected.law, dynamic_impact(selected, rtol)
@@ -276,26 +168,26 @@ def _with_inertia(
 
 
 def dynamic_impact(selected: SelectedEffects, rtol: float | None) -> "DynamicImpact":
-    """The impact on a plate with inertia, as the tolerance asks for.
+    """Return the impact on a plate with inertia, to a tolerance.
 
     Raises
     ------
     SceneError
-        If it exceeds the law's range, or cannot be followed.
+        If the impact exceeds the law's range, or the time integration fails.
     """
     from derivation.scene import waves
 
-    with np.errstate(all="ignore"):  # extreme scenes end in NaN, which is looked for
+    with np.errstate(all="ignore"):  # extreme scenes give NaN, which is checked
         return waves.impact(selected.law, waves.goal(remaining(selected, rtol)), selected.outputs)
 
 
 def moved(law: ContactLaw) -> motion.Motion:
-    """The impact on a quasi-static plate by a law of any effects.
+    """Return the impact on a quasi-static plate by a law of any effects.
 
     Raises
     ------
     SceneError
-        If it exceeds the law's range, or the sphere stays on the plate.
+        If the impact exceeds the law's range, or the sphere does not rebound.
     """
     with np.errstate(all="ignore"):
         if law.viscous:
@@ -310,7 +202,7 @@ def moved(law: ContactLaw) -> motion.Motion:
 
 
 def rounding_of(law: ContactLaw) -> float:
-    """What tests hold the arithmetic to; that of the pressure and in time come on top."""
+    """Return the tested bound on rounding errors, including those of pressure and time steps."""
     rounding = kernels.ROUNDING
     if law.solved:
         from generated.pressure_numbers import ERROR
@@ -328,7 +220,7 @@ def rounding_of(law: ContactLaw) -> float:
 
 
 def _half_space(law: ContactLaw) -> tuple[Results, AchievedAccuracy] | None:
-    """Hertz's law in closed form, the modulus that of the contact; None for extreme numbers."""
+    """Return the outputs by Hertz's law in closed form; None for extreme values."""
     R, m, v0, h, b, lam, mu = law.model.numbers
     share = 1.0 / (1.0 + law.softness)
     found = kernels.hertz(R, m, v0, h, b, share * lam, share * mu)
@@ -341,17 +233,19 @@ def _half_space(law: ContactLaw) -> tuple[Results, AchievedAccuracy] | None:
 
 
 def solve(model: Model, rtol: float | None = None) -> tuple[Results, AchievedAccuracy]:
-    """The five results by the paper's law, of a rigid paraboloid, by the cheapest method.
+    """Return the five outputs by the paper's law (rigid paraboloid), by the fastest method.
 
     Parameters
     ----------
+    model
+        The quantities of the scene.
     rtol
-        Relative tolerance of every result [1], from 1e-13 to 1; without it the full method.
+        Relative tolerance of each output [1], from 1e-13 to 1; by default the full method is used.
 
     Raises
     ------
     SceneError
-        If the impact leaves the contact law's range.
+        If the impact exceeds the law's range.
     """
     within = False
     if rtol is not None:
@@ -362,11 +256,11 @@ def solve(model: Model, rtol: float | None = None) -> tuple[Results, AchievedAcc
             accuracy = estimated(method, found, rtol)
             if accuracy.bound <= rtol:
                 return (*found[:4], 1.0), accuracy
-            within = True  # a bound is one on the radius too
+            within = True  # the bound also limits the radius
     if not within:
         check_energy(ContactLaw(model, PAPER))
     coarse = rtol is not None and whole_law("coarse", rtol).bound <= rtol
-    with np.errstate(all="ignore"):  # extreme scenes end in NaN, which is looked for
+    with np.errstate(all="ignore"):  # extreme scenes give NaN, which is checked
         values = kernels.impact(*model.numbers, coarse=coarse)
     contact_time, delta, P, a = (float(value) for value in values)
     check_numbers(model, contact_time, delta, P, a)
@@ -374,7 +268,7 @@ def solve(model: Model, rtol: float | None = None) -> tuple[Results, AchievedAcc
 
 
 def whole_law(method: str, rtol: float | None) -> AchievedAccuracy:
-    """The bounds of `coarse` and `full`, which do not depend on the scene."""
+    """Return the accuracy of `coarse` or `full`, which does not depend on the scene."""
     coarse = method == "coarse"
     quadrature = kernels.COARSE_QUADRATURE if coarse else kernels.FULL_QUADRATURE
     return AchievedAccuracy(
@@ -387,7 +281,7 @@ def whole_law(method: str, rtol: float | None) -> AchievedAccuracy:
 
 
 def estimated(method: str, found: kernels.Estimate, rtol: float | None) -> AchievedAccuracy:
-    """The bounds of `hertz` and `leading`."""
+    """Return the accuracy of `hertz` or `leading`."""
     return AchievedAccuracy(
         method,
         rtol,

@@ -1,4 +1,4 @@
-"""Turns a scene into the numbers the kernels take, and into dimensionless ones."""
+"""Converts a scene into the quantities of the contact law, and into dimensionless parameters."""
 
 import math
 from dataclasses import dataclass, fields, replace
@@ -15,22 +15,22 @@ from derivation.scene.scene import Scene, SceneError
 
 NUMBERS = ("R", "m", "v0", "h", "b", "lam", "mu")
 HERTZ_TIME, TIME_BY_ZENER = 3.3, 5.0
-"""Contact time over (m^2/(K^2 v0))^(1/5), 2.94 by Hertz's law and little more on a plate; and how
-it grows with Zener's number: a first guess, for the radius of an infinite plate."""
+"""Contact time over (m^2/(K^2 v0))^(1/5), which is 2.94 by Hertz's law and more on a plate, and its
+increase with the Zener parameter: a first guess for the radius of an infinite plate."""
 
 
 @dataclass(frozen=True)
 class InertiaSettings:
-    """How the plate's inertia is computed.
+    """Settings of the computation with plate inertia.
 
     Attributes
     ----------
     modes
-        Number of dynamic bending modes; 0 for as many as it takes.
+        Number of dynamic bending modes; 0 for an automatic choice.
     branches
-        "A0", "all" of the plate's branches, or "auto" for all where the tolerance needs them.
+        Lamb-wave branches: "A0", "all", or "auto" (all if the tolerance requires them).
     pointwise
-        Whether the indentation is taken at the axis, which leaks energy.
+        Whether the indentation is defined at the axis, which causes a spurious energy loss.
     infinite_plate
         Whether the plate is so large that no wave returns from its edge.
     """
@@ -43,10 +43,10 @@ class InertiaSettings:
 
 @dataclass(frozen=True)
 class Model:
-    """A scene in the quantities of the paper.
+    """The quantities of a scene, named as in the paper.
 
-    Of many scenes at once every number may be a column, an array of shape (n, 1): `derived_rows`
-    makes such models. Effects and contact law take them as they take single numbers.
+    For many scenes at once, each number may be an array of shape (n, 1): `derived_rows` makes such
+    models. Effects and contact law accept them like single numbers.
 
     Attributes
     ----------
@@ -57,26 +57,26 @@ class Model:
     lam, mu
         Lame constants of the plate [Pa].
     sphere_modulus
-        E/(1 - nu^2) of the sphere [Pa]; infinite for a rigid one.
+        E/(1 - nu^2) of the sphere [Pa]; infinite for a rigid sphere.
     gravity
-        What presses the sphere on [m/s^2].
+        Gravitational acceleration during contact [m/s^2].
     density
-        Of the plate [kg/m^3]; 0 if it is not known.
+        Density of the plate [kg/m^3]; 0 if unknown.
     retardation_time
-        Retardation time A_v of the viscoelastic contact [s], the mean of both bodies' weighted
-        with their compliances.
+        Retardation time A_v of the viscoelastic contact [s], the mean of those of both bodies
+        weighted with their compliances.
     yield_stress
-        The smaller of the bodies' yield stresses [Pa]; infinite if none is known.
+        The smaller yield stress of both bodies [Pa]; infinite if none is known.
     plate_yield_stress
-        That of the plate [Pa].
+        Yield stress of the plate [Pa]; infinite if unknown.
     solid_density
-        Density of the sphere's material [kg/m^3], whatever its mass; 0 if it is not known.
+        Density of the sphere's material [kg/m^3], even if another mass is given; 0 if unknown.
     loss_factor
         Loss factor of the plate [1].
     edge
-        How the plate's edge is held.
+        Support of the edge of the plate.
     inertia
-        How the plate's inertia is computed, where it is.
+        Settings of the computation with plate inertia.
     """
 
     R: float
@@ -99,18 +99,18 @@ class Model:
 
     @cached_property
     def plates(self) -> kernels.Plates:
-        """The contact law's polynomials of the plate, or of all plates."""
+        """Polynomials of the contact law for the plate, or for all plates."""
         return kernels.contact_plates(self.h, self.b)
 
     def take(self, index: Any) -> "Model":
-        """Some of many scenes, by their numbers; a single one by its number as a plain int."""
+        """Return some of many scenes by their indices; an int gives a single scene."""
         columns = {
             field.name: value[index].item() if isinstance(index, int) else value[index]
             for field in fields(self)
             if isinstance(value := getattr(self, field.name), np.ndarray)
         }
         found = replace(self, **columns)
-        if "plates" in vars(self) and not isinstance(index, int):  # known, and so kept
+        if "plates" in vars(self) and not isinstance(index, int):  # computed before
             many = self.plates.eta.size > 1
             known = kernels.plates_at(self.plates, index) if many else self.plates
             vars(found)["plates"] = known
@@ -134,12 +134,12 @@ class Model:
 
     @property
     def softness(self) -> float:
-        """E* of the plate over that of the sphere, 0 for a rigid one [1]."""
+        """E* of the plate over that of the sphere [1]; 0 for a rigid sphere."""
         return self.modulus / self.sphere_modulus
 
     @property
     def numbers(self) -> tuple[float, float, float, float, float, float, float]:
-        """R, m, v0, h, b, lam and mu, as the kernels of an impact take them."""
+        """R, m, v0, h, b, lam and mu, the arguments of the generated functions of an impact."""
         return self.R, self.m, self.v0, self.h, self.b, self.lam, self.mu
 
     @property
@@ -159,11 +159,11 @@ class Model:
 
     @property
     def energy_ratio(self) -> float:
-        """Energy of the sphere over that of its size in the plate, m v0^2/(mu R^3) [1]."""
+        """Energy number m v0^2/(mu R^3) [1]."""
         return (self.m / self.R) * (self.v0 / self.R) * (self.v0 / self.mu) / self.R
 
     def dimensionless(self) -> dict[str, float]:
-        """The four numbers on which everything dimensionless depends."""
+        """Return the four dimensionless parameters of a quasi-static elastic impact."""
         return {
             "h/b": self.eta,
             "R/b": self.sphere_ratio,
@@ -173,13 +173,13 @@ class Model:
 
 
 def model_of(scene: Scene) -> Model:
-    """The numbers of a scene.
+    """Return the quantities of a scene.
 
     Raises
     ------
     SceneError
-        If what follows from the scene, such as the mass, is no double above zero, or no value
-        gives its measured restitution.
+        If a derived quantity, such as the mass, is outside the range of double precision, or no
+        constant gives the measured restitution.
     """
     if scene.measured is not None:
         from derivation.scene.measured import fitted
@@ -191,19 +191,19 @@ def model_of(scene: Scene) -> Model:
     for name, value in zip(NUMBERS, model.numbers, strict=True):
         if not math.isfinite(value) or (value <= 0 and name != "lam"):
             raise SceneError(
-                f"scene: expected numbers a double can hold, got {name} = {value}, "
-                "computed from the scene; give less extreme numbers"
+                f"scene: expected quantities within the range of double precision, got {name} = "
+                f"{value}, computed from the scene; use less extreme values"
             )
     if not 3 * model.lam > -2 * model.mu:
         raise SceneError(
-            "plate.poissons_ratio: expected a ratio above -1 by more than rounding, "
-            f"got {scene.plate.poissons_ratio!r}; give the Lame constants instead"
+            "plate.poissons_ratio: expected a number above -1 by more than rounding, "
+            f"got {scene.plate.poissons_ratio!r}; give plate.lame_lambda and plate.lame_mu instead"
         )
     return model
 
 
 def numbers_of(scene: Scene) -> Model:
-    """The numbers of a scene as they are, or columns of those of a scene of columns."""
+    """Return the quantities of a scene without checks; arrays for a scene of arrays."""
     own = own_materials(scene.materials)
     sphere, plate = body_of(scene.sphere, own), body_of(scene.plate, own)
     half, full = scene.plate.half_thickness, scene.plate.thickness
@@ -232,13 +232,13 @@ def numbers_of(scene: Scene) -> Model:
 
 
 def _lesser(one: float, other: float) -> float:
-    """The lesser of two numbers, or of two columns row by row."""
+    """Return the smaller of two numbers, or of two arrays element by element."""
     found = np.minimum(one, other)
     return float(found) if np.ndim(found) == 0 else found
 
 
 def _unbounded(model: Model) -> float:
-    """Radius [m] of a plate from whose edge no wave returns during a contact, as a first guess."""
+    """Return a first guess of the radius [m] from which no wave returns during the contact."""
     stiffness = 4.0 / 3.0 * model.modulus / (1.0 + model.softness) * math.sqrt(model.R)
     alone = math.pow(model.m / stiffness, 0.4) / math.pow(model.v0, 0.2)
     bending = model.modulus * (2.0 * model.h) ** 3 / 12.0
@@ -264,5 +264,5 @@ def _mass(sphere: Sphere, density: float) -> float:
 
 
 def _modulus(body: Body) -> float:
-    """E/(1 - nu^2) of a body [Pa], infinite if it is rigid."""
+    """Return E/(1 - nu^2) of a body [Pa]; infinite for a rigid body."""
     return plane_strain_modulus(body.lam, body.mu) if np.all(np.isfinite(body.mu)) else math.inf

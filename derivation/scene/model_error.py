@@ -1,10 +1,9 @@
-"""Model error of an impact with plate inertia: measured against explicit finite elements.
+"""Model error of impacts with plate inertia, measured against explicit finite-element simulations.
 
-The recorded simulations of plate and sphere share nothing with the model (see
-`derivation.checks.finite_elements`). For each result the model error is the largest difference
-between program and elements, plus the elements' own error, less the bound that the program states.
-In short and wide contacts thickness resonances make the force rough, and the elements resolve it
-less well; these count apart.
+The recorded simulations are independent of the model (see `derivation.checks.finite_elements`). For
+each result the model error is the largest difference between program and finite elements, plus the
+error of the finite elements, minus the error bound of the program. Short and wide contacts, where
+thickness resonances make the force rough and finite elements less accurate, count separately.
 """
 
 import json
@@ -17,12 +16,12 @@ from derivation.scene.model import Model
 from derivation.scene.scene import OUTPUTS
 
 SHORT, WIDE = 4.0, 0.3
-"""Contact time over that of a thickness echo, below which a contact is short; and contact radius
-over thickness, on the plate or on a half-space, from which it is wide."""
+"""Contact time over the time of a thickness echo below which a contact is short, and contact radius
+over thickness, on the plate or on a half-space, above which it is wide."""
 CONVERGED, ROUGHLY = 1e-3, 1e-2
-"""Own error of the elements up to which a comparison counts, and that of a rough contact."""
+"""Largest finite-element error of comparisons that count, and the same for rough contacts."""
 FLOOR = 1e-3
-"""Least model error that is stated: the elements are not better than that in all results."""
+"""Smallest model error that is stated, the accuracy of the finite elements in all results."""
 
 
 class _Simulation(NamedTuple):
@@ -33,7 +32,7 @@ class _Simulation(NamedTuple):
 
 
 def inertia_error(model: Model, a: float, contact_time: float) -> dict[str, float]:
-    """Model error of each result [1].
+    """Return the relative model error of each result.
 
     Parameters
     ----------
@@ -45,7 +44,7 @@ def inertia_error(model: Model, a: float, contact_time: float) -> dict[str, floa
         Duration of the first contact [s].
     """
     fastest = model.shear_speed * ((model.lam + 2.0 * model.mu) / model.mu) ** 0.5
-    # A light plate gives way: the contact stays narrower, but the force rises as on a half-space.
+    # On a light plate the contact stays narrower, but the force rises as on a half-space.
     widest = max(a, _half_space_radius(model))
     rough = _rough(contact_time * fastest / (4.0 * model.h), widest / (2.0 * model.h))
     found: dict[str, float] = dict.fromkeys(OUTPUTS, FLOOR)
@@ -56,7 +55,7 @@ def inertia_error(model: Model, a: float, contact_time: float) -> dict[str, floa
 
 
 def _half_space_radius(model: Model) -> float:
-    """Largest contact radius [m] on a half-space, by Hertz."""
+    """Return the largest contact radius [m] on a half-space, by Hertz's law."""
     stiffness = 4.0 / 3.0 * model.modulus / (1.0 + model.softness) * math.sqrt(model.R)
     depth = math.pow(1.25 * model.m / stiffness, 0.4) * math.pow(model.v0, 0.8)
     return math.sqrt(model.R * depth)
@@ -68,7 +67,7 @@ def _rough(echoes: float, width: float) -> bool:
 
 @cache
 def _cases() -> tuple[_Simulation, ...]:
-    """The recorded simulations that the program has repeated."""
+    """Return the recorded simulations that the program has repeated."""
     rows = json.loads((measurements() / "elastodynamics.json").read_text())["impacts"]
     found = []
     for row in rows:
@@ -81,7 +80,7 @@ def _cases() -> tuple[_Simulation, ...]:
             name: abs(values[name] / elements[name] - 1.0) + row["errors"][name] - program["bound"]
             for name in OUTPUTS
             if name in elements and row["errors"][name] <= (ROUGHLY if rough else CONVERGED)
-            if name != "max_contact_radius"  # that of a node
+            if name != "max_contact_radius"  # finite elements resolve it only to a node
         }
         found.append(_Simulation(rough, errors))
     return tuple(found)

@@ -1,13 +1,13 @@
-"""Impact on any conservative contact law: energy gives the largest radius, quadrature the time.
+"""Impact by a conservative contact law: largest radius from energy, contact time by quadrature.
 
-With q = a/a_m and E the sphere's energy, weight included,
+With q = a/a_m and E the energy of the sphere, including the work of its weight,
 
     E = K a_m^5 int_0^1 q^4 p S dq - m g delta_m,   K = 8 E*/(3 R^2)
     t = (8 a_m^2/(R v0)) int_0^1 q S/sqrt(r) du,   q = 1 - u^2,   r = (v/v0)^2/(1 - q)
 
-p S and S are polynomials through n Gauss nodes; they are analytic, so that both integrals
-converge geometrically. n is doubled until the results stand; for a slow sphere that falls in by
-its weight then that in time alone.
+p S and S are replaced by polynomials through n Gauss nodes. They are analytic, so that both
+integrals converge geometrically. n is doubled until the results have converged; for a slow, heavy
+sphere then only the number of nodes in time is doubled.
 """
 
 import math
@@ -22,19 +22,19 @@ from derivation.scene.limits import check_numbers, refuse
 from derivation.scene.quadrature import MORE_TIMES, NODES, Rule, rule
 from derivation.scene.scene import SceneError
 
-COURSE = (32, *MORE_TIMES)
-"""Nodes of the course in time: no more than needed, as their rounding adds up at its ends."""
-AGREED = 1e-12
-"""Relative difference of the contact time by them from the impact's."""
+HISTORY_NODES = (32, *MORE_TIMES)
+"""Numbers of nodes of the time history, tried in this order: rounding errors grow with them."""
+HISTORY_TOLERANCE = 1e-12
+"""Relative difference of the contact time at which the number of nodes is sufficient."""
 SETTLED = 2e-14
-"""Relative change at twice the nodes that is rounding alone."""
+"""Relative change with twice the nodes that is due to rounding only."""
 _STEPS = 60
 _NEWTON = 5
 _CLOSE = 1e-9
-"""A step whose square, which is what the next would be, is far below rounding."""
+"""A step whose square, the size of the next step, is far below rounding."""
 _CLOSEST = 4e-16
-"""A step as small as rounding: where the pressure is solved for, whose slope is not exact, with a
-weight, and on a half-space, whose contact time is the unit of time of plates with inertia."""
+"""A step of the size of rounding: for non-Hertzian pressure, whose slope is not exact, with weight,
+and on a half-space, whose contact time is the unit of time of plates with inertia."""
 
 
 @dataclass(frozen=True)
@@ -50,13 +50,13 @@ class EnergyBalance:
     viscous_loss, unrecovered_elastic
         Dissipated in the viscoelastic contact, and stored in it at separation.
     plate
-        In the plate's vibration, or radiated into an infinite plate.
+        Energy of the plate vibration, or radiated into an infinite plate.
     coupling_loss
         Spurious loss of the pointwise coupling; 0 for the variational one.
     plastic_loss
-        Dissipated where the contact yields.
+        Dissipated by plastic deformation.
     damping_loss
-        Dissipated by the plate's damping up to the last separation.
+        Dissipated by the damping of the plate up to the last separation.
     """
 
     initial_kinetic: float
@@ -70,7 +70,7 @@ class EnergyBalance:
     damping_loss: float = 0.0
 
     def in_words(self) -> str:
-        """Where the energy went, in percent of the initial kinetic energy."""
+        """Return the final energies in percent of the initial kinetic energy."""
         parts = {
             "sphere": self.rebound_kinetic,
             "plate vibration": self.plate,
@@ -95,20 +95,20 @@ class EnergyBalance:
 
 @dataclass(frozen=True)
 class Motion:
-    """An impact.
+    """An impact on a quasi-static plate.
 
     Attributes
     ----------
     contact_time, max_indentation, max_force, max_contact_radius
-        The results, in s, m, N and m.
+        Results [s], [m], [N] and [m].
     quadrature
-        Relative change of the results at half the nodes [1].
+        Relative change of the results with half the nodes [1].
     restitution
-        Speed after over speed before [1]; 1 of an elastic contact.
+        Rebound speed over impact speed [1]; 1 for an elastic contact.
     energy_balance
-        Energy balance, of a contact that dissipates.
+        Energy balance; None for an elastic contact.
     dent
-        Depth of the dent that a contact which yields leaves [m].
+        Depth of the dent left by plastic deformation [m].
     """
 
     contact_time: float
@@ -122,7 +122,7 @@ class Motion:
 
     @property
     def numbers(self) -> tuple[float, float, float, float, float]:
-        """The five results."""
+        """The five outputs."""
         return (
             self.contact_time,
             self.max_indentation,
@@ -132,23 +132,23 @@ class Motion:
         )
 
     def history(self, law: ContactLaw, times: Array) -> tuple[Array, Array, Array, Array]:
-        """Indentation [m], velocity [m/s], contact radius [m] and force [N] at times [s]."""
+        """Return indentation [m], velocity [m/s], contact radius [m] and force [N] at times [s]."""
         return _history(law, self, times)
 
 
 def largest_radius(
     law: ContactLaw, n: int = NODES[0], start: float = math.inf, close: float = _CLOSE
 ) -> float:
-    """Contact radius [m] at which the sphere turns.
+    """Return the contact radius [m] at the turning point of the sphere.
 
-    Newton's iteration in the logarithms of energy and radius, whose relation is nearly
-    linear, from `start` or from what Hertz's and the thin plate's law say, until a step is as
-    small as `close`. No energy is formed, which could leave the range of doubles.
+    Newton's iteration uses the logarithms of energy and radius, whose relation is nearly linear. It
+    starts at `start`, or at an estimate from Hertz's law and the thin plate, and ends when a step
+    is below `close`. Energies are not computed, because they may overflow.
 
     Raises
     ------
     SceneError
-        If it is beyond the law's range.
+        If the radius exceeds the range of the law.
     """
     [a] = largest_radii(law, n, None if start == math.inf else np.array([start]), close).tolist()
     if math.isnan(a):
@@ -157,7 +157,7 @@ def largest_radius(
 
 
 def closeness(law: ContactLaw) -> float:
-    """The step at which the iteration for a law's largest radius ends [1]."""
+    """Return the step at which the iteration for the largest radius ends [1]."""
     exact = law.solved or np.any(law.gravity) or not law.plate_effects
     return _CLOSEST if exact else _CLOSE
 
@@ -165,9 +165,9 @@ def closeness(law: ContactLaw) -> float:
 def largest_radii(
     law: ContactLaw, n: int = NODES[0], start: Array | None = None, close: float = _CLOSE
 ) -> Array:
-    """The same of one scene, or of many as a column; NaN where it is beyond the law's range.
+    """Return the largest radii [m] of one scene, or of many as a column; NaN outside the range.
 
-    Each scene's iteration ends on its own, so that a radius does not depend on the other scenes.
+    The iteration of each scene ends separately, so that radii do not depend on other scenes.
     """
     model = law.model
     goal = math.log(3.0 / 16.0) + np.log(model.m) - np.log(law.modulus)
@@ -187,31 +187,34 @@ def largest_radii(
 
 
 def _step(law: ContactLaw, goal: Array, a: Array, known: Rule) -> tuple[Array, Array]:
-    """A step of Newton's iteration: the next radius, NaN if there is none, and the step taken."""
+    """Return the next radius of Newton's iteration and the step; NaN if there is none."""
     model, limit = law.model, law.limit
     shape = law.at(np.append(known.x, 1.0) * a)
     power = shape.force * shape.slope
     weights = known.weights * known.x**4
     mean = np.sum(weights * power[..., :-1], axis=-1, keepdims=True)
     depth = 2.0 * law.gravity * a * (a / model.R) / model.v0 / model.v0
-    share = 1.0 + depth * shape.depth[..., -1:]
-    steep = power[..., -1:] / mean - depth * 2.0 * shape.slope[..., -1:] / share
-    step = (goal + np.log(share) - np.log(mean) - 5.0 * np.log(a)) / steep
+    work = 1.0 + depth * shape.depth[..., -1:]
+    steep = power[..., -1:] / mean - depth * 2.0 * shape.slope[..., -1:] / work
+    step = (goal + np.log(work) - np.log(mean) - 5.0 * np.log(a)) / steep
     after = np.minimum(a * np.exp(np.clip(step, -1.0, 1.0)), limit)
-    sound = (mean > 0.0) & (share < np.inf) & (steep > 0.0) & ~((a >= limit) & (step > 0.0))
+    sound = (mean > 0.0) & (work < np.inf) & (steep > 0.0) & ~((a >= limit) & (step > 0.0))
     return np.where(sound, after, np.nan), np.where(sound, step, np.nan)
 
 
 def _beyond(law: ContactLaw) -> SceneError:
-    """Of an impact without a largest contact radius; `limits.refuse` says how fast is too fast."""
+    """Return the error for an impact without a largest contact radius (see `limits.refuse`)."""
     return SceneError(
         f"impact.speed: expected a largest contact radius below {law.limit_in_words}, got none at "
-        f"{law.model.v0:.6g} m/s; lower the speed"
+        f"{law.model.v0:.6g} m/s; reduce the speed"
     )
 
 
 def _start(law: ContactLaw, goal: Array) -> Array:
-    """A radius [m] near the largest, from the logarithm of E over K: whichever law is stiffer."""
+    """Return an estimate of the largest radius [m] from the logarithm of E over K.
+
+    It is the smaller one of the radii by Hertz's law and by that of a thin plate.
+    """
     model = law.model
     found = 0.2 * (goal + math.log(5.0))
     if law.bends:
@@ -222,12 +225,12 @@ def _start(law: ContactLaw, goal: Array) -> Array:
 
 
 def impact(law: ContactLaw) -> Motion:
-    """The impact by a law.
+    """Return the impact by a law.
 
     Raises
     ------
     SceneError
-        If the contact radius reaches the law's limit, or a result is no number above zero.
+        If the contact radius reaches the limit of the law, or a result is not a positive number.
     """
     before: Motion | None = None
     a, close = math.inf, closeness(law)
@@ -250,52 +253,53 @@ def impact(law: ContactLaw) -> Motion:
 
 
 def _results(law: ContactLaw, a: float, n: int, times: int) -> Motion:
-    """The results at a largest radius [m] by n nodes, and others in time."""
+    """Return the impact with a largest radius [m], by n nodes and `times` nodes in time."""
     time, depth, force = (number.item() for number in results_at(law, np.array([a]), n, times))
     return Motion(time, depth, force, a, 0.0)
 
 
 def results_at(law: ContactLaw, a: Array, n: int, times: int) -> tuple[Array, Array, Array]:
-    """Contact time, largest indentation and force at a largest radius [m], or a column of them."""
+    """Return contact time, largest indentation and force for a largest radius [m], or a column."""
     known = rule(n, times)
     shape = law.at(np.append(known.x, 1.0) * a)
     last = Shape(*(x[..., -1:] for x in shape))
-    rate, _ = _course(law, a, shape, known)
+    rate, _ = _rates(law, a, shape, known)
     mean = np.sum(known.u_weights * rate, axis=-1, keepdims=True)
     time = 8.0 * a * (a / law.model.R) / law.model.v0 * mean
     return time, law.indentation(a, last), law.force(a, last)
 
 
-def _course(law: ContactLaw, a: Numbers, shape: Shape, known: Rule) -> tuple[Array, Array]:
-    """q S/sqrt(r) and sqrt(r) at the nodes in time."""
+def _rates(law: ContactLaw, a: Numbers, shape: Shape, known: Rule) -> tuple[Array, Array]:
+    """Return q S/sqrt(r) and sqrt(r) at the nodes in time."""
     model = law.model
     slope, sunk = shape.slope[..., :-1], shape.depth[..., -1:]
     power = shape.force[..., :-1] * slope
     whole = np.sum(known.weights * known.x**4 * power, axis=-1, keepdims=True)
-    share = 2.0 * law.gravity * a * (a / model.R) / model.v0 / model.v0
-    ratio = (1.0 + share * sunk) * (power @ known.work.T / whole)
-    ratio = ratio - 2.0 * share * (slope @ known.path.T)
+    weight = 2.0 * law.gravity * a * (a / model.R) / model.v0 / model.v0
+    ratio = (1.0 + weight * sunk) * (power @ known.work.T / whole)
+    ratio = ratio - 2.0 * weight * (slope @ known.path.T)
     q, root = 1.0 - known.u * known.u, np.sqrt(ratio)
     return q * (slope @ known.at_times.T) / root, root
 
 
 def _history(law: ContactLaw, motion: Motion, times: Array) -> tuple[Array, Array, Array, Array]:
-    """The course of an impact at times [s].
+    """Return the time history of an impact at times [s].
 
     The time since the turning point is a polynomial in u, which Newton's iteration inverts.
     """
     model, a = law.model, motion.max_contact_radius
-    shape = law.at(np.append(rule(COURSE[0]).x, 1.0) * a)
+    shape = law.at(np.append(rule(HISTORY_NODES[0]).x, 1.0) * a)
     unit = 8.0 * a * (a / model.R) / model.v0
-    for n in COURSE:
-        known = rule(COURSE[0], n)
-        course = _course(law, a, shape, known)
-        if abs(unit * float(known.u_weights @ course[0]) / motion.contact_time - 1.0) <= AGREED:
+    for n in HISTORY_NODES:
+        known = rule(HISTORY_NODES[0], n)
+        rates = _rates(law, a, shape, known)
+        time = unit * float(known.u_weights @ rates[0])
+        if abs(time / motion.contact_time - 1.0) <= HISTORY_TOLERANCE:
             break
     nodes, weights = leggauss(n)
     rate, root = (
         (legvander(nodes, n - 1) * weights[:, None] * (np.arange(n) + 0.5)).T @ values
-        for values in course
+        for values in rates
     )
     elapsed = legint(rate, lbnd=-1.0) / 2.0
     whole = float(legval(1.0, elapsed))
@@ -303,7 +307,7 @@ def _history(law: ContactLaw, motion: Motion, times: Array) -> tuple[Array, Arra
     grid = np.linspace(-1.0, 1.0, 401)
     u = np.interp(since, legval(grid, elapsed), grid)
     for _ in range(_NEWTON):
-        # At both ends the rate may be exactly zero, and the time is met there already.
+        # At both ends the rate may be exactly zero; u is exact there.
         off, slope = legval(u, elapsed) - since, legval(u, rate)
         step = np.divide(off, slope, np.zeros_like(u), where=slope != 0.0)
         u = np.clip(u - 2.0 * step, -1.0, 1.0)

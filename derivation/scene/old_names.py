@@ -1,4 +1,4 @@
-"""Old names of scene keys and values: accepted with a notice until they are removed in 0.3."""
+"""Old names of scene keys and values, accepted with a notice until they are removed in 0.3."""
 
 import warnings
 from collections.abc import Mapping
@@ -28,7 +28,7 @@ class OldNameWarning(FutureWarning):
 
 
 class Renewed(NamedTuple):
-    """A scene's tables under new names, what was renamed, and what is given under both names."""
+    """Tables of a scene under new names, notices of renamed keys, and keys given twice."""
 
     tables: dict[str, Any]
     notices: list[str]
@@ -52,7 +52,9 @@ def _renewed(table: str, keys: Mapping[str, Any], found: Renewed) -> dict[str, A
         new = KEYS.get(old, old)
         name = new.removeprefix(f"{table}.") if new != old else key
         if new != old and name in keys:
-            found.problems.append(f"{new}: expected once, got it as {old} too; remove {old}")
+            found.problems.append(
+                f"{new}: expected one value, got another one under the old name {old}; remove {old}"
+            )
             continue
         if isinstance(value, str) and (new, value) in VALUES:
             known = VALUES[new, value]
@@ -67,10 +69,10 @@ def _renewed(table: str, keys: Mapping[str, Any], found: Renewed) -> dict[str, A
 def new_key(key: str) -> str:
     """Return a key `table.name` under its new name, with a notice if it has one."""
     if key in KEYS:
-        tell(f"{key} is now called {KEYS[key]}; {REMOVED}")
+        notify(f"{key} is now called {KEYS[key]}; {REMOVED}")
     return KEYS.get(key, key)
 
 
-def tell(notice: str) -> None:
-    """Warn the caller of the function that calls this one."""
+def notify(notice: str) -> None:
+    """Issue a warning that points at the caller of the function that calls this one."""
     warnings.warn(notice, OldNameWarning, stacklevel=4)

@@ -1,7 +1,7 @@
-"""What leaving effects out of a law changes in the results at most, by the effects' bounds.
+"""Bounds on the change of the results if effects are omitted, from the bounds of the effects.
 
-S of the whole law lies within 1 - low and 1 + up times that of the law taken, at every radius
-up to 1.02 times the largest; link 18 says what this does to the results.
+S of the whole law is between 1 - low and 1 + up times S_1 of the law with the included effects, for
+all radii up to 1.02 times the largest; derivation step 18 gives the change of the results.
 """
 
 import math
@@ -31,19 +31,31 @@ from derivation.scene.quadrature import NODES, rule, stored
 from derivation.scene.scene import OUTPUTS, SceneError
 
 TOP = 1.02
-"""Bounds are taken up to this times the largest radius."""
+"""Bounds cover radii up to this times the largest radius."""
 NEAR = 1e-6
-"""How near the largest radius has to be known for that."""
+"""Relative accuracy of the largest radius that suffices for this."""
 MARGIN = 1.05
-"""Elasticities of S are sampled at nodes and widened by this."""
+"""Factor on elasticities of S, which are sampled at nodes."""
 
 
 @dataclass(frozen=True)
 class LargestContact:
-    """A law at its largest radius [m]: S_1 at the radii of `context`, and elasticities of S_1.
+    """A law at its largest contact radius, for one scene or, with columns of numbers, for many.
 
-    `growth` is the largest elasticity of the contact radius by Hertz's radius of the force, at
-    least 1. `a` is NaN if the impact exceeds the law's range. Of many scenes, numbers are columns.
+    Attributes
+    ----------
+    law
+        The law with the included effects.
+    a
+        Largest contact radius [m]; NaN if the impact exceeds the range of the law.
+    context
+        Radii at which the bounds are evaluated, and samples of the law there.
+    slope
+        S_1 at these radii [1].
+    fall, rise
+        d log S_1/d log a is between -fall and rise [1].
+    growth
+        Largest d log(contact radius)/d log(Hertz's radius of the force), at least 1 [1].
     """
 
     law: ContactLaw
@@ -54,14 +66,14 @@ class LargestContact:
     rise: Array
     growth: Array
     bounds: dict[tuple[str, bool], Bound] = field(default_factory=dict, compare=False)
-    """Bounds of effects known so far, by name and whether radii are stretched."""
+    """Bounds computed so far, by effect and whether the radii were stretched."""
 
 
 def state_of(law: ContactLaw, top: float = TOP) -> LargestContact:
-    """The law at its largest radius, or at its limit if that is beyond.
+    """Return the law at its largest radius, or at its limit if the impact exceeds that.
 
-    With plate inertia that of a plate that does not deflect, and so much wider as a contact may
-    become there at most.
+    With plate inertia, the radius is that on a plate that does not deflect, times a factor by which
+    the contact may be wider.
     """
     if law.dynamic:
         stiff = law.only(lambda e: not (isinstance(e, PlateEffect) or e.dynamic))
@@ -70,13 +82,13 @@ def state_of(law: ContactLaw, top: float = TOP) -> LargestContact:
     with np.errstate(all="ignore"):
         try:
             a = largest_radii(law, close=NEAR)
-        except SceneError:  # with more effects there may be an impact
+        except SceneError:  # with more effects the impact may be within the range
             a = np.array([np.nan])
-        # Beyond the law's range there may be an impact with more effects.
+        # With more effects the impact may be within the range.
         upper = np.where(np.isnan(a), law.limit, np.minimum(top * a, law.limit))
         radii = np.append(nodes.x, 1.0) * upper
         shape = law.at(radii)
-        # Once more without the end, where a sphere's slope may be steep: of the polynomial.
+        # Without the end, where the slope of a sphere may be steep, for the polynomial.
         inner = Shape(*(x[..., :-1] for x in shape))
         elasticity = nodes.x * (inner.additive @ nodes.derivative.T) / inner.additive
         equal = _begun(0.0, radii * np.cbrt(shape.force))
@@ -92,44 +104,44 @@ def state_of(law: ContactLaw, top: float = TOP) -> LargestContact:
 
 
 def _begun(first: float, values: Array) -> Array:
-    """Values with one more in front, of each scene."""
+    """Return the values of each scene with another one before them."""
     start = np.full((*values.shape[:-1], 1), first)
     return np.concatenate((start, values), axis=-1)
 
 
 def _number(x: Array) -> Numbers:
-    """A number of one scene as a float, those of many as the column they are."""
+    """Return the number of one scene as a float, those of many scenes as a column."""
     return float(x.item()) if x.ndim == 1 else x
 
 
 def _most(values: Array) -> Array:
-    """The largest of each scene."""
+    """Return the largest value of each scene."""
     return np.asarray(np.max(values, axis=-1, keepdims=True))
 
 
 def _least(values: Array) -> Array:
-    """The smallest of each scene."""
+    """Return the smallest value of each scene."""
     return np.asarray(np.min(values, axis=-1, keepdims=True))
 
 
 def _samples(law: ContactLaw, radii: Array, shape: Shape) -> LawSamples:
-    """Force, indentation, stiffness and energy at the nodes and the largest radius."""
+    """Return force, indentation, stiffness and energy at the nodes and the largest radius."""
     nodes, top = rule(NODES[0]), radii[..., -1:]
     power = (shape.force * shape.slope)[..., :-1]
     whole = np.sum(nodes.weights * nodes.x**4 * power, axis=-1, keepdims=True)
-    share = np.concatenate((power @ stored(NODES[0]).T, whole), axis=-1)
+    energy = np.concatenate((power @ stored(NODES[0]).T, whole), axis=-1)
     unit = law.force(top, Shape(*np.ones(4))) * law.indentation(top, Shape(*np.ones(4)))
     return LawSamples(
         law.force(radii, shape),
         law.indentation(radii, shape),
         law.stiffness(radii, shape),
-        2.0 * unit * share,
+        2.0 * unit * energy,
         2.0 * shape.slope / shape.depth,
     )
 
 
 def bound_of(state: LargestContact, effect: Effect, stretch: Numbers | None = None) -> Bound:
-    """An effect's bound in the state's context, whose radii the sphere's elasticity may stretch."""
+    """Return the bound of an effect; `stretch` multiplies the radii (elasticity of the sphere)."""
     key = effect.name, stretch is not None
     if key not in state.bounds:
         with np.errstate(all="ignore"):
@@ -138,8 +150,9 @@ def bound_of(state: LargestContact, effect: Effect, stretch: Numbers | None = No
 
 
 def _bound(state: LargestContact, effect: Effect, stretch: Numbers) -> Bound:
-    """The same, computed. That of damping, which acts over the whole contact, is taken on a
-    quasi-static plate.
+    """Compute the bound of an effect.
+
+    Damping acts over the whole contact; its bound is that on a quasi-static plate.
     """
     if effect.damps and state.law.dynamic:
         state = state_of(state.law.only(lambda e: not (e.dynamic or e.damps)))
@@ -161,7 +174,7 @@ def _bound(state: LargestContact, effect: Effect, stretch: Numbers) -> Bound:
 
 
 def _together(bounds: Sequence[Bound]) -> Bound:
-    """Bounds of single scenes as those of many."""
+    """Combine the bounds of single scenes to those of many."""
     low, up = (np.array([bound[i] for bound in bounds]) for i in (0, 1))
     energy = _column(bound.energy for bound in bounds)
     radius = _column(bound.radius for bound in bounds)
@@ -172,17 +185,17 @@ def _together(bounds: Sequence[Bound]) -> Bound:
 
 
 def _column(numbers: Iterable[Numbers]) -> Array:
-    """Single numbers as a column."""
+    """Return numbers as a column."""
     return np.array([np.asarray(number).item() for number in numbers])[:, None]
 
 
 def error_of(state: LargestContact, effects: Sequence[Effect], outputs: Sequence[str]) -> float:
-    """What leaving effects out of one scene changes together at most, the worst of the outputs."""
+    """Return the bound on the change of the worst output if effects are omitted together."""
     return float(errors_of(state, effects, outputs).item())
 
 
 def errors_of(state: LargestContact, effects: Sequence[Effect], outputs: Sequence[str]) -> Array:
-    """The same of one scene, or of many as a column."""
+    """Return the same for one scene, or for many as a column."""
     if not effects:
         return np.zeros_like(state.growth)
     lost = np.isnan(state.a)
@@ -193,7 +206,7 @@ def errors_of(state: LargestContact, effects: Sequence[Effect], outputs: Sequenc
     bounds = [bound_of(state, e, None if e in elastic else stretch) for e in effects]
     up = 1.0 + bounds[0].up
     for bound in bounds[1:]:
-        # The half-space's effects multiply; a product is above the sum where they only add.
+        # Half-space effects multiply; for the others the product is an upper bound of the sum.
         up = up * (1.0 + bound.up)
     together = Bound(
         low=_sum(bound.low for bound in bounds),
@@ -206,52 +219,52 @@ def errors_of(state: LargestContact, effects: Sequence[Effect], outputs: Sequenc
 
 
 def _sum(numbers: Iterable[Numbers]) -> Any:
-    """The sum, of whatever shape each has."""
+    """Return the sum of numbers and arrays."""
     return reduce(add, numbers)
 
 
 def _sums(rows: Iterable[Changes]) -> Changes:
-    """Sums of the rows' columns."""
+    """Return the sums of each output."""
     time, depth, force, radius, speed = map(_sum, zip(*rows, strict=True))
     return time, depth, force, radius, speed
 
 
 def _worst(state: LargestContact, bound: Bound, outputs: Sequence[str]) -> Array:
-    """The worst of the outputs' errors by link 18, and by what changes results besides."""
+    """Return the error of the worst output, by derivation step 18 and by direct changes."""
     low, up, energy, radius, results = bound
-    with np.errstate(all="ignore"):  # no bound, as good as
+    with np.errstate(all="ignore"):  # overflow means that there is no bound
         known = np.isfinite(low).all(axis=-1, keepdims=True)
         known &= np.isfinite(up).all(axis=-1, keepdims=True) & (_least(state.slope) > 0.0)
         below, above = (_most(np.where(known, x / state.slope, 0.0)) for x in (low, up))
         if np.any(energy):
-            # The weight works along the whole law's indentation, not along this one's.
+            # The work of the weight depends on the indentation of the whole law.
             free = law_errors(below, above, state.fall, state.rise)[1]
-            share = -np.expm1(-np.asarray(energy)) * (1.0 + free)
-            energy = np.where(share < 1.0, -np.log1p(-np.minimum(share, 1.0)), np.inf)
+            work = -np.expm1(-np.asarray(energy)) * (1.0 + free)
+            energy = np.where(work < 1.0, -np.log1p(-np.minimum(work, 1.0)), np.inf)
         found = law_errors(below, above, state.fall, state.rise, energy)
         largest = np.maximum.reduce(found)
-        # The bound of a viscous contact, taken of this law, is widened for that of everything.
+        # The bound of a viscoelastic contact by this law is increased to cover the whole law.
         wider = (1.0 + largest) ** 2
         others = (*found, np.zeros_like(largest))
         logs = [np.log1p(x) + wider * y for x, y in zip(others, results, strict=True)]
         kept = [bound_of(state, e).results[-1] for e in state.law.chosen if e.viscous]
         if kept:
-            # What does not change the law does not change that bound, be it none at all.
+            # Without a change of the law this bound does not change, even if it is infinite.
             logs[-1] = logs[-1] + np.where(wider > 1.0, (wider - 1.0) * _sum(kept), 0.0)
         if state.law.plastic:
-            logs[-1] = logs[-1] + _plastic_share(state) * np.log1p(largest)
-        # Link 18 speaks of Hertz's radius of the force, with which the contact's own may grow
-        # faster.
+            logs[-1] = logs[-1] + _plastic_sensitivity(state) * np.log1p(largest)
+        # Derivation step 18 is for Hertz's radius of the force; the contact radius may grow faster.
         logs[3] = logs[3] + (state.growth - 1.0) * np.log1p(found[3]) + state.growth * radius
         errors = [np.expm1(log) for name, log in zip(OUTPUTS, logs, strict=True) if name in outputs]
         worst = np.maximum.reduce(errors) + 0.0 * largest
         return np.where(known & np.isfinite(found[0]) & ~np.isnan(worst), worst, np.inf)
 
 
-def _plastic_share(state: LargestContact) -> float:
-    """How much of a change of the force the restitution of a contact that yields follows, at most.
+def _plastic_sensitivity(state: LargestContact) -> float:
+    """Return a bound on d log(restitution)/d log(force) of a plastic contact.
 
-    The work that it takes goes with the force's square at most, and e^2 is what is left of all.
+    The plastic work grows at most with the square of the force; e^2 is the fraction of the energy
+    that remains.
     """
     [effect] = [effect for effect in state.law.chosen if effect.plastic]
     restitution = math.exp(-bound_of(state, effect).results[-1])
@@ -259,29 +272,29 @@ def _plastic_share(state: LargestContact) -> float:
 
 
 def size_of(state: LargestContact, effect: Effect, outputs: Sequence[str]) -> float:
-    """By how much an effect of one scene matters alone.
+    """Return the size of an effect in one scene, by which the selection ranks it.
 
-    That is its error, or where none is shown its share of S.
+    It is the error bound if the effect is omitted, or without a bound a measure of its part of S.
     """
     return float(sizes_of(state, effect, outputs).item())
 
 
 def sizes_of(state: LargestContact, effect: Effect, outputs: Sequence[str]) -> Array:
-    """The same of one scene, or of many as a column."""
+    """Return the same for one scene, or for many as a column."""
     error = errors_of(state, [effect], outputs)
     if np.isfinite(error).all():
         return error
     bound = bound_of(state, effect)
     with np.errstate(all="ignore"):
-        share = np.maximum(bound.low, bound.up) / np.abs(state.slope)
-    most = _most(np.where(np.isfinite(share), share, 0.0))
+        part = np.maximum(bound.low, bound.up) / np.abs(state.slope)
+    most = _most(np.where(np.isfinite(part), part, 0.0))
     return np.where(
         np.isfinite(error), error, 10.0 + np.maximum(most, 0.0) + bound.energy + bound.results[-1]
     )
 
 
-def price_of(state: LargestContact, effect: Effect, outputs: Sequence[str]) -> float:
-    """What leaving out an effect that is in would change: the law with it lies beside S_1."""
+def change_of(state: LargestContact, effect: Effect, outputs: Sequence[str]) -> float:
+    """Return the bound on the change if an included effect is omitted."""
     if effect.always_included or np.isnan(state.a):
         return math.inf
     if effect.dynamic:

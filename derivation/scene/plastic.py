@@ -1,7 +1,7 @@
-"""Impact on a contact that yields and a plate that follows quasi-statically.
+"""Impact with plastic deformation on a quasi-static plate.
 
-The time elements of `contact_sequence` follow it, beside a plate without oscillators: all of its
-deflection is in the law.
+The time elements of `contact_sequence` are used with a plate without modes: all deflection is in
+the contact law.
 """
 
 from dataclasses import dataclass, replace
@@ -19,20 +19,20 @@ from derivation.scene.time_element import A, DynamicProblem, P, V, Z
 from derivation.scene.yielding import units_of, yielding_of
 
 STAGES = 14, 16
-"""Nodes of an element, of the run that checks and of the one that counts."""
+"""Nodes of a time element, in the run for the error estimate and in the final run."""
 ROUNDING = 2e-12
-"""What tests hold the results to, beside the change with the nodes [1]."""
+"""Tested bound on the rounding errors of the results [1]."""
 
 
 @dataclass(frozen=True)
 class PlasticMotion(Motion):
-    """An impact on a contact that yields, with its time elements."""
+    """An impact with plastic deformation, with its time elements."""
 
     problem: DynamicProblem | None = None
     touching: Touching | None = None
 
     def history(self, law: ContactLaw, times: Array) -> tuple[Array, Array, Array, Array]:  # noqa: ARG002
-        """Indentation [m], velocity [m/s], contact radius [m] and force [N] at times [s]."""
+        """Return indentation [m], velocity [m/s], contact radius [m] and force [N] at times [s]."""
         problem, touching = self.problem, self.touching
         assert problem is not None
         assert touching is not None
@@ -43,12 +43,12 @@ class PlasticMotion(Motion):
 
 
 def impact(law: ContactLaw) -> PlasticMotion:
-    """The impact by a law with plasticity.
+    """Return the impact by a law with plasticity.
 
     Raises
     ------
     SceneError
-        If it exceeds the law's range, or the sphere does not separate again.
+        If the impact exceeds the range of the law, or the sphere does not rebound.
     """
     problem = _problem(law)
     rough, found = (_motion(problem, n) for n in STAGES)
@@ -57,7 +57,7 @@ def impact(law: ContactLaw) -> PlasticMotion:
 
 
 def _problem(law: ContactLaw) -> DynamicProblem:
-    """The scene in units of an impact on a plate that does not deflect."""
+    """Return the scene in units of an impact on a plate that does not deflect."""
     model, (a, T) = law.model, units_of(law)
     none, no_index = np.zeros(0), np.zeros(0, dtype=np.intp)
     still = Modes(none, none, none, no_index)
@@ -70,7 +70,7 @@ def _problem(law: ContactLaw) -> DynamicProblem:
 
 
 def _motion(problem: DynamicProblem, n: int) -> PlasticMotion:
-    """The results by elements of n nodes."""
+    """Return the impact by time elements with n nodes."""
     touching = contact_sequence.contact(problem, n, problem.begin(), 0.0, 0.0)
     after, branch = touching.after, touching.yielding
     assert branch is not None

@@ -1,4 +1,4 @@
-"""Draws an impact: time histories, force against indentation, the largest contact's pressure."""
+"""Draws an impact: time histories, force against indentation, pressure at the largest radius."""
 
 import io
 from collections.abc import Collection
@@ -20,31 +20,31 @@ METADATA: dict[str, dict[str, None]] = {
     ".pdf": {"CreationDate": None},
     ".svg": {"Date": None},
 }
-"""Per suffix what is left out of the file, so that equal results give equal files."""
+"""Metadata that is removed from each format, so that equal results give equal files."""
 TITLE_DIGITS = 4
-"""Most significant digits of the numbers in a title."""
+"""Largest number of significant digits in a title."""
 BLUE, BROWN = "#1f4e79", "#b5651d"
 
 
 def check_suffix(
     path: Path, suffixes: Collection[str] = METADATA.keys(), kind: str = "a plot file"
 ) -> None:
-    """Refuse a file name that says no format.
+    """Reject a file name without the suffix of a known format.
 
     Raises
     ------
     SceneError
-        If the name ends in none of the formats' suffixes.
+        If the suffix is not one of the given ones.
     """
     if path.suffix.lower() not in suffixes:
         raise SceneError(
-            f"{path}: expected {kind} ending in {', '.join(suffixes)}, "
-            f"got {path.suffix or 'no suffix'}; change its name"
+            f"{path}: expected {kind} with the suffix {' or '.join(suffixes)}, "
+            f"got {path.suffix or 'no suffix'}; change the file name"
         )
 
 
 def render(result: Result, suffix: str) -> bytes:
-    """The drawing as the content of a file.
+    """Return the figure as the content of a file.
 
     Parameters
     ----------
@@ -55,19 +55,19 @@ def render(result: Result, suffix: str) -> bytes:
 
 
 def saved(made: "Figure", suffix: str) -> bytes:
-    """A figure as the content of a file; equal figures give equal files."""
+    """Return a figure as the content of a file; equal figures give equal files."""
     import matplotlib as mpl
 
     suffix = suffix.lower()
     stream = io.BytesIO()
-    # A fixed salt names the parts of an SVG alike in every run.
+    # A fixed salt gives the elements of an SVG the same names in every run.
     with mpl.rc_context({"svg.hashsalt": "platecontact", "svg.fonttype": "none"}):
         made.savefig(stream, format=suffix[1:], dpi=150, metadata=METADATA[suffix] or None)
     return stream.getvalue()
 
 
 def figure(result: Result) -> "Figure":
-    """The drawing as a Matplotlib figure, to be shown or changed."""
+    """Return the impact as a Matplotlib figure, which can be shown or changed."""
     from matplotlib.figure import Figure
 
     if result.dynamics is not None:
@@ -98,7 +98,7 @@ def figure(result: Result) -> "Figure":
         drawn["p"].lines[0],
         *drawn["p"].plot(distance, hertz, color=BROWN, linewidth=1.2, linestyle="--"),
     ]
-    drawn["p"].legend(lines, ["this contact", "Hertz's, at the same force"], frameon=False)
+    drawn["p"].legend(lines, ["this contact", "Hertz's law, same force"], frameon=False)
     titles = {
         "z": "Indentation",
         "v": "Velocity",
@@ -113,7 +113,7 @@ def figure(result: Result) -> "Figure":
 
 
 def title(result: Result) -> str:
-    """What is drawn: speed and sizes; first of all, whether the impact is incomplete."""
+    """Return the title: speed and dimensions, marked if the impact is incomplete."""
     model = result.model
     quantities = (model.v0, "m/s"), (model.R, "m"), (2 * model.h, "m"), (model.b, "m")
     speed, radius, thickness, plate = (_exact(value, unit) for value, unit in quantities)
@@ -125,13 +125,13 @@ def title(result: Result) -> str:
 
 
 def _exact(value: float, unit: str) -> str:
-    """A value of the scene in a handy multiple of its unit."""
+    """Return a value of the scene with an SI prefix."""
     multiples, multiple = common_prefix(np.array([value]), unit)
     return f"{multiples[0]:.{TITLE_DIGITS}g} {multiple}"
 
 
 def frame(axes: "Axes", x_label: str, y_label: str) -> None:
-    """Labels, a thin grid, and no box."""
+    """Set labels and a thin grid, and remove the top and right border."""
     axes.set_xlabel(x_label)
     axes.set_ylabel(y_label)
     axes.axhline(0.0, color="0.6", linewidth=0.6)
@@ -140,14 +140,14 @@ def frame(axes: "Axes", x_label: str, y_label: str) -> None:
 
 
 def scaled(values: Array, name: str, unit: str) -> tuple[Array, str]:
-    """Values in a handy multiple of their unit, and the label that says so.
+    """Return values in a suitable multiple of their unit, and the axis label.
 
     Parameters
     ----------
     values
         Values in the unit.
     name
-        What they are, with their symbol.
+        Name and symbol of the quantity.
     unit
         SI unit without prefix.
 
@@ -159,8 +159,8 @@ def scaled(values: Array, name: str, unit: str) -> tuple[Array, str]:
     if not np.isfinite(values).all():
         quantity = name.partition(" $")[0]
         raise SceneError(
-            f"plot: expected finite values of the {quantity}, got NaN or infinity; run it without "
-            "--plot and --animate, and check the scene for extreme numbers"
+            f"plot: expected finite values of the {quantity}, got NaN or infinity; check the scene "
+            "for extreme values, or remove --plot and --animate"
         )
     multiples, multiple = common_prefix(values, unit)
     return multiples, f"{name} [{multiple}]"

@@ -1,4 +1,4 @@
-"""Gauss' rule on [0, 1], and matrices that integrate the polynomial through its nodes."""
+"""Gauss quadrature on [0, 1], and matrices that integrate the polynomial through the nodes."""
 
 from functools import cache
 from typing import NamedTuple
@@ -9,13 +9,13 @@ from numpy.polynomial.legendre import legder, leggauss, legvander
 from derivation.scene.effects.effect import Array
 
 NODES = (24, 48, 96, 192)
-"""Numbers of nodes tried."""
+"""Numbers of nodes, tried in this order."""
 MORE_TIMES = (384, 768, 1536)
-"""Nodes in time where a slow sphere falls in by its weight, and starts all at once."""
+"""Numbers of nodes in time for a slow, heavy sphere, whose motion starts abruptly."""
 
 
 class Rule(NamedTuple):
-    """Nodes x and weights on [0, 1], and what becomes of a polynomial's values at them.
+    """Nodes and weights on [0, 1], and matrices that act on values of a polynomial at the nodes.
 
     `u` and `u_weights` are nodes in time. `at_times` gives the polynomial at q = 1 - u^2,
     `work` the mean of q^4 times it over [1 - u^2, 1], `path` that of q times it; `derivative`
@@ -34,7 +34,7 @@ class Rule(NamedTuple):
 
 @cache
 def rule(n: int, times: int | None = None) -> Rule:
-    """Gauss' rule of n nodes, n in time if not said otherwise, and its matrices."""
+    """Return Gauss' rule with n nodes and its matrices; `times` nodes in time, by default n."""
     nodes, weights = leggauss(n)
     x, w = gauss(n)
     u, u_weights = gauss(times or n)
@@ -56,7 +56,7 @@ def rule(n: int, times: int | None = None) -> Rule:
 
 @cache
 def stored(n: int) -> Array:
-    """Matrix of the integral of q^4 times a polynomial from 0 to each node."""
+    """Return the matrix of the integral of q^4 times a polynomial from 0 to each node."""
     nodes, weights = leggauss(n)
     x, w = gauss(n)
     analysis = (legvander(nodes, n - 1) * weights[:, None] * (np.arange(n) + 0.5)).T
@@ -67,7 +67,7 @@ def stored(n: int) -> Array:
 
 @cache
 def gauss(n: int) -> tuple[Array, Array]:
-    """Gauss' nodes and weights on [0, 1]; of many by SciPy, as NumPy takes seconds."""
+    """Return Gauss' nodes and weights on [0, 1]; for many nodes by SciPy, which is faster."""
     if n > NODES[-1]:
         from scipy.special import roots_legendre
 

@@ -1,4 +1,4 @@
-"""Quantities to be read by people: SI prefixes, and no digit that does not hold."""
+"""Quantities as text: SI prefixes, significant digits, counts."""
 
 import math
 from decimal import Decimal
@@ -10,21 +10,33 @@ from derivation.scene.effects.effect import Array
 PREFIXES = {-9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 """SI prefixes by their powers of ten."""
 IN_FRONT = 3
-"""Most digits in front of the decimal point."""
+"""Largest number of digits before the decimal point."""
+
+
+def counted(number: int, noun: str) -> str:
+    """Return a number with its noun, which has an s unless the number is 1.
+
+    Examples
+    --------
+    >>> counted(1, "mode"), counted(12, "mode")
+    ('1 mode', '12 modes')
+    """
+    return f"{number} {noun}{'' if number == 1 else 's'}"
 
 
 def prefixed(value: float, unit: str, digits: int) -> tuple[str, str]:
-    """Return a value to some significant digits, and its unit with an SI prefix.
+    """Return a value with the given significant digits, and its unit with an SI prefix.
 
-    The prefix leaves at most three digits in front of the decimal point, all of them significant:
-    0.37 kN to two digits, 374 N to three. A value beyond all prefixes has a power of ten.
+    The prefix leaves at most three digits before the decimal point, all of them significant:
+    0.37 kN with two digits, 375 N with three. A value outside the range of the prefixes has a power
+    of ten.
 
     Parameters
     ----------
     value
         Value in the unit.
     unit
-        SI unit without prefix; "1" of a ratio, which has none.
+        SI unit without prefix; "1" for a ratio.
     digits
         Number of significant digits.
 
@@ -49,7 +61,7 @@ def prefixed(value: float, unit: str, digits: int) -> tuple[str, str]:
 
 
 def common_prefix(values: Array, unit: str, digits: int = IN_FRONT) -> tuple[Array, str]:
-    """Return values in one multiple of their unit, which suits the largest, and the multiple.
+    """Return values in a multiple of their unit that suits the largest value, and the multiple.
 
     Parameters
     ----------
@@ -67,8 +79,8 @@ def common_prefix(values: Array, unit: str, digits: int = IN_FRONT) -> tuple[Arr
 
 
 def _order(exponent: int, digits: int) -> int:
-    """The prefix's power of ten for a number with the given one.
+    """Return the power of ten of the prefix for a number with the given power of ten.
 
-    More digits in front of the point than are significant would be zeros that do not hold.
+    More digits before the decimal point than are significant would be meaningless zeros.
     """
     return 3 * math.ceil((exponent + 1 - min(digits, IN_FRONT)) / 3)

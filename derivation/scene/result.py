@@ -1,4 +1,4 @@
-"""What a simulation returns: numbers in SI, their history, and JSON; `answer` puts it in words."""
+"""The result of a simulation: numbers in SI units, time history, JSON; `answer` makes the text."""
 
 import math
 from collections.abc import Iterable
@@ -10,11 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from derivation.scene import answer, kernels, measured
+from derivation.scene.achieved_accuracy import AchievedAccuracy
 from derivation.scene.effect_selection import SelectedEffects
 from derivation.scene.effects.effect import NO_BOUND
 from derivation.scene.history import POINTS, DynamicHistory, History, Pressures
-from derivation.scene.method_selection import AchievedAccuracy, dynamic_impact, moved
+from derivation.scene.method_selection import dynamic_impact, moved
 from derivation.scene.model import Model
+from derivation.scene.quantity import counted
 from derivation.scene.scene import Scene, SceneError
 
 if TYPE_CHECKING:
@@ -29,7 +31,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 FEWEST_DIGITS, MOST_DIGITS = 2, 12
-"""Significant digits of a result that are shown."""
+"""Limits of the number of significant digits that are shown."""
 
 
 @dataclass(frozen=True)
@@ -39,7 +41,7 @@ class Result:
     Attributes
     ----------
     contact_time
-        Time from first contact to release [s]; of a plate with inertia that of the first contact.
+        Time from first contact to separation [s]; with plate inertia, that of the first contact.
     max_indentation
         Largest indentation [m]: displacement of the sphere since first contact, plate deflection
         included.
@@ -51,28 +53,29 @@ class Result:
         Rebound speed over impact speed [1]; 1 unless the contact is viscoelastic or the plate has
         inertia.
     max_pressure
-        Largest contact pressure, in the middle of the widest contact [Pa]; of a viscous contact
-        that of its elastic part, beside which there is more while it grows.
+        Largest contact pressure, at the centre of the widest contact [Pa]; in a viscoelastic
+        contact, that of the elastic part (while the contact grows, the viscous part adds to it).
     comparison
-        The paper's own motion beside the result; None unless the scene asks for it.
+        The paper's motion, for comparison; None unless `effects.compare_paper_motion` is true.
     max_tensile_stress
         Largest tensile stress on the back face, under the axis [Pa]; below 0 if compressive.
     accuracy
-        The method and the bound of its relative error.
+        Method, and bound of the relative error.
     model_error
-        Largest relative error of the model itself [1], not included in the bound of `accuracy`:
-        of the edge, as a share of the indentation, measured against a three-dimensional plate;
-        with plate inertia of all outputs, measured against explicit finite elements.
+        Largest relative error of the model itself [1], not included in the bound of `accuracy`.
+        Without plate inertia: error of the edge model relative to the indentation, measured
+        against a three-dimensional elastic solution. With plate inertia: error of all outputs,
+        measured against explicit finite-element simulations.
     warnings
-        What to know about the result.
+        Warnings about validity and accuracy.
     scene
-        What was simulated.
+        The simulated scene.
     effects
-        The effects included, and the effects table.
+        The included effects, and the effects table.
     times
-        Times [s] asked for; none if the history is to cover the contact evenly.
+        Times [s] of the history; None for times evenly spaced over the contact.
     inertia_neglected
-        Whether the plate's inertia is neglected and may matter, as a warning says.
+        Whether plate inertia is neglected although it may change the results (see `warnings`).
     """
 
     contact_time: float
@@ -93,20 +96,20 @@ class Result:
     def max_tensile_stress(self) -> float:
         """Largest tensile stress on the back face, under the axis [Pa]; below 0 if compressive.
 
-        Quasi-static, of the plate without inertia under the peak force, spread over the largest
-        contact radius as Hertz's pressure is: of the whole plate, on the scene's edge unless that
-        effect is switched off. The tolerance is of the declared outputs; this follows from two of
-        them, but is none. Solved for, the pressure of the same force and radius gives less: by up
-        to 0.06 % at a/h = 1, 3 % at 2, 40 % at 4.
+        It is the quasi-static stress of a plate without inertia under the peak force, distributed
+        over the largest contact radius as in Hertz's law. It includes all plate effects, and the
+        edge of the scene unless `effects.edge` is false. The tolerance does not apply to it. The
+        non-Hertzian pressure of the same force and radius gives a smaller stress: by up to 0.06 %
+        at a/h = 1, 3 % at 2, 40 % at 4.
         """
-        held = not self.effects.edge_disabled
-        return self.effects.law.max_tensile_stress(self.max_contact_radius, self.max_force, held)
+        on_edge = not self.effects.edge_disabled
+        return self.effects.law.max_tensile_stress(self.max_contact_radius, self.max_force, on_edge)
 
     @property
     def strength_note(self) -> str:
-        """How far the back face is from failure; empty without a strength, or if it is predicted.
+        """Safety against failure on the back face; empty without a strength, or if it fails.
 
-        Cracks that start on the contact face, around the contact, are another matter.
+        Cone cracks, which start on the contact face around the contact, are not considered.
         """
         strength = self.scene.plate.tensile_strength
         if strength is None or self.max_tensile_stress > strength:
@@ -114,24 +117,29 @@ class Result:
         if self.max_tensile_stress <= 0:
             return "no failure predicted on the back face: no tensile stress under the axis"
         times = strength / self.max_tensile_stress
-        doubt = "; plate inertia is neglected but may matter" if self.inertia_neglected else ""
+        caveat = "; plate inertia is neglected but may matter" if self.inertia_neglected else ""
         return (
             "no failure predicted on the back face: strength / largest tensile stress = "
-            f"{times:.3g} (quasi-static, under the peak force{doubt})"
+            f"{times:.3g} (quasi-static, under the peak force{caveat})"
         )
 
     def pressures(self, points: int = POINTS) -> Pressures:
-        """The largest contact's pressure over the distance from its axis, beside Hertz's.
+        """Return the pressure at the largest contact radius, and Hertz's pressure for comparison.
 
-        Hertz's is that of the same force, on the radius that belongs to it; of a viscous contact
-        both are the elastic part at its widest.
+        Hertz's pressure is that of the same force, with Hertz's contact radius. In a viscoelastic
+        contact both are the elastic part, at the largest contact radius.
+
+        Parameters
+        ----------
+        points
+            Number of distances from the axis.
         """
         law, a = self.effects.law, self.max_contact_radius
         force = float(law.force(np.array([a]), law.at(np.array([a])))[0])
         if law.plastic:
             force = self.max_force
         hertz = float(law.hertz_radius(np.array(force)))
-        # Closer towards the edge, where the pressure ends like a root.
+        # Denser towards the contact edge, where the pressure falls to zero as a square root.
         r = max(a, hertz) * np.sin(np.linspace(0.0, np.pi / 2, points))
         inside = np.minimum(r, a)
         own = np.where(r < a, np.minimum(law.pressure(inside, a), law.pressure_limit), 0.0)
@@ -140,7 +148,7 @@ class Result:
 
     @cached_property
     def comparison(self) -> "Comparison | None":
-        """The paper's motion, to compare with the result; None unless the scene asks for it."""
+        """The paper's motion, for comparison; None unless the scene requests it."""
         if not self.scene.effects.compare_paper_motion:
             return None
         from derivation.scene.comparison import compare
@@ -149,14 +157,14 @@ class Result:
 
     @cached_property
     def dynamics(self) -> "DynamicImpact | None":
-        """Contacts, energies and history with plate inertia; None of a quasi-static plate."""
+        """Contacts, energies and history with plate inertia; None for a quasi-static plate."""
         if not self.effects.law.dynamic:
             return None
         return dynamic_impact(self.effects, self.accuracy.rtol)
 
     @cached_property
     def dent(self) -> float:
-        """Depth of the dent that remains where the contact yields [m]; 0 of an elastic one."""
+        """Depth of the dent left by plastic deformation [m]; 0 for an elastic contact."""
         law = self.effects.law
         if not law.plastic:
             return 0.0
@@ -164,7 +172,7 @@ class Result:
 
     @cached_property
     def energy_balance(self) -> "EnergyBalance | None":
-        """Where the sphere's energy went; None of an elastic contact on a quasi-static plate."""
+        """Energy balance; None for an elastic contact on a quasi-static plate."""
         law = self.effects.law
         if self.dynamics is not None:
             return self.dynamics.energy_balance
@@ -172,46 +180,51 @@ class Result:
 
     @property
     def measured_note(self) -> str:
-        """The value that a measured restitution tells, in a sentence; empty without one."""
+        """The constant determined from a measured restitution, as a sentence; empty without one."""
         return measured.in_words(self.scene) if self.scene.measured else ""
 
     @property
     def total_time(self) -> float:
-        """From the first contact to the last release [s]."""
+        """Time from first contact to last separation [s]."""
         if self.dynamics is None:
             return self.contact_time
         return self.dynamics.inertia.total_time
 
     @property
     def model(self) -> Model:
-        """The scene in the kernels' numbers."""
+        """The quantities of the scene, as the contact law uses them."""
         return self.effects.law.model
 
     def at(self, times: Iterable[float]) -> "Result":
-        """The same result with the times [s] at which its history is wanted.
+        """Return the same result with other times [s] for its history.
 
         Raises
         ------
         SceneError
             If a time lies outside the contact.
         """
-        wanted = tuple(float(time) for time in np.atleast_1d(cast(Any, times)))
-        for time in wanted:
+        chosen = tuple(float(time) for time in np.atleast_1d(cast(Any, times)))
+        for time in chosen:
             if not 0 <= time <= self.total_time:
                 raise SceneError(
                     f"times: expected times from 0 to the contact time {self.total_time:.6g} s, "
-                    f"got {time:.6g} s; leave it out"
+                    f"got {time:.6g} s; remove it"
                 )
-        return replace(self, times=wanted)
+        return replace(self, times=chosen)
 
     def history(self, n: int | None = None) -> History | DynamicHistory:
-        """Return the time history of the impact, of the same effects, by the full method.
+        """Return the time history of the impact, with the same effects, by the full method.
 
         Parameters
         ----------
         n
-            Number of times, evenly over the contact, both ends included; without it the
-            times given to `simulate`, or 201.
+            Number of times, evenly spaced over the contact, both ends included; by default the
+            times given to `simulate`, or 201 times.
+
+        Returns
+        -------
+        History or DynamicHistory
+            One-dimensional arrays in SI units; `DynamicHistory` with plate inertia.
 
         Raises
         ------
@@ -219,17 +232,17 @@ class Result:
             If n is less than 2, or a number of the history is not finite.
         """
         if n is not None and n < 2:
-            raise SceneError(f"n: expected at least 2 times, got {n}; give 2 or more")
+            raise SceneError(f"n: expected at least 2 times, got {n}; use 2 or more")
         found = self._history(n)
         if not all(np.isfinite(column).all() for column in found):
             raise SceneError(
-                "history: expected finite numbers at all times, got NaN or infinity; give other "
-                "times, or a scene of less extreme numbers"
+                "history: expected finite numbers at all times, got NaN or infinity; use other "
+                "times, or less extreme values in the scene"
             )
         return found
 
     def _history(self, n: int | None) -> History | DynamicHistory:
-        """The time history as it is computed."""
+        """Compute the time history."""
         law = self.effects.law
         if self.dynamics is not None:
             from derivation.scene.time_element import A, E, P, V, W, Z
@@ -245,23 +258,23 @@ class Result:
         return History(times, *whole.history(law, times))
 
     def _times(self, n: int | None, end: float) -> Array:
-        """The times asked for [s], or such that cover the contact."""
+        """Return the chosen times [s], or times evenly spaced over the contact."""
         if n is None and self.times is not None:
             return np.array(self.times, dtype=np.float64)
         return np.linspace(0.0, end, n or POINTS)
 
     def to_json(self) -> dict[str, Any]:
-        """The result in SI, with its accuracy, its warnings and the scene it belongs to."""
+        """Return the result in SI units, with accuracy, effects, warnings and the scene."""
         found = {name: getattr(self, name) for name in UNITS}
-        # JSON has no NaN: what is not known of an incomplete impact is null.
+        # JSON has no NaN: unknown results of an incomplete impact are null.
         numbers = {name: x if math.isfinite(x) else None for name, x in found.items()}
         if self.effects.law.plastic:
             numbers["dent"] = self.dent
         if self.scene.measured is not None:
             numbers[self.scene.measured.solve_for] = measured.solved(self.scene)
-        beside = {"paper_motion": self.comparison.to_json()} if self.comparison else {}
+        extra = {"paper_motion": self.comparison.to_json()} if self.comparison else {}
         if self.dynamics is not None:
-            beside["dynamics"] = self.dynamics.to_json()
+            extra["dynamics"] = self.dynamics.to_json()
         return (
             numbers
             | {
@@ -271,7 +284,7 @@ class Result:
                 "warnings": list(self.warnings),
                 "scene": self.scene.to_json(),
             }
-            | beside
+            | extra
         )
 
     def plot(self) -> "Figure":
@@ -304,7 +317,7 @@ class Result:
 
     @property
     def model_note(self) -> str:
-        """The model error in a sentence; empty if there is none."""
+        """The model error as a sentence; empty if there is none."""
         if not self.model_error:
             return ""
         size = f"up to {100 * self.model_error:.2g} %"
@@ -320,25 +333,25 @@ class Result:
 
     @property
     def complete(self) -> bool:
-        """Whether the sphere has left the plate for good."""
+        """Whether the impact was computed up to the last separation."""
         return self.dynamics is None or self.dynamics.inertia.complete
 
     @property
     def incomplete_note(self) -> str:
-        """Why the simulation ended before the sphere left, and what to do; empty if it did not."""
+        """Why the simulation ended early, and what to do; empty if it is complete."""
         if self.dynamics is None or self.complete:
             return ""
         inertia = self.dynamics.inertia
         return (
             f"INCOMPLETE: {inertia.end_reason}. The results cover the first "
-            f"{len(inertia.contacts)} contact(s), up to {inertia.total_time:.6g} s; "
-            "the restitution is not known. "
+            f"{counted(len(inertia.contacts), 'contact')}, up to {inertia.total_time:.6g} s; "
+            "the restitution is unknown. "
             f"{inertia.remedy[0].upper()}{inertia.remedy[1:]}."
         )
 
     @property
     def disabled_note(self) -> str:
-        """What the effects that the scene disables would change; empty if there are none."""
+        """Bound on the change by the effects that the scene disables; empty if there are none."""
         rows = [row for row in self.effects.rows if row.disabled]
         known = ", ".join(
             f"{row.name} ({f'at most {row.bound:.1e}' if row.bound < NO_BOUND else 'no bound'})"
@@ -355,7 +368,7 @@ class Result:
         return min(MOST_DIGITS, max(FEWEST_DIGITS, math.ceil(-math.log10(max(error, 1e-300)))))
 
     def numbers(self) -> list[tuple[str, float, str]]:
-        """Name, value and SI unit of each result; with plate inertia the total time too."""
+        """Return name, value and SI unit of each result; with plate inertia also the total time."""
         found = [(name, float(getattr(self, name)), unit) for name, unit in UNITS.items()]
         if self.dynamics is not None:
             found.insert(1, ("total_time", self.total_time, "s"))
@@ -363,29 +376,17 @@ class Result:
             found.append(("dent", self.dent, "m"))
         return found
 
-    def rows(self) -> list[tuple[str, str, str]]:
-        """Name, value with the digits that hold, and SI unit of each result, as text."""
-        return [
-            (name.replace("_", " "), _shown(value, self.digits), unit)
-            for name, value, unit in self.numbers()
-        ]
-
     def __str__(self) -> str:
-        """The short answer, as the command line prints it."""
+        """Return the summary, as the command line prints it."""
         return answer.short(self)
 
     def details(self) -> str:
-        """The long answer: also the parts of the error bound, the effects table, the contacts."""
+        """Return the summary with the parts of the error bound, the effects and the contacts."""
         return answer.details(self)
 
     def _repr_html_(self) -> str:
-        """The answer for a notebook."""
+        """Return the summary for a notebook."""
         return answer.html(self)
-
-
-def _shown(value: float, digits: int) -> str:
-    """A number to so many significant digits."""
-    return f"{value:#.{digits}g}".removesuffix(".") if math.isfinite(value) else "unknown"
 
 
 UNITS = {

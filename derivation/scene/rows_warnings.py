@@ -10,10 +10,10 @@ from derivation.scene.effects.effect import Array
 from derivation.scene.impact import warnings_of
 from derivation.scene.law import ContactLaw
 from derivation.scene.limits import (
-    CURVATURE_LIMIT,
+    DEFLECTION_LIMIT,
     HERTZ_LIMIT,
+    PARABOLOID_LIMIT,
     QUASI_STATIC_PERIODS,
-    SHARE_LIMIT,
     SOLID_LIMIT,
     STRETCH_LIMIT,
     ZENER_LIMIT,
@@ -86,14 +86,14 @@ def _possible(
     found = [
         less * model.m < SOLID_LIMIT * solid,
         a > less * HERTZ_LIMIT * thickness,
-        (a > less * CURVATURE_LIMIT * model.R) & (not law.spherical),
+        (a > less * PARABOLOID_LIMIT * model.R) & (not law.spherical),
         deflection > less * STRETCH_LIMIT * thickness,
         results["max_pressure"] > less * kernels.YIELD_LIMIT * model.yield_stress,
         stress > less * np.minimum(model.plate_yield_stress, strength),
     ]
     if times is not None:
         fast = QUASI_STATIC_PERIODS * times.period > less * results["contact_time"]
-        much = (times.zener > less * ZENER_LIMIT) | (deflection > less * SHARE_LIMIT * delta)
+        much = (times.zener > less * ZENER_LIMIT) | (deflection > less * DEFLECTION_LIMIT * delta)
         found += [fast & much, times.echoes > less * results["contact_time"]]
     possible = np.zeros(a.shape, dtype=bool)
     for condition in found:

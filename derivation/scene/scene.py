@@ -1,10 +1,10 @@
-"""Reads a scene file: what is allowed in it, and one clear message for whatever is wrong."""
+"""Reads a scene file: its tables and keys, and one message that lists everything wrong in it."""
 
 import tomllib
 from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal, cast
+from typing import TYPE_CHECKING, Annotated, Any, Literal, cast, get_args
 
 from pydantic import Field, ValidationError
 
@@ -18,6 +18,7 @@ from derivation.scene.bodies import Sphere as Sphere
 from derivation.scene.body_materials import material_problems
 from derivation.scene.errors import IncompleteError as IncompleteError
 from derivation.scene.errors import SceneError as SceneError
+from derivation.scene.example_scenes import remedy
 from derivation.scene.html import html_table
 from derivation.scene.messages import OWN_MATERIALS, shown
 from derivation.scene.table import (
@@ -34,67 +35,73 @@ Output = Literal[
     "contact_time", "max_indentation", "max_force", "max_contact_radius", "restitution"
 ]
 Wanted = Literal["auto"] | bool
-OUTPUTS: tuple[Output, ...] = (
-    "contact_time", "max_indentation", "max_force", "max_contact_radius", "restitution",
-)  # fmt: skip
+OUTPUTS: tuple[Output, ...] = get_args(Output)
 LARGEST = 2**20
-"""Bytes of a scene file at most."""
+"""Largest size of a scene file [bytes]."""
 TIGHTEST = 1e-13
-"""Smallest relative tolerance: doubles promise no more."""
+"""Smallest relative tolerance that double precision allows."""
 
 
 class Impact(Table):
-    """How the sphere arrives."""
+    """Speed of the sphere at first contact, and gravity."""
 
     speed: Positive = Field(description="impact speed [m/s]", examples=[1.0])
     gravity: Annotated[float, Field(ge=0)] | None = Field(
-        default=None, description="acceleration that presses the sphere on [m/s^2]", examples=[9.81]
+        default=None,
+        description="gravitational acceleration during contact [m/s^2]",
+        examples=[9.81],
     )
 
 
 class Effects(Table):
-    """Which effects are included: "auto" selects by the tolerance; and what to compare."""
+    """Which effects are included; "auto" lets the tolerance decide."""
 
     sphere_elasticity: Wanted = Field(
-        default="auto", description="elastic sphere", examples=[False]
+        default="auto", description="elastic deformation of the sphere", examples=[False]
     )
     spherical_profile: Wanted = Field(
-        default="auto", description="profile of a sphere, not a paraboloid", examples=[False]
+        default="auto", description="spherical profile instead of a paraboloid", examples=[False]
     )
-    bending: Wanted = Field(default="auto", description="the plate's deflection", examples=[True])
+    bending: Wanted = Field(default="auto", description="bending of the plate", examples=[True])
     finite_thickness: Wanted = Field(
-        default="auto", description="shear, compression", examples=[True]
+        default="auto", description="shear and compression of the plate", examples=[True]
     )
     finite_radius: Wanted = Field(
-        default="auto", description="the plate's finite radius", examples=[True]
+        default="auto", description="finite radius of the plate", examples=[True]
     )
-    edge: Wanted = Field(default="auto", description="the plate's support", examples=[True])
+    edge: Wanted = Field(
+        default="auto", description="simply supported or clamped edge", examples=[True]
+    )
     non_hertzian_pressure: Wanted = Field(
         default="auto", description="contact pressure from the integral equation", examples=[False]
     )
-    plasticity: Wanted = Field(default="auto", description="yielding contact", examples=[True])
-    viscosity: Wanted = Field(default="auto", description="viscous contact", examples=[True])
-    gravity: Wanted = Field(default="auto", description="weight during contact", examples=[False])
-    inertia: Wanted = Field(default="auto", description="the plate's own motion", examples=[False])
+    plasticity: Wanted = Field(
+        default="auto", description="plastic deformation in the contact", examples=[True]
+    )
+    viscosity: Wanted = Field(default="auto", description="viscoelastic contact", examples=[True])
+    gravity: Wanted = Field(
+        default="auto", description="weight of the sphere during contact", examples=[False]
+    )
+    inertia: Wanted = Field(default="auto", description="inertia of the plate", examples=[False])
     damping: Wanted = Field(
-        default="auto", description="damping of the plate's modes", examples=[True]
+        default="auto", description="damping of the plate vibration", examples=[True]
     )
     compare_paper_motion: bool = Field(
         default=False,
-        description="the paper's perturbation motion beside the result, which it does not change",
+        description="also print the paper's perturbation motion; the results do not change",
         examples=[True],
     )
 
 
 class Accuracy(Table):
-    """How exact the result is to be."""
+    """The requested accuracy of the results."""
 
     rtol: Annotated[float, Field(ge=TIGHTEST, le=1)] = Field(
         description="relative tolerance of the results [1]", examples=[1e-6]
     )
     outputs: tuple[Output, ...] = Field(
         default=OUTPUTS,
-        description="results it applies to",
+        description="results that the tolerance applies to",
         examples=[["max_force"]],
         min_length=1,
         strict=False,  # TOML has arrays, no tuples
@@ -102,7 +109,7 @@ class Accuracy(Table):
 
 
 class Inertia(Table):
-    """How the plate's inertia is computed, where it is."""
+    """How the inertia of the plate is computed, if it is included."""
 
     modes: Literal["auto"] | Annotated[int, Field(ge=2, le=6000)] = Field(
         default="auto",
@@ -111,35 +118,35 @@ class Inertia(Table):
     )
     branches: Literal["auto", "A0", "all"] = Field(
         default="auto",
-        description="wave branches of the plate: the lowest (A0), all, or all where the tolerance "
-        "needs them",
+        description='Lamb-wave branches: "A0" (the lowest), "all", or "auto" (all if the tolerance '
+        "requires them)",
         examples=["all"],
     )
     coupling: Literal["variational", "pointwise"] = Field(
         default="variational",
-        description="definition of the indentation: the weighted mean of the gap, which conserves "
-        "energy, or its value at the axis",
+        description='definition of the indentation: "variational" (weighted mean of the gap, '
+        'conserves energy) or "pointwise" (at the axis)',
         examples=["pointwise"],
     )
     extent: Literal["finite", "infinite"] = Field(
         default="finite",
-        description="a plate with its edge, or one so large that no wave returns from the edge",
+        description='"finite" (with an edge) or "infinite" (no wave returns from the edge)',
         examples=["infinite"],
     )
 
 
 class Measured(Table):
-    """A measured restitution, which tells the yield stress or retardation time of the plate."""
+    """A measured restitution, from which a material constant of the plate is determined."""
 
     restitution: Annotated[float, Field(gt=0, lt=1)] = Field(
         description="measured rebound speed over impact speed [1]", examples=[0.6]
     )
     solve_for: Literal["yield_stress", "retardation_time"] = Field(
-        description="the plate's quantity that it tells", examples=["yield_stress"]
+        description="material constant of the plate to determine", examples=["yield_stress"]
     )
     target: Literal["block", "plate"] = Field(
         default="block",
-        description="what was struck: a thick block of the plate's material, or the plate",
+        description="test specimen: a thick block of the plate material, or the plate itself",
         examples=["plate"],
     )
     tested_at: Positive | None = Field(
@@ -148,14 +155,14 @@ class Measured(Table):
 
 
 class Scene(Table):
-    """A sphere striking a plate.
+    """A sphere that strikes a plate.
 
-    Tables may also be plain mappings, as a scene file holds them.
+    Each table is an object such as `Sphere`, or a mapping from key to value.
 
     Raises
     ------
     SceneError
-        With one message that lists everything that is wrong.
+        If a key is missing, unknown or invalid; the message lists all problems.
 
     Examples
     --------
@@ -191,47 +198,48 @@ class Scene(Table):
 
         __init__.__pydantic_base_init__ = True  # a file is read without it
 
-    sphere: Sphere = Field(description="the sphere that strikes")
-    plate: Plate = Field(description="the elastic plate that is struck in its middle")
-    impact: Impact = Field(description="how the sphere arrives")
+    sphere: Sphere = Field(description="the sphere")
+    plate: Plate = Field(description="the elastic circular plate, struck at its centre")
+    impact: Impact = Field(description="speed of the sphere at first contact, and gravity")
     effects: Effects = Field(
         default_factory=lambda: Effects.model_validate({}),
-        description="which effects are computed",
+        description="which effects are included",
     )
     inertia: Inertia | None = Field(default=None, description="how the plate's inertia is computed")
-    accuracy: Accuracy | None = Field(default=None, description="how exact the result is to be")
+    accuracy: Accuracy | None = Field(
+        default=None, description="the requested accuracy of the results"
+    )
     measured: Measured | None = Field(
-        default=None, description="a measured restitution that tells a quantity of the plate"
+        default=None,
+        description="a measured restitution, to determine a material constant of the plate",
     )
     materials: dict[str, Material] = Field(
         default_factory=dict,
-        description="materials of your own by name; one takes precedence over a named material "
+        description="your own materials, by name; they take precedence over the built-in materials "
         "of the same name",
     )
 
     @classmethod
     def conflicts(cls, given: Mapping[str, Any]) -> list[str]:
-        """What is wrong with materials and measurement; the rest each table has looked at."""
+        """Return the problems of materials and measurement; each table checks its own keys."""
         return [*material_problems(given), *_solved_twice(given)]
 
     def _repr_html_(self) -> str:
-        """The keys given, for a notebook."""
+        """Return the given keys as a table for a notebook."""
         given = self.to_json()
         own = given.pop(OWN_MATERIALS, {})
         given |= {f"{OWN_MATERIALS}.{name}": keys for name, keys in own.items()}
         rows = ((table, key, value) for table, keys in given.items() for key, value in keys.items())
-        return html_table(("table", "key", "value in SI"), rows)
+        return html_table(("table", "key", "value (SI units)"), rows)
 
 
 def _solved_twice(given: Mapping[str, Any]) -> list[str]:
-    """A quantity of the plate that is given and is to be found from a measurement."""
+    """Return a problem if a constant of the plate is both given and to be determined."""
     measured, plate = given.get("measured"), given.get("plate")
-    if not isinstance(measured, Mapping) or not isinstance(plate, Mapping):
+    key = measured.get("solve_for") if isinstance(measured, Mapping) else None
+    if not isinstance(key, str) or not isinstance(plate, Mapping) or plate.get(key) is None:
         return []
-    key = measured.get("solve_for")
-    if not isinstance(key, str) or plate.get(key) is None:
-        return []
-    expected = f"expected a quantity that is not given, got {key}, which [plate] gives"
+    expected = f"expected a constant that is not given, got {key}, which is given in [plate]"
     return [f"measured.solve_for: {expected}; remove plate.{key}, or [measured]"]
 
 
@@ -252,13 +260,18 @@ def load(path: str | Path) -> Scene:
     Parameters
     ----------
     path
-        TOML file with the tables ``sphere``, ``plate`` and ``impact``, in SI units, and if
-        wanted ``accuracy``, ``effects``, ``inertia``, ``measured`` and ``materials``.
+        TOML file with the tables ``sphere``, ``plate`` and ``impact``, in SI units, and
+        optionally ``accuracy``, ``effects``, ``inertia``, ``measured`` and ``materials``.
+
+    Returns
+    -------
+    Scene
+        The scene.
 
     Raises
     ------
     SceneError
-        If the file cannot be read, is not TOML, or describes no usable scene.
+        If the file cannot be read, is not TOML, or contains a missing, unknown or invalid key.
     """
     name = one_line(str(path), 200)
     try:
@@ -267,51 +280,71 @@ def load(path: str | Path) -> Scene:
     except OSError as error:
         reason = error.strerror or error
         raise SceneError(
-            f"{name}: cannot read the scene file ({reason}); check its name and permissions"
+            f"{name}: cannot read the scene file ({reason}); {remedy(Path(path))}"
         ) from None
     except UnicodeDecodeError as error:
         raise SceneError(
-            f"{name}: expected a TOML file in UTF-8, got other bytes at {error.start}; "
-            "save it as UTF-8 text"
+            f"{name}: expected UTF-8 text, got another encoding (at byte {error.start}); save the "
+            "file as UTF-8"
         ) from None
     except tomllib.TOMLDecodeError as error:
         raise SceneError(
-            f"{name}: not valid TOML: {error}; a line reads like `radius = 0.13`"
+            f"{name}: not valid TOML: {error}; write each line as `key = value`, such as "
+            "`radius = 0.13`"
         ) from None
     except (ValueError, RecursionError):  # more digits or brackets than Python can read
         raise SceneError(
-            f"{name}: expected a scene of a few lines, got numbers too long or brackets too deep "
-            "to read; a line reads like `radius = 0.13`"
+            f"{name}: expected TOML, got a number or nested brackets too long to read; "
+            "write each line as `key = value`, such as `radius = 0.13`"
         ) from None
     return _scene(data, name)
 
 
 def read(data: Mapping[str, Any], source: str = "scene") -> Scene:
-    """Make a scene from tables of keys, as a scene file holds them.
+    """Make a scene from nested mappings with the tables and keys of a scene file.
 
     Parameters
     ----------
     data
-        Tables ``sphere``, ``plate``, ``impact`` and, if wanted, ``accuracy``, each a mapping
-        from key to number, in SI.
+        Tables ``sphere``, ``plate`` and ``impact``, and optionally the other tables of a scene
+        file; each is a mapping from key to value, in SI units.
     source
-        What messages call the scene, for instance its file.
+        Name of the scene in error messages, for example the file name.
+
+    Returns
+    -------
+    Scene
+        The scene.
 
     Raises
     ------
     SceneError
-        With one message that lists everything that is wrong.
+        If a key is missing, unknown or invalid; the message lists all problems.
+
+    Examples
+    --------
+    >>> import platecontact as pc
+    >>> scene = pc.read({
+    ...     "sphere": {"radius": 0.01, "material": "steel"},
+    ...     "plate": {"radius": 0.3, "thickness": 0.05, "material": "glass"},
+    ...     "impact": {"speed": 1.0},
+    ... })
+    >>> scene.plate.edge
+    'paper'
     """
     if not isinstance(data, Mapping):
-        raise SceneError(f"{source}: expected tables of keys, got {shown(data)}; see `load`")
+        raise SceneError(
+            f"{source}: expected a mapping with the tables of a scene file, got {shown(data)}; "
+            "to read a file, use `load`"
+        )
     return _scene(data, source)
 
 
 def _scene(data: Mapping[str, Any], source: str, scene: Scene | None = None) -> Scene:
-    """Make a scene, or fill one, with a notice for each old name."""
+    """Make a scene, or initialise a given one, with a notice for each old name."""
     tables, notices, twice = old_names.renewed(_plain(data))
     for notice in notices:
-        old_names.tell(notice)
+        old_names.notify(notice)
     found: Problems = [partial(str, text) for text in twice]
     try:
         made = Scene.__pydantic_validator__.validate_python(tables, self_instance=scene)
@@ -324,7 +357,7 @@ def _scene(data: Mapping[str, Any], source: str, scene: Scene | None = None) -> 
 
 
 def _plain(data: Mapping[str, Any]) -> dict[str, Any]:
-    """Tables as a scene file would hold them."""
+    """Return the tables as plain mappings with plain numbers."""
     found = dict[str, Any]()
     for name, table in data.items():
         keys = table.to_json() if isinstance(table, Table) else table
@@ -338,13 +371,20 @@ def _plain(data: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def schema() -> dict[str, Any]:
-    """JSON schema of a scene file, for editors that check and complete TOML."""
+    """Return the JSON schema of scene files, with which editors check and complete TOML.
+
+    Examples
+    --------
+    >>> import platecontact as pc
+    >>> pc.schema()["required"]
+    ['sphere', 'plate', 'impact']
+    """
     dialect = {"$schema": "https://json-schema.org/draft/2020-12/schema"}
     return dialect | Scene.model_json_schema()
 
 
 def _problems(error: ValidationError, data: Mapping[str, Any]) -> Problems:
-    """What is wrong with a scene, each still to be put into words."""
+    """Return all problems of a scene, each as a function that returns the message."""
     own = data.get(OWN_MATERIALS)
     names = own if isinstance(own, Mapping) else ()
     known = TABLES | {f"{OWN_MATERIALS}.{name}": Material for name in names}
@@ -353,7 +393,7 @@ def _problems(error: ValidationError, data: Mapping[str, Any]) -> Problems:
 
 
 def _by_table(problem: Problem) -> Problem:
-    """The same with a material as a table of its own."""
+    """Return the problem with a scene's own material as a separate table."""
     place = problem.place
     if len(place) > 1 and place[0] == OWN_MATERIALS:
         place = (f"{OWN_MATERIALS}.{place[1]}", *place[2:])

@@ -1,9 +1,9 @@
-"""Selection: which effects are included, by bounds on the change if they are omitted.
+"""Effect selection by bounds on the change of the results if an effect is omitted.
 
-Starting from the effects that are always included, the effect with the largest bound is included
-until the bound on all omitted effects together is within the tolerance. As S_1 grows with each
-included effect and radii shrink, bounds are evaluated anew each time. The order does not depend on
-the tolerance, so that a looser tolerance never includes more effects.
+The selection starts with the effects that are always included. It includes the effect with the
+largest bound until the bound on all omitted effects together is within the tolerance. Each included
+effect changes S_1 and the largest radius, so that the bounds are evaluated again each time. The
+order does not depend on the tolerance; a larger tolerance therefore never includes more effects.
 """
 
 from collections.abc import Mapping, Sequence
@@ -20,25 +20,26 @@ from derivation.scene.scene import OUTPUTS, SceneError
 
 @dataclass(frozen=True)
 class Selection:
-    """Which effects are included, before anything is said about them.
+    """The result of an effect selection.
 
     Attributes
     ----------
     state
-        The law of the effects included, at its largest radius.
+        The law with the included effects, at its largest contact radius.
     error
-        Bound on what the effects omitted by the selection change together [1].
+        Bound on the change of the outputs by all effects that the selection omitted [1].
     sizes
-        Of every effect that applies, how much it matters: where it was included how much it
-        did then, else what omitting it alone changes at most [1].
+        For each applicable effect, the bound on the change if it is omitted [1]: of an included
+        effect when it was included, of an omitted one at the end.
     choice
-        "auto", True or False of every effect that applies.
+        "auto", True or False for each applicable effect.
     reasons
-        Why an effect does not apply; empty if it does.
+        Why an effect does not apply; empty if it applies.
     required
-        Of effects included only because another one needs them, the name of that one.
+        For each effect that is included only because another one requires it, the name of that
+        one.
     blocked
-        Of effects that cannot be included, the part of them that the scene disables.
+        For each effect that cannot be included, the disabled effect that it requires.
     """
 
     state: LargestContact
@@ -51,29 +52,29 @@ class Selection:
 
     @property
     def included(self) -> frozenset[str]:
-        """Names of the effects included."""
+        """Names of the included effects."""
         return self.state.law.effects
 
 
 @dataclass(frozen=True)
 class Candidates:
-    """What a scene leaves to the selection, and what it decides itself.
+    """The effects of a scene before the selection.
 
     Attributes
     ----------
     model
-        The scene's numbers.
+        The quantities of the scene.
     present
         The effects that apply and may be included.
     along
-        Of every effect, the names of those that come in with it.
+        For each effect, the names of the effects that are included with it.
     included, required
-        Names of the effects that are included from the start, and of those among them that only
-        come in with another the name of that one.
+        Names of the effects that are included from the start; and for those that are included only
+        with another effect, the name of that one.
     open_
         The effects that the selection decides on.
     choice, reasons, blocked
-        As of `Selection`.
+        As in `Selection`.
     """
 
     model: Model
@@ -87,22 +88,24 @@ class Candidates:
     blocked: Mapping[str, str]
 
     def left(self, included: frozenset[str]) -> list[Effect]:
-        """Effects that the selection decides on, less those included."""
+        """Return the effects that the selection decides on and that are not yet included."""
         return [effect for effect in self.open_ if effect.name not in included]
 
 
 def candidates_of(model: Model, wanted: Mapping[str, Any]) -> Candidates:
-    """What the selection may include.
+    """Return the effects that the selection may include.
 
     Parameters
     ----------
+    model
+        The quantities of the scene.
     wanted
-        "auto", True or False by effect; "auto" if left out.
+        "auto", True or False by effect; "auto" if missing.
 
     Raises
     ------
     SceneError
-        If the scene includes an effect and disables a part of it.
+        If the scene enables an effect and disables an effect that it requires.
     """
     without = {e.name: f"effects.{e.within} = false" for e in EFFECTS if _disabled(e, wanted)}
     asked = {e.name for e in EFFECTS if not e.selectable and wanted.get(e.name) is True}
@@ -113,7 +116,7 @@ def candidates_of(model: Model, wanted: Mapping[str, Any]) -> Candidates:
     choice = {effect.name: wanted.get(effect.name, "auto") for effect in present}
     present = [effect for effect in present if effect.selectable]
     free = {effect.name for effect in present if choice[effect.name] is not False}
-    # What comes in with an effect costs nothing there; of pressure the bounds are Hertz's.
+    # Effects included with another one take no extra time; bounds assume Hertz's pressure.
     along = {effect.name: effect.contains & free for effect in EFFECTS}
     included = {e.name for e in present if e.always_included or choice[e.name] is True}
     required: dict[str, str] = {}
@@ -135,17 +138,17 @@ def select(
     Parameters
     ----------
     wanted
-        "auto", True or False by effect; "auto" if left out.
+        "auto", True or False by effect; "auto" if missing.
     rtol
-        What the effects left out may change at most, relative [1].
+        Largest relative change of the outputs by the omitted effects [1].
     outputs
-        The results it applies to.
+        The results that the tolerance applies to.
 
     Raises
     ------
     SceneError
-        If the scene includes an effect and disables a part of it, or disables a part of one that
-        it must not omit.
+        If the scene disables an effect that is required by an effect which it enables or must not
+        omit.
     """
     given = candidates_of(model, wanted)
     included, required, blocked = given.included, dict(given.required), given.blocked
@@ -172,18 +175,18 @@ def select(
 
 
 def _disabled(effect: Effect, wanted: Mapping[str, Any]) -> bool:
-    """Whether a scene disables what an effect is a part of, and does not ask for the effect."""
+    """Return whether the scene disables the effect that this one is a part of."""
     parted = bool(effect.within) and wanted.get(effect.within) is False
     return parted and wanted.get(effect.name) is not True
 
 
 def _blocked(wanted: Mapping[str, Any]) -> Mapping[str, str]:
-    """Effects that cannot be included, each with a part of it that the scene disables.
+    """Return the effects that cannot be included, each with the disabled effect it requires.
 
     Raises
     ------
     SceneError
-        If the scene asks for one of them.
+        If the scene enables one of them.
     """
     found = dict[str, str]()
     for effect in EFFECTS:
@@ -191,8 +194,8 @@ def _blocked(wanted: Mapping[str, Any]) -> Mapping[str, str]:
         without = sorted(part for part in effect.requires if wanted.get(part) is False)
         if without and wanted.get(name) is True:
             raise SceneError(
-                f"effects.{name}: expected effects.{without[0]} to be included with it, got "
-                f"effects.{without[0]} = false; leave out effects.{without[0]} or effects.{name}"
+                f"effects.{name} = true requires effects.{without[0]}, got effects.{without[0]} = "
+                f"false; remove effects.{without[0]} or effects.{name}"
             )
         if without:
             found[name] = without[0]

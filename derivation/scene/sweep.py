@@ -1,4 +1,4 @@
-"""Sweeps one key of a scene: a simulation per value, a row for each."""
+"""Sweeps one key of a scene: a simulation and a row for each value."""
 
 import csv
 import io
@@ -25,9 +25,9 @@ from derivation.scene.scene import Scene, SceneError, read
 MOST = 100_000
 """Largest number of values of a sweep."""
 LONG = 3.0
-"""Seconds of work from which other processes are worth their start."""
+"""Run time [s] from which other processes are started."""
 MOST_DIGITS = 4
-"""Largest number of significant digits of a table on a screen."""
+"""Largest number of significant digits in the table."""
 SYMBOLS = {
     "contact_time": "t_c",
     "max_indentation": "δ",
@@ -37,19 +37,19 @@ SYMBOLS = {
     "max_pressure": "p",
     "max_tensile_stress": "σ",
 }
-"""Symbols of the results, for a table on a screen."""
+"""Symbols of the results in the table."""
 
 
 @dataclass(frozen=True)
 class Sweep:
-    """One key and the values it is to take.
+    """A key and its values.
 
     Attributes
     ----------
     table, key
-        Where it stands in the scene file.
+        Table and key of the scene file.
     values
-        What it takes, in SI.
+        Values in SI units.
     """
 
     table: str
@@ -59,20 +59,20 @@ class Sweep:
 
 @dataclass(frozen=True)
 class SweepRow:
-    """A value and what came of it.
+    """The results for one value.
 
     Attributes
     ----------
     value
-        What the key took.
+        Value of the key.
     results
-        By name, in SI; empty if the scene was refused.
+        Results by name, in SI units; empty if the scene was rejected.
     effects
-        Names of the effects included.
+        Names of the included effects.
     remark
-        Warnings, or why the scene was refused.
+        Warnings, or why the scene was rejected.
     digits
-        Number of significant digits of the results that hold; 0 without results.
+        Number of significant digits of the results; 0 without results.
     """
 
     value: float
@@ -83,15 +83,15 @@ class SweepRow:
 
 
 def parse(text: str) -> Sweep:
-    """A sweep from `table.key=first:last:count`, values evenly spaced, both ends included.
+    """Read a sweep `table.key=first:last:count`: evenly spaced values, both ends included.
 
-    With `:log` behind the count their logarithms are evenly spaced. A key of a scene's own
-    material is `materials.NAME.key`.
+    With `:log` after the count, the values are evenly spaced on a logarithmic scale. A key of a
+    material defined in the scene is `materials.NAME.key`.
 
     Raises
     ------
     SceneError
-        If the text is not of this form, or names no number of a scene file.
+        If the text does not have this form, or the key is not a numeric key.
     """
     place, _, span = text.partition("=")
     table, key = number_key(place)
@@ -106,8 +106,8 @@ def parse(text: str) -> Sweep:
         )
     if logarithmic and min(first, last) <= 0:
         raise SceneError(
-            f"sweep: expected positive ends of a logarithmic spacing, got {span!r:.60}; leave out "
-            ":log, or give positive ends"
+            f"sweep: expected positive ends for logarithmic spacing, got {span!r:.60}; remove "
+            ":log, or use positive ends"
         )
     spaced = np.geomspace if logarithmic else np.linspace
     return Sweep(table, key, tuple(spaced(first, last, count).tolist()))
@@ -117,30 +117,34 @@ def run(
     scene: Scene,
     sweep: Sweep,
     rtol: float | None = None,
-    tell: Tell = quiet,
+    progress: Tell = quiet,
     workers: int = 1,
 ) -> tuple[SweepRow, ...]:
-    """Simulate the scene once per value; a scene that is refused is a row that says why.
+    """Simulate the scene for each value; the row of a rejected scene states the reason.
 
     Parameters
     ----------
+    scene
+        The scene.
+    sweep
+        The key and its values.
     rtol
-        As `simulate` takes it.
-    tell
-        Called before each, with what is done, its number and how many there are.
+        Relative tolerance of the results [1], as in `simulate`.
+    progress
+        Called before each simulation with the key, the index of the value and their number.
     workers
-        Processes that share the work if it takes long. Each of several begins by importing the
-        main module: a script that asks for them has to guard what it runs.
+        Number of processes, used if the sweep takes long. Each process imports the main module,
+        so that a script must guard its main part with `if __name__ == "__main__"`.
     """
     found, rows = _rows(scene, sweep, rtol, workers), list[SweepRow]()
     for number in range(1, len(sweep.values) + 1):
-        tell(f"{sweep.table}.{sweep.key}", number, len(sweep.values))
+        progress(f"{sweep.table}.{sweep.key}", number, len(sweep.values))
         rows.append(next(found))
     return tuple(rows)
 
 
 def _rows(scene: Scene, sweep: Sweep, rtol: float | None, workers: int) -> Iterator[SweepRow]:
-    """The rows in the order of the values; by the first it is judged how long they take."""
+    """Yield the rows in the order of the values; the first one gives an estimate of the time."""
     one, start = partial(_row, scene, sweep, rtol), time.perf_counter()
     yield one(sweep.values[0])
     if workers == 1 or (time.perf_counter() - start) * len(sweep.values) < LONG:
@@ -153,17 +157,17 @@ def _rows(scene: Scene, sweep: Sweep, rtol: float | None, workers: int) -> Itera
         yield from found
     except BrokenProcessPool:
         raise SceneError(
-            "sweep: expected every process to finish its share, but one was ended from outside, "
-            "for want of memory perhaps; run it again with fewer values"
+            "sweep: a process was terminated by the operating system, possibly for lack of memory; "
+            "run the sweep again with fewer values"
         ) from None
     finally:
-        # Not waited for, it would be forgotten, and what was to be cancelled computed to the end.
+        # Without waiting, pending simulations would not be cancelled.
         pool.shutdown(wait=True, cancel_futures=True)
 
 
 @contextmanager
 def unheard_interrupts() -> Iterator[None]:
-    """Let processes that are begun meanwhile never hear of Ctrl-C."""
+    """Let processes that start within this context ignore Ctrl-C."""
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
@@ -175,7 +179,7 @@ def unheard_interrupts() -> Iterator[None]:
 
 
 def _leave_interrupts() -> None:
-    """Ctrl-C is the main process's, which ends the others."""
+    """Ignore Ctrl-C: the main process handles it and ends the others."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
@@ -184,16 +188,16 @@ def _row(scene: Scene, sweep: Sweep, rtol: float | None, value: float) -> SweepR
     try:
         found = simulate(read(data), rtol=rtol)
     except SceneError as error:
-        return SweepRow(value, {}, (), f"refused: {error}")
+        return SweepRow(value, {}, (), f"rejected: {error}")
     results = {name: getattr(found, name) for name in UNITS}
     included = found.effects.included
-    if not found.complete:  # there is no restitution: an empty row with the reason
+    if not found.complete:  # without restitution: a row without results, with the reason
         return SweepRow(value, {}, included, found.incomplete_note)
     return SweepRow(value, results, included, "; ".join(found.warnings), found.digits)
 
 
 def to_csv(sweep: Sweep, rows: Sequence[SweepRow]) -> str:
-    """The rows as CSV, numbers to the last bit; results that there are not are empty."""
+    """Return the rows as CSV in SI units, with all digits; missing results are empty."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow([f"{sweep.table}.{sweep.key}", *UNITS, "effects", "remark"])
@@ -204,7 +208,7 @@ def to_csv(sweep: Sweep, rows: Sequence[SweepRow]) -> str:
 
 
 def to_text(sweep: Sweep, rows: Sequence[SweepRow]) -> str:
-    """The rows as a table for a screen: each result in one multiple of its unit."""
+    """Return the rows as a table, each result with one SI prefix."""
     known = [row for row in rows if row.results]
     fewest = min((row.digits for row in known), default=MOST_DIGITS)
     heads, columns = [f"#{sweep.key}"], [[f"{row.value:.6g}" for row in rows]]
@@ -218,5 +222,5 @@ def to_text(sweep: Sweep, rows: Sequence[SweepRow]) -> str:
             for row, value in zip(known, values, strict=True)
         )
         columns.append([next(cells) if row.results else "n/a" for row in rows])
-    legend = ", ".join(f"{SYMBOLS[name]} {name.replace('_', ' ')}" for name in UNITS)
+    legend = ", ".join(f"{SYMBOLS[name]}: {name.replace('_', ' ')}" for name in UNITS)
     return f"{aligned(heads, list(zip(*columns, strict=True)))}\n\n{paragraph(legend, 0)}"

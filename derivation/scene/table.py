@@ -1,4 +1,4 @@
-"""A table of the scene file: what all tables share, and choices between groups of keys."""
+"""Base class of the tables of a scene file, with choices between groups of keys."""
 
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -14,28 +14,28 @@ from derivation.scene.errors import SceneError
 from derivation.scene.messages import choice_problem, explain, listed, shown
 
 Problems = list[Callable[[], str]]
-"""What is wrong, each still to be put into words."""
+"""Problems, each a function that returns the message."""
 Groups = tuple[tuple[str, ...], ...]
 CONFLICT = "conflict"
-"""Error type of keys that are right one by one but not together."""
+"""Error type of keys that are valid one by one but exclude each other."""
 
 
 class Table(BaseModel):
-    """A table of the scene file: frozen, no unknown keys, numbers must be numbers.
+    """A table of a scene file: immutable, without unknown keys, strictly typed.
 
     Raises
     ------
     SceneError
-        With one message that lists everything that is wrong.
+        If a key is missing, unknown or invalid; the message lists all problems.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid", strict=True, allow_inf_nan=False)
     choices: ClassVar[tuple[Groups, ...]] = ()
-    """Groups of keys of which exactly one group is to be given."""
+    """Alternatives, each several groups of keys, of which exactly one must be given."""
     options: ClassVar[tuple[Groups, ...]] = ()
-    """Groups of keys of which at most one group is to be given."""
+    """Alternatives, each several groups of keys, of which at most one may be given."""
     stand_in: ClassVar[str | None] = None
-    """Key that makes up for groups left out."""
+    """Key with which no group of `choices` is needed."""
 
     if not TYPE_CHECKING:  # for type checkers the keys are those of the class
 
@@ -54,7 +54,7 @@ class Table(BaseModel):
 
     @classmethod
     def conflicts(cls, given: Mapping[str, Any]) -> list[str]:
-        """What is wrong with the keys given, taken together."""
+        """Return the problems of combinations of the given keys."""
         table = cls.__name__.lower()
         keys = {key for key, value in given.items() if value is not None}
         choices = [groups for groups in cls.options if keys & set(sum(groups, ()))]
@@ -65,7 +65,7 @@ class Table(BaseModel):
         return [problem for problem in found if problem]
 
     def to_json(self) -> dict[str, Any]:
-        """The keys as they were given."""
+        """Return the given keys with their values."""
         return self.model_dump(mode="json", exclude_none=True, exclude_unset=True)
 
     @model_validator(mode="after")
@@ -77,7 +77,7 @@ class Table(BaseModel):
 
     @classmethod
     def __get_pydantic_json_schema__(cls, core_schema: Any, handler: Any) -> JsonDict:
-        """JSON schema in which the choices are spelled out and nothing may be null."""
+        """Return a JSON schema that contains the choices and allows no null."""
         made: JsonDict = handler.resolve_ref_schema(handler(core_schema))
         properties: Any = made["properties"]
         for field in properties.values():
@@ -98,12 +98,12 @@ class Table(BaseModel):
 
 
 def _one_of(groups: Groups) -> dict[str, Any]:
-    """JSON schema for exactly one of the groups."""
+    """Return a JSON schema for exactly one of the groups."""
     return {"oneOf": [{"required": list(group)} for group in groups]}
 
 
 def _none_of(*choices: Groups) -> dict[str, Any]:
-    """JSON schema for no key of any group."""
+    """Return a JSON schema that excludes the keys of all groups."""
     keys = {key: None for groups in choices for group in groups for key in group}
     return {"not": {"anyOf": [{"required": [key]} for key in keys]}}
 
@@ -113,7 +113,7 @@ def _example(field: Any) -> str:
 
 
 class Problem(NamedTuple):
-    """What pydantic finds wrong: its name of the error, table and key, and the value there."""
+    """An error found by pydantic: its type, table and key, and the given value."""
 
     kind: str
     place: tuple[int | str, ...]
@@ -121,7 +121,7 @@ class Problem(NamedTuple):
 
 
 def found_by(error: ValidationError, table: str = "") -> Iterator[Problem]:
-    """What pydantic finds wrong with keys one by one, in a table or in all of a scene."""
+    """Yield the errors that pydantic found in single keys, of a table or of a scene."""
     for item in error.errors(include_url=False):
         if item["type"] != CONFLICT:
             place = (table, *item["loc"]) if table else item["loc"]
@@ -131,36 +131,36 @@ def found_by(error: ValidationError, table: str = "") -> Iterator[Problem]:
 def problems(
     found: Iterable[Problem], data: Mapping[str, Any], tables: Mapping[str, type[Table]]
 ) -> Problems:
-    """Everything that is wrong with tables, keys taken together included.
+    """Return all problems of single keys and of combinations of keys.
 
     Parameters
     ----------
     found
-        What is wrong with keys one by one.
+        Errors of single keys.
     data
-        The tables as they were given, by name.
+        The given tables by name.
     tables
-        The tables that there may be.
+        The known tables by name.
     """
     fields = {name: dict(table.model_fields) for name, table in tables.items()}
-    told: dict[object, Callable[[], str]] = {}
+    messages: dict[object, Callable[[], str]] = {}
     for kind, place, value in found:
-        # Every type that a key may have gives a message of its own; the first is enough.
-        told.setdefault((place[:2], shown(value)), partial(explain, kind, place, value, fields))
-    # Pydantic looks at keys together only if each is right; the user wants to hear all at once.
+        # Pydantic reports an error for each allowed type of a key; the first is enough.
+        messages.setdefault((place[:2], shown(value)), partial(explain, kind, place, value, fields))
+    # Pydantic checks combinations only if each key is valid; here all problems are reported.
     for name, table in tables.items():
         if isinstance(data.get(name), Mapping):
-            told |= {text: partial(str, text) for text in table.conflicts(data[name])}
-    return list(told.values())
+            messages |= {text: partial(str, text) for text in table.conflicts(data[name])}
+    return list(messages.values())
 
 
 def in_words(found: Sequence[Callable[[], str]]) -> str:
-    """One problem as it is, several below each other."""
+    """Return the message of one problem, or a list of several."""
     return found[0]() if len(found) == 1 else listed(found)
 
 
 def plain_keys(keys: Mapping[str, Any]) -> dict[str, Any]:
-    """Keys with NumPy's numbers as Python's."""
+    """Return the keys with NumPy numbers converted to Python numbers."""
     return {key: _plain_number(value) for key, value in keys.items()}
 
 
@@ -171,7 +171,7 @@ def _plain_number(value: Any) -> Any:
 
 
 def is_number(value: Any) -> TypeGuard[float]:
-    """Whether a value is a number a double can hold."""
+    """Return whether a value is a number within the range of double precision."""
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         return False
     return abs(value) < sys.float_info.max

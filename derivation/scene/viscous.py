@@ -1,16 +1,16 @@
-"""Impact on a viscous contact: collocation in time, since energy alone no longer tells.
+"""Impact with a viscoelastic contact on a quasi-static plate, by collocation in time.
 
-The contact is viscoelastic (Kuwabara and Kono 1987, Brilliantov et al. 1996), bending elastic.
-With a the contact radius, P_e and delta_e force and indentation of the law at it, w the plate's
-bending:
+The contact is viscoelastic (Kuwabara and Kono 1987, Brilliantov et al. 1996), the bending elastic.
+With contact radius a, P_e and delta_e force and indentation of the elastic law at a, and w the
+bending deflection of the plate,
 
     m z'' = m g - P,   P = P_e + A_v dP_e/dt,   z = delta_e + w(P) - w(P_e)
 
-until P falls to zero: there is no tension. A contact that yields adds the depth of its branch to
-delta_e; depths are counted from the dent that was there when the branch began. In x = (t/T)^(1/6),
-T the time without viscosity, the onset is analytic. On each of a row of elements da/dx is a
-polynomial through Radau's nodes, found by Newton's iteration; elements are as long as their last
-coefficients are rounding.
+until P falls to zero, because the contact transmits no tension. A plastic contact adds the depth of
+its branch to delta_e; depths are measured from the dent at the beginning of the branch. The onset
+of contact is analytic in x = (t/T)^(1/6), T being the contact time without viscosity. On each time
+element da/dx is a polynomial through Radau nodes, computed by Newton's iteration. The length of an
+element is limited so that its last coefficients are of the size of rounding.
 """
 
 import math
@@ -37,22 +37,22 @@ from derivation.scene.yield_events import branch_after, cut
 from derivation.scene.yielding import Yielding, yielding_of
 
 STAGES = 9, 12
-"""Nodes of an element, of the run that checks and of the one that counts."""
+"""Nodes of a time element, in the run for the error estimate and in the final run."""
 FIRST, LONGEST, SHORTEST, MOST = 0.05, 0.25, 1e-13, 2000
-"""First, largest and least length of an element in x, and how many are tried."""
+"""First, largest and smallest length of a time element in x, and largest number of elements."""
 TOLERANCE = 1e-11
-"""An element's last coefficients over the largest there are."""
+"""Largest ratio of the last coefficients of an element to the largest coefficient."""
 ROUNDING = 2e-12
-"""What tests hold the results to, beside the change with the nodes [1]."""
+"""Tested bound on the rounding errors of the results [1]."""
 OWN = 1e3
-"""How much less exact the radius may be beside the largest of its element."""
+"""Factor on the tolerance of the radius relative to its largest value in the element."""
 _ROUGH = 1e-3
 A, V, Z, P, LOST = range(5)
-"""Rows of an element: contact radius, velocity, indentation, force, and energy lost per x."""
+"""Rows of a time element: contact radius, velocity, indentation, force, energy loss per x."""
 
 
 class Point(NamedTuple):
-    """Contact radius, velocity and indentation at a time, in the problem's units."""
+    """Contact radius, velocity and indentation at a time, in the units of the problem."""
 
     radius: float
     velocity: float
@@ -60,7 +60,7 @@ class Point(NamedTuple):
 
 
 class States(NamedTuple):
-    """Force, depth, loss per x, and slopes: of both by the radius a and by da/dx."""
+    """Force, depth, energy loss per x, and derivatives of force and depth by a and by y = da/dx."""
 
     P: Array
     depth: Array
@@ -78,12 +78,12 @@ class ViscousProblem:
     Attributes
     ----------
     curve, bending
-        The contact law, and what of it is elastic.
+        The contact law, and its elastic part.
     a, T
         Units of radius [m] and time [s]; those of velocity, depth and force are v0, v0 T and
         m v0/T.
     yielding
-        The contact that yields, on the branch on which it is; None of one that does not.
+        The current branch of a plastic contact; None without plasticity.
     """
 
     curve: Curve
@@ -109,16 +109,16 @@ class ViscousProblem:
 
     @property
     def weight(self) -> float:
-        """What presses the sphere on, in units of v0/T."""
+        """Gravitational acceleration in units of v0/T."""
         return self.law.gravity * (self.T / self.law.model.v0)
 
     @property
     def dent(self) -> float:
-        """Depth from which depths are counted, in units of the problem."""
+        """Depth of the dent from which depths are measured, in units of the problem."""
         return self.yielding.dent / self.depth if self.yielding else 0.0
 
     def at(self, a: Array) -> CurvePoints:
-        """The law at radii [m], and what yielding adds to its depth."""
+        """Return the law at radii [m], with the depth added by yielding."""
         found = self.curve.at(a)
         if self.yielding is None:
             return found
@@ -126,18 +126,18 @@ class ViscousProblem:
         return found._replace(depth=found.depth + depth, depth_a=found.depth_a + depth_a)
 
     def states(self, x: Array, a: Array, y: Array) -> States:
-        """Forces and depths at radii a that grow with x by y."""
+        """Return forces and depths at radii a with da/dx = y."""
         found = self.at(self.a * a)
         delay = self.law.model.retardation_time / self.T / (ONSET * x ** (ONSET - 1))
         force_a = found.force_a * (self.a / self.force)
         elastic, P_y = found.force / self.force, delay * force_a
         P = elastic + P_y * y
-        # dP_e/da has the slope 2/a of itself for Hertz's law, and nearly so for others.
+        # d^2 P_e/da^2 = (2/a) dP_e/da by Hertz's law, and approximately by other laws.
         P_a = force_a + 2.0 * P_y * y / a
-        (bent, bent_P), (calm, calm_P) = (self.bending.at(f * self.force) for f in (P, elastic))
+        (bent, bent_P), (static, static_P) = (self.bending.at(f * self.force) for f in (P, elastic))
         unit = self.force / self.depth
-        local = found.depth_a * (self.a / self.depth) - unit * calm_P * force_a
-        depth = (found.depth + bent - calm) / self.depth
+        local = found.depth_a * (self.a / self.depth) - unit * static_P * force_a
+        depth = (found.depth + bent - static) / self.depth
         return States(
             P,
             depth,
@@ -152,9 +152,9 @@ class ViscousProblem:
 def element(
     problem: ViscousProblem, n: int, x: float, length: float, start: Point, y: Array
 ) -> tuple[Element, Point] | None:
-    """The element and the state after it, by Newton's iteration from a guess of da/dx.
+    """Return a time element and the state at its end, by Newton's iteration from a guess of da/dx.
 
-    None if it does not converge.
+    Returns None if the iteration does not converge.
     """
     rule = radau(n)
     xs = x + length * rule.x
@@ -183,21 +183,21 @@ def element(
     return found, Point(float(a[-1]), float(v[-1]), float(z[-1]))
 
 
-Piece = tuple[Element, Yielding | None]
-"""An element, and the branch that a contact which yields was on."""
+ViscousElement = tuple[Element, Yielding | None]
+"""A time element, and the branch of a plastic contact."""
 
 
-def elements(problem: ViscousProblem, n: int) -> tuple[Piece, ...]:
-    """The impact, element by element, until the force is gone.
+def elements(problem: ViscousProblem, n: int) -> tuple[ViscousElement, ...]:
+    """Return the time elements of the impact, until the force falls to zero.
 
     Raises
     ------
     SceneError
-        If it does not end, or no element is short enough.
+        If the impact does not end, or the iteration does not converge for the shortest element.
     """
-    found: list[Piece] = []
+    found: list[ViscousElement] = []
     x, length, start = 0.0, FIRST, Point(0.0, 1.0, 0.0)
-    # Before a quantity has grown, what counts is how large it will be.
+    # At the onset quantities are small; the tolerance refers to their expected size.
     scale, last = np.full((5, 1), 0.1), None
     for _ in range(MOST):
         if length < SHORTEST:
@@ -211,36 +211,36 @@ def elements(problem: ViscousProblem, n: int) -> tuple[Piece, ...]:
         last, end = made
         own = np.max(np.abs(last.rows), axis=1, keepdims=True)
         largest = np.maximum(scale, own)
-        # Where the contact closes its radius matters beside itself: it says when.
+        # At the end of contact the radius must be accurate relative to itself: it gives the time.
         unit = np.vstack((OWN * own[A], largest[V:LOST]))
         error = float(np.max(np.abs(last.rows[:LOST, -2:]) / unit))
         change = 0.9 * (TOLERANCE / max(error, 1e-300)) ** (1.0 / n)
         if error > TOLERANCE:
             length *= min(0.8, max(0.1, change))
             continue
-        piece = problem.yielding
-        if piece is not None:
+        branch = problem.yielding
+        if branch is not None:
             last, end, problem = _next_branch(problem, n, (last, end), start)
-        found.append((last, piece))
+        found.append((last, branch))
         if float(np.sum(last.rows[P])) <= 0.0:
             return tuple(found)
         if start.velocity < 0.0 < end.velocity:
             raise SceneError(
                 "plate.retardation_time: the sphere does not rebound because its weight holds it "
-                "on the plate; reduce retardation_time (plate, sphere) or increase impact.speed"
+                "on the plate; reduce retardation_time of plate or sphere, or increase impact.speed"
             )
         x, start, scale = last.x + last.length, end, largest
         length = min(LONGEST, length * min(2.0, change))
     raise SceneError(
-        "plate.retardation_time: expected a contact that can be followed to its end, got one that "
-        f"cannot at {problem.T * x**ONSET:.6g} s; give a shorter time"
+        "plate.retardation_time: the time integration failed at "
+        f"{problem.T * x**ONSET:.6g} s; reduce retardation_time of plate or sphere"
     )
 
 
 def _next_branch(
     problem: ViscousProblem, n: int, made: tuple[Element, Point], start: Point
 ) -> tuple[Element, Point, ViscousProblem]:
-    """The element and the state after it, cut at its first event, and the problem from there on."""
+    """Return element and state, cut at the first yield event, and the problem after it."""
     branch, x = problem.yielding, made[0].x
     assert branch is not None
 
@@ -258,10 +258,10 @@ def _next_branch(
 
 
 def _onset(problem: ViscousProblem, rule: Radau, length: float) -> Array:
-    """da/dx where the contact begins, delta = v0 t, by Euler's method backwards.
+    """Return da/dx at the onset of contact, where delta = v0 t, by the implicit Euler method.
 
-    The depth grows with the radius, and faster and faster, so that Newton's iteration comes
-    down from Hertz's radius, which is the largest there can be.
+    The depth is a convex function of the radius. Newton's iteration therefore converges from
+    Hertz's radius, the largest possible one.
     """
     xs, a, last = length * rule.x, np.zeros(rule.x.size), 0.0
     for index, x in enumerate(xs):
@@ -282,18 +282,18 @@ class ViscousMotion(Motion):
     """An impact on a viscoelastic contact, with its time elements."""
 
     problem: ViscousProblem | None = None
-    pieces: tuple[Piece, ...] = ()
+    elements: tuple[ViscousElement, ...] = ()
 
     def history(self, law: ContactLaw, times: Array) -> tuple[Array, Array, Array, Array]:  # noqa: ARG002
-        """Indentation [m], velocity [m/s], contact radius [m] and force [N] at times [s]."""
+        """Return indentation [m], velocity [m/s], contact radius [m] and force [N] at times [s]."""
         problem = self.problem
         assert problem is not None
         x = (np.minimum(times, self.contact_time) / problem.T) ** (1.0 / ONSET)
-        starts = [element.x for element, _ in self.pieces]
+        starts = [element.x for element, _ in self.elements]
         place = np.searchsorted(starts, x, side="right") - 1
         rows = np.empty((LOST + 1, x.size))
         for index in np.unique(place):
-            found, branch = self.pieces[index]
+            found, branch = self.elements[index]
             part = found.at(x[place == index])
             if branch is not None:
                 a = problem.a * np.maximum(part[A], 0.0)
@@ -304,24 +304,24 @@ class ViscousMotion(Motion):
 
 
 def impact(law: ContactLaw) -> ViscousMotion:
-    """The impact by a law with viscosity.
+    """Return the impact by a law with viscosity.
 
     Raises
     ------
     SceneError
-        If it exceeds the law's range, the sphere does not separate again, or the time history
-        cannot be resolved.
+        If the impact exceeds the range of the law, the sphere does not rebound, or the time
+        integration fails.
     """
-    calm = _calm(law.only(lambda e: not e.viscous))
-    a, T = calm.max_contact_radius, calm.contact_time
+    elastic = _without_viscosity(law.only(lambda e: not e.viscous))
+    a, T = elastic.max_contact_radius, elastic.contact_time
     problem = ViscousProblem(curve_of(law, a), bending_of(law, a), a, T, yielding_of(law))
     rough, found = (_motion(problem, elements(problem, n)) for n in STAGES)
     pairs = zip(found.numbers, rough.numbers, strict=True)
     return replace(found, quadrature=max(abs(new / old - 1.0) for new, old in pairs))
 
 
-def _calm(law: ContactLaw) -> Motion:
-    """The impact without viscosity. If it yields its radius is larger than the elastic law's."""
+def _without_viscosity(law: ContactLaw) -> Motion:
+    """Return the impact without viscosity; a plastic contact is wider than the elastic law's."""
     if not law.plastic:
         return motion.impact(law)
     from derivation.scene import plastic
@@ -329,10 +329,10 @@ def _calm(law: ContactLaw) -> Motion:
     return plastic.impact(law)
 
 
-def _motion(problem: ViscousProblem, pieces: tuple[Piece, ...]) -> ViscousMotion:
-    """The results of an impact."""
-    elements = tuple(element for element, _ in pieces)
-    problem = replace(problem, yielding=pieces[-1][1])
+def _motion(problem: ViscousProblem, found: tuple[ViscousElement, ...]) -> ViscousMotion:
+    """Return the results of an impact from its time elements."""
+    elements = tuple(element for element, _ in found)
+    problem = replace(problem, yielding=found[-1][1])
     last = elements[-1].end(P)
     a, v, z, _, _ = elements[-1].at(np.array([last]))[:, 0]
     depth, force, radius = (max(element.largest(row) for element in elements) for row in (Z, P, A))
@@ -355,13 +355,13 @@ def _motion(problem: ViscousProblem, pieces: tuple[Piece, ...]) -> ViscousMotion
         -float(v),
         energy_balance,
         problem=problem,
-        pieces=pieces,
+        elements=found,
         dent=branch.dent if branch else 0.0,
     )
 
 
 def _lost(element: Element, last: float) -> float:
-    """Energy lost in an element up to x = last, by Gauss' rule."""
+    """Return the energy loss in a time element up to x = last, by Gauss' rule."""
     nodes, weights = leggauss(element.slope.size)
     length = min(element.length, last - element.x)
     x = element.x + length * (1.0 + nodes) / 2.0
@@ -369,7 +369,7 @@ def _lost(element: Element, last: float) -> float:
 
 
 def _left(problem: ViscousProblem, a: float) -> float:
-    """Energy [J] that the viscoelastic part holds at a radius [m]: int P_e d(delta_e - w)."""
+    """Return the stored viscoelastic energy [J] at a radius [m]: int P_e d(delta_e - w)."""
     nodes, weights = leggauss(48)
     found = problem.at(a * (1.0 + nodes) / 2.0)
     slope = found.depth_a - problem.bending.at(found.force)[1] * found.force_a

@@ -1,4 +1,4 @@
-"""What a viscous contact knows of the law: force and depth by the radius, and what is elastic."""
+"""The contact law of a viscoelastic contact: force, indentation and elastic part, in tables."""
 
 from dataclasses import dataclass, replace
 from typing import NamedTuple
@@ -11,13 +11,13 @@ from derivation.scene.effects.effect import Array
 from derivation.scene.law import ContactLaw, Shape
 
 DEGREE, FITTED = 30, 1e-12
-"""Degree of the law's tables, and the relative error up to which they stand for it."""
+"""Degree of the tables of the law, and the relative error up to which they are used."""
 BEYOND = 2.0
-"""How far a viscous contact's force may go beyond a calm one's, in Hertz's radii."""
+"""Largest Hertz radius of the viscoelastic force over that of the elastic force."""
 
 
 class CurvePoints(NamedTuple):
-    """Force [N] and indentation [m] of the law at radii [m], and their slopes by the radius."""
+    """Force [N] and indentation [m] at contact radii [m], and their derivatives by the radius."""
 
     force: Array
     depth: Array
@@ -27,12 +27,12 @@ class CurvePoints(NamedTuple):
 
 @dataclass(frozen=True)
 class Curve:
-    """The law's force and indentation by the contact radius."""
+    """Force and indentation of the law as functions of the contact radius."""
 
     law: ContactLaw
 
     def at(self, a: Array) -> CurvePoints:
-        """Force and indentation at radii [m]."""
+        """Return force and indentation at radii [m]."""
         law = self.law
         shape = law.at(a)
         slope = 2.0 * (a / law.model.R) * shape.slope
@@ -41,14 +41,14 @@ class Curve:
 
 
 @dataclass(frozen=True)
-class Tabled(Curve):
-    """The same by polynomials of a/top, which cost less: of force and depth over their powers."""
+class TabulatedCurve(Curve):
+    """The same by polynomials of a/top for force/x^3 and depth/x^2, which are faster."""
 
     top: float
     table: Array
 
     def at(self, a: Array) -> CurvePoints:
-        """Force and indentation at radii [m]; NaN beyond the top."""
+        """Return force and indentation at radii [m]; NaN above `top`."""
         x = np.where(a <= self.top, a / self.top, np.nan)
         force, depth, force_x, depth_x = chebval(2.0 * x - 1.0, self.table)
         force_a = (3.0 * force + x * force_x) * x * x / self.top
@@ -56,8 +56,8 @@ class Tabled(Curve):
         return CurvePoints(force * x**3, depth * x * x, force_a, depth_a)
 
 
-def tabled(x: Array, *values: Array) -> Array:
-    """Chebyshev coefficients of polynomials through values at x in [0, 1], and of their slopes."""
+def tabulated(x: Array, *values: Array) -> Array:
+    """Return Chebyshev coefficients of polynomials through values at x in [0, 1], and of slopes."""
     rows = np.array([chebfit(2.0 * x - 1.0, row, DEGREE) for row in values])
     slopes = np.zeros_like(rows)
     slopes[:, :-1] = 2.0 * chebder(rows, axis=1)
@@ -65,16 +65,16 @@ def tabled(x: Array, *values: Array) -> Array:
 
 
 def _knots() -> Array:
-    """Chebyshev's points on [0, 1], twice as many as coefficients."""
+    """Return Chebyshev points on [0, 1], twice as many as the degree."""
     n = 2 * DEGREE
     return np.asarray((1.0 - np.cos(np.pi * (np.arange(n) + 0.5) / n)) / 2.0, dtype=np.float64)
 
 
 def curve_of(law: ContactLaw, a: float) -> Curve:
-    """The law up to a contact radius [m], which viscosity does not let grow."""
+    """Return the law up to a contact radius [m], which viscosity does not increase."""
     top, x, direct = min(1.001 * a, law.limit), _knots(), Curve(law)
     found = direct.at(top * x)
-    made = Tabled(law, top, tabled(x, found.force / x**3, found.depth / x**2))
+    made = TabulatedCurve(law, top, tabulated(x, found.force / x**3, found.depth / x**2))
     between = top * (x[1:] + x[:-1]) / 2.0
     pairs = zip(made.at(between), direct.at(between), strict=True)
     error = max(float(np.max(np.abs(one / other - 1.0))) for one, other in pairs)
@@ -83,14 +83,16 @@ def curve_of(law: ContactLaw, a: float) -> Curve:
 
 @dataclass(frozen=True)
 class ElasticBending:
-    """What of the plate's deflection does not lag: bending, on its edge, where that yields.
+    """The elastic part of the deflection in a viscoelastic contact: bending, with its edge.
 
     Attributes
     ----------
     law
-        Bending and edge alone; no effect where nothing is left of them.
+        The law of bending and edge only; without effects if they do not apply.
     top
-        Hertz's radius [m] up to which deflection over force is tabled.
+        Largest Hertz radius [m] of the table of deflection over force.
+    table
+        The table; None without elastic bending.
     """
 
     law: ContactLaw
@@ -98,16 +100,16 @@ class ElasticBending:
     table: Array | None = None
 
     def at(self, force: Array) -> tuple[Array, Array]:
-        """Deflection [m] at forces [N], odd in them, and its slope [m/N]; NaN beyond the top."""
+        """Return deflection [m] and its slope [m/N] at forces [N]; NaN above `top`."""
         if self.table is None:
             return np.zeros_like(force), np.zeros_like(force)
         x = self.law.hertz_radius(np.abs(force)) / self.top
-        yields, slope = chebval(2.0 * np.where(x <= 1.0, x, np.nan) - 1.0, self.table)
-        return force * yields, yields + x * slope / 3.0
+        compliance, slope = chebval(2.0 * np.where(x <= 1.0, x, np.nan) - 1.0, self.table)
+        return force * compliance, compliance + x * slope / 3.0
 
 
 def bending_of(law: ContactLaw, a: float) -> ElasticBending:
-    """Bending and the edge; nothing where a thick plate's edge takes more than bending gives."""
+    """Return elastic bending with the edge; none if the edge of a thick plate cancels bending."""
     bent = law.only(lambda e: e.bends or e.other_edge)
     if not law.bends or float(bent.deflection(np.array([a])).slope[0]) <= 0.0:
         return ElasticBending(replace(law, effects=frozenset()))
@@ -115,4 +117,4 @@ def bending_of(law: ContactLaw, a: float) -> ElasticBending:
     radius = top * x
     depth = radius * (radius / law.model.R) * bent.deflection(radius).depth
     force = law.force(radius, Shape(*(np.ones_like(x),) * 4))
-    return ElasticBending(bent, top, tabled(x, depth / (1.0 + law.softness) / force))
+    return ElasticBending(bent, top, tabulated(x, depth / (1.0 + law.softness) / force))

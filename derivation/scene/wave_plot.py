@@ -16,22 +16,22 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 POINTS = 1201
-"""Number of times that are drawn."""
-NUMBERS = np.geomspace(1e-3, 10.0, 25)
-"""Zener's numbers of the drawn curve."""
+"""Number of times in the figure."""
+ZENER = np.geomspace(1e-3, 10.0, 25)
+"""Zener parameters of the curve of restitution [1]."""
 TITLES = {
     "z": "Displacement, positive into the plate",
     "P": "Contact force",
     "v": "Velocity",
-    "energy": "Where the energy is",
-    "e": "Restitution compared with an infinite plate",
+    "energy": "Energy",
+    "e": "Restitution, compared with an infinite plate",
 }
-"""Titles of the drawings."""
+"""Titles of the panels."""
 GREEN = "#5a8f5a"
 
 
 def figure(result: Result) -> "Figure":
-    """The drawing as a Matplotlib figure."""
+    """Return the impact as a Matplotlib figure."""
     from matplotlib.figure import Figure
 
     dynamics = result.dynamics
@@ -66,7 +66,7 @@ def figure(result: Result) -> "Figure":
 
 
 def _energies(axes: "Axes", result: Result, t: Array, rows: Array) -> None:
-    """Sphere, plate and contact, stacked."""
+    """Draw the energies of sphere, plate and contact, stacked."""
     m, v0 = result.model.m, result.model.v0
     sphere, plate = (rows[V] / v0) ** 2, 2.0 * rows[E] / m / v0**2
     contact = np.maximum(1.0 - sphere - plate, 0.0)
@@ -79,24 +79,24 @@ def _energies(axes: "Axes", result: Result, t: Array, rows: Array) -> None:
 
 
 def _restitution(axes: "Axes", result: Result) -> None:
-    """The impact and Zener's curve."""
-    curve = [zener_restitution(number) for number in NUMBERS]
-    axes.semilogx(NUMBERS, curve, color="0.4", linewidth=1.2, label="infinite plate (Zener, 1941)")
+    """Draw the restitution of the impact and that of an infinite plate."""
+    curve = [zener_restitution(number) for number in ZENER]
+    axes.semilogx(ZENER, curve, color="0.4", linewidth=1.2, label="infinite plate (Zener, 1941)")
     number = zener_number(result.model)
     axes.plot([number], [result.restitution], "o", color=BROWN, label="this impact")
-    frame(axes, r"Zener's number $\lambda$ [1]", "coefficient of restitution $e$ [1]")
+    frame(axes, r"Zener parameter $\lambda$ [1]", "coefficient of restitution $e$ [1]")
     axes.set_ylim(0.0, 1.05)
     axes.legend(loc="lower left", fontsize=8, frameon=False)
 
 
 @lru_cache(maxsize=64)
 def zener_restitution(number: float) -> float:
-    """Restitution [1] on an infinite thin plate with Hertz's contact (Zener, 1941).
+    """Return the restitution [1] on an infinite thin plate with Hertzian contact (Zener, 1941).
 
     Parameters
     ----------
     number
-        Zener's number [1].
+        Zener parameter [1].
     """
     from scipy.integrate import solve_ivp
 

@@ -1,8 +1,8 @@
-"""Warns of contacts so far beyond the onset of yield that the limited pressure is too low.
+"""Warnings for contacts far beyond the onset of yield, where the model pressure is too low.
 
-The plastic zone of a metal spreads, and its pressure rises beyond 1.6 Y to about 3 Y (Johnson
-1985). The theory, `derivation.plate.plasticity.theory.fully_plastic`, estimates what that changes
-on a half-space, by the contact radius over that at the onset.
+As the plastic zone of a metal spreads, the mean pressure rises beyond 1.6 Y to about 3 Y (Johnson
+1985). `derivation.plate.plasticity.theory.fully_plastic` estimates the effect on a half-space from
+the contact radius over that at the onset of yield.
 """
 
 from typing import NamedTuple
@@ -15,15 +15,21 @@ from generated.plasticity_kernels import beyond, risen
 from generated.plasticity_numbers import FULLY_PLASTIC, YIELD_LIMIT
 
 WARNED = 1.1
-"""Factor of the restitution from which on there is a warning [1]."""
+"""Factor of the restitution above which a warning is given [1]."""
 
 
 class RisenPressure(NamedTuple):
-    """What the risen pressure may multiply, by an estimate that is right to 10 % in that model [1].
+    """Estimated factors by which a fully plastic pressure changes the results [1].
 
-    `wide` is the contact radius over that at the onset; `force` and `restitution` are those of an
-    impact, indentation and contact time being divided by the first; `stiffness` is the force at a
-    given indentation, of a static contact.
+    Attributes
+    ----------
+    wide
+        Contact radius over that at the onset of yield.
+    force, restitution
+        Factors of peak force and restitution of an impact; indentation and contact time are divided
+        by that of the force.
+    stiffness
+        Factor of the force of a static contact at a given indentation.
     """
 
     wide: float
@@ -33,7 +39,7 @@ class RisenPressure(NamedTuple):
 
 
 def risen_pressure(law: ContactLaw, a: float) -> RisenPressure | None:
-    """What the risen pressure may change at a contact radius [m]; None where that is little."""
+    """Return the estimated factors at a contact radius [m]; None if they are small."""
     wide = a / onset_of(law) if law.plastic else 0.0
     if not wide > 1.0:
         return None
@@ -44,33 +50,33 @@ def risen_pressure(law: ContactLaw, a: float) -> RisenPressure | None:
 
 
 def impact_warnings(law: ContactLaw, a: float) -> tuple[str, ...]:
-    """Warn of an impact with a largest contact radius [m] far beyond the onset of yield."""
+    """Return a warning if the contact radius [m] of an impact is far beyond the onset of yield."""
     found = risen_pressure(law, a)
     if found is None:
         return ()
     text = (
-        f"{_why(found.wide)}: the restitution may be about {found.restitution:.2g} and the force "
-        f"about {found.force:.2g} times as large, indentation and contact time smaller by the "
-        "latter factor (estimated on a half-space)"
+        f"{_reason(found.wide)}: restitution and force may be larger by factors of about "
+        f"{found.restitution:.2g} and {found.force:.2g}; indentation and contact time may be "
+        f"smaller by a factor of about {found.force:.2g} (estimated on a half-space)"
     )
     return (text,)
 
 
 def static_warnings(law: ContactLaw, a: float) -> tuple[str, ...]:
-    """Warn of a static contact with a radius [m] far beyond the onset of yield."""
+    """Return a warning if the radius [m] of a static contact is far beyond the onset of yield."""
     found = risen_pressure(law, a)
     if found is None:
         return ()
     text = (
-        f"{_why(found.wide)}: the force at this local indentation may be about "
-        f"{found.stiffness:.2g} times as large"
+        f"{_reason(found.wide)}: the force at this local indentation may be larger by a factor of "
+        f"about {found.stiffness:.2g}"
     )
     return (text,)
 
 
-def _why(wide: float) -> str:
+def _reason(wide: float) -> str:
     return (
-        f"the contact radius is {wide:.3g} times that at the onset of yield, where the mean "
-        f"pressure of a metal rises towards {FULLY_PLASTIC:g} yield stresses (Johnson 1985) but "
-        f"that of the model to {YIELD_LIMIT:g}"
+        f"the contact radius is {wide:.3g} times that at the onset of yield; the mean pressure of "
+        f"a metal then rises towards {FULLY_PLASTIC:g} times the yield stress (Johnson 1985), but "
+        f"in the model the pressure is limited to {YIELD_LIMIT:g} times the yield stress"
     )

@@ -1,9 +1,9 @@
-"""A contact that yields: what it adds to the elastic law at a force, and what it remembers.
+"""Plastic contact: the indentation that yielding adds to an elastic law, by loading history.
 
-Beyond the onset, where Hertz's pressure reaches 1.6 Y, loading adds plastic indentation; unloading
-is elastic with a flattened radius, and leaves a dent (see `generated.plasticity`). What is added
-depends on the force and on the largest force there was, and stands beside any elastic law. Depths
-are counted from the dent that was there when the branch began.
+Beyond the onset, where Hertz's pressure reaches 1.6 Y, loading adds plastic indentation. Unloading
+is elastic with a flattened radius and leaves a dent (see `generated.plasticity`). The added
+indentation depends on the force and on the largest force so far, and can be combined with any
+elastic law. Depths are measured from the dent at the beginning of the current branch.
 """
 
 from dataclasses import dataclass, replace
@@ -30,7 +30,7 @@ _HALVINGS = 80
 
 
 class Added(NamedTuple):
-    """Indentation [m] that yielding adds, and its slope by the contact radius of the law [1]."""
+    """Indentation [m] added by yielding, and its derivative by the elastic radius [1]."""
 
     depth: Array
     depth_a: Array
@@ -38,20 +38,20 @@ class Added(NamedTuple):
 
 @dataclass(frozen=True)
 class Yielding:
-    """The branch that a contact is on.
+    """The current loading or unloading branch of a plastic contact.
 
     Attributes
     ----------
     onset
-        Hertz's radius of the force at which the contact begins to yield [m].
+        Hertz's radius [m] of the force at the onset of yield.
     R, modulus
         Sphere radius [m] and E* of the contact [Pa].
     end
-        Radius of the elastic law [m] at which the contact yields (further).
+        Radius of the elastic law [m] at which yielding begins or continues.
     ratio
-        Hertz's radius of that force over `onset`: 1 as long as it has not yielded.
+        Hertz's radius of that force over `onset` [1]; 1 before the first yielding.
     loading
-        Whether it yields now.
+        Whether the contact is yielding.
     """
 
     onset: float
@@ -68,7 +68,7 @@ class Yielding:
 
     @property
     def dent(self) -> float:
-        """Depth of the dent, elastic indentation gone [m]."""
+        """Depth of the dent after unloading [m]."""
         return self.onset * (self.onset / self.R) * float(unloaded(np.array(self.ratio))[1])
 
     @property
@@ -78,47 +78,47 @@ class Yielding:
 
     @property
     def onset_energy(self) -> float:
-        """Energy of Hertz's contact at the onset [J]."""
+        """Elastic energy of Hertz's contact at the onset of yield [J]."""
         return float(hertz_energy(*_arrays(self.onset, self.R, self.modulus)))
 
     def hertz_radius(self, force: Array) -> Array:
-        """Hertz's radius of a force [m]."""
+        """Return Hertz's radius of a force [m]."""
         return hertz_radius(force, *_arrays(self.R, self.modulus))
 
     def added(self, force: Array, force_a: Array) -> Added:
-        """What is added at elastic forces [N], given their slope by the law's radius [N/m]."""
+        """Return the added indentation at forces [N] with slopes `force_a` by the radius [N/m]."""
         u = self.hertz_radius(force)
         u_a = u * np.divide(force_a, 3.0 * force, np.zeros_like(force), where=force > 0.0)
         if not self.loading:
-            share = 1.0 - self.flattening
-            return Added(-share * u * (u / self.R), -2.0 * share * (u / self.R) * u_a)
+            less = 1.0 - self.flattening
+            return Added(-less * u * (u / self.R), -2.0 * less * (u / self.R) * u_a)
         depth, slope = loaded(u / self.onset)
         unit = self.onset / self.R
         return Added(unit * self.onset * depth - self.dent, unit * slope * u_a)
 
     def widened(self, a: Array, force: Array) -> Array:
-        """Contact radius [m], given that of the elastic law [m] and the force there [N]."""
+        """Return the contact radius [m] from that of the elastic law [m] and the force [N]."""
         if not self.loading:
             return a / self.flattening
         ratio = self.hertz_radius(force) / self.onset
         return a / np.asarray(unloaded(ratio)[0], dtype=np.float64)
 
     def widening(self, radius: Array) -> Array:
-        """Growth of the contact radius [m] with the force on loading [m/N], at such radii."""
+        """Return the derivative of the radius by the force on loading [m/N], at radii [m]."""
         return widening(radius, *_arrays(self.onset, self.R, self.modulus))
 
     def begun(self) -> "Yielding":
-        """The same where it begins to yield (further)."""
+        """Return the branch on which the contact begins or continues to yield."""
         return replace(self, loading=True)
 
     def turned(self, a: float, force: float) -> "Yielding":
-        """The same where it ceases to, at a radius of the law [m] and its force [N]."""
+        """Return the unloading branch from a radius of the elastic law [m] and its force [N]."""
         reached = float(self.hertz_radius(np.array(force))) / self.onset
         return replace(self, end=a, ratio=max(self.ratio, reached), loading=False)
 
 
 def yielding_of(law: ContactLaw) -> Yielding | None:
-    """The contact of a law before it yields; None if it does not."""
+    """Return the branch of a law before yielding; None for an elastic law."""
     if not law.plastic:
         return None
     onset = onset_of(law)
@@ -126,7 +126,7 @@ def yielding_of(law: ContactLaw) -> Yielding | None:
 
 
 def onset_of(law: ContactLaw) -> float:
-    """Hertz's radius [m] of the force at which the contact of a law begins to yield."""
+    """Return Hertz's radius [m] of the force at the onset of yield."""
     from generated.plasticity import yield_radius
 
     model = law.model
@@ -136,16 +136,16 @@ def onset_of(law: ContactLaw) -> float:
 
 @lru_cache(maxsize=4)
 def units_of(law: ContactLaw) -> tuple[float, float]:
-    """Largest radius of the elastic law [m] and contact time [s] on a plate that does not deflect.
+    """Return largest radius of the elastic law [m] and contact time [s] without plate deflection.
 
-    The time of a contact that yields is a guess.
+    The time of a plastic contact is an estimate.
     """
     branch, model = yielding_of(law), law.model
     if branch is not None:
         energy = 0.5 * model.m * model.v0 * model.v0
-        share = energy / branch.onset_energy
-        if share > 1.0:
-            u = branch.onset * float(reached(np.array(share)))
+        ratio = energy / branch.onset_energy
+        if ratio > 1.0:
+            u = branch.onset * float(reached(np.array(ratio)))
             widest = u / float(unloaded(np.array(u / branch.onset))[0])
             return u, SLOWEST * widest * (widest / model.R) / model.v0
     elastic = motion.impact(law.half_space)
@@ -153,7 +153,7 @@ def units_of(law: ContactLaw) -> tuple[float, float]:
 
 
 def _end(law: ContactLaw, onset: float) -> float:
-    """Radius [m] at which the law has Hertz's force of another."""
+    """Return the radius [m] at which the law has the force of Hertz's law at `onset` [m]."""
     if law.hertzian:
         return onset
     low, high = 0.0, law.limit
@@ -166,5 +166,5 @@ def _end(law: ContactLaw, onset: float) -> float:
 
 
 def _arrays(*numbers: float) -> tuple[Array, ...]:
-    """Numbers as kernels take them."""
+    """Return numbers as arrays, for generated functions."""
     return tuple(np.array(number) for number in numbers)

@@ -11,10 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from derivation.engine.files import read_file
+from derivation.engine.nearest import nearest
 from derivation.engine.printable import one_line
 from derivation.scene.errors import SceneError
 from derivation.scene.keys import number_key
-from derivation.scene.messages import nearest, shown
+from derivation.scene.messages import shown
 from derivation.scene.table import is_number
 
 Array = NDArray[np.float64]
@@ -122,7 +123,7 @@ def _distribution(key: str, given: Any) -> Distribution:
         raise SceneError(f"{key}: expected a distribution, got {shown(given)}; {example}")
     name = given.get("distribution")
     if name not in PARAMETERS:
-        near = nearest(name, PARAMETERS) if isinstance(name, str) else None
+        near = next(iter(nearest(name, PARAMETERS)), "") if isinstance(name, str) else ""
         meant = f"did you mean {near}?" if near else example
         got = "none" if name is None else shown(name)
         raise SceneError(

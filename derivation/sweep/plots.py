@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from derivation.engine.nearest import did_you_mean
 from derivation.scene.errors import SceneError
-from derivation.scene.messages import nearest
 from derivation.scene.plot import BLUE, BROWN, saved, scaled
 from derivation.scene.result import UNITS
 from derivation.scene.sweep import SYMBOLS
@@ -51,9 +51,10 @@ def check_results(names: Sequence[str]) -> tuple[str, ...]:
     """
     for name in names:
         if name not in UNITS:
-            near = nearest(name, UNITS)
-            meant = f"did you mean {near}?" if near else "choose one"
-            raise SceneError(f"--result: expected {', '.join(UNITS)}, got {name:.40}; {meant}")
+            near = did_you_mean(name, UNITS) or "choose one "
+            raise SceneError(
+                f"--result: expected one of {', '.join(UNITS)}, got {name:.40}; {near.rstrip()}"
+            )
     return tuple(names) or tuple(UNITS)
 
 

@@ -80,7 +80,7 @@ def test_all_problems_are_told_at_once() -> None:
     )
     for key in ("sphere.radius", "[sphere]", "plate.thik", "[plate]"):
         assert f"  - {key}: " in text
-    assert message(pc.Sphere, radius=-1, mass=1).startswith("sphere.radius: expected a positive")
+    assert message(pc.Sphere, radius=-1, mass=1).startswith("sphere.radius: ")
 
 
 def test_numbers_of_numpy_are_numbers() -> None:

@@ -56,7 +56,7 @@ def test_a_weight_makes_inertia_matter_more() -> None:
     light = replace(heavy, gravity=0.0)
     prices = [gate_of(model, 1.0).error for model in (light, heavy)]
     every = [inertia_check.present(model) for model in (light, heavy)]
-    still = inertia_check.at_rest(heavy)
+    still = inertia_check.quasi_static(heavy)
     assert still is not None
     share = weight_share(heavy, still.max_indentation)
     assert share > 1.0
@@ -176,7 +176,7 @@ def test_scenes_are_passed_over_for_what_they_are() -> None:
     assert inertia_check.pass_over(changed()) == ""
     slow = changed(impact={"speed": 1e-3, "gravity": 9.81})
     assert "weight over the energy brought above 100" in inertia_check.pass_over(slow)
-    still = inertia_check.at_rest(model_of(read(slow)))
+    still = inertia_check.quasi_static(model_of(read(slow)))
     assert still is not None
     assert 2.0 * 9.81 * still.max_indentation / 1e-6 > inertia_check.FALLEN
     # Zener's number goes with the mass to the power 3/5 and is 5 in between.
@@ -188,7 +188,7 @@ def test_scenes_are_passed_over_for_what_they_are() -> None:
     assert numbers[1] < 5.0 < numbers[0]
     fast = changed(impact={"speed": 1e6})
     assert inertia_check.pass_over(fast) == "no impact on the quasi-static plate"
-    assert inertia_check.at_rest(model_of(read(fast))) is None
+    assert inertia_check.quasi_static(model_of(read(fast))) is None
     assert inertia_check.pass_over(measure.scene(2)[0]) == "too many modes"
 
 

@@ -173,7 +173,7 @@ def row(tables: dict[str, Any]) -> Any:
 
 @pytest.mark.parametrize("value", [-0.01, 2.0, 3.0])
 def test_a_loss_factor_is_below_critical_damping(value: float) -> None:
-    with pytest.raises(SceneError, match=r"plate\.loss_factor: .* from 0 to below 2, where"):
+    with pytest.raises(SceneError, match=r"plate\.loss_factor: .*0 to below 2"):
         read(scene(value))
 
 
@@ -184,7 +184,7 @@ def test_where_damping_does_not_apply_the_table_says_why() -> None:
     light = scene(0.1, effects=still)
     del light["plate"]["density"]
     assert row(light).reason.startswith("no plate.density")
-    with pytest.raises(SceneError, match=r"effects\.damping: expected effects\.inertia"):
+    with pytest.raises(SceneError, match=r"^effects\.damping .*effects\.inertia"):
         explain(read(scene(0.1, effects=still | {"damping": True})))
 
 

@@ -48,7 +48,7 @@ def test_hertz_pressure_is_warned_of_above_0_15_thicknesses() -> None:
     )
     for result in (below, above):
         assert result.max_contact_radius / 0.02 == pytest.approx(0.15, rel=3e-6)
-    assert "a/H = 0.15 exceeds 0.15" in text
+    assert "a/H = 0.15 " in text
     solved = changed(plate=thin, impact={"speed": 0.3}, effects={"non_hertzian_pressure": True})
     assert simulate(read(solved)).warnings == ()
 
@@ -93,7 +93,7 @@ def test_a_paraboloid_is_warned_of_above_0_3_sphere_radii() -> None:
     below, above, text = either_side(at, "a/R", 1.0, 50.0)
     for result in (below, above):
         assert result.max_contact_radius / 0.13 == pytest.approx(0.3, rel=3e-6)
-    assert "a/R = 0.3 exceeds 0.3" in text
+    assert "a/R = 0.3 " in text
     said = float(re.findall(r"by about (\S+) %", text)[0]) / 100
     [true] = indent(read(at(1.0, True)), force=above.max_force)
     assert said == pytest.approx(true.indentation / above.max_indentation - 1, rel=0.1)
@@ -108,7 +108,7 @@ def test_stretching_is_warned_of_above_half_a_thickness() -> None:
     for result in (below, above):
         local = result.max_contact_radius**2 / 0.13
         assert (result.max_indentation - local) / 0.002 == pytest.approx(0.5, rel=3e-6)
-    assert "w/H = 0.5 exceeds 0.5" in text
+    assert "w/H = 0.5 " in text
 
 
 def test_yield_is_warned_of_above_1_6_yield_stresses() -> None:
@@ -123,7 +123,7 @@ def test_yield_is_warned_of_above_1_6_yield_stresses() -> None:
         area = math.pi * result.max_contact_radius**2
         ratio = 1.5 * result.max_force / area / result.scene.plate.yield_stress
         assert ratio == pytest.approx(1.6, rel=3e-6)
-    assert "over yield stress = 1.6 exceeds 1.6" in text
+    assert "yield stress = 1.6 " in text
 
 
 def steel_on_glass(thickness: float, density: float) -> Tables:
@@ -161,7 +161,7 @@ def test_inertia_is_warned_of_on_one_side_of_each_number(
 ) -> None:
     """Above lambda = 0.006, or 1 % of deflection, if the contact takes less than ten periods."""
     below, above, text = either_side(make, "inertia", silent, loud)
-    said = re.findall(r"lambda = (\S+) .* paper\'s edge = (\S+) .* deflection (\S+) %", text)
+    said = re.findall(r"Zener parameter (\S+) .* period (\S+) .* deflection (\S+) %", text)
     for result in (below, above):
         for found, limit in zip(motion_numbers(result), limits, strict=True):
             assert limit is None or found == pytest.approx(limit, rel=3e-6)
@@ -171,9 +171,7 @@ def test_inertia_is_warned_of_on_one_side_of_each_number(
 
 
 def test_echoes_are_warned_of_below_four_thicknesses_of_sound() -> None:
-    below, above, text = either_side(
-        lambda rho: steel_on_glass(0.6, rho), "echoes through the thickness", 200.0, 500.0
-    )
+    below, above, text = either_side(lambda rho: steel_on_glass(0.6, rho), "4 H/c_P", 200.0, 500.0)
     for result in (below, above):
         sound = math.sqrt(70e9 * 0.8 / (1.2 * 0.6) / result.model.density)
         assert result.contact_time == pytest.approx(4 * 0.6 / sound, rel=3e-6)
@@ -188,21 +186,21 @@ def test_echoes_are_not_warned_of_where_branches_hold_them() -> None:
         (InertiaSettings(branches="all", infinite_plate=True), True),
     ):
         texts = limits.motion_warnings(replace(slab, inertia=inertia), 1e-5, 0.0, dynamic=True)
-        assert any("echoes" in text for text in texts) is told
+        assert any("4 H/c_P" in text for text in texts) is told
     held = replace(slab, inertia=InertiaSettings(branches="all"))
-    assert any("echoes" in text for text in limits.motion_warnings(held, 1e-5, 0.0))
+    assert any("4 H/c_P" in text for text in limits.motion_warnings(held, 1e-5, 0.0))
 
 
 def test_inertia_is_warned_of_by_its_numbers() -> None:
     pane = {"material": "glass", "lame_lambda": None, "lame_mu": None, "half_thickness": 0.002}
     texts = simulate(scene(plate=pane, impact={"speed": 0.01, "gravity": None})).warnings
-    assert "Zener's number lambda" in texts[-1]
+    assert "Zener" in texts[-1]
     assert "first bending period" in texts[-1]
     slab = pane | {"half_thickness": 0.5, "edge": "paper"}
     small = {"radius": 0.005, "mass": None}
     texts = simulate(scene(plate=slab, sphere=small, impact={"speed": 1.0})).warnings
     assert len(texts) == 1
-    assert "echoes through the thickness" in texts[0]
+    assert "4 H/c_P" in texts[0]
 
 
 def test_yield_is_warned_of_on_one_side_only() -> None:
@@ -225,7 +223,7 @@ def test_warning_where_the_pressure_is_not_hertz(monkeypatch: pytest.MonkeyPatch
     assert limits.warnings_at(ContactLaw(m, PAPER), 0.0299, law(0.0299, m.R, m.h, m.b)) == ()
     delta = law(0.0301, m.R, m.h, m.b)
     cost = 5 / 3 * c3 * 0.301**3 * 0.0301**2 / 0.13 / delta
-    assert limits.hertz_cost(m, 0.0301, delta) == pytest.approx(cost, rel=1e-10)
+    assert limits.pressure_correction(m, 0.0301, delta) == pytest.approx(cost, rel=1e-10)
     [text] = limits.warnings_at(ContactLaw(m, PAPER), 0.0301, delta)
     assert "a/H = 0.15" in text
     assert f"{100 * cost:+.2g} %" in text
@@ -244,14 +242,14 @@ def test_warning_reaches_the_result() -> None:
     assert "a/H" in result._repr_html_()
 
 
-def test_curvature_cost_is_that_of_the_exact_profile() -> None:
+def test_profile_correction_is_that_of_the_exact_profile() -> None:
     """Sneddon's sphere and the paraboloid pressed by the same force into a half-space."""
     m = model_of(thick())
     t = 0.2
     log = math.log((1 + t) / (1 - t))
     a = m.R * (0.75 * ((1 + t * t) / 2 * log - t)) ** (1 / 3)
     change = (t / 2 * log) / (a / m.R) ** 2 - 1
-    assert limits.curvature_cost(m, a, a * a / m.R) == pytest.approx(change, rel=0.1)
+    assert limits.profile_correction(m, a, a * a / m.R) == pytest.approx(change, rel=0.1)
     texts = limits.warnings_at(ContactLaw(m, PAPER), 0.31 * m.R, 0.31**2 * m.R)
     assert [("a/R" in text) for text in texts] == [True]
 

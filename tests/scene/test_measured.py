@@ -64,13 +64,13 @@ def test_plate_itself_is_what_was_struck() -> None:
 
 
 def test_more_than_waves_leave_is_refused() -> None:
-    with pytest.raises(SceneError, match=r"measured\.restitution: expected less than 0\.\d+"):
+    with pytest.raises(SceneError, match=r"^measured\.restitution: .*0\.\d+"):
         simulate(measured(restitution=0.99, solve_for="yield_stress", target="plate"))
 
 
 def test_a_value_is_given_once() -> None:
     plate = BLOCK["plate"] | {"yield_stress": 1e8}
-    with pytest.raises(SceneError, match=r"measured\.solve_for: .*remove plate\.yield_stress"):
+    with pytest.raises(SceneError, match=r"measured\.solve_for: .*plate\.yield_stress"):
         read(
             BLOCK | {"plate": plate, "measured": {"restitution": 0.5, "solve_for": "yield_stress"}}
         )

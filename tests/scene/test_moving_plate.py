@@ -52,8 +52,8 @@ def test_a_scene_that_calls_for_inertia_gets_it(result: Any) -> None:
 def test_the_density_is_asked_for_where_inertia_is() -> None:
     own = {"youngs_modulus": 70e9, "poissons_ratio": 0.3, "radius": 0.2, "thickness": 0.01}
     bare = {**SCENE, "plate": own}
-    for wanted, why in (("auto", "its inertia may change"), (True, r"effects\.inertia = true")):
-        with pytest.raises(SceneError, match=r"plate\.density: expected a density, since " + why):
+    for wanted in ("auto", True):
+        with pytest.raises(SceneError, match=r"^plate\.density: .*effects\.inertia"):
             simulate(read(bare | {"effects": {"inertia": wanted}}))
     assert simulate(read(bare | {"effects": {"inertia": False}})).restitution == 1.0
     # A thick block does not move, whatever its density.
@@ -64,9 +64,9 @@ def test_the_density_is_asked_for_where_inertia_is() -> None:
 
 
 def test_the_whole_plate_has_to_move() -> None:
-    with pytest.raises(SceneError, match=r"effects\.inertia: expected effects\.bending"):
+    with pytest.raises(SceneError, match=r"^effects\.inertia .*effects\.bending"):
         simulate(scene(effects={"inertia": True, "bending": False}))
-    with pytest.raises(SceneError, match=r"effects\.bending: expected true, since the plate's"):
+    with pytest.raises(SceneError, match=r"^effects\.bending: "):
         simulate(scene(effects={"bending": False}))
 
 
@@ -109,7 +109,7 @@ def test_results_as_data(result: Any) -> None:
 def test_times_reach_to_the_last_release(result: Any) -> None:
     whole = result.at([0.0, result.total_time])
     assert whole.history().velocity[-1] == pytest.approx(-result.restitution, rel=1e-9)
-    with pytest.raises(SceneError, match="times: expected times from 0"):
+    with pytest.raises(SceneError, match=r"^times: "):
         result.at([1.01 * result.total_time])
 
 
@@ -182,11 +182,11 @@ def test_a_held_plate_moves_on_its_own_edge(edge: str) -> None:
 def test_no_code_is_written_of_a_plate_that_moves() -> None:
     from derivation.scene.code import recipe
 
-    with pytest.raises(SceneError, match=r"write effects\.inertia = false"):
+    with pytest.raises(SceneError, match=r"effects\.inertia = false"):
         recipe(scene())
 
 
 def test_explain_says_that_the_plate_moves() -> None:
     told = explain(scene())
-    assert any("inertia is included" in note for note in told.notes)
+    assert any("inertia" in note for note in told.notes)
     assert told.evaluation_times["inertia"] > 0.0

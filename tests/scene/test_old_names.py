@@ -80,7 +80,7 @@ def test_both_names_are_refused(old: str, new: str) -> None:
     tables = scene(new, GIVEN[new])
     table, name = old.split(".")
     tables[table][name] = GIVEN[new]
-    with pytest.raises(SceneError, match=rf"{new}: expected once, got it as {old} too; remove"):
+    with pytest.raises(SceneError, match=rf"{new}: .*{old}"):
         read(tables)
 
 

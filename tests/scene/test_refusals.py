@@ -70,8 +70,8 @@ def test_contact_radii_are_refused_from_the_limit_on(tables: Tables, limit: floa
     given = read(changed(**tables))
     found, text = refused_from(lambda a: indent(given, contact_radius=a), 0.5 * limit, 2 * limit)
     assert found == pytest.approx(limit, rel=3e-6)
-    assert "expected a contact radius below" in text
-    assert f"{limit:.6g} m, got {found:.6g} m" in text
+    assert f"{limit:.6g} m" in text
+    assert f"{found:.6g} m" in text
 
 
 def test_a_contact_is_refused_where_it_opens_in_its_middle() -> None:
@@ -83,7 +83,7 @@ def test_a_contact_is_refused_where_it_opens_in_its_middle() -> None:
     given = read(changed(**tables))
     a, text = refused_from(lambda a: indent(given, contact_radius=a), 0.02, 0.07)
     assert 1.5 < a / 0.02 < 3.0
-    assert f"or contact is lost at the centre, at {a:.6g} m" in text
+    assert f"{a:.6g} m" in text
     rows = indent(given, contact_radius=[0.01, 0.999 * a, (1 - 2e-6) * a])
     ratio = [row.max_pressure * math.pi * row.contact_radius**2 / row.force for row in rows]
     assert 1 < ratio[0] < 1.5
@@ -114,7 +114,7 @@ def test_impacts_are_refused_from_the_speed_named(gravity: float | None, solved:
         )
 
     v, text = refused_from(run, 12.0, 45.0)
-    assert text.startswith("impact.speed: expected less than")
+    assert text.startswith("impact.speed: ")
     assert float(text.split("less than ")[1].split()[0]) == pytest.approx(v, rel=2e-5)
     limit = 0.99 * 0.13 if solved else 0.13
     assert f"= {limit:.6g} m" in text or f"at {limit:.6g} m" in text
@@ -146,7 +146,7 @@ def test_the_bulk_modulus_is_refused_at_nothing() -> None:
         if fine:
             assert read(data).plate.lame_lambda == lam
         else:
-            with pytest.raises(SceneError, match="positive bulk modulus"):
+            with pytest.raises(SceneError, match="bulk modulus"):
                 read(data)
 
 
@@ -161,7 +161,7 @@ def test_tolerances_are_refused_beyond_their_ends(limit: float, beyond: float) -
         lambda: read(changed() | {"accuracy": {"rtol": outside}}),
         lambda: simulate(read(changed()), rtol=outside),
     ):
-        with pytest.raises(SceneError, match="from 1e-13 to 1, "):
+        with pytest.raises(SceneError, match=r"^rtol: .*1e-13"):
             call()
 
 
@@ -182,7 +182,7 @@ def test_the_edges_remainder_is_that_measured_or_refused_above_one_percent() -> 
             assert edge_remainder(m, row["a_over_b"]) == pytest.approx(share, rel=0.9)
         elif share > 0.01:
             refused += 1
-            with pytest.raises(SceneError, match=rf"right to 1 % .* got {100 * share:.2g} %"):
+            with pytest.raises(SceneError, match=rf"^plate\.edge: .*{100 * share:.2g} %"):
                 edge_remainder(m, row["a_over_b"])
     assert refused > 5
 
@@ -193,7 +193,7 @@ def test_the_edges_model_error_is_said_and_refused() -> None:
     assert 0 < result.model_error < 0.01
     assert "Not included in this bound" in result.model_note
     assert result.to_json()["model_error"] == result.model_error
-    with pytest.raises(SceneError, match="expected a clamped edge whose model is right to 1 %"):
+    with pytest.raises(SceneError, match=r"^plate\.edge: .*clamped edge.*1 %"):
         simulate(
             scene(
                 plate={
@@ -215,7 +215,7 @@ def test_the_edges_model_error_is_said_and_refused() -> None:
 
 def test_beyond_the_law_is_refused_with_its_limit() -> None:
     fast = {"speed": 1e7}
-    with pytest.raises(SceneError, match=r"contact is lost at the centre, at 0\.059.* m.*lower"):
+    with pytest.raises(SceneError, match=r"^impact\.speed: .*at 0\.059.* m"):
         simulate(scene(impact=fast))
     with pytest.raises(SceneError, match=rf"min\({MAX_A_OVER_B} b, {MAX_A_OVER_R} R\) = 0\.099 m"):
         simulate(scene(impact=fast, effects={"non_hertzian_pressure": False}))
@@ -237,7 +237,7 @@ def test_the_contact_opens_near_three_thicknesses() -> None:
 
 @pytest.mark.parametrize("plate", [{}, {"radius": 0.05, "thickness": 0.02}])
 def test_impact_beyond_the_law_is_refused_at_the_speed_named(plate: dict[str, float]) -> None:
-    with pytest.raises(SceneError, match=r"impact\.speed: expected less than") as caught:
+    with pytest.raises(SceneError, match=r"^impact\.speed: ") as caught:
         simulate(read(changed(plate=plate, impact={"speed": 1e9})))
     limit = min(0.13, plate.get("radius", 1.0))
     assert f"min(b, R) = {limit} m" in str(caught.value)
@@ -285,5 +285,5 @@ def test_an_impact_beyond_the_law_is_an_error_of_the_speed(
 ) -> None:
     """Every solver fails in the same way."""
     m = replace(model_of(read(changed())), v0=1e6, retardation_time=1e-6, density=2700.0)
-    with pytest.raises(SceneError, match=r"impact\.speed: expected .*; lower the speed"):
+    with pytest.raises(SceneError, match=r"^impact\.speed: "):
         run(ContactLaw(m, effects))

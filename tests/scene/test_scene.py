@@ -30,64 +30,64 @@ lame_mu = 0.43e9
 speed = 1
 """
 LAME = "lame_lambda = 0.36e9\nlame_mu = 0.43e9"
-ALL = "sphere: expected a table|plate: expected a table|impact: expected a table"
+ALL = "sphere: |plate: |impact: "
 
 # What stands in the good scene, what stands there instead, and words of the message.
 BAD = [
-    ("thickness = 0.2", "thicknes = 0.2", "plate.thicknes: unknown key|did you mean thickness?"),
-    ("thickness = 0.2", "half-thickness = 0.1", "did you mean half_thickness?"),
-    ("thickness = 0.2", "thickness = 0.2\ncolour = 1", "plate.colour|lame_lambda|remove it"),
-    ("radius = 1.0", "radius = 1.0\nspeed = 1", "plate.speed: unknown key|move it to [impact]"),
-    ("[sphere]", "speed = 1\n[sphere]", "speed: unknown table|move it to [impact]"),
-    ("[impact]", "[imapct]", "imapct: unknown table|did you mean impact?|table [impact], got none"),
-    ("speed = 1", "", "impact.speed: expected a positive number|[m/s]|got nothing|`speed = 1`"),
-    ("[impact]\nspeed = 1", "", "impact: expected a table [impact], got none|add [impact]"),
-    ("[impact]\nspeed = 1", "[[impact]]\nspeed = 1", "impact: expected a table|got an array"),
-    ("[sphere]\nradius = 0.13\nmass = 72", "sphere = 3", "sphere: expected a table|got 3"),
+    ("thickness = 0.2", "thicknes = 0.2", "plate.thicknes: |thickness?"),
+    ("thickness = 0.2", "half-thickness = 0.1", "half_thickness?"),
+    ("thickness = 0.2", "thickness = 0.2\ncolour = 1", "plate.colour|lame_lambda"),
+    ("radius = 1.0", "radius = 1.0\nspeed = 1", "plate.speed: |[impact]"),
+    ("[sphere]", "speed = 1\n[sphere]", "speed: |[impact]"),
+    ("[impact]", "[imapct]", "imapct: |impact?|[impact]"),
+    ("speed = 1", "", "impact.speed: |[m/s]|`speed = 1`"),
+    ("[impact]\nspeed = 1", "", "impact: |[impact]"),
+    ("[impact]\nspeed = 1", "[[impact]]\nspeed = 1", "impact: |array"),
+    ("[sphere]\nradius = 0.13\nmass = 72", "sphere = 3", "sphere: |3"),
     (GOOD, "", ALL),
-    ("radius = 1.0", "radius = -1.0", "plate.radius|a positive number, the plate radius|got -1"),
+    ("radius = 1.0", "radius = -1.0", "plate.radius|[m]|-1"),
     ("radius = 1.0", "radius = 0", "plate.radius|got 0"),
     ("radius = 1.0", "radius = -0.0", "plate.radius|got -0"),
     ("radius = 1.0", "radius = nan", "plate.radius|got nan"),
     ("radius = 1.0", "radius = inf", "plate.radius|got inf"),
-    ("radius = 1.0", 'radius = "1.0"', 'plate.radius|got the string "1.0"|without quotes'),
+    ("radius = 1.0", 'radius = "1.0"', 'plate.radius|"1.0"|quotes'),
     ("radius = 1.0", "radius = true", "plate.radius|got true"),
-    ("radius = 1.0", "radius = [1.0]", "plate.radius|got an array"),
-    ("radius = 1.0", "radius = { m = 1.0 }", "plate.radius|got a table"),
-    ("radius = 1.0", "radius = 2026-01-01", "plate.radius|got 2026-01-01"),
+    ("radius = 1.0", "radius = [1.0]", "plate.radius|array"),
+    ("radius = 1.0", "radius = { m = 1.0 }", "plate.radius|table"),
+    ("radius = 1.0", "radius = 2026-01-01", "plate.radius|2026-01-01"),
     ("radius = 1.0", "radius = 1" + "0" * 400, "plate.radius|got 1000"),
-    ("radius = 1.0", "radius = 1" + "0" * 5000, "numbers too long"),
-    ("radius = 1.0", "radius = " + "[" * 5000, "brackets too deep"),
+    ("radius = 1.0", "radius = 1" + "0" * 5000, "TOML"),
+    ("radius = 1.0", "radius = " + "[" * 5000, "TOML"),
     ("speed = 1", "speed = 0", "impact.speed|got 0"),
-    ("mass = 72", "", "[sphere]: expected either sphere.mass or sphere.density|neither|add"),
-    ("mass = 72", "mass = 72\ndensity = 7850", "sphere.mass or sphere.density, got both|remove"),
-    ("mass = 72", "mass = -72", "sphere.mass: expected a positive number|[kg]|got -72"),
-    ("thickness = 0.2", "", "plate.half_thickness or plate.thickness, got neither"),
-    ("thickness = 0.2", "thickness = 0.2\nhalf_thickness = 0.1", "thickness|got both"),
-    (LAME, "", "lame_lambda, plate.lame_mu or the pair|got neither"),
-    (LAME, "lame_mu = 1e9", "got only plate.lame_mu|add plate.lame_lambda"),
-    (LAME, "youngs_modulus = 1e9", "got only plate.youngs_modulus|add plate.poissons_ratio"),
-    (LAME, "lame_mu = 1e9\npoissons_ratio = 0.3", "only plate.lame_mu and plate.poissons_ratio"),
+    ("mass = 72", "", "[sphere]: |sphere.mass|sphere.density"),
+    ("mass = 72", "mass = 72\ndensity = 7850", "sphere.mass|sphere.density|remove"),
+    ("mass = 72", "mass = -72", "sphere.mass: |[kg]|-72"),
+    ("thickness = 0.2", "", "plate.half_thickness|plate.thickness"),
+    ("thickness = 0.2", "thickness = 0.2\nhalf_thickness = 0.1", "thickness|half_thickness"),
+    (LAME, "", "plate.lame_lambda|plate.lame_mu|plate.material"),
+    (LAME, "lame_mu = 1e9", "plate.lame_mu|add plate.lame_lambda"),
+    (LAME, "youngs_modulus = 1e9", "plate.youngs_modulus|add plate.poissons_ratio"),
+    (LAME, "lame_mu = 1e9\npoissons_ratio = 0.3", "plate.lame_mu|plate.poissons_ratio"),
     (LAME, LAME + "\npoissons_ratio = 0.3", "remove plate.poissons_ratio"),
-    (LAME, LAME + "\nyoungs_modulus = 1e9\npoissons_ratio = 0.3", "got both"),
-    (LAME, "youngs_modulus = 1e9\npoissons_ratio = 0.5", "poissons_ratio|below 0.5|got 0.5"),
-    (LAME, "youngs_modulus = 1e9\npoissons_ratio = -1", "poissons_ratio|above -1|got -1"),
+    (LAME, LAME + "\nyoungs_modulus = 1e9\npoissons_ratio = 0.3", "plate.youngs_modulus|remove"),
+    (LAME, "youngs_modulus = 1e9\npoissons_ratio = 0.5", "poissons_ratio|0.5"),
+    (LAME, "youngs_modulus = 1e9\npoissons_ratio = -1", "poissons_ratio|-1"),
     (LAME, "youngs_modulus = 0\npoissons_ratio = 0.3", "plate.youngs_modulus|got 0"),
-    ("[impact]", "[accuracy]\n[impact]", "accuracy.rtol|got nothing|`rtol = 1e-06`"),
-    ("[impact]", "[accuracy]\ntol = 1\n[impact]", "accuracy.tol: unknown key|did you mean rtol?"),
-    ("[impact]", "[accuracy]\nrtol = 1e-14\n[impact]", "from 1e-13 to 1|got 1e-14|reference"),
-    ("[impact]", "[inertia]\nmodes = 2.5\n[impact]", "inertia.modes|whole number from 2|got 2.5"),
-    ("[impact]", "[inertia]\nmodes = 'all'\n[impact]", '"auto" or|without quotes|`modes = 40`'),
-    ("[impact]", "[inertia]\nbranches = 'A1'\n[impact]", '"A0" or "all"|like `branches = "all"`'),
-    ("[impact]", "[inertia]\ncoupling = 1\n[impact]", '"variational" or "pointwise"|got 1'),
-    ("[impact]", "[inertia]\nextent = 'x'\n[impact]", 'inertia.extent|"finite" or "infinite"'),
-    ("[impact]", "[inertia]\nmode = 3\n[impact]", "inertia.mode: unknown|did you mean modes?"),
-    ("[impact]", "[effects]\ninertia = 1\n[impact]", 'inertia: expected "auto", true or|got 1'),
-    ("lame_mu = 0.43e9", "lame_mu = 0.0", "plate.lame_mu: expected a positive number|got 0"),
-    ("lame_lambda = 0.36e9", "lame_lambda = -0.3e9", "3 lame_lambda + 2 lame_mu|got|raise"),
-    ("lame_lambda = 0.36e9", "lame_lambda = -inf", "plate.lame_lambda: expected a finite number"),
-    ("lame_lambda = 0.36e9", "lame_lambda = 0,36e9", "not valid TOML|line 7"),
-    ("radius = 1.0", "radius = 1.0\nradius = 2.0", "not valid TOML|line 6"),
+    ("[impact]", "[accuracy]\n[impact]", "accuracy.rtol|`rtol = 1e-06`"),
+    ("[impact]", "[accuracy]\ntol = 1\n[impact]", "accuracy.tol: |rtol?"),
+    ("[impact]", "[accuracy]\nrtol = 1e-14\n[impact]", "1e-13|1e-14|reference"),
+    ("[impact]", "[inertia]\nmodes = 2.5\n[impact]", "inertia.modes|2.5"),
+    ("[impact]", "[inertia]\nmodes = 'all'\n[impact]", '"auto"|quotes|`modes = 40`'),
+    ("[impact]", "[inertia]\nbranches = 'A1'\n[impact]", '"A0"|"all"|`branches = "A0"`'),
+    ("[impact]", "[inertia]\ncoupling = 1\n[impact]", '"variational"|"pointwise"|1'),
+    ("[impact]", "[inertia]\nextent = 'x'\n[impact]", 'inertia.extent|"finite"|"infinite"'),
+    ("[impact]", "[inertia]\nmode = 3\n[impact]", "inertia.mode: |modes?"),
+    ("[impact]", "[effects]\ninertia = 1\n[impact]", 'effects.inertia: |"auto"|1'),
+    ("lame_mu = 0.43e9", "lame_mu = 0.0", "plate.lame_mu: |0"),
+    ("lame_lambda = 0.36e9", "lame_lambda = -0.3e9", "3 lame_lambda + 2 lame_mu|-3e+08"),
+    ("lame_lambda = 0.36e9", "lame_lambda = -inf", "plate.lame_lambda: |-inf"),
+    ("lame_lambda = 0.36e9", "lame_lambda = 0,36e9", "TOML|line 7"),
+    ("radius = 1.0", "radius = 1.0\nradius = 2.0", "TOML|line 6"),
 ]  # fmt: skip
 
 
@@ -135,7 +135,7 @@ def test_unreadable_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Non
         raise PermissionError(13, "Permission denied", str(path))
 
     monkeypatch.setattr("derivation.scene.scene.read_file", refuse)
-    with pytest.raises(SceneError, match=r"Permission denied.*check its name and permissions"):
+    with pytest.raises(SceneError, match=r"Permission denied"):
         load(path)
 
 
@@ -188,7 +188,7 @@ def test_named_materials_hold_what_their_standards_say(
 def test_poissons_ratio_next_to_its_lower_end_is_refused_by_name() -> None:
     keys = {"lame_lambda": None, "lame_mu": None, "youngs_modulus": 1e9}
     scene = read(changed(plate=keys | {"poissons_ratio": math.nextafter(-1.0, 0.0)}))
-    with pytest.raises(SceneError, match=r"poissons_ratio: .* by more than rounding"):
+    with pytest.raises(SceneError, match=r"plate\.poissons_ratio: .*lame_mu"):
         model_of(scene)
 
 
@@ -206,13 +206,13 @@ def test_scene_is_frozen() -> None:
 def test_direct_construction_is_validated_too() -> None:
     from derivation.scene.scene import Plate
 
-    with pytest.raises(ValueError, match=r"\[plate\]: expected either .* got neither"):
+    with pytest.raises(ValueError, match=r"\[plate\]: "):
         Plate(radius=1.0)
 
 
 @pytest.mark.parametrize("data", [[1], {"sphere": {1: 2}}, {3: 4}])
 def test_data_that_are_no_tables(data: Any) -> None:
-    with pytest.raises(SceneError, match="expected"):
+    with pytest.raises(SceneError, match=r"^\w+: "):
         read(data)
 
 

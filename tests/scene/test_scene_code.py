@@ -281,16 +281,14 @@ def test_a_bent_plate_s_inner_state_gives_the_impact(case: str) -> None:
 def test_a_held_plate_that_bends_under_a_lagging_contact_is_refused() -> None:
     plate = PAD["plate"] | {"thickness": 0.02, "edge": "clamped"}
     held = read({**PAD, "plate": plate, "effects": dict(AT_REST)})
-    with pytest.raises(
-        SceneError, match=r"plate\.edge: expected the paper's edge .* effects\.edge"
-    ):
+    with pytest.raises(SceneError, match=r"^plate\.edge: .*effects\.edge"):
         scene_code(held)
 
 
 @pytest.mark.parametrize("wanted", ["auto", True])
 def test_a_plate_that_moves_is_refused(wanted: Any) -> None:
     data = load(EXAMPLES / "glass_pane.toml").to_json() | {"effects": {"inertia": wanted}}
-    with pytest.raises(SceneError, match=r"effects\.inertia: .* write effects\.inertia = false$"):
+    with pytest.raises(SceneError, match=r"^effects\.inertia: .*effects\.inertia = false$"):
         scene_code(read(data))
 
 

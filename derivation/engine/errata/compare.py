@@ -23,6 +23,7 @@ from derivation.engine.formula.proof import SYMBOLIC, reduces_to_zero
 from derivation.engine.formula.record import Record
 from derivation.engine.formula.size import terms_when_expanded
 from derivation.engine.formula.vocabulary import Vocabulary
+from derivation.engine.nearest import did_you_mean
 
 EQUAL, DIFFERENT = "equal", "different"
 BY_BALLS = "by ball arithmetic"
@@ -174,12 +175,12 @@ def comparable(formulas: Mapping[str, Record]) -> list[str]:
 
 
 def known_formula(name: str, formulas: Mapping[str, Record]) -> Record:
-    """Return the derived formula of a name.
+    """Return the derived formula with a name.
 
     Raises
     ------
     FormulaError
-        Listing the known names.
+        If there is none that can be compared; the message suggests the nearest names.
     """
     names = comparable(formulas)
     if name in formulas and name not in names:
@@ -188,7 +189,8 @@ def known_formula(name: str, formulas: Mapping[str, Record]) -> Record:
             f"be compared: expected one of {', '.join(names)}"
         )
     if name not in names:
-        raise FormulaError(f"no formula {name!r:.60}: expected one of {', '.join(names)}")
+        near = did_you_mean(name, names, most=3)
+        raise FormulaError(f"no formula {name!r:.60}: {near}expected one of {', '.join(names)}")
     return formulas[name]
 
 

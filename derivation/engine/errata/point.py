@@ -10,6 +10,7 @@ from derivation.engine.errata.relations import Point, Relations
 from derivation.engine.formula.domain import broken
 from derivation.engine.formula.parse import FormulaError, number
 from derivation.engine.formula.vocabulary import Argument, Vocabulary, symbols_of
+from derivation.engine.nearest import did_you_mean
 
 _CANDIDATES = ("0.5", "0.1", "0.01", "1", "2", "10", "-1")
 """Values tried in turn for a symbol without a sample value."""
@@ -61,7 +62,8 @@ def exact(at: Mapping[str, str], vocabulary: Vocabulary, relations: Relations) -
         symbol = known.get("lam" if name == "lambda" else name)
         if symbol is None:
             raise FormulaError(
-                f"--at: unknown symbol {name!r:.40}, expected one of "
+                f"--at: unknown symbol {name!r:.40}: "
+                f"{did_you_mean(name, vocabulary.by_name)}expected one of "
                 f"{', '.join(vocabulary.by_name)}"
             )
         own = str(symbol.name)

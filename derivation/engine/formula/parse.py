@@ -15,6 +15,7 @@ import sympy as sp
 from derivation.engine.formula.ball import enclose
 from derivation.engine.formula.size import degree
 from derivation.engine.formula.vocabulary import Vocabulary
+from derivation.engine.nearest import did_you_mean
 
 MAX_TEXT = 20_000
 MAX_NESTING = 50
@@ -198,13 +199,14 @@ class _Reader:
         if name in FUNCTIONS:
             raise FormulaError(f"expected an argument after {name}: write {name}(x)")
         allowed = ", ".join(sorted(self.names))
-        hint = f"{_NAME_HINTS[name]}; " if name in _NAME_HINTS else ""
+        hint = f"{_NAME_HINTS[name]}; " if name in _NAME_HINTS else did_you_mean(name, self.names)
         raise FormulaError(f"unknown name {_short(name)}: {hint}expected one of {allowed}")
 
     def _call(self, name: str, node: ast.Call, depth: int) -> sp.Expr:
         if name not in FUNCTIONS:
-            allowed = ", ".join(sorted(FUNCTIONS))
-            hint = f"write {name}*(...)" if name in self.names else f"expected one of {allowed}"
+            near = did_you_mean(name, FUNCTIONS)
+            allowed = f"{near}expected one of {', '.join(sorted(FUNCTIONS))}"
+            hint = f"write {name}*(...)" if name in self.names else allowed
             raise FormulaError(f"unknown function {_short(name)}: {hint}")
         count = 2 if name in _OF_TWO else 1
         if node.keywords or len(node.args) != count:

@@ -2,8 +2,8 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from difflib import get_close_matches
 
+from derivation.engine.nearest import did_you_mean
 from derivation.engine.report.latex import environment
 
 
@@ -44,7 +44,8 @@ def chosen(names: Sequence[str], known: Sequence[str]) -> tuple[str, ...]:
     """
     for name in names:
         if name not in known:
-            near = get_close_matches(name, known, n=1)
-            hint = f"did you mean {near[0]}? " if near else ""
-            raise ValueError(f"no section {name!r}: {hint}expected one of {', '.join(known)}")
+            near = did_you_mean(name, known)
+            raise ValueError(
+                f"--section: no section {name!r}: {near}expected one of {', '.join(known)}"
+            )
     return tuple(name for name in known if not names or name in names)

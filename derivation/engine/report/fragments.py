@@ -1,9 +1,9 @@
 """Formulas of the report as LaTeX to be pasted into another document."""
 
 from collections.abc import Iterator, Sequence
-from difflib import get_close_matches
 
 from derivation.engine.formula.record import Record
+from derivation.engine.nearest import did_you_mean
 from derivation.engine.report.latex import prose
 from derivation.engine.report.pieces import formula_context
 from derivation.engine.report.references import References
@@ -47,11 +47,10 @@ def _pieces(
     ]
     if not found:
         known = [title for title, _ in links] + [f.name for _, held in links for f in held]
-        near = get_close_matches(name, known, NEAR, cutoff=0.4)
-        hint = f"did you mean {', '.join(near)}? " if near else ""
+        near = did_you_mean(name, known, most=NEAR)
         raise ValueError(
-            f"no fragment {name!r}: {hint}expected a formula's name, as `platecontact derive` "
-            "lists them, or a link of the chain"
+            f"--fragment: no formula or derivation step {name!r}: {near}`platecontact derive` "
+            "lists the formulas, `platecontact derive NAME` shows the derivation step of one"
         )
     for link, formula in found:
         yield fragment(link, formula, references)

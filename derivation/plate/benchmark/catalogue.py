@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
+from derivation.engine.nearest import did_you_mean
 from derivation.plate.benchmark import inversion, laws, motion, polynomials, shipped, sums
 from derivation.plate.benchmark.arithmetic import HAS_LONG, LONG, SINGLE, BallArithmetic, Mpmath
 from derivation.plate.benchmark.interface import PAPER, Method, Regime
@@ -134,8 +135,9 @@ def methods(names: Sequence[str] = (), quick: bool = False) -> list[Method]:
     families = list(dict.fromkeys(method.family for method in every))
     for name in names:
         if name not in families:
+            near = did_you_mean(name, families)
             known = "; ".join(families)
-            raise ValueError(f"unknown method {name!r}: expected one of: {known}")
+            raise ValueError(f"--method: no method {name!r}: {near}expected one of: {known}")
     return [
         method
         for method in every

@@ -48,7 +48,7 @@ def limit_rows() -> list[str]:
         (r"$\nu$", r"$-1$ to $1/2$", "refused outside", "the material would not be stable"),
         (r"$a/H$", f"{limits.HERTZ_LIMIT:g}", "warned without \\texttt{non\\_hertzian\\_pressure}",
          "the pressure is no longer Hertz's"),
-        (r"$a/R$", f"{limits.CURVATURE_LIMIT:g}", "warned without \\texttt{spherical\\_profile}",
+        (r"$a/R$", f"{limits.PARABOLOID_LIMIT:g}", "warned without \\texttt{spherical\\_profile}",
          "the sphere is no paraboloid any more"),
         (r"$w/H$", f"{limits.STRETCH_LIMIT:g}", "warned", "the plate's middle surface stretches"),
         (r"$p_0$ over yield stress", f"{kernels.YIELD_LIMIT:g}", "warned",

@@ -15,6 +15,7 @@ from derivation.engine.measure import target
 from derivation.engine.measure.kernels import Kernel
 from derivation.engine.measure.point import Point
 from derivation.engine.measure.target import Domain, Numbers, Target, measure_by
+from derivation.engine.nearest import did_you_mean
 from derivation.engine.oracle.reference import Reference, unsized
 from derivation.plate.contact.cases.truth import tolerance
 from derivation.plate.impact.oracle.agreement import FIRST
@@ -46,12 +47,12 @@ _SHARE, _SHARE_OF_SUMS = (48, 1), (4, 1)
 
 
 def targets(names: Sequence[str] = ()) -> tuple[Target, ...]:
-    """The kernels that can be searched, in a fixed order: all of them, or those named.
+    """Return the generated functions that can be searched, in a fixed order: all, or those named.
 
     Raises
     ------
     ValueError
-        For a name that is none of theirs.
+        If no function has one of the names.
     """
     manifest = importlib.import_module("generated.manifest").KERNELS
     closed = zip(manifest, generated_kernels(), strict=True)
@@ -60,7 +61,11 @@ def targets(names: Sequence[str] = ()) -> tuple[Target, ...]:
     known = [one.name for one in found]
     unknown = [name for name in names if name not in known]
     if unknown:
-        raise ValueError(f"no kernel {', '.join(unknown)}: expected some of {', '.join(known)}")
+        near = did_you_mean(unknown[0], known, most=3)
+        raise ValueError(
+            f"--function: no generated function {unknown[0]!r}: {near}expected one of "
+            f"{', '.join(known)}"
+        )
     return tuple(one for one in found if not names or one.name in names)
 
 

@@ -1,6 +1,6 @@
-"""Physical effects, one file each: what one adds, when it matters, the bound if it is omitted.
+"""Physical effects, one module each: contribution to the contact law, parameter, error bound.
 
-Read `effect` first, the base of all. The order below is that of the effects table.
+The base class is in `effect`. The order below is that of the effects table.
 """
 
 from derivation.scene.effects.bending import Bending
@@ -33,7 +33,7 @@ EFFECTS: tuple[Effect, ...] = (
     PlateInertia(),
     Damping(),
 )
-"""Every effect there is, in the order of the effects table."""
+"""All effects, in the order of the effects table."""
 
 BY_NAME = {effect.name: effect for effect in EFFECTS}
 PAPER = WHOLE_PLATE | {effect.name for effect in EFFECTS if effect.always_included}

@@ -1,4 +1,4 @@
-"""Bending: the deflection of a thin plate under the force."""
+"""Bending: deflection of a thin plate under the contact force."""
 
 from typing import TYPE_CHECKING
 
@@ -18,28 +18,28 @@ if TYPE_CHECKING:
 
 
 class Bending(PlateEffect):
-    """P b^2/(8 pi D), D = E* H^3/12: the term 1/(4 pi eta^2) of c_1, on the paper's edge."""
+    """Deflection P b^2/(8 pi D), D = E* H^3/12, with the paper's edge: 1/(4 pi eta^2) in c_1."""
 
     name = "bending"
-    adds = "deflection of the plate"
+    adds = "bending deflection of the plate"
     equation = "delta = P b^2/(8 pi D), D = E* H^3/12"
     parameter = "(2/pi) a b^2/H^3"
-    source = "Kirchhoff plate; link 22"
+    source = "Kirchhoff plate; step 22"
     bends = True
 
     def value(self, model: Model, a: float) -> float:
-        """Its share of the indentation over Hertz's."""
+        """Return its contribution to the indentation over Hertz's."""
         return float(kernels.bending(a / model.h, model.eta).depth)
 
     def bound(self, model: Model, context: BoundContext) -> Bound:
-        """The share itself: exact."""
+        """Return the contribution itself, which is exact."""
         a = context.radii
         return Bound(none_of(a), self.contribution(model, a).slope)
 
     def bounded(self, law: "ContactLaw") -> bool:
-        """Not where the edge would become viscoelastic without it."""
+        """Return False if the edge would become viscoelastic without bending."""
         return not (law.other_edge and law.viscous)
 
     def contribution(self, model: Model, a: Array) -> Contribution:
-        """Linear in the radius."""
+        """Return the contribution, linear in the radius."""
         return Contribution(*kernels.bending(a / model.h, model.eta))

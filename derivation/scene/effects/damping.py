@@ -1,4 +1,4 @@
-"""Damping: the plate's modes lose energy, so that echoes are weaker and vibration dies away."""
+"""Damping: the plate modes dissipate energy; vibration and reflected waves decay."""
 
 import math
 from typing import TYPE_CHECKING
@@ -30,18 +30,18 @@ if TYPE_CHECKING:
 VARIATION = 2.0
 """Total variation of a force that rises and falls once, over its peak."""
 TURNING = 27.0
-"""Bound on the response to the rate of such a force, over its peak, times omega T: 2 from an
+"""Bound on the response to the rate of such a force, over its peak, times omega T: factor 2 from an
 oscillator, 4 from the variation of the rate, 3.4 from the largest rate of Hertz's contact."""
 
 
 class Damping(Effect):
-    """Equivalent viscous damping of each mode at its own frequency."""
+    """Equivalent viscous damping of each mode at its natural frequency."""
 
     name = "damping"
-    adds = "damping of the plate's modes"
+    adds = "damping of the plate modes"
     equation = "q_j'' + eta_l omega_j q_j' + omega_j^2 q_j = omega_j^2 c_j P_j"
-    parameter = "loss factor eta_l, twice the damping ratio"
-    source = "Cremer, Heckl and Petersson 2005; link 32"
+    parameter = "loss factor eta_l = 2 x damping ratio"
+    source = "Cremer, Heckl and Petersson 2005; step 32"
     contains = PlateInertia.contains | {"inertia"}
     requires = PlateInertia.requires | {"inertia"}
     within = "inertia"
@@ -50,23 +50,23 @@ class Damping(Effect):
     takes_rows = False
 
     def not_applicable_reason(self, model: Model) -> str:
-        """A plate without a loss factor is not damped, one without density does not vibrate."""
+        """Return a reason if the loss factor or the density is missing."""
         if not model.loss_factor:
             return "no plate.loss_factor"
-        return "" if model.density else "no plate.density: damping acts on a plate with inertia"
+        return "" if model.density else "no plate.density, so that the plate has no inertia"
 
     def value(self, model: Model, a: float) -> float:  # noqa: ARG002
-        """The loss factor itself."""
+        """Return the loss factor."""
         return model.loss_factor
 
     def bound(self, model: Model, context: BoundContext) -> Bound:
-        """What damping changes in each mode, over the indentation; none if inertia has no bound.
+        """Return the change of all modes over the indentation; infinite if inertia has no bound.
 
-        Where the plate's motion decides when the sphere rebounds and how often, no bound is known.
-        With q of the damped mode, omitting the damping adds the response to 2 zeta omega q', which
-        is at most 2 zeta times the variation of q. This is bounded in two parts: of the
-        quasi-static c P, and of the ringing, which also cannot change by more than twice itself.
-        Random scenes use 6 % of the bound at most.
+        If plate vibration determines when and how often the sphere separates, no bound is known.
+        Omitting the damping adds the response to 2 zeta omega q', with q of the damped mode. It is
+        at most 2 zeta times the variation of q, which is bounded in two parts: that of the
+        quasi-static c P, and that of the ringing, which also cannot change by more than twice its
+        amplitude. Random scenes use at most 6 % of the bound.
         """
         assert context.samples is not None
         none = none_of(context.radii)

@@ -1,4 +1,4 @@
-"""Edge: a simply supported or clamped plate instead of the paper's edge."""
+"""Edge: simply supported or clamped plate instead of the paper's edge condition."""
 
 import numpy as np
 
@@ -16,46 +16,47 @@ from derivation.scene.model import Model
 
 SUPPORTED, CLAMPED = "simply-supported", "clamped"
 MAX_A_OVER_B = 0.9
-"""Contact radius over plate radius up to which its sums are known."""
+"""Largest contact radius over plate radius of the edge model."""
 
 
 class Edge(PlateEffect):
-    """The edge moment and force of the paper's edge taken away, or its displacement.
+    """Correction that removes moment and force of the paper's edge, or its displacement.
 
-    By the exact polynomial states of bending and stretching; a clamp has w = 0 on the whole edge
-    and forbids the plate's thinning there. See `edge.remainder` for what these leave.
+    It uses the exact polynomial states of bending and in-plane extension. A clamped edge has w = 0
+    on the whole lateral surface and prevents thinning there. `edge.remainder` measures the error of
+    this model.
     """
 
     name = "edge"
-    adds = "a plate simply supported or clamped"
+    adds = "simply supported or clamped edge"
     equation = "F = (1 - nu)/(1 + nu) X supported, -X_c clamped"
-    parameter = "edge's c_1 a/h, at most"
-    source = "polynomial states of bending and stretching; link 19"
+    parameter = "upper bound of c_1 a/h of the edge"
+    source = "polynomial states of bending and in-plane extension; step 19"
     reach = Reach(plate=MAX_A_OVER_B)
     other_edge = True
 
     def not_applicable_reason(self, model: Model) -> str:
-        """The law begins with the paper's edge."""
+        """Return a reason if the plate has the paper's edge, which the law already contains."""
         return "" if model.edge in (SUPPORTED, CLAMPED) else "the plate has the paper's edge"
 
     def value(self, model: Model, a: float) -> float:
-        """Its share of the indentation over Hertz's at most, two thirds of its bound."""
+        """Return an upper bound of its contribution to the indentation over Hertz's."""
         low, up = self._range(model, np.array([a]))
         return float(up[0] - low[0]) / 1.5
 
     def bound(self, model: Model, context: BoundContext) -> Bound:
-        """Of one sign; the bound holds at all smaller radii too."""
+        """Return the bound, which is of one sign and valid at all smaller radii."""
         return Bound(*self._range(model, context.radii))
 
     def _range(self, model: Model, a: Array) -> tuple[Array, Array]:
-        """How far S may be below and above."""
+        """Return the largest decrease and increase of S."""
         plate = model.h, model.b, model.lam, model.mu
         if model.edge == SUPPORTED:
             return none_of(a), kernels.supported_edge_bound(a, *plate)
         return kernels.clamped_edge_bound(a, *plate), none_of(a)
 
     def contribution(self, model: Model, a: Array) -> Contribution:
-        """By sums over a few modes, or the thin plate's closed form."""
+        """Return the contribution by sums over a few modes, or a closed form for thin plates."""
         plate = model.h, model.b, model.lam, model.mu
         if model.edge == SUPPORTED:
             runs = kernels.supported_edge, kernels.supported_edge_slope

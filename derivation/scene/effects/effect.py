@@ -1,9 +1,9 @@
-"""The base of all effects: whether one applies, its parameter, its bound, its part of the law.
+"""Base class of the effects: applicability, parameter, error bound, contribution to the law.
 
-The rest of `scene` asks these questions and knows no effect by its name: what is particular to an
-effect is in its file.
+The rest of `scene` uses this interface and no names of effects; everything specific to an effect is
+in its module.
 
-Contributions and bounds are parts of F and S: at equal force P, a being Hertz's radius with the
+Contributions and bounds are parts of F and S: at equal force P, with Hertz's radius a for the
 modulus E* of the law, a^3 = 3 P R/(4 E*),
 
     delta = (a^2/R) (1 + F),   d delta/da = (2a/R) S.
@@ -24,22 +24,22 @@ if TYPE_CHECKING:
     from derivation.scene.law import ContactLaw
 
 PLATES = 1e-50, 1e50
-"""h/b for which bounds are known."""
+"""Range of h/b in which bounds are known."""
 NO_BOUND = 10.0
-"""A bound from here on is so far above what it bounds that it is shown as no bound."""
+"""Smallest bound on a relative change that is not useful and is shown as 'no bound'."""
 Array = NDArray[np.float64]
 Numbers = kernels.Numbers
 
 
 class Contribution(NamedTuple):
-    """What an effect adds to F and to S at contact radii [1]."""
+    """Contribution of an effect to F (`depth`) and S (`slope`) at contact radii [1]."""
 
     depth: Array
     slope: Array
 
 
 class LawSamples(NamedTuple):
-    """Samples of a contact law at contact radii up to its largest.
+    """Samples of a contact law at contact radii up to the largest one.
 
     Force [N], indentation [m], stiffness [N/m], energy [J] and d log delta/d log a [1].
     """
@@ -53,16 +53,16 @@ class LawSamples(NamedTuple):
 
 @dataclass(frozen=True)
 class BoundContext:
-    """Where a bound is evaluated; of many scenes a row of radii for each, and columns of numbers.
+    """The contacts for which a bound is evaluated; for many scenes, a row of radii for each.
 
     Attributes
     ----------
     radii
-        Hertz's radii of the force [m], from 0 on, growing.
+        Hertz's radii of the force [m], increasing from 0.
     depth
-        Largest indentation [m], of an impact.
+        Largest indentation of the impact [m].
     samples
-        Samples of the law of the included effects, of an impact.
+        Samples of the law with the included effects.
     """
 
     radii: Array
@@ -70,35 +70,35 @@ class BoundContext:
     samples: LawSamples | None = None
 
     def row(self, index: int) -> "BoundContext":
-        """That of one of many scenes."""
+        """Return the context of one of many scenes."""
         samples = self.samples and LawSamples(*(x[index] for x in self.samples))
         return BoundContext(self.radii[index], np.asarray(self.depth)[index].item(), samples)
 
     def stretched(self, factor: Numbers) -> "BoundContext":
-        """The same with all radii larger."""
+        """Return the context with all radii multiplied by a factor."""
         return replace(self, radii=self.radii * factor)
 
 
 Results = tuple[float, float, float, float, float]
 """A number for each of the outputs."""
 Changes = tuple[Numbers, Numbers, Numbers, Numbers, Numbers]
-"""The same of one scene or of many."""
+"""The same for one scene or for many."""
 
 
 class Bound(NamedTuple):
-    """What leaving an effect out changes at most.
+    """Bound on the change if an effect is omitted.
 
     Attributes
     ----------
     low, up
-        How far S may be below and above the law without the effect, at the radii given and
-        all smaller ones; not negative [1].
+        Largest decrease and increase of S by the effect, at the given radii and all smaller ones;
+        not negative [1].
     energy
-        Logarithm of the factor by which more energy may go into the contact [1].
+        Logarithm of the factor by which the energy of the contact may increase [1].
     radius
-        Logarithm of the factor by which the contact radius may differ besides [1].
+        Logarithm of the factor by which the contact radius may change in addition [1].
     results
-        The same of every result, in the order of the outputs [1].
+        The same for each output, in their order [1].
     """
 
     low: Array
@@ -109,7 +109,7 @@ class Bound(NamedTuple):
 
 
 class Reach(NamedTuple):
-    """Largest contact radius over the radii of plate and sphere and the half-thickness [1]."""
+    """Largest contact radius over plate radius, sphere radius and half-thickness [1]."""
 
     plate: float = 1.0
     sphere: float = 1.0
@@ -117,32 +117,32 @@ class Reach(NamedTuple):
 
 
 class Effect:
-    """An effect: a base whose answers are those of one that always applies and changes nothing.
+    """A physical effect; the base class describes one that always applies and changes nothing.
 
     Attributes
     ----------
     name
-        As the scene file calls it.
+        Name of the effect in scene files.
     adds
-        What it adds, in a few words.
+        What it adds to the model, in a few words.
     equation
         Its equation.
     parameter
         The dimensionless parameter that shows when it matters.
     source
-        Who derived it, and the link of the chain that proves it here.
+        Its authors, and the derivation step that proves it.
     always_included
         Whether it cannot be omitted.
     selectable
-        Whether the selection may include it. If not, it is no part of the law; its parameter and
-        bound are shown if a scene asks for it.
+        Whether the selection may include it. If not, it is not part of the law; its parameter and
+        bound are shown if the scene requests it.
     contains, requires
-        Names of the effects that it takes into its own equation, and so includes, and of those
-        without which it cannot be computed.
+        Names of the effects that are included with it because its equation contains them, and of
+        those without which it cannot be computed.
     reach
-        The contacts it can be computed for.
+        The contacts for which it can be computed.
     static
-        Whether it acts in a static contact too.
+        Whether it also acts in a static contact.
     hertzian
         Whether the elastic contact keeps the form of Hertz's law.
     spherical
@@ -152,19 +152,20 @@ class Effect:
     other_edge
         Whether the plate's edge is another than the paper's.
     solved
-        Whether the pressure is solved for, so that the law is not a sum of the effects' parts.
+        Whether the pressure follows from an integral equation, so that the law is not a sum of
+        contributions.
     viscous
         Whether the contact is viscoelastic.
     plastic
-        Whether the contact yields.
+        Whether the contact deforms plastically.
     dynamic
         Whether the plate has inertia.
     damps
-        Whether the plate's modes are damped.
+        Whether the plate modes are damped.
     takes_rows
-        Whether its bound takes many scenes at once; if not, it is asked of one after the other.
+        Whether `bound` accepts many scenes at once.
     within
-        Name of an effect that it is a part of: if the scene disables that, it does not apply.
+        Name of an effect that it is a part of; if the scene disables that, it does not apply.
     """
 
     name: ClassVar[str]
@@ -191,15 +192,15 @@ class Effect:
     within: ClassVar[str] = ""
 
     def not_applicable_reason(self, model: Model) -> str:  # noqa: ARG002
-        """Return why the effect does not apply to a scene; empty if it does."""
-        return "" if self.selectable else "shown only if the scene asks for it"
+        """Return why the effect does not apply to a scene; empty if it applies."""
+        return "" if self.selectable else "shown only if the scene requests it"
 
     def softness(self, model: Model) -> float:  # noqa: ARG002
-        """What it adds to E* of the plate over that of the sphere [1]."""
+        """Return what it adds to E* of the plate over that of the sphere [1]."""
         return 0.0
 
     def gravity(self, model: Model) -> float:  # noqa: ARG002
-        """What it adds to the acceleration that presses the sphere on [m/s^2]."""
+        """Return what it adds to the gravitational acceleration during contact [m/s^2]."""
         return 0.0
 
     def value(self, model: Model, a: float) -> float:
@@ -211,22 +212,22 @@ class Effect:
         raise NotImplementedError
 
     def bounded(self, law: "ContactLaw") -> bool:  # noqa: ARG002
-        """Whether the bound holds beside the effects of a law."""
+        """Return whether the bound is valid together with the effects of a law."""
         return True
 
     def proved(self, law: "ContactLaw") -> bool:  # noqa: ARG002
-        """Whether the bound is proved beside the effects of a law."""
+        """Return whether the bound is proved together with the effects of a law."""
         return True
 
     def check(self, law: "ContactLaw", asked: bool) -> None:
-        """Refuse a scene that includes it and lacks what it takes to compute it.
+        """Raise an error if a scene includes the effect and cannot compute it.
 
         Parameters
         ----------
         law
-            The law, this effect included.
+            The law, with this effect.
         asked
-            Whether the scene asks for it.
+            Whether the scene enables it.
 
         Raises
         ------
@@ -235,21 +236,21 @@ class Effect:
         """
 
     def check_omitted(self, part: str, error: float, rtol: float) -> None:
-        """Refuse a scene that disables a part of it and must not omit it.
+        """Raise an error if the effect must not be omitted but a required effect is disabled.
 
         Parameters
         ----------
         part
-            Name of an effect that it requires and that the scene disables.
+            Name of the required effect that the scene disables.
         error
-            What omitting it changes at most [1].
+            Bound on the change if this effect is omitted [1].
         rtol
-            What the omitted effects may change at most [1].
+            Largest relative change by the omitted effects [1].
 
         Raises
         ------
         SceneError
-            If the error is too large for an effect that nothing else warns of.
+            If the error is too large.
         """
 
 
@@ -259,18 +260,18 @@ class PlateEffect(Effect):
     Attributes
     ----------
     difference
-        Whether its part is computed as the whole plate's less that of others.
+        Whether its contribution is computed as that of the whole plate minus those of others.
     """
 
     difference: ClassVar[bool] = False
 
     def contribution(self, model: Model, a: Array) -> Contribution:
-        """Return its part of F and S at Hertz's radii [m], of a rigid sphere."""
+        """Return its contribution to F and S at Hertz's radii [m], for a rigid sphere."""
         raise NotImplementedError
 
 
 def plate_of(model: Model) -> kernels.Plate:
-    """c_1, its error bound and K_3 of the plate; infinite where h/b is out of their range."""
+    """Return c_1, its error bound and K_3 of the plate; infinite outside their range of h/b."""
     if not isinstance(model.eta, np.ndarray):
         return _plate_of(model.eta)
     eta, rows = np.unique(model.eta, return_inverse=True)
@@ -287,5 +288,5 @@ def _plate_of(eta: float) -> kernels.Plate:
 
 
 def none_of(a: Array) -> Array:
-    """Zeros at radii."""
+    """Return zeros for all radii."""
     return np.zeros_like(a)

@@ -1,4 +1,4 @@
-"""Finite radius: the plate is stiffer than one without a lateral surface."""
+"""Finite plate radius: correction for the lateral surface, which stiffens the plate."""
 
 from derivation.scene import kernels
 from derivation.scene.effects.effect import (
@@ -13,24 +13,24 @@ from derivation.scene.model import Model
 
 
 class FiniteRadius(PlateEffect):
-    """The integral over K0/I0, a function of a/b alone."""
+    """Integral over K0/I0, which depends only on a/b."""
 
     name = "finite_radius"
-    adds = "finite radius of the plate"
+    adds = "lateral surface of the plate"
     equation = "F = -(8/(pi^2 alpha^2)) int (x cosh x - sinh x) y^-3 K0/I0 dy, x = alpha y"
     parameter = "0.37 a/b"
-    source = "contour integral over Y0/J0; links 12 and 22"
+    source = "contour integral over Y0/J0; steps 12 and 22"
 
     def value(self, model: Model, a: float) -> float:
-        """Its leading share of the indentation over Hertz's."""
+        """Return the leading term of its contribution to the indentation over Hertz's."""
         return 2.0 / 3.0 * kernels.WALL_LINEAR * a / model.b
 
     def bound(self, model: Model, context: BoundContext) -> Bound:
-        """Between nothing and the leading terms."""
+        """Return the bound: between zero and the leading terms."""
         a = context.radii
         alpha = a / model.b
         return Bound(kernels.WALL_LINEAR * alpha + kernels.WALL_CUBIC * alpha**3, none_of(a))
 
     def contribution(self, model: Model, a: Array) -> Contribution:
-        """By its power series."""
+        """Return the contribution by its power series."""
         return Contribution(*kernels.side_wall(a / model.b))

@@ -1,4 +1,4 @@
-"""Finite thickness: shear, local compression and what else the modes add to bending."""
+"""Finite thickness: shear, compression and other contributions of the modes beyond bending."""
 
 import numpy as np
 
@@ -16,26 +16,26 @@ from derivation.scene.effects.finite_radius import FiniteRadius
 from derivation.scene.model import Model
 
 WHOLE_PLATE = frozenset({"bending", "finite_thickness", "finite_radius"})
-"""Effects that `plate_contribution` holds together."""
+"""Effects contained in `plate_contribution`."""
 
 
 class FiniteThickness(PlateEffect):
-    """The sum over G - 1 less its term in bending."""
+    """Sum over G - 1 minus the bending term."""
 
     name = "finite_thickness"
     adds = "shear and compression of the plate"
     equation = "F = (8/(pi alpha^2)) sum s(alpha j_n) (G(2 eta j_n) - 1)/(j_n^4 J_1^2) - F_bending"
-    parameter = "c_1 a/h less bending's"
-    source = "sum over the modes; links 12, 18 and 22"
+    parameter = "c_1 a/h minus that of bending"
+    source = "sum over the modes; steps 12, 18 and 22"
     difference = True
 
     def value(self, model: Model, a: float) -> float:
-        """Its leading share of the indentation over Hertz's."""
+        """Return the leading term of its contribution to the indentation over Hertz's."""
         linear = plate_of(model).bend * a / model.h
         return float(linear - kernels.bending(a / model.h, model.eta).depth)
 
     def bound(self, model: Model, context: BoundContext) -> Bound:
-        """3/2 c_1 A - K_3 A^3 <= S - 1 <= 3/2 c_1 A, less bending and the side wall."""
+        """Return 3/2 c_1 A - K_3 A^3 <= S - 1 <= 3/2 c_1 A minus bending and finite radius."""
         a = context.radii
         plate, A, alpha = plate_of(model), a / model.h, a / model.b
         linear = 1.5 * plate.bend * A - kernels.bending(A, model.eta).slope
@@ -43,11 +43,11 @@ class FiniteThickness(PlateEffect):
         wall = kernels.WALL_LINEAR * alpha + kernels.WALL_CUBIC * alpha**3
         up = np.maximum(linear + wrong + wall, 0.0)
         low = np.maximum(plate.rest * A**3 + wrong - linear, 0.0)
-        # Of either sign in between: no less than at any smaller radius.
+        # The sign may change; the bound is the largest one up to each radius.
         return Bound(np.maximum.accumulate(low, axis=-1), np.maximum.accumulate(up, axis=-1))
 
     def contribution(self, model: Model, a: Array) -> Contribution:
-        """What the whole plate adds, less its other parts."""
+        """Return the contribution of the whole plate minus its other parts."""
         whole = plate_contribution(model, a)
         parts = Bending().contribution(model, a), FiniteRadius().contribution(model, a)
         return Contribution(
@@ -57,5 +57,5 @@ class FiniteThickness(PlateEffect):
 
 
 def plate_contribution(model: Model, a: Array) -> Contribution:
-    """Bending, finite thickness and side wall in one: the contact law less the half-space's."""
+    """Return the sum of bending, finite thickness and finite radius: law minus half-space."""
     return Contribution(*kernels.plate_share(model.plates, a, model.h, model.b))

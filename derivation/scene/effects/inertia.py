@@ -1,4 +1,4 @@
-"""Inertia: the plate vibrates, takes energy from the sphere, and may return some of it."""
+"""Inertia: plate vibration, which takes energy from the sphere and may return part of it."""
 
 import math
 from collections.abc import Callable
@@ -33,13 +33,13 @@ an undamped oscillator under a step force."""
 SMOOTH_FORCE = 16.0
 """Bound on the same deviation, times omega^2 T T_rise, for a force with a smooth onset."""
 STEP_FORCE = 5.0
-"""Bound on the same deviation, times omega T, for a force that rises at once."""
+"""Bound on the same deviation, times omega T, for a force that rises suddenly."""
 HERTZ_ONSET = 2.0
 """The same, times (omega T_rise)^(3/2), for a force that begins as t^(3/2), as by Hertz's law."""
 COUNTED, NODES_BEYOND = 32, 64
-"""Modes summed one by one, and nodes of the integral over those beyond."""
+"""Number of modes that are summed, and of nodes of the integral over higher modes."""
 CONTACT_DECAY, CONTACT_END = 3.0, 30.0
-"""A wide contact drives a mode by 3/(a phi)^2 of a point force; the sum ends at a phi = 30."""
+"""A wide contact excites a mode by 3/(a phi)^2 of a point force; the sum ends at a phi = 30."""
 RADIATION = (2.0, 1.0, 2.5, 0.9, 3.0)
 """Change of each result by the higher wave branches, over a/(c_T T): radiation of a half-space."""
 THICKNESS_RINGING = (6.0, 0.5, 40.0, 13.0, 2.0)
@@ -62,17 +62,17 @@ class PlateInertia(Effect):
     """Dynamic bending modes; higher modes respond quasi-statically."""
 
     name = "inertia"
-    adds = "vibration of the plate"
+    adds = "inertia of the plate (vibration)"
     equation = "q_j'' + omega_j^2 q_j = omega_j^2 c_j P_j"
-    parameter = "Zener's lambda = m/(8 That sqrt(D rho H))"
-    source = "Zener 1941; Rayleigh 1888 and Lamb 1917; links 26 to 29"
+    parameter = "Zener parameter lambda = m/(8 That sqrt(D rho H))"
+    source = "Zener 1941; Rayleigh 1888 and Lamb 1917; steps 26 to 29"
     contains = WHOLE_PLATE | {"edge"}
     requires = frozenset({"bending"})
     static = False
     dynamic = True
 
     def value(self, model: Model, a: float) -> float:  # noqa: ARG002
-        """Zener's number; none without a density."""
+        """Return the Zener parameter; NaN without a density."""
         if not np.all(model.density):
             return math.nan
         R, m, v0, h, _, lam, mu = model.numbers
@@ -81,7 +81,7 @@ class PlateInertia(Effect):
         return found
 
     def bound(self, model: Model, context: BoundContext) -> Bound:
-        """Deviation of the modes from their quasi-static response over the indentation; tested."""
+        """Return the tested bound: deviation of the modes from their quasi-static response."""
         assert context.samples is not None
         heavier = 1.0 + weight_share(model, context.depth)
         T = SLOWEST * context.depth / (model.v0 * np.sqrt(heavier))
@@ -98,37 +98,37 @@ class PlateInertia(Effect):
         return False
 
     def check(self, law: "ContactLaw", asked: bool) -> None:
-        """The density has to be known, and higher branches cannot be viscoelastic."""
+        """Require the density, and only the lowest branch in a viscoelastic contact."""
         model = law.model
         if law.viscous and model.inertia.branches == "all":
             raise SceneError(
-                'inertia.branches: expected "A0" in a viscoelastic contact, where only bending is '
-                'elastic, got "all"; write branches = "A0", or effects.viscosity = false'
+                'inertia.branches: expected "A0" for a viscoelastic contact, in which only bending '
+                'is elastic, got "all"; set branches = "A0", or effects.viscosity = false'
             )
         if model.density:
             return
-        why = "effects.inertia = true" if asked else "its inertia may change the results"
+        why = "effects.inertia is true" if asked else "plate inertia may change the results"
         raise SceneError(
-            f"plate.density: expected a density, since {why}, got none; give plate.density "
-            "[kg/m^3], or effects.inertia = false for a plate without inertia"
+            f"plate.density: expected a density because {why}, got none; give plate.density "
+            "[kg/m^3], or set effects.inertia = false for a quasi-static plate"
         )
 
     def check_omitted(self, part: str, error: float, rtol: float) -> None:
-        """A quasi-static plate without bending is refused where bending waves may matter."""
+        """Reject a scene without bending if plate inertia may matter."""
         if error <= rtol:
             return
-        size = f"by up to {error:.1e}" if error < NO_BOUND else "by more than a bound says"
+        size = f" by up to {error:.1e}" if error < NO_BOUND else ""
         raise SceneError(
-            f"effects.{part}: expected true, since the plate's inertia may change the results "
-            f"{size} and needs {part}, got false; leave out effects.{part}, or set "
-            "effects.inertia = false for a quasi-static plate"
+            f"effects.{part}: expected true because plate inertia may change the results{size} and "
+            f"requires {part}, got false; remove effects.{part}, or set effects.inertia = false "
+            "for a quasi-static plate"
         )
 
 
 def weight_share(model: Model, depth: Numbers) -> Numbers:
-    """Work of the weight over the initial kinetic energy [1], at a largest indentation [m].
+    """Return the work of the weight over the kinetic energy [1], at a largest indentation [m].
 
-    A sphere is accelerated by its weight during contact. The plate takes a fraction of the kinetic
+    The weight accelerates the sphere during contact. The plate takes a fraction of the kinetic
     energy and of this work, but the restitution refers to the initial kinetic energy alone.
     """
     return 2.0 * model.gravity * depth / model.v0 / model.v0
@@ -140,16 +140,16 @@ def higher_branch_error(model: Model, a: Numbers, T: Numbers, loss_factor: float
     Parameters
     ----------
     a, T
-        Contact radius [m] and time [s]. A plate that bends keeps a sphere long, and feels it as
-        suddenly as another: P'' is of the order of P/(T T_alone). One that gives way makes the
-        force come and go in a part of that time, by lambda^(-2/3); if the contact goes on, the
-        thickness rings by that, all the less the slower it is.
+        Contact radius [m] and time [s]. Bending lengthens the contact, but the force starts as
+        suddenly as without bending: P'' is of the order of P/(T T_alone). On a compliant plate the
+        force rises and falls in a fraction lambda^(-2/3) of that time; if the contact continues,
+        this excites thickness vibration, which decreases with the duration of the contact.
     loss_factor
-        Loss factor of the plate's modes [1]: of what returns it takes a part, at most all.
+        Loss factor of the plate modes [1]; it dissipates part of the returning waves, at most all.
     """
     transit, number = 2.0 * model.h / model.shear_speed, PlateInertia().value(model, 0.0)
     wide, echo = a / (2.0 * model.h), transit / np.sqrt(T * np.minimum(T, _alone(model)))
-    # Less is lost where echoes return many times in a contact.
+    # Less energy is lost if waves return many times during the contact.
     radiated = wide * echo * np.minimum(1.0, 2.0 * echo + loss_factor)
     whole = np.power(transit / T, 1.5) * np.sqrt(np.maximum(1.0, number))
     sudden = transit / np.minimum(T, _rise(model))
@@ -161,17 +161,17 @@ def higher_branch_error(model: Model, a: Numbers, T: Numbers, loss_factor: float
 
 
 def _alone(model: Model) -> Numbers:
-    """Contact time [s] were it not for the bending."""
+    """Return the contact time [s] without bending."""
     stiffness = 4.0 / 3.0 * model.modulus / (1.0 + model.softness) * np.sqrt(model.R)
     found: Numbers = HERTZ_TIME * np.power(model.m / stiffness, 0.4) / np.power(model.v0, 0.2)
     return found
 
 
 def _rise(model: Model) -> Numbers:
-    """Time in which the force comes and goes [s]: Hertz's, shorter where the plate gives way.
+    """Return the time [s] in which the force rises and falls; it is shorter on a compliant plate.
 
-    It yields as fast as the sphere comes on where lambda P = v0, P^(2/3) by then being v0 t: after
-    lambda^(-2/3) of That, whenever the sphere may leave.
+    The plate deflects as fast as the sphere approaches when lambda P = v0, with P^(2/3) = v0 t,
+    after lambda^(-2/3) of That, independent of the time of separation.
     """
     number = PlateInertia().value(model, 0.0)
     found: Numbers = _alone(model) / np.cbrt(np.maximum(1.0, RISE_BY_ZENER * number)) ** 2
@@ -183,19 +183,19 @@ def off_rest(
 ) -> Array:
     """Return a deviation from the quasi-static response to a unit force [m/N], of all modes.
 
-    Wave numbers are (n - 1/4) pi/b and frequencies those of a thin plate, held below Rayleigh's
-    waves: neither a zero of J_0 nor a root of the branch is computed.
+    Wave numbers are (n - 1/4) pi/b. Frequencies are those of a thin plate, limited by those of
+    Rayleigh waves: neither a zero of J_0 nor a root of the branch is computed.
 
     Parameters
     ----------
     a, T
         Contact radius [m] and time [s].
     deviation
-        That of a mode over its static deflection, by omega T and the share of T in which the force
-        rises.
+        Deviation of a mode over its static deflection, as a function of omega T and the fraction of
+        T in which the force rises.
     """
-    moves = np.all(model.density)
-    rise = np.minimum(T, _rise(model)) / T if moves else 1.0
+    dynamic = np.all(model.density)
+    rise = np.minimum(T, _rise(model)) / T if dynamic else 1.0
     first = np.arange(1.0, COUNTED + 1.0)
     last = COUNTED + 0.5
     span = np.log(np.maximum(CONTACT_END * model.b / (math.pi * a), 2.0 * last) / last)
@@ -204,18 +204,18 @@ def off_rest(
     weights[[0, -1]] /= 2.0
 
     def of_mode(n: Array) -> Array:
-        """The same of modes by their number."""
+        """Return the deviation of modes by their number."""
         j = (n - 0.25) * math.pi
         x, y = j * model.eta, j * (a / model.b)
-        # Kirchhoff's plate, and no faster than a wave on a face.
+        # Kirchhoff plate, limited by the speed of Rayleigh waves.
         thin = x * x * np.sqrt(2.0 / (3.0 * (1.0 - model.poissons_ratio)))
         root = thin / np.sqrt(1.0 + (thin / x) ** 2)  # omega h/c_T
-        at_rest = model.h / model.mu * (0.5 / root**2) * j / (2.0 * model.b * model.b)
-        felt = np.minimum(1.0, CONTACT_DECAY / (y * y))
-        if not moves:
-            return np.asarray(at_rest * felt * MAX_DYNAMIC_FACTOR)
+        static = model.h / model.mu * (0.5 / root**2) * j / (2.0 * model.b * model.b)
+        weight = np.minimum(1.0, CONTACT_DECAY / (y * y))
+        if not dynamic:
+            return np.asarray(static * weight * MAX_DYNAMIC_FACTOR)
         phase = root * (model.shear_speed * T / model.h)
-        return np.asarray(at_rest * felt * deviation(phase, rise))
+        return np.asarray(static * weight * deviation(phase, rise))
 
     counted = np.sum(of_mode(first), axis=-1, keepdims=True)
     return np.asarray(counted + span * np.sum(weights * n * of_mode(n), axis=-1, keepdims=True))
@@ -224,9 +224,8 @@ def off_rest(
 def late(phase: Array, rise: Numbers) -> Array:
     """Return a mode's deviation from its quasi-static response over its static deflection.
 
-    A mode follows a force as fast as it turns: P'' is of the order of P/T^2 by Hertz's law, and
-    P/(T T_rise) of a plate that bends, whose force begins as if suddenly. That it begins as
-    t^(3/2) makes a fast mode ring.
+    The deviation depends on P'', which is of the order of P/T^2 by Hertz's law, and of P/(T T_rise)
+    on a plate that bends, where the force starts suddenly. The onset as t^(3/2) excites fast modes.
     """
     slow = np.minimum(SMOOTH_FORCE / (phase * phase * rise), STEP_FORCE / phase)
     onset = phase * rise

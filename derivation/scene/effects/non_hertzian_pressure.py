@@ -1,4 +1,4 @@
-"""Non-Hertzian pressure: from an integral equation, for contacts wide beside the thickness."""
+"""Non-Hertzian pressure, from an integral equation, for contacts that are not small against h."""
 
 from typing import TYPE_CHECKING
 
@@ -14,35 +14,35 @@ if TYPE_CHECKING:
     from derivation.scene.law import ContactLaw
 
 MAX_A_OVER_H = 6.0
-"""Contact radius over half-thickness at which contact is about to be lost at the centre."""
+"""Contact radius over half-thickness at which contact may be lost at the centre."""
 BOUND_A_OVER_B = 0.4
-"""Contact radius over plate radius up to which the bound holds."""
+"""Largest contact radius over plate radius for which the bound is valid."""
 BOUND_THETA = 0.2
-"""theta up to which it holds."""
+"""Largest theta for which the bound is valid."""
 
 
 class NonHertzianPressure(Effect):
-    """Fredholm's equation for the pressure of the whole plate, whose parts it then holds."""
+    """Fredholm equation for the pressure of the whole plate; it contains all plate effects."""
 
     name = "non_hertzian_pressure"
-    adds = "pressure from the integral equation"
+    adds = "contact pressure from the integral equation"
     equation = "chi + int N chi ds = (E*/pi) (delta - f), chi(a) = 0, P = 2 pi int chi dt"
     parameter = "a/H"
-    source = "Abel's transform of the mixed problem; link 20"
+    source = "Abel transform of the mixed problem; step 20"
     contains = WHOLE_PLATE | {"spherical_profile", "sphere_elasticity"}
     requires = WHOLE_PLATE
     reach = Reach(plate=edge.MAX_A_OVER_B, thickness=MAX_A_OVER_H)
     solved = True
 
     def value(self, model: Model, a: float) -> float:
-        """Contact radius over thickness."""
+        """Return contact radius over thickness."""
         return a / (2.0 * model.h)
 
     def bound(self, model: Model, context: BoundContext) -> Bound:
-        """theta >= (-(15/2) c_3 + (2/25) eta^3) A^3: 5/3 of it downwards, 2/3 upwards.
+        """Return 5/3 (down) and 2/3 (up) of theta >= (-(15/2) c_3 + (2/25) eta^3) A^3.
 
-        -(5/2) c_3 is at most K_3. It is proved for a paraboloid; a sphere's pressure is
-        steeper, and theta is taken larger by its force over the paraboloid's.
+        -(5/2) c_3 is at most K_3. The bound is proved for a paraboloid; the pressure of a sphere is
+        steeper, and theta is multiplied by its force over that of the paraboloid.
         """
         a = context.radii
         cubic = (
@@ -58,5 +58,5 @@ class NonHertzianPressure(Effect):
         return Bound(low, up, radius=radius)
 
     def proved(self, law: "ContactLaw") -> bool:
-        """Of a paraboloid."""
+        """Return whether the profile is a paraboloid."""
         return not law.spherical

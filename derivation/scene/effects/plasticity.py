@@ -1,4 +1,4 @@
-"""Plasticity: a contact pressure that the softer body's yield stress limits, and a dent."""
+"""Plasticity: the lower yield stress limits the contact pressure, and a dent remains."""
 
 from typing import TYPE_CHECKING
 
@@ -14,31 +14,34 @@ _LARGEST = 1e50
 
 
 class Plasticity(Effect):
-    """Elastic up to 1.6 Y, then of limited pressure; unloading is elastic, and a dent remains."""
+    """Elastic up to a pressure of 1.6 Y, which is then constant; unloading is elastic."""
 
     name = "plasticity"
-    adds = "yielding contact"
+    adds = "plastic deformation in the contact"
     equation = "p = min(Hertz's pressure, 1.6 Y); unloading with R_p = R P_e/P"
-    parameter = "p_0/(1.6 Y)"
-    source = "Johnson 1985; Thornton 1997; link 31"
+    parameter = "p_0/(1.6 Y), p_0 Hertz's pressure, Y yield stress"
+    source = "Johnson 1985; Thornton 1997; step 31"
     hertzian = True
     plastic = True
     takes_rows = False
 
     def not_applicable_reason(self, model: Model) -> str:
-        """Without a yield stress nothing yields."""
+        """Return a reason if no yield stress is given."""
         return "" if np.isfinite(model.yield_stress) else "no yield_stress of sphere or plate"
 
     def value(self, model: Model, a: float) -> float:
-        """Hertz's pressure over the limit at a contact radius."""
+        """Return Hertz's pressure over 1.6 Y at a contact radius [m]."""
         return a / _onset(model) / (1.0 + model.softness)
 
     def bound(self, model: Model, context: BoundContext) -> Bound:
-        """On loading S is xi, on unloading c, in a half-space; an elastic plate helps."""
+        """Return the bound on a half-space, where S is xi on loading and c on unloading.
+
+        An elastic plate decreases the change.
+        """
         from generated.plasticity_kernels import hertz_modulus, unloaded, worked
 
         assert context.samples is not None
-        # The radii are Hertz's of the forces by the law's modulus, which they thus tell.
+        # The modulus of the law follows from the forces and their Hertz radii.
         last = context.radii[-1]
         modulus = hertz_modulus(context.samples.force[-1], np.array(model.R), last)
         onset = _onset(model) * (model.modulus / modulus)
@@ -59,7 +62,7 @@ class Plasticity(Effect):
 
 
 def _onset(model: Model) -> float:
-    """Hertz's radius at the onset of yield, of a rigid sphere [m]."""
+    """Return Hertz's radius at the onset of yield for a rigid sphere [m]."""
     from generated.plasticity import yield_radius
 
     return float(yield_radius(model.R, model.lam, model.mu, model.yield_stress))

@@ -1,4 +1,4 @@
-"""Elastic sphere: both bodies give way, 1/E* is the sum of both."""
+"""Elastic sphere: both bodies deform, and 1/E* is the sum for both."""
 
 import numpy as np
 
@@ -8,29 +8,29 @@ from derivation.scene.model import Model
 
 
 class SphereElasticity(Effect):
-    """Changes the half-space's term only; the plate keeps its own E*."""
+    """Elasticity of the sphere; it changes only the half-space term, not the plate terms."""
 
     name = "sphere_elasticity"
     adds = "elastic sphere"
     equation = "1/E* = (1 - nu^2)/E + (1 - nu_1^2)/E_1"
     parameter = "E*/E_1*"
-    source = "Hertz 1881; link 22"
+    source = "Hertz 1881; step 22"
     hertzian = True
 
     def not_applicable_reason(self, model: Model) -> str:
-        """A sphere without material is rigid."""
-        return "" if model.softness else "the sphere is rigid: no sphere.material"
+        """Return a reason if the sphere is rigid."""
+        return "" if model.softness else "the sphere is rigid (no sphere.material)"
 
     def softness(self, model: Model) -> float:
-        """All of it."""
+        """Return E* of the plate over that of the sphere."""
         return model.softness
 
     def value(self, model: Model, a: float) -> float:  # noqa: ARG002
-        """E* of the plate over that of the sphere."""
+        """Return E* of the plate over that of the sphere."""
         return model.softness
 
     def bound(self, model: Model, context: BoundContext) -> Bound:
-        """s^2 - 1, s^3 = 1 + E*/E_1*, and of it K A^3 in the plate either way."""
+        """Return s^2 - 1 with s^3 = 1 + E*/E_1*, plus or minus its product with K A^3."""
         a = context.radii
         log = np.log1p(model.softness) / 3.0
         growth = np.expm1(2.0 * log)

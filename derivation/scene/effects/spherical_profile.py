@@ -1,4 +1,4 @@
-"""Spherical profile: the sphere is no paraboloid where the contact is not small beside it."""
+"""Spherical profile: deviation of the sphere from a paraboloid if a/R is not small."""
 
 from typing import TYPE_CHECKING
 
@@ -12,26 +12,26 @@ if TYPE_CHECKING:
     from derivation.scene.law import ContactLaw
 
 MAX_A_OVER_R = 0.99
-"""Contact radius over sphere radius up to which the profile's slope is resolved."""
+"""Largest contact radius over sphere radius for which the slope of the profile is resolved."""
 
 
 class SphericalProfile(Effect):
-    """Sneddon's exact profile: a force takes a smaller contact and more indentation."""
+    """Sneddon's law for a sphere: smaller contact radius and larger indentation at equal force."""
 
     name = "spherical_profile"
-    adds = "a sphere, not a paraboloid"
+    adds = "spherical profile instead of a paraboloid"
     equation = "delta = (a/2) log((R+a)/(R-a)), dP = 2 E* a d delta"
     parameter = "a/R"
-    source = "Sneddon 1965; link 21"
+    source = "Sneddon 1965; step 21"
     reach = Reach(sphere=MAX_A_OVER_R)
     spherical = True
 
     def value(self, model: Model, a: float) -> float:
-        """Contact radius over sphere radius."""
+        """Return contact radius over sphere radius."""
         return a / model.R
 
     def bound(self, model: Model, context: BoundContext) -> Bound:
-        """S - 1 = a_Hertz/a - 1 grows with a, and a is at most Hertz's."""
+        """Return S - 1 = a_Hertz/a - 1, which increases with a, evaluated at Hertz's radius."""
         a = context.radii
         rho = a / model.R
         ratio = np.cbrt(kernels.sphere_contact(np.where(rho < 1, rho, np.nan)).force)
@@ -39,5 +39,5 @@ class SphericalProfile(Effect):
         return Bound(np.zeros_like(a), up, radius=np.log1p(up[..., -1:]))
 
     def bounded(self, law: "ContactLaw") -> bool:
-        """Under Hertz's pressure alone."""
+        """Return False for non-Hertzian pressure."""
         return not law.solved

@@ -1,4 +1,4 @@
-"""Viscosity: a viscoelastic contact, whose indentation lags the force and dissipates energy."""
+"""Viscosity: viscoelastic contact, in which the indentation lags the force (Kuwabara-Kono)."""
 
 from typing import TYPE_CHECKING
 
@@ -12,28 +12,28 @@ if TYPE_CHECKING:
     from derivation.scene.law import ContactLaw
 
 MARGIN = 1.05
-"""What is largest on the way is sampled, and widened by this."""
+"""Factor on the largest values along the law, which are sampled."""
 
 
 class Viscosity(Effect):
-    """Acts on the local indentation alone, never on the plate's deflection, and cannot pull."""
+    """Viscoelastic local indentation without tension; A_v is a retardation time."""
 
     name = "viscosity"
     adds = "viscoelastic contact"
     equation = "P = P_e + A_v dP_e/dt >= 0, P_e the half-space's force"
     parameter = "x_v = (3/2) A_v (K/m)^(2/5) v0^(1/5)"
-    source = "Kuwabara and Kono 1987, Brilliantov et al. 1996; link 24"
+    source = "Kuwabara and Kono 1987, Brilliantov et al. 1996; step 24"
     static = False
     hertzian = True
     viscous = True
     takes_rows = False
 
     def not_applicable_reason(self, model: Model) -> str:
-        """Bodies without a time are not viscous."""
+        """Return a reason if no retardation time is given."""
         return "" if model.retardation_time else "no retardation_time of plate or sphere"
 
     def value(self, model: Model, a: float) -> float:  # noqa: ARG002
-        """Viscous number of Hertz's contact."""
+        """Return the viscous parameter of Hertz's contact."""
         modulus = model.lam, model.mu
         number = kernels.viscous_number(
             model.R, model.m, model.v0, *modulus, model.retardation_time
@@ -41,7 +41,10 @@ class Viscosity(Effect):
         return float(number * (1.0 + model.softness) ** -0.4)
 
     def bound(self, model: Model, context: BoundContext) -> Bound:
-        """By the spiral of link 24, proved for a half-space; an elastic plate helps."""
+        """Return the bound of derivation step 24, proved for a half-space.
+
+        An elastic plate decreases the change.
+        """
         assert context.samples is not None
         force, depth, stiffness, energy, growth = context.samples
         speed = np.sqrt(2.0 * (energy / model.m))
@@ -62,5 +65,5 @@ class Viscosity(Effect):
         return Bound(none, none, results=kernels.viscous_logarithms(course))
 
     def proved(self, law: "ContactLaw") -> bool:  # noqa: ARG002
-        """Of a half-space alone."""
+        """Return False: proved only for a half-space."""
         return False

@@ -33,7 +33,7 @@ from derivation.plate.benchmark.errors import BenchmarkErrors, digits
 from derivation.plate.benchmark.interface import PAPER, REGIMES, Method, deepest
 from derivation.plate.benchmark.rows import BenchmarkRow
 from derivation.plate.report.accuracy_figures import pareto_front
-from derivation.scene import method_selection
+from derivation.scene.achieved_accuracy import METHODS
 from generated.contact_law import indentation
 
 Patch = pytest.MonkeyPatch
@@ -260,7 +260,7 @@ def test_studies_time_calls_that_agree(monkeypatch: Patch) -> None:
         assert one[1] == other[1]
         for first, second in zip(one[2][:4], other[2][:4], strict=True):
             np.testing.assert_allclose(first(), second(), rtol=1e-12)
-    found = dict(zip(method_selection.METHODS, scaling.scenes(quick=True), strict=True))
+    found = dict(zip(METHODS, scaling.scenes(quick=True), strict=True))
     results = {name: growth[2][1]() for name, growth in found.items()}
     true = results["full"].contact_time
     np.testing.assert_allclose(results["coarse"].contact_time, true, rtol=1e-8)

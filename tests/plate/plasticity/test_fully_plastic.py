@@ -2,6 +2,7 @@
 
 import itertools
 import math
+import re
 
 import numpy as np
 import pytest
@@ -84,7 +85,7 @@ def at_speed(speed: float) -> tuple[str, ...]:
 def test_impacts_far_beyond_the_onset_are_warned_of() -> None:
     assert at_speed(0.003) == ()
     (text,) = at_speed(1.0)
-    assert "restitution may be about 1.9 and the force about 1.9 times as large" in text
+    assert re.findall(r"1\.9", text) == ["1.9"] * 3
 
 
 def test_static_contacts_far_beyond_the_onset_are_warned_of() -> None:

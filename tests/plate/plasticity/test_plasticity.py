@@ -348,5 +348,5 @@ def test_parameter_is_the_pressure_over_its_limit() -> None:
 
 
 def test_code_of_a_contact_that_yields_is_refused_with_what_to_do_instead() -> None:
-    with pytest.raises(SceneError, match="largest force before; `platecontact simulate"):
+    with pytest.raises(SceneError, match=r"^effects\.plasticity: "):
         scene_code(read(drop({"inertia": False})))

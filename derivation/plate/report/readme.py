@@ -1,4 +1,4 @@
-"""The README's measured numbers: a block between two markers, from the committed measurement."""
+"""What accuracy costs, from the committed measurement: for the README's block and for the site."""
 
 from collections.abc import Iterator, Mapping
 from textwrap import wrap
@@ -15,7 +15,7 @@ DIGITS = (3, 6, 9, 12, 15)
 
 
 def renewed(text: str, data: Data) -> str:
-    """A README with its block written anew.
+    """Return a README with the block between its markers written anew.
 
     Raises
     ------
@@ -26,41 +26,41 @@ def renewed(text: str, data: Data) -> str:
     _, end, after = rest.partition(END)
     if not (begin and end) or BEGIN in after or END in before + after:
         raise ValueError(f"expected in the README, once each: {BEGIN} and {END}")
-    return "\n".join([before + BEGIN, *lines(data), END + after])
+    return "\n".join([before + BEGIN, *wrap(headline(data), 95), END + after])
 
 
 def lines(data: Data) -> Iterator[str]:
-    """The headline, the law's cheapest methods, and what an impact costs."""
+    """Yield the headline, the law's fastest methods, and the run time of an impact."""
     yield from wrap(headline(data), 95)
     yield ""
-    yield f"| digits of the law, {case(data)} | cheapest method in arrays | a point |"
+    yield f"| correct digits of the contact law, {case(data)} | fastest method for arrays | per point |"
     yield "|---|---|---|"
     yield from winners(data)
     yield ""
-    yield "| impact by method of `simulate` | one scene | of many, each | how many |"
+    yield "| method of `simulate` | one impact | each of many | number of impacts |"
     yield "|---|---|---|---|"
     yield from impacts(data)
 
 
 def case(data: Data) -> str:
-    """The regime shown: the paper's, unless a scene took its place."""
+    """Return the name of the test case shown: the paper's, unless a scene replaces it."""
     return str(data["regimes"][1]["name"])
 
 
 def headline(data: Data) -> str:
-    """The generated law over the best direct summation."""
+    """Return a comparison of the generated law with the best direct summation."""
     found = data["headline"]
     best = found["reached"][-1]
     return (
-        f"Measured on {data['machine']['processor']}: the generated law gives "
-        f"{found['digits']:.1f} digits in {time(found['called'])} a point; direct summation takes "
-        f"{best['modes']:,} modes and {time(best['seconds'])} for {best['digits']} digits, "
-        f"{best['seconds'] / found['called']:.2g} times as long."
+        f"Measured on {data['machine']['processor']}: the generated contact law has "
+        f"{found['digits']:.1f} correct digits and takes {time(found['called'])} per point. For "
+        f"{best['digits']} digits, direct summation needs {best['modes']:,} modes and "
+        f"{time(best['seconds'])}, {best['seconds'] / found['called']:.2g} times as long."
     )
 
 
 def winners(data: Data) -> Iterator[str]:
-    """Rows of the law's cheapest methods in arrays."""
+    """Yield the rows of the law's fastest methods for arrays."""
     for won in data["pareto"]:
         mine = (won["task"], won["regime"], won["kind"]) == ("law", case(data), "vector")
         if mine and won["digits"] in DIGITS:
@@ -70,7 +70,7 @@ def winners(data: Data) -> Iterator[str]:
 
 
 def impacts(data: Data) -> Iterator[str]:
-    """Rows of what scenes cost: the first and the last of each growth."""
+    """Yield the run times of impacts: of one, and of the largest number measured."""
     for growth in data["scaling"]:
         if growth["what"] == "scenes":
             sizes, seconds = growth["x"], growth["seconds"]
@@ -79,5 +79,5 @@ def impacts(data: Data) -> Iterator[str]:
 
 
 def time(seconds: float) -> str:
-    """A time to two figures, as plain text."""
+    """Return a time to two figures as plain text."""
     return duration(seconds).replace(r"\,", " ").replace(r"$\mu$s", "us")

@@ -1,0 +1,105 @@
+"""Every block of README, CONTRIBUTING and the documentation site is executed.
+
+Commands and Python print what the page says, where `...` stands for what is left out. The blocks of
+CONTRIBUTING.md that are typed into the sources are followed by `test_contributing.py`.
+"""
+
+import doctest
+import os
+import re
+import subprocess
+import sys
+import tomllib
+from doctest import ELLIPSIS, OutputChecker
+from pathlib import Path
+
+import pytest
+
+from derivation.engine.files import ROOT
+
+PAGES = [
+    ROOT / "README.md",
+    ROOT / "CONTRIBUTING.md",
+    *sorted(page for page in (ROOT / "docs").rglob("*.md") if page.parent != ROOT / "docs"),
+]
+BLOCK = re.compile(r"^```(.*)\n((?:.*\n)*?)^```", re.MULTILINE)
+NAMED = re.compile(r"# (\S+\.toml)\n")
+FAILS = "diagnose Omega_3 --formula"
+"""The command that ends with status 1: it says in which page the formulas differ."""
+COMMANDS = [page for page in PAGES if "```console" in page.read_text()]
+PYTHON = [page for page in PAGES if "\n>>> " in page.read_text()]
+
+
+def name(page: Path) -> str:
+    return f"{page.parent.name}/{page.stem}"
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """A folder in which the example scenes are found."""
+    (tmp_path / "derivation").symlink_to(ROOT / "derivation")
+    return tmp_path
+
+
+def run(command: str, folder: Path) -> tuple[int, str]:
+    """Exit status of a command, and what it prints on standard output."""
+    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
+    done = subprocess.run(
+        command, shell=True, cwd=folder, stdout=subprocess.PIPE, text=True, check=False,
+        env=os.environ | {"PATH": path, "COLUMNS": "80"},
+    )  # fmt: skip
+    return done.returncode, "".join(f"{line.rstrip()}\n" for line in done.stdout.splitlines())
+
+
+@pytest.mark.parametrize("page", COMMANDS, ids=name)
+def test_commands_print_what_the_page_says(page: Path, folder: Path) -> None:
+    for kind, text in BLOCK.findall(page.read_text()):
+        if kind == "toml" and NAMED.match(text):
+            (folder / text.partition("\n")[0].removeprefix("# ")).write_text(text)
+        if kind == "console":
+            for piece in re.split(r"^\$ ", text, flags=re.MULTILINE)[1:]:
+                command, said = _split(piece)
+                status, printed = run(command, folder)
+                assert OutputChecker().check_output(said, printed, ELLIPSIS), printed
+                assert status == ("Omega_3: different" in said), command
+
+
+def _split(piece: str) -> tuple[str, str]:
+    """Return a command, which a backslash continues on the next line, and what it prints."""
+    lines = piece.splitlines(keepends=True)
+    last = next(i for i, line in enumerate(lines) if not line.endswith("\\\n"))
+    return "".join(lines[: last + 1]), "".join(lines[last + 1 :])
+
+
+@pytest.mark.parametrize("page", PYTHON, ids=name)
+def test_python_prints_what_the_page_says(page: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PYTHONPATH", str(ROOT))  # for the workers that a page starts
+    found = doctest.testfile(str(page), module_relative=False, optionflags=ELLIPSIS)
+    assert not found.failed
+    assert found.attempted == page.read_text().count("\n>>> ")
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name)
+def test_no_block_is_left_out(page: Path) -> None:
+    """Console and Python are executed above; these are the others that a page may have."""
+    for kind, text in BLOCK.findall(page.read_text()):
+        if kind == "python" and page.name != "CONTRIBUTING.md":
+            assert text.startswith(">>> "), text
+        elif kind == "toml" and page.name != "CONTRIBUTING.md":
+            assert tomllib.loads(text), text
+            assert NAMED.match(text) or page.name == "README.md", "a scene that no command reads"
+        elif kind == "sh":
+            ci = (ROOT / ".ci" / "run").read_text()
+            assert page.parent == ROOT
+            for line in text.splitlines():
+                assert line in ci or line.split()[0] in ("apt-get", "python3"), line
+        elif kind == "text":
+            assert "$ " not in text, "a command is set as console"
+        else:
+            assert kind in ("console", "python", "toml", "{toctree}"), kind
+
+
+def test_the_scene_of_the_readme_is_the_example() -> None:
+    scene = (ROOT / "derivation" / "scene" / "examples" / "glass_pane.toml").read_text()
+    [block] = [text for kind, text in BLOCK.findall(PAGES[0].read_text()) if kind == "toml"]
+    assert tomllib.loads(block) == tomllib.loads(scene)

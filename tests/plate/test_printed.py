@@ -1,4 +1,4 @@
-"""The printed equations: typed twice the same, and what comparison with the derived ones finds."""
+"""The printed equations, and what comparison with the derived ones finds."""
 
 import json
 from collections.abc import Mapping
@@ -22,12 +22,6 @@ IDS = [f"({record.equation}) {record.name}" for record in PRINTED]
 def findings(formulas: Mapping[str, Formula]) -> dict[tuple[str, str], Finding]:
     found = misprints(formulas)
     return {(finding.printed.equation, finding.printed.name): finding for finding in found}
-
-
-@pytest.mark.parametrize("record", PRINTED, ids=IDS)
-def test_latex_and_expression_say_the_same(record: Printed) -> None:
-    names = {symbol.name: symbol for symbol, _ in record.where}
-    assert parse_latex(record.latex, PLATE, names) == record.expression
 
 
 @pytest.mark.parametrize("record", PRINTED, ids=IDS)

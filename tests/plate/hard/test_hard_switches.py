@@ -17,7 +17,7 @@ from derivation.engine.measure.case import HardCase, handed_over
 from derivation.engine.measure.kernels import Kernel
 from derivation.engine.measure.suite import Suite
 
-CLOSE = 1e-6
+CLOSE = 1e-12
 """Relative distance to the switch: of what is compared, which may be the result of a sum."""
 
 GUARD = "a guard against what is outside the domain, or what no input reaches"
@@ -28,6 +28,7 @@ ARRAY = "beyond it a plain number is computed as an array is"
 MAY_STAY: Mapping[str, tuple[int, str]] = {
     "back_face._evaluated": (1, GUARD),
     "contact_domain._repeats": (2, SIZES),
+    "contact_domain.elastic": (1, GUARD),
     "contact_domain.plates_of_lengths": (2, GUARD),
     "contact_points.pieces": (3, SIZES),
     "contact_series._beyond": (1, GUARD),

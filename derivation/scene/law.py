@@ -219,10 +219,12 @@ class ContactLaw:
 
     def centre_pressure(self, a: Array) -> Array:
         """The same where it is not solved for, at one radius [m] or a column of them."""
+        found: Array = 2.0 / np.pi * self.modulus * (a / self.model.R)
+        if not self.spherical:
+            return found
         x, weights = gauss(NODES[2])
-        mean = np.sum(weights * self._sphere(x * a).slope, axis=-1, keepdims=True)
-        found: Array = 2.0 / np.pi * self.modulus * (a / self.model.R) * mean
-        return found
+        slope = self._sphere(x * a).slope
+        return found * np.sum(weights * slope, axis=-1, keepdims=True)
 
     @property
     def pressure_limit(self) -> float:
@@ -280,6 +282,8 @@ class ContactLaw:
         """Force, indentation and slope at contact radii [m], which grow."""
         if self.solved:
             return self._solved(a)
+        if not self.spherical:
+            return self._paraboloid(a)
         sphere = self._sphere(a)
         root = np.cbrt(sphere.force)
         if not self.plate_effects:
@@ -289,6 +293,15 @@ class ContactLaw:
         depth = sphere.depth + part * root * root * share.depth
         slope = sphere.slope * (1.0 + part * share.slope / root)
         return Shape(sphere.force, depth, slope, root + part * share.slope)
+
+    def _paraboloid(self, a: Array) -> Shape:
+        """Of a paraboloid, whose force is Hertz's."""
+        one = np.ones_like(a)
+        if not self.plate_effects:
+            return Shape(one, one, one, one)
+        part, share = 1.0 / (1.0 + self.softness), self.deflection(a)
+        slope = 1.0 + part * share.slope
+        return Shape(one, 1.0 + part * share.depth, slope, slope)
 
     def _solved(self, a: Array) -> Shape:
         """By the pressure that is solved for; the edge adds its part under Hertz's pressure."""

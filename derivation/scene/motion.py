@@ -273,8 +273,9 @@ def _course(law: ContactLaw, a: Numbers, shape: Shape, known: Rule) -> tuple[Arr
     power = shape.force[..., :-1] * slope
     whole = np.sum(known.weights * known.x**4 * power, axis=-1, keepdims=True)
     share = 2.0 * law.gravity * a * (a / model.R) / model.v0 / model.v0
-    ratio = (1.0 + share * sunk) * (power @ known.work.T / whole)
-    ratio = ratio - 2.0 * share * (slope @ known.path.T)
+    ratio = power @ known.work.T / whole
+    if np.any(share):
+        ratio = (1.0 + share * sunk) * ratio - 2.0 * share * (slope @ known.path.T)
     q, root = 1.0 - known.u * known.u, np.sqrt(ratio)
     return q * (slope @ known.at_times.T) / root, root
 

@@ -79,14 +79,15 @@ def state_of(law: ContactLaw, top: float = TOP) -> LargestContact:
         # Once more without the end, where a sphere's slope may be steep: of the polynomial.
         inner = Shape(*(x[..., :-1] for x in shape))
         elasticity = nodes.x * (inner.additive @ nodes.derivative.T) / inner.additive
-        equal = _begun(0.0, radii * np.cbrt(shape.force))
-        samples = _samples(law, radii, shape)
+        own = law.spherical or law.solved  # else the contact radius is Hertz's
+        equal = _begun(0.0, radii * np.cbrt(shape.force) if own else radii)
     fall, rise = np.maximum(0.0, -_least(elasticity)), np.maximum(0.0, _most(elasticity))
-    # P goes with the cube of Hertz's radius, and dP = 2 E* a_H d delta/S.
-    swelling = inner.slope / (inner.additive * np.cbrt(inner.force) ** 2)
-    growth = 1.0 + MARGIN * np.maximum(0.0, _most(1.0 / swelling) - 1.0)
+    growth = np.ones_like(rise)
+    if own:  # P goes with the cube of Hertz's radius, and dP = 2 E* a_H d delta/S.
+        swelling = inner.slope / (inner.additive * np.cbrt(inner.force) ** 2)
+        growth = 1.0 + MARGIN * np.maximum(0.0, _most(1.0 / swelling) - 1.0)
     depth = a * (a / law.model.R) * shape.depth[..., -1:]
-    context = BoundContext(equal, _number(depth), samples)
+    context = BoundContext(equal, _number(depth), lambda: _samples(law, radii, shape))
     slope = _begun(1.0, shape.additive)
     return LargestContact(law, _number(a), context, slope, MARGIN * fall, MARGIN * rise, growth)
 
@@ -115,17 +116,18 @@ def _least(values: Array) -> Array:
 def _samples(law: ContactLaw, radii: Array, shape: Shape) -> LawSamples:
     """Force, indentation, stiffness and energy at the nodes and the largest radius."""
     nodes, top = rule(NODES[0]), radii[..., -1:]
-    power = (shape.force * shape.slope)[..., :-1]
-    whole = np.sum(nodes.weights * nodes.x**4 * power, axis=-1, keepdims=True)
-    share = np.concatenate((power @ stored(NODES[0]).T, whole), axis=-1)
-    unit = law.force(top, Shape(*np.ones(4))) * law.indentation(top, Shape(*np.ones(4)))
-    return LawSamples(
-        law.force(radii, shape),
-        law.indentation(radii, shape),
-        law.stiffness(radii, shape),
-        2.0 * unit * share,
-        2.0 * shape.slope / shape.depth,
-    )
+    with np.errstate(all="ignore"):
+        power = (shape.force * shape.slope)[..., :-1]
+        whole = np.sum(nodes.weights * nodes.x**4 * power, axis=-1, keepdims=True)
+        share = np.concatenate((power @ stored(NODES[0]).T, whole), axis=-1)
+        unit = law.force(top, Shape(*np.ones(4))) * law.indentation(top, Shape(*np.ones(4)))
+        return LawSamples(
+            law.force(radii, shape),
+            law.indentation(radii, shape),
+            law.stiffness(radii, shape),
+            2.0 * unit * share,
+            2.0 * shape.slope / shape.depth,
+        )
 
 
 def bound_of(state: LargestContact, effect: Effect, stretch: Numbers | None = None) -> Bound:
@@ -133,11 +135,11 @@ def bound_of(state: LargestContact, effect: Effect, stretch: Numbers | None = No
     key = effect.name, stretch is not None
     if key not in state.bounds:
         with np.errstate(all="ignore"):
-            state.bounds[key] = _bound(state, effect, 1.0 if stretch is None else stretch)
+            state.bounds[key] = _bound(state, effect, stretch)
     return state.bounds[key]
 
 
-def _bound(state: LargestContact, effect: Effect, stretch: Numbers) -> Bound:
+def _bound(state: LargestContact, effect: Effect, stretch: Numbers | None) -> Bound:
     """The same, computed. That of damping, which acts over the whole contact, is taken on a
     quasi-static plate.
     """
@@ -220,9 +222,9 @@ def _worst(state: LargestContact, bound: Bound, outputs: Sequence[str]) -> Array
     """The worst of the outputs' errors by link 18, and by what changes results besides."""
     low, up, energy, radius, results = bound
     with np.errstate(all="ignore"):  # no bound, as good as
-        known = np.isfinite(low).all(axis=-1, keepdims=True)
-        known &= np.isfinite(up).all(axis=-1, keepdims=True) & (_least(state.slope) > 0.0)
-        below, above = (_most(np.where(known, x / state.slope, 0.0)) for x in (low, up))
+        below, above = _most(low / state.slope), _most(up / state.slope)
+        known = np.isfinite(below) & np.isfinite(above) & (_least(state.slope) > 0.0)
+        below, above = np.where(known, below, 0.0), np.where(known, above, 0.0)
         if np.any(energy):
             # The weight works along the whole law's indentation, not along this one's.
             free = law_errors(below, above, state.fall, state.rise)[1]

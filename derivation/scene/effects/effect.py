@@ -10,8 +10,9 @@ modulus E* of the law, a^3 = 3 P R/(4 E*),
 """
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 import numpy as np
@@ -19,6 +20,7 @@ from numpy.typing import NDArray
 
 from derivation.scene import kernels
 from derivation.scene.model import Model
+from derivation.scene.simple_laws import plates_of
 
 if TYPE_CHECKING:
     from derivation.scene.law import ContactLaw
@@ -61,22 +63,43 @@ class BoundContext:
         Hertz's radii of the force [m], from 0 on, growing.
     depth
         Largest indentation [m], of an impact.
-    samples
-        Samples of the law of the included effects, of an impact.
+    sampled
+        Samples the law of the included effects, of an impact: only some bounds need that.
     """
 
     radii: Array
     depth: Numbers = 0.0
-    samples: LawSamples | None = None
+    sampled: Callable[[], LawSamples] | None = None
+
+    @cached_property
+    def samples(self) -> LawSamples:
+        """Samples of the law of the included effects."""
+        assert self.sampled is not None
+        return self.sampled()
 
     def row(self, index: int) -> "BoundContext":
         """That of one of many scenes."""
-        samples = self.samples and LawSamples(*(x[index] for x in self.samples))
-        return BoundContext(self.radii[index], np.asarray(self.depth)[index].item(), samples)
+        depth = np.asarray(self.depth)[index].item()
+        if self.sampled is None:
+            return BoundContext(self.radii[index], depth)
+        samples = LawSamples(*(x[index] for x in self.samples))
+        return BoundContext(self.radii[index], depth, lambda: samples)
 
-    def stretched(self, factor: Numbers) -> "BoundContext":
+    def stretched(self, factor: Numbers | None) -> "BoundContext":
         """The same with all radii larger."""
-        return replace(self, radii=self.radii * factor)
+        return self if factor is None else replace(self, radii=self.radii * factor)
+
+    def sphere_force(self, R: Numbers) -> Array:
+        """Force of a sphere over that of a paraboloid at the radii; NaN from the sphere's on."""
+        if not self._forces:
+            rho = self.radii / R
+            self._forces.append(kernels.sphere_contact(np.where(rho < 1, rho, np.nan)).force)
+        return self._forces[0]
+
+    @cached_property
+    def _forces(self) -> list[Array]:
+        """What `sphere_force` returns, once it is known."""
+        return []
 
 
 Results = tuple[float, float, float, float, float]
@@ -271,19 +294,15 @@ class PlateEffect(Effect):
 
 def plate_of(model: Model) -> kernels.Plate:
     """c_1, its error bound and K_3 of the plate; infinite where h/b is out of their range."""
-    if not isinstance(model.eta, np.ndarray):
-        return _plate_of(model.eta)
-    eta, rows = np.unique(model.eta, return_inverse=True)
-    found = np.array([_plate_of(x) for x in eta.tolist()])[rows.reshape(model.eta.shape)]
-    return kernels.Plate(found[..., 0], found[..., 1], found[..., 2])
-
-
-@lru_cache(maxsize=8192)
-def _plate_of(eta: float) -> kernels.Plate:
     low, high = PLATES
-    if not low < eta < high:
-        return kernels.Plate(np.inf, np.inf, np.inf)
-    return kernels.plate_of(eta)
+    if isinstance(model.eta, np.ndarray):
+        inside = (low < model.eta) & (model.eta < high)
+        found = plates_of(np.where(inside, model.eta, 1.0))
+        return kernels.Plate(*(np.where(inside, x, np.inf) for x in found))
+    return _plate_of(model.eta) if low < model.eta < high else kernels.Plate(*3 * (np.inf,))
+
+
+_plate_of = lru_cache(maxsize=8)(kernels.plate_of)
 
 
 def none_of(a: Array) -> Array:

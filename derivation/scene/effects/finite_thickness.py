@@ -40,9 +40,9 @@ class FiniteThickness(PlateEffect):
         plate, A, alpha = plate_of(model), a / model.h, a / model.b
         linear = 1.5 * plate.bend * A - kernels.bending(A, model.eta).slope
         wrong = 1.5 * plate.bend_error * A
-        wall = kernels.WALL_LINEAR * alpha + kernels.WALL_CUBIC * alpha**3
+        wall = alpha * (kernels.WALL_LINEAR + kernels.WALL_CUBIC * (alpha * alpha))
         up = np.maximum(linear + wrong + wall, 0.0)
-        low = np.maximum(plate.rest * A**3 + wrong - linear, 0.0)
+        low = np.maximum(plate.rest * (A * A * A) + wrong - linear, 0.0)
         # Of either sign in between: no less than at any smaller radius.
         return Bound(np.maximum.accumulate(low, axis=-1), np.maximum.accumulate(up, axis=-1))
 

@@ -48,9 +48,9 @@ class NonHertzianPressure(Effect):
         cubic = (
             3.0 * plate_of(model).rest + kernels.PRESSURE_WALL * model.eta * model.eta * model.eta
         )
-        rho = a / model.R
-        steeper = kernels.sphere_contact(np.where(rho < 1, rho, np.nan)).force
-        theta = np.where(rho < 1, cubic * (a / model.h) ** 3 * steeper, np.inf)
+        A = a / model.h
+        theta = cubic * (A * A * A) * context.sphere_force(model.R)
+        theta = np.where(np.isnan(theta), np.inf, theta)
         known = (theta <= BOUND_THETA) & (a <= BOUND_A_OVER_B * model.b)
         low, up = (np.where(known, c * theta, np.inf) for c in (5.0 / 3.0, 2.0 / 3.0))
         last = np.where(known, theta, np.nan)[..., -1:]

@@ -37,7 +37,6 @@ class Plasticity(Effect):
         """On loading S is xi, on unloading c, in a half-space; an elastic plate helps."""
         from generated.plasticity_kernels import hertz_modulus, unloaded, worked
 
-        assert context.samples is not None
         # The radii are Hertz's of the forces by the law's modulus, which they thus tell.
         last = context.radii[-1]
         modulus = hertz_modulus(context.samples.force[-1], np.array(model.R), last)

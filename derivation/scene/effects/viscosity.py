@@ -42,7 +42,6 @@ class Viscosity(Effect):
 
     def bound(self, model: Model, context: BoundContext) -> Bound:
         """By the spiral of link 24, proved for a half-space; an elastic plate helps."""
-        assert context.samples is not None
         force, depth, stiffness, energy, growth = context.samples
         speed = np.sqrt(2.0 * (energy / model.m))
         epsilon = model.retardation_time * float(np.max(stiffness / force * speed))

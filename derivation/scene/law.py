@@ -360,14 +360,23 @@ class ContactLaw:
 
     def deflection(self, a: Array) -> Contribution:
         """The plate's parts of F and S at Hertz's radii [m], of a rigid sphere."""
-        if self.effects >= WHOLE_PLATE:
-            found, others = [plate_contribution(self.model, a)], self._beyond_whole_plate
-        else:
-            found, others = [], self.plate_effects
+        others = self.plate_effects
+        found = []
+        if any(effect.difference for effect in others):
+            found, others = [self._plate(a)], self._beyond_whole_plate
         found += [effect.contribution(self.model, a) for effect in others]
         depth, slope = found[0]
         for other in found[1:]:
             depth, slope = depth + other.depth, slope + other.slope
+        return Contribution(depth, slope)
+
+    def _plate(self, a: Array) -> Contribution:
+        """The whole plate on the paper's edge, less its parts that are not in the law."""
+        depth, slope = plate_contribution(self.model, a)
+        for effect in (BY_NAME[name] for name in sorted(WHOLE_PLATE - self.effects)):
+            assert isinstance(effect, PlateEffect)
+            part = effect.contribution(self.model, a)
+            depth, slope = depth - part.depth, slope - part.slope
         return Contribution(depth, slope)
 
     @property

@@ -19,7 +19,7 @@ from numpy.polynomial.legendre import leggauss, legint, legval, legvander
 from derivation.scene.effects.effect import Array, Numbers
 from derivation.scene.law import ContactLaw, Shape
 from derivation.scene.limits import check_numbers, refuse
-from derivation.scene.quadrature import MORE_TIMES, NODES, Rule, rule
+from derivation.scene.quadrature import MORE_TIMES, NODES, Rule, mapped, rule
 from derivation.scene.scene import SceneError
 
 COURSE = (32, *MORE_TIMES)
@@ -273,11 +273,11 @@ def _course(law: ContactLaw, a: Numbers, shape: Shape, known: Rule) -> tuple[Arr
     power = shape.force[..., :-1] * slope
     whole = np.sum(known.weights * known.x**4 * power, axis=-1, keepdims=True)
     share = 2.0 * law.gravity * a * (a / model.R) / model.v0 / model.v0
-    ratio = power @ known.work.T / whole
+    ratio = mapped(known.work, power) / whole
     if np.any(share):
-        ratio = (1.0 + share * sunk) * ratio - 2.0 * share * (slope @ known.path.T)
+        ratio = (1.0 + share * sunk) * ratio - 2.0 * share * mapped(known.path, slope)
     q, root = 1.0 - known.u * known.u, np.sqrt(ratio)
-    return q * (slope @ known.at_times.T) / root, root
+    return q * mapped(known.at_times, slope) / root, root
 
 
 def _history(law: ContactLaw, motion: Motion, times: Array) -> tuple[Array, Array, Array, Array]:

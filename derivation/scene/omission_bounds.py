@@ -27,7 +27,7 @@ from derivation.scene.effects.inertia import WIDER
 from derivation.scene.law import ContactLaw, Shape
 from derivation.scene.law_errors import law_errors
 from derivation.scene.motion import largest_radii
-from derivation.scene.quadrature import NODES, rule, stored
+from derivation.scene.quadrature import NODES, mapped, rule, stored
 from derivation.scene.scene import OUTPUTS, SceneError
 
 TOP = 1.02
@@ -78,7 +78,7 @@ def state_of(law: ContactLaw, top: float = TOP) -> LargestContact:
         shape = law.at(radii)
         # Once more without the end, where a sphere's slope may be steep: of the polynomial.
         inner = Shape(*(x[..., :-1] for x in shape))
-        elasticity = nodes.x * (inner.additive @ nodes.derivative.T) / inner.additive
+        elasticity = nodes.x * mapped(nodes.derivative, inner.additive) / inner.additive
         own = law.spherical or law.solved  # else the contact radius is Hertz's
         equal = _begun(0.0, radii * np.cbrt(shape.force) if own else radii)
     fall, rise = np.maximum(0.0, -_least(elasticity)), np.maximum(0.0, _most(elasticity))
@@ -119,7 +119,7 @@ def _samples(law: ContactLaw, radii: Array, shape: Shape) -> LawSamples:
     with np.errstate(all="ignore"):
         power = (shape.force * shape.slope)[..., :-1]
         whole = np.sum(nodes.weights * nodes.x**4 * power, axis=-1, keepdims=True)
-        share = np.concatenate((power @ stored(NODES[0]).T, whole), axis=-1)
+        share = np.concatenate((mapped(stored(NODES[0]), power), whole), axis=-1)
         unit = law.force(top, Shape(*np.ones(4))) * law.indentation(top, Shape(*np.ones(4)))
         return LawSamples(
             law.force(radii, shape),

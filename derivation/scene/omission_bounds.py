@@ -34,6 +34,8 @@ TOP = 1.02
 """Bounds are taken up to this times the largest radius."""
 NEAR = 1e-6
 """How near the largest radius has to be known for that."""
+FEW = 3
+"""Nodes of laws whose S is 1, where every bound is largest at the largest radius."""
 MARGIN = 1.05
 """Elasticities of S are sampled at nodes and widened by this."""
 
@@ -66,10 +68,12 @@ def state_of(law: ContactLaw, top: float = TOP) -> LargestContact:
     if law.dynamic:
         stiff = law.only(lambda e: not (isinstance(e, PlateEffect) or e.dynamic))
         return replace(state_of(stiff, WIDER), law=law, bounds={})
-    nodes = rule(NODES[0])
+    constant = not (law.plate_effects or law.spherical or law.solved)
+    count = FEW if constant else NODES[0]
+    nodes = rule(count)
     with np.errstate(all="ignore"):
         try:
-            a = largest_radii(law, close=NEAR)
+            a = largest_radii(law, count, close=NEAR)
         except SceneError:  # with more effects there may be an impact
             a = np.array([np.nan])
         # Beyond the law's range there may be an impact with more effects.
@@ -87,7 +91,7 @@ def state_of(law: ContactLaw, top: float = TOP) -> LargestContact:
         swelling = inner.slope / (inner.additive * np.cbrt(inner.force) ** 2)
         growth = 1.0 + MARGIN * np.maximum(0.0, _most(1.0 / swelling) - 1.0)
     depth = a * (a / law.model.R) * shape.depth[..., -1:]
-    context = BoundContext(equal, _number(depth), lambda: _samples(law, radii, shape))
+    context = BoundContext(equal, _number(depth), lambda: _samples(law, upper))
     slope = _begun(1.0, shape.additive)
     return LargestContact(law, _number(a), context, slope, MARGIN * fall, MARGIN * rise, growth)
 
@@ -113,10 +117,12 @@ def _least(values: Array) -> Array:
     return np.asarray(np.min(values, axis=-1, keepdims=True))
 
 
-def _samples(law: ContactLaw, radii: Array, shape: Shape) -> LawSamples:
+def _samples(law: ContactLaw, top: Array) -> LawSamples:
     """Force, indentation, stiffness and energy at the nodes and the largest radius."""
-    nodes, top = rule(NODES[0]), radii[..., -1:]
+    nodes = rule(NODES[0])
     with np.errstate(all="ignore"):
+        radii = np.append(nodes.x, 1.0) * top
+        shape = law.at(radii)
         power = (shape.force * shape.slope)[..., :-1]
         whole = np.sum(nodes.weights * nodes.x**4 * power, axis=-1, keepdims=True)
         share = np.concatenate((mapped(stored(NODES[0]), power), whole), axis=-1)

@@ -75,7 +75,7 @@ def selected(
         except SceneError:
             continue
         if any(effect.name in WHOLE_PLATE for effect in given.present):
-            _ = part.plates  # known then to all parts of it
+            _ = part.plates, part.correction  # known then to all parts of it
         waiting = {given.included: [np.arange(len(rows))]}
         while waiting:
             included, parts = waiting.popitem()

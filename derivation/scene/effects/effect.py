@@ -12,7 +12,7 @@ modulus E* of the law, a^3 = 3 P R/(4 E*),
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 import numpy as np
@@ -20,13 +20,10 @@ from numpy.typing import NDArray
 
 from derivation.scene import kernels
 from derivation.scene.model import Model
-from derivation.scene.simple_laws import plates_of
 
 if TYPE_CHECKING:
     from derivation.scene.law import ContactLaw
 
-PLATES = 1e-50, 1e50
-"""h/b for which bounds are known."""
 NO_BOUND = 10.0
 """A bound from here on is so far above what it bounds that it is shown as no bound."""
 Array = NDArray[np.float64]
@@ -290,19 +287,6 @@ class PlateEffect(Effect):
     def contribution(self, model: Model, a: Array) -> Contribution:
         """Return its part of F and S at Hertz's radii [m], of a rigid sphere."""
         raise NotImplementedError
-
-
-def plate_of(model: Model) -> kernels.Plate:
-    """c_1, its error bound and K_3 of the plate; infinite where h/b is out of their range."""
-    low, high = PLATES
-    if isinstance(model.eta, np.ndarray):
-        inside = (low < model.eta) & (model.eta < high)
-        found = plates_of(np.where(inside, model.eta, 1.0))
-        return kernels.Plate(*(np.where(inside, x, np.inf) for x in found))
-    return _plate_of(model.eta) if low < model.eta < high else kernels.Plate(*3 * (np.inf,))
-
-
-_plate_of = lru_cache(maxsize=8)(kernels.plate_of)
 
 
 def none_of(a: Array) -> Array:

@@ -10,7 +10,6 @@ from derivation.scene.effects.effect import (
     BoundContext,
     Contribution,
     PlateEffect,
-    plate_of,
 )
 from derivation.scene.effects.finite_radius import FiniteRadius
 from derivation.scene.model import Model
@@ -31,13 +30,13 @@ class FiniteThickness(PlateEffect):
 
     def value(self, model: Model, a: float) -> float:
         """Its leading share of the indentation over Hertz's."""
-        linear = plate_of(model).bend * a / model.h
+        linear = model.correction.bend * a / model.h
         return float(linear - kernels.bending(a / model.h, model.eta).depth)
 
     def bound(self, model: Model, context: BoundContext) -> Bound:
         """3/2 c_1 A - K_3 A^3 <= S - 1 <= 3/2 c_1 A, less bending and the side wall."""
         a = context.radii
-        plate, A, alpha = plate_of(model), a / model.h, a / model.b
+        plate, A, alpha = model.correction, a / model.h, a / model.b
         linear = 1.5 * plate.bend * A - kernels.bending(A, model.eta).slope
         wrong = 1.5 * plate.bend_error * A
         wall = alpha * (kernels.WALL_LINEAR + kernels.WALL_CUBIC * (alpha * alpha))

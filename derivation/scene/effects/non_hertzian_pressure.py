@@ -6,7 +6,7 @@ import numpy as np
 
 from derivation.scene import kernels
 from derivation.scene.effects import edge
-from derivation.scene.effects.effect import Bound, BoundContext, Effect, Reach, plate_of
+from derivation.scene.effects.effect import Bound, BoundContext, Effect, Reach
 from derivation.scene.effects.finite_thickness import WHOLE_PLATE
 from derivation.scene.model import Model
 
@@ -46,7 +46,7 @@ class NonHertzianPressure(Effect):
         """
         a = context.radii
         cubic = (
-            3.0 * plate_of(model).rest + kernels.PRESSURE_WALL * model.eta * model.eta * model.eta
+            3.0 * model.correction.rest + kernels.PRESSURE_WALL * model.eta * model.eta * model.eta
         )
         A = a / model.h
         theta = cubic * (A * A * A) * context.sphere_force(model.R)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from derivation.scene import kernels
-from derivation.scene.effects.effect import Bound, BoundContext, Effect, plate_of
+from derivation.scene.effects.effect import Bound, BoundContext, Effect
 from derivation.scene.model import Model
 
 
@@ -34,7 +34,7 @@ class SphereElasticity(Effect):
         a = context.radii
         log = np.log1p(model.softness) / 3.0
         growth = np.expm1(2.0 * log)
-        plate, A, alpha = plate_of(model), a / model.h, a / model.b
+        plate, A, alpha = model.correction, a / model.h, a / model.b
         cubic = plate.rest * (A * A * A) + kernels.WALL_GROWTH * (alpha * alpha * alpha)
         sound = np.exp(log) * alpha < 1.0
         up = np.where(sound, growth * (1.0 + cubic), np.inf)

@@ -220,10 +220,12 @@ class ContactLaw:
 
     def centre_pressure(self, a: Array) -> Array:
         """Do the same without non-Hertzian pressure, at one radius [m] or a column of radii."""
+        found: Array = 2.0 / np.pi * self.modulus * (a / self.model.R)
+        if not self.spherical:
+            return found
         x, weights = gauss(NODES[2])
-        mean = np.sum(weights * self._sphere(x * a).slope, axis=-1, keepdims=True)
-        found: Array = 2.0 / np.pi * self.modulus * (a / self.model.R) * mean
-        return found
+        slope = self._sphere(x * a).slope
+        return found * np.sum(weights * slope, axis=-1, keepdims=True)
 
     @property
     def pressure_limit(self) -> float:
@@ -290,6 +292,8 @@ class ContactLaw:
         """Return force, indentation and slope at increasing contact radii [m]."""
         if self.solved:
             return self._solved(a)
+        if not self.spherical:
+            return self._paraboloid(a)
         sphere = self._sphere(a)
         root = np.cbrt(sphere.force)
         if not self.plate_effects:
@@ -299,6 +303,15 @@ class ContactLaw:
         depth = sphere.depth + part * root * root * plate.depth
         slope = sphere.slope * (1.0 + part * plate.slope / root)
         return Shape(sphere.force, depth, slope, root + part * plate.slope)
+
+    def _paraboloid(self, a: Array) -> Shape:
+        """Return the shape of a contact with a paraboloid, whose force is Hertz's."""
+        one = np.ones_like(a)
+        if not self.plate_effects:
+            return Shape(one, one, one, one)
+        part, share = 1.0 / (1.0 + self.softness), self.deflection(a)
+        slope = 1.0 + part * share.slope
+        return Shape(one, 1.0 + part * share.depth, slope, slope)
 
     def _solved(self, a: Array) -> Shape:
         """Do the same with non-Hertzian pressure; the edge contributes as under Hertz's."""
@@ -360,14 +373,23 @@ class ContactLaw:
 
     def deflection(self, a: Array) -> Contribution:
         """Return the contributions of the plate to F and S at Hertz's radii [m] (rigid sphere)."""
-        if self.effects >= WHOLE_PLATE:
-            found, others = [plate_contribution(self.model, a)], self._beyond_whole_plate
-        else:
-            found, others = [], self.plate_effects
+        others = self.plate_effects
+        found = []
+        if any(effect.difference for effect in others):
+            found, others = [self._plate(a)], self._beyond_whole_plate
         found += [effect.contribution(self.model, a) for effect in others]
         depth, slope = found[0]
         for other in found[1:]:
             depth, slope = depth + other.depth, slope + other.slope
+        return Contribution(depth, slope)
+
+    def _plate(self, a: Array) -> Contribution:
+        """Return the contribution of the whole plate minus that of its omitted effects."""
+        depth, slope = plate_contribution(self.model, a)
+        for effect in (BY_NAME[name] for name in sorted(WHOLE_PLATE - self.effects)):
+            assert isinstance(effect, PlateEffect)
+            part = effect.contribution(self.model, a)
+            depth, slope = depth - part.depth, slope - part.slope
         return Contribution(depth, slope)
 
     @property

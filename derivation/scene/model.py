@@ -2,7 +2,7 @@
 
 import math
 from dataclasses import dataclass, fields, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
@@ -12,7 +12,10 @@ from derivation.scene.bodies import Sphere
 from derivation.scene.body_materials import Body, body_of, first_given, own_materials
 from derivation.scene.materials import plane_strain_modulus
 from derivation.scene.scene import Scene, SceneError
+from derivation.scene.simple_laws import plates_of
 
+PLATES = 1e-50, 1e50
+"""h/b for which bounds are known."""
 NUMBERS = ("R", "m", "v0", "h", "b", "lam", "mu")
 HERTZ_TIME, TIME_BY_ZENER = 3.3, 5.0
 """Contact time over (m^2/(K^2 v0))^(1/5), which is 2.94 by Hertz's law and more on a plate, and its
@@ -102,6 +105,17 @@ class Model:
         """Polynomials of the contact law for the plate, or for all plates."""
         return kernels.contact_plates(self.h, self.b)
 
+    @cached_property
+    def correction(self) -> kernels.Plate:
+        """c_1, its error bound and K_3 of the plate; infinite where h/b is out of their range."""
+        low, high = PLATES
+        if not isinstance(self.eta, np.ndarray):
+            inside = low < self.eta < high
+            return _plate_of(self.eta) if inside else kernels.Plate(*3 * (math.inf,))
+        within = (low < self.eta) & (self.eta < high)
+        found = plates_of(np.where(within, self.eta, 1.0))
+        return kernels.Plate(*(np.where(within, x, np.inf) for x in found))
+
     def take(self, index: Any) -> "Model":
         """Return some of many scenes by their indices; an int gives a single scene."""
         columns = {
@@ -114,6 +128,10 @@ class Model:
             many = self.plates.eta.size > 1
             known = kernels.plates_at(self.plates, index) if many else self.plates
             vars(found)["plates"] = known
+        if "correction" in vars(self) and not isinstance(index, int):
+            many = isinstance(self.eta, np.ndarray)
+            rows = (x[index] for x in self.correction) if many else self.correction
+            vars(found)["correction"] = kernels.Plate(*rows)
         return found
 
     @property
@@ -200,6 +218,9 @@ def model_of(scene: Scene) -> Model:
             f"got {scene.plate.poissons_ratio!r}; give plate.lame_lambda and plate.lame_mu instead"
         )
     return model
+
+
+_plate_of = lru_cache(maxsize=8)(kernels.plate_of)
 
 
 def numbers_of(scene: Scene) -> Model:

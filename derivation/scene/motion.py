@@ -19,7 +19,7 @@ from numpy.polynomial.legendre import leggauss, legint, legval, legvander
 from derivation.scene.effects.effect import Array, Numbers
 from derivation.scene.law import ContactLaw, Shape
 from derivation.scene.limits import check_numbers, refuse
-from derivation.scene.quadrature import MORE_TIMES, NODES, Rule, rule
+from derivation.scene.quadrature import MORE_TIMES, NODES, Rule, mapped, rule
 from derivation.scene.scene import SceneError
 
 HISTORY_NODES = (32, *MORE_TIMES)
@@ -276,10 +276,11 @@ def _rates(law: ContactLaw, a: Numbers, shape: Shape, known: Rule) -> tuple[Arra
     power = shape.force[..., :-1] * slope
     whole = np.sum(known.weights * known.x**4 * power, axis=-1, keepdims=True)
     weight = 2.0 * law.gravity * a * (a / model.R) / model.v0 / model.v0
-    ratio = (1.0 + weight * sunk) * (power @ known.work.T / whole)
-    ratio = ratio - 2.0 * weight * (slope @ known.path.T)
+    ratio = mapped(known.work, power) / whole
+    if np.any(weight):
+        ratio = (1.0 + weight * sunk) * ratio - 2.0 * weight * mapped(known.path, slope)
     q, root = 1.0 - known.u * known.u, np.sqrt(ratio)
-    return q * (slope @ known.at_times.T) / root, root
+    return q * mapped(known.at_times, slope) / root, root
 
 
 def _history(law: ContactLaw, motion: Motion, times: Array) -> tuple[Array, Array, Array, Array]:

@@ -27,13 +27,15 @@ from derivation.scene.effects.inertia import WIDER
 from derivation.scene.law import ContactLaw, Shape
 from derivation.scene.law_errors import law_errors
 from derivation.scene.motion import largest_radii
-from derivation.scene.quadrature import NODES, rule, stored
+from derivation.scene.quadrature import NODES, mapped, rule, stored
 from derivation.scene.scene import OUTPUTS, SceneError
 
 TOP = 1.02
 """Bounds cover radii up to this times the largest radius."""
 NEAR = 1e-6
 """Relative accuracy of the largest radius that suffices for this."""
+FEW = 3
+"""Number of nodes for laws with S = 1, whose bounds are largest at the largest radius."""
 MARGIN = 1.05
 """Factor on elasticities of S, which are sampled at nodes."""
 
@@ -78,10 +80,12 @@ def state_of(law: ContactLaw, top: float = TOP) -> LargestContact:
     if law.dynamic:
         stiff = law.only(lambda e: not (isinstance(e, PlateEffect) or e.dynamic))
         return replace(state_of(stiff, WIDER), law=law, bounds={})
-    nodes = rule(NODES[0])
+    constant = not (law.plate_effects or law.spherical or law.solved)
+    count = FEW if constant else NODES[0]
+    nodes = rule(count)
     with np.errstate(all="ignore"):
         try:
-            a = largest_radii(law, close=NEAR)
+            a = largest_radii(law, count, close=NEAR)
         except SceneError:  # with more effects the impact may be within the range
             a = np.array([np.nan])
         # With more effects the impact may be within the range.
@@ -90,15 +94,16 @@ def state_of(law: ContactLaw, top: float = TOP) -> LargestContact:
         shape = law.at(radii)
         # Without the end, where the slope of a sphere may be steep, for the polynomial.
         inner = Shape(*(x[..., :-1] for x in shape))
-        elasticity = nodes.x * (inner.additive @ nodes.derivative.T) / inner.additive
-        equal = _begun(0.0, radii * np.cbrt(shape.force))
-        samples = _samples(law, radii, shape)
+        elasticity = nodes.x * mapped(nodes.derivative, inner.additive) / inner.additive
+        own = law.spherical or law.solved  # else the contact radius is Hertz's
+        equal = _begun(0.0, radii * np.cbrt(shape.force) if own else radii)
     fall, rise = np.maximum(0.0, -_least(elasticity)), np.maximum(0.0, _most(elasticity))
-    # P goes with the cube of Hertz's radius, and dP = 2 E* a_H d delta/S.
-    swelling = inner.slope / (inner.additive * np.cbrt(inner.force) ** 2)
-    growth = 1.0 + MARGIN * np.maximum(0.0, _most(1.0 / swelling) - 1.0)
+    growth = np.ones_like(rise)
+    if own:  # P goes with the cube of Hertz's radius, and dP = 2 E* a_H d delta/S.
+        swelling = inner.slope / (inner.additive * np.cbrt(inner.force) ** 2)
+        growth = 1.0 + MARGIN * np.maximum(0.0, _most(1.0 / swelling) - 1.0)
     depth = a * (a / law.model.R) * shape.depth[..., -1:]
-    context = BoundContext(equal, _number(depth), samples)
+    context = BoundContext(equal, _number(depth), lambda: _samples(law, upper))
     slope = _begun(1.0, shape.additive)
     return LargestContact(law, _number(a), context, slope, MARGIN * fall, MARGIN * rise, growth)
 
@@ -124,20 +129,23 @@ def _least(values: Array) -> Array:
     return np.asarray(np.min(values, axis=-1, keepdims=True))
 
 
-def _samples(law: ContactLaw, radii: Array, shape: Shape) -> LawSamples:
+def _samples(law: ContactLaw, top: Array) -> LawSamples:
     """Return force, indentation, stiffness and energy at the nodes and the largest radius."""
-    nodes, top = rule(NODES[0]), radii[..., -1:]
-    power = (shape.force * shape.slope)[..., :-1]
-    whole = np.sum(nodes.weights * nodes.x**4 * power, axis=-1, keepdims=True)
-    energy = np.concatenate((power @ stored(NODES[0]).T, whole), axis=-1)
-    unit = law.force(top, Shape(*np.ones(4))) * law.indentation(top, Shape(*np.ones(4)))
-    return LawSamples(
-        law.force(radii, shape),
-        law.indentation(radii, shape),
-        law.stiffness(radii, shape),
-        2.0 * unit * energy,
-        2.0 * shape.slope / shape.depth,
-    )
+    nodes = rule(NODES[0])
+    with np.errstate(all="ignore"):
+        radii = np.append(nodes.x, 1.0) * top
+        shape = law.at(radii)
+        power = (shape.force * shape.slope)[..., :-1]
+        whole = np.sum(nodes.weights * nodes.x**4 * power, axis=-1, keepdims=True)
+        share = np.concatenate((mapped(stored(NODES[0]), power), whole), axis=-1)
+        unit = law.force(top, Shape(*np.ones(4))) * law.indentation(top, Shape(*np.ones(4)))
+        return LawSamples(
+            law.force(radii, shape),
+            law.indentation(radii, shape),
+            law.stiffness(radii, shape),
+            2.0 * unit * share,
+            2.0 * shape.slope / shape.depth,
+        )
 
 
 def bound_of(state: LargestContact, effect: Effect, stretch: Numbers | None = None) -> Bound:
@@ -145,11 +153,11 @@ def bound_of(state: LargestContact, effect: Effect, stretch: Numbers | None = No
     key = effect.name, stretch is not None
     if key not in state.bounds:
         with np.errstate(all="ignore"):
-            state.bounds[key] = _bound(state, effect, 1.0 if stretch is None else stretch)
+            state.bounds[key] = _bound(state, effect, stretch)
     return state.bounds[key]
 
 
-def _bound(state: LargestContact, effect: Effect, stretch: Numbers) -> Bound:
+def _bound(state: LargestContact, effect: Effect, stretch: Numbers | None) -> Bound:
     """Compute the bound of an effect.
 
     Damping acts over the whole contact; its bound is that on a quasi-static plate.
@@ -233,9 +241,9 @@ def _worst(state: LargestContact, bound: Bound, outputs: Sequence[str]) -> Array
     """Return the error of the worst output, by derivation step 18 and by direct changes."""
     low, up, energy, radius, results = bound
     with np.errstate(all="ignore"):  # overflow means that there is no bound
-        known = np.isfinite(low).all(axis=-1, keepdims=True)
-        known &= np.isfinite(up).all(axis=-1, keepdims=True) & (_least(state.slope) > 0.0)
-        below, above = (_most(np.where(known, x / state.slope, 0.0)) for x in (low, up))
+        below, above = _most(low / state.slope), _most(up / state.slope)
+        known = np.isfinite(below) & np.isfinite(above) & (_least(state.slope) > 0.0)
+        below, above = np.where(known, below, 0.0), np.where(known, above, 0.0)
         if np.any(energy):
             # The work of the weight depends on the indentation of the whole law.
             free = law_errors(below, above, state.fall, state.rise)[1]

@@ -14,6 +14,11 @@ MORE_TIMES = (384, 768, 1536)
 """Numbers of nodes in time for a slow, heavy sphere, whose motion starts abruptly."""
 
 
+ALONE = 2**18
+"""Multiplications up to which BLAS computes a product of matrices in one thread: others cost more
+time than they save."""
+
+
 class Rule(NamedTuple):
     """Nodes and weights on [0, 1], and matrices that act on values of a polynomial at the nodes.
 
@@ -30,6 +35,17 @@ class Rule(NamedTuple):
     work: Array
     path: Array
     derivative: Array
+
+
+def mapped(matrix: Array, values: Array) -> Array:
+    """A matrix times values along their last axis, of one scene or of many."""
+    if values.ndim == 1:
+        return matrix @ values
+    found, step = np.empty((len(values), len(matrix))), max(1, ALONE // matrix.size)
+    for start in range(0, len(values), step):
+        part = slice(start, start + step)
+        np.matmul(values[part], matrix.T, out=found[part])
+    return found
 
 
 @cache

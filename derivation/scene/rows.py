@@ -24,7 +24,7 @@ from derivation.scene.rows_warnings import warnings_of_rows
 from derivation.scene.scene import OUTPUTS, Scene, SceneError, read
 from derivation.scene.static_rows import impacts_of
 
-BLOCK = 4096
+BLOCK = 2**15
 """Rows worked on at a time, so that memory is bounded."""
 ROUNDING = 1e-14
 """Distance of a bound from the tolerance within which rounding could decide; one scene does."""

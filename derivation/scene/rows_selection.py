@@ -11,15 +11,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from derivation.scene.effects import WHOLE_PLATE
 from derivation.scene.effects.effect import Array, Effect
 from derivation.scene.law import ContactLaw
 from derivation.scene.model import Model
-from derivation.scene.omission_bounds import LargestContact, errors_of, sizes_of, state_of
+from derivation.scene.omission_bounds import errors_of, sizes_of, state_of
 from derivation.scene.scene import SceneError
 from derivation.scene.selection import Candidates, candidates_of
 
 NEAR = 1e-9
 """Relative distance from a tolerance within which rounding could decide, and one scene does."""
+TOGETHER = 1024
+"""Rows whose bounds are computed together, so that intermediates stay in the cache."""
 Rows = NDArray[np.intp]
 
 
@@ -71,6 +74,8 @@ def selected(
             given = candidates_of(part.take(0), wanted)
         except SceneError:
             continue
+        if any(effect.name in WHOLE_PLATE for effect in given.present):
+            _ = part.plates, part.correction  # known then to all parts of it
         waiting = {given.included: [np.arange(len(rows))]}
         while waiting:
             included, parts = waiting.popitem()
@@ -85,14 +90,12 @@ def selected(
 
 def _alike(model: Model, count: int) -> list[Rows]:
     """Rows for which the same effects apply: the same numbers are zero or infinite."""
-    marks = [np.zeros((count, 1), dtype=bool)]
+    kinds = np.zeros(count, dtype=np.int64)
     for field in fields(model):
         value = getattr(model, field.name)
         if isinstance(value, np.ndarray):
-            marks += [value == 0.0, np.isfinite(value)]
-    _, kinds = np.unique(np.hstack(marks), axis=0, return_inverse=True)
-    kinds = kinds.ravel()
-    return [np.flatnonzero(kinds == kind) for kind in range(kinds.max() + 1)]
+            kinds = 4 * kinds + 2 * (value[:, 0] == 0.0) + np.isfinite(value[:, 0])
+    return [np.flatnonzero(kinds == kind) for kind in np.unique(kinds)]
 
 
 def _own_solution(law: ContactLaw) -> bool:
@@ -109,44 +112,69 @@ def _step(
     outputs: Sequence[str],
 ) -> tuple[Group | None, dict[frozenset[str], Rows]]:
     """The rows that are done, and what the others include next."""
-    law = ContactLaw(model.take(rows), included)
-    if _own_solution(law):
+    if _own_solution(ContactLaw(model, included)):
         return None, {}
-    open_, state = given.left(included), state_of(law)
-    error, limit = errors_of(state, open_, outputs)[:, 0], rtol[rows]
-    candidates = [effect for effect in open_ if effect.name not in given.blocked]
+    open_ = given.left(included)
+    if not open_:
+        none = np.zeros(len(rows))
+        return Group(rows, ContactLaw(model.take(rows), included), _held(given), none), {}
+    parts = [rows[start : start + TOGETHER] for start in range(0, len(rows), TOGETHER)]
+    laws = (ContactLaw(model.take(part), included) for part in parts)
+    found = [
+        _errors(given, law, rtol[part], outputs) for law, part in zip(laws, parts, strict=True)
+    ]
+    error, fine, *sizes = (np.concatenate(column) for column in zip(*found, strict=True))
+    limit = rtol[rows]
     near = (np.abs(error - limit) <= NEAR * limit) & (limit > 0.0)
+    candidates = [effect for effect in open_ if effect.name not in given.blocked]
     done = (error <= limit) if candidates else np.ones(len(rows), dtype=bool)
-    others = _next(given, state, candidates, included, ~done & ~near, rows, outputs)
-    kept = done & ~near
-    for effect in open_:
-        if effect.name in given.blocked:  # refused, as `check_omitted` may say
-            kept &= errors_of(state, [effect], outputs)[:, 0] <= limit
+    others = {}
+    if not done.all():
+        others = _next(given, candidates, included, ~done & ~near, rows, np.column_stack(sizes))
+    kept = done & ~near & (fine > 0.0)
     if not kept.any():
         return None, others
-    law, error, rows = law.take(kept), error[kept], rows[kept]
+    law = ContactLaw(model.take(rows[kept]), included)
+    return Group(rows[kept], law, _held(given), error[kept]), others
+
+
+def _errors(
+    given: Candidates, law: ContactLaw, rtol: Array, outputs: Sequence[str]
+) -> tuple[Array, ...]:
+    """What leaving out all effects that are left changes; whether blocked ones may be left out.
+
+    And what each of the others changes alone, of which none is known where no row goes on.
+    """
+    state, open_ = state_of(law), given.left(law.effects)
+    error, fine = errors_of(state, open_, outputs)[:, 0], np.ones(len(rtol))
+    for effect in open_:
+        if effect.name in given.blocked:  # refused, as `check_omitted` may say
+            fine *= errors_of(state, [effect], outputs)[:, 0] <= rtol
+    candidates = [effect for effect in open_ if effect.name not in given.blocked]
+    if len(candidates) < 2 or (error <= rtol).all():
+        return (error, fine, *len(candidates) * (error,))
+    return (error, fine, *(sizes_of(state, effect, outputs)[:, 0] for effect in candidates))
+
+
+def _held(given: Candidates) -> bool:
+    """Whether the plate is on the scene's edge."""
     disabled = (e for e in given.present if given.choice[e.name] is False)
-    held = not any(effect.other_edge for effect in disabled)
-    return Group(rows, law, held, error) if len(rows) else None, others
+    return not any(effect.other_edge for effect in disabled)
 
 
 def _next(
     given: Candidates,
-    state: LargestContact,
     candidates: Sequence[Effect],
     included: frozenset[str],
     going_on: NDArray[np.bool_],
     rows: Rows,
-    outputs: Sequence[str],
+    sizes: Array,
 ) -> dict[frozenset[str], Rows]:
     """The rows that go on, by what they include next."""
-    if not going_on.any():
-        return {}
-    sizes = np.hstack([sizes_of(state, effect, outputs) for effect in candidates])
     worst = np.argmax(sizes, axis=1)
-    second = np.sort(sizes, axis=1)[:, -2:]
     if len(candidates) > 1:  # rounding might decide which is larger
-        going_on &= second[:, 1] - second[:, 0] > NEAR * second[:, 1]
+        second = np.partition(sizes, -2, axis=1)[:, -2:]
+        going_on = going_on & (second[:, 1] - second[:, 0] > NEAR * second[:, 1])
     found: dict[frozenset[str], Rows] = {}
     for number, effect in enumerate(candidates):
         mine = rows[going_on & (worst == number)]

@@ -1,13 +1,14 @@
 """Warnings of many impacts on quasi-static plates: in words only where there may be one."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from derivation.scene import kernels
 from derivation.scene.effects.effect import Array
-from derivation.scene.impact import warnings_of
 from derivation.scene.law import ContactLaw
 from derivation.scene.limits import (
     DEFLECTION_LIMIT,
@@ -18,12 +19,21 @@ from derivation.scene.limits import (
     STRETCH_LIMIT,
     ZENER_LIMIT,
     PlateTimes,
+    hollow_warnings,
     local_indentation,
+    motion_warnings,
     plate_times,
+    pressure_warnings,
+    stress_warnings,
+    warnings_at,
 )
 
 _ROUNDING = 1e-9
 """By how much a limit is missed where rounding might decide."""
+_MODEL = ("m", "R", "h", "b", "density", "solid_density", "yield_stress", "plate_yield_stress")
+"""Numbers of the model that warnings look at."""
+Mask = NDArray[np.bool_]
+Texts = Callable[[SimpleNamespace], tuple[str, ...]]
 
 
 def warnings_of_rows(
@@ -32,7 +42,7 @@ def warnings_of_rows(
     strength: Array | float | None,
     rows: NDArray[np.intp],
 ) -> NDArray[np.object_]:
-    """The warnings of some rows, joined by "; ".
+    """The warnings of some rows, joined by "; ", as `impact.warnings_of` has them.
 
     Parameters
     ----------
@@ -45,57 +55,87 @@ def warnings_of_rows(
     rows
         Numbers of the rows.
     """
-    found = np.full(len(rows), "", dtype=object)
-    some, none = law.take(rows), np.full(len(rows), np.inf)
-    limits = (
-        none if strength is None else np.broadcast_to(strength, len(results["contact_time"]))[rows]
+    known = _numbers(law.take(rows), {name: values[rows] for name, values in results.items()})
+    known["strength"] = np.full(len(rows), np.inf)
+    if strength is not None:
+        known["strength"][:] = np.broadcast_to(strength, len(results["contact_time"]))[rows]
+    found: list[list[str]] = [[] for _ in rows]
+    for possible, texts in zip(_possible(law, known), _texts(law), strict=True):
+        for row, one in _singles(known, np.flatnonzero(possible)):
+            found[row] += texts(one)
+    return np.array(["; ".join(texts) for texts in found] + [""], dtype=object)[:-1]
+
+
+def _numbers(law: ContactLaw, results: Mapping[str, Array]) -> dict[str, Array]:
+    """What warnings look at, by name, of shape (rows,)."""
+    model, count = law.model, len(results["contact_time"])
+    a, delta = results["max_contact_radius"][:, None], results["max_indentation"][:, None]
+    local = np.broadcast_to(local_indentation(law, a), a.shape)
+    columns = {name: getattr(model, name) for name in _MODEL}
+    columns |= {"deflection": delta - local, "share": 1.0 - local / delta}
+    columns |= {name: values[:, None] for name, values in results.items()}
+    times = plate_times(model) if np.any(model.density) else PlateTimes(0.0, 0.0, 0.0)
+    columns |= times._asdict()
+    return {name: np.broadcast_to(x, (count, 1))[:, 0] for name, x in columns.items()}
+
+
+def _singles(
+    known: Mapping[str, Array], rows: NDArray[np.intp]
+) -> Iterator[tuple[int, SimpleNamespace]]:
+    """Rows, and each one's numbers."""
+    if len(rows):
+        columns = (values[rows].tolist() for values in known.values())
+        for row, numbers in zip(rows.tolist(), zip(*columns, strict=True), strict=True):
+            yield row, SimpleNamespace(**dict(zip(known, numbers, strict=True)))
+
+
+def _possible(law: ContactLaw, known: Mapping[str, Array]) -> tuple[Mask, ...]:
+    """The rows of which there may be warnings of each kind."""
+    one, less = SimpleNamespace(**known), 1.0 - _ROUNDING
+    solid = 4 / 3 * np.pi * one.R * one.R * one.R * one.solid_density
+    a, thickness = one.max_contact_radius, 2.0 * one.h
+    wide = (a > less * HERTZ_LIMIT * thickness) | (
+        one.deflection > less * STRETCH_LIMIT * thickness
     )
-    columns = {name: values[rows][:, None] for name, values in results.items()}
-    times = plate_times(some.model) if np.any(some.model.density) else None
-    for row in np.flatnonzero(_possible(some, columns, limits[:, None], times)).tolist():
-        numbers = {name: float(column[row, 0]) for name, column in columns.items()}
-        found[row] = "; ".join(
-            warnings_of(
-                some.take(row),
-                numbers["contact_time"],
-                numbers["max_indentation"],
-                numbers["max_contact_radius"],
-                numbers["max_pressure"],
-                numbers["max_tensile_stress"],
-                None if strength is None else float(limits[row]),
-                known=times and PlateTimes(*(_at(x, row) for x in times)),
-            )
-        )
-    return found
+    if not law.spherical:
+        wide = wide | (a > less * PARABOLOID_LIMIT * one.R)
+    fast = QUASI_STATIC_PERIODS * one.period > less * one.contact_time
+    much = (one.zener > less * ZENER_LIMIT) | (one.share > less * DEFLECTION_LIMIT)
+    moving = (fast & much) | (one.echoes > less * one.contact_time)
+    limit = np.minimum(one.plate_yield_stress, one.strength)
+    return (
+        less * one.m < SOLID_LIMIT * solid,
+        wide,
+        moving & (one.density > 0.0),
+        one.max_pressure > less * kernels.YIELD_LIMIT * one.yield_stress,
+        one.max_tensile_stress > less * limit,
+    )
 
 
-def _at(numbers: Array | float, row: int) -> float:
-    """A row's number, of a column or of all rows."""
-    return float(np.ravel(numbers)[row if np.size(numbers) > 1 else 0])
+def _texts(law: ContactLaw) -> tuple[Texts, ...]:
+    """The warnings of each kind, of a row's numbers."""
+    inertia = law.model.inertia
+
+    def wide(one: Any) -> tuple[str, ...]:
+        of_row: Any = SimpleNamespace(model=one, solved=False, spherical=law.spherical)
+        return warnings_at(of_row, one.max_contact_radius, one.max_indentation, one.deflection)
+
+    def moving(one: Any) -> tuple[str, ...]:
+        one.inertia = inertia
+        times = PlateTimes(one.zener, one.period, one.echoes)
+        return motion_warnings(one, one.contact_time, one.share, known=times)
+
+    def yielding(one: Any) -> tuple[str, ...]:
+        weaker = "sphere" if one.yield_stress < one.plate_yield_stress else "plate"
+        return pressure_warnings(one.max_pressure, _given(one.yield_stress), body=weaker)
+
+    def failing(one: Any) -> tuple[str, ...]:
+        limits = _given(one.strength), _given(one.plate_yield_stress)
+        return stress_warnings(one.max_tensile_stress, *limits)
+
+    return hollow_warnings, wide, moving, yielding, failing  # type: ignore[return-value]
 
 
-def _possible(
-    law: ContactLaw, results: Mapping[str, Array], strength: Array, times: PlateTimes | None
-) -> NDArray[np.bool_]:
-    """The rows of which there may be a warning."""
-    model, less = law.model, 1.0 - _ROUNDING
-    a, delta = results["max_contact_radius"], results["max_indentation"]
-    thickness, deflection = 2.0 * model.h, delta - local_indentation(law, a)
-    stress = results["max_tensile_stress"]
-    solid = 4 / 3 * np.pi * model.R * model.R * model.R * model.solid_density
-    found = [
-        less * model.m < SOLID_LIMIT * solid,
-        a > less * HERTZ_LIMIT * thickness,
-        (a > less * PARABOLOID_LIMIT * model.R) & (not law.spherical),
-        deflection > less * STRETCH_LIMIT * thickness,
-        results["max_pressure"] > less * kernels.YIELD_LIMIT * model.yield_stress,
-        stress > less * np.minimum(model.plate_yield_stress, strength),
-    ]
-    if times is not None:
-        fast = QUASI_STATIC_PERIODS * times.period > less * results["contact_time"]
-        much = (times.zener > less * ZENER_LIMIT) | (deflection > less * DEFLECTION_LIMIT * delta)
-        found += [fast & much, times.echoes > less * results["contact_time"]]
-    possible = np.zeros(a.shape, dtype=bool)
-    for condition in found:
-        possible |= np.asarray(condition)
-    return possible[:, 0]
+def _given(stress: float) -> float | None:
+    """A stress [Pa], None if it is not known."""
+    return stress if stress < np.inf else None

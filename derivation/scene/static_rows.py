@@ -6,13 +6,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from derivation.scene import kernels
+from derivation.scene import kernels, simple_laws
 from derivation.scene.effects.effect import Array
 from derivation.scene.law import ContactLaw
-from derivation.scene.method_selection import estimated, rounding_of, whole_law
+from derivation.scene.method_selection import rounding_of, whole_law
 from derivation.scene.motion import SETTLED, closeness, largest_radii, results_at
 from derivation.scene.quadrature import MORE_TIMES, NODES
 
+TOGETHER = 1024
+"""Rows whose quadratures are computed together, so that intermediates stay in the cache."""
+NEAR = 1e-9
+"""Relative distance from a tolerance within which rounding could decide, and one scene does."""
 WELL_WITHIN = 0.9
 """Contact radius over the law's limit up to which an impact is well within its range."""
 Mask = NDArray[np.bool_]
@@ -78,15 +82,17 @@ def _by_papers_law(law: ContactLaw, rest: Array | None, found: Impacts) -> None:
     left, coarse = np.ones(count, dtype=bool), np.zeros(count, dtype=bool)
     if rest is not None:
         coarse = whole_law("coarse", None).bound <= rest
-        for row, (given, rtol) in enumerate(
-            zip(zip(*(x.tolist() for x in numbers), strict=True), rest.tolist(), strict=True)
-        ):
-            for method, run in (("hertz", kernels.hertz), ("leading", kernels.leading)):
-                one = run(*given)
-                if one is not None and estimated(method, one, rtol).bound <= rtol:
-                    found.put(row, one)
-                    left[row] = False
-                    break
+        for run in (simple_laws.hertz, simple_laws.leading):
+            some = np.flatnonzero(left)
+            with np.errstate(all="ignore"):
+                estimates = run(*(x[some] for x in numbers))
+                parts = np.broadcast_arrays(*estimates)
+                bound = np.expm1(np.sum(np.log1p(parts[-3:]), axis=0))
+            good = bound <= rest[some]
+            found.put(some[good], [part[good] for part in parts])
+            near = np.abs(bound - rest[some]) <= NEAR * rest[some]  # rounding could decide
+            found.put(some[near], [np.nan] * len(parts))
+            left[some[good | near]] = False
     for method, some in (("coarse", left & coarse), ("full", left & ~coarse)):
         if some.any():
             with np.errstate(all="ignore"):
@@ -107,16 +113,23 @@ def _on_half_space(law: ContactLaw, found: Impacts) -> None:
     count = len(found.law)
     share = np.broadcast_to(1.0 / (1.0 + law.softness), (count, 1))[:, 0]
     *lengths, lam, mu = flat_numbers(law, count)
-    columns = (x.tolist() for x in (*lengths, share * lam, share * mu))
-    for row, given in enumerate(zip(*columns, strict=True)):
-        one = kernels.hertz(*given)
-        if one is not None:
-            found.put(row, (*one[:4], 0.0, 0.0, one.rounding))
+    with np.errstate(all="ignore"):
+        one = simple_laws.hertz(*lengths, share * lam, share * mu)
+    known = np.isfinite(one.law)
+    found.put(known, (*(x[known] for x in one[:4]), 0.0, 0.0, one.rounding))
 
 
 def _by_any_law(law: ContactLaw, found: Impacts) -> None:
-    """By energy and quadrature, nodes doubled until each row stands, as `motion.impact`."""
-    whole, left, a = law, np.arange(len(found.law)), None
+    """By energy and quadrature, as `motion.impact`; few rows at a time, which stay in the cache."""
+    count = len(found.law)
+    for start in range(0, count, TOGETHER):
+        rows = np.arange(start, min(start + TOGETHER, count))
+        _together(law.take(rows), rows, found)
+
+
+def _together(law: ContactLaw, left: NDArray[np.intp], found: Impacts) -> None:
+    """Some rows: nodes are doubled until each row stands."""
+    whole, rows, a = law, left, None
     before = change = None
     with np.errstate(all="ignore"):
         for n, times in [(n, n) for n in NODES] + [(NODES[1], n) for n in MORE_TIMES]:
@@ -131,5 +144,5 @@ def _by_any_law(law: ContactLaw, found: Impacts) -> None:
                 law, left = law.take(going_on), left[going_on]
                 a, after = a[going_on], after[going_on]
             before = after
-        cancelled = whole.cancellation(found.max_contact_radius[:, None])[:, 0]
-    found.rounding[:] = rounding_of(whole) + cancelled
+        cancelled = whole.cancellation(found.max_contact_radius[rows, None])[:, 0]
+    found.rounding[rows] = rounding_of(whole) + cancelled

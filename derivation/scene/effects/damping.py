@@ -68,7 +68,6 @@ class Damping(Effect):
         quasi-static c P, and that of the ringing, which also cannot change by more than twice its
         amplitude. Random scenes use at most 6 % of the bound.
         """
-        assert context.samples is not None
         none = none_of(context.radii)
         heavier = 1.0 + weight_share(model, context.depth)
         T = SLOWEST * context.depth / (model.v0 * math.sqrt(heavier))

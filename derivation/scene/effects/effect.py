@@ -10,8 +10,9 @@ modulus E* of the law, a^3 = 3 P R/(4 E*),
 """
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 import numpy as np
@@ -23,8 +24,6 @@ from derivation.scene.model import Model
 if TYPE_CHECKING:
     from derivation.scene.law import ContactLaw
 
-PLATES = 1e-50, 1e50
-"""Range of h/b in which bounds are known."""
 NO_BOUND = 10.0
 """Smallest bound on a relative change that is not useful and is shown as 'no bound'."""
 Array = NDArray[np.float64]
@@ -61,22 +60,43 @@ class BoundContext:
         Hertz's radii of the force [m], increasing from 0.
     depth
         Largest indentation of the impact [m].
-    samples
-        Samples of the law with the included effects.
+    sampled
+        Function that samples the law with the included effects; only some bounds call it.
     """
 
     radii: Array
     depth: Numbers = 0.0
-    samples: LawSamples | None = None
+    sampled: Callable[[], LawSamples] | None = None
+
+    @cached_property
+    def samples(self) -> LawSamples:
+        """Samples of the law with the included effects."""
+        assert self.sampled is not None
+        return self.sampled()
 
     def row(self, index: int) -> "BoundContext":
         """Return the context of one of many scenes."""
-        samples = self.samples and LawSamples(*(x[index] for x in self.samples))
-        return BoundContext(self.radii[index], np.asarray(self.depth)[index].item(), samples)
+        depth = np.asarray(self.depth)[index].item()
+        if self.sampled is None:
+            return BoundContext(self.radii[index], depth)
+        samples = LawSamples(*(x[index] for x in self.samples))
+        return BoundContext(self.radii[index], depth, lambda: samples)
 
-    def stretched(self, factor: Numbers) -> "BoundContext":
+    def stretched(self, factor: Numbers | None) -> "BoundContext":
         """Return the context with all radii multiplied by a factor."""
-        return replace(self, radii=self.radii * factor)
+        return self if factor is None else replace(self, radii=self.radii * factor)
+
+    def sphere_force(self, R: Numbers) -> Array:
+        """Return the force of a sphere over that of a paraboloid; NaN from the sphere radius on."""
+        if not self._forces:
+            rho = self.radii / R
+            self._forces.append(kernels.sphere_contact(np.where(rho < 1, rho, np.nan)).force)
+        return self._forces[0]
+
+    @cached_property
+    def _forces(self) -> list[Array]:
+        """Cache of `sphere_force`."""
+        return []
 
 
 Results = tuple[float, float, float, float, float]
@@ -268,23 +288,6 @@ class PlateEffect(Effect):
     def contribution(self, model: Model, a: Array) -> Contribution:
         """Return its contribution to F and S at Hertz's radii [m], for a rigid sphere."""
         raise NotImplementedError
-
-
-def plate_of(model: Model) -> kernels.Plate:
-    """Return c_1, its error bound and K_3 of the plate; infinite outside their range of h/b."""
-    if not isinstance(model.eta, np.ndarray):
-        return _plate_of(model.eta)
-    eta, rows = np.unique(model.eta, return_inverse=True)
-    found = np.array([_plate_of(x) for x in eta.tolist()])[rows.reshape(model.eta.shape)]
-    return kernels.Plate(found[..., 0], found[..., 1], found[..., 2])
-
-
-@lru_cache(maxsize=8192)
-def _plate_of(eta: float) -> kernels.Plate:
-    low, high = PLATES
-    if not low < eta < high:
-        return kernels.Plate(np.inf, np.inf, np.inf)
-    return kernels.plate_of(eta)
 
 
 def none_of(a: Array) -> Array:

@@ -29,7 +29,8 @@ class FiniteRadius(PlateEffect):
         """Return the bound: between zero and the leading terms."""
         a = context.radii
         alpha = a / model.b
-        return Bound(kernels.WALL_LINEAR * alpha + kernels.WALL_CUBIC * alpha**3, none_of(a))
+        growing = kernels.WALL_LINEAR + kernels.WALL_CUBIC * (alpha * alpha)
+        return Bound(alpha * growing, none_of(a))
 
     def contribution(self, model: Model, a: Array) -> Contribution:
         """Return the contribution by its power series."""

@@ -10,7 +10,6 @@ from derivation.scene.effects.effect import (
     BoundContext,
     Contribution,
     PlateEffect,
-    plate_of,
 )
 from derivation.scene.effects.finite_radius import FiniteRadius
 from derivation.scene.model import Model
@@ -31,18 +30,18 @@ class FiniteThickness(PlateEffect):
 
     def value(self, model: Model, a: float) -> float:
         """Return the leading term of its contribution to the indentation over Hertz's."""
-        linear = plate_of(model).bend * a / model.h
+        linear = model.correction.bend * a / model.h
         return float(linear - kernels.bending(a / model.h, model.eta).depth)
 
     def bound(self, model: Model, context: BoundContext) -> Bound:
         """Return 3/2 c_1 A - K_3 A^3 <= S - 1 <= 3/2 c_1 A minus bending and finite radius."""
         a = context.radii
-        plate, A, alpha = plate_of(model), a / model.h, a / model.b
+        plate, A, alpha = model.correction, a / model.h, a / model.b
         linear = 1.5 * plate.bend * A - kernels.bending(A, model.eta).slope
         wrong = 1.5 * plate.bend_error * A
-        wall = kernels.WALL_LINEAR * alpha + kernels.WALL_CUBIC * alpha**3
+        wall = alpha * (kernels.WALL_LINEAR + kernels.WALL_CUBIC * (alpha * alpha))
         up = np.maximum(linear + wrong + wall, 0.0)
-        low = np.maximum(plate.rest * A**3 + wrong - linear, 0.0)
+        low = np.maximum(plate.rest * (A * A * A) + wrong - linear, 0.0)
         # The sign may change; the bound is the largest one up to each radius.
         return Bound(np.maximum.accumulate(low, axis=-1), np.maximum.accumulate(up, axis=-1))
 

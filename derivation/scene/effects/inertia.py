@@ -82,7 +82,6 @@ class PlateInertia(Effect):
 
     def bound(self, model: Model, context: BoundContext) -> Bound:
         """Return the tested bound: deviation of the modes from their quasi-static response."""
-        assert context.samples is not None
         heavier = 1.0 + weight_share(model, context.depth)
         T = SLOWEST * context.depth / (model.v0 * np.sqrt(heavier))
         a, force = context.radii[..., -1:], context.samples.force[..., -1:]

@@ -6,7 +6,7 @@ import numpy as np
 
 from derivation.scene import kernels
 from derivation.scene.effects import edge
-from derivation.scene.effects.effect import Bound, BoundContext, Effect, Reach, plate_of
+from derivation.scene.effects.effect import Bound, BoundContext, Effect, Reach
 from derivation.scene.effects.finite_thickness import WHOLE_PLATE
 from derivation.scene.model import Model
 
@@ -46,11 +46,11 @@ class NonHertzianPressure(Effect):
         """
         a = context.radii
         cubic = (
-            3.0 * plate_of(model).rest + kernels.PRESSURE_WALL * model.eta * model.eta * model.eta
+            3.0 * model.correction.rest + kernels.PRESSURE_WALL * model.eta * model.eta * model.eta
         )
-        rho = a / model.R
-        steeper = kernels.sphere_contact(np.where(rho < 1, rho, np.nan)).force
-        theta = np.where(rho < 1, cubic * (a / model.h) ** 3 * steeper, np.inf)
+        A = a / model.h
+        theta = cubic * (A * A * A) * context.sphere_force(model.R)
+        theta = np.where(np.isnan(theta), np.inf, theta)
         known = (theta <= BOUND_THETA) & (a <= BOUND_A_OVER_B * model.b)
         low, up = (np.where(known, c * theta, np.inf) for c in (5.0 / 3.0, 2.0 / 3.0))
         last = np.where(known, theta, np.nan)[..., -1:]

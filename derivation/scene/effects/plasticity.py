@@ -40,7 +40,6 @@ class Plasticity(Effect):
         """
         from generated.plasticity_kernels import hertz_modulus, unloaded, worked
 
-        assert context.samples is not None
         # The modulus of the law follows from the forces and their Hertz radii.
         last = context.radii[-1]
         modulus = hertz_modulus(context.samples.force[-1], np.array(model.R), last)

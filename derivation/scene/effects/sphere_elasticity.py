@@ -3,7 +3,7 @@
 import numpy as np
 
 from derivation.scene import kernels
-from derivation.scene.effects.effect import Bound, BoundContext, Effect, plate_of
+from derivation.scene.effects.effect import Bound, BoundContext, Effect
 from derivation.scene.model import Model
 
 
@@ -34,8 +34,8 @@ class SphereElasticity(Effect):
         a = context.radii
         log = np.log1p(model.softness) / 3.0
         growth = np.expm1(2.0 * log)
-        plate, alpha = plate_of(model), a / model.b
-        cubic = plate.rest * (a / model.h) ** 3 + kernels.WALL_GROWTH * alpha**3
+        plate, A, alpha = model.correction, a / model.h, a / model.b
+        cubic = plate.rest * (A * A * A) + kernels.WALL_GROWTH * (alpha * alpha * alpha)
         sound = np.exp(log) * alpha < 1.0
         up = np.where(sound, growth * (1.0 + cubic), np.inf)
         low = np.where(sound, growth * np.maximum(cubic - 1.0, 0.0), np.inf)

@@ -4,7 +4,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from derivation.scene import kernels
 from derivation.scene.effects.effect import Bound, BoundContext, Effect, Reach
 from derivation.scene.model import Model
 
@@ -32,11 +31,9 @@ class SphericalProfile(Effect):
 
     def bound(self, model: Model, context: BoundContext) -> Bound:
         """Return S - 1 = a_Hertz/a - 1, which increases with a, evaluated at Hertz's radius."""
-        a = context.radii
-        rho = a / model.R
-        ratio = np.cbrt(kernels.sphere_contact(np.where(rho < 1, rho, np.nan)).force)
+        ratio = np.cbrt(context.sphere_force(model.R))
         up = np.where(np.isfinite(ratio), ratio - 1.0, np.inf)
-        return Bound(np.zeros_like(a), up, radius=np.log1p(up[..., -1:]))
+        return Bound(np.zeros_like(up), up, radius=np.log1p(up[..., -1:]))
 
     def bounded(self, law: "ContactLaw") -> bool:
         """Return False for non-Hertzian pressure."""

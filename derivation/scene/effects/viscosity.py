@@ -45,7 +45,6 @@ class Viscosity(Effect):
 
         An elastic plate decreases the change.
         """
-        assert context.samples is not None
         force, depth, stiffness, energy, growth = context.samples
         speed = np.sqrt(2.0 * (energy / model.m))
         epsilon = model.retardation_time * float(np.max(stiffness / force * speed))

@@ -1,0 +1,140 @@
+"""Impacts by Hertz's law and by its first correction, of many scenes: `kernels.hertz` in arrays.
+
+The formulas are those of single numbers, with the functions of NumPy for those of `math`.
+"""
+
+from collections.abc import Callable
+from types import FunctionType
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from derivation.scene import kernels
+from derivation.scene.law_errors import law_errors
+from generated import simple_impact, simple_impact_kernels
+from generated.simple_impact_numbers import (
+    MODES,
+    QUADRATURE,
+    ROOTS_CUBIC,
+    ROOTS_LINEAR,
+    THIN,
+)
+
+Array = NDArray[np.float64]
+SLACK = 1.0 + 1e-9
+"""For the rounding of the bounds themselves."""
+DEEP = 0.5
+"""How much the first correction, if negative, may take from the slope."""
+_LOW, _HIGH = 1e-100, 1e100
+_PLATES = 1e-50, 1e50
+_TOP = 1.02
+_STEPS, _CLOSE = 40, 4e-15
+
+
+def _in_arrays(formula: Callable[..., Any]) -> Callable[..., Any]:
+    """A printed formula of single numbers as one of arrays."""
+    of_numpy = {name: getattr(np, name) for name in ("exp", "log", "sqrt")}
+    return FunctionType(formula.__code__, formula.__globals__ | of_numpy, formula.__name__)
+
+
+_thick_plate = _in_arrays(simple_impact_kernels.thick_plate)
+_thin_plate = _in_arrays(simple_impact_kernels.thin_plate)
+_leading_time = _in_arrays(simple_impact_kernels.leading_time)
+
+
+class Estimates(NamedTuple):
+    """Impacts as of `kernels.Estimate`, a row each; `law` is infinite where nothing is shown."""
+
+    contact_time: Array
+    max_indentation: Array
+    max_force: Array
+    max_contact_radius: Array
+    law: Array
+    quadrature: float
+    rounding: float
+
+
+def plates_of(eta: Array) -> kernels.Plate:
+    """c_1, its error bound and K_3 of many plates, 1e-50 <= h/b <= 1e50."""
+    found = np.empty((3, *eta.shape))
+    thin = 1.0 / eta > THIN
+    bend, rest, roots = _thin_plate(1.0 / eta[thin])
+    found[:, thin] = bend, ROOTS_LINEAR * roots + 1e-14 * bend, rest * SLACK + ROOTS_CUBIC * roots
+    bend, size, rest, more_bend, more_rest = _thick_plate(eta[~thin], MODES)
+    found[:, ~thin] = bend, more_bend + 1e-13 * size, rest * SLACK + more_rest
+    return kernels.Plate(*found)
+
+
+def hertz(R: Array, m: Array, v0: Array, h: Array, b: Array, lam: Array, mu: Array) -> Estimates:
+    """Impacts by Hertz's law, as `kernels.hertz`, of arrays of the same length."""
+    modulus, radius, known = _spheres(R, m, v0, h, b, lam, mu)
+    plate, top = plates_of(np.where(known, h / b, 1.0)), _TOP * radius / h
+    low, up = simple_impact_kernels.hertz_bounds(*plate, top)
+    none = np.zeros_like(top)
+    law = _law_error(np.maximum(0.0, low), np.maximum(0.0, up), none, none)
+    found = simple_impact_kernels.hertz_peaks(radius, R, v0, modulus)
+    return _estimates(known, radius, np.minimum(b, R), found, law, 0.0)
+
+
+def leading(R: Array, m: Array, v0: Array, h: Array, b: Array, lam: Array, mu: Array) -> Estimates:
+    """Impacts by delta = (a^2/R) (1 + c_1 a/h), as `kernels.leading`."""
+    modulus, radius, known = _spheres(R, m, v0, h, b, lam, mu)
+    plate, over_h = plates_of(np.where(known, h / b, 1.0)), radius / h
+    share = _share(simple_impact_kernels.beside_hertz(plate.bend, over_h))
+    A, a = share * over_h, share * radius
+    top = _TOP * A
+    steep = simple_impact_kernels.steepness(plate.bend, top)
+    known &= steep > -DEEP
+    steep = np.where(known, steep, 0.0)
+    wrong, low, rise = simple_impact_kernels.leading_bounds(*plate[1:], steep, top)
+    fall, rise = np.maximum(0.0, -rise), np.maximum(0.0, rise)
+    law = _law_error(low + wrong, np.broadcast_to(wrong, low.shape), fall, rise)
+    depth, force = simple_impact_kernels.peaks(a, R, modulus, plate.bend * A)
+    time = _leading_time(a, R, v0, simple_impact_kernels.steepness(plate.bend, A))
+    return _estimates(known, a, np.minimum(b, R), (time, depth, force), law, QUADRATURE)
+
+
+def _law_error(low: Array, up: Array, fall: Array, rise: Array) -> Array:
+    """The largest of `law_errors`."""
+    return np.maximum.reduce(law_errors(low, up, fall, rise))
+
+
+def _spheres(
+    R: Array, m: Array, v0: Array, h: Array, b: Array, lam: Array, mu: Array
+) -> tuple[Array, Array, NDArray[np.bool_]]:
+    """E*, Hertz's largest radius, and where numbers are ordinary."""
+    modulus, energy, work = simple_impact_kernels.sphere(R, m, v0, lam, mu)
+    known = (_PLATES[0] < h / b) & (h / b < _PLATES[1])
+    for x in (R, m, v0, h, b, modulus, energy, energy / modulus, work):
+        known = known & (x > _LOW) & (x < _HIGH)
+    return modulus, work**0.2, known
+
+
+def _share(y: Array) -> Array:
+    """s > 0 of s^5 (1 + y s) = 1 by Newton's iteration; NaN if there is none."""
+    s = np.where(y > 0.0, np.minimum(1.0, np.abs(y) ** (-1.0 / 6.0)), 1.0)
+    moving = np.ones(y.shape, dtype=bool)
+    for _ in range(_STEPS):
+        excess, slope = simple_impact_kernels.share_step(s, y)
+        moving &= ~(np.abs(excess) <= _CLOSE)
+        if not moving.any():
+            return s
+        s = np.where(moving, s - excess / slope, s)
+        lost = moving & ~((s > 0.0) & (3.0 * y * s > -2.0))
+        s[lost], moving[lost] = np.nan, False
+    return np.where(moving, np.nan, s)
+
+
+def _estimates(
+    known: NDArray[np.bool_],
+    a: Array,
+    widest: Array,
+    found: tuple[Array, Array, Array],
+    law: Array,
+    quadrature: float,
+) -> Estimates:
+    """The results; without a bound where contacts are not shown to stay on plate and sphere."""
+    shown = known & (_TOP * a < widest)
+    law = np.where(shown, law, np.inf)
+    return Estimates(*found, a, law, quadrature, simple_impact.ROUNDING)

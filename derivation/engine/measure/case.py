@@ -26,6 +26,9 @@ EXPECTATIONS = ("value", "nan", "zero")
 """What a kernel is to return: the true value, NaN because the point is outside its
 domain, or exactly zero where no ball around the truth can be relatively small."""
 
+SAID = ("cause", "form", "modes", "expect")
+"""What a file says of all cases of a table."""
+
 Numbers = tuple[float, ...]
 
 
@@ -114,22 +117,34 @@ class HardCase:
 
 
 def read_cases(path: Path) -> list[HardCase]:
-    """The cases that a file describes, each as a table `[[case]]` of TOML.
+    """Return the cases of a TOML file: under the name of each group, tables of a cause.
+
+    A table also has one entry per function: its inputs, or a list of several.
 
     Raises
     ------
     ValueError
-        Naming a case that does not say what it must.
+        If a case is not well formed; the message names the case.
     """
-    return [_read(row) for row in tomllib.loads(path.read_text())["case"]]
+    groups = tomllib.loads(path.read_text())
+    return [
+        checked(HardCase(group, name, inputs=_exact(given), **said))
+        for group, tables in groups.items()
+        for said, functions in map(_parts, tables)
+        for name, several in functions.items()
+        for given in (several if isinstance(several, list) else [several])
+    ]
 
 
-def _read(row: Mapping[str, Any]) -> HardCase:
-    given = {
-        name: (texts,) if isinstance(texts, str) else tuple(texts)
-        for name, texts in row["inputs"].items()
-    }
-    return checked(HardCase(**{**row, "inputs": given}))
+def _parts(table: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Split a table into what holds for all its cases and the inputs by function."""
+    said = {key: value for key, value in table.items() if key in SAID}
+    return said, {key: value for key, value in table.items() if key not in SAID}
+
+
+def _exact(given: Mapping[str, Any]) -> dict[str, tuple[str, ...]]:
+    listed = {name: x if isinstance(x, list) else [x] for name, x in given.items()}
+    return {name: tuple(float(x).hex() for x in numbers) for name, numbers in listed.items()}
 
 
 def checked(case: HardCase) -> HardCase:

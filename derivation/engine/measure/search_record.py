@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from derivation.engine.files import write_file
-from derivation.engine.measure.case import HardCase, read_cases
+from derivation.engine.measure.case import SAID, HardCase, read_cases
 from derivation.engine.measure.point import Point
 from derivation.engine.measure.search import Found, Search, weigh
 from derivation.engine.measure.target import Target
@@ -106,12 +106,11 @@ def _table(case: HardCase, found: Found | None) -> str:
         error = found.error
         lines.append(f"# {found.ratio:.4g} of the allowance: {error.ulp:.6g} ULP, "
                      f"{error.allowed:.6g} allowed.")  # fmt: skip
-    lines.append("[[case]]")
-    # JSON's strings, numbers and lists of strings are TOML's too.
-    inputs = (table := case.table).pop("inputs")
-    lines += [f"{key} = {json.dumps(value)}" for key, value in table.items()]
-    lines.append("[case.inputs]")
-    lines += [f"{name} = {json.dumps(texts)}" for name, texts in inputs.items()]
+    said = {key: value for key, value in case.table.items() if key in SAID}
+    lines += [f"[[{case.group}]]", *(f"{key} = {json.dumps(x)}" for key, x in said.items())]
+    # Python's shortest decimal numbers are TOML's too, and exact.
+    numbers = {name: x[0] if case.form == "scalar" else [*x] for name, x in case.numbers.items()}
+    lines.append(f"{case.kernel} = {{ {', '.join(f'{k} = {x}' for k, x in numbers.items())} }}")
     return "\n".join(lines) + "\n"
 
 

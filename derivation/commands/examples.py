@@ -9,9 +9,17 @@ from derivation.engine.console import NOTES, OUT, Json, put_json
 from derivation.engine.text import aligned
 
 
+def _names() -> list[str]:
+    """Return the names that the Tab key completes."""
+    from derivation.scene.example_scenes import examples as known
+
+    return list(known())
+
+
 def examples(
     name: Annotated[
-        list[str] | None, typer.Argument(metavar="NAME", help="Copy these examples.")
+        list[str] | None,
+        typer.Argument(metavar="NAME", help="Copy these examples.", autocompletion=_names),
     ] = None,
     out: Annotated[
         Path | None,

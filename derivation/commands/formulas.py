@@ -91,6 +91,9 @@ def diagnose(
     with stage("compare"):
         found = build.diagnose(own, name, formula, latex, at, digits)
     if put_json(found.to_json, json):
-        rows = [(key, value) for key, value in found.to_json().items() if value is not None]
-        table(f"{name}: {found.verdict}", ("item", "value"), rows)
+        given = {key: value for key, value in found.to_json().items() if value is not None}
+        point = given.get("point")
+        if isinstance(point, dict):
+            given["point"] = ", ".join(f"{symbol} = {value}" for symbol, value in point.items())
+        table(f"{name}: {found.verdict}", ("item", "value"), list(given.items()))
     raise typer.Exit(0 if found.verdict == "equal" else 1)

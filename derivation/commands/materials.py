@@ -4,17 +4,26 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from derivation.engine.console import OUT, Json, put_json, table
+from derivation.engine.console import OUT, Json, put_json
+from derivation.engine.text import aligned, paragraph
 
 if TYPE_CHECKING:
     from derivation.scene.materials import KnownMaterial
 
-COLUMNS = ("name", "#E [GPa]", "#nu", "#density [kg/m^3]", "#yield [MPa]", "source")
+COLUMNS = ("name", "#E [GPa]", "#nu", "#density [kg/m^3]", "#yield stress [MPa]")
+
+
+def _names() -> list[str]:
+    """Return the names that the Tab key completes."""
+    from derivation.scene.materials import MATERIALS
+
+    return list(MATERIALS)
 
 
 def materials(
     name: Annotated[
-        str | None, typer.Argument(metavar="NAME", help="Show this material only.")
+        str | None,
+        typer.Argument(metavar="NAME", help="Show this material only.", autocompletion=_names),
     ] = None,
     json: Json = None,
 ) -> None:
@@ -29,16 +38,22 @@ def materials(
 
     if name is None:
         if put_json(lambda: [material.to_json() for material in MATERIALS.values()], json):
-            table("Named materials", COLUMNS, [_cells(each) for each in MATERIALS.values()])
-            OUT.say("To define another material, add a table [materials.NAME] to the scene file.")
+            OUT.say(aligned(COLUMNS, [_cells(each) for each in MATERIALS.values()]))
+            OUT.say("\nSources:")
+            for each in MATERIALS.values():
+                OUT.say(paragraph(f"  {each.name}: {each.source}", 4))
+            OUT.say(
+                "\nE is Young's modulus, nu Poisson's ratio. "
+                "To define another material, add a table [materials.NAME] to the scene file."
+            )
         return
     found = find(name)
     if found is None:
         raise SceneError(f"materials: {unknown(name)}")
     if put_json(found.to_json, json):
-        rows = zip((head.lstrip("#") for head in COLUMNS), _cells(found), strict=True)
-        others = ("other names", ", ".join(found.also) or "none")
-        table(found.name, ("quantity", "value"), [*rows, others])
+        heads = (*(head.lstrip("#") for head in COLUMNS), "source", "other names")
+        cells = (*_cells(found), found.source, ", ".join(found.also) or "none")
+        OUT.say(aligned(("quantity", "value"), list(zip(heads, cells, strict=True))))
 
 
 def _cells(material: "KnownMaterial") -> tuple[str, ...]:
@@ -50,4 +65,4 @@ def _cells(material: "KnownMaterial") -> tuple[str, ...]:
         "n/a" if density is None else f"{density:.6g}",
         "n/a" if stress is None else f"{stress / 1e6:.6g}",
     )
-    return material.name, *shown, material.source
+    return material.name, *shown

@@ -1,12 +1,11 @@
-"""What the code for one scene is made of: modules to copy, the numbers of its law, its head.
+"""Assembles the code of one scene: modules to copy, constants of its law, its docstring.
 
-Effects that have a closed form keep it. All others together become polynomials of the contact
-radius a on panels: p, the force over Hertz's at that radius, and F, by which the indentation over
-Hertz's grows,
+Laws with a closed form keep it. All others are represented by polynomials of the contact radius a
+on panels: p, the force over that of Hertz's law, and F, the increase of the indentation over Hertz's,
 
     P = K a^3 p,   delta = (a^2/R) (1 + a F),   K = (4/3) E*/R
 
-Panels are halved until the last coefficients are rounding.
+Panels are halved until the last coefficients are of the size of rounding.
 """
 
 import json
@@ -34,30 +33,29 @@ from derivation.scene.scene import Scene, SceneError
 from derivation.scene.viscous_law import bending_of
 
 COEFFICIENTS = 16
-"""Of a panel's polynomial."""
-SETTLED, NARROWEST = 5e-14, 1e-3
-"""Last coefficients over the largest that are small enough; least width of a panel [1]."""
+"""Number of coefficients of a polynomial."""
+CONVERGED, NARROWEST = 5e-14, 1e-3
+"""Ratio of the last coefficients to the largest that is small enough; smallest panel width [1]."""
 POINTS, SMALL = 60, 1e-5
-"""Contact radii at which code is compared with the law, and the least of them over its limit."""
-WRONG = {"force": 1e-10, "stiffness": 1e-6, "contact_radius": 1e-10, "impact": 1e-10}
-"""Relative difference from the law above which code is not given out.
+"""Number of contact radii at which code and law are compared, and the smallest over the limit."""
+TOLERANCES = {"force": 1e-10, "stiffness": 1e-6, "contact_radius": 1e-10, "impact": 1e-10}
+"""Largest allowed relative differences between code and law.
 
-The law's own stiffness, the pressure solved for, is right to 1e-7 alone at a = 0.99 R."""
+With non-Hertzian pressure, the stiffness of the law itself is accurate to 1e-7 at a = 0.99 R."""
 STIFFEST = 2e-3
-"""Least time scale, over the contact time, of an inner state that explicit steps follow [1]."""
+"""Smallest time scale of the internal state over the contact time for explicit steps [1]."""
 STIFF = (
-    "There is no `impact`: the contact is viscoelastic and bending is not, so that the contact has "
-    "an inner state, see `elastic_rate`, too stiff here for explicit steps; `platecontact "
-    "simulate` follows it."
+    "There is no function `impact`: a viscoelastic contact on a plate with elastic bending has an "
+    "internal state (see `elastic_rate`), which is too stiff here for explicit time steps. Use "
+    "`platecontact simulate` instead."
 )
 _HALVINGS = 50
 
 
 class PanelTable(NamedTuple):
-    """Coefficients on panels, a row each, of s from -1 to 1, the constant first.
+    """Polynomial coefficients in s from -1 to 1, the constant first, with a row for each panel.
 
-    `ends` are the contact radii [m] where panels begin and end; `growth` is F, `force` is p, or
-    None where that is 1.
+    `ends` are the ends of the panels [m], `growth` is F, and `force` is p or None if p = 1.
     """
 
     ends: Array
@@ -66,10 +64,10 @@ class PanelTable(NamedTuple):
 
 
 class Recipe(NamedTuple):
-    """The law of a scene, its impact, and what its code is made of.
+    """The law of a scene, its impact, and the parts of its code.
 
-    `parts` are modules of `runtime`, `numbers` those of `runtime.data`, `head` the lines that say
-    what is in the code.
+    `parts` are modules of `runtime`, `numbers` the constants of `runtime.data`, and `head` the
+    lines of the docstring.
     """
 
     law: ContactLaw
@@ -80,12 +78,12 @@ class Recipe(NamedTuple):
 
 
 def recipe(scene: Scene) -> Recipe:
-    """What the code of a scene is made of.
+    """Return the parts of the code of a scene.
 
     Raises
     ------
     SceneError
-        As `simulate` does, and where no force follows from indentation and rate.
+        As `simulate` does, and if the force is no function of indentation and rate.
     """
     _check_quasi_static(scene)
     result = simulate(scene)
@@ -114,14 +112,14 @@ def recipe(scene: Scene) -> Recipe:
 
 
 def _law_parts(law: ContactLaw, table: PanelTable | None) -> tuple[str, ...]:
-    """Modules of the contact law."""
+    """Return the modules of the contact law."""
     if table is None:
         return (f"{_kind(law)}_law",)
     return ("growth_law" if table.force is None else "pressure_law", "panels")
 
 
 def _impact_parts(law: ContactLaw, form: str) -> tuple[str, ...]:
-    """Modules of the impact: by steps, from energy, or in closed form."""
+    """Return the modules of the impact: by time steps, from energy, or in closed form."""
     weight = "_in_gravity" if law.gravity else ""
     if law.viscous:
         return ("viscous_impact", f"{form}viscous_motion", f"acceleration{weight}", "steps")
@@ -133,7 +131,7 @@ def _impact_parts(law: ContactLaw, form: str) -> tuple[str, ...]:
 def _numbers(
     law: ContactLaw, motion: Motion, end: float, table: PanelTable | None
 ) -> dict[str, object]:
-    """The numbers of the law and of the impact."""
+    """Return the constants of the law and of the impact."""
     model, last = law.model, np.array([end])
     numbers: dict[str, object] = {
         "R": model.R,
@@ -156,75 +154,75 @@ def _numbers(
 
 
 def _check_quasi_static(scene: Scene) -> None:
-    """Refuse plate inertia and yielding contacts, whose force depends on the motion so far.
+    """Reject plate inertia and plasticity, where the force depends on the previous motion.
 
     Raises
     ------
     SceneError
-        If the scene calls for inertia or plasticity.
+        If the scene requires inertia or plasticity.
     """
     law = selected_effects(scene)[1].law
     if law.plastic:
         raise SceneError(
-            "effects.plasticity: expected false for the code of a scene, whose force follows from "
-            "indentation and rate alone, got a contact that yields, whose force depends on the "
-            "largest force before; `platecontact simulate --csv` gives its impact and "
-            "`platecontact indent` its loading, or write effects.plasticity = false and add to the "
-            "code's indentation what generated.plasticity gives: plastic_indentation on loading, "
-            "flattening and dent on unloading"
+            "effects.plasticity: expected false, because in the code of a scene the force is a "
+            "function of indentation and rate, got a plastic contact, whose force depends on the "
+            "previous peak force; use `platecontact simulate --csv` for the impact and "
+            "`platecontact indent` for loading, or set effects.plasticity = false and add "
+            "plastic_indentation (loading) or flattening and dent (unloading) of "
+            "generated.plasticity"
         )
     if law.dynamic:
         raise SceneError(
-            "effects.inertia: expected false for the code of a scene, whose plate is quasi-static, "
-            "got a plate with inertia; write effects.inertia = false"
+            "effects.inertia: expected false, because the code of a scene is for a quasi-static "
+            "plate, got a plate with inertia; set effects.inertia = false"
         )
 
 
 def _kind(law: ContactLaw) -> str:
-    """What the law's formula is: Hertz's, with bending added, or polynomials."""
+    """Return the form of the law: Hertz, Hertz with bending, or polynomials."""
     if law.hertzian:
         return "hertz"
     return "bent" if all(e.hertzian or e.bends for e in law.chosen) else "table"
 
 
 def _bend(law: ContactLaw) -> float:
-    """Deflection over Hertz's indentation, over the contact radius [1/m], of bending alone."""
+    """Return the bending deflection over Hertz's indentation, over the contact radius [1/m]."""
     h = law.model.h
     return float(law.deflection(np.array([h])).depth[0]) / (1.0 + law.softness) / h
 
 
 def _compliance(law: ContactLaw, a: float) -> float:
-    """Deflection over force [m/N] of what is elastic in a viscous contact, 0 for none.
+    """Return the elastic compliance [m/N] in a viscoelastic contact; 0 if there is none.
 
     Raises
     ------
     SceneError
-        If it is not proportional to the force.
+        If the elastic deflection is not proportional to the force.
     """
     if not law.viscous:
         return 0.0
     bent = bending_of(law, a)
     if bent.law.other_edge:
         raise SceneError(
-            "plate.edge: expected the paper's edge for the code of a viscous scene with bending, "
-            f"as the deflection on a {law.model.edge} edge, which is elastic, is not proportional "
-            "to the force; write effects.edge = false, or leave out retardation_time"
+            "plate.edge: expected the paper's edge for the code of a viscoelastic contact with "
+            f"bending, got a {law.model.edge} edge, with which the elastic deflection is not "
+            "proportional to the force; set effects.edge = false, or remove retardation_time"
         )
     return float(bent.at(law.force(np.array([a]), law.at(np.array([a]))))[1][0])
 
 
 def _slowness(law: ContactLaw, motion: Motion, compliance: float) -> float:
-    """Time scale of a viscous contact's inner state over the contact time [1]."""
+    """Return the time scale of the internal state over the contact time [1]."""
     a = np.array([motion.max_contact_radius])
-    slack = law.model.retardation_time * compliance * float(law.stiffness(a, law.at(a))[0])
-    return slack / motion.contact_time
+    scale = law.model.retardation_time * compliance * float(law.stiffness(a, law.at(a))[0])
+    return scale / motion.contact_time
 
 
 def end_of(law: ContactLaw, a: float) -> float:
-    """Contact radius [m] at which the code's range ends, from one in an impact's on.
+    """Return the largest contact radius [m] of the code, from the radius a of an impact.
 
-    That of the law's limit, or before it where a held edge's model is not known to be right, or
-    says that the plate gives way towards the sphere.
+    It is the limit of the law, or a smaller one where the model of a simply supported or clamped
+    edge is not accurate or gives a negative slope.
     """
     last = last_radius(law)
     if not law.other_edge:
@@ -245,11 +243,11 @@ def end_of(law: ContactLaw, a: float) -> float:
 
 
 def tabulated(law: ContactLaw, last: float) -> PanelTable:
-    """Polynomials of the law on panels up to a contact radius [m]."""
+    """Return polynomials of the law on panels up to a contact radius [m]."""
     odd, step = np.arange(2 * COEFFICIENTS - 1, 0, -2), np.pi / (2 * COEFFICIENTS)
     nodes = np.cos(step * odd)
-    # The polynomials are orthogonal over their nodes. Sums, unlike products of matrices, are the
-    # same to the last bit whatever library does linear algebra. Whole turns are left out.
+    # The polynomials are orthogonal over their nodes. Sums, unlike matrix products, do not depend
+    # on the linear-algebra library. Whole turns are removed.
     turned = np.outer(np.arange(COEFFICIENTS), odd) % (4 * COEFFICIENTS)
     basis = 2.0 / COEFFICIENTS * np.cos(step * turned)
     basis[0] *= 0.5
@@ -262,7 +260,7 @@ def tabulated(law: ContactLaw, last: float) -> PanelTable:
         found = np.sum(basis[:, :, None] * values.T, axis=1)
         tail = np.max(np.abs(found[-2:]), axis=0)
         off = max(tail[0] * a[-1] / shape.depth[-1], tail[1] / np.max(shape.force))
-        if off > SETTLED and high - low > NARROWEST * last:
+        if off > CONVERGED and high - low > NARROWEST * last:
             middle = 0.5 * (low + high)
             todo += [(middle, high), (low, middle)]
             continue
@@ -273,7 +271,7 @@ def tabulated(law: ContactLaw, last: float) -> PanelTable:
 
 
 def _powers(series: Array) -> Array:
-    """Powers of a Chebyshev series, the same number of them: `cheb2poly` drops zeros at the end."""
+    """Return the powers of a Chebyshev series; `cheb2poly` drops zeros at the end."""
     powers: Array = np.zeros(len(series))
     found = cheb2poly(series)
     powers[: len(found)] = found
@@ -281,7 +279,7 @@ def _powers(series: Array) -> Array:
 
 
 def _head(scene: Scene, result: Result, parts: tuple[str, ...], stepped: bool) -> tuple[str, ...]:
-    """The module's head: the scene, effects included and omitted, tolerance, what to know."""
+    """Return the docstring: scene, included and omitted effects, error bound, warnings."""
     selected = result.effects
     keys = [
         f"[{table}] " + ", ".join(f"{key} = {json.dumps(value)}" for key, value in keys.items())
@@ -291,7 +289,7 @@ def _head(scene: Scene, result: Result, parts: tuple[str, ...], stepped: bool) -
         f"{row.name}: {BY_NAME[row.name].equation}; "
         f"{row.parameter} = {row.parameter_value:.3g}, {row.reason}"
         for row in selected.rows
-        if row.included and BY_NAME[row.name].selectable  # what is only compared is not in the law
+        if row.included and BY_NAME[row.name].selectable  # others are not in the law
     ]
     omitted = [
         f"{row.name}: "
@@ -302,7 +300,7 @@ def _head(scene: Scene, result: Result, parts: tuple[str, ...], stepped: bool) -
     ]
     notes = (*result.warnings, *([result.model_note] if result.model_note else []))
     title = f"Contact law{' and impact' if stepped else ''} of one scene"
-    title += ": a sphere striking a plate, in SI units; needs NumPy alone."
+    title += ": a sphere striking a plate, in SI units; requires only NumPy."
     formula = next(summary(part) for part in parts if part.endswith("_law"))
     return (
         title,
@@ -310,22 +308,22 @@ def _head(scene: Scene, result: Result, parts: tuple[str, ...], stepped: bool) -
         *("", "Scene:", "", *_wrapped(keys)),
         *("", "Included effects:", "", *_wrapped(included)),
         *("", "Omitted effects:", "", *_wrapped(omitted)),
-        *("", *textwrap.wrap(_promise(selected, result), WIDTH)),
-        *(("", "To know:", "", *_wrapped(notes)) if notes else ()),
+        *("", *textwrap.wrap(_omission(selected, result), WIDTH)),
+        *(("", "Warnings:", "", *_wrapped(notes)) if notes else ()),
         *(() if stepped else ("", *textwrap.wrap(STIFF, WIDTH))),
     )
 
 
-def _promise(selected: SelectedEffects, result: Result) -> str:
-    """What the omitted effects may change."""
+def _omission(selected: SelectedEffects, result: Result) -> str:
+    """Return the bound on the change by omitted effects, in words."""
     if not selected.error:
         return "No applicable effect is omitted, unless the scene disables it."
     deepest = result.max_indentation
     return (
-        "The omitted effects, unless the scene disables them, change each result of this "
-        f"impact by at most {selected.error:.1e} (tolerance {selected.rtol:.3g}). This holds "
-        f"up to its largest indentation, {deepest:.6g} m; beyond, up to MAX_INDENTATION, the "
-        "effects stay the same."
+        "The omitted effects, except those disabled in the scene, change each result of this "
+        f"impact by at most {selected.error:.1e} (tolerance {selected.rtol:.3g}). This bound is "
+        f"valid up to the largest indentation of this impact, {deepest:.6g} m. The same effects "
+        "are used for larger indentations, up to MAX_INDENTATION, where the bound may be exceeded."
     )
 
 
@@ -334,7 +332,7 @@ def _bound(bound: float) -> str:
 
 
 def _wrapped(items: list[str] | tuple[str, ...]) -> list[str]:
-    """Items of a list, broken into lines that fit below a margin."""
+    """Return list items, wrapped to the width of the text."""
     return [
         line
         for item in items
@@ -342,40 +340,40 @@ def _wrapped(items: list[str] | tuple[str, ...]) -> list[str]:
     ]
 
 
-def errors(of: Recipe, made: Mapping[str, Any]) -> dict[str, float]:
-    """Relative differences of code from its law, absolute ones of the restitution.
+def errors(recipe: Recipe, module: Mapping[str, Any]) -> dict[str, float]:
+    """Return the relative differences between code and law (restitution: absolute).
 
     Parameters
     ----------
-    of
-        What the code is made of.
-    made
+    recipe
+        The parts of the code.
+    module
         The names that the code defines.
 
     Raises
     ------
     SceneError
-        If one is too large, as extreme scenes may make it.
+        If a difference is too large, as is possible for extreme scenes.
     """
-    law = of.law
+    law = recipe.law
     small, even = np.geomspace(SMALL, 1.0, POINTS), np.linspace(0.01, 1.0, POINTS)
-    a = made["LIMIT"] * np.unique(np.append(small, even))
+    a = module["LIMIT"] * np.unique(np.append(small, even))
     shape = law.at(a)
-    delta = np.minimum(law.indentation(a, shape), made["MAX_INDENTATION"])  # to the last bit
-    static = made["elastic_force" if "elastic_force" in made else "force"]
+    delta = np.minimum(law.indentation(a, shape), module["MAX_INDENTATION"])  # exact at the limit
+    static = module["elastic_force" if "elastic_force" in module else "force"]
     found = {
         "force": (static(delta), law.force(a, shape)),
-        "stiffness": (made["stiffness"](delta), law.stiffness(a, shape)),
-        "contact_radius": (made["contact_radius"](delta), a),
+        "stiffness": (module["stiffness"](delta), law.stiffness(a, shape)),
+        "contact_radius": (module["contact_radius"](delta), a),
     }
     worst = {name: float(np.max(np.abs(x / y - 1.0))) for name, (x, y) in found.items()}
-    if "impact" in made:
-        told, truth = np.array(made["impact"]()), np.array(of.motion.numbers)
-        worst["impact"] = float(np.max(np.abs(told - truth) / np.append(truth[:4], 1.0)))
+    if "impact" in module:
+        own, reference = np.array(module["impact"]()), np.array(recipe.motion.numbers)
+        worst["impact"] = float(np.max(np.abs(own - reference) / np.append(reference[:4], 1.0)))
     for name, error in worst.items():
-        if not error <= WRONG[name]:
+        if not error <= TOLERANCES[name]:
             raise SceneError(
-                f"scene: expected code that repeats its {name.replace('_', ' ')} to "
-                f"{WRONG[name]:g}, got {error:.1e}; give less extreme numbers"
+                f"scene: expected code with a {name.replace('_', ' ')} accurate to "
+                f"{TOLERANCES[name]:g}, got an error of {error:.1e}; use less extreme values"
             )
     return worst

@@ -1,4 +1,4 @@
-"""Put the code of a scene together: its head, its numbers, and copies of plain modules."""
+"""Assembles the code of a scene: docstring, constants, copies of plain modules."""
 
 import ast
 from collections.abc import Iterator, Mapping, Sequence
@@ -10,27 +10,27 @@ import numpy as np
 RUNTIME = Path(__file__).parent / "runtime"
 PACKAGE = "derivation.scene.runtime."
 WIDTH = 94
-"""Of lines of text."""
+"""Width of the text in columns."""
 KEPT = {"LIMIT"}
-"""What users of the code may need though none of its functions does."""
+"""Constants for users of the code that none of its functions needs."""
 
 
 def composed(
     head: Sequence[str], remark: str, parts: Sequence[str], numbers: Mapping[str, object]
 ) -> str:
-    """Source of a standalone module.
+    """Return the source of a standalone module.
 
     Parameters
     ----------
     head
-        Lines of its docstring.
+        Lines of the docstring.
     remark
-        Lines of comment below it.
+        Comment lines below the docstring.
     parts
-        Modules of `runtime`, in order. Their imports from one another are left out, as their
-        functions stand in one file here; all else is copied line for line.
+        Modules of `runtime`, in order. They are copied line for line, without the imports from one
+        another.
     numbers
-        The numbers of `runtime.data`, for this scene; those that no part uses are left out.
+        The constants of `runtime.data` for this scene; unused ones are omitted.
     """
     trees = [ast.parse(_source(part)) for part in parts]
     used = {node.id for tree in trees for node in ast.walk(tree) if isinstance(node, ast.Name)}
@@ -42,7 +42,7 @@ def composed(
 
 
 def summary(part: str) -> str:
-    """First line of a module of `runtime`."""
+    """Return the first line of the docstring of a module of `runtime`."""
     return (ast.get_docstring(ast.parse(_source(part))) or "").partition("\n")[0].rstrip(".")
 
 
@@ -51,7 +51,7 @@ def _source(part: str) -> str:
 
 
 def _imports(part: str) -> Iterator[str]:
-    """Imports from elsewhere."""
+    """Yield the imports from other packages."""
     for node in ast.parse(_source(part)).body:
         own = isinstance(node, ast.ImportFrom) and (node.module or "").startswith(PACKAGE)
         if isinstance(node, ast.Import | ast.ImportFrom) and not own:
@@ -59,7 +59,7 @@ def _imports(part: str) -> Iterator[str]:
 
 
 def _body(part: str) -> str:
-    """The lines below the imports."""
+    """Return the lines below the imports."""
     source = _source(part)
     above = [
         node.end_lineno or 0
@@ -70,7 +70,7 @@ def _body(part: str) -> str:
 
 
 def _numbers(used: set[str], numbers: Mapping[str, object]) -> Iterator[str]:
-    """The numbers in the order of `runtime.data`, with their meanings."""
+    """Yield the constants in the order of `runtime.data`, with their docstrings."""
     body = ast.parse(_source("data")).body
     for node, text in pairwise(body):
         if isinstance(node, ast.Assign) and isinstance(text, ast.Expr):
@@ -80,7 +80,7 @@ def _numbers(used: set[str], numbers: Mapping[str, object]) -> Iterator[str]:
 
 
 def _literal(value: object) -> str:
-    """A number or an array, all digits given."""
+    """Return a number or an array as source, with all digits."""
     if not isinstance(value, np.ndarray):
         return repr(value)
     rows = np.array2string(

@@ -21,7 +21,7 @@ HEADS = (
 """Column heads of the effects table."""
 
 
-SYMBOLS = "a contact radius, b plate radius, h half the plate thickness, H = 2 h, R sphere radius"
+SYMBOLS = "a contact radius, R sphere radius, b plate radius, H = 2 h thickness, E* = E/(1 - nu^2)"
 """Symbols of the parameters."""
 
 
@@ -184,7 +184,7 @@ def decide(
     law = found.state.law
     for effect in law.chosen:
         effect.check(law, found.choice[effect.name] is True)
-    tolerance = f"{'the default selection tolerance' if default else 'rtol ='} {rtol:.3g}"
+    tolerance = f"{'the default selection' if default else 'the'} tolerance {rtol:.3g}"
     rows = [_row(effect, found, tolerance, outputs) for effect in EFFECTS]
     return SelectedEffects(law, rtol, found.error, tuple(rows), tuple(outputs))
 
@@ -222,7 +222,7 @@ def _row(
     elif name in found.blocked:
         why = f"cannot be included, because the scene disables {found.blocked[name]}"
     elif included:
-        why = f"the error bound without it exceeds {tolerance}"
+        why = f"needed to meet {tolerance}"
     else:
         why = f"all omitted effects together change the results by at most {error:.1e}"
     disabled = choice[name] is False and effect.selectable

@@ -1,4 +1,4 @@
-"""The only door to the generated package: the kernels a scene needs."""
+"""The generated functions that scenes use; other modules import them from here."""
 
 import numpy as np
 
@@ -50,24 +50,24 @@ from generated.viscosity import Course, viscous_logarithms, viscous_number
 from generated.viscous_bodies import retardation_of_two
 
 Numbers = float | Array
-"""A number of one scene, or those of many as a column."""
+"""A number of one scene, or a column of numbers of many scenes."""
 
 
 def contact_plates(h: Numbers, b: Numbers) -> Plates:
-    """The contact law's polynomials of one plate or of many; NaN where h/b is out of range."""
+    """Return the polynomials of the contact law of one or many plates; NaN for h/b out of range."""
     eta = np.ravel(np.asarray(h / b))
     return plates_of(np.where((eta >= THINNEST) & (eta <= THICKEST), eta, np.nan))
 
 
 def plates_at(plates: Plates, index: Array) -> Plates:
-    """Some of many plates, by their numbers."""
+    """Return some of many plates by their indices."""
     short, first = (Piece(*(x[..., index] for x in piece)) for piece in plates[3:])
     eta, reach, far = (x[index] for x in plates[:3])
     return Plates(eta, reach, far, short, first)
 
 
 def plate_share(plates: Plates, a: Array, h: Numbers, b: Numbers) -> tuple[Array, Array]:
-    """F and S - 1 of the contact law, of one plate or of a row of radii for each of many.
+    """Return F and S - 1 of the contact law for one plate, or for many with a row of radii each.
 
     Parameters
     ----------

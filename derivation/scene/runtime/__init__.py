@@ -1,1 +1,1 @@
-"""Plain modules that the code of a scene is put together from, and the numbers they need."""
+"""Plain modules from which the code of a scene is assembled, and their constants."""

@@ -1,4 +1,4 @@
-"""Acceleration of a sphere without weight."""
+"""Acceleration of the sphere without gravity."""
 
 import numpy as np
 
@@ -6,5 +6,5 @@ from derivation.scene.runtime.data import MASS
 
 
 def _acceleration(force: np.ndarray) -> np.ndarray:
-    """Acceleration [m/s^2] of the sphere towards the plate under a contact force [N]."""
+    """Return the acceleration [m/s^2] towards the plate under a contact force [N]."""
     return -force / MASS

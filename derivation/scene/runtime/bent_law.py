@@ -8,7 +8,7 @@ from derivation.scene.runtime.domain import _inside
 
 
 def contact_radius(delta: ArrayLike) -> np.ndarray:
-    """Contact radius [m] at indentations [m]; domain and NaN as those of the force."""
+    """Return the contact radius [m] at indentations [m]; same domain as the force."""
     hertz = np.sqrt(R * _inside(delta))
     # a = hertz/t, t^3 - t = BEND hertz, whose root is t = (2/sqrt(3)) cos(arccos(w)/3).
     w = 1.5 * np.sqrt(3.0) * BEND * hertz
@@ -17,7 +17,7 @@ def contact_radius(delta: ArrayLike) -> np.ndarray:
 
 
 def _law(a: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Force [N], indentation [m], and their slopes by the contact radius, at radii [m]."""
+    """Return force [N], indentation [m] and their derivatives by the radius, at radii [m]."""
     stiffness = 4.0 / 3.0 * MODULUS / R
     depth, slope = 1.0 + BEND * a, 2.0 + 3.0 * BEND * a
     return stiffness * a**3, a * a / R * depth, 3.0 * stiffness * a * a, a / R * slope

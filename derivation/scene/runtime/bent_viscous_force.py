@@ -1,4 +1,4 @@
-"""Force of a viscoelastic contact on a plate that bends, and the rate of its inner state."""
+"""Force of a viscoelastic contact on a plate that bends, and the rate of its internal state."""
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -9,7 +9,7 @@ from derivation.scene.runtime.stiffness import stiffness
 
 
 def force(delta: ArrayLike, elastic: ArrayLike) -> np.ndarray:
-    """Contact force [N] at indentations [m] and inner states; it cannot pull.
+    """Return the contact force [N] at indentations [m] and internal states, never negative.
 
     Formula::
 
@@ -20,12 +20,13 @@ def force(delta: ArrayLike, elastic: ArrayLike) -> np.ndarray:
     delta : array_like
         Indentation [m]
     elastic : array_like
-        Inner state [m], which `elastic_rate` moves; up to MAX_INDENTATION
+        Internal state [m], whose rate is `elastic_rate`; up to MAX_INDENTATION
 
     Returns
     -------
     float or ndarray
-        P [N] in the arguments' broadcast shape; 0 for elastic <= 0; NaN beyond MAX_INDENTATION.
+        P [N] in the broadcast shape of the arguments; 0 for elastic <= 0, NaN above
+        MAX_INDENTATION.
     """
     delta, elastic = np.asarray(delta, dtype=np.float64), np.asarray(elastic, dtype=np.float64)
     bent = np.where(elastic > 0, delta - elastic, 0.0) / COMPLIANCE
@@ -33,28 +34,29 @@ def force(delta: ArrayLike, elastic: ArrayLike) -> np.ndarray:
 
 
 def elastic_rate(delta: ArrayLike, elastic: ArrayLike) -> np.ndarray:
-    """Rate [m/s] of the inner state: the indentation at which a relaxed contact has the force P_e.
+    """Return the rate [m/s] of the internal state, the relaxed indentation under the force P_e.
 
-    Bending follows the force at once, the contact indentation lags it (retardation time A_v)::
+    Bending is elastic; the local indentation lags the force (retardation time A_v)::
 
         delta = elastic + COMPLIANCE (P - P_e),   P = P_e + A_v dP_e/dt
         d elastic/dt = (delta - elastic)/(A_v COMPLIANCE dP_e/d elastic)
 
-    An impact begins with elastic = 0, where this is infinite; P_e is smooth there and may be
-    the state instead: dP_e/dt = (delta - elastic)/(A_v COMPLIANCE). Stiff: its time scale is
-    A_v COMPLIANCE dP_e/d elastic. The contact ends where `force` comes down to 0.
+    An impact begins with elastic = 0, where the rate is infinite; P_e is smooth there and can
+    be used as the state instead: dP_e/dt = (delta - elastic)/(A_v COMPLIANCE). The equation is
+    stiff, with the time scale A_v COMPLIANCE dP_e/d elastic. The contact ends when `force`
+    falls to 0.
 
     Parameters
     ----------
     delta : array_like
         Indentation [m]
     elastic : array_like
-        Inner state [m]; above 0, up to MAX_INDENTATION
+        Internal state [m]; above 0, up to MAX_INDENTATION
 
     Returns
     -------
     float or ndarray
-        In the arguments' broadcast shape; NaN outside the domain.
+        Rate in the broadcast shape of the arguments; NaN outside the domain.
     """
     delta, elastic = np.asarray(delta, dtype=np.float64), np.asarray(elastic, dtype=np.float64)
     elastic = np.where(elastic > 0, elastic, np.nan)

@@ -8,22 +8,22 @@ from derivation.scene.runtime.hertz_law import _law
 
 
 def _start(v0: float, unit: float, time: float) -> tuple[np.ndarray, np.ndarray, float]:
-    """a^3, velocity, indentation and t^(1/3) at the onset, their units, and its first step."""
+    """Return a^3, velocity, indentation and t^(1/3) at the onset, their units, the first step."""
     state, root = np.array([[0.0], [v0], [0.0], [0.0]]), np.cbrt(time)
     return state, np.array([[unit**3], [v0], [v0 * time], [root]]), 0.2 * float(root)
 
 
 def _forces(state: np.ndarray, unit: float) -> tuple[np.ndarray, ...]:
-    """Force, which may pull, its rate of a^3, indentation and radius, of states."""
+    """Return force (may be negative), rate of a^3, indentation and radius of states."""
     cube, _, depth, _ = state
     a = np.cbrt(np.maximum(cube, (1e-20 * unit) ** 3))
-    elastic, calm, force_a, _ = _law(a)
-    lag = (depth - calm) / COMPLIANCE
-    return elastic + lag, 3.0 * a * a / force_a * lag / RETARDATION_TIME, depth, a
+    elastic, static, force_a, _ = _law(a)
+    viscous = (depth - static) / COMPLIANCE
+    return elastic + viscous, 3.0 * a * a / force_a * viscous / RETARDATION_TIME, depth, a
 
 
 def _rates(state: np.ndarray, unit: float) -> np.ndarray:
-    """Of a^3, velocity, indentation and t^(1/3), by t^(1/3), in which the onset is smooth."""
+    """Return the derivatives of the state by t^(1/3), in which the onset is smooth."""
     P, rate, _, _ = _forces(state, unit)
     _, v, _, root = state
     by_root = 3.0 * root * root
@@ -31,5 +31,5 @@ def _rates(state: np.ndarray, unit: float) -> np.ndarray:
 
 
 def _time(state: np.ndarray) -> float:
-    """Time [s] of a state."""
+    """Return the time [s] of a state."""
     return float(state[3] ** 3)

@@ -1,4 +1,4 @@
-"""Where the law holds."""
+"""Domain of the contact law."""
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -7,6 +7,6 @@ from derivation.scene.runtime.data import MAX_INDENTATION
 
 
 def _inside(delta: ArrayLike) -> np.ndarray:
-    """Indentations from 0 on, NaN beyond the law."""
+    """Return indentations, at least 0, and NaN outside the domain of the law."""
     delta = np.maximum(np.asarray(delta, dtype=np.float64), 0.0)
     return np.where(delta <= MAX_INDENTATION, delta, np.nan)

@@ -1,4 +1,4 @@
-"""Relaxed force of a viscoelastic contact."""
+"""Elastic force of a viscoelastic contact."""
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -7,16 +7,16 @@ from derivation.scene.runtime.hertz_law import _law, contact_radius
 
 
 def elastic_force(delta: ArrayLike) -> np.ndarray:
-    """Contact force without viscosity [N] at indentations [m].
+    """Return the contact force without viscosity [N] at indentations [m].
 
     Parameters
     ----------
     delta : array_like
-        Indentation, or the inner state where there is one [m]; up to MAX_INDENTATION
+        Indentation, or the internal state if there is one [m]; up to MAX_INDENTATION
 
     Returns
     -------
     float or ndarray
-        P_e [N]; 0 where nothing touches, delta <= 0; NaN beyond MAX_INDENTATION.
+        P_e [N]; 0 without contact (delta <= 0), NaN above MAX_INDENTATION.
     """
     return _law(contact_radius(delta))[0]

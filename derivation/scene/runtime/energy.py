@@ -1,4 +1,4 @@
-"""Contact time from energy, by Gauss's rule."""
+"""Contact time from energy, by Gauss quadrature."""
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss
@@ -9,9 +9,9 @@ from derivation.scene.runtime.hertz_law import _law
 
 
 def _contact_time(a: float, n: int) -> float:
-    """Time [s] in and out to a radius [m] at which the sphere turns, by n nodes in time.
+    """Return the contact time [s] for a largest radius a [m], by n nodes in time.
 
-    With q = 1 - u^2 the radius over its largest, v^2 = (2/m) times the energy from there on.
+    With q = 1 - u^2 the radius over a, v^2 = (2/m) times the energy absorbed from q to 1.
     """
     x, weights = _gauss(NODES)
     u, in_time = _gauss(n)
@@ -22,6 +22,6 @@ def _contact_time(a: float, n: int) -> float:
 
 
 def _gauss(n: int) -> tuple[np.ndarray, np.ndarray]:
-    """Gauss's nodes and weights on [0, 1]."""
+    """Return Gauss nodes and weights on [0, 1]."""
     nodes, weights = leggauss(n)
     return 0.5 + 0.5 * nodes, 0.5 * weights

@@ -1,4 +1,4 @@
-"""The impact of a sphere without weight, from energy."""
+"""Impact from the energy balance."""
 
 import numpy as np
 
@@ -9,9 +9,9 @@ from derivation.scene.runtime.outcome import Impact
 
 
 def impact(v0: float = SPEED) -> Impact:
-    """The impact at a speed [m/s], this scene's if none is given; NaN beyond the law's range.
+    """Return the impact at a speed [m/s], by default SPEED; NaN outside the range of the law.
 
-    Energy gives the largest radius, and Gauss's rule the time, 2 int d delta/v.
+    The largest radius follows from energy, the time 2 int d delta/v from Gauss quadrature.
     """
     a = _turning_radius(v0)
     if not a > 0.0:
@@ -21,7 +21,7 @@ def impact(v0: float = SPEED) -> Impact:
 
 
 def _turning_radius(v0: float) -> float:
-    """Contact radius [m] at which the sphere turns, by Newton's iteration in logarithms."""
+    """Return the largest contact radius [m], by Newton's iteration in logarithms."""
     if not 0.0 < v0 < np.inf:
         return float("nan")
     x, weights = _gauss(NODES)

@@ -7,7 +7,7 @@ from derivation.scene.runtime.hertz_law import _law, contact_radius
 
 
 def force(delta: ArrayLike) -> np.ndarray:
-    """Contact force [N] at indentations [m].
+    """Return the contact force [N] at indentations [m].
 
     Parameters
     ----------
@@ -17,6 +17,6 @@ def force(delta: ArrayLike) -> np.ndarray:
     Returns
     -------
     float or ndarray
-        P [N]; 0 where nothing touches, delta <= 0; NaN beyond MAX_INDENTATION.
+        P [N]; 0 without contact (delta <= 0), NaN above MAX_INDENTATION.
     """
     return _law(contact_radius(delta))[0]

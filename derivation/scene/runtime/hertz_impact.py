@@ -1,4 +1,4 @@
-"""The impact of Hertz's law."""
+"""Impact by Hertz's law."""
 
 import numpy as np
 
@@ -8,9 +8,9 @@ from derivation.scene.runtime.outcome import Impact
 
 
 def impact(v0: float = SPEED) -> Impact:
-    """The impact at a speed [m/s], this scene's if none is given; NaN beyond the law's range.
+    """Return the impact at a speed [m/s], by default SPEED; NaN outside the range of the law.
 
-    a = (15 m v0^2 R^2/(16 E*))^(1/5), and the time is that of Hertz.
+    a = (15 m v0^2 R^2/(16 E*))^(1/5); the contact time is that of Hertz.
     """
     a = (0.9375 * MASS * v0 * v0 / MODULUS * R * R) ** 0.2
     if not (v0 > 0.0 and a <= LIMIT):

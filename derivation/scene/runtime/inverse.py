@@ -1,4 +1,4 @@
-"""The contact radius at an indentation, by Newton's iteration."""
+"""Contact radius at an indentation, by Newton's iteration."""
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -7,11 +7,11 @@ from derivation.scene.runtime.data import LIMIT, MAX_INDENTATION, R
 from derivation.scene.runtime.domain import _inside
 from derivation.scene.runtime.growth_law import _law
 
-_STEPS, _CLOSE = 40, 1e-9  # Newton's, whose next step is the square of the last
+_STEPS, _CLOSE = 40, 1e-9  # the size of the next Newton step is the square of the last one
 
 
 def contact_radius(delta: ArrayLike) -> np.ndarray:
-    """Contact radius [m] at indentations [m]; domain and NaN as those of the force."""
+    """Return the contact radius [m] at indentations [m]; same domain as the force."""
     delta = _inside(delta)
     touching = np.where(delta > 0, delta, MAX_INDENTATION)
     # Newton's iteration for log a, from Hertz's radius or that of a thin plate.

@@ -1,4 +1,4 @@
-"""What an impact gives."""
+"""Results of an impact."""
 
 from typing import NamedTuple
 

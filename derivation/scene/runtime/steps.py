@@ -1,16 +1,20 @@
-"""Extrapolated midpoint steps, and what is read off their series."""
+"""Extrapolated midpoint steps, and extrema and zeros of their Chebyshev series."""
 
 import numpy as np
 from numpy.polynomial.chebyshev import chebder, chebroots, chebval
 
 from derivation.scene.runtime.viscous_motion import _rates
 
-_ORDER, _TOLERANCE, _MOST = 16, 1e-13, 2000  # of a step; relative; steps at most
+_ORDER, _TOLERANCE, _MOST = (
+    16,
+    1e-13,
+    2000,
+)  # order of a step; relative tolerance; largest number of steps
 _TIMES = 0.5 - 0.5 * np.cos(np.pi * np.arange(_ORDER + 1) / _ORDER)
 
 
 def _extrapolated(state: np.ndarray, tau: np.ndarray, unit: float) -> tuple[np.ndarray, np.ndarray]:
-    """States after steps tau, and their errors: the midpoint rule of 2, 4, ... steps, to none."""
+    """Return states after steps tau and their errors, by the midpoint rule extrapolated to 0."""
     last: list[np.ndarray] = []
     for n in range(2, _ORDER + 1, 2):
         step = tau / n
@@ -25,14 +29,14 @@ def _extrapolated(state: np.ndarray, tau: np.ndarray, unit: float) -> tuple[np.n
 
 
 def _largest(series: np.ndarray) -> float:
-    """The largest value of a Chebyshev series, at an end or where its slope is zero."""
+    """Return the largest value of a Chebyshev series, at an end or at a zero of its slope."""
     roots = chebroots(chebder(series))
     inner = roots.real[(np.abs(roots.imag) < 1e-9) & (np.abs(roots.real) < 1.0)]
     return float(np.max(chebval(np.concatenate(([-1.0, 1.0], inner)), series)))
 
 
 def _end(series: np.ndarray) -> float:
-    """Where a Chebyshev series falls through zero, by halving."""
+    """Return the zero of a decreasing Chebyshev series, by bisection."""
     low, high = -1.0, 1.0
     for _ in range(60):
         middle = 0.5 * (low + high)

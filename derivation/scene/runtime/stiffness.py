@@ -9,7 +9,7 @@ from derivation.scene.runtime.hertz_law import _law, contact_radius
 
 
 def stiffness(delta: ArrayLike) -> np.ndarray:
-    """Slope of the elastic force [N/m] at indentations [m]; 0 and NaN where the force is."""
+    """Return the slope of the elastic force [N/m]; 0 and NaN where the force is 0 and NaN."""
     delta = _inside(delta)
     _, _, force_a, delta_a = _law(contact_radius(np.where(delta > 0, delta, MAX_INDENTATION)))
     return np.where(delta > 0, force_a / delta_a, delta)[()]

@@ -9,7 +9,7 @@ from derivation.scene.runtime.stiffness import stiffness
 
 
 def force(delta: ArrayLike, rate: ArrayLike = 0.0) -> np.ndarray:
-    """Contact force [N] at indentations [m] that grow at rates [m/s]; it cannot pull.
+    """Return the contact force [N] at indentations [m] and rates [m/s], never negative.
 
     Formula::
 
@@ -20,12 +20,13 @@ def force(delta: ArrayLike, rate: ArrayLike = 0.0) -> np.ndarray:
     delta : array_like
         Indentation [m]; up to MAX_INDENTATION
     rate : array_like
-        d delta/dt [m/s], above 0 while the sphere comes in
+        d delta/dt [m/s], positive while the indentation increases
 
     Returns
     -------
     float or ndarray
-        P [N] in the arguments' broadcast shape; 0 for delta <= 0; NaN beyond MAX_INDENTATION.
+        P [N] in the broadcast shape of the arguments; 0 for delta <= 0, NaN above
+        MAX_INDENTATION.
     """
     rate = np.asarray(rate, dtype=np.float64)
     return np.maximum(elastic_force(delta) + RETARDATION_TIME * stiffness(delta) * rate, 0.0)

@@ -1,4 +1,4 @@
-"""The impact of a viscoelastic contact, by steps."""
+"""Impact with a viscoelastic contact, by time steps."""
 
 import numpy as np
 from numpy.polynomial.chebyshev import chebfit, chebval
@@ -18,36 +18,36 @@ from derivation.scene.runtime.viscous_motion import _forces, _start, _time
 
 
 def impact(v0: float = SPEED) -> Impact:
-    """The impact at a speed [m/s], this scene's if none is given; NaN beyond the law's range.
+    """Return the impact at a speed [m/s], by default SPEED; NaN outside the range of the law.
 
-    The equation of motion until P is 0, by extrapolated midpoint steps. NaN too where the sphere
-    does not come off again.
+    The equation of motion is integrated until P = 0 by extrapolated midpoint steps. The result is
+    also NaN if the sphere does not rebound.
     """
     nothing = Impact(*(np.nan,) * 5)
     if not 0.0 < v0 < np.inf:
         return nothing
-    # Radius and time of the impact, nearly: units of the steps and of their errors.
+    # Approximate radius and time of the impact are the units of the steps and of their errors.
     unit = LARGEST_RADIUS * (v0 / SPEED) ** 0.4
     state, scale, length = _start(v0, unit, RISE * (SPEED / v0) ** 0.2)
     largest = np.zeros(3)
     for _ in range(_MOST):
-        course, error = _extrapolated(state, length * _TIMES, unit)
-        series = chebfit(2.0 * _TIMES - 1.0, (course / scale).T, _ORDER)
+        states, error = _extrapolated(state, length * _TIMES, unit)
+        series = chebfit(2.0 * _TIMES - 1.0, (states / scale).T, _ORDER)
         off = max(np.max(np.abs(error[:, -1:] / scale)), np.max(np.abs(series[-2:])))
         change = 0.9 * (_TOLERANCE / max(off, 1e-300)) ** (1.0 / _ORDER)
         if not off <= _TOLERANCE:
             length *= min(0.8, max(0.1, change)) if off < np.inf else 0.1
             continue
-        P, _, depth, a = _forces(course, unit)
+        P, _, depth, a = _forces(states, unit)
         rows = chebfit(2.0 * _TIMES - 1.0, np.array([depth, P, a]).T, _ORDER).T
         largest = np.maximum(largest, [_largest(row) for row in rows])
-        if not largest[2] <= LIMIT or state[1, 0] < 0.0 < course[1, -1]:
+        if not largest[2] <= LIMIT or state[1, 0] < 0.0 < states[1, -1]:
             return nothing
         if P[-1] <= 0.0:
             last = chebval(_end(rows[1]), series) * scale[:, 0]
             depth_most, force_most, radius_most = (float(x) for x in largest)
             rebound = float(-last[1] / v0)
             return Impact(_time(last), depth_most, force_most, radius_most, rebound)
-        state = course[:, -1:]
+        state = states[:, -1:]
         length *= min(2.0, change)
     return nothing

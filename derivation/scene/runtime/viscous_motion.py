@@ -8,13 +8,13 @@ from derivation.scene.runtime.hertz_law import _law
 
 
 def _start(v0: float, unit: float, time: float) -> tuple[np.ndarray, np.ndarray, float]:
-    """Radius, velocity and time at the onset, their units, and the first step of int dt/a."""
+    """Return radius, velocity and time at the onset, their units, the first step of int dt/a."""
     state = np.array([[0.0], [v0], [0.0]])
     return state, np.array([[unit], [v0], [time]]), 0.2 * time / unit
 
 
 def _forces(state: np.ndarray, unit: float) -> tuple[np.ndarray, ...]:
-    """Force, which may pull, a times its rate, indentation and radius, of states."""
+    """Return force (may be negative), a times its rate, indentation and radius of states."""
     a, v, _ = state
     a = np.maximum(a, 1e-20 * unit)
     P, depth, force_a, depth_a = _law(a)
@@ -22,11 +22,11 @@ def _forces(state: np.ndarray, unit: float) -> tuple[np.ndarray, ...]:
 
 
 def _rates(state: np.ndarray, unit: float) -> np.ndarray:
-    """Of radius, velocity and time, by int dt/a, in which the onset is smooth."""
+    """Return the derivatives of the state by int dt/a, in which the onset is smooth."""
     P, rate, _, a = _forces(state, unit)
     return np.array([rate, a * _acceleration(P), a])
 
 
 def _time(state: np.ndarray) -> float:
-    """Time [s] of a state."""
+    """Return the time [s] of a state."""
     return float(state[2])

@@ -33,7 +33,7 @@ def lines(data: Data) -> Iterator[str]:
     """Yield the headline, the law's fastest methods, and the run time of an impact."""
     yield from wrap(headline(data), 95)
     yield ""
-    yield f"| correct digits of the contact law, {case(data)} | fastest method for arrays | per point |"
+    yield f"| digits of the contact law, {case(data)} | fastest method for arrays | per point |"
     yield "|---|---|---|"
     yield from winners(data)
     yield ""

@@ -12,6 +12,7 @@ PARTS = {
     "exceptions": "functions.exceptions",
     "commands": "commands.text",
     "exit_status": "commands.exit_status",
+    "names": "names.text",
     "scene_keys": "scene_keys.text",
     "effects_table": "effects.all_effects",
     "effects": "effects.entries",

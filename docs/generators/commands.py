@@ -18,7 +18,7 @@ def text() -> str:
     commands = get_command(cli.app).commands  # type: ignore[attr-defined]
     parts = []
     for title, names in GROUPS.items():
-        rows = [(_link(name), _short(commands[name])) for name in names]
+        rows = [(link(name), _short(commands[name])) for name in names]
         parts += [f"**{title}**", table(("command", "does"), rows)]
     for names in GROUPS.values():
         for name in names:
@@ -26,13 +26,14 @@ def text() -> str:
     return "\n\n".join(parts)
 
 
-def names() -> list[str]:
-    """Return every command that the help lists, subcommands included."""
+def summaries() -> Iterator[tuple[str, str]]:
+    """Yield every command that the help lists, subcommands included, with what it does."""
     commands = get_command(cli.app).commands  # type: ignore[attr-defined]
-    found = []
     for name in (name for group in GROUPS.values() for name in group):
-        found += [name, *(f"{name} {part}" for part in getattr(commands[name], "commands", ()))]
-    return found
+        yield name, _short(commands[name])
+        for part, subcommand in getattr(commands[name], "commands", {}).items():
+            if not subcommand.hidden:
+                yield f"{name} {part}", _short(subcommand)
 
 
 def exit_status() -> str:
@@ -43,7 +44,7 @@ def exit_status() -> str:
 
 
 def _entries(name: str, command: Any, level: int) -> Iterator[str]:
-    yield f"({_anchor(name)})=\n{'#' * level} `platecontact {name}`"
+    yield f"({anchor(name)})=\n{'#' * level} `platecontact {name}`"
     yield block(_help(name, command), "text")
     for part, subcommand in getattr(command, "commands", {}).items():
         if not subcommand.hidden:
@@ -64,9 +65,11 @@ def _short(command: Any) -> str:
     return found
 
 
-def _anchor(name: str) -> str:
+def anchor(name: str) -> str:
+    """Return the name of the target of a command's section."""
     return f"command-{name.replace(' ', '-')}"
 
 
-def _link(name: str) -> str:
-    return f"[`{name}`](#{_anchor(name)})"
+def link(name: str) -> str:
+    """Return a link to the section of a command."""
+    return f"[`{name}`](#{anchor(name)})"

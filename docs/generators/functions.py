@@ -18,6 +18,16 @@ EXCEPTIONS = (
 )
 """Exceptions that a user can meet."""
 
+MORE = (
+    "edge_modes",
+    "impact",
+    "non_hertzian_pressure",
+    "perturbation",
+    "plate_waves",
+    "prepared_plate",
+)
+"""Modules for users whose names `generated` itself does not offer."""
+
 
 def api() -> str:
     """Return the entries of `platecontact`."""
@@ -59,7 +69,7 @@ def modules() -> Iterator[tuple[str, list[str]]]:
     for name in package.__all__:
         module = getattr(package, name).__module__.rpartition(".")[2]
         home.setdefault(module, []).append(name)
-    for module in ("impact", "non_hertzian_pressure"):
+    for module in MORE:
         home[module] = list(_own(module))
     yield from sorted(home.items())
 
@@ -71,6 +81,13 @@ def _own(module: str) -> Iterator[str]:
         public = inspect.isfunction(value) or inspect.isclass(value)
         if public and not name.startswith("_") and value.__module__ == loaded.__name__:
             yield name
+
+
+def summary(place: str) -> str:
+    """Return the first sentence of the docstring of a function or class."""
+    module, _, name = place.rpartition(".")
+    value = getattr(import_module(module), name)
+    return " ".join((inspect.getdoc(value) or "").partition("\n\n")[0].split())
 
 
 def _first(module: str) -> str:
@@ -92,4 +109,6 @@ def _entry(module: str, name: str) -> str:
         return rst(f".. autofunction:: {module}.{name}")
     kind = "exception" if issubclass(value, BaseException) else "class"
     # The keys of a table of the scene are in the reference of the scene file.
-    return rst(f".. auto{kind}:: {module}.{name}()")
+    methods = any(inspect.isfunction(each) for key, each in vars(value).items() if key[0] != "_")
+    members = "\n   :members:" if methods and module == "generated.prepared_plate" else ""
+    return rst(f".. auto{kind}:: {module}.{name}(){members}")

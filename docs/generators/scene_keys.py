@@ -1,6 +1,6 @@
 """The keys of a scene file, table by table, from the JSON schema of the scene."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import platecontact as pc
@@ -45,14 +45,13 @@ def _together(names: tuple[str, ...]) -> str:
     return " with ".join(map(code, names))
 
 
-def keys() -> list[str]:
-    """Return every key as `table.key`."""
+def meanings() -> Iterator[tuple[str, str]]:
+    """Yield every key as `table.key`, with its meaning."""
     schema = pc.schema()
-    found = []
     for name, entry in schema["properties"].items():
         shape = _definition(schema, entry.get("additionalProperties", entry))
-        found += [f"{name}.{key}" for key in shape["properties"]]
-    return found
+        for key, said in shape["properties"].items():
+            yield f"{name}.{key}", said["description"]
 
 
 def _definition(schema: Schema, entry: Schema) -> Schema:

@@ -1,7 +1,7 @@
 """What the site adds to Sphinx: generated parts, formulas as MathML, a check of all local links."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
@@ -12,7 +12,7 @@ from docutils import nodes
 from sphinx.application import Sphinx
 from sphinx.errors import ExtensionError
 
-from docs.generators import filled
+from docs.generators import filled, names
 
 _BREAK = "PLATECONTACTBREAK"
 _BARS = re.compile(r"(?<![\\`|])\|([^\s|][^|]*)\|(?!`)")
@@ -120,15 +120,35 @@ def problems(site: Path) -> Iterator[str]:
                     yield f"{where}: {link} leads to no place on the page"
 
 
+def far(site: Path, anchors: Iterable[str]) -> Iterator[str]:
+    """Yield each anchor that takes more than two clicks from the start page."""
+    start = (site / "index.html").resolve()
+    near = {target for target, _ in _targets(start)} | {start}
+    pages = [page for page in near if page.suffix == ".html" and page.is_file()]
+    reached = {anchor for page in pages for _, anchor in _targets(page)}
+    reached |= {anchor for page in pages for anchor in _Page(page).ids}
+    yield from (f"{anchor}: more than two clicks" for anchor in anchors if anchor not in reached)
+
+
+def _targets(path: Path) -> Iterator[tuple[Path, str]]:
+    """Yield the file and the anchor of each local link of a page."""
+    for link in _Page(path).links:
+        parts = urlsplit(link)
+        if not parts.scheme and not parts.netloc:
+            target = (path.parent / unquote(parts.path)).resolve() if parts.path else path
+            yield target, unquote(parts.fragment)
+
+
 def check_site(app: Sphinx, error: Exception | None) -> None:
-    """Check the links of the finished site.
+    """Check the links of the finished site, and that each name is two clicks away at most.
 
     Raises
     ------
     ExtensionError
-        If a local link has no target, or a page loads a file from another site.
+        If a local link has no target, a page loads a file from another site, or a name is too far.
     """
     if error is None and app.builder.name == "html":
-        found = list(problems(Path(app.outdir)))
+        site = Path(app.outdir)
+        found = [*problems(site), *far(site, names.anchors())]
         if found:
             raise ExtensionError("\n".join(found))

@@ -11,11 +11,13 @@ import numpy as np
 import platecontact as pc
 import pytest
 
+import generated as package
 from derivation.engine.files import ROOT
 from derivation.scene.effects import EFFECTS
 from derivation.scene.materials import MATERIALS
-from docs.generators import PARTS, gallery, part, used
-from docs.generators.sphinx_hooks import escape_bars, problems
+from docs.generators import PARTS, gallery, names, part, used
+from docs.generators.sphinx_hooks import escape_bars, far, problems
+from generated.manifest import KERNELS
 
 PAGES = {page: page.read_text() for page in sorted((ROOT / "docs").rglob("*.md"))}
 LINK = re.compile(r"\]\(([^)\s]+)\)")
@@ -84,6 +86,26 @@ def test_a_wrong_link_and_a_foreign_file_are_found(tmp_path: Path) -> None:
     found = "\n".join(problems(tmp_path))
     assert len(found.splitlines()) == 3
     assert all(text in found for text in ("x.js", "#there", "b.html"))
+
+
+def test_a_name_more_than_two_clicks_away_is_found(tmp_path: Path) -> None:
+    (tmp_path / "index.html").write_text('<a href="a.html"></a><p id="here"></p>')
+    (tmp_path / "a.html").write_text('<a href="b.html#two"></a><p id="one"></p>')
+    (tmp_path / "b.html").write_text('<p id="two"></p><p id="three"></p>')
+    assert list(far(tmp_path, ("here", "one", "two", "three"))) == ["three: more than two clicks"]
+
+
+def test_the_index_has_every_name() -> None:
+    rows = part("names").splitlines()
+    assert any("`plate.loss_factor`](#key-plate-loss-factor)" in row for row in rows)
+    for place in ("generated.influence.G", "platecontact.simulate"):
+        assert any(f"{{py:obj}}`{place}`" in row for row in rows)
+    shown = {
+        place.rpartition(".")[2] for place in names.anchors() if place.startswith("generated.")
+    }
+    assert {kernel["name"] for kernel in KERNELS} <= shown
+    assert set(package.__all__) <= shown
+    assert len(rows) == 2 + len(list(names.anchors()))
 
 
 def test_a_table_says_which_keys_exclude_one_another() -> None:

@@ -33,8 +33,7 @@ def lines(data: Data) -> Iterator[str]:
     """Yield the headline, the law's fastest methods, and the run time of an impact."""
     yield from wrap(headline(data), 95)
     yield ""
-    digits = f"correct digits of the contact law, {case(data)}"
-    yield f"| {digits} | fastest method for arrays | per point |"
+    yield f"| digits of the contact law, {case(data)} | fastest method for arrays | per point |"
     yield "|---|---|---|"
     yield from winners(data)
     yield ""

@@ -268,11 +268,11 @@ def _report_as_far_as_possible(
 
     Returns the files written, and what is missing.
     """
-    from derivation.engine.report.pdf import TexError, compile_pdf
+    from derivation.engine.report.pdf import TexError, compile_all
 
     written = report(paper, out, compiled=False)
     try:
-        return (*written, compile_pdf(written[0])), ()
+        return (*written, *compile_all(written)), ()
     except TexError as error:
         return written, (f"no PDF, everything else is written: {error}",)
 

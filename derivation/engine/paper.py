@@ -10,7 +10,7 @@ from derivation.engine.formula.chain import Chain
 from derivation.engine.formula.vocabulary import Vocabulary
 from derivation.engine.package import Package
 from derivation.engine.report import any_report
-from derivation.engine.report.document import Text
+from derivation.engine.report.document import Parts, Plan
 from derivation.engine.report.pieces import Prose
 
 if TYPE_CHECKING:
@@ -32,12 +32,12 @@ class Report:
     prose
         Text by link, and references.
     subtitle, abstract
-        Subtitle, and the topic of the report in a few sentences.
-    sections
-        Names of its sections, in order.
-    text
-        Function for the report's LaTeX from the names of the sections; None for sections that are
-        suitable for any paper.
+        Below the title, and in a few sentences what the report is about.
+    plan
+        Names of its sections and appendices, in order.
+    parts
+        The report's LaTeX, from the names of the sections to show; None for the sections that
+        suit any paper.
     figures
         Function for every figure by name; only figures of the shown sections are drawn.
     beside
@@ -48,8 +48,8 @@ class Report:
     prose: Prose = field(default_factory=Prose)
     subtitle: str = ""
     abstract: str = ""
-    sections: tuple[str, ...] = any_report.SECTIONS
-    text: Callable[[Sequence[str]], Text] | None = None
+    plan: Plan = any_report.PLAN
+    parts: Callable[[Sequence[str]], Parts] | None = None
     figures: Callable[[], Mapping[str, "Figure"]] = dict
     beside: Callable[[Path], Mapping[Path, str | bytes]] = _nothing
 

@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from importlib.metadata import version
 from pathlib import Path
 
@@ -10,14 +11,14 @@ from derivation.engine.files import expect_folder, write_files
 from derivation.engine.outputs import folder_for, writable_folder
 from derivation.engine.paper import Paper
 from derivation.engine.report import any_report, pdf
-from derivation.engine.report.document import Text, chosen
+from derivation.engine.report.document import Parts, Text, chosen
 from derivation.engine.report.figures import saved
 from derivation.engine.report.fragments import pasted
 from derivation.engine.report.html import page
 
 
-def text(paper: Paper, sections: Sequence[str] = ()) -> Text:
-    """Return the report's LaTeX in parts: the named sections, or all of them.
+def documents(paper: Paper, sections: Sequence[str] = ()) -> dict[str, Text]:
+    """Return the report and its appendices by name, or one document of the named sections.
 
     Raises
     ------
@@ -27,37 +28,46 @@ def text(paper: Paper, sections: Sequence[str] = ()) -> Text:
         If there is no section of a name.
     """
     own = paper.report()
-    shown = chosen(sections, own.sections)
-    if own.text is not None:
-        return own.text(shown)
+    shown = chosen(sections, own.plan.names)
+    wanted = shown or own.plan.names
+    return own.plan.documents(own.parts(wanted) if own.parts else _parts(paper, wanted), shown)
+
+
+def _parts(paper: Paper, sections: Sequence[str]) -> Parts:
+    """The sections that suit any paper."""
     if not paper.measured.is_file():
         raise FileNotFoundError(
             f"no measurement in {paper.measured}: run `platecontact check --update` with the same "
             "paper"
         )
+    own = paper.report()
     contents = any_report.Contents(
         paper.title,
         own.subtitle,
         own.abstract,
+        paper.vocabulary,
         paper.chain.found(),
         paper.errata.found(paper.chain),
         json.loads(paper.measured.read_text()),
         own.prose,
         version("platecontact"),
     )
-    return any_report.text(contents, shown)
+    return any_report.parts(contents, sections)
 
 
 def committed_files(paper: Paper) -> dict[str, str]:
     """Return the report's files that can be compared byte by byte, by name."""
-    document = text(paper).document(version("platecontact"))
-    return {"report.tex": document, "report.bib": paper.report().prose.references.bib()}
+    tex = {
+        f"{name}.tex": text.document(version("platecontact"))
+        for name, text in documents(paper).items()
+    }
+    return {**tex, "report.bib": paper.report().prose.references.bib()}
 
 
 def write(
     paper: Paper, out: Path | None = None, compiled: bool = True, sections: Sequence[str] = ()
 ) -> tuple[Path, ...]:
-    """Write the report and, on request, its PDF; return the files written.
+    """Write the report with its appendices and, on request, their PDF; return the files written.
 
     Files with selected sections are named after them. The whole report in the paper's own folder is
     written together with its accompanying files.
@@ -72,30 +82,33 @@ def write(
         If LaTeX is missing or fails; everything else is written nevertheless.
     """
     folder, own = writable_folder(out, paper.report_folder), paper.report()
-    name = "-".join(["report", *(chosen(sections, own.sections) if sections else ())])
-    parts = text(paper, sections)
-    drawn = {key: figure for key, figure in own.figures().items() if parts.shows(key)}
-    vectors = {key: saved(figure, ".svg") for key, figure in drawn.items()}
-    references = own.prose.references
-    files = {
-        f"{name}.tex": parts.document(version("platecontact")),
-        f"{name}.html": page(parts, paper.title, vectors),
-        "report.bib": references.bib(),
+    texts = documents(paper, sections)
+    drawn = {
+        key: figure
+        for key, figure in own.figures().items()
+        if any(text.shows(key) for text in texts.values())
     }
-    written = tuple(folder / name for name in files)
-    contents: dict[Path, str | bytes] = dict(zip(written, files.values(), strict=True))
+    vectors = {key: saved(figure, ".svg") for key, figure in drawn.items()}
+    with ThreadPoolExecutor() as pool:  # pandoc is another process
+        pages = pool.map(lambda text: page(text, text.title, vectors), texts.values())
+    contents: dict[Path, str | bytes] = {
+        folder / f"{name}.tex": text.document(version("platecontact"))
+        for name, text in texts.items()
+    }
+    contents |= {folder / f"{name}.html": found for name, found in zip(texts, pages, strict=True)}
+    contents[folder / "report.bib"] = own.prose.references.bib()
     for key, figure in drawn.items():
         contents[folder / "figures" / f"{key}.pdf"] = saved(figure, ".pdf")
     if out is None and not sections:
         contents.update(own.beside(paper.folder))
     write_files(contents)
-    return (*contents, *([pdf.compile_pdf(written[0])] if compiled else []))
+    return (*contents, *(pdf.compile_all(contents) if compiled else ()))
 
 
 def freshness(paper: Paper, out: Path | None, mend: str) -> Freshness:
     """Compare the report with what would be written; `mend` is the command that writes it."""
     folder = folder_for(out, paper.report_folder)
-    return compare(folder, committed_files(paper), mend, "report.[tb]*")
+    return compare(folder, committed_files(paper), mend, "[ar]*.[tb]*")
 
 
 def fragments(paper: Paper, names: Sequence[str]) -> str:

@@ -10,19 +10,20 @@ from matplotlib.figure import Figure
 
 from derivation.engine.files import PACKAGE, measurements
 from derivation.engine.paper import Report
-from derivation.engine.report.document import Text
+from derivation.engine.report.document import Parts
 from derivation.engine.report.figures import saved
 from derivation.plate.derived import chain, misprints
 from derivation.plate.render import CITATION
 from derivation.plate.report import readme
 from derivation.plate.report.accuracy_figures import accuracy_figures
+from derivation.plate.report.consequence import Consequences
 from derivation.plate.report.elastodynamics import elastodynamics_figure
 from derivation.plate.report.figures import figures
 from derivation.plate.report.front import SUBTITLE
 from derivation.plate.report.moving import moving_costs
 from derivation.plate.report.overview import overview
 from derivation.plate.report.reproducibility import RENEWED
-from derivation.plate.report.sections import PROSE, SECTIONS, Material, text
+from derivation.plate.report.sections import PLAN, PROSE, Material, parts
 from derivation.scene.impact import simulate
 from derivation.scene.model import Model, model_of
 from derivation.scene.scene import load
@@ -91,22 +92,25 @@ def material() -> Material:
     )
 
 
-def report_text(shown: Sequence[str] = tuple(SECTIONS)) -> Text:
-    """Return the LaTeX of the named sections, in parts.
+def report_parts(shown: Sequence[str]) -> Parts:
+    """The report's LaTeX in parts, with the named sections.
 
     Raises
     ------
     FileNotFoundError
         If committed measurements are missing.
     """
-    return text(material(), shown)
+    return parts(material(), shown)
 
 
 def report_figures() -> dict[str, Figure]:
     """Return every figure of the report by name."""
     data = {name: json.loads(content) for name, content in measured().items()}
+    formulas = {formula.name: formula for _, found in chain() for formula in found}
+    case = paper_case()
+    gamma_2 = Consequences(case, formulas).value(formulas["gamma_2"].expression)
     return (
-        figures(paper_case(), simulate(load(PAPER)))
+        figures(case, simulate(load(PAPER)), gamma_2)
         | accuracy_figures(data["accuracy"])
         | {"moving": moving_costs(data["moving"])}
         | {"elastodynamics": elastodynamics_figure(data["elastodynamics"])}
@@ -125,8 +129,8 @@ def beside(folder: Path) -> dict[Path, str | bytes]:
 REPORT = Report(
     PROSE,
     SUBTITLE,
-    sections=tuple(SECTIONS),
-    text=report_text,
+    plan=PLAN,
+    parts=report_parts,
     figures=report_figures,
     beside=beside,
 )

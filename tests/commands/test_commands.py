@@ -20,6 +20,7 @@ from derivation.engine.measure.judge import Errors, Worst
 from derivation.engine.package import files_of
 from derivation.engine.paper import Paper
 from derivation.engine.report import pdf as tex
+from derivation.engine.report.document import Plan
 from derivation.engine.report.pdf import TexError
 from derivation.engine.rewrite import account as rules
 from derivation.engine.rewrite.account import Account
@@ -165,8 +166,9 @@ def test_the_whole_report_takes_readme_and_picture_along(tmp_path: Path) -> None
     committed = (ROOT / reporting.README).read_text()
     begin, end = reporting.readme.BEGIN, reporting.readme.END
     emptied = committed.partition(begin)[0] + begin + end + committed.partition(end)[2]
-    one = report_files.text(PAPER, ["code"])
-    short = replace(PAPER.report(), text=lambda _: one, figures=dict)
+    plan = Plan(("speed",), ("code",))
+    one = reporting.report_parts(plan.names)
+    short = replace(PAPER.report(), plan=plan, parts=lambda _: one, figures=dict)
     paper = replace(PAPER, folder=tmp_path, report=lambda: short)
     readme, picture = tmp_path / reporting.README, tmp_path / reporting.PICTURE
     readme.write_text(emptied)
@@ -177,7 +179,8 @@ def test_the_whole_report_takes_readme_and_picture_along(tmp_path: Path) -> None
     assert readme.read_text() == committed
     assert picture.read_text().startswith("<?xml")
     assert [path.name for path in written] == [
-        "report.tex", "report.html", "report.bib", "README.md", "overview.svg",
+        "report.tex", "appendices.tex", "report.html", "appendices.html", "report.bib",
+        "README.md", "overview.svg",
     ]  # fmt: skip
 
 

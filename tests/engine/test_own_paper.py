@@ -113,12 +113,14 @@ def test_its_report_holds_what_was_found(folder: Path) -> None:
     text = (folder / "reports" / "report.tex").read_text()
     assert MISPRINT in text
     assert "Reverse the sign of the term" in text
-    assert r"\label{eq:C_bonded}" in text
-    assert r"\subsection{Thin film}" in text
+    appendices = (folder / "reports" / "appendices.tex").read_text()
+    assert r"\label{eq:C_bonded}" in appendices
+    assert r"\subsection{Thin film}" in appendices
     page = (folder / "reports" / "report.html").read_text()
     assert "A film on a rigid base" in page
-    made = (folder / "reports" / "report.pdf").is_file()
-    assert made == (shutil.which("pdflatex") is not None)
+    for name in ("report", "appendices"):
+        made = (folder / "reports" / f"{name}.pdf").is_file()
+        assert made == (shutil.which("pdflatex") is not None)
 
 
 def test_its_report_is_compared_and_taken_in_pieces(folder: Path, tmp_path: Path) -> None:
@@ -186,7 +188,7 @@ def test_what_is_missing_is_named(tmp_path: Path) -> None:
         build.check(paper)
     with pytest.raises(FileNotFoundError, match="run `platecontact check --update`"):
         build.report(paper)
-    with pytest.raises(ValueError, match="no section 'law': expected one of derivation"):
+    with pytest.raises(ValueError, match="no section 'law': expected one of misprints"):
         build.report(paper, sections=["law"])
 
 
@@ -205,7 +207,7 @@ def test_the_plate_is_a_paper_too() -> None:
     assert build.formulas(PAPER)["G"].unit == "1"
     assert build.diagnose(PAPER, "G", "G").verdict == "equal"
     assert PAPER.judge().package == PAPER.package().target == "generated"
-    assert "law" in PAPER.report().sections
+    assert "law" in PAPER.report().plan.sections
 
 
 def test_the_engine_speaks_of_no_paper() -> None:

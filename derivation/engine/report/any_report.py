@@ -1,23 +1,23 @@
-"""The report of any paper: derivation, misprints and accuracy."""
+"""The report of any paper: misprints, symbols and accuracy; the derivation in the appendices."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from derivation.engine.errata.findings import Finding
 from derivation.engine.formula.chain import Found
-from derivation.engine.report.document import Text
+from derivation.engine.formula.vocabulary import Vocabulary
+from derivation.engine.report.document import Parts, Plan
 from derivation.engine.report.latex import environment, escape
 from derivation.engine.report.pieces import (
     Prose,
     accuracy_tables,
-    chain_context,
-    finding_context,
-    link_context,
+    derivation_context,
+    misprints_context,
+    symbols_context,
 )
 
-SECTIONS = ("derivation", "misprints", "accuracy")
-"""In the report's order."""
+PLAN = Plan(("misprints", "symbols", "accuracy"), ("derivation", "published"))
 
 
 @dataclass(frozen=True)
@@ -28,6 +28,8 @@ class Contents:
     ----------
     title, subtitle, abstract
         What the paper is about.
+    vocabulary
+        The symbols.
     links
         The chain's links with their formulas.
     findings
@@ -43,6 +45,7 @@ class Contents:
     title: str
     subtitle: str
     abstract: str
+    vocabulary: Vocabulary
     links: Found
     findings: Sequence[Finding]
     check: Mapping[str, Any]
@@ -50,42 +53,43 @@ class Contents:
     version: str
 
 
-def text(contents: Contents, shown: Sequence[str] = SECTIONS) -> Text:
+def parts(contents: Contents, shown: Sequence[str] = PLAN.names) -> Parts:
     """The report's LaTeX, with the named sections."""
     made = environment()
-    formulas = {f.name: f for _, found in contents.links for f in found}
     provenance = contents.check["provenance"]
     versions = sorted((k, v) for k, v in provenance.items() if k not in ("digits", "generated"))
-    contexts: dict[str, dict[str, Any]] = {
-        "front": {
-            "title": contents.title,
-            "subtitle": contents.subtitle,
-            "abstract": contents.abstract,
-            "version": contents.version,
-            "versions": ", ".join(f"{escape(name)} {escape(value)}" for name, value in versions),
-        },
-        "derivation": {
-            "chain": chain_context(contents.links),
-            "links": [
-                link_context(name, found, formulas, contents.prose)
-                for name, found in contents.links
-            ],
-        },
-        "misprints": {
-            "findings": [finding_context(finding) for finding in contents.findings],
-            "wrong": sum(finding.is_misprint for finding in contents.findings),
-        },
-        "accuracy": {
-            "tables": [t for t in accuracy_tables(contents.check) if t["rows"]],
-            "digits": provenance["digits"],
-            "agreed": sum(row["oracles"] for row in contents.check["rows"]),
-        },
+    front = {
+        "title": contents.title,
+        "subtitle": contents.subtitle,
+        "abstract": contents.abstract,
+        "version": contents.version,
+        "versions": ", ".join(f"{escape(name)} {escape(value)}" for name, value in versions),
     }
-    front, *sections = (
-        made.get_template(f"any/{name}.tex.j2").render(**context)
-        for name, context in contexts.items()
-        if name == "front" or name in shown
+    return Parts(
+        contents.title,
+        made.get_template("any/front.tex.j2").render(**front),
+        {
+            name: made.get_template(f"any/{name}.tex.j2").render(**CONTEXTS[name](contents))
+            for name in shown
+        },
+        contents.prose.references,
     )
-    items = contents.prose.references.items()
-    references = made.get_template("references.tex.j2").render(references=items) if items else ""
-    return Text(contents.title, front, tuple(sections), references)
+
+
+def _accuracy(contents: Contents) -> dict[str, Any]:
+    check = contents.check
+    return {
+        "tables": [t for t in accuracy_tables(check) if t["rows"]],
+        "digits": check["provenance"]["digits"],
+        "agreed": sum(row["oracles"] for row in check["rows"]),
+    }
+
+
+CONTEXTS: dict[str, Callable[[Contents], dict[str, Any]]] = {
+    "misprints": lambda c: misprints_context(c.findings),
+    "symbols": lambda c: symbols_context(c.vocabulary),
+    "accuracy": _accuracy,
+    "derivation": lambda c: derivation_context(c.links, c.prose),
+    "published": lambda c: misprints_context(c.findings),
+}
+"""What fills `templates/any/NAME.tex.j2`, by name."""

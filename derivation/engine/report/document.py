@@ -1,15 +1,42 @@
-"""A report as a LaTeX document, made of its parts."""
+"""A report as LaTeX documents, made of its parts: the report itself, and its appendices."""
 
-from collections.abc import Sequence
+import re
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from derivation.engine.nearest import did_you_mean
 from derivation.engine.report.latex import environment
+from derivation.engine.report.references import References
+
+REPORT, APPENDICES = "report", "appendices"
+"""Names of the two documents, and of their files."""
+_REFERENCE = re.compile(r"\\ref\{sec:([\w-]+)\}")
+_PART = re.compile(r"\\otherpart\{[\w-]+\}\{([^}]*)\}")
+
+
+@dataclass(frozen=True)
+class Parts:
+    """All that the documents are made of.
+
+    Attributes
+    ----------
+    title, front
+        Title, and what stands in front of the report's sections.
+    sections
+        LaTeX by section; each begins with its heading and the label `sec:NAME`.
+    references
+        The sources, of which a document lists those that it cites.
+    """
+
+    title: str
+    front: str
+    sections: Mapping[str, str]
+    references: References
 
 
 @dataclass(frozen=True)
 class Text:
-    """A report's LaTeX in parts: title, title page, sections, references."""
+    """A document's LaTeX in parts: title, title page, sections, references."""
 
     title: str
     front: str
@@ -34,8 +61,76 @@ class Text:
         )
 
 
+@dataclass(frozen=True)
+class Plan:
+    """Names of the sections of the report and of its appendices, each in order."""
+
+    sections: tuple[str, ...]
+    appendices: tuple[str, ...] = ()
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """All of them."""
+        return self.sections + self.appendices
+
+    def number(self, name: str) -> str:
+        """The number of a section, or the letter of an appendix."""
+        if name in self.sections:
+            return str(self.sections.index(name) + 1)
+        return chr(ord("A") + self.appendices.index(name))
+
+    def documents(self, parts: Parts, shown: Sequence[str] = ()) -> dict[str, Text]:
+        """Return the documents by name: report and appendices, or one of the sections shown."""
+        if shown:
+            name = "-".join([REPORT, *shown])
+            return {name: self._document(parts, parts.title, parts.front, shown, linked=False)}
+        found = {REPORT: self._document(parts, parts.title, parts.front, self.sections)}
+        if self.appendices:
+            title = f"{parts.title}: appendices"
+            front = environment().get_template("appendices.tex.j2").render(title=parts.title)
+            found[APPENDICES] = self._document(parts, title, front, self.appendices)
+        return found
+
+    def _document(
+        self, parts: Parts, title: str, front: str, names: Sequence[str], linked: bool = True
+    ) -> Text:
+        first = next((name for name in names if name in self.appendices), "")
+        texts = [front]
+        texts += [("\\appendix\n" * (name == first)) + parts.sections[name] for name in names]
+        front, *sections = (self._resolved(text, names, linked) for text in texts)
+        return Text(title, front, tuple(sections), _listed(parts.references, [front, *sections]))
+
+    def _resolved(self, text: str, names: Sequence[str], linked: bool) -> str:
+        """A text whose references to sections of the other document are numbers, and links."""
+
+        def number(match: re.Match[str]) -> str:
+            name = match[1]
+            if name in names:
+                return match[0]
+            other = APPENDICES if name in self.appendices else REPORT
+            count = self.number(name)
+            return rf"\elsewhere{{{other}}}{{sec:{name}}}{{{count}}}" if linked else count
+
+        text = _REFERENCE.sub(number, text)
+        return text if linked else _PART.sub(r"\1", text)
+
+
+def cited(texts: Sequence[str]) -> Iterator[str]:
+    """Yield the keys that texts cite."""
+    for text in texts:
+        for keys in re.findall(r"\\cite\{([^}]*)\}", text):
+            yield from keys.split(",")
+
+
+def _listed(references: References, texts: Sequence[str]) -> str:
+    """The list of the sources that texts cite; nothing if there is none."""
+    keys = set(cited(texts))
+    items = [item for item in references.items() if item["key"] in keys]
+    return environment().get_template("references.tex.j2").render(items=items) if items else ""
+
+
 def chosen(names: Sequence[str], known: Sequence[str]) -> tuple[str, ...]:
-    """Return the named sections in the report's order; all of them if none is named.
+    """Return the named sections in the report's order.
 
     Raises
     ------
@@ -48,4 +143,4 @@ def chosen(names: Sequence[str], known: Sequence[str]) -> tuple[str, ...]:
             raise ValueError(
                 f"--section: no section {name!r}: {near}expected one of {', '.join(known)}"
             )
-    return tuple(name for name in known if not names or name in names)
+    return tuple(name for name in known if name in names)

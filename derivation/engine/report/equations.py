@@ -1,6 +1,8 @@
 """Formulas as displayed equations: long sums in lines, what would be too small beside them."""
 
+import itertools
 from collections.abc import Callable
+from functools import cache
 
 import sympy as sp
 
@@ -9,16 +11,18 @@ from derivation.engine.formula.record import Record
 from derivation.engine.formula.vocabulary import Vocabulary
 from derivation.engine.report.width import typeset_width
 
-LINE_WIDTH = 70
-"""Characters, as typeset, after which a sum is broken."""
+PAGE, COLUMN = 415.0, 208.0
+"""Width of a line of the report beside its equation's number, and of a column of a paper [pt]."""
+INDENT = 10.0
+"""Of the further lines of an equation [pt]."""
 DEEPEST = 2
 """Fractions within each other, beyond which they are too small to read."""
-SHORT = 15
-"""Characters of a fraction that is written with a slash inside another one."""
-LEAST_PART, MOST_PARTS = 8, 8
-"""Characters of a part worth a name; how many parts are named at most."""
-LONG_LEFT = 28
-"""Characters of a left side from which the right one begins a line of its own."""
+SHORT = 80.0
+"""Width of a fraction that is written with a slash inside another one [pt]."""
+LEAST_PART, NAME = 40.0, 27.0
+"""Width of a part worth a name, and of a name with its equals sign [pt]."""
+FURTHER = r"& \quad "
+"""Begins a further line of a sum."""
 
 
 class Displayed(PaperPrinter):
@@ -74,31 +78,48 @@ class Displayed(PaperPrinter):
         return rf"\operatorname{{Im}}\left({self._print(expr.args[0])}\right)"
 
 
+@cache
 def displayed(expression: sp.Basic, vocabulary: Vocabulary) -> str:
     """LaTeX of an expression for a line of its own."""
     return str(Displayed(vocabulary).doprint(expression))
 
 
-def legible(expression: sp.Expr, vocabulary: Vocabulary, room: float = LINE_WIDTH) -> bool:
+@cache
+def legible(expression: sp.Expr, vocabulary: Vocabulary, room: float = PAGE) -> bool:
     """Whether an expression fits a line, and its fractions can be read."""
     printer = Displayed(vocabulary)
     return typeset_width(printer.doprint(expression)) <= room and printer.deepest <= DEEPEST
 
 
-def equation(left: str, expression: sp.Expr, vocabulary: Vocabulary, prefix: str = "") -> str:
-    """Body of a displayed equation, in as many lines as it needs."""
+def equation(
+    left: str, expression: sp.Expr, vocabulary: Vocabulary, prefix: str = "", room: float = PAGE
+) -> str:
+    """Body of a displayed equation in lines that fit a width, its long parts named Z_1, Z_2 ...
+
+    Parameters
+    ----------
+    left
+        LaTeX of the left side.
+    expression
+        The right side.
+    vocabulary
+        How its symbols are typeset.
+    prefix
+        LaTeX between the equals sign and the right side.
+    room
+        Width of a line [pt].
+    """
+    if prefix and not expression.is_Add and expression.could_extract_minus_sign():
+        prefix, expression = f"- {prefix}", -expression
     begin = f"{left} = {prefix}"
-    room = LINE_WIDTH - typeset_width(begin)
-    if legible(expression, vocabulary, room):
+    short = not (prefix and expression.is_Add)
+    if short and legible(expression, vocabulary, room - typeset_width(begin)):
         return begin + displayed(expression, vocabulary)
-    value = expression if isinstance(expression, sp.Add) else _expanded(expression)
-    if isinstance(value, sp.Add) and all(legible(term, vocabulary) for term in value.args):
-        return _aligned(_rows(begin, value, vocabulary))
-    value, parts = in_parts(expression, room, vocabulary)
-    rows = _rows(begin, value, vocabulary)
+    value, parts = in_parts(expression, room - INDENT, vocabulary, whole=not short)
+    rows = _rows(left, value, vocabulary, room, prefix)
     for symbol, part in parts:
-        rows += _rows(f"{symbol} = ", part, vocabulary)
-    return _aligned(rows)
+        rows += _rows(str(symbol), part, vocabulary, room)
+    return r"\begin{aligned}" + " \\\\\n".join(rows) + r"\end{aligned}"
 
 
 def right_side(formula: Record) -> sp.Expr:
@@ -106,10 +127,10 @@ def right_side(formula: Record) -> sp.Expr:
     return formula.expression if formula.stated is None else formula.stated
 
 
-def body(formula: Record, factor: Record | None = None) -> str:
+def body(formula: Record, factor: Record | None = None, room: float = PAGE) -> str:
     """A formula as a displayed equation, a factor in it called by its name where it is given."""
     shown = right_side(formula) if factor is None else folded(right_side(formula), factor)
-    return equation(formula.latex, shown, formula.vocabulary, formula.sum_sign)
+    return equation(formula.latex, shown, formula.vocabulary, formula.sum_sign, room)
 
 
 def folded(expression: sp.Expr, formula: Record) -> sp.Expr:
@@ -122,47 +143,88 @@ def folded(expression: sp.Expr, formula: Record) -> sp.Expr:
     )
 
 
-def _aligned(rows: list[str]) -> str:
-    return r"\begin{aligned}" + " \\\\\n".join(rows) + r"\end{aligned}"
-
-
-def _rows(begin: str, value: sp.Expr, vocabulary: Vocabulary) -> list[str]:
-    """A left side and its sum in lines; any other value too wide for one is scaled down."""
-    rows = [f"{begin.replace('=', '= {}&', 1)} "]
-    if typeset_width(begin) > LONG_LEFT:
-        rows.append(r"& \quad ")
-    if not isinstance(value, sp.Add):
-        rows[-1] += rf"\fit[0.8]{{{displayed(value, vocabulary)}}}"
-        return rows
-    for index, term in enumerate(_signed_terms(value, vocabulary)):
-        if index and typeset_width(rows[-1] + term) > LINE_WIDTH:
-            rows.append(r"& \quad ")
-        rows[-1] += f" {term}"
+def _rows(
+    left: str, value: sp.Expr, vocabulary: Vocabulary, room: float, prefix: str = ""
+) -> list[str]:
+    """A left side and its sum in lines, which all but the first are indented."""
+    begin = f"& {left} = "
+    rows = [begin]
+    for place, term in enumerate(_signed_terms(value, vocabulary)):
+        text = term if place else prefix + term
+        if typeset_width(rows[-1] + text) > room and rows[-1] != FURTHER:
+            rows.append(FURTHER)
+        rows[-1] += f" {text}"
     return rows
 
 
 def in_parts(
-    expression: sp.Expr, room: float, vocabulary: Vocabulary
+    expression: sp.Expr, room: float, vocabulary: Vocabulary, whole: bool = False
 ) -> tuple[sp.Expr, list[tuple[sp.Symbol, sp.Expr]]]:
-    """A formula with parts named, Z_1, Z_2 ..., and what these are, until it can be read."""
-    value, parts = expression, list[tuple[sp.Symbol, sp.Expr]]()
-    while not legible(value, vocabulary, room) and len(parts) < MOST_PARTS:
-        inner = [part for part in value.atoms(sp.Add, sp.Sum, sp.Integral) if part != value]
-        widths = {part: typeset_width(displayed(part, vocabulary)) for part in inner}
-        fit = [part for part in inner if widths[part] >= LEAST_PART and legible(part, vocabulary)]
-        long = [
-            part
-            for part in inner
-            if part.is_Add and all(legible(term, vocabulary) for term in part.args)
-        ]
-        if not fit + long:
-            break
-        ranked = sorted(fit or long, key=lambda p: (widths[p], sp.default_sort_key(p)))
-        chosen = ranked[-1 if fit else 0]
-        symbol = sp.Symbol(f"Z_{len(parts) + 1}")
-        value = value.xreplace({chosen: symbol})
-        parts.append((symbol, chosen))
-    return value, parts
+    """A formula whose terms can be read on a line each, and what the parts named in it are.
+
+    With `whole` all of it is a part.
+    """
+    value = _expanded(expression)
+    if not all(legible(term, vocabulary, room) for term in sp.Add.make_args(value)):
+        value = expression
+    symbols = (sp.Symbol(f"Z_{count}") for count in itertools.count(1))
+    parts = list[tuple[sp.Symbol, sp.Expr]]()
+    if whole:
+        parts, value = [(next(symbols), value)], sp.Symbol("Z_1")
+    values, place = [value, *(part for _, part in parts)], 0
+    names: list[sp.Symbol] = [symbol for symbol, _ in parts]
+    while place < len(values):
+        chosen = _part(values[place], room, vocabulary)
+        if chosen is None:
+            place += 1
+            continue
+        names.append(next(symbols))
+        for k, text in enumerate(values):
+            values[k] = _replaced(text, chosen, names[-1])
+        values.append(chosen)
+    return values[0], list(zip(names, values[1:], strict=True))
+
+
+def _replaced(value: sp.Expr, part: sp.Expr, symbol: sp.Symbol) -> sp.Expr:
+    """A value with a part of it, or some factors of one of its terms, called by a name."""
+    found = value.xreplace({part: symbol})
+    if found != value or not part.is_Mul:
+        return found
+    factors = set(part.args)
+    terms = [
+        sp.Mul(symbol, *(f for f in term.args if f not in factors))
+        if term.is_Mul and factors <= set(term.args)
+        else term
+        for term in sp.Add.make_args(value)
+    ]
+    return sp.Add(*terms)
+
+
+def _part(value: sp.Expr, room: float, vocabulary: Vocabulary) -> sp.Expr | None:
+    """What to name next in a value; nothing if all of its terms can be read on a line each."""
+    wide = [t for t in sp.Add.make_args(value) if not legible(t, vocabulary, room)]
+    if not wide:
+        return None
+    inner = [
+        part
+        for part in wide[0].atoms(sp.Add, sp.Mul, sp.Pow, sp.Function, sp.Sum, sp.Integral)
+        if part != wide[0] and typeset_width(displayed(part, vocabulary)) >= LEAST_PART
+    ]
+    widths = {part: typeset_width(displayed(part, vocabulary)) for part in inner}
+    line = room - INDENT - NAME
+    sums = [part for part in inner if isinstance(part, (sp.Add, sp.Sum, sp.Integral))]
+    fit = [part for part in sums if legible(part, vocabulary, line)]
+    long = [
+        part
+        for part in sums
+        if part.is_Add and all(legible(term, vocabulary, line) for term in part.args)
+    ]
+    others = [part for part in inner if legible(part, vocabulary, line)]
+    for group, best in ((fit, max), (long, min), (others, max), (inner, min)):
+        if group:
+            return best(group, key=lambda p: (widths[p], sp.default_sort_key(p)))
+    factors = [f for f in sp.Mul.make_args(wide[0]) if not f.is_number]
+    return sp.Mul(*factors[: len(factors) // 2]) if len(factors) > 2 else None
 
 
 def _expanded(expression: sp.Expr) -> sp.Expr:

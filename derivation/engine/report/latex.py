@@ -52,6 +52,11 @@ def unit(text: str) -> str:
     return re.sub(r"\^(?:\(([^)]*)\)|(-?\d+(?:/\d+)?))", lambda m: f"$^{{{m[1] or m[2]}}}$", text)
 
 
+def code(text: object) -> str:
+    """A name or a command in typewriter, as it is typed."""
+    return rf"\texttt{{{escape(text).replace('--', '-{}-')}}}"
+
+
 def columns(spec: str) -> str:
     """A table's columns in LaTeX's own letters; `P{0.3}` is text in a share of the line."""
     return re.sub(r"P\{([\d.]+)\}", r">{\\ragged}p{\1\\linewidth}", spec)

@@ -4,12 +4,14 @@ import os
 import shutil
 import subprocess
 import tempfile
+from collections.abc import Iterable
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from derivation.engine.files import write_file
 
-PASSES = 3
-"""The table of contents and longtable's columns settle by the third run."""
+PASSES = 4
+"""Most runs until what LaTeX notes for the next one no longer changes."""
 PACKAGES = "texlive-latex-base texlive-latex-recommended lmodern"
 
 
@@ -29,6 +31,18 @@ def compile_pdf(source: Path) -> Path:
     target = source.with_suffix(".pdf")
     write_file(target, typeset(source)[0])
     return target
+
+
+def compile_all(files: Iterable[Path]) -> tuple[Path, ...]:
+    """Compile the LaTeX files among some, side by side; returns the PDFs.
+
+    Raises
+    ------
+    TexError
+        If there is no pdflatex, or it refuses a text.
+    """
+    with ThreadPoolExecutor() as pool:  # LaTeX is another process
+        return tuple(pool.map(compile_pdf, (path for path in files if path.suffix == ".tex")))
 
 
 def typeset(source: Path) -> tuple[bytes, str]:
@@ -54,9 +68,12 @@ def typeset(source: Path) -> tuple[bytes, str]:
         environment = {**os.environ, "SOURCE_DATE_EPOCH": "0", "FORCE_SOURCE_DATE": "1"}
         environment["TEXINPUTS"] = f"{source.parent.resolve()}:"  # where the figures are
         environment["max_print_line"] = "1000"  # or the log breaks its lines
-        for _ in range(PASSES):
+        made = Path(folder) / source.name
+        noted: list[bytes] = []
+        for count in range(PASSES):
+            draft = [] if count else ["-draftmode"]  # the first run is for its notes alone
             run = subprocess.run(
-                [*command, source.resolve()],
+                [*command, *draft, source.resolve()],
                 env=environment,
                 cwd=folder,
                 capture_output=True,
@@ -66,8 +83,16 @@ def typeset(source: Path) -> tuple[bytes, str]:
             )
             if run.returncode:
                 raise TexError(f"pdflatex refused {source}: {first_error(run.stdout)}")
-        made = Path(folder) / source.name
+            before, noted = noted, _notes(made)
+            if count and noted == before:
+                break
         return made.with_suffix(".pdf").read_bytes(), made.with_suffix(".log").read_text("latin-1")
+
+
+def _notes(made: Path) -> list[bytes]:
+    """What a run noted for the next one."""
+    notes = (made.with_suffix(suffix) for suffix in (".aux", ".toc", ".out"))
+    return [path.read_bytes() for path in notes if path.is_file()]
 
 
 def first_error(log: str) -> str:

@@ -4,17 +4,25 @@ import re
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import zip_longest
 from typing import Any
 
 from derivation.engine.errata.findings import Finding
 from derivation.engine.formula.record import Record
+from derivation.engine.formula.vocabulary import Vocabulary
 from derivation.engine.report.equations import body, folded, right_side
-from derivation.engine.report.latex import escape, unit
+from derivation.engine.report.latex import escape, prose, unit
 from derivation.engine.report.numbers import number
 from derivation.engine.report.references import References
 from derivation.engine.report.spoken import spoken
 
 NO_REFERENCES = References()
+COLUMNS = (
+    "[ULP]: number of points, largest error, error that 99\\,\\% of the points stay below, root "
+    "mean square, error budget, and the largest error relative to what is allowed, which is the "
+    "budget plus half the sum of the condition numbers."
+)
+"""What stands in the columns of a table of errors."""
 
 
 @dataclass(frozen=True)
@@ -59,16 +67,38 @@ def _equation_order(text: str) -> tuple[int, str]:
     return (int(digits[0]) if digits else 0, text)
 
 
+def derivation_context(
+    links: Sequence[tuple[str, Sequence[Record]]], said: Prose
+) -> dict[str, Any]:
+    """The chain at a glance, and link by link."""
+    formulas = {f.name: f for _, found in links for f in found}
+    return {
+        "chain": chain_context(links),
+        "links": [link_context(name, found, formulas, said) for name, found in links],
+    }
+
+
+def symbols_context(vocabulary: Vocabulary) -> dict[str, Any]:
+    """Every symbol with meaning and unit, in the order of the vocabulary, two in a row."""
+    cells = [
+        f"${symbol.latex}$ & {prose(symbol.meaning)} & {unit(symbol.unit)}"
+        for symbol in vocabulary.arguments
+    ]
+    half = (len(cells) + 1) // 2
+    pairs = zip_longest(cells[:half], cells[half:], fillvalue=" & & ")
+    return {"symbols": [" & ".join(pair) for pair in pairs]}
+
+
 def link_context(
-    name: str, formulas: Sequence[Record], shown: Mapping[str, Record], prose: Prose
+    name: str, formulas: Sequence[Record], shown: Mapping[str, Record], said: Prose
 ) -> dict[str, Any]:
     """A link of the chain: its formulas, which refer to those shown, and each proof once."""
     proofs = {formula.proof.step: formula.proof for formula in formulas}
     return {
         "title": name[0].upper() + name[1:],
-        "about": prose.about.get(name, ""),
-        "cited": prose.references.cited(name),
-        "formulas": [formula_context(formula, shown, prose.factor) for formula in formulas],
+        "about": said.about.get(name, ""),
+        "cited": said.references.cited(name),
+        "formulas": [formula_context(formula, shown, said.factor) for formula in formulas],
         "proofs": [
             {
                 "step": proof.step,
@@ -111,6 +141,14 @@ def reference(name: str, known: Collection[str]) -> str:
     return rf"\texttt{{{escape(name)}}}{place}"
 
 
+def misprints_context(findings: Sequence[Finding]) -> dict[str, Any]:
+    """Every comparison of a published formula with the derived one."""
+    return {
+        "findings": [finding_context(finding) for finding in findings],
+        "wrong": sum(finding.is_misprint for finding in findings),
+    }
+
+
 def finding_context(finding: Finding) -> dict[str, Any]:
     """A comparison as the template shows it."""
     printed, diagnosis = finding.printed, finding.diagnosis
@@ -128,6 +166,7 @@ def finding_context(finding: Finding) -> dict[str, Any]:
         ),
         "dimension": spoken(diagnosis.dimension or "", formula.vocabulary),
         "method": diagnosis.method,
+        "consequence": "",
     }
 
 
@@ -140,14 +179,14 @@ def as_printed(left: str, right: str) -> str:
 
 
 def accuracy_tables(check: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
-    """The generated kernels, and for contrast the formulas as printed."""
+    """The generated functions, and for contrast the formulas as published."""
     promised = [row for row in check["rows"] if row["passed"] is not None]
     printed = [row for row in check["rows"] if row["passed"] is None]
-    yield {"caption": "Generated functions", "rows": [accuracy_row(row) for row in promised]}
-    yield {
-        "caption": "The formulas as printed, at the same points, for contrast",
-        "rows": [accuracy_row(row) for row in printed],
-    }
+    for subject, rows in (
+        ("Errors of the generated functions", promised),
+        ("Errors of the formulas evaluated as published, at the same points", printed),
+    ):
+        yield {"caption": f"{subject} {COLUMNS}", "rows": [accuracy_row(row) for row in rows]}
 
 
 def accuracy_row(row: Mapping[str, Any]) -> str:

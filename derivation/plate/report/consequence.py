@@ -120,6 +120,11 @@ class Consequences:
         }  # fmt: skip
 
 
+def misprinted(findings: Sequence[Finding]) -> set[str]:
+    """Names of the formulas with a misprint."""
+    return {finding.printed.name for finding in findings if finding.is_misprint}
+
+
 def misprints_context(findings: Sequence[Finding], cost: Consequences) -> dict[str, Any]:
     """Every comparison, with what a misprint costs in the paper's case."""
     wrong = sum(finding.is_misprint for finding in findings)

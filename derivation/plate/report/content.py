@@ -1,7 +1,8 @@
 """Formulas, findings and committed measurements -> what the report's templates show."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
+from math import inf
 from typing import Any
 
 import sympy as sp
@@ -9,7 +10,7 @@ import sympy as sp
 from derivation.engine.formula.ball import enclose, to_ball
 from derivation.engine.formula.record import Record
 from derivation.engine.report.equations import equation
-from derivation.engine.report.latex import escape
+from derivation.engine.report.latex import code, escape
 from derivation.engine.report.numbers import number, rounded
 from derivation.plate.contact.oracle.balls import finite_part
 from derivation.plate.contact.theory.thin_remainder import coefficient_remainder_ball
@@ -17,6 +18,10 @@ from derivation.plate.contact.theory.thin_roots import root
 from derivation.plate.modes.theory.equilibrium import force_balance, hooke
 from derivation.plate.vocabulary import PLATE, M, eta, r, z
 
+Data = Mapping[str, Any]
+
+HALF = 2.0**26
+"""Error [ULP] that is half of the bits of a double."""
 ROOT_DIGITS = 12
 """Digits certified of what the roots add, more than are shown."""
 
@@ -54,13 +59,61 @@ def root_text(n: int) -> str:
     return rf"{T.real.str(6, radius=False)} + {T.imag.str(6, radius=False)}\,\mathrm{{i}}"
 
 
-def contact_row(row: Mapping[str, Any]) -> str:
+def published_errors(rows: Sequence[Data], wrong: set[str]) -> Iterator[tuple[Data, Data]]:
+    """Yield the rows of correct formulas as published, each with that of its generated function."""
+    generated = {row["kernel"]: row for row in rows if row["passed"] is not None}
+    for row in rows:
+        if row["passed"] is None and row["kernel"] in generated.keys() - wrong:
+            yield row, generated[row["kernel"]]
+
+
+def loses(row: Data) -> bool:
+    """Whether a function overflows, or loses half of the digits of a double, at some point."""
+    return bool(row["double"]["not_finite"]) or float(row["double"]["max_ulp"]) > HALF
+
+
+def cancellation_rows(rows: Sequence[Data], wrong: set[str]) -> Iterator[str]:
+    """Cells of the correct formulas that lose their digits only if evaluated as published."""
+    for published, generated in published_errors(rows, wrong):
+        errors = published["double"]
+        worst = r"$\infty$" if errors["not_finite"] else number(errors["max_ulp"])
+        cells = [code(published["kernel"]), str(errors["points"]), worst]
+        yield " & ".join([*cells, number(generated["double"]["max_ulp"])])
+
+
+def module_rows(rows: Sequence[Data]) -> Iterator[str]:
+    """Cells of each module: functions, points, largest error and where, largest share used."""
+    modules: dict[str, list[Data]] = {}
+    for row in rows:
+        if row["passed"] is not None:
+            modules.setdefault(row["module"], []).append(row)
+    for name, mine in modules.items():
+        worst = max(mine, key=lambda row: float(row["double"]["max_ulp"]))
+        cells = [code(name), str(len(mine)), str(sum(row["double"]["points"] for row in mine))]
+        cells += [number(worst["double"]["max_ulp"]), code(worst["kernel"])]
+        yield " & ".join([*cells, number(max(row["double"]["ratio"] for row in mine))])
+
+
+def rule_rows(rows: Sequence[Data]) -> Iterator[str]:
+    """Cells of each rule: what it prevents, formulas, largest error without and with it."""
+    rules: dict[tuple[str, str], list[list[float]]] = {}
+    for row in rows:
+        for applied in row["applied"]:
+            errors = [float(error) for error in applied["worst"]]
+            rules.setdefault((applied["rule"], applied["cause"]), []).append(errors)
+    for (rule, cause), found in sorted(rules.items()):
+        most = (max(error) for error in zip(*found, strict=True))
+        shown = [r"$\infty$" if error == inf else number(error) for error in most]
+        yield " & ".join([escape(rule), escape(cause), str(len(found)), *shown])
+
+
+def contact_row(row: Data) -> str:
     """Cells of a row of the contact law's errors."""
-    cells = [rf"\texttt{{{escape(row['kernel'])}}}", str(row["points"]), str(row["digits"])]
+    cells = [code(row["kernel"]), str(row["points"]), str(row["digits"])]
     return " & ".join([*cells, number(row["max_error"]), number(row["p99_error"])])
 
 
-def contact_impacts(rows: Sequence[Mapping[str, Any]]) -> dict[str, str]:
+def contact_impacts(rows: Sequence[Data]) -> dict[str, str]:
     """Over what the measured impacts reach: c_1 A, h/b and a/h."""
     cases = [case for row in rows for case in row["cases"]]
     ends = {}

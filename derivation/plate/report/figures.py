@@ -1,7 +1,7 @@
-"""Figures 1 and 2 as the paper draws them and as they should be; the peaks, the law and its map."""
+"""The impact of the paper's example as published and corrected: figures and numbers."""
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from math import gamma, pi, sqrt
 from typing import Any
 
@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from derivation.engine.report.figures import STYLE
+from derivation.plate.report.setup import draw_setup
 from derivation.scene.map import figure as scene_map
 from derivation.scene.model import Model
 from derivation.scene.result import Result
@@ -19,19 +20,53 @@ from generated.impact import Impact, history, impact
 from generated.perturbation import printed_motion
 
 TRUNCATIONS = (25, 50, 100, 200, 400)
+COUNTS = np.unique(np.geomspace(5, 1000, 25).astype(int))
+"""Numbers of modes in the figure of the divergent sum."""
 THICKNESS = np.geomspace(0.04, 1.0, 49)
 """h/b of figure 2 and of the peaks."""
 PLATES = (0.02, 0.05, 0.1, 0.2, 0.53, 2.0)
 """h/b of the law's figure; at 0.53 the first correction changes sign."""
 
 
-def figures(case: Model, impact_of: Result) -> dict[str, Figure]:
-    """Every figure of the paper's case by name, `impact_of` being its simulation."""
+@dataclass(frozen=True)
+class Extremes:
+    """Contact time [s] and largest force [N] of an impact."""
+
+    contact_time: float
+    force: float
+
+
+def corrected_impact(case: Model) -> Extremes:
+    """By the corrected law."""
+    found = impact(case.R, case.m, case.v0, case.h, case.b, case.lam, case.mu)
+    return Extremes(float(found.contact_time), float(found.max_force))
+
+
+def linear_impact(case: Model, modes: int) -> Extremes:
+    """By the published linear term, its sum truncated: half a period of a spring."""
+    time = printed_motion(*case.numbers, modes).contact_time
+    return Extremes(time, pi * case.m * case.v0 / time)
+
+
+def figures(case: Model, impact_of: Result, gamma_2: float) -> dict[str, Figure]:
+    """Every figure of the paper's case by name.
+
+    Parameters
+    ----------
+    case
+        The paper's case.
+    impact_of
+        Its simulation.
+    gamma_2
+        The convergent coefficient of the force in the indentation [m/N].
+    """
     drawings: dict[str, Callable[[Figure, Model], None]] = {
         "figure1": draw_history,
         "figure2": draw_contact_time,
         "peaks": draw_peaks,
         "law": draw_law,
+        "setup": draw_setup,
+        "divergence": lambda figure, case: draw_divergence(figure, case, gamma_2),
     }
     found = {name: _drawn(draw, case) for name, draw in drawings.items()}
     with mpl.rc_context({"font.family": "serif"}):
@@ -46,7 +81,7 @@ def _drawn(draw: Callable[[Figure, Model], None], case: Model) -> Figure:
 
 
 def draw_history(figure: Figure, case: Model) -> None:
-    """Figure 1: indentation against time; printed at two truncations, and the right law's."""
+    """Figure 1: indentation against time, as published at two truncations, and corrected."""
     axes = figure.subplots(1, 2, sharey=True)
     truth = impact(case.R, case.m, case.v0, case.h, case.b, case.lam, case.mu)
     t = np.linspace(0.0, float(truth.contact_time), 400)
@@ -55,28 +90,28 @@ def draw_history(figure: Figure, case: Model) -> None:
         motion = printed_motion(*case.numbers, modes)
         early = np.linspace(0.0, motion.contact_time, 4001)
         half = early[early <= motion.contact_time / 2]
-        ax.plot(1e3 * t, 1e3 * right.indentation, "k", label="right law")
+        ax.plot(1e3 * t, 1e3 * right.indentation, "k", label="corrected law")
         ax.plot(1e3 * early, 1e3 * motion.linear(early), "--", label="linear term (15)")
-        ax.plot(1e3 * half, 1e3 * motion.corrected(half), label="with correction (16), printed")
+        ax.plot(1e3 * half, 1e3 * motion.corrected(half), label="correction (16), as published")
         mended = printed_motion(*case.numbers, modes, corrected=True)
-        ax.plot(1e3 * half, 1e3 * mended.corrected(half), ":", label=r"the same, $\xi_3$ mended")
+        ax.plot(1e3 * half, 1e3 * mended.corrected(half), ":", label=r"the same, $\xi_3$ corrected")
         breaks = np.array([motion.breaks_at, mended.breaks_at])
-        ax.plot(1e3 * breaks, 1e3 * motion.linear(breaks), "kx", label="(17), (18) break")
-        ax.set(title=f"sums cut off at {modes} modes", xlabel="time [ms]")
+        ax.plot(1e3 * breaks, 1e3 * motion.linear(breaks), "kx", label="(17), (18) no longer real")
+        ax.set(title=f"sums truncated after {modes} modes", xlabel="time [ms]")
     axes[0].set_ylabel("indentation [mm]")
     handles, labels = axes[0].get_legend_handles_labels()
     figure.legend(handles, labels, fontsize=7, loc="outside lower center", ncols=3)
 
 
 def draw_contact_time(figure: Figure, case: Model) -> None:
-    """Figure 2: contact time against h/b for several truncations, the right law and Hertz."""
+    """Figure 2: contact time against h/b for several truncations, the corrected law and Hertz."""
     ax = figure.subplots()
     plates = [replace(case, h=case.b * ratio) for ratio in THICKNESS]
     for modes in TRUNCATIONS:
         times = [printed_motion(*plate.numbers, modes).contact_time for plate in plates]
-        ax.plot(THICKNESS, 1e3 * np.array(times), "--", lw=0.9, label=f"printed, {modes} modes")
+        ax.plot(THICKNESS, 1e3 * np.array(times), "--", lw=0.9, label=f"published, {modes} modes")
     right = _impacts(case, THICKNESS)
-    ax.plot(THICKNESS, 1e3 * right.contact_time, "k", label="right law")
+    ax.plot(THICKNESS, 1e3 * right.contact_time, "k", label="corrected law")
     ax.axhline(1e3 * hertz_contact_time(case), color="tab:red", lw=0.9, label="Hertz")
     ax.set(xscale="log", xlabel="h/b", ylabel="contact time [ms]")
     ax.legend(fontsize=7)
@@ -111,7 +146,7 @@ def draw_law(figure: Figure, case: Model) -> None:
 
 
 def _impacts(case: Model, ratios: NDArray[np.float64]) -> Impact:
-    """Impacts by the right law for several h/b at once."""
+    """Impacts by the corrected law for several h/b at once."""
     return impact(case.R, case.m, case.v0, ratios * case.b, case.b, case.lam, case.mu)
 
 
@@ -128,15 +163,27 @@ def hertz_contact_time(case: Model) -> float:
     return 4 * sqrt(pi) * gamma(0.4) / (5 * gamma(0.9)) * indentation / case.v0
 
 
+def draw_divergence(figure: Figure, case: Model, gamma_2: float) -> None:
+    """The published coefficient of the force in the indentation against the number of modes."""
+    ax = figure.subplots()
+    times = [linear_impact(case, int(modes)).contact_time for modes in COUNTS]
+    ax.plot(COUNTS, (np.array(times) / pi) ** 2 / case.m, "o-", ms=3, label="published sum")
+    ax.axhline(gamma_2, color="k", lw=0.9, label="corrected: convergent coefficient")
+    ax.set(xscale="log", yscale="log", xlabel="number of modes", ylabel=r"$\gamma_2$ [m/N]")
+    ax.legend(fontsize=8)
+
+
 def motion_context(case: Model) -> dict[str, Any]:
-    """The paper's case in numbers: printed at several truncations, and by the right law."""
-    truth = impact(case.R, case.m, case.v0, case.h, case.b, case.lam, case.mu)
-    rows = []
-    for modes in TRUNCATIONS:
-        printed = printed_motion(*case.numbers, modes)
-        mended = printed_motion(*case.numbers, modes, corrected=True)
-        times = (printed.contact_time, printed.breaks_at, mended.breaks_at)
-        rows.append((modes, *(f"{1e3 * time:.3f}" for time in times)))
+    """The paper's case in numbers: as published at several truncations, and corrected."""
+    found = impact(case.R, case.m, case.v0, case.h, case.b, case.lam, case.mu)
+    corrected = corrected_impact(case)
+    hertz = Extremes(hertz_contact_time(case), hertz_peaks(case)[0])
+    laws = [(f"published, {n} modes", linear_impact(case, n), n) for n in TRUNCATIONS]
+    rows = [
+        " & ".join([name, *_compared(law, corrected), *_real_until(case, modes)])
+        for name, law, modes in [*laws, ("Hertz, half-space", hertz, 0),
+                                 ("corrected law", corrected, 0)]
+    ]  # fmt: skip
     return {
         "R": f"{case.R:g}",
         "v0": f"{case.v0:g}",
@@ -144,10 +191,26 @@ def motion_context(case: Model) -> dict[str, Any]:
         "mass": f"{case.m:.1f}",
         "radius": f"{case.b:g}",
         "rows": rows,
-        "contact_time": f"{1e3 * float(truth.contact_time):.3f}",
-        "half": f"{5e2 * float(truth.contact_time):.3f}",
-        "indentation": f"{1e3 * float(truth.max_indentation):.3f}",
-        "force": f"{1e-3 * float(truth.max_force):.2f}",
-        "contact_radius": f"{1e3 * float(truth.max_contact_radius):.2f}",
-        "hertz": f"{1e3 * hertz_contact_time(case):.3f}",
+        "contact_time": f"{1e3 * corrected.contact_time:.3f}",
+        "half": f"{5e2 * corrected.contact_time:.3f}",
+        "indentation": f"{1e3 * float(found.max_indentation):.3f}",
+        "force": f"{1e-3 * corrected.force:.2f}",
+        "contact_radius": f"{1e3 * float(found.max_contact_radius):.2f}",
+        "hertz": f"{1e3 * hertz.contact_time:.3f}",
     }
+
+
+def _compared(law: Extremes, corrected: Extremes) -> list[str]:
+    """Cells of an impact: contact time and force, each beside its ratio to the corrected one."""
+    return [
+        f"{1e3 * law.contact_time:.3f}", f"{law.contact_time / corrected.contact_time:.3f}",
+        f"{1e-3 * law.force:.2f}", f"{law.force / corrected.force:.3f}",
+    ]  # fmt: skip
+
+
+def _real_until(case: Model, modes: int) -> list[str]:
+    """Times until which the published correction is real, as published and with xi_3 corrected."""
+    if not modes:
+        return ["", ""]
+    both = (printed_motion(*case.numbers, modes, corrected=mended) for mended in (False, True))
+    return [f"{1e3 * motion.breaks_at:.3f}" for motion in both]

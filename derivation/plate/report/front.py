@@ -6,12 +6,20 @@ from typing import Any
 from derivation.engine.errata.findings import Finding
 from derivation.engine.formula.record import Record
 from derivation.engine.measure.record import generated_hash
-from derivation.engine.report.latex import escape
+from derivation.engine.report.hard import error as power
+from derivation.engine.report.latex import code, escape
 from derivation.plate.judge import PACKAGE
+from derivation.plate.report.accuracy import digits, duration
+from derivation.plate.report.consequence import misprinted
+from derivation.plate.report.content import loses, published_errors
+from derivation.plate.report.figures import TRUNCATIONS, corrected_impact, linear_impact
+from derivation.scene.model import Model
 from generated.manifest import KERNELS
 
+ENDS = (TRUNCATIONS[0], TRUNCATIONS[-1])
+"""Fewest and most modes of the published sums that the summary states."""
 TITLE = "Contact of a rigid sphere with an elastic plate"
-SUBTITLE = "Derivation, misprints, accuracy"
+SUBTITLE = "Misprints of the paper, corrected contact law, accuracy"
 Data = Mapping[str, Any]
 
 
@@ -20,8 +28,9 @@ def front_context(
     findings: Sequence[Finding],
     measured: Mapping[str, Data],
     sources: Mapping[str, str],
+    case: Model,
 ) -> dict[str, Any]:
-    """Stages with what came out of each, and the versions they were measured with."""
+    """The findings in numbers, the results of each stage, and the versions used."""
     provenance = measured["check"]["provenance"]
     versions = sorted((k, v) for k, v in provenance.items() if k not in ("digits", "generated"))
     return {
@@ -29,6 +38,42 @@ def front_context(
         "stages": [" & ".join(row) for row in stages(links, findings, measured, sources)],
         "versions": ", ".join(f"{escape(name)} {escape(value)}" for name, value in versions),
         "generated": generated_hash(PACKAGE)[:16],
+        **_misprints_in_short(findings, case),
+        **_stability_in_short(findings, measured["check"]["rows"]),
+        **_cost_in_short(measured["accuracy"]["headline"]),
+    }
+
+
+def _misprints_in_short(findings: Sequence[Finding], case: Model) -> dict[str, Any]:
+    corrected, first, last = corrected_impact(case), *(linear_impact(case, n) for n in ENDS)
+    return {
+        "wrong": sum(finding.is_misprint for finding in findings),
+        "compared": len(findings),
+        "few": ENDS[0],
+        "many": ENDS[1],
+        "short": f"{1e3 * first.contact_time:.2f}",
+        "long": f"{1e3 * last.contact_time:.2f}",
+        "time": f"{1e3 * corrected.contact_time:.2f}",
+        "strong": f"{1e-3 * first.force:.1f}",
+        "weak": f"{1e-3 * last.force:.1f}",
+        "force": f"{1e-3 * corrected.force:.1f}",
+    }
+
+
+def _stability_in_short(findings: Sequence[Finding], rows: Sequence[Data]) -> dict[str, Any]:
+    published = list(published_errors(rows, misprinted(findings)))
+    used = max(row["double"]["ratio"] for row in rows if row["passed"] is not None)
+    lost = [loses(row) and not loses(generated) for row, generated in published]
+    return {"unstable": sum(lost), "evaluated": len(lost), "used": f"{100 * used:.0f}"}
+
+
+def _cost_in_short(found: Data) -> dict[str, Any]:
+    best = found["reached"][-1]
+    return {
+        "called": duration(found["called"]),
+        "digits": digits(found["digits"]),
+        "best": best["digits"],
+        "ratio": power(best["seconds"] / found["called"]),
     }
 
 
@@ -121,8 +166,3 @@ def checks(measured: Mapping[str, Data]) -> Iterator[tuple[str, str]]:
 def used(ratio: float, what: str = "allowed error") -> str:
     """How much of a limit was used."""
     return f"at most {100 * ratio:.0f}" + rf"\,\% of the {what} used"
-
-
-def code(command: str) -> str:
-    """A command in typewriter."""
-    return rf"\texttt{{{escape(command).replace('--', '-{}-')}}}"

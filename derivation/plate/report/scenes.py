@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from derivation.engine.report.latex import escape, prose
+from derivation.engine.report.latex import code, escape, prose
 from derivation.scene import explain
 from derivation.scene.effects import EFFECTS
 from derivation.scene.scene import Scene
@@ -36,11 +36,6 @@ def scene_context(name: str, scene: Scene) -> dict[str, Any]:
         "says": sentence(str(found)),
         "notes": list(found.notes),
     }
-
-
-def code(text: str) -> str:
-    """What is written as on the screen."""
-    return rf"\texttt{{{escape(text)}}}"
 
 
 def cell(text: str) -> str:

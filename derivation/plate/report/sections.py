@@ -10,7 +10,7 @@ from derivation.engine.errata.findings import Finding
 from derivation.engine.formula.record import Record
 from derivation.engine.report import pieces
 from derivation.engine.report.arithmetic import arithmetic_context
-from derivation.engine.report.document import Text
+from derivation.engine.report.document import Parts, Plan
 from derivation.engine.report.hard import hard_context
 from derivation.engine.report.latex import environment
 from derivation.engine.report.numbers import number, rounded
@@ -19,10 +19,10 @@ from derivation.plate.budgets import counted
 from derivation.plate.contact.cases.grid import RATIOS, THICKNESSES
 from derivation.plate.report import content
 from derivation.plate.report.accuracy import accuracy_context
-from derivation.plate.report.consequence import Consequences, misprints_context
+from derivation.plate.report.consequence import Consequences, misprinted, misprints_context
 from derivation.plate.report.elastodynamics import elastodynamics_context
 from derivation.plate.report.figures import motion_context
-from derivation.plate.report.front import SUBTITLE, TITLE, front_context
+from derivation.plate.report.front import TITLE, front_context
 from derivation.plate.report.inertia import inertia_context
 from derivation.plate.report.listings import listings_context
 from derivation.plate.report.moving import moving_context
@@ -30,6 +30,7 @@ from derivation.plate.report.prose import ABOUT, FACTOR, REFERENCES
 from derivation.plate.report.reproducibility import reproducibility_context
 from derivation.plate.report.scenes import effects_context
 from derivation.plate.report.validity import law_context
+from derivation.plate.vocabulary import PLATE
 from derivation.scene.model import Model
 from derivation.scene.scene import Scene
 
@@ -77,27 +78,37 @@ class Material:
 def _derivation(material: Material) -> dict[str, Any]:
     return {
         "navier": content.navier(),
-        "chain": pieces.chain_context(material.links),
-        "links": [
-            pieces.link_context(name, found, material.formulas, PROSE)
-            for name, found in material.links
-        ],
         "roots": content.roots_context(material.formulas),
+        **pieces.derivation_context(material.links, PROSE),
     }
 
 
 def _misprints(material: Material) -> dict[str, Any]:
     cost = Consequences(material.case, material.formulas)
-    return misprints_context(material.findings, cost)
-
-
-def _accuracy(material: Material) -> dict[str, Any]:
-    check, contact = material.measured["check"], material.measured["contact"]
     return {
+        **misprints_context(material.findings, cost),
+        "motion": motion_context(material.case),
+        "cancellation": list(
+            content.cancellation_rows(
+                material.measured["check"]["rows"], misprinted(material.findings)
+            )
+        ),
+    }
+
+
+def _effects(material: Material) -> dict[str, Any]:
+    return {
+        "effects": effects_context(material.scenes),
         "moving": inertia_context(material.measured["inertia"]),
         "elements": elastodynamics_context(material.measured["elastodynamics"]),
-        "tables": list(pieces.accuracy_tables(check)),
-        "digits": check["provenance"]["digits"],
+    }
+
+
+def _stability(material: Material) -> dict[str, Any]:
+    contact = material.measured["contact"]
+    return {
+        "rules": list(content.rule_rows(material.measured["rewrite"]["rows"])),
+        "modules": list(content.module_rows(material.measured["check"]["rows"])),
         "contact_rows": [content.contact_row(row) for row in contact["rows"]],
         "contact_digits": contact["provenance"]["digits"],
         "contact_limit": number(contact["limit"]),
@@ -108,6 +119,16 @@ def _accuracy(material: Material) -> dict[str, Any]:
             "smallest": rounded(min(RATIOS)),
             "largest": rounded(max(RATIOS)),
         },
+        "hard": hard_context(material.measured["hard"]),
+    }
+
+
+def _accuracy(material: Material) -> dict[str, Any]:
+    check = material.measured["check"]
+    return {
+        "elements": elastodynamics_context(material.measured["elastodynamics"]),
+        "tables": list(pieces.accuracy_tables(check)),
+        "digits": check["provenance"]["digits"],
     }
 
 
@@ -116,6 +137,13 @@ def _rewriting(material: Material) -> dict[str, Any]:
     return {
         "rewrites": [line for row in rows for line in pieces.rewrite_rows(row)],
         "ends": [rounded(end) for end in ENDS],
+    }
+
+
+def _methods(material: Material) -> dict[str, Any]:
+    return {
+        "cost": accuracy_context(material.measured["accuracy"]),
+        "moving": moving_context(material.measured["moving"]),
     }
 
 
@@ -130,43 +158,45 @@ def _speed(material: Material) -> dict[str, Any]:
 
 TEMPLATES = Path(__file__).parent / "templates"
 PROSE = pieces.Prose(ABOUT, REFERENCES, FACTOR)
-SECTIONS: dict[str, Callable[[Material], dict[str, Any]]] = {
-    "derivation": _derivation,
+CONTEXTS: dict[str, Callable[[Material], dict[str, Any]]] = {
     "misprints": _misprints,
+    "symbols": lambda _: pieces.symbols_context(PLATE),
     "law": lambda m: {"law": law_context(m.formulas)},
     "motion": lambda m: {"motion": motion_context(m.case)},
+    "effects": _effects,
+    "work-precision": _methods,
+    "stability": _stability,
+    "derivation": _derivation,
+    "published": lambda m: pieces.misprints_context(m.findings),
+    "scenes": lambda m: {"effects": effects_context(m.scenes)},
     "rewriting": _rewriting,
     "code": lambda m: {
         "code": listings_context(m.sources, m.formulas),
         "arithmetic": arithmetic_context(counted(m.sources)),
     },
     "accuracy": _accuracy,
-    "hard": lambda m: {"hard": hard_context(m.measured["hard"])},
+    "methods": _methods,
     "speed": _speed,
-    "work-precision": lambda m: {
-        "cost": accuracy_context(m.measured["accuracy"]),
-        "moving": moving_context(m.measured["moving"]),
-    },
-    "effects": lambda m: {"effects": effects_context(m.scenes)},
     "reproducibility": lambda m: {"reproducibility": reproducibility_context(m.data, m.measured)},
     "cases": lambda m: {"hard": hard_context(m.measured["hard"])},
 }
 """What fills `templates/sections/NAME.tex.j2`, by name, in the report's order."""
+PLAN = Plan(tuple(CONTEXTS)[:7], tuple(CONTEXTS)[7:])
 
 
-def text(material: Material, shown: Sequence[str]) -> Text:
+def parts(material: Material, shown: Sequence[str]) -> Parts:
     """The named sections' LaTeX, a pure function of theory, generated code and measurements."""
     made = environment(TEMPLATES)
     front = made.get_template("front.tex.j2").render(
         title=TITLE,
-        subtitle=SUBTITLE,
         version=material.version,
         citation=material.citation,
-        front=front_context(material.links, material.findings, material.measured, material.sources),
+        front=front_context(
+            material.links, material.findings, material.measured, material.sources, material.case
+        ),
     )
-    sections = (
-        made.get_template(f"sections/{name}.tex.j2").render(**SECTIONS[name](material), shown=shown)
+    sections = {
+        name: made.get_template(f"sections/{name}.tex.j2").render(**CONTEXTS[name](material))
         for name in shown
-    )
-    references = made.get_template("references.tex.j2").render(references=REFERENCES.items())
-    return Text(TITLE, front, tuple(sections), references)
+    }
+    return Parts(TITLE, front, sections, REFERENCES)

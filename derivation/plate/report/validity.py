@@ -5,6 +5,7 @@ from typing import Any
 
 from derivation.engine.formula.record import Record
 from derivation.engine.report.equations import body
+from derivation.engine.report.latex import unit
 from derivation.engine.report.numbers import rounded
 from derivation.plate.report.prose import FACTOR
 from derivation.scene import edge_remainder, kernels, limits
@@ -24,7 +25,12 @@ def law_context(formulas: Mapping[str, Record]) -> dict[str, Any]:
     shown = [(formulas[name], None if name == FACTOR else factor) for name in FORMULAS]
     return {
         "formulas": [
-            {"name": formula.name, "meaning": formula.meaning, "body": body(formula, named)}
+            {
+                "name": formula.name,
+                "meaning": formula.meaning,
+                "unit": unit(formula.unit),
+                "body": body(formula, named),
+            }
             for formula, named in shown
         ],
         "limits": list(limit_rows()),
@@ -37,27 +43,28 @@ def limit_rows() -> list[str]:
     curved = f"{spherical_profile.MAX_A_OVER_R:g}"
     thin, thick = (rounded(ratio) for ratio in PLATES)
     rows = (
-        (r"$a/b$, $a/R$", "1", "refused", "the contact would reach the edge, or past the sphere"),
-        (r"$a/b$", held, "refused with an edge other than the paper's, or solved pressure",
-         "the edge's sums and the kernel are known so far"),
-        (r"$a/R$", curved, "refused with \\texttt{spherical\\_profile}",
+        (r"$a/b$, $a/R$", "1", "rejected", "the contact would reach the edge or the whole sphere"),
+        (r"$a/b$", held, "rejected with another edge than the paper's, or non-Hertzian pressure",
+         "the sums of the edge and the kernel are known up to here"),
+        (r"$a/R$", curved, "rejected with \\texttt{spherical\\_profile}",
          "the slope of the spherical profile tends to infinity"),
-        (r"$a/h$", open_, "refused with \\texttt{non\\_hertzian\\_pressure}",
+        (r"$a/h$", open_, "rejected with \\texttt{non\\_hertzian\\_pressure}",
          "contact is lost at the centre"),
-        (r"$h/b$", f"{thin} to {thick}", "refused outside", "bounds are known for these plates"),
-        (r"$\nu$", r"$-1$ to $1/2$", "refused outside", "the material would not be stable"),
-        (r"$a/H$", f"{limits.HERTZ_LIMIT:g}", "warned without \\texttt{non\\_hertzian\\_pressure}",
-         "the pressure is no longer Hertz's"),
-        (r"$a/R$", f"{limits.PARABOLOID_LIMIT:g}", "warned without \\texttt{spherical\\_profile}",
-         "the sphere is no paraboloid any more"),
-        (r"$w/H$", f"{limits.STRETCH_LIMIT:g}", "warned", "the plate's middle surface stretches"),
-        (r"$p_0$ over yield stress", f"{kernels.YIELD_LIMIT:g}", "warned",
+        (r"$h/b$", f"{thin} to {thick}", "rejected", "the bounds are known for these plates"),
+        (r"$\nu$", r"$-1$ to $1/2$", "rejected", "the material would be unstable"),
+        (r"$a/H$", f"{limits.HERTZ_LIMIT:g}",
+         "warning without \\texttt{non\\_hertzian\\_pressure}",
+         "the pressure differs from Hertz's"),
+        (r"$a/R$", f"{limits.PARABOLOID_LIMIT:g}", "warning without \\texttt{spherical\\_profile}",
+         "the sphere differs from a paraboloid"),
+        (r"$w/H$", f"{limits.STRETCH_LIMIT:g}", "warning", "membrane stretching"),
+        (r"$p_0$ / yield stress", f"{kernels.YIELD_LIMIT:g}", "warning",
          "a metal yields below the contact"),
-        ("Zener's number", f"{limits.ZENER_LIMIT:g}", "warned without \\texttt{inertia}",
-         "waves carry off 1\\,\\% of the speed"),
-        ("contact time over $4H/c_P$", "1", "warned below",
-         "echoes through the thickness return during the contact"),
-        ("edge's model error", f"{100 * edge_remainder.LARGEST:g}\\,\\%", "refused beyond",
-         "what the edge's exact states leave is too much"),
+        ("Zener parameter", f"{limits.ZENER_LIMIT:g}", "warning without \\texttt{inertia}",
+         "waves take 1\\,\\% of the speed"),
+        ("contact time / ($4H/c_P$)", "1", "warning below",
+         "through-thickness wave reflections return during the contact"),
+        ("model error of the edge", f"{100 * edge_remainder.LARGEST:g}\\,\\%", "rejected",
+         "the exact edge states leave too large a remainder"),
     )  # fmt: skip
     return [" & ".join(row) for row in rows]

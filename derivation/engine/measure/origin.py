@@ -49,16 +49,22 @@ def of_modules(names: tuple[str, ...]) -> str:
 
 
 def _code(tree: ast.Module, name: str) -> str:
-    """A module without its comments, its docstrings, and the places that it imports from."""
+    """Return a module without comments, docstrings, sentences, and the places it imports from."""
     imported: list[str] = []
     for node in ast.walk(tree):
-        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef):
-            node.body = node.body[ast.get_docstring(node) is not None :]
         body = getattr(node, "body", None)
         if isinstance(body, list):
             imported += [word for part in body for word in _imported(part, name)]
             body[:] = [part for part in body if not isinstance(part, ast.ImportFrom)]
+            body[:] = [part for part in body if not _is_text(part)]
+        elif isinstance(node, ast.Constant) and isinstance(node.value, str) and " " in node.value:
+            node.value = " "
     return dump(tree) + repr(sorted(imported))
+
+
+def _is_text(node: ast.AST) -> bool:
+    """Return whether a statement is a docstring of a module, class, function or attribute."""
+    return isinstance(node, ast.Expr) and isinstance(getattr(node.value, "value", None), str)
 
 
 def dump(tree: ast.AST) -> str:

@@ -16,8 +16,7 @@ from derivation.plate.waves.cases.laws import differences
 from derivation.plate.waves.cases.places import partner_crossing
 from generated.edge_mode_numbers import SMALL
 
-SEAMS = "switch points of clamped and supported plates"
-WAVES = "waves of clamped and supported plates"
+SEAMS, WAVES = "seams of held plates with a thickness", "waves of held plates"
 _MODES = ("clamped_waves", "supported_waves")
 _METAL = 0.3
 _LAST, _FIRST = math.nextafter(0.5, 0.0), -1.0 + 2.0**-53

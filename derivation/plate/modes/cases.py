@@ -16,9 +16,9 @@ from derivation.plate.oracle import arguments
 from generated.contact_series import _ORDINARY, _USUAL
 
 CLOSED, SUMS, PLATES = (
-    "switch points of the closed formulas",
-    "switch points of the sums over modes",
-    "switch points of the contact law",
+    "seams of the closed formulas",
+    "seams of the sums over modes",
+    "seams of the contact law",
 )
 
 Numbers = float | tuple[float, ...]

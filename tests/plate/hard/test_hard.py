@@ -202,10 +202,10 @@ def test_an_origin_changes_with_code_alone(tmp_path: Path, monkeypatch: pytest.M
     monkeypatch.syspath_prepend(tmp_path)
     engine = "from derivation.engine.formula.ball import to_ball\n"
     texts = {
-        "plain": f"{engine}from .part import g\ndef f(x):\n    return g(x)\n",
-        "said": f'"""What it does."""\n{engine}from .part import g\n'
-                'def f(x):\n    """Same."""\n    return g(x)  # as it is\n',
-        "other": f"{engine}from .part import g\ndef f(x):\n    return -g(x)\n",
+        "plain": f"{engine}from .part import g\nA = 1\ndef f(x):\n    return g(x), 'it grows'\n",
+        "said": f'"""What it does."""\n{engine}from .part import g\nA = 1\n"""Its size."""\n'
+                'def f(x):\n    """Same."""\n    return g(x), "it increases"  # as it is\n',
+        "other": f"{engine}from .part import g\nA = 1\ndef f(x):\n    return -g(x), 'it grows'\n",
         "part": "def g(x):\n    return x\n",
     }  # fmt: skip
     package = tmp_path / "some_paper"

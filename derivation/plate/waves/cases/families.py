@@ -11,7 +11,7 @@ from derivation.plate.waves import oracle as inertia_balls
 from derivation.plate.waves.cases.places import CROSSINGS, crossing
 from generated.wave_numbers import NEAR, SHALLOW, SMALL
 
-WAVES = "switch points of the plate's waves"
+WAVES = "seams of the plate's waves"
 HARD_WAVES = "waves of the plate"
 
 LOWEST = ("bending_frequency", "bending_residue", "bending_share")

@@ -295,7 +295,7 @@ class _Motion:
         return float(self._touching(state).force[0]) / self.problem.force
 
     def _touching(self, state: Array) -> ContactSamples:
-        """Return the contact whose local indentation agrees with the state, by Newton's iteration."""
+        """Return the contact with the local indentation of the state, by Newton's iteration."""
         problem, q, deep = self.problem, state[2::2], self.pressed(state)
         a = self.radius
         for _ in range(50):

@@ -93,7 +93,7 @@ def test_what_fails_and_what_does_not() -> None:
     assert passed([*many, outcome("rejected")])
     assert passed([*many, outcome("incomplete"), outcome("rejected")])
     assert not passed([*many, *[outcome("rejected")] * 4])
-    # Runs without a tolerance are those of rejected scenes: they neither count nor make up for them.
+    # Runs without a tolerance repeat rejected scenes: they neither count nor make up for them.
     freed = [replace(outcome(kind), rtol=None) for kind in ("rejected", *["finished"] * 9)]
     assert passed([*many, *freed])
     assert not passed([*many, *[outcome("rejected")] * 4, *freed])

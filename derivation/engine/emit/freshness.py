@@ -35,17 +35,16 @@ class Freshness:
 
     def __str__(self) -> str:
         if self.fresh:
-            return f"{self.folder} is fresh."
+            return f"{self.folder} is up to date."
         lines = [f"missing:  {self.folder / name}" for name in self.missing]
         lines += [f"edited:   {self.folder / name}" for name in self.diffs]
         lines += [f"orphaned: {self.folder / name}" for name in self.orphans]
         lines += [diff.rstrip("\n") for diff in self.diffs.values()]
         if self.missing or self.diffs:
-            lines.append(f"To mend: {self.mend}")
+            lines.append(f"To update the files, run: {self.mend}")
         if self.orphans:
-            lines.append(
-                "To mend: rm " + " ".join(str(self.folder / name) for name in self.orphans)
-            )
+            orphans = " ".join(str(self.folder / name) for name in self.orphans)
+            lines.append(f"To remove the orphaned files, run: rm {orphans}")
         return "\n".join(lines)
 
 

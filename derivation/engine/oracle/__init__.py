@@ -1,5 +1,5 @@
-"""What is true: two oracles that share no formula, and must agree before either is believed.
+"""Reference values from two independent methods; a value is used only if both agree.
 
-`balls` evaluates the theory's original expressions in ball arithmetic; `routes`
-reaches the same numbers numerically, along other ways, in mpmath.
+`balls` evaluates the original expressions of the theory in interval (ball) arithmetic; `routes`
+computes the same values with mpmath by other methods.
 """

@@ -1,1 +1,1 @@
-"""Random scenes against everything computed: what neither engine nor plate can hold."""
+"""Checks of error bounds and effect selection on random scenes, and against finite elements."""

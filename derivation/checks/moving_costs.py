@@ -200,7 +200,7 @@ def by_elements(n: int, tolerance: float) -> CostOutcome:
 
 
 def by_runge_kutta(rtol: float) -> CostOutcome:
-    """By SciPy's, in the root of time, in which the onset is smooth."""
+    """Compute it by DOP853 of SciPy in the square root of time, in which the onset is smooth."""
     problem = _problem()
     motion = _Motion(problem)
 
@@ -228,7 +228,7 @@ def by_runge_kutta(rtol: float) -> CostOutcome:
 
 
 def by_verlet(steps: int) -> CostOutcome:
-    """By equal steps of the time that the contact takes on a plate that does not yield."""
+    """Compute it by velocity Verlet with equal steps of the contact time on a rigid plate."""
     motion = _Motion(_problem())
     state, dt = motion.begin(), 1.0 / steps
     half, times, forces = motion.accelerations(state), [0.0], [0.0]
@@ -249,36 +249,36 @@ def by_verlet(steps: int) -> CostOutcome:
 
 
 def _peak(t: Array, force: Array) -> float:
-    """The top of a parabola through the largest of the forces and those beside it."""
+    """Return the maximum of a parabola through the largest force and its neighbours."""
     k = min(max(int(np.argmax(force)), 1), force.size - 2)
     parabola = np.polynomial.Polynomial.fit(t[k - 1 : k + 2], force[k - 1 : k + 2], 2)
     return max(float(parabola(top)) for top in (*parabola.deriv().roots().real, t[k]))
 
 
 class _Motion:
-    """The same equations step by step: state z, z', q_1, q_1', ... in the problem's units."""
+    """The equations of motion: state z, z', q_1, q_1', ... in the units of the problem."""
 
     def __init__(self, problem: DynamicProblem) -> None:
         self.problem, self.radius = problem, 1e-3
 
     def begin(self) -> Array:
-        """Everything at the moment of first contact."""
+        """Return the state at first contact."""
         state = np.zeros(2 + 2 * self.problem.omega.size)
         state[1] = 1.0
         return state
 
     def pressed(self, state: Array) -> float:
-        """By how much the sphere is further than the free face."""
+        """Return the local indentation: displacement of the sphere minus that of the plate."""
         return float(state[0] - np.sum(state[2::2]))
 
     def rate(self, state: Array) -> Array:
-        """Velocities and accelerations."""
+        """Return velocities and accelerations."""
         found = np.empty_like(state)
         found[::2], found[1::2] = state[1::2], self.accelerations(state)
         return found
 
     def accelerations(self, state: Array) -> Array:
-        """Of the sphere and the oscillators."""
+        """Return the accelerations of the sphere and the modes."""
         problem, q = self.problem, state[2::2]
         own = -(problem.omega**2) * q
         if self.pressed(state) <= 0.0:
@@ -289,13 +289,13 @@ class _Motion:
         )
 
     def force(self, state: Array) -> float:
-        """Contact force."""
+        """Return the contact force."""
         if self.pressed(state) <= 0.0:
             return 0.0
         return float(self._touching(state).force[0]) / self.problem.force
 
     def _touching(self, state: Array) -> ContactSamples:
-        """The contact at the radius at which the sphere is as deep as the face, by Newton."""
+        """Return the contact with the local indentation of the state, by Newton's iteration."""
         problem, q, deep = self.problem, state[2::2], self.pressed(state)
         a = self.radius
         for _ in range(50):
@@ -314,13 +314,13 @@ class _Motion:
 
 
 def modes() -> list[Trial]:
-    """All results against those with the most bending modes."""
+    """Return the trials of numbers of modes, compared with the largest number."""
     truth = cache(lambda: _simulated(modes=MOST).numbers)
     return [Trial("modes", "A0", n, partial(_simulated, modes=n), truth, OUTPUTS) for n in MODES]
 
 
 def branches() -> list[Trial]:
-    """The same of all branches, and what A0 alone is off by them."""
+    """Return the same trials with all branches, and one with A0 only."""
     truth = cache(lambda: _simulated(modes=MOST_ALL, branches="all").numbers)
     found = [
         Trial("branches", "all", n, partial(_simulated, modes=n, branches="all"), truth, OUTPUTS)
@@ -331,7 +331,7 @@ def branches() -> list[Trial]:
 
 
 def tolerances() -> list[Trial]:
-    """All results by the tolerance asked for; the tightest ones need all branches."""
+    """Return the trials of tolerances; the smallest ones require all branches."""
     truth = cache(lambda: _simulated(modes=MOST_ALL, branches="all").numbers)
     return [
         Trial("rtol", name, x, partial(_simulated, rtol=x, branches=name), truth, OUTPUTS)
@@ -340,7 +340,7 @@ def tolerances() -> list[Trial]:
 
 
 def _simulated(rtol: float | None = None, **inertia: Any) -> CostOutcome:
-    """The results of `simulate`, and how many oscillators there were."""
+    """Return the results of `simulate` and the number of modes."""
     found = simulate(_scene(**inertia), rtol=rtol)
     count = found.dynamics.inertia.modes if found.dynamics else 0
     numbers = tuple(getattr(found, name) for name in OUTPUTS)
@@ -353,5 +353,5 @@ def _scene(**inertia: Any) -> Scene:
 
 
 def _problem() -> DynamicProblem:
-    """The scene with the integrators' oscillators."""
+    """Return the scene with the modes of the integrators."""
     return waves.problem_of(selected_effects(_scene(modes=OSCILLATORS))[1].law, OSCILLATORS)

@@ -18,7 +18,7 @@ from derivation.engine.measure.result import CheckResult
 SEED = 1
 RTOL = 1e-3
 """Relative tolerance of the simulations."""
-MOST_REFUSED = 0.15
+MOST_REJECTED = 0.15
 """Largest allowed fraction of runs at that tolerance that are rejected or incomplete."""
 WIDEST = 0.4
 """Largest contact radius by Hertz's law over sphere radius of a realistic scene."""
@@ -41,8 +41,8 @@ DENSITY = {"steel": 7850.0, "glass": 2500.0, "aluminium": 2700.0, "concrete": 24
 EDGES = ("paper", "simply-supported", "clamped")
 SOFT = ("foam", "rubber", "polyethylene")
 """Materials that may be viscoelastic."""
-Kind = Literal["finished", "refused", "incomplete", "NaN", "traceback", "overrun"]
-KINDS: tuple[Kind, ...] = ("finished", "refused", "incomplete", "NaN", "traceback", "overrun")
+Kind = Literal["finished", "rejected", "incomplete", "NaN", "traceback", "overrun"]
+KINDS: tuple[Kind, ...] = ("finished", "rejected", "incomplete", "NaN", "traceback", "overrun")
 COLUMNS = ("rtol", "outcome", "#runs", "#fraction", "reason")
 """Column heads of the table."""
 
@@ -54,7 +54,7 @@ class Outcome:
     Attributes
     ----------
     kind
-        One of `KINDS`: refused means rejected before the impact, incomplete during it.
+        One of `KINDS`: rejected means rejected before the impact, incomplete during it.
     message
         The reason, if it did not finish; of a traceback the last lines.
     rtol
@@ -82,7 +82,7 @@ class Outcome:
     @property
     def remedied(self) -> bool:
         """Whether a rejection states a remedy after a semicolon."""
-        if self.kind not in ("refused", "incomplete"):
+        if self.kind not in ("rejected", "incomplete"):
             return True
         return bool(self.message.rpartition("; ")[0] and self.message.rpartition("; ")[2].strip())
 
@@ -150,13 +150,13 @@ def passed(found: Sequence[Outcome]) -> bool:
     """Return whether no run failed, each rejection has a remedy, and few scenes are rejected."""
     failed = any(outcome.kind in ("NaN", "traceback", "overrun") for outcome in found)
     remedied = all(outcome.remedied for outcome in found)
-    return not failed and remedied and refused(found).get(RTOL, 0.0) <= MOST_REFUSED
+    return not failed and remedied and rejected(found).get(RTOL, 0.0) <= MOST_REJECTED
 
 
-def refused(found: Sequence[Outcome]) -> dict[float | None, float]:
+def rejected(found: Sequence[Outcome]) -> dict[float | None, float]:
     """Return the fraction of runs that were rejected or incomplete, by tolerance."""
     runs = Counter(outcome.rtol for outcome in found)
-    stopped = Counter(o.rtol for o in found if o.kind in ("refused", "incomplete"))
+    stopped = Counter(o.rtol for o in found if o.kind in ("rejected", "incomplete"))
     return {rtol: stopped[rtol] / many for rtol, many in runs.items()}
 
 
@@ -225,8 +225,8 @@ def as_data(found: Sequence[Outcome], seed: int) -> dict[str, Any]:
         }
         for outcome in found
     ]
-    stopped = [{"rtol": rtol, "fraction": part} for rtol, part in refused(found).items()]
-    return {"seed": seed, "passed": passed(found), "refused": stopped, "runs": rows}
+    stopped = [{"rtol": rtol, "fraction": part} for rtol, part in rejected(found).items()]
+    return {"seed": seed, "passed": passed(found), "rejected": stopped, "runs": rows}
 
 
 def result(found: Sequence[Outcome], count: int, seed: int) -> CheckResult:

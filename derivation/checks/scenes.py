@@ -190,7 +190,7 @@ def _run(scene: Scene, rtol: float | None) -> tuple[Kind, str]:
     except IncompleteError as error:
         return "incomplete", str(error)
     except SceneError as error:
-        return "refused", str(error)
+        return "rejected", str(error)
     except TimeoutError:
         raise
     except Exception:  # any exception counts as a failure

@@ -1,31 +1,30 @@
-"""From a scene file to the time history of an impact, in numbers alone: SymPy is never loaded.
+"""Simulates impacts from scene files, with NumPy and SciPy; SymPy is never loaded.
 
-Read in this order:
+The modules in reading order:
 
-1. `scene`: reads and validates the scene file; `bodies` are its tables of sphere, plate and
-   materials, `materials` the named ones.
-2. `model`: turns the scene into the numbers the kernels take.
-3. `effects`: one file each, which answers every question about the effect; `law` asks those that
-   are included, and no other file knows an effect by its name.
-4. `selection`: which effects are included, by bounds on the change of the results if they are
-   omitted (`omission_bounds`, `law_errors`); `effect_selection` is the effects table, and
-   `explanation` shows it.
-5. `limits`: refuses what lies outside the contact law, warns where it grows inexact.
-6. `method_selection`: the fastest method whose error bound meets a tolerance. `motion` takes any
-   law on a quasi-static plate, `viscous` by `collocation` also a viscoelastic contact
-   (`viscous_law`), and `waves` a plate with inertia: with its modes (`modal`) a time element
-   (`time_element`), contacts one after the other (`contact_sequence`), and their time history
-   (`wave_motion`).
-7. `impact`, `indentation`: simulate an impact, compute a static contact.
-8. `sweep`: one simulation per value of a key. `rows`: many scenes at once, whose numbers are
-   `columns`; effects are selected (`rows_selection`) and quasi-static impacts computed
-   (`static_rows`) in arrays, with the same effects, bounds and laws as of one scene.
-9. `result`: the results, `answer` puts them in words; `export` hands them to pandas and xarray,
-   `plot` draws them, `comparison` compares the paper's motion with them.
-10. `code`: what a module with the law and the impact of one scene is made of.
+1. `scene` reads and validates the scene file; `bodies` are its tables of sphere, plate and
+   materials, `materials` the built-in materials.
+2. `model` converts the scene into the quantities of the contact law.
+3. `effects` has one module for each effect. `law` combines the included effects; no other module
+   uses the name of an effect.
+4. `selection` selects the effects by bounds on the change of the results if they are omitted
+   (`omission_bounds`, `law_errors`). `effect_selection` makes the effects table, and `explanation`
+   prints it.
+5. `limits` rejects scenes outside the range of the contact law, and warns where it is inaccurate.
+6. `method_selection` selects the fastest method whose error bound meets the tolerance, and states
+   the `achieved_accuracy`. `motion` is for a quasi-static plate, `viscous` with `collocation` and
+   `viscous_law` for a viscoelastic contact, `plastic` for a plastic one, and `waves` for plate
+   inertia: modes (`modal`), one time element (`time_element`), the sequence of contacts
+   (`contact_sequence`) and the time history (`wave_motion`).
+7. `impact` and `indentation` simulate an impact and compute static contacts.
+8. `sweep` simulates a scene for each value of a key. `rows` computes many scenes at once in arrays
+   (`columns`, `rows_selection`, `static_rows`), with the same effects, bounds and laws.
+9. `result` holds the results, `answer` formats them, `export` converts them for pandas and xarray,
+   `plot` draws them, and `comparison` compares them with the paper's motion.
+10. `code` generates a module with the law and the impact of one scene.
 
-What cannot be computed raises a `SceneError`; no function returns None or NaN instead. A value that
-is NaN is data: the restitution of an incomplete impact, a point of an array out of range.
+If something cannot be computed, a `SceneError` is raised. NaN occurs only as data: the restitution
+of an incomplete impact, or a point of an array outside the range.
 
 `kernels` imports the generated package; the commands are in `derivation.commands`.
 

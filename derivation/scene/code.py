@@ -1,7 +1,8 @@
 """Assembles the code of one scene: modules to copy, constants of its law, its docstring.
 
 Laws with a closed form keep it. All others are represented by polynomials of the contact radius a
-on panels: p, the force over that of Hertz's law, and F, the increase of the indentation over Hertz's,
+on panels: p, the force over that of Hertz's law, and F, the increase of the indentation over that
+of Hertz's law,
 
     P = K a^3 p,   delta = (a^2/R) (1 + a F),   K = (4/3) E*/R
 

@@ -48,7 +48,7 @@ SHARP = 0.05
 """How much of the slope of the gap is left where the plate is nearly as curved as the sphere."""
 STAYS = 20.0
 """Contact time over half a swing on the resting plate from which a sphere is held to stay."""
-LEFT = "the sphere has left the plate's reach"
+LEFT = "no further contact is possible"
 """Why a simulation ends."""
 
 
@@ -188,7 +188,7 @@ def _check_count(problem: DynamicProblem, found: list[Touching], t: float) -> No
     """End a simulation that has as many contacts as are followed."""
     if len(found) >= CONTACTS:
         raise IncompleteError(
-            f"the sphere had not left the plate for good after {len(found)} contacts and "
+            f"the sphere had not separated for good after {len(found)} contacts and "
             f"{problem.T * t:.6g} s, the limit",
             "use a thicker plate or a lighter sphere, or set effects.inertia = false for a "
             "quasi-static plate",
@@ -314,7 +314,7 @@ def _endless(problem: DynamicProblem, t: float, most: int) -> IncompleteError:
     return IncompleteError(
         f"the sphere was still in contact {problem.T * t:.6g} s after the first contact, when the "
         f"limit of {most} time steps was reached",
-        "give fewer inertia.modes or a larger accuracy.rtol, or set effects.inertia = false",
+        "reduce inertia.modes, increase accuracy.rtol, or set effects.inertia = false",
     )
 
 
@@ -322,7 +322,7 @@ def _lost(
     problem: DynamicProblem, state: ImpactState, radius: float, time: float
 ) -> IncompleteError:
     """Why a contact cannot be followed any further."""
-    why, remedy = "has no solution that can be found", "give less extreme numbers"
+    why, remedy = "has no solution that can be found", "use less extreme values"
     beyond = np.nextafter(problem.contact.top, 0.0) / problem.a
     if radius > 0.99 * beyond:
         why = f"grows wider than {problem.a * beyond:.4g} m, " + (
@@ -336,8 +336,8 @@ def _lost(
         bent = at.less_a[0] @ problem.contact.modes.by_shape(state.q)
         own = at.depth_a[0] / problem.depth
         if a > 0.0 and not own + bent > SHARP * own:
-            why = "has a plate that is curved more sharply than the sphere, and is not one circle"
-            remedy = "give a smaller sphere or a thicker plate"
+            why = "is not circular, because the plate is more curved than the sphere"
+            remedy = "use a smaller sphere or a thicker plate"
     return IncompleteError(f"the contact at {time:.6g} s {why}", remedy)
 
 
@@ -360,8 +360,8 @@ def _check_weight(problem: DynamicProblem, x: float) -> None:
     swing = math.pi * math.sqrt(float(np.sum(problem.inverse_modal_mass / problem.omega**2)))
     if problem.weight and x**ONSET > STAYS * max(1.0, swing):
         raise IncompleteError(
-            "the weight of the sphere keeps it on the plate",
-            "give a higher impact.speed, or leave out impact.gravity",
+            "the sphere does not rebound because its weight holds it on the plate",
+            "increase impact.speed, or remove impact.gravity",
         )
 
 

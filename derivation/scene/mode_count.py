@@ -95,8 +95,8 @@ def check_followed(law: ContactLaw, count: int) -> None:
     remedy += "effects.inertia = false" if inertia.infinite_plate else 'extent = "infinite"'
     raise SceneError(
         f"inertia.modes: expected a contact that {count} modes can follow, got one that needs "
-        f"frequencies up to {_highest(law) / (2.0 * math.pi):.3g} Hz; give a smaller or thinner "
-        f"plate, or write {remedy}"
+        f"frequencies up to {_highest(law) / (2.0 * math.pi):.3g} Hz; use a smaller or thinner "
+        f"plate, or set {remedy}"
     )
 
 

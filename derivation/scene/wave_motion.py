@@ -17,6 +17,7 @@ from derivation.scene.html import html_table
 from derivation.scene.law import ContactLaw
 from derivation.scene.limits import local_indentation
 from derivation.scene.motion import EnergyBalance, Motion
+from derivation.scene.quantity import counted
 from derivation.scene.scene import OUTPUTS
 from derivation.scene.time_element import (
     DAMPED,
@@ -189,15 +190,16 @@ class DynamicImpact(Motion):
         )
         if not inertia.complete:
             return (energies,)
-        ended = f"No further contact is possible after {len(inertia.contacts)} contact(s); "
+        contacts = counted(len(inertia.contacts), "contact")
+        ended = f"No further contact is possible after {contacts}. "
         branches = "all wave branches" if self.law.model.inertia.branches == "all" else "branch A0"
-        change = "more modes are needed for an error estimate: these do not follow the contact"
+        change = "an error estimate requires more modes"
         if math.isfinite(max(inertia.mode_convergence)):
             change = (
                 "halving the number of modes changes the results by at most "
                 f"{max(inertia.mode_convergence):.1e}"
             )
-        return energies, ended + f"{inertia.modes} modes ({branches}); {change}."
+        return energies, ended + f"{counted(inertia.modes, 'mode')} ({branches}); {change}."
 
     def to_html(self) -> str:
         """The contacts and where the energy went, for a notebook."""

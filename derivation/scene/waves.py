@@ -100,7 +100,7 @@ def impact(
         if law.model.b > WIDEST * first:
             raise SceneError(
                 f"inertia.extent: the contact on an infinite plate had not ended after "
-                f"{found.inertia.total_time:.6g} s; give a thicker plate or a lighter sphere"
+                f"{found.inertia.total_time:.6g} s; use a thicker plate or a lighter sphere"
             )
         law = replace(law, model=replace(law.model, b=2.0 * law.model.b))
         found = _converged(law, goal, outputs, budget)
@@ -217,9 +217,9 @@ def _unchecked(coarse: ImpactHistory, problem: DynamicProblem, fewer: int) -> Im
     """A run that none with more modes can check, which fewer modes would meet: it is incomplete."""
     return replace(
         coarse,
-        reason=f"the error of {coarse.problem.omega.size} modes is not known: the "
-        f"{problem.omega.size} by which it is estimated exceed the limit of work",
-        remedy=f"write inertia.modes = {fewer} and give no tolerance, or set "
+        reason=f"the error of {coarse.problem.omega.size} modes is unknown, because the "
+        f"{problem.omega.size} modes for its estimate exceed the limit of work",
+        remedy=f"set inertia.modes = {fewer} and remove the tolerance, or set "
         "effects.inertia = false",
     )
 

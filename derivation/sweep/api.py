@@ -119,8 +119,8 @@ def planned(
     if sensitivity:
         if method != "random":
             raise SceneError(
-                f"method: expected none with sensitivities, which have points of their own, got "
-                f"{method}; leave it out"
+                f"method: expected none with sensitivity indices, which use their own points, got "
+                f"{method}; remove it"
             )
         return saltelli(distributions, size, seed)
     return sample(distributions, size, seed, method)

@@ -25,8 +25,8 @@ LABELS = {name: (name.replace("_", " "), unit) for name, unit in UNITS.items()} 
 """Long name and unit of each number."""
 TEXT_LABELS = {
     "status": "finished, incomplete or refused",
-    "reason": "why there is no result, or what to know about it",
-    "effects": "effects included",
+    "reason": "why there is no result, or warnings",
+    "effects": "included effects",
 }
 """Long name of each text."""
 
@@ -64,7 +64,7 @@ def check_memory(study: Study, what: str) -> None:
     """
     if study.plan.size > MOST_IN_MEMORY:
         raise SceneError(
-            f"{what}: expected at most {MOST_IN_MEMORY:,} points, which are held in memory, got "
+            f"{what}: expected at most {MOST_IN_MEMORY:,} points in memory, got "
             f"{study.plan.size:,}; write a file instead, or use fewer points"
         )
 

@@ -87,15 +87,15 @@ def load_distributions(path: Path) -> dict[str, Distribution]:
         )
     except (ValueError, RecursionError) as error:
         problem = one_line(str(error), 200)
-        raise SceneError(f"{name}: not valid TOML: {problem}; a line reads like {EXAMPLE}") from (
+        raise SceneError(f"{name}: not valid TOML: {problem}; write lines such as {EXAMPLE}") from (
             None
         )
     table = data.get("vary")
     if set(data) != {"vary"} or not isinstance(table, Mapping) or not table:
         got = ", ".join(one_line(key, 40) for key in data) or "nothing"
         raise SceneError(
-            f"{name}: expected one table [vary] with lines like {EXAMPLE}, got {got}; "
-            "a key with a dot stands in quotes"
+            f"{name}: expected one table [vary] with lines such as {EXAMPLE}, got {got}; "
+            "put a key with a dot in quotes"
         )
     try:
         return read_distributions(table)
@@ -118,7 +118,7 @@ def _distribution(key: str, given: Any) -> Distribution:
     """The distribution of one key."""
     if isinstance(given, Distribution):
         return given
-    example = f"write for instance {EXAMPLE}"
+    example = f"write for example {EXAMPLE}"
     if not isinstance(given, Mapping):
         raise SceneError(f"{key}: expected a distribution, got {shown(given)}; {example}")
     name = given.get("distribution")

@@ -90,8 +90,8 @@ def forecast(study: Study, workers: int) -> Forecast:
         effects.update(chosen.included)
     if not effects:
         raise SceneError(
-            f"sweep: expected points that can be simulated, but all {count} looked at are "
-            f"refused: {next(iter(refused))}"
+            f"sweep: expected points that can be simulated, but all {count} tested points are "
+            f"rejected: {next(iter(refused))}"
         )
     timed, seconds = _cost(study)
     return Forecast(

@@ -227,7 +227,7 @@ def grid(given: Mapping[str, Iterable[float] | str] | Sequence[str]) -> GridPlan
     _check_keys([key for key, _ in axes])
     for key, values in axes:
         if len(set(values)) < len(values):
-            raise SceneError(f"{key}: expected different values, got one twice; leave out one")
+            raise SceneError(f"{key}: expected different values, got one twice; remove one")
     made = GridPlan(dict(axes))
     _check_size(made.size, "use fewer values")
     return made
@@ -295,7 +295,7 @@ def _check_keys(keys: list[str]) -> None:
         raise SceneError("vary: expected a key to vary, got none; name one, like plate.thickness")
     for number, key in enumerate(keys):
         if key in keys[:number]:
-            raise SceneError(f"vary: expected {key} once, got it twice; leave out one")
+            raise SceneError(f"vary: expected {key} once, got it twice; remove one")
         for other in rivals(key) & set(keys):
             raise SceneError(
                 f"vary: expected {key} or {other}, which replace each other, got both; remove one"
@@ -304,7 +304,7 @@ def _check_keys(keys: list[str]) -> None:
 
 def _check_seed(seed: int) -> None:
     if seed < 0:
-        raise SceneError(f"seed: expected a whole number from 0, got {seed}; give another")
+        raise SceneError(f"seed: expected a whole number from 0, got {seed}; change it")
 
 
 def _check_size(size: int, mend: str) -> None:

@@ -114,7 +114,7 @@ def _notes(data: "xr.Dataset") -> str:
         return "Sensitivity indices with 95 % confidence intervals (bootstrap)"
     status = data["status"].values
     wrong = int(np.sum(status != "finished"))
-    return f"{wrong} of {status.size} points without a result are left out" if wrong else ""
+    return f"{wrong} of {status.size} points without a result are omitted" if wrong else ""
 
 
 def _curve(axes: "Axes", data: "xr.Dataset", key: str, name: str) -> None:

@@ -176,8 +176,8 @@ def _on_cluster(store: Store, queue: Queue, keep: Keep, client: Any) -> None:
         except KilledWorker:
             raise SceneError(
                 f"sweep: expected workers that finish the points {batch.start} to "
-                f"{batch.stop - 1}, but several were ended while they computed them, for want of "
-                "memory perhaps; run it again, other points are kept"
+                f"{batch.stop - 1}, but several were terminated while they computed them, possibly "
+                "for lack of memory; run it again, other points are kept"
             ) from None
         except (CancelledError, OSError) as error:
             raise SceneError(

@@ -130,9 +130,9 @@ class Store:
                 same = False
             if not same:
                 raise SceneError(
-                    f"{self.folder}: expected batches of this study, got those of another one (its "
-                    "scene, points, tolerance or version differ); name another output, or remove "
-                    "this folder"
+                    f"{self.folder}: expected batches of this study, got those of another one "
+                    "(different scene, points, tolerance or version); use another output, or "
+                    "remove this folder"
                 )
             return
         text = json.dumps({"hash": self.study.name} | self.study.to_json(), indent=1)
@@ -208,8 +208,8 @@ def opened(study: Study, out: Path | None) -> Iterator[Store]:
     if out is not None:
         if out.exists() and not (parts_folder(out) / "study.json").is_file():
             raise SceneError(
-                f"{out}: expected a new output or one of this study, got one without its folder "
-                f"{parts_folder(out).name}; name another output, or remove it"
+                f"{out}: expected a new output or one of this study, got a file without its folder "
+                f"{parts_folder(out).name}; use another output, or remove the file"
             )
         yield Store(study, parts_folder(out))
         return

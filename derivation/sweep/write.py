@@ -33,8 +33,8 @@ def check_out(out: Path) -> None:
     """
     if out.suffix not in SUFFIXES:
         raise SceneError(
-            f"--out {out}: expected a name ending in {', '.join(SUFFIXES)}, "
-            f"got {out.suffix or 'no ending'}; change its name"
+            f"--out {out}: expected a file name with the suffix {' or '.join(SUFFIXES)}, "
+            f"got {out.suffix or 'no suffix'}; change the file name"
         )
     (expect_folder if out.suffix == ".zarr" else expect_writable)(out)
 

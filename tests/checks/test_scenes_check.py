@@ -16,7 +16,7 @@ from derivation.checks.realistic_scenes import (
     failures,
     one_line,
     passed,
-    refused,
+    rejected,
     scenes,
 )
 from derivation.checks.scenes import check_scenes, run
@@ -58,7 +58,7 @@ def test_scenes_are_valid_repeat_and_vary() -> None:
 
 def test_a_run_is_named_for_what_became_of_it(monkeypatch: pytest.MonkeyPatch) -> None:
     assert run(DROP, 1e-2) == ("finished", "")
-    assert run({**DROP, "impact": {"speed": -1.0}}, None)[0] == "refused"
+    assert run({**DROP, "impact": {"speed": -1.0}}, None)[0] == "rejected"
 
     def raises(error: BaseException) -> Any:
         def simulate(*_: Any, **__: Any) -> Any:
@@ -68,7 +68,7 @@ def test_a_run_is_named_for_what_became_of_it(monkeypatch: pytest.MonkeyPatch) -
 
     known = {
         "incomplete": IncompleteError("b", "c"),
-        "refused": SceneError("a: b; c"),
+        "rejected": SceneError("a: b; c"),
         "traceback": ZeroDivisionError("x"),
     }
     for kind, error in known.items():
@@ -90,25 +90,25 @@ def test_a_run_is_stopped_at_its_limit(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_what_fails_and_what_does_not() -> None:
     many = [outcome("finished")] * 17
-    assert passed([*many, outcome("refused")])
-    assert passed([*many, outcome("incomplete"), outcome("refused")])
-    assert not passed([*many, *[outcome("refused")] * 4])
-    # Runs without a tolerance are those of refused scenes: they neither count nor make up for them.
-    freed = [replace(outcome(kind), rtol=None) for kind in ("refused", *["finished"] * 9)]
+    assert passed([*many, outcome("rejected")])
+    assert passed([*many, outcome("incomplete"), outcome("rejected")])
+    assert not passed([*many, *[outcome("rejected")] * 4])
+    # Runs without a tolerance repeat rejected scenes: they neither count nor make up for them.
+    freed = [replace(outcome(kind), rtol=None) for kind in ("rejected", *["finished"] * 9)]
     assert passed([*many, *freed])
-    assert not passed([*many, *[outcome("refused")] * 4, *freed])
-    assert refused([*many, *freed]) == {1e-3: 0.0, None: 0.1}
+    assert not passed([*many, *[outcome("rejected")] * 4, *freed])
+    assert rejected([*many, *freed]) == {1e-3: 0.0, None: 0.1}
     for kind in KINDS[3:]:
         assert not passed([*many, outcome(kind)]), kind
-    assert not passed([*many, outcome("refused", "key: wrong, with no remedy")])
-    assert not passed([*many, outcome("refused", "key: wrong; ")])
+    assert not passed([*many, outcome("rejected", "key: wrong, with no remedy")])
+    assert not passed([*many, outcome("rejected", "key: wrong; ")])
 
 
 def test_every_group_is_shown_with_a_scene() -> None:
-    found = [outcome("finished"), outcome("refused", "a: b; c"), outcome("refused", "a: b; d"),
+    found = [outcome("finished"), outcome("rejected", "a: b; c"), outcome("rejected", "a: b; d"),
              outcome("incomplete", "e: f")]  # fmt: skip
     assert [row[1:3] for row in cells(found)] == [
-        ("finished", "1"), ("refused", "2"), ("incomplete", "1"),
+        ("finished", "1"), ("rejected", "2"), ("incomplete", "1"),
     ]  # fmt: skip
     lines = failures(found)
     assert len(lines) == 4
@@ -119,7 +119,7 @@ def test_every_group_is_shown_with_a_scene() -> None:
 def test_worker_processes_run_the_scenes() -> None:
     fast = {**DROP, "impact": {"speed": 1e6}}
     found = check_scenes(2, drawn=[DROP, fast])
-    assert [o.kind for o in found] == ["finished", "refused", "refused"]
+    assert [o.kind for o in found] == ["finished", "rejected", "rejected"]
     assert [o.rtol for o in found] == [1e-3, 1e-3, None]
     assert all(o.remedied for o in found)
     assert all(0.0 < o.seconds < 60.0 for o in found)

@@ -59,9 +59,9 @@ def test_formulas_of_every_kind_are_shown(name: str, capsys: Captured) -> None:
     assert main(["derive", name]) == 0
     shown = capsys.readouterr().out
     of = about(PAPER, name)
-    assert f"Link of the chain: {of.link}\n" in shown
+    assert f": {of.link}\n" in shown
     assert all(source.partition(",")[0] in shown for source in of.references)
-    assert ("sum of this over" in shown) is of.formula.summed
+    assert ("is the sum of" in shown) is of.formula.summed
 
 
 def test_an_unknown_formula_is_told_the_nearest(capsys: Captured) -> None:

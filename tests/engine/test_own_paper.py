@@ -58,7 +58,7 @@ def test_it_derives(folder: Path) -> None:
 
 
 def test_its_package_is_fresh_and_stands_alone(folder: Path, tmp_path: Path) -> None:
-    assert "is fresh" in run("generate", "--check", "--paper", str(folder), home=folder.parent)
+    assert "up to date" in run("generate", "--check", "--paper", str(folder), home=folder.parent)
     shutil.copytree(folder / "generated", tmp_path / "elastic_film")
     program = (
         "import sys, elastic_film; print(float(elastic_film.F_bonded(0.4, 2.0)));"
@@ -125,7 +125,7 @@ def test_its_report_holds_what_was_found(folder: Path) -> None:
 
 def test_its_report_is_compared_and_taken_in_pieces(folder: Path, tmp_path: Path) -> None:
     own = "--paper", str(folder)
-    assert "is fresh" in run("report", "--check", *own, home=folder.parent)
+    assert "up to date" in run("report", "--check", *own, home=folder.parent)
     pasted = run("report", "--fragment", "F_slipping", *own, home=folder.parent)
     assert r"\label{eq:F_slipping}" in pasted
     run("report", "--section", "misprints", "--no-pdf", "--out", str(tmp_path), *own,

@@ -78,7 +78,7 @@ def test_forced_choices_are_honoured_and_priced() -> None:
     assert "gravity" in out.law.effects
     rows = {row.name: row for row in out.rows}
     assert rows["bending"].disabled
-    assert rows["gravity"].reason == "true in the scene"
+    assert "in the scene" in rows["gravity"].reason
     small = {row.name: row for row in decide(m, AT_REST | {"finite_radius": False}, 1e-9).rows}[
         "finite_radius"
     ]

@@ -96,7 +96,7 @@ def test_other_problems_are_told_with_both_names() -> None:
     tables["plate"] |= {"viscous_time": 1e-6, "strength": -1.0, "colour": "red"}
     with pytest.warns(OldNameWarning), pytest.raises(SceneError) as caught:
         read(tables)
-    for part in ("3 problems", "plate.viscous_time too", "plate.tensile_strength", "plate.colour"):
+    for part in ("3 problems", "plate.viscous_time", "plate.tensile_strength", "plate.colour"):
         assert part in str(caught.value)
 
 

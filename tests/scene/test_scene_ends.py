@@ -285,7 +285,7 @@ def test_why_a_contact_is_lost() -> None:
     widest = problem.contact.top / problem.a
     told = contact_sequence._lost(problem, problem.begin(), widest, 0.0)
     assert f"grows wider than {problem.contact.top:.4g} m" in told.why
-    assert "give a lower speed, a lighter sphere or less weight" in told.remedy
+    assert "impact.speed" in told.remedy
 
 
 def test_a_sphere_too_heavy_to_come_off_is_refused() -> None:
@@ -294,7 +294,7 @@ def test_a_sphere_too_heavy_to_come_off_is_refused() -> None:
     light = waves.problem_of(law(), 8)
     contact_sequence._check_weight(heavy, 1.0)
     contact_sequence._check_weight(light, 1e6)
-    with pytest.raises(IncompleteError, match="weight of the sphere keeps it on the plate"):
+    with pytest.raises(IncompleteError, match="weight"):
         contact_sequence._check_weight(heavy, 1e6)
 
 

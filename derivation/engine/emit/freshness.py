@@ -41,11 +41,10 @@ class Freshness:
         lines += [f"orphaned: {self.folder / name}" for name in self.orphans]
         lines += [diff.rstrip("\n") for diff in self.diffs.values()]
         if self.missing or self.diffs:
-            lines.append(f"To mend: {self.mend}")
+            lines.append(f"To update the files, run: {self.mend}")
         if self.orphans:
-            lines.append(
-                "To mend: rm " + " ".join(str(self.folder / name) for name in self.orphans)
-            )
+            orphans = " ".join(str(self.folder / name) for name in self.orphans)
+            lines.append(f"To remove the orphaned files, run: rm {orphans}")
         return "\n".join(lines)
 
 

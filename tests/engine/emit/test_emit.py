@@ -67,7 +67,7 @@ def test_every_tampering_is_seen_and_the_remedy_named(deed: str, tmp_path: Path)
     found = compare(copy, expected, "regenerate")
     assert not found.fresh
     remedy = "rm " if deed == "add" else "regenerate"
-    assert f"To mend: {remedy}" in str(found)
+    assert f"run: {remedy}" in str(found)
     assert ("+" in found.diffs["omega.py"]) if deed == "edit" else not found.diffs
 
 

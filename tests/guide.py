@@ -1,11 +1,13 @@
-"""The worked examples of CONTRIBUTING.md, typed in where they say."""
+"""The worked examples of `docs/development`, typed in where they say."""
 
 import re
 from pathlib import Path
 
 from derivation.engine.files import ROOT
 
-GUIDE = (ROOT / "CONTRIBUTING.md").read_text()
+PAGES = ("effect", "formula", "subject", "function", "rule_and_case", "paper")
+"""The pages in the order in which they are typed in."""
+GUIDE = "\n".join((ROOT / "docs" / "development" / f"{page}.md").read_text() for page in PAGES)
 BLOCK = re.compile(r"```(?:python|toml|jinja)\n# (.+?)\n(.*?)```", re.DOTALL)
 PAPER = "FOLDER/"
 """What the place of a block begins with that belongs to a paper of one's own."""

@@ -1,4 +1,4 @@
-"""The worked examples of CONTRIBUTING.md, typed into a copy of the sources and followed."""
+"""The worked examples of `docs/development`, typed into a copy of the sources and followed."""
 
 import json
 import math
@@ -11,7 +11,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
-from guide import GUIDE, type_examples
+from guide import type_examples
 
 from derivation.engine import build
 from derivation.engine.files import ROOT
@@ -199,4 +199,4 @@ def test_the_new_rule_acts(copy: Path) -> None:
 def test_the_version_is_in_the_changelog() -> None:
     version = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["version"]
     assert f"\n## {version}\n" in (ROOT / "CHANGELOG.md").read_text()
-    assert f"git tag -a v{version} " in GUIDE
+    assert f"git tag -a v{version} " in (ROOT / "CONTRIBUTING.md").read_text()

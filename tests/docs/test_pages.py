@@ -1,7 +1,7 @@
 """Every block of README, CONTRIBUTING and the documentation site is executed.
 
 Commands and Python print what the page says, where `...` stands for what is left out. The blocks of
-CONTRIBUTING.md that are typed into the sources are followed by `test_contributing.py`.
+`docs/development` that are typed into the sources are followed by `test_contributing.py`.
 """
 
 import doctest
@@ -13,6 +13,7 @@ import tomllib
 from doctest import ELLIPSIS, OutputChecker
 from pathlib import Path
 
+import guide
 import pytest
 
 from derivation.engine.files import ROOT
@@ -24,8 +25,7 @@ PAGES = [
 ]
 BLOCK = re.compile(r"^```(.*)\n((?:.*\n)*?)^```", re.MULTILINE)
 NAMED = re.compile(r"# (\S+\.toml)\n")
-FAILS = "diagnose Omega_3 --formula"
-"""The command that ends with status 1: it says in which page the formulas differ."""
+CI = (ROOT / ".ci" / "run").read_text()
 COMMANDS = [page for page in PAGES if "```console" in page.read_text()]
 PYTHON = [page for page in PAGES if "\n>>> " in page.read_text()]
 
@@ -83,16 +83,17 @@ def test_python_prints_what_the_page_says(page: Path, monkeypatch: pytest.Monkey
 def test_no_block_is_left_out(page: Path) -> None:
     """Console and Python are executed above; these are the others that a page may have."""
     for kind, text in BLOCK.findall(page.read_text()):
-        if kind == "python" and page.name != "CONTRIBUTING.md":
+        if page.stem in guide.PAGES and page.parent.name == "development":
+            assert guide.BLOCK.match(f"```{kind}\n{text}```"), text
+        elif kind == "python":
             assert text.startswith(">>> "), text
-        elif kind == "toml" and page.name != "CONTRIBUTING.md":
+        elif kind == "toml":
             assert tomllib.loads(text), text
             assert NAMED.match(text) or page.name == "README.md", "a scene that no command reads"
         elif kind == "sh":
-            ci = (ROOT / ".ci" / "run").read_text()
             assert page.parent == ROOT
             for line in text.splitlines():
-                assert line in ci or line.split()[0] in ("apt-get", "python3"), line
+                assert line in CI or line.split()[0] in ("apt-get", "python3"), line
         elif kind == "text":
             assert "$ " not in text, "a command is set as console"
         else:

@@ -102,7 +102,7 @@ def ways(case: HardCase, kernel: Kernel) -> Iterator[list[Any]]:
 
 
 def test_every_switch_has_cases_close_to_both_sides(seen: Watch) -> None:
-    """A new one in the code needs hard cases, as described in CONTRIBUTING.md."""
+    """A new one in the code needs hard cases, as described in docs/development."""
     far = seen.beyond(CLOSE)
     count = Counter(place.home for place in far)
     most = {home: limit for home, (limit, _) in MAY_STAY.items()}

@@ -32,9 +32,11 @@ _STEPS = 60
 _NEWTON = 5
 _CLOSE = 1e-9
 """A step whose square, which is what the next would be, is far below rounding."""
+_CLOSER = 1e-12
+"""The same with a weight, whose share of the energy may change fast with the radius."""
 _CLOSEST = 4e-16
-"""A step as small as rounding: where the pressure is solved for, whose slope is not exact, with a
-weight, and on a half-space, whose contact time is the unit of time of plates with inertia."""
+"""A step as small as rounding: where the pressure is solved for, whose slope is not exact, and on
+a half-space, whose contact time is the unit of time of plates with inertia."""
 
 
 @dataclass(frozen=True)
@@ -158,8 +160,9 @@ def largest_radius(
 
 def closeness(law: ContactLaw) -> float:
     """The step at which the iteration for a law's largest radius ends [1]."""
-    exact = law.solved or np.any(law.gravity) or not law.plate_effects
-    return _CLOSEST if exact else _CLOSE
+    if law.solved or not law.plate_effects:
+        return _CLOSEST
+    return _CLOSER if np.any(law.gravity) else _CLOSE
 
 
 def largest_radii(

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from derivation.scene.effects import WHOLE_PLATE
+from derivation.scene.effects.edge import SUPPORTED
 from derivation.scene.effects.effect import Array, Effect
 from derivation.scene.law import ContactLaw
 from derivation.scene.model import Model
@@ -76,6 +77,8 @@ def selected(
             continue
         if any(effect.name in WHOLE_PLATE for effect in given.present):
             _ = part.plates, part.correction  # known then to all parts of it
+        if any(effect.other_edge for effect in given.present) and part.edge == SUPPORTED:
+            _ = part.supports
         waiting = {given.included: [np.arange(len(rows))]}
         while waiting:
             included, parts = waiting.popitem()
@@ -120,7 +123,9 @@ def _step(
         return Group(rows, ContactLaw(model.take(rows), included), _held(given), none), {}
     parts = [rows[start : start + TOGETHER] for start in range(0, len(rows), TOGETHER)]
     laws = (ContactLaw(model.take(part), included) for part in parts)
-    found = [_errors(given, law, rtol[part], outputs) for law, part in zip(laws, parts, strict=True)]
+    found = [
+        _errors(given, law, rtol[part], outputs) for law, part in zip(laws, parts, strict=True)
+    ]
     error, fine, *sizes = (np.concatenate(column) for column in zip(*found, strict=True))
     limit = rtol[rows]
     near = (np.abs(error - limit) <= NEAR * limit) & (limit > 0.0)

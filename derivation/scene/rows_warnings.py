@@ -94,7 +94,9 @@ def _possible(law: ContactLaw, known: Mapping[str, Array]) -> tuple[Mask, ...]:
     one, less = SimpleNamespace(**known), 1.0 - _ROUNDING
     solid = 4 / 3 * np.pi * one.R * one.R * one.R * one.solid_density
     a, thickness = one.max_contact_radius, 2.0 * one.h
-    wide = (a > less * HERTZ_LIMIT * thickness) | (one.deflection > less * STRETCH_LIMIT * thickness)
+    wide = (a > less * HERTZ_LIMIT * thickness) | (
+        one.deflection > less * STRETCH_LIMIT * thickness
+    )
     if not law.spherical:
         wide = wide | (a > less * CURVATURE_LIMIT * one.R)
     fast = QUASI_STATIC_PERIODS * one.period > less * one.contact_time

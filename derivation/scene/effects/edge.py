@@ -13,6 +13,7 @@ from derivation.scene.effects.effect import (
     none_of,
 )
 from derivation.scene.model import Model
+from derivation.scene.support_series import support_share
 
 SUPPORTED, CLAMPED = "simply-supported", "clamped"
 MAX_A_OVER_B = 0.9
@@ -56,9 +57,22 @@ class Edge(PlateEffect):
 
     def contribution(self, model: Model, a: Array) -> Contribution:
         """By sums over a few modes, or the thin plate's closed form."""
+        if model.edge == SUPPORTED and a.ndim > 1:
+            return self._supported(model, a)
         plate = model.h, model.b, model.lam, model.mu
         if model.edge == SUPPORTED:
             runs = kernels.supported_edge, kernels.supported_edge_slope
         else:
             runs = kernels.clamped_edge, kernels.clamped_edge_slope
         return Contribution(*(run(a, *plate) for run in runs))
+
+    def _supported(self, model: Model, a: Array) -> Contribution:
+        """The sums of many plates by their series, and of wide contacts as they are."""
+        depth, slope = support_share(model.supports, a / model.b)
+        wide = np.isnan(depth) & np.isfinite(a)
+        if wide.any():
+            plate = (np.broadcast_to(x, a.shape)[wide] for x in model.numbers[3:])
+            h, b, lam, mu = plate
+            depth[wide] = kernels.supported_edge(a[wide], h, b, lam, mu)
+            slope[wide] = kernels.supported_edge_slope(a[wide], h, b, lam, mu)
+        return Contribution(depth, slope)

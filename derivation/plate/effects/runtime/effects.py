@@ -4,9 +4,11 @@ Depth and slope are a part of F and of S, where at equal force, a being Hertz's 
 
     delta = (a^2/R) (1 + F),   d delta/da = (2a/R) S
 
-Arithmetic: the side wall's power series, whose coefficients are numbers computed beforehand.
+Arithmetic: the side wall's power series, whose coefficients are numbers computed beforehand, and
+how many of its terms count.
 """
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -16,6 +18,8 @@ from generated import effect_kernels as kernels
 from generated.arrays import as_doubles, as_result, in_manifest, inside, quiet
 from generated.blocks import polynomial
 from generated.effect_numbers import WALL_DEPTH, WALL_SLOPE
+
+_NEGLIGIBLE = 30.0  # less the logarithm of what terms that do not count are of the first
 
 
 class Sphere(NamedTuple):
@@ -82,7 +86,9 @@ def side_wall(alpha: ArrayLike) -> Share:
     kind, [alpha] = as_doubles(alpha)
     [alpha] = inside([alpha], alpha >= 0, alpha < 1)
     square = alpha * alpha
-    depth, slope = (-alpha * polynomial(square, *row) for row in (WALL_DEPTH, WALL_SLOPE))
+    count = _terms(float(np.fmax.reduce(square, axis=None, initial=1e-30)))
+    rows = WALL_DEPTH[:count], WALL_SLOPE[:count]
+    depth, slope = (-alpha * polynomial(square, *row) for row in rows)
     return Share(as_result(depth, kind), as_result(slope, kind))
 
 
@@ -211,3 +217,8 @@ def echo_time(h: ArrayLike, lam: ArrayLike, mu: ArrayLike, rho: ArrayLike) -> np
     kind, [h, lam, mu, rho] = as_doubles(h, lam, mu, rho)
     [h, lam, mu, rho] = inside([h, lam, mu, rho], h > 0, mu > 0, 3 * lam > -2 * mu, rho > 0)
     return as_result(kernels.echo_time_of_factors(h, lam, mu, rho), kind)
+
+
+def _terms(square: float) -> int:
+    """How many of the side wall's terms count, each below a quarter of alpha^2 of the one before."""
+    return 3 + int(_NEGLIGIBLE / (math.log(4.0) - math.log(square)))

@@ -10,8 +10,11 @@ from functools import cache
 from itertools import product
 from typing import Any
 
+import numpy as np
+
 from derivation.engine.files import measurements
 from derivation.scene.effects.edge import SUPPORTED
+from derivation.scene.effects.effect import Array
 from derivation.scene.model import Model
 from derivation.scene.scene import SceneError
 
@@ -67,6 +70,23 @@ def edge_remainder(model: Model, a: float) -> float:
             f"a/b = {a / model.b:.4g}; use a larger plate, or set effects.edge = false"
         )
     return found
+
+
+def edge_remainders(model: Model, a: Array) -> Array:
+    """The same of many scenes, as columns; NaN where it is refused."""
+    kind = "supported" if model.edge == SUPPORTED else "clamped"
+    nu = model.lam / (2.0 * (model.lam + model.mu))
+    axes, places = _axes(), np.broadcast_arrays(model.eta, nu, a / model.b)
+    known = (places[0] <= axes[0][-1]) & (places[2] <= axes[2][-1])
+    ends = []
+    for axis, place in zip(axes, places, strict=True):
+        below = np.searchsorted(axis, place, side="right") - 1
+        above = np.searchsorted(axis, place, side="left")
+        ends.append([np.clip(end, 0, len(axis) - 1) for end in (below, above)])
+    table = np.array([_table()[(kind, *point)] for point in product(*axes)])
+    table = table.reshape([len(axis) for axis in axes])
+    found = np.maximum.reduce([table[corner] for corner in product(*ends)])
+    return np.where(known & (found <= LARGEST), found, np.nan)
 
 
 def _neighbours(axis: list[float], value: float) -> list[float]:

@@ -13,6 +13,7 @@ from derivation.scene.body_materials import Body, body_of, first_given, own_mate
 from derivation.scene.materials import plane_strain_modulus
 from derivation.scene.scene import Scene, SceneError
 from derivation.scene.simple_laws import plates_of
+from derivation.scene.support_series import Supports, supports_of
 
 PLATES = 1e-50, 1e50
 """h/b for which bounds are known."""
@@ -116,6 +117,15 @@ class Model:
         found = plates_of(np.where(within, self.eta, 1.0))
         return kernels.Plate(*(np.where(within, x, np.inf) for x in found))
 
+    @cached_property
+    def supports(self) -> Supports:
+        """What a simple support adds, of many plates, for contacts up to about Hertz's largest."""
+        modulus = self.modulus / (1.0 + self.softness)
+        energy = 0.9375 * self.R * (self.R / modulus) * self.m * (self.v0 * self.v0)
+        plate = (self.h, self.b, self.lam, self.mu)
+        columns = np.broadcast_arrays(np.power(energy, 0.2), *plate)
+        return supports_of(*columns)
+
     def take(self, index: Any) -> "Model":
         """Return some of many scenes by their indices; an int gives a single scene."""
         columns = {
@@ -124,14 +134,16 @@ class Model:
             if isinstance(value := getattr(self, field.name), np.ndarray)
         }
         found = replace(self, **columns)
-        if "plates" in vars(self) and not isinstance(index, int):  # computed before
-            many = self.plates.eta.size > 1
-            known = kernels.plates_at(self.plates, index) if many else self.plates
-            vars(found)["plates"] = known
-        if "correction" in vars(self) and not isinstance(index, int):
-            many = isinstance(self.eta, np.ndarray)
+        if isinstance(index, int):
+            return found
+        known, many = vars(self), isinstance(self.eta, np.ndarray)  # values computed before
+        if "plates" in known:
+            vars(found)["plates"] = kernels.plates_at(self.plates, index) if many else self.plates
+        if "correction" in known:
             rows = (x[index] for x in self.correction) if many else self.correction
             vars(found)["correction"] = kernels.Plate(*rows)
+        if "supports" in known:
+            vars(found)["supports"] = self.supports.take(index)
         return found
 
     @property

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from derivation.scene.columns import Columns, allowed, models_of, of_bodies, row_of
-from derivation.scene.edge_remainder import edge_remainder
+from derivation.scene.edge_remainder import edge_remainders
 from derivation.scene.effects import EFFECTS
 from derivation.scene.effects.effect import Array
 from derivation.scene.impact import selection_tolerance, simulate
@@ -213,7 +213,9 @@ class _Block:
             known &= np.broadcast_to(a < law.limit, a.shape)[:, 0]
         if rtol is not None:  # others are refused, or nearly so
             known &= bound <= rtol - ROUNDING
-        model_error = _model_errors(group, a, known)
+        model_error = np.zeros(len(rows))
+        if law.other_edge:
+            model_error = edge_remainders(law.model, a)[:, 0]
         known &= np.isfinite(model_error)
         which = np.flatnonzero(known)
         strength: Array | float | None = scene.plate.tensile_strength
@@ -228,16 +230,3 @@ class _Block:
         included = " ".join(effect.name for effect in EFFECTS if effect.name in law.effects)
         self.found.effects[places] = included
         return group.rows[which]
-
-
-def _model_errors(group: Group, a: Array, known: NDArray[np.bool_]) -> Array:
-    """The model error of each row [1]; NaN where it is not known or refused."""
-    if not group.law.other_edge:
-        return np.zeros(len(a))
-    found = np.full(len(a), np.nan)
-    for row in np.flatnonzero(known).tolist():
-        try:
-            found[row] = edge_remainder(group.law.model.take(row), float(a[row, 0]))
-        except SceneError:
-            continue
-    return found

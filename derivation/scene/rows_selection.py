@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from derivation.scene.effects import WHOLE_PLATE
+from derivation.scene.effects.edge import SUPPORTED
 from derivation.scene.effects.effect import Array, Effect
 from derivation.scene.law import ContactLaw
 from derivation.scene.model import Model
@@ -76,6 +77,8 @@ def selected(
             continue
         if any(effect.name in WHOLE_PLATE for effect in given.present):
             _ = part.plates, part.correction  # known then to all parts of it
+        if any(effect.other_edge for effect in given.present) and part.edge == SUPPORTED:
+            _ = part.supports
         waiting = {given.included: [np.arange(len(rows))]}
         while waiting:
             included, parts = waiting.popitem()

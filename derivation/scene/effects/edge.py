@@ -13,6 +13,7 @@ from derivation.scene.effects.effect import (
     none_of,
 )
 from derivation.scene.model import Model
+from derivation.scene.support_series import support_share
 
 SUPPORTED, CLAMPED = "simply-supported", "clamped"
 MAX_A_OVER_B = 0.9
@@ -57,9 +58,22 @@ class Edge(PlateEffect):
 
     def contribution(self, model: Model, a: Array) -> Contribution:
         """Return the contribution by sums over a few modes, or a closed form for thin plates."""
+        if model.edge == SUPPORTED and a.ndim > 1:
+            return self._supported(model, a)
         plate = model.h, model.b, model.lam, model.mu
         if model.edge == SUPPORTED:
             runs = kernels.supported_edge, kernels.supported_edge_slope
         else:
             runs = kernels.clamped_edge, kernels.clamped_edge_slope
         return Contribution(*(run(a, *plate) for run in runs))
+
+    def _supported(self, model: Model, a: Array) -> Contribution:
+        """Return the sums of many plates by their series, and directly for wide contacts."""
+        depth, slope = support_share(model.supports, a / model.b)
+        wide = np.isnan(depth) & np.isfinite(a)
+        if wide.any():
+            plate = (np.broadcast_to(x, a.shape)[wide] for x in model.numbers[3:])
+            h, b, lam, mu = plate
+            depth[wide] = kernels.supported_edge(a[wide], h, b, lam, mu)
+            slope[wide] = kernels.supported_edge_slope(a[wide], h, b, lam, mu)
+        return Contribution(depth, slope)

@@ -81,7 +81,8 @@ def _summed(
     place = alpha * alpha / numbers.MIDDLE - 1.0
     rest_third, rest_square = (polynomial(place, *x) for x in (kernel.third, kernel.square))
     later = kernel.value(alpha[:, None], j[1:])
-    fading = kernels.later_modes(eta[:, None], j[1:], J1[1:], later)
-    third, square = (part.sum(axis=1) for part in fading)
+    plates, owner = np.unique(eta, return_inverse=True)  # whose points have the same modes
+    fading = kernels.later_modes(plates[:, None], j[1:], J1[1:], np.ones(1))
+    third, square = ((part[owner] * later).sum(axis=1) for part in fading)
     first, rest = kernel.value(alpha, j[0]), (plain, rest_third, rest_square)
     return kernels.all_modes(eta, n, j[0], first, *rest, third, square)

@@ -4,9 +4,11 @@
 
     delta = (a^2/R) (1 + F),   d delta/da = (2a/R) S
 
-Arithmetic: the power series of the finite radius, whose coefficients are computed in advance.
+Arithmetic: the power series of the finite radius, whose coefficients are computed in advance, and
+the number of its terms.
 """
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -16,6 +18,8 @@ from generated import effect_kernels as kernels
 from generated.arrays import as_doubles, as_result, in_manifest, inside, quiet
 from generated.blocks import polynomial
 from generated.effect_numbers import WALL_DEPTH, WALL_SLOPE
+
+_NEGLIGIBLE = 30.0  # minus the logarithm of the ratio of negligible terms to the first one
 
 
 class Sphere(NamedTuple):
@@ -95,7 +99,9 @@ def side_wall(alpha: ArrayLike) -> Share:
     kind, [alpha] = as_doubles(alpha)
     [alpha] = inside([alpha], alpha >= 0, alpha < 1)
     square = alpha * alpha
-    depth, slope = (-alpha * polynomial(square, *row) for row in (WALL_DEPTH, WALL_SLOPE))
+    count = _terms(float(np.fmax.reduce(square, axis=None, initial=1e-30)))
+    rows = WALL_DEPTH[:count], WALL_SLOPE[:count]
+    depth, slope = (-alpha * polynomial(square, *row) for row in rows)
     return Share(as_result(depth, kind), as_result(slope, kind))
 
 
@@ -249,3 +255,8 @@ def echo_time(h: ArrayLike, lam: ArrayLike, mu: ArrayLike, rho: ArrayLike) -> np
     kind, [h, lam, mu, rho] = as_doubles(h, lam, mu, rho)
     [h, lam, mu, rho] = inside([h, lam, mu, rho], h > 0, mu > 0, 3 * lam > -2 * mu, rho > 0)
     return as_result(kernels.echo_time_of_factors(h, lam, mu, rho), kind)
+
+
+def _terms(square: float) -> int:
+    """How many of the side wall's terms count, each below a quarter of alpha^2 of the one before."""
+    return 3 + int(_NEGLIGIBLE / (math.log(4.0) - math.log(square)))

@@ -1,0 +1,68 @@
+"""What a simple support adds to the law, as polynomials: one for each of many plates.
+
+Over alpha = a/b it is an even function, here a series of Chebyshev polynomials of alpha^2 on the
+contacts that an impact may have. Its nearest singularity is about alpha = 1.
+"""
+
+from functools import cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.polynomial import chebyshev
+from numpy.typing import NDArray
+
+from derivation.scene import kernels
+
+Array = NDArray[np.float64]
+WIDEST, TERMS = 0.15, 9
+"""Largest alpha of a series and its terms, the last one below 1e-17 of the first."""
+WIDER = 1.3
+"""Largest radius that a series is for, over Hertz's."""
+
+
+class Supports(NamedTuple):
+    """Series of plates, along the first axis: their largest alpha, and coefficients of both."""
+
+    reach: Array
+    share: Array
+    growth: Array
+
+    def take(self, index: object) -> "Supports":
+        """Those of some of the plates."""
+        return Supports(*(x[index] for x in self))  # type: ignore[index]
+
+
+def supports_of(hertz: Array, h: Array, b: Array, lam: Array, mu: Array) -> Supports:
+    """Series of plates, of columns; `hertz` is Hertz's largest radius of each [m]."""
+    reach = np.minimum(WIDER * hertz / b, WIDEST)
+    nodes, values, slopes = _rules()
+    alpha = reach * np.sqrt(0.5 * (1.0 + nodes))
+    share = kernels.supported_edge(alpha * b, h, b, lam, mu) / alpha
+    return Supports(reach, share @ values.T, share @ slopes.T)
+
+
+def support_share(supports: Supports, alpha: Array) -> tuple[Array, Array]:
+    """Its parts of F and S at rows of alpha; NaN beyond the series."""
+    place = 2.0 * (alpha / supports.reach) ** 2 - 1.0
+    share, growth = _sum(supports.share, place), _sum(supports.growth, place)
+    share = np.where(alpha <= supports.reach, share, np.nan)
+    return alpha * share, alpha * (1.5 * share + (1.0 + place) * growth)
+
+
+@cache
+def _rules() -> tuple[Array, Array, Array]:
+    """Chebyshev's nodes, and matrices from values there to coefficients, of the slope too."""
+    nodes = chebyshev.chebpts1(TERMS)
+    values = np.linalg.inv(chebyshev.chebvander(nodes, TERMS - 1))
+    slopes = np.zeros((TERMS, TERMS))
+    slopes[:-1] = chebyshev.chebder(values)
+    return nodes, values, slopes
+
+
+def _sum(coefficients: Array, place: Array) -> Array:
+    """A series by Clenshaw's rule."""
+    twice, older = 2.0 * place, np.zeros_like(place)
+    newer = np.broadcast_to(coefficients[:, -1:], place.shape)
+    for k in range(TERMS - 2, 0, -1):
+        newer, older = coefficients[:, k : k + 1] + twice * newer - older, newer
+    return coefficients[:, :1] + place * newer - older

@@ -2,85 +2,16 @@
 
 import math
 from collections.abc import Callable, Sequence
-from functools import cache
-from typing import Any
 
 import numpy as np
 import pytest
 from mpmath import mp, mpf
-from mutated_code import BEYOND_ALL, GUARDS, Judged, unnoticed
+from mutated_code import Judged, unnoticed
 from sharp import Sharp, expected
 
 from derivation.plate.contact.oracle import balls as contact_balls
-from derivation.plate.contact.oracle import moments
-from generated.bessel_numbers import ASYMPTOTIC_START, LARGEST_PHASE
 
 NAN = math.nan
-
-
-# --- Bessel functions
-
-
-def bessel_cases() -> list[Sharp]:
-    """Both sides of every method, beside zeros, and arguments as large as there are."""
-    inside = [0.0, 1e-300, 1e-5, 0.5, 1.841, 5.0, 11.7, ASYMPTOTIC_START - 1e-9, 17.0]
-    beside = [2.404825557695773, 3.8317059702075125, 14.930917708487787, 30.634606468431976]
-    beyond = [ASYMPTOTIC_START, 26.0, 31.0, 1e3, 123456.789, 1e10, 3e13]
-    far = [LARGEST_PHASE, 1.3 * LARGEST_PHASE, 1e20, 3e300]
-    every = [*inside, *beside, *beyond, *far]
-    points = [(x,) for x in (*every, *(-x for x in every), NAN, math.inf, -math.inf)]
-    found = []
-    with mp.workdps(340):
-        for order in (0, 1):
-            true = [mp.besselj(order, x) if math.isfinite(x) else NAN for (x,) in points]
-            found += expected(f"bessel_j{order}", points, true, 1.5)
-            found.append(single(f"bessel_j{order}", float(mp.besselj(order, 5))))
-    for count in (0, 1, 5, 30):
-        found += map(counted, *zip(*zeros(count), strict=True))
-    return found
-
-
-def single(name: str, true: float) -> Sharp:
-    """In single precision."""
-    return Sharp(lambda m: getattr(m, name)(np.float32(5)), np.asarray(np.float32(true)), 0.0)
-
-
-@cache
-def zeros(count: int) -> list[tuple[str, tuple[float, ...]]]:
-    with mp.workdps(40):
-        both = [[mp.besseljzero(n, k) for k in range(1, count + 1)] for n in (0, 1)]
-        slopes = [float(mp.besselj(1, x)) for x in both[0]]
-        rows = [tuple(map(float, row)) for row in both]
-    return [
-        ("bessel_j0_zeros", rows[0]),
-        ("bessel_j1_zeros", rows[1]),
-        ("bessel_j1_at_j0_zeros", tuple(slopes)),
-    ]
-
-
-def counted(name: str, row: tuple[float, ...]) -> Sharp:
-    return Sharp(lambda m: getattr(m, name)(len(row)), np.array(row), 0.6)
-
-
-# --- constants by index
-
-
-def series_cases() -> list[Sharp]:
-    found = []
-    for name, start, last in (("kappa", 0, 196), ("finite_part", 2, 99)):
-        some = [start, start + 1, start + 4, 17, 30, 60, last]
-        true: Callable[[int, int], Any] = getattr(moments, name)
-        ratio: Callable[[int, int], Any] = getattr(moments, f"{name}_ratio")
-        nowhere = [start - 1, -3, 2.5, 1e6 + 0.5, NAN]
-        values = [*(float(true(n, 80)) for n in some), *[NAN] * (len(nowhere) + 1)]
-        found += expected(name, [(x,) for x in (*some, *nowhere, last + 1)], values, 0.51)
-        some += [last + 1, 1000, 10**6]
-        values = [*(float(ratio(n, 80)) for n in some), *[NAN] * len(nowhere)]
-        found += expected(f"{name}_ratio", [(x,) for x in (*some, *nowhere)], values, 0.51)
-        large = np.array([np.nan, float(true(10, 80))], dtype=np.float32)
-        index = np.array([60, 10], dtype=np.float32)
-        found.append(Sharp(lambda m, x=index, n=name: getattr(m, n)(x), large, 0.0))
-    return found
 
 
 # --- single effects
@@ -242,16 +173,6 @@ def logarithms(course: tuple[float, ...]) -> Sharp:
 
 
 JUDGED = {
-    "bessel": Judged(
-        bessel_cases,
-        {
-            "_modulus_phase": (3, "a sign; and which multiple of pi is taken off"),
-            "bessel_j1_at_j0_zeros": (1, "a sign"),
-        },
-    ),
-    "series_constants": Judged(
-        series_cases, {"kappa_ratio": (1, BEYOND_ALL), "_looked_up": (1, GUARDS)}
-    ),
     "effects": Judged(effect_cases),
     "viscosity": Judged(viscosity_cases),
 }

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Sequence
+from functools import cache
 
 import numpy as np
 import pytest
@@ -10,8 +11,53 @@ from mutated_code import Judged, unnoticed
 from sharp import Sharp, expected
 
 from derivation.plate.contact.oracle import balls as contact_balls
+from generated.bessel_numbers import ASYMPTOTIC_START, LARGEST_PHASE
 
 NAN = math.nan
+
+
+# --- Bessel functions
+
+
+def bessel_cases() -> list[Sharp]:
+    """Both sides of every method, beside zeros, and arguments as large as there are."""
+    inside = [0.0, 1e-300, 1e-5, 0.5, 1.841, 5.0, 11.7, ASYMPTOTIC_START - 1e-9, 17.0]
+    beside = [2.404825557695773, 3.8317059702075125, 14.930917708487787, 30.634606468431976]
+    beyond = [ASYMPTOTIC_START, 26.0, 31.0, 1e3, 123456.789, 1e10, 3e13]
+    far = [LARGEST_PHASE, 1.3 * LARGEST_PHASE, 1e20, 3e300]
+    every = [*inside, *beside, *beyond, *far]
+    points = [(x,) for x in (*every, *(-x for x in every), NAN, math.inf, -math.inf)]
+    found = []
+    with mp.workdps(340):
+        for order in (0, 1):
+            true = [mp.besselj(order, x) if math.isfinite(x) else NAN for (x,) in points]
+            found += expected(f"bessel_j{order}", points, true, 1.5)
+            found.append(single(f"bessel_j{order}", float(mp.besselj(order, 5))))
+    for count in (0, 1, 5, 30):
+        found += map(counted, *zip(*zeros(count), strict=True))
+    return found
+
+
+def single(name: str, true: float) -> Sharp:
+    """In single precision."""
+    return Sharp(lambda m: getattr(m, name)(np.float32(5)), np.asarray(np.float32(true)), 0.0)
+
+
+@cache
+def zeros(count: int) -> list[tuple[str, tuple[float, ...]]]:
+    with mp.workdps(40):
+        both = [[mp.besseljzero(n, k) for k in range(1, count + 1)] for n in (0, 1)]
+        slopes = [float(mp.besselj(1, x)) for x in both[0]]
+        rows = [tuple(map(float, row)) for row in both]
+    return [
+        ("bessel_j0_zeros", rows[0]),
+        ("bessel_j1_zeros", rows[1]),
+        ("bessel_j1_at_j0_zeros", tuple(slopes)),
+    ]
+
+
+def counted(name: str, row: tuple[float, ...]) -> Sharp:
+    return Sharp(lambda m: getattr(m, name)(len(row)), np.array(row), 0.6)
 
 
 # --- single effects
@@ -173,6 +219,13 @@ def logarithms(course: tuple[float, ...]) -> Sharp:
 
 
 JUDGED = {
+    "bessel": Judged(
+        bessel_cases,
+        {
+            "_modulus_phase": (3, "a sign; and which multiple of pi is taken off"),
+            "bessel_j1_at_j0_zeros": (1, "a sign"),
+        },
+    ),
     "effects": Judged(effect_cases),
     "viscosity": Judged(viscosity_cases),
 }

@@ -4,6 +4,7 @@ Where the seams are is asked of the rewrite's own data, so that one that moves t
 its cases along.
 """
 
+import math
 from collections.abc import Callable, Iterator
 from itertools import chain
 
@@ -19,6 +20,7 @@ from derivation.plate.contact.kernels import tables as contact_tables
 from derivation.plate.contact.kernels.moments import FIRST_K, finite_part_start, kappa_start
 from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.grids import seams
+from derivation.plate.impact.oracle import impact as contact_impact
 from derivation.plate.subjects import handed_in
 
 INDICES = (1, 2, 10, 100, 1000, 10**4, 10**5, 10**6)
@@ -49,7 +51,7 @@ def families() -> tuple[HardCase, ...]:
 def _families() -> tuple[HardCase, ...]:
     made = chain(
         _block_seams(), _bessel_seams(), _zeros_by_index(), _beside_zeros(), _moments(),
-        _contact_seams(), _thickness_seams(), _thinnest(), scene_families(),
+        _contact_seams(), _thickness_seams(), _thinnest(), _impact_seams(), scene_families(),
         *(cases() for cases in handed_in("cases", "CASES")),
     )  # fmt: skip
     return tuple(checked(case) for case in made)
@@ -211,3 +213,14 @@ def _thinnest() -> Iterator[HardCase]:
         cause = f"{offset:+d} ULP from h/b = 1e-5, below which no sum is taken for a > 6 h."
         expect = "nan" if offset < 0 else "value"
         yield HardCase("seams of the contact law", "indentation", cause, given, expect=expect)
+
+
+def _impact_seams() -> Iterator[HardCase]:
+    """Speeds at which the contact just grows to 3 h, in a thin plate and in the paper's."""
+    for b in (100.0, 10.0):
+        place = float(contact_tables.REACH)
+        energy = float(contact_impact.stored_energy(place, 50.0, 1.0, b, LAM, MU, 30))
+        speeds = around(math.sqrt(2.0 * energy / 1e3))
+        cause = f"0, 1 and 32 ULP to either side of the speed that reaches a = {place:g} h."
+        given = exactly(R=50.0, m=1e3, v0=speeds, h=1.0, b=b, lam=LAM, mu=MU)
+        yield HardCase("seams of the contact law", "impact", cause, given, "array")

@@ -7,7 +7,7 @@ from itertools import chain
 import flint
 
 from derivation.engine.measure.case import HardCase
-from derivation.engine.measure.places import about, around, beside, exactly
+from derivation.engine.measure.places import about, around, exactly
 from derivation.mathematics.bessel.oracle import j0_zero
 from derivation.plate.cases.steel import LAM, MU
 from derivation.plate.contact.kernels import tables as contact_tables
@@ -17,7 +17,7 @@ from derivation.plate.impact.oracle import impact as contact_impact
 from derivation.plate.impact.oracle import printed_motion as printed_motion_balls
 
 IMPACTS, SIMPLE = "seams of the impact", "seams of simple impacts"
-PAPER, LAW = "seams of the paper's motion", "seams of the contact law"
+PAPER = "seams of the paper's motion"
 
 _SPHERE: dict[str, float] = {"R": 50.0, "m": 1e3}
 _STEEL: dict[str, float] = {"lam": LAM, "mu": MU}
@@ -26,23 +26,13 @@ _FEW = 30
 
 def motion_families() -> Iterator[HardCase]:
     """Every one of them; the plate's half-thickness is 1 where nothing else is said."""
-    return chain(_extremes(), _sensitivities(), _history(), _simple_impacts(), _paper())
+    return chain(_sensitivities(), _history(), _simple_impacts(), _paper())
 
 
 def _speed(a: float, h: float, b: float) -> float:
     """That of the sphere which just reaches a contact radius."""
     energy = contact_impact.stored_energy(a, _SPHERE["R"], h, b, LAM, MU, _FEW)
     return math.sqrt(2.0 * float(energy) / _SPHERE["m"])
-
-
-def _extremes() -> Iterator[HardCase]:
-    group, near, far = LAW, float(contact_tables.REACH), float(contact_tables.FAR_REACH)
-    for b in (100.0, 10.0):
-        given = exactly(**_SPHERE, v0=around(_speed(near, 1.0, b)), h=1.0, b=b, **_STEEL)
-        yield about(group, "impact", f"the speed that reaches a = {near:g} h", given)
-    last = exactly(**_SPHERE, v0=beside(_speed(far, 1.0, 10.0), -8), h=1.0, b=10.0, **_STEEL)
-    cause = f"The contact grows to just below a = {far:g} h, where the law ends."
-    yield HardCase(group, "impact", cause, last)
 
 
 def _sensitivities() -> Iterator[HardCase]:

@@ -10,6 +10,7 @@ from flint import arb
 from derivation.engine.formula.ulp import DOUBLE, SINGLE, Format, spacing_exponent
 from derivation.plate.contact.cases.check import promised
 from derivation.plate.contact.oracle import balls as contact_balls
+from derivation.plate.impact.oracle import impact as contact_impact
 from generated import contact_law as law
 from generated import contact_series, impact, reversed_series
 
@@ -95,6 +96,15 @@ def test_many_plates_are_as_one() -> None:
 
 
 # Impact.
+
+
+@pytest.mark.parametrize(("b", "end"), [(2.0, 2.0), (6.0, 3.6)])
+def test_an_impact_up_to_where_the_law_ends(b: float, end: float) -> None:
+    """As wide as the plate, or as six half-thicknesses: no wider, and there is no other limit."""
+    R, m, h = 20.0, 3e7, 0.6
+    energy = contact_impact.stored_energy(np.nextafter(end, 0.0), R, h, b, LAM, MU, digits=18)
+    found = impact.impact(R, m, np.sqrt(2 * float(energy) / m), h, b, LAM, MU)
+    assert abs(found.max_contact_radius / end - 1) < 1e-12
 
 
 def test_hertz_limit() -> None:

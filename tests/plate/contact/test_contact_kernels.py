@@ -87,6 +87,12 @@ def test_reversed_series_within_its_radius_and_not_beyond() -> None:
             assert np.isnan(found).tolist() == [False, True]
 
 
+def test_a_reversed_series_of_one_term_is_hertzs_force() -> None:
+    found = reversed_series.force_by_series(1e-6, 0.02, 1e-3, 0.02, LAM, MU, terms=1)
+    modulus = 4 * MU * (LAM + MU) / (LAM + 2 * MU)
+    assert abs(found / (4 / 3 * modulus * np.sqrt(0.02) * 1e-9) - 1) < 1e-14
+
+
 def test_many_plates_are_as_one() -> None:
     eta = np.geomspace(1e-5, 50, 40)
     A = 0.7 * np.minimum(6, 1 / eta)

@@ -93,15 +93,14 @@ class Layouts(NamedTuple):
         few, many = np.array([0.05, 0.02, 0.2]), np.resize([0.05, 0.3, 0.02, 0.1], 1200)
         a = np.resize(np.geomspace(1e-3, 0.25, 101), (700, 3))
         layouts = [
-            (a[:, 0], 0.05), (a, few), (a.T, few[:, None]), (a.reshape(1, 700, 3), few),
-            (a[:, 0], many[:700]), (a[:, :1], few), (a[:500], few), (np.resize(a, 1200), many),
+            (a[:, 0], 0.9, 0.05), (a, 0.9, few), (a.T, 0.9, few[:, None]), (a[None], 0.9, few),
+            (a[:, 0], 0.9, many[:700]), (a[:, :1], 0.9, few), (a[:500], 0.9, few),
+            (np.resize(a, 1200), 0.9, many), (a[:, :2], 0.9, few[:2]), (a[:, :2], few[:2] + 1, 0.1),
         ]  # fmt: skip
-        for radii, h in layouts:
-            found = call(radii, 0.9, h, 1.0)
-            every = [x.ravel()[::37] for x in np.broadcast_arrays(radii, h)]
-            alone = [
-                call(x, 0.9, y, 1.0) for x, y in zip(*map(np.ndarray.tolist, every), strict=True)
-            ]
+        for radii, R, h in layouts:
+            found = call(radii, R, h, 1.0)
+            some = [x.ravel()[::37].tolist() for x in np.broadcast_arrays(radii, R, h)]
+            alone = [call(*one, 1.0) for one in zip(*some, strict=True)]
             if not np.allclose(found.ravel()[::37], alone, rtol=1e-14, atol=0.0):
                 return False
         return True

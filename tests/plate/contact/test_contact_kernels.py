@@ -87,6 +87,17 @@ def test_reversed_series_within_its_radius_and_not_beyond() -> None:
             assert np.isnan(found).tolist() == [False, True]
 
 
+def test_the_law_holds_from_the_thinnest_plate_to_the_widest_contact() -> None:
+    """Up to six half-thicknesses, within rounding; c_1 of a thin plate is 1/(4 pi eta^2)."""
+    first = contact_series.plate_coefficients([1.5e-90, 0.9e-90, 0.9e90, 1.1e90])[:, 0]
+    assert np.isnan(first).tolist() == [False, True, False, True]
+    assert abs(first[0] * 4 * np.pi * 1.5e-90**2 - 1) < 1e-12
+    wide = float(contact_balls.indentation(6.0, 50.0, 1.0, 20.0, 20))
+    found = law.contact_radius([wide * (1 + 7e-16), wide * (1 + 1e-13)], 50.0, 1.0, 20.0)
+    assert np.isnan(found).tolist() == [False, True]
+    assert abs(found[0] - 6.0) < 1e-14
+
+
 def test_a_reversed_series_of_one_term_is_hertzs_force() -> None:
     found = reversed_series.force_by_series(1e-6, 0.02, 1e-3, 0.02, LAM, MU, terms=1)
     modulus = 4 * MU * (LAM + MU) / (LAM + 2 * MU)

@@ -9,6 +9,7 @@ from mutated_code import ANYWHERE, FINE, GUARDS, SIZE, START
 SLOW = "the slow way to the same"
 COMMON = "both polynomials hold at their common end"
 ZERO = "the sign of zero, of which other tests tell"
+ENDS = "where the law ends, of which `test_contact_kernels` tells"
 DOMAIN = "what is outside the domain, of which other tests tell"
 SHAPE = "only the shape is used"
 MAY_PASS: Mapping[str, Mapping[str, tuple[int, str]]] = {
@@ -21,6 +22,13 @@ MAY_PASS: Mapping[str, Mapping[str, tuple[int, str]]] = {
     "contact_domain": dict.fromkeys(("_MANY", "_SAMPLE"), (1, SIZE)),
     "contact_law": {},
     "contact_points": {"flat": (1, SLOW), "cut": (1, SLOW), "pieces": (2, SLOW)},
+    "contact_series": {
+        **dict.fromkeys(("_ORDINARY", "_USUAL"), (2, SLOW)),
+        **dict.fromkeys(("correction", "correction_with_slope", "sphere_on_plate"), (1, COMMON)),
+        "direct": (5, f"modes that have faded; and {SIZE}"),
+        **dict.fromkeys(("(THINNEST, THICKEST)", "ROUNDED"), (2, ENDS)),
+        "_beyond": (1, ENDS),
+    },
     "contact_thickness": {},
     "edge": {
         "_inside": (5, DOMAIN),
@@ -67,6 +75,7 @@ MAY_PASS: Mapping[str, Mapping[str, tuple[int, str]]] = {
         "_reversed": (9, f"{FINE}; and {START}"),
         "force_by_series": (1, "which number of terms is refused, of which another test tells"),
     },
+    "sensitivity": {"_near_sums": (4, SHAPE)},
     "series_constants": {"_looked_up": (1, GUARDS)},
 }
 """By module and function or constant, how many mutants may pass at most, and why."""

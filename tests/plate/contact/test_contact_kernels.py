@@ -99,7 +99,7 @@ def test_the_law_holds_from_the_thinnest_plate_to_the_widest_contact() -> None:
 
 
 def test_a_reversed_series_of_one_term_is_hertzs_force() -> None:
-    found = reversed_series.force_by_series(1e-6, 0.02, 1e-3, 0.02, LAM, MU, terms=1)
+    found = reversed_series.force_by_series(1e-6, 0.02, 0.02, 0.02, LAM, MU, terms=1)
     modulus = 4 * MU * (LAM + MU) / (LAM + 2 * MU)
     assert abs(found / (4 / 3 * modulus * np.sqrt(0.02) * 1e-9) - 1) < 1e-14
 

@@ -83,17 +83,6 @@ def test_stiffness_where_the_second_polynomial_is_short() -> None:
         assert abs(float(got) - true) < LIMIT * true
 
 
-def test_slope_domain_and_types() -> None:
-    assert indentation_slope(0.0, 1.0, 0.1, 1.0) == 0
-    assert np.isnan(indentation_slope([-1.0, 2.0, np.nan], 100.0, 0.1, 2.0)).all()
-    assert np.isnan(indentation_slope(0.1, [0.0, -1.0, 0.05], 0.1, 2.0)).all()
-    single = indentation_slope(*(np.float32(x) for x in (0.01, 1.0, 0.1, 1.0)))
-    assert single.dtype == np.float32
-    assert single.shape == ()
-    assert indentation_slope([[0.01], [0.02]], 1.0, [0.1, 0.2, 0.3], 1.0).shape == (2, 3)
-    assert indentation_slope(np.zeros(0), 1.0, 0.1, 1.0).shape == (0,)
-
-
 # --- sensitivities against the oracle
 
 

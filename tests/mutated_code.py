@@ -25,7 +25,6 @@ SIZE = "how many are worked on at a time"
 FINE = "how finely something is resolved that is smooth"
 BEYOND_ALL = "beyond it nothing changes in double precision"
 MARGIN = "how far a bound is above what rounding takes, or a promise not used in the module"
-SAME = "the same number in another way"
 
 May = Mapping[str, tuple[int, str]]
 """How many mutants of a function or constant may pass at most, and why."""
@@ -40,25 +39,6 @@ class Expected(Protocol):
     """What a module is to do."""
 
     def holds(self, module: ModuleType) -> bool: ...
-
-
-class Case:
-    """A function at some points, and what an oracle gives there."""
-
-    def __init__(self, function: str, points: Sequence[tuple[float, ...]], true: Any) -> None:
-        self.function = function
-        self.arguments = tuple(np.array(column) for column in zip(*points, strict=True))
-        self.true = np.array(true, dtype=float).T
-
-    def holds(self, module: ModuleType) -> bool:
-        """All points at once, the first two, and the first as scalars, which are treated apart."""
-        function = getattr(module, self.function)
-        for count in (None, 2):
-            found = np.asarray(function(*(column[:count] for column in self.arguments)))
-            if not close(found, self.true[..., :count]):
-                return False
-        first = np.asarray(function(*(float(column[0]) for column in self.arguments)))
-        return close(first, self.true[..., 0])
 
 
 @dataclass(frozen=True)
@@ -128,15 +108,12 @@ class Judged:
         What notices them.
     may_pass
         What changes no result; every other mutant is noticed.
-    users
-        Modules upon it, by whose functions too it is judged.
     steps
         How many of its iterations are said to be enough.
     """
 
     cases: Callable[[], Sequence[Expected]]
     may_pass: May = field(default_factory=dict)
-    users: Sequence[str] = ()
     steps: int | None = None
 
 
@@ -144,7 +121,7 @@ def passes(tree: ast.Module | str, name: str, judged: Judged, cases: Sequence[Ex
     """Whether no case notices a module; one that raises an error is noticed."""
     with np.errstate(all="ignore"):
         try:
-            module = compiled(tree, name, judged.users)
+            module = compiled(tree, name)
             if judged.steps is not None:
                 vars(module)["_STEPS"] = judged.steps
             return all(case.holds(module) for case in cases)

@@ -3,16 +3,14 @@
 import math
 from collections.abc import Callable, Sequence
 from functools import cache
-from typing import Any
 
 import numpy as np
 import pytest
 from mpmath import mp, mpf
-from mutated_code import BEYOND_ALL, GUARDS, Judged, unnoticed
+from mutated_code import Judged, unnoticed
 from sharp import Sharp, expected
 
 from derivation.plate.contact.oracle import balls as contact_balls
-from derivation.plate.contact.oracle import moments
 from generated.bessel_numbers import ASYMPTOTIC_START, LARGEST_PHASE
 
 NAN = math.nan
@@ -60,27 +58,6 @@ def zeros(count: int) -> list[tuple[str, tuple[float, ...]]]:
 
 def counted(name: str, row: tuple[float, ...]) -> Sharp:
     return Sharp(lambda m: getattr(m, name)(len(row)), np.array(row), 0.6)
-
-
-# --- constants by index
-
-
-def series_cases() -> list[Sharp]:
-    found = []
-    for name, start, last in (("kappa", 0, 196), ("finite_part", 2, 99)):
-        some = [start, start + 1, start + 4, 17, 30, 60, last]
-        true: Callable[[int, int], Any] = getattr(moments, name)
-        ratio: Callable[[int, int], Any] = getattr(moments, f"{name}_ratio")
-        nowhere = [start - 1, -3, 2.5, 1e6 + 0.5, NAN]
-        values = [*(float(true(n, 80)) for n in some), *[NAN] * (len(nowhere) + 1)]
-        found += expected(name, [(x,) for x in (*some, *nowhere, last + 1)], values, 0.51)
-        some += [last + 1, 1000, 10**6]
-        values = [*(float(ratio(n, 80)) for n in some), *[NAN] * len(nowhere)]
-        found += expected(f"{name}_ratio", [(x,) for x in (*some, *nowhere)], values, 0.51)
-        large = np.array([np.nan, float(true(10, 80))], dtype=np.float32)
-        index = np.array([60, 10], dtype=np.float32)
-        found.append(Sharp(lambda m, x=index, n=name: getattr(m, n)(x), large, 0.0))
-    return found
 
 
 # --- single effects
@@ -248,9 +225,6 @@ JUDGED = {
             "_modulus_phase": (3, "a sign; and which multiple of pi is taken off"),
             "bessel_j1_at_j0_zeros": (1, "a sign"),
         },
-    ),
-    "series_constants": Judged(
-        series_cases, {"kappa_ratio": (1, BEYOND_ALL), "_looked_up": (1, GUARDS)}
     ),
     "effects": Judged(effect_cases),
     "viscosity": Judged(viscosity_cases),

@@ -107,33 +107,6 @@ def test_ratios_and_values_agree() -> None:
 # --- arrays
 
 
-@pytest.mark.parametrize("kernel", KERNELS)
-def test_what_is_no_index_gives_nan(kernel: Callable) -> None:
-    first = FIRST[kernel]
-    bad = [first - 1, first - 1e-300 - 0.5, first + 0.5, 7.0000001, -3, -1e300, np.nan, np.inf]
-    assert np.isnan(kernel(np.array([*bad, -np.inf, 1e5 + 0.25]))).all()
-    assert np.isnan(kernel(first - 1))
-    assert np.isfinite(kernel(first))
-
-
-@pytest.mark.parametrize("kernel", KERNELS)
-def test_shapes_and_types(kernel: Callable) -> None:
-    index = np.tile(np.arange(2, 14), 2).reshape(2, 3, 4)
-    whole = kernel(index)
-    assert whole.shape == (2, 3, 4)
-    assert whole.dtype == np.float64
-    np.testing.assert_array_equal(kernel(index.T), whole.T)
-    np.testing.assert_array_equal(kernel(index[:, ::-2, ::3]), whole[:, ::-2, ::3])
-    assert kernel(np.empty(0)).shape == (0,)
-    assert np.shape(kernel(3)) == ()
-    assert kernel([3]) == kernel(3) == kernel(np.int8(3)) == kernel(3.0)
-    single = kernel(index.astype(np.float32))
-    assert single.dtype == np.float32
-    np.testing.assert_array_equal(single, whole.astype(np.float32))
-    with pytest.raises(TypeError, match="real numbers"):
-        kernel(2j)
-
-
 @pytest.mark.parametrize(("kernel", "last"), [(kappa, 43), (finite_part, 22)])
 def test_single_precision_overflows_to_nan(kernel: Callable, last: int) -> None:
     largest = float(np.finfo(np.float32).max)
@@ -308,8 +281,3 @@ def test_precision_is_what_is_asked() -> None:
             number(-1, 60)
     with pytest.raises(ValueError, match="from 2"):
         truth.finite_part(1, 60)
-
-
-def test_exported() -> None:
-    assert {kernel.__name__ for kernel in KERNELS} <= set(generated.__all__)
-    assert Fraction(tables.TOLERANCE) < Fraction(1, 2**59)

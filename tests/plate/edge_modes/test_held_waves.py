@@ -20,8 +20,6 @@ from derivation.engine.formula.proof import SYMBOLIC, ProofError
 from derivation.engine.oracle.agreement import RouteError
 from derivation.mathematics.bessel.theory import modified as modified_bessel
 from derivation.plate import derived
-from derivation.plate.budgets import read_promises
-from derivation.plate.edge_modes.cases import LAWS
 from derivation.plate.edge_modes.oracle import modes as held_balls
 from derivation.plate.edge_modes.oracle import waves as held_wave_balls
 from derivation.plate.edge_modes.route import waves as held_wave_routes
@@ -133,36 +131,6 @@ def test_roots_that_are_not_found_are_refused(monkeypatch: pytest.MonkeyPatch) -
 
 
 # --- generated kernels
-
-
-POINTS = [
-    *((edge, n, eta, 0.3) for edge in WAVES_OF for n, eta in ((1, 0.1), (2, 1e-9), (5, 0.12))),
-    ("clamped", 1, 0.45, 0.0),
-    ("clamped", 12, 1e-3, -0.9),
-    ("clamped", 1, 0.2, math.nextafter(0.5, 0)),
-    ("supported", 1, 0.5, math.nextafter(0.5, 0)),
-    ("supported", 1, 0.25, -0.9),
-    ("supported", 1, 0.3, -1 + 2.0**-53),
-    ("supported", 11, 0.01, 0.45),
-]
-
-
-@pytest.mark.parametrize(("edge", "n", "eta", "nu"), POINTS)
-def test_modes_against_the_oracle(edge: str, n: int, eta: float, nu: float) -> None:
-    law, promised = LAWS[f"{edge}_waves"], read_promises("edge_modes")
-    given = float(n), eta, nu
-    true = law.values(given, 25)
-    assert law.sizes is not None
-    assert law.slopes is not None
-    sizes, slopes = law.sizes(given, true), law.slopes(given, true)
-    found = WAVES_OF[edge](n, eta, nu)
-    for name, got, value, size, slope in zip(
-        Waves._fields, found, true, sizes, slopes, strict=True
-    ):
-        with flint.ctx.workprec(BITS):
-            unit = math.ulp(float(size))
-            error = float(abs(arb(float(got[n - 1])) - value) / unit)
-            assert error <= promised[name] + 0.5 * float(slope / size), name
 
 
 @pytest.mark.parametrize("nu", RATIOS)

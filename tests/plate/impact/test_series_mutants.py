@@ -1,20 +1,16 @@
-"""The paper's motion and series with one thing wrong, in memory: definitions notice it."""
+"""The paper's motion with one thing wrong, in memory: definitions notice it."""
 
 import math
 from collections.abc import Sequence
 from functools import cache, partial
 from types import ModuleType
 
-import flint
 import numpy as np
 import pytest
-from flint import arb
 from mpmath import mp, mpf
 from mutated_code import FINE, START, Answer, Expected, Judged, unnoticed
 from printed_sums import truncated_gamma
-from reversed_terms import reversed_terms
 
-from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.impact.oracle import printed_motion as motion_balls
 from generated.perturbation import PrintedMotion
 
@@ -101,80 +97,11 @@ def at_the_end(motion: Point) -> Answer:
     return Answer(ask, true, 1e-4)
 
 
-# --- the reversed series
-
-TERMS = 6
-SERIES: Sequence[Point] = [
-    (1e4, 1.0, 20.0, 6e10, 8e10), (0.7, 1.0, 1.5, -2e10, 8e10), (1e4, 1.0, 4.0, 6e10, 8e10)
-]  # fmt: skip
-"""R, h, b, lam, mu."""
-
-
-@cache
-def reversed_cases() -> list[Expected]:
-    """Within the radius of convergence, and on both sides of it."""
-    points, true = [], []
-    for R, h, b, lam, mu in SERIES:
-        radius = convergence(h, b)
-        for share in (0.3, 0.05, 0.8, 0.996, 1.004):
-            delta = (share * radius * h) ** 2 / R
-            points.append((delta, R, h, b, lam, mu))
-            true.append(force_of_series(*points[-1]) if share < 1 else math.nan)
-    bad = [
-        (-points[0][0], *points[0][1:]),
-        (*points[0][:4], -0.7, 1.0),
-        (*points[0][:2], -1.0, *points[0][3:]),
-    ]
-    arguments = [np.array(column) for column in zip(*points, *bad, strict=True)]
-    whole = [*true, *([math.nan] * len(bad))]
-    one = force_of_series(*points[0], 1)
-    return [
-        Answer(partial(by_series, arguments=arguments), whole),
-        Answer(partial(by_series, arguments=points[0], terms=1), one),
-    ]
-
-
-def by_series(
-    module: ModuleType, arguments: Sequence[np.ndarray | float], terms: int = TERMS
-) -> np.ndarray:
-    found: np.ndarray = module.force_by_series(*arguments, terms=terms)
-    return found
-
-
-def force_of_series(
-    delta: float, R: float, h: float, b: float, lam: float, mu: float, terms: int = TERMS
-) -> float:
-    with flint.ctx.workprec(200):
-        stiff = 16 * arb(mu) * (arb(lam) + mu) / (arb(lam) + 2 * arb(mu)) / 3
-        a = (arb(R) * arb(delta)).sqrt()
-        bracket = sum((p * (a / h) ** n for n, p in enumerate(reversed_terms(h, b, terms))), arb(0))
-        return float(stiff * a * arb(delta) * bracket)
-
-
-def convergence(h: float, b: float) -> float:
-    """The largest of the least |eps| on circles on which A, and so the series of F, is small."""
-    reach = min(3.0, b / h)
-    orders = range(1, 34, 2)
-    series = [float(contact_balls.coefficient(n, h, b, 25)) for n in orders]
-    directions = np.exp(1j * np.linspace(0.0, np.pi, 401))
-    least = []
-    for circle in np.geomspace(1e-3, 1.0, 2000) * reach:
-        A = circle * directions
-        F = sum(c * A**n for c, n in zip(series, orders, strict=True))
-        least.append(np.abs(A * np.sqrt(1 + F)).min())
-        if least[-1] < 0.9 * max(least):
-            break
-    return float(max(least))
-
-
 JUDGED = {
     "perturbation": Judged(
         motion_cases,
         {**dict.fromkeys(("_NODES", "_PARTS"), (1, FINE)), "last": (3, START), "_eta": (2, FINE)},
         steps=10,
-    ),
-    "reversed_series": Judged(
-        reversed_cases, {"_CIRCLE": (1, FINE), "_reversed": (9, f"{FINE}, and {START}")}
     ),
 }
 

@@ -1,22 +1,12 @@
 """The generated kernels of the plate's own motion: budgets by balls, limits and known answers."""
 
 import math
-import random
-from collections.abc import Iterator
 
-import flint
 import numpy as np
 import pytest
-from flint import arb
 from given import material
 
-from derivation.engine.formula.ball import to_ball
-from derivation.engine.formula.ulp import DOUBLE, SINGLE, Format, spacing_exponent, ulp_error
-from derivation.plate.budgets import read_budgets
-from derivation.plate.contact.cases.judge import judge
-from derivation.plate.contact.cases.truth import ContactTruth
 from derivation.plate.vocabulary import xi_R
-from derivation.plate.waves import oracle as inertia_balls
 from derivation.plate.waves.oracle import KINDS
 from derivation.plate.waves.theory import bending_branch
 from generated.inertia import (
@@ -27,85 +17,7 @@ from generated.inertia import (
 )
 from generated.plate_waves import branches
 
-DIGITS = 20
-BITS = 128
-
 pytestmark = pytest.mark.usefixtures("silent")
-
-
-def waves() -> list[tuple[float, float]]:
-    """x and nu: decades, both sides of the seams, materials to the ends of their range."""
-    generator = random.Random("waves")
-    ratios = (0.3, 0.25, 0.0, -0.5, 0.49999999, -0.9999999, 0.499, -0.9)
-    seams = (1.9, 2.25)
-    chosen = [
-        *(10.0**k for k in range(-8, 3)),
-        *(seam * (1 + shift) for seam in seams for shift in (-1e-15, 0.0, 1e-3)),
-        *(10 ** generator.uniform(-1.5, 1.0) for _ in range(36)),
-        *(10 ** generator.uniform(-8.0, 2.47) for _ in range(12)),
-        1e-90, 1e-30, 300.0,
-    ]  # fmt: skip
-    return [
-        (x, ratios[i % len(ratios)] if i % 3 else generator.uniform(-0.99, 0.499))
-        for i, x in enumerate(chosen)
-    ]
-
-
-def frequency_ball(x: float, nu: float, digits: int) -> arb:
-    kap_0 = inertia_balls.zero(x, nu, digits=digits)
-    with flint.ctx.workprec(BITS):
-        return kap_0.sqrt()
-
-
-LOWEST = {
-    "bending_frequency": (bending_frequency, frequency_ball),
-    "bending_residue": (
-        bending_residue, lambda x, nu, digits: inertia_balls.residue(x, nu, digits=digits)
-    ),
-    "bending_share": (bending_share, inertia_balls.share),
-}  # fmt: skip
-
-
-@pytest.mark.parametrize("name", LOWEST)
-@pytest.mark.parametrize("fmt", [DOUBLE, SINGLE], ids=lambda fmt: fmt.name)
-def test_lowest_branch_keeps_its_budget(name: str, fmt: Format) -> None:
-    kernel, truth = LOWEST[name]
-    kind, found = np.dtype(fmt.name).type, []
-    points = waves() if fmt is DOUBLE else [p for p in waves() if p[0] > 1e-9][::4]
-    for x, nu in points:
-        point = float(kind(x)), float(kind(nu))
-        if not (-1 < point[1] < 0.5):
-            continue
-        ball = truth(*point, DIGITS)
-        found.append(ContactTruth(point, (ball.str(30),), DIGITS, 1.0, 0.0, 0.0))
-    assert judge(kernel, found, read_budgets()[name].ulp, fmt).ratio <= 1.0
-
-
-def loads() -> Iterator[tuple[float, float, float]]:
-    """x, kap and nu: at rest nearly, below, near and far above the waves' speeds."""
-    generator = random.Random("loads")
-    for i in range(120):
-        x, nu = 10 ** generator.uniform(-4, 2.2), generator.uniform(-0.99, 0.499)
-        load = (
-            x * x * generator.uniform(0, 1),
-            x * x * 10 ** generator.uniform(-9, 0),
-            10 ** generator.uniform(-3, 4),
-            x * x * 10 ** generator.uniform(0, 2),
-        )[i % 4]
-        yield x, load, nu
-
-
-def test_influence_keeps_its_budget() -> None:
-    budget = read_budgets()["dynamic_influence"]
-    assert "p and q" in budget.rule
-    for x, load, nu in loads():
-        found = dynamic_influence(x, load, nu)
-        balls = inertia_balls.influence(x, load, nu, DIGITS)
-        for kind, got, ball in zip(KINDS, found, balls, strict=True):
-            of_arguments, of_roots = inertia_balls.condition(x, load, nu, kind)
-            unit = math.ldexp(abs(float(ball)), -53 - spacing_exponent(ball))
-            allowed = budget.ulp + unit * (of_arguments + 2 * of_roots)
-            assert ulp_error(float(got), ball) <= allowed, (kind, x, load, nu)
 
 
 def test_load_at_rest_is_the_limit() -> None:
@@ -117,21 +29,6 @@ def test_load_at_rest_is_the_limit() -> None:
         load = 0.49 * place * np.array([1 - 1e-12, 1 + 1e-12])
         below, above = np.stack(dynamic_influence(0.7, load, nu)).T
         np.testing.assert_allclose(below, above, rtol=1e-10, atol=1e-11)
-
-
-@pytest.mark.parametrize("kind", KINDS)
-def test_branches_against_the_oracle(kind: str) -> None:
-    generator = random.Random(kind)
-    for _ in range(25):
-        x, nu = 10 ** generator.uniform(-4, 2.3), generator.uniform(-0.98, 0.499)
-        frequencies, residues = branches(x, nu, 8, kind)
-        for index in {0, 1, 2, generator.randrange(3, 8)}:
-            kap_k = inertia_balls.zero(x, nu, kind, index, DIGITS)
-            answer = inertia_balls.residue(x, nu, kind, index, DIGITS)
-            with flint.ctx.workprec(BITS):
-                assert ulp_error(float(frequencies[index]), kap_k.sqrt()) <= 8.0
-                error = float(abs(to_ball(float(residues[index])) - answer))
-                assert error <= 1e-12 * residues.max()
 
 
 @pytest.mark.parametrize(("x", "nu"), [(0.2, 0.31), (2.4, 0.1), (1.7, -0.63), (6.0, 0.44)])

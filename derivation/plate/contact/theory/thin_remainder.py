@@ -24,11 +24,11 @@ from functools import cache
 import flint
 import sympy as sp
 
-from derivation.engine.formula.ball import LOG2_10, Exact, refine, to_ball
+from derivation.engine.formula.ball import Exact, refine, to_ball
 from derivation.engine.formula.proof import Proof, prove
 from derivation.plate.contact.theory.plate_series import FIRST, LAST, coefficient, sine_coefficient
 from derivation.plate.contact.theory.split import WALL, contour, imaginary_axis, reduced_split
-from derivation.plate.contact.theory.thin_law import sine_kernel, thin_law_ball, universal_part
+from derivation.plate.contact.theory.thin_law import sine_kernel, universal_part
 from derivation.plate.contact.theory.thin_plate import (
     plate_factor_at_zero,
     thin_modal_sum,
@@ -339,13 +339,3 @@ def law_remainder_ball(A: Exact, ratio: Exact, digits: int = 30) -> flint.arb:
         return 16 / radius**2 * total
 
     return refine(compute, digits, f"the roots' share of F at {A, ratio}")
-
-
-def law_ball(A: Exact, ratio: Exact, digits: int = 30) -> flint.arb:
-    """Ball around F = delta R/a^2 - 1: the thin plate's closed form and its remainder."""
-
-    def compute() -> flint.arb:
-        more = int(flint.ctx.prec / LOG2_10) + 1
-        return thin_law_ball(A, ratio, more) + law_remainder_ball(A, ratio, more)
-
-    return refine(compute, digits, f"F at {A, ratio}")

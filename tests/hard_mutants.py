@@ -1,0 +1,221 @@
+"""Generated modules with one thing wrong, in memory, judged by the hard cases of what uses them.
+
+Beside the hard cases with their references, a function has a value at its example, and NaN outside
+its domain.
+"""
+
+import ast
+import importlib
+import json
+import math
+import sys
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack, contextmanager
+from functools import cache
+from pathlib import Path
+from types import CodeType, ModuleType
+from typing import NamedTuple
+from unittest.mock import patch
+
+import numpy as np
+from domains import EXAMPLE, OUTSIDE, POINTWISE, ROWS, breaking
+from mutants import of_module
+from mutated_code import source
+
+import generated
+from derivation.engine.files import ROOT
+from derivation.engine.formula.ulp import spacing_exponent
+from derivation.engine.measure import hard
+from derivation.engine.measure.case import HardCase
+from derivation.engine.measure.judge import judge
+from derivation.engine.measure.kernels import Kernel
+from derivation.engine.oracle.reference import Reference, restored
+from derivation.plate.cases import calls
+from derivation.plate.cases import suite as hard_suite
+from derivation.plate.paper import PAPER
+
+CALLS = calls.__name__
+STEPS = {"impact": 8, "plate_arrays": 8, "plate_points": 8}
+"""Of Newton's iterations, which need no more: what converges slower is noticed."""
+ROUNDED = 0.51
+"""ULP by which a reference may change when it is rounded to a double."""
+
+
+class Judged(NamedTuple):
+    """A hard case with its true values, and how far results may be from them."""
+
+    case: HardCase
+    references: list[Reference]
+    true: np.ndarray
+    allowed: np.ndarray
+
+    def holds(self, kernels: Mapping[str, Kernel]) -> bool:
+        """Whether the results are right, in type and shape too, and nothing warns."""
+        found, problem = hard._results(
+            self.case, kernels[self.case.kernel], len(self.true), self.references
+        )
+        if problem or found.shape != self.true.shape or found.dtype != self.case.format.name:
+            return False
+        with np.errstate(all="ignore"):
+            near = np.abs(found - self.true) <= self.allowed
+        return bool((near | (found == self.true) | (np.isnan(found) & np.isnan(self.true))).all())
+
+
+class Domain(NamedTuple):
+    """A function at its example and outside its domain, point by point and all at once."""
+
+    name: str
+
+    def holds(self, kernels: Mapping[str, Kernel]) -> bool:
+        names, call = ROWS[self.name]["arguments"], kernels[self.name].call
+        own = OUTSIDE.get(self.name, {}).items()
+        outside = [dict(moved) for _, moved in breaking(self.name)]
+        outside += [{key: bad} for key, several in own for bad in several]
+        given = [tuple((EXAMPLE | point)[key] for key in names) for point in (*outside, {})]
+        more = {"modes": 5} if ROWS[self.name].get("modes") else {}
+        with np.errstate(all="ignore"):
+            alone = [np.asarray(call(*point, **more)) for point in given]
+            columns = (np.array(column) for column in zip(*given, strict=True))
+            together = np.asarray(call(*columns, **more))
+        nan = np.isnan(alone)
+        # Results of a point lie along a last axis of their own, or along the first ones.
+        same = np.isnan(together if together.shape == nan.shape else np.moveaxis(together, -1, 0))
+        return bool(nan[:-1].all() and not nan[-1].any() and (same == nan).all())
+
+
+class Layouts(NamedTuple):
+    """Contacts in arrays of every layout: each is what it is alone."""
+
+    name: str = "indentation"
+
+    def holds(self, kernels: Mapping[str, Kernel]) -> bool:
+        call = kernels[self.name].call
+        few, many = np.array([0.05, 0.02, 0.2]), np.resize([0.05, 0.3, 0.02, 0.1], 1200)
+        a = np.resize(np.geomspace(1e-3, 0.25, 101), (700, 3))
+        layouts = [
+            (a[:, 0], 0.9, 0.05), (a, 0.9, few), (a.T, 0.9, few[:, None]), (a[None], 0.9, few),
+            (a[:, 0], 0.9, many[:700]), (a[:, :1], 0.9, few), (a[:500], 0.9, few),
+            (np.resize(a, 1200), 0.9, many), (a[:, :2], 0.9, few[:2]), (a[:, :2], few[:2] + 1, 0.1),
+        ]  # fmt: skip
+        for radii, R, h in layouts:
+            found = call(radii, R, h, 1.0)
+            some = [x.ravel()[::37].tolist() for x in np.broadcast_arrays(radii, R, h)]
+            alone = [call(*one, 1.0) for one in zip(*some, strict=True)]
+            if not np.allclose(found.ravel()[::37], alone, rtol=1e-14, atol=0.0):
+                return False
+        return True
+
+
+Check = Judged | Domain | Layouts
+
+
+@cache
+def code(name: str) -> CodeType:
+    text = Path(calls.__file__).read_text() if name == CALLS else source(name)
+    return compile(text, name, "exec")
+
+
+@cache
+def imports(name: str) -> frozenset[str]:
+    """The generated modules that one of them imports."""
+    nodes = [node for node in ast.walk(ast.parse(source(name))) if isinstance(node, ast.ImportFrom)]
+    packaged = {
+        alias.name for node in nodes if node.level and not node.module for alias in node.names
+    }
+    return frozenset(packaged | {node.module for node in nodes if node.level and node.module})
+
+
+@cache
+def users(name: str) -> tuple[str, ...]:
+    """The modules that depend on one, each after those that it depends on itself."""
+    every = {path.stem for path in (ROOT / "generated").glob("*.py")} - {"__init__", "manifest"}
+    found = {name}
+    while more := {other for other in every - found if imports(other) & found}:
+        found |= more
+    order, left = list[str](), found - {name}
+    while left:
+        order += sorted(other for other in left if not imports(other) & left)
+        left -= {*order}
+    return tuple(order)
+
+
+@contextmanager
+def replaced(name: str, tree: ast.Module | str) -> Iterator[dict[str, Kernel]]:
+    """What hard cases call, with one module changed and all that depend on it made anew."""
+    with ExitStack() as stack:
+        for one in (name, *users(name), CALLS):
+            full = one if one == CALLS else f"{generated.__name__}.{one}"
+            module = ModuleType(full)
+            module.__package__ = full.rpartition(".")[0]
+            stack.enter_context(patch.dict(sys.modules, {full: module}))
+            if one != CALLS:
+                stack.enter_context(patch.object(generated, one, module, create=True))
+            exec(compile(tree, name, "exec") if one == name else code(one), vars(module))
+            vars(module).update({"_STEPS": STEPS[one]} if one in STEPS else {})
+        yield {kernel.name: kernel for kernel in (*_rows(), *module.others())}
+
+
+def _rows() -> Iterator[Kernel]:
+    for name, row in ROWS.items():
+        call = getattr(importlib.import_module(f"generated.{row['module']}"), name)
+        yield Kernel(name, row["module"], tuple(row["arguments"]), call, float(row["budget"]))
+
+
+@cache
+def judged() -> tuple[Judged, ...]:
+    """Every hard case."""
+    suite = hard_suite.suite()
+    truth = hard.committed(json.loads(PAPER.hard.read_text()), suite.cases)
+    return tuple(
+        _judged(case, suite.kernels[case.kernel], suite.results(case.kernel), truth[case.key])
+        for case in suite.cases
+    )
+
+
+def _judged(case: HardCase, kernel: Kernel, count: int, known: hard.Known) -> Judged:
+    true, allowed = [restored(row) for row in known.references], []
+    values = [float(one.value) for one in true]
+    for one, value, budget in zip(true, values, hard._budgets(case, kernel, true), strict=True):
+        error = 0.0
+        if math.isfinite(value):
+            ulps = judge(value, one, budget, case.format).allowed + ROUNDED
+            error = ulps * math.ldexp(1.0, spacing_exponent(one.value, case.format))
+        allowed.append(error)
+    shape = (count, *case.shape)
+    return Judged(case, true, np.reshape(values, shape), np.reshape(allowed, shape))
+
+
+def survivors(name: str) -> dict[str, list[str]]:
+    """By function or constant of a module, the mutants that nothing notices."""
+    beneath = {name, *users(name)}
+    known = hard_suite.kernels()
+    checks: list[Check] = [x for x in judged() if known[x.case.kernel].module in beneath]
+    checks += [Domain(x) for x in POINTWISE if ROWS[x]["module"] in beneath]
+    checks += [Layouts()] if "contact_law" in users(name) else []
+    assert checks
+    with replaced(name, source(name)) as kernels:
+        assert all(check.holds(kernels) for check in checks)
+    found: dict[str, list[str]] = {}
+    for mutant in of_module(source(name)):
+        noticed = _noticed(name, mutant.tree, checks)
+        if noticed is None:
+            found.setdefault(mutant.home, []).append(mutant.change)
+        else:  # what has noticed one is likely to notice the next
+            checks.insert(0, checks.pop(noticed))
+    return found
+
+
+def _noticed(name: str, tree: ast.Module, checks: list[Check]) -> int | None:
+    """Which of the checks fails first, if any; a module that cannot be made fails the first."""
+    try:
+        with replaced(name, tree) as kernels:
+            return next((i for i, check in enumerate(checks) if not _holds(check, kernels)), None)
+    except Exception:
+        return 0
+
+
+def _holds(check: Check, kernels: Mapping[str, Kernel]) -> bool:
+    try:
+        return check.holds(kernels)
+    except Exception:  # whatever is raised is noticed
+        return False

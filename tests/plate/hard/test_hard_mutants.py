@@ -1,0 +1,88 @@
+"""Algorithms written by hand with one thing wrong, in memory: hard cases notice it."""
+
+from collections.abc import Mapping
+
+import pytest
+from hard_mutants import survivors
+from mutated_code import ANYWHERE, FINE, GUARDS, SIZE, START
+
+SLOW = "the slow way to the same"
+COMMON = "both polynomials hold at their common end"
+ZERO = "the sign of zero, of which other tests tell"
+ENDS = "where the law ends, of which `test_contact_kernels` tells"
+DOMAIN = "what is outside the domain, of which other tests tell"
+SHAPE = "only the shape is used"
+MAY_PASS: Mapping[str, Mapping[str, tuple[int, str]]] = {
+    "back_face": {
+        "_POINTS": (1, SIZE),
+        "_evaluated": (7, f"{DOMAIN}; and which of two is the unit"),
+        "_summed": (2, "modes that have faded"),
+    },
+    "contact_cells": {},
+    "contact_domain": dict.fromkeys(("_MANY", "_SAMPLE"), (1, SIZE)),
+    "contact_law": {},
+    "contact_points": {"flat": (1, SLOW), "cut": (1, SLOW), "pieces": (2, SLOW)},
+    "contact_series": {
+        **dict.fromkeys(("_ORDINARY", "_USUAL"), (2, SLOW)),
+        **dict.fromkeys(("correction", "correction_with_slope", "sphere_on_plate"), (1, COMMON)),
+        "direct": (5, f"modes that have faded; and {SIZE}"),
+        **dict.fromkeys(("(THINNEST, THICKEST)", "ROUNDED"), (2, ENDS)),
+        "_beyond": (1, ENDS),
+    },
+    "contact_thickness": {},
+    "edge": {
+        "_inside": (5, DOMAIN),
+        **dict.fromkeys(("supported_edge_bound", "clamped_edge_bound"), (1, DOMAIN)),
+    },
+    "edge_mode_functions": {"grown": (1, "a term that is nothing in the hard cases")},
+    "edge_sums": {
+        "_POINTS": (1, SIZE),
+        "elastic_ratios": (1, "which of two is the unit"),
+        "edge_sums": (2, "where the sum and the closed form both hold"),
+        "_summed": (2, "modes that have faded"),
+    },
+    "impact": {
+        "_state": (6, START),
+        "_deepest": (5, START),
+        "_far_deepest": (4, f"{START}; and where the law ends, which its own test tells"),
+        "_solve": (3, f"{SIZE}; and {GUARDS}"),
+        **dict.fromkeys(("_BATCH", "rise"), (1, SIZE)),
+    },
+    "impact_shapes": {"_POINTS": (1, SIZE), "_far_shapes": (1, GUARDS)},
+    "mode_sums": {"BLOCK": (1, SIZE), "power_of_two": (1, "a factor that is taken out again")},
+    "plate_arrays": {
+        "_invert": (5, START),
+        "_plate_by_plate": (2, SLOW),
+        **dict.fromkeys(("_APART", "_at", "_indentations"), (1, SLOW)),
+        **dict.fromkeys(("_contact", "_forces"), (1, ZERO)),
+    },
+    "plate_points": {
+        "_invert": (6, START),
+        "linear": (1, START),
+        "_modulus": (3, SLOW),
+        **dict.fromkeys(("_ORDINARY", "_USUAL"), (2, SLOW)),
+        **dict.fromkeys(("_piece_at", "indentation"), (1, COMMON)),
+    },
+    "plate_waves": {
+        "_MOST": (1, SIZE),
+        "branches": (1, SHAPE),
+        "_edges": (2, SHAPE),
+        "_between": (8, START),
+    },
+    "prepared_plate": {},
+    "reversed_series": {
+        "_CIRCLE": (1, FINE),
+        "_reversed": (9, f"{FINE}; and {START}"),
+        "force_by_series": (1, "which number of terms is refused, of which another test tells"),
+    },
+    "sensitivity": {"_near_sums": (4, SHAPE)},
+    "series_constants": {"_looked_up": (1, GUARDS)},
+}
+"""By module and function or constant, how many mutants may pass at most, and why."""
+
+
+@pytest.mark.parametrize("name", MAY_PASS)
+def test_every_mutant_is_noticed_or_may_pass(name: str) -> None:
+    most = {home: count for home, (count, _) in (ANYWHERE | MAY_PASS[name]).items()}
+    found = survivors(name)
+    assert {home: those for home, those in found.items() if len(those) > most.get(home, 0)} == {}

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from given import EXAMPLE
 
 from derivation.engine.measure.target import Target
 from derivation.plate.grids import Point
@@ -16,13 +17,6 @@ from derivation.plate.search.targets import targets
 from generated import contact_law
 from generated.manifest import CONTACT, KERNELS
 
-EXAMPLE = {
-    "r": 0.002, "z": 0.004, "phi": 24.0, "h": 0.01, "T": 0.48, "b": 0.1, "R": 0.13, "a": 0.004,
-    "lam": 0.36e9, "mu": 0.43e9, "P": 1000.0, "A_j": -1e6, "J1": 0.52, "x": 1.3, "n": 7.0,
-    "k": 4.0, "delta": 1e-6, "m": 0.2, "v0": 1.5, "t": 1e-4, "eta": 0.1,
-    "a_over_R": 0.03, "a_ratio": 0.4, "alpha": 0.04, "rho": 2500.0,
-    "viscous_time": 1e-5, "x_v": 0.2, "yield_stress": 1e7, "xi_y": 1.7, "kap": 0.7, "nu": -0.6,
-}  # fmt: skip
 ROWS: dict[str, Any] = {
     row["name"]: row for row in (*KERNELS, *CONTACT) if "count" not in row["arguments"]
 }

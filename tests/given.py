@@ -19,6 +19,15 @@ _MORE = "inertia", "damping", "plasticity"
 ALL = frozenset(name for name, e in BY_NAME.items() if e.selectable and name not in _MORE)
 """Every effect of a quasi-static, elastic law; the plate of `model` is simply supported."""
 
+EXAMPLE = {
+    "r": 0.002, "z": 0.004, "phi": 24.0, "h": 0.01, "T": 0.48, "b": 0.1, "R": 0.13, "a": 0.004,
+    "lam": 0.36e9, "mu": 0.43e9, "P": 1000.0, "A_j": -1e6, "J1": 0.52, "x": 1.3, "n": 7.0,
+    "k": 4.0, "delta": 1e-6, "m": 0.2, "v0": 1.5, "t": 1e-4, "eta": 0.1,
+    "a_over_R": 0.03, "a_ratio": 0.4, "alpha": 0.04, "rho": 2500.0,
+    "yield_stress": 1e7, "xi_y": 1.7, "viscous_time": 1e-5, "x_v": 0.2, "kap": 0.7, "nu": -0.6,
+}  # fmt: skip
+"""Arguments of every generated function, inside its domain."""
+
 
 def model(**changes: Any) -> Model:
     """A steel-like ball on a plate of some softness, with changes."""

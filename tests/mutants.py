@@ -2,7 +2,7 @@
 
 import ast
 import copy
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import sympy as sp
@@ -93,11 +93,12 @@ CALLS = {
 }  # fmt: skip
 
 
-def of_module(text: str) -> Iterator[CodeMutant]:
+def of_module(text: str, skipped: Sequence[str] = ()) -> Iterator[CodeMutant]:
     """Every number, sign, operator and function of NumPy's changed, one at a time.
 
     Numbers are doubled, 0 becomes 1, and an exponent is raised by one; + and -, * and / are
-    interchanged. Annotations, indices, and what is said of axes and shapes are no formulas.
+    interchanged. Annotations, indices, and what is said of axes and shapes are no formulas, nor
+    the arguments of the functions that are to be skipped.
     """
     tree = ast.parse(text)
     for node in ast.walk(tree):  # docstrings take time to copy
@@ -105,7 +106,7 @@ def of_module(text: str) -> Iterator[CodeMutant]:
             node
         ):
             node.body[0] = ast.Pass()
-    for place in _formulas(tree):
+    for place in _formulas(tree, (*SKIPPED, *skipped)):
         original = ast.unparse(place.node)
         inside = f" in {ast.unparse(place.parent)}" if isinstance(place.node, ast.Constant) else ""
         for new in _rewritten(place.node, place.exponent):
@@ -123,7 +124,7 @@ class _Place(NamedTuple):
 SKIPPED = ("shape", "axis", "dtype", "reshape", "broadcast_to", "arange")
 
 
-def _formulas(tree: ast.Module) -> Iterator[_Place]:
+def _formulas(tree: ast.Module, skipped: Sequence[str]) -> Iterator[_Place]:
     """Arithmetic of all functions and of module constants."""
 
     def walk(node: ast.AST, home: str, parent: ast.AST, exponent: bool) -> Iterator[_Place]:
@@ -138,9 +139,9 @@ def _formulas(tree: ast.Module) -> Iterator[_Place]:
                 if isinstance(method, ast.FunctionDef):
                     yield from walk(method, home, node, False)
             return
-        if isinstance(node, ast.Call) and ast.unparse(node.func).split(".")[-1] in SKIPPED:
+        if isinstance(node, ast.Call) and ast.unparse(node.func).split(".")[-1] in skipped:
             return
-        if isinstance(node, ast.keyword) and node.arg in SKIPPED:
+        if isinstance(node, ast.keyword) and node.arg in skipped:
             return
         if isinstance(node, ast.FunctionDef):
             home = node.name

@@ -28,12 +28,11 @@ from derivation.scene_code import scene_code
 
 RANDOM = {f"random {n}": (n, rtol) for n, rtol in ((0, 1e-2), (3, 1e-4), (15, 1e-6), (11, 1e-9))}
 PAD = {
-    "sphere": {"radius": 0.01, "mass": 0.03},
+    "sphere": {"radius": 0.01, "mass": 0.03}, "impact": {"speed": 1.0},
     "plate": {
         "radius": 0.5, "thickness": 0.4, "youngs_modulus": 5e6, "poissons_ratio": 0.4,
         "retardation_time": 1e-4,
     },
-    "impact": {"speed": 1.0},
 }  # fmt: skip
 VISCOUS: dict[str, dict[str, dict[str, Any]]] = {
     "viscous": {

@@ -27,38 +27,22 @@ from derivation.plate.modes.route import routes
 from derivation.plate.oracle import reference
 
 G_PRINTED = "(sinh(T)*cosh(T) + T) / (sinh(T)**2 - T**2)"
-MODE_F = (
-    "A_j/(2*mu)*("
-    "((lam+2*mu)*cosh(x) + (lam+mu)*x*sinh(x))*cosh(t)/((lam+mu)*phi*(sinh(2*x) - 2*x))"
-    " + ((lam+2*mu)*sinh(x) + (lam+mu)*x*cosh(x))*sinh(t)/((lam+mu)*phi*(sinh(2*x) + 2*x))"
-    " - z*sinh(x)*cosh(t)/(sinh(2*x) + 2*x) - z*cosh(x)*sinh(t)/(sinh(2*x) - 2*x))"
-)
 
 
-def rounded(formula: str, names: tuple[str, ...]) -> Callable[..., Any]:
+def rounded(formula: str) -> Callable[..., Any]:
     """A kernel that computes with ample digits and rounds once: right, but slow."""
     code = compile(formula, "formula", "eval")
 
-    def one(*numbers: float) -> float:
-        values = {name: mpf(float(number)) for name, number in zip(names, numbers, strict=True)}
-        x = values.get("phi", mpf(0)) * values.get("h", mpf(0))
-        small = values.get("T", x)
-        digits = 60 + int(5 * max(0, -mp.log10(small))) + int(min(4 * small, 2000))
-        with mp.workdps(digits):
-            values["x"] = values.get("phi", mpf(0)) * values.get("h", mpf(0))
-            values["t"] = values.get("phi", mpf(0)) * values.get("z", mpf(0))
-            scope = {"sinh": mp.sinh, "cosh": mp.cosh, "exp": mp.exp}
-            return float(eval(code, scope, values))
+    def one(number: float) -> float:
+        T = mpf(float(number))
+        with mp.workdps(60 + int(5 * max(0, -mp.log10(T))) + int(min(4 * T, 2000))):
+            return float(eval(code, {"sinh": mp.sinh, "cosh": mp.cosh, "T": T}))
 
-    def kernel(*arrays: Any) -> Any:
-        kind = np.result_type(*arrays)
-        return np.array([one(*row) for row in zip(*arrays, strict=True)]).astype(kind)
-
-    return kernel
+    return lambda T: np.array([one(x) for x in T]).astype(np.result_type(T))
 
 
-def kernel_G(formula: str = G_PRINTED, budget: float = 1.0) -> Kernel:
-    return Kernel("G", "influence", ("T",), rounded(formula, ("T",)), budget)
+def kernel_G(formula: str = G_PRINTED) -> Kernel:
+    return Kernel("G", "influence", ("T",), rounded(formula), 1.0)
 
 
 @pytest.fixture(scope="module")
@@ -77,40 +61,7 @@ def test_right_kernel_passes() -> None:
     assert row.oracles == checking.AGREEMENTS
 
 
-def signs(formula: str) -> list[str]:
-    """The formula with each of its binary signs flipped in turn."""
-    places = [i for i, c in enumerate(formula) if formula[i - 1 : i + 2] in (" + ", " - ")]
-    places += [i for i, c in enumerate(formula) if c in "+-" and formula[i - 1] not in " ("]
-    flip = {"+": "-", "-": "+"}
-    return [formula[:i] + flip[formula[i]] + formula[i + 1 :] for i in sorted(set(places))]
-
-
-@pytest.mark.parametrize("damaged", signs(G_PRINTED))
-def test_every_flipped_sign_in_G_is_noticed(damaged: str, truths_of_G: list[Truth]) -> None:
-    errors = measured(kernel_G(damaged, 8.0), truths_of_G)
-    assert errors.ratio is not None
-    assert errors.ratio > 1e6
-
-
 NAMES_F = ("z", "phi", "h", "lam", "mu", "A_j")
-
-
-@pytest.fixture(scope="module")
-def truths_of_mode_f() -> list[Truth]:
-    return truths("mode_f", grid("mode_f", NAMES_F), 30)[::3]
-
-
-def test_mode_f_passes(truths_of_mode_f: list[Truth]) -> None:
-    kernel = Kernel("mode_f", "mode_shapes", NAMES_F, rounded(MODE_F, NAMES_F), 1.0)
-    assert measured(kernel, truths_of_mode_f).max_ulp <= 0.5
-
-
-@pytest.mark.parametrize("damaged", signs(MODE_F))
-def test_every_flipped_sign_in_mode_f_is_noticed(
-    damaged: str, truths_of_mode_f: list[Truth]
-) -> None:
-    kernel = Kernel("mode_f", "mode_shapes", NAMES_F, rounded(damaged, NAMES_F), 8.0)
-    assert measured(kernel, truths_of_mode_f).ratio > 1e6
 
 
 def test_printed_form_in_doubles_fails(truths_of_G: list[Truth]) -> None:
@@ -162,7 +113,7 @@ def test_wrong_shape_is_refused(truths_of_G: list[Truth]) -> None:
 
 def test_formulas_as_printed_are_measured_but_not_judged() -> None:
     kernel = dataclasses.replace(kernel_G(), module="as_printed", budget=None)
-    wrong = dataclasses.replace(kernel, call=rounded("-" + G_PRINTED, ("T",)))
+    wrong = dataclasses.replace(kernel, call=rounded("-" + G_PRINTED))
     for chosen, largest in ((kernel, 0.0), (wrong, 1e15)):
         (row,) = check(30, [chosen])
         assert row.passed is None

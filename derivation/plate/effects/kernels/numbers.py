@@ -56,7 +56,7 @@ def effect_numbers() -> Numbers:
                 "WALL_LINEAR",
                 wall_linear,
                 "Largest reduction of S by the finite radius: WALL_LINEAR alpha + "
-                "WALL_CUBIC alpha^3, alpha < 1.",
+                "WALL_CUBIC alpha^3.",
             ),
             Constant("WALL_CUBIC", above(wall_rest_ball()), "See WALL_LINEAR."),
             Constant(

@@ -75,7 +75,7 @@ def test_series_have_rational_coefficients() -> None:
 def test_what_cannot_be_judged_is_refused() -> None:
     """Seven further variables; and the logarithm of a number below 0 at every point."""
     many = sum(sp.symbols("p q r s t u v", positive=True), sp.Integer(0))
-    with pytest.raises(UnreachableError, match=r"at most 6 further variables are .* got \[p, q"):
+    with pytest.raises(UnreachableError, match=r"at most 6 further variables, got \[p, q"):
         stabilise(many * (x - sp.sin(x)), x)
     with pytest.raises(UnreachableError, match="has values at 0 test points"):
         stabilise(sp.log(-1 - x) * x, x)
@@ -83,7 +83,7 @@ def test_what_cannot_be_judged_is_refused() -> None:
 
 def test_a_form_that_no_rule_helps_is_refused() -> None:
     """1 + cos x cancels at pi: nothing stops a rule, but all of them mend what is at 0."""
-    with pytest.raises(UnreachableError, match="no rule applies to what is left"):
+    with pytest.raises(UnreachableError, match="no rule applies to the rest"):
         stabilise(1 + sp.cos(x), x, (3.0, 3.3))
 
 
@@ -136,7 +136,7 @@ def test_tables_whose_last_coefficients_count_are_refused(
 
 def test_series_that_end_too_early_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(effect_tables, "kappas", lambda: [arb(1), arb(0), arb(1)])
-    with pytest.raises(ArithmeticError, match="needs more of kappa_n"):
+    with pytest.raises(ArithmeticError, match="needs more moments kappa_n"):
         effect_tables.wall_rows()
     with pytest.raises(ValueError, match="F takes more than 40 terms up to S = 100"):
         wave_terms(sp.Integer(100))

@@ -140,7 +140,7 @@ def test_series_that_end_too_early_are_refused(monkeypatch: pytest.MonkeyPatch) 
         effect_tables.wall_rows()
     with pytest.raises(ValueError, match="F takes more than 40 terms up to S = 100"):
         wave_terms(sp.Integer(100))
-    with pytest.raises(ValueError, match=r"takes more terms than 30 up to 9/4"):
+    with pytest.raises(ValueError, match=r"needs more than 30 terms up to 9/4"):
         sections._coefficients(1 / (1 - sections.y**2), 0)
     cosh, _ = sections._coefficients(sp.cosh(sections.y), 0)
     assert [1 / c for c in cosh] == [math.factorial(2 * k) for k in range(len(cosh))]

@@ -257,7 +257,7 @@ def verdict(paper: Paper, rows: "Sequence[Row]") -> list[str]:
             {name for name, module in new if new[name, module] != kept.get((name, module))}
         )
         if moved:
-            lines.append(f"differs from {paper.measured.name} as committed: {', '.join(moved)}")
+            lines.append(f"not as committed in {paper.measured.name}: {', '.join(moved)}")
     return lines
 
 
@@ -274,7 +274,7 @@ def _report_as_far_as_possible(
     try:
         return (*written, *compile_all(written)), ()
     except TexError as error:
-        return written, (f"no PDF, everything else is written: {error}",)
+        return written, (f"no PDF, all else is there: {error}",)
 
 
 def _forget(target: str) -> None:

@@ -104,7 +104,7 @@ class Choice:
             )
         if self.condition in (sp.true, sp.false):
             raise ValueError(
-                f"{self.symbol}: expected a condition that can be false, got {self.condition}"
+                f"{self.symbol}: expected a condition that may fail, got {self.condition}"
             )
 
 

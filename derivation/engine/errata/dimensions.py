@@ -29,7 +29,7 @@ def dimension_note(expression: sp.Expr, unit: str, vocabulary: Vocabulary) -> st
     if found == expected:
         return None
     excess = unit_name(found / expected)
-    return f"expected [{unit}], got [{unit_name(found)}]: an extra factor of [{excess}]"
+    return f"[{unit}] expected, [{unit_name(found)}] found: a factor of [{excess}] too much"
 
 
 def unit_name(value: Dimension) -> str:

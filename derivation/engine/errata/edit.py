@@ -76,7 +76,7 @@ def edit_of(variant: Variant, place: Place) -> Edit:
         says = f"set the parentheses {shown} in {name_of(place)}"
     elif variant.kind == SUPERFLUOUS:
         shown = variant.shown() if variant.shown else sp.sstr(new)
-        says = f"remove the parentheses, {shown}, in {name_of(place)}"
+        says = f"take the parentheses away, {shown}, in {name_of(place)}"
     elif variant.kind in (SIGN, STRAY, MISSING, CONSTANT, TWICE) and own_ratio(place):
         return ratio_edit(place, new / place.node, variant.extra, variant.kind)
     else:
@@ -142,9 +142,9 @@ def _stray_or_missing(place: Place, ratio: sp.Expr) -> str:
 def _ratio_words(where: str, ratio: sp.Expr, kind: str) -> str:
     above, below = sp.fraction(ratio)
     if kind in (STRAY, TWICE) and below == 1:
-        return f"remove the factor {_text(above)} from the denominator of {where}"
+        return f"leave out the factor {_text(above)} in the denominator of {where}"
     if kind in (STRAY, TWICE) and above == 1:
-        return f"remove the factor {_text(below)} from {where}"
+        return f"leave out the factor {_text(below)} in {where}"
     if above == 1:
         return f"divide {where} by the missing factor {_text(below)}"
     if below == 1:
@@ -190,7 +190,7 @@ def term_edits(place: Place, need: Values, search: VariantSearch) -> Iterator[Ed
     lack = [w - v for w, v in zip(need, have, strict=True)]
     for part in inner(place):
         if part.role == TERM and search.points.same(-part.node, lack):
-            yield _edit(SUM, place, place.node - part.node, f"remove {name_of(part)}")
+            yield _edit(SUM, place, place.node - part.node, f"leave out {name_of(part)}")
     simple = monomial(lack, search.points)
     for term in search.terms if simple is None else (simple,):
         if term is simple or search.points.same(term, lack):

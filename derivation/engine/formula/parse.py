@@ -37,12 +37,12 @@ class FormulaError(ValueError):
 _CONSTANTS: Mapping[str, sp.Basic] = {"pi": sp.pi, "EulerGamma": sp.EulerGamma}
 
 _NAME_HINTS = {
-    "E": "E usually is Young's modulus, which is not defined in this formula; "
+    "E": "E usually is Young's modulus, which has no meaning in this formula; "
     "for the number 2.718... write exp(1)",
     "e": "for powers of the number 2.718... write exp(...)",
-    "I": "formulas are real: remove the imaginary unit",
-    "oo": "formulas are finite: remove oo",
-    "inf": "formulas are finite: remove inf",
+    "I": "formulas are real: leave out the imaginary unit",
+    "oo": "formulas are finite: leave out oo",
+    "inf": "formulas are finite: leave out inf",
 }
 
 _HINTS = {
@@ -96,7 +96,7 @@ def parse(text: str, vocabulary: Vocabulary, also: Mapping[str, sp.Basic] | None
 
 def _syntax_hint(error: BaseException) -> str:
     if isinstance(error, SyntaxError) and error.offset is not None:
-        return f"it is incomplete near character {error.offset}; check brackets and write every *"
+        return f"it breaks off near character {error.offset}; check brackets and write every *"
     return "it is nested too deeply; write it with fewer brackets"
 
 
@@ -130,7 +130,7 @@ def check_nesting(text: str, opening: str, closing: str) -> None:
     for mark in text:
         depth += (mark in opening) - (mark in closing)
         if depth > MAX_NESTING:
-            raise FormulaError(f"expected at most {MAX_NESTING} nested brackets: remove some")
+            raise FormulaError(f"expected at most {MAX_NESTING} nested brackets: leave some out")
         if depth < 0:
             break
     if depth:
@@ -173,7 +173,7 @@ class _Reader:
             return self._call(node.func.id, node, depth)
         raise FormulaError(
             f"expected numbers, names, + - * / ** and functions, got {_short(self._source(node))} "
-            f"({type(node).__name__}): remove it"
+            f"({type(node).__name__}): leave it out"
         )
 
     def _arithmetic(self, node: ast.BinOp, left: sp.Expr, right: sp.Expr) -> sp.Expr:
@@ -190,7 +190,7 @@ class _Reader:
         if isinstance(node.op, ast.Pow):
             return power(left, right, self.vocabulary.numbers)
         raise FormulaError(
-            f"expected + - * / **, got the operator in {_short(self._source(node))}: remove it"
+            f"expected + - * / **, got the operator in {_short(self._source(node))}: leave it out"
         )
 
     def _named(self, name: str) -> sp.Expr:
@@ -306,7 +306,7 @@ def _order(order: sp.Expr) -> sp.Integer:
     """Return the order of a Bessel function, if it is a small integer."""
     if not isinstance(order, sp.Integer) or abs(order) > MAX_ORDER:
         raise FormulaError(
-            f"expected an integer order of a Bessel function within +-{MAX_ORDER}, "
+            f"expected a whole order of a Bessel function within +-{MAX_ORDER}, "
             f"got {_short(str(order))}"
         )
     return order

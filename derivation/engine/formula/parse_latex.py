@@ -60,7 +60,9 @@ def parse_latex(
     translator = _Translator(_tokens(text), vocabulary, {**(also or {}), **vocabulary.names})
     plain = translator.sum()
     if translator.here is not None:
-        raise FormulaError(f"expected an operator or the end, got {translator.here!r}: remove it")
+        raise FormulaError(
+            f"expected an operator or the end, got {translator.here!r}: leave it out"
+        )
     return parse(plain, vocabulary, also)
 
 
@@ -76,7 +78,7 @@ def _tokens(text: str) -> list[str]:
             continue
         match = _TOKEN.match(rest, position)
         if match is None:
-            raise FormulaError(f"LaTeX token {rest[position]!r} is not known here: remove it")
+            raise FormulaError(f"LaTeX token {rest[position]!r} is not known here: leave it out")
         tokens.append(match.group())
         position = match.end()
     if not tokens:
@@ -195,7 +197,7 @@ class _Translator:
             return f"exp({self.exponent()})" if self.here == "^" else "exp(1)"
         if token in _GREEK or token.isalpha():
             return self._symbol(_GREEK.get(token, token))
-        raise FormulaError(f"LaTeX token {token!r} is not known here: write it differently")
+        raise FormulaError(f"LaTeX token {token!r} is not known here: write it another way")
 
     def _root(self) -> str:
         if self.here == "[":

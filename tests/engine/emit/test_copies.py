@@ -73,7 +73,7 @@ def test_a_copy_promises_the_budget_and_the_domain(tmp_path: Path) -> None:
     assert "from .arrays import" in text
     assert "from . import blocks" in text
     docstring = ast.get_docstring(ast.parse(text).body[-1]) or ""  # type: ignore[arg-type]
-    assert "2 units in the last place of the value." in docstring
+    assert "2 units in the last place (ULP) of the value." in docstring
     assert "Domain: x > 0." in docstring
 
 

@@ -81,7 +81,8 @@ def test_manifest_and_docstring_show_the_whole_budget(row: dict) -> None:
     assert (row["budget"], row["rule"]) == (budget.ulp, budget.rule)
     kernel = getattr(importlib.import_module(f"generated.{row['module']}"), row["name"])
     shown = " ".join(kernel.__doc__.split())
-    assert f"{budget.ulp:g} units in the last place of {budget.rule}." in shown
+    assert f"{budget.ulp:g} unit" in shown
+    assert f" in the last place (ULP) of {budget.rule}." in shown
     assert f"Domain: {row['domain'] or 'all real numbers'}." in shown
 
 

@@ -45,7 +45,7 @@ def test_what_is_written_by_hand_says_so() -> None:
 def test_a_module_with_arithmetic_gives_a_reason() -> None:
     expect_reason("sums", BY_HAND)
     expect_reason("names", '"""No arithmetic."""\n')
-    with pytest.raises(ValueError, match=r"sums: expected a paragraph .* 'Arithmetic:'"):
+    with pytest.raises(ValueError, match=r"sums: expected a docstring paragraph .* 'Arithmetic:'"):
         expect_reason("sums", BY_HAND.replace("Arithmetic", "Sums"))
 
 

@@ -185,7 +185,7 @@ def test_a_value_of_zero_and_one_on_a_tie(
 def test_a_pair_that_balances_needs_no_sign(monkeypatch: pytest.MonkeyPatch) -> None:
     (printed,) = (record for record in PRINTED if record.name == "u")
     assert balance.signs_that_balance(["u"]) == ("u",)
-    assert "they balance with one sign reversed" in misprints._balance_remark(printed)
+    assert "if one sign is reversed" in misprints._balance_remark(printed)
     right = [replace(r, expression=-r.expression) if r.name == "u" else r for r in PRINTED]
     monkeypatch.setattr(balance, "PRINTED", right)
     assert balance.signs_that_balance(["u", "w", "f_j", "g_j"]) == ()

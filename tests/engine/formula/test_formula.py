@@ -103,7 +103,7 @@ def test_units_are_read(text: str, expected: str) -> None:
     "text", ["", "q", "m^", "m^-1", "m/s/s", "J/kg m", "m//s", "1/", "/m", "(m)", "m  s", "m^(1/2"]
 )
 def test_what_is_no_unit_is_refused(text: str) -> None:
-    with pytest.raises(ValueError, match="make it of 1, m, kg, s, N, J, W, Pa"):
+    with pytest.raises(ValueError, match="use the units 1, m, kg, s, N, J, W, Pa"):
         unit(text)
 
 

@@ -80,7 +80,7 @@ def test_bounds_of_the_plate_factors_rest_are_looked_at(monkeypatch: pytest.Monk
 
 def test_contacts_wider_than_the_bound_allows_are_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(pressure_bound, "WIDEST", pressure_bound.WIDTH / 2)
-    with pytest.raises(ProofError, match="the true contact may be too wide"):
+    with pytest.raises(ProofError, match="the actual contact may be too wide"):
         pressure_bound.wall_share.__wrapped__()
 
 

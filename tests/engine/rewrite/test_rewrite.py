@@ -78,7 +78,7 @@ STRANGERS = (
 
 REFUSED = (
     (sp.exp(x**2) - 1, "not a function of a rational multiple of x"),
-    (sp.besselj(0, x) - 1, "no rule knows the function besselj"),
+    (sp.besselj(0, x) - 1, "no rule applies to the function besselj"),
     (sp.exp(sp.sin(x)) - 1, r"exp\(sin\(x\)\)"),
     (sp.sqrt(1 + x) - 1 - x / 2, "sqrt"),
 )

@@ -75,7 +75,7 @@ def test_series_have_rational_coefficients() -> None:
 def test_what_cannot_be_judged_is_refused() -> None:
     """Seven further variables; and the logarithm of a number below 0 at every point."""
     many = sum(sp.symbols("p q r s t u v", positive=True), sp.Integer(0))
-    with pytest.raises(UnreachableError, match=r"at most 6 further variables are .* got \[p, q"):
+    with pytest.raises(UnreachableError, match=r"at most 6 further variables, got \[p, q"):
         stabilise(many * (x - sp.sin(x)), x)
     with pytest.raises(UnreachableError, match="has values at 0 test points"):
         stabilise(sp.log(-1 - x) * x, x)
@@ -83,7 +83,7 @@ def test_what_cannot_be_judged_is_refused() -> None:
 
 def test_a_form_that_no_rule_helps_is_refused() -> None:
     """1 + cos x cancels at pi: nothing stops a rule, but all of them mend what is at 0."""
-    with pytest.raises(UnreachableError, match="no rule applies to what is left"):
+    with pytest.raises(UnreachableError, match="no rule applies to the rest"):
         stabilise(1 + sp.cos(x), x, (3.0, 3.3))
 
 
@@ -130,17 +130,17 @@ def test_tables_whose_last_coefficients_count_are_refused(
     monkeypatch.setattr(edge_tables, "alternating_sum", lambda _, at: abs(at - arb(0.25)))
     with flint.ctx.workprec(moment_tables.BITS):
         first = arb("2.404825557695772768621632")
-        with pytest.raises(ArithmeticError, match="coefficients of SQUARE leave out"):
+        with pytest.raises(ArithmeticError, match="truncation error of SQUARE"):
             edge_tables._tables(slope_kernel, first, [arb(0), arb(0)])
 
 
 def test_series_that_end_too_early_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(effect_tables, "kappas", lambda: [arb(1), arb(0), arb(1)])
-    with pytest.raises(ArithmeticError, match="needs more of kappa_n"):
+    with pytest.raises(ArithmeticError, match="needs more moments kappa_n"):
         effect_tables.wall_rows()
     with pytest.raises(ValueError, match="F takes more than 40 terms up to S = 100"):
         wave_terms(sp.Integer(100))
-    with pytest.raises(ValueError, match=r"takes more terms than 30 up to 9/4"):
+    with pytest.raises(ValueError, match=r"needs more than 30 terms up to 9/4"):
         sections._coefficients(1 / (1 - sections.y**2), 0)
     cosh, _ = sections._coefficients(sp.cosh(sections.y), 0)
     assert [1 / c for c in cosh] == [math.factorial(2 * k) for k in range(len(cosh))]

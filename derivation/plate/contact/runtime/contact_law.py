@@ -61,7 +61,7 @@ def indentation(a: ArrayLike, R: ArrayLike, h: ArrayLike, b: ArrayLike) -> np.nd
     "a",
     equation="6",
     domain="delta >= 0, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, a < R, a <= b, "
-    "a <= 6 * h for the resulting a",
+    "a <= 6 * h for the a that results",
 )
 def contact_radius(delta: ArrayLike, R: ArrayLike, h: ArrayLike, b: ArrayLike) -> np.ndarray:
     """Compute the contact radius for a given indentation.
@@ -98,7 +98,7 @@ def contact_radius(delta: ArrayLike, R: ArrayLike, h: ArrayLike, b: ArrayLike) -
     "P",
     equation="10",
     domain="delta >= 0, R > 0, h > 0, b > 0, h/b >= 1e-90, h/b <= 1e90, 3 * lam > -2 * mu, "
-    "mu > 0, a < R, a <= b, a <= 6 * h for the resulting a",
+    "mu > 0, a < R, a <= b, a <= 6 * h for the a that results",
 )
 def force(
     delta: ArrayLike, R: ArrayLike, h: ArrayLike, b: ArrayLike, lam: ArrayLike, mu: ArrayLike
@@ -173,7 +173,7 @@ def force_of_radius(a: ArrayLike, R: ArrayLike, lam: ArrayLike, mu: ArrayLike) -
 @in_manifest(
     "a",
     equation="7",
-    domain="P >= 0, R > 0, 3 * lam > -2 * mu, mu > 0, a < R for the resulting a",
+    domain="P >= 0, R > 0, 3 * lam > -2 * mu, mu > 0, a < R for the a that results",
 )
 @quiet
 def radius_of_force(P: ArrayLike, R: ArrayLike, lam: ArrayLike, mu: ArrayLike) -> np.ndarray:

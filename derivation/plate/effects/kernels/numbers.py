@@ -55,15 +55,15 @@ def effect_numbers() -> Numbers:
             Constant(
                 "WALL_LINEAR",
                 wall_linear,
-                "The finite radius reduces S at most by WALL_LINEAR alpha + WALL_CUBIC alpha^3, "
-                "alpha = a/b < 1.",
+                "Largest reduction of S by the finite radius: WALL_LINEAR alpha + "
+                "WALL_CUBIC alpha^3.",
             ),
             Constant("WALL_CUBIC", above(wall_rest_ball()), "See WALL_LINEAR."),
             Constant(
                 "PRESSURE_WALL",
                 float(WALL_EXTRA),
-                "What the side wall adds, times (a/b)^3, to theta, which bounds what Hertz's "
-                "pressure changes.",
+                "Contribution of the finite radius to theta/(a/b)^3, in the bound for Hertz "
+                "pressure.",
             ),
             Constant(
                 "WALL_GROWTH",

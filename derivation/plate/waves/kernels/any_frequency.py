@@ -78,8 +78,8 @@ def zero_of(bends: bool) -> Routine:
             sp.sign(entire(whole(bends)).xreplace(NAMES)),
         ),
         (E_p * E_q * claim, E_p * E_q * sp.diff(with_roots(claim), kap), None),
-        f"Return -kap B{'a' if bends else 's'}/2 times a factor that makes it entire, the slope by "
-        "kap, and the sign of the factor.",
+        f"Return -kap B{'a' if bends else 's'}/2 times an entire-making factor, slope by kap, "
+        "and the factor's sign.",
         MEANING,
         reduce,
     )

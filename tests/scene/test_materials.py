@@ -101,10 +101,10 @@ BAD: list[tuple[Tables, str]] = [
     (tables(STEEL, {"material": 3}), "plate.material: |3"),
     (tables({"material": "paper"}, STEEL), "sphere.material|mass = 72"),
     (tables({"density": 1, "youngs_modulus": 1e9}, STEEL), "sphere.poissons_ratio"),
-    (tables(STEEL | {"youngs_modulus": 1e9, "poissons_ratio": 0.3}, STEEL), "sphere.material|sphere.youngs_modulus"),
+    (tables(STEEL | {"youngs_modulus": 1e9, "poissons_ratio": 0.3}, STEEL), "sphere.youngs_modulus"),
     (tables({"youngs_modulus": 1e9, "poissons_ratio": 0.3}, STEEL), "sphere.density"),
-    (tables({"mass": 1, "retardation_time": 1.0}, STEEL), "sphere.retardation_time|sphere.material"),
-    (tables({"mass": 1, "yield_stress": 1.0}, STEEL), "sphere.yield_stress|sphere.material"),
+    (tables({"mass": 1, "retardation_time": 1.0}, STEEL), "sphere.retardation_time"),
+    (tables({"mass": 1, "yield_stress": 1.0}, STEEL), "sphere.yield_stress"),
     (tables(STEEL | {"wall_thickness": 1e-3}, STEEL), "sphere.wall_thickness: |hollow"),
     (tables(STEEL | {"thickness": 1e-3}, STEEL), "sphere.thickness: |hollow"),
     (tables(STEEL, STEEL, materials=3), "materials: |[materials.NAME]"),  # type: ignore[arg-type]

@@ -83,7 +83,7 @@ def diagnose(
     E and nu are Young's modulus and Poisson's ratio. For a sum over the modes, such as delta, one
     term of the sum is compared.
 
-    Example: platecontact diagnose G --formula "1 + 4*T*(1+T)*exp(-2*T)" --at T=3
+    Example: platecontact diagnose G --formula "1 + 4*T*exp(-2*T)" --at T=3
     """
     from derivation.engine import build
 

@@ -121,7 +121,7 @@ def report(
 
     With --fragment: print to the screen, or write into the folder of --out, with the bibliography.
 
-    Example: platecontact report --fragment K_j --fragment "contact split" --out pieces
+    Example: platecontact report --fragment K_j --fragment G --out pieces
     """
     if bool(check) + bool(section) + bool(fragment) > 1:
         raise ValueError(

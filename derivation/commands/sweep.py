@@ -74,7 +74,7 @@ def sweep(
 ) -> None:
     """Simulate a scene at every point of a grid or a sample.
 
-    Example: platecontact sweep scene.toml --vary plate.thickness=4e-3:12e-3:9 --out rows.csv
+    Example: platecontact sweep scene.toml --vary impact.speed=1:3:9 --out a.csv
 
     To continue an interrupted study, run the same command again: finished batches are kept in the
     folder FILE.parts next to the file of --out.

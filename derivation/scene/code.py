@@ -310,7 +310,7 @@ def _head(scene: Scene, result: Result, parts: tuple[str, ...], stepped: bool) -
         *("", "Included effects:", "", *_wrapped(included)),
         *("", "Omitted effects:", "", *_wrapped(omitted)),
         *("", *textwrap.wrap(_omission(selected, result), WIDTH)),
-        *(("", "Warnings:", "", *_wrapped(notes)) if notes else ()),
+        *(("", "Validity:", "", *_wrapped(notes)) if notes else ()),
         *(() if stepped else ("", *textwrap.wrap(STIFF, WIDTH))),
     )
 

@@ -53,39 +53,26 @@ class Impact(Table):
     )
 
 
+def _switch(description: str, example: bool = True) -> Any:
+    """Return the field of an effect, "auto" by default."""
+    return Field(default="auto", description=description, examples=[example])
+
+
 class Effects(Table):
     """Which effects are included; "auto" lets the tolerance decide."""
 
-    sphere_elasticity: Wanted = Field(
-        default="auto", description="elastic deformation of the sphere", examples=[False]
-    )
-    spherical_profile: Wanted = Field(
-        default="auto", description="spherical profile instead of a paraboloid", examples=[False]
-    )
-    bending: Wanted = Field(default="auto", description="bending of the plate", examples=[True])
-    finite_thickness: Wanted = Field(
-        default="auto", description="shear and compression of the plate", examples=[True]
-    )
-    finite_radius: Wanted = Field(
-        default="auto", description="finite radius of the plate", examples=[True]
-    )
-    edge: Wanted = Field(
-        default="auto", description="simply supported or clamped edge", examples=[True]
-    )
-    non_hertzian_pressure: Wanted = Field(
-        default="auto", description="contact pressure from the integral equation", examples=[False]
-    )
-    plasticity: Wanted = Field(
-        default="auto", description="plastic deformation in the contact", examples=[True]
-    )
-    viscosity: Wanted = Field(default="auto", description="viscoelastic contact", examples=[True])
-    gravity: Wanted = Field(
-        default="auto", description="weight of the sphere during contact", examples=[False]
-    )
-    inertia: Wanted = Field(default="auto", description="inertia of the plate", examples=[False])
-    damping: Wanted = Field(
-        default="auto", description="damping of the plate vibration", examples=[True]
-    )
+    sphere_elasticity: Wanted = _switch("elastic deformation of the sphere", False)
+    spherical_profile: Wanted = _switch("spherical profile instead of a paraboloid", False)
+    bending: Wanted = _switch("bending of the plate")
+    finite_thickness: Wanted = _switch("shear and compression of the plate")
+    finite_radius: Wanted = _switch("finite radius of the plate")
+    edge: Wanted = _switch("simply supported or clamped edge")
+    non_hertzian_pressure: Wanted = _switch("contact pressure from the integral equation", False)
+    plasticity: Wanted = _switch("plastic deformation in the contact")
+    viscosity: Wanted = _switch("viscoelastic contact")
+    gravity: Wanted = _switch("weight of the sphere during contact", False)
+    inertia: Wanted = _switch("inertia of the plate", False)
+    damping: Wanted = _switch("damping of the plate vibration")
     compare_paper_motion: bool = Field(
         default=False,
         description="also print the paper's perturbation motion; the results do not change",

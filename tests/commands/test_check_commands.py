@@ -260,7 +260,7 @@ def test_truths_are_kept_as_they_come(monkeypatch: Patch, tmp_path: Path, capsys
     assert bounds.committed_truths() == known
     assert sum(row["runs"] for row in rows_of(path)) == 2 * len(bounds.TOLERANCES)
     shown = capsys.readouterr().out
-    assert "Stated bounds in 7 scenes" in shown
+    assert "7 scenes" in shown
     assert all(row["method"] in shown for row in whole)
     data = json.loads(path.read_text()) | {"digits": bounds.DIGITS + 1}
     path.write_text(json.dumps(data))
@@ -292,15 +292,15 @@ def test_effects_are_shown_and_recorded(
         scenes.append(data)
         return None if len(scenes) in (2, 5) else (ONES, ["hertz", "gravity"])
 
-    def gated(_: Any, rtol: float) -> Any:
+    def selected(_: Any, rtol: float) -> Any:
         refused = len(scenes) == 3 and rtol == TOLERANCES[-1]
         return None if refused else ([*ONES[1:], 1.0 + rtol / 4], ["hertz"], rtol / 2)
 
     monkeypatch.setattr(effects_check, "MEASURED", path)
     monkeypatch.setattr(effects_check, "everything", everything)
-    monkeypatch.setattr(effects_check, "gated", gated)
+    monkeypatch.setattr(effects_check, "selected_impact", selected)
     assert main(["check", "effects", "-n", "6", "--update"]) == 0
-    assert "Effects in 6 scenes" in capsys.readouterr().out
+    assert "6 scenes" in capsys.readouterr().out
     rows = rows_of(path)
     assert [row["rtol"] for row in rows] == list(TOLERANCES)
     assert [row["scenes"] for row in rows] == [4, 4, 4, 3]
@@ -311,7 +311,9 @@ def test_effects_are_shown_and_recorded(
         (0.0, 1.0, "max_contact_radius")
     }
     path.unlink()
-    monkeypatch.setattr(effects_check, "gated", lambda *_: ([math.nan] * 4, ["hertz"], 1.0))
+    monkeypatch.setattr(
+        effects_check, "selected_impact", lambda *_: ([math.nan] * 4, ["hertz"], 1.0)
+    )
     assert main(["check", "effects", "-n", "1", "--json", "-"]) == 1
     found = json.loads(capsys.readouterr().out, parse_constant=pytest.fail)
     assert {row["ratio"] for row in found} == {"inf"}
@@ -325,9 +327,9 @@ def test_scenes_that_are_passed_over_are_listed(monkeypatch: Patch, capsys: Capt
     monkeypatch.setattr(inertia_check, "solve", lambda *_: next(solved, row))
     assert main(["check", "inertia", "-n", "1"]) == 0
     shown = capsys.readouterr().out
-    assert "Inertia in 1 of 3 scenes drawn" in shown
-    assert "1 refused: rtol" in shown
-    assert "1 passed over: too heavy" in shown
+    assert "1 of 3" in shown
+    assert "1 rejected: rtol" in shown
+    assert "1 skipped: too heavy" in shown
     broken = dataclasses.replace(row, error=0.02)
     monkeypatch.setattr(inertia_check, "pass_over", lambda _: "")
     monkeypatch.setattr(inertia_check, "solve", lambda *_: broken)

@@ -30,7 +30,9 @@ def test_bounds_hold_in_random_scenes() -> None:
 
 
 def test_a_bound_that_does_not_hold_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(measure, "gated", lambda *_: ([1.0, 1.0, 1.02, 1.0], ["hertz"], 1e-3))
+    monkeypatch.setattr(
+        measure, "selected_impact", lambda *_: ([1.0, 1.0, 1.02, 1.0], ["hertz"], 1e-3)
+    )
     monkeypatch.setattr(measure, "everything", lambda _: ([1.0] * 4, ["hertz"]))
     rows = measure.judge(3)
     assert not any(row.kept for row in rows)

@@ -95,32 +95,32 @@ def test_a_scene_s_own_material_comes_before_the_catalogue() -> None:
 
 STEEL = {"material": "steel"}
 BAD: list[tuple[Tables, str]] = [
-    (tables({"material": "stel"}, STEEL), "sphere.material|name of a material|did you mean steel?"),
-    (tables({"material": "my-ise"}, STEEL, materials=OWN), "did you mean my ice?"),
-    (tables({"material": "tennis ball"}, STEEL), "solid sphere|hollow: a shell bends"),
-    (tables(STEEL, {"material": 3}), "plate.material: expected the name of a material|got 3"),
-    (tables({"material": "paper"}, STEEL), "sphere.material|known density|mass = 72"),
-    (tables({"density": 1, "youngs_modulus": 1e9}, STEEL), "add sphere.poissons_ratio"),
-    (tables(STEEL | {"youngs_modulus": 1e9, "poissons_ratio": 0.3}, STEEL), "got both"),
-    (tables({"youngs_modulus": 1e9, "poissons_ratio": 0.3}, STEEL), "or sphere.density"),
-    (tables({"mass": 1, "retardation_time": 1.0}, STEEL), "sphere.retardation_time|a rigid one"),
-    (tables({"mass": 1, "yield_stress": 1.0}, STEEL), "sphere.yield_stress|a rigid one"),
-    (tables(STEEL | {"wall_thickness": 1e-3}, STEEL), "wall_thickness: unknown key: the sphere is"),
-    (tables(STEEL | {"thickness": 1e-3}, STEEL), "sphere.thickness: unknown key: the sphere is"),
-    (tables(STEEL, STEEL, materials=3), "materials: expected tables [materials.NAME], got 3"),  # type: ignore[arg-type]
-    (tables(STEEL, STEEL, materials={"a": 3}), "materials.a: expected a table [materials.a]"),
-    (tables(STEEL, STEEL, materials={"a": {}}), "3 problems|materials.a.density|got nothing"),
+    (tables({"material": "stel"}, STEEL), "sphere.material|steel?"),
+    (tables({"material": "my-ise"}, STEEL, materials=OWN), "my ice?"),
+    (tables({"material": "tennis ball"}, STEEL), "sphere.material|hollow"),
+    (tables(STEEL, {"material": 3}), "plate.material: |3"),
+    (tables({"material": "paper"}, STEEL), "sphere.material|mass = 72"),
+    (tables({"density": 1, "youngs_modulus": 1e9}, STEEL), "sphere.poissons_ratio"),
+    (tables(STEEL | {"youngs_modulus": 1e9, "poissons_ratio": 0.3}, STEEL), "youngs_modulus"),
+    (tables({"youngs_modulus": 1e9, "poissons_ratio": 0.3}, STEEL), "sphere.density"),
+    (tables({"mass": 1, "retardation_time": 1.0}, STEEL), "sphere.retardation_time"),
+    (tables({"mass": 1, "yield_stress": 1.0}, STEEL), "sphere.yield_stress"),
+    (tables(STEEL | {"wall_thickness": 1e-3}, STEEL), "sphere.wall_thickness: |hollow"),
+    (tables(STEEL | {"thickness": 1e-3}, STEEL), "sphere.thickness: |hollow"),
+    (tables(STEEL, STEEL, materials=3), "materials: |[materials.NAME]"),  # type: ignore[arg-type]
+    (tables(STEEL, STEEL, materials={"a": 3}), "materials.a: |[materials.a]"),
+    (tables(STEEL, STEEL, materials={"a": {}}), "3 problems|materials.a.density"),
     (
         tables(STEEL, STEEL, materials={"a": RUBBER | {"densty": 1.0}}),
-        "materials.a.densty: unknown key|did you mean density?",
+        "materials.a.densty: |density?",
     ),
     (
         tables(STEEL, STEEL, materials={"a": RUBBER | {"poissons_ratio": 0.5}}),
-        "materials.a.poissons_ratio: expected a number above -1 and below 0.5|got 0.5",
+        "materials.a.poissons_ratio: |0.5",
     ),
-    (tables(STEEL, STEEL, materials={"a-b": RUBBER, "A B": RUBBER}), "names that differ|rename"),
-    (tables(STEEL, STEEL, materials={" ": RUBBER}), "a name with letters or digits"),
-    (tables(STEEL, STEEL, material={"a": RUBBER}), "unknown table|did you mean materials?"),
+    (tables(STEEL, STEEL, materials={"a-b": RUBBER, "A B": RUBBER}), "materials: |a-b|A B"),
+    (tables(STEEL, STEEL, materials={" ": RUBBER}), "materials: "),
+    (tables(STEEL, STEEL, material={"a": RUBBER}), "material: |materials?"),
 ]  # fmt: skip
 
 

@@ -137,7 +137,7 @@ class ImpactReference(NamedTuple):
         return {"digits": self.digits, "inputs": inputs, "impact": impact, "law": law}
 
     def lines(self) -> list[str]:
-        """Every number with its radius and with what oracle 2 says, to be read by people."""
+        """Return every value with its radius and the digits to which mpmath agrees, as text."""
 
         def block(quantity: Quantity) -> list[str]:
             value, radius = quantity.shown(self.digits)
@@ -145,12 +145,12 @@ class ImpactReference(NamedTuple):
             return [
                 f"{quantity.name.replace('_', ' ')} [{quantity.unit}]",
                 f"  {value}",
-                f"  +- {radius}, oracle 2, asked for {quantity.compared} digits, repeats {agreed}",
+                f"  +- {radius}; mpmath agrees to {agreed} of {quantity.compared} digits",
             ]
 
         found = [line for quantity in self.impact for line in block(quantity)]
         for pressed in self.law:
-            found.append(f"at contact radius {pressed.contact_radius!r} m, this double exactly")
+            found.append(f"at contact radius {pressed.contact_radius!r} m (exactly this double)")
             found += [line for quantity in pressed.quantities for line in block(quantity)]
         return found
 
@@ -187,13 +187,13 @@ def reference(motion: Motion, digits: int, tell: ball_law.Tell) -> ImpactReferen
     balls = [ball_law.pressed(a, R, b, lam, mu, law, wanted) for a in radii]
     laws: list[Pressed] = []
     for a, both in zip(radii, balls, strict=True):
-        tell("oracle 2: law", len(laws) + 1, len(radii))
+        tell("mpmath: law", len(laws) + 1, len(radii))
         again = (
             residue_law.indentation(a, R, h, b, digits),
             residue_law.stiffness(a, R, h, b, lam, mu, digits),
         )
         laws.append(Pressed(a, _beside(("indentation", "stiffness"), both, again, digits)))
-    tell("oracle 2: impact", 1, 1)
+    tell("mpmath: impact", 1, 1)
     moved = _beside(found._fields, found, residue_law.impact(*motion, digits), digits)
     return ImpactReference(motion, digits, moved, tuple(laws))
 

@@ -1,6 +1,5 @@
 """The index of names: every scene key, effect, function, class and command, with a link."""
 
-import inspect
 from collections.abc import Iterator
 
 import platecontact as pc
@@ -10,13 +9,13 @@ from docs.generators import commands, effects, functions, scene_keys
 from docs.generators.markdown import table
 
 Row = tuple[str, str, str, str]
-"""Name, link, kind and meaning."""
+"""Name, link, kind or module, and meaning."""
 
 
 def text() -> str:
     """Return the table of all names in alphabetical order."""
     rows = sorted(rows_of_names(), key=lambda row: (row[0].lower(), row[2]))
-    return table(("name", "kind", "meaning"), ((link, kind, said) for _, link, kind, said in rows))
+    return table(("name", "kind or module", "meaning"), (row[1:] for row in rows))
 
 
 def rows_of_names() -> Iterator[Row]:
@@ -28,11 +27,10 @@ def rows_of_names() -> Iterator[Row]:
     for module, names in functions.modules():
         for name in names:
             place = f"generated.{module}.{name}"
-            yield name, f"{{py:obj}}`{place}`", "generated", functions.summary(place)
+            yield name, f"{{py:obj}}`~{place}`", f"`generated.{module}`", functions.summary(place)
     for name in pc.__all__:
         place = f"platecontact.{name}"
-        kind = "Python class" if inspect.isclass(getattr(pc, name)) else "Python function"
-        yield name, f"{{py:obj}}`{place}`", kind, functions.summary(place)
+        yield name, f"{{py:obj}}`~{place}`", "`platecontact`", functions.summary(place)
     for name, said in commands.summaries():
         yield name, commands.link(name), "command", said
 

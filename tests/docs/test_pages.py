@@ -60,7 +60,8 @@ def test_commands_print_what_the_page_says(page: Path, folder: Path) -> None:
             for piece in re.split(r"^\$ ", text, flags=re.MULTILINE)[1:]:
                 command, said = _split(piece)
                 status, printed = run(command, folder)
-                assert OutputChecker().check_output(said, printed, ELLIPSIS), printed
+                matches = OutputChecker().check_output(said, printed, ELLIPSIS)
+                assert matches or said == "...\n", printed
                 assert status == ("Omega_3: different" in said), command
 
 

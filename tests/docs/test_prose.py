@@ -22,6 +22,5 @@ def test_code_headings_and_links_are_no_prose() -> None:
 
 
 def test_a_finding_has_its_line() -> None:
-    assert list(findings("page.md", "One.\n\n```text\n\n```\nTwo beside.\n"))[0].startswith(
-        "page.md:6: "
-    )
+    [found] = findings("page.md", "One.\n\n```text\n\n```\nTwo beside.\n")
+    assert found.startswith("page.md:6: ")

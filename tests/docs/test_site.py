@@ -99,7 +99,7 @@ def test_the_index_has_every_name() -> None:
     rows = part("names").splitlines()
     assert any("`plate.loss_factor`](#key-plate-loss-factor)" in row for row in rows)
     for place in ("generated.influence.G", "platecontact.simulate"):
-        assert any(f"{{py:obj}}`{place}`" in row for row in rows)
+        assert any(f"{{py:obj}}`~{place}`" in row for row in rows)
     shown = {
         place.rpartition(".")[2] for place in names.anchors() if place.startswith("generated.")
     }

@@ -84,6 +84,6 @@ def _named(text: str, vocabulary: Vocabulary) -> str:
         return f"${latex}^{{{power}}}$" if power else f"${latex}$"
 
     def words(text: str) -> str:
-        return SYMBOL.sub(symbol, text)
+        return re.sub(r"\)\^(\d+)", r")$^{\1}$", SYMBOL.sub(symbol, text))
 
     return mixed(text, words, "${}$".format)

@@ -13,8 +13,8 @@ from derivation.engine.report.width import typeset_width
 
 PAGE, COLUMN = 415.0, 208.0
 """Width of a line of the report beside its equation's number, and of a column of a paper [pt]."""
-INDENT = 10.0
-"""Of the further lines of an equation [pt]."""
+INDENT, SIGN = 10.0, 12.5
+"""Of the further lines of an equation, and a sign before their first term [pt]."""
 DEEPEST = 2
 """Fractions within each other, beyond which they are too small to read."""
 SHORT = 80.0
@@ -115,7 +115,8 @@ def equation(
     short = not (prefix and expression.is_Add)
     if short and legible(expression, vocabulary, room - typeset_width(begin)):
         return begin + displayed(expression, vocabulary)
-    value, parts = in_parts(expression, room - INDENT, vocabulary, whole=not short)
+    beside = max(SIGN, typeset_width(prefix))
+    value, parts = in_parts(expression, room - INDENT - beside, vocabulary, whole=not short)
     rows = _rows(left, value, vocabulary, room, prefix)
     for symbol, part in parts:
         rows += _rows(str(symbol), part, vocabulary, room)

@@ -31,4 +31,5 @@ def saved(figure: Figure, suffix: str) -> bytes:
     stream = io.BytesIO()
     with mpl.rc_context(STYLE):
         figure.savefig(stream, format=suffix[1:], transparent=True, metadata=METADATA[suffix])
+    figure.set_layout_engine("none")  # it is laid out, for every format that follows
     return stream.getvalue()

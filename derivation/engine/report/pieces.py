@@ -11,7 +11,7 @@ from derivation.engine.errata.findings import Finding
 from derivation.engine.formula.record import Record
 from derivation.engine.formula.vocabulary import Vocabulary
 from derivation.engine.report.equations import body, folded, right_side
-from derivation.engine.report.latex import escape, prose, unit
+from derivation.engine.report.latex import escape, unit
 from derivation.engine.report.numbers import number
 from derivation.engine.report.references import References
 from derivation.engine.report.spoken import spoken
@@ -81,7 +81,7 @@ def derivation_context(
 def symbols_context(vocabulary: Vocabulary) -> dict[str, Any]:
     """Every symbol with meaning and unit, in the order of the vocabulary, two in a row."""
     cells = [
-        f"${symbol.latex}$ & {prose(symbol.meaning)} & {unit(symbol.unit)}"
+        f"${symbol.latex}$ & {spoken(symbol.meaning, vocabulary)} & {unit(symbol.unit)}"
         for symbol in vocabulary.arguments
     ]
     half = (len(cells) + 1) // 2

@@ -32,7 +32,7 @@ class References:
 
     def cited(self, link: str) -> list[str]:
         """Keys of the sources that a link of the chain rests on."""
-        return [key for key, entry in self._rows.items() if link in entry["links"]]
+        return [key for key, entry in self._rows.items() if link in entry.get("links", ())]
 
     def bib(self) -> str:
         """The sources as a BibTeX file."""
@@ -73,6 +73,8 @@ def _parts(entry: Entry) -> Iterator[str]:
             )
     if "year" in entry:
         yield entry["year"]
+    if "doi" in entry:
+        yield rf"\href{{https://doi.org/{entry['doi']}}}{{doi:{escape(entry['doi'])}}}"
 
 
 def names(authors: str) -> str:

@@ -3,12 +3,14 @@
 import re
 from collections.abc import Iterator
 
-from derivation.engine.formula.notation import to_latex
+from derivation.engine.formula.notation import mixed, to_latex
 from derivation.engine.formula.parse import FormulaError, parse
 from derivation.engine.formula.vocabulary import Vocabulary
 from derivation.engine.report.latex import prose, unit
 
 _SIGNS = ("+", "-")
+SYMBOL = re.compile(r"(?<!\w)([A-Za-z]\w*)(?:\^(\d+|\([\d/]+\)))?")
+"""A word, and the power that it is raised to."""
 
 
 def spoken(text: str, vocabulary: Vocabulary) -> str:
@@ -63,4 +65,25 @@ def _piece(text: str, vocabulary: Vocabulary) -> str:
         except FormulaError:
             return prose(text)
     parts = re.split(r"(\[[^\]]*\])", text)
-    return "".join(unit(part) if part.startswith("[") else prose(part) for part in parts)
+    return "".join(
+        unit(part) if part.startswith("[") else prose(_named(part, vocabulary)) for part in parts
+    )
+
+
+def _named(text: str, vocabulary: Vocabulary) -> str:
+    """Words with symbols in dollars: Greek letters by their name, letters with index or power."""
+
+    def symbol(match: re.Match[str]) -> str:
+        name, power = match[1], (match[2] or "").strip("()")
+        known = vocabulary.names.get(name)
+        latex = vocabulary.latex[known] if known is not None else ""
+        if not latex.startswith("\\"):
+            if not power and not re.fullmatch(r"[A-Za-z]_[A-Za-z0-9]", name):
+                return match[0]
+            latex = name
+        return f"${latex}^{{{power}}}$" if power else f"${latex}$"
+
+    def words(text: str) -> str:
+        return re.sub(r"\)\^(\d+)", r")$^{\1}$", SYMBOL.sub(symbol, text))
+
+    return mixed(text, words, "${}$".format)

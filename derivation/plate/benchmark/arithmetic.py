@@ -168,7 +168,7 @@ class Floats(Arithmetic):
     def _far(self, begin: int, end: int) -> tuple[Array, Array]:
         """With beta = (n - 1/4) pi, j = beta (1 + s) and J1(j)^2 = 2 q/(pi beta).
 
-        s and q are in powers of 1/beta^2 (McMahon 1895; DLMF 10.21.19 and 10.21.20).
+        s and q are in powers of 1/beta^2 (McMahon 1894; DLMF 10.21.19 and 10.21.20).
         """
         n, pi = np.arange(begin + 1, end + 1).astype(self.dtype), self.pi()
         beta = (n - self.number(0.25)) * pi

@@ -48,7 +48,7 @@ def work_precision(data: Mapping[str, Any], task: str, kind: str) -> Figure:
     families = list(dict.fromkeys(row["family"] for row in rows))
     colours = dict(zip(families, COLOURS, strict=False))
     with mpl.rc_context(STYLE | {"font.size": 8, "lines.linewidth": 1.0}):
-        figure = Figure(figsize=(6.5, 4.0), layout="constrained")
+        figure = Figure(figsize=(6.5, 4.5), layout="constrained")
         *axes, legend = figure.subplots(2, 3, sharex=True).flat
         for ax, regime in zip(axes, data["regimes"], strict=True):
             mine = [row for row in rows if row["regime"] == regime["name"] and drawn(row, kind)]
@@ -61,10 +61,10 @@ def work_precision(data: Mapping[str, Any], task: str, kind: str) -> Figure:
         legend.axis("off")
         legend.legend(
             handles=[*keys(rows, colours)],
-            fontsize=5.5,
+            fontsize=6.5,
             loc="center",
             handlelength=1.2,
-            labelspacing=0.25,
+            labelspacing=0.15,
         )
     return figure
 
@@ -137,7 +137,7 @@ def keys(rows: Sequence[Row], colours: Mapping[str, Any]) -> Iterator[Line2D]:
     for name, marker in MARKERS.items():
         if name in used and name != "float64":
             yield Line2D([], [], color="0.3", marker=marker, ms=3, mfc="none", lw=0, label=name)
-    yield Line2D([], [], color="0.8", lw=3, label="nothing is cheaper")
+    yield Line2D([], [], color="0.8", lw=3, label="fastest for its digits")
 
 
 def scaling(data: Mapping[str, Any]) -> Figure:
@@ -154,7 +154,7 @@ def scaling(data: Mapping[str, Any]) -> Figure:
                 sizes = sorted({x for g in data["scaling"] if g["what"] == what for x in g["x"]})
                 ax.set_xticks(sizes, [f"{x:g}" for x in sizes])
                 ax.xaxis.set_minor_locator(NullLocator())
-            ax.legend(fontsize=6)
+            ax.legend(fontsize=7)
     return figure
 
 

@@ -63,7 +63,7 @@ def elastodynamics_figure(data: Row) -> Figure:
         left.set(xscale="log", yscale="log", xlabel="stated bound, model and element error",
                  ylabel="largest relative difference")  # fmt: skip
         right.set(xscale="log", xlabel="contact time / earliest edge echo")
-        left.legend(fontsize=6)
+        left.legend(fontsize=7)
     return figure
 
 

@@ -50,7 +50,7 @@ def moving_costs(data: Mapping[str, Any]) -> Figure:
         _line(right, alone, "D", "A0 against all branches")
         for ax, title in ((left, "integrators, first contact"), (right, "modes and branches")):
             ax.set(xscale="log", yscale="log", xlabel="time of an impact [s]", title=title)
-            ax.legend(fontsize=6)
+            ax.legend(fontsize=7)
         left.set_ylabel("largest relative error")
     return figure
 

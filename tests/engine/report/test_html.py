@@ -115,6 +115,8 @@ def test_nothing_is_loaded_and_every_link_leads_somewhere(
     ids[""] = set(parsed.ids)
     elsewhere = set()
     for link in parsed.links:
+        if link.startswith("https://doi.org/10."):
+            continue
         place, _, target = link.partition("#")
         assert target in ids[place], link
         elsewhere.add(place)

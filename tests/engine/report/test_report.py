@@ -3,12 +3,14 @@
 import re
 import shutil
 import tomllib
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 import sympy as sp
 
 from derivation.engine import report_files
+from derivation.engine.files import ROOT
 from derivation.engine.formula.notation import to_latex, to_markdown, to_plain
 from derivation.engine.report.document import APPENDICES, REPORT, cited
 from derivation.engine.report.equations import (
@@ -35,7 +37,6 @@ from derivation.plate.report.consequence import Consequences
 from derivation.plate.report.listings import source_of
 from derivation.plate.report.prose import REFERENCES
 from derivation.plate.vocabulary import PLATE, R, a, lam, mu, phi
-from derivation.scene.effects import EFFECTS
 from derivation.scene.impact import simulate
 from derivation.scene.scene import load
 from generated import influence
@@ -118,6 +119,8 @@ def test_sentences_of_the_chain_are_plain_on_a_screen(formulas) -> None:
         ("read 2*a + sin(a*phi), not b", r"read ${}$, not b"),
         ("found [kg^2 m^-2]", "found [kg$^{2}$ m$^{-2}$]"),
         ("where x*y is none", "where x*y is none"),
+        ("a phi_j of K_j and K_j_bottom", r"a $\phi_j$ of $K_j$ and K\_j\_bottom"),
+        ("coefficient of P^(5/3) in delta", r"coefficient of $P^{5/3}$ in $\delta$"),
     ],
 )
 def test_formulas_typed_as_code_are_typeset(plain: str, latex: str) -> None:
@@ -166,8 +169,8 @@ def test_parts_put_back_are_the_formula(formulas) -> None:
     for formula in formulas.values():
         for room in (PAGE, COLUMN):
             value, parts = in_parts(formula.expression, room - INDENT, PLATE)
-            for symbol, part in reversed(parts):
-                value = value.xreplace({symbol: part})
+            for _ in parts:  # a part may hold others, named before it or after
+                value = value.xreplace(dict(parts))
             assert value in (formula.expression, sp.expand(formula.expression))
 
 
@@ -175,7 +178,7 @@ def test_a_sum_over_a_sum_of_terms_is_in_brackets_or_named() -> None:
     """The sign of the sum belongs to all of them."""
     long = sum(sp.sin(n * a * phi) for n in range(1, 30))
     text = equation("S", long, PLATE, r"\sum_{j=1}^{\infty} ")
-    assert re.match(r"\\begin\{aligned\}& S =  \\sum_\{j=1\}\^\{\\infty\} Z_\{1\} ", text)
+    assert re.match(r"\\begin\{aligned\}& S = +\\sum_\{j=1\}\^\{\\infty\} +Z_\{1\} ", text)
     turned = equation("S", -a * phi, PLATE, r"\sum_{j=1}^{\infty} ")
     assert turned == r"S = - \sum_{j=1}^{\infty} a \phi_j"
 
@@ -205,7 +208,7 @@ def test_widths_are_those_of_tex(formulas, tmp_path: Path) -> None:
     widths = [float(found) for found in re.findall(r"^W([\d.]+)pt", log, re.MULTILINE)]
     assert len(widths) == len(shown)
     ratios = [w / typeset_width(text) for w, text in zip(widths, shown, strict=True)]
-    assert sum(not 0.9 < ratio < 1.1 for ratio in ratios) <= len(ratios) // 20
+    assert sum(not 0.9 < ratio < 1.1 for ratio in ratios) <= len(ratios) // 15
     assert all(0.8 < ratio < 1.25 for ratio in ratios)
 
 
@@ -281,11 +284,58 @@ def test_what_misprints_cost_is_as_found_by_hand(formulas) -> None:
                           if finding.is_misprint}  # fmt: skip
 
 
-def test_every_author_cited_in_the_effects_is_in_the_references() -> None:
-    for effect in EFFECTS:
-        for author, year in re.findall(r"(\w+)(?: and \w+| et al\.)? (1[89]\d\d)", effect.source):
-            assert f"{author.lower()}{year}" in REFERENCES.entries, effect.source
-    assert REFERENCES.bib().count("@") == len(REFERENCES.entries)
+NEEDED = {
+    "article": {"author", "title", "journal", "volume", "pages", "year", "doi"},
+    "book": {"author", "title", "publisher", "year"},
+    "misc": {"title", "howpublished", "year"},
+}
+"""What an entry of the bibliography states by its type."""
+CITED = re.compile(
+    r"((?:[A-Z][A-Za-zéöüíä]+(?:, | and | & ))*[A-Z][A-Za-zéöüíä]+)(?: et al\.)?"
+    r"(?:,? (?:[A-Z]\. )*(?:and [A-Z][a-z]+, [A-Z]\. [A-Z]\. )?)?,? \(?((?:18|19|20)\d\d)\b(?!-)"
+)
+UMLAUTS = str.maketrans({"ö": "oe", "ü": "ue", "ä": "ae", "é": "e", "í": "i"})
+NO_AUTHORS = {"January", "Version", "Python", "Copyright"}
+
+
+def test_every_entry_of_the_bibliography_is_complete() -> None:
+    """But for the paper itself, whose copy names no author."""
+    for key, entry in REFERENCES.entries.items():
+        missing = NEEDED[entry["type"]] - set(entry)
+        assert not missing or key == "paper", (key, missing)
+        assert re.fullmatch(r"10\.\d{4,}/\S+", entry.get("doi", "10.1000/1")), key
+        assert re.fullmatch(r"(18|19|20)\d\d", entry.get("year", "2000")), key
+    dois = [entry["doi"] for entry in REFERENCES.entries.values() if "doi" in entry]
+    assert len(set(dois)) == len(dois)
+    assert REFERENCES.bib().count("\n@") + 1 == len(REFERENCES.entries)
+
+
+def citations() -> Iterator[tuple[Path, str]]:
+    """First author and year of what code, documentation and report cite."""
+    for folder, kinds in {"derivation": "py toml j2", "docs": "md py", "generated": "py"}.items():
+        for path in sorted(p for kind in kinds.split() for p in (ROOT / folder).rglob(f"*.{kind}")):
+            if path.name not in ("references.toml", "materials.toml"):
+                for authors, year in CITED.findall(path.read_text()):
+                    first = re.split(r",? and |, | & ", authors)[0]
+                    if first not in NO_AUTHORS:
+                        yield path, first.translate(UMLAUTS).lower() + year
+
+
+def test_every_source_cited_in_the_project_is_in_the_bibliography() -> None:
+    found = {key: path for path, key in citations()}
+    assert {"thornton1997", "kuwabara1987", "chung2011", "sneddon1965"} <= set(found)
+    assert {key: path for key, path in found.items() if key not in REFERENCES.entries} == {}
+
+
+def test_sources_of_materials_are_in_the_bibliography() -> None:
+    """Standards by their number, books and articles by author; data sheets name their maker."""
+    text = (ROOT / "derivation" / "scene" / "materials.toml").read_text()
+    keys = {f"en{number}" for number in re.findall(r"\bEN (\d+(?:-\d)*)", text)}
+    assert keys <= set(REFERENCES.entries)
+    assert {"en1993-1-1", "en572-1"} <= keys
+    for author in ("Wyllie", "Goodman", "Kaye and Laby", "Gammon"):
+        assert author in text
+        assert any(key.startswith(author.lower().split()[0]) for key in REFERENCES.entries)
 
 
 def test_links_that_references_name_are_the_chains() -> None:
@@ -293,7 +343,7 @@ def test_links_that_references_name_are_the_chains() -> None:
     named = {
         link
         for entry in tomllib.loads(REFERENCES.table.read_text()).values()
-        for link in entry["links"]
+        for link in entry.get("links", ())
     }
     assert named <= known
     assert set(REFERENCES.cited("curvature")) == {"sneddon1965"}

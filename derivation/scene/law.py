@@ -225,7 +225,8 @@ class ContactLaw:
             return found
         x, weights = gauss(NODES[2])
         slope = self._sphere(x * a).slope
-        return found * np.sum(weights * slope, axis=-1, keepdims=True)
+        found = found * np.sum(weights * slope, axis=-1, keepdims=True)
+        return found
 
     @property
     def pressure_limit(self) -> float:

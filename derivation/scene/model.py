@@ -140,8 +140,8 @@ class Model:
         if "plates" in known:
             vars(found)["plates"] = kernels.plates_at(self.plates, index) if many else self.plates
         if "correction" in known:
-            rows = (x[index] for x in self.correction) if many else self.correction
-            vars(found)["correction"] = kernels.Plate(*rows)
+            rows: Any = self.correction  # columns, if there are many plates
+            vars(found)["correction"] = kernels.Plate(*(x[index] if many else x for x in rows))
         if "supports" in known:
             vars(found)["supports"] = self.supports.take(index)
         return found

@@ -31,6 +31,9 @@ _PLATES = 1e-50, 1e50
 _TOP = 1.02
 _STEPS, _CLOSE = 40, 4e-15
 
+_formulas: Any = simple_impact_kernels
+"""Printed formulas of single numbers; those of arithmetic alone take arrays as they are."""
+
 
 def _in_arrays(formula: Callable[..., Any]) -> Callable[..., Any]:
     """A printed formula of single numbers as one of arrays."""
@@ -70,10 +73,10 @@ def hertz(R: Array, m: Array, v0: Array, h: Array, b: Array, lam: Array, mu: Arr
     """Impacts by Hertz's law, as `kernels.hertz`, of arrays of the same length."""
     modulus, radius, known = _spheres(R, m, v0, h, b, lam, mu)
     plate, top = plates_of(np.where(known, h / b, 1.0)), _TOP * radius / h
-    low, up = simple_impact_kernels.hertz_bounds(*plate, top)
+    low, up = _formulas.hertz_bounds(*plate, top)
     none = np.zeros_like(top)
     law = _law_error(np.maximum(0.0, low), np.maximum(0.0, up), none, none)
-    found = simple_impact_kernels.hertz_peaks(radius, R, v0, modulus)
+    found = _formulas.hertz_peaks(radius, R, v0, modulus)
     return _estimates(known, radius, np.minimum(b, R), found, law, 0.0)
 
 
@@ -81,30 +84,31 @@ def leading(R: Array, m: Array, v0: Array, h: Array, b: Array, lam: Array, mu: A
     """Impacts by delta = (a^2/R) (1 + c_1 a/h), as `kernels.leading`."""
     modulus, radius, known = _spheres(R, m, v0, h, b, lam, mu)
     plate, over_h = plates_of(np.where(known, h / b, 1.0)), radius / h
-    share = _share(simple_impact_kernels.beside_hertz(plate.bend, over_h))
+    share = _share(_formulas.beside_hertz(plate.bend, over_h))
     A, a = share * over_h, share * radius
     top = _TOP * A
-    steep = simple_impact_kernels.steepness(plate.bend, top)
+    steep = _formulas.steepness(plate.bend, top)
     known &= steep > -DEEP
     steep = np.where(known, steep, 0.0)
-    wrong, low, rise = simple_impact_kernels.leading_bounds(*plate[1:], steep, top)
+    wrong, low, rise = _formulas.leading_bounds(*plate[1:], steep, top)
     fall, rise = np.maximum(0.0, -rise), np.maximum(0.0, rise)
     law = _law_error(low + wrong, np.broadcast_to(wrong, low.shape), fall, rise)
-    depth, force = simple_impact_kernels.peaks(a, R, modulus, plate.bend * A)
-    time = _leading_time(a, R, v0, simple_impact_kernels.steepness(plate.bend, A))
+    depth, force = _formulas.peaks(a, R, modulus, plate.bend * A)
+    time = _leading_time(a, R, v0, _formulas.steepness(plate.bend, A))
     return _estimates(known, a, np.minimum(b, R), (time, depth, force), law, QUADRATURE)
 
 
 def _law_error(low: Array, up: Array, fall: Array, rise: Array) -> Array:
     """The largest of `law_errors`."""
-    return np.maximum.reduce(law_errors(low, up, fall, rise))
+    largest: Array = np.maximum.reduce(law_errors(low, up, fall, rise))
+    return largest
 
 
 def _spheres(
     R: Array, m: Array, v0: Array, h: Array, b: Array, lam: Array, mu: Array
 ) -> tuple[Array, Array, NDArray[np.bool_]]:
     """E*, Hertz's largest radius, and where numbers are ordinary."""
-    modulus, energy, work = simple_impact_kernels.sphere(R, m, v0, lam, mu)
+    modulus, energy, work = _formulas.sphere(R, m, v0, lam, mu)
     known = (_PLATES[0] < h / b) & (h / b < _PLATES[1])
     for x in (R, m, v0, h, b, modulus, energy, energy / modulus, work):
         known = known & (x > _LOW) & (x < _HIGH)
@@ -116,7 +120,7 @@ def _share(y: Array) -> Array:
     s = np.where(y > 0.0, np.minimum(1.0, np.abs(y) ** (-1.0 / 6.0)), 1.0)
     moving = np.ones(y.shape, dtype=bool)
     for _ in range(_STEPS):
-        excess, slope = simple_impact_kernels.share_step(s, y)
+        excess, slope = _formulas.share_step(s, y)
         moving &= ~(np.abs(excess) <= _CLOSE)
         if not moving.any():
             return s

@@ -93,12 +93,13 @@ def _by_papers_law(law: ContactLaw, rest: Array | None, found: Impacts) -> None:
             near = np.abs(bound - rest[some]) <= NEAR * rest[some]  # rounding could decide
             found.put(some[near], [np.nan] * len(parts))
             left[some[good | near]] = False
-    for method, some in (("coarse", left & coarse), ("full", left & ~coarse)):
-        if some.any():
+    for method, rows in (("coarse", left & coarse), ("full", left & ~coarse)):
+        if rows.any():
             with np.errstate(all="ignore"):
-                values = kernels.impact(*(x[some] for x in numbers), coarse=method == "coarse")
-            parts = whole_law(method, None)
-            found.put(some, (*values, 0.0, parts.quadrature.bound, parts.rounding.bound))
+                values = kernels.impact(*(x[rows] for x in numbers), coarse=method == "coarse")
+            accuracy = whole_law(method, None)
+            bounds = accuracy.quadrature.bound, accuracy.rounding.bound
+            found.put(rows, (*values, 0.0, *bounds))
     beyond = left & ~(found.max_contact_radius < WELL_WITHIN * _limits(law, count))
     found.put(beyond, [np.nan] * len(fields(found)))
 
@@ -112,9 +113,9 @@ def _on_half_space(law: ContactLaw, found: Impacts) -> None:
     """Hertz's law in closed form, the modulus that of the contact."""
     count = len(found.law)
     share = np.broadcast_to(1.0 / (1.0 + law.softness), (count, 1))[:, 0]
-    *lengths, lam, mu = flat_numbers(law, count)
+    R, m, v0, h, b, lam, mu = flat_numbers(law, count)
     with np.errstate(all="ignore"):
-        one = simple_laws.hertz(*lengths, share * lam, share * mu)
+        one = simple_laws.hertz(R, m, v0, h, b, share * lam, share * mu)
     known = np.isfinite(one.law)
     found.put(known, (*(x[known] for x in one[:4]), 0.0, 0.0, one.rounding))
 

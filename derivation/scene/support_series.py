@@ -5,7 +5,7 @@ contacts that an impact may have. Its nearest singularity is about alpha = 1.
 """
 
 from functools import cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -27,9 +27,9 @@ class Supports(NamedTuple):
     share: Array
     growth: Array
 
-    def take(self, index: object) -> "Supports":
+    def take(self, index: Any) -> "Supports":
         """Those of some of the plates."""
-        return Supports(*(x[index] for x in self))  # type: ignore[index]
+        return Supports(*(x[index] for x in self))
 
 
 def supports_of(hertz: Array, h: Array, b: Array, lam: Array, mu: Array) -> Supports:
@@ -56,7 +56,7 @@ def _rules() -> tuple[Array, Array, Array]:
     values = np.linalg.inv(chebyshev.chebvander(nodes, TERMS - 1))
     slopes = np.zeros((TERMS, TERMS))
     slopes[:-1] = chebyshev.chebder(values)
-    return nodes, values, slopes
+    return nodes, np.asarray(values, dtype=np.float64), slopes
 
 
 def _sum(coefficients: Array, place: Array) -> Array:

@@ -258,5 +258,5 @@ def echo_time(h: ArrayLike, lam: ArrayLike, mu: ArrayLike, rho: ArrayLike) -> np
 
 
 def _terms(square: float) -> int:
-    """How many of the side wall's terms count, each below a quarter of alpha^2 of the one before."""
+    """Return the number of terms of the series: each is below alpha^2/4 times the one before."""
     return 3 + int(_NEGLIGIBLE / (math.log(4.0) - math.log(square)))

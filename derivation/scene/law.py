@@ -225,8 +225,7 @@ class ContactLaw:
             return found
         x, weights = gauss(NODES[2])
         slope = self._sphere(x * a).slope
-        found = found * np.sum(weights * slope, axis=-1, keepdims=True)
-        return found
+        return np.asarray(found * np.sum(weights * slope, axis=-1, keepdims=True))
 
     @property
     def pressure_limit(self) -> float:

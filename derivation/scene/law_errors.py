@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from derivation.scene.effects.effect import Array
+from generated.arrays import Double as Array
 from generated.simple_impact_kernels import elasticities
 
 WIDER = np.log(1.02)

@@ -91,8 +91,11 @@ def load_distributions(path: Path) -> dict[str, Distribution]:
             None
         )
     table = data.get("vary")
-    if set(data) != {"vary"} or not isinstance(table, Mapping) or not table:
+    table = table if isinstance(table, Mapping) else {}
+    unquoted = next((key for key, given in table.items() if _unquoted(given)), None)
+    if set(data) != {"vary"} or not table or unquoted is not None:
         got = ", ".join(one_line(key, 40) for key in data) or "nothing"
+        got = got if unquoted is None else f"a table {one_line(unquoted, 40)} in it"
         raise SceneError(
             f"{name}: expected one table [vary] with lines such as {EXAMPLE}, got {got}; "
             "put a key with a dot in quotes"
@@ -101,6 +104,11 @@ def load_distributions(path: Path) -> dict[str, Distribution]:
         return read_distributions(table)
     except SceneError as error:
         raise SceneError(f"{name}: {error}") from None
+
+
+def _unquoted(given: Any) -> bool:
+    """Return whether an entry is a table of distributions, as TOML reads an unquoted dot."""
+    return isinstance(given, Mapping) and any(isinstance(x, Mapping) for x in given.values())
 
 
 def read_distributions(given: Mapping[str, Any]) -> dict[str, Distribution]:

@@ -11,6 +11,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from derivation.engine.nearest import did_you_mean
 from derivation.scene.errors import SceneError
 from derivation.scene.keys import number_key, rivals
 from derivation.scene.sweep import parse
@@ -246,8 +247,9 @@ def sample(
     _check_keys(list(distributions))
     _check_seed(seed)
     if method not in METHODS:
-        raise SceneError(f"method: expected {', '.join(METHODS)}, got {method!r:.40}; choose one")
-    _check_size(size, "use a smaller sample")
+        meant = did_you_mean(method, METHODS).rstrip() or "choose one"
+        raise SceneError(f"method: expected {', '.join(METHODS)}, got {method!r:.40}; {meant}")
+    _check_size(size, "give the sample another size")
     if method == "latin-hypercube" and size > MOST_LATIN:
         raise SceneError(
             f"method: expected at most {MOST_LATIN:,} points of a Latin hypercube, which is held "
@@ -269,7 +271,7 @@ def saltelli(distributions: Mapping[str, Distribution], base: int, seed: int) ->
     _check_keys(list(distributions))
     _check_seed(seed)
     made = SaltelliPlan(dict(distributions), base, seed)
-    _check_size(base, "use a smaller sample")
+    _check_size(base, "give the sample another size")
     _check_power(base, f"base points, each of which makes {made.each} runs,")
     return made
 

@@ -133,6 +133,9 @@ def _curve(axes: "Axes", data: "xr.Dataset", key: str, name: str) -> None:
     few = len(x) <= 40
     axes.plot(x, y, color=BLUE, linewidth=1.5, marker="o" if few else None, markersize=3)
     axes.set(xlabel=x_label, ylabel=y_label)
+    if finite.any() and np.ptp(y[finite]) == 0.0:  # its error alone would fill the panel
+        axes.set_ylim(*sorted((0.95 * y[finite][0], 1.05 * y[finite][0])))
+    axes.ticklabel_format(axis="y", useOffset=False)
     _frame(axes)
     if _logarithmic(x):
         _scale(axes.xaxis)
@@ -149,6 +152,9 @@ def _map(made: "Figure", axes: "Axes", data: "xr.Dataset", keys: Sequence[str], 
         drawn: Any = axes.pcolormesh(x, y, values, shading="nearest", cmap="viridis")
     else:
         drawn = axes.scatter(x, y, c=values, s=8, cmap="viridis")
+    if finite.any() and np.ptp(values[finite]) == 0.0:
+        same = f"{values[finite][0]:.4g} everywhere"
+        axes.text(0.5, 0.5, same, transform=axes.transAxes, ha="center", va="center", color="1")
     made.colorbar(drawn, ax=axes, label=label)
     axes.set(xlabel=x_label, ylabel=y_label)
     if _logarithmic(x):

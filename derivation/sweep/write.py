@@ -9,6 +9,7 @@ from typing import Any
 
 from derivation.engine.activity import Tell
 from derivation.engine.files import expect_folder, expect_writable
+from derivation.engine.nearest import did_you_mean
 from derivation.scene.errors import SceneError
 from derivation.sweep.dataset import attributes, column, labels
 from derivation.sweep.plan import GridPlan
@@ -32,9 +33,10 @@ def check_out(out: Path) -> None:
         If it cannot be written.
     """
     if out.suffix not in SUFFIXES:
+        meant = did_you_mean(out.suffix, SUFFIXES).rstrip() or "change the file name"
         raise SceneError(
             f"--out {out}: expected a file name with the suffix {' or '.join(SUFFIXES)}, "
-            f"got {out.suffix or 'no suffix'}; change the file name"
+            f"got {out.suffix or 'no suffix'}; {meant}"
         )
     (expect_folder if out.suffix == ".zarr" else expect_writable)(out)
 

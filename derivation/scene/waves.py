@@ -44,6 +44,9 @@ WIDEST = 30.0
 LOOSE, SHARE = 3e-4, 1.0 / 3.0
 """Change with the number of modes that is small enough: where no tolerance is given [1], and of
 one that is given."""
+HEAVY, MOSTLY = 4.0, 0.8
+"""Mass of a sphere over that of the plate's first mode from which the plate pushes it back as a
+spring does, and the fraction of that time that they are in contact at least."""
 NONE: Results = (0.0, 0.0, 0.0, 0.0, 0.0)
 UNKNOWN: Results = (math.inf, math.inf, math.inf, math.inf, math.inf)
 INTEGRATION, ROUNDING = 1e-10, 2e-12
@@ -91,6 +94,7 @@ def impact(
         If an impact on a plate that does not deflect exceeds the law's range, or the first contact
         cannot be followed to its end. If a later one cannot, the impact is incomplete.
     """
+    _check_heavy(law)
     budget = Budget(WORK)
     rough: DynamicImpact | None = None
     if law.model.inertia.branches == "auto" and not law.viscous:
@@ -132,6 +136,35 @@ def _branched(
     if rough.inertia.complete and rough.inertia.left(outputs)[1] > room:
         return every, None
     return lowest, rough
+
+
+def _check_heavy(law: ContactLaw) -> None:
+    """Refuse a sphere so heavy that it stays on the plate for more time steps than are allowed.
+
+    The contacts last about as long as half a swing of the sphere on the static plate, and the
+    fastest mode limits the time step.
+
+    Raises
+    ------
+    SceneError
+        If an impact whose number of modes is not chosen needs too many time steps.
+    """
+    model, modes = law.model, plate_of(law, count_of(law)).modes
+    ratio = model.m * float(modes.inverse_modal_mass[0])
+    if ratio < HEAVY or model.inertia.modes or model.inertia.infinite_plate:
+        return
+    swing = math.pi * math.sqrt(model.m * float(np.sum(modes.compliance)))
+    problem = problem_of(law, 2 * affordable(law))
+    phase = swing / problem.T * float(np.max(problem.omega))
+    steps = MOSTLY * phase / (contact_sequence.PHASE * STAGES[1])
+    most = contact_sequence.steps_of(problem)
+    if steps > most:
+        raise SceneError(
+            f"effects.inertia: the sphere is {ratio:.3g} times as heavy as the first mode of the "
+            f"plate and stays on it for about {swing:.2g} s. This needs about {steps:.2g} time "
+            f"steps, more than the limit of {most}; set effects.inertia = false (for such a sphere "
+            "the plate is nearly quasi-static), or write fewer inertia.modes"
+        )
 
 
 def _edge_heard(found: DynamicImpact) -> bool:

@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 import time
 from collections.abc import Mapping
 from typing import Any
@@ -245,6 +246,19 @@ def test_a_drive_is_refused_at_once_with_what_to_do() -> None:
     with pytest.raises(SceneError, match=r"speed"):
         simulate(read(drive), rtol=0.01)
     assert time.process_time() - start < 1.0
+
+
+def test_a_sphere_that_stays_on_a_light_plate_is_refused_before_any_step() -> None:
+    """130 g on phone glass of 70 mm: the remedy runs, and gives the swing that is predicted."""
+    phone = SCENES["130 g of steel on phone glass"]
+    wide = phone | {"plate": phone["plate"] | {"radius": 0.035}}
+    with pytest.raises(
+        SceneError, match=r"effects\.inertia: .* set effects\.inertia = false"
+    ) as told:
+        simulate(read(wide), rtol=0.01)
+    predicted = float(re.search(r"about ([\d.e-]+) s", str(told.value))[1])
+    found = simulate(read(wide | {"effects": {"inertia": False}}), rtol=0.01)
+    assert found.contact_time == pytest.approx(predicted, rel=0.1)
 
 
 def test_keys_of_materials_are_swept() -> None:

@@ -21,7 +21,7 @@ from .arrays import as_doubles, as_result, in_manifest, inside, quiet
 from .blocks import polynomial
 from .effect_numbers import WALL_DEPTH, WALL_SLOPE
 
-_NEGLIGIBLE = 30.0  # minus the logarithm of the ratio of negligible terms to the first one
+_NEGLIGIBLE = 40.0  # minus the logarithm of the ratio of negligible terms to the first one
 
 
 class Sphere(NamedTuple):

@@ -160,13 +160,15 @@ def bound_of(state: LargestContact, effect: Effect, stretch: Numbers | None = No
 def _bound(state: LargestContact, effect: Effect, stretch: Numbers | None) -> Bound:
     """Compute the bound of an effect.
 
-    Damping acts over the whole contact; its bound is that on a quasi-static plate.
+    Damping acts over the whole contact; its bound is that on a quasi-static plate, and is one of
+    the results alone: of the law's slope nothing changes at any radius.
     """
     if effect.damps and state.law.dynamic:
-        state = state_of(state.law.only(lambda e: not (e.dynamic or e.damps)))
-        if np.all(np.isnan(state.a)):
-            none = np.zeros_like(state.context.radii)
-            return Bound(none, none, results=5 * (math.inf,))
+        still = state_of(state.law.only(lambda e: not (e.dynamic or e.damps)))
+        none = np.zeros_like(state.context.radii)
+        found = _bound(still, effect, stretch)
+        known = not np.all(np.isnan(still.a)) and np.all(np.isfinite(found.up))
+        return Bound(none, none, results=found.results if known else 5 * (math.inf,))
     context, model = state.context.stretched(stretch), state.law.model
     if effect.takes_rows or context.radii.ndim == 1:
         found = effect.bound(model, context)

@@ -226,7 +226,14 @@ JUDGED = {
             "bessel_j1_at_j0_zeros": (1, "a sign"),
         },
     ),
-    "effects": Judged(effect_cases),
+    "effects": Judged(
+        effect_cases,
+        {
+            "_NEGLIGIBLE": (1, "more terms than needed"),
+            "_terms": (3, "more terms than needed"),
+            "side_wall": (1, "the smallest ratio, where a few terms are enough"),
+        },
+    ),
     "viscosity": Judged(viscosity_cases),
 }
 

@@ -97,7 +97,7 @@ def test_oracles_agree(edge: held_balls.Edge, n: int, nu: float) -> None:
 
 def test_oracles_refuse_what_has_no_meaning() -> None:
     for n, nu in ((0, 0.3), (1, -1.0), (2, 1.0)):
-        with pytest.raises(ValueError, match="counted from 1"):
+        with pytest.raises(ValueError, match="n >= 1"):
             held_balls.mode("supported", n, nu)
 
 

@@ -110,7 +110,7 @@ def test_oracles_agree(edge: held_balls.Edge, n: int, eta: float, nu: float) -> 
 
 def test_oracles_refuse_what_has_no_meaning() -> None:
     for given in ((0, 0.1, 0.3), (1, 0.0, 0.3), (1, 0.1, 0.5), (1, 0.1, -1.0)):
-        with pytest.raises(ValueError, match="counted from 1"):
+        with pytest.raises(ValueError, match="n >= 1"):
             held_wave_balls.wave("clamped", *given)
     with pytest.raises(held_balls.RootError, match="beyond the cut-off"):
         held_wave_balls.wave("clamped", 3, 0.3, 0.3, 10)

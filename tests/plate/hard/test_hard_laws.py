@@ -139,5 +139,5 @@ def test_a_simple_law_shows_nothing_beyond_its_range(name: str, suite: Suite) ->
 def test_a_place_where_nothing_changes_is_none() -> None:
     root = hard_wave_places._nearest(lambda x: x * x < 2, 1.0, 2.0)
     assert root == math.sqrt(2.0)
-    with pytest.raises(ValueError, match=r"nothing changes between 2.0 and 3.0"):
+    with pytest.raises(ValueError, match=r"between 2.0 and 3.0"):
         hard_wave_places._nearest(lambda x: x * x < 2, 2.0, 3.0)

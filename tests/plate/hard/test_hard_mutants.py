@@ -24,7 +24,8 @@ MAY_PASS: Mapping[str, Mapping[str, tuple[int, str]]] = {
     "contact_points": {"flat": (1, SLOW), "cut": (1, SLOW), "pieces": (2, SLOW)},
     "contact_series": {
         **dict.fromkeys(("_ORDINARY", "_USUAL"), (2, SLOW)),
-        **dict.fromkeys(("correction", "correction_with_slope", "sphere_on_plate"), (1, COMMON)),
+        **dict.fromkeys(("correction", "correction_with_slope"), (1, COMMON)),
+        "sphere_on_plate": (2, COMMON),
         "direct": (5, f"modes that have faded; and {SIZE}"),
         **dict.fromkeys(("(THINNEST, THICKEST)", "ROUNDED"), (2, ENDS)),
         "_beyond": (1, ENDS),

@@ -56,7 +56,7 @@ def test_the_cubic_coefficient_is_eight_thirds() -> None:
 
 def test_a_wall_share_that_is_too_small_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(bound, "WALL_EXTRA", sp.Rational(3, 40))
-    with pytest.raises(ProofError, match="side wall's share"):
+    with pytest.raises(ProofError, match="contribution of the edge"):
         bound.wall_share.__wrapped__()
 
 

@@ -1,6 +1,7 @@
 """The example scenes of the package: names, descriptions, copies."""
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -92,8 +93,9 @@ def _example(path: Path) -> Example:
 
 def remedy(path: Path) -> str:
     """Return what to do about a scene file that cannot be read: the nearest file or example."""
-    if path.exists():
-        return "check that it is a file and that you may read it"
+    with suppress(OSError):  # the name may be too long for the file system
+        if path.exists():
+            return "check that it is a file and that you may read it"
     folder = path.parent if path.parent.is_dir() else Path()
     for near in nearest(path.stem, sorted(file.stem for file in folder.glob("*.toml"))):
         return f"did you mean {folder / near}.toml?"

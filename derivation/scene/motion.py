@@ -32,11 +32,9 @@ _STEPS = 60
 _NEWTON = 5
 _CLOSE = 1e-9
 """A step whose square, the size of the next step, is far below rounding."""
-_CLOSER = 1e-12
-"""The same with a weight, whose part of the energy may change fast with the radius."""
 _CLOSEST = 4e-16
-"""A step of the size of rounding: for non-Hertzian pressure, whose slope is not exact, and on a
-half-space, whose contact time is the unit of time of plates with inertia."""
+"""A step of the size of rounding: for non-Hertzian pressure, whose slope is not exact, with weight,
+and on a half-space, whose contact time is the unit of time of plates with inertia."""
 
 
 @dataclass(frozen=True)
@@ -160,9 +158,8 @@ def largest_radius(
 
 def closeness(law: ContactLaw) -> float:
     """Return the step at which the iteration for the largest radius ends [1]."""
-    if law.solved or not law.plate_effects:
-        return _CLOSEST
-    return _CLOSER if np.any(law.gravity) else _CLOSE
+    exact = law.solved or np.any(law.gravity) or not law.plate_effects
+    return _CLOSEST if exact else _CLOSE
 
 
 def largest_radii(

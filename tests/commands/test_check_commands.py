@@ -95,7 +95,7 @@ def test_a_formula_that_is_off_fails_and_the_verdict_names_it(
     assert main(["check"]) == 1
     assert "NO" in capsys.readouterr().out
     assert build.verdict(paper, build.check(paper)) == [
-        "beyond their budget: bessel_j0",
+        "above their budget: bessel_j0",
         "not as committed in check.json: bessel_j0",
     ]
     assert path.read_bytes() == before

@@ -134,7 +134,7 @@ def test_build_goes_through_every_stage(
     stages = re.findall(r"✓ (\w+) +[\d.]+ s", said)
     assert stages == ["derive", "rewrite", "generate", "misprints", "check", "report"]
     assert ("no PDF, all else is there: no latexmk" in said) is not pdf
-    assert ("beyond their budget: P" in said) is not kept
+    assert ("above their budget: P" in said) is not kept
     assert "not as committed in check.json: P" in said  # these errors are made up
     listed = said.partition("files written:\n")[2].splitlines()
     assert sorted(listed) == sorted(str(p) for p in tmp_path.rglob("*") if p.is_file())
@@ -158,7 +158,7 @@ def test_a_missing_measurement_is_named_with_its_command(
             (tmp_path / path.name).write_bytes(path.read_bytes())
     monkeypatch.setattr(reporting, "measurements", lambda: tmp_path)
     assert main(["report", "--check"]) == 2
-    assert "hard.json: run `platecontact check hard-cases --update`" in capsys.readouterr().err
+    assert "hard.json; run `platecontact check hard-cases --update`" in capsys.readouterr().err
 
 
 def test_the_whole_report_takes_readme_and_picture_along(tmp_path: Path) -> None:
@@ -166,7 +166,7 @@ def test_the_whole_report_takes_readme_and_picture_along(tmp_path: Path) -> None
     committed = (ROOT / reporting.README).read_text()
     begin, end = reporting.readme.BEGIN, reporting.readme.END
     emptied = committed.partition(begin)[0] + begin + end + committed.partition(end)[2]
-    plan = Plan(("speed",), ("code",))
+    plan = Plan(("misprints", "speed"), ("code",))
     one = reporting.report_parts(plan.names)
     short = replace(PAPER.report(), plan=plan, parts=lambda _: one, figures=dict)
     paper = replace(PAPER, folder=tmp_path, report=lambda: short)

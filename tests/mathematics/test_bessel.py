@@ -146,7 +146,7 @@ def test_a_zero_of_j1_is_certified_or_refused() -> None:
     with flint.ctx.workprec(200):
         for index in (1, 2, 7):
             assert j1_zero(index, 150).overlaps(tables.bessel_zero(1, index))
-    with pytest.raises(ValueError, match="counted from 1"):
+    with pytest.raises(ValueError, match="at least 1"):
         j1_zero(0, 100)
 
 
@@ -226,7 +226,7 @@ def test_centres_are_the_zeros_to_twice_double_precision() -> None:
 
 
 def test_nearest_double_refuses_an_undecided_ball() -> None:
-    with pytest.raises(ArithmeticError, match="between two doubles"):
+    with pytest.raises(ArithmeticError, match="nearest doubles"):
         tables.nearest_double(flint.arb(1, 2.0**-40))
 
 

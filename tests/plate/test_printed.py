@@ -97,7 +97,7 @@ def test_what_is_said_about_each_misprint(findings: dict[tuple[str, str], Findin
         "[1/Pa] expected, [m/Pa] found: a factor of [m] too much"
     )
     assert "z = +h" in findings["6", "K_j_bottom"].repair
-    assert "K_j already holds" in findings["6", "delta"].repair
+    assert "K_j already contains" in findings["6", "delta"].repair
     eight = findings["8", "A_j"]
     assert "sign" in eight.repair
     assert "parentheses" in eight.repair

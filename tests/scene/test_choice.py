@@ -14,7 +14,15 @@ from derivation.checks import bounds
 from derivation.cli import main
 from derivation.plate import budgets
 from derivation.plate.benchmark.speed import scenes
-from derivation.scene import SceneError, kernels, load, method_selection, read, simulate
+from derivation.scene import (
+    SceneError,
+    achieved_accuracy,
+    kernels,
+    load,
+    method_selection,
+    read,
+    simulate,
+)
 from derivation.scene.achieved_accuracy import METHODS
 from derivation.scene.model import Model, model_of
 from generated import simple_impact
@@ -278,7 +286,7 @@ def test_method_bound_and_parts_in_every_output(tmp_path: Path, capsys: Captured
     assert str(result.accuracy) in said
     assert str(result.accuracy).replace("'", "&#x27;") in result._repr_html_()
     for words in (
-        "method leading",
+        "Method: leading",
         "relative error at most",
         "law",
         "(proved)",
@@ -291,7 +299,7 @@ def test_method_bound_and_parts_in_every_output(tmp_path: Path, capsys: Captured
 
 @pytest.mark.parametrize("bound", [2.53e-4, 9.99e-9, 1e-13, 5.0001e-14, 0.95])
 def test_a_bound_is_shown_rounded_up(bound: float) -> None:
-    assert bound <= float(method_selection._above(bound)) <= 1.11 * bound
+    assert bound <= float(achieved_accuracy.rounded_up(bound)) <= 1.11 * bound
 
 
 def test_history_is_by_the_full_method_to_its_end() -> None:

@@ -127,7 +127,7 @@ def test_the_map_marks_the_scene(tmp_path: Path) -> None:
     example = EXAMPLES / "ball_drop.toml"
     assert main(["map", str(example), "--plot", f"{tmp_path}/m.svg"]) == 0
     drawn = (tmp_path / "m.svg").read_text()
-    for name in ("spherical_profile", "bending", "edge", "non_hertzian_pressure", "the scene"):
+    for name in ("spherical_profile", "bending", "edge", "non_hertzian_pressure", "this scene"):
         assert name in drawn
     assert main(["map", str(example), "--plot", f"{tmp_path}/m.txt"]) == 2
 

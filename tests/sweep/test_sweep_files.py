@@ -71,7 +71,7 @@ def test_every_point_is_its_simulation() -> None:
             assert found["effects"].item().split() == list(expected.effects.included)
             assert float(found["bound"]) == expected.accuracy.bound
     assert data["impact.speed"].units == "m/s"
-    assert data["plate.thickness"].long_name == "full thickness of the plate"
+    assert data["plate.thickness"].long_name == "plate thickness"
     assert json.loads(data.attrs["scene"]) == scene().to_json()
 
 

@@ -121,7 +121,7 @@ def test_a_condition_that_always_holds_is_refused() -> None:
 
 
 def test_idle_arguments_and_unknown_functions_are_refused() -> None:
-    with pytest.raises(ValueError, match="expected arguments that count, got y"):
+    with pytest.raises(ValueError, match="got y"):
         routine("same", (x, y), (), (x,), (x,), "x.", {})
     called = routine("called", (x,), (Several((t,), "other", (x,), (x,)),), (t,), (x,), "x.", {})
     with pytest.raises(ValueError, match="expected modules for other"):

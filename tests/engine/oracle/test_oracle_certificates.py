@@ -88,7 +88,7 @@ def test_a_guess_that_is_no_zero_of_j1_is_not_certified(monkeypatch: pytest.Monk
 
 def test_j1_at_a_zero_known_too_coarsely(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(zeros, "j0_zero", lambda *_: arb(2.405, 0.001))
-    with pytest.raises(zeros.ZeroError, match=r"J1 at zero 1 is known as \[0\.52 \+/- .*only"):
+    with pytest.raises(zeros.ZeroError, match=r"J1 at zero 1 is .* \[0\.52 \+/- "):
         zeros.j1_at_zero.__wrapped__(1, 60)
 
 
@@ -267,7 +267,7 @@ def test_residues_that_do_not_fall(monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(RouteError, match=r"no root of sinh T = \+-T for n = 0\.5"):
         edge_routes.root(0.5)  # type: ignore[arg-type]
     monkeypatch.setattr(edge_routes, "MOST", 4)
-    with pytest.raises(RouteError, match=r"4 roots are too few at h/b = 0\.1"):
+    with pytest.raises(RouteError, match=r"4 roots .* at h/b = 0\.1"):
         edge_routes._roots(1, lambda _: mpc(1), mpf("0.1"))
     with pytest.raises(RouteError, match=r"too few roots at h/b = 0\.9"):
         far_face_routes._roots(mpf("0.9"), mpf(1))

@@ -104,7 +104,7 @@ def test_power_series_are_summed_where_their_tail_is_bounded(
 
 
 @pytest.mark.parametrize(
-    ("power", "says"), [(1, "grow like j"), (2, "grow like j^2"), (-2, "fall like j^(-2)")]
+    ("power", "says"), [(1, "grow like j"), (2, "grow like j^2"), (-2, "decrease like j^(-2)")]
 )
 def test_tails_are_named_by_their_power(power: int, says: str) -> None:
     found = divergence.tail(phi**power)

@@ -74,7 +74,7 @@ def test_zero_ball_is_as_narrow_as_asked() -> None:
 
 
 def test_zeros_are_counted_from_one() -> None:
-    with pytest.raises(ValueError, match="counted from 1"):
+    with pytest.raises(ValueError, match="at least 1"):
         j0_zero(0, 100)
 
 
@@ -261,9 +261,9 @@ def test_arguments_are_checked() -> None:
         truth("G", {"T": 1.0, "q": 1.0})
     with pytest.raises(KeyError, match="no formula 'F'"):
         truth("F", {"T": 1.0})
-    with pytest.raises(ValueError, match="no modal sum"):
+    with pytest.raises(ValueError, match="modal sum"):
         truth("G", {"T": 1.0}, 50, 3)
-    with pytest.raises(ValueError, match="how many modes"):
+    with pytest.raises(ValueError, match="number of modes"):
         truth("w", PLATE)
 
 

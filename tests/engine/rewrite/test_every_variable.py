@@ -50,7 +50,7 @@ def test_a_form_that_loses_digits_in_another_variable_is_refused() -> None:
     """A thin film that is nearly incompressible: the form is accurate in T for ordinary ones."""
     film = formula("F_bonded", bonded(1 + 2 * s))
     shape = automatic(film.expression, BLOCKS, SCALES)
-    message = r"F_bonded is off by .* ULP at T = .*, s = .*use a variable that is small there"
+    message = r"F_bonded has an error of .* ULP at T = .*, s = .*use a variable that is small there"
     with pytest.raises(UnreachableError, match=message):
         accurate(film, *shape, BLOCKS)
 

@@ -356,7 +356,7 @@ def test_blocks_have_one_section_each_or_none() -> None:
             assert any(
                 e.has(POLYNOMIAL) for e in (below.value, *(s.expression for s in below.steps))
             )
-            assert "cut off" in block.truncation
+            assert "truncated" in block.truncation
 
 
 @pytest.mark.parametrize("name", [row[0] for row in DEFINITIONS])

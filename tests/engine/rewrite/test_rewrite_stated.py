@@ -109,7 +109,7 @@ def test_what_is_stated_holds(text: str) -> None:
         return
     assert repr(found.low) in source
     assert repr(found.high) in source
-    assert f"At most {found.limit:g} ULP plus half the condition number" in " ".join(source.split())
+    assert f"at most {found.limit:g} ULP plus half the condition number" in " ".join(source.split())
     f = compiled(source)
     value = sp.lambdify(x, expression, modules="mpmath")
     checked = sorted(points(value, found.low, found.high, text))

@@ -290,7 +290,7 @@ def test_method_bound_and_parts_in_every_output(tmp_path: Path, capsys: Captured
         "relative error at most",
         "law",
         "(proved)",
-        "(rounding_analysis)",
+        "rounding analysis",
     ):
         assert words in said
     full = simulate(load(PAPER)).accuracy.to_json()["parts"]

@@ -27,8 +27,8 @@ def nearest(name: str, known: Iterable[str], alike: float = ALIKE, most: int = 1
 
     Examples
     --------
-    >>> nearest("Thicknes", ["thickness", "radius"])
-    ['thickness']
+    >>> nearest("Radius_m", ["thickness", "radius"])
+    ['radius']
     """
     plain: dict[str, str] = {}
     for other in known:

@@ -178,12 +178,13 @@ def test_what_is_new_is_generated_checked_and_reported(copy: Path) -> None:
         assert kept, kernel
         assert error <= allowed
     run(copy, REPORT, str(known), str(copy / "report"))
-    text = (copy / "report" / "report.tex").read_text()
+    documents = copy / "report"
+    text = "".join((documents / f"{name}.tex").read_text() for name in ("report", "appendices"))
     assert r"\subsection{Mean pressure}" in text  # of which nobody wrote a word
     assert r"\subsection{Imprint}" in text
     for name in NEW:
         assert name.replace("_", r"\_") in text, name
-    page = (copy / "report" / "report.html").read_text()
+    page = "".join((documents / f"{name}.html").read_text() for name in ("report", "appendices"))
     assert "mean pressure of the contact" in page
     assert "dynamic hardness of the plate" in page
 

@@ -43,8 +43,12 @@ def materials(
             for each in MATERIALS.values():
                 OUT.say(paragraph(f"  {each.name}: {each.source}", 4))
             OUT.say(
-                "\nE is Young's modulus, nu Poisson's ratio. "
-                "To define another material, add a table [materials.NAME] to the scene file."
+                "\n"
+                + paragraph(
+                    "E is Young's modulus, nu Poisson's ratio. To define another material, add a "
+                    "table [materials.NAME] to the scene file.",
+                    0,
+                )
             )
         return
     found = find(name)

@@ -131,7 +131,9 @@ def to_plain(value: object, kinds: Mapping[str, type]) -> Any:
         return {name: [to_plain(getattr(value, field.name), kinds) for field in fields(value)]}
     if isinstance(value, sp.Basic):
         return _expression_to_plain(value, kinds)
-    raise TypeError(f"cache: {type(value)} cannot be cached; name it among the kinds")
+    raise TypeError(
+        f"cache: expected a value that can be cached, got {type(value)}; add it to the kinds"
+    )
 
 
 def _expression_to_plain(value: sp.Basic, kinds: Mapping[str, type]) -> Any:

@@ -21,17 +21,17 @@ _BODIES = ("sphere", "plate", "impact", OWN_MATERIALS)
 
 
 def row_of(scene: Scene, columns: Columns, row: int) -> dict[str, Any]:
-    """The tables of one row's scene, as a scene file would hold them."""
+    """Return the tables of the scene of a row, like those of a scene file."""
     return varied(scene, {place: float(values[row]) for place, values in columns.items()})
 
 
 def of_bodies(columns: Columns) -> bool:
-    """Whether the columns are numbers of the bodies and of the impact alone."""
+    """Return whether all columns are numbers of the bodies and of the impact."""
     return all(place.split(".", 1)[0] in _BODIES for place in columns)
 
 
 def allowed(columns: Columns) -> NDArray[np.bool_]:
-    """Which rows have only numbers that their keys allow one by one."""
+    """Return the rows in which each number is allowed for its key."""
     found = np.ones(len(next(iter(columns.values()))), dtype=bool)
     for place, values in columns.items():
         field = field_of(place)
@@ -42,7 +42,7 @@ def allowed(columns: Columns) -> NDArray[np.bool_]:
 
 
 def _limits(field: FieldInfo) -> Iterable[Any]:
-    """The limits that pydantic sets a key."""
+    """Return the limits that pydantic applies to a key."""
     yield from field.metadata
     for kind in get_args(field.annotation):
         for known in getattr(kind, "__metadata__", ()):
@@ -50,7 +50,7 @@ def _limits(field: FieldInfo) -> Iterable[Any]:
 
 
 def _within(values: Array, limit: Any) -> NDArray[np.bool_]:
-    """Which values keep a limit."""
+    """Return which values are within a limit."""
     compared = {"gt": np.greater, "ge": np.greater_equal, "lt": np.less, "le": np.less_equal}
     found = np.ones(values.shape, dtype=bool)
     for name, holds in compared.items():
@@ -60,7 +60,7 @@ def _within(values: Array, limit: Any) -> NDArray[np.bool_]:
 
 
 def models_of(scene: Scene, columns: Columns) -> tuple[Model, NDArray[np.bool_]]:
-    """The numbers of all rows as columns, and which rows are shown to be sound.
+    """Return the numbers of all rows as columns, and which rows are certainly valid.
 
     Parameters
     ----------
@@ -91,6 +91,6 @@ def models_of(scene: Scene, columns: Columns) -> tuple[Model, NDArray[np.bool_]]
 
 
 def _spread(model: Model, rows: int) -> Model:
-    """The model with columns for those numbers without which no row is known."""
+    """Return the model with columns for the numbers of bodies and impact."""
     R, m, v0 = (np.array(np.broadcast_to(x, (rows, 1))) for x in (model.R, model.m, model.v0))
     return replace(model, R=R, m=m, v0=v0)  # type: ignore[arg-type]

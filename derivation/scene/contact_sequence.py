@@ -330,7 +330,7 @@ def _lost(
             if problem.range_end
             else f"{WIDER:g} times what the impact on a plate that does not deflect reaches"
         )
-        remedy = "give a lower speed, a lighter sphere, less weight or a thicker plate"
+        remedy = "reduce impact.speed or impact.gravity, or use a lighter sphere or a thicker plate"
     for a in (radius, 1.2 * radius):  # where it is, and where it would go
         at = problem.at(problem.a * np.array([min(a, beyond)]))
         bent = at.less_a[0] @ problem.contact.modes.by_shape(state.q)

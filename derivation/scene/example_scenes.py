@@ -96,7 +96,9 @@ def remedy(path: Path) -> str:
     with suppress(OSError):  # the name may be too long for the file system
         if path.exists():
             return "check that it is a file and that you may read it"
-    folder = path.parent if path.parent.is_dir() else Path()
+    folder = Path()
+    with suppress(OSError):
+        folder = path.parent if path.parent.is_dir() else folder
     for near in nearest(path.stem, sorted(file.stem for file in folder.glob("*.toml"))):
         return f"did you mean {folder / near}.toml?"
     for near in nearest(path.stem, examples()):

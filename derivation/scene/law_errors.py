@@ -4,12 +4,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from generated.arrays import Double as Array
+from generated.simple_impact import SLACK, TOP
 from generated.simple_impact_kernels import elasticities
-
-WIDER = np.log(1.02)
-"""Logarithm of the factor up to which the contact may be wider than by S_1; bounds cover it."""
-SLACK = 1.0 + 1e-9
-"""Factor that covers rounding errors of the bounds."""
 
 
 def law_errors(
@@ -37,7 +33,7 @@ def law_errors(
     loss, gain = -np.log1p(-np.where(known, low, 0.0)), np.log1p(np.where(known, up, 0.0))
     elasticity, depth, shorter, longer = elasticities(fall, rise)  # type: ignore[arg-type]
     wider, narrower = (loss + energy) / elasticity, gain / elasticity
-    known = known & np.less(wider, WIDER)
+    known = known & np.less(wider, np.log(TOP))
     longer = np.maximum(0.0, longer)
     time = np.maximum(
         gain + 0.5 * loss + 0.5 * energy + np.maximum(longer * wider, shorter * narrower),

@@ -14,9 +14,8 @@ from derivation.scene.materials import plane_strain_modulus
 from derivation.scene.scene import Scene, SceneError
 from derivation.scene.simple_laws import plates_of
 from derivation.scene.support_series import Supports, supports_of
+from generated.simple_impact import PLATES
 
-PLATES = 1e-50, 1e50
-"""h/b for which bounds are known."""
 NUMBERS = ("R", "m", "v0", "h", "b", "lam", "mu")
 HERTZ_TIME, TIME_BY_ZENER = 3.3, 5.0
 """Contact time over (m^2/(K^2 v0))^(1/5), which is 2.94 by Hertz's law and more on a plate, and its

@@ -15,8 +15,8 @@ MORE_TIMES = (384, 768, 1536)
 
 
 ALONE = 2**18
-"""Multiplications up to which BLAS computes a product of matrices in one thread: others cost more
-time than they save."""
+"""Largest number of multiplications of one matrix product, so that BLAS uses one thread: for these
+products more threads take longer."""
 
 
 class Rule(NamedTuple):
@@ -38,7 +38,7 @@ class Rule(NamedTuple):
 
 
 def mapped(matrix: Array, values: Array) -> Array:
-    """A matrix times values along their last axis, of one scene or of many."""
+    """Multiply values along their last axis by a matrix, for one scene or many."""
     if values.ndim == 1:
         return matrix @ values
     found, step = np.empty((len(values), len(matrix))), max(1, ALONE // matrix.size)

@@ -1,9 +1,9 @@
-"""Many scenes at once: columns in, columns of results out; static impacts in arrays.
+"""Simulation of many scenes: columns of numbers in, columns of results out.
 
-Rows that array arithmetic cannot show to be sound, rows with a solution of their own (a pressure
-that is solved for, a viscoelastic or yielding contact, plate inertia) and rows that are refused
-are simulated one by one. So each row is what `simulate` returns for its scene: effects, status and
-reason are the same, numbers differ by rounding.
+Impacts on quasi-static plates with Hertzian pressure are computed in arrays. All other rows
+(non-Hertzian pressure, a viscoelastic or plastic contact, plate inertia), invalid rows, and rows
+for which rounding could change a decision are simulated one by one. Each row is equal to the result
+of `simulate` for its scene: effects, status and reason are the same, numbers differ by rounding.
 """
 
 from collections.abc import Iterable, Mapping
@@ -25,18 +25,18 @@ from derivation.scene.scene import OUTPUTS, Scene, SceneError, read
 from derivation.scene.static_rows import impacts_of
 
 BLOCK = 2**15
-"""Rows worked on at a time, so that memory is bounded."""
+"""Number of rows computed together, which bounds the memory."""
 ROUNDING = 1e-14
-"""Distance of a bound from the tolerance within which rounding could decide; one scene does."""
+"""Distance of a bound from the tolerance at which the row is simulated singly [1]."""
 STRENGTH = "plate.tensile_strength"
-"""The key of a number that only warnings look at."""
+"""A key that only warnings use."""
 TRIED = 8
-"""Rows that are read in search of one that is sound."""
+"""Number of rows to read until one is valid."""
 
 
 @dataclass(frozen=True)
 class Rows:
-    """Results of many scenes: a column each.
+    """Results of many scenes, in columns.
 
     Attributes
     ----------
@@ -107,7 +107,7 @@ def solve(
 
 
 def _empty(count: int) -> Rows:
-    """Rows of which nothing is known."""
+    """Return rows without results."""
     results = {name: np.full(count, np.nan) for name in UNITS}
     bound, model_error = np.full(count, np.nan), np.full(count, np.nan)
     status = np.full(count, "refused", dtype="<U10")
@@ -117,7 +117,7 @@ def _empty(count: int) -> Rows:
 
 @dataclass(frozen=True)
 class _Block:
-    """Some of the rows, and where their results belong."""
+    """Some of the rows, with the places of their results."""
 
     scene: Scene
     columns: Columns
@@ -126,7 +126,7 @@ class _Block:
     start: int
 
     def run(self) -> None:
-        """Simulate the rows: in arrays those that can be, one by one the others."""
+        """Simulate the rows, in arrays where possible and the others one by one."""
         count = len(next(iter(self.columns.values())))
         left = np.ones(count, dtype=bool)
         for rows in self._in_arrays():
@@ -156,7 +156,7 @@ class _Block:
             found.results[name][place] = number
 
     def _in_arrays(self) -> Iterable[NDArray[np.intp]]:
-        """Simulate rows in arrays, and yield which those were."""
+        """Simulate rows in arrays, and yield their indices."""
         if self.scene.measured is not None or not of_bodies(self.columns):
             return
         rows = np.flatnonzero(allowed(self.columns))
@@ -181,7 +181,7 @@ class _Block:
             yield rows[self._static(group, rows[group.rows], scene, rtol)]
 
     def _readable(self, rows: list[int]) -> Scene | None:
-        """The first of some rows that is a scene, of which all have the same keys."""
+        """Return the scene of the first valid row; all rows have the same keys."""
         for row in rows:
             try:
                 return read(row_of(self.scene, self.columns, row))
@@ -192,7 +192,7 @@ class _Block:
     def _static(
         self, group: Group, rows: NDArray[np.intp], scene: Scene, rtol: float | None
     ) -> NDArray[np.intp]:
-        """Impacts on quasi-static plates; which of the group's rows are known then."""
+        """Compute the impacts of a group; return the rows that have results."""
         law, error = group.law, group.error
         rest = None if rtol is None else (rtol - error) / (1.0 + error)
         found = impacts_of(law, len(rows), rest)

@@ -1,7 +1,8 @@
-"""Selection of effects for many scenes at once: the steps of `selection`, in groups of rows.
+"""Selection of effects for many scenes: the steps of `selection`, in groups of rows.
 
-Rows begin with the same effects. In each step, bounds are computed for all rows with the same
-effects; each row takes in its own largest one, and rows part by what they then include.
+All rows start with the same effects. In each step, the bounds of all rows with the same effects are
+computed together. Each row then includes the effect with its largest bound, and the rows are
+grouped again by their effects.
 """
 
 from collections.abc import Mapping, Sequence
@@ -21,9 +22,9 @@ from derivation.scene.scene import SceneError
 from derivation.scene.selection import Candidates, candidates_of
 
 NEAR = 1e-9
-"""Relative distance from a tolerance within which rounding could decide, and one scene does."""
+"""Relative distance from a tolerance at which the row is simulated singly."""
 TOGETHER = 1024
-"""Rows whose bounds are computed together, so that intermediates stay in the cache."""
+"""Number of rows whose bounds are computed together, so that they fit into the cache."""
 Rows = NDArray[np.intp]
 
 
@@ -34,13 +35,13 @@ class Group:
     Attributes
     ----------
     rows
-        Their numbers.
+        Indices of the rows.
     law
-        Their law, with columns of numbers.
+        Law of the rows, with columns of numbers.
     held
-        Whether the plate is on the scene's edge, for its back face.
+        Whether the stress on the back face is that with the edge of the scene.
     error
-        Bound on what the effects omitted by the selection change together [1], of each row.
+        Bound on the relative change by all omitted effects together, for each row.
     """
 
     rows: Rows
@@ -52,10 +53,10 @@ class Group:
 def selected(
     model: Model, wanted: Mapping[str, Any], rtol: Array, outputs: Sequence[str]
 ) -> list[Group]:
-    """Groups of rows by the effects that are included; rows in none are for `simulate`.
+    """Group rows by their included effects; rows in no group are simulated singly.
 
-    These are rows whose law has a solution of its own, which are refused, or where rounding might
-    decide.
+    These are rows of laws that are not computed in arrays, invalid rows, and rows for which
+    rounding could change the selection.
 
     Parameters
     ----------
@@ -92,7 +93,7 @@ def selected(
 
 
 def _alike(model: Model, count: int) -> list[Rows]:
-    """Rows for which the same effects apply: the same numbers are zero or infinite."""
+    """Group rows to which the same effects apply: the same numbers are zero or infinite."""
     kinds = np.zeros(count, dtype=np.int64)
     for field in fields(model):
         value = getattr(model, field.name)
@@ -102,7 +103,7 @@ def _alike(model: Model, count: int) -> list[Rows]:
 
 
 def _own_solution(law: ContactLaw) -> bool:
-    """Whether a law's impact is computed by a method of its own, one scene after the other."""
+    """Return whether impacts by a law are computed one by one."""
     return law.solved or law.viscous or law.plastic or law.dynamic
 
 
@@ -114,7 +115,7 @@ def _step(
     rtol: Array,
     outputs: Sequence[str],
 ) -> tuple[Group | None, dict[frozenset[str], Rows]]:
-    """The rows that are done, and what the others include next."""
+    """Return the rows whose selection is complete, and the effect that each other row adds."""
     if _own_solution(ContactLaw(model, included)):
         return None, {}
     open_ = given.left(included)
@@ -144,9 +145,9 @@ def _step(
 def _errors(
     given: Candidates, law: ContactLaw, rtol: Array, outputs: Sequence[str]
 ) -> tuple[Array, ...]:
-    """What leaving out all effects that are left changes; whether blocked ones may be left out.
+    """Return the error if all open effects are omitted, and whether blocked ones may be omitted.
 
-    And what each of the others changes alone, of which none is known where no row goes on.
+    The sizes of the other open effects follow; they are not computed if no row continues.
     """
     state, open_ = state_of(law), given.left(law.effects)
     error, fine = errors_of(state, open_, outputs)[:, 0], np.ones(len(rtol))
@@ -160,7 +161,7 @@ def _errors(
 
 
 def _held(given: Candidates) -> bool:
-    """Whether the plate is on the scene's edge."""
+    """Return whether the plate has the edge of the scene."""
     disabled = (e for e in given.present if given.choice[e.name] is False)
     return not any(effect.other_edge for effect in disabled)
 
@@ -173,7 +174,7 @@ def _next(
     rows: Rows,
     sizes: Array,
 ) -> dict[frozenset[str], Rows]:
-    """The rows that go on, by what they include next."""
+    """Return the rows that continue, by the effect that they add."""
     worst = np.argmax(sizes, axis=1)
     if len(candidates) > 1:  # rounding might decide which is larger
         second = np.partition(sizes, -2, axis=1)[:, -2:]

@@ -1,4 +1,4 @@
-"""Warnings of many impacts on quasi-static plates: in words only where there may be one."""
+"""Warnings of many impacts on quasi-static plates; only rows near a limit are examined."""
 
 from collections.abc import Callable, Iterator, Mapping
 from types import SimpleNamespace
@@ -29,9 +29,9 @@ from derivation.scene.limits import (
 )
 
 _ROUNDING = 1e-9
-"""By how much a limit is missed where rounding might decide."""
+"""Relative distance from a limit at which a row is examined, for rounding."""
 _MODEL = ("m", "R", "h", "b", "density", "solid_density", "yield_stress", "plate_yield_stress")
-"""Numbers of the model that warnings look at."""
+"""Numbers of the model that warnings use."""
 Mask = NDArray[np.bool_]
 Texts = Callable[[SimpleNamespace], tuple[str, ...]]
 
@@ -42,7 +42,7 @@ def warnings_of_rows(
     strength: Array | float | None,
     rows: NDArray[np.intp],
 ) -> NDArray[np.object_]:
-    """The warnings of some rows, joined by "; ", as `impact.warnings_of` has them.
+    """Return the warnings of some rows, joined by "; ", equal to those of `impact.warnings_of`.
 
     Parameters
     ----------
@@ -67,7 +67,7 @@ def warnings_of_rows(
 
 
 def _numbers(law: ContactLaw, results: Mapping[str, Array]) -> dict[str, Array]:
-    """What warnings look at, by name, of shape (rows,)."""
+    """Return all numbers that warnings use, by name, shape (rows,)."""
     model, count = law.model, len(results["contact_time"])
     a, delta = results["max_contact_radius"][:, None], results["max_indentation"][:, None]
     local = np.broadcast_to(local_indentation(law, a), a.shape)
@@ -82,7 +82,7 @@ def _numbers(law: ContactLaw, results: Mapping[str, Array]) -> dict[str, Array]:
 def _singles(
     known: Mapping[str, Array], rows: NDArray[np.intp]
 ) -> Iterator[tuple[int, SimpleNamespace]]:
-    """Rows, and each one's numbers."""
+    """Yield each row with its numbers."""
     if len(rows):
         columns = (values[rows].tolist() for values in known.values())
         for row, numbers in zip(rows.tolist(), zip(*columns, strict=True), strict=True):
@@ -90,7 +90,7 @@ def _singles(
 
 
 def _possible(law: ContactLaw, known: Mapping[str, Array]) -> tuple[Mask, ...]:
-    """The rows of which there may be warnings of each kind."""
+    """Return the rows that may have warnings, for each kind of warning."""
     one, less = SimpleNamespace(**known), 1.0 - _ROUNDING
     solid = 4 / 3 * np.pi * one.R * one.R * one.R * one.solid_density
     a, thickness = one.max_contact_radius, 2.0 * one.h
@@ -113,7 +113,7 @@ def _possible(law: ContactLaw, known: Mapping[str, Array]) -> tuple[Mask, ...]:
 
 
 def _texts(law: ContactLaw) -> tuple[Texts, ...]:
-    """The warnings of each kind, of a row's numbers."""
+    """Return functions from the numbers of a row to its warnings, for each kind."""
     inertia = law.model.inertia
 
     def wide(one: Any) -> tuple[str, ...]:
@@ -137,5 +137,5 @@ def _texts(law: ContactLaw) -> tuple[Texts, ...]:
 
 
 def _given(stress: float) -> float | None:
-    """A stress [Pa], None if it is not known."""
+    """Return a stress [Pa], None if it is unknown."""
     return stress if stress < np.inf else None

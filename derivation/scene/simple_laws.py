@@ -1,6 +1,7 @@
-"""Impacts by Hertz's law and by its first correction, of many scenes: `kernels.hertz` in arrays.
+"""Impacts of many scenes by Hertz's law and by its first correction: `kernels.hertz` in arrays.
 
-The formulas are those of single numbers, with the functions of NumPy for those of `math`.
+The formulas are the printed ones for single numbers. In arrays they use the functions of NumPy
+instead of those of `math`.
 """
 
 from collections.abc import Callable
@@ -13,30 +14,17 @@ from numpy.typing import NDArray
 from derivation.scene import kernels
 from derivation.scene.law_errors import law_errors
 from generated import simple_impact, simple_impact_kernels
-from generated.simple_impact_numbers import (
-    MODES,
-    QUADRATURE,
-    ROOTS_CUBIC,
-    ROOTS_LINEAR,
-    THIN,
-)
+from generated.simple_impact import CLOSE, DEEP, ORDINARY, PLATES, STEPS, TOP
+from generated.simple_impact_numbers import MODES, QUADRATURE, THIN
 
 Array = NDArray[np.float64]
-SLACK = 1.0 + 1e-9
-"""For the rounding of the bounds themselves."""
-DEEP = 0.5
-"""How much the first correction, if negative, may take from the slope."""
-_LOW, _HIGH = 1e-100, 1e100
-_PLATES = 1e-50, 1e50
-_TOP = 1.02
-_STEPS, _CLOSE = 40, 4e-15
 
 _formulas: Any = simple_impact_kernels
-"""Printed formulas of single numbers; those of arithmetic alone take arrays as they are."""
+"""Printed formulas for single numbers; those without functions of `math` accept arrays."""
 
 
 def _in_arrays(formula: Callable[..., Any]) -> Callable[..., Any]:
-    """A printed formula of single numbers as one of arrays."""
+    """Return a printed formula for single numbers as one for arrays."""
     of_numpy = {name: getattr(np, name) for name in ("exp", "log", "sqrt")}
     return FunctionType(formula.__code__, formula.__globals__ | of_numpy, formula.__name__)
 
@@ -47,7 +35,7 @@ _leading_time = _in_arrays(simple_impact_kernels.leading_time)
 
 
 class Estimates(NamedTuple):
-    """Impacts as of `kernels.Estimate`, a row each; `law` is infinite where nothing is shown."""
+    """Columns of `kernels.Estimate`; `law` is infinite where no bound is proved."""
 
     contact_time: Array
     max_indentation: Array
@@ -59,20 +47,18 @@ class Estimates(NamedTuple):
 
 
 def plates_of(eta: Array) -> kernels.Plate:
-    """c_1, its error bound and K_3 of many plates, 1e-50 <= h/b <= 1e50."""
+    """Return c_1, its error bound and K_3 of many plates, 1e-50 <= h/b <= 1e50."""
     found = np.empty((3, *eta.shape))
     thin = 1.0 / eta > THIN
-    bend, rest, roots = _thin_plate(1.0 / eta[thin])
-    found[:, thin] = bend, ROOTS_LINEAR * roots + 1e-14 * bend, rest * SLACK + ROOTS_CUBIC * roots
-    bend, size, rest, more_bend, more_rest = _thick_plate(eta[~thin], MODES)
-    found[:, ~thin] = bend, more_bend + 1e-13 * size, rest * SLACK + more_rest
+    found[:, thin] = simple_impact.with_margins_of_thin(*_thin_plate(1.0 / eta[thin]))
+    found[:, ~thin] = simple_impact.with_margins_of_thick(*_thick_plate(eta[~thin], MODES))
     return kernels.Plate(*found)
 
 
 def hertz(R: Array, m: Array, v0: Array, h: Array, b: Array, lam: Array, mu: Array) -> Estimates:
-    """Impacts by Hertz's law, as `kernels.hertz`, of arrays of the same length."""
+    """Compute impacts by Hertz's law, like `kernels.hertz`, for arrays of the same length."""
     modulus, radius, known = _spheres(R, m, v0, h, b, lam, mu)
-    plate, top = plates_of(np.where(known, h / b, 1.0)), _TOP * radius / h
+    plate, top = plates_of(np.where(known, h / b, 1.0)), TOP * radius / h
     low, up = _formulas.hertz_bounds(*plate, top)
     none = np.zeros_like(top)
     law = _law_error(np.maximum(0.0, low), np.maximum(0.0, up), none, none)
@@ -81,12 +67,12 @@ def hertz(R: Array, m: Array, v0: Array, h: Array, b: Array, lam: Array, mu: Arr
 
 
 def leading(R: Array, m: Array, v0: Array, h: Array, b: Array, lam: Array, mu: Array) -> Estimates:
-    """Impacts by delta = (a^2/R) (1 + c_1 a/h), as `kernels.leading`."""
+    """Compute impacts by delta = (a^2/R) (1 + c_1 a/h), like `kernels.leading`."""
     modulus, radius, known = _spheres(R, m, v0, h, b, lam, mu)
     plate, over_h = plates_of(np.where(known, h / b, 1.0)), radius / h
     share = _share(_formulas.beside_hertz(plate.bend, over_h))
     A, a = share * over_h, share * radius
-    top = _TOP * A
+    top = TOP * A
     steep = _formulas.steepness(plate.bend, top)
     known &= steep > -DEEP
     steep = np.where(known, steep, 0.0)
@@ -99,7 +85,7 @@ def leading(R: Array, m: Array, v0: Array, h: Array, b: Array, lam: Array, mu: A
 
 
 def _law_error(low: Array, up: Array, fall: Array, rise: Array) -> Array:
-    """The largest of `law_errors`."""
+    """Return the largest error of `law_errors`."""
     largest: Array = np.maximum.reduce(law_errors(low, up, fall, rise))
     return largest
 
@@ -107,21 +93,21 @@ def _law_error(low: Array, up: Array, fall: Array, rise: Array) -> Array:
 def _spheres(
     R: Array, m: Array, v0: Array, h: Array, b: Array, lam: Array, mu: Array
 ) -> tuple[Array, Array, NDArray[np.bool_]]:
-    """E*, Hertz's largest radius, and where numbers are ordinary."""
+    """Return E*, Hertz's largest radius, and which rows have numbers in the ordinary range."""
     modulus, energy, work = _formulas.sphere(R, m, v0, lam, mu)
-    known = (_PLATES[0] < h / b) & (h / b < _PLATES[1])
+    known = (PLATES[0] < h / b) & (h / b < PLATES[1])
     for x in (R, m, v0, h, b, modulus, energy, energy / modulus, work):
-        known = known & (x > _LOW) & (x < _HIGH)
+        known = known & (x > ORDINARY[0]) & (x < ORDINARY[1])
     return modulus, work**0.2, known
 
 
 def _share(y: Array) -> Array:
-    """s > 0 of s^5 (1 + y s) = 1 by Newton's iteration; NaN if there is none."""
+    """Return the root s > 0 of s^5 (1 + y s) = 1; NaN if there is none."""
     s = np.where(y > 0.0, np.minimum(1.0, np.abs(y) ** (-1.0 / 6.0)), 1.0)
     moving = np.ones(y.shape, dtype=bool)
-    for _ in range(_STEPS):
+    for _ in range(STEPS):
         excess, slope = _formulas.share_step(s, y)
-        moving &= ~(np.abs(excess) <= _CLOSE)
+        moving &= ~(np.abs(excess) <= CLOSE)
         if not moving.any():
             return s
         s = np.where(moving, s - excess / slope, s)
@@ -138,7 +124,7 @@ def _estimates(
     law: Array,
     quadrature: float,
 ) -> Estimates:
-    """The results; without a bound where contacts are not shown to stay on plate and sphere."""
-    shown = known & (_TOP * a < widest)
+    """Return the results, without a bound where the contact may exceed the plate or the sphere."""
+    shown = known & (TOP * a < widest)
     law = np.where(shown, law, np.inf)
     return Estimates(*found, a, law, quadrature, simple_impact.ROUNDING)

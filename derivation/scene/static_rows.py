@@ -14,17 +14,17 @@ from derivation.scene.motion import SETTLED, closeness, largest_radii, results_a
 from derivation.scene.quadrature import MORE_TIMES, NODES
 
 TOGETHER = 1024
-"""Rows whose quadratures are computed together, so that intermediates stay in the cache."""
+"""Number of rows whose quadratures are computed together, so that they fit into the cache."""
 NEAR = 1e-9
-"""Relative distance from a tolerance within which rounding could decide, and one scene does."""
+"""Relative distance from a tolerance at which the row is simulated singly."""
 WELL_WITHIN = 0.9
-"""Contact radius over the law's limit up to which an impact is well within its range."""
+"""Largest contact radius over the limit of the law for results from arrays."""
 Mask = NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
 class Impacts:
-    """Impacts of rows with the same effects, each of shape (rows,); NaN where one scene decides.
+    """Impacts of rows with the same effects, shape (rows,); NaN for rows to simulate singly.
 
     Attributes
     ----------
@@ -43,13 +43,13 @@ class Impacts:
     rounding: Array
 
     def put(self, rows: Any, numbers: Any) -> None:
-        """Set what is known of some rows."""
+        """Set the values of some rows."""
         for field, values in zip(fields(self), numbers, strict=True):
             getattr(self, field.name)[rows] = values
 
 
 def impacts_of(law: ContactLaw, count: int, rest: Array | None) -> Impacts:
-    """Impacts by a law whose impact has no method of its own.
+    """Compute impacts by a law of quasi-static plates.
 
     Parameters
     ----------
@@ -58,7 +58,8 @@ def impacts_of(law: ContactLaw, count: int, rest: Array | None) -> Impacts:
     count
         Number of rows.
     rest
-        What a tolerance leaves beside the effects omitted, of each row [1]; None without one.
+        Relative tolerance minus the error of the omitted effects, for each row; None without a
+        tolerance.
     """
     found = Impacts(*(np.full(count, np.nan) for _ in fields(Impacts)))
     if law.of_paper:
@@ -71,12 +72,12 @@ def impacts_of(law: ContactLaw, count: int, rest: Array | None) -> Impacts:
 
 
 def flat_numbers(law: ContactLaw, count: int) -> list[Array]:
-    """R, m, v0, h, b, lam and mu of each row."""
+    """Return R, m, v0, h, b, lam and mu of each row."""
     return [np.broadcast_to(x, (count, 1))[:, 0] for x in law.model.numbers]
 
 
 def _by_papers_law(law: ContactLaw, rest: Array | None, found: Impacts) -> None:
-    """By the cheapest method whose bound meets the tolerance, as `method_selection.solve`."""
+    """Use the fastest method whose bound meets the tolerance, like `method_selection.solve`."""
     count = len(found.law)
     numbers = flat_numbers(law, count)
     left, coarse = np.ones(count, dtype=bool), np.zeros(count, dtype=bool)
@@ -105,12 +106,12 @@ def _by_papers_law(law: ContactLaw, rest: Array | None, found: Impacts) -> None:
 
 
 def _limits(law: ContactLaw, count: int) -> Array:
-    """The law's limit of each row [m]."""
+    """Return the largest contact radius of the law for each row [m]."""
     return np.broadcast_to(law.limit, (count, 1))[:, 0]
 
 
 def _on_half_space(law: ContactLaw, found: Impacts) -> None:
-    """Hertz's law in closed form, the modulus that of the contact."""
+    """Use Hertz's law in closed form, with the modulus E* of the contact."""
     count = len(found.law)
     share = np.broadcast_to(1.0 / (1.0 + law.softness), (count, 1))[:, 0]
     R, m, v0, h, b, lam, mu = flat_numbers(law, count)
@@ -121,7 +122,7 @@ def _on_half_space(law: ContactLaw, found: Impacts) -> None:
 
 
 def _by_any_law(law: ContactLaw, found: Impacts) -> None:
-    """By energy and quadrature, as `motion.impact`; few rows at a time, which stay in the cache."""
+    """Use the energy integral, like `motion.impact`, for a few rows at a time."""
     count = len(found.law)
     for start in range(0, count, TOGETHER):
         rows = np.arange(start, min(start + TOGETHER, count))
@@ -129,7 +130,7 @@ def _by_any_law(law: ContactLaw, found: Impacts) -> None:
 
 
 def _together(law: ContactLaw, left: NDArray[np.intp], found: Impacts) -> None:
-    """Some rows: nodes are doubled until each row stands."""
+    """Double the number of nodes until each row has converged."""
     whole, rows, a = law, left, None
     before = change = None
     with np.errstate(all="ignore"):

@@ -1,7 +1,8 @@
-"""What a simple support adds to the law, as polynomials: one for each of many plates.
+"""Contribution of simple supports to the contact law of many plates, as Chebyshev series.
 
-Over alpha = a/b it is an even function, here a series of Chebyshev polynomials of alpha^2 on the
-contacts that an impact may have. Its nearest singularity is about alpha = 1.
+The contribution divided by alpha = a/b is an even function of alpha with its nearest singularity
+near alpha = 1. It is expanded in Chebyshev polynomials of alpha^2 up to a multiple of Hertz's
+largest contact radius.
 """
 
 from functools import cache
@@ -15,25 +16,25 @@ from derivation.scene import kernels
 
 Array = NDArray[np.float64]
 WIDEST, TERMS = 0.15, 9
-"""Largest alpha of a series and its terms, the last one below 1e-17 of the first."""
+"""Largest alpha of a series, and its number of terms; the last one is below 1e-17 of the first."""
 WIDER = 1.3
-"""Largest radius that a series is for, over Hertz's."""
+"""Largest contact radius of a series over Hertz's largest one."""
 
 
 class Supports(NamedTuple):
-    """Series of plates, along the first axis: their largest alpha, and coefficients of both."""
+    """Series of plates (first axis): largest alpha, coefficients of the value and its slope."""
 
     reach: Array
     share: Array
     growth: Array
 
     def take(self, index: Any) -> "Supports":
-        """Those of some of the plates."""
+        """Return the series of some of the plates."""
         return Supports(*(x[index] for x in self))
 
 
 def supports_of(hertz: Array, h: Array, b: Array, lam: Array, mu: Array) -> Supports:
-    """Series of plates, of columns; `hertz` is Hertz's largest radius of each [m]."""
+    """Compute the series of plates from columns; `hertz` is Hertz's largest radius of each [m]."""
     reach = np.minimum(WIDER * hertz / b, WIDEST)
     nodes, values, slopes = _rules()
     alpha = reach * np.sqrt(0.5 * (1.0 + nodes))
@@ -42,7 +43,7 @@ def supports_of(hertz: Array, h: Array, b: Array, lam: Array, mu: Array) -> Supp
 
 
 def support_share(supports: Supports, alpha: Array) -> tuple[Array, Array]:
-    """Its parts of F and S at rows of alpha; NaN beyond the series."""
+    """Return the contributions to F and S at rows of alpha; NaN beyond the series."""
     place = 2.0 * (alpha / supports.reach) ** 2 - 1.0
     share, growth = _sum(supports.share, place), _sum(supports.growth, place)
     share = np.where(alpha <= supports.reach, share, np.nan)
@@ -51,7 +52,7 @@ def support_share(supports: Supports, alpha: Array) -> tuple[Array, Array]:
 
 @cache
 def _rules() -> tuple[Array, Array, Array]:
-    """Chebyshev's nodes, and matrices from values there to coefficients, of the slope too."""
+    """Return Chebyshev nodes, and matrices from values there to coefficients of value and slope."""
     nodes = chebyshev.chebpts1(TERMS)
     values = np.linalg.inv(chebyshev.chebvander(nodes, TERMS - 1))
     slopes = np.zeros((TERMS, TERMS))
@@ -60,7 +61,7 @@ def _rules() -> tuple[Array, Array, Array]:
 
 
 def _sum(coefficients: Array, place: Array) -> Array:
-    """A series by Clenshaw's rule."""
+    """Sum the series by Clenshaw's rule."""
     twice, older = 2.0 * place, np.zeros_like(place)
     newer = np.broadcast_to(coefficients[:, -1:], place.shape)
     for k in range(TERMS - 2, 0, -1):

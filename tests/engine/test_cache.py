@@ -78,7 +78,7 @@ def test_expressions_come_back(value: sp.Basic) -> None:
 
 @pytest.mark.parametrize("value", [{1}, 0.5, b"x", [1], {1: 2}, object(), Step(x, x), x > 1])
 def test_what_cannot_be_kept_is_refused(value: object, folder: Path) -> None:
-    with pytest.raises(TypeError, match=r"cannot be cached|expected"):
+    with pytest.raises(TypeError, match="expected"):
         cached("x", (), lambda: value)
     assert not list(folder.glob("*"))
 

@@ -226,14 +226,7 @@ JUDGED = {
             "bessel_j1_at_j0_zeros": (1, "a sign"),
         },
     ),
-    "effects": Judged(
-        effect_cases,
-        {
-            "_NEGLIGIBLE": (1, "more terms than needed"),
-            "_terms": (3, "more terms than needed"),
-            "side_wall": (1, "the smallest ratio, where a few terms are enough"),
-        },
-    ),
+    "effects": Judged(effect_cases),
     "viscosity": Judged(viscosity_cases),
 }
 

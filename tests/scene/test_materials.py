@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from derivation.cli import main
-from derivation.scene import SceneError, read, schema, simulate, sweep
+from derivation.scene import SceneError, read, schema, simulate, sweep, waves
 from derivation.scene.materials import MATERIALS, find, plain
 from derivation.scene.model import Model, model_of
 from generated.viscous_bodies import retardation_of_two
@@ -259,6 +259,28 @@ def test_a_sphere_that_stays_on_a_light_plate_is_refused_before_any_step() -> No
     predicted = float(re.search(r"about ([\d.e-]+) s", str(told.value))[1])
     found = simulate(read(wide | {"effects": {"inertia": False}}), rtol=0.01)
     assert found.contact_time == pytest.approx(predicted, rel=0.1)
+
+
+@pytest.mark.parametrize(
+    ("mass", "edge", "speed"),
+    [(0.02, "paper", 1.0), (0.1, "clamped", 0.3), (0.5, "simply-supported", 0.05)],
+)
+def test_a_heavy_sphere_is_in_contact_for_most_of_its_half_period(
+    mass: float, edge: str, speed: float
+) -> None:
+    """So that scenes are rejected only if they need more time steps than are allowed."""
+    plate = {"radius": 0.02, "thickness": 0.001, "material": "glass", "edge": edge}
+    scene = read(tables({"radius": 0.01, "mass": mass, "material": "steel"}, plate,
+                        impact={"speed": speed}, effects={"inertia": True}))  # fmt: skip
+    found = simulate(scene, rtol=0.02)
+    assert found.complete
+    assert found.dynamics is not None
+    history = found.dynamics.impact_history
+    problem = history.problem
+    modes = problem.contact.modes
+    assert problem.m * modes.inverse_modal_mass[0] > waves.HEAVY
+    touched = problem.T * sum(touching.end - touching.start for touching in history.contacts)
+    assert touched > waves.IN_CONTACT * waves.half_period(problem.m, modes)
 
 
 def test_keys_of_materials_are_swept() -> None:

@@ -285,7 +285,7 @@ def test_why_a_contact_is_lost() -> None:
     widest = problem.contact.top / problem.a
     told = contact_sequence._lost(problem, problem.begin(), widest, 0.0)
     assert f"grows wider than {problem.contact.top:.4g} m" in told.why
-    assert "speed" in told.remedy
+    assert "impact.speed" in told.remedy
 
 
 def test_a_sphere_too_heavy_to_come_off_is_refused() -> None:

@@ -39,8 +39,8 @@ def scene_regime(
     top = deepest(regime) / h
     if not top > 0:
         raise ValueError(
-            "expected an impact within the contact law (a below R, b and 6 h), got one beyond it: "
-            "lower the speed or thicken the plate"
+            "impact.speed: expected an impact within the contact law (a below R, b and 6 h), got "
+            "one beyond it; reduce the speed or use a thicker plate"
         )
     high = min(2 * top, 0.95 * min(b, R) / h)
     return Regime("scene", R, h, b, top / 13, max(high, top), v0, m, lam, mu)

@@ -10,7 +10,7 @@ from derivation.engine.report.numbers import rounded
 from derivation.plate.report.prose import FACTOR
 from derivation.scene import edge_remainder, kernels, limits
 from derivation.scene.effects import edge, non_hertzian_pressure, spherical_profile
-from derivation.scene.model import PLATES
+from generated.simple_impact import PLATES
 
 FORMULAS = (
     FACTOR, "P", "delta_half", "delta_side", "delta_thickness", "delta_reduced", "c_1_thin",

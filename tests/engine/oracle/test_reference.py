@@ -261,7 +261,7 @@ def test_arguments_are_checked() -> None:
         truth("G", {"T": 1.0, "q": 1.0})
     with pytest.raises(KeyError, match="no formula 'F'"):
         truth("F", {"T": 1.0})
-    with pytest.raises(ValueError, match="modal sum"):
+    with pytest.raises(ValueError, match="not a modal sum"):
         truth("G", {"T": 1.0}, 50, 3)
     with pytest.raises(ValueError, match="number of modes"):
         truth("w", PLATE)

@@ -138,7 +138,7 @@ def test_series_that_end_too_early_are_refused(monkeypatch: pytest.MonkeyPatch) 
     monkeypatch.setattr(effect_tables, "kappas", lambda: [arb(1), arb(0), arb(1)])
     with pytest.raises(ArithmeticError, match="needs more moments kappa_n"):
         effect_tables.wall_rows()
-    with pytest.raises(ValueError, match="more than 40 terms up to S = 100"):
+    with pytest.raises(ValueError, match="F needs more than 40 terms up to S = 100"):
         wave_terms(sp.Integer(100))
     with pytest.raises(ValueError, match=r"needs more than 30 terms up to 9/4"):
         sections._coefficients(1 / (1 - sections.y**2), 0)

@@ -25,7 +25,7 @@ MAY_PASS: Mapping[str, Mapping[str, tuple[int, str]]] = {
     "contact_series": {
         **dict.fromkeys(("_ORDINARY", "_USUAL"), (2, SLOW)),
         **dict.fromkeys(("correction", "correction_with_slope"), (1, COMMON)),
-        "sphere_on_plate": (2, COMMON),
+        "sphere_on_plate": (2, f"{SLOW}; {COMMON}"),
         "direct": (5, f"modes that have faded; and {SIZE}"),
         **dict.fromkeys(("(THINNEST, THICKEST)", "ROUNDED"), (2, ENDS)),
         "_beyond": (1, ENDS),

@@ -4,11 +4,9 @@
 
     delta = (a^2/R) (1 + F),   d delta/da = (2a/R) S
 
-Arithmetic: the power series of the finite radius, whose coefficients are computed in advance, and
-the number of its terms.
+Arithmetic: the power series of the finite radius, whose coefficients are computed in advance.
 """
 
-import math
 from typing import NamedTuple
 
 import numpy as np
@@ -18,8 +16,6 @@ from generated import effect_kernels as kernels
 from generated.arrays import as_doubles, as_result, in_manifest, inside, quiet
 from generated.blocks import polynomial
 from generated.effect_numbers import WALL_DEPTH, WALL_SLOPE
-
-_NEGLIGIBLE = 40.0  # minus the logarithm of the ratio of negligible terms to the first one
 
 
 class Sphere(NamedTuple):
@@ -99,9 +95,7 @@ def side_wall(alpha: ArrayLike) -> Share:
     kind, [alpha] = as_doubles(alpha)
     [alpha] = inside([alpha], alpha >= 0, alpha < 1)
     square = alpha * alpha
-    count = _terms(float(np.fmax.reduce(square, axis=None, initial=1e-30)))
-    rows = WALL_DEPTH[:count], WALL_SLOPE[:count]
-    depth, slope = (-alpha * polynomial(square, *row) for row in rows)
+    depth, slope = (-alpha * polynomial(square, *row) for row in (WALL_DEPTH, WALL_SLOPE))
     return Share(as_result(depth, kind), as_result(slope, kind))
 
 
@@ -255,8 +249,3 @@ def echo_time(h: ArrayLike, lam: ArrayLike, mu: ArrayLike, rho: ArrayLike) -> np
     kind, [h, lam, mu, rho] = as_doubles(h, lam, mu, rho)
     [h, lam, mu, rho] = inside([h, lam, mu, rho], h > 0, mu > 0, 3 * lam > -2 * mu, rho > 0)
     return as_result(kernels.echo_time_of_factors(h, lam, mu, rho), kind)
-
-
-def _terms(square: float) -> int:
-    """Return the number of terms of the series: each is below alpha^2/4 times the one before."""
-    return 3 + int(_NEGLIGIBLE / (math.log(4.0) - math.log(square)))

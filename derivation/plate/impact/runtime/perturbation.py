@@ -203,8 +203,8 @@ def printed_motion(
         sphere radius, half the plate's thickness and its radius [m]; above 0
     m : float
         sphere mass [kg]; m > 0
+    v0 : float
         impact speed of the sphere [m/s]; v0 > 0
-        speed of approach [m/s]; v0 > 0
     lam, mu : float
         Lame constants [Pa]; mu > 0, 3 lam > -2 mu
     modes : int

@@ -39,13 +39,13 @@ from generated.simple_impact_numbers import (
 )
 
 _ZEROS = tuple(zero for zero, _ in MODES)
-_ORDINARY = 1e-100, 1e100  # range of numbers whose products and roots are rounded as counted
-_PLATES = 1e-50, 1e50
-_MARGIN = log(1.02)  # bounds apply to radii up to 1.02 times the largest radius found
-_DEEP = 0.5  # c_1 A > -1/3: a negative first correction reduces the slope at most by half
-_SLACK = 1.0 + 1e-9  # allows for rounding of the bounds themselves
-_CLOSE = 4e-15  # residual of the equation of the largest radius
-_STEPS = 40
+ORDINARY = 1e-100, 1e100  # range of numbers whose products and roots are rounded as counted
+PLATES = 1e-50, 1e50
+TOP = 1.02  # bounds apply to radii up to this times the largest radius found
+DEEP = 0.5  # c_1 A > -1/3: a negative first correction reduces the slope at most by half
+SLACK = 1.0 + 1e-9  # allows for rounding of the bounds themselves
+CLOSE = 4e-15  # residual of the equation of the largest radius
+STEPS = 40
 
 ROUNDING = 4e-14
 """Bound of the rounding errors, counted: the worst result has fewer than 200 roundings of 2^-53.
@@ -94,12 +94,21 @@ def plate_of(eta: float) -> Plate:
     """Return c_1 and K_3 of a plate h/b = eta, 1e-50 <= eta <= 1e50."""
     v = 1.0 / eta
     if v > THIN:
-        bend, rest, roots = thin_plate(v)
-        bend_error = ROOTS_LINEAR * roots + 1e-14 * bend
-        return Plate(bend, bend_error, rest * _SLACK + ROOTS_CUBIC * roots)
+        return with_margins_of_thin(*thin_plate(v))
     counted = MODES[: bisect_right(_ZEROS, 0.5 * FADED * v)]  # T = 2 eta j_n <= FADED
-    bend, size, rest, more_bend, more_rest = thick_plate(eta, counted)
-    return Plate(bend, more_bend + 1e-13 * size, rest * _SLACK + more_rest)
+    return with_margins_of_thick(*thick_plate(eta, counted))
+
+
+def with_margins_of_thin(bend: float, rest: float, roots: float) -> Plate:
+    """Return a thin plate with margins for rounding and for the roots that are left out."""
+    return Plate(bend, ROOTS_LINEAR * roots + 1e-14 * bend, rest * SLACK + ROOTS_CUBIC * roots)
+
+
+def with_margins_of_thick(
+    bend: float, size: float, rest: float, more_bend: float, more_rest: float
+) -> Plate:
+    """Return a thick plate with margins for rounding and for the modes that are left out."""
+    return Plate(bend, more_bend + 1e-13 * size, rest * SLACK + more_rest)
 
 
 def hertz(
@@ -113,8 +122,8 @@ def hertz(
         sphere radius, half the plate's thickness and its radius [m]; above 0
     m : float
         sphere mass [kg]; m > 0
+    v0 : float
         impact speed of the sphere [m/s]; v0 > 0
-        speed of approach [m/s]; v0 > 0
     lam, mu : float
         Lame constants [Pa]; mu > 0, 3 lam > -2 mu
 
@@ -134,7 +143,7 @@ def hertz(
     scene = _scene(R, m, v0, h, b, lam, mu)
     if scene is None:
         return None
-    plate, top = plate_of(h / b), 1.02 * scene.radius / h
+    plate, top = plate_of(h / b), TOP * scene.radius / h
     # The loss of the lower bound is convex: its maximum is at one of the ends.
     low, up = hertz_bounds(plate.bend, plate.bend_error, plate.rest, top)
     law = law_error(max(0.0, low), max(0.0, up), 0.0, 0.0)
@@ -162,9 +171,9 @@ def leading(
     plate, over_h = plate_of(h / b), scene.radius / h
     share = _share(beside_hertz(plate.bend, over_h))
     A = share * over_h
-    top = 1.02 * A
+    top = TOP * A
     steep = steepness(plate.bend, top)
-    if not steep > -_DEEP:
+    if not steep > -DEEP:
         return None
     # Error of S relative to S_1, which grows with A.
     wrong, low, elasticity = leading_bounds(plate.bend_error, plate.rest, steep, top)
@@ -207,7 +216,7 @@ def law_errors(
     loss, gain = -log1p(-low), log1p(up)
     elasticity, depth, shorter, longer = elasticities(fall, rise)
     wider, narrower = (loss + energy) / elasticity, gain / elasticity
-    if not wider < _MARGIN:
+    if not wider < log(TOP):
         return inf, inf, inf, inf
     longer = max(0.0, longer)
     time = max(
@@ -221,7 +230,7 @@ def law_errors(
 
 def _relative(logarithm: float) -> float:
     """Return the relative error for the logarithm of a factor."""
-    return expm1(logarithm) * _SLACK if logarithm < 700.0 else inf
+    return expm1(logarithm) * SLACK if logarithm < 700.0 else inf
 
 
 def _scene(
@@ -229,9 +238,9 @@ def _scene(
 ) -> _Scene | None:
     """Return Hertz's largest radius; None for extreme numbers."""
     modulus, energy, work = sphere(R, m, v0, lam, mu)
-    low, high = _ORDINARY
+    low, high = ORDINARY
     numbers = (R, m, v0, h, b, modulus, energy, energy / modulus, work)
-    if not all(low < x < high for x in numbers) or not _PLATES[0] < h / b < _PLATES[1]:
+    if not all(low < x < high for x in numbers) or not PLATES[0] < h / b < PLATES[1]:
         return None
     return _Scene(work**0.2, modulus, R, v0, h, b)
 
@@ -243,9 +252,9 @@ def _share(y: float) -> float:
     the search ends at s = 2/(-3 y), where convexity ends. NaN if there is no root.
     """
     s = min(1.0, y ** (-1.0 / 6.0)) if y > 0.0 else 1.0
-    for _ in range(_STEPS):
+    for _ in range(STEPS):
         excess, slope = share_step(s, y)
-        if abs(excess) <= _CLOSE:
+        if abs(excess) <= CLOSE:
             return s
         s -= excess / slope
         if not (s > 0.0 and 3.0 * y * s > -2.0):
@@ -257,6 +266,6 @@ def _estimate(
     scene: _Scene, a: float, found: tuple[float, float, float], law: float, quadrature: float
 ) -> Estimate | None:
     """Return the results if the contact provably stays within the plate and the sphere."""
-    if not (law < inf and 1.02 * a < min(scene.b, scene.R)):
+    if not (law < inf and TOP * a < min(scene.b, scene.R)):
         return None
     return Estimate(*found, a, law, quadrature, ROUNDING)

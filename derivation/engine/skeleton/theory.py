@@ -1,4 +1,4 @@
-"""Derivation: a film that is bonded to its base, or slides on it without friction, under a unit pressure p J0(k r).
+"""Derivation: a film that is bonded to its base or slides on it, under a unit pressure p J0(k r).
 
 The displacements are u = U(z) J1(k r) and w = W(z) J0(k r).
 """

@@ -164,12 +164,13 @@ JUDGED = {
     "simple_impact": Judged(
         simple_cases,
         {
-            **dict.fromkeys(("_ORDINARY", "_PLATES"), (2, "which numbers are ordinary")),
+            **dict.fromkeys(("ORDINARY", "PLATES"), (2, "which numbers are ordinary")),
             "_scene": (1, "which numbers are ordinary"),
-            "_DEEP": (1, GUARDS),
+            "DEEP": (1, GUARDS),
             "_share": (4, GUARDS),
             "ROUNDING": (1, MARGIN),
-            "plate_of": (5, MARGIN),
+            "with_margins_of_thin": (1, MARGIN),
+            "with_margins_of_thick": (4, MARGIN),
         },
         steps=6,
     )

@@ -32,6 +32,9 @@ _GREEK = {r"\lambda": "lam", r"\mu": "mu", r"\phi": "phi", r"\varphi": "phi", r"
     )
 }
 _BRACKETS = {"(": ")", "[": "]", r"\{": r"\}", "{": "}"}
+_NAME = r"(?:\\[A-Za-z]+|[A-Za-z])(?: _ (?:\w+|\{ \w+ \}))?"
+_ARGUMENTS = re.compile(rf"[(\[] ({_NAME}(?: , {_NAME})*) [)\]]")
+"""Symbols alone in brackets, as tokens with a space between."""
 _PRODUCT = {r"\cdot", r"\times", "*"}
 
 
@@ -137,6 +140,8 @@ class _Translator:
 
     def factor(self) -> str:
         base = self.primary()
+        if base.isidentifier():
+            self._refuse_unknown_function(base)
         if self.here != "^":
             return base
         raised = f"({base})**({self.exponent()})"
@@ -223,6 +228,17 @@ class _Translator:
         if applied and self._next(3) == ["(", *applied, ")"]:
             self.position += 3
         return name if name in self.allowed else self.vocabulary.name_of_latex.get(name, name)
+
+    def _refuse_unknown_function(self, name: str) -> None:
+        """Refuse a symbol before symbols in brackets, which would be read as a product."""
+        if self.here in ("(", "[") and (
+            found := _ARGUMENTS.match(" ".join(self.tokens[self.position :]))
+        ):
+            inside = found[1].replace(" ", "")
+            raise FormulaError(
+                f"expected a symbol or a known function, got {name}({inside}), which would be "
+                f"read as a product: leave out ({inside}), or write the product without brackets"
+            )
 
     def _pass_index(self) -> None:
         """Skip the index of a summed formula's term, as in ``C_1^{(j)}``."""

@@ -208,6 +208,7 @@ def test_decimals_are_exact(value: object) -> None:
 LATEX = {
     r"\phi_j h (e^{2\phi_j h} - 1)": phi * h * (sp.exp(2 * phi * h) - 1),
     r"2\mu(\lambda + \mu)": 2 * mu * (lam + mu),
+    r"h(2b) + a(-h)(3)": 2 * b * h - 3 * a * h,
     r"\sinh{\left(a \phi_{j} \right)}": sp.sinh(a * phi),
     r"\sin^{2}{\left(a\phi_j\right)}": sp.sin(a * phi) ** 2,
     r"\cos(a\phi_j)^2": sp.cos(a * phi) ** 2,
@@ -230,6 +231,8 @@ LATEX = {
 }
 
 LATEX_REFUSED = {
+    r"\delta(t)": "which would be read as a product",
+    r"\frac{a^2}{R} \left(1 + h\left(\phi_j, b\right)\right)": "which would be read as a product",
     r"\int_0^a r": r"\\\\int",
     r"\sum_{j} a": r"\\\\sum",
     r"\input{/etc/passwd}": r"\\\\input",

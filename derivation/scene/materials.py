@@ -101,6 +101,8 @@ def plain(name: str) -> str:
 
 _BY_PLAIN = {plain(name): m for m in MATERIALS.values() for name in (m.name, *m.also)}
 
+ALIKE = 0.7
+"""Similarity from which a material is suggested; with less, a tile would be taken for ice."""
 HOLLOW = {
     plain(name)
     for name in (
@@ -135,7 +137,7 @@ def unknown(name: str, own: Iterable[str] = ()) -> str:
         )
     names = {key: material.name for key, material in _BY_PLAIN.items()}
     names |= {plain(known): known for known in own}
-    near = nearest(plain(name), names)
+    near = nearest(plain(name), names, ALIKE)
     meant = f"did you mean {names[near[0]]}? " if near else ""
     return (
         f"expected the name of a material, got {shown(name)}; {meant}`platecontact materials` "

@@ -301,7 +301,7 @@ def _mistaken(
     derived = case.formula
     for other in _formulas_with_values(case, formulas, case.have):
         if other.unit == derived.unit:
-            faces = "face" in other.meaning and "face" in derived.meaning
+            faces = all("face" in record.meaning.split() for record in (other, derived))
             says = (
                 f"this is {other.name} ({to_plain(other.meaning)}); {derived.name} "
                 f"({to_plain(derived.meaning)}) is {derived.expression}"

@@ -257,7 +257,11 @@ def test_explain_computes_a_few_points_alone(
 def test_memory_does_not_grow_with_the_study(
     formula: Formula, tmp_path: Path, suffix: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Arrays of NumPy and Python's objects; pyarrow holds a block of its own."""
+    """A study four times as large takes less than twice as much.
+
+    Arrays of NumPy and Python's objects count, and what pyarrow holds; when cycles of objects are
+    collected depends on the version of Python.
+    """
     import tracemalloc
 
     import pyarrow as pa
@@ -265,7 +269,7 @@ def test_memory_does_not_grow_with_the_study(
     monkeypatch.setattr(write, "BLOCK", 2**9)
     monkeypatch.setattr(run, "LARGEST", 2**9)
     peaks = []
-    for size in (2**11, 2**13):
+    for size in (2**13, 2**15):
         made = plan.sample(read_distributions({"impact.speed": NORMAL}), size, 1, "random")
         held = store.Store(Study(scene(), made, None), tmp_path / f"{size}.parts")
         pa.default_memory_pool().release_unused()
@@ -276,6 +280,6 @@ def test_memory_does_not_grow_with_the_study(
         peaks.append(tracemalloc.get_traced_memory()[1] + pa.total_allocated_bytes() - before)
         tracemalloc.stop()
         assert data_set(held).sizes == {"sample": size}
-    assert peaks[1] < 1.5 * peaks[0]
-    assert journal(tmp_path / f"{2**13}", 2**13).max() == 1
-    assert formula.calls == 2**11 + 2**13
+    assert peaks[1] < 2 * peaks[0]
+    assert journal(tmp_path / f"{2**15}", 2**15).max() == 1
+    assert formula.calls == 2**13 + 2**15

@@ -63,6 +63,7 @@ def zero_correction(order: int, terms: int) -> Expansion:
     return Expansion(f"zero of J{order} minus beta", -1, stretch[1:], proof)
 
 
+@cache
 def _reversion(order: int, stretch: Coefficients) -> Coefficients:
     """Return (x + shift(x) - beta) x^(2N-1) beta^(-2N) in powers of w; x = beta stretch."""
     w = sp.Symbol("w", positive=True)

@@ -200,15 +200,18 @@ def reference(
 
     Example: platecontact reference scene.toml --digits 100
     """
-    from derivation import pipeline
     from derivation.scene import load
+    from derivation.scene.paper_law import in_doubles
 
     scene_commands.check_outputs(scene, json)
-    known = pipeline.in_doubles(load(scene))
+    known = in_doubles(load(scene))
+
+    from derivation.checks import many_digits  # SymPy, which a refusal does not wait for
+
     warn(known.warnings)
-    NOTES.say(pipeline.time_of_reference(known, digits))
+    NOTES.say(many_digits.time_of_reference(known, digits))
     with counted("reference") as progress:
-        found = pipeline.reference(known, digits, progress)
+        found = many_digits.reference(known, digits, progress)
     if put_json(found.to_json, json):
         listing(f"{scene.name} to {digits} digits", found.lines())
     raise typer.Exit(0 if found.agrees else 1)

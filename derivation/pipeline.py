@@ -1,21 +1,13 @@
 """Measurements of the plate code beyond the stages of `derivation.engine.build`."""
 
-import keyword
 import os
 from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-import sympy as sp
-
 from derivation.engine.activity import Tell, quiet
-from derivation.engine.bounded import bounded
-from derivation.engine.emit.standalone import standalone
 from derivation.engine.files import PACKAGE, expect_writable, measurements, write_file
-from derivation.engine.formula.parse import FUNCTIONS, FormulaError, parse
-from derivation.engine.formula.size import terms_when_expanded
-from derivation.engine.formula.vocabulary import NOTHING
 from derivation.engine.measure.judge import Errors
 from derivation.engine.measure.record import provenance
 from derivation.engine.measure.result import CheckResult, all_kept
@@ -23,28 +15,19 @@ from derivation.engine.measure.search import Search, search
 from derivation.engine.measure.search import Tell as SearchTell
 from derivation.engine.measure.search_record import Book, seconds_of
 from derivation.engine.outputs import folder_for, plain, recorded_in, sorted_json
-from derivation.engine.rewrite.stabilise import Stable, stabilise
-from derivation.engine.rewrite.tested import CodeCheck
 from derivation.plate.benchmark import run as accuracy_run
 from derivation.plate.benchmark import speed, user_calls
 from derivation.plate.contact.cases.check import KERNELS, LIMIT, ContactRow
 from derivation.plate.contact.cases.check import check as measure_contact
 from derivation.plate.contact.cases.truth import DIGITS
-from derivation.plate.impact.oracle import many_digits
 from derivation.plate.judge import PACKAGE as GENERATED
 from derivation.plate.paper import PAPER
 from derivation.plate.search.targets import recorded, targets
-from derivation.scene.effects import BY_NAME, EFFECTS, WHOLE_PLATE
-from derivation.scene.impact import selected_effects, simulate
+from derivation.scene.impact import selected_effects
 from derivation.scene.model import NUMBERS, model_of
-from derivation.scene.result import Result
-from derivation.scene.scene import Scene, SceneError, load, read
+from derivation.scene.scene import load
 from generated import contact_law, impact
 
-MAX_TERMS = 5000
-"""Largest number of terms of an expanded formula that can be rewritten."""
-REWRITE_SECONDS = 30
-"""Largest processor time [s] for rewriting a formula."""
 MEASURED_CONTACT = measurements() / "contact.json"
 MEASURED_SPEED = measurements() / "speed.json"
 MEASURED_ACCURACY = measurements() / "accuracy.json"
@@ -165,32 +148,6 @@ def accuracy(
     return data, path
 
 
-def rewritten(text: str, variable: str = "x") -> tuple[Stable, str, CodeCheck]:
-    """Return the stable form of a formula, its NumPy module, and the result of testing it.
-
-    Raises
-    ------
-    ValueError
-        If the formula cannot be read, no rule applies, or it needs too much time or memory.
-    """
-    if not variable.isidentifier() or keyword.iskeyword(variable) or variable in FUNCTIONS:
-        raise ValueError(
-            f"--variable: expected a name such as x, got {variable!r}; use another name"
-        )
-    symbol = sp.Symbol(variable, positive=True)
-
-    def work() -> tuple[Stable, str, CodeCheck]:
-        expression = parse(text, NOTHING, {variable: symbol})
-        if terms_when_expanded(expression) > MAX_TERMS:
-            raise FormulaError(
-                f"the formula has more than {MAX_TERMS} terms when expanded; simplify it"
-            )
-        stable = stabilise(expression, symbol)
-        return stable, *standalone(stable)
-
-    return bounded(work, "rewriting the formula", REWRITE_SECONDS)
-
-
 def search_worse(
     duration: str,
     seed: int = 1,
@@ -212,76 +169,3 @@ def search_worse(
     found = search(chosen, seed, seconds, tell=progress, keep=book.keep)
     book.keep(found)
     return found, book
-
-
-def in_doubles(scene: Scene) -> Result:
-    """Return the impact of a scene in double precision by the law of the references.
-
-    That is the paper's law: a quasi-static plate with the paper's edge, a rigid paraboloid and
-    Hertz's pressure.
-
-    Raises
-    ------
-    derivation.scene.scene.SceneError
-        If the scene requires an effect beyond that law, disables one of it, or exceeds its range.
-    """
-    switched = scene.effects.model_dump()
-    known = {name: name in WHOLE_PLATE for name in BY_NAME if name != "hertz"}
-    missing = sorted(name for name in WHOLE_PLATE if switched[name] is False)
-    needed = _needed(scene)
-    if missing or needed:
-        model = model_of(scene)
-        beyond = (e for e in EFFECTS if e.name in known and e.name not in WHOLE_PLATE)
-        applied = {
-            e.name
-            for e in beyond
-            if not e.not_applicable_reason(model) and switched[e.name] is not False
-        }
-        names = sorted({*missing, *needed, *applied})
-        lines = [f"{name} = {str(known[name]).lower()}" for name in names]
-        parts = [f"requires {', '.join(needed)}"] if needed else []
-        parts += [f"disables {', '.join(missing)}"] if missing else []
-        raise SceneError(
-            "effects: `reference` is available for the paper's contact law only, but this scene "
-            f"{' and '.join(parts)}; run `simulate`, or to use the paper's law write below "
-            f"[effects] {', '.join(lines)}"
-        )
-    return simulate(read(scene.to_json() | {"effects": known}))
-
-
-def _needed(scene: Scene) -> list[str]:
-    """Return the effects beyond the paper's law that the scene or its tolerance requires."""
-    wanted = scene.effects.model_dump()
-    if not model_of(scene).density and wanted["inertia"] is not True:
-        # Without density it is unknown whether plate inertia matters.
-        wanted["inertia"] = False
-        scene = read(scene.to_json() | {"effects": wanted})
-    return sorted(selected_effects(scene)[1].law.effects - WHOLE_PLATE - {"hertz"})
-
-
-def time_of_reference(known: Result, digits: int) -> str:
-    """Return the estimated run time of `reference`, in words."""
-    seconds = many_digits.expected_seconds(_motion(known), known.max_contact_radius, digits)
-    time = f"{seconds / 60:.0f} min" if seconds > 90 else f"{seconds:.0f} s"
-    return f"estimated time: about {time} on an idle machine"
-
-
-def reference(known: Result, digits: int, progress: Tell) -> many_digits.ImpactReference:
-    """Return contact law and impact of a scene to many digits, by both references.
-
-    Raises
-    ------
-    ValueError
-        If the references do not reach this number of digits.
-    """
-    try:
-        return many_digits.reference(_motion(known), digits, progress)
-    except ArithmeticError as error:  # an interval too wide, a zero not certified, no convergence
-        raise ValueError(
-            f"--digits: {digits} digits cannot be reached for this scene ({error}); use fewer"
-        ) from None
-
-
-def _motion(known: Result) -> many_digits.Motion:
-    m = known.model
-    return m.R, m.m, m.v0, m.h, m.b, m.lam, m.mu

@@ -1,11 +1,12 @@
 """Contact law and impact of a scene to many digits."""
 
-from derivation import pipeline
-from derivation.plate.impact.oracle import many_digits
+from derivation.checks import many_digits
+from derivation.plate.impact.oracle.many_digits import ImpactReference
 from derivation.scene import Scene
+from derivation.scene.paper_law import in_doubles
 
 
-def reference(scene: Scene, digits: int = 50) -> many_digits.ImpactReference:
+def reference(scene: Scene, digits: int = 50) -> ImpactReference:
     """Return contact law and impact to many digits, by both references (Arb and mpmath).
 
     Each number of the scene means exactly the double that it is read as.
@@ -45,4 +46,4 @@ def reference(scene: Scene, digits: int = 50) -> many_digits.ImpactReference:
     """
     if not 1 <= digits <= 1000:
         raise ValueError(f"digits: expected 1 to 1000, got {digits}; change it")
-    return pipeline.reference(pipeline.in_doubles(scene), digits, lambda *_: None)
+    return many_digits.reference(in_doubles(scene), digits, lambda *_: None)

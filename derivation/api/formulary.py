@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from derivation import pipeline
+from derivation.engine.emit import own_formula
 from derivation.engine.errata.findings import Finding
 from derivation.engine.formula.record import Record
 from derivation.engine.rewrite.stabilise import Stable
@@ -83,4 +83,4 @@ def rewrite(formula: str, variable: str = "x") -> Rewritten:
     >>> found.tested.limit < 8
     True
     """
-    return Rewritten(*pipeline.rewritten(formula, variable))
+    return Rewritten(*own_formula.rewritten(formula, variable))

@@ -28,8 +28,8 @@ def rewrite(
 
     Example: platecontact rewrite "(x - sin(x))/x**3"
     """
-    from derivation import pipeline
     from derivation.engine import build
+    from derivation.engine.emit.own_formula import rewritten
     from derivation.engine.outputs import plain
 
     if formula:
@@ -40,7 +40,7 @@ def rewrite(
                 "remove one of them"
             )
         with stage("rewrite"):
-            stable, source, tested = pipeline.rewritten(formula, variable)
+            stable, source, tested = rewritten(formula, variable)
         found = [("", applied) for applied in stable.applied]
         applied = [asdict(a) for a in stable.applied]
         data: object = {"source": source, "tested": asdict(tested), "applied": applied}

@@ -16,7 +16,8 @@ The modules in reading order:
    `viscous_law` for a viscoelastic contact, `plastic` for a plastic one, and `waves` for plate
    inertia: modes (`modal`), one time element (`time_element`), the sequence of contacts
    (`contact_sequence`) and the time history (`wave_motion`).
-7. `impact` and `indentation` simulate an impact and compute static contacts.
+7. `impact` and `indentation` simulate an impact and compute static contacts; `paper_law` is an
+   impact by the paper's law alone.
 8. `sweep` simulates a scene for each value of a key. `rows` computes many scenes at once in arrays
    (`columns`, `rows_selection`, `static_rows`), with the same effects, bounds and laws.
 9. `result` holds the results, `answer` formats them, `export` converts them for pandas and xarray,

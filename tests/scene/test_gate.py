@@ -9,10 +9,18 @@ from pathlib import Path
 import pytest
 from given import ALL, AT_REST, EXAMPLES, model, random_models, scene
 
-from derivation import pipeline
 from derivation.checks import effects as measure
 from derivation.cli import main
-from derivation.scene import SceneError, effect_selection, explain, load, motion, read, simulate
+from derivation.scene import (
+    SceneError,
+    effect_selection,
+    explain,
+    load,
+    motion,
+    paper_law,
+    read,
+    simulate,
+)
 from derivation.scene.effect_selection import OUTPUTS, decide
 from derivation.scene.effects import EFFECTS, WHOLE_PLATE
 from derivation.scene.law import ContactLaw
@@ -206,28 +214,28 @@ def test_the_reference_knows_the_papers_law_alone(tmp_path: Path) -> None:
     called = sorted(explain(load(example)).effects.law.effects - WHOLE_PLATE - {"hertz"})
     assert {"edge", "gravity", "inertia", "sphere_elasticity"} <= set(called)
     with pytest.raises(SceneError, match=", ".join(called)) as caught:
-        pipeline.in_doubles(load(example))
+        paper_law.in_doubles(load(example))
     assert main(["reference", str(example), "--digits", "15"]) == 2
     lines = str(caught.value).rpartition("[effects] ")[2].split(", ")
     place = tmp_path / "scene.toml"
     place.write_text(example.read_text() + "\n[effects]\n" + "\n".join(lines) + "\n")
-    found = pipeline.in_doubles(load(place))
+    found = paper_law.in_doubles(load(place))
     assert found.effects.law.effects == WHOLE_PLATE | {"hertz"}
     paper = (EXAMPLES / "paper.toml").read_text()
     for key in ("bending = false", "finite_radius = false"):
         place.write_text(f"{paper}{key}\n")
         with pytest.raises(SceneError, match=key.partition(" ")[0]):
-            pipeline.in_doubles(load(place))
+            paper_law.in_doubles(load(place))
 
 
 def test_the_reference_of_a_quasi_static_plate_asks_for_no_density(tmp_path: Path) -> None:
     text, place = (EXAMPLES / "paper.toml").read_text(), tmp_path / "scene.toml"
     place.write_text(text.replace("inertia = false", "inertia = true"))
     with pytest.raises(SceneError, match=r"plate\.density"):
-        pipeline.in_doubles(load(place))
-    known = pipeline.in_doubles(load(EXAMPLES / "paper.toml"))
+        paper_law.in_doubles(load(place))
+    known = paper_law.in_doubles(load(EXAMPLES / "paper.toml"))
     place.write_text(text.replace("inertia = false", 'inertia = "auto"'))
-    assert pipeline.in_doubles(load(place)).contact_time == known.contact_time
+    assert paper_law.in_doubles(load(place)).contact_time == known.contact_time
 
 
 def test_rows_are_shown_in_every_output() -> None:

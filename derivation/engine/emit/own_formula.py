@@ -1,0 +1,44 @@
+"""Rewrite a formula given as text: its stable form, the NumPy module, and the test of that code."""
+
+import keyword
+
+import sympy as sp
+
+from derivation.engine.bounded import bounded
+from derivation.engine.emit.standalone import standalone
+from derivation.engine.formula.parse import FUNCTIONS, FormulaError, parse
+from derivation.engine.formula.size import terms_when_expanded
+from derivation.engine.formula.vocabulary import NOTHING
+from derivation.engine.rewrite.stabilise import Stable, stabilise
+from derivation.engine.rewrite.tested import CodeCheck
+
+MAX_TERMS = 5000
+"""Largest number of terms of an expanded formula that can be rewritten."""
+SECONDS = 30
+"""Largest processor time [s] for rewriting a formula."""
+
+
+def rewritten(text: str, variable: str = "x") -> tuple[Stable, str, CodeCheck]:
+    """Return the stable form of a formula, its NumPy module, and the result of testing it.
+
+    Raises
+    ------
+    ValueError
+        If the formula cannot be read, no rule applies, or it needs too much time or memory.
+    """
+    if not variable.isidentifier() or keyword.iskeyword(variable) or variable in FUNCTIONS:
+        raise ValueError(
+            f"--variable: expected a name such as x, got {variable!r}; use another name"
+        )
+    symbol = sp.Symbol(variable, positive=True)
+
+    def work() -> tuple[Stable, str, CodeCheck]:
+        expression = parse(text, NOTHING, {variable: symbol})
+        if terms_when_expanded(expression) > MAX_TERMS:
+            raise FormulaError(
+                f"the formula has more than {MAX_TERMS} terms when expanded; simplify it"
+            )
+        stable = stabilise(expression, symbol)
+        return stable, *standalone(stable)
+
+    return bounded(work, "rewriting the formula", SECONDS)

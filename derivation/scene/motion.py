@@ -35,6 +35,8 @@ _CLOSE = 1e-9
 _CLOSEST = 4e-16
 """A step of the size of rounding: for non-Hertzian pressure, whose slope is not exact, with weight,
 and on a half-space, whose contact time is the unit of time of plates with inertia."""
+_ROUNDED = 1e-12
+"""A step below which the iteration ends if the step is not smaller than the one before."""
 
 
 @dataclass(frozen=True)
@@ -175,14 +177,17 @@ def largest_radii(
     a = np.minimum(_start(law, goal) if start is None else start, law.limit)
     a = np.where(np.isfinite(goal), a, np.nan)
     found, left, limit = a.copy(), np.arange(len(a)), law.limit
+    before: Array = np.full(a.shape[:-1], np.inf)
     for _ in range(_STEPS):
         a, step = _step(law, goal, a, rule(n))
-        found[left] = a
-        moving = np.abs(step[..., 0]) > close
+        found[left], size = a, np.abs(step[..., 0])
+        moving = (size > close) & ~((size < _ROUNDED) & (size >= before))
         if not moving.any():
             break
+        before = size
         if a.ndim > 1 and not moving.all():
             law, goal, a, left = law.take(moving), goal[moving], a[moving], left[moving]
+            before = size[moving]
     return np.where(found < limit, found, np.nan)
 
 

@@ -26,8 +26,8 @@ HISTORY_NODES = (32, *MORE_TIMES)
 """Numbers of nodes of the time history, tried in this order: rounding errors grow with them."""
 HISTORY_TOLERANCE = 1e-12
 """Relative difference of the contact time at which the number of nodes is sufficient."""
-SETTLED = 2e-14
-"""Relative change with twice the nodes that is due to rounding only."""
+_SETTLED = 2e-14
+"""Relative change with twice the nodes, up to the last of `NODES`, that is due to rounding only."""
 _STEPS = 60
 _NEWTON = 5
 _CLOSE = 1e-9
@@ -250,11 +250,16 @@ def impact(law: ContactLaw) -> Motion:
             pairs = zip(found.numbers, before.numbers, strict=True)
             change = max(abs(new / old - 1.0) for new, old in pairs)
             before = replace(found, quadrature=change)
-            if change <= SETTLED:
+            if change <= settled(times):
                 return before
         before = before or found
     assert before is not None
     return before
+
+
+def settled(times: int) -> float:
+    """Return the relative change of the results that is due to rounding with nodes in time."""
+    return _SETTLED * max(1.0, times / NODES[-1])
 
 
 def _results(law: ContactLaw, a: float, n: int, times: int) -> Motion:

@@ -76,10 +76,10 @@ def selected(
             given = candidates_of(part.take(0), wanted)
         except SceneError:
             continue
-        names = {effect.name for effect in given.present}
-        if names & WHOLE_PLATE:
+        present = {effect.name for effect in given.present}
+        if present & WHOLE_PLATE:
             _ = part.correction  # known then to all parts of it
-        if names & WHOLE_PLATE and not names <= PAPER:  # the paper's law has its own function
+        if present & WHOLE_PLATE and not present <= PAPER:  # the paper's law has its own function
             _ = part.plates
         if any(effect.other_edge for effect in given.present) and part.edge == SUPPORTED:
             _ = part.supports

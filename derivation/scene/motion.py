@@ -26,8 +26,8 @@ HISTORY_NODES = (32, *MORE_TIMES)
 """Numbers of nodes of the time history, tried in this order: rounding errors grow with them."""
 HISTORY_TOLERANCE = 1e-12
 """Relative difference of the contact time at which the number of nodes is sufficient."""
-SETTLED = 2e-14
-"""Relative change with twice the nodes that is due to rounding only."""
+_SETTLED = 2e-14
+"""Relative change with twice the nodes, up to the last of `NODES`, that is due to rounding only."""
 _STEPS = 60
 _NEWTON = 5
 _CLOSE = 1e-9
@@ -35,6 +35,8 @@ _CLOSE = 1e-9
 _CLOSEST = 4e-16
 """A step of the size of rounding: for non-Hertzian pressure, whose slope is not exact, with weight,
 and on a half-space, whose contact time is the unit of time of plates with inertia."""
+_ROUNDED = 1e-12
+"""A step below which the iteration ends if the step is not smaller than the one before."""
 
 
 @dataclass(frozen=True)
@@ -175,14 +177,17 @@ def largest_radii(
     a = np.minimum(_start(law, goal) if start is None else start, law.limit)
     a = np.where(np.isfinite(goal), a, np.nan)
     found, left, limit = a.copy(), np.arange(len(a)), law.limit
+    before: Array = np.full(a.shape[:-1], np.inf)
     for _ in range(_STEPS):
         a, step = _step(law, goal, a, rule(n))
-        found[left] = a
-        moving = np.abs(step[..., 0]) > close
+        found[left], size = a, np.abs(step[..., 0])
+        moving = (size > close) & ~((size < _ROUNDED) & (size >= before))
         if not moving.any():
             break
+        before = size
         if a.ndim > 1 and not moving.all():
             law, goal, a, left = law.take(moving), goal[moving], a[moving], left[moving]
+            before = size[moving]
     return np.where(found < limit, found, np.nan)
 
 
@@ -245,11 +250,16 @@ def impact(law: ContactLaw) -> Motion:
             pairs = zip(found.numbers, before.numbers, strict=True)
             change = max(abs(new / old - 1.0) for new, old in pairs)
             before = replace(found, quadrature=change)
-            if change <= SETTLED:
+            if change <= settled(times):
                 return before
         before = before or found
     assert before is not None
     return before
+
+
+def settled(times: int) -> float:
+    """Return the relative change of the results that is due to rounding with nodes in time."""
+    return _SETTLED * max(1.0, times / NODES[-1])
 
 
 def _results(law: ContactLaw, a: float, n: int, times: int) -> Motion:

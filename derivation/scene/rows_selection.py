@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from derivation.scene.effects import WHOLE_PLATE
+from derivation.scene.effects import PAPER, WHOLE_PLATE
 from derivation.scene.effects.edge import SUPPORTED
 from derivation.scene.effects.effect import Array, Effect
 from derivation.scene.law import ContactLaw
@@ -76,8 +76,11 @@ def selected(
             given = candidates_of(part.take(0), wanted)
         except SceneError:
             continue
-        if any(effect.name in WHOLE_PLATE for effect in given.present):
-            _ = part.plates, part.correction  # known then to all parts of it
+        present = {effect.name for effect in given.present}
+        if present & WHOLE_PLATE:
+            _ = part.correction  # known then to all parts of it
+        if present & WHOLE_PLATE and not present <= PAPER:  # the paper's law has its own function
+            _ = part.plates
         if any(effect.other_edge for effect in given.present) and part.edge == SUPPORTED:
             _ = part.supports
         waiting = {given.included: [np.arange(len(rows))]}

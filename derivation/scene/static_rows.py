@@ -10,7 +10,7 @@ from derivation.scene import kernels, simple_laws
 from derivation.scene.effects.effect import Array
 from derivation.scene.law import ContactLaw
 from derivation.scene.method_selection import rounding_of, whole_law
-from derivation.scene.motion import SETTLED, closeness, largest_radii, results_at
+from derivation.scene.motion import closeness, largest_radii, results_at, settled
 from derivation.scene.quadrature import MORE_TIMES, NODES
 
 TOGETHER = 1024
@@ -140,7 +140,7 @@ def _together(law: ContactLaw, left: NDArray[np.intp], found: Impacts) -> None:
             if before is not None:
                 change = np.max(np.abs(after / before - 1.0), axis=1)
                 found.put(left, (*after.T, 0.0, change, 0.0))
-                going_on = change > SETTLED  # not where NaN
+                going_on = change > settled(times)  # not where NaN
                 if not going_on.any():
                     break
                 law, left = law.take(going_on), left[going_on]

@@ -27,6 +27,7 @@ class FiniteThickness(PlateEffect):
     parameter = "c_1 a/h minus that of bending"
     source = "sum over the modes; steps 12, 18 and 22"
     difference = True
+    contains = frozenset({"bending", "finite_radius"})  # the whole plate is faster to compute
 
     def value(self, model: Model, a: float) -> float:
         """Return the leading term of its contribution to the indentation over Hertz's."""

@@ -1,0 +1,128 @@
+"""Work of a simulation: a looser tolerance does not need slower functions or more iterations."""
+
+from collections import Counter
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from derivation.scene import explain, kernels, motion, omission_bounds, read, simulate
+from derivation.scene.effects import BY_NAME, WHOLE_PLATE
+from derivation.scene.effects.effect import PlateEffect
+from derivation.scene.impact import selected_effects
+from derivation.scene.scene import Scene
+
+TOLERANCES = [10.0**-n for n in range(1, 14)]
+NEWTON_STEPS = 12
+"""Most steps of Newton's iteration for one largest radius; the limit of the loop is 60."""
+
+
+@st.composite
+def scenes(draw: st.DrawFn, disabled: tuple[str, ...] = ()) -> Scene:
+    """Return impacts on quasi-static plates, with or without each effect that has a condition."""
+    effects: dict[str, Any] = {"inertia": False, "non_hertzian_pressure": False}
+    for name in (*disabled, "sphere_elasticity", "spherical_profile"):
+        effects[name] = draw(st.sampled_from(["auto", False]))
+    return read({
+        "sphere": {"radius": 10.0 ** draw(st.floats(-2.5, -1.5)), "material": "steel"},
+        "plate": {
+            "radius": 0.3,
+            "thickness": 10.0 ** draw(st.floats(-2.2, -0.3)),
+            "material": "glass",
+            "edge": draw(st.sampled_from(["paper", "simply-supported", "clamped"])),
+        },
+        "impact": {
+            "speed": 10.0 ** draw(st.floats(-2.0, -0.3)),
+            "gravity": draw(st.sampled_from([0.0, 9.81])),
+        },
+        "effects": effects,
+    })  # fmt: skip
+
+
+@given(scenes())
+@settings(max_examples=40)
+def test_the_whole_plate_is_not_reduced_by_small_parts(scene: Scene) -> None:
+    """The difference of the whole plate and a part is slower than the whole plate."""
+    included = [frozenset[str]()]
+    for rtol in TOLERANCES:
+        found = selected_effects(scene, rtol)[1]
+        differs = any(isinstance(e, PlateEffect) and e.difference for e in found.law.chosen)
+        assert not differs or found.law.effects >= WHOLE_PLATE
+        assert found.law.effects >= included[-1]
+        included.append(found.law.effects)
+        assert explain(scene, rtol).effects == found
+        for row in found.rows:
+            if row.reason.startswith("required by"):
+                other = row.reason.removeprefix("required by ")
+                assert row.included
+                assert other in found.included
+                assert row.name in BY_NAME[other].contains
+            assert row.included == (row.name in found.law.effects)
+
+
+def test_a_disabled_part_of_the_plate_stays_disabled() -> None:
+    tables: dict[str, Any] = {
+        "sphere": {"radius": 0.01, "material": "steel"},
+        "plate": {"radius": 0.3, "thickness": 0.05, "material": "glass"},
+        "impact": {"speed": 0.5},
+        "effects": {"inertia": False, "non_hertzian_pressure": False, "finite_radius": False},
+    }
+    found = selected_effects(read(tables), None)[1]
+    assert "finite_thickness" in found.included
+    assert "finite_radius" not in found.included
+    assert "finite_radius" in found.forced_out
+
+
+@given(scenes())
+@settings(max_examples=25)
+def test_a_looser_tolerance_calls_no_further_functions(scene: Scene) -> None:
+    """Count the functions of the plate and the sphere by which the impact itself is computed."""
+    before = Counter[str]()
+    for rtol in TOLERANCES[::3]:
+        law = selected_effects(scene, rtol)[1].law
+        with pytest.MonkeyPatch.context() as patch:
+            calls = _counted(patch, "plate_share", "side_wall", "bending", "sphere_contact")
+            law.at(np.array([1e-4, 2e-4]))
+        assert sum(before.values()) <= sum(calls.values())
+        before = calls
+
+
+def _counted(patch: pytest.MonkeyPatch, *names: str) -> Counter[str]:
+    """Count the calls of functions of `kernels`."""
+    calls = Counter[str]()
+
+    def counting(name: str, function: Any) -> Any:
+        def counted(*arguments: Any) -> Any:
+            calls[name] += 1
+            return function(*arguments)
+
+        return counted
+
+    for name in names:
+        patch.setattr(kernels, name, counting(name, getattr(kernels, name)))
+    return calls
+
+
+@given(scenes(), st.sampled_from([1e-2, 1e-3, 1e-6]))
+@settings(max_examples=40)
+def test_the_largest_radius_needs_few_steps(scene: Scene, rtol: float) -> None:
+    """Newton's iteration ends where rounding stops it, also with the weight of the sphere."""
+    runs = [0]
+    steps, radii = motion._step, motion.largest_radii
+
+    def step(*arguments: Any) -> Any:
+        runs[-1] += 1
+        return steps(*arguments)
+
+    def largest(*arguments: Any, **more: Any) -> Any:
+        runs.append(0)
+        return radii(*arguments, **more)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(motion, "_step", step)
+        patch.setattr(motion, "largest_radii", largest)
+        patch.setattr(omission_bounds, "largest_radii", largest)
+        simulate(scene, rtol=rtol)
+    assert max(runs) <= NEWTON_STEPS

@@ -211,7 +211,7 @@ def kappa_bound(n: int, terms: int) -> sp.Expr:
 
 @cache
 def excess_beyond_first() -> Proof:
-    """Return the rest of G - 1 = 4 E (T^2 + T + 1/2) + rest, E = e^(-2T), and its bound.
+    """Prove the rest of G - 1 = 4 E (T^2 + T + 1/2) + rest, E = e^(-2T), and its bound.
 
     rest = 4 E^2 (N - 1/2 - E (T^2 + T + 1/2))/d with N = (T^2 + T + 1/2) (4 T^2 + 2) and
     d = (1 - E)^2 - 4 T^2 E = 4 E (sinh^2 T - T^2). For T >= 1, d increases from d(1) > 1/5; for

@@ -78,7 +78,7 @@ def imaginary_axis() -> Proof:
 
 @cache
 def contour() -> Proof:
-    """Return the sum identity: both contours added, with half residues and both axes."""
+    """Prove the sum identity: both contours added, with half residues and both axes."""
     bending_residue()
     imaginary_axis()
     integral, principal, total, up, down = sp.symbols("F V S U D")

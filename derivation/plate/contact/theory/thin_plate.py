@@ -260,7 +260,7 @@ def finite_part_ball(k: int, digits: int = 30) -> flint.arb:
 
 @cache
 def excess_for_large() -> Proof:
-    """Return G - 1 = ((1 - e^(-2T))/2 + T + T^2)/(sinh^2 T - T^2), without cancellation."""
+    """Prove G - 1 = ((1 - e^(-2T))/2 + T + T^2)/(sinh^2 T - T^2), without cancellation."""
     short = ((1 - sp.exp(-2 * T)) / 2 + T + T**2) / (sp.sinh(T) ** 2 - T**2)
     return prove(
         "Excess of the plate factor",

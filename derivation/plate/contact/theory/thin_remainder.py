@@ -57,7 +57,7 @@ _LOG = sp.Symbol("L", real=True)
 
 @cache
 def residue_at_roots() -> Proof:
-    """Return G's residue (1 + sqrt(1 + T^2))^2/(2 T^2) at a simple pole T_n.
+    """Prove G's residue (1 + sqrt(1 + T^2))^2/(2 T^2) at a simple pole T_n.
 
     With u = asinh T, sinh T = s sinh u and cosh T = s cosh u, s = (-1)^n.
     """
@@ -91,7 +91,7 @@ def residue(at: sp.Expr, root_of_square: sp.Expr) -> sp.Expr:
 
 @cache
 def contour_with_poles() -> Proof:
-    """Return the sum identity with poles of f inside the contours: pi Im X is added to the sum.
+    """Prove the sum identity with poles of f inside the contours: pi Im X is added to the sum.
 
     X sums f's residues times H/J0 in the first quadrant, Y is its conjugate in the fourth, where
     the contour runs clockwise.
@@ -114,7 +114,7 @@ def contour_with_poles() -> Proof:
 
 @cache
 def imaginary_part() -> Proof:
-    """Return f(iy) + f(-iy) for f = z^w q (G - 1)."""
+    """Prove f(iy) + f(-iy) = [-2 cos(pi w/2) - 2 sin(pi w/2) G(iy)/i] y^w q, f = z^w q (G - 1)."""
     turn, g = sp.symbols("E g", positive=True)
     G = plate_factors()[0].expression
     # turn = e^(i pi w/2), G(iy) = i g.

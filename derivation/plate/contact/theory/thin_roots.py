@@ -27,7 +27,7 @@ from derivation.engine.formula.proof import Proof, prove
 from derivation.plate.vocabulary import T
 
 SIZE_OVER_INDEX = 8
-"""Return 8 n, a bound of |T_n|: |T| - log(2 |T| + 1) <= pi (n + 1/2), exceeded at 8 n, n >= 1."""
+"""|T_n| <= 8 n, because |T| - log(2 |T| + 1) <= pi (n + 1/2), which is exceeded at 8 n."""
 
 
 @cache

@@ -75,7 +75,7 @@ def slope_law() -> Formula:
 
 @cache
 def one_sided() -> Formula:
-    """Prove S <= 1 + 3/2 c_1 A for every a < b, with a difference of at most K_3 A^3."""
+    """Return 1 + 3/2 c_1 A, and prove 1 + 3/2 c_1 A - K_3 A^3 <= S <= 1 + 3/2 c_1 A for a < b."""
     slope_law()
     first = coefficient(2)
     weight = plate_factors()[2].expression.subs(T, 2 * eta * j_n) / (j_n * J1**2)
@@ -130,7 +130,7 @@ def exponents(fall: sp.Expr, rise: sp.Expr) -> Mapping[str, sp.Expr]:
 
 @cache
 def lemma() -> Proof:
-    """Return the exponents: extreme powers for S_1 in work, indentation and time."""
+    """Prove the exponents: extreme powers for S_1 in work, indentation and time."""
     found = exponents(_p, _r)
 
     def power(of: sp.Expr, top: sp.Expr) -> sp.Expr:

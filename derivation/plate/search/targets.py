@@ -1,4 +1,4 @@
-"""What the search holds to the truth: each kernel with its domain, its oracle and its allowance."""
+"""Targets of the search: each function with its domain, reference and tolerance."""
 
 import importlib
 import inspect

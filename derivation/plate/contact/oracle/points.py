@@ -95,7 +95,7 @@ def mode_count(eta: float, bits: int) -> int:
 
 
 def prepare(eta: Fraction, reach: float, bits: int, tell: Callable[[int, int], None]) -> None:
-    """Compute the zeros that `series` uses; `tell` is called with each index and their number."""
+    """Compute the zeros that `series` uses; `tell` is called with each index and the total."""
     precision = working_bits(eta, reach, bits) + _SPARE
     count = mode_count(float(eta), bits)
     for index in range(1, count + 1):

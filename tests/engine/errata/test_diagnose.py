@@ -1,4 +1,4 @@
-"""Damaged copies of proved formulas are distinguished and corrected; equal forms are found equal."""
+"""Damaged copies of proved formulas are distinguished and corrected; equal forms stay equal."""
 
 import itertools
 import json

@@ -165,7 +165,7 @@ class Errors:
     warned: tuple[str, ...]
 
     def kept(self, fmt: Format = DOUBLE) -> bool:
-        """Return whether all results are finite, within their allowance, of the right type, silent."""
+        """Return whether all results are finite, allowed, of the right type and silent."""
         within = self.ratio is not None and self.ratio <= 1.0
         return within and self.not_finite == 0 and self.dtype == fmt.name and not self.warned
 

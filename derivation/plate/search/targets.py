@@ -30,7 +30,7 @@ from derivation.plate.search.draw import (
 )
 
 ULP_OF_LAW = 8.0
-"""Allowed error of the contact law's functions in ULP, times `contact.cases.truth.tolerance`."""
+"""Tolerance of the contact law's functions in ULP, a factor of `contact.cases.truth.tolerance`."""
 
 _OF_LAW = 24
 """Number of digits of the contact law's reference."""

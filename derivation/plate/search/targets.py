@@ -30,7 +30,7 @@ from derivation.plate.search.draw import (
 )
 
 ULP_OF_LAW = 8.0
-"""Tolerance of the contact law's functions in ULP, a factor of `contact.cases.truth.tolerance`."""
+"""Tolerance of the contact law's functions in ULP, before the factor `tolerance`."""
 
 _OF_LAW = 24
 """Number of digits of the contact law's reference."""
